@@ -63,7 +63,9 @@ class Flight:
         column = lambda name: np.array([it[name] for it in frames])
         self.feet = np.stack([column(f"target_{axis}_m") for axis in "xyz"], 1)
         self.heading, self.speed, self.distance = column("target_heading_deg"), column("target_speed_mps"), column("distance_m")
-        self.pixels, self.share, self.cause, self.in_view = column("visible_pixels"), column("visible_by_pixels"), column("occluder_instance"), column("in_view")
+        self.pixels, self.share, self.cause = column("visible_pixels"), column("visible_by_pixels"), column("occluder_instance")
+        self.eye = np.stack([column(f"drone_{axis}_m") for axis in "xyz"], 1)
+        self.angles = np.radians(np.stack([column(f"camera_{name}_deg") for name in ("pitch", "yaw", "roll")], 1))
         self.dt = float(row["dt_s"])
         self.count = len(frames)
         self.names = {}
@@ -97,6 +99,17 @@ class Flight:
         angles = [angle for at, angle in self.directions() if start <= at < end]
         changes = [abs(np.mean(angles[b : b + 4]) - np.mean(angles[a : a + 4])) for a in range(len(angles)) for b in range(a + 1, min(a + 20, len(angles) - 3))]
         return max(changes, default=0.0)
+
+    def is_outside(self, frame):
+        """Whether the middle of the body is outside of the picture, or within a pixel of its edge."""
+        (cp, cy, cr), (sp, sy, sr) = np.cos(self.angles[frame]), np.sin(self.angles[frame])
+        axes = np.array([[cp * cy, cp * sy, sp], [cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, -cp * sr], [-cy * sp * cr - sy * sr, -sy * sp * cr + cy * sr, cp * cr]])
+        ahead, right, up = axes @ (self.feet[frame] + [0, 0, self.row["target_height_m"] / 2] - self.eye[frame])
+        width, height, focal = (self.row[f"camera_{name}_px"] for name in ("width", "height", "focal"))
+        if ahead <= 0:
+            return True
+        u, v = width / 2 + focal * right / ahead, height / 2 - focal * up / ahead
+        return not (1 <= u < width - 1 and 1 <= v < height - 1)
 
     def hidden_by(self, name, frames):
         cause = set(self.cause[frames])
@@ -165,7 +178,7 @@ class Flight:
         if name == "lost":
             behind, seconds, end_of = rest
             hidden = (self.pixels[frames] == 0).all() and all(self.pixels[frame] > 0 for frame in (start - 1, end) if 0 <= frame < self.count)
-            cause = not self.in_view[frames].any() if behind == "outside" else self.hidden_by(behind, frames)
+            cause = all(self.is_outside(frame) for frame in range(start, end)) if behind == "outside" else self.hidden_by(behind, frames)
             return hidden and cause and abs((end - start) * self.dt - int(seconds)) <= 0.51 and (end_of == "found") == (end < self.count)
         if name == "partly_hidden":
             return (self.pixels[frames] > 0).all() and (self.share[frames] < 0.5).all() and self.hidden_by(rest[0], frames)
@@ -262,7 +275,7 @@ def check(folder, texts):
         objects[row["town"]].append(row)
     towns = {name: Town(rows) for name, rows in objects.items()}
     frames, people = defaultdict(list), defaultdict(lambda: defaultdict(list))
-    for row in table("frames", ["trajectory_id", "frame", *[f"target_{axis}_m" for axis in "xyz"], "target_heading_deg", "target_speed_mps", "distance_m", "visible_pixels", "visible_by_pixels", "occluder_instance", "in_view"]):
+    for row in table("frames", ["trajectory_id", "frame", *[f"target_{axis}_m" for axis in "xyz"], "target_heading_deg", "target_speed_mps", "distance_m", "visible_pixels", "visible_by_pixels", "occluder_instance", "drone_x_m", "drone_y_m", "drone_z_m", "camera_pitch_deg", "camera_yaw_deg", "camera_roll_deg"]):
         frames[row["trajectory_id"]].append(row)
     for row in table("people", ["trajectory_id", "frame", "instance", "kind", "feet_in_world_m", "heading_deg", "speed_mps", "top_colour", "trousers_colour", "visible_pixels"]):
         people[row["trajectory_id"]][row["frame"]].append(row)

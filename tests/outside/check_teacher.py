@@ -231,8 +231,15 @@ def check_students(cosfly, work):
                 assert row["chosen"]["content"] != row["rejected"]["content"] and row["rejected"]["content"].strip()
             if name.endswith("_swift"):
                 assert row["rejected_response"].strip()
-            assert ("Poses" in asked) == ("no_poses" not in name and "pictures_only" not in name), name
+            about_goals = name.endswith(("_goals", "_goal_checks", "_dialogues"))
+            assert ("Poses" in asked) == (not about_goals and "no_poses" not in name and "pictures_only" not in name), name
+            if name.endswith("_goal_checks"):
+                answer = json.loads(row["messages"][2]["content"])
+                assert answer["fits"] == (answer["false_subject"] is None), row
+            if name.endswith("_dialogues"):
+                assert "Pilot: " in asked and json.loads(row["messages"][2]["content"])["claims"], row
     splits = {name for name in files if "_" not in name}
+    assert any(name.endswith("_goal_checks") for name in files) and any(name.endswith("_dialogues") for name in files), files.keys()
     for split in splits:
         share = lambda name: {row["id"] for row in files.get(f"{split}{name}", [])}
         assert share("_25") <= share("_50") <= share(""), split

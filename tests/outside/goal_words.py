@@ -62,7 +62,7 @@ def english(text, is_pilot):
     it.take(r"(\d+) (?:times|turns)", lambda m: ("turns_in_all", m[1]))
     it.take(r"sharp turns?|without turning off|never turn off", lambda m: ("no_turn",))
     it.take(r"stand still the whole time|never move from|stay put|stand where they are", lambda m: ("stands",))
-    it.take(rf"(?:stop|pause|stand still|wait on the spot|halt|stand there|a break)(?: for| of) {seconds}", lambda m: ("stops", m[1]))
+    it.take(rf"(?:stop|pause|stand still|wait on the spot|halt|stand there|stop where they are)(?: for| of) {seconds}", lambda m: ("stops", m[1]))
     it.take(r"(?:turn off|head off|turn|take a|go|swing)(?: to the)? (left|right)", lambda m: ("turns", m[1]))
     it.take(r"turn round|turn back|double back|u-turn|go back the way", lambda m: ("turns", "around"))
     if is_pilot:
@@ -86,10 +86,9 @@ def chinese(text, is_pilot):
         it.claims = [claim + ("backpack",) if claim[0] == "wears" else claim for claim in it.claims]
     it.take(rf"(?:走到|消失在){hider}后面，(?:再也没出现|没有再出来)|被{hider}完全挡住，直到最后也没露面", lambda m: ("lost", ZH_HIDERS[m[1] or m[2]], "?", "gone"))
     it.take(rf"(?:走到|消失在){hider}后面，(?:过了)?约(\d+)秒", lambda m: ("lost", ZH_HIDERS[m[1]], m[2], "found"))
-    it.take(rf"被{hider}(?:完全挡住|遮住)约(\d+)秒", lambda m: ("lost", ZH_HIDERS[m[1]], m[2], "found"))
-    it.take(rf"有约(\d+)秒被{hider}完全挡住", lambda m: ("lost", ZH_HIDERS[m[2]], m[1], "found"))
+    it.take(rf"(?:被|让){hider}(?:完全挡住|整个挡住|遮住)约(\d+)秒", lambda m: ("lost", ZH_HIDERS[m[1]], m[2], "found"))
     it.take(r"走出画面，没有再回来|离开画面，直到最后也没回来", lambda m: ("lost", "outside", "?", "gone"))
-    it.take(r"离开画面约(\d+)秒|走出画面，约(\d+)秒|有约(\d+)秒不在画面", lambda m: ("lost", "outside", m[1] or m[2] or m[3], "found"))
+    it.take(r"离开画面约(\d+)秒|走出画面，约(\d+)秒|出画约(\d+)秒", lambda m: ("lost", "outside", m[1] or m[2] or m[3], "found"))
     it.take(rf"被{hider}(?:挡住大半|遮去大半)|从{hider}后面走过", lambda m: ("partly_hidden", ZH_HIDERS[m[1] or m[2]]))
     number = "([零一二三四五六七八九十两])"
     it.take(rf"(左|右)(?:边|手边|侧)的?第?{number}{thing}", lambda m: ("passes", ZH_THINGS[m[3]], {"左": "left", "右": "right"}[m[1]], str(ZH_NUMBERS[m[2]])))
@@ -97,7 +96,7 @@ def chinese(text, is_pilot):
     it.take(rf"(?:拐了|转了|转弯)(?:{number}|(\d+))次", lambda m: ("turns_in_all", str(ZH_NUMBERS[m[1]]) if m[1] else m[2]))
     it.take(r"没有急转弯|没拐急弯", lambda m: ("no_turn",))
     it.take(r"一直站在原地|始终站着没动|没有挪动|一直站着不走", lambda m: ("stands",))
-    it.take(r"(?:站了|停了|等了|不动|停下|歇脚)约(\d+)秒", lambda m: ("stops", m[1]))
+    it.take(r"(?:站了|停了|等了|不动|停下)约(\d+)秒", lambda m: ("stops", m[1]))
     it.take(r"(?:往|向|拐向)?(左|右)(?:边拐|拐|转|边(?!的))", lambda m: ("turns", {"左": "left", "右": "right"}[m[1]]))
     it.take(r"掉头|转身往回|原路折返", lambda m: ("turns", "around"))
     it.take(r"约(\d+)米", lambda m: ("distance", m[1]))

@@ -21,4 +21,4 @@ pub use document::{Section, document};
 pub use figures::Figures;
 pub use model::{BoxSketch, Known, PlannerRow, RejectionSketch, Report, TownSketch};
 pub use page::page;
-pub use sketch::FlightSketch;
+pub use sketch::{FlightSketch, TextSketch};

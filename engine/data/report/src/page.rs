@@ -4,7 +4,9 @@ use crate::document::{Section, document};
 use crate::model::Report;
 use crate::moments;
 use crate::pictures::{Source, image};
-use crate::sections::{distributions, maps, numbers, planners, planning, shares, shortcuts, timelines, worst};
+use crate::sections::{
+    distributions, language, maps, numbers, planners, planning, shares, shortcuts, timelines, worst,
+};
 use cosfly_plot::text::escaped;
 use std::fmt::Write;
 
@@ -23,6 +25,7 @@ pub fn page<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
         section("time", ["Visibility", "When the target is seen"], timelines::section(report)),
         section("distributions", ["Distributions"; 2], distributions::section(report)),
         section("shortcuts", ["Shortcuts", "What gives the target away"], shortcuts::section(report)),
+        section("language", ["Language", "What the texts say"], language::section(report)),
         section("planning", ["Planning"; 2], planning::section(report)),
         section("planners", ["Planners", "Planners beside each other"], planners::section(report)),
         section("worst", ["Worst cases"; 2], worst::section(report, pictures)?),

@@ -43,6 +43,27 @@ pub struct FlightSketch {
     pub convergence: Vec<f64>,
     /// Weighted cost of each term of the published flight.
     pub term_costs: Vec<(String, f64)>,
+    /// Instructions and goals.
+    pub texts: Vec<TextSketch>,
+}
+
+/// A text about a flight, and what the page counts of it.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TextSketch {
+    /// Language code.
+    pub language: String,
+    /// Kind of text, such as `instruction` or `step`.
+    pub kind: String,
+    /// The text.
+    pub text: String,
+    /// Subjects that it speaks of.
+    pub subjects: Vec<String>,
+    /// Whether it names clothes that nobody else who is seen in the flight wears.
+    pub singles_out: bool,
+    /// Whether a language model wrote it.
+    pub is_taught: bool,
+    /// Answers of the model that were refused.
+    pub refused: u64,
 }
 
 impl FlightSketch {

@@ -6,7 +6,7 @@ use crate::{OtherPerson, RenderedTrajectory};
 use cosfly_captions::Wear;
 use cosfly_captions::goals::{Course, Flight, Goal, Hidden, Hider, Neighbour, Sample, goals};
 use cosfly_captions::sight::Landmarks;
-use cosfly_frames::Seed;
+use cosfly_frames::{DVec3, Seed};
 use cosfly_render::Outfit;
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_world::BodyKind;
@@ -52,9 +52,19 @@ fn whole(record: &RenderedTrajectory, loss: &Loss) -> Hidden {
     Hidden {
         frames: loss.frames.clone(),
         behind: Some(cause).filter(|_| is_same && cause > TARGET_INSTANCE),
-        is_outside: loss.frames_out_of_view == loss.frames.len(),
+        // A body that is smaller than a pixel is in no pixel and yet in the picture.
+        is_outside: loss.frames.clone().all(|frame| is_outside(record, frame)),
         is_whole: true,
     }
+}
+
+/// Whether the middle of the body is outside of the picture.
+fn is_outside(record: &RenderedTrajectory, frame: usize) -> bool {
+    let track = &record.trajectory.track;
+    let middle = track.states[frame].feet_in_world + 0.5 * track.height_m * DVec3::Z;
+    let [width, height] = [record.camera.width, record.camera.height].map(f64::from);
+    let at = record.camera.project(&record.camera_pose(frame), middle);
+    at.is_none_or(|(u, v, _)| !((0.0..width).contains(&u) && (0.0..height).contains(&v)))
 }
 
 /// Runs of frames in which the same thing hides more than half of the target, and not all of it.

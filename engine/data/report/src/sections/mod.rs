@@ -1,6 +1,7 @@
 //! The sections of the page, one file each.
 
 pub mod distributions;
+pub mod language;
 pub mod maps;
 pub mod numbers;
 pub mod planners;

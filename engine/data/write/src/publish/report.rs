@@ -4,11 +4,11 @@ use super::source::DatasetSource;
 use super::summary::Summary;
 use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
-use cosfly_report::{BoxSketch, Figures, FlightSketch, RejectionSketch, Report, TownSketch};
+use cosfly_report::{BoxSketch, Figures, FlightSketch, RejectionSketch, Report, TextSketch, TownSketch};
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::flight_labels::costs;
 use cosfly_schema::log::messages::edges_px;
-use cosfly_schema::tables::ObjectRecord;
+use cosfly_schema::tables::{DatasetItem, ObjectRecord};
 use cosfly_schema::{Rejection, RenderedTrajectory, Role};
 
 /// Path of the page in the dataset.
@@ -61,7 +61,8 @@ fn rejection_sketch(rejection: &Rejection) -> RejectionSketch {
 }
 
 /// The figures of flight `number` that the page shows.
-pub fn sketch(number: u64, record: &RenderedTrajectory, split: &str) -> FlightSketch {
+pub fn sketch(number: u64, item: &DatasetItem, split: &str) -> FlightSketch {
+    let record = &item.record;
     let trajectory = &record.trajectory;
     let place = |it: DVec3| it.to_array().map(|metres| metres as f32);
     FlightSketch {
@@ -84,7 +85,41 @@ pub fn sketch(number: u64, record: &RenderedTrajectory, split: &str) -> FlightSk
         max_jerk_mps3: trajectory.certificate.max_jerk_mps3,
         convergence: trajectory.convergence.clone(),
         term_costs: costs(trajectory).map(|term| (term.name.clone(), term.weight * term.sum)).collect(),
+        texts: texts(item),
     }
+}
+
+/// Captions and goals of a flight.
+fn texts(item: &DatasetItem) -> Vec<TextSketch> {
+    let is_unlike_all = is_unlike_all(&item.record);
+    let text = |language: &str, kind: &str, text: String, subjects: Vec<String>| TextSketch {
+        language: language.to_owned(),
+        kind: kind.to_owned(),
+        text,
+        singles_out: is_unlike_all && subjects.iter().any(|it| it == "clothes"),
+        subjects,
+        ..TextSketch::default()
+    };
+    let captions = item.captions.iter().map(|it| TextSketch {
+        is_taught: it.writer == "teacher",
+        refused: it.refused.len() as u64,
+        ..text(&it.language, &it.style, it.text.clone(), it.verdicts.clone())
+    });
+    let goals = item.derived.goals.iter().map(|it| {
+        let mut subjects: Vec<String> = it.said.iter().map(|said| said.claim.subject().name().to_owned()).collect();
+        subjects.sort();
+        subjects.dedup();
+        text(it.language.code(), it.grain.name(), it.lines.join(" "), subjects)
+    });
+    captions.chain(goals).collect()
+}
+
+/// Whether nobody else who is seen in the flight wears what the target wears.
+fn is_unlike_all(record: &RenderedTrajectory) -> bool {
+    let Some(own) = &record.outfit else { return false };
+    let own_kind = record.target_kind();
+    let mut seen = record.sightings.iter().map(|it| &record.others[it.person as usize]);
+    seen.all(|it| Some(it.kind) != own_kind || !it.outfit.is_like(own))
 }
 
 fn edges(it: &cosfly_render::PixelBox) -> [f32; 4] {

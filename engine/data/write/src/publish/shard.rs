@@ -102,7 +102,7 @@ impl Writing<'_> {
                     let item = flights.load(*index)?;
                     shard.summary.count(&item, split.name());
                     let place = name.place(*index);
-                    shard.figures.add(report::sketch(place, &item.record, split.name()));
+                    shard.figures.add(report::sketch(place, &item, split.name()));
                     writer.append(&item)?;
                     of_part.iter_mut().chain(&mut of_split).try_for_each(|table| table.append(&item))?;
                 }

@@ -22,7 +22,7 @@ const FLIGHTS: [&str; 16] = [
     "[w][p]。你跟在后面，[k]。",
     "从头到尾跟着[w]：[p]。[k]。",
     "别跟丢了[w]，对方[p]。[k]。",
-    "画面里始终要有[w]。对方[p]，你[k]。",
+    "镜头跟着[w]走。对方[p]。[k]。",
     "去跟[w]，[k]。对方[p]。",
     "本次任务是跟拍[w]：[p]。飞行时[k]。",
     "找到[w]，一路跟下去。对方[p]。[k]。",
@@ -32,7 +32,7 @@ const FLIGHTS: [&str; 16] = [
 ];
 /// Goals of stretches.
 const STEPS: [&str; 18] = [
-    "目标[p]，你[k]。",
+    "目标[p]，[k]。",
     "跟上去：对方[p]。[k]。",
     "接下来对方[p]，[k]。",
     "继续跟，目标[p]。[k]。",
@@ -45,11 +45,11 @@ const STEPS: [&str; 18] = [
     "[k]，继续跟拍：对方[p]。",
     "镜头别离开目标，对方[p]。[k]。",
     "看好目标：[p]。[k]。",
-    "此时目标[p]，无人机[k]。",
-    "不要跟丢：目标[p]。[k]。",
+    "此时目标[p]，[k]。",
+    "别跟丢：目标[p]。[k]。",
     "接着拍，目标[p]，[k]。",
     "目标[p]。你照样跟着，[k]。",
-    "随后目标[p]。无人机[k]。",
+    "随后目标[p]。[k]。",
 ];
 /// Ways to hold a distance.
 const KEEPS: [&str; 12] = [
@@ -74,6 +74,7 @@ pub(super) const WORDING: Wording = Wording {
     keeps: &KEEPS,
     predicate,
     anchored,
+    both,
     joined,
     finished,
     target,
@@ -107,7 +108,6 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
                 "停下脚步，等了约{s}秒",
                 "站住不动约{s}秒",
                 "停下约{s}秒再走",
-                "歇脚约{s}秒",
             ],
         )
         .replace("{s}", &seconds.to_string()),
@@ -180,15 +180,20 @@ fn lost(behind: Option<Hider>, seconds: u32, found: bool, words: &mut RandomStre
             "走到{h}后面，约{s}秒后重新露面",
             "消失在{h}后面，过了约{s}秒才出来",
             "被{h}遮住约{s}秒，随后重新出现",
-            "有约{s}秒被{h}完全挡住",
+            "让{h}整个挡住约{s}秒",
         ],
         (Some(_), false) => {
             &["走到{h}后面，再也没出现", "被{h}完全挡住，直到最后也没露面", "消失在{h}后面，没有再出来"]
         }
-        (None, true) => &["离开画面约{s}秒，之后又回来", "走出画面，约{s}秒后重新入画", "有约{s}秒不在画面里"],
+        (None, true) => &["离开画面约{s}秒，之后又回来", "走出画面，约{s}秒后重新入画", "出画约{s}秒"],
         (None, false) => &["走出画面，没有再回来", "离开画面，直到最后也没回来"],
     };
     one_of(words, patterns).replace("{h}", behind.map_or("", hider_words)).replace("{s}", &seconds.to_string())
+}
+
+/// Two things in no order of time.
+fn both(one: &str, two: &str, words: &mut RandomStream) -> String {
+    one_of(words, &["{1}，{2}", "{1}，途中{2}", "{1}，路上{2}"]).replace("{1}", one).replace("{2}", two)
 }
 
 fn joined(parts: &[String], words: &mut RandomStream) -> String {
@@ -270,8 +275,8 @@ fn dialogue(subject: Subject) -> &'static [[&'static str; 3]] {
         ],
         Subject::Distance => &[
             ["跟住{w}。", "收到，距离约{x}米。", "{F}，保持约{d}米。"],
-            ["请跟拍{w}。", "好的，我隔约{x}米跟着。", "不行，改成约{d}米。"],
-            ["目标是{w}。", "明白。约{x}米可以吗？", "不可以，要约{d}米。"],
+            ["请跟拍{w}。", "好的，我在约{x}米外跟着。", "不行，改成约{d}米。"],
+            ["目标是{w}。", "明白。约{x}米可以吗？", "不行，约{d}米才对。"],
             ["一路跟着{w}。", "现在相距约{x}米。", "距离不对，应该是约{d}米。"],
         ],
         _ => &[

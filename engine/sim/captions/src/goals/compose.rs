@@ -77,6 +77,8 @@ pub(super) struct Wording {
     pub keeps: &'static [&'static str],
     pub predicate: fn(&Said, &mut RandomStream) -> String,
     pub anchored: fn(&Passed, &str, &mut RandomStream) -> String,
+    /// Two things of which none is said to be the first, and things in order of time.
+    pub both: fn(&str, &str, &mut RandomStream) -> String,
     pub joined: fn(&[String], &mut RandomStream) -> String,
     pub finished: fn(&str, &str, &str) -> String,
     pub target: fn(&Wear, &mut RandomStream) -> String,
@@ -130,27 +132,43 @@ fn sentence(plan: &Plan, wording: &Wording, words: &mut RandomStream) -> String 
     let wear = wear_of(&plan.said);
     let templates = if wear.is_some() { wording.flights } else { wording.steps };
     let template = one_of(words, templates);
-    let predicates = (wording.joined)(&predicates(&plan.said, wording, words), words);
+    let predicates = told_in_order(predicates(&plan.said, wording, words), wording, words);
     let keep = one_of(words, wording.keeps).replace("{d}", &metres_of(&plan.said).unwrap_or(0).to_string());
     let text = (wording.finished)(template, &predicates, &keep);
     wear.map_or(text.clone(), |wear| text.replace("[w]", &(wording.target)(&wear, words)))
 }
 
+/// Things in order of time; those that overlap are told as one.
+fn told_in_order(parts: Vec<(String, Range<usize>)>, wording: &Wording, words: &mut RandomStream) -> String {
+    let mut told: Vec<(String, usize)> = vec![];
+    for (text, frames) in parts {
+        match told.last_mut() {
+            Some((before, end)) if frames.start < *end => {
+                *before = (wording.both)(before, &text, words);
+                *end = (*end).max(frames.end);
+            }
+            _ => told.push((text, frames.end)),
+        }
+    }
+    let told: Vec<String> = told.into_iter().map(|(text, _)| text).collect();
+    (wording.joined)(&told, words)
+}
+
 /// What the target does, in order; a move after landmarks may be told by the last of them.
-fn predicates(said: &[Said], wording: &Wording, words: &mut RandomStream) -> Vec<String> {
+fn predicates(said: &[Said], wording: &Wording, words: &mut RandomStream) -> Vec<(String, Range<usize>)> {
     let told: Vec<&Said> = said.iter().filter(|it| !matches!(it.claim, Claim::Wears(_) | Claim::Distance(_))).collect();
-    let mut parts: Vec<String> = vec![];
+    let mut parts: Vec<(String, Range<usize>)> = vec![];
     let mut at = 0;
     while at < told.len() {
         let is_move = |it: &&Said| matches!(it.claim, Claim::Turns(_));
         match (&told[at].claim, told.get(at + 1)) {
             (Claim::Passes(passed), Some(next)) if is_move(next) && next.frames.start >= told[at].frames.end => {
                 let action = (wording.predicate)(next, words);
-                parts.push((wording.anchored)(passed, &action, words));
+                parts.push(((wording.anchored)(passed, &action, words), told[at].frames.start..next.frames.end));
                 at += 2;
             }
             _ => {
-                parts.push((wording.predicate)(told[at], words));
+                parts.push(((wording.predicate)(told[at], words), told[at].frames.clone()));
                 at += 1;
             }
         }
@@ -206,7 +224,7 @@ fn dialogue(
             );
         }
         wrong => {
-            let own = predicates(&plan.said, wording, words).join(" ");
+            let own = told_in_order(predicates(&plan.said, wording, words), wording, words);
             put("{m}", &own);
             put("{n}", &(wording.predicate)(&Said { claim: wrong.clone(), frames: plan.frames.clone() }, words));
         }

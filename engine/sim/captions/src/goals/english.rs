@@ -53,9 +53,9 @@ const STEPS: [&str; 22] = [
     "Be ready for them to [b]. [K].",
     "In this stretch they [p]. [K].",
     "Let them [b], and [k].",
-    "Keep up with them as they [p]. [K].",
-    "Hold your line: they [p]. [K].",
-    "What comes next: they [p]. [K].",
+    "Keep them in shot as they [p]. [K].",
+    "Stay right on them: they [p]. [K].",
+    "Here's what comes next: they [p]. [K].",
     "Don't let go of them: they [p]. [K].",
 ];
 /// Ways to hold a distance.
@@ -83,6 +83,7 @@ pub(super) const WORDING: Wording = Wording {
     keeps: &KEEPS,
     predicate,
     anchored,
+    both,
     joined,
     finished,
     target,
@@ -104,8 +105,8 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
                 "walk on without turning off",
                 "carry on without a sharp turn",
                 "keep going and never turn off",
-                "follow their way without a sharp turn",
-                "stay on their way without turning off",
+                "keep to their route without a sharp turn",
+                "keep to their route without turning off",
             ],
         )
         .to_owned(),
@@ -120,7 +121,7 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
                     "come to a halt for about {s}",
                     "halt for about {s}",
                     "stop and stand there for about {s}",
-                    "take a break of about {s}",
+                    "stop where they are for about {s}",
                 ],
             ),
             *seconds,
@@ -228,7 +229,7 @@ fn lost(behind: Option<Hider>, seconds: u32, found: bool, words: &mut RandomStre
     let patterns: &[&str] = match (behind, found) {
         (Some(_), true) => &[
             "disappear behind {h} for about {s}",
-            "{be} out of sight behind {h} for about {s} and then come back into view",
+            "{be} out of sight behind {h} for about {s}",
             "vanish behind {h} and reappear about {s} later",
             "{be} completely hidden by {h} for about {s}",
             "go behind {h} and come out again after about {s}",
@@ -242,7 +243,7 @@ fn lost(behind: Option<Hider>, seconds: u32, found: bool, words: &mut RandomStre
         (None, true) => &[
             "leave the picture for about {s}",
             "drop out of the frame for about {s}",
-            "{be} out of the picture for about {s} and then return",
+            "{be} out of the picture for about {s}",
             "walk out of shot and come back after about {s}",
         ],
         (None, false) => &[
@@ -257,6 +258,13 @@ fn lost(behind: Option<Hider>, seconds: u32, found: bool, words: &mut RandomStre
 
 fn in_seconds(pattern: &str, seconds: u32) -> String {
     pattern.replace("{s}", &if seconds == 1 { "1 second".to_owned() } else { format!("{seconds} seconds") })
+}
+
+/// Two things in no order of time.
+fn both(one: &str, two: &str, words: &mut RandomStream) -> String {
+    one_of(words, &["{1} and {2}", "{1} and, on the way, {2}", "{1} and also {2}"])
+        .replace("{1}", one)
+        .replace("{2}", two)
 }
 
 /// What they do, joined, in the form that a sentence needs.
@@ -294,7 +302,7 @@ pub(super) fn capital(text: &str) -> String {
 
 /// The target, by its clothes.
 fn target(wear: &Wear, words: &mut RandomStream) -> String {
-    format!("the {}", who(Some(wear), words))
+    format!("the {}", who(Some(wear), words)).replace("on the back", "on their back")
 }
 
 fn a_colour(colour: Colour) -> String {

@@ -143,7 +143,8 @@ fn repeated_turn(text: &str) -> Option<(TurnKind, usize, &str)> {
 
 /// A colour before a garment at the start of `text`, or luggage; and what follows.
 pub(crate) fn garment(text: &str) -> Option<(Claim, &str)> {
-    for luggage in ["双肩背包", "双肩包", "背包", "书包", "背着包", "背着个包", "背个包", "背了包", "背了个包"] {
+    for luggage in ["双肩背包", "双肩包", "背包", "书包", "背着包", "背着个包", "背个包", "背了包", "背了个包"]
+    {
         if let Some(after) = text.strip_prefix(luggage) {
             return Some((Claim::Backpack, after));
         }
@@ -231,8 +232,9 @@ fn quantity(value: f64, after: &str, clause: &str, at: usize, about_stops: bool)
     let is_up = ['仰', '扬', '抬'].iter().any(|word| clause.contains(*word))
         || clause.contains("向上")
         || ["朝上", "往上", "高于水平", "朝天"].iter().any(|word| clause.contains(word));
-    let is_down =
-        clause.contains('俯') || clause.contains("向下") || ["朝下", "下压", "往下", "低于水平", "下倾", "朝地"].iter().any(|word| clause.contains(word));
+    let is_down = clause.contains('俯')
+        || clause.contains("向下")
+        || ["朝下", "下压", "往下", "低于水平", "下倾", "朝地"].iter().any(|word| clause.contains(word));
     let seconds = |value: f64| match about_stops
         && nearest(clause, at, &[&STOP_CHARS, &["用时", "历时", "耗时", "走"]]) != Some(1)
     {

@@ -87,8 +87,9 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
     let words = without_idioms(tokens.iter().map(word_of).collect());
     let about_stops = words.iter().any(|word| is_stop(word));
     // `They pause once, for about 3 seconds`: the time belongs to the stop.
-    let sums =
-        || words.iter().any(|word| ["altogether", "together", "total", "all", "told", "standing", "sum"].contains(word));
+    let sums = || {
+        words.iter().any(|word| ["altogether", "together", "total", "all", "told", "standing", "sum"].contains(word))
+    };
     let goes_on = after_stop && !about_stops && (words.first().is_some_and(|word| GOES_ON.contains(word)) || sums());
     let mut claims = vec![];
     let mut turns: Vec<(usize, TurnKind)> = vec![];
@@ -115,7 +116,8 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
     }
     if goes_on {
         claims.retain(|claim| *claim != Claim::Stays);
-    } else if !about_stops && denied(&words, |word| matches!(word, "move" | "moves" | "moving" | "moved" | "movement")) {
+    } else if !about_stops && denied(&words, |word| matches!(word, "move" | "moves" | "moving" | "moved" | "movement"))
+    {
         claims.push(Claim::Stays);
     }
     // `turns left after turning right` says the later turn first.
@@ -368,7 +370,8 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
 }
 
 fn compass_word(word: &str) -> Option<Compass> {
-    let stem = ["wards", "ward", "bound", "erly", "ern"].iter().find_map(|ending| word.strip_suffix(ending)).unwrap_or(word);
+    let stem =
+        ["wards", "ward", "bound", "erly", "ern"].iter().find_map(|ending| word.strip_suffix(ending)).unwrap_or(word);
     Some(match stem {
         "east" => Compass::East,
         "southeast" => Compass::Southeast,
@@ -393,7 +396,19 @@ fn turn_word(word: &str) -> Option<TurnKind> {
 
 fn is_stop(word: &str) -> bool {
     ["stop", "pause", "halt"].iter().any(|stem| word.starts_with(stem))
-        || matches!(word, "pausing" | "waits" | "waiting" | "break" | "breaks" | "rests" | "rested" | "resting" | "standstill" | "lingers")
+        || matches!(
+            word,
+            "pausing"
+                | "waits"
+                | "waiting"
+                | "break"
+                | "breaks"
+                | "rests"
+                | "rested"
+                | "resting"
+                | "standstill"
+                | "lingers"
+        )
 }
 
 pub fn is_unit(word: &str) -> bool {

@@ -47,20 +47,48 @@ pub const DISTANCE_WORDS: [&str; 14] = [
 /// Words that make a distance one that was walked.
 pub const WALKED: [&str; 10] =
     ["travel", "covers", "cover", "covered", "covering", "travels", "travelled", "traveled", "walked", "total"];
-pub const UP_WORDS: [&str; 10] = ["up", "upward", "upwards", "skyward", "raised", "upturned", "above", "sky", "skywards", "heavens"];
-pub const DOWN_WORDS: [&str; 9] = ["down", "downward", "downwards", "below", "lowered", "dipped", "ground", "under", "beneath"];
-pub const STOP_WORDS: [&str; 22] =
-    ["stop", "stops", "stopping", "stopped", "pause", "pauses", "pausing", "paused", "halt", "halts", "waits", "break", "rest", "rests", "rested", "resting", "wait", "waited", "waiting", "halted", "halting", "breaks"];
-pub const DURATION_WORDS: [&str; 17] = ["travel", "walk", "walks", "walked", "takes", "take", "taking", "covers", "covered", "route", "journey", "flight",
-    "stroll", "m/s", "time", "pace", "speed"];
+pub const UP_WORDS: [&str; 10] =
+    ["up", "upward", "upwards", "skyward", "raised", "upturned", "above", "sky", "skywards", "heavens"];
+pub const DOWN_WORDS: [&str; 9] =
+    ["down", "downward", "downwards", "below", "lowered", "dipped", "ground", "under", "beneath"];
+pub const STOP_WORDS: [&str; 22] = [
+    "stop", "stops", "stopping", "stopped", "pause", "pauses", "pausing", "paused", "halt", "halts", "waits", "break",
+    "rest", "rests", "rested", "resting", "wait", "waited", "waiting", "halted", "halting", "breaks",
+];
+pub const DURATION_WORDS: [&str; 17] = [
+    "travel", "walk", "walks", "walked", "takes", "take", "taking", "covers", "covered", "route", "journey", "flight",
+    "stroll", "m/s", "time", "pace", "speed",
+];
 /// First words of a clause that goes on about the stop before.
 pub const GOES_ON: [&str; 11] =
     ["for", "about", "each", "lasting", "totalling", "totaling", "which", "altogether", "in", "together", "standing"];
 pub const NEGATIONS: [&str; 11] =
     ["no", "not", "never", "without", "nowhere", "doesn", "don", "didn", "isn", "neither", "nor"];
-pub const TOPS: [&str; 19] =
-    ["top", "shirt", "tshirt", "jacket", "coat", "sweater", "jumper", "hoodie", "blouse", "pullover", "tee", "jersey", "cardigan", "sweatshirt", "polo", "vest", "parka", "anorak", "fleece"];
-pub const TROUSERS: [&str; 13] = ["trousers", "pants", "jeans", "slacks", "leggings", "bottoms", "chinos", "joggers", "denims", "shorts", "tights", "cords", "legs"];
+pub const TOPS: [&str; 19] = [
+    "top",
+    "shirt",
+    "tshirt",
+    "jacket",
+    "coat",
+    "sweater",
+    "jumper",
+    "hoodie",
+    "blouse",
+    "pullover",
+    "tee",
+    "jersey",
+    "cardigan",
+    "sweatshirt",
+    "polo",
+    "vest",
+    "parka",
+    "anorak",
+    "fleece",
+];
+pub const TROUSERS: [&str; 13] = [
+    "trousers", "pants", "jeans", "slacks", "leggings", "bottoms", "chinos", "joggers", "denims", "shorts", "tights",
+    "cords", "legs",
+];
 pub const LUGGAGE: [&str; 4] = ["backpack", "rucksack", "knapsack", "bag"];
 /// Colours that no garment here has a name for; a text that names one cannot be compared.
 pub const OTHER_COLOURS: [&str; 20] = [

@@ -1,0 +1,106 @@
+//! Language: how different the texts are, what they speak of, whether they single the target out, what was refused.
+
+use crate::model::Report;
+use crate::sketch::TextSketch;
+use cosfly_captions::{Diversity, Language, diversity};
+use cosfly_plot::text::{escaped, grouped, percent};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// The section; empty where the drawn flights have no texts.
+pub fn section(report: &Report) -> String {
+    let drawn = report.figures.drawn();
+    let texts: Vec<&TextSketch> = drawn.iter().flat_map(|flight| &flight.texts).collect();
+    if texts.is_empty() {
+        return String::new();
+    }
+    let mut html = String::new();
+    for language in Language::ALL {
+        let own: Vec<&TextSketch> = texts.iter().filter(|text| text.language == language.code()).copied().collect();
+        if !own.is_empty() {
+            html += &of_language(&own, language);
+        }
+    }
+    let _ = write!(
+        html,
+        "<p class=\"note\">Instructions and goals of the {} flights that this page draws. Distinct-n: different runs of n words (characters in Chinese) of all; \
+         self-BLEU: likeness of a text to its neighbours, 1 for all alike. A text singles the target out where it names the clothes and nobody \
+         else who is seen in the flight wears the same. Every published text was compared with the facts.</p>",
+        drawn.len()
+    );
+    html
+}
+
+fn of_language(texts: &[&TextSketch], language: Language) -> String {
+    let figures = diversity(texts.iter().map(|text| text.text.as_str()), language);
+    let name = match language {
+        Language::Zh => "Chinese",
+        Language::En => "English",
+    };
+    let mut html = format!("<h3>{name}</h3><dl class=\"tiles\">");
+    for (title, value, note) in tiles(texts, &figures) {
+        let _ = write!(
+            html,
+            "<div class=\"tile\"><dt>{title}</dt><dd><b>{}</b><small>{}</small></dd></div>",
+            escaped(&value),
+            escaped(&note)
+        );
+    }
+    html.push_str("</dl>");
+    let mut subjects: BTreeMap<&str, usize> = BTreeMap::new();
+    texts.iter().flat_map(|text| &text.subjects).for_each(|it| *subjects.entry(it).or_default() += 1);
+    html.push_str("<table><thead><tr><th>Subject</th><th>Texts that speak of it</th></tr></thead><tbody>");
+    for (subject, count) in subjects {
+        let share = percent(count as f64 / texts.len() as f64);
+        let _ = write!(html, "<tr><td>{}</td><td>{} ({share})</td></tr>", escaped(subject), grouped(count as u64));
+    }
+    html.push_str("</tbody></table>");
+    html
+}
+
+fn tiles(texts: &[&TextSketch], figures: &Diversity) -> Vec<(&'static str, String, String)> {
+    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+    texts.iter().for_each(|text| *kinds.entry(&text.kind).or_default() += 1);
+    let kinds: Vec<String> = kinds.into_iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+    let singled = texts.iter().filter(|text| text.singles_out).count() as f64 / texts.len() as f64;
+    let taught = texts.iter().filter(|text| text.is_taught).count() as u64;
+    let refused: u64 = texts.iter().map(|text| text.refused).sum();
+    let [least, most] = figures.words;
+    vec![
+        ("Texts", grouped(figures.texts as u64), kinds.join(", ")),
+        ("Different texts", grouped(figures.different_texts as u64), String::new()),
+        ("Words of a text", format!("{:.1}", figures.mean_words), format!("{least} to {most}")),
+        ("Distinct-1", format!("{:.3}", figures.distinct_1), String::new()),
+        ("Distinct-2", format!("{:.3}", figures.distinct_2), format!("{} pairs", grouped(figures.pairs as u64))),
+        ("Self-BLEU", format!("{:.3}", figures.self_bleu), "against neighbouring texts".to_owned()),
+        ("Single the target out", percent(singled), "by clothes that nobody else seen wears".to_owned()),
+        ("Texts of a teacher", grouped(taught), format!("{} answers refused", grouped(refused))),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::Figures;
+    use crate::sketch::FlightSketch;
+
+    #[test]
+    fn texts_are_counted_by_language_and_escaped() {
+        let text = |language: &str, text: &str, singles_out| TextSketch {
+            language: language.to_owned(),
+            kind: "step".to_owned(),
+            text: text.to_owned(),
+            subjects: vec!["<turn>".to_owned()],
+            singles_out,
+            ..TextSketch::default()
+        };
+        let texts =
+            vec![text("en", "They turn left.", true), text("en", "They stop.", false), text("zh", "往左拐。", false)];
+        let mut figures = Figures::default();
+        figures.add(FlightSketch { texts, ..FlightSketch::default() });
+        let html = section(&Report { figures, ..Report::default() });
+        assert!(html.contains("English") && html.contains("Chinese") && html.contains("&lt;turn&gt;"), "{html}");
+        assert!(html.contains("2 (100"), "{html}");
+        assert_eq!(section(&Report::default()), "");
+    }
+}
