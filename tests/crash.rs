@@ -45,6 +45,9 @@ const KILLS_OF_A_STORE: usize = 10;
 /// The first of them fall anywhere; the others wait for the output folder to be built and fall into its delivery.
 const ANYWHERE: usize = 6;
 
+/// Least time over which the moments of kills are spread.
+const SHORTEST_SPAN: Duration = Duration::from_millis(10);
+
 /// Two datasets of one recipe: they differ in their titles, so that a finished run has something to publish and deliver again.
 const TITLES: [&str; 2] = ["one", "two"];
 
@@ -105,16 +108,18 @@ fn fifty_kills_lose_no_finished_item_and_change_no_byte() {
     while kills < KILLS {
         let store = street.path().join("store");
         let mut seen: BTreeMap<String, std::time::SystemTime> = BTreeMap::new();
-        let (first, mut title) = (kills, TITLES[0]);
+        let (first, mut title, mut span) = (kills, TITLES[0], longest);
         while kills < KILLS.min(first + KILLS_OF_A_STORE) {
             tries += 1;
             assert!(tries < 10 * KILLS, "only {kills} of {tries} runs were killed");
             // Moments spread over a whole run by a fixed sequence; the speed of the machine varies the rest.
-            let pause = longest.mul_f64(f64::from((tries as u32 * 37) % 101) / 101.0);
+            let pause = span.mul_f64(f64::from((tries as u32 * 37) % 101) / 101.0);
             let waits = (kills - first >= ANYWHERE).then_some(beside.as_path());
             let was_running = kill_one(&street, title, pause, waits);
             kills += usize::from(was_running);
             if !was_running {
+                // Finished items make the next run shorter.
+                span = (span / 2).max(SHORTEST_SPAN);
                 title = TITLES[usize::from(title == TITLES[0])];
             }
             in_delivery += usize::from(check_output(&street, &datasets, &beside));
