@@ -157,17 +157,17 @@ impl Cover {
         let mut heights = vec![0_usize; columns + 1];
         let mut open: Vec<(usize, usize)> = Vec::with_capacity(columns + 1);
         for row in 0..rows {
-            for column in 0..=columns {
+            for (column, height) in heights.iter_mut().enumerate() {
                 let may_cover = column < columns && self.may_cover(cell(column, row), level);
-                heights[column] = if may_cover { heights[column] + 1 } else { 0 };
+                *height = if may_cover { *height + 1 } else { 0 };
                 let mut start = column;
-                while let Some((first, height)) = open.pop_if(|(_, height)| *height > heights[column]) {
-                    let cells = [first, row + 1 - height, column - first, height];
+                while let Some((first, above)) = open.pop_if(|(_, above)| *above > *height) {
+                    let cells = [first, row + 1 - above, column - first, above];
                     best = best.max((sum(cells), Reverse(cells)));
                     start = first;
                 }
-                if heights[column] > 0 && open.last().is_none_or(|(_, height)| *height < heights[column]) {
-                    open.push((start, heights[column]));
+                if *height > 0 && open.last().is_none_or(|(_, above)| *above < *height) {
+                    open.push((start, *height));
                 }
             }
             open.clear();
