@@ -4,7 +4,7 @@
 const GRIDS: &[(&[u32], &str)] = &[
     (&[2100], "+proj=tmerc +lon_0=24 +k=0.9996 +x_0=500000 +ellps=GRS80"),
     (&[2154, 5698], "+proj=lcc +lat_0=46.5 +lon_0=3 +lat_1=49 +lat_2=44 +x_0=700000 +y_0=6600000 +ellps=GRS80"),
-    (&[2180, 9656, 9657], "+proj=tmerc +lon_0=19 +k=0.9993 +x_0=500000 +y_0=-5300000 +ellps=GRS80"),
+    (&[2180], "+proj=tmerc +lon_0=19 +k=0.9993 +x_0=500000 +y_0=-5300000 +ellps=GRS80"),
     (&[2193], "+proj=tmerc +lon_0=173 +k=0.9996 +x_0=1600000 +y_0=10000000 +ellps=GRS80"),
     (&[3006, 5845], "+proj=utm +zone=33 +ellps=GRS80"),
     (&[3059], "+proj=tmerc +lon_0=24 +k=0.9996 +x_0=500000 +y_0=-6000000 +ellps=GRS80"),

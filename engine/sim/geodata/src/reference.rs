@@ -9,8 +9,9 @@ use cosfly_frames::DVec2;
 /// A projection with scale, false origin and datum, as UTM and national grids are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeoReference {
-    projection: Projection,
-    datum: Datum,
+    // Boxed: a reference is a part of small values.
+    projection: Box<Projection>,
+    datum: Box<Datum>,
     /// A point in the middle of the projection's use: longitude, latitude, degrees.
     middle_deg: [f64; 2],
     scale: f64,
@@ -114,6 +115,7 @@ impl GeoReference {
             }
             _ => return None,
         };
+        let (projection, datum) = (Box::new(projection), Box::new(datum));
         Self { projection, datum, middle_deg, scale, false_m }.checked()
     }
 
@@ -121,6 +123,7 @@ impl GeoReference {
         let false_m = DVec2::new(500_000.0, if is_south { 10_000_000.0 } else { 0.0 });
         let middle_deg = [6.0 * zone - 183.0, 0.0];
         let projection = Projection::TransverseMercator(TransverseMercator::on(datum.ellipsoid, middle_deg));
+        let (projection, datum) = (Box::new(projection), Box::new(datum));
         let is_zone = zone.fract() == 0.0 && (1.0..=60.0).contains(&zone);
         is_zone.then_some(Self { projection, datum, middle_deg, scale: 0.9996, false_m })
     }
@@ -133,7 +136,7 @@ impl GeoReference {
     /// Map position of a point: longitude, latitude, degrees.
     pub fn project(&self, point_deg: [f64; 2]) -> DVec2 {
         let own_deg = self.datum.from_wgs84(point_deg);
-        let plan_m = match &self.projection {
+        let plan_m = match &*self.projection {
             Projection::TransverseMercator(projection) => projection.project(own_deg),
             Projection::Conformal(projection) => projection.project(own_deg),
         };

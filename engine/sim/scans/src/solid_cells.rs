@@ -15,8 +15,8 @@ pub struct Column {
     pub top_m: f64,
 }
 
-/// Most cells along one side of what is covered at once; wider parts are cut.
-const WIDEST: usize = 96;
+/// Most cells along one side of what is covered at once; wider parts are cut. The work for a cell grows with its square.
+const WIDEST: usize = 48;
 
 /// Which of the bases of joined columns is that of their box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

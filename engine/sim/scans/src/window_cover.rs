@@ -134,17 +134,20 @@ impl Cover {
 
     /// The rectangle that covers most new columns; none where there are none.
     fn best(&self, level: Level) -> Option<Offer> {
-        let [columns, rows] = self.size;
+        let all = [0, 0, self.size[0], self.size[1]];
+        if self.count(level, all) == 0 {
+            return None;
+        }
+        // What is farther out covers nothing new.
+        let [left, low, columns, rows] = self.trimmed(level, all);
+        let cell = |column: usize, row: usize| (low + row) * self.size[0] + left + column;
         let mut sums = vec![0_u32; (columns + 1) * (rows + 1)];
         for row in 0..rows {
             let mut line = 0;
             for column in 0..columns {
-                line += u32::from(self.is_new(row * columns + column, level));
+                line += u32::from(self.is_new(cell(column, row), level));
                 sums[(row + 1) * (columns + 1) + column + 1] = sums[row * (columns + 1) + column + 1] + line;
             }
-        }
-        if sums.last() == Some(&0) {
-            return None;
         }
         let sum = |[column, row, width, height]: [usize; 4]| {
             let at = |column: usize, row: usize| sums[row * (columns + 1) + column] as usize;
@@ -154,22 +157,23 @@ impl Cover {
         let mut heights = vec![0_usize; columns + 1];
         let mut open: Vec<(usize, usize)> = Vec::with_capacity(columns + 1);
         for row in 0..rows {
-            for column in 0..=columns {
-                let may_cover = column < columns && self.may_cover(row * columns + column, level);
-                heights[column] = if may_cover { heights[column] + 1 } else { 0 };
+            for (column, height) in heights.iter_mut().enumerate() {
+                let may_cover = column < columns && self.may_cover(cell(column, row), level);
+                *height = if may_cover { *height + 1 } else { 0 };
                 let mut start = column;
-                while let Some((first, height)) = open.pop_if(|(_, height)| *height > heights[column]) {
-                    let cells = [first, row + 1 - height, column - first, height];
+                while let Some((first, above)) = open.pop_if(|(_, above)| *above > *height) {
+                    let cells = [first, row + 1 - above, column - first, above];
                     best = best.max((sum(cells), Reverse(cells)));
                     start = first;
                 }
-                if heights[column] > 0 && open.last().is_none_or(|(_, height)| *height < heights[column]) {
-                    open.push((start, heights[column]));
+                if *height > 0 && open.last().is_none_or(|(_, above)| *above < *height) {
+                    open.push((start, *height));
                 }
             }
             open.clear();
         }
-        let (count, Reverse(cells)) = best;
+        let (count, Reverse([column, row, width, height])) = best;
+        let cells = [left + column, low + row, width, height];
         (count > 0).then(|| (count, Reverse(level), Reverse(self.trimmed(level, cells))))
     }
 

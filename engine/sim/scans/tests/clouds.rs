@@ -61,7 +61,7 @@ fn check_scene(name: &str, town: &Town) {
             distance_m(&house, at.with_z(0.5 * (from.z + to.z))) <= 0.0
         })
     };
-    let [columns, rows] = [high.x - low.x, high.y - low.y].map(|side_m| (2.0 * side_m) as usize);
+    let [columns, rows] = [high.x - low.x, high.y - low.y].map(|side_m| (2.0 * side_m).ceil() as usize);
     let squares = (0..columns * rows)
         .map(|i| low + 0.5 * DVec3::new((i % columns) as f64 + 0.5, (i / columns) as f64 + 0.5, 0.0));
     let area_m2 = 0.25 * squares.filter(|at| is_covered(*at)).count() as f64;

@@ -8,23 +8,21 @@ use std::process::Command;
 /// Set in the process that reads the damaged files.
 const READER: &str = "COSFLY_READS_HOSTILE_LAZ";
 
-/// Files of the fuzzer's collection with their bytes changed, each by several patterns.
+/// A file of the fuzzer's collection with its bytes changed, each by several patterns.
 fn read_damaged_files() {
     let (mut refused, mut contained) = (0, 0);
-    for name in ["format_3.laz", "format_7.laz", "example.laz"] {
-        let path = format!("{}/../../../tests/fuzz/corpus/las/{name}", env!("CARGO_MANIFEST_DIR"));
-        let whole = std::fs::read(&path).unwrap();
-        let start = u32::from_le_bytes(*whole[96..].first_chunk().unwrap()) as usize;
-        for at in (start..whole.len()).step_by(1 + (whole.len() - start) / 300) {
-            for change in [0xff, 0x80, 0x55, 0x01] {
-                // A run of damage, as a bad sector makes it.
-                for length in [1, 16] {
-                    let mut file = whole.clone();
-                    file[at..].iter_mut().take(length).for_each(|byte| *byte ^= change);
-                    let Err(error) = Las::read(&file, &CloudOptions::default()) else { continue };
-                    refused += 1;
-                    contained += usize::from(error.message.contains("what no encoder writes"));
-                }
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../tests/fuzz/corpus/las/example.laz");
+    let whole = std::fs::read(path).unwrap();
+    let start = u32::from_le_bytes(*whole[96..].first_chunk().unwrap()) as usize;
+    for at in (start..whole.len()).step_by(1 + (whole.len() - start) / 300) {
+        for change in [0xff, 0x80, 0x55, 0x01] {
+            // A run of damage, as a bad sector makes it.
+            for length in [1, 16] {
+                let mut file = whole.clone();
+                file[at..].iter_mut().take(length).for_each(|byte| *byte ^= change);
+                let Err(error) = Las::read(&file, &CloudOptions::default()) else { continue };
+                refused += 1;
+                contained += usize::from(error.message.contains("what no encoder writes"));
             }
         }
     }
