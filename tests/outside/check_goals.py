@@ -86,9 +86,11 @@ class Flight:
 
     def turns_to(self, side, frame):
         """Whether the way changes its direction to a side around a frame."""
+        # Frames in which the target stands have no direction: it may stand at the corner.
         directions = self.directions()
-        before = [angle for at, angle in directions if frame - 22 <= at <= frame]
-        after = [angle for at, angle in directions if frame <= at <= frame + 14]
+        at = sum(place < frame for place, _ in directions)
+        before = [angle for _, angle in directions[max(at - 22, 0) : at + 1]]
+        after = [angle for _, angle in directions[at : at + 15]]
         sign = {"left": -1, "right": 1}.get(side)
         changes = [a - b for a in after for b in before]
         if side == "around":

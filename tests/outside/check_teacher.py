@@ -78,7 +78,15 @@ class Handler(BaseHTTPRequestHandler):
     def log_message(self, *_):
         pass
 
+    def is_gone(self):
+        """Whether the client has closed the connection before it was answered: killed while it waited."""
+        try:
+            return self.connection.recv(1, socket.MSG_PEEK | socket.MSG_DONTWAIT) == b""
+        except BlockingIOError:
+            return False
+
     def reply(self, status, body, whole=True):
+        was_there = not self.is_gone()
         self.send_response(status)
         self.send_header("content-type", "application/json")
         self.send_header("retry-after", "0")
@@ -90,7 +98,7 @@ class Handler(BaseHTTPRequestHandler):
         self.close_connection = True
         self.connection.shutdown(socket.SHUT_WR)
         # The client reads all and closes in order, or is killed: with unread bytes the connection is reset.
-        return whole and self.connection.recv(1) == b""
+        return was_there and whole and self.connection.recv(1) == b""
 
     def answer(self, content):
         message = {"choices": [{"message": {"role": "assistant", "content": content}, "finish_reason": "stop"}], "model": "stand-in", "usage": {"prompt_tokens": 300, "completion_tokens": 40}}

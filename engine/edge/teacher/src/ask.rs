@@ -76,15 +76,7 @@ impl Teacher {
                 booking => booking?,
             };
             let sent = client.send(&body, &idempotency_key(&key, self.config.round, failures));
-            let estimated = question.estimated_tokens();
-            let tokens = match &sent {
-                Ok(Sent::Came(it)) => {
-                    let written = it.content.len() as u64 / 2 + 1;
-                    [it.input_tokens.unwrap_or(estimated), it.output_tokens.unwrap_or(written)]
-                }
-                Ok(Sent::TooLong) => [estimated, u64::from(self.config.max_tokens)],
-                _ => [0, 0],
-            };
+            let tokens = self.tokens(&sent, question.estimated_tokens());
             // What arrived is durable before anything else happens, the account too: a booking that is never corrected is only
             // too high, an answer that is lost would be asked for and paid again.
             let kept = match &sent {
@@ -116,6 +108,18 @@ impl Teacher {
             }
         }
         keep(answers, &losses[0], &Record::Lost(why))
+    }
+
+    /// Tokens of a question and its answer: those that the server counts, else an estimate; none where no answer came.
+    fn tokens(&self, sent: &Result<Sent>, estimated: u64) -> [u64; 2] {
+        match sent {
+            Ok(Sent::Came(it)) => {
+                let written = it.content.len() as u64 / 2 + 1;
+                [it.input_tokens.unwrap_or(estimated), it.output_tokens.unwrap_or(written)]
+            }
+            Ok(Sent::TooLong) => [estimated, u64::from(self.config.max_tokens)],
+            _ => [0, 0],
+        }
     }
 
     fn answer(&self, came: Envelope, tokens: [u64; 2], requests: u32) -> Answer {

@@ -25,7 +25,7 @@ pub fn section(report: &Report) -> String {
         html,
         "<p class=\"note\">Instructions and goals of the {} flights that this page draws. Distinct-n: different runs of n words (characters in Chinese) of all; \
          self-BLEU: likeness of a text to its neighbours, 1 for all alike. A text singles the target out where it names the clothes and nobody \
-         else who is seen in the flight wears the same. Every published text was compared with the facts.</p>",
+         else who is seen in the flight wears the same. Captions were compared with the facts; goals of kind negative do not fit on purpose.</p>",
         drawn.len()
     );
     html

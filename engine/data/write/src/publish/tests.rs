@@ -83,7 +83,7 @@ fn the_card_lists_only_tables_with_rows() {
     let folder = tempfile::tempdir().unwrap();
     sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), experts).unwrap();
     let card = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
-    assert!(card.contains("# tables: frames, trajectories, waypoints, captions, people, phrases\n"), "{card}");
+    assert!(card.contains("# tables: frames, trajectories, waypoints, captions, people, phrases, goals\n"), "{card}");
 }
 
 #[test]

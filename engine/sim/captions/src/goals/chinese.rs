@@ -114,6 +114,13 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
         Claim::Stands => {
             one_of(words, &["一直站在原地", "始终站着没动", "从头到尾没有挪动", "一直站着不走"]).to_owned()
         }
+        around => surroundings(around, words),
+    }
+}
+
+/// What is around them, and hides them.
+fn surroundings(claim: &Claim, words: &mut RandomStream) -> String {
+    match claim {
         Claim::Passes(passed) => {
             let pattern = one_of(
                 words,
@@ -144,7 +151,7 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
             );
             pattern.replace("{}", colour(*top))
         }
-        Claim::Wears(_) | Claim::Distance(_) => String::new(),
+        _ => String::new(),
     }
 }
 

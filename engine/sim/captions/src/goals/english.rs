@@ -136,6 +136,13 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
             ],
         )
         .to_owned(),
+        around => surroundings(around, words),
+    }
+}
+
+/// What is around them, and hides them.
+fn surroundings(claim: &Claim, words: &mut RandomStream) -> String {
+    match claim {
         Claim::Passes(passed) => {
             let pattern = one_of(
                 words,
@@ -180,7 +187,7 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
             );
             pattern.replace("{}", &a_colour(*top))
         }
-        Claim::Wears(_) | Claim::Distance(_) => String::new(),
+        _ => String::new(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Reads English texts: words and numbers, clause by clause.
 
+use super::english_idioms::{is_travelled, number_follows, without_idioms};
 use super::english_numbers::fold_numbers;
 use super::english_words::{
     ALTITUDE_WORDS, DISTANCE_WORDS, DOWN_WORDS, DURATION_WORDS, GOES_ON, LUGGAGE, NEGATIONS, OTHER_COLOURS, STOP_WORDS,
@@ -71,10 +72,6 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
     clauses
 }
 
-fn number_follows(chars: &[char], from: usize) -> bool {
-    chars[from..].iter().find(|c| !c.is_whitespace()).is_some_and(char::is_ascii_digit)
-}
-
 fn decimal_point(chars: &[char], at: usize) -> bool {
     chars[at] == '.' && chars.get(at + 1).is_some_and(char::is_ascii_digit)
 }
@@ -142,25 +139,6 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
         claims.push(Claim::NoTurns);
     }
     claims
-}
-
-/// The words without those that look like places of the drone and are none: `a shirt above blue jeans`, `it is over`, `130 m are
-/// behind them`.
-fn without_idioms(mut words: Vec<&str>) -> Vec<&str> {
-    for at in 0..words.len() {
-        let before = at.checked_sub(1).map_or("", |before| words[before]);
-        let after = words[at + 1..].iter().take(3).any(|word| colour(word).is_some());
-        let is_idiom = match words[at] {
-            "above" | "over" | "under" | "below" if after => true,
-            "over" => ["is", "was"].contains(&before),
-            "behind" => ["are", "is"].contains(&before) && words.get(at + 1) == Some(&"them"),
-            _ => false,
-        };
-        if is_idiom {
-            words[at] = "-";
-        }
-    }
-    words
 }
 
 /// Whether a negation comes a few words before such a word.
@@ -270,10 +248,6 @@ fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<
     })
 }
 
-fn is_travelled(words: &[&str]) -> bool {
-    words.iter().any(|word| ["m/s", "seconds", "second", "secs", "s"].contains(word))
-}
-
 /// Clothes and luggage at a place of a clause.
 fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
     let (word, next) = (words[at], words.get(at + 1).copied().unwrap_or_default());
@@ -316,7 +290,7 @@ fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
     }
 }
 
-fn colour(word: &str) -> Option<Colour> {
+pub(super) fn colour(word: &str) -> Option<Colour> {
     let word = if word == "gray" { "grey" } else { word };
     Colour::ALL.into_iter().find(|colour| colour.name() == word)
 }

@@ -3,6 +3,7 @@
 pub mod chinese;
 mod chinese_words;
 pub mod english;
+mod english_idioms;
 mod english_numbers;
 mod english_words;
 
