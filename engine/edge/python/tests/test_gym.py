@@ -1,6 +1,7 @@
 """Environments for gymnasium: the checker, the three modes of autoreset, seeds, the expert's actions."""
 
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -140,9 +141,9 @@ def test_what_is_not_there_is_refused():
         envs.step(np.zeros((3, 5), dtype=np.float32))
 
 
-def test_the_suite_names_drone_wind_and_latency(tmp_path):
+def test_the_suite_names_drone_wind_and_latency():
     text = open("small/recipe.toml").read()
-    recipe = tmp_path / "windy.toml"
+    recipe = Path("small/windy.toml")
     recipe.write_text(text + '\n[tool.fly]\ndrone = "pelican"\nwind_mps = 8\ngusts = true\nlatency_ms = 500\n')
     flights = {}
     for name, given, more in [("plain", "small/recipe.toml", {}), ("windy", recipe, {}), ("at once", recipe, {"latency_s": 0.0})]:
@@ -158,8 +159,8 @@ def test_the_suite_names_drone_wind_and_latency(tmp_path):
         gym.make(ID, recipe=recipe)
 
 
-def test_a_camera_that_sees_nothing_gives_zeros(tmp_path):
-    recipe = tmp_path / "dark.toml"
+def test_a_camera_that_sees_nothing_gives_zeros():
+    recipe = Path("small/dark.toml")
     recipe.write_text(open("small/recipe.toml").read() + "\n[tool.fly]\nblackouts = 2\n")
     env = gym.make(ID, recipe=recipe, obs=("state", "depth"), size=16, expert_action=True).unwrapped
     _, info = env.reset(seed=1)

@@ -9,6 +9,7 @@ closed loop" defines them, and the terms of the reward, which `info` has as `rew
 from __future__ import annotations
 
 import os
+from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any, Callable, Sequence
 
@@ -143,7 +144,7 @@ class TrackVector(VectorEnv):
             recipe, num_envs, mode, overrides=overrides, store=store, obs=obs, size=size, max_depth_m=max_depth_m,
             weather=weather, threads=threads, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
         )  # fmt: skip
-        self.single_observation_space, self.single_action_space = self._observations.space(), ACTIONS
+        self.single_observation_space, self.single_action_space = self._observations.space(), deepcopy(ACTIONS)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(ACTIONS, num_envs)
 
@@ -211,7 +212,7 @@ class Track(gymnasium.Env):
             recipe, 1, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, size=size,
             max_depth_m=max_depth_m, weather=weather, threads=1, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
         )  # fmt: skip
-        self.observation_space, self.action_space = self._observations.space(), ACTIONS
+        self.observation_space, self.action_space = self._observations.space(), deepcopy(ACTIONS)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         super().reset(seed=seed)

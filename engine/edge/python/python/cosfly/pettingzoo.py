@@ -9,6 +9,7 @@ is over leaves; the others fly on.
 from __future__ import annotations
 
 import os
+from copy import deepcopy
 from typing import Any, Sequence
 
 import numpy as np
@@ -53,9 +54,9 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
         self.agents: list[str] = []
         self._numbers = {agent: number for number, agent in enumerate(self.possible_agents)}
         state = spaces.Box(-np.inf, np.inf, (16 + _OTHER * (num_drones - 1),), np.float32)
-        space = self._observations.space(state)
-        self.observation_spaces = dict.fromkeys(self.possible_agents, space)
-        self.action_spaces = dict.fromkeys(self.possible_agents, ACTIONS)
+        # Spaces draw samples from seeds of their own: none is shared.
+        self.observation_spaces = {agent: self._observations.space(deepcopy(state)) for agent in self.possible_agents}
+        self.action_spaces = {agent: deepcopy(ACTIONS) for agent in self.possible_agents}
 
     def observation_space(self, agent: str) -> spaces.Space[Any]:
         return self.observation_spaces[agent]
