@@ -2,9 +2,7 @@
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_maps::{MapConfig, WalkableKind};
-use cosfly_render::{
-    BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, Walker, Weather, gait_phase_rad,
-};
+use cosfly_render::{BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, Walker, Weather, gait_phase_rad};
 use std::fs::File;
 use std::path::Path;
 

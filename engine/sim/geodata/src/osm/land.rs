@@ -1,4 +1,4 @@
-//! Land by its use: grass and bare ground as surfaces, trees of woods, whose places are assumed, bushes of scrub.
+//! Land by its use: grass and bare ground as surfaces, trees of woods, whose places are assumed.
 
 use super::elements::Elements;
 use super::frame::Frame;

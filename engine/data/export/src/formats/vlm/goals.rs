@@ -72,7 +72,7 @@ fn said(lines: &[String]) -> String {
     match lines {
         [one] => one.clone(),
         several => {
-            let speaker = |at: usize| if at % 2 == 0 { "User" } else { "Pilot" };
+            let speaker = |at: usize| if at.is_multiple_of(2) { "User" } else { "Pilot" };
             let lines = several.iter().enumerate().map(|(at, line)| format!("{}: {line}", speaker(at)));
             lines.collect::<Vec<_>>().join("\n")
         }
