@@ -91,6 +91,8 @@ class PlannedStage:
     predicted_core_s: Optional[float]
     """Time of the items to run on one core each, seconds; None where none was measured in this store."""
     predicted_bytes: int
+    predicted_files: int
+    """Files that the items to run are expected to write."""
     reasons: List[Dict[str, Any]]
     """Why items would run, with their number."""
     asks: Optional[Dict[str, Any]] = None
@@ -106,6 +108,8 @@ class Plan:
     """Time of everything that would run on one core, seconds, as far as it was measured in this store."""
     all_measured: bool
     predicted_bytes: int
+    predicted_files: int
+    """Files that the run is expected to write."""
     stages: List[PlannedStage]
 
 
@@ -241,7 +245,7 @@ def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = No
     found = json.loads(text)
     stages = [PlannedStage(**stage) for stage in found["stages"]]
     return Plan(
-        found["to_run"], found["predicted_core_s"], found["all_measured"], found["predicted_bytes"], stages
+        found["to_run"], found["predicted_core_s"], found["all_measured"], found["predicted_bytes"], found["predicted_files"], stages
     )
 
 
