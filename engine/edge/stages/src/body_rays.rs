@@ -104,7 +104,8 @@ impl Grid {
         }
         // Slender boxes have one row of rays at least, and not more than four times as many rays as others.
         let step = (width * height / RAYS).sqrt().max(width.max(height) / (4.0 * RAYS));
-        let count = |length: f64| (length / step).ceil().max(1.0) as usize;
+        // A cell whose middle lies outside belongs to no pixel of the image.
+        let count = |length: f64| (length / step - 0.5).ceil().max(1.0) as usize;
         Some(Self { left, top, step, columns: count(width), rows: count(height) })
     }
 
