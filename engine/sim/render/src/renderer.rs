@@ -6,7 +6,6 @@ use crate::eye::Eye;
 use crate::faces::{DrawnFace, FaceSource, box_lift, ground_lift};
 use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame, TARGET_INSTANCE, TargetView};
 use crate::look::PictureLook;
-use crate::optics::{Glass, Optics};
 use crate::outlook::to_sun;
 use crate::outside::Found;
 use crate::passes::ids::{SeenRuns, for_each_band};
@@ -24,6 +23,7 @@ use crate::visibility::{MAX_CORNERS, NEAR_M, Nearer, PlaneOnScreen, Screen, Visi
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 use cosfly_maps::SemanticLabel;
+use cosfly_optics::{Glass, Optics};
 
 /// Which parts of a frame [`Renderer::render_parts`] makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,14 +7,9 @@
 //! A rolling shutter takes all channels of a strip of rows at the strip's moment, so that they still agree.
 
 mod lens;
-mod motion_blur;
-mod noise;
-mod rolling_shutter;
 
+pub use cosfly_optics::{MotionBlur, Noise, RollingShutter, pose_at, target_state_at};
 pub use lens::Lens;
-pub use motion_blur::{MotionBlur, pose_at, target_state_at};
-pub use noise::Noise;
-pub use rolling_shutter::RollingShutter;
 
 use crate::backend::{Backend, BackendError};
 use crate::camera::Camera;
@@ -26,8 +21,8 @@ use crate::weather::Weather;
 use cosfly_figures::figure::{Bystander, TargetSetup};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{Pose, Seed};
+use cosfly_optics::Exposure;
 use lens::LensMap;
-use motion_blur::Exposure;
 use std::ops::Range;
 
 /// Camera and target at a moment.

@@ -8,13 +8,13 @@ use super::vector::Vec3;
 use crate::eye::Eye;
 use crate::frame::FrameImages;
 use crate::look::PictureLook;
-use crate::optics::Optics;
 use crate::passes::ids::{Band, Run};
 use crate::people::People;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use crate::visibility::Screen;
 use cosfly_frames::simd::Level;
+use cosfly_optics::Optics;
 use std::sync::{Mutex, PoisonError};
 
 /// Shades whole frames; owns the shadow maps.

@@ -28,7 +28,7 @@ impl Noise {
     }
 
     /// Adds noise to sRGB codes: nearly normal (sums of four uniform numbers), independent per channel and pixel.
-    pub(crate) fn add(&self, rgb: &mut [u8], seed: &Seed) {
+    pub fn add(&self, rgb: &mut [u8], seed: &Seed) {
         if self.is_none() {
             return;
         }

@@ -3,12 +3,9 @@
 //! Exposure and white balance scale light before the tone curve. Point spread and bloom mix neighbouring pixels of the
 //! finished colours; depth and ids stay as sampled at pixel centres.
 
-mod bloom;
-mod point_spread;
-
-use bloom::Bloom;
+use crate::bloom::Bloom;
+use crate::point_spread::PointSpread;
 use cosfly_frames::simd::Level;
-use point_spread::PointSpread;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -56,7 +53,7 @@ impl Optics {
 
 /// Buffers of the optics.
 #[derive(Default)]
-pub(crate) struct Glass {
+pub struct Glass {
     spread: PointSpread,
     bloom: Bloom,
 }

@@ -12,7 +12,7 @@ const STEP: usize = 3;
 
 /// Rows blurred along the width that are still needed: a ring, each with a margin on both sides.
 #[derive(Default)]
-pub(super) struct PointSpread {
+pub struct PointSpread {
     rows: [Vec<u8>; ROWS],
     padded: Vec<u8>,
 }

@@ -75,7 +75,7 @@ fn turn_rad(difference: f64) -> f64 {
 
 /// Sums of light, per colour channel.
 #[derive(Default)]
-pub(crate) struct Exposure {
+pub struct Exposure {
     tables: Option<Box<Tables>>,
     sums: Vec<u32>,
     pictures: u32,
@@ -106,10 +106,12 @@ impl Tables {
 }
 
 impl Exposure {
+    /// Begins another picture.
     pub fn open(&mut self) {
         self.pictures = 0;
     }
 
+    /// Adds a picture of one moment, sRGB bytes; all have one size.
     pub fn add(&mut self, rgb: &[u8]) {
         let light = &self.tables.get_or_insert_with(Tables::new).light;
         if self.pictures == 0 {
@@ -129,7 +131,7 @@ impl Exposure {
         is_any.then_some(&self.developed)
     }
 
-    /// Writes the mean picture; nothing when nothing was added.
+    /// Writes the mean picture to `rgb`; nothing when nothing was added.
     pub fn develop_into(&self, rgb: &mut [u8]) -> bool {
         let Some(tables) = self.tables.as_ref().filter(|_| self.pictures > 0) else { return false };
         for (code, sum) in rgb.iter_mut().zip(&self.sums) {

@@ -12,7 +12,7 @@ const PASSES: usize = 4;
 
 /// Cells of bright light.
 #[derive(Default)]
-pub(super) struct Bloom {
+pub struct Bloom {
     cells: Vec<[f32; 3]>,
     other: Vec<[f32; 3]>,
     /// Glow at the middles of cells in the height of a row.

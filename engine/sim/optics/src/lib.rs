@@ -1,0 +1,14 @@
+//! Lens, shutter and sensor of a camera, on finished pictures: point spread, exposure, white balance, bloom, motion blur,
+//! a rolling shutter, noise. Nothing here knows a town.
+
+mod bloom;
+mod motion_blur;
+mod noise;
+mod optics;
+mod point_spread;
+mod rolling_shutter;
+
+pub use motion_blur::{Exposure, MotionBlur, pose_at, target_state_at};
+pub use noise::Noise;
+pub use optics::{Glass, Optics};
+pub use rolling_shutter::RollingShutter;
