@@ -14,6 +14,7 @@ mod evaluation;
 mod export;
 mod fly;
 mod fuzzing;
+mod models;
 mod more_walkers;
 mod people;
 mod plan_from;

@@ -26,6 +26,7 @@ mod planner_comparison;
 mod planners;
 pub mod plugins;
 mod ports;
+mod props;
 mod published_towns;
 mod quotas;
 pub mod read;

@@ -9,7 +9,7 @@ use crate::rejections::reject;
 use crate::shooting::{Shooting, preset};
 use crate::walks::walked_m;
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
-use crate::{backends, codec, nearby, parameters, traffic};
+use crate::{backends, codec, nearby, parameters, props, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Pose, Seed};
@@ -52,7 +52,7 @@ impl StageKind for Render {
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
-        let (config, encoding) = parameters::read_joined::<RenderConfig, EncodingConfig>(given, "encoding")?;
+        let (mut config, encoding) = parameters::read_joined::<RenderConfig, EncodingConfig>(given, "encoding")?;
         config.validate().map_err(|problem| ParameterError {
             hint: Some(problem.hint),
             ..parameters::refused_at(&problem.path, problem.message)
@@ -66,12 +66,15 @@ impl StageKind for Render {
             true => ItemRule::PerVariant { port: "trajectories", variants: config.weathers.clone() },
             false => ItemRule::PerInput("trajectories"),
         };
-        let nearby = nearby::part(&config, canonical(&config, parameters::canonical(&config)), items.clone());
+        let sources = props::take_sources(&mut config);
+        // Models change no body around a flight.
+        let bare = RenderConfig { models: vec![], ..config.clone() };
+        let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
             version: 9,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
-            sources: vec![],
+            sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
             artifact: FRAMES,
             items,
@@ -134,8 +137,10 @@ impl Stage for RenderStage {
         };
         let town_digest = inputs.one("town")?.blobs[TOWN_BLOB].digest;
         // Buildings look the same in every flight through the town.
-        let scene =
-            self.scene.get(town_digest, || -> Result<_> { Ok(Scene::new(&world.town, Seed(town_digest.0))) })?;
+        let scene = self.scene.get(town_digest, || -> Result<_> {
+            let models = props::read_models(&self.config, &context.sources)?;
+            Ok(Scene::with_models(&world.town, Seed(town_digest.0), &models))
+        })?;
         let target = traffic::followed(inputs, artifact)?;
         let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), &context.id.item)?;
         let preset = preset(&self.config, &context.id.item);

@@ -6,6 +6,7 @@ use crate::effects::{Effects, Lens, MotionBlur, Noise, RollingShutter};
 use crate::look::PictureLook;
 use crate::weather::{Weather, WeatherRanges};
 use cosfly_frames::Seed;
+use cosfly_models::ModelConfig;
 use cosfly_optics::Optics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -62,6 +63,9 @@ pub struct RenderConfig {
     pub paired_weathers: bool,
     /// Ranges to draw single weather numbers from, on top of the preset.
     pub weather: WeatherRanges,
+    /// Models from glTF files, drawn instead of the boxes of the town's things; labels and ids stay those of the things.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub models: Vec<ModelConfig>,
 }
 
 impl Default for RenderConfig {
@@ -85,6 +89,7 @@ impl Default for RenderConfig {
             weathers: weathers.map(str::to_owned).to_vec(),
             paired_weathers: false,
             weather: WeatherRanges::default(),
+            models: vec![],
         }
     }
 }
@@ -170,6 +175,12 @@ impl RenderConfig {
         check_range("gimbal.pitch_range_deg", self.gimbal.pitch_range_deg, [-90.0, 90.0])?;
         check_range("gimbal.yaw_range_deg", self.gimbal.yaw_range_deg, [-180.0, 180.0])?;
         self.check_effects()?;
+        for (index, model) in self.models.iter().enumerate() {
+            if !(-360.0..=360.0).contains(&model.turn_deg) {
+                let message = format!("the turn is `{}`", model.turn_deg);
+                return problem(&format!("models[{index}].turn_deg"), message, "-360 to 360 degrees".into());
+            }
+        }
         for (name, range, bounds) in self.weather.all() {
             if let Some(range) = range {
                 check_range(&format!("weather.{name}"), range, bounds)?;

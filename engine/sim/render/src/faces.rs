@@ -20,6 +20,8 @@ pub(crate) enum FaceSource {
     Box { index: u32, face: u8 },
     /// Cluster number, polygon number in it.
     Ground { cluster: u32, polygon: u16 },
+    /// Triangle of the scene's models.
+    Prop { triangle: u32 },
     /// Triangle of the figures, and the first face drawn of the same part of a body.
     Figure { triangle: u32, first_face: u32 },
 }

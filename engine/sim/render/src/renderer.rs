@@ -202,6 +202,7 @@ impl Renderer {
             }
             None => self.draw_boxes(scene, &eye),
         }
+        self.draw_props(scene, &eye);
         self.draw_people(&eye, setup);
         watch.lap(0);
         if found.is_none() {
@@ -277,6 +278,33 @@ impl Renderer {
                     let source = FaceSource::Box { index, face: face as u8 };
                     let normal = normal_in_world.as_vec3().to_array();
                     self.faces.push(DrawnFace { plane, normal, source, label: b.label, instance: b.instance });
+                }
+            }
+        }
+    }
+
+    /// Models of things, from near to far.
+    fn draw_props(&mut self, scene: &Scene, eye: &Eye) {
+        self.visible.clear();
+        for (index, prop) in scene.props.props.iter().enumerate() {
+            if let Some(key) = eye.order_if_seen(&self.screen, prop.center_in_world, prop.half_bounds_m) {
+                self.visible.push((key, index as u32));
+            }
+        }
+        self.visible.sort_unstable();
+        for position in 0..self.visible.len() {
+            let prop = &scene.props.props[self.visible[position].1 as usize];
+            for number in prop.triangles.clone() {
+                let triangle = &scene.props.triangles[number];
+                let corners = triangle.corners_in_world.map(|corner| eye.see(corner));
+                let normal = eye.turn(triangle.normal_in_world);
+                let side = if normal.dot(corners[0]) < 0.0 { 1.0 } else { -1.0 };
+                if let Some(plane) = PlaneOnScreen::new(&self.screen, side * normal, corners[0]) {
+                    let face = self.faces.len() as u32;
+                    self.nearest.draw_polygon(&self.screen, &corners, &plane, 0.0, face);
+                    let source = FaceSource::Prop { triangle: number as u32 };
+                    let normal = (side * triangle.normal_in_world).as_vec3().to_array();
+                    self.faces.push(DrawnFace { plane, normal, source, label: prop.label, instance: prop.instance });
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! A town prepared for the renderer: boxes with faces, ground polygons in small bounded clusters, seeds for looks.
 
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
+use crate::props::{Props, SceneModel};
 use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox};
 use crate::shade::grid::LightGrid;
 use crate::shade::outskirts::Outskirts;
@@ -20,6 +21,7 @@ pub struct Scene {
     pub(crate) noise: Box<NoiseTexture>,
     pub(crate) grid: LightGrid,
     pub(crate) outskirts: Outskirts,
+    pub(crate) props: Props,
     /// Tells scenes of one process apart; buffers that outlive a frame remember it.
     pub(crate) identity: u64,
 }
@@ -38,6 +40,11 @@ pub struct SceneTriangle {
 impl Scene {
     /// Prepares a town. Boxes and triangles that are not finite are left out; `seed` draws colours and patterns.
     pub fn new(town: &Town, seed: Seed) -> Self {
+        Self::with_models(town, seed, &[])
+    }
+
+    /// Prepares a town some of whose things are drawn by models.
+    pub fn with_models(town: &Town, seed: Seed, models: &[SceneModel]) -> Self {
         let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
         let mut boxes = boxes_of(town, look_seed);
         join_crowns(&mut boxes);
@@ -45,13 +52,15 @@ impl Scene {
         let noise = noise_texture(look_seed);
         let grid = LightGrid::new(&boxes, &clusters);
         let outskirts = Outskirts::of(&grid);
+        let props = Props::new(town, models, look_seed);
+        props.replace(&mut boxes);
         static SCENES: AtomicU64 = AtomicU64::new(0);
         let identity = SCENES.fetch_add(1, Ordering::Relaxed);
-        Self { boxes, clusters, noise, grid, outskirts, identity }
+        Self { boxes, clusters, noise, grid, outskirts, props, identity }
     }
 
     /// Every triangle that the renderer draws except the target's, for casting the same rays
-    /// (box faces as two triangles; only their outside is drawn, ground is seen from both sides).
+    /// (box faces as two triangles; only their outside is drawn, models and ground are seen from both sides).
     pub fn triangles(&self) -> Vec<SceneTriangle> {
         let mut triangles = Vec::new();
         for b in &self.boxes {
@@ -61,6 +70,13 @@ impl Scene {
                     triangles.push(SceneTriangle { corners_in_world, label: b.label, instance: b.instance });
                 }
             }
+        }
+        for prop in &self.props.props {
+            triangles.extend(self.props.triangles[prop.triangles.clone()].iter().map(|triangle| SceneTriangle {
+                corners_in_world: triangle.corners_in_world,
+                label: prop.label,
+                instance: prop.instance,
+            }));
         }
         for cluster in &self.clusters {
             for polygon in &cluster.polygons {

@@ -7,8 +7,8 @@ use cosfly_geometry::OrientedBox;
 use cosfly_maps::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
-    BodyShape, Camera, FrameImages, FrameSetup, PixelBox, Renderer, Scene, TargetSetup, TargetView, Weather,
-    target_triangles,
+    BodyShape, Camera, FrameImages, FrameSetup, Model, ModelFit, ModelKind, PixelBox, Renderer, Scene, SceneModel,
+    TargetSetup, TargetView, Weather, target_triangles,
 };
 
 fn noon() -> Weather {
@@ -131,6 +131,23 @@ fn depth_and_ids_are_those_of_rays_on_random_scenes() {
         let target = walker(DVec3::new(random.uniform(2.0, 12.0), random.uniform(-5.0, 5.0), 1.0));
         let [compared, off, wrong] = compare(&scene, camera(320, 200), pose, Some(target), 17);
         // A ray may differ on the very edge of a triangle, where both answers are right.
+        assert!(off <= compared / 1500 && wrong <= compared / 1500, "{off} and {wrong} of {compared}");
+    }
+}
+
+#[test]
+fn models_are_where_rays_find_them() {
+    let mut random = Seed([9; 32]).stream("scenes");
+    for fit in [ModelFit::Fill, ModelFit::Within] {
+        let mut town = random_scene(&mut random);
+        for obstacle in town.obstacles.iter_mut().step_by(2) {
+            obstacle.kind = ObstacleKind::Car;
+        }
+        let model = Model::read(Model::EXAMPLE).expect("a model");
+        let model = SceneModel { kind: ModelKind::Car, fit, turn_rad: random.uniform(-3.0, 3.0), model };
+        let scene = Scene::with_models(&town, Seed([1; 32]), &[model]);
+        let pose = Pose::looking_at(DVec3::new(-12.0, 4.0, 14.0), DVec3::new(20.0, 0.0, 3.0));
+        let [compared, off, wrong] = compare(&scene, camera(320, 200), pose, None, 17);
         assert!(off <= compared / 1500 && wrong <= compared / 1500, "{off} and {wrong} of {compared}");
     }
 }

@@ -133,6 +133,8 @@ fn surface_of(number: u32, face: &DrawnFace) -> u32 {
         }
         // Windows, wheels and lamps of a vehicle have edges of their own.
         FaceSource::Figure { first_face, .. } => 0x8200_0000 | (first_face & 0xff_ffff),
+        // Textures, not triangles, make what is seen of a model: no edge is smoothed within it.
+        FaceSource::Prop { .. } => 0x8300_0000 | (face.instance & 0xff_ffff),
         FaceSource::Box { .. } => number & 0x7fff_ffff,
     }
 }

@@ -10,6 +10,7 @@ use super::material::{Material, coach, material_of};
 use super::pattern::{most, share};
 use super::setting::{Seen, Setting};
 use super::simple;
+use super::skin::painted;
 use super::things::{swell, things};
 use super::vector::Vec3;
 use crate::faces::{DrawnFace, FaceSource};
@@ -380,6 +381,7 @@ fn run_kernels(
         Material::Thing(thing) => things(level, shared, blocks, thing, noise),
         Material::Cloth(look) => cloth(level, shared, blocks, look, noise),
         Material::Coach(look) => coach(level, blocks, look),
+        Material::Skin(look) => painted(shared, blocks, look, &seen.scene.props.textures),
     }
     lighting::arriving(level, shared, light, setting.haze);
     if is_bent {
@@ -430,6 +432,7 @@ fn run_simple_kernels(
         Material::Thing(thing) => simple::even(level, shared, blocks, thing.colour(), tone),
         Material::Cloth(look) => simple::even(level, shared, blocks, look.colour, tone),
         Material::Coach(look) => simple::even(level, shared, blocks, look.colour, tone),
+        Material::Skin(look) => simple::even(level, shared, blocks, look.even, tone),
         Material::Sky => {}
     }
 }
@@ -442,7 +445,7 @@ fn group_of(faces: &[DrawnFace], face: u32) -> usize {
     match drawn.source {
         FaceSource::Ground { .. } => usize::from(drawn.label).min(SKY - 1),
         FaceSource::Figure { first_face, .. } => SHARED_GROUPS + first_face as usize,
-        FaceSource::Box { .. } => SHARED_GROUPS + face as usize,
+        FaceSource::Box { .. } | FaceSource::Prop { .. } => SHARED_GROUPS + face as usize,
     }
 }
 

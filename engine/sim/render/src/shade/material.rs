@@ -7,6 +7,7 @@ use super::lanes::{Block, Stage, WIDE, set};
 use super::light::Light;
 use super::lighting::Answers;
 use super::setting::{Seen, Setting};
+use super::skin::Painted;
 use super::things::Thing;
 use super::vector::Vec3;
 use crate::faces::FaceSource;
@@ -24,6 +25,7 @@ pub(super) enum Material {
     Thing(Thing),
     Cloth(Cloth),
     Coach(Coach),
+    Skin(Painted),
 }
 
 /// Material of a drawn face, and the axes along its surface.
@@ -34,6 +36,10 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
         FaceSource::Ground { cluster, polygon } => {
             let polygon = seen.scene.clusters[cluster as usize].polygons[usize::from(polygon)];
             (Material::Ground(polygon.label), flat)
+        }
+        FaceSource::Prop { triangle } => {
+            let props = &seen.scene.props;
+            (Material::Skin(Painted::new(&props.triangles[triangle as usize].skin, &props.textures)), flat)
         }
         FaceSource::Figure { triangle, .. } => {
             let part = &seen.people.triangles[triangle as usize];
@@ -77,7 +83,7 @@ impl Material {
         match self {
             Self::Thing(thing) => matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush),
             Self::Cloth(_) => true,
-            Self::Sky | Self::Ground(_) | Self::Facade(..) | Self::Roof(_) | Self::Coach(_) => false,
+            Self::Sky | Self::Ground(_) | Self::Facade(..) | Self::Roof(_) | Self::Coach(_) | Self::Skin(_) => false,
         }
     }
 
@@ -106,7 +112,7 @@ impl Material {
                 }
                 _ => matt,
             },
-            Self::Sky | Self::Cloth(_) => matt,
+            Self::Sky | Self::Cloth(_) | Self::Skin(_) => matt,
         }
     }
 }

@@ -23,6 +23,7 @@ pub mod shadow;
 mod shadow_frame;
 pub mod shadow_region;
 pub mod simple;
+mod skin;
 pub mod sky;
 pub mod smooth;
 mod sunlight;

@@ -160,8 +160,26 @@ impl Shadows {
                 }
             }
         }
+        self.draw_props(scene, frame, to_sun, part);
         pack(level, &self.town.inverse_depth, &self.town.face, SIDE, &part, &mut *self.packed.town);
         measure_tiles(level, &self.packed.town, &part, &mut self.packed.tiles);
+    }
+
+    /// Both sides of a model's triangles throw shadows.
+    fn draw_props(&mut self, scene: &Scene, frame: &Frame, to_sun: DVec3, part: Region) {
+        for prop in &scene.props.props {
+            if frame.misses(&part, prop.center_in_world, prop.half_bounds_m) {
+                continue;
+            }
+            let class = if prop.is_leafy { LEAVES } else { SOLID };
+            for triangle in &scene.props.triangles[prop.triangles.clone()] {
+                let facing = triangle.normal_in_world.dot(to_sun);
+                if facing.abs() > 1e-6 {
+                    let normal = triangle.normal_in_world * facing.signum();
+                    draw(&mut self.town, (frame, part), to_sun, normal, &triangle.corners_in_world, class);
+                }
+            }
+        }
     }
 
     /// Draws a figure's shadow into the first `side` rows and columns of the scratch map; says where they lie.

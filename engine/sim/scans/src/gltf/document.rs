@@ -7,6 +7,7 @@ use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 use glam::{DMat4, DQuat};
 use serde::Deserialize;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// First bytes of a binary file.
@@ -28,6 +29,9 @@ pub struct Document {
     accessors: Vec<Accessor>,
     buffer_views: Vec<View>,
     buffers: Vec<Buffer>,
+    materials: Vec<Material>,
+    textures: Vec<Texture>,
+    images: Vec<Image>,
     /// Bytes of the buffers.
     #[serde(skip)]
     data: Vec<Vec<u8>>,
@@ -89,6 +93,55 @@ pub struct Primitive {
     pub indices: Option<usize>,
     /// How corners make triangles.
     pub mode: Option<u32>,
+    /// Number of the material.
+    pub material: Option<usize>,
+}
+
+/// Looks of a shape.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+pub struct Material {
+    /// Colours of metallic-roughness shading, the only ones that are read.
+    pub pbr_metallic_roughness: Colours,
+}
+
+/// Base colour of a material.
+#[derive(Debug, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+pub struct Colours {
+    /// Factor of the base colour: linear red, green, blue, and alpha.
+    pub base_color_factor: [f32; 4],
+    /// Picture of the base colour.
+    pub base_color_texture: Option<TextureUse>,
+}
+
+impl Default for Colours {
+    fn default() -> Self {
+        Self { base_color_factor: [1.0; 4], base_color_texture: None }
+    }
+}
+
+/// A texture as a material has it.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+pub struct TextureUse {
+    /// Number of the texture.
+    pub index: usize,
+    /// Number of the set of texture coordinates.
+    pub tex_coord: usize,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Texture {
+    source: Option<usize>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct Image {
+    uri: Option<String>,
+    buffer_view: Option<usize>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -166,11 +219,14 @@ impl Document {
         self.meshes.get(index)
     }
 
+    fn viewed(&self, view: &View) -> Option<&[u8]> {
+        self.data.get(view.buffer)?.get(view.byte_offset..)?.get(..view.byte_length)
+    }
+
     /// Bytes of each element of an accessor; none where it is sparse or reaches beyond its data.
     fn elements(&self, accessor: &Accessor, bytes: usize) -> Option<impl Iterator<Item = &[u8]>> {
         let view = self.buffer_views.get(accessor.buffer_view.filter(|_| accessor.sparse.is_none())?)?;
-        let data = self.data.get(view.buffer)?.get(view.byte_offset..)?.get(..view.byte_length)?;
-        let data = data.get(accessor.byte_offset..)?;
+        let data = self.viewed(view)?.get(accessor.byte_offset..)?;
         let stride = view.byte_stride.unwrap_or(bytes).max(bytes);
         let end = accessor.count.checked_sub(1)?.checked_mul(stride)?.checked_add(bytes)?;
         (end <= data.len()).then(|| (0..accessor.count).map(move |at| &data[at * stride..][..bytes]))
@@ -185,6 +241,51 @@ impl Document {
         let number = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]).into();
         let points = self.elements(accessor, 12)?;
         Some(points.map(|own| DVec3::new(number(own), number(&own[4..]), number(&own[8..]))).collect())
+    }
+
+    /// Texture coordinates of an accessor: from the left and from the top, 0 to 1 over the picture.
+    pub fn texture_coordinates(&self, accessor: usize) -> Option<Vec<[f32; 2]>> {
+        let accessor = self.accessors.get(accessor)?;
+        if accessor.kind != "VEC2" {
+            return None;
+        }
+        let short = |bytes: &[u8]| f32::from(u16::from_le_bytes([bytes[0], bytes[1]])) / 65535.0;
+        let real = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
+        Some(match accessor.component_type {
+            5121 => self.elements(accessor, 2)?.map(|own| [0, 1].map(|k| f32::from(own[k]) / 255.0)).collect(),
+            5123 => self.elements(accessor, 4)?.map(|own| [0, 2].map(|k| short(&own[k..]))).collect(),
+            REAL => self.elements(accessor, 8)?.map(|own| [0, 4].map(|k| real(&own[k..]))).collect(),
+            _ => return None,
+        })
+    }
+
+    /// A material.
+    pub fn material(&self, index: usize) -> Option<&Material> {
+        self.materials.get(index)
+    }
+
+    /// Number of the picture of a texture.
+    pub fn picture_of(&self, texture: usize) -> Option<usize> {
+        self.textures.get(texture)?.source
+    }
+
+    /// Bytes of a picture, PNG or JPEG.
+    ///
+    /// # Errors
+    /// There is none of that number, the picture lies in another file, or its bytes are missing.
+    pub fn picture(&self, index: usize) -> Result<Cow<'_, [u8]>, MapError> {
+        let found = self.images.get(index).map(|image| match &image.uri {
+            None => {
+                let view = image.buffer_view.and_then(|view| self.buffer_views.get(view));
+                Ok(view.and_then(|view| self.viewed(view)).map(Cow::Borrowed))
+            }
+            Some(uri) => embedded(uri).map(|data| data.map(Cow::Owned)),
+        });
+        let missing = || {
+            let message = format!("picture {index} is named, but the file does not hold all of its bytes");
+            MapError::new(message).hint("the file seems to be cut off: export it again")
+        };
+        found.transpose()?.flatten().ok_or_else(missing)
     }
 
     /// Numbers of corners of an accessor.
@@ -205,14 +306,7 @@ impl Buffer {
     fn bytes(self, index: usize, blob: Option<&[u8]>) -> Result<Vec<u8>, MapError> {
         let data = match self.uri {
             None => blob.map(<[u8]>::to_vec),
-            Some(uri) => match uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")) {
-                Some((_, data)) => STANDARD.decode(data).ok(),
-                None => {
-                    let shown: String = uri.chars().take(60).collect();
-                    let error = MapError::new(format!("the file keeps its data in another one, `{shown}`"));
-                    return Err(error.hint("export one file: GLB, or glTF with embedded data"));
-                }
-            },
+            Some(uri) => embedded(&uri)?,
         };
         data.filter(|data| data.len() >= self.byte_length).ok_or_else(|| {
             let error = MapError::new(format!(
@@ -222,6 +316,16 @@ impl Buffer {
             error.hint("the file seems to be cut off: export it again")
         })
     }
+}
+
+/// Data that an address holds; none where they are damaged.
+fn embedded(uri: &str) -> Result<Option<Vec<u8>>, MapError> {
+    let Some((_, data)) = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")) else {
+        let shown: String = uri.chars().take(60).collect();
+        let error = MapError::new(format!("the file keeps its data in another one, `{shown}`"));
+        return Err(error.hint("export one file: GLB, or glTF with embedded data"));
+    };
+    Ok(STANDARD.decode(data).ok())
 }
 
 /// Text and data of a binary file.

@@ -37,10 +37,8 @@ impl MapFormat for GlTf {
 
     fn read(bytes: &[u8], options: &MeshOptions) -> Result<(Town, Vec<String>), MapError> {
         let document = Document::read(bytes)?;
-        let mut reader = Reader { options, document: &document, parts: PartBuilder::default(), nodes: 0, skipped: 0 };
-        for node in document.roots() {
-            reader.add(node, DMat4::IDENTITY, "", 0)?;
-        }
+        let mut reader = Reader { options, document: &document, parts: PartBuilder::default(), skipped: 0 };
+        for_each_shape(&document, &mut |name, matrix, shape| reader.add(name, matrix, shape))?;
         let mut warnings = reader.parts.warnings();
         if reader.skipped > 0 {
             warnings.push(format!(
@@ -56,44 +54,71 @@ struct Reader<'a> {
     options: &'a MeshOptions,
     document: &'a Document,
     parts: PartBuilder,
-    nodes: usize,
     skipped: usize,
 }
 
 impl Reader<'_> {
-    /// Adds the meshes of a node and of those below it. A node without a name has that of its mesh or of the one above.
-    fn add(&mut self, index: usize, parent: DMat4, name_above: &str, depth: usize) -> Result<(), MapError> {
-        self.nodes += 1;
-        if depth > DEEPEST || self.nodes > MOST_NODES {
-            let message = format!("node {index} is nested deeper than {DEEPEST}, or there are more than {MOST_NODES}");
-            return Err(MapError::new(message).hint("nodes must form a tree"));
-        }
-        let node = self.document.node(index)?;
-        let matrix = parent * node.matrix();
-        let mesh = node.mesh.and_then(|mesh| self.document.mesh(mesh));
-        let names = [node.name.as_deref(), mesh.and_then(|mesh| mesh.name.as_deref())];
-        let name = names.into_iter().flatten().find(|name| !name.is_empty()).unwrap_or(name_above);
-        for primitive in mesh.iter().flat_map(|mesh| &mesh.primitives) {
-            match self.triangles(primitive) {
-                Some((positions, triangles)) => {
-                    let in_map = |point| self.options.in_map(matrix.transform_point3(point));
-                    self.parts.add(name, positions.into_iter().map(in_map).collect(), triangles.into_iter())?;
-                }
-                None => self.skipped += 1,
+    fn add(&mut self, name: &str, matrix: &DMat4, primitive: &Primitive) -> Result<(), MapError> {
+        match triangles(self.document, primitive) {
+            Some((positions, triangles)) => {
+                let in_map = |point| self.options.in_map(matrix.transform_point3(point));
+                self.parts.add(name, positions.into_iter().map(in_map).collect(), triangles.into_iter())
+            }
+            None => {
+                self.skipped += 1;
+                Ok(())
             }
         }
-        node.children.iter().try_for_each(|child| self.add(*child, matrix, name, depth + 1))
     }
+}
 
-    /// Corners and triangles, where their data are plain and there.
-    fn triangles(&self, primitive: &Primitive) -> Option<(Vec<DVec3>, Vec<[u32; 3]>)> {
-        let positions = self.document.positions(*primitive.attributes.get("POSITION")?)?;
-        let corners = match primitive.indices {
-            Some(accessor) => self.document.indices(accessor)?,
-            None => (0..u32::try_from(positions.len()).ok()?).collect(),
-        };
-        Some((positions, in_threes(primitive.mode, &corners)?))
+/// Visits the shapes of a file with their names and the way from their frames to the scene's. A node without a name has
+/// that of its mesh or of the node above.
+///
+/// # Errors
+/// Nodes that form no tree, or the visitor's.
+pub fn for_each_shape(
+    document: &Document,
+    visit: &mut dyn FnMut(&str, &DMat4, &Primitive) -> Result<(), MapError>,
+) -> Result<(), MapError> {
+    let mut nodes = 0;
+    document
+        .roots()
+        .into_iter()
+        .try_for_each(|node| shapes_below(document, &mut nodes, (node, 0), DMat4::IDENTITY, "", visit))
+}
+
+fn shapes_below(
+    document: &Document,
+    nodes: &mut usize,
+    (index, depth): (usize, usize),
+    above: DMat4,
+    name_above: &str,
+    visit: &mut dyn FnMut(&str, &DMat4, &Primitive) -> Result<(), MapError>,
+) -> Result<(), MapError> {
+    *nodes += 1;
+    if depth > DEEPEST || *nodes > MOST_NODES {
+        let message = format!("node {index} is nested deeper than {DEEPEST}, or there are more than {MOST_NODES}");
+        return Err(MapError::new(message).hint("nodes must form a tree"));
     }
+    let node = document.node(index)?;
+    let matrix = above * node.matrix();
+    let mesh = node.mesh.and_then(|mesh| document.mesh(mesh));
+    let names = [node.name.as_deref(), mesh.and_then(|mesh| mesh.name.as_deref())];
+    let name = names.into_iter().flatten().find(|name| !name.is_empty()).unwrap_or(name_above);
+    mesh.iter().flat_map(|mesh| &mesh.primitives).try_for_each(|shape| visit(name, &matrix, shape))?;
+    let mut below = node.children.iter();
+    below.try_for_each(|child| shapes_below(document, nodes, (*child, depth + 1), matrix, name, visit))
+}
+
+/// Corners and triangles of a shape, where its data are plain and there.
+pub fn triangles(document: &Document, shape: &Primitive) -> Option<(Vec<DVec3>, Vec<[u32; 3]>)> {
+    let positions = document.positions(*shape.attributes.get("POSITION")?)?;
+    let corners = match shape.indices {
+        Some(accessor) => document.indices(accessor)?,
+        None => (0..u32::try_from(positions.len()).ok()?).collect(),
+    };
+    Some((positions, in_threes(shape.mode, &corners)?))
 }
 
 /// Triangles of a list, strip or fan of corners; none for points and lines.

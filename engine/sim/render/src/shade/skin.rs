@@ -1,0 +1,35 @@
+//! Skins of models: textures as their files have them.
+
+use super::lanes::{Block, Shared, WIDE, groups};
+use super::surface::Look;
+use super::vector::Vec3;
+use crate::props::Skin;
+use cosfly_models::Texture;
+
+/// A triangle of a model.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Painted {
+    skin: Skin,
+    /// Colour in the simple look.
+    pub(super) even: Vec3,
+}
+
+impl Painted {
+    /// The look of a triangle.
+    pub(super) fn new(skin: &Skin, textures: &[Texture]) -> Self {
+        Self { skin: *skin, even: skin.mean(textures) }
+    }
+}
+
+/// Looks up the texture of every pixel.
+pub(super) fn painted(shared: &[Shared], blocks: &mut [Block], look: &Painted, textures: &[Texture]) {
+    for (shared, four) in groups(shared, blocks) {
+        for block in four {
+            for k in 0..WIDE {
+                let point = block.point(shared, k);
+                let colour = look.skin.colour_at(textures, point.world, point.footprint_m);
+                block.put(k, &Look::matt(colour, point.normal));
+            }
+        }
+    }
+}
