@@ -20,6 +20,7 @@ pub mod phrases;
 pub mod record;
 mod reference;
 mod split;
+mod split_config;
 pub mod tables;
 pub mod town_layout;
 

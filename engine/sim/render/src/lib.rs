@@ -17,6 +17,7 @@ mod faces;
 pub mod frame;
 mod ground_polygons;
 mod look;
+mod nearer;
 mod outlook;
 pub mod outside;
 mod passes;

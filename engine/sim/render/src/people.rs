@@ -2,9 +2,10 @@
 
 use crate::eye::Eye;
 use crate::frame::TARGET_INSTANCE;
+use crate::nearer::Nearer;
 use crate::setup::FrameSetup;
 use crate::shade::vector::Vec3;
-use crate::visibility::{NEAR_M, Nearer, Screen};
+use crate::visibility::{NEAR_M, Screen};
 use cosfly_figures::Livery;
 use cosfly_figures::Pattern;
 use cosfly_figures::clothes::{Clothes, Region};

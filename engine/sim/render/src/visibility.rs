@@ -93,6 +93,16 @@ pub struct Visibility {
 }
 
 impl Visibility {
+    /// Width and height, pixels.
+    pub fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
+    /// Vector instructions that kernels use.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
     /// An empty buffer.
     pub fn new(width: usize, height: usize) -> Self {
         Self {
@@ -281,76 +291,6 @@ fn center_from(coordinate: f64, limit: usize) -> f64 {
 #[inline(always)]
 fn whole(number: f64) -> usize {
     (number + MAGIC).to_bits() as u32 as usize
-}
-
-/// Size of a tile of [`Nearer`], pixels.
-const TILE: [usize; 2] = [32, 8];
-
-/// The frame so far, coarsely: the least inverse depth in each tile. Shapes that are nowhere nearer are hidden.
-pub struct Nearer {
-    columns: usize,
-    least: Vec<f32>,
-}
-
-impl Nearer {
-    /// For images of any size.
-    pub fn new() -> Self {
-        Self { columns: 0, least: Vec::new() }
-    }
-
-    /// Measures the tiles of a drawing.
-    pub fn measure(&mut self, drawn: &Visibility) {
-        self.columns = drawn.width.div_ceil(TILE[0]);
-        self.least.clear();
-        self.least.resize(self.columns * drawn.height.div_ceil(TILE[1]), f32::INFINITY);
-        if drawn.width > 0 {
-            measure(drawn.level, &drawn.inverse_depth, drawn.width, &mut self.least);
-        }
-    }
-
-    /// Whether all pixels between the coordinates hold something nearer than an inverse depth.
-    pub fn hides(&self, low: [f64; 2], high: [f64; 2], inverse_depth: f64) -> bool {
-        if self.columns == 0 {
-            return false;
-        }
-        let rows = self.least.len() / self.columns;
-        let tile = |at: f64, k: usize, count: usize| ((at.max(0.0) as usize) / TILE[k]).min(count - 1);
-        let columns = tile(low[0] - 1.0, 0, self.columns)..=tile(high[0] + 1.0, 0, self.columns);
-        // A margin for rounding and for the bias of road marks.
-        let limit = (inverse_depth * 1.000_02) as f32;
-        (tile(low[1] - 1.0, 1, rows)..=tile(high[1] + 1.0, 1, rows)).all(|row| {
-            let tiles = &self.least[row * self.columns..(row + 1) * self.columns];
-            tiles[columns.clone()].iter().all(|least| *least > limit)
-        })
-    }
-}
-
-simd_kernel! {
-    fn measure(inverse_depth: &[f32], width: usize, least: &mut [f32]) {
-        let columns = width.div_ceil(TILE[0]);
-        for (band, least) in inverse_depth.chunks(width.wrapping_mul(TILE[1])).zip(least.chunks_exact_mut(columns)) {
-            for row in band.chunks_exact(width) {
-                for (tile, least) in row.chunks(TILE[0]).zip(least.iter_mut()) {
-                    let mut halves = [*least; 16];
-                    let (whole, rest) = tile.as_chunks::<16>();
-                    for sixteen in whole {
-                        for k in 0..16 {
-                            halves[k] = if sixteen[k] < halves[k] { sixteen[k] } else { halves[k] };
-                        }
-                    }
-                    let mut count = 8;
-                    while count > 0 {
-                        for k in 0..count {
-                            let other = halves[k + count];
-                            halves[k] = if other < halves[k] { other } else { halves[k] };
-                        }
-                        count /= 2;
-                    }
-                    *least = rest.iter().fold(halves[0], |a, b| if *b < a { *b } else { a });
-                }
-            }
-        }
-    }
 }
 
 /// Pixels that are compared at a time.
