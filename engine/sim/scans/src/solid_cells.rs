@@ -1,9 +1,10 @@
 //! Columns of solid space on a grid, joined into few boxes.
 
 use crate::grid::{Grid, parts};
-use crate::window_cover::{Block, Window};
+use crate::window_cover::{Block, WIDEST, Window};
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Solid space over one cell, world, metres.
@@ -14,9 +15,6 @@ pub struct Column {
     /// Upper end.
     pub top_m: f64,
 }
-
-/// Most cells along one side of what is covered at once; wider parts are cut. The work for a cell grows with its square.
-const WIDEST: usize = 48;
 
 /// Which of the bases of joined columns is that of their box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,8 +35,9 @@ pub fn boxes_of(grid: &Grid, columns: &[Option<Column>], tolerance_m: f64, bases
         let piece = [part[cell] as usize, place[1] / WIDEST, place[0] / WIDEST];
         pieces.entry(piece).or_default().push((place, *column));
     }
-    let blocks = pieces.values().flat_map(|cells| Window::of(cells).blocks(tolerance_m, bases));
-    blocks.map(|block| box_of(grid, &block)).collect()
+    let pieces: Vec<_> = pieces.into_values().collect();
+    let blocks: Vec<Vec<Block>> = pieces.par_iter().map(|cells| Window::of(cells).blocks(tolerance_m, bases)).collect();
+    blocks.iter().flatten().map(|block| box_of(grid, block)).collect()
 }
 
 fn box_of(grid: &Grid, block: &Block) -> OrientedBox {
