@@ -5,6 +5,7 @@ use crate::relief::Relief;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_geometry::OrientedBox;
 use cosfly_town::{Obstacle, WalkableKind, WalkablePolygon};
+use rayon::prelude::*;
 
 /// Narrowest cells, metres.
 const NARROWEST_CELL_M: f64 = 1.0;
@@ -28,7 +29,8 @@ pub fn open_ground(obstacles: &[Obstacle], relief: &Relief) -> Vec<WalkablePolyg
     let size = (opposite - across).abs();
     let cell_m = NARROWEST_CELL_M.max((size.element_product() / MOST_CELLS).sqrt());
     let grid = Grid::around([across, opposite].into_iter(), cell_m, 0.0);
-    let mut is_open: Vec<bool> = (0..grid.cells()).map(|cell| is_ground(relief, grid.center(cell), cell_m)).collect();
+    let mut is_open: Vec<bool> =
+        (0..grid.cells()).into_par_iter().map(|cell| is_ground(relief, grid.center(cell), cell_m)).collect();
     for obstacle in obstacles {
         close_under(&grid, relief, &obstacle.shape, &mut is_open);
     }

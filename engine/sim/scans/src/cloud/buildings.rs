@@ -24,10 +24,10 @@ const EDGE_REACH: usize = 2;
 /// Adds all buildings.
 pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
     let grid = &survey.grid;
-    let classes = |cell: usize| survey.buckets.of(cell).map(|point| survey.cloud.classes[point]);
+    let classes = |cell: usize| &survey.cloud.classes[survey.points_of(cell)];
     let has_roof: Vec<bool> =
-        (0..grid.cells()).map(|cell| classes(cell).any(|class| class == class::BUILDING)).collect();
-    let seeds = nearest_seeds(grid, |cell| survey.buckets.of(cell).next().is_some(), survey.reach_cells());
+        (0..grid.cells()).into_par_iter().map(|cell| classes(cell).contains(&class::BUILDING)).collect();
+    let seeds = nearest_seeds(grid, |cell| !survey.points_of(cell).is_empty(), survey.reach_cells());
     let is_building = |cell: usize| seeds[cell] != u32::MAX && has_roof[seeds[cell] as usize];
     let (part, count) = parts(grid, is_building);
     let mut cells = vec![Vec::new(); count as usize + 1];
@@ -68,7 +68,7 @@ impl<'a> Site<'a> {
         near.dedup();
         let (mut roof, mut others) = (Vec::new(), Vec::new());
         for cell in near {
-            for point in survey.buckets.of(cell) {
+            for point in survey.points_of(cell) {
                 match survey.cloud.classes[point] {
                     class::BUILDING if part[cell] == number => roof.push(point),
                     class::BUILDING => {}
