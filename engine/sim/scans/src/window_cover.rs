@@ -32,6 +32,28 @@ pub struct Block {
     pub top_m: f64,
 }
 
+/// Solid space of columns and what their blocks make of it, cells times metres or cubic metres.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Volumes {
+    /// Space of the columns.
+    pub solid: f64,
+    /// Space of blocks that is of no column.
+    pub gained: f64,
+    /// Space of columns that is in no block.
+    pub lost: f64,
+}
+
+impl Volumes {
+    /// The sum; the other ones count `unit` times.
+    pub fn plus(self, other: Self, unit: f64) -> Self {
+        Self {
+            solid: self.solid + unit * other.solid,
+            gained: self.gained + unit * other.gained,
+            lost: self.lost + unit * other.lost,
+        }
+    }
+}
+
 /// Steps of a top and of a base: columns up to a tolerance lower, on bases of this step, are what a block of the level covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Level {
@@ -58,7 +80,7 @@ impl Window {
 
     /// Blocks that hold every column. None stands over a column by more than the tolerance, or over a cell without one;
     /// a block may reach under higher columns.
-    pub fn blocks(&self, tolerance_m: f64, bases: Bases) -> Vec<Block> {
+    pub fn blocks(&self, tolerance_m: f64, bases: Bases) -> (Vec<Block>, Volumes) {
         let mut cover = Cover::new(self, tolerance_m);
         let mut offers: BinaryHeap<Offer> = (0..cover.layers.len()).filter_map(|layer| cover.best(layer)).collect();
         let mut blocks = Vec::new();
@@ -70,10 +92,30 @@ impl Window {
             offers.extend(cover.best(layer));
         }
         stack(&mut blocks);
+        let volumes = self.volumes(&blocks);
         for block in &mut blocks {
             (block.cells[0], block.cells[1]) = (block.cells[0] + self.first[0], block.cells[1] + self.first[1]);
         }
-        blocks
+        (blocks, volumes)
+    }
+
+    /// Volumes in cells times metres. The blocks over a cell stand on each other.
+    fn volumes(&self, blocks: &[Block]) -> Volumes {
+        let mut ends = vec![[f64::INFINITY, f64::NEG_INFINITY]; self.columns.len()];
+        for Block { cells: [column, row, width, height], base_m, top_m } in blocks {
+            for row in *row..row + height {
+                for [low, high] in &mut ends[row * self.size[0] + column..][..*width] {
+                    (*low, *high) = (low.min(*base_m), high.max(*top_m));
+                }
+            }
+        }
+        let columns = self.columns.iter().zip(&ends).filter_map(|(column, ends)| Some((column.as_ref()?, ends)));
+        columns.fold(Volumes::default(), |sum, (column, [low, high])| {
+            let (above, below) = (high - column.top_m, column.base_m - low);
+            let gained = above.max(0.0) + below.max(0.0);
+            let lost = (-above).max(0.0) + (-below).max(0.0);
+            sum.plus(Volumes { solid: column.top_m - column.base_m, gained, lost }, 1.0)
+        })
     }
 }
 

@@ -46,9 +46,17 @@ pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<St
     }
     let survey = Survey::new(&cloud, relief, sorted, spacing_m);
     let mut obstacles = Vec::new();
-    buildings::add(&survey, &mut obstacles);
+    let houses = buildings::add(&survey, &mut obstacles);
     trees::add(&survey, &mut obstacles);
-    things::add(&survey, &mut obstacles);
+    let volumes = houses.plus(things::add(&survey, &mut obstacles), 1.0);
+    if volumes.solid > 0.0 {
+        let [gained, lost] = [volumes.gained, volumes.lost].map(|volume| 100.0 * volume / volumes.solid);
+        notes.push(format!(
+            "boxes of buildings and things hold {:.0} m3 of cells of {voxel_m:.2} m: {gained:.1} % more is filled, {lost:.1} % \
+             (at feet on slopes) is lost",
+            volumes.solid
+        ));
+    }
     let walkable = open_ground(&obstacles, &survey.relief);
     if walkable.is_empty() {
         let error = MapError::new("the cloud leaves no open ground to walk on");

@@ -3,7 +3,8 @@
 use super::class;
 use super::survey::{Survey, is_ground};
 use crate::grid::parts;
-use crate::solid_cells::{Bases, Column, boxes_of};
+use crate::solid_cells::{Bases, Boxes, Column, boxes_of};
+use crate::window_cover::Volumes;
 use cosfly_town::{Obstacle, ObstacleKind};
 use rayon::prelude::*;
 
@@ -21,15 +22,17 @@ const STANDS_M: f64 = 1.0;
 const THINNEST_M: f64 = 0.2;
 
 /// Adds all things.
-pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
+pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
+    let mut volumes = Volumes::default();
     for (kind, belongs) in [
         (ObstacleKind::Bridge, (|class| class == class::BRIDGE) as fn(u8) -> bool),
         (ObstacleKind::Static, |class| {
             !is_ground(class) && !class::PLANTS.contains(&class) && !matches!(class, class::BUILDING | class::BRIDGE)
         }),
     ] {
-        add_kind(survey, kind, belongs, obstacles);
+        volumes = volumes.plus(add_kind(survey, kind, belongs, obstacles), 1.0);
     }
+    volumes
 }
 
 /// What stands over a cell, and the number of its points.
@@ -53,10 +56,15 @@ fn column(survey: &Survey<'_>, cell: usize, belongs: fn(u8) -> bool) -> (Option<
     (Some(Column { base_m, top_m: ends[1].max(base_m + THINNEST_M) }), count)
 }
 
-fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, obstacles: &mut Vec<Obstacle>) {
+fn add_kind(
+    survey: &Survey<'_>,
+    kind: ObstacleKind,
+    belongs: fn(u8) -> bool,
+    obstacles: &mut Vec<Obstacle>,
+) -> Volumes {
     let (grid, cloud) = (&survey.grid, survey.cloud);
     if !cloud.classes.par_iter().any(|class| belongs(*class)) {
-        return;
+        return Volumes::default();
     }
     let columns = (0..grid.cells()).into_par_iter().map(|cell| column(survey, cell, belongs));
     let (mut columns, counts): (Vec<Option<Column>>, Vec<usize>) = columns.unzip();
@@ -71,7 +79,7 @@ fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, ob
         }
     }
     let first_id = super::next_id(obstacles);
-    let shapes = boxes_of(grid, &columns, STEP_M.max(grid.cell_m), Bases::Highest);
+    let Boxes { shapes, volumes } = boxes_of(grid, &columns, STEP_M.max(grid.cell_m), Bases::Highest);
     let number = |shape: &cosfly_geometry::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
     let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();
     numbered.sort_by_key(|(number, _)| *number);
@@ -81,4 +89,5 @@ fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, ob
         object_id: first_id + number,
         synthetic: false,
     }));
+    volumes
 }
