@@ -4,7 +4,7 @@ use super::planes::PlaneSums;
 use super::sorting::Sorted;
 use super::survey::{coarse_enough, grid_of, is_ground};
 use super::{Cloud, class};
-use crate::grid::parts;
+use crate::grid::{Grid, parts};
 use crate::relief::Relief;
 use cosfly_frames::DVec3;
 use rayon::prelude::*;
@@ -51,17 +51,7 @@ pub fn estimate(cloud: &mut Cloud, sorted: &Sorted, relief: &Relief) -> String {
         }
     });
     let is_high = |cell: usize| top_m[cell] > f64::NEG_INFINITY;
-    let roughness_m: Vec<f64> = (0..grid.cells())
-        .map(|cell| {
-            let mut around = PlaneSums::default();
-            grid.around_cell(cell, 1).filter(|_| is_high(cell)).for_each(|near| around.join(&sums[near]));
-            around.roughness_m()
-        })
-        .collect();
-    // A cell beside a ridge or an edge is smooth with one of its neighbours as the middle.
-    let is_smooth: Vec<bool> = (0..grid.cells())
-        .map(|cell| is_high(cell) && grid.around_cell(cell, 1).any(|near| roughness_m[near] <= SMOOTH_M))
-        .collect();
+    let is_smooth = smooth_cells(&grid, &sums, is_high);
     let is_roof: Vec<bool> = (0..grid.cells())
         .map(|cell| {
             let near = || grid.around_cell(cell, 2).filter(|near| is_high(*near));
@@ -94,4 +84,19 @@ pub fn estimate(cloud: &mut Cloud, sorted: &Sorted, relief: &Relief) -> String {
     let classes = (0..cloud.len()).into_par_iter().map(class_of).collect();
     cloud.classes = classes;
     "buildings and plants are told apart by their shape: the cloud has no points of their classes".to_owned()
+}
+
+/// Cells of which points lie in one plane with those around, or with those around a neighbour.
+fn smooth_cells(grid: &Grid, sums: &[PlaneSums], is_high: impl Fn(usize) -> bool) -> Vec<bool> {
+    let roughness_m: Vec<f64> = (0..grid.cells())
+        .map(|cell| {
+            let mut around = PlaneSums::default();
+            grid.around_cell(cell, 1).filter(|_| is_high(cell)).for_each(|near| around.join(&sums[near]));
+            around.roughness_m()
+        })
+        .collect();
+    // A cell beside a ridge or an edge is smooth with one of its neighbours as the middle.
+    (0..grid.cells())
+        .map(|cell| is_high(cell) && grid.around_cell(cell, 1).any(|near| roughness_m[near] <= SMOOTH_M))
+        .collect()
 }
