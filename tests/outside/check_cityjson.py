@@ -4,8 +4,8 @@
     check_cityjson.py INSPECT_JSON FILE...
 
 INSPECT_JSON is the example `inspect_json` of the room `maps`. For each file: every building is there, its footprint (the
-ground surface, else the lowest level faces) has an intersection over union of at least 0.9 in the median, and its
-lowest and highest points agree within 0.3 m; footpaths and roads cover the same ground.
+ground surface, else the lowest level faces) has an intersection over union of at least 0.9 in the median, its plan with
+the roofs that reach over it one of at least 0.97, and its lowest and highest points agree within 0.3 m; footpaths and roads cover the same ground.
 """
 
 import json
@@ -56,12 +56,12 @@ class Source:
         return {name: it for name, it in self.file["CityObjects"].items() if it["type"] in kinds and it.get("geometry")}
 
     def buildings(self):
-        """Footprint, lowest and highest point of each building with its parts."""
+        """Footprint, plan with the roofs, lowest and highest point of each building with its parts."""
         groups = {}
         for name, it in self.objects("Building", "BuildingPart").items():
             groups.setdefault(it.get("parents", [name])[0], []).append(it)
         for name, members in sorted(groups.items()):
-            lows, highs, footprints = [], [], []
+            lows, highs, footprints, plans = [], [], [], []
             for it in members:
                 faces = [face for geometry in it["geometry"] for face in faces_of(geometry)]
                 # Roofs without an area, at the height of a neighbour, are slips of the survey.
@@ -70,7 +70,8 @@ class Source:
                 lows += [self.points[i][2] for _, rings in faces for i in rings[0]]
                 highs += [self.points[i][2] for rings in level or [r for _, r in faces] for i in rings[0]]
                 footprints += self.footprint(faces)
-            yield name, union_all(footprints), min(lows), max(highs)
+                plans += [polygon(rings, self.points) for rings in level]
+            yield name, union_all(footprints), union_all(footprints + plans), min(lows), max(highs)
 
     def footprint(self, faces):
         ground = [rings for kind, rings in faces if kind == "GroundSurface"]
@@ -106,8 +107,8 @@ def check_buildings(name, source, town):
     things = list(things_of(town, "Building"))
     assert len(truth) == len(things), f"{name}: {len(truth)} buildings in the file, {len(things)} in the town"
     tree = STRtree([plan for plan, *_ in things])
-    overlaps, lows, highs, missing = [], [], [], []
-    for identity, footprint, low, high in truth:
+    overlaps, plans, lows, highs, missing = [], [], [], [], []
+    for identity, footprint, whole, low, high in truth:
         best = (0.0, -1)
         for index in tree.query(footprint, "intersects"):
             plan = things[index][0]
@@ -116,16 +117,19 @@ def check_buildings(name, source, town):
             missing.append(identity)
             continue
         overlaps.append(best[0])
+        plan = things[best[1]][0]
+        plans.append(plan.intersection(whole).area / plan.union(whole).area)
         lows.append(things[best[1]][1] - low)
         highs.append(things[best[1]][2] - high)
     boxes = sum(count for *_, count in things)
     print(
         f"{name}: {len(truth)} buildings, {boxes} boxes; footprints: median {statistics.median(overlaps):.3f}, "
-        f"least {min(overlaps):.3f}; base {statistics.median(lows):+.3f} m, top {statistics.median(highs):+.3f} m"
+        f"least {min(overlaps):.3f}; with roofs: median {statistics.median(plans):.3f}, least {min(plans):.3f}; base {statistics.median(lows):+.3f} m, top {statistics.median(highs):+.3f} m"
     )
     off = [i for i in range(len(highs)) if abs(highs[i]) > 0.3 or abs(lows[i]) > 0.3]
     assert not missing, f"{name}: no boxes at {missing[:5]}"
     assert statistics.median(overlaps) >= 0.9, f"{name}: {statistics.median(overlaps)}"
+    assert statistics.median(plans) >= 0.97, f"{name}: {statistics.median(plans)} with the roofs"
     assert len(off) <= 0.02 * len(highs), f"{name}: {len(off)} buildings are too high or low"
 
 

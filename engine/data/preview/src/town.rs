@@ -150,7 +150,7 @@ fn draw_frame(view: &View, canvas: &mut Canvas, title: &str) {
         ("crossing", walkable_colour(WalkableKind::Crossing)),
         ("plaza", walkable_colour(WalkableKind::Plaza)),
         ("road", ground_colour(SemanticLabel::Roads)),
-        ("bare ground", ground_colour(SemanticLabel::Ground)),
+        ("bare", ground_colour(SemanticLabel::Ground)),
         ("water", ground_colour(SemanticLabel::Water)),
         ("house (dark: high)", [198, 170, 148]),
         ("plants", [96, 146, 78]),
@@ -158,7 +158,7 @@ fn draw_frame(view: &View, canvas: &mut Canvas, title: &str) {
     let mut x = 8;
     for (words, colour) in legend {
         canvas.fill([x, y - 1], [14, 9], colour, 1.0);
-        x = canvas.text(x + 18, y, 1, INK, words) + 14;
+        x = canvas.text(x + 18, y, 1, INK, words) + 8;
     }
     let wanted_m = 120.0 / view.scale;
     let power = 10_f64.powi(wanted_m.log10().floor() as i32);

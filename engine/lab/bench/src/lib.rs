@@ -10,4 +10,5 @@ pub mod look;
 pub mod people;
 pub mod planner;
 pub mod render;
+pub mod simplify;
 pub mod small;

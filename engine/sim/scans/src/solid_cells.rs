@@ -1,9 +1,10 @@
 //! Columns of solid space on a grid, joined into few boxes.
 
 use crate::grid::{Grid, parts};
-use crate::window_cover::{Block, Window};
+use crate::window_cover::{Block, Volumes, WIDEST, Window};
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Solid space over one cell, world, metres.
@@ -15,9 +16,6 @@ pub struct Column {
     pub top_m: f64,
 }
 
-/// Most cells along one side of what is covered at once; wider parts are cut. The work for a cell grows with its square.
-const WIDEST: usize = 48;
-
 /// Which of the bases of joined columns is that of their box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bases {
@@ -27,9 +25,18 @@ pub enum Bases {
     Lowest,
 }
 
+/// A cover of columns.
+#[derive(Clone, Debug, Default)]
+pub struct Boxes {
+    /// The boxes.
+    pub shapes: Vec<OrientedBox>,
+    /// Volumes, cubic metres.
+    pub volumes: Volumes,
+}
+
 /// Boxes that hold every column to its top. None stands over a column by more than `tolerance_m`, or over a cell without
 /// one. Each is as wide as it can be: it may reach under higher columns, and what stands on it begins at its top.
-pub fn boxes_of(grid: &Grid, columns: &[Option<Column>], tolerance_m: f64, bases: Bases) -> Vec<OrientedBox> {
+pub fn boxes_of(grid: &Grid, columns: &[Option<Column>], tolerance_m: f64, bases: Bases) -> Boxes {
     let (part, _) = parts(grid, |cell| columns[cell].is_some());
     let mut pieces: BTreeMap<[usize; 3], Vec<([usize; 2], Column)>> = BTreeMap::new();
     for (cell, column) in columns.iter().enumerate() {
@@ -37,8 +44,14 @@ pub fn boxes_of(grid: &Grid, columns: &[Option<Column>], tolerance_m: f64, bases
         let piece = [part[cell] as usize, place[1] / WIDEST, place[0] / WIDEST];
         pieces.entry(piece).or_default().push((place, *column));
     }
-    let blocks = pieces.values().flat_map(|cells| Window::of(cells).blocks(tolerance_m, bases));
-    blocks.map(|block| box_of(grid, &block)).collect()
+    let pieces: Vec<_> = pieces.into_values().collect();
+    let cover = |cells: &Vec<([usize; 2], Column)>| Window::of(cells).blocks(tolerance_m, bases);
+    let covers: Vec<(Vec<Block>, Volumes)> = pieces.par_iter().map(cover).collect();
+    let cell_m2 = grid.cell_m * grid.cell_m;
+    Boxes {
+        shapes: covers.iter().flat_map(|(blocks, _)| blocks).map(|block| box_of(grid, block)).collect(),
+        volumes: covers.iter().fold(Volumes::default(), |sum, (_, volumes)| sum.plus(*volumes, cell_m2)),
+    }
 }
 
 fn box_of(grid: &Grid, block: &Block) -> OrientedBox {
@@ -66,7 +79,10 @@ mod tests {
             (!cell.is_multiple_of(3) || cell.is_multiple_of(5)).then_some(Column { base_m, top_m })
         };
         let columns: Vec<_> = (0..grid.cells()).map(column).collect();
-        let boxes = boxes_of(&grid, &columns, 0.5, Bases::Lowest);
+        let Boxes { shapes: boxes, volumes } = boxes_of(&grid, &columns, 0.5, Bases::Lowest);
+        let solid_m3: f64 = columns.iter().flatten().map(|column| column.top_m - column.base_m).sum();
+        assert!((volumes.solid - solid_m3).abs() < 1e-6 * solid_m3, "{volumes:?}");
+        assert!(volumes.lost < 1e-6 * solid_m3 && volumes.gained < 0.15 * solid_m3, "{volumes:?}");
         assert!(4 * boxes.len() < 3 * columns.iter().flatten().count(), "{}", boxes.len());
         for (cell, column) in columns.iter().enumerate() {
             let at = grid.in_cells(grid.center(cell));
@@ -103,7 +119,7 @@ mod tests {
             is_house.then_some(Column { base_m: 0.0, top_m: 6.0 + rise_m })
         };
         let columns: Vec<_> = (0..grid.cells()).map(column).collect();
-        let boxes = boxes_of(&grid, &columns, 1.0, Bases::Highest);
+        let boxes = boxes_of(&grid, &columns, 1.0, Bases::Highest).shapes;
         assert!(boxes.len() <= 4, "{boxes:?}");
     }
 }

@@ -9,6 +9,7 @@ pub mod format;
 pub mod ground;
 pub mod lanes;
 pub mod mesh;
+pub mod open_ground;
 pub mod options;
 pub mod polygons;
 pub mod semantics;

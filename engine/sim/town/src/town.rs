@@ -126,6 +126,9 @@ pub struct SimplificationReport {
     pub tolerance_m: f64,
     /// Space the kept boxes cover beyond the originals, as a share of the originals' volume.
     pub added_volume_share: f64,
+    /// Space of the pruned boxes, as a share of the originals' volume: joined boxes lose none.
+    #[serde(default)]
+    pub lost_volume_share: f64,
 }
 
 /// Kind of ground that a pedestrian walks on.

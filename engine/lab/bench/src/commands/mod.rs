@@ -13,6 +13,7 @@ mod outcome;
 mod people;
 mod planner;
 mod render;
+mod simplify;
 mod small;
 mod town_of_recipe;
 
@@ -57,6 +58,9 @@ enum Command {
     /// The renderer: CPU time of a frame by stage, frames per second as finished logs, comparison with memory bandwidth
     #[command(after_help = render::EXAMPLES)]
     Render(render::RenderArguments),
+    /// Boxes for planning by tolerance: how few, volume gained and lost, CPU time; 65,000 boxes or those of a map
+    #[command(after_help = simplify::EXAMPLES)]
+    Simplify(simplify::SimplifyArguments),
     /// Small pictures: depth, labels and ids in the large renderer and in the batch renderer, in turns
     #[command(after_help = small::EXAMPLES)]
     Small(small::SmallArguments),
@@ -79,6 +83,7 @@ impl Arguments {
             Command::People(arguments) => people::people(arguments),
             Command::Planner(arguments) => planner::planner(arguments),
             Command::Render(arguments) => render::render(arguments),
+            Command::Simplify(arguments) => simplify::simplify(arguments),
             Command::Small(arguments) => small::small(arguments),
             Command::Task(arguments) => cluster::task(arguments),
         }

@@ -21,10 +21,14 @@ const BARE_HEIGHT_M: f64 = -0.015;
 const TREE_SPACING_M: f64 = 8.0;
 /// Trees of woods stand within this distance of ground for people, metres: farther ones no flight comes near.
 const NEAR_M: f64 = 80.0;
-/// Distance of the trees of woods from paths, streets and houses, metres.
+/// Distance between the bushes of scrub, metres, and the size of one.
+const BUSH_SPACING_M: f64 = 4.0;
+const BUSH_M: f64 = 2.4;
+const BUSH_HEIGHT_M: f64 = 1.5;
+/// Distance of plants from paths, streets and houses, metres.
 const CLEAR_M: f64 = 3.0;
-/// Most trees of woods, and most places and sides of outlines that are looked at for them.
-const MOST_TREES: usize = 100_000;
+/// Most plants of one kind, and most places and sides of outlines that are looked at for them.
+const MOST_PLANTS: usize = 100_000;
 const MOST_WORK: usize = 1_000_000_000;
 
 /// Whether an area is a wood.
@@ -32,11 +36,16 @@ fn is_wood(tags: &Tags) -> bool {
     (tags.is("natural", &["wood"]) || tags.is("landuse", &["forest", "orchard"])) && !tags.is_hidden()
 }
 
+/// Whether an area is full of bushes.
+fn is_scrub(tags: &Tags) -> bool {
+    tags.is("natural", &["scrub", "shrubbery"]) && !tags.is_hidden()
+}
+
 fn is_grass(tags: &Tags) -> bool {
     let is_lawn = tags
         .is("landuse", &["grass", "meadow", "village_green", "recreation_ground", "cemetery", "flowerbed"])
         || tags.is("leisure", &["park", "garden", "golf_course"])
-        || tags.is("natural", &["grassland", "heath", "scrub"])
+        || tags.is("natural", &["grassland", "heath", "scrub", "shrubbery"])
         || tags.is("leisure", &["pitch"]) && tags.is("surface", &["grass"]);
     (is_lawn || is_wood(tags)) && !tags.is_hidden() && !tags.has("building")
 }
@@ -59,50 +68,67 @@ pub fn add_surfaces(elements: &Elements, frame: &Frame, meshes: &mut MeshBuilder
     }
 }
 
-/// Adds trees to the woods near ground for people, clear of paths, streets and houses. Gives a note about them.
-pub fn add_woods(
+/// Adds trees to woods and bushes to scrub near ground for people, clear of paths, streets and houses. Gives notes about
+/// them.
+pub fn add_plants(
     elements: &Elements,
     frame: &Frame,
     things: &mut Things<'_>,
     (roads, paths, houses): (&[Road<'_>], &Paths, &[Obstacle]),
-) -> Option<String> {
+) -> Vec<String> {
     // What is wrong with the areas is told of with their surfaces.
     let woods = areas(elements, frame, is_wood, &mut Problems::default());
-    if woods.is_empty() {
-        return None;
+    let scrub = areas(elements, frame, is_scrub, &mut Problems::default());
+    if woods.is_empty() && scrub.is_empty() {
+        return Vec::new();
     }
     let around = Around::new(roads, paths, houses.iter().chain(&things.obstacles));
-    let mut planted = Planted { places: BTreeMap::new(), work: 0 };
-    woods.iter().for_each(|area| planted.add(area, frame, &around));
-    for (number, at) in &planted.places {
+    let trees = Planted::of(&woods, TREE_SPACING_M, frame, &around);
+    let bushes = Planted::of(&scrub, BUSH_SPACING_M, frame, &around);
+    for (number, at) in &trees.places {
         things.add_assumed_tree(*number, *at);
     }
-    let limit = if planted.is_full() { ", no more than these" } else { "" };
-    let line = format!(
-        "{} trees of woods are invented ({TREE_SPACING_M} m apart, within {NEAR_M} m of ground for people{limit}): \
-         the file states the woods",
-        planted.places.len()
-    );
-    (!planted.places.is_empty()).then_some(line)
+    for at in bushes.places.values() {
+        things.add_assumed_bush(*at, [BUSH_M, BUSH_HEIGHT_M]);
+    }
+    [trees.note("trees of woods", "woods"), bushes.note("bushes of scrub", "scrub")].into_iter().flatten().collect()
 }
 
-/// Trees of woods: the number of each place, and the place.
+/// Plants of one kind: the number of each place, and the place.
 struct Planted {
+    spacing_m: f64,
     places: BTreeMap<u64, DVec2>,
     /// Places and sides of outlines looked at.
     work: usize,
 }
 
 impl Planted {
-    fn is_full(&self) -> bool {
-        self.places.len() >= MOST_TREES || self.work >= MOST_WORK
+    fn of(areas: &[Area<'_>], spacing_m: f64, frame: &Frame, around: &Around) -> Self {
+        let mut planted = Self { spacing_m, places: BTreeMap::new(), work: 0 };
+        areas.iter().for_each(|area| planted.add(area, frame, around));
+        planted
     }
 
-    /// Adds the trees of a wood. Their places are the same in every wood, so that woods that overlap share them.
+    fn note(&self, plants: &str, land: &str) -> Option<String> {
+        let (count, spacing_m) = (self.places.len(), self.spacing_m);
+        let limit = if self.is_full() { ", no more than these" } else { "" };
+        let line = format!(
+            "{count} {plants} are invented ({spacing_m} m apart, within {NEAR_M} m of ground for people{limit}): \
+             the file states the {land}"
+        );
+        (count > 0).then_some(line)
+    }
+
+    fn is_full(&self) -> bool {
+        self.places.len() >= MOST_PLANTS || self.work >= MOST_WORK
+    }
+
+    /// Adds the plants of an area. Their places are the same in every area, so that areas that overlap share them.
     fn add(&mut self, area: &Area<'_>, frame: &Frame, around: &Around) {
         let ring = frame.clipped_ring(&area.outer, LINE_MARGIN_M);
         let sides = ring.len() + area.holes.iter().map(Vec::len).sum::<usize>();
-        let cell = |corner: DVec2| (corner / TREE_SPACING_M).floor();
+        let spacing_m = self.spacing_m;
+        let cell = |corner: DVec2| (corner / spacing_m).floor();
         let low = ring.iter().copied().map(cell).fold(DVec2::INFINITY, DVec2::min);
         let high = ring.iter().copied().map(cell).fold(DVec2::NEG_INFINITY, DVec2::max);
         if ring.len() < 3 {
@@ -114,14 +140,14 @@ impl Planted {
                     return;
                 }
                 self.work += 1;
-                let corner = TREE_SPACING_M * DVec2::new(column as f64, row as f64);
+                let corner = spacing_m * DVec2::new(column as f64, row as f64);
                 if !around.is_near_people(corner) {
                     continue;
                 }
                 self.work += sides;
                 let number = (column as u64 & 0xffff_ffff) << 32 | row as u64 & 0xffff_ffff;
                 let mut stream = Seed([0; 32]).child("wood", number).stream("place");
-                let mut aside_m = || TREE_SPACING_M * stream.uniform(0.17, 0.83);
+                let mut aside_m = || spacing_m * stream.uniform(0.17, 0.83);
                 let at = corner + DVec2::new(aside_m(), aside_m());
                 if area.contains(at) && frame.holds(at, LINE_MARGIN_M) && around.has_room(at) {
                     self.places.insert(number, at);
@@ -131,7 +157,7 @@ impl Planted {
     }
 }
 
-/// Where trees of woods may stand.
+/// Where plants may stand.
 struct Around {
     roads: RoadIndex,
     walkable: PolygonIndex,
@@ -184,6 +210,11 @@ mod tests {
         assert!((580..720).contains(&trunks.len()), "{}", trunks.len());
         assert!(trunks.iter().all(|one| one.synthetic && one.shape.center_in_world.y.abs() > 1.5));
         assert!(town.synthetic.notes.iter().any(|note| note.contains("trees of woods are invented")));
+        let (town, _) = read(osm(&nodes, &(area(&[("natural", "scrub")]) + &path)).as_bytes()).unwrap();
+        let bushes = town.obstacles.iter().filter(|one| one.kind == ObstacleKind::Bush);
+        // One for each 16 m2 of the same ground.
+        assert!((2300..2900).contains(&bushes.clone().count()), "{}", bushes.count());
+        assert!(bushes.clone().all(|one| one.synthetic && one.shape.center_in_world.y.abs() > 1.5));
         for (tags, label) in [
             (&[("leisure", "park")][..], SemanticLabel::Terrain),
             (&[("natural", "beach")], SemanticLabel::Ground),

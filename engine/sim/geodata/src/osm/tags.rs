@@ -6,6 +6,7 @@ const KEYS: &[&str] = &[
     "area",
     "area:highway",
     "barrier",
+    "bridge",
     "building",
     "building:height",
     "building:levels",

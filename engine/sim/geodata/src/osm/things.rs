@@ -157,6 +157,13 @@ impl Things<'_> {
         self.obstacles[first..].iter_mut().for_each(|one| one.synthetic = true);
     }
 
+    /// A bush that the file does not state, flagged as synthetic, of a width and a height, metres.
+    pub fn add_assumed_bush(&mut self, at: DVec2, [width_m, height_m]: [f64; 2]) {
+        let id = self.next();
+        self.add_box(ObstacleKind::Bush, id, at, DVec2::splat(0.5 * width_m), 0.0, [0.0, height_m]);
+        self.obstacles.iter_mut().rev().take(1).for_each(|one| one.synthetic = true);
+    }
+
     /// A trunk and a crown. `number` draws what the tags do not state.
     fn add_tree(&mut self, number: u64, at: DVec2, tags: &Tags) {
         self.trees += 1;

@@ -33,7 +33,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     let mut paths = paths::read(elements, &frame, &roads, options, &mut meshes, &mut problems)?;
     let mut things = things::read(elements, &frame, &paths.nodes, &mut next_id)?;
     let around = (roads.as_slice(), &paths, buildings.obstacles.as_slice());
-    let woods = land::add_woods(elements, &frame, &mut things, around);
+    let plants = land::add_plants(elements, &frame, &mut things, around);
     land::add_surfaces(elements, &frame, &mut meshes, &mut problems);
     add_ground(elements, &frame, &mut meshes, &mut problems);
     roads::add_surfaces(&mut meshes, &roads);
@@ -45,9 +45,9 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     let mut notes = notes(&buildings, &things, options);
     let mut obstacles: Vec<Obstacle> = std::mem::take(&mut buildings.obstacles);
     obstacles.extend(things.obstacles);
-    notes.extend(woods);
+    notes.extend(plants);
     notes.append(&mut paths.notes);
-    notes.push("everything stands on one level: the file has no heights of the ground; bridges lie on it, tunnels are left out".to_owned());
+    notes.push(one_level(elements));
     terrain::add_terrain(&mut meshes, &obstacles, terrain::USUAL_MARGIN_M)?;
     let surfaces = meshes.finish();
     if paths.walkable.is_empty() {
@@ -115,6 +115,22 @@ fn whole_extract(frame: &Frame) -> WalkablePolygon {
     let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
     let outline_in_world = corners.map(|corner| corner.extend(0.0)).to_vec();
     WalkablePolygon { kind: WalkableKind::Plaza, outline_in_world, synthetic: true }
+}
+
+/// What becomes of bridges, tunnels and passages, in words.
+fn one_level(elements: &Elements) -> String {
+    let is_way = |tags: &Tags| tags.has("highway") || tags.has("railway");
+    let count = |counts: &dyn Fn(&Tags) -> bool| {
+        elements.ways.iter().filter(|way| is_way(&way.tags) && counts(&way.tags)).count()
+    };
+    let is_bridge = |tags: &Tags| tags.has("bridge") && !tags.is_hidden();
+    format!(
+        "everything stands on one level: the file has no heights of the ground; {} ways on bridges lie on it, {} in tunnels \
+         or below it are left out, {} passages through buildings are closed by the buildings over them",
+        count(&is_bridge),
+        count(&Tags::is_hidden),
+        count(&|tags: &Tags| tags.is("tunnel", &["building_passage"]))
+    )
 }
 
 /// What is not from the file, in words.

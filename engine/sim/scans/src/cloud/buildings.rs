@@ -4,9 +4,9 @@ use super::class;
 use super::survey::{Survey, is_ground, plan_of};
 use crate::grid::{Grid, nearest_seeds, parts};
 use crate::plan::{convex_hull, smallest_rectangle_rad};
-use crate::solid_cells::{Bases, Column, boxes_of};
+use crate::solid_cells::{Bases, Boxes, Column, boxes_of};
+use crate::window_cover::Volumes;
 use cosfly_frames::{DVec2, real};
-use cosfly_geometry::OrientedBox;
 use cosfly_town::{Obstacle, ObstacleKind};
 use rayon::prelude::*;
 
@@ -21,32 +21,55 @@ const ABOVE_GROUND_M: f64 = 0.1;
 /// Cells at the edge over which the direction of a wall is felt.
 const EDGE_REACH: usize = 2;
 
-/// Adds all buildings.
-pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
+/// Adds all buildings; gives what their cells became.
+pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
     let grid = &survey.grid;
-    let classes = |cell: usize| survey.buckets.of(cell).map(|point| survey.cloud.classes[point]);
+    let classes = |cell: usize| &survey.cloud.classes[survey.points_of(cell)];
     let has_roof: Vec<bool> =
-        (0..grid.cells()).map(|cell| classes(cell).any(|class| class == class::BUILDING)).collect();
-    let seeds = nearest_seeds(grid, |cell| survey.buckets.of(cell).next().is_some(), survey.reach_cells());
+        (0..grid.cells()).into_par_iter().map(|cell| classes(cell).contains(&class::BUILDING)).collect();
+    let seeds = nearest_seeds(grid, |cell| !survey.points_of(cell).is_empty(), survey.reach_cells());
     let is_building = |cell: usize| seeds[cell] != u32::MAX && has_roof[seeds[cell] as usize];
     let (part, count) = parts(grid, is_building);
     let mut cells = vec![Vec::new(); count as usize + 1];
     for (cell, number) in part.iter().enumerate().filter(|(_, number)| **number != 0) {
         cells[*number as usize].push(cell);
     }
-    let covers: Vec<Vec<OrientedBox>> = cells[1..]
+    let covers: Vec<Boxes> = cells[1..]
         .par_iter()
         .map(|cells| {
             let site = Site::new(survey, cells, &part);
-            let covers = site.directions_rad(cells, &is_building).map(|yaw_rad| site.boxes(yaw_rad));
-            covers.into_iter().min_by_key(Vec::len).unwrap_or_default()
+            let rasters = site.directions_rad(cells, &is_building).map(|yaw_rad| site.columns(yaw_rad));
+            // Walls along the cells take few boxes and have few corners.
+            let mut rasters = rasters.map(|(grid, columns)| (corners(&grid, &columns), grid, columns));
+            rasters.sort_by_key(|(corners, _, _)| *corners);
+            let covers = rasters[..2]
+                .iter()
+                .map(|(_, grid, columns)| boxes_of(grid, columns, STEP_M.max(grid.cell_m), Bases::Highest));
+            covers.min_by_key(|cover| cover.shapes.len()).unwrap_or_default()
         })
         .collect();
+    let mut volumes = Volumes::default();
     for cover in covers {
+        volumes = volumes.plus(cover.volumes, 1.0);
         let object_id = super::next_id(obstacles);
         let obstacle = |shape| Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: false };
-        obstacles.extend(cover.into_iter().map(obstacle));
+        obstacles.extend(cover.shapes.into_iter().map(obstacle));
     }
+    volumes
+}
+
+/// Corners of the outlines of a roof's levels: middles of four cells that no straight line parts.
+fn corners(grid: &Grid, columns: &[Option<Column>]) -> usize {
+    let level = |column: &Option<Column>| column.map(|column| (column.top_m / STEP_M.max(grid.cell_m)).ceil() as i64);
+    let levels: Vec<Option<i64>> = columns.iter().map(level).collect();
+    let is_corner = |cell: usize| {
+        let [a, b, c, d] = [cell, cell + 1, cell + grid.columns, cell + grid.columns + 1].map(|cell| levels[cell]);
+        !(a == b && c == d || a == c && b == d)
+    };
+    let rows = 0..grid.rows - 1;
+    rows.flat_map(|row| (0..grid.columns - 1).map(move |column| row * grid.columns + column))
+        .filter(|cell| is_corner(*cell))
+        .count()
 }
 
 /// One building: the points on it and on the ground beside it.
@@ -68,7 +91,7 @@ impl<'a> Site<'a> {
         near.dedup();
         let (mut roof, mut others) = (Vec::new(), Vec::new());
         for cell in near {
-            for point in survey.buckets.of(cell) {
+            for point in survey.points_of(cell) {
                 match survey.cloud.classes[point] {
                     class::BUILDING if part[cell] == number => roof.push(point),
                     class::BUILDING => {}
@@ -87,8 +110,8 @@ impl<'a> Site<'a> {
         [edge_direction_rad(&self.survey.grid, cells, is_building), smallest_rectangle_rad(&hull), 0.0]
     }
 
-    /// Boxes on a grid of a direction.
-    fn boxes(&self, yaw_rad: f64) -> Vec<OrientedBox> {
+    /// Columns on a grid of a direction.
+    fn columns(&self, yaw_rad: f64) -> (Grid, Vec<Option<Column>>) {
         let (cloud, cell_m) = (self.survey.cloud, self.survey.grid.cell_m);
         let grid = Grid::around(plan_of(cloud, &self.roof), cell_m, yaw_rad);
         let mut roof: Vec<Option<Column>> = vec![None; grid.cells()];
@@ -120,7 +143,7 @@ impl<'a> Site<'a> {
         drop_slivers(&grid, &mut roofs, |cell| roof[cell].is_some());
         fill_pits(&grid, &mut roofs, (self.survey.reach_cells() / 2).max(1));
         let columns = self.standing(&grid, &roofs, &ground_m);
-        boxes_of(&grid, &columns, STEP_M.max(cell_m), Bases::Highest)
+        (grid, columns)
     }
 
     /// Columns from the roofs down to the foot, or to the ground that was seen in a cell, or only the roof where it

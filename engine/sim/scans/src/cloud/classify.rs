@@ -1,11 +1,13 @@
 //! Roofs and plants told apart where the file does not: roofs are smooth and hide the ground.
 
 use super::planes::PlaneSums;
+use super::sorting::Sorted;
 use super::survey::{coarse_enough, grid_of, is_ground};
 use super::{Cloud, class};
-use crate::grid::parts;
+use crate::grid::{Grid, parts};
 use crate::relief::Relief;
 use cosfly_frames::DVec3;
+use rayon::prelude::*;
 
 /// Cells in which smoothness is judged are at least this wide, metres.
 const NARROWEST_CELL_M: f64 = 1.0;
@@ -27,41 +29,29 @@ const SMALLEST_ROOF_M2: f64 = 16.0;
 /// Whether the file says which points are buildings or plants.
 pub fn is_classified(cloud: &Cloud) -> bool {
     let known = |class: &u8| *class == class::BUILDING || class::PLANTS.contains(class);
-    let count = cloud.classes.iter().filter(|class| known(class)).count();
+    let count = cloud.classes.par_iter().filter(|class| known(class)).count();
     count > 0 && count as f64 >= 0.001 * cloud.len() as f64
 }
 
 /// Gives unclassified points high above the ground the class of buildings or of plants; says so in words.
-pub fn estimate(cloud: &mut Cloud, relief: &Relief, voxel_m: f64) -> String {
+pub fn estimate(cloud: &mut Cloud, sorted: &Sorted, relief: &Relief) -> String {
     let widest_m = ((cloud.bounds[1] - cloud.bounds[0]).element_product() / MOST_CELLS).sqrt();
-    let grid = grid_of(cloud, coarse_enough(cloud, (2.0 * voxel_m).max(NARROWEST_CELL_M).max(widest_m)));
-    let mut top_m = vec![f64::NEG_INFINITY; grid.cells()];
-    let is_high_point = |cloud: &Cloud, point: usize, at: DVec3| {
+    let grid = grid_of(cloud, coarse_enough(cloud, (2.0 * sorted.grid.cell_m).max(NARROWEST_CELL_M).max(widest_m)));
+    let is_high_point = |point: usize, at: DVec3| {
         !is_ground(cloud.classes[point]) && at.z - relief.height_m(at.truncate()) > LOWEST_ROOF_M
     };
-    for (_, at) in cloud.points().enumerate().filter(|(point, at)| is_high_point(cloud, *point, *at)) {
-        let cell = &mut top_m[grid.cell_of(at.truncate())];
-        *cell = cell.max(at.z);
-    }
-    let mut sums = vec![PlaneSums::default(); grid.cells()];
-    for (_, at) in cloud.points().enumerate().filter(|(point, at)| is_high_point(cloud, *point, *at)) {
-        let cell = grid.cell_of(at.truncate());
-        if at.z > top_m[cell] - ROOF_DEPTH_M {
-            sums[cell].add(at - cloud.bounds[0].extend(0.0));
+    let top_m = sorted.gathered(cloud, &grid, f64::NEG_INFINITY, |top_m, point, at| {
+        if is_high_point(point, at) {
+            *top_m = top_m.max(at.z);
         }
-    }
+    });
+    let sums = sorted.gathered(cloud, &grid, PlaneSums::default(), |sums, point, at| {
+        if is_high_point(point, at) && at.z > top_m[grid.cell_of(at.truncate())] - ROOF_DEPTH_M {
+            sums.add(at - cloud.bounds[0].extend(0.0));
+        }
+    });
     let is_high = |cell: usize| top_m[cell] > f64::NEG_INFINITY;
-    let roughness_m: Vec<f64> = (0..grid.cells())
-        .map(|cell| {
-            let mut around = PlaneSums::default();
-            grid.around_cell(cell, 1).filter(|_| is_high(cell)).for_each(|near| around.join(&sums[near]));
-            around.roughness_m()
-        })
-        .collect();
-    // A cell beside a ridge or an edge is smooth with one of its neighbours as the middle.
-    let is_smooth: Vec<bool> = (0..grid.cells())
-        .map(|cell| is_high(cell) && grid.around_cell(cell, 1).any(|near| roughness_m[near] <= SMOOTH_M))
-        .collect();
+    let is_smooth = smooth_cells(&grid, &sums, is_high);
     let is_roof: Vec<bool> = (0..grid.cells())
         .map(|cell| {
             let near = || grid.around_cell(cell, 2).filter(|near| is_high(*near));
@@ -80,16 +70,33 @@ pub fn estimate(cloud: &mut Cloud, relief: &Relief, voxel_m: f64) -> String {
         sizes[*number as usize] += 1;
     }
     let least = SMALLEST_ROOF_M2 / (grid.cell_m * grid.cell_m);
-    for point in 0..cloud.len() {
+    let class_of = |point: usize| {
         let at = cloud.point(point);
         let cell = grid.cell_of(at.truncate());
         let is_low = at.z - relief.height_m(at.truncate()) <= LOWEST_ROOF_M;
-        cloud.classes[point] = match cloud.classes[point] {
+        match cloud.classes[point] {
             known if is_ground(known) || known == class::BRIDGE => known,
             known if is_low => known,
             _ if part[cell] != 0 && sizes[part[cell] as usize] as f64 >= least => class::BUILDING,
             _ => class::HIGH_PLANTS,
-        };
-    }
+        }
+    };
+    let classes = (0..cloud.len()).into_par_iter().map(class_of).collect();
+    cloud.classes = classes;
     "buildings and plants are told apart by their shape: the cloud has no points of their classes".to_owned()
+}
+
+/// Cells of which points lie in one plane with those around, or with those around a neighbour.
+fn smooth_cells(grid: &Grid, sums: &[PlaneSums], is_high: impl Fn(usize) -> bool) -> Vec<bool> {
+    let roughness_m: Vec<f64> = (0..grid.cells())
+        .map(|cell| {
+            let mut around = PlaneSums::default();
+            grid.around_cell(cell, 1).filter(|_| is_high(cell)).for_each(|near| around.join(&sums[near]));
+            around.roughness_m()
+        })
+        .collect();
+    // A cell beside a ridge or an edge is smooth with one of its neighbours as the middle.
+    (0..grid.cells())
+        .map(|cell| is_high(cell) && grid.around_cell(cell, 1).any(|near| roughness_m[near] <= SMOOTH_M))
+        .collect()
 }

@@ -1,6 +1,6 @@
 //! From points to a town: ground, classes where the file has none, buildings, trees and other things as boxes.
 //!
-//! [`survey`] sorts the points into cells. [`ground`] finds the ground, [`classify`] tells roofs from plants.
+//! [`sorting`] puts the points in the order of cells, [`survey`] knows them by cell. [`ground`] finds the ground, [`classify`] tells roofs from plants.
 //! [`buildings`] are columns of cells down to the ground, [`trees`] stacks of boxes, [`things`] the rest.
 
 pub mod buildings;
@@ -9,6 +9,7 @@ pub mod ground;
 pub mod options;
 pub mod planes;
 pub mod points;
+pub mod sorting;
 pub mod survey;
 pub mod table;
 pub mod things;
@@ -22,6 +23,7 @@ use cosfly_frames::DVec2;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
 use cosfly_town::{MapError, Obstacle, ObstacleKind, SemanticLabel, Synthetic, Town};
+use sorting::Sorted;
 use survey::Survey;
 
 /// The town of a cloud, and what the user should know.
@@ -31,19 +33,30 @@ use survey::Survey;
 pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
     let mut warnings = std::mem::take(&mut cloud.warnings);
     let mut notes = Vec::new();
-    let voxel_m = survey::voxel_m(&cloud, options.voxel_m, &mut warnings);
+    let spacing_m = survey::spacing_m(&cloud);
+    let voxel_m = survey::voxel_m(&cloud, spacing_m, options.voxel_m, &mut warnings);
+    let grid = survey::grid_of(&cloud, voxel_m);
+    let sorted = Sorted::new(&mut cloud, grid);
     if !ground::is_classified(&cloud) {
-        notes.push(ground::estimate(&mut cloud, voxel_m));
+        notes.push(ground::estimate(&mut cloud, &sorted));
     }
-    let relief = ground::relief(&cloud, voxel_m);
+    let relief = ground::relief(&cloud, &sorted);
     if !classify::is_classified(&cloud) {
-        notes.push(classify::estimate(&mut cloud, &relief, voxel_m));
+        notes.push(classify::estimate(&mut cloud, &sorted, &relief));
     }
-    let survey = Survey::new(&cloud, relief, voxel_m);
+    let survey = Survey::new(&cloud, relief, sorted, spacing_m);
     let mut obstacles = Vec::new();
-    buildings::add(&survey, &mut obstacles);
+    let houses = buildings::add(&survey, &mut obstacles);
     trees::add(&survey, &mut obstacles);
-    things::add(&survey, &mut obstacles);
+    let volumes = houses.plus(things::add(&survey, &mut obstacles), 1.0);
+    if volumes.solid > 0.0 {
+        let [gained, lost] = [volumes.gained, volumes.lost].map(|volume| 100.0 * volume / volumes.solid);
+        notes.push(format!(
+            "boxes of buildings and things hold {:.0} m3 of cells of {voxel_m:.2} m: {gained:.1} % more is filled, {lost:.1} % \
+             (at feet on slopes) is lost",
+            volumes.solid
+        ));
+    }
     let walkable = open_ground(&obstacles, &survey.relief);
     if walkable.is_empty() {
         let error = MapError::new("the cloud leaves no open ground to walk on");
@@ -76,7 +89,7 @@ pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<St
 fn label(survey: &Survey<'_>, at: DVec2) -> SemanticLabel {
     let cell = survey.grid.cell_of(at);
     let mut counts = [0_usize; 3];
-    for point in survey.grid.around_cell(cell, 1).flat_map(|cell| survey.buckets.of(cell)) {
+    for point in survey.grid.around_cell(cell, 1).flat_map(|cell| survey.points_of(cell)) {
         match survey.cloud.classes[point] {
             class::GROUND => counts[0] += 1,
             class::WATER => counts[1] += 1,

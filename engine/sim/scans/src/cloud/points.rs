@@ -3,6 +3,7 @@
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::MapError;
 use cosfly_town::world::WorldFromMap;
+use rayon::prelude::*;
 
 /// Classes of the ASPRS standard that the builder knows.
 pub mod class {
@@ -41,7 +42,7 @@ pub struct Cloud {
     /// Place of the points' origin in the world, metres.
     origin_in_world: DVec3,
     /// Positions from the origin, axes of the world, metres.
-    positions: Vec<[f32; 3]>,
+    pub(super) positions: Vec<[f32; 3]>,
     /// Class of each point.
     pub classes: Vec<u8>,
     /// Smallest and largest corner in plan, world, metres.
@@ -83,6 +84,19 @@ impl CloudBuilder {
         self.classes.push(class);
     }
 
+    /// An empty builder for points that [`Self::join`] adds; none before the first point, from which all others count.
+    pub fn sibling(&self) -> Option<Self> {
+        self.origin_in_map.map(|origin| Self { origin_in_map: Some(origin), ..Self::default() })
+    }
+
+    /// Adds the points of a sibling.
+    pub fn join(&mut self, sibling: Self) {
+        self.positions.extend(sibling.positions);
+        self.classes.extend(sibling.classes);
+        self.noise += sibling.noise;
+        self.absurd += sibling.absurd;
+    }
+
     /// The cloud in the world frame.
     ///
     /// # Errors
@@ -93,9 +107,11 @@ impl CloudBuilder {
             let message = format!("the cloud has no points ({dropped} are noise or have no finite coordinates)");
             return Err(MapError::new(message));
         };
-        let plan =
-            || self.positions.iter().map(|[x, y, _]| origin_in_map.truncate() + DVec2::new((*x).into(), (*y).into()));
-        let [low, high] = [plan().fold(DVec2::INFINITY, DVec2::min), plan().fold(DVec2::NEG_INFINITY, DVec2::max)];
+        let none = || [DVec2::INFINITY, DVec2::NEG_INFINITY];
+        let wider = |a: [DVec2; 2], b: [DVec2; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let plan = self.positions.par_iter().map(|[x, y, _]| DVec2::new((*x).into(), (*y).into()));
+        let bounds = plan.fold(none, |all, point| wider(all, [point; 2])).reduce(none, wider);
+        let [low, high] = bounds.map(|corner| origin_in_map.truncate() + corner);
         let size = high - low;
         if size.max_element() > WIDEST_M {
             let message = format!("the cloud is {:.0} m across; at most {WIDEST_M} m are read", size.max_element());
@@ -110,9 +126,7 @@ impl CloudBuilder {
             warnings.push(format!("{} points of the classes for noise (7, 18) were left out", self.noise));
         }
         let world = WorldFromMap::around([low, high]);
-        for position in &mut self.positions {
-            position[1] = -position[1];
-        }
+        self.positions.par_iter_mut().for_each(|position| position[1] = -position[1]);
         let origin_in_world = world.point(origin_in_map);
         let corners = [low, high].map(|corner| world.point(corner.extend(0.0)).truncate());
         let bounds = [corners[0].min(corners[1]), corners[0].max(corners[1])];

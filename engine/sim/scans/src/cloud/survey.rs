@@ -1,9 +1,12 @@
 //! [`Survey`]: a classified cloud, sorted into cells.
 
+use super::sorting::Sorted;
 use super::{Cloud, class};
-use crate::grid::{Buckets, Grid};
+use crate::grid::Grid;
 use crate::relief::Relief;
 use cosfly_frames::DVec2;
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// Narrowest and widest cells that the density of the points asks for, metres.
 const USUAL_VOXELS_M: [f64; 2] = [0.5, 2.0];
@@ -20,6 +23,9 @@ const REACH_IN_SPACINGS: f64 = 2.0;
 /// Widest gap that is closed on each side, metres.
 const WIDEST_REACH_M: f64 = 4.0;
 
+/// Points whose cells are marked at once.
+const POINTS_AT_ONCE: usize = 1 << 20;
+
 /// A cloud whose points all have a class.
 #[derive(Debug)]
 pub struct Survey<'a> {
@@ -30,19 +36,32 @@ pub struct Survey<'a> {
     /// Cells.
     pub grid: Grid,
     /// The points of each cell.
-    pub buckets: Buckets,
+    sorted: Sorted,
     /// Cells without points take after points at most this far away, metres.
     pub reach_m: f64,
 }
 
 impl<'a> Survey<'a> {
-    /// Sorts the points into cells.
-    pub fn new(cloud: &'a Cloud, relief: Relief, voxel_m: f64) -> Self {
-        let grid = grid_of(cloud, voxel_m);
-        let buckets =
-            Buckets::new(grid.cells(), |point| Some(grid.cell_of(cloud.point(point).truncate())), cloud.len());
-        let reach_m = (REACH_IN_SPACINGS * spacing_m(cloud)).clamp(voxel_m, WIDEST_REACH_M.max(voxel_m));
-        Self { cloud, relief, grid, buckets, reach_m }
+    /// The cloud, its points at some distance from each other.
+    pub fn new(cloud: &'a Cloud, relief: Relief, sorted: Sorted, spacing_m: f64) -> Self {
+        let voxel_m = sorted.grid.cell_m;
+        let reach_m = (REACH_IN_SPACINGS * spacing_m).clamp(voxel_m, WIDEST_REACH_M.max(voxel_m));
+        Self { cloud, relief, grid: sorted.grid, sorted, reach_m }
+    }
+
+    /// The points of a cell.
+    pub fn points_of(&self, cell: usize) -> Range<usize> {
+        self.sorted.of(cell)
+    }
+
+    /// See [`Sorted::gathered`].
+    pub fn gathered<T: Clone + Send + Sync>(
+        &self,
+        grid: &Grid,
+        empty: T,
+        add: impl Fn(&mut T, usize, cosfly_frames::DVec3) + Sync,
+    ) -> Vec<T> {
+        self.sorted.gathered(self.cloud, grid, empty, add)
     }
 
     /// [`Self::reach_m`] in cells.
@@ -68,12 +87,20 @@ pub fn grid_of(cloud: &Cloud, cell_m: f64) -> Grid {
 }
 
 /// Distance between neighbouring points where there are points, metres.
-fn spacing_m(cloud: &Cloud) -> f64 {
+pub fn spacing_m(cloud: &Cloud) -> f64 {
     let grid = grid_of(cloud, coarse_enough(cloud, DENSITY_CELL_M));
-    let mut has_points = vec![false; grid.cells()];
-    for point in cloud.points() {
-        has_points[grid.cell_of(point.truncate())] = true;
-    }
+    let has_points = || vec![false; grid.cells()];
+    let has_points = (0..cloud.len())
+        .into_par_iter()
+        .with_min_len(POINTS_AT_ONCE)
+        .fold(has_points, |mut has, point| {
+            has[grid.cell_of(cloud.point(point).truncate())] = true;
+            has
+        })
+        .reduce(has_points, |mut a, b| {
+            a.iter_mut().zip(b).for_each(|(a, b)| *a |= b);
+            a
+        });
     let covered = has_points.iter().filter(|has| **has).count() as f64;
     grid.cell_m * (covered / cloud.len().max(1) as f64).sqrt()
 }
@@ -91,9 +118,9 @@ pub fn coarse_enough(cloud: &Cloud, cell_m: f64) -> f64 {
 }
 
 /// Side of the cells: as asked for, else by the density of the points.
-pub fn voxel_m(cloud: &Cloud, asked_m: Option<f64>, warnings: &mut Vec<String>) -> f64 {
+pub fn voxel_m(cloud: &Cloud, spacing_m: f64, asked_m: Option<f64>, warnings: &mut Vec<String>) -> f64 {
     let [narrowest, widest] = USUAL_VOXELS_M;
-    let wanted_m = asked_m.unwrap_or_else(|| (VOXELS_IN_SPACINGS * spacing_m(cloud)).clamp(narrowest, widest));
+    let wanted_m = asked_m.unwrap_or_else(|| (VOXELS_IN_SPACINGS * spacing_m).clamp(narrowest, widest));
     let voxel_m = coarse_enough(cloud, wanted_m);
     if voxel_m > wanted_m {
         warnings.push(format!("the cloud is too wide for cells of {wanted_m:.2} m: they are {voxel_m:.2} m wide"));

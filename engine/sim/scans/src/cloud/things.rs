@@ -3,8 +3,10 @@
 use super::class;
 use super::survey::{Survey, is_ground};
 use crate::grid::parts;
-use crate::solid_cells::{Bases, Column, boxes_of};
+use crate::solid_cells::{Bases, Boxes, Column, boxes_of};
+use crate::window_cover::Volumes;
 use cosfly_town::{Obstacle, ObstacleKind};
+use rayon::prelude::*;
 
 /// Lower points are kerbs and litter, metres.
 const LOWEST_M: f64 = 0.4;
@@ -20,44 +22,52 @@ const STANDS_M: f64 = 1.0;
 const THINNEST_M: f64 = 0.2;
 
 /// Adds all things.
-pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
+pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
+    let mut volumes = Volumes::default();
     for (kind, belongs) in [
         (ObstacleKind::Bridge, (|class| class == class::BRIDGE) as fn(u8) -> bool),
         (ObstacleKind::Static, |class| {
             !is_ground(class) && !class::PLANTS.contains(&class) && !matches!(class, class::BUILDING | class::BRIDGE)
         }),
     ] {
-        add_kind(survey, kind, belongs, obstacles);
+        volumes = volumes.plus(add_kind(survey, kind, belongs, obstacles), 1.0);
     }
+    volumes
 }
 
-fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, obstacles: &mut Vec<Obstacle>) {
+/// What stands over a cell, and the number of its points.
+fn column(survey: &Survey<'_>, cell: usize, belongs: fn(u8) -> bool) -> (Option<Column>, usize) {
+    let (mut ground_m, mut ends, mut count) = (f64::NEG_INFINITY, [f64::INFINITY, f64::NEG_INFINITY], 0);
+    for point in survey.points_of(cell) {
+        let at = survey.cloud.point(point);
+        if is_ground(survey.cloud.classes[point]) {
+            ground_m = ground_m.max(at.z);
+        } else if belongs(survey.cloud.classes[point]) && survey.height_m(point) > LOWEST_M {
+            ends = [ends[0].min(at.z), ends[1].max(at.z)];
+            count += 1;
+        }
+    }
+    if count == 0 {
+        return (None, 0);
+    }
+    let foot_m = survey.relief.height_m(survey.grid.center(cell));
+    let lowest_m = foot_m.max(ground_m) + ABOVE_GROUND_M;
+    let base_m = if ends[0] - foot_m < STANDS_M { lowest_m } else { (ends[0] - THINNEST_M).max(lowest_m) };
+    (Some(Column { base_m, top_m: ends[1].max(base_m + THINNEST_M) }), count)
+}
+
+fn add_kind(
+    survey: &Survey<'_>,
+    kind: ObstacleKind,
+    belongs: fn(u8) -> bool,
+    obstacles: &mut Vec<Obstacle>,
+) -> Volumes {
     let (grid, cloud) = (&survey.grid, survey.cloud);
-    if !cloud.classes.iter().any(|class| belongs(*class)) {
-        return;
+    if !cloud.classes.par_iter().any(|class| belongs(*class)) {
+        return Volumes::default();
     }
-    let mut counts = vec![0_usize; grid.cells()];
-    let mut columns: Vec<Option<Column>> = vec![None; grid.cells()];
-    for cell in 0..grid.cells() {
-        let mut ground_m = f64::NEG_INFINITY;
-        for point in survey.buckets.of(cell) {
-            let at = cloud.point(point);
-            if is_ground(cloud.classes[point]) {
-                ground_m = ground_m.max(at.z);
-            } else if belongs(cloud.classes[point]) && survey.height_m(point) > LOWEST_M {
-                let column = columns[cell].get_or_insert(Column { base_m: at.z, top_m: at.z });
-                *column = Column { base_m: column.base_m.min(at.z), top_m: column.top_m.max(at.z) };
-                counts[cell] += 1;
-            }
-        }
-        if let Some(column) = &mut columns[cell] {
-            let foot_m = survey.relief.height_m(grid.center(cell));
-            let lowest_m = foot_m.max(ground_m) + ABOVE_GROUND_M;
-            column.base_m =
-                if column.base_m - foot_m < STANDS_M { lowest_m } else { (column.base_m - THINNEST_M).max(lowest_m) };
-            column.top_m = column.top_m.max(column.base_m + THINNEST_M);
-        }
-    }
+    let columns = (0..grid.cells()).into_par_iter().map(|cell| column(survey, cell, belongs));
+    let (mut columns, counts): (Vec<Option<Column>>, Vec<usize>) = columns.unzip();
     let (part, count) = parts(grid, |cell| columns[cell].is_some());
     let mut sizes = vec![0_usize; count as usize + 1];
     for (cell, number) in part.iter().enumerate() {
@@ -69,7 +79,7 @@ fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, ob
         }
     }
     let first_id = super::next_id(obstacles);
-    let shapes = boxes_of(grid, &columns, STEP_M.max(grid.cell_m), Bases::Highest);
+    let Boxes { shapes, volumes } = boxes_of(grid, &columns, STEP_M.max(grid.cell_m), Bases::Highest);
     let number = |shape: &cosfly_geometry::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
     let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();
     numbered.sort_by_key(|(number, _)| *number);
@@ -79,4 +89,5 @@ fn add_kind(survey: &Survey<'_>, kind: ObstacleKind, belongs: fn(u8) -> bool, ob
         object_id: first_id + number,
         synthetic: false,
     }));
+    volumes
 }

@@ -6,6 +6,7 @@ use crate::grid::{Buckets, Grid};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_geometry::OrientedBox;
 use cosfly_town::{Obstacle, ObstacleKind};
+use rayon::prelude::*;
 
 /// Narrowest cells of the canopy, metres.
 const NARROWEST_CELL_M: f64 = 1.0;
@@ -27,31 +28,35 @@ const DEVIATIONS: f64 = 2.2;
 /// Adds all trees and bushes.
 pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
     let cloud = survey.cloud;
-    let plants: Vec<usize> = (0..cloud.len())
-        .filter(|point| class::PLANTS.contains(&cloud.classes[*point]) && survey.height_m(*point) > GRASS_M)
-        .collect();
+    let is_plant = |point: usize| class::PLANTS.contains(&cloud.classes[point]) && survey.height_m(point) > GRASS_M;
+    let plants: Vec<usize> = (0..cloud.len()).into_par_iter().filter(|point| is_plant(*point)).collect();
     if plants.is_empty() {
         return;
     }
     let cell_m = coarse_enough(cloud, (2.0 * survey.grid.cell_m).max(NARROWEST_CELL_M));
     let grid = grid_of(cloud, cell_m);
-    let mut top_m = vec![f32::NEG_INFINITY; grid.cells()];
-    for point in &plants {
-        let cell = &mut top_m[grid.cell_of(cloud.point(*point).truncate())];
-        *cell = cell.max(survey.height_m(*point) as f32);
-    }
+    let top_m = survey.gathered(&grid, f32::NEG_INFINITY, |top_m, point, _| {
+        if class::PLANTS.contains(&cloud.classes[point]) {
+            let height_m = survey.height_m(point);
+            *top_m = if height_m > GRASS_M { top_m.max(height_m as f32) } else { *top_m };
+        }
+    });
     let peaks = peaks(&grid, &top_m);
-    let peak_of = |member: usize| Some(peaks[grid.cell_of(cloud.point(plants[member]).truncate())] as usize);
-    let members = Buckets::new(grid.cells(), peak_of, plants.len());
-    let mut points = Vec::new();
-    for peak in (0..grid.cells()).filter(|cell| peaks[*cell] as usize == *cell && top_m[*cell] > f32::NEG_INFINITY) {
-        points.clear();
-        points.extend(members.of(peak).map(|member| cloud.point(plants[member])));
+    let peak_of = |point: &usize| peaks[grid.cell_of(cloud.point(*point).truncate())];
+    let peak_of: Vec<u32> = plants.par_iter().map(peak_of).collect();
+    let members = Buckets::new(grid.cells(), |member| Some(peak_of[member] as usize), plants.len());
+    let is_peak = |cell: &usize| peaks[*cell] as usize == *cell && top_m[*cell] > f32::NEG_INFINITY;
+    let crown = |peak: usize| {
+        let points: Vec<DVec3> = members.of(peak).map(|member| cloud.point(plants[member])).collect();
+        let is_tree = f64::from(top_m[peak]) >= LOWEST_TREE_M;
+        (peak, layers(survey, &points, cell_m, if is_tree { MOST_LAYERS } else { 1.0 }))
+    };
+    let crowns: Vec<(usize, Vec<OrientedBox>)> = (0..grid.cells()).into_par_iter().filter(is_peak).map(crown).collect();
+    for (peak, crown) in crowns {
         let object_id = super::next_id(obstacles);
         let obstacle = |shape, kind, synthetic| Obstacle { shape, kind, object_id, synthetic };
         let height_m = f64::from(top_m[peak]);
         let is_tree = height_m >= LOWEST_TREE_M;
-        let crown = layers(survey, &points, cell_m, if is_tree { MOST_LAYERS } else { 1.0 });
         let kind = if is_tree { ObstacleKind::TreeCrown } else { ObstacleKind::Bush };
         if let Some(lowest) = crown.first().filter(|_| is_tree) {
             obstacles
@@ -64,14 +69,15 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
 /// The hilltop of each cell: the way up over the highest cell within two, to where there is none higher.
 fn peaks(grid: &Grid, top_m: &[f32]) -> Vec<u32> {
     let smooth: Vec<f32> = (0..grid.cells())
+        .into_par_iter()
         .map(|cell| {
             let near = || grid.around_cell(cell, 1).map(|near| top_m[near]).filter(|top| top.is_finite());
             if top_m[cell].is_finite() { near().sum::<f32>() / near().count() as f32 } else { f32::NEG_INFINITY }
         })
         .collect();
     let higher = |a: &usize, b: &usize| smooth[*a].total_cmp(&smooth[*b]).then(b.cmp(a));
-    let up: Vec<u32> =
-        (0..grid.cells()).map(|cell| grid.around_cell(cell, 2).max_by(higher).unwrap_or(cell) as u32).collect();
+    let highest = |cell: usize| grid.around_cell(cell, 2).max_by(higher).unwrap_or(cell) as u32;
+    let up: Vec<u32> = (0..grid.cells()).into_par_iter().map(highest).collect();
     let mut peaks = up.clone();
     for cell in 0..peaks.len() {
         while up[peaks[cell] as usize] != peaks[cell] {

@@ -52,7 +52,7 @@ pub(super) fn read(header: &Header<'_>, record: &[u8], points: &mut Points<'_>) 
     for some in chunks.chunks(CHUNKS_AT_ONCE) {
         let unpacked: Result<Vec<Vec<Record>>, MapError> =
             some.par_iter().map(|chunk| unpacked(header, vlr.items(), chunk)).collect();
-        unpacked?.into_iter().flatten().for_each(|record| points.add(record));
+        points.add_batches(unpacked?);
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ use cosfly_frames::DVec3;
 use cosfly_town::{MapError, MapFormat, Town};
 use header::Header;
 use projection::Projection;
+use rayon::prelude::*;
 
 /// The format `LAS`.
 #[derive(Clone, Copy, Debug)]
@@ -87,6 +88,29 @@ impl Points<'_> {
             self.cloud.push(stored * DVec3::new(plan_m, plan_m, height_m), record.class);
         } else {
             self.left_out += 1;
+        }
+    }
+
+    /// Adds records batch by batch, as [`Self::add`] does one after another.
+    fn add_batches(&mut self, batches: Vec<Vec<Record>>) {
+        let mut batches = batches.into_iter();
+        // All points count from the first one that is kept.
+        while self.cloud.sibling().is_none() {
+            let Some(batch) = batches.next() else { return };
+            batch.into_iter().for_each(|record| self.add(record));
+        }
+        let (header, units_m) = (self.header, self.units_m);
+        let batches: Vec<(CloudBuilder, Vec<Record>)> =
+            batches.filter_map(|batch| Some((self.cloud.sibling()?, batch))).collect();
+        let part = |(cloud, batch): (CloudBuilder, Vec<Record>)| {
+            let mut part = Points { header, units_m, cloud, left_out: 0 };
+            batch.into_iter().for_each(|record| part.add(record));
+            part
+        };
+        let parts: Vec<Points<'_>> = batches.into_par_iter().map(part).collect();
+        for part in parts {
+            self.cloud.join(part.cloud);
+            self.left_out += part.left_out;
         }
     }
 

@@ -25,6 +25,8 @@ struct Item {
     first: usize,
     /// The candidate it came from while it is not joined with any other.
     alone: Option<Candidate>,
+    /// Whether it was made in the last round: two boxes that did not fit each other never will.
+    is_new: bool,
 }
 
 /// Joins neighbours of one orientation. A joined box holds at most `max_empty_share` of empty volume and no point
@@ -81,7 +83,14 @@ impl Frame {
             let (x, y) = (self.cos * corner.x + self.sin * corner.y, self.cos * corner.y - self.sin * corner.x);
             sum.with_point(DVec3::new(x, y, corner.z))
         });
-        Item { extent, filled_m3: one.filled_m3, growth_m: one.growth_m, first: one.first, alone: Some(*one) }
+        Item {
+            extent,
+            filled_m3: one.filled_m3,
+            growth_m: one.growth_m,
+            first: one.first,
+            alone: Some(*one),
+            is_new: true,
+        }
     }
 
     fn candidate(&self, item: &Item) -> Candidate {
@@ -130,6 +139,7 @@ fn union(a: &Item, b: &Item) -> Item {
         growth_m: reach_m + a.growth_m.max(b.growth_m),
         first: a.first.min(b.first),
         alone: None,
+        is_new: true,
     }
 }
 
@@ -174,6 +184,9 @@ fn join_pairs(mut items: Vec<Item>, limits: Limits) -> Vec<Item> {
             if is_taken[at] {
                 continue;
             }
+            if !items[at].is_new {
+                continue;
+            }
             is_taken[at] = true;
             let mut search = BestPartner {
                 items: &items,
@@ -188,11 +201,12 @@ fn join_pairs(mut items: Vec<Item>, limits: Limits) -> Vec<Item> {
             };
             tree.traverse(&mut search);
             let partner = search.best;
-            joined.push(partner.map_or(items[at], |(_, partner)| {
+            joined.push(partner.map_or(Item { is_new: false, ..items[at] }, |(_, partner)| {
                 is_taken[partner] = true;
                 union(&items[at], &items[partner])
             }));
         }
+        joined.extend(items.iter().zip(&is_taken).filter(|(_, is_taken)| !**is_taken).map(|(item, _)| *item));
         let has_joined_any = joined.len() < items.len();
         items = joined;
         if !has_joined_any {

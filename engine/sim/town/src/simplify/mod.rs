@@ -48,14 +48,19 @@ pub fn simplify(
         containment::drop_contained(&mut kept);
         report.merged = before - kept.len();
     }
+    let mut lost_m3 = 0.0;
     if config.prune {
         let before = kept.len();
+        let filled_m3 = |kept: &[Candidate]| kept.iter().map(|one| one.filled_m3).sum::<f64>();
+        let before_m3 = filled_m3(&kept);
         prune::drop_specks(&mut kept, config.tolerance_m);
+        lost_m3 = before_m3 - filled_m3(&kept);
         report.pruned = before - kept.len();
     }
     kept.sort_by_key(|one| one.first);
     let added_m3: f64 = kept.iter().map(|one| (one.volume_m3() - one.filled_m3).max(0.0)).sum();
-    report.added_volume_share = if original_m3 > 0.0 { added_m3 / original_m3 } else { 0.0 };
+    let share = |volume_m3: f64| if original_m3 > 0.0 { volume_m3 / original_m3 } else { 0.0 };
+    (report.added_volume_share, report.lost_volume_share) = (share(added_m3), share(lost_m3));
     report.output_boxes = kept.len();
     (kept.into_iter().map(|one| one.shape).collect(), report)
 }
@@ -170,7 +175,7 @@ mod tests {
         let (kept, report) = simplify(&scene, &[], &SimplifyConfig::default());
         println!("finely split town: {report:?}");
         assert!(kept.len() <= 2_600, "{report:?}");
-        assert!(report.added_volume_share < 0.1, "{report:?}");
+        assert!(report.added_volume_share < 0.1 && report.lost_volume_share < 1e-3, "{report:?}");
     }
 
     #[test]

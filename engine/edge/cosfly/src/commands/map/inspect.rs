@@ -102,6 +102,7 @@ fn figures(map: &ReadMap) -> Value {
         "planning_boxes": {
             "before": report.input_boxes, "after": report.output_boxes,
             "tolerance_m": report.tolerance_m, "added_volume_share": report.added_volume_share,
+            "lost_volume_share": report.lost_volume_share, "cropped": report.cropped,
         },
         "synthetic_notes": town.synthetic.notes, "warnings": warnings,
     })
@@ -135,11 +136,12 @@ fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
     let report = &town.simplification;
     let _ = writeln!(
         text,
-        "\nthe planner sees {} boxes instead of {}: within {} m, {:.1} % more volume",
+        "\nthe planner sees {} boxes instead of {}: within {} m, {:.1} % of the volume gained, {:.2} % lost",
         report.output_boxes,
         report.input_boxes,
         report.tolerance_m,
-        100.0 * report.added_volume_share
+        100.0 * report.added_volume_share,
+        100.0 * report.lost_volume_share
     );
     let offset = town.origin.offset_m;
     let _ = writeln!(text, "origin: x_map = x + {}, y_map = -(y + {}), z_map = z + {}", offset.x, offset.y, offset.z);
