@@ -69,7 +69,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&config, canonical(&config, parameters::canonical(&config)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 9,
+            version: 10,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
             sources: vec![],
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],

@@ -1,6 +1,13 @@
 //! Builds of people: proportions, hair, coats, bags at the shoulder and gait, drawn from a person's own seed.
 
 use cosfly_frames::Seed;
+use cosfly_world::{BodyBuild, Gait};
+
+/// Bellies deeper than this are stout; mean widths of shoulders and hips below this are slim.
+const STOUT_BELLY: f64 = 1.1;
+const SLIM_WIDTH: f64 = 0.97;
+/// Swings of the legs between these are medium steps.
+const MEDIUM_STRIDES: [f64; 2] = [0.95, 1.05];
 
 /// Body and bearing of a person. Factors are relative to the usual figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,6 +87,27 @@ impl Build {
     }
 }
 
+impl Build {
+    /// The build in words.
+    pub fn body_build(&self) -> BodyBuild {
+        match self {
+            Self { belly, .. } if *belly > STOUT_BELLY => BodyBuild::Stout,
+            Self { shoulders, hips, .. } if 0.5 * (shoulders + hips) < SLIM_WIDTH => BodyBuild::Slim,
+            _ => BodyBuild::Medium,
+        }
+    }
+
+    /// The steps in words.
+    pub fn gait(&self) -> Gait {
+        let [short, long] = MEDIUM_STRIDES;
+        match self.stride {
+            stride if stride < short => Gait::Short,
+            stride if stride > long => Gait::Long,
+            _ => Gait::Medium,
+        }
+    }
+}
+
 /// Size of the head relative to a grown person's, by body height: a child of 1.0 m has a head of a fifth of its height.
 pub(crate) fn head_size(height_m: f64) -> f64 {
     1.0 + 0.45 * ((1.5 - height_m) / 0.5).clamp(0.0, 1.0)
@@ -96,6 +124,10 @@ mod tests {
         assert!((share(&|build| build.hair == Hair::Long) - 0.25).abs() < 0.06);
         assert!((share(&|build| build.right_arm == Arm::Swings) - 0.86).abs() < 0.06);
         assert!((share(&|build| build.long_top) - 0.22).abs() < 0.06);
+        assert!((share(&|build| build.body_build() == BodyBuild::Stout) - 0.30).abs() < 0.06);
+        let slim = share(&|build| build.body_build() == BodyBuild::Slim);
+        assert!((slim - 0.18).abs() < 0.06, "{slim}");
+        assert!((share(&|build| build.gait() == Gait::Long) - 0.33).abs() < 0.06);
         assert!(builds.iter().all(|build| (0.82..1.26).contains(&build.shoulders) && build.lean.abs() < 0.08));
     }
 
