@@ -161,11 +161,7 @@ fn scenes(options: &ManyOptions<'_>) -> Vec<(SceneKind, u64, usize)> {
     (0..options.count.div_ceil(WALKERS)).map(scene).collect()
 }
 
-fn plan_round(
-    options: &ManyOptions<'_>,
-    round: &[(SceneKind, u64, usize)],
-    report: &mut ManyReport,
-) -> io::Result<()> {
+fn plan_round(options: &ManyOptions<'_>, round: &[(SceneKind, u64, usize)], report: &mut ManyReport) -> io::Result<()> {
     let grounds: Vec<(Ground, PlainBvh, u64, Vec<OrientedBox>)> = round
         .par_iter()
         .map(|&(kind, seed, walkers)| {
