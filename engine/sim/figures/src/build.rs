@@ -127,8 +127,19 @@ mod tests {
         assert!((share(&|build| build.body_build() == BodyBuild::Stout) - 0.30).abs() < 0.06);
         let slim = share(&|build| build.body_build() == BodyBuild::Slim);
         assert!((slim - 0.18).abs() < 0.06, "{slim}");
-        assert!((share(&|build| build.gait() == Gait::Long) - 0.33).abs() < 0.06);
         assert!(builds.iter().all(|build| (0.82..1.26).contains(&build.shoulders) && build.lean.abs() < 0.08));
+    }
+
+    #[test]
+    fn words_for_builds_and_gaits_have_the_stated_shares() {
+        let seed = |number: u64| Seed([9; 32]).child("person", number);
+        let builds: Vec<Build> = (0..4000).map(|number| Build::draw(&seed(number))).collect();
+        let share = |of: &dyn Fn(&Build) -> bool| builds.iter().filter(|build| of(build)).count() as f64 / 4000.0;
+        let gaits = [Gait::Short, Gait::Medium, Gait::Long].map(|gait| share(&|build| build.gait() == gait));
+        assert!(gaits.iter().all(|share| (share - 1.0 / 3.0).abs() < 0.03), "{gaits:?}");
+        let kinds = [BodyBuild::Slim, BodyBuild::Medium, BodyBuild::Stout];
+        let shares = kinds.map(|kind| share(&|build| build.body_build() == kind));
+        assert!((0..3).all(|k| (shares[k] - [0.18, 0.52, 0.30][k]).abs() < 0.04), "{shares:?}");
     }
 
     #[test]
