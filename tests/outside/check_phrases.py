@@ -24,7 +24,7 @@ KINDS = {
 }
 ENGLISH = re.compile(
     r"the (?:(?P<motion>walking|moving|standing|stationary) )?(?:(?P<paint>[a-z]+) )??(?P<kind>person|cyclist|motorcyclist|car|van|lorry|bus)"
-    r"(?: in an? (?P<top>[a-z]+) top)?(?:(?: and| in) (?P<trousers>[a-z]+) trousers)?(?P<backpack> with a backpack)?"
+    r"(?: in an? (?P<top>[a-z]+) top)?(?:(?: and| in) (?P<trousers>[a-z]+) trousers)?(?P<backpack> with a backpack)?(?P<shoulder_bag> with a shoulder bag)?"
     r"(?: (?:on|in) the (?P<part>left|right|middle) of the picture)?"
 )
 
@@ -36,7 +36,7 @@ def english(text):
     kind = next(kind for kind, (word, _) in KINDS.items() if word == found["kind"])
     moves = {"walking": True, "moving": True, "standing": False, "stationary": False}.get(found["motion"])
     return {"kind": kind, "motion": moves, "top": found["top"] or found["paint"], "trousers": found["trousers"],
-            "backpack": bool(found["backpack"]) or None, "part": found["part"]}
+            "backpack": bool(found["backpack"]) or None, "shoulder_bag": bool(found["shoulder_bag"]) or None, "part": found["part"]}
 
 
 def chinese(text):
@@ -45,10 +45,10 @@ def chinese(text):
     any_colour = "|".join(colour)
     found = {name: re.search(pattern, text) for name, pattern in {
         "top": f"穿({any_colour})上衣" if kind in ("pedestrian", "bicycle", "motorcycle") else f"({any_colour})", "trousers": f"({any_colour})裤子",
-        "part": "画面(左侧|右侧|中间)", "motion": "(正在行走|正在行驶|站着不动|停着不动)", "backpack": "背着背包"}.items()}
+        "part": "画面(左侧|右侧|中间)", "motion": "(正在行走|正在行驶|站着不动|停着不动)", "backpack": "背着背包", "shoulder_bag": "挎着单肩包"}.items()}
     word = lambda name: found[name] and found[name].group(1)
     return {"kind": kind, "motion": {"正在行走": True, "正在行驶": True, "站着不动": False, "停着不动": False}.get(word("motion")),
-            "top": colour.get(word("top")), "trousers": colour.get(word("trousers")), "backpack": bool(found["backpack"]) or None,
+            "top": colour.get(word("top")), "trousers": colour.get(word("trousers")), "backpack": bool(found["backpack"]) or None, "shoulder_bag": bool(found["shoulder_bag"]) or None,
             "part": {"左侧": "left", "右侧": "right", "中间": "middle"}.get(word("part"))}
 
 
@@ -57,7 +57,7 @@ def may_fit(meant, body):
     speed, at = body["speed"], body["at"]
     moves = True if speed >= 0.4 else False if speed <= 0.05 else None
     part = "left" if at < 0.3 else "right" if at > 0.7 else "middle" if 0.4 <= at <= 0.6 else None
-    agrees = [meant[name] is None or meant[name] == body[name] for name in ("top", "trousers", "backpack")]
+    agrees = [meant[name] is None or meant[name] == body[name] for name in ("top", "trousers", "backpack", "shoulder_bag")]
     agrees.append(meant["motion"] is None or moves is None or moves == meant["motion"])
     agrees.append(meant["part"] is None or part is None or part == meant["part"])
     return body["kind"] == meant["kind"] and all(agrees)
@@ -86,13 +86,13 @@ def check(folder):
         named.update(said)
         middle = lambda edges: (edges[0] + edges[2]) / 2 / flight["camera_width_px"]
         for frame, state in frames[row["trajectory_id"]].items():
-            bodies = [{"kind": it["kind"], "top": it["top_colour"], "trousers": it["trousers_colour"], "backpack": it["has_backpack"],
+            bodies = [{"kind": it["kind"], "top": it["top_colour"], "trousers": it["trousers_colour"], "backpack": it["has_backpack"], "shoulder_bag": it["bag"] == "shoulder_bag",
                        "speed": it["speed_mps"], "at": middle(it["visible_box_px"])} for it in others[row["trajectory_id"], frame]]
             fits = sum(may_fit(meant, body) for body in bodies)
             target = None
             if state["visible_box_px"] is not None:
                 target = {"kind": flight["target_kind"], "top": flight["target_top_colour"], "trousers": flight["target_trousers_colour"],
-                          "backpack": flight["target_has_backpack"], "speed": state["target_speed_mps"], "at": middle(state["visible_box_px"])}
+                          "backpack": flight["target_has_backpack"], "shoulder_bag": flight["target_bag"] == "shoulder_bag", "speed": state["target_speed_mps"], "at": middle(state["visible_box_px"])}
             is_target = target is not None and may_fit(meant, target)
             if (row["candidates"][frame], row["fits_target"][frame]) != (fits + is_target, int(is_target)):
                 wrong.append(f"{row['trajectory_id']} frame {frame}: `{row['text_en']}` may mean {fits + is_target} bodies; the table says {row['candidates'][frame]}")

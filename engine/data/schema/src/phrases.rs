@@ -5,7 +5,7 @@ use crate::log::messages::edges_px;
 use cosfly_captions::refer::{Candidate, Phrase};
 use cosfly_frames::TargetState;
 use cosfly_render::{Outfit, PixelBox};
-use cosfly_world::BodyKind;
+use cosfly_world::{Bag, BodyKind};
 
 /// A phrase is given once in this time, seconds.
 const EVERY_S: f64 = 10.0;
@@ -90,6 +90,7 @@ fn candidate(
         top: outfit.top.name,
         trousers: outfit.trousers.name,
         backpack: outfit.backpack,
+        shoulder_bag: outfit.traits.is_some_and(|traits| traits.bag == Bag::Shoulder),
         speed_mps: state.speed_mps,
         at: visible_box.map(|edges| middle(edges_px(edges))),
     }

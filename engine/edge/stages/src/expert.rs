@@ -227,14 +227,28 @@ fn check_foresight(config: &MucoConfig, objective: &ObjectiveConfig) -> Result<(
         format!("flies behind walkers; this stage's objective is `{name}`")
     } else if config.planner.is_baseline() || config.preset == Preset::Paper {
         "is for `planner = \"muco\"` with another preset than `paper`".to_owned()
-    } else if config.occlusion.count > 0 {
-        format!("cannot choose when to lose its target; `occlusion.count` is {}", config.occlusion.count)
     } else {
-        return Ok(());
+        return check_loss_ahead(config);
     };
     let message = format!("`foresight = \"causal\"` {reason}");
     let hint = Some("leave `foresight` out, or the other one of the two".to_owned());
     Err(ParameterError { hint, ..parameters::refused_at("foresight", message) })
+}
+
+/// Refuses losses that an expert who knows only the past does not look far enough ahead for: a plan holds as long a way before
+/// and behind its loss.
+fn check_loss_ahead(config: &MucoConfig) -> Result<(), ParameterError> {
+    let (occlusion, horizon_s) = (&config.occlusion, config.causal.horizon_s);
+    let least_s = 2.0 * (occlusion.min_s + occlusion.max_s);
+    if occlusion.count == 0 || horizon_s >= least_s {
+        return Ok(());
+    }
+    let message = format!(
+        "`causal.horizon_s` is {horizon_s}; to lose the target for {} to {} s on purpose it must be at least {least_s}",
+        occlusion.min_s, occlusion.max_s
+    );
+    let hint = Some("raise it, or order shorter losses".to_owned());
+    Err(ParameterError { hint, ..parameters::refused_at("causal.horizon_s", message) })
 }
 
 /// Refuses what several drones do not support.
@@ -306,10 +320,11 @@ mod tests {
         check(serde_json::json!({ "drones": { "count": 0 } }), &["drones", "count"]);
         check(serde_json::json!({ "foresight": "causal", "objective": "patrol" }), &["foresight"]);
         check(serde_json::json!({ "foresight": "causal", "planner": "astar_smoothed" }), &["foresight"]);
-        check(serde_json::json!({ "foresight": "causal", "occlusion": { "count": 1 } }), &["foresight"]);
+        check(serde_json::json!({ "foresight": "causal", "occlusion": { "count": 1 } }), &["causal", "horizon_s"]);
         check(serde_json::json!({ "foresight": "causal", "causal": { "horizon_s": 0.5 } }), &["causal", "horizon_s"]);
         for fine in [
             serde_json::json!({ "foresight": "causal", "causal": { "horizon_s": 5.0 } }),
+            serde_json::json!({ "foresight": "causal", "causal": { "horizon_s": 12.0 }, "occlusion": { "count": 1 } }),
             serde_json::json!({ "planner": "astar_smoothed" }),
             serde_json::json!({ "planner": "dp", "limits": { "require_kinematics": false } }),
             serde_json::json!({ "objective": "inspect", "inspect": { "row_m": 2.0 } }),

@@ -1,5 +1,6 @@
 //! One flight of a `muco` stage: its mission, its companions, and how it is planned, from its beginning or from any state.
 
+use crate::other_drones::DronesBefore;
 use crate::plugins::{DrawnReference, Plugins};
 use crate::world::World;
 use cosfly_frames::{DVec2, DVec3, Seed, TargetTrack};
@@ -148,6 +149,13 @@ impl Flight {
         let places: Vec<DVec3> = flown.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
         self.movers.push(drone_boxes(&places));
         self.drones += 1;
+    }
+
+    /// The drones before this one, for those who fly its route otherwise.
+    pub fn drones_before(&self) -> DronesBefore {
+        let boxes = &self.movers[self.movers.len() - self.drones..];
+        let places = boxes.iter().map(|places| places.iter().map(|it| it.center_in_world).collect()).collect();
+        DronesBefore { separation_m: self.mission.config.drones.separation_m, places }
     }
 
     fn others(&self) -> OtherDrones {

@@ -19,6 +19,7 @@ pub mod map;
 mod memo;
 mod muco;
 mod nearby;
+mod other_drones;
 mod parameters;
 mod pedestrians;
 mod perturb;

@@ -1,6 +1,7 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
 use crate::expert::{Bodies, Expert, drones_before};
+use crate::other_drones::DronesBefore;
 use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::quotas::{self, Trial};
@@ -59,7 +60,7 @@ impl StageKind for Muco {
         }
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 3,
+            version: 4,
             parameters,
             sources: expert.sources(),
             inputs,
@@ -123,8 +124,10 @@ impl Stage for MucoStage {
         let plugins = Plugins::of_expert(&expert.plugins, &context.sources)?;
         let plugins = plugins.for_item(context.id.to_string());
         let flight = expert.flight(&world, bodies, Seed(context.seed), plugins)?;
+        let mut before = DronesBefore::default();
         let (outcome, findings) = match flight {
             Ok(flight) => {
+                before = flight.drones_before();
                 let (outcome, said) = flight.plan(&world)?;
                 let (notes, mut warnings) = match &outcome {
                     PlanOutcome::Planned(trajectory) => flight.findings(&world, trajectory),
@@ -148,6 +151,7 @@ impl Stage for MucoStage {
         if let Some(walk) = inputs.all("paths").first() {
             traffic::put_around(walk, &around, outputs)?;
         }
+        before.put(outputs)?;
         let mut produced = produced(&outcome);
         produced.notes.extend(findings.0);
         produced.warnings.extend(findings.1);

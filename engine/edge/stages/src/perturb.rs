@@ -1,6 +1,7 @@
 //! `perturb`: the twin of every expert trajectory, with errors of position and rotation.
 
 use crate::muco::produced;
+use crate::other_drones::DronesBefore;
 use crate::ports::{self, TRAJECTORY};
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single, traffic};
@@ -37,7 +38,7 @@ impl StageKind for Perturb {
         config.validate().map_err(|(path, message)| parameters::refused_at(&path, message))?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 4,
+            version: 5,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs: self.ports(),
@@ -71,8 +72,10 @@ impl Stage for PerturbStage {
         let expert_id = artifact.id.item.of_stage(&artifact.id.stage).to_string();
         let twin = match expert {
             PlanOutcome::Planned(expert) => {
-                let movers = traffic::around(inputs, artifact)?.boxes();
-                let map = ExactMap::among(&world.exact, &movers);
+                let mut movers = traffic::around(inputs, artifact)?.boxes();
+                let drones = DronesBefore::of(inputs, artifact)?.join(&mut movers);
+                let clearance_m = self.config.clearance_m;
+                let map = ExactMap { drones, clearance_m, ..ExactMap::among(&world.exact, &movers) };
                 perturb(&expert, &expert_id, map, &self.config, Seed(context.seed))
             }
             PlanOutcome::Rejected { track, reason } => {

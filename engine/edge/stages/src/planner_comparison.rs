@@ -1,7 +1,8 @@
-//! Comparison of planners in a dataset's report: others on the walks of published flights, measured like them.
+//! Comparison of planners in a dataset's report: others on the walks of published flights, among the same bodies, measured like them.
 
 use crate::world::World;
-use cosfly_frames::{DVec3, Seed, TargetTrack};
+use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_geometry::OrientedBox;
 use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, flyable::made_flyable, plan_baseline};
 use cosfly_planner::certificate::{certify, term_costs};
 use cosfly_planner::obstacles::exact::ExactMap;
@@ -10,7 +11,7 @@ use cosfly_planner::obstacles::local::LocalObstacles;
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
-use cosfly_planner::{Certificate, Limits, MucoConfig, PlanOutcome, WeightedTerm, plan};
+use cosfly_planner::{Certificate, Limits, MucoConfig, PlanOutcome, PlanRequest, WeightedTerm, plan_request};
 use cosfly_report::PlannerRow;
 use cosfly_schema::RenderedTrajectory;
 use std::collections::BTreeSet;
@@ -50,7 +51,7 @@ pub struct ComparedFlight {
 }
 
 /// Rows for the published flights and for other planners on their walks, all measured against the unsimplified town of
-/// each flight. Others have the default weights and the limits of the flight's certificate.
+/// each flight and the bodies of traffic around it. Others have the default weights and the limits of the flight's certificate.
 pub fn compared(flights: &[ComparedFlight]) -> Vec<PlannerRow> {
     let mut published: Vec<Column> = vec![];
     let mut others: Vec<Column> = OTHERS.iter().map(|(_, name)| Column::new((*name).to_owned())).collect();
@@ -93,6 +94,8 @@ struct Task<'a> {
     config: MucoConfig,
     terms: Vec<WeightedTerm>,
     ground: GroundGrid,
+    /// Boxes of everybody around the target, frame by frame.
+    movers: Vec<Vec<OrientedBox>>,
     world: &'a World,
 }
 
@@ -114,7 +117,9 @@ impl<'a> Task<'a> {
         let terms = built_in_terms(&config.resolved_weights());
         let reach_m = config.search.filter_radius_m + 10.0;
         let ground = GroundGrid::sample(&track, &|x, y| world.ground.ground_height_m(x, y).unwrap_or(0.0), reach_m);
-        Self { walk: Walk::of(&track), track, config, terms, ground, world }
+        let mut movers = flight.around.boxes();
+        movers.iter_mut().for_each(|places| places.truncate(track.len()));
+        Self { walk: Walk::of(&track), track, config, terms, ground, movers, world }
     }
 
     fn problem(&self) -> Problem<'_> {
@@ -133,7 +138,7 @@ impl<'a> Task<'a> {
             problem,
             planning_boxes: &self.world.town.planning_boxes,
             exact: &self.world.exact,
-            movers: &[],
+            movers: &self.movers,
             ground: &self.ground,
             config: &self.config,
         }
@@ -153,7 +158,9 @@ impl<'a> Task<'a> {
             Other::Cosfly => {
                 let ground = |x: f64, y: f64| self.world.ground.ground_height_m(x, y).unwrap_or(0.0);
                 let boxes = &self.world.town.planning_boxes;
-                match plan(&self.track, &self.world.exact, boxes, &ground, &self.config, Seed([0; 32])) {
+                let mut request = PlanRequest::new(&self.track, &self.world.exact, boxes, &ground, &self.config);
+                request.movers = &self.movers;
+                match plan_request(request) {
                     PlanOutcome::Planned(flight) => {
                         Ok(flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect())
                     }
@@ -207,13 +214,14 @@ impl Column {
             }
         };
         let ground = |x: f64, y: f64| task.world.ground.ground_height_m(x, y).unwrap_or(0.0);
-        let exact = ExactMap::still(&task.world.exact);
+        let exact = ExactMap::among(&task.world.exact, &task.movers);
         let certificate = certify(&task.track, &waypoints, 0, exact, &ground, &task.config).certificate;
         let search = &task.config.search;
         let influence_m = task.config.view.safety_influence_m;
         let boxes = &task.world.town.planning_boxes;
         let mut obstacles =
-            LocalObstacles::filter(&task.track, boxes, &task.ground, search.filter_radius_m, influence_m);
+            LocalObstacles::filter(&task.track, boxes, &task.ground, search.filter_radius_m, influence_m)
+                .with_movers(&task.movers);
         obstacles.focus_on(&waypoints);
         let frames = task.track.len().max(1) as f64;
         let costs = term_costs(&task.terms, &waypoints, &task.problem().context(&obstacles));

@@ -23,7 +23,7 @@ const COMPARED: usize = 3;
 pub fn part(frames: InputPort) -> StagePart {
     let properties = StageProperties {
         kind: "dataset".into(),
-        version: 1,
+        version: 2,
         parameters: serde_json::json!({}),
         sources: vec![],
         inputs: vec![frames, group_notes::port()],

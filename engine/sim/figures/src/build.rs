@@ -1,6 +1,13 @@
 //! Builds of people: proportions, hair, coats, bags at the shoulder and gait, drawn from a person's own seed.
 
 use cosfly_frames::Seed;
+use cosfly_world::{BodyBuild, Gait};
+
+/// Bellies deeper than this are stout; mean widths of shoulders and hips below this are slim.
+const STOUT_BELLY: f64 = 1.1;
+const SLIM_WIDTH: f64 = 0.97;
+/// Swings of the legs between these are medium steps.
+const MEDIUM_STRIDES: [f64; 2] = [0.95, 1.05];
 
 /// Body and bearing of a person. Factors are relative to the usual figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,6 +87,27 @@ impl Build {
     }
 }
 
+impl Build {
+    /// The build in words.
+    pub fn body_build(&self) -> BodyBuild {
+        match self {
+            Self { belly, .. } if *belly > STOUT_BELLY => BodyBuild::Stout,
+            Self { shoulders, hips, .. } if 0.5 * (shoulders + hips) < SLIM_WIDTH => BodyBuild::Slim,
+            _ => BodyBuild::Medium,
+        }
+    }
+
+    /// The steps in words.
+    pub fn gait(&self) -> Gait {
+        let [short, long] = MEDIUM_STRIDES;
+        match self.stride {
+            stride if stride < short => Gait::Short,
+            stride if stride > long => Gait::Long,
+            _ => Gait::Medium,
+        }
+    }
+}
+
 /// Size of the head relative to a grown person's, by body height: a child of 1.0 m has a head of a fifth of its height.
 pub(crate) fn head_size(height_m: f64) -> f64 {
     1.0 + 0.45 * ((1.5 - height_m) / 0.5).clamp(0.0, 1.0)
@@ -96,7 +124,22 @@ mod tests {
         assert!((share(&|build| build.hair == Hair::Long) - 0.25).abs() < 0.06);
         assert!((share(&|build| build.right_arm == Arm::Swings) - 0.86).abs() < 0.06);
         assert!((share(&|build| build.long_top) - 0.22).abs() < 0.06);
+        assert!((share(&|build| build.body_build() == BodyBuild::Stout) - 0.30).abs() < 0.06);
+        let slim = share(&|build| build.body_build() == BodyBuild::Slim);
+        assert!((slim - 0.18).abs() < 0.06, "{slim}");
         assert!(builds.iter().all(|build| (0.82..1.26).contains(&build.shoulders) && build.lean.abs() < 0.08));
+    }
+
+    #[test]
+    fn words_for_builds_and_gaits_have_the_stated_shares() {
+        let seed = |number: u64| Seed([9; 32]).child("person", number);
+        let builds: Vec<Build> = (0..4000).map(|number| Build::draw(&seed(number))).collect();
+        let share = |of: &dyn Fn(&Build) -> bool| builds.iter().filter(|build| of(build)).count() as f64 / 4000.0;
+        let gaits = [Gait::Short, Gait::Medium, Gait::Long].map(|gait| share(&|build| build.gait() == gait));
+        assert!(gaits.iter().all(|share| (share - 1.0 / 3.0).abs() < 0.03), "{gaits:?}");
+        let kinds = [BodyBuild::Slim, BodyBuild::Medium, BodyBuild::Stout];
+        let shares = kinds.map(|kind| share(&|build| build.body_build() == kind));
+        assert!((0..3).all(|k| (shares[k] - [0.18, 0.52, 0.30][k]).abs() < 0.04), "{shares:?}");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use crate::body_shape::BodyShape;
 use crate::build::{Build, Hair};
 use crate::vehicles::Livery;
 use cosfly_frames::{RandomStream, Seed};
-use cosfly_world::BodyKind;
+use cosfly_world::{Bag, BodyKind, Traits};
 use serde::{Deserialize, Serialize};
 
 /// Material of a part of the figure; those of vehicles follow those of people.
@@ -89,6 +89,8 @@ pub struct Outfit {
     pub trousers: Dye,
     /// Wears a backpack.
     pub backpack: bool,
+    /// Bag, build and gait; `None` for vehicles and their riders.
+    pub traits: Option<Traits>,
 }
 
 impl Outfit {
@@ -97,9 +99,10 @@ impl Outfit {
         match body {
             BodyShape::Vehicle { kind, .. } if !matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle) => {
                 let paint = Livery::draw(seed).paint;
-                Self { top: paint, trousers: paint, backpack: false }
+                Self { top: paint, trousers: paint, backpack: false, traits: None }
             }
-            _ => Clothes::draw(seed).outfit,
+            BodyShape::Vehicle { .. } => Self { traits: None, ..Clothes::draw(seed).outfit },
+            BodyShape::Person => Clothes::draw(seed).outfit,
         }
     }
 
@@ -226,19 +229,26 @@ impl Clothes {
     pub fn draw(seed: &Seed) -> Self {
         let mut stream = seed.stream("clothes");
         let tops: &[Dye] = if stream.chance(BRIGHT_SHARE) { &BRIGHT_TOPS } else { &EVERYDAY_TOPS };
-        let [top, bag] = [(); 2].map(|()| one_of(&mut stream, tops));
+        let [top, bag_cloth] = [(); 2].map(|()| one_of(&mut stream, tops));
         let trousers = one_of(&mut stream, &TROUSERS);
         let [skin, hair, shoes] = [&SKIN[..], &HAIR, &SHOES].map(|palette| one_of(&mut stream, palette));
-        let outfit = Outfit { top, trousers, backpack: stream.chance(0.35) };
+        let backpack = stream.chance(0.35);
         let short_sleeves = stream.chance(0.45);
         let build = Build::draw(seed);
+        let bag = match (backpack, build.shoulder_bag) {
+            (true, _) => Bag::Backpack,
+            (false, true) => Bag::Shoulder,
+            (false, false) => Bag::None,
+        };
+        let traits = Some(Traits { bag, build: build.body_build(), gait: build.gait() });
+        let outfit = Outfit { top, trousers, backpack, traits };
         let head = match build.hair {
             Hair::Bald => skin,
             Hair::Cap => one_of(&mut seed.stream("cap"), tops).linear_rgb,
             Hair::Short | Hair::Long | Hair::Bun => hair,
         };
-        let bag = bag.linear_rgb.map(|c| 0.5 * c);
-        let colours = [skin, head, top.linear_rgb, trousers.linear_rgb, shoes, bag];
+        let bag_colour = bag_cloth.linear_rgb.map(|c| 0.5 * c);
+        let colours = [skin, head, top.linear_rgb, trousers.linear_rgb, shoes, bag_colour];
         Self { colours, outfit, short_sleeves, pattern: Pattern::draw(seed, top), build }
     }
 

@@ -173,6 +173,28 @@ fn a_causal_flight_is_certified_against_what_happens_and_knows_nothing_of_it_bef
 }
 
 #[test]
+fn a_causal_expert_loses_its_target_when_that_is_ordered() {
+    let mut config = MucoConfig { foresight: Foresight::Causal, ..MucoConfig::default() };
+    (config.occlusion.count, config.occlusion.min_s, config.occlusion.max_s) = (1, 1.0, 2.0);
+    (config.causal.horizon_s, config.causal.replan_s) = (8.0, 1.0);
+    let scene = Scene::generate(SceneKind::Alley, 36);
+    let (mut flown, mut lost) = (0, 0);
+    for index in 0..4 {
+        let mut track = scene.walker(36, index);
+        track.states.truncate(70);
+        let Ok(flight) = fly(&scene, &track, &[], &config) else { continue };
+        check_flight(&flight, &scene, &[], &format!("causal loss {index}"));
+        let certificate = &flight.certificate;
+        assert_eq!(certificate.occlusion_ordered_s, 1.5);
+        let unseen_s = flight.visibility.iter().filter(|seen| **seen == 0.0).count() as f64 * track.dt_s;
+        assert!(certificate.occlusion_reached_s <= unseen_s, "{certificate:?}");
+        flown += 1;
+        lost += usize::from(certificate.occlusion_reached_s >= 1.0);
+    }
+    assert!(flown >= 2 && lost >= 1, "{flown} flown, {lost} lost their targets");
+}
+
+#[test]
 fn drones_behind_one_target_keep_apart() {
     const SEPARATION_M: f64 = 6.0;
     let config = MucoConfig::default();

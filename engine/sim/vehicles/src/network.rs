@@ -10,7 +10,7 @@ const CONFLICT_M: f64 = 2.9;
 /// Distance between the points that are compared, metres.
 const SPACING_M: f64 = 1.0;
 /// Bends are measured over this length, metres.
-const BEND_M: f64 = 5.0;
+const BEND_M: f64 = 3.0;
 /// Side of a cell of the search for conflicts, metres.
 const CELL_M: f64 = 8.0;
 /// Ways ahead are followed so far, metres.
@@ -129,6 +129,7 @@ impl Drive {
 impl Network {
     pub fn new(town: &Town) -> Self {
         let mut lanes: Vec<Drive> = town.lanes.iter().map(|lane| Drive::new(lane, town)).collect();
+        bend_at_joints(&mut lanes);
         find_conflicts(&mut lanes);
         let kerb = kerb_side(&lanes);
         let mut network = Self { lanes, kerb };
@@ -192,6 +193,25 @@ impl Network {
                 && (other.truncate() - place).length() < 1.5
         };
         (0u32..).zip(&self.lanes).find(|(other, lane)| *other != number && is_there(lane)).map(|(other, _)| other)
+    }
+}
+
+/// Bends from lane to lane: where the next lane begins in another direction than one ends, both have a bend there.
+fn bend_at_joints(lanes: &mut [Drive]) {
+    let half_m = 0.5 * BEND_M;
+    let mut joints: Vec<(usize, usize, f64)> = vec![];
+    for (number, lane) in lanes.iter().enumerate() {
+        for next in lane.successors.iter().map(|next| *next as usize) {
+            let ((_, from), (_, to)) = (lane.at(lane.length_m - half_m), lanes[next].at(half_m));
+            let turn_rad = real::atan2(from.perp_dot(to), from.dot(to)).abs();
+            joints.push((number, next, turn_rad / BEND_M));
+        }
+    }
+    let near = half_m as usize + 1;
+    for (number, next, curvature) in joints {
+        let last = lanes[number].bends.iter_mut().rev().take(near);
+        last.for_each(|bend| *bend = bend.max(curvature));
+        lanes[next].bends.iter_mut().take(near).for_each(|bend| *bend = bend.max(curvature));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Outlines seen from above: nearest points of bodies, overlaps of bodies that are about to move, solid things on lanes.
 
-use crate::network::Network;
+use crate::network::{Drive, Network};
 use cosfly_frames::{DVec2, DVec3, TargetState, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_maps::{ObstacleKind, Town};
@@ -33,6 +33,8 @@ pub(crate) fn meet(plan: &BodyPlan, state: &TargetState, other: &BodyPlan, at: &
 
 /// Size of what must fit on a lane: length of a piece, width and height, metres.
 const FITS_M: DVec3 = DVec3::new(2.0, 2.1, 2.6);
+/// Widths that are tried beyond it, metres: of buses and lorries with room beside them, of vans, of cars.
+const WIDTHS_M: [f64; 3] = [3.1, 2.7, 2.4];
 /// Things whose tops are lower above the ground are driven over, metres.
 const STEP_M: f64 = 0.3;
 
@@ -58,12 +60,11 @@ impl Solid {
     }
 }
 
-/// Lanes on which something solid stands, ascending.
-pub(crate) fn blocked_lanes(network: &Network, town: &Town) -> Vec<u32> {
+/// Lanes on which something solid stands, ascending; the others become as narrow as what stands beside them leaves them.
+pub(crate) fn blocked_lanes(network: &mut Network, town: &Town) -> Vec<u32> {
     let solid = Solid::new(town);
-    let is_blocked = |number: &u32| {
-        let lane = &network.lanes[*number as usize];
-        let size_m = FITS_M.with_y(FITS_M.y.min(lane.width_m));
+    let is_blocked_at = |lane: &Drive, width_m: f64| {
+        let size_m = FITS_M.with_y(width_m.min(lane.width_m));
         (0..=(lane.length_m / FITS_M.x) as usize).any(|piece| {
             let (place, along) = lane.at((piece as f64 + 0.5) * FITS_M.x);
             let center_in_world = place + DVec3::Z * (0.5 * size_m.z);
@@ -71,7 +72,17 @@ pub(crate) fn blocked_lanes(network: &Network, town: &Town) -> Vec<u32> {
             solid.touches(&OrientedBox { center_in_world, half_extents_m: 0.5 * size_m, yaw_rad })
         })
     };
-    (0..network.lanes.len() as u32).filter(is_blocked).collect()
+    let mut blocked = vec![];
+    for (number, lane) in (0..).zip(&mut network.lanes) {
+        let fitting = WIDTHS_M.into_iter().find(|width_m| !is_blocked_at(lane, *width_m));
+        match fitting {
+            Some(width_m) if width_m == WIDTHS_M[0] => {}
+            Some(width_m) => lane.width_m = lane.width_m.min(width_m),
+            None if is_blocked_at(lane, FITS_M.y) => blocked.push(number),
+            None => lane.width_m = lane.width_m.min(FITS_M.y),
+        }
+    }
+    blocked
 }
 
 /// Whether two upright boxes overlap seen from above.

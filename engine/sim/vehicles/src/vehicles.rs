@@ -125,7 +125,7 @@ impl Vehicles {
         let mut network = Network::new(town);
         let parking = parked::parking_lanes(&network, config.parked_share, seed);
         network.close(&parking);
-        let blocked = blocked_lanes(&network, town);
+        let blocked = blocked_lanes(&mut network, town);
         network.close(&blocked);
         let closed: Vec<u32> = parking.iter().chain(&blocked).copied().collect();
         let mut vehicles = start::driving(&network, town, config, &closed, seed);

@@ -5,6 +5,7 @@ use super::value::Edges;
 use super::{DatasetItem, Table};
 use crate::log::messages::edges_px;
 use crate::{OtherPerson, Sighting};
+use cosfly_world::Traits;
 
 /// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
@@ -49,6 +50,12 @@ columns! { People::COLUMNS of DatasetItem;
     trousers_colour: String = |item, i| person(item, i).outfit.trousers.name.name().to_owned();
     /// Whether the person wears a backpack.
     has_backpack: bool = |item, i| person(item, i).outfit.backpack;
+    /// Bag: `none`, `backpack` or `shoulder_bag`; null for vehicles and their riders.
+    bag: Option<String> = |item, i| traits(item, i).map(|it| it.bag.name().to_owned());
+    /// Build: `slim`, `medium` or `stout`; null for vehicles and their riders.
+    build: Option<String> = |item, i| traits(item, i).map(|it| it.build.name().to_owned());
+    /// Steps: `short`, `medium` or `long`; null for vehicles and their riders.
+    gait: Option<String> = |item, i| traits(item, i).map(|it| it.gait.name().to_owned());
     /// Number of visible pixels.
     visible_pixels: u32 = |item, i| sighting(item, i).view.pixels;
     /// Left, top, right, bottom edge around the visible pixels.
@@ -61,4 +68,8 @@ fn sighting(item: &DatasetItem, i: usize) -> &Sighting {
 
 fn person(item: &DatasetItem, i: usize) -> &OtherPerson {
     &item.record.others[sighting(item, i).person as usize]
+}
+
+fn traits(item: &DatasetItem, i: usize) -> Option<Traits> {
+    person(item, i).outfit.traits
 }

@@ -26,7 +26,7 @@ columns! { Phrases::COLUMNS of DatasetItem;
     text_en: String = |item, i| given(item, i).phrase.text(Language::En);
     /// The phrase in Chinese.
     text_zh: String = |item, i| given(item, i).phrase.text(Language::Zh);
-    /// Named properties: `top`, `trousers`, `backpack`, `motion` (moving at 0.4 m/s or more, standing at 0.05 m/s or less) and
+    /// Named properties: `top`, `trousers`, `backpack`, `shoulder_bag`, `motion` (moving at 0.4 m/s or more, standing at 0.05 m/s or less) and
     /// `part` (of the picture's width: left of 0.3, 0.4 to 0.6, right of 0.7).
     properties: Vec<String> = |item, i| {
         given(item, i).phrase.properties.iter().map(|property| property.name().to_owned()).collect()

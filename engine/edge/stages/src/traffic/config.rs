@@ -5,7 +5,7 @@ use cosfly_pedestrians::{ConfigRule, CrowdConfig, RecordedConfig, ScriptedPerson
 use cosfly_stage::Source;
 use cosfly_vehicles::VehicleConfig;
 use cosfly_vehicles::fcd::FcdConfig;
-use cosfly_world::{BodyKind, Clock, LookAlikeConfig, Traffic};
+use cosfly_world::{BodyKind, Clock, LookAlikeConfig, LooksConfig, Traffic};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +34,8 @@ pub struct TrafficConfig {
     pub scripted: Vec<ScriptedPerson>,
     /// Vehicles and people that SUMO simulated.
     pub sumo: Option<SumoSource>,
+    /// Shares of the people by bag, build and gait.
+    pub looks: LooksConfig,
     /// People who are dressed like a followed person.
     pub look_alikes: LookAlikeConfig,
 }
@@ -49,6 +51,7 @@ impl Default for TrafficConfig {
             recorded: vec![],
             scripted: vec![],
             sumo: None,
+            looks: LooksConfig::default(),
             look_alikes: LookAlikeConfig::default(),
         }
     }
@@ -135,6 +138,14 @@ impl TrafficConfig {
         {
             let message = format!("`{}` is listed twice", self.follow.kinds[at].name());
             return Err(ConfigRule { path: &["follow", "kinds"], message });
+        }
+        if let Err((table, message)) = self.looks.check() {
+            let path: &'static [&'static str] = match table {
+                "bags" => &["looks", "bags"],
+                "builds" => &["looks", "builds"],
+                _ => &["looks", "gaits"],
+            };
+            return Err(ConfigRule { path, message });
         }
         let shares = |message| ConfigRule { path: &["look_alikes", "shares"], message };
         self.look_alikes.check().map_err(shares)?;

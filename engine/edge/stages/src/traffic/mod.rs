@@ -4,6 +4,7 @@ mod config;
 mod population;
 
 use crate::memo::Memo;
+use crate::other_drones::DRONES_BLOB;
 use crate::ports::{self, TRAFFIC, WALK};
 use crate::world::{TOWN_BLOB, link_town, world};
 use crate::{codec, parameters};
@@ -16,7 +17,7 @@ use cosfly_render::{BodyShape, Outfit};
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::{Around, Body, Followed, Traffic, dress, simulate};
+use cosfly_world::{Around, Body, Followed, Traffic, Traits, Wardrobe, dress, give_looks, simulate};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -56,7 +57,7 @@ impl StageKind for TrafficKind {
         let sources = config.take_sources();
         let properties = |parameters, inputs, artifact, items, bytes_per_item| StageProperties {
             kind: self.name().into(),
-            version: 2,
+            version: 3,
             parameters,
             sources: vec![],
             inputs,
@@ -125,9 +126,9 @@ pub fn around(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Arc<Around>> {
     inputs.decoded(artifact, AROUND_BLOB, |bytes| codec::decode(ports::AROUND, bytes))
 }
 
-/// Links the followed body and the bodies around it from an input to the output of a task.
+/// Links the followed body, the bodies around it and the other drones from an input to the output of a task.
 pub fn link_moving(artifact: &Artifact, outputs: &mut dyn OutputSink) -> Result<()> {
-    for name in [FOLLOWED, AROUND_BLOB] {
+    for name in [FOLLOWED, AROUND_BLOB, DRONES_BLOB] {
         if let Some(blob) = artifact.blobs.get(name) {
             outputs.link(name, *blob)?;
         }
@@ -155,11 +156,14 @@ impl Stage for BodiesStage {
         let mut followed = self.config.follow.eligible(&traffic);
         followed.truncate(self.config.follow.count as usize);
         let outfit = |looks: &Seed| Outfit::of(BodyShape::Person, looks);
+        let traits = |looks: &Seed| outfit(looks).traits.unwrap_or(Traits::PLAIN);
         let alike = |a: &Seed, b: &Seed| outfit(a).is_like(&outfit(b));
-        let seed = Seed(context.seed).child("look-alikes", 0);
-        let note = dress(&mut traffic, &followed, &self.config.look_alikes, &alike, &seed);
+        let seed = |name: &str| Seed(context.seed).child(name, 0);
+        let looks_note = give_looks(&mut traffic, &self.config.looks, &traits, &seed("looks"));
+        let wardrobe = Wardrobe { alike: &alike, traits: &traits };
+        let note = dress(&mut traffic, &followed, &self.config.look_alikes, wardrobe, &seed("look-alikes"));
         let about = traffic.notes.join("; ");
-        let warnings: Vec<String> = populations.notes.into_iter().chain(note).collect();
+        let warnings: Vec<String> = populations.notes.into_iter().chain(looks_note).chain(note).collect();
         traffic.notes.extend(warnings.iter().cloned());
         outputs.put(BODIES, &codec::encode(TRAFFIC, &traffic)?)?;
         link_town(inputs, outputs)?;

@@ -65,10 +65,28 @@ pub fn crowded(
     frames: u32,
     seed: u64,
 ) -> Result<(Crowded, Tracks), PedestrianError> {
+    crowded_along(town, config, frames, seed, None)
+}
+
+/// The same; where `along` is given, people come along the direction that it gives for their place.
+///
+/// # Errors
+/// When the town has no room for it.
+pub fn crowded_along(
+    town: &Town,
+    config: &CrowdConfig,
+    frames: u32,
+    seed: u64,
+    along: Option<&dyn Fn(DVec2) -> DVec2>,
+) -> Result<(Crowded, Tracks), PedestrianError> {
     let grid = Arc::new(Crowd::grid(town, config)?);
     let clock = Clock::new(frames, SAMPLE_S, 0.1);
     let start_s = thread_cpu_s();
     let crowd = Crowd::new(grid.clone(), config, clock, Seed::of_item(seed, "people", &town.name))?;
+    let crowd = match along {
+        Some(along) => crowd.coming(along),
+        None => crowd,
+    };
     let mut populations = [Box::new(crowd) as Box<dyn Population>];
     let done = simulate(&mut populations, clock, |_| Ok::<_, std::convert::Infallible>(()));
     let traffic = done.unwrap_or_default();

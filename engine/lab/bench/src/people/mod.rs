@@ -5,7 +5,7 @@ mod crowds;
 mod density;
 mod figures;
 
-pub use crowds::{Crowded, crowded};
+pub use crowds::{Crowded, crowded, crowded_along};
 pub use density::{DensityRow, density};
 pub use figures::{Figures, Tracks};
 
@@ -63,12 +63,15 @@ impl fmt::Display for PeopleTable {
         for crowd in &self.crowds {
             writeln!(out, "\n{crowd}")?;
         }
-        writeln!(out, "\nSpeed by density on a ring of pavement, both ways (Weidmann 1993: one way)")?;
-        writeln!(out, "{:>12} {:>12} {:>12}", "people/m2", "m/s", "Weidmann")?;
-        let rows =
-            |row: &DensityRow| writeln!(out, "{:>12.2} {:>12.2} {:>12.2}", row.per_m2, row.speed_mps, row.weidmann_mps);
-        let mut rows = rows;
-        self.density.iter().try_for_each(&mut rows)
+        writeln!(out, "\nSpeed by density on a ring of pavement, m/s (Weidmann 1993: one way)")?;
+        let heads = ["people/m2", "one way", "that way, %", "both ways", "Weidmann", "stuck, %"];
+        heads.iter().try_for_each(|head| write!(out, "{head:>12}"))?;
+        writeln!(out)?;
+        self.density.iter().try_for_each(|row| {
+            let that_way = 100.0 * row.one_way_share;
+            write!(out, "{:>12.2}{:>12.2}{that_way:>12.0}", row.per_m2, row.one_way_mps)?;
+            writeln!(out, "{:>12.2}{:>12.2}{:>12.2}", row.both_ways_mps, row.weidmann_mps, 100.0 * row.stuck)
+        })
     }
 }
 

@@ -30,6 +30,9 @@ pub(super) fn text(phrase: &Phrase) -> String {
     if phrase.names(Property::Backpack) {
         said.push("背着背包".to_owned());
     }
+    if phrase.names(Property::ShoulderBag) {
+        said.push("挎着单肩包".to_owned());
+    }
     let place = phrase.names(Property::Part).then(|| match of.part() {
         Some(Part::Left) => "画面左侧",
         Some(Part::Right) => "画面右侧",

@@ -34,6 +34,9 @@ pub(super) fn text(phrase: &Phrase) -> String {
     if phrase.names(Property::Backpack) {
         words.push("with a backpack".to_owned());
     }
+    if phrase.names(Property::ShoulderBag) {
+        words.push("with a shoulder bag".to_owned());
+    }
     if phrase.names(Property::Part) {
         let place = match of.part() {
             Some(Part::Left) => "on the left",

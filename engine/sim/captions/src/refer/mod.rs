@@ -24,6 +24,8 @@ pub struct Candidate {
     pub trousers: Colour,
     /// Wears a backpack.
     pub backpack: bool,
+    /// Carries a bag at the shoulder.
+    pub shoulder_bag: bool,
     /// Speed, m/s.
     pub speed_mps: f64,
     /// Middle of the visible pixels as a share of the picture's width; `None` where no pixel is visible.
@@ -39,6 +41,8 @@ pub enum Property {
     Trousers,
     /// A backpack.
     Backpack,
+    /// A bag at the shoulder.
+    ShoulderBag,
     /// Moving or standing.
     Motion,
     /// Part of the picture.
@@ -47,7 +51,7 @@ pub enum Property {
 
 impl Property {
     /// All properties; a phrase names the earlier ones rather than the later ones.
-    pub const ALL: [Self; 5] = [Self::Top, Self::Trousers, Self::Backpack, Self::Motion, Self::Part];
+    pub const ALL: [Self; 6] = [Self::Top, Self::Trousers, Self::Backpack, Self::ShoulderBag, Self::Motion, Self::Part];
 
     /// Name in tables.
     pub fn name(self) -> &'static str {
@@ -55,6 +59,7 @@ impl Property {
             Self::Top => "top",
             Self::Trousers => "trousers",
             Self::Backpack => "backpack",
+            Self::ShoulderBag => "shoulder_bag",
             Self::Motion => "motion",
             Self::Part => "part",
         }
@@ -108,6 +113,7 @@ impl Candidate {
             Property::Top => self.kind != BodyKind::Truck,
             Property::Trousers => is_rider,
             Property::Backpack => is_rider && self.backpack,
+            Property::ShoulderBag => self.kind.is_person() && self.shoulder_bag,
             Property::Motion => self.moves().is_some(),
             Property::Part => self.part().is_some(),
         }
@@ -134,6 +140,7 @@ impl Phrase {
             Property::Top => body.top == self.of.top,
             Property::Trousers => body.trousers == self.of.trousers,
             Property::Backpack => body.backpack == self.of.backpack,
+            Property::ShoulderBag => body.shoulder_bag == self.of.shoulder_bag,
             Property::Motion => body.moves().is_none_or(|moves| Some(moves) == self.of.moves()),
             Property::Part => body.part().is_none_or(|part| Some(part) == self.of.part()),
         };
@@ -158,7 +165,8 @@ mod tests {
     use super::*;
 
     fn person(top: Colour, trousers: Colour, backpack: bool, speed_mps: f64, at: f64) -> Candidate {
-        Candidate { kind: BodyKind::Pedestrian, top, trousers, backpack, speed_mps, at: Some(at) }
+        let (kind, shoulder_bag) = (BodyKind::Pedestrian, false);
+        Candidate { kind, top, trousers, backpack, shoulder_bag, speed_mps, at: Some(at) }
     }
 
     fn texts(target: &Candidate, others: &[Candidate]) -> Option<[String; 2]> {
@@ -176,6 +184,11 @@ mod tests {
         assert_eq!(
             texts(&target, &[twin(false, 1.3, 0.1), person(Green, Black, true, 0.0, 0.9)]).unwrap(),
             ["the person in a red top with a backpack", "穿红色上衣、背着背包的人"]
+        );
+        let bag = Candidate { backpack: false, shoulder_bag: true, ..target };
+        assert_eq!(
+            texts(&bag, &[twin(false, 1.3, 0.1)]).unwrap(),
+            ["the person with a shoulder bag", "挎着单肩包的人"]
         );
         assert_eq!(texts(&target, &[twin(true, 0.0, 0.1)]).unwrap(), ["the walking person", "正在行走的人"]);
         assert_eq!(

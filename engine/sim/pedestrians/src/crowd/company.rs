@@ -52,7 +52,8 @@ pub(crate) struct Company {
     /// Free speed of the slowest member, m/s.
     pub cruise_mps: f64,
     pub activity: Activity,
-    piece: u32,
+    /// Number of the piece of ground.
+    pub piece: u32,
     stream: RandomStream,
     /// Distance to the next stop, metres.
     until_stop_m: f64,

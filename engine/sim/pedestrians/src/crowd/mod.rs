@@ -6,6 +6,7 @@
 mod company;
 mod config;
 mod limits;
+mod one_way;
 mod pace;
 mod person;
 mod placing;

@@ -7,6 +7,7 @@ use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_planner::config::muco::MucoConfig;
 use cosfly_planner::obstacles::exact::ExactMap;
+use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes};
 use cosfly_planner::trajectory::Kind;
 use cosfly_planner::trajectory::{Certificate, FramePerturbation, Perturbation, PlanOutcome, Trajectory};
 use cosfly_planner::visibility::aim_point;
@@ -310,5 +311,23 @@ fn twins_keep_clear_of_boxes_that_move() {
         assert!(twin.certificate.min_clearance_m >= config.clearance_m - 1e-9, "{kind:?}");
         let offsets = frames(&twin).iter().map(|frame| frame.drone_offset_in_world.length());
         assert!(kind == Kind::Aim || kind == Kind::Search || offsets.fold(0.0, f64::max) > 0.1, "{kind:?}");
+    }
+}
+
+#[test]
+fn twins_keep_the_separation_from_other_drones() {
+    const SEPARATION_M: f64 = 6.0;
+    let (expert, exact) = (expert(300), BoxBvh::build(vec![]));
+    let place = |pose: &Pose| pose.position_in_world + DVec3::new(0.0, SEPARATION_M + 0.4, 0.0);
+    let other: Vec<DVec3> = expert.poses_in_world.iter().map(place).collect();
+    let movers = [drone_boxes(&other)];
+    for kind in Kind::ALL {
+        let config = only(kind);
+        let drones = OtherDrones { count: 1, separation_m: SEPARATION_M };
+        let map = ExactMap { drones, clearance_m: config.clearance_m, ..ExactMap::among(&exact, &movers) };
+        let PlanOutcome::Planned(twin) = perturb(&expert, "p3", map, &config, seed()) else { panic!("{kind:?}") };
+        let apart = twin.poses_in_world.iter().zip(&other).map(|(pose, other)| pose.position_in_world.distance(*other));
+        let least_m = apart.fold(f64::INFINITY, f64::min);
+        assert!(least_m >= SEPARATION_M - 1e-9, "{kind:?}: {least_m}");
     }
 }

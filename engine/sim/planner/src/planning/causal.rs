@@ -4,6 +4,7 @@
 //! The flight is certified against what really happened. Where that was not what had been predicted, the flight sees less than
 //! its plans promised, or comes too near something and is rejected.
 
+use super::causal_losses::Losses;
 use super::stretches::PlanOne;
 use crate::certificate::{certify, publishable};
 use crate::found::Found;
@@ -34,12 +35,15 @@ pub(super) fn fly(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &PlanOne<
     let mut sum = Certificate::default();
     // The plan in force, from the next frame on: waypoints and the visibility that they were planned to have.
     let mut ahead: Vec<(DVec3, f64)> = Vec::new();
+    let mut losses = Losses::of(request);
     while flown.len() < frames {
         let first = flown.len().saturating_sub(HEAD_FRAMES);
         let now = flown.len().saturating_sub(1);
         let part = Part::predicted(request, first, now, horizon);
-        match plan_one(&part.request(request), &flown[first..]) {
-            Ok(found) => {
+        let mut blind = 0;
+        match losses.plan(&part.request(request), &flown[first..], flown.len(), plan_one) {
+            Ok((found, lost)) => {
+                blind = lost;
                 add(&mut sum, &found.measured.certificate);
                 let planned = found.waypoints.iter().copied().zip(found.measured.visibility);
                 ahead = planned.skip(flown.len() - first).collect();
@@ -52,7 +56,7 @@ pub(super) fn fly(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &PlanOne<
             // The plan in force goes on; with what is known next, there may be another one.
             Err(_) => {}
         }
-        let steps = stride.min(ahead.len()).min(frames - flown.len());
+        let steps = stride.max(blind).min(ahead.len()).min(frames - flown.len());
         for (waypoint, seen) in ahead.drain(..steps) {
             flown.push(waypoint);
             sum.lattice_visibility += seen;
@@ -63,6 +67,7 @@ pub(super) fn fly(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &PlanOne<
     let certificate = &mut measured.certificate;
     certificate.lattice_visibility = sum.lattice_visibility / (frames - head.len()).max(1) as f64;
     certificate.visibility_regret = (certificate.lattice_visibility - certificate.mean_visibility).max(0.0);
+    losses.state(certificate, &measured.visibility);
     (certificate.attempts, certificate.searches) = (sum.attempts, sum.searches);
     (certificate.iterations, certificate.filtered_boxes) = (sum.iterations, sum.filtered_boxes);
     if !publishable(config, certificate) {

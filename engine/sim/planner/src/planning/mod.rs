@@ -7,10 +7,12 @@
 //! hand the problem to the planner that the recipe names            (planners)
 //!   long tracks in stretches                                       (stretches)
 //!   from moment to moment where the future is not known            (causal)
+//!     and blindly while the target is lost on purpose              (causal_losses)
 //! publish what holds, with poses and the costs of all terms        (publish)
 //! ```
 
 mod causal;
+mod causal_losses;
 mod join;
 mod plan;
 mod planners;

@@ -7,6 +7,7 @@ use crate::tables::column::columns;
 use crate::tables::windows::{self, Scene};
 use cosfly_metrics::{Difficulty, WindowFeatures};
 use cosfly_render::Outfit;
+use cosfly_world::Traits;
 
 columns! { Trajectories::IDENTITY of DatasetItem;
     /// Name of the trajectory, unique in the dataset.
@@ -32,6 +33,12 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     target_trousers_colour: Option<String> = |item, _| outfit(item).map(|it| it.trousers.name.name().to_owned());
     /// Whether the target wears a backpack.
     target_has_backpack: Option<bool> = |item, _| outfit(item).map(|it| it.backpack);
+    /// The target's bag: `none`, `backpack` or `shoulder_bag`; null for vehicles and their riders.
+    target_bag: Option<String> = |item, _| traits(item).map(|it| it.bag.name().to_owned());
+    /// The target's build: `slim`, `medium` or `stout`; null for vehicles and their riders.
+    target_build: Option<String> = |item, _| traits(item).map(|it| it.build.name().to_owned());
+    /// The target's steps: `short`, `medium` or `long`; null for vehicles and their riders.
+    target_gait: Option<String> = |item, _| traits(item).map(|it| it.gait.name().to_owned());
     /// Seed of the item, decimal.
     seed: String = |item, _| item.record.seed.to_string();
     /// Number of frames.
@@ -91,6 +98,10 @@ columns! { Trajectories::IDENTITY of DatasetItem;
 fn mean_of_windows(item: &DatasetItem, feature: fn(&WindowFeatures) -> f64) -> Option<f64> {
     let all = windows::all_features(item);
     (!all.is_empty()).then(|| all.iter().map(feature).sum::<f64>() / all.len() as f64)
+}
+
+fn traits(item: &DatasetItem) -> Option<Traits> {
+    outfit(item)?.traits
 }
 
 fn outfit(item: &DatasetItem) -> Option<&Outfit> {
