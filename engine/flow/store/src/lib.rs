@@ -51,6 +51,7 @@ mod records;
 mod remote;
 mod remote_garbage;
 mod scratch;
+mod side_by_side;
 mod sink;
 mod store;
 

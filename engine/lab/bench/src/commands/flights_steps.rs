@@ -211,7 +211,7 @@ fn tag(place: &Place, more: u64) -> Result<String, Refusals> {
         let recipe = cosfly_recipe::load(&place.root.join("flights.toml"), &sets, &registry().map_err(one)?)?;
         let version = record::record(name, &recipe, &sets, &store, "lab").map_err(one)?;
         for earlier in shelf::all(&place.root.join("store")).map_err(one)? {
-            difference::difference(&earlier, &version);
+            difference::difference(&earlier.map_err(one)?, &version);
         }
         shelf::put(&place.root.join("store"), &version).map_err(one)?;
         flights.push(version.flights.len());
