@@ -79,7 +79,7 @@ pub fn get(store: &Path, name: &str) -> Result<Version> {
 ///
 /// # Errors
 /// `machine-io`, or damaged manifests.
-pub fn all(store: &Path) -> Result<impl Iterator<Item = Result<Version>>> {
+pub fn all(store: &Path) -> Result<impl Iterator<Item = Result<Version>> + use<>> {
     let folder = folder(store);
     Ok(names(store)?.into_iter().map(move |name| read(&folder.join(format!("{name}.json")))))
 }

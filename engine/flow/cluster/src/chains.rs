@@ -13,7 +13,8 @@ pub(crate) fn first_stages(recipe: &Recipe, kept: &BTreeSet<usize>, requests: &[
     let mut read: Vec<BTreeSet<usize>> = Vec::with_capacity(recipe.stages.len());
     let mut first: Vec<usize> = Vec::with_capacity(recipe.stages.len());
     for (stage, described) in recipe.stages.iter().enumerate() {
-        let direct: BTreeSet<usize> = described.connections.iter().flat_map(|it| it.upstreams.iter().copied()).collect();
+        let direct: BTreeSet<usize> =
+            described.connections.iter().flat_map(|it| it.upstreams.iter().copied()).collect();
         let begins = described.connections.iter().find_map(|connection| {
             let upstream = aligned(recipe, connection)?;
             let begin = first[upstream];

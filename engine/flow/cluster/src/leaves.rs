@@ -100,7 +100,8 @@ pub fn leaves(
             let arrivals = each.iter().flat_map(|connection| items.iter().flat_map(|it| connection.arrivals_for(*it)));
             let arrivals = arrivals.filter(|arrival| open[arrival.stage][arrival.item]);
             let id = numbers.leaf(stage, items[0]);
-            let leaf = leaves.entry(id).or_insert_with(|| Leaf::empty(id, numbers.first_stages[stage], requests[stage]));
+            let leaf =
+                leaves.entry(id).or_insert_with(|| Leaf::empty(id, numbers.first_stages[stage], requests[stage]));
             leaf.tasks.extend(items.iter().map(|item| (stage, *item)));
             leaf.plans.extend(items.iter().map(|item| plan.stages[stage].plans[*item]));
             let before = arrivals.map(|arrival| numbers.leaf(arrival.stage, arrival.item));

@@ -140,7 +140,10 @@ fn cheap_stages_whose_items_read_each_other_share_commands() {
     let found: Vec<_> = shape(&leaves).into_iter().map(|(id, name, deps)| (id, name.to_owned(), deps)).collect();
     assert_eq!(found.len(), expected.len(), "{found:?}");
     for ((_, name, deps), (_, expected, before)) in found.iter().zip(expected) {
-        assert_eq!((name.replace("i00000 + 0", "all").replace("town/i00000", "town/all"), deps.len()), (expected.to_owned(), before.len()));
+        assert_eq!(
+            (name.replace("i00000 + 0", "all").replace("town/i00000", "town/all"), deps.len()),
+            (expected.to_owned(), before.len())
+        );
     }
     let first = &leaves[1];
     assert_eq!(first.tasks, [1, 2, 3].iter().flat_map(|stage| (0..3).map(|item| (*stage, item))).collect::<Vec<_>>());

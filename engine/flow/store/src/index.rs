@@ -447,7 +447,8 @@ mod tests {
 
     #[test]
     fn an_index_that_was_cut_or_edited_is_passed_over() {
-        let (root, entries) = store_with_index();
+        let (root, mut entries) = store_with_index();
+        entries.sort_by_key(|(plan, _)| *plan);
         let path = root.path().join("index/r");
         let bytes = fs::read(&path).unwrap();
         let read = decode(&bytes).unwrap().entries;
