@@ -6,10 +6,11 @@
 
 use crate::fault::Step;
 use crate::layout::{Area, Layout};
+use crate::present::Present;
 use crate::records::{ActionRecord, Finished};
 use crate::store::Store;
 use cosfly_blobs::BlobRef;
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
 use cosfly_stage::Produced;
 use std::collections::BTreeMap;
@@ -216,31 +217,6 @@ fn firsts(entries: &[(Digest, Entry)]) -> Vec<u32> {
         Some(*sum)
     }));
     firsts
-}
-
-/// Files of an area by the first bytes of their digests, sorted: eight bytes a file.
-struct Present(Vec<u64>);
-
-impl Present {
-    fn of(store: &Store, area: Area) -> Result<Self> {
-        let mut heads = Vec::new();
-        for shard in 0..=u8::MAX {
-            let digests = store.layout.list_shard(area, shard).map_err(|error| {
-                Diagnostic::io(format!("list `{}`", store.layout.folder(area.folder()).display()), &error)
-            })?;
-            heads.extend(digests.iter().map(head));
-        }
-        Ok(Self(heads))
-    }
-
-    fn holds(&self, digest: &Digest) -> bool {
-        self.0.binary_search(&head(digest)).is_ok()
-    }
-}
-
-fn head(digest: &Digest) -> u64 {
-    let (heads, _) = digest.0.as_chunks::<8>();
-    u64::from_be_bytes(heads[0])
 }
 
 /// Times of last change of the folders of an area; 0 for absent ones.

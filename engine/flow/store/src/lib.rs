@@ -47,6 +47,7 @@ mod materialise;
 mod mutex;
 mod names;
 mod places;
+mod present;
 mod records;
 mod remote;
 mod remote_garbage;
