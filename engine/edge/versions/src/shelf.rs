@@ -3,7 +3,9 @@
 use crate::version::{SCHEMA, Version};
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_fingerprint::Digest;
-use std::io::Write;
+use serde::Deserialize;
+use serde_json::Value;
+use std::io::{BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Longest manifest, bytes.
@@ -41,11 +43,15 @@ pub fn put(store: &Path, version: &Version) -> Result<()> {
         return Err(Diagnostic::new("version-taken", Fault::Recipe, message)
             .hint("choose another name: a version never changes"));
     }
-    let text = serde_json::to_string_pretty(version).expect("a manifest is plain data") + "\n";
     let failed = |error: std::io::Error| Diagnostic::io(format!("write `{}`", path.display()), &error);
     std::fs::create_dir_all(&folder).map_err(failed)?;
     let mut file = tempfile::NamedTempFile::new_in(&folder).map_err(failed)?;
-    file.write_all(text.as_bytes()).and_then(|()| file.as_file().sync_all()).map_err(failed)?;
+    // Written piece by piece: the manifest of a hundred thousand flights has a hundred megabytes.
+    let mut writer = BufWriter::new(&mut file);
+    let written = serde_json::to_writer_pretty(&mut writer, version).map_err(std::io::Error::from);
+    written.and_then(|()| writer.write_all(b"\n")).and_then(|()| writer.flush()).map_err(failed)?;
+    drop(writer);
+    file.as_file().sync_all().map_err(failed)?;
     file.persist_noclobber(&path).map_err(|error| failed(error.error))?;
     Ok(())
 }
@@ -69,12 +75,13 @@ pub fn get(store: &Path, name: &str) -> Result<Version> {
     })
 }
 
-/// Reads all versions, in the order of their names.
+/// All versions, in the order of their names, each read when it is its turn.
 ///
 /// # Errors
 /// `machine-io`, or damaged manifests.
-pub fn all(store: &Path) -> Result<Vec<Version>> {
-    names(store)?.iter().map(|name| read(&folder(store).join(format!("{name}.json")))).collect()
+pub fn all(store: &Path) -> Result<impl Iterator<Item = Result<Version>> + use<>> {
+    let folder = folder(store);
+    Ok(names(store)?.into_iter().map(move |name| read(&folder.join(format!("{name}.json")))))
 }
 
 /// Finds the version with exactly the files of a delivered folder, by the digest in the folder's marker.
@@ -82,7 +89,7 @@ pub fn all(store: &Path) -> Result<Vec<Version>> {
 /// # Errors
 /// The errors of [`all`].
 pub fn of_content(store: &Path, content: &Digest) -> Result<Option<Version>> {
-    Ok(all(store)?.into_iter().find(|version| version.content == *content))
+    all(store)?.find(|version| version.as_ref().map_or(true, |version| version.content == *content)).transpose()
 }
 
 fn names(store: &Path) -> Result<Vec<String>> {
@@ -111,10 +118,21 @@ fn read(path: &Path) -> Result<Version> {
     if size > LIMIT {
         return Err(damaged(format!("it has {size} bytes")));
     }
-    let bytes = std::fs::read(path).map_err(failed)?;
-    let tree: serde_json::Value = serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string()))?;
-    match tree["schema"].as_str() {
-        Some(SCHEMA) => serde_json::from_value(tree).map_err(|error| damaged(error.to_string())),
-        other => Err(damaged(format!("its schema is {other:?}; this cosfly reads `{SCHEMA}`"))),
+    let open = || std::fs::File::open(path).map(BufReader::new).map_err(failed);
+    let head: Head = serde_json::from_reader(open()?).map_err(|error| damaged(error.to_string()))?;
+    match head.schema {
+        Some(Value::String(schema)) if schema == SCHEMA => {
+            serde_json::from_reader(open()?).map_err(|error| damaged(error.to_string()))
+        }
+        other => {
+            let other = other.as_ref().and_then(Value::as_str);
+            Err(damaged(format!("its schema is {other:?}; this cosfly reads `{SCHEMA}`")))
+        }
     }
+}
+
+/// What tells whether a manifest can be read; all else is passed over.
+#[derive(Deserialize)]
+struct Head {
+    schema: Option<Value>,
 }

@@ -3,8 +3,12 @@
 use cosfly_stage::{ItemId, StageName};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::cmp::Ordering;
 use std::fmt;
+
+/// Most names of stages that are kept for sharing.
+const MOST_SHARED: usize = 64;
 
 /// Name of a task, `expert/p00003` as text. The item is known by its text only.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,10 +60,29 @@ impl<'de> Deserialize<'de> for TaskName {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = Cow::<'de, str>::deserialize(deserializer)?;
         match text.split_once('/') {
-            Some((stage, item)) => Ok(Self { stage: StageName::read(stage), item: item.to_owned() }),
+            Some((stage, item)) => Ok(Self { stage: shared(stage), item: item.to_owned() }),
             None => Err(D::Error::custom(format!("`{text}` does not name a task: it has no `/`"))),
         }
     }
+}
+
+/// The name of a stage, in the memory of the name that was read before: a manifest has hundreds of thousands of tasks of a few
+/// stages.
+fn shared(stage: &str) -> StageName {
+    thread_local! {
+        static KNOWN: RefCell<Vec<StageName>> = const { RefCell::new(Vec::new()) };
+    }
+    KNOWN.with_borrow_mut(|known| {
+        if let Some(name) = known.iter().find(|name| name.as_str() == stage) {
+            return name.clone();
+        }
+        if known.len() == MOST_SHARED {
+            known.clear();
+        }
+        let name = StageName::read(stage);
+        known.push(name.clone());
+        name
+    })
 }
 
 #[cfg(test)]

@@ -123,7 +123,9 @@ impl Driver<'_> {
 
     /// Name of the job: the same for every driver of the same plan, requests and store, so that leaves have the same numbers.
     fn job_name(&self, plan: &Plan<'_>, requests: &[Request]) -> String {
-        let mut bytes: Vec<u8> = self.command.store.clone().into_bytes();
+        // Raised where leaves of the same plan and requests get other tasks than before.
+        let mut bytes: Vec<u8> = b"leaves 2 ".to_vec();
+        bytes.extend(self.command.store.bytes());
         bytes.extend(format!("{requests:?}").bytes());
         plan.stages.iter().for_each(|stage| stage.plans.iter().for_each(|digest| bytes.extend(digest.0)));
         format!("cosfly-{}-{}", self.recipe.name, Digest::of(&bytes).short())
@@ -172,7 +174,7 @@ impl Driver<'_> {
         }
         for (id, words) in self.patiently(|| hq.failed(wave.job))? {
             let Some(leaf) = wave.leaves.get(&id) else { continue };
-            leaf.items.iter().for_each(|item| told.ended_badly(wave.plan, leaf.stage, *item, &words));
+            leaf.tasks.iter().for_each(|(stage, item)| told.ended_badly(wave.plan, *stage, *item, &words));
         }
         Ok(())
     }
@@ -185,7 +187,7 @@ impl Driver<'_> {
     /// Reports the tasks of a finished leaf; true where all are in the store.
     fn see(&self, wave: &Wave<'_, '_>, id: u32, told: &mut Told<'_>) -> bool {
         let Some(leaf) = wave.leaves.get(&id) else { return true };
-        let absent = leaf.items.iter().filter(|item| !told.finished(wave.plan, leaf.stage, **item)).count();
+        let absent = leaf.tasks.iter().filter(|(stage, item)| !told.finished(wave.plan, *stage, *item)).count();
         absent == 0
     }
 

@@ -1,33 +1,40 @@
 //! The unfinished tasks of a plan as commands with dependencies.
 //!
-//! A *leaf* is one command: some tasks of one stage. Numbers of leaves depend on the recipe and the requests alone, so that
+//! A *leaf* is one command: some tasks of one stage, or of a chain of cheap stages. Numbers of leaves depend on the recipe and the requests alone, so that
 //! a driver that is started again gives the same leaf the same number, whatever is finished by then. Where many leaves read
 //! many others, a *barrier* stands between them: a leaf without tasks, so that the number of dependencies stays small.
 
+use crate::chains::first_stages;
 use crate::request::Request;
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::Connection;
 use cosfly_runner::Plan;
 use cosfly_stage::Fan;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A command with its dependencies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Leaf {
     /// Number, from 1.
     pub id: u32,
-    /// First item, as `stage/item`, and the number of the others; or the stage that a barrier waits for.
+    /// First task, as `stage/item`, and the number of the others; or the stage that a barrier waits for.
     pub name: String,
-    /// Stage, as an index into the recipe's stages.
+    /// First stage, as an index into the recipe's stages.
     pub stage: usize,
-    /// Items of that stage, as indices; none in a barrier.
-    pub items: Vec<usize>,
-    /// Plan digests of the items.
+    /// Tasks as indices of stages and items, those that others read first; none in a barrier.
+    pub tasks: Vec<(usize, usize)>,
+    /// Plan digests of the tasks.
     pub plans: Vec<Digest>,
     /// Leaves that must end first, sorted.
     pub deps: Vec<u32>,
     /// Resources.
     pub request: Request,
+}
+
+impl Leaf {
+    fn empty(id: u32, stage: usize, request: Request) -> Self {
+        Self { id, name: String::new(), stage, tasks: Vec::new(), plans: Vec::new(), deps: Vec::new(), request }
+    }
 }
 
 /// Parts of the command of a leaf that are the same for all.
@@ -67,10 +74,12 @@ pub fn leaves(
     failed: impl Fn(&Digest) -> bool,
     requests: &[Request],
 ) -> Vec<Leaf> {
-    let numbers = Numbers::new(plan, requests);
+    let first_stages = first_stages(plan.recipe, kept, requests);
+    let numbers = Numbers::new(plan, requests, first_stages);
     let open = open_tasks(plan, kept, failed);
     let is_open = |stage: usize| open[stage].iter().any(|is_open| *is_open);
-    let mut leaves = Vec::new();
+    // By number.
+    let mut leaves: BTreeMap<u32, Leaf> = BTreeMap::new();
     let mut barriers = BTreeSet::new();
     for (stage, tasks) in open.iter().enumerate() {
         let items: Vec<usize> = (0..tasks.len()).filter(|item| tasks[*item]).collect();
@@ -90,36 +99,32 @@ pub fn leaves(
         for items in items.chunk_by(|a, b| numbers.leaf(stage, *a) == numbers.leaf(stage, *b)) {
             let arrivals = each.iter().flat_map(|connection| items.iter().flat_map(|it| connection.arrivals_for(*it)));
             let arrivals = arrivals.filter(|arrival| open[arrival.stage][arrival.item]);
-            let mut deps = shared.clone();
-            deps.extend(arrivals.map(|arrival| numbers.leaf(arrival.stage, arrival.item)));
-            leaves.push(Leaf {
-                id: numbers.leaf(stage, items[0]),
-                name: leaf_name(plan, stage, items),
-                stage,
-                items: items.to_vec(),
-                plans: items.iter().map(|item| plan.stages[stage].plans[*item]).collect(),
-                deps: deps.into_iter().collect(),
-                request: requests[stage],
-            });
+            let id = numbers.leaf(stage, items[0]);
+            let leaf =
+                leaves.entry(id).or_insert_with(|| Leaf::empty(id, numbers.first_stages[stage], requests[stage]));
+            leaf.tasks.extend(items.iter().map(|item| (stage, *item)));
+            leaf.plans.extend(items.iter().map(|item| plan.stages[stage].plans[*item]));
+            let before = arrivals.map(|arrival| numbers.leaf(arrival.stage, arrival.item));
+            let deps: BTreeSet<u32> = leaf.deps.iter().copied().chain(shared.iter().copied()).chain(before).collect();
+            leaf.deps = deps.into_iter().filter(|dep| *dep != id).collect();
         }
     }
+    let mut leaves: Vec<Leaf> = leaves.into_values().collect();
+    leaves.iter_mut().for_each(|leaf| leaf.name = leaf_name(plan, &leaf.tasks));
     leaves.extend(barriers.into_iter().map(|stage| Leaf {
         id: numbers.barrier(stage),
         name: format!("all of {}", plan.stages[stage].name),
-        stage,
-        items: Vec::new(),
-        plans: Vec::new(),
         deps: numbers.open_leaves(stage, &open[stage]).into_iter().collect(),
-        request: Request::default(),
+        ..Leaf::empty(0, stage, Request::default())
     }));
     // What others depend on comes first.
-    leaves.sort_by_key(|leaf| (leaf.stage, leaf.items.is_empty()));
+    leaves.sort_by_key(|leaf| (leaf.stage, leaf.tasks.is_empty()));
     leaves
 }
 
-fn leaf_name(plan: &Plan<'_>, stage: usize, items: &[usize]) -> String {
-    let more = if items.len() > 1 { format!(" + {}", items.len() - 1) } else { String::new() };
-    format!("{}{more}", plan.recipe.id(stage, items[0]))
+fn leaf_name(plan: &Plan<'_>, tasks: &[(usize, usize)]) -> String {
+    let more = if tasks.len() > 1 { format!(" + {}", tasks.len() - 1) } else { String::new() };
+    tasks.first().map_or_else(String::new, |(stage, item)| format!("{}{more}", plan.recipe.id(*stage, *item)))
 }
 
 /// Whether items of the stage read items of their own through a connection.
@@ -154,21 +159,23 @@ struct Numbers {
     /// First leaf of each stage; then the first barrier.
     first: Vec<u32>,
     batch: Vec<usize>,
+    /// First stage of the chain of each stage.
+    first_stages: Vec<usize>,
 }
 
 impl Numbers {
-    fn new(plan: &Plan<'_>, requests: &[Request]) -> Self {
+    fn new(plan: &Plan<'_>, requests: &[Request], first_stages: Vec<usize>) -> Self {
         let batch: Vec<usize> = requests.iter().map(|request| request.batch.max(1) as usize).collect();
         let mut first = vec![1_u32];
         for (stage, batch) in plan.stages.iter().zip(&batch) {
             let leaves = u32::try_from(stage.plans.len().div_ceil(*batch)).unwrap_or(u32::MAX);
             first.push(first[first.len() - 1].saturating_add(leaves));
         }
-        Self { first, batch }
+        Self { first, batch, first_stages }
     }
 
     fn leaf(&self, stage: usize, item: usize) -> u32 {
-        self.first[stage] + (item / self.batch[stage]) as u32
+        self.first[self.first_stages[stage]] + (item / self.batch[stage]) as u32
     }
 
     fn barrier(&self, stage: usize) -> u32 {

@@ -7,6 +7,7 @@
 //! * [`job_file`], [`Hq`], [`Driver`]: HyperQueue.
 //! * [`slurm_script`]: HyperQueue within one allocation of Slurm.
 
+mod chains;
 mod driver;
 mod emit;
 mod hq;

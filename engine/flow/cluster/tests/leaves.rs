@@ -47,7 +47,7 @@ fn assert_well_formed(leaves: &[Leaf]) {
     for leaf in leaves {
         assert!(leaf.deps.iter().all(|dep| before.contains(dep)), "{leaf:?}");
         assert!(leaf.deps.is_sorted() && before.insert(leaf.id), "{leaf:?}");
-        assert_eq!(leaf.items.len(), leaf.plans.len());
+        assert_eq!(leaf.tasks.len(), leaf.plans.len());
     }
 }
 
@@ -106,6 +106,50 @@ fn a_thousand_leaves_that_read_a_thousand_have_few_dependencies() {
     assert_eq!(leaves.iter().map(|leaf| leaf.deps.len()).sum::<usize>(), 2000);
 }
 
+#[test]
+fn cheap_stages_whose_items_read_each_other_share_commands() {
+    let (_folder, store) = store();
+    let toys = [
+        Toy::new("town", 1, &[]),
+        Toy::new("walks", 5, &[(0, Fan::Broadcast)]),
+        Toy::new("expert", 0, &[(1, Fan::Each), (0, Fan::Broadcast)]),
+        Toy::new("twins", 0, &[(2, Fan::Each), (1, Fan::Each)]),
+        Toy::new("critics", 5, &[(2, Fan::Gather)]),
+        // Reads all of a stage that is not finished before the chain begins.
+        Toy::new("scores", 0, &[(3, Fan::Each), (4, Fan::Gather)]),
+    ];
+    let recipe = toy_recipe("toys", 7, &toys).unwrap();
+    let shape_of = |change: &str| {
+        let requests = requests_of(&recipe, |_| Request::default(), &[RequestChange::read(change).unwrap()]).unwrap();
+        let leaves = leaves(&plan(&recipe, &store).unwrap(), &BTreeSet::new(), |_| false, &requests);
+        assert_well_formed(&leaves);
+        leaves
+    };
+    let expected = [
+        (1, "town/all", vec![]),
+        (2, "walks/i00000 + 8", vec![1]),
+        (3, "walks/i00003 + 5", vec![1]),
+        (20, "all of expert", vec![2, 3]),
+        (8, "critics/i00000 + 2", vec![20]),
+        (9, "critics/i00003 + 1", vec![20]),
+        (22, "all of critics", vec![8, 9]),
+        (10, "scores/i00000 + 2", vec![2, 22]),
+        (11, "scores/i00003 + 1", vec![3, 22]),
+    ];
+    let leaves = shape_of("*:batch=3");
+    let found: Vec<_> = shape(&leaves).into_iter().map(|(id, name, deps)| (id, name.to_owned(), deps)).collect();
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for ((_, name, deps), (_, expected, before)) in found.iter().zip(expected) {
+        assert_eq!(
+            (name.replace("i00000 + 0", "all").replace("town/i00000", "town/all"), deps.len()),
+            (expected.to_owned(), before.len())
+        );
+    }
+    let first = &leaves[1];
+    assert_eq!(first.tasks, [1, 2, 3].iter().flat_map(|stage| (0..3).map(|item| (*stage, item))).collect::<Vec<_>>());
+    assert_eq!(shape_of("*:batch=1").iter().filter(|leaf| !leaf.tasks.is_empty()).count(), 26);
+}
+
 fn command() -> Command {
     Command { program: vec!["/opt/a \"b\"/cosfly".to_owned()], store: "/shared/store".to_owned() }
 }
@@ -115,7 +159,7 @@ fn with_short_digests(mut text: String, leaves: &[Leaf]) -> String {
     let digests: BTreeMap<Digest, String> = leaves
         .iter()
         .flat_map(|leaf| {
-            leaf.plans.iter().zip(&leaf.items).map(move |(plan, item)| (*plan, format!("{}.{item}", leaf.id)))
+            leaf.plans.iter().zip(&leaf.tasks).map(move |(plan, (_, item))| (*plan, format!("{}.{item}", leaf.id)))
         })
         .collect();
     for (digest, word) in digests {

@@ -2,6 +2,7 @@
 
 use crate::model::{Arrival, RecipeStage};
 use cosfly_stage::{ItemName, ItemRule};
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, btree_map::Entry};
 
 /// Stage and item, as indices.
@@ -10,16 +11,24 @@ type Origin = (usize, usize);
 /// Groups of the items at one port.
 #[derive(Default)]
 pub(crate) struct Groups {
-    /// Group of each item by its name in its own stage and by its name at the port.
-    of_name: BTreeMap<ItemName, usize>,
-    /// Group of the items of which the port has variants.
-    of_original: BTreeMap<ItemName, usize>,
+    /// Name at the port, name in its own stage and group of each item, in the order of the port.
+    leading: Vec<(ItemName, ItemName, usize)>,
+    /// Groups by name, made where another port has its items in another order.
+    by_name: OnceCell<ByName>,
     /// Group of the items that began as the first, the second ... `size` items of a stage.
     of_origin: BTreeMap<(usize, u64), usize>,
     /// Successive items of a stage in a group, at least 1.
     size: u64,
     /// Names, in the order of the groups.
     pub(crate) names: Vec<ItemName>,
+}
+
+/// Groups of items by their names.
+struct ByName {
+    /// Group of each item by its name in its own stage and by its name at the port.
+    of_name: BTreeMap<ItemName, usize>,
+    /// Group of the items of which the port has variants.
+    of_original: BTreeMap<ItemName, usize>,
 }
 
 /// Item that an item began as: where a stage has an item for each one of another stage, that one, and so on.
@@ -55,25 +64,29 @@ impl Groups {
                     *vacant.insert(next)
                 }
             };
-            let own_name = &done[arrival.stage].items[arrival.item];
-            groups.of_name.insert(arrival.name.clone(), group);
-            groups.of_name.entry(own_name.clone()).or_insert(group);
-            for name in [&arrival.name, own_name] {
-                for original in std::iter::successors(name.without_variant(), ItemName::without_variant) {
-                    groups.of_original.entry(original).or_insert(group);
-                }
-            }
+            groups.leading.push((arrival.name.clone(), done[arrival.stage].items[arrival.item].clone(), group));
         }
         groups
+    }
+
+    /// Group of the item called `name` at the place `index` of its port; ports mostly have the order of the leading one.
+    fn named(&self, index: usize, name: &ItemName) -> Option<usize> {
+        match self.leading.get(index) {
+            Some((leading, _, group)) if leading == name => Some(*group),
+            _ => {
+                let by_name = self.by_name.get_or_init(|| ByName::of(&self.leading));
+                by_name.of_name.get(name).or_else(|| by_name.of_original.get(name)).copied()
+            }
+        }
     }
 
     /// Arrivals by group, and where each group begins. An item of which the leading port has only a variant is in the group
     /// of that; items that the leading port does not have are left out.
     pub(crate) fn sorted(&self, done: &[RecipeStage], arrivals: Vec<Arrival>) -> (Vec<Arrival>, Vec<usize>) {
-        let known = |name: &ItemName| self.of_name.get(name).or_else(|| self.of_original.get(name)).copied();
         let mut members: Vec<Vec<Arrival>> = vec![vec![]; self.names.len()];
-        for arrival in arrivals {
-            let named = known(&arrival.name).or_else(|| known(&done[arrival.stage].items[arrival.item]));
+        for (index, arrival) in arrivals.into_iter().enumerate() {
+            let own_name = || &done[arrival.stage].items[arrival.item];
+            let named = self.named(index, &arrival.name).or_else(|| self.named(index, own_name()));
             // Items of two stages may have one name; the items that they began as tell them apart.
             let (stage, item) = origin(done, (arrival.stage, arrival.item));
             let begun = self.of_origin.get(&(stage, item as u64 / self.size));
@@ -87,5 +100,21 @@ impl Groups {
             Some(*end)
         }));
         (members.into_iter().flatten().collect(), bounds)
+    }
+}
+
+impl ByName {
+    fn of(leading: &[(ItemName, ItemName, usize)]) -> Self {
+        let mut groups = Self { of_name: BTreeMap::new(), of_original: BTreeMap::new() };
+        for (name, own_name, group) in leading {
+            groups.of_name.insert(name.clone(), *group);
+            groups.of_name.entry(own_name.clone()).or_insert(*group);
+            for name in [name, own_name] {
+                for original in std::iter::successors(name.without_variant(), ItemName::without_variant) {
+                    groups.of_original.entry(original).or_insert(*group);
+                }
+            }
+        }
+        groups
     }
 }

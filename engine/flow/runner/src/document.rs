@@ -156,7 +156,10 @@ pub(crate) fn plan_document<'a, I: Iterator<Item = PlannedInput<'a>>>(
     ports: &[PortDocument],
     each: impl Fn(usize) -> I,
 ) -> String {
-    let mut text = format!("{{\"definition\":\"{definition}\",\"inputs\":{{");
+    let mut text = String::with_capacity(512);
+    text.push_str("{\"definition\":\"");
+    push_digest(&mut text, definition);
+    text.push_str("\",\"inputs\":{");
     for (index, port) in ports.iter().enumerate() {
         text.push_str(comma(index));
         push_quoted(&mut text, &port.port());
@@ -185,7 +188,9 @@ fn push_list<'a>(text: &mut String, inputs: impl Iterator<Item = PlannedInput<'a
         push_quoted(text, input.name);
         text.push_str(",\"item\":");
         push_quoted(text, input.item);
-        let _ = write!(text, ",\"plan\":\"{}\",\"stage\":", input.plan);
+        text.push_str(",\"plan\":\"");
+        push_digest(text, &input.plan);
+        text.push_str("\",\"stage\":");
         push_quoted(text, input.stage);
         text.push('}');
     }
@@ -194,6 +199,15 @@ fn push_list<'a>(text: &mut String, inputs: impl Iterator<Item = PlannedInput<'a
 
 fn comma(index: usize) -> &'static str {
     if index == 0 { "" } else { "," }
+}
+
+/// Appends the hex digits of a digest: there are two or more for each item of a recipe.
+fn push_digest(text: &mut String, digest: &Digest) {
+    const DIGITS: &[u8; 16] = b"0123456789abcdef";
+    for byte in digest.0 {
+        text.push(char::from(DIGITS[usize::from(byte >> 4)]));
+        text.push(char::from(DIGITS[usize::from(byte & 15)]));
+    }
 }
 
 /// Appends a value as a JSON string. Names are almost always plain, and there are many of them.

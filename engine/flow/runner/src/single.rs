@@ -11,7 +11,7 @@ use crate::workers::thread_pool;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::{Digest, canonical_json};
 use cosfly_stage::{Artifact, ItemId, ItemName, Ports, Registry, Stage, StageName, Work};
-use cosfly_store::Store;
+use cosfly_store::{Finished, Store};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -22,8 +22,8 @@ use std::time::{Duration, Instant};
 
 /// Pause before a task that another process is working on is tried again.
 const LOOK_AGAIN: Duration = Duration::from_millis(50);
-/// Settled tasks that are made durable together.
-const GROUP: usize = 64;
+/// Settled tasks that are made durable together; each holds a lock, that is an open file.
+const GROUP: usize = 256;
 /// Time after which settled tasks are made durable, so that a killed process loses little.
 const GROUP_TIME: Duration = Duration::from_secs(5);
 
@@ -55,10 +55,13 @@ pub fn run_tasks(
         tasks.run(index, plan);
     }
     tasks.publish();
+    let mut has_failed = false;
     for (plan, end) in plans.iter().zip(&tasks.ends) {
-        if let Err(failure) = end
-            && failure.fault != Fault::Stopped
-        {
+        let Err(failure) = end else { continue };
+        // What reads a failed task is not tried: it has no failure of its own.
+        let follows = has_failed && failure.code == "task-input-missing";
+        has_failed = true;
+        if failure.fault != Fault::Stopped && !follows {
             // The caller gets the failure anyway.
             let _ = store.put_failure(plan, failure);
         }
@@ -99,12 +102,7 @@ struct Tasks<'s> {
 impl Tasks<'_> {
     fn run(&mut self, index: usize, plan: &Digest) {
         self.store.forget_failure(plan);
-        let mut settled = self.attempt(index, plan);
-        // What it reads may be among the tasks before it.
-        if settled.as_ref().is_err_and(|failure| failure.code == "task-input-missing") && !self.settled.is_empty() {
-            self.publish();
-            settled = self.attempt(index, plan);
-        }
+        let settled = self.attempt(index, plan);
         // Nothing is missing where the remote refused to tell.
         match settled.map_err(|failure| self.store.check_remote().err().unwrap_or(failure)) {
             Ok(settled) => self.settled.extend(settled),
@@ -141,7 +139,13 @@ impl Tasks<'_> {
         let of = self.definition(plan, &stored.definition)?;
         let missing = || input_missing(&of.name, &stored.item);
         let item = self.names.of_task(plan).ok_or_else(missing)?;
-        let ports = read_inputs(store, &*of.stage, &stored, &item, &mut self.names)?.ok_or_else(missing)?;
+        // What it reads may be among the tasks before it, and not be published yet.
+        let settled = &self.settled;
+        let finished = |plan: &Digest| {
+            let before = settled.iter().rev().find(|it| it.plan == *plan);
+            before.map(|it| it.settlement.finished.clone()).or_else(|| store.finished(plan))
+        };
+        let ports = read_inputs(&finished, &*of.stage, &stored, &item, &mut self.names)?.ok_or_else(missing)?;
         let task = Task {
             plan: *plan,
             stage: &*of.stage,
@@ -215,7 +219,7 @@ fn read_sources(build: &Value) -> Result<Vec<HashedSource>> {
 
 /// Inputs by port; `None` where a document behind the name of an input is missing or damaged.
 fn read_inputs(
-    store: &Store,
+    finished: &impl Fn(&Digest) -> Option<Finished>,
     stage: &dyn Stage,
     stored: &StoredPlan,
     reader: &ItemName,
@@ -232,7 +236,7 @@ fn read_inputs(
         let mut artifacts = Vec::with_capacity(inputs.len());
         for input in inputs {
             let upstream = StageName::read(&input.stage);
-            let finished = store.finished(&input.plan).ok_or_else(|| input_missing(&upstream, &input.item))?;
+            let finished = finished(&input.plan).ok_or_else(|| input_missing(&upstream, &input.item))?;
             let (Some(item), Some(name)) = (names.of_task(&input.plan), names.at_port(input)) else { return Ok(None) };
             let blobs = seen_by(reader, port.sees, Arc::clone(&finished.record.outputs));
             artifacts.push(Artifact { id: ItemId { stage: upstream, item }, name, blobs });

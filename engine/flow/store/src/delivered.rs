@@ -4,7 +4,9 @@
 
 use crate::fault::Step;
 use crate::history::{seal, unsealed};
+use crate::side_by_side::side_by_side;
 use crate::store::Store;
+use cosfly_blobs::BlobRef;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
 use cosfly_stage::Blobs;
@@ -32,8 +34,10 @@ pub(crate) struct Delivered {
 impl Delivered {
     /// Stamps of the files of `folder` now, which hold `blobs` by name; absent files are left out.
     pub(crate) fn look(version: Digest, folder: &Path, blobs: &Blobs) -> Self {
-        let files =
-            blobs.iter().filter_map(|(name, blob)| Some((name.clone(), (blob.digest, stamp(&folder.join(name))?))));
+        let blobs: Vec<(&String, &BlobRef)> = blobs.iter().collect();
+        let stamps = side_by_side(&blobs, |(name, _)| stamp(&folder.join(name)));
+        let files = blobs.into_iter().zip(stamps);
+        let files = files.filter_map(|((name, blob), stamp)| Some((name.clone(), (blob.digest, stamp?))));
         Self { version, files: files.collect() }
     }
 
@@ -130,7 +134,6 @@ fn stamp(path: &Path) -> Option<Stamp> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_blobs::BlobRef;
 
     #[test]
     fn a_record_reads_back_and_a_damaged_one_is_passed_over() {

@@ -6,6 +6,7 @@
 
 use crate::fault::Step;
 use crate::layout::{Area, Layout};
+use crate::present::Present;
 use crate::records::{ActionRecord, Finished};
 use crate::store::Store;
 use cosfly_blobs::BlobRef;
@@ -37,6 +38,8 @@ pub struct KnownTasks<'s> {
     run: Option<Digest>,
     /// Results sorted by plan digest.
     entries: Vec<(Digest, Entry)>,
+    /// First entry of each pair of first bytes of a digest, and the number of all.
+    firsts: Vec<u32>,
     /// Per folder: whether no file went missing since the index was written.
     done_is_whole: Vec<bool>,
     blobs_are_whole: Vec<bool>,
@@ -75,7 +78,8 @@ impl Store {
     pub fn known_tasks(&self, recipe: &str) -> KnownTasks<'_> {
         let bytes = fs::read(self.layout.folder("index").join(recipe)).unwrap_or_default();
         let mut index = decode(&bytes).unwrap_or_default();
-        index.entries.sort_unstable_by_key(|(plan, _)| *plan);
+        // They are sorted already: a file with others was edited.
+        index.entries.sort_by_key(|(plan, _)| *plan);
         let whole = |area, old: &Stamps| -> Vec<bool> {
             if old.len() != SHARDS {
                 return vec![false; SHARDS];
@@ -88,6 +92,7 @@ impl Store {
             run: index.run,
             done_is_whole: whole(Area::Done, &index.done_stamps),
             blobs_are_whole: whole(Area::Blobs, &index.blob_stamps),
+            firsts: firsts(&index.entries),
             entries: index.entries,
             done: (0..SHARDS).map(|_| OnceLock::new()).collect(),
             missed: AtomicBool::new(false),
@@ -110,13 +115,21 @@ impl Store {
         };
         let done_stamps = reliable(stamps(&self.layout, Area::Done));
         let blob_stamps = reliable(stamps(&self.layout, Area::Blobs));
-        let there = |plan: &Digest, finished: &Finished, removable: &[&str]| {
-            fs::symlink_metadata(self.layout.file(Area::Done, plan)).is_ok()
-                && self.holds_lasting(&finished.record, removable)
+        // Folders are listed, which costs a tenth of a look at each file. Sizes are checked where blobs are read.
+        let (done, blobs) = (Present::of(self, Area::Done)?, Present::of(self, Area::Blobs)?);
+        let there = |(plan, finished, removable): (&'e Digest, &'e Finished, &'e [&'e str])| {
+            let (mut lasts, mut whole) = (done.holds(plan), true);
+            for (name, blob) in finished.record.outputs.iter() {
+                if !blobs.holds(&blob.digest) && !self.remote_holds(&blob.digest) {
+                    whole = false;
+                    lasts &= removable.contains(&name.as_str());
+                }
+            }
+            lasts.then_some((plan, finished, whole))
         };
-        let entries = entries.filter(|(plan, finished, removable)| there(plan, finished, removable));
-        let entries = entries.map(|(plan, finished, _)| (plan, finished, self.holds(&finished.record)));
-        let bytes = encode(run, &done_stamps, &blob_stamps, entries);
+        let mut entries: Vec<_> = entries.filter_map(there).collect();
+        entries.sort_unstable_by_key(|(plan, ..)| **plan);
+        let bytes = encode(run, &done_stamps, &blob_stamps, entries.into_iter());
         self.write_file(&self.layout.folder("index").join(recipe), &bytes, Step::WriteRun, Step::RenameRun)
     }
 
@@ -133,8 +146,7 @@ impl KnownTasks<'_> {
     /// A task that is finished and has all its blobs but those named in `removable`.
     pub fn finished(&self, plan: &Digest, removable: &[&str]) -> Option<Known> {
         let shard = usize::from(plan.0[0]);
-        let indexed = self.entries.binary_search_by_key(plan, |(plan, _)| *plan).ok();
-        let indexed = indexed.map(|position| &self.entries[position].1);
+        let indexed = self.indexed(plan);
         let is_done =
             (indexed.is_some() && self.done_is_whole[shard]) || self.done_in(shard).binary_search(plan).is_ok();
         if !is_done && self.store.remote.is_none() {
@@ -161,26 +173,50 @@ impl KnownTasks<'_> {
             && !changed(&self.blobs_are_whole)
     }
 
+    fn indexed(&self, plan: &Digest) -> Option<&Entry> {
+        let first = usize::from(u16::from_be_bytes([plan.0[0], plan.0[1]]));
+        let alike = &self.entries[self.firsts[first] as usize..self.firsts[first + 1] as usize];
+        alike.iter().find(|(known, _)| known == plan).map(|(_, entry)| entry)
+    }
+
     /// State of an indexed result; `None` where a lasting blob is missing.
     fn known(&self, Entry { finished, whole }: &Entry, removable: &[&str]) -> Option<Known> {
-        let holds = |blob: &BlobRef| self.blobs_are_whole[usize::from(blob.digest.0[0])] || self.store.holds_blob(blob);
+        let is_unchanged = |blob: &BlobRef| self.blobs_are_whole[usize::from(blob.digest.0[0])];
+        let holds = |blob: &BlobRef| is_unchanged(blob) || self.store.holds_blob(blob);
         if !*whole && removable.is_empty() {
             return None;
         }
-        // Where one was missing when the index was written, an unchanged folder says nothing.
-        let still_holds = |blob: &BlobRef| if *whole { holds(blob) } else { self.store.holds_blob(blob) };
-        let may_go = |name: &String| removable.contains(&name.as_str());
         let outputs = &finished.record.outputs;
-        outputs.iter().all(|(name, blob)| may_go(name) || holds(blob)).then(|| Known {
-            finished: finished.clone(),
-            whole: outputs.iter().all(|(name, blob)| !may_go(name) || still_holds(blob)),
-        })
+        let may_go = |name: &String| removable.contains(&name.as_str());
+        if !outputs.iter().all(|(name, blob)| may_go(name) || holds(blob)) {
+            return None;
+        }
+        let removable = || outputs.iter().filter(|(name, _)| may_go(name)).map(|(_, blob)| blob);
+        let whole = match whole {
+            true => removable().all(holds),
+            // One was missing when the index was written, and no file came into these folders since.
+            false if removable().all(is_unchanged) => false,
+            false => removable().all(|blob| self.store.holds_blob(blob)),
+        };
+        Some(Known { finished: finished.clone(), whole })
     }
 
     fn done_in(&self, shard: usize) -> &[Digest] {
         // An unreadable folder counts as empty.
         self.done[shard].get_or_init(|| self.store.layout.list_shard(Area::Done, shard as u8).unwrap_or_default())
     }
+}
+
+/// First entry of each pair of first bytes of a digest, and the number of all entries, which are sorted.
+fn firsts(entries: &[(Digest, Entry)]) -> Vec<u32> {
+    let mut counts = vec![0_u32; 1 << 16];
+    entries.iter().for_each(|(plan, _)| counts[usize::from(u16::from_be_bytes([plan.0[0], plan.0[1]]))] += 1);
+    let mut firsts = vec![0];
+    firsts.extend(counts.into_iter().scan(0, |sum, count| {
+        *sum += count;
+        Some(*sum)
+    }));
+    firsts
 }
 
 /// Times of last change of the folders of an area; 0 for absent ones.
@@ -387,7 +423,8 @@ mod tests {
 
     #[test]
     fn an_index_that_was_cut_or_edited_is_passed_over() {
-        let (root, entries) = store_with_index();
+        let (root, mut entries) = store_with_index();
+        entries.sort_by_key(|(plan, _)| *plan);
         let path = root.path().join("index/r");
         let bytes = fs::read(&path).unwrap();
         let read = decode(&bytes).unwrap().entries;

@@ -47,10 +47,12 @@ mod materialise;
 mod mutex;
 mod names;
 mod places;
+mod present;
 mod records;
 mod remote;
 mod remote_garbage;
 mod scratch;
+mod side_by_side;
 mod sink;
 mod store;
 

@@ -6,6 +6,7 @@ use crate::folder::{first_foreign, fresh_beside, put_in_place, sync_file_system}
 use crate::locks::lock_file;
 use crate::names::is_relative_path;
 use crate::places::check_out_folder;
+use crate::side_by_side::side_by_side;
 use crate::store::Store;
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -182,26 +183,27 @@ fn beside(folder: &Path) -> Result<PathBuf> {
 
 /// Fills an empty folder. A blob that is the file that was verified in the folder before is linked without being read.
 fn build(store: &Store, blobs: &Blobs, verified: &Verified, marker: &str, folder: &Path) -> Result<()> {
-    let mut made = BTreeSet::new();
-    for (name, blob) in blobs {
-        let path = folder.join(name);
-        if let Some((parent, _)) = name.rsplit_once('/')
-            && made.insert(parent)
-        {
-            fs::create_dir_all(folder.join(parent)).map_err(|error| refused(folder, &error))?;
-        }
-        let stored = store.blob_path(blob);
-        if verified.is_same_file(&blob.digest, &stored) && fs::hard_link(&stored, &path).is_ok() {
-            continue;
-        }
-        let mut source = store.open(blob)?;
-        let placed =
-            fs::hard_link(&stored, &path).or_else(|_| io::copy(&mut source, &mut File::create_new(&path)?).map(|_| ()));
-        placed.map_err(|error| refused(&path, &error))?;
+    let parents: BTreeSet<&str> = blobs.keys().filter_map(|name| Some(name.rsplit_once('/')?.0)).collect();
+    for parent in parents {
+        fs::create_dir_all(folder.join(parent)).map_err(|error| refused(folder, &error))?;
     }
+    let files: Vec<(&String, &BlobRef)> = blobs.iter().collect();
+    let placed = side_by_side(&files, |(name, blob)| place(store, blob, verified, &folder.join(name)));
+    placed.into_iter().collect::<Result<()>>()?;
     fs::write(folder.join(VERSION_FILE), marker)
         .and_then(|()| sync_file_system(folder))
         .map_err(|error| refused(folder, &error))
+}
+
+fn place(store: &Store, blob: &BlobRef, verified: &Verified, path: &Path) -> Result<()> {
+    let stored = store.blob_path(blob);
+    if verified.is_same_file(&blob.digest, &stored) && fs::hard_link(&stored, path).is_ok() {
+        return Ok(());
+    }
+    let mut source = store.open(blob)?;
+    let placed =
+        fs::hard_link(&stored, path).or_else(|_| io::copy(&mut source, &mut File::create_new(path)?).map(|_| ()));
+    placed.map_err(|error| refused(path, &error))
 }
 
 #[cfg(test)]

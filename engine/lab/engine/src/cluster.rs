@@ -26,14 +26,24 @@ pub struct ClusterFigures {
     pub pruned: Duration,
 }
 
-/// Runs six stages of `items` items each, `batch` tasks a command, on the running HyperQueue server; `program` starts
-/// [`run_toys`] with the arguments of `cosfly task run`.
+/// Runs six stages of `items` items each, `batch` items a command, on the running HyperQueue server; `program` starts
+/// [`run_toys`] with the arguments of `cosfly task run`. With `apart`, no stages share commands.
 ///
 /// # Errors
 /// Refusals of HyperQueue, `bench-failed` where tasks fail.
-pub fn bench_cluster(folder: &Path, items: usize, batch: u32, program: &[String]) -> Result<ClusterFigures> {
+pub fn bench_cluster(
+    folder: &Path,
+    items: usize,
+    batch: u32,
+    apart: bool,
+    program: &[String],
+) -> Result<ClusterFigures> {
     let recipe = bench_recipe(items, 0.5)?;
-    let changes = [RequestChange::read(&format!("*:batch={batch}"))?];
+    let mut changes = vec![RequestChange::read(&format!("*:batch={batch}"))?];
+    // Stages of other requests share no commands.
+    for stage in recipe.stages.iter().skip(1).step_by(2).filter(|_| apart) {
+        changes.push(RequestChange::read(&format!("{}:batch={}", stage.name, batch + 1))?);
+    }
     let requests = requests_of(&recipe, |_| cosfly_cluster::Request::default(), &changes)?;
     let hq = Hq::connect()?;
     let store = Store::open(folder)?;

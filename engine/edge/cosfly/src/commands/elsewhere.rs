@@ -47,7 +47,8 @@ pub fn deliver(
     let requests = arguments.requests(recipe)?;
     let command = command(store, arguments)?;
     let hq = Hq::connect()?;
-    if hq.workers()? == 0 {
+    // A server that goes away here is asked again by the driver.
+    if hq.workers().is_ok_and(|workers| workers == 0) {
         console.tell("note: no worker is connected to the server of HyperQueue; the run waits for one");
     }
     let driver =

@@ -72,6 +72,23 @@ fn a_list_of_tasks_gives_the_end_of_each_and_may_read_itself() {
 }
 
 #[test]
+fn what_reads_a_failed_task_of_the_list_has_no_failure_of_its_own() {
+    let (_folder, store) = fresh_store();
+    let mut toys = town_toys(2, &Log::default());
+    toys[1].parameters["undeclared"] = "/no/such/file".into();
+    let recipe = recipe(&toys);
+    let plan = plan(&recipe, &store).unwrap();
+    plan.publish_documents(&store).unwrap();
+    let listed: Vec<_> = plan.stages[..3].iter().flat_map(|stage| stage.plans.iter().copied()).collect();
+    let registry = Registry::new(vec![Box::new(ToyKind { version: 1 })]);
+    let ends = run_tasks(&store, &registry, &listed, &options(1)).unwrap();
+    assert_eq!(ends.iter().filter(|end| end.is_ok()).count(), 1, "the town");
+    let (failed, reads_it) = (plan.stages[1].plans[0], plan.stages[2].plans[0]);
+    assert_eq!(store.failure(&failed).unwrap().code, "machine-io");
+    assert!(store.failure(&reads_it).is_none());
+}
+
+#[test]
 fn what_failed_elsewhere_is_not_tried_again() {
     let (_folder, store) = fresh_store();
     let log = Log::default();

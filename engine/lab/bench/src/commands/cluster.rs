@@ -11,9 +11,12 @@ pub struct ClusterArguments {
     /// Items per stage; there are six stages
     #[arg(long, value_name = "N", default_value_t = 1000)]
     pub items: u64,
-    /// Tasks a command
-    #[arg(long, value_name = "N", default_value_t = 16)]
+    /// Items a command, of all stages of a chain
+    #[arg(long, value_name = "N", default_value_t = 64)]
     pub batch: u32,
+    /// Commands of one stage only: chains of cheap stages share none
+    #[arg(long)]
+    pub apart: bool,
 }
 
 /// Arguments of `task run`.
@@ -39,7 +42,8 @@ pub fn cluster(arguments: &ClusterArguments) -> Outcome {
     let program = vec![std::env::current_exe().map_err(io)?.to_string_lossy().into_owned()];
     let store = scratch.path().join("store");
     let items = arguments.items as usize;
-    let figures = cosfly_lab_engine::bench_cluster(&store, items, arguments.batch, &program).map_err(one)?;
+    let figures =
+        cosfly_lab_engine::bench_cluster(&store, items, arguments.batch, arguments.apart, &program).map_err(one)?;
     print(&format!(
         "{} tasks in six stages as {} commands on HyperQueue, a durable store, 16 KiB written per task\n\
          cold                {:>9.3} s   {:.2} ms per task\n\

@@ -6,12 +6,14 @@ mod engine;
 mod fleet;
 mod flights;
 mod flights_stages;
+mod flights_steps;
 mod geometry;
 mod ground;
 mod look;
 mod outcome;
 mod people;
 mod planner;
+mod process;
 mod render;
 mod simplify;
 mod small;
@@ -38,7 +40,7 @@ enum Command {
     Costs(costs::CostsArguments),
     /// The engine with cheap items: cold overhead, everything cached, one parameter changed and changed back
     Engine(engine::EngineArguments),
-    /// Publishing many flights: toy films, then real logs, tables, manifest and delivery; time, memory and disk
+    /// Publishing many flights and reading them: toy films, then the real engine and commands; time, memory and disk
     #[command(after_help = flights::EXAMPLES)]
     Flights(flights::FlightsArguments),
     /// Many trajectories on many workers, simulated: operations of the store, waiting, crashes

@@ -6,6 +6,7 @@ use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
 use clap::Parser;
+use cosfly_diagnose::Result;
 use cosfly_versions::shelf;
 
 /// List the named versions
@@ -18,7 +19,8 @@ pub struct Arguments {
 
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
-        let text: String = shelf::all(&self.store.with_versions()?)?.iter().map(line).collect();
+        let lines = shelf::all(&self.store.with_versions()?)?.map(|version| version.map(|version| line(&version)));
+        let text: String = lines.collect::<Result<_>>()?;
         console.print(if text.is_empty() {
             "no version has a name yet: `cosfly dataset tag NAME RECIPE`\n"
         } else {

@@ -52,17 +52,25 @@ fn tagged(arguments: &Arguments, recipe: &Recipe, root: &Path) -> Result<String>
         check_newest(recipe, &store, &version)?;
         version
     };
-    let earlier = shelf::all(root)?;
+    let notes = notes_against_earlier(root, &version)?;
     pin(root, &cosfly_runner::recipe_id(recipe), &format!("version-{}", version.name))?;
     shelf::put(root, &version)?;
     if arguments.store.bucket().is_some() {
         let names = [format!("pins/version-{}", version.name), format!("versions/{}.json", version.name)];
         arguments.store.open()?.upload_files(&names)?;
     }
-    let mut text = line(&version);
-    let earlier = earlier.iter().filter(|it| it.dataset == version.dataset && it.content != version.content);
-    for old in earlier {
-        let bump = difference(old, &version).bump();
+    Ok(line(&version) + &notes)
+}
+
+/// Notes on earlier versions of the dataset whose numbers do not tell what changed since. One version at a time is in memory.
+fn notes_against_earlier(root: &Path, version: &Version) -> Result<String> {
+    let mut text = String::new();
+    for old in shelf::all(root)? {
+        let old = old?;
+        if old.dataset != version.dataset || old.content == version.content {
+            continue;
+        }
+        let bump = difference(&old, version).bump();
         if !bump.is_kept(&old.dataset_version, &version.dataset_version) {
             let _ = writeln!(
                 text,

@@ -1,0 +1,39 @@
+//! Work on very many files, by a few threads.
+
+use std::num::NonZero;
+
+/// Fewer than this are not worth a thread.
+const PER_THREAD: usize = 1024;
+/// More threads than this wait for the disk, not for each other.
+const MOST_THREADS: usize = 8;
+
+/// Results of `work` for all items, in their order.
+pub(crate) fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let threads = std::thread::available_parallelism().map_or(1, NonZero::get).min(MOST_THREADS);
+    let part = items.len().div_ceil(threads).max(PER_THREAD);
+    if items.len() <= part {
+        return items.iter().map(work).collect();
+    }
+    let work = &work;
+    std::thread::scope(|scope| {
+        let parts: Vec<_> =
+            items.chunks(part).map(|items| scope.spawn(|| items.iter().map(work).collect::<Vec<R>>())).collect();
+        let join = |part: std::thread::ScopedJoinHandle<'_, Vec<R>>| {
+            part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        };
+        parts.into_iter().flat_map(join).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_come_in_the_order_of_the_items() {
+        for count in [0, 1, 1024, 1025, 5000, 10_000] {
+            let items: Vec<usize> = (0..count).collect();
+            assert_eq!(side_by_side(&items, |item| item * 2), items.iter().map(|item| item * 2).collect::<Vec<_>>());
+        }
+    }
+}
