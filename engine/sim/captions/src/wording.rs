@@ -3,7 +3,7 @@
 use cosfly_random::RandomStream;
 
 /// Numbers of templates that are drawn from; a style uses them modulo its own number of skeletons.
-pub(crate) const TEMPLATES: usize = 48;
+pub(crate) const TEMPLATES: usize = 312;
 
 /// One of several wordings.
 pub(crate) fn one_of<'a>(words: &mut RandomStream, choices: &[&'a str]) -> &'a str {
