@@ -63,7 +63,7 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
     let noun = one_of(words, &["行人", "行人", "路人"]);
     let Some(wear) = wear else { return noun.to_owned() };
     let (top, trousers) = (colour(wear.top), colour(wear.trousers));
-    let backpack = if wear.backpack { one_of(words, &["、背着背包", "、身后背着背包"]) } else { "" };
+    let backpack = if wear.backpack { one_of(words, &["、背着背包", "、背着双肩背包"]) } else { "" };
     let pattern = one_of(
         words,
         &[
@@ -71,7 +71,7 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
             "穿{}上衣和#裤子%的",
             "上身{}上衣、下身#裤子%的",
             "穿着#裤子、{}上衣%的",
-            "一身{}上衣配#裤子%的",
+            "{}上衣配#裤子%的",
             "穿#裤子、{}上衣%的",
             "身着{}上衣、#裤子%的",
         ],

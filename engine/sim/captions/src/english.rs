@@ -73,11 +73,7 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
     let Some(wear) = wear else { return who.to_owned() };
     let (top, trousers) = (wear.top.name(), wear.trousers.name());
     let article = article(top);
-    let backpack = if wear.backpack {
-        one_of(words, &[" with a backpack", " carrying a backpack", " with a backpack on the back"])
-    } else {
-        ""
-    };
+    let backpack = if wear.backpack { one_of(words, &[" with a backpack", " carrying a backpack"]) } else { "" };
     let pattern = one_of(
         words,
         &[
@@ -131,7 +127,7 @@ fn route(facts: &Facts, words: &mut RandomStream) -> String {
                 0 => format!("sets off, turns {turns}, and {ending}."),
                 1 => format!("starts walking, turns {turns}, and then {ending}."),
                 2 => format!("turns {turns} and {ending}."),
-                3 => format!("moves off, later turns {turns} and finally {ending}."),
+                3 => format!("moves off, later turns {turns}, and {ending}."),
                 _ => format!("goes ahead at first, turns {turns}, and {ending}."),
             }
         }
@@ -197,7 +193,7 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "They pause once for about {} seconds.",
                 "On the way they stop once for about {} seconds.",
                 "There is one stop of about {} seconds.",
-                "One pause of about {} seconds comes in between.",
+                "There is one pause, about {} seconds long.",
                 "They halt once and wait about {} seconds.",
                 "A single stop lasts about {} seconds.",
                 "They stop just once, for about {} seconds.",
@@ -214,7 +210,6 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "They stop # for about {} seconds in all.",
                 "They pause # for about {} seconds together.",
                 "They halt # and stand about {} seconds altogether.",
-                "Pauses come #, about {} seconds in total.",
                 "They come to a stop #, for about {} seconds all told.",
                 "They stop #, about {} seconds in all.",
                 "They stop and wait #, for about {} seconds altogether.",
@@ -279,7 +274,6 @@ fn drone(facts: &Facts, words: &mut RandomStream) -> String {
             "The drone holds a distance of about {d} m, a height of about {h} m above the target, and points its camera {v} at about {p} degrees.",
             "About {h} m above the target, the drone stays about {d} m away with its camera tilted {v} by about {p} degrees.",
             "The aircraft follows at a distance of about {d} m, its lens angled {v} at about {p} degrees, at a height of about {h} m.",
-            "Behind it all flies the drone: about {d} m away, about {h} m higher, camera {v} by about {p} degrees.",
             "It is filmed from about {d} m away and about {h} m above the target, with the camera turned {v} by about {p} degrees.",
             "The camera, about {h} m higher than the target and about {d} m away, is pitched {v} by about {p} degrees.",
             "The drone flies about {h} m above the target and about {d} m away, with the lens angled {v} at about {p} degrees.",

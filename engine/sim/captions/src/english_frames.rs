@@ -17,7 +17,6 @@ pub(crate) const CALLS: &[&str] = &[
     "hold the {who} in shot",
     "keep your camera on the {who}",
     "keep sight of the {who}",
-    "never lose the {who}",
 ];
 /// Distances as requests, and as circumstances.
 pub(crate) const KEEPS: &[&str] = &[
@@ -74,7 +73,6 @@ pub(crate) const INSTRUCTIONS: &[&str] = &[
     "[C] [f], [w].",
     "[C]. [K] and [l].",
     "[F], [c] and [l].",
-    "[W], [c] [f].",
     "Your target is the {who}: [k] and [l].",
     "The one to follow is the {who}. [K]; [l].",
     "[K], [l], and [c].",

@@ -94,7 +94,9 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
     let sums = || {
         words.iter().any(|word| ["altogether", "together", "total", "all", "told", "standing", "sum"].contains(word))
     };
-    let goes_on = after_stop && !about_stops && (words.first().is_some_and(|word| GOES_ON.contains(word)) || sums());
+    let goes_on = after_stop
+        && !about_stops
+        && (words.first().is_some_and(|word| GOES_ON.contains(word)) || sums() || is_time_alone(&words));
     let mut claims = vec![];
     let mut turns: Vec<(usize, TurnKind)> = vec![];
     for (i, token) in tokens.iter().enumerate() {
@@ -151,6 +153,12 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
         claims.push(Claim::NoTurns);
     }
     claims
+}
+
+/// `one pause, about 3 seconds long`: a time in a clause of its own.
+fn is_time_alone(words: &[&str]) -> bool {
+    let is_time = |word: &&str| word.starts_with("second");
+    words.len() <= 5 && words.iter().any(is_time) && !words.iter().any(|word| DURATION_WORDS.contains(word))
 }
 
 /// `stands still twice`: two stops.
