@@ -79,7 +79,7 @@ pub(crate) const INSTRUCTIONS: &[&str] = &[
     "[L] and [k], and [c].",
     "The {who} is your target; follow [f], [w].",
     "Please [c]; [l] and [k].",
-    "Your job is to [c] [f], [w].",
+    "Your job is to [c]. [K], and [l].",
     "[F] and [w], [c].",
     "Pick out the {who}, then [k] and [l].",
     "Go with the {who}: [l], and [k].",
