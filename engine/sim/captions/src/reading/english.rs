@@ -165,7 +165,7 @@ fn is_time_alone(words: &[&str]) -> bool {
 fn stands_repeatedly(words: &[&str]) -> bool {
     let is_stand = |word: &&str| ["stand", "stands", "standing", "still", "stood"].contains(word);
     let is_count = |word: &&str| ["once", "twice", "thrice", "times"].contains(word);
-    (0..words.len()).any(|at| is_stand(&words[at]) && words[at + 1..].iter().take(3).any(|word| is_count(&word)))
+    (0..words.len()).any(|at| is_stand(&words[at]) && words[at + 1..].iter().take(3).any(is_count))
 }
 
 /// Whether a negation comes a few words before such a word.
