@@ -51,7 +51,9 @@ fn of_language(texts: &[&TextSketch], language: Language) -> String {
     texts.iter().flat_map(|text| &text.subjects).for_each(|it| *subjects.entry(it).or_default() += 1);
     let mut refused: BTreeMap<&str, usize> = BTreeMap::new();
     texts.iter().flat_map(|text| &text.refused_for).for_each(|it| *refused.entry(it).or_default() += 1);
-    refused.keys().for_each(|subject| drop(subjects.entry(subject).or_default()));
+    for subject in refused.keys() {
+        subjects.entry(subject).or_default();
+    }
     html.push_str(
         "<table><thead><tr><th>Subject</th><th>Texts that speak of it</th><th>Answers refused for it</th></tr></thead><tbody>",
     );
