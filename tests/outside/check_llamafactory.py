@@ -5,15 +5,26 @@
 Every line must become a question with as many `<image>` as pictures, which exist, and an answer.
 """
 
+import importlib.machinery
 import importlib.util
 import json
 import sys
 import tempfile
+import types
 from pathlib import Path
 
 if importlib.util.find_spec("llamafactory") is None:
     print("skipped: LLaMA-Factory is not installed (pip install llamafactory)")
     sys.exit()
+
+# LLaMA-Factory imports torchaudio, for sound, which these sets do not have; the package index pairs it with another CUDA than torch's.
+try:
+    import torchaudio  # noqa: F401
+except (ImportError, OSError, RuntimeError):
+    for name in [name for name in sys.modules if name.split(".")[0] == "torchaudio"]:
+        del sys.modules[name]
+    sys.modules["torchaudio"] = types.ModuleType("torchaudio")
+    sys.modules["torchaudio"].__spec__ = importlib.machinery.ModuleSpec("torchaudio", None)
 
 from llamafactory.data.loader import _load_single_dataset
 from llamafactory.data.parser import get_dataset_list

@@ -8,7 +8,9 @@ the same recipe with the kept answers and without a network gives the same bytes
 again, and a server that knows `Idempotency-Key` computes none twice; the budget holds; `cosfly plan` says what would be asked.
 """
 
+import base64
 import hashlib
+import io
 import json
 import os
 import re
@@ -23,6 +25,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pyarrow.parquet as pq
+from PIL import Image
 
 KEY = "sk-4f0c1d7e9b2a86355aQx"
 VARIABLE = "COSFLY_TEST_TEACHER_KEY"
@@ -120,6 +123,7 @@ class Handler(BaseHTTPRequestHandler):
         question = json.loads(body)
         assert question["response_format"]["type"] == "json_schema" and question["model"] == "tiny"
         user = question["messages"][-1]["content"]
+        user = user if isinstance(user, str) else user[-1]["text"]
         number = int(digest[:8], 16)
         text = honest(user, number)
         good = json.dumps({"text": text}, ensure_ascii=False)
@@ -278,6 +282,31 @@ def check_hostile_town(cosfly, work):
         assert done.returncode != 0 and "name" in done.stderr, done.stderr
 
 
+def check_keyframes(cosfly, work):
+    """Pictures reach the server as JPEG that others decode, of the size of the frames, and differ."""
+    print("keyframes: pictures of the flight in every question")
+    server = Teacher("honest")
+    settings = ['stages.captions.teacher.frames="keyframes"', 'stages.captions.inputs.frames="frames"']
+    done = run(command(cosfly, work, "keyframes", server.address, "store_keyframes", *settings, flights=1))
+    assert done.returncode == 0, done.stderr
+    check_rows(captions(work / "keyframes"), 1, False)
+    sizes, different = set(), set()
+    for body in server.bodies:
+        content = json.loads(body)["messages"][-1]["content"]
+        pictures = [part["image_url"]["url"] for part in content if part["type"] == "image_url"]
+        assert len(pictures) == 4 and content[-1]["type"] == "text", [part["type"] for part in content]
+        for url in pictures:
+            assert url.startswith("data:image/jpeg;base64,"), url[:40]
+            data = base64.b64decode(url.split(",", 1)[1])
+            with Image.open(io.BytesIO(data)) as picture:
+                assert picture.format == "JPEG"
+                picture.load()
+                sizes.add(picture.size)
+            different.add(hashlib.sha256(data).hexdigest())
+    print(f"  {len(server.bodies)} questions with 4 pictures each, {len(different)} different, of {sorted(sizes)}")
+    assert server.bodies and len(different) > 1
+
+
 def check_kills(cosfly, work, knows_keys):
     """Kills the run again and again; a kept answer must never be asked for again."""
     print(f"killed and resumed, by a server that {'knows' if knows_keys else 'does not know'} `Idempotency-Key`")
@@ -354,6 +383,7 @@ def main():
     assert bytes_of(work / "hostile") == bytes_of(work / "offline"), "other bytes"
 
     check_hostile_town(cosfly, work)
+    check_keyframes(cosfly, work)
     for knows_keys in (False, True):
         check_kills(cosfly, work, knows_keys)
 

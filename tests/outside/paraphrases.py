@@ -309,4 +309,324 @@ class ThirdChinese(Grammar):
         return text.rstrip("。") + self.pick(f"，一路向{name}。", f"，奔{name}去。", f"，朝{name}方向。")
 
 
-GRAMMARS = {2: (SecondEnglish, SecondChinese), 3: (ThirdEnglish, ThirdChinese)}
+class FourthEnglish(Grammar):
+    """Written after the reader was widened for the third grammar, and measured once before any change."""
+
+    code = "en"
+    things = ["by a launderette", "in front of a greengrocer's", "under some scaffolding", "with a walking frame", "past an ice-cream van", "along the towpath", "in the blazing heat", "beside a skip", "just before lunch", "holding a clipboard", "next to a wheelie bin", "round the back of a garage", "while a siren wails", "in flip-flops", "through a turnstile"]
+    persons = ["sailor", "jogger", "plumber", "twin brother", "traffic warden", "salesman"]
+
+    def who(self, flight):
+        noun = self.pick("person", "pedestrian", "walker", "target", "passer-by")
+        if not flight.wear:
+            return f"the {noun}"
+        top, trousers, backpack = flight.wear
+        bag = self.pick(" and a backpack", ", rucksack included,", " with a backpack slung over the shoulders") if backpack else ""
+        return self.pick(
+            f"the {noun} in the {top} coat and the {trousers} trousers{bag}",
+            f"the {noun} with {an(top)} jacket, {trousers} jeans{bag}",
+            f"the {noun} who is wearing {trousers} pants and {an(top)} top{bag}",
+            f"the {noun} dressed in {top} and {trousers}" + (" who carries a backpack" if backpack else ""),
+            f"the {noun} (coat: {top}, trousers: {trousers}{', backpack' if backpack else ''})",
+        )
+
+    def range(self, flight):
+        d = flight.distance
+        return self.pick(f"keep {d} metres between yourself and them", f"sit {d} m off", f"hold station {d} metres away", f"the gap should be {d} m", f"don't let the distance drift from {d} metres", f"work from {d} m out")
+
+    def view(self, flight):
+        p, way = abs(flight.pitch), "down" if flight.pitch >= 0 else "up"
+        return self.pick(f"with the camera angled {p} degrees {way}", f"gimbal at {p} degrees {way}", f"shooting {way} at {p}°", f"the lens tipped {way} {p} degrees", f"looking {way} at a {p}-degree angle")
+
+    def instruction(self, flight):
+        still = "" if flight.walks else self.pick(" They won't be moving.", " They're standing still the whole time.")
+        return self.pick(
+            f"I want you on {self.who(flight)}; {self.range(flight)}, {self.view(flight)}.{still}",
+            f"Could you pick up {self.who(flight)}? {self.range(flight).capitalize()}, {self.view(flight)}.{still}",
+            f"{self.range(flight).capitalize()}, {self.view(flight)}: that's {self.who(flight)} you're following.{still}",
+            f"Tag along behind {self.who(flight)}, {self.view(flight)}, and {self.range(flight)}.{still}",
+        )
+
+    def turns(self, flight):
+        turns = flight.turns
+        spoken = {"left": "left", "right": "right", "around": "back"}
+        if not turns:
+            return self.pick("No turns at all.", "They don't turn once.", "Not one corner is turned.")
+        if len(turns) == 1:
+            return {"around": "At one point they turn back."}.get(turns[0], self.pick(f"At one point they hang a {turns[0]}.", f"They turn {turns[0]} once."))
+        one = {"left": "a left", "right": "a right", "around": "a U-turn"}
+        return self.pick(
+            "They take " + ", then ".join(one[turn] for turn in turns) + ".",
+            f"In all they make {len(turns)} turns: " + ", then ".join(one[turn] for turn in turns) + ".",
+        )
+
+    def stops(self, flight):
+        s, n = flight.standing, flight.stops
+        if n == 0:
+            return self.pick("They keep walking from start to finish without stopping.", "Nothing holds them up and they never stop.", "There isn't a single stop.", "They don't stop anywhere.")
+        if n == 1:
+            return self.pick(f"They stop just once, for {s} seconds.", f"There's a {s}-second stop.", f"They stand still once, waiting for {s} seconds.")
+        return self.pick(f"There are {n} stops, {s} seconds all together.", f"They stop {n} times and spend {s} seconds standing.", f"They make {n} stops totalling {s} seconds.")
+
+    def description(self, flight):
+        t, w, v = flight.duration, flight.way, flight.speed
+        if flight.walks:
+            length = self.pick(
+                f"It's a {t}-second walk of {w} metres, so roughly {v} m/s.",
+                f"They do {w} m in {t} seconds, an average of {v} m/s.",
+                f"The whole walk is {w} metres; it takes them {t} seconds at {v} m/s.",
+                f"{t} seconds, {w} metres walked, {v} m/s.",
+            )
+            walk = f"We're with {self.who(flight)}. {self.turns(flight)} {self.stops(flight)} {length}"
+        else:
+            walk = f"We're with {self.who(flight)}, who {self.pick('stands there', 'stays put', 'stands still')} for {t} seconds."
+        height = self.pick(f"We're {flight.altitude} m above them. ", f"Our height over the target is {flight.altitude} metres. ") if flight.altitude >= 1 else ""
+        drone = f"Pilot: {self.range(flight)}, {self.view(flight)}. {height}"
+        return self.pick(f"{walk} {drone}".rstrip(), f"{drone}{walk}")
+
+    def foreign(self, text):
+        return text.rstrip(".") + ", " + self.rng.choice(self.things) + "." if self.rng.random() < 0.7 else text.rstrip(".") + f", and there's {an(self.rng.choice(self.persons))} as well."
+
+    def heading(self, text, direction):
+        return text.rstrip(".") + self.pick(f", making for the {direction}.", f", due {direction}.", f", on {an(direction)}ward course.")
+
+
+class FourthChinese(Grammar):
+    code = "zh"
+    things = ["身后跟着一条狗", "路边停着救护车", "拐进菜市场", "手里捏着票", "戴着草帽", "走在河堤上", "赶上下班高峰", "从脚手架下面钻过去", "同伴走在左边", "路口有人发传单", "太阳很晒", "在彩票店前面", "踩着滑板", "拖着箱子", "旁边是施工围挡"]
+    persons = ["环卫工", "外卖员", "中学生", "老大爷", "推销员"]
+
+    def who(self, flight):
+        noun = self.pick("行人", "目标", "路人", "那个人", "人")
+        if not flight.wear:
+            return "那个人" if noun == "人" else noun
+        top, trousers, backpack = flight.wear
+        top, trousers = ZH_COLOURS[top], ZH_COLOURS[trousers]
+        bag = self.pick("、还背着双肩包", "、背个背包") if backpack else ""
+        return self.pick(
+            f"穿{top}色上衣、{trousers}色裤子{bag}的{noun}",
+            f"上面{top}色外套、下面{trousers}色裤子{bag}的{noun}",
+            f"{trousers}裤子、{top}外套{bag}的那个{noun}".replace("那个那个", "那个"),
+            f"衣服是{top}色、裤子是{trousers}色{bag}的{noun}",
+        )
+
+    def range(self, flight):
+        d = flight.distance
+        return self.pick(f"离着{d}米", f"保持{d}米不变", f"距离稳在{d}米", f"和人拉开{d}米", f"飞在{d}米外", f"隔{d}米跟着")
+
+    def view(self, flight):
+        p = abs(flight.pitch)
+        if flight.pitch >= 0:
+            return self.pick(f"镜头往下{p}度", f"{p}度俯拍", f"云台压低{p}度", f"镜头斜向下{p}度")
+        return self.pick(f"镜头往上{p}度", f"{p}度仰拍", f"镜头斜向上{p}度")
+
+    def instruction(self, flight):
+        still = "" if flight.walks else self.pick("人一直站着没动。", "人就站在原地。")
+        return self.pick(
+            f"给我盯紧{self.who(flight)}，{self.range(flight)}，{self.view(flight)}。{still}",
+            f"{self.view(flight)}，{self.range(flight)}，跟的就是{self.who(flight)}。{still}",
+            f"麻烦跟拍一下{self.who(flight)}，{self.view(flight)}，{self.range(flight)}。{still}",
+            f"这次拍{self.who(flight)}。{self.range(flight)}就行，{self.view(flight)}。{still}",
+        )
+
+    def turns(self, flight):
+        name = {"left": "左拐", "right": "右拐", "around": "掉头"}
+        turns = flight.turns
+        if not turns:
+            return self.pick("中间没拐过弯", "一次弯都没转", "路上一个弯也不拐")
+        if len(turns) == 1:
+            return self.pick(f"中间{name[turns[0]]}了一次", f"只{name[turns[0]]}过一回")
+        return self.pick("先" + "，再".join(name[turn] for turn in turns), f"总共转了{len(turns)}次弯：" + "、".join(name[turn] for turn in turns))
+
+    def stops(self, flight):
+        s, n = flight.standing, flight.stops
+        if n == 0:
+            return self.pick("路上没歇过", "中间一次都没停", "没停下来过")
+        if n == 1:
+            return self.pick(f"中间停了一下，{s}秒", f"歇了一回，有{s}秒", f"停过一次，停了{s}秒")
+        return self.pick(f"停了{n}回，加一块儿{s}秒", f"中间停过{n}次，总共停了{s}秒", f"歇了{n}次脚，共{s}秒")
+
+    def description(self, flight):
+        t, w, v = flight.duration, flight.way, flight.speed
+        if flight.walks:
+            length = self.pick(
+                f"{w}米走了{t}秒，一秒走{v}米。",
+                f"用{t}秒走了{w}米，速度大概{v}米每秒。",
+                f"这一趟{w}米，前后{t}秒，步速{v}米/秒。",
+            )
+            walk = f"画面里是{self.who(flight)}。{self.turns(flight)}，{self.stops(flight)}。{length}"
+        else:
+            walk = f"{self.who(flight)}{self.pick('站在那儿没动', '一直站着', '原地站着')}，{t}秒。"
+        height = self.pick(f"飞机比人高{flight.altitude}米。", f"人在下方，高差{flight.altitude}米。") if flight.altitude >= 1 else ""
+        drone = f"飞的时候{self.range(flight)}，{self.view(flight)}。{height}"
+        return self.pick(drone + walk, walk + drone)
+
+    def foreign(self, text):
+        return text.rstrip("。") + "，" + (self.rng.choice(self.things) if self.rng.random() < 0.7 else "还有个" + self.rng.choice(self.persons) + "在场") + "。"
+
+    def heading(self, text, direction):
+        name = ZH_DIRECTIONS[direction]
+        return text.rstrip("。") + self.pick(f"，直奔{name}边。", f"，朝着{name}面走。", f"，往{name}去了。")
+
+
+class FifthEnglish(Grammar):
+    """Held out: written after the reader was widened for the fourth grammar, and measured once before any change."""
+
+    code = "en"
+    things = ["beneath a pergola", "past a row of lockers", "with an elderly relative", "as hailstones fall", "while chewing gum", "along the embankment", "around a crater", "in a wheelchair", "beside a vending machine", "with a violin case", "towards the town hall", "amid fallen leaves", "on crutches", "near some pigeons", "behind a hearse"]
+    persons = ["butcher", "farmer", "nun", "street sweeper", "juggler"]
+
+    def who(self, flight):
+        noun = self.pick("pedestrian", "person", "walker", "subject", "individual")
+        if not flight.wear:
+            return f"the {noun}"
+        top, trousers, backpack = flight.wear
+        bag = self.pick(" and wears a backpack", " and has a backpack on", ", backpack and all,") if backpack else ""
+        return self.pick(
+            f"the {noun} who's got {an(top)} jacket and {trousers} trousers on{bag}",
+            f"the {noun} whose trousers are {trousers} and whose shirt is {top}{bag}",
+            f"{an(noun)} in {an(top)} sweater with {trousers} trousers{bag}",
+            f"the one with the {trousers} jeans and the {top} hoodie{bag}",
+        )
+
+    def range(self, flight):
+        d = flight.distance
+        return self.pick(f"stick to {d} metres", f"give them {d} metres", f"stay within sight, {d} m away", f"park yourself {d} m behind", f"the right distance is {d} m", f"make it {d} metres of clearance")
+
+    def view(self, flight):
+        p, way = abs(flight.pitch), "down" if flight.pitch >= 0 else "up"
+        return self.pick(f"point your camera {p} degrees {way}", f"dial in {p} degrees of {way}ward tilt", f"swing the gimbal {way} to {p} degrees", f"have the lens {p}° {way}")
+
+    def instruction(self, flight):
+        still = "" if flight.walks else self.pick(" They aren't going anywhere; they just stand there.", " The person is rooted to the spot.")
+        who = self.who(flight)
+        return self.pick(
+            f"See {who}? Follow, {self.range(flight)}, and {self.view(flight)}.{still}",
+            f"Latch on to {who}. Then {self.range(flight)} and {self.view(flight)}.{still}",
+            f"Before anything else, {self.view(flight)}. After that {self.range(flight)} and stay on {who}.{still}",
+            f"Our job is {who}: {self.range(flight)}, {self.view(flight)}.{still}",
+        )
+
+    def turns(self, flight):
+        turns = flight.turns
+        if not turns:
+            return self.pick("Not once do they turn.", "They walk without making a turn.", "There are zero turns.")
+        side = {"left": "to the left", "right": "to the right", "around": "around"}
+        if len(turns) == 1:
+            return self.pick(f"There's just one turn, {side[turns[0]]}." if turns[0] != "around" else "They do a single U-turn.", f"Halfway they turn {turns[0]}.")
+        return self.pick(
+            "They first turn " + ", later ".join(turns) + ".",
+            "Their turns go " + ", ".join(turns) + ".",
+        )
+
+    def stops(self, flight):
+        s, n = flight.standing, flight.stops
+        if n == 0:
+            return self.pick("Without a break they walk on.", "They don't pause even once.", "The walk is uninterrupted.", "They make no stops.")
+        if n == 1:
+            return self.pick(f"They take one break of {s} seconds.", f"Once, they wait for {s} seconds.", f"A {s}-second pause is all the rest they get.")
+        return self.pick(f"They take {n} breaks, {s} seconds taken together.", f"{n} times they stop, which adds up to {s} seconds.", f"Their {n} pauses last {s} seconds overall.")
+
+    def description(self, flight):
+        t, w, v = flight.duration, flight.way, flight.speed
+        if flight.walks:
+            length = self.pick(
+                f"They get through {w} metres in {t} seconds, doing {v} m/s.",
+                f"{w} m of walking takes {t} seconds at {v} m/s.",
+                f"The clip runs for {t} seconds, in which they walk {w} m at {v} metres per second.",
+                f"Distance walked: {w} m. Duration: {t} s. Speed: {v} m/s.",
+            )
+            walk = f"This is about {self.who(flight)}. {self.turns(flight)} {self.stops(flight)} {length}"
+        else:
+            walk = f"This is about {self.who(flight)}. They {self.pick('stand still', 'stay where they are', 'do not move')} for {t} seconds."
+        height = self.pick(f"Altitude above the target: {flight.altitude} m. ", f"Climb to {flight.altitude} m above them. ") if flight.altitude >= 1 else ""
+        rest = f"{self.range(flight)}, and {self.view(flight)}. "
+        drone = rest[0].upper() + rest[1:] + height
+        return self.pick(f"{walk} {drone}".rstrip(), f"{drone}{walk}")
+
+    def foreign(self, text):
+        return text.rstrip(".") + " " + self.rng.choice(self.things) + "." if self.rng.random() < 0.7 else text.rstrip(".") + f". Mind the {self.rng.choice(self.persons)}."
+
+    def heading(self, text, direction):
+        return text.rstrip(".") + self.pick(f", pointing {direction}.", f", {direction} all the way.", f", along a {direction}-facing line.")
+
+
+class FifthChinese(Grammar):
+    code = "zh"
+    things = ["手持自拍杆", "在葡萄架下", "前方有救火车", "肩上扛着梯子", "路过派出所", "跟一个老外聊着天", "地上结了冰", "在电影院外面", "身后是一片麦地", "正赶上庙会", "躲着水洼走", "头顶飞过一只风筝", "穿过牌坊", "拿了根甘蔗", "有辆洒水车经过"]
+    persons = ["消防员", "护工", "小朋友", "和尚", "卖花的"]
+
+    def who(self, flight):
+        noun = self.pick("行人", "目标", "这位", "走路的人", "那名路人")
+        if not flight.wear:
+            return noun
+        top, trousers, backpack = flight.wear
+        top, trousers = ZH_COLOURS[top], ZH_COLOURS[trousers]
+        bag = self.pick("，背上有双肩包", "、背着个背包") if backpack else ""
+        return self.pick(
+            f"上衣{top}色、裤子{trousers}色{bag}的{noun}",
+            f"穿一件{top}色外套、一条{trousers}色长裤{bag}的{noun}",
+            f"身穿{top}衬衫{trousers}裤子{bag}的{noun}",
+            f"{trousers}色裤子配{top}色上衣{bag}的{noun}",
+        )
+
+    def range(self, flight):
+        d = flight.distance
+        return self.pick(f"跟{d}米远", f"差不多隔{d}米", f"距离定在{d}米", f"留{d}米距离", f"别离开{d}米这个距离", f"人机相距{d}米")
+
+    def view(self, flight):
+        p = abs(flight.pitch)
+        if flight.pitch >= 0:
+            return self.pick(f"镜头下俯{p}度", f"俯角{p}度", f"相机往下斜{p}度", f"角度朝下，{p}度")
+        return self.pick(f"镜头上仰{p}度", f"仰角{p}度", f"相机往上斜{p}度")
+
+    def instruction(self, flight):
+        still = "" if flight.walks else self.pick("对方没有挪动，一直站着。", "人是站着的。")
+        return self.pick(
+            f"看到{self.who(flight)}了吧？{self.range(flight)}，{self.view(flight)}，跟上。{still}",
+            f"咬住{self.who(flight)}，{self.range(flight)}，{self.view(flight)}。{still}",
+            f"起飞后{self.view(flight)}，{self.range(flight)}，去拍{self.who(flight)}。{still}",
+            f"飞行要求：{self.range(flight)}，{self.view(flight)}，拍摄对象是{self.who(flight)}。{still}",
+        )
+
+    def turns(self, flight):
+        name = {"left": "左转", "right": "右转", "around": "调头"}
+        turns = flight.turns
+        if not turns:
+            return self.pick("没拐弯", "始终不曾转弯", "全程不转弯")
+        if len(turns) == 1:
+            return self.pick(f"走着走着{name[turns[0]]}", f"{name[turns[0]]}一次")
+        return self.pick("、".join(name[turn] for turn in turns) + f"，共转弯{len(turns)}次", "起先" + "，后来".join(name[turn] for turn in turns))
+
+    def stops(self, flight):
+        s, n = flight.standing, flight.stops
+        if n == 0:
+            return self.pick("一口气走完", "不停脚", "一路上没有停顿", "没有停过脚")
+        if n == 1:
+            return self.pick(f"停顿一次，{s}秒", f"中途等了一次，等了{s}秒", f"歇脚一次，{s}秒后再走")
+        return self.pick(f"停顿{n}次，合起来{s}秒", f"先后{n}次停步，总计{s}秒", f"走走停停，停了{n}次，共{s}秒")
+
+    def description(self, flight):
+        t, w, v = flight.duration, flight.way, flight.speed
+        if flight.walks:
+            length = self.pick(
+                f"{t}秒钟走出{w}米，每秒{v}米的速度。",
+                f"全程{w}米，{t}秒，{v}米/秒。",
+                f"路程共{w}米，走了{t}秒，平均速度{v}米/秒。",
+            )
+            walk = f"主角是{self.who(flight)}。{self.turns(flight)}，{self.stops(flight)}。{length}"
+        else:
+            walk = f"主角是{self.who(flight)}，{self.pick('站住没走', '没挪过步', '一动不动')}，共{t}秒。"
+        height = self.pick(f"飞行高度在目标上方{flight.altitude}米。", f"无人机高出人{flight.altitude}米。") if flight.altitude >= 1 else ""
+        drone = f"{self.range(flight)}，{self.view(flight)}。{height}"
+        return self.pick(drone + walk, walk + drone)
+
+    def foreign(self, text):
+        return text.rstrip("。") + "，" + (self.rng.choice(self.things) if self.rng.random() < 0.7 else "边上那个" + self.rng.choice(self.persons) + "别拍到") + "。"
+
+    def heading(self, text, direction):
+        name = ZH_DIRECTIONS[direction]
+        return text.rstrip("。") + self.pick(f"，面朝{name}方。", f"，一直往{name}。", f"，冲{name}边走。")
+
+
+GRAMMARS = {2: (SecondEnglish, SecondChinese), 3: (ThirdEnglish, ThirdChinese), 4: (FourthEnglish, FourthChinese), 5: (FifthEnglish, FifthChinese)}

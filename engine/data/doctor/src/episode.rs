@@ -23,6 +23,8 @@ pub struct Episode {
     pub target_height_m: f64,
     /// Clothes of the target, where they are known.
     pub wear: Option<Wear>,
+    /// Whether nobody else who is seen in the flight wears the same; none where it is unknown.
+    pub is_unlike_all: Option<bool>,
     /// Time between frames, seconds: as stated, else as most frames have it.
     pub dt_s: f64,
     /// Stated limits of clearance (m), speed (m/s), acceleration (m/s^2), jerk (m/s^3), yaw and pitch rate (degrees/s).

@@ -34,6 +34,8 @@ pub struct TextFigures {
     pub true_share: f64,
     /// Share of texts that name the target by its clothes, of flights whose clothes are known.
     pub names_target_share: f64,
+    /// Share of texts that name clothes which nobody else who is seen in the flight wears, of flights where that is known.
+    pub singles_out_share: f64,
     /// By subject: number of texts that speak of it, and of texts that contradict the facts in it.
     pub subjects: BTreeMap<&'static str, [usize; 2]>,
 }
@@ -101,6 +103,7 @@ pub(crate) struct TextTally {
     texts: [Vec<String>; 2],
     clean: [usize; 2],
     dressed: [[usize; 2]; 2],
+    singled: [[usize; 2]; 2],
     subjects: [BTreeMap<Slot, [usize; 2]>; 2],
     /// Only for given texts.
     pub(crate) judged: Option<Judged>,
@@ -121,6 +124,11 @@ impl TextTally {
             if facts.wear.is_some() {
                 self.dressed[at][0] += usize::from(slots.contains(&Slot::Clothes));
                 self.dressed[at][1] += 1;
+            }
+            if let Some(is_unlike_all) = episode.is_unlike_all {
+                let is_true = !wrong.iter().any(|it| it.slot == Slot::Clothes);
+                self.singled[at][0] += usize::from(is_unlike_all && is_true && slots.contains(&Slot::Clothes));
+                self.singled[at][1] += 1;
             }
             slots.iter().for_each(|slot| self.subjects[at].entry(*slot).or_default()[0] += 1);
             let mut false_slots: Vec<Slot> = wrong.iter().map(|it| it.slot).collect();
@@ -150,6 +158,7 @@ impl TextTally {
                 diversity: diversity(self.texts[at].iter().map(String::as_str), Language::ALL[at]),
                 true_share: share(self.clean[at], self.texts[at].len()),
                 names_target_share: share(self.dressed[at][0], self.dressed[at][1]),
+                singles_out_share: share(self.singled[at][0], self.singled[at][1]),
                 subjects: self.subjects[at].iter().map(|(slot, counts)| (slot.name(), *counts)).collect(),
             }
         };

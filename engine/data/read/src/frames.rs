@@ -44,6 +44,8 @@ pub struct FrameRow {
     pub full_box_px: Option<Edges>,
     /// Instance id of the main occluder of the target; 0 when there is none.
     pub occluder_instance: u32,
+    /// Number of visible bystanders who wear what the target wears.
+    pub look_alikes: u32,
     /// Step to the next frame along the world's axes: dx, dy, dz (m), dpitch, dyaw, droll (degrees); `None` on the last
     /// frame.
     pub action_in_world: Option<[f64; 6]>,
@@ -206,6 +208,7 @@ impl FrameRow {
             visible_box_px: rows.get(Frames::visible_box_px, row)?,
             full_box_px: rows.get(Frames::full_box_px, row)?,
             occluder_instance: rows.get(Frames::occluder_instance, row)?,
+            look_alikes: rows.get(Frames::look_alikes, row)?,
             action_in_world: rows.get(Frames::action_in_world, row)?,
             action_in_body: rows.get(Frames::action_in_body, row)?,
             disturbance: Disturbance::read(rows, row)?,

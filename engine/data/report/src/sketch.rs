@@ -64,6 +64,8 @@ pub struct TextSketch {
     pub is_taught: bool,
     /// Answers of the model that were refused.
     pub refused: u64,
+    /// Subjects of the contradictions for which they were refused, one an answer and subject.
+    pub refused_for: Vec<String>,
 }
 
 impl FlightSketch {

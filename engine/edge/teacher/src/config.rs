@@ -96,6 +96,8 @@ pub enum JsonMode {
     Schema,
     /// `response_format` with any JSON object.
     Object,
+    /// The same with a key `schema`, as the server of the Python package `llama-cpp-python` takes it.
+    ObjectSchema,
     /// No `response_format`; the question still asks for JSON.
     Text,
 }

@@ -62,6 +62,10 @@ impl Question<'_> {
         match config.json {
             JsonMode::Schema => body["response_format"] = answer_schema(),
             JsonMode::Object => body["response_format"] = json!({"type": "json_object"}),
+            JsonMode::ObjectSchema => {
+                let schema = answer_schema()["json_schema"]["schema"].take();
+                body["response_format"] = json!({"type": "json_object", "schema": schema});
+            }
             JsonMode::Text => {}
         }
         body.to_string().into_bytes()

@@ -1,5 +1,6 @@
 //! Chinese wordings of the facts.
 
+use crate::chinese_frames::{CALLS, INSTRUCTIONS, KEEPS, LOOKS_DOWN, LOOKS_UP};
 use crate::facts::{Facts, Wear};
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
 use crate::turns::{Turn, TurnKind};
@@ -10,72 +11,6 @@ use cosfly_render::Colour;
 /// More turns than this are counted instead of listed.
 const LISTED_TURNS: usize = 4;
 
-/// Calls to follow somebody.
-const CALLS: [&str; 14] = [
-    "跟随{who}",
-    "跟住{who}",
-    "盯住{who}",
-    "跟拍{who}",
-    "跟踪{who}",
-    "紧跟{who}",
-    "锁定{who}",
-    "对准{who}",
-    "全程拍摄{who}",
-    "别跟丢{who}",
-    "始终关注{who}",
-    "让{who}留在画面里",
-    "把{who}框在画面中",
-    "陪着{who}飞",
-];
-/// Distances.
-const KEEPS: [&str; 12] = [
-    "保持约{d}米距离",
-    "相距约{d}米",
-    "距离控制在约{d}米",
-    "间距约{d}米",
-    "隔开约{d}米",
-    "离目标约{d}米",
-    "跟随距离约{d}米",
-    "始终相隔约{d}米",
-    "飞在约{d}米开外",
-    "与目标拉开约{d}米",
-    "距目标约{d}米",
-    "在约{d}米外飞行",
-];
-/// Angles of a camera that looks down, and up.
-const LOOKS_DOWN: [&str; 11] = [
-    "镜头向下俯视约{p}度",
-    "镜头俯角约{p}度",
-    "俯拍约{p}度",
-    "相机下倾约{p}度",
-    "云台下压约{p}度",
-    "镜头朝下约{p}度",
-    "以约{p}度俯角拍摄",
-    "俯角保持在约{p}度",
-    "视线向下约{p}度",
-    "俯视角度约{p}度",
-    "摄像头向下倾斜约{p}度",
-];
-const LOOKS_UP: [&str; 5] =
-    ["镜头向上仰视约{p}度", "仰角约{p}度", "镜头朝上约{p}度", "以约{p}度仰角拍摄", "仰拍约{p}度"];
-/// Orders of call, distance and angle.
-const INSTRUCTIONS: [&str; 14] = [
-    "[c]，[k]，[l]。",
-    "请[c]，[k]，[l]。",
-    "[k]，[c]，[l]。",
-    "[l]，[k]，[c]。",
-    "[c]，[l]，[k]。",
-    "目标是{who}：[k]，[l]。",
-    "你要跟的是{who}，[k]，[l]。",
-    "[c]。[k]，[l]。",
-    "画面主角是{who}，[l]，[k]。",
-    "任务：[c]；[k]，[l]。",
-    "[k]、[l]，[c]。",
-    "注意{who}，[k]，[l]。",
-    "[l]，[c]，并[k0]。",
-    "找到{who}，然后[k]，[l]。",
-];
-
 /// One or two sentences for the pilot: whom to follow, how far away, at which angle.
 pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
     let standing = match (facts.walks, &facts.wear) {
@@ -85,14 +20,14 @@ pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStre
     };
     let who = format!("{standing}{}", who(facts.wear.as_ref(), words));
     let mut text = INSTRUCTIONS[template % INSTRUCTIONS.len()].to_owned();
-    for (key, list) in [("[c]", &CALLS[..]), ("[k]", &KEEPS), ("[k0]", &KEEPS[..1]), ("[l]", looks(facts))] {
+    for (key, list) in [("[c]", CALLS), ("[k]", KEEPS), ("[k0]", &KEEPS[..1]), ("[l]", looks(facts))] {
         text = text.replace(key, one_of(words, list));
     }
     fill(&text, facts).replace("{who}", &who)
 }
 
 fn looks(facts: &Facts) -> &'static [&'static str] {
-    if facts.pitch_down_deg < 0.0 { &LOOKS_UP } else { &LOOKS_DOWN }
+    if facts.pitch_down_deg < 0.0 { LOOKS_UP } else { LOOKS_DOWN }
 }
 
 /// `text` with distance and angle.
@@ -128,7 +63,7 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
     let noun = one_of(words, &["行人", "行人", "路人"]);
     let Some(wear) = wear else { return noun.to_owned() };
     let (top, trousers) = (colour(wear.top), colour(wear.trousers));
-    let backpack = if wear.backpack { one_of(words, &["、背着背包", "、身后背着背包"]) } else { "" };
+    let backpack = if wear.backpack { one_of(words, &["、背着背包", "、背着双肩背包"]) } else { "" };
     let pattern = one_of(
         words,
         &[
@@ -136,7 +71,9 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
             "穿{}上衣和#裤子%的",
             "上身{}上衣、下身#裤子%的",
             "穿着#裤子、{}上衣%的",
-            "一身{}上衣配#裤子%的",
+            "{}上衣配#裤子%的",
+            "穿#裤子、{}上衣%的",
+            "身着{}上衣、#裤子%的",
         ],
     );
     format!("{}{noun}", pattern.replace("{}", top).replace('#', trousers).replace('%', backpack))
@@ -161,7 +98,10 @@ pub(crate) fn colour(colour: Colour) -> &'static str {
 
 /// The way: what a picture can show of it, without directions of the compass.
 fn route(facts: &Facts, words: &mut RandomStream) -> String {
-    let ending = one_of(words, &["随后继续前行", "之后一路向前", "接着往前走", "然后继续走", "最后照直往前走"]);
+    let ending = one_of(
+        words,
+        &["随后继续前行", "之后一路向前", "接着往前走", "然后继续走", "最后往前走去", "再往前走", "此后一直往前"],
+    );
     match facts.turns.len() {
         0 if facts.start_direction == facts.end_direction => {
             one_of(words, &["一路直行。", "笔直前行。", "沿直线往前走。", "从头到尾直走。", "径直往前走。"]).to_owned()
@@ -185,7 +125,7 @@ fn route(facts: &Facts, words: &mut RandomStream) -> String {
                 .filter(|(count, _)| *count > 0)
                 .map(|(count, side)| format!("{side}{count}次"))
                 .collect();
-            let opening = one_of(words, &["途中转弯", "一路上转弯", "走走转转，转弯", "先后转弯"]);
+            let opening = one_of(words, &["途中转弯", "先后转弯", "前后转弯", "总共转弯"]);
             format!("{opening}{count}次（{}），{ending}。", counts.join("、"))
         }
     }
@@ -228,6 +168,11 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "脚步没有停过。",
                 "全程没有驻足。",
                 "一刻不停。",
+                "路上一次都没停。",
+                "从头走到尾，没有停过。",
+                "走得很连贯，没有停下。",
+                "中途没有歇脚。",
+                "没在哪儿停过。",
             ],
         )
         .into(),
@@ -239,6 +184,11 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "半路停了一次，约{}秒。",
                 "中间驻足一次，约{}秒。",
                 "路上停下一回，停了约{}秒。",
+                "走到一半停了一次，约{}秒。",
+                "中间停过一次，停了约{}秒才接着走。",
+                "停下过一次，约{}秒。",
+                "途中有一次停留，约{}秒。",
+                "只停了一次，约{}秒。",
             ],
         )
         .replace("{}", &standing),
@@ -250,6 +200,10 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "一路停了#次，合计约{}秒。",
                 "中间停下#回，总共停了约{}秒。",
                 "前后停了#次，加起来约{}秒。",
+                "走走停停，停了#次，合计约{}秒。",
+                "途中有#次停留，总共约{}秒。",
+                "停过#次，累计约{}秒。",
+                "先后停下#次，一共约{}秒。",
             ],
         )
         .replace('#', &numeral(count))
@@ -271,6 +225,13 @@ fn length(facts: &Facts, words: &mut RandomStream) -> String {
             "以约{s}米/秒的步速，约{t}秒走了约{w}米。",
             "总长约{w}米，耗时约{t}秒，每秒走约{s}米。",
             "走完这段路用了约{t}秒，路程约{w}米，步速约{s}米/秒。",
+            "约{w}米的路走了约{t}秒，每秒约{s}米。",
+            "这一趟走了约{w}米，用了约{t}秒，步速约{s}米/秒。",
+            "走了约{t}秒，路程约{w}米，速度约{s}米/秒。",
+            "步速约{s}米/秒，约{t}秒走了约{w}米。",
+            "前后约{t}秒，走了约{w}米，平均步速约{s}米/秒。",
+            "全长约{w}米，走了约{t}秒，每秒约{s}米。",
+            "用约{t}秒走完约{w}米，步速约{s}米/秒。",
         ],
     );
     pattern.replace("{w}", &way).replace("{t}", &duration).replace("{s}", &speed)
@@ -294,6 +255,13 @@ fn drone(facts: &Facts, words: &mut RandomStream) -> String {
             "无人机飞得比目标高约{h}米，相隔约{d}米，#。",
             "#，无人机离目标约{d}米，高度约{h}米。",
             "在目标上空约{h}米处，无人机保持约{d}米距离，#。",
+            "无人机跟在约{d}米外，比目标高约{h}米，#。",
+            "#，距离约{d}米，飞行高度高出目标约{h}米。",
+            "拍摄时无人机离目标约{d}米，高出目标约{h}米，#。",
+            "无人机隔着约{d}米跟拍，高度在目标之上约{h}米，#。",
+            "距离保持在约{d}米，高度比目标高约{h}米，#。",
+            "无人机高出目标约{h}米，与目标相距约{d}米，#。",
+            "跟拍距离约{d}米，#，无人机在目标上方约{h}米。",
         ],
     );
     fill(&pattern.replace('#', look), facts).replace("{h}", &height)

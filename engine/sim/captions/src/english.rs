@@ -1,5 +1,6 @@
 //! English wordings of the facts.
 
+use crate::english_frames::{CALLS, FROM, INSTRUCTIONS, KEEPS, LOOKS, WITH};
 use crate::facts::{Facts, Wear};
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
 use crate::turns::{Turn, TurnKind};
@@ -9,99 +10,12 @@ use cosfly_random::RandomStream;
 /// More turns than this are counted instead of listed.
 const LISTED_TURNS: usize = 4;
 
-/// Calls to follow somebody.
-const CALLS: [&str; 16] = [
-    "follow the {who}",
-    "track the {who}",
-    "stay with the {who}",
-    "tail the {who}",
-    "shadow the {who}",
-    "accompany the {who}",
-    "stick with the {who}",
-    "escort the {who}",
-    "pursue the {who}",
-    "film the {who}",
-    "keep the {who} in view",
-    "keep the {who} in frame",
-    "hold the {who} in shot",
-    "keep your camera on the {who}",
-    "keep sight of the {who}",
-    "never lose the {who}",
-];
-/// Distances as requests, and as circumstances.
-const KEEPS: [&str; 12] = [
-    "keep about {d} m away",
-    "stay about {d} m away",
-    "hold a distance of about {d} m",
-    "leave a gap of about {d} m",
-    "maintain about {d} m of separation",
-    "remain about {d} m off",
-    "keep to a range of about {d} m",
-    "fly about {d} m away",
-    "let about {d} m lie between you",
-    "keep your distance at about {d} m",
-    "hover no nearer and no farther than about {d} m away",
-    "stay back by about {d} m",
-];
-const FROM: [&str; 8] = [
-    "from about {d} m away",
-    "at a distance of about {d} m",
-    "at a range of about {d} m",
-    "with a gap of about {d} m",
-    "from a distance of about {d} m",
-    "keeping about {d} m away",
-    "staying about {d} m off",
-    "with about {d} m between you",
-];
-/// Angles as requests, and as circumstances.
-const LOOKS: [&str; 9] = [
-    "look {v} at about {p} degrees",
-    "tilt the camera {v} by about {p} degrees",
-    "point the camera about {p} degrees {v}",
-    "angle the lens {v} at about {p} degrees",
-    "pitch the gimbal {v} by about {p} degrees",
-    "aim {v} at about {p} degrees",
-    "set the camera about {p} degrees {v}",
-    "let the lens face {v} at about {p} degrees",
-    "keep the view about {p} degrees {v}",
-];
-const WITH: [&str; 9] = [
-    "looking {v} at about {p} degrees",
-    "camera pointing {v} at about {p} degrees",
-    "with the camera tilted {v} by about {p} degrees",
-    "the lens angled about {p} degrees {v}",
-    "camera pitched {v} by about {p} degrees",
-    "with the gimbal about {p} degrees {v}",
-    "aiming {v} at about {p} degrees",
-    "with a view about {p} degrees {v}",
-    "your lens turned {v} at about {p} degrees",
-];
-/// Orders of call, distance and angle. A capital letter begins the part's sentence.
-const INSTRUCTIONS: [&str; 16] = [
-    "[C]; [k] and [l].",
-    "[C], [k] and [l].",
-    "[C] [f], [w].",
-    "[C]. [K] and [l].",
-    "[F], [c] and [l].",
-    "[W], [c] [f].",
-    "Your target is the {who}: [k] and [l].",
-    "The one to follow is the {who}. [K]; [l].",
-    "[K], [l], and [c].",
-    "[L] and [k], and [c].",
-    "The {who} is your target; follow [f], [w].",
-    "Please [c]; [l] and [k].",
-    "Your job is to [c] [f], [w].",
-    "[F] and [w], [c].",
-    "Pick out the {who}, then [k] and [l].",
-    "Go with the {who}: [l], and [k].",
-];
-
 /// One or two sentences for the pilot: whom to follow, how far away, at which angle.
 pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
     let standing = if facts.walks { "" } else { " who stands still" };
     let who = format!("{}{standing}", who(facts.wear.as_ref(), words));
     let mut text = INSTRUCTIONS[template % INSTRUCTIONS.len()].to_owned();
-    for (key, list) in [("c", &CALLS[..]), ("k", &KEEPS), ("f", &FROM), ("l", &LOOKS), ("w", &WITH)] {
+    for (key, list) in [("c", CALLS), ("k", KEEPS), ("f", FROM), ("l", LOOKS), ("w", WITH)] {
         let chosen = one_of(words, list);
         text = text.replace(&format!("[{key}]"), chosen);
         text = text.replace(&format!("[{}]", key.to_uppercase()), &capitalised(chosen));
@@ -159,11 +73,7 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
     let Some(wear) = wear else { return who.to_owned() };
     let (top, trousers) = (wear.top.name(), wear.trousers.name());
     let article = article(top);
-    let backpack = if wear.backpack {
-        one_of(words, &[" with a backpack", " carrying a backpack", " with a backpack on the back"])
-    } else {
-        ""
-    };
+    let backpack = if wear.backpack { one_of(words, &[" with a backpack", " carrying a backpack"]) } else { "" };
     let pattern = one_of(
         words,
         &[
@@ -173,6 +83,9 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
             "in % trousers and # {} top",
             "wearing % trousers and # {} top",
             "with # {} top and % trousers",
+            "who wears # {} top and % trousers",
+            "who is wearing # {} top and % trousers",
+            "dressed in % trousers and # {} top",
         ],
     );
     format!("{who} {}{backpack}", pattern.replace('#', article).replace("{}", top).replace('%', trousers))
@@ -214,7 +127,7 @@ fn route(facts: &Facts, words: &mut RandomStream) -> String {
                 0 => format!("sets off, turns {turns}, and {ending}."),
                 1 => format!("starts walking, turns {turns}, and then {ending}."),
                 2 => format!("turns {turns} and {ending}."),
-                3 => format!("moves off, later turns {turns} and finally {ending}."),
+                3 => format!("moves off, later turns {turns}, and {ending}."),
                 _ => format!("goes ahead at first, turns {turns}, and {ending}."),
             }
         }
@@ -227,7 +140,7 @@ fn route(facts: &Facts, words: &mut RandomStream) -> String {
                 .collect();
             let opening = one_of(
                 words,
-                &["sets off, makes", "winds along with", "takes", "zigzags through", "moves off and makes"],
+                &["sets off, makes", "weaves along and makes", "takes", "zigzags through", "moves off and makes"],
             );
             format!("{opening} {count} turns ({}) and {ending}.", counts.join(", "))
         }
@@ -265,6 +178,12 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "Not a single stop is made.",
                 "They keep moving without a pause.",
                 "No pause interrupts the walk.",
+                "They walk without a break.",
+                "They don't stop once.",
+                "There isn't a single pause.",
+                "It is one walk, without a stop.",
+                "They make no stops at all.",
+                "At no point do they stop.",
             ],
         )
         .into(),
@@ -274,9 +193,14 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "They pause once for about {} seconds.",
                 "On the way they stop once for about {} seconds.",
                 "There is one stop of about {} seconds.",
-                "One pause of about {} seconds comes in between.",
+                "There is one pause, about {} seconds long.",
                 "They halt once and wait about {} seconds.",
                 "A single stop lasts about {} seconds.",
+                "They stop just once, for about {} seconds.",
+                "One stop of about {} seconds breaks up the walk.",
+                "They come to a halt once, for about {} seconds.",
+                "There is a single pause of about {} seconds.",
+                "Once they stop and wait for about {} seconds.",
             ],
         )
         .replace("{}", &standing),
@@ -286,8 +210,11 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "They stop # for about {} seconds in all.",
                 "They pause # for about {} seconds together.",
                 "They halt # and stand about {} seconds altogether.",
-                "Pauses come #, about {} seconds in total.",
                 "They come to a stop #, for about {} seconds all told.",
+                "They stop #, about {} seconds in all.",
+                "They stop and wait #, for about {} seconds altogether.",
+                "They stop # on the way, about {} seconds in total.",
+                "They pause #, which adds up to about {} seconds.",
             ],
         )
         .replace('#', &times(count))
@@ -314,6 +241,13 @@ fn length(facts: &Facts, words: &mut RandomStream) -> String {
             "The path measures about {w} m; at about {s} m/s it takes about {t} seconds.",
             "Walking at about {s} m/s, they cover about {w} m in about {t} seconds.",
             "It takes about {t} seconds to cover a way of about {w} m, at a pace of about {s} m/s.",
+            "They walk about {w} m in about {t} seconds, at about {s} m/s.",
+            "The whole walk of about {w} m takes about {t} seconds, at about {s} m/s.",
+            "It is a walk of about {w} m; it takes about {t} seconds at about {s} m/s.",
+            "In about {t} seconds, about {w} m are covered, at a pace of about {s} m/s.",
+            "At a pace of about {s} m/s they walk about {w} m in about {t} seconds.",
+            "Their route of about {w} m takes them about {t} seconds, at about {s} m/s.",
+            "They need about {t} seconds for the route of about {w} m and walk at about {s} m/s.",
         ],
     );
     pattern.replace("{w}", &way).replace("{t}", &duration).replace("{s}", &speed)
@@ -340,9 +274,14 @@ fn drone(facts: &Facts, words: &mut RandomStream) -> String {
             "The drone holds a distance of about {d} m, a height of about {h} m above the target, and points its camera {v} at about {p} degrees.",
             "About {h} m above the target, the drone stays about {d} m away with its camera tilted {v} by about {p} degrees.",
             "The aircraft follows at a distance of about {d} m, its lens angled {v} at about {p} degrees, at a height of about {h} m.",
-            "Behind it all flies the drone: about {d} m away, about {h} m higher, camera {v} by about {p} degrees.",
             "It is filmed from about {d} m away and about {h} m above the target, with the camera turned {v} by about {p} degrees.",
             "The camera, about {h} m higher than the target and about {d} m away, is pitched {v} by about {p} degrees.",
+            "The drone flies about {h} m above the target and about {d} m away, with the lens angled {v} at about {p} degrees.",
+            "Flying about {h} m above the target, the drone keeps about {d} m away and looks {v} at about {p} degrees.",
+            "The drone stays about {d} m away and about {h} m above the target; its camera looks {v} at about {p} degrees.",
+            "With its camera tilted {v} by about {p} degrees, the drone follows from about {d} m away, about {h} m higher than the target.",
+            "We look {v} at about {p} degrees from about {d} m away, about {h} m above the target.",
+            "The pictures are taken about {d} m away and about {h} m above the target, the camera angled {v} at about {p} degrees.",
         ],
     );
     fill(pattern, facts).replace("{h}", &height)

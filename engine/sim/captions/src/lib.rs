@@ -14,10 +14,12 @@
 pub mod caption;
 pub mod check;
 mod chinese;
+mod chinese_frames;
 pub mod compass;
 pub mod config;
 pub mod diversity;
 mod english;
+mod english_frames;
 pub mod facts;
 mod foreign;
 pub mod goals;

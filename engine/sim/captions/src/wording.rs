@@ -3,7 +3,7 @@
 use cosfly_random::RandomStream;
 
 /// Numbers of templates that are drawn from; a style uses them modulo its own number of skeletons.
-pub(crate) const TEMPLATES: usize = 48;
+pub(crate) const TEMPLATES: usize = 312;
 
 /// One of several wordings.
 pub(crate) fn one_of<'a>(words: &mut RandomStream, choices: &[&'a str]) -> &'a str {
@@ -18,8 +18,8 @@ pub(crate) fn approximately(text: &str, words: &mut RandomStream) -> String {
         let before = written.pop();
         let is_number = part.starts_with(|c: char| c.is_ascii_digit());
         let chosen = match (before, is_number) {
-            (Some('A'), true) => one_of(words, &["About ", "Roughly ", "Some ", "Around ", "Approximately "]),
-            (Some('a'), true) => one_of(words, &["about ", "roughly ", "some ", "around ", "approximately ", "about "]),
+            (Some('A'), true) => one_of(words, &["About ", "Roughly ", "Around "]),
+            (Some('a'), true) => hedge(words, written.contains(|c: char| c.is_ascii_digit())),
             (before, _) => {
                 written.extend(before);
                 "bout "
@@ -29,6 +29,14 @@ pub(crate) fn approximately(text: &str, words: &mut RandomStream) -> String {
         written += part;
     }
     written
+}
+
+/// A word before a number; behind another number in half of the cases none, as people say it.
+fn hedge(words: &mut RandomStream, is_later: bool) -> &'static str {
+    if is_later && words.index(2) == 0 {
+        return "";
+    }
+    one_of(words, &["about ", "roughly ", "around ", "approximately ", "about "])
 }
 
 /// A Chinese text with other words for some of its `约` before numbers.
@@ -42,10 +50,13 @@ pub(crate) fn approximately_in_chinese(text: &str, words: &mut RandomStream) -> 
         // `28米左右的距离` is said, `28米左右距离` is not.
         let may_follow =
             behind.is_some_and(|end| part[end..].is_empty() || part[end..].starts_with(['，', '。', '；', '、']));
+        // Behind another number people often leave the word out.
+        let is_later = written.contains(|c: char| c.is_ascii_digit());
         match (words.index(4), behind) {
+            _ if is_later && behind.is_some() && words.index(2) == 0 => written += part,
             (0 | 1, Some(end)) if may_follow => {
                 written += &part[..end];
-                written += if words.index(4) == 0 { "上下" } else { "左右" };
+                written += "左右";
                 written += &part[end..];
             }
             (2, Some(_)) => written = written + "大约" + part,

@@ -152,6 +152,7 @@ fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> Episode {
         camera: is_plain.then_some(flight.camera),
         target_height_m: flight.target_height_m,
         wear: wear(flight),
+        is_unlike_all: flight.target_clothes.as_ref().map(|_| rows.iter().all(|row| row.look_alikes == 0)),
         dt_s: flight.dt_s,
         limits: flight.limits,
         moments: rows.iter().map(moment).collect(),

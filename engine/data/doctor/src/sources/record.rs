@@ -27,6 +27,7 @@ pub fn episode(record: &RenderedTrajectory) -> Episode {
         camera: is_plain.then_some(record.camera),
         target_height_m: trajectory.track.height_m,
         wear: record.outfit.as_ref().map(Wear::from),
+        is_unlike_all: record.outfit.as_ref().map(|_| (0..record.len()).all(|frame| record.look_alikes(frame) == 0)),
         dt_s: record.dt_s(),
         limits: limits.map(|limit| limit.is_finite().then_some(limit)),
         moments: (0..record.len()).map(|frame| moment(record, frame)).collect(),

@@ -49,10 +49,19 @@ fn of_language(texts: &[&TextSketch], language: Language) -> String {
     html.push_str("</dl>");
     let mut subjects: BTreeMap<&str, usize> = BTreeMap::new();
     texts.iter().flat_map(|text| &text.subjects).for_each(|it| *subjects.entry(it).or_default() += 1);
-    html.push_str("<table><thead><tr><th>Subject</th><th>Texts that speak of it</th></tr></thead><tbody>");
+    let mut refused: BTreeMap<&str, usize> = BTreeMap::new();
+    texts.iter().flat_map(|text| &text.refused_for).for_each(|it| *refused.entry(it).or_default() += 1);
+    for subject in refused.keys() {
+        subjects.entry(subject).or_default();
+    }
+    html.push_str(
+        "<table><thead><tr><th>Subject</th><th>Texts that speak of it</th><th>Answers refused for it</th></tr></thead><tbody>",
+    );
     for (subject, count) in subjects {
         let share = percent(count as f64 / texts.len() as f64);
-        let _ = write!(html, "<tr><td>{}</td><td>{} ({share})</td></tr>", escaped(subject), grouped(count as u64));
+        let refused = grouped(refused.get(subject).copied().unwrap_or_default() as u64);
+        let (subject, count) = (escaped(subject), grouped(count as u64));
+        let _ = write!(html, "<tr><td>{subject}</td><td>{count} ({share})</td><td>{refused}</td></tr>");
     }
     html.push_str("</tbody></table>");
     html

@@ -103,6 +103,7 @@ fn texts(item: &DatasetItem) -> Vec<TextSketch> {
     let captions = item.captions.iter().map(|it| TextSketch {
         is_taught: it.writer == "teacher",
         refused: it.refused.len() as u64,
+        refused_for: it.refused_because.iter().flat_map(|why| subjects_of(why)).collect(),
         ..text(&it.language, &it.style, it.text.clone(), it.verdicts.clone())
     });
     let goals = item.derived.goals.iter().map(|it| {
@@ -114,6 +115,16 @@ fn texts(item: &DatasetItem) -> Vec<TextSketch> {
         TextSketch { singles_out: sketch.singles_out && it.grain.name() != "negative", ..sketch }
     });
     captions.chain(goals).collect()
+}
+
+/// Subjects of contradictions such as `distance: the text says ...; turns: ...`, each once.
+fn subjects_of(why: &str) -> Vec<String> {
+    let subject =
+        |part: &str| part.split_once(": the text says").map_or("form", |(subject, _)| subject.trim()).to_owned();
+    let mut subjects: Vec<String> = why.split("; ").map(subject).collect();
+    subjects.sort();
+    subjects.dedup();
+    subjects
 }
 
 /// Whether nobody else who is seen in the flight wears what the target wears.

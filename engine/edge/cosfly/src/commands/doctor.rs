@@ -112,7 +112,7 @@ fn text(examination: &Examination, allowed: f64) -> String {
         let it = &figures.diversity;
         let _ = writeln!(
             text,
-            "texts ({}): {} of {} different; {:.1} % true; distinct-1 {:.3}, distinct-2 {:.3}, self-BLEU {:.2}; {} to {} words, {:.1} on average; {:.0} % name clothes",
+            "texts ({}): {} of {} different; {:.1} % true; distinct-1 {:.3}, distinct-2 {:.3}, self-BLEU {:.2}; {} to {} words, {:.1} on average; {:.0} % name clothes, {:.0} % single the target out",
             figures.language,
             it.different_texts,
             it.texts,
@@ -124,7 +124,11 @@ fn text(examination: &Examination, allowed: f64) -> String {
             it.words[1],
             it.mean_words,
             100.0 * figures.names_target_share,
+            100.0 * figures.singles_out_share,
         );
+        let verdict = |(subject, [told, wrong]): (&&str, &[usize; 2])| format!("{subject} {told} ({wrong} wrong)");
+        let verdicts: Vec<String> = figures.subjects.iter().map(verdict).collect();
+        let _ = writeln!(text, "  texts by subject, and those that contradict the facts: {}", verdicts.join(", "));
     }
     for gap in &examination.unchecked {
         let _ = writeln!(text, "not checked: {gap}");

@@ -1,5 +1,6 @@
 //! Chinese wordings of goals.
 
+use super::chinese_frames::{FLIGHTS, KEEPS, OF_CLOTHES, OF_DISTANCE, OF_MOVES, STEPS};
 use super::claim::{Claim, Hider, Passed, Said, Subject};
 use super::compose::Wording;
 use crate::chinese::{colour, numeral, who};
@@ -11,67 +12,11 @@ use cosfly_maps::ObstacleKind;
 use cosfly_random::RandomStream;
 use cosfly_world::BodyKind;
 
-/// Goals of whole flights: `[w]` who, `[p]` what they do, `[k]` how to fly.
-const FLIGHTS: [&str; 16] = [
-    "跟住[w]：[p]。[k]。",
-    "目标是[w]，[p]。[k]。",
-    "盯住[w]，对方[p]。跟拍时[k]。",
-    "这一路要跟的是[w]：[p]。[k]。",
-    "[k]，跟住[w]。途中对方[p]。",
-    "请跟拍[w]。路上目标[p]。全程[k]。",
-    "[w][p]。你跟在后面，[k]。",
-    "从头到尾跟着[w]：[p]。[k]。",
-    "别跟丢了[w]，对方[p]。[k]。",
-    "镜头跟着[w]走。对方[p]。[k]。",
-    "去跟[w]，[k]。对方[p]。",
-    "本次任务是跟拍[w]：[p]。飞行时[k]。",
-    "找到[w]，一路跟下去。对方[p]。[k]。",
-    "要拍的人是[w]，[p]。[k]。",
-    "紧跟[w]，[k]；对方[p]。",
-    "麻烦跟一下[w]：[p]。[k]就行。",
-];
-/// Goals of stretches.
-const STEPS: [&str; 18] = [
-    "目标[p]，[k]。",
-    "跟上去：对方[p]。[k]。",
-    "接下来对方[p]，[k]。",
-    "继续跟，目标[p]。[k]。",
-    "[k]，目标[p]。",
-    "这一段目标[p]，[k]。",
-    "从这里开始，目标[p]。[k]。",
-    "注意，对方[p]。跟紧，[k]。",
-    "跟住别放，对方[p]。[k]。",
-    "下一步：对方[p]。[k]。",
-    "[k]，继续跟拍：对方[p]。",
-    "镜头别离开目标，对方[p]。[k]。",
-    "看好目标：[p]。[k]。",
-    "此时目标[p]，[k]。",
-    "别跟丢：目标[p]。[k]。",
-    "接着拍，目标[p]，[k]。",
-    "目标[p]。你照样跟着，[k]。",
-    "随后目标[p]。[k]。",
-];
-/// Ways to hold a distance.
-const KEEPS: [&str; 12] = [
-    "保持约{d}米的距离",
-    "距离控制在约{d}米",
-    "离对方约{d}米",
-    "跟在约{d}米外",
-    "隔开约{d}米",
-    "和目标相距约{d}米",
-    "拉开约{d}米的距离",
-    "间距保持在约{d}米",
-    "与目标相隔约{d}米",
-    "跟拍距离约{d}米",
-    "在约{d}米开外跟着",
-    "距离大约{d}米",
-];
-
 /// The wordings of the language.
 pub(super) const WORDING: Wording = Wording {
-    flights: &FLIGHTS,
-    steps: &STEPS,
-    keeps: &KEEPS,
+    flights: FLIGHTS,
+    steps: STEPS,
+    keeps: KEEPS,
     predicate,
     anchored,
     both,
@@ -85,7 +30,7 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
     match &said.claim {
         Claim::Turns(kind) => one_of(words, turns(*kind)).to_owned(),
         Claim::TurnsInAll(count) => {
-            one_of(words, &["一共拐了{}次弯", "前后转了{}次弯", "一路上拐了{}次弯", "总共转弯{}次"])
+            one_of(words, &["一共拐了{}次弯", "前后转了{}次弯", "拐了{}次弯", "总共转了{}次弯"])
                 .replace("{}", &numeral(*count))
         }
         Claim::NoTurn => one_of(
@@ -200,7 +145,7 @@ fn lost(behind: Option<Hider>, seconds: u32, found: bool, words: &mut RandomStre
 
 /// Two things in no order of time.
 fn both(one: &str, two: &str, words: &mut RandomStream) -> String {
-    one_of(words, &["{1}，{2}", "{1}，途中{2}", "{1}，路上{2}"]).replace("{1}", one).replace("{2}", two)
+    one_of(words, &["{1}，{2}", "{1}，其间{2}", "{1}，中途{2}"]).replace("{1}", one).replace("{2}", two)
 }
 
 fn joined(parts: &[String], words: &mut RandomStream) -> String {
@@ -268,29 +213,11 @@ fn hider_words(hider: Hider) -> &'static str {
     }
 }
 
-/// Lines of dialogues, as the English ones.
+/// Lines of dialogues about a subject.
 fn dialogue(subject: Subject) -> &'static [[&'static str; 3]] {
     match subject {
-        Subject::Clothes => &[
-            ["跟上那个人。", "是穿{o}上衣的那个吗？", "不是，是另一个，穿{t}上衣、{r}裤子的。"],
-            ["去跟前面那位行人。", "你说的是穿{o}上衣的那位？", "不对，要跟的是{w}。"],
-            ["盯住目标。", "好的，已锁定穿{o}上衣的人。", "跟错了，应该是{w}。"],
-            ["开始跟拍吧。", "正在跟穿{o}上衣的那位。", "不是那位，换成{w}。"],
-            ["看到目标了吗？", "看到了，穿{o}上衣，对吧？", "不对，再找找，是{w}。"],
-            ["跟着走路的那个人。", "穿{o}上衣的，收到。", "错了，是另一个：{w}。"],
-            ["目标就在那儿，跟上。", "是{o}上衣那位吧？", "不是，上衣是{t}，裤子是{r}的那位。"],
-        ],
-        Subject::Distance => &[
-            ["跟住{w}。", "收到，距离约{x}米。", "{F}，保持约{d}米。"],
-            ["请跟拍{w}。", "好的，我在约{x}米外跟着。", "不行，改成约{d}米。"],
-            ["目标是{w}。", "明白。约{x}米可以吗？", "不行，约{d}米才对。"],
-            ["一路跟着{w}。", "现在相距约{x}米。", "距离不对，应该是约{d}米。"],
-        ],
-        _ => &[
-            ["对方往哪儿走了？", "{n}了。", "不对，是{m}。继续跟住{w}。"],
-            ["跟着{w}，随时报一下动向。", "目标{n}。", "看错了，目标{m}。"],
-            ["继续跟{w}。", "对方是{n}吗？", "不是，方向反了，是{m}。"],
-            ["现在往哪边？", "应该是{n}。", "不对，对方{m}，跟紧{w}。"],
-        ],
+        Subject::Clothes => OF_CLOTHES,
+        Subject::Distance => OF_DISTANCE,
+        _ => OF_MOVES,
     }
 }

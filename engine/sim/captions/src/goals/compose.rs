@@ -201,7 +201,10 @@ fn dialogue(
     let mut filled: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
     let mut put = |key: &str, value: &str| filled.iter_mut().for_each(|line| *line = line.replace(key, value));
     if let Some(wear) = &wear {
-        put("{w}", &(wording.target)(wear, words));
+        let target = (wording.target)(wear, words);
+        put("{w}", &target);
+        put("{W}", &english::capital(&target));
+        put("{c}", wear.top.name());
         put("{t}", &top(wear.top));
         put("{r}", &trousers(wear.trousers));
     }
@@ -209,7 +212,10 @@ fn dialogue(
         put("{d}", &metres.to_string());
     }
     match mistaken {
-        Claim::Wears(other) => put("{o}", &top(other.top)),
+        Claim::Wears(other) => {
+            put("{o}", &top(other.top));
+            put("{O}", &english::capital(&top(other.top)));
+        }
         Claim::Distance(wrong) => {
             let is_closer = metres.is_some_and(|metres| metres < *wrong);
             put("{x}", &wrong.to_string());

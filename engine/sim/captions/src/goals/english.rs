@@ -1,7 +1,8 @@
 //! English wordings of goals.
 
-use super::claim::{Claim, Hider, Passed, Said};
+use super::claim::{Claim, Hider, Passed, Said, Subject};
 use super::compose::Wording;
+use super::english_frames::{FLIGHTS, KEEPS, OF_CLOTHES, OF_DISTANCE, OF_MOVES, STEPS};
 use crate::english::{article, who};
 use crate::facts::Wear;
 use crate::sight::{LandmarkKind, OnSide};
@@ -12,75 +13,11 @@ use cosfly_random::RandomStream;
 use cosfly_render::Colour;
 use cosfly_world::BodyKind;
 
-/// Goals of whole flights: `[w]` who, `[p]` what they do, `[b]` the same in the base form, `[k]` and `[K]` how to fly.
-const FLIGHTS: [&str; 18] = [
-    "Follow [w]: they [p]. [K].",
-    "Follow [w], who will [b]; [k].",
-    "Your target is [w]. They [p]. [K] throughout.",
-    "[K] and follow [w]. Expect them to [b].",
-    "Stay with [w] all the way: they [p]. [K].",
-    "Keep [w] in shot; they [p]. [K].",
-    "Track [w]. On the way they [p]. [K].",
-    "We need footage of [w]. They [p]; [k].",
-    "Find [w] and stay on them. They will [b]. [K].",
-    "Don't lose [w]: they [p]. [K].",
-    "Fly behind [w], who will [b]. [K].",
-    "[K] behind [w]; on the way they [p].",
-    "The one to follow is [w]. They will [b]; [k].",
-    "Tail [w] from start to finish. They [p]. [K].",
-    "Please follow [w]. Along the way they [p]. [K].",
-    "Go after [w] and [k]; they will [b].",
-    "Film [w] while they [p]. [K].",
-    "Keep an eye on [w] as they [p]; [k].",
-];
-/// Goals of stretches.
-const STEPS: [&str; 22] = [
-    "They [p]; [k].",
-    "Stay with them: they [p]. [K].",
-    "Follow them as they [p]; [k].",
-    "[K] while they [p].",
-    "Next, they [p]. [K].",
-    "From here they [p]; [k].",
-    "Now they [p]. Stay on them and [k].",
-    "As they [p], [k].",
-    "[K], and follow as they [p].",
-    "[K]; they will [b].",
-    "Expect them to [b]; [k].",
-    "Keep filming while they [p]. [K].",
-    "Carry on after them: they [p]. [K].",
-    "They're about to [b], so [k].",
-    "Stick with them. They [p]; [k].",
-    "Be ready for them to [b]. [K].",
-    "In this stretch they [p]. [K].",
-    "Let them [b], and [k].",
-    "Keep them in shot as they [p]. [K].",
-    "Stay right on them: they [p]. [K].",
-    "Here's what comes next: they [p]. [K].",
-    "Don't let go of them: they [p]. [K].",
-];
-/// Ways to hold a distance.
-const KEEPS: [&str; 14] = [
-    "keep about {d} m away",
-    "hold a distance of about {d} m",
-    "stay about {d} m back",
-    "leave about {d} m between you",
-    "maintain a gap of about {d} m",
-    "stay about {d} m off",
-    "keep a distance of about {d} m",
-    "fly about {d} m from them",
-    "give them about {d} m of space",
-    "keep your distance at about {d} m",
-    "stay at about {d} m",
-    "don't come much closer than about {d} m",
-    "keep the gap at about {d} m",
-    "remain about {d} m away",
-];
-
 /// The wordings of the language.
 pub(super) const WORDING: Wording = Wording {
-    flights: &FLIGHTS,
-    steps: &STEPS,
-    keeps: &KEEPS,
+    flights: FLIGHTS,
+    steps: STEPS,
+    keeps: KEEPS,
     predicate,
     anchored,
     both,
@@ -268,28 +205,29 @@ fn in_seconds(pattern: &str, seconds: u32) -> String {
 }
 
 /// Two things in no order of time.
-fn both(one: &str, two: &str, words: &mut RandomStream) -> String {
-    one_of(words, &["{1} and {2}", "{1} and, on the way, {2}", "{1} and also {2}"])
-        .replace("{1}", one)
-        .replace("{2}", two)
+fn both(one: &str, two: &str, _words: &mut RandomStream) -> String {
+    format!("{one} and {two}")
 }
 
-/// What they do, joined, in the form that a sentence needs.
+/// What they do, joined. `first` is left out: the base form has no place for it.
 fn joined(parts: &[String], words: &mut RandomStream) -> String {
     match parts {
         [] => String::new(),
         [one] => one.clone(),
-        [one, two] => match words.index(4) {
-            0 => format!("{one}, then {two}"),
-            1 => format!("{one} and then {two}"),
-            2 => format!("first {one}, then {two}"),
-            _ => format!("{one} and later {two}"),
-        },
-        [one, two, rest @ ..] => match words.index(3) {
-            0 => format!("{one}, {two} and finally {}", rest.join(" and ")),
-            1 => format!("{one}, then {two}, then {}", rest.join(", then ")),
-            _ => format!("first {one}, then {two} and after that {}", rest.join(" and ")),
-        },
+        [one, two] => {
+            let link = one_of(words, &[", then ", " and then ", ", and after that ", " and later ", ", and next "]);
+            format!("{one}{link}{two}")
+        }
+        [one, two, rest @ ..] => {
+            let links = [
+                [", ", ", and finally "],
+                [", then ", ", and then "],
+                [", then ", ", and after that "],
+                [", next ", " and last of all "],
+            ];
+            let [second, last] = links[words.index(links.len())];
+            format!("{one}{second}{two}{last}{}", rest.join(" and "))
+        }
     }
 }
 
@@ -363,33 +301,11 @@ fn hider_words(hider: Hider) -> &'static str {
     }
 }
 
-/// Lines of dialogues: `{w}` the target, `{t}` its top, `{o}` the top of somebody else, `{d}` the distance and `{x}` a wrong one,
-/// `{m}` the move and `{n}` a wrong one. Each ends with the correction.
-fn dialogue(subject: super::claim::Subject) -> &'static [[&'static str; 3]] {
-    use super::claim::Subject;
+/// Lines of dialogues about a subject.
+fn dialogue(subject: Subject) -> &'static [[&'static str; 3]] {
     match subject {
-        Subject::Clothes => &[
-            ["Follow that person.", "The one in {o} top?", "No, the other one, in {t} top and {r} trousers."],
-            ["Get after the walker over there.", "You mean the one in {o} top?", "No, not that one: {w}."],
-            ["Stay on the pedestrian.", "Okay, I'm on the one in {o} top.", "Wrong person. I want {w}."],
-            ["Lock on to our target.", "Locked on: {o} top.", "That's somebody else. It's {w}."],
-            ["Can you pick up the target?", "I have someone in {o} top. Is that the one?", "No. Look for {w}."],
-            ["Start following now.", "Following the one in {o} top.", "No, leave that one. We want {w}."],
-            ["There they are, go.", "In {o} top, right?", "No, in {t} top, with {r} trousers."],
-            ["Take the person walking there.", "The person in {o} top, got it.", "No, the other one: {w}."],
-        ],
-        Subject::Distance => &[
-            ["Follow {w}.", "Following, about {x} m away.", "{F}: keep about {d} m."],
-            ["Stay with {w}.", "Will do. I'll keep about {x} m.", "No, make it about {d} m."],
-            ["Please film {w}.", "Filming from about {x} m.", "That's not what I want. About {d} m, please."],
-            ["Your target is {w}.", "Copy. Is about {x} m all right?", "No, about {d} m, please."],
-            ["Keep up with {w}.", "Holding at about {x} m.", "Not about {x} m. I said about {d} m."],
-        ],
-        _ => &[
-            ["Where do they go?", "They {n}.", "No, they {m}. Stay with {w}."],
-            ["Stay with {w} and tell me what they do.", "They {n}.", "Look again: they {m}."],
-            ["Keep following {w}.", "So they {n}?", "No, the other way: they {m}."],
-            ["Which way now?", "They {n}, I think.", "No. They {m}; keep after {w}."],
-        ],
+        Subject::Clothes => OF_CLOTHES,
+        Subject::Distance => OF_DISTANCE,
+        _ => OF_MOVES,
     }
 }

@@ -4,10 +4,12 @@
 //! [`Course`] reads off a flight what can be said of it, as typed [`Claim`]s; [`goals`] picks some of them and puts them into words.
 
 mod chinese;
+mod chinese_frames;
 mod claim;
 mod compose;
 mod course;
 mod english;
+mod english_frames;
 mod passing;
 mod people;
 mod pick;

@@ -1,8 +1,8 @@
 //! Reads Chinese texts: characters and numbers, clause by clause.
 
 use super::chinese_words::{
-    ALTITUDE_WORDS, COLOURS, DISTANCE_WORDS, GOES_ON, OTHER_COLOURS, STANDING_WORDS, STOP_CHARS, STRAIGHT_WORDS, TOPS,
-    TROUSERS, WAY_WORDS,
+    ALTITUDE_WORDS, COLOURS, DISTANCE_WORDS, GOES_ON, NO_STOP, OTHER_COLOURS, STANDING_WORDS, STOP_CHARS,
+    STRAIGHT_WORDS, TOPS, TROUSERS, WAY_WORDS,
 };
 use super::{Claim, count, sentences};
 use crate::compass::Compass;
@@ -13,19 +13,34 @@ pub fn read(text: &str) -> Vec<Claim> {
     let sentence = |sentence: &str| {
         let mut after_stop = false;
         let read = |clause: Vec<char>| {
-            let words: String = clause.iter().collect();
+            let words = without_empty_counts(&clause.iter().collect::<String>());
             // `途中停留一次，约3秒`: the time belongs to the stop.
             let speaks = STOP_CHARS.iter().any(|word| words.contains(word));
-            let about_stops = speaks
-                || after_stop
-                    && (GOES_ON.iter().any(|it| words.starts_with(it))
-                        || words.starts_with(|c: char| c.is_ascii_digit()));
+            let about_stops =
+                speaks || after_stop && (GOES_ON.iter().any(|it| words.starts_with(it)) || is_time_alone(&words));
             after_stop = about_stops && !STOP_CHARS.iter().any(|word| denied_word(&words, word));
             read_clause(&words, about_stops)
         };
         clauses(sentence).into_iter().flat_map(read).collect::<Vec<_>>()
     };
     sentences(text).into_iter().flat_map(sentence).collect()
+}
+
+/// A time in a clause that speaks of nothing else: `有6秒`, `加一块儿14秒`.
+fn is_time_alone(clause: &str) -> bool {
+    let clause = clause.replace("再走", "").replace("继续走", "");
+    clause.contains('秒') && !NO_STOP.iter().any(|word| clause.contains(word))
+}
+
+/// `一次弯都没转`, `一个弯也不拐`: the number there counts nothing.
+fn without_empty_counts(clause: &str) -> String {
+    let is_denied = ["都没", "都不", "都未", "也没", "也不", "也未"].iter().any(|word| clause.contains(word));
+    if !is_denied {
+        return clause.to_owned();
+    }
+    ["一次", "一回", "一个", "一步", "一下", "一刻", "半个", "半步"]
+        .iter()
+        .fold(clause.to_owned(), |clause, count| clause.replace(count, ""))
 }
 
 pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
@@ -35,7 +50,11 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
         let decimal = c == '.' && chars.get(i + 1).is_some_and(char::is_ascii_digit);
         // `80秒、130米` is one statement.
         let is_list = c == '、' && chars.get(i + 1).is_some_and(char::is_ascii_digit);
-        if ("，。；：！？、（）,;:!?()\n".contains(c) && !is_list) || (c == '.' && !decimal) {
+        let rest = || chars[i + 1..].iter().take(2).collect::<String>();
+        // `上衣：红色`
+        if c == '：' && COLOURS.iter().any(|(name, _)| rest().starts_with(name)) {
+            clauses.last_mut().expect("there is always one clause").push('是');
+        } else if ("，。；：！？、（）,;:!?()\n".contains(c) && !is_list) || (c == '.' && !decimal) {
             clauses.push(vec![]);
         } else {
             clauses.last_mut().expect("there is always one clause").push(c);
@@ -63,6 +82,13 @@ fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
                 || ["没有", "未背", "不背", "没背", "没带", "未带"].iter().any(|word| clause[..at].ends_with(word));
             claims.push(if denied && claim == Claim::Backpack { Claim::NoBackpack } else { claim });
             rest = after;
+        } else if let Some(after) =
+            ["一秒走", "一秒钟走", "1秒走", "一秒能走"].iter().find_map(|it| rest.strip_prefix(it))
+            && let Some((value, after)) = number(after.trim_start_matches(['约', '大', '概', '了']))
+            && let Some(after) = after.strip_prefix('米')
+        {
+            claims.push(Claim::Speed(value));
+            rest = after;
         } else if let Some((value, after)) = number(rest) {
             let (claim, used) = quantity(value, after, clause, at, about_stops);
             claims.push(claim);
@@ -72,7 +98,9 @@ fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
             rest = &rest[length..];
         } else if let Some((kind, length)) = turn(rest, turns_here) {
             rest = &rest[length..];
-            match number(rest).filter(|(_, after)| after.starts_with(['次', '回'])) {
+            // `左拐了一次`
+            let times = rest.trim_start_matches(['了', '过']);
+            match number(times).filter(|(_, after)| after.starts_with(['次', '回'])) {
                 Some((value, after)) => {
                     claims.push(count(value, "次", |count| Claim::TurnsOf(kind, count)));
                     rest = &after['次'.len_utf8()..];
@@ -87,10 +115,12 @@ fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
         claims.push(Claim::Stays);
     }
     if STRAIGHT_WORDS.iter().any(|word| clause.contains(word)) || denied(clause, '转') || denied(clause, '拐') {
-        claims.retain(|claim| !matches!(claim, Claim::Turn(_)));
+        claims.retain(|claim| !matches!(claim, Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..)));
         claims.push(Claim::NoTurns);
     }
-    if STOP_CHARS.iter().any(|word| denied_word(clause, word)) || clause.contains("一刻不停") {
+    if STOP_CHARS.iter().any(|word| denied_word(clause, word))
+        || ["一刻不停", "一口气"].iter().any(|it| clause.contains(it))
+    {
         claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));
     } else if STOP_CHARS.iter().any(|word| clause.contains(word))
@@ -122,7 +152,8 @@ fn worn<'a>(clause: &str, text: &'a str) -> Option<(Claim, &'a str)> {
     let after = after.strip_prefix('色')?;
     let before = &clause[..clause.len() - text.len()];
     let last = |words: &[&str]| words.iter().filter_map(|word| before.rfind(word)).max();
-    let links = before.ends_with(['是', '为', '穿', '着', '呈', '深', '浅']);
+    let links = before.ends_with(['是', '为', '穿', '着', '呈', '深', '浅'])
+        || TOPS.iter().chain(&TROUSERS).any(|garment| before.ends_with(garment));
     let top = last(&TOPS).max(last(&["上身"])).filter(|_| links);
     let trousers = last(&TROUSERS).max(last(&["下身"])).filter(|_| links);
     let claim = match (top, trousers) {
@@ -150,7 +181,7 @@ pub(crate) fn garment(text: &str) -> Option<(Claim, &str)> {
         }
     }
     let (colour, after) = COLOURS.iter().find_map(|(name, colour)| Some((*colour, text.strip_prefix(name)?)))?;
-    let after = after.strip_prefix('色').unwrap_or(after).trim_start_matches('的');
+    let after = after.strip_prefix('色').unwrap_or(after).trim_start_matches(['的', 'T']);
     let starts = |garments: &[&str]| garments.iter().find_map(|garment| after.strip_prefix(garment));
     let top = starts(&TOPS).map(|after| (Claim::Top(colour), after));
     top.or_else(|| starts(&TROUSERS).map(|after| (Claim::Trousers(colour), after)))
@@ -236,7 +267,7 @@ fn quantity(value: f64, after: &str, clause: &str, at: usize, about_stops: bool)
         || clause.contains("向下")
         || ["朝下", "下压", "往下", "低于水平", "下倾", "朝地"].iter().any(|word| clause.contains(word));
     let seconds = |value: f64| match about_stops
-        && nearest(clause, at, &[&STOP_CHARS, &["用时", "历时", "耗时", "走"]]) != Some(1)
+        && nearest(&clause.replace("再走", ""), at, &[&STOP_CHARS, &["用时", "历时", "耗时", "走"]]) != Some(1)
     {
         true => Claim::Standing(value),
         false => Claim::Duration(value),

@@ -3,7 +3,11 @@
 use cosfly_render::Colour;
 
 pub const ALTITUDE_WORDS: [&str; 8] = ["高", "上方", "头顶", "上空", "高度", "高处", "离地", "之上"];
-pub const WAY_WORDS: [&str; 18] = [
+pub const WAY_WORDS: [&str; 22] = [
+    "这一趟",
+    "这趟",
+    "这段",
+    "走出",
     "全程",
     "路程",
     "行程",
@@ -44,10 +48,13 @@ pub const STANDING_WORDS: [&str; 16] = [
     "伫立",
 ];
 pub const STRAIGHT_WORDS: [&str; 5] = ["直行", "笔直", "径直", "直走", "直线"];
-pub const STOP_CHARS: [&str; 6] = ["停", "驻足", "歇", "逗留", "站住", "止步"];
+pub const STOP_CHARS: [&str; 9] = ["停", "驻足", "歇", "逗留", "站住", "止步", "等了", "等待", "等候"];
 /// First words of a clause that goes on about the stop before.
 pub const GOES_ON: [&str; 14] =
     ["共", "约", "共约", "合计", "总共", "一共", "累计", "前后", "大约", "大概", "共计", "时长", "历时共", "加起来"];
+/// Words of a clause whose time is not that of the stop before.
+pub const NO_STOP: [&str; 14] =
+    ["走", "用时", "历时", "耗时", "全程", "飞", "行", "米", "转", "拐", "全部", "整", "度", "花"];
 pub const TOPS: [&str; 19] = [
     "上衣", "外套", "衬衫", "夹克", "卫衣", "毛衣", "短袖", "上装", "衣服", "衣裳", "大衣", "衫", "衣", "恤", "马甲",
     "风衣", "帽衫", "背心", "棉服",

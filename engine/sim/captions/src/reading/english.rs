@@ -63,6 +63,8 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
                 '%' => clause.push(Token::Word("percent".into())),
                 // `Length: 130 m` is one statement.
                 ':' if number_follows(&chars, i + 1) => {}
+                // `coat: red`
+                ':' if colour_follows(&chars, i + 1) => clause.push(Token::Word("is".into())),
                 ',' | ';' | ':' | '.' | '!' | '?' | '(' | ')' | '\n' => clauses.push(vec![]),
                 _ => {}
             }
@@ -70,6 +72,11 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
         }
     }
     clauses
+}
+
+fn colour_follows(chars: &[char], from: usize) -> bool {
+    let word: String = chars[from..].iter().skip_while(|c| **c == ' ').take_while(|c| c.is_alphabetic()).collect();
+    colour(&word).is_some()
 }
 
 fn decimal_point(chars: &[char], at: usize) -> bool {
@@ -82,12 +89,14 @@ fn letter(chars: &[char], at: usize) -> bool {
 
 fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
     let words = without_idioms(tokens.iter().map(word_of).collect());
-    let about_stops = words.iter().any(|word| is_stop(word));
+    let about_stops = words.iter().any(|word| is_stop(word)) || stands_repeatedly(&words);
     // `They pause once, for about 3 seconds`: the time belongs to the stop.
     let sums = || {
         words.iter().any(|word| ["altogether", "together", "total", "all", "told", "standing", "sum"].contains(word))
     };
-    let goes_on = after_stop && !about_stops && (words.first().is_some_and(|word| GOES_ON.contains(word)) || sums());
+    let goes_on = after_stop
+        && !about_stops
+        && (words.first().is_some_and(|word| GOES_ON.contains(word)) || sums() || is_time_alone(&words));
     let mut claims = vec![];
     let mut turns: Vec<(usize, TurnKind)> = vec![];
     for (i, token) in tokens.iter().enumerate() {
@@ -113,7 +122,10 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
     }
     if goes_on {
         claims.retain(|claim| *claim != Claim::Stays);
-    } else if !about_stops && denied(&words, |word| matches!(word, "move" | "moves" | "moving" | "moved" | "movement"))
+    } else if !about_stops
+        && denied(&words, |word| {
+            matches!(word, "move" | "moves" | "moving" | "moved" | "movement" | "budge" | "going" | "walk")
+        })
     {
         claims.push(Claim::Stays);
     }
@@ -128,7 +140,9 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
         }
     }
     claims.extend(order_of_stop_and_turn(&words, &turns));
-    if words.contains(&"nonstop") || denied(&words, is_stop) {
+    if ["nonstop", "uninterrupted", "unbroken", "ceaselessly", "incessantly"].iter().any(|it| words.contains(it))
+        || denied(&words, is_stop)
+    {
         claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));
     } else if about_stops && !claims.iter().any(|claim| matches!(claim, Claim::Stops(_))) {
@@ -139,6 +153,19 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
         claims.push(Claim::NoTurns);
     }
     claims
+}
+
+/// `one pause, about 3 seconds long`: a time in a clause of its own.
+fn is_time_alone(words: &[&str]) -> bool {
+    let is_time = |word: &&str| word.starts_with("second");
+    words.len() <= 5 && words.iter().any(is_time) && !words.iter().any(|word| DURATION_WORDS.contains(word))
+}
+
+/// `stands still twice`: two stops.
+fn stands_repeatedly(words: &[&str]) -> bool {
+    let is_stand = |word: &&str| ["stand", "stands", "standing", "still", "stood"].contains(word);
+    let is_count = |word: &&str| ["once", "twice", "thrice", "times"].contains(word);
+    (0..words.len()).any(|at| is_stand(&words[at]) && words[at + 1..].iter().take(3).any(is_count))
 }
 
 /// Whether a negation comes a few words before such a word.
@@ -267,6 +294,13 @@ fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
         }
     }
     let found = colour(word)?;
+    // `dressed in red and red`: both garments.
+    if at >= 2 && words[at - 1] == "and" && words[at - 2] == word && garment(Some(&next)).is_none() {
+        return Some(Claim::Trousers(found));
+    }
+    if next == "and" && words.get(at + 2) == Some(&word) && garment(words.get(at + 3)).is_none() {
+        return Some(Claim::Top(found));
+    }
     if next == "and" {
         // `a black and white top`, which no garment here is.
         if let Some(other) =
@@ -290,9 +324,20 @@ fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
     }
 }
 
-pub(super) fn colour(word: &str) -> Option<Colour> {
+pub(crate) fn colour(word: &str) -> Option<Colour> {
     let word = if word == "gray" { "grey" } else { word };
     Colour::ALL.into_iter().find(|colour| colour.name() == word)
+}
+
+/// Whether a word is a number, or a number with its unit, such as `twenty-metre`.
+pub(crate) fn is_numeral(word: &str) -> bool {
+    let tokens = fold_numbers(vec![Token::Word(word.to_owned()), Token::Word("metres".to_owned())]);
+    matches!(tokens.first(), Some(Token::Number(_))) || tokens.len() > 2
+}
+
+/// Whether a word names a top or trousers.
+pub(crate) fn is_garment(word: &str) -> bool {
+    garment(Some(&word)).is_some()
 }
 
 fn garment(word: Option<&&str>) -> Option<fn(Colour) -> Claim> {
@@ -309,8 +354,13 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
     // `right behind`, `around 25 m` are no turns.
     let is_idiom = match word {
         "right" => {
-            !["turns", "turn", "turning", "turned", "takes", "then", "next", "and", ""].contains(&before)
-                && ["behind", "above", "after", "away", "there", "on", "up", "over", "across", "beside"].contains(&next)
+            // `the right distance`, `right behind`
+            let is_side =
+                ["turn", "turning", "hand", "bend", "corner", "swing", "one", "", "then", "and"].contains(&next);
+            (before == "the" && !is_side)
+                || !["turns", "turn", "turning", "turned", "takes", "then", "next", "and", ""].contains(&before)
+                    && ["behind", "above", "after", "away", "there", "on", "up", "over", "across", "beside"]
+                        .contains(&next)
                 || before == "all"
         }
         "around" | "round" => {
@@ -332,9 +382,14 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
             "still" if !["walks", "walking", "keeps", "keep", "moving"].contains(&next) && !about_stops => {
                 Some(Claim::Stays)
             }
-            "stands" | "standing" if next != "out" && !about_stops => Some(Claim::Stays),
+            "stand" | "stands" | "standing" if next != "out" && !about_stops => Some(Claim::Stays),
+            "rooted" if !about_stops => Some(Claim::Stays),
             "motionless" | "stationary" | "immobile" if !about_stops => Some(Claim::Stays),
-            "stays" | "remains" if ["put", "in"].contains(&next) && !words.contains(&"view") => Some(Claim::Stays),
+            "stays" | "stay" | "remains" | "remain"
+                if ["put", "where"].contains(&next) || (next == "in" && words.contains(&"place")) =>
+            {
+                Some(Claim::Stays)
+            }
             "once" if about_stops => Some(Claim::Stops(1)),
             "single" if is_stop(next) => Some(Claim::Stops(1)),
             "twice" if about_stops && turn_word(before).is_none() => Some(Claim::Stops(2)),
@@ -368,21 +423,12 @@ fn turn_word(word: &str) -> Option<TurnKind> {
     }
 }
 
+/// A pause, as verb or noun, and what keeps somebody from walking on.
 fn is_stop(word: &str) -> bool {
-    ["stop", "pause", "halt"].iter().any(|stem| word.starts_with(stem))
-        || matches!(
-            word,
-            "pausing"
-                | "waits"
-                | "waiting"
-                | "break"
-                | "breaks"
-                | "rests"
-                | "rested"
-                | "resting"
-                | "standstill"
-                | "lingers"
-        )
+    ["stop", "paus", "halt", "linger", "interrupt", "tarr", "loiter", "dawdl", "dall"]
+        .iter()
+        .any(|stem| word.starts_with(stem))
+        || STOP_WORDS.contains(&word)
 }
 
 pub fn is_unit(word: &str) -> bool {

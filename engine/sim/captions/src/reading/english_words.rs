@@ -28,7 +28,7 @@ pub const WAY_WORDS: [&str; 24] = [
     "course",
     "stretch",
 ];
-pub const DISTANCE_WORDS: [&str; 14] = [
+pub const DISTANCE_WORDS: [&str; 18] = [
     "away",
     "distance",
     "from",
@@ -43,6 +43,10 @@ pub const DISTANCE_WORDS: [&str; 14] = [
     "spacing",
     "clear",
     "standoff",
+    "clearance",
+    "berth",
+    "room",
+    "space",
 ];
 /// Words that make a distance one that was walked.
 pub const WALKED: [&str; 10] =
@@ -51,9 +55,30 @@ pub const UP_WORDS: [&str; 10] =
     ["up", "upward", "upwards", "skyward", "raised", "upturned", "above", "sky", "skywards", "heavens"];
 pub const DOWN_WORDS: [&str; 9] =
     ["down", "downward", "downwards", "below", "lowered", "dipped", "ground", "under", "beneath"];
+/// Pauses, beside those that begin with `stop`, `paus` and `halt`.
 pub const STOP_WORDS: [&str; 22] = [
-    "stop", "stops", "stopping", "stopped", "pause", "pauses", "pausing", "paused", "halt", "halts", "waits", "break",
-    "rest", "rests", "rested", "resting", "wait", "waited", "waiting", "halted", "halting", "breaks",
+    "stop",
+    "stops",
+    "stopped",
+    "pause",
+    "pauses",
+    "paused",
+    "halt",
+    "halts",
+    "waits",
+    "wait",
+    "waited",
+    "waiting",
+    "break",
+    "breaks",
+    "breather",
+    "rests",
+    "rested",
+    "resting",
+    "standstill",
+    "standstills",
+    "delay",
+    "delays",
 ];
 pub const DURATION_WORDS: [&str; 17] = [
     "travel", "walk", "walks", "walked", "takes", "take", "taking", "covers", "covered", "route", "journey", "flight",
@@ -62,8 +87,9 @@ pub const DURATION_WORDS: [&str; 17] = [
 /// First words of a clause that goes on about the stop before.
 pub const GOES_ON: [&str; 11] =
     ["for", "about", "each", "lasting", "totalling", "totaling", "which", "altogether", "in", "together", "standing"];
-pub const NEGATIONS: [&str; 11] =
-    ["no", "not", "never", "without", "nowhere", "doesn", "don", "didn", "isn", "neither", "nor"];
+/// Of `doesn't` and its like the part behind the apostrophe is a word of its own.
+pub const NEGATIONS: [&str; 12] =
+    ["no", "not", "never", "without", "nowhere", "nothing", "none", "nobody", "cannot", "neither", "nor", "t"];
 pub const TOPS: [&str; 19] = [
     "top",
     "shirt",

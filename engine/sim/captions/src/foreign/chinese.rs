@@ -1,0 +1,107 @@
+//! Things in Chinese texts, by their words and by their place in a clause.
+
+use super::chinese_words::{
+    BEFORE_PLACES, BESIDE, CHARACTERS, COMPANIONS_BEGIN, GOES_ON_DOING, HARMLESS, OF_THE_WALK, PASSING, SOME_OF,
+    SOMEWHERE, THINGS, TOGETHER,
+};
+use crate::reading::chinese::clauses;
+
+/// Characters that the thing a place is beside may have.
+const REACH: usize = 6;
+
+/// Words that name a thing, and places, company and what is passed that are no part of a walk.
+pub fn foreign_things(text: &str) -> Vec<String> {
+    clauses(text).iter().flat_map(|clause| in_clause(&clause.iter().collect::<String>())).collect()
+}
+
+fn in_clause(clause: &str) -> Vec<String> {
+    // What is harmless is taken out, so that the characters beside it are not joined.
+    let mut plain = clause.to_owned();
+    HARMLESS.split_whitespace().for_each(|word| plain = plain.replace(word, "·"));
+    let mut found: Vec<String> =
+        THINGS.split_whitespace().filter(|word| plain.contains(word)).map(str::to_owned).collect();
+    if found.is_empty() {
+        found.extend(plain.chars().filter(|c| CHARACTERS.contains(*c)).map(String::from).take(1));
+    }
+    if found.is_empty() {
+        let places = [passed(&plain), beside(&plain), there(&plain), company(&plain), carried(&plain), doing(&plain)];
+        found.extend(places.into_iter().flatten().take(1));
+    }
+    found
+}
+
+fn is_of_the_walk(text: &str) -> bool {
+    OF_THE_WALK.iter().any(|word| text.contains(word))
+}
+
+fn first(text: &str, count: usize) -> String {
+    text.chars().take(count).collect()
+}
+
+/// What is passed or near, where it is no part of the walk.
+fn passed(clause: &str) -> Option<String> {
+    let is_ended = |text: &str| text.chars().all(|c| "了着的后之再便就，·".contains(c));
+    let words = PASSING.iter().chain(&BEFORE_PLACES);
+    let behind = words.filter_map(|word| clause.find(word).map(|at| &clause[at + word.len()..]));
+    let mut foreign = behind.filter(|after| {
+        let is_number = after.trim_start_matches(['了', '约', '大', '概']).starts_with(|c: char| c.is_ascii_digit());
+        !is_number && !is_ended(after) && !is_of_the_walk(after)
+    });
+    foreign.next().map(|after| first(after, REACH))
+}
+
+/// Something beside a place, or a place beside something, where it is no part of the walk.
+fn beside(clause: &str) -> Option<String> {
+    let (at, word) = BESIDE.iter().find_map(|word| Some((clause.find(word)?, *word)))?;
+    let before: String = clause[..at].chars().rev().take(REACH).collect();
+    let before: String = before.chars().rev().collect();
+    let after = &clause[at + word.len()..];
+    let is_there = ["有", "是", "停", "立", "坐", "站", "为"].iter().any(|verb| after.starts_with(verb));
+    let is_own = is_of_the_walk(&before) || before.ends_with(['人', '其', '它', '他']);
+    (is_there && !is_of_the_walk(after) || !is_own).then(|| if is_there { first(after, REACH) } else { before })
+}
+
+/// `有个木偶`: something that is there and is no part of the walk.
+fn there(clause: &str) -> Option<String> {
+    let behind = |words: &[&str]| words.iter().find_map(|word| clause.find(word).map(|at| &clause[at + word.len()..]));
+    let is_there = |after: &&str| {
+        ["有", "是", "停着", "站着", "坐着", "立着", "飞过", "开过"].iter().any(|it| after.starts_with(it))
+    };
+    let under = || {
+        let place = clause.strip_prefix('在')?;
+        let is_inside = ["下", "里", "外面", "前面", "后头"].iter().any(|end| place.ends_with(end));
+        (is_inside && !place.contains(['空', '这', '那', '人']) && !place.contains(|c: char| c.is_ascii_digit()))
+            .then_some(place)
+    };
+    let after = behind(&SOME_OF).or_else(|| behind(&SOMEWHERE).filter(is_there)).or_else(under)?;
+    (!is_of_the_walk(after) && !after.contains('停')).then(|| first(after, REACH))
+}
+
+/// `和爱人一起`: who goes with the target.
+fn company(clause: &str) -> Option<String> {
+    let end = TOGETHER.iter().find_map(|word| clause.find(word))?;
+    let start = COMPANIONS_BEGIN.iter().filter_map(|word| clause[..end].rfind(word)).max()?;
+    let who = &clause[start..end];
+    (!is_of_the_walk(who)).then(|| who.to_owned())
+}
+
+/// `捏着票`: what somebody does or holds that is no part of a walk.
+fn doing(clause: &str) -> Option<String> {
+    let chars: Vec<char> = clause.chars().collect();
+    let is_other = |at: &usize| {
+        let next = chars.get(at + 1).copied().unwrap_or_default();
+        chars[*at] == '着'
+            && *at > 0
+            && chars[at - 1] != '·'
+            && !GOES_ON_DOING.contains(chars[at - 1])
+            && !"装色重陆落".contains(next)
+    };
+    (0..chars.len()).find(is_other).map(|at| chars[at - 1..(at + 3).min(chars.len())].iter().collect())
+}
+
+/// `带着小孩`: what the target has with it.
+fn carried(clause: &str) -> Option<String> {
+    let after =
+        ["带着", "带了", "领了"].iter().find_map(|word| clause.find(word).map(|at| &clause[at + word.len()..]))?;
+    (!after.starts_with('·') && !is_of_the_walk(after)).then(|| first(after, REACH))
+}

@@ -1,0 +1,150 @@
+//! English words by class: things, people, and the words in which people speak of a walk and a camera.
+
+/// Things, times and states that no facts of a flight have, in the singular.
+pub const THINGS: &str = "
+    building house shop tower church school bridge station wall fence gate roof tree bush hedge garden lawn playpark parkland grass river
+    lake pond grove orchard vineyard fountain statue bench lamp lamppost streetlight sign pole hydrant crossing crosswalk junction intersection
+    roundabout alley plaza square kerb curb pavement sidewalk gutter driveway avenue boulevard square flyover viaduct
+    overpass underpass subway car van truck lorry bus taxi bicycle bike motorcycle motorbike scooter moped tram train
+    vehicle minibus coach trailer tractor ambulance helicopter plane aeroplane airplane boat ship ferry yacht traffic
+    dog cat bird horse puppy pigeon duck cow sheep squirrel insect rain snow fog mist drizzle storm thunder lightning
+    sunshine moonlight sunlight cloud sunset sunrise night dusk dawn midnight noon midday morning afternoon evening
+    twilight breakfast lunch lunchtime dinner supper teatime winter summer spring autumn weather breeze gale headwind tailwind frost ice hail puddle mud raining snowing rainy snowy foggy
+    windy sunny cloudy stormy misty overcast umbrella hat cap scarf glasses sunglasses phone telephone mobile suitcase
+    pram stroller pushchair buggy helmet handbag purse skateboard tunnel stair staircase steps escalator lift elevator
+    bakery cafe café restaurant pub bar market supermarket hospital museum hotel cinema theatre theater office factory
+    library pharmacy chemist kiosk newsstand stall store mall platform railway railroad motorway highway canal beach hill
+    mountain forest wood meadow field flower flowerbed harbour harbor port pier dock quay playground stadium pool bank
+    temple mosque cathedral castle monument memorial cemetery petrol gas garage parasol cane crutch trolley basket
+    newspaper magazine book cigarette mask skirt dress shoe boot trainer sneaker sandal glove belt tie sock earphone
+    headphone earbud briefcase balloon ladder crane scaffold scaffolding barrier bollard bin dustbin litter billboard poster
+    banner flag awning balcony window door doorway porch entrance archway arch column pillar terrace courtyard yard
+    apartment flat skyscraper cottage cabin tent barn warehouse shed hut chimney antenna cable wire traffic-light
+    grocery shopping parcel package bottle coffee icecream sandwich food drink guitar camera-bag ball kite toy
+    tall old young elderly bald bearded blond blonde pregnant barefoot smoking eating drinking talking chatting singing
+    dancing limping cycling jogging crowd group queue audience party family police suburb village
+    city town downtown countryside desert island valley cliff rock stone brick concrete sculpture mural graffiti
+    accompanied accompanies hand-in-hand zebra driveways carpark parking rickshaw wheelchair walker-frame";
+
+/// People whom no facts of a flight have, and words that say more of the target than the facts do.
+pub const PERSONS: &str = "
+    he she his her him herself himself hers cyclist driver child children kid boy girl man men woman women lady gentleman
+    gentlemen friend companion toddler baby infant teenager teen adolescent biker rider motorist colleague neighbour neighbor
+    stranger tourist student pupil teacher policeman policewoman police officer guard soldier nurse doctor waiter waitress
+    vendor seller shopkeeper worker builder postman courier runner jogger schoolgirl schoolboy grandmother grandfather
+    granny grandma grandpa pensioner mother father mum mom dad parent wife husband spouse partner girlfriend boyfriend
+    sister brother daughter son uncle aunt cousin passenger commuter hiker skater beggar busker monk priest athlete
+    bystander onlooker spectator people passersby guy bloke chap lad lass dude twin guest customer";
+
+/// Words in which people speak of a walk, a person's clothes and a camera, in the singular.
+pub const HARMLESS: &str = "
+    pedestrian walker person target subject individual figure someone somebody passerby human one self figure wearer mark
+    drone aircraft uav quadcopter copter craft camera lens gimbal view frame shot picture image footage video film scene
+    pilot operator you them it they their its us we me us viewpoint vantage sight eye focus centre center middle horizon
+    horizontal sky ground air earth floor feet foot head shoulder back waist leg arm body chest hand heel toe side left
+    right top bottom front rear edge angle tilt pitch slant inclination depression elevation altitude height level degree
+    metre meter m second minute hour s time occasion moment while instant spell bit little lot few couple number count
+    total sum all half third quarter whole rest remainder part portion piece stretch section segment leg stage phase
+    walk stroll route way path road street lane course line track trail trip journey outing tour march trek hike distance
+    length pace speed rate tempo stride step gait rhythm clip amble saunter ramble wander progress movement motion move
+    spot place position point start end beginning finish outset close conclusion destination origin stop pause halt wait
+    break breather standstill interruption stay delay hold turn turning bend curve corner uturn swing change veer detour
+    direction heading bearing hand lefthander righthander reversal manoeuvre maneuver aboutturn aboutface rightturn leftturn
+    gap interval separation spacing range room space clearance margin buffer standoff remove berth reach proximity
+    top shirt jacket coat trousers pants jeans garment clothes clothing outfit attire dress-code wear pair colour color
+    shade hue sleeve leggings bottoms backpack rucksack knapsack bag pack luggage strap order sequence series succession
+    row turn case task job mission assignment goal aim objective order brief instruction plan duty purpose order
+    average mean maximum minimum norm limit value figure measure amount extent scale flight recording clip take sequence
+    shooting tracking following coverage pursuit chase surveillance watch observation lock touch contact company
+    same other another latter former next first second third fourth fifth last final only most least more less very
+    beginning entire entirety meantime meanwhile duration period timespan span clock run runtime
+    there here ahead behind above below up down away off near far by around about over along through past
+    total overall full level
+    question charge mind care sure example instance fact detail way manner fashion style ease haste hurry rush
+    result effect key note reminder attention please request footstep footfall sharp arrow beeline ruler string pin
+    counterpart protagonist star quarry charge lead leader wearer owner pattern trajectory itinerary standpoint hitch";
+
+/// Adjectives, and other words before a noun, that no ending gives away.
+pub const ADJECTIVES: &str = "
+    short long brief full whole entire steady tight gentle slow quick fast swift smooth sharp hard soft slight single double
+    triple sole lone main same other different similar equal exact precise rough mere bare sheer good better best bad clear
+    clean plain simple straight direct even odd far near close nearer closer farther further wide narrow high higher low lower
+    deep shallow steep flat level big small large great tiny little minor major new next last first second third fourth fifth
+    final initial early late later total overall average mean typical normal usual regular constant fixed firm safe sound free
+    easy light bright dark pale deep tidy neat modest fair good decent proper own very quite rather fairly more most less
+    least much many several few two three four five six seven eight nine ten some any each every both all half such least
+    just only about around roughly approximately nearly almost some exactly precisely left right upper lower rear front back
+    inner outer sudden complete absolute solid strict set given said stated required desired left-hand right-hand clockwise
+    anticlockwise counterclockwise uninterrupted unbroken nonstop whopping mid comfortable respectful walking standing
+    following moving running flying filming tracking looking well also then lefthand righthand";
+
+/// Words that end a phrase.
+pub const FUNCTION_WORDS: &str = "
+    and or but nor so yet as at by for from in into of off on onto out over to up upon with within without under while when
+    where who whom whose which that than then there this these those it they them you we i is are was were be been being am do
+    does did has have had having will would shall should can could may might must not no never ever again once twice thrice
+    time both either neither else too also just still if unless until till because since before after during plus minus per
+    least most first last all once order total between front turn view shot case longer more less nearer closer farther
+    further sooner later another other same one ones it's its your our my each every any some few many much anyone nobody
+    nothing everything something anything yourself themselves itself ourselves oneself t s re ll ve d m";
+
+/// Words before a noun. `that` and `this` are left out: they begin clauses as often.
+pub const DETERMINERS: [&str; 26] = [
+    "a", "an", "the", "another", "their", "its", "your", "our", "my", "several", "some", "two", "three", "four",
+    "five", "six", "seven", "eight", "nine", "ten", "both", "each", "every", "no", "whose", "any",
+];
+/// Words after which a noun needs no determiner to be a thing, a company or a time.
+pub const BARE_PLACES: [&str; 49] = [
+    "with",
+    "in",
+    "at",
+    "near",
+    "past",
+    "beside",
+    "between",
+    "among",
+    "amid",
+    "amidst",
+    "outside",
+    "inside",
+    "opposite",
+    "beyond",
+    "alongside",
+    "through",
+    "under",
+    "underneath",
+    "beneath",
+    "carrying",
+    "carries",
+    "pushing",
+    "pushes",
+    "pulling",
+    "pulls",
+    "holding",
+    "holds",
+    "eating",
+    "drinking",
+    "reading",
+    "riding",
+    "wearing",
+    "wears",
+    "towing",
+    "dragging",
+    "passing",
+    "passes",
+    "against",
+    "crossing",
+    "crosses",
+    "amongst",
+    "dodging",
+    "avoiding",
+    "meeting",
+    "during",
+    "before",
+    "after",
+    "as",
+    "of",
+];
+pub const ABSTRACT_ENDINGS: [&str; 9] = ["tion", "sion", "ment", "ness", "ity", "ance", "ence", "ings", "ism"];
+pub const ADJECTIVE_ENDINGS: [&str; 12] =
+    ["ly", "al", "ous", "ful", "less", "ed", "ive", "able", "ible", "ish", "ward", "wards"];
