@@ -2,7 +2,7 @@
 
 use super::outcome::{Outcome, print};
 use clap::Args;
-use cosfly_diagnose::Diagnostic;
+use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_frames::Seed;
 use cosfly_geometry::OrientedBox;
 use cosfly_lab::simplify::{fine_boxes, simplify_table};
@@ -32,16 +32,20 @@ pub struct SimplifyArguments {
 
 /// Measures and prints the table.
 pub fn simplify(arguments: &SimplifyArguments) -> Outcome {
-    let boxes = arguments.map.as_ref().map_or_else(|| Ok(fine_boxes(arguments.seed)), boxes_of_map)?;
+    let boxes = arguments
+        .map
+        .as_ref()
+        .map_or_else(|| Ok(fine_boxes(arguments.seed)), boxes_of_map)
+        .map_err(|error| vec![error])?;
     let table = simplify_table(&boxes);
     let as_json = || serde_json::to_string_pretty(&table).unwrap_or_default() + "\n";
     print(&if arguments.json { as_json() } else { table.to_string() })
 }
 
-fn boxes_of_map(path: &PathBuf) -> Result<Vec<OrientedBox>, Vec<Box<Diagnostic>>> {
+fn boxes_of_map(path: &PathBuf) -> Result<Vec<OrientedBox>> {
     let refused = |error: &dyn std::fmt::Display| {
         let error = std::io::Error::other(error.to_string());
-        vec![Diagnostic::io(format!("read the map `{}`", path.display()), &error)]
+        Diagnostic::io(format!("read the map `{}`", path.display()), &error)
     };
     let bytes = std::fs::read(path).map_err(|error| refused(&error))?;
     let seed = Seed::of_item(1, "town", "town");
