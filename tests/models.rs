@@ -38,9 +38,9 @@ fn things_are_drawn_by_models_and_the_dataset_holds() {
 fn files_that_are_no_models_are_refused_before_anything_runs() {
     for (lines, code, words) in [
         ("models = [{ kind = \"tree\", source = \"street.xodr\" }]", 4, vec!["no glTF file", "GLB", "recipe.toml:"]),
-        ("models = [{ kind = \"tree\", source = \"none.glb\" }]", 2, vec!["none.glb", "recipe.toml:"]),
-        ("models = [{ kind = \"house\", source = \"tree.glb\" }]", 2, vec!["house", "traffic_light", "recipe.toml:"]),
-        ("models = [{ kind = \"tree\", source = \"tree.glb\", turn_deg = 400 }]", 2, vec!["400", "360"]),
+        ("models = [{ kind = \"tree\", source = \"none.glb\" }]", 4, vec!["none.glb", "recipe.toml:"]),
+        ("models = [{ kind = \"house\", source = \"tree.glb\" }]", 3, vec!["house", "traffic_light", "recipe.toml:"]),
+        ("models = [{ kind = \"tree\", source = \"tree.glb\", turn_deg = 400 }]", 3, vec!["400", "360"]),
     ] {
         let street = street(lines);
         let printed = cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run();
