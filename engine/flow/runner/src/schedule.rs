@@ -44,7 +44,10 @@ pub(crate) struct Schedule {
     pairs_left: Vec<u32>,
     /// Tasks whose end was counted already; they run again when their blobs are lost.
     counted: Vec<bool>,
-    ready: BTreeSet<TaskIndex>,
+    /// Tasks that are ready, those of stages that make intermediate blobs last: what is there is read and removed before more is made.
+    ready: BTreeSet<(bool, TaskIndex)>,
+    /// By stage: whether its artifacts have intermediate blobs.
+    makes_intermediates: Vec<bool>,
     running: usize,
     /// Tasks waiting for one whose blobs were lost.
     rewaiting: BTreeMap<TaskIndex, Vec<TaskIndex>>,
@@ -66,6 +69,7 @@ impl Schedule {
             pairs_left: vec![0; tasks],
             counted: vec![false; tasks],
             ready: BTreeSet::new(),
+            makes_intermediates: recipe.stages.iter().map(|it| !it.stage.properties().intermediate.is_empty()).collect(),
             running: 0,
             rewaiting: BTreeMap::new(),
             rewaits_left: BTreeMap::new(),
@@ -135,7 +139,7 @@ impl Schedule {
 
     /// Takes the first task that is ready.
     pub(crate) fn next(&mut self) -> Option<TaskIndex> {
-        let task = self.ready.pop_first()?;
+        let (_, task) = self.ready.pop_first()?;
         self.states[task] = State::Running;
         self.running += 1;
         Some(task)
@@ -218,7 +222,7 @@ impl Schedule {
             for reader in readers {
                 if matches!(self.states[reader], State::Waiting | State::Ready) {
                     self.states[reader] = State::Skipped;
-                    self.ready.remove(&reader);
+                    self.ready.remove(&self.in_order(reader));
                     dead.push_back(reader);
                 }
             }
@@ -259,7 +263,12 @@ impl Schedule {
 
     fn make_ready(&mut self, task: TaskIndex) {
         self.states[task] = State::Ready;
-        self.ready.insert(task);
+        self.ready.insert(self.in_order(task));
+    }
+
+    /// A task with its place in the order of ready tasks.
+    fn in_order(&self, task: TaskIndex) -> (bool, TaskIndex) {
+        (self.makes_intermediates[self.place(task).0], task)
     }
 }
 

@@ -86,6 +86,24 @@ fn a_removed_pack_is_made_again_only_for_a_reader_that_runs() {
 }
 
 #[test]
+fn packs_are_read_before_many_more_are_made() {
+    let (_folder, store) = fresh_store();
+    let log = Log::default();
+    let mut toys = film_toys(&log);
+    toys[0] = Toy { hook: log.hook(), ..Toy::new("walks", 1200, &[]) };
+    let summary = run_quietly(&film_recipe(&toys, true), &store);
+    assert_eq!((summary.outcome, packs(&store, &summary)), (RunOutcome::Complete, 0));
+    let order = std::mem::take(&mut *log.0.lock().unwrap());
+    let (mut packed, mut most) = (0i64, 0);
+    for task in &order {
+        packed += i64::from(task.starts_with("films/")) - i64::from(task.starts_with("logs/"));
+        most = most.max(packed);
+    }
+    // Films are ahead of their logs while they are on their way to the disk: twice 256 at most, and those of two workers.
+    assert!(most < 520, "{most} of 1200 films had no log");
+}
+
+#[test]
 fn an_interrupted_run_keeps_the_packs_that_are_still_needed() {
     let (folder, store) = fresh_store();
     let log = Log::default();
