@@ -69,13 +69,14 @@ impl Schedule {
             pairs_left: vec![0; tasks],
             counted: vec![false; tasks],
             ready: BTreeSet::new(),
-            makes_intermediates: recipe.stages.iter().map(|it| !it.stage.properties().intermediate.is_empty()).collect(),
+            makes_intermediates: vec![false; recipe.stages.len()],
             running: 0,
             rewaiting: BTreeMap::new(),
             rewaits_left: BTreeMap::new(),
             offsets,
         };
         for (stage, described) in recipe.stages.iter().enumerate() {
+            schedule.makes_intermediates[stage] = !described.stage.properties().intermediate.is_empty();
             for item in 0..described.items.len() {
                 if finished(stage, item) {
                     let task = schedule.task(stage, item);
