@@ -65,7 +65,7 @@ impl Model {
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
         if triangles.is_empty() {
             let error = MapError::new("the model has no triangle that can be drawn");
-            return Err(error.hint("compressed (Draco, meshopt) and sparse meshes, points and lines are not read"));
+            return Err(error.hint("points, lines and meshes without extent show nothing"));
         }
         Ok(Self { triangles, textures, low, high })
     }
@@ -81,7 +81,14 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn add(&mut self, shape: &Primitive, in_thing: &dyn Fn(DVec3) -> DVec3) -> Result<(), MapError> {
-        let Some((points, corners)) = triangles(self.document, shape) else { return Ok(()) };
+        let Some((points, corners)) = triangles(self.document, shape) else {
+            // Points and lines have nothing to draw; a surface that cannot be read must not be missing unnoticed.
+            if !(4..=6).contains(&shape.mode.unwrap_or(4)) {
+                return Ok(());
+            }
+            let error = MapError::new("a mesh of the model cannot be read");
+            return Err(error.hint("export it without compression (Draco, meshopt) and sparse data, as one whole file"));
+        };
         if self.triangles.len() + corners.len() > MOST_TRIANGLES {
             let error = MapError::new(format!("the model has more than {MOST_TRIANGLES} triangles"));
             return Err(error.hint("export it with less detail: a few thousand triangles suffice"));
@@ -160,7 +167,7 @@ mod tests {
         let refused = |bytes: &[u8]| Model::read(bytes).expect_err("refused").message;
         assert!(refused(b"solid model").contains("no glTF"));
         assert!(refused(&changed("\"bufferView\": 2", "\"bufferView\": 7")).contains("picture 0"));
-        assert!(refused(&changed("\"POSITION\"", "\"POSITIOn\"")).contains("no triangle"));
+        assert!(refused(&changed("\"POSITION\"", "\"POSITIOn\"")).contains("a mesh of the model"));
         // A texture that the file does not have leaves the plain colour.
         let plain = Model::read(&changed("\"source\": 0", "\"sourcE\": 0")).expect("a model");
         assert!(plain.textures.is_empty() && plain.triangles.iter().all(|it| it.texture.is_none()));
