@@ -139,6 +139,8 @@ impl Reader<'_> {
                 let followed = self.read_blob(&blobs, read::FOLLOWED_BLOB, read::followed)?;
                 let around = self.read_blob(&blobs, read::AROUND_BLOB, read::around)?.unwrap_or_default();
                 let shooting = Shooting::of(&pictures, &flight, followed.as_ref(), name)?;
+                // Pictures of policies show it.
+                let _ = writeln!(listed, "{}/{name}/weather {:?}", described.name, shooting.weather);
                 let followed = followed.map(|followed| followed.plan);
                 let (place, scenery) = self.place(town)?;
                 let name = name.of_stage(&described.name).to_string();
@@ -153,6 +155,7 @@ impl Reader<'_> {
                     others: Arc::new(Others::new(&around, followed.as_ref())),
                     followed,
                     looks: shooting.clothes_seed,
+                    weather: Some(shooting.weather.clone()),
                     seed,
                 };
                 let knowledge = Knowledge { flight: waypoints.into(), config: Arc::clone(&config) };

@@ -8,7 +8,7 @@ use cosfly_env::pictures::{Channel, Format};
 use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::{Suite, Task};
 use cosfly_fly::vector::{ACTIONS, Autoreset, Flock};
-use cosfly_render::Weather;
+use cosfly_render::{PictureLook, Weather};
 use cosfly_runner::RunOptions;
 use cosfly_store::Store;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
@@ -28,7 +28,7 @@ pub struct PyFlock {
 impl PyFlock {
     /// Makes the episodes that the store lacks, and `count` environments over them.
     #[new]
-    #[pyo3(signature = (recipe, overrides, store, count, step_s, latency_s, mode, has_experts, channels, size, farthest_m, weather, threads, is_team))]
+    #[pyo3(signature = (recipe, overrides, store, count, step_s, latency_s, mode, has_experts, channels, size, farthest_m, weather, look, threads, is_team))]
     #[expect(clippy::too_many_arguments, reason = "Python's class names them")]
     fn new(
         py: Python<'_>,
@@ -43,7 +43,8 @@ impl PyFlock {
         channels: Vec<String>,
         size: (u32, u32),
         farthest_m: f32,
-        weather: &str,
+        weather: Option<&str>,
+        look: &str,
         threads: usize,
         is_team: bool,
     ) -> PyResult<Self> {
@@ -71,12 +72,12 @@ impl PyFlock {
         if channels.is_empty() {
             return Ok(Self { flock });
         }
-        let known = Weather::preset(weather);
-        let weather = known.ok_or_else(|| {
-            let presets = Weather::PRESETS.join(", ");
-            PyValueError::new_err(format!("weather is `{weather}`; it is one of {presets}"))
+        let weather = weather.map(preset).transpose()?;
+        let look = PictureLook::named(look).ok_or_else(|| {
+            let known = PictureLook::ALL.map(|(name, _)| name).join(", ");
+            PyValueError::new_err(format!("look is `{look}`; it is one of {known}"))
         })?;
-        let format = Format { width: size.0, height: size.1, channels, farthest_m, weather: Some(weather) };
+        let format = Format { width: size.0, height: size.1, channels, farthest_m, weather, look };
         let flock = flock.with_pictures(format, threads).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         Ok(Self { flock })
     }
@@ -172,6 +173,14 @@ impl PyFlock {
             Err(PyValueError::new_err(format!("there is no environment {number}")))
         }
     }
+}
+
+/// The weather of a name.
+fn preset(name: &str) -> PyResult<Weather> {
+    Weather::preset(name).ok_or_else(|| {
+        let presets = Weather::PRESETS.join(", ");
+        PyValueError::new_err(format!("weather is `{name}`; it is one of {presets}"))
+    })
 }
 
 /// Adds a channel as an array of (environment, row, column), and colour, where the album has it.

@@ -1,5 +1,5 @@
-//! Small pictures: CPU time of depth, labels and ids in the large renderer and in the batch renderer, in turns, and the
-//! pixels in which they differ.
+//! Small pictures: CPU time of depth, labels and ids, and of colours, in the large renderer and in the batch renderer, in
+//! turns, and the pixels in which they differ.
 
 use crate::clock::timed;
 use crate::render::views::Ground;
@@ -7,7 +7,8 @@ use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
 use cosfly_frames::{DVec3, TargetState};
 use cosfly_maps::GroundIndex;
 use cosfly_random::Seed;
-use cosfly_render::{Bystander, Camera, FrameParts, FrameSetup, Renderer, Walker, Weather};
+use cosfly_render::frame::FrameImages;
+use cosfly_render::{Bystander, Camera, FrameParts, FrameSetup, PictureLook, Renderer, Walker, Weather};
 use serde::Serialize;
 use std::fmt;
 use std::hint::black_box;
@@ -27,6 +28,38 @@ pub struct SmallOptions {
     pub people: u32,
     /// Rounds over all views; the minimum counts.
     pub rounds: usize,
+    /// Whether colours are measured, too.
+    pub has_colours: bool,
+}
+
+/// What pictures show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Content {
+    /// Depth, labels and ids.
+    Geometry,
+    /// Colours in the simple look.
+    Simple,
+    /// Colours in the full look.
+    Full,
+}
+
+impl Content {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Geometry => "depth + ids",
+            Self::Simple => "simple",
+            Self::Full => "full",
+        }
+    }
+
+    fn look(self) -> PictureLook {
+        if self == Self::Full { PictureLook::Full } else { PictureLook::Simple }
+    }
+
+    fn parts(self) -> FrameParts {
+        if self == Self::Geometry { FrameParts::Ids } else { FrameParts::All }
+    }
 }
 
 /// Times of one size.
@@ -34,11 +67,14 @@ pub struct SmallOptions {
 pub struct SmallRow {
     /// Side of the pictures, pixels.
     pub size: u32,
+    /// What the pictures show.
+    pub content: Content,
     /// CPU time of a picture in the large renderer, milliseconds.
     pub large_ms: f64,
     /// CPU time of a picture in the batch renderer, milliseconds.
     pub small_ms: f64,
-    /// Pixels that differ in depth by more than the bound, in label, or in id, of a million.
+    /// Pixels that differ in depth by more than the bound, in label, or in id, or in a colour by more than two levels, of a
+    /// million.
     pub differing_ppm: f64,
 }
 
@@ -68,14 +104,22 @@ pub fn measure(options: &SmallOptions) -> SmallReport {
     let index = GroundIndex::new(&ground.town);
     let crowds: Vec<Vec<Bystander>> =
         ground.views.iter().map(|place| crowd(place.target.state.feet_in_world, options.people, &index)).collect();
-    let rows = options.sizes.iter().map(|size| row(options, &scene, &crowds, *size)).collect();
+    let mut rows: Vec<SmallRow> =
+        options.sizes.iter().map(|size| row(options, &scene, &crowds, (*size, Content::Geometry))).collect();
+    let town_mb = 1e-6 * scene.bytes() as f64;
+    if options.has_colours {
+        let scene = BatchScene::new(&ground.town, Seed([1; 32]));
+        for content in [Content::Simple, Content::Full] {
+            rows.extend(options.sizes.iter().map(|size| row(options, &scene, &crowds, (*size, content))));
+        }
+    }
     SmallReport {
         town: ground.name.clone(),
         boxes: ground.town.obstacles.len(),
         views: ground.views.len(),
         people: options.people,
         prepare_ms: 1e3 * prepare_s,
-        town_mb: 1e-6 * scene.bytes() as f64,
+        town_mb,
         rows,
     }
 }
@@ -103,11 +147,16 @@ fn crowd(around: DVec3, count: u32, index: &GroundIndex) -> Vec<Bystander> {
     (0..count).map(person).collect()
 }
 
-fn row(options: &SmallOptions, scene: &BatchScene, crowds: &[Vec<Bystander>], size: u32) -> SmallRow {
+fn row(
+    options: &SmallOptions,
+    scene: &BatchScene,
+    crowds: &[Vec<Bystander>],
+    (size, content): (u32, Content),
+) -> SmallRow {
     let ground = &options.ground;
     let weather = Weather::preset("ClearNoon").expect("a preset");
-    let pixels = (size * size) as usize;
     let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad: FOV_RAD });
+    large.set_look(content.look());
     let mut small = BatchRenderer::new(size, size);
     let views: Vec<View<'_>> = ground
         .views
@@ -120,39 +169,21 @@ fn row(options: &SmallOptions, scene: &BatchScene, crowds: &[Vec<Bystander>], si
             target: Some(place.target.walker()),
             others,
             weather: None,
+            look: content.look(),
             figures: &[],
         })
         .collect();
-    let mut depth_m = vec![0.0f32; views.len() * pixels];
-    let mut semantic = vec![0u8; views.len() * pixels];
-    let mut instance = vec![0u32; views.len() * pixels];
+    let mut drawn = Drawn::new(content, (size * size) as usize, views.len());
     let (mut large_s, mut small_s, mut differing) = (f64::INFINITY, f64::INFINITY, 0);
     for round in 0..options.rounds.max(1) {
-        let outputs = Outputs {
-            depth_m: Some(&mut depth_m),
-            semantic: Some(&mut semantic),
-            instance: Some(&mut instance),
-            target_mask: None,
-            rgb: None,
-        };
-        small_s = small_s.min(timed(|| small.render(&views, outputs)).1);
+        small_s = small_s.min(timed(|| small.render(&views, drawn.outputs())).1);
         let mut spent_s = 0.0;
         for (number, (place, others)) in ground.views.iter().zip(crowds).enumerate() {
             let setup = FrameSetup { pose: place.pose, weather: &weather, target: Some(place.target), others };
-            let (frame, frame_s) = timed(|| large.render_parts(&ground.scene, &setup, FrameParts::Ids));
+            let (frame, frame_s) = timed(|| large.render_parts(&ground.scene, &setup, content.parts()));
             spent_s += frame_s;
             if round == 0 {
-                let images = black_box(frame).images;
-                let at = number * pixels;
-                differing += (0..pixels)
-                    .filter(|pixel| {
-                        let (ours, theirs) = (f64::from(depth_m[at + pixel]), f64::from(images.depth_m[*pixel]));
-                        let is_same_depth = ours == theirs || (ours - theirs).abs() <= 1e-3 + 1e-5 * theirs;
-                        !is_same_depth
-                            || semantic[at + pixel] != images.semantic[*pixel]
-                            || instance[at + pixel] != images.instance[*pixel]
-                    })
-                    .count();
+                differing += drawn.differing(number, black_box(frame).images);
             }
         }
         large_s = large_s.min(spent_s);
@@ -160,9 +191,66 @@ fn row(options: &SmallOptions, scene: &BatchScene, crowds: &[Vec<Bystander>], si
     let count = views.len().max(1) as f64;
     SmallRow {
         size,
+        content,
         large_ms: 1e3 * large_s / count,
         small_ms: 1e3 * small_s / count,
-        differing_ppm: 1e6 * differing as f64 / (count * pixels as f64),
+        differing_ppm: 1e6 * differing as f64 / (count * f64::from(size * size)),
+    }
+}
+
+/// Small pictures, one after the other.
+struct Drawn {
+    content: Content,
+    pixels: usize,
+    depth_m: Vec<f32>,
+    semantic: Vec<u8>,
+    instance: Vec<u32>,
+    rgb: Vec<u8>,
+}
+
+impl Drawn {
+    fn new(content: Content, pixels: usize, views: usize) -> Self {
+        let all = pixels * views;
+        Self {
+            content,
+            pixels,
+            depth_m: vec![0.0; all],
+            semantic: vec![0; all],
+            instance: vec![0; all],
+            rgb: vec![0; 3 * all],
+        }
+    }
+
+    fn outputs(&mut self) -> Outputs<'_> {
+        match self.content {
+            Content::Geometry => Outputs {
+                depth_m: Some(&mut self.depth_m),
+                semantic: Some(&mut self.semantic),
+                instance: Some(&mut self.instance),
+                target_mask: None,
+                rgb: None,
+            },
+            _ => Outputs { rgb: Some(&mut self.rgb), ..Outputs::default() },
+        }
+    }
+
+    /// Number of the pixels of a picture that differ from those of the large renderer.
+    fn differing(&self, number: usize, images: &FrameImages) -> usize {
+        let at = number * self.pixels;
+        let geometry = |pixel: &usize| {
+            let (ours, theirs) = (f64::from(self.depth_m[at + pixel]), f64::from(images.depth_m[*pixel]));
+            let is_same_depth = ours == theirs || (ours - theirs).abs() <= 1e-3 + 1e-5 * theirs;
+            !is_same_depth
+                || self.semantic[at + pixel] != images.semantic[*pixel]
+                || self.instance[at + pixel] != images.instance[*pixel]
+        };
+        let colours =
+            |pixel: &usize| (0..3).any(|k| self.rgb[3 * (at + pixel) + k].abs_diff(images.rgb[3 * pixel + k]) > 2);
+        let pixels = 0..self.pixels;
+        match self.content {
+            Content::Geometry => pixels.filter(geometry).count(),
+            _ => pixels.filter(colours).count(),
+        }
     }
 }
 
@@ -174,13 +262,22 @@ impl fmt::Display for SmallReport {
             self.town, self.boxes, self.people, self.views
         )?;
         writeln!(f, "the town: {:.0} ms once, {:.1} MB\n", self.prepare_ms, self.town_mb)?;
-        writeln!(f, "{:>6} {:>10} {:>10} {:>8} {:>14}", "pixels", "large", "batch", "times", "differ (ppm)")?;
+        let heads = ["content", "pixels", "large", "batch", "times", "differ (ppm)"];
+        writeln!(
+            f,
+            "{:<12}{:>6} {:>10} {:>10} {:>8} {:>14}",
+            heads[0], heads[1], heads[2], heads[3], heads[4], heads[5]
+        )?;
         for row in &self.rows {
             let times = row.large_ms / row.small_ms;
             writeln!(
                 f,
-                "{:>6} {:>10.3} {:>10.3} {times:>8.1} {:>14.0}",
-                row.size, row.large_ms, row.small_ms, row.differing_ppm
+                "{:<12}{:>6} {:>10.3} {:>10.3} {times:>8.1} {:>14.0}",
+                row.content.name(),
+                row.size,
+                row.large_ms,
+                row.small_ms,
+                row.differing_ppm
             )?;
         }
         Ok(())
@@ -199,8 +296,9 @@ mod tests {
             sizes: vec![32, 64],
             people: 4,
             rounds: 1,
+            has_colours: true,
         });
-        assert!(report.rows.iter().all(|row| row.small_ms > 0.0 && row.large_ms > 0.0 && row.differing_ppm < 1500.0));
-        assert!(report.to_string().contains("60 boxes, 4 people") && report.rows.len() == 2);
+        assert!(report.rows.iter().all(|row| row.small_ms > 0.0 && row.large_ms > 0.0 && row.differing_ppm < 4000.0));
+        assert!(report.to_string().contains("60 boxes, 4 people") && report.rows.len() == 6);
     }
 }

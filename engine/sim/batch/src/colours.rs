@@ -1,11 +1,11 @@
-//! Colours in the simple look, by the large renderer's own shading of the faces that were found here.
+//! Colours, by the large renderer's own shading of the faces that were found here.
 
 use crate::canvas::Canvas;
 use crate::faces::{DrawnFace, SKY};
 use crate::view::View;
 use cosfly_frames::simd::Level;
 
-use cosfly_render::{Camera, FrameSetup, PictureLook, Renderer, TargetSetup, Walker, Weather};
+use cosfly_render::{Camera, FrameSetup, Renderer, TargetSetup, Walker, Weather};
 
 /// Weather of views without any.
 const WEATHER: &str = "ClearNoon";
@@ -40,6 +40,7 @@ impl Colours {
             other => other.insert(new_renderer(camera)),
         };
         renderer.set_level(level);
+        renderer.set_look(view.look);
         if self.noon.is_none() {
             self.noon = Weather::preset(WEATHER);
         }
@@ -52,7 +53,6 @@ impl Colours {
 
 fn new_renderer(camera: Camera) -> Renderer {
     let mut renderer = Renderer::new(camera);
-    renderer.set_look(PictureLook::Simple);
     renderer.set_parallel(false);
     renderer
 }

@@ -2,7 +2,7 @@
 
 use crate::scene::BatchScene;
 use cosfly_frames::{DVec3, Pose};
-use cosfly_render::{Bystander, Walker, Weather};
+use cosfly_render::{Bystander, PictureLook, Walker, Weather};
 
 /// One picture of a batch.
 #[derive(Clone, Copy)]
@@ -20,6 +20,8 @@ pub struct View<'a> {
     pub others: &'a [Bystander],
     /// Weather of the colours; noon under a clear sky where there is none.
     pub weather: Option<&'a Weather>,
+    /// Look of the colours.
+    pub look: PictureLook,
     /// Everything else that moves, as triangles; they are not in colours.
     pub figures: &'a [Figure<'a>],
 }

@@ -9,7 +9,9 @@ use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::Town;
 use cosfly_render::frame::object_instance;
-use cosfly_render::{BodyShape, Camera, FrameParts, FrameSetup, Renderer, Scene, TargetSetup, Walker, Weather};
+use cosfly_render::{
+    BodyShape, Camera, FrameParts, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Walker, Weather,
+};
 use cosfly_world::BodyKind;
 use towns::Place;
 
@@ -65,6 +67,7 @@ fn small(scene: &BatchScene, place: &Place, size: u32) -> Pictures {
         target: Some(place.target),
         others: &place.others,
         weather: None,
+        look: PictureLook::Simple,
         figures: &[],
     };
     let outputs = Outputs {

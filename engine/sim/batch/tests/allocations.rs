@@ -52,6 +52,7 @@ fn the_second_batch_allocates_nothing() {
             target: Some(place.target),
             others: &place.others,
             weather: None,
+            look: PictureLook::Simple,
             figures: &[],
         })
         .collect();

@@ -5,6 +5,7 @@ mod towns;
 use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
 use cosfly_frames::Seed;
 use cosfly_frames::simd::Level;
+use cosfly_render::PictureLook;
 use towns::Place;
 
 const SIZE: u32 = 84;
@@ -27,6 +28,7 @@ fn view<'a>(scene: &'a BatchScene, place: &'a Place) -> View<'a> {
         target: Some(place.target),
         others: &place.others,
         weather: None,
+        look: PictureLook::Simple,
         figures: &[],
     }
 }

@@ -26,6 +26,7 @@ fn main() {
                 target: Arc::new(target),
                 followed: None,
                 looks: seed,
+                weather: None,
                 others: Arc::default(),
                 start,
                 seed,

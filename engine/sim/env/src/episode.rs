@@ -7,6 +7,7 @@ use cosfly_geometry::SpatialQuery;
 use cosfly_planner::obstacles::moving::Encounter;
 use cosfly_planner::visibility::BODY_POINTS;
 use cosfly_planner::{aim_point, body_points};
+use cosfly_render::Weather;
 use cosfly_world::BodyPlan;
 use std::sync::Arc;
 
@@ -34,6 +35,8 @@ pub struct Episode {
     pub followed: Option<BodyPlan>,
     /// Seed of the target's clothes or paint.
     pub looks: Seed,
+    /// Weather of colours; noon under a clear sky where there is none.
+    pub weather: Option<Weather>,
     /// Who moves around the target.
     pub others: Arc<Others>,
     /// State of the drone at the beginning; the camera is aimed at the target.

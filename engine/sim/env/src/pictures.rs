@@ -3,7 +3,7 @@
 use crate::environment::Environment;
 use crate::others::Present;
 use cosfly_batch::{BatchRenderer, Outputs, View};
-use cosfly_render::{BodyShape, Bystander, Walker, Weather, gait_phase_rad};
+use cosfly_render::{BodyShape, Bystander, PictureLook, Walker, Weather, gait_phase_rad};
 use std::ops::Range;
 
 /// A channel of pictures.
@@ -17,7 +17,7 @@ pub enum Channel {
     Instance,
     /// 1 where the target is seen, 0 elsewhere.
     Mask,
-    /// Red, green and blue in the simple look of films.
+    /// Red, green and blue.
     Rgb,
 }
 
@@ -48,8 +48,10 @@ pub struct Format {
     pub channels: Vec<Channel>,
     /// Greatest depth, metres.
     pub farthest_m: f32,
-    /// Weather of colours; noon under a clear sky where there is none.
+    /// Weather of colours; each episode's own where there is none.
     pub weather: Option<Weather>,
+    /// Look of colours.
+    pub look: PictureLook,
 }
 
 impl Format {
@@ -176,7 +178,8 @@ impl Pictures {
                 horizontal_fov_rad: environment.settings().lens.horizontal_deg.to_radians(),
                 target: Some(target(environment)),
                 others: &bystanders[range.clone()],
-                weather: format.weather.as_ref(),
+                weather: format.weather.as_ref().or(environment.episode().weather.as_ref()),
+                look: format.look,
                 figures: &[],
             })
             .collect();

@@ -53,6 +53,7 @@ fn environments(town: &Town, count: usize) -> Vec<Environment> {
             others: Arc::new(Others::new(&around, followed.as_ref())),
             followed,
             looks: Seed([number as u8; 32]),
+            weather: (number % 2 == 1).then(|| Weather::preset("WetSunset").expect("a preset")),
             start: Start { position_in_world, velocity_in_world: DVec3::ZERO },
             seed: Seed([0; 32]),
         };
@@ -65,7 +66,7 @@ fn environments(town: &Town, count: usize) -> Vec<Environment> {
 
 fn format(size: u32) -> Format {
     let channels = Channel::ALL.map(|(_, channel)| channel).to_vec();
-    Format { width: size, height: size, channels, farthest_m: FARTHEST_M, weather: None }
+    Format { width: size, height: size, channels, farthest_m: FARTHEST_M, weather: None, look: PictureLook::Simple }
 }
 
 fn drawn(environments: &[&Environment], size: u32, threads: usize) -> Album {
@@ -84,7 +85,7 @@ fn setup_of(walker: Walker) -> TargetSetup {
 fn pictures_are_those_of_the_large_renderer_at_the_pose_of_the_environment() {
     let town = downtown();
     let scene = Scene::new(&town, Seed([1; 32]));
-    let weather = Weather::preset("ClearNoon").expect("a preset");
+    let noon = Weather::preset("ClearNoon").expect("a preset");
     let mut others_seen = 0;
     for (number, environment) in environments(&town, 8).iter().enumerate() {
         for size in [84, 128] {
@@ -93,7 +94,7 @@ fn pictures_are_those_of_the_large_renderer_at_the_pose_of_the_environment() {
             let others: Vec<_> = bystanders(environment).collect();
             let setup = FrameSetup {
                 pose: environment.camera(),
-                weather: &weather,
+                weather: environment.episode().weather.as_ref().unwrap_or(&noon),
                 target: Some(setup_of(target(environment))),
                 others: &others,
             };
@@ -116,6 +117,32 @@ fn pictures_are_those_of_the_large_renderer_at_the_pose_of_the_environment() {
         }
     }
     assert!(others_seen > 500, "{others_seen}");
+}
+
+#[test]
+fn full_colours_are_those_of_the_large_renderer_in_the_weather_of_the_episode_or_the_format() {
+    let town = downtown();
+    let scene = Scene::new(&town, Seed([1; 32]));
+    let weather = |name: &str| Weather::preset(name).expect("a preset");
+    for (number, environment) in environments(&town, 4).iter().enumerate() {
+        for (asked, shown) in [(None, ["ClearNoon", "WetSunset"][number % 2]), (Some("HardRainNight"), "HardRainNight")]
+        {
+            let size = [84, 128][number / 2];
+            let channels = vec![Channel::Rgb];
+            let asked = asked.map(weather);
+            let format = Format { channels, weather: asked, look: PictureLook::Full, ..format(size) };
+            let mut album = Album::new(&format, 1);
+            Pictures::new(format, 1).draw(&[environment], &mut album, 0);
+            let others: Vec<_> = bystanders(environment).collect();
+            let target = Some(setup_of(target(environment)));
+            let setup = FrameSetup { pose: environment.camera(), weather: &weather(shown), target, others: &others };
+            let horizontal_fov_rad = environment.settings().lens.horizontal_deg.to_radians();
+            let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad });
+            let rgb = &large.render_parts(&scene, &setup, FrameParts::All).images.rgb;
+            let wrong = (album.rgb.iter().zip(rgb)).filter(|(ours, theirs)| ours.abs_diff(**theirs) > 2).count();
+            assert!(wrong <= rgb.len().div_ceil(500), "{number}, {shown}: {wrong} of {}", rgb.len());
+        }
+    }
 }
 
 #[test]

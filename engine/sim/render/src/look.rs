@@ -12,3 +12,21 @@ pub enum PictureLook {
     /// Plain colours and windows, light of the sun and the open sky, haze; no shadows, textures or smooth edges.
     Simple,
 }
+
+impl PictureLook {
+    /// Both looks, by name.
+    pub const ALL: [(&'static str, Self); 2] = [("simple", Self::Simple), ("full", Self::Full)];
+
+    /// The look of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find_map(|(known, look)| (known == name).then_some(look))
+    }
+
+    /// The name of the look.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Simple => "simple",
+            Self::Full => "full",
+        }
+    }
+}

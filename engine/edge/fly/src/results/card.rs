@@ -4,6 +4,7 @@ use crate::flight::Latency;
 use crate::suite::Suite;
 use cosfly_env::pictures::{Channel, Format};
 use cosfly_env::{Blackouts, RewardWeights, Settings};
+use cosfly_render::PictureLook;
 use serde::{Deserialize, Serialize};
 
 /// What was evaluated, and how. Rows of two results are comparable where `suite`, `episodes` and `environment` are equal.
@@ -78,6 +79,9 @@ pub struct PicturesCard {
     width: u32,
     height: u32,
     farthest_m: f32,
+    /// Of colours, where there are any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    look: Option<PictureLook>,
 }
 
 impl PicturesCard {
@@ -89,6 +93,7 @@ impl PicturesCard {
             width: format.width,
             height: format.height,
             farthest_m: format.farthest_m,
+            look: format.channels.contains(&Channel::Rgb).then_some(format.look),
         }
     }
 }

@@ -19,6 +19,7 @@ fn tasks() -> Arc<[Task]> {
             target: Arc::new(TargetTrack { dt_s: 0.5, height_m: 1.7, radius_m: 0.25, states }),
             followed: None,
             looks: Seed([0; 32]),
+            weather: None,
             others: Arc::default(),
             start: Start { position_in_world: 20.0 * DVec3::Z, velocity_in_world: DVec3::ZERO },
             seed: Seed([0; 32]),

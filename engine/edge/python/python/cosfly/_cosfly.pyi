@@ -45,7 +45,8 @@ class Flock:
         channels: Sequence[str],
         size: Tuple[int, int],
         farthest_m: float,
-        weather: str,
+        weather: str | None,
+        look: str,
         threads: int,
         is_team: bool,
     ) -> None: ...

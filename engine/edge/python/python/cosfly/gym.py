@@ -87,7 +87,8 @@ def _flock(
     obs: Sequence[str],
     size: int | tuple[int, int],
     max_depth_m: float,
-    weather: str,
+    weather: str | None,
+    look: str,
     threads: int | None,
     step_s: float,
     latency_s: float | None,
@@ -101,7 +102,7 @@ def _flock(
     place = os.fspath(store if store is not None else os.environ.get("COSFLY_STORE") or ".cosfly")
     flock = Flock(
         os.fspath(recipe), list(overrides), place, count, step_s, latency_s, _MODES[mode], expert_action,
-        observations.channels, observations.size, observations.max_depth_m, weather,
+        observations.channels, observations.size, observations.max_depth_m, weather, look,
         min(count, threads if threads is not None else os.cpu_count() or 1), is_team,
     )  # fmt: skip
     return flock, observations
@@ -129,7 +130,8 @@ class TrackVector(VectorEnv):
         obs: Sequence[str] = ("state",),
         size: int | tuple[int, int] = 84,
         max_depth_m: float = 200.0,
-        weather: str = "ClearNoon",
+        weather: str | None = None,
+        look: str = "simple",
         threads: int | None = None,
         step_s: float = 0.1,
         latency_s: float | None = None,
@@ -142,7 +144,7 @@ class TrackVector(VectorEnv):
         self._mode = mode
         self._flock, self._observations = _flock(
             recipe, num_envs, mode, overrides=overrides, store=store, obs=obs, size=size, max_depth_m=max_depth_m,
-            weather=weather, threads=threads, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
+            weather=weather, look=look, threads=threads, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
         )  # fmt: skip
         self.single_observation_space, self.single_action_space = self._observations.space(), deepcopy(ACTIONS)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
@@ -203,14 +205,15 @@ class Track(gymnasium.Env):
         obs: Sequence[str] = ("state",),
         size: int | tuple[int, int] = 84,
         max_depth_m: float = 200.0,
-        weather: str = "ClearNoon",
+        weather: str | None = None,
+        look: str = "simple",
         step_s: float = 0.1,
         latency_s: float | None = None,
         expert_action: bool = False,
     ) -> None:
         self._flock, self._observations = _flock(
             recipe, 1, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, size=size,
-            max_depth_m=max_depth_m, weather=weather, threads=1, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
+            max_depth_m=max_depth_m, weather=weather, look=look, threads=1, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
         )  # fmt: skip
         self.observation_space, self.action_space = self._observations.space(), deepcopy(ACTIONS)
 

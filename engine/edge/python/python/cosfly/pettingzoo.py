@@ -37,7 +37,8 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
         obs: Sequence[str] = ("state",),
         size: int | tuple[int, int] = 84,
         max_depth_m: float = 200.0,
-        weather: str = "ClearNoon",
+        weather: str | None = None,
+        look: str = "simple",
         threads: int | None = None,
         step_s: float = 0.1,
         latency_s: float | None = None,
@@ -46,7 +47,7 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
             raise ValueError(f"num_drones is {num_drones}; it is 1 to 64")
         self._flock, self._observations = _flock(
             recipe, num_drones, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, size=size,
-            max_depth_m=max_depth_m, weather=weather, threads=threads, step_s=step_s, latency_s=latency_s,
+            max_depth_m=max_depth_m, weather=weather, look=look, threads=threads, step_s=step_s, latency_s=latency_s,
             expert_action=False, is_team=True,
         )  # fmt: skip
         self.render_mode = None

@@ -11,6 +11,7 @@ pub const EXAMPLES: &str = "\
 Examples:
   cosfly-lab small                         the recipes' town, 50 people around each target, 64 to 224 pixels
   cosfly-lab small --people 0 --size 84    without people, one size
+  cosfly-lab small --colours --size 224    colours in both looks, too
   cosfly-lab small --town my.xodr --json   another town, for machines";
 
 /// Arguments of `small`.
@@ -31,6 +32,9 @@ pub struct SmallArguments {
     /// Rounds over all views; the minimum time counts
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = super::outcome::counts())]
     pub rounds: usize,
+    /// Measure colours in the simple and the full look, too
+    #[arg(long)]
+    pub colours: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -41,7 +45,13 @@ pub fn small(arguments: &SmallArguments) -> Outcome {
     let camera = Camera { width: 84, height: 84, horizontal_fov_rad: core::f64::consts::FRAC_PI_2 };
     let ground = super::ground::of_town(arguments.town.as_deref(), camera, arguments.views)?;
     let sizes = if arguments.sizes.is_empty() { vec![64, 84, 128, 224] } else { arguments.sizes.clone() };
-    let report = measure(&SmallOptions { ground, sizes, people: arguments.people, rounds: arguments.rounds });
+    let report = measure(&SmallOptions {
+        ground,
+        sizes,
+        people: arguments.people,
+        rounds: arguments.rounds,
+        has_colours: arguments.colours,
+    });
     let json = || serde_json::to_string_pretty(&report).unwrap_or_default() + "\n";
     print(&if arguments.json { json() } else { report.to_string() })
 }

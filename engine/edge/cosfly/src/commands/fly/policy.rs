@@ -5,6 +5,7 @@ use clap::{Args, ValueEnum};
 use cosfly_env::pictures::{Channel, Format};
 use cosfly_fly::pilot::{ActionKind, Manners, Place};
 use cosfly_fly::results::{PicturesCard, PolicyCard};
+use cosfly_render::PictureLook;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -29,6 +30,10 @@ pub struct PolicyArguments {
     /// Width and height of pictures in observations, pixels
     #[arg(long, value_name = "PX", default_value_t = 84, value_parser = clap::value_parser!(u32).range(16..=512))]
     size: u32,
+    /// Look of colours in observations: plain (`simple`) or with shadows, textures and smooth edges (`full`); in the weather of the
+    /// recipe's pictures
+    #[arg(long, value_name = "LOOK", default_value = "simple", value_parser = look)]
+    look: PictureLook,
     /// Text of the task in observations
     #[arg(long, value_name = "TEXT", default_value = "Follow the person and keep them in view.")]
     prompt: String,
@@ -98,7 +103,15 @@ impl PolicyArguments {
         let mut channels = self.obs.clone();
         channels.dedup();
         let (width, height) = (self.size, self.size);
-        (!channels.is_empty()).then_some(Format { width, height, channels, farthest_m: FARTHEST_M, weather: None })
+        let look = self.look;
+        (!channels.is_empty()).then_some(Format {
+            width,
+            height,
+            channels,
+            farthest_m: FARTHEST_M,
+            weather: None,
+            look,
+        })
     }
 
     /// What a card says of the policy at a place.
@@ -124,6 +137,11 @@ impl PolicyArguments {
 fn channel(text: &str) -> Result<Channel, String> {
     let names: Vec<&str> = Channel::ALL.iter().map(|(name, _)| *name).collect();
     Channel::named(text).ok_or_else(|| format!("allowed are {}", names.join(", ")))
+}
+
+fn look(text: &str) -> Result<PictureLook, String> {
+    let names = PictureLook::ALL.map(|(name, _)| name);
+    PictureLook::named(text).ok_or_else(|| format!("allowed are {}", names.join(", ")))
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
