@@ -128,11 +128,25 @@ def test_the_expert_tracks_and_the_terms_add_up():
     assert np.mean(tracked) > 0.8
 
 
+def test_colours_show_the_weather_of_the_recipe_unless_another_is_named():
+    night = RECIPE.replace("street.toml", "night_rain.toml")
+    pictures = {}
+    for name, named in (("own", {}), ("noon", {"weather": "ClearNoon"}), ("full", {"look": "full"})):
+        envs = gym.make_vec(
+            "cosfly/Track-v0", vectorization_mode="vector_entry_point", recipe=night, obs=("rgb",), size=48, **named
+        )
+        pictures[name] = envs.reset(seed=1)[0].astype(float)
+    assert pictures["own"].mean() < pictures["noon"].mean() - 20
+    assert np.abs(pictures["own"] - pictures["full"]).mean() > 2
+
+
 def test_what_is_not_there_is_refused():
     with pytest.raises(ValueError, match="state, depth"):
         make_vec(obs=("thermal",))
     with pytest.raises(ValueError, match="ClearNoon"):
         make_vec(obs=("rgb",), weather="Frogs")
+    with pytest.raises(ValueError, match="simple, full"):
+        make_vec(obs=("rgb",), look="pretty")
     with pytest.raises(ValueError, match="8 to 2048"):
         make_vec(obs=("depth",), size=4)
     with pytest.raises(ValueError, match="shape"):

@@ -81,6 +81,11 @@ def test_the_environment_of_lerobot_has_its_names():
     assert env.observation_space.contains(observation) and 0 <= info["tracking_rate"] <= 1
     assert env.unwrapped._max_episode_steps > 0 and env.unwrapped.task_description
 
+    with_pictures = gym.make(cosfly.lerobot.ID, recipe=RECIPE, size=64, look="full", disable_env_checker=False)
+    observation, _ = with_pictures.reset(seed=1)
+    assert with_pictures.observation_space.contains(observation)
+    assert observation["pixels"].shape == (64, 64, 3) and observation["pixels"].std() > 5
+
 
 def test_lerobot_makes_the_environment_from_its_configuration():
     pytest.importorskip("lerobot.envs.factory")
@@ -90,3 +95,12 @@ def test_lerobot_makes_the_environment_from_its_configuration():
     made = make_env(CosflyEnv(recipe=RECIPE), n_envs=2)
     observation, _ = made["cosfly"][0].reset(seed=[1, 2])
     assert observation["agent_pos"].shape == (2, 16)
+
+    from lerobot.envs.utils import env_to_policy_features, preprocess_observation
+
+    config = CosflyEnv(recipe=RECIPE, size=48)
+    observation, _ = make_env(config, n_envs=2)["cosfly"][0].reset(seed=[1, 2])
+    told = preprocess_observation(observation)
+    features = env_to_policy_features(config)
+    for name, shape in (("observation.state", (16,)), ("observation.image", (3, 48, 48))):
+        assert features[name].shape == shape and tuple(told[name].shape) == (2, *shape)

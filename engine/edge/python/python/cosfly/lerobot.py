@@ -2,7 +2,8 @@
 
 `lerobot-eval --env.discover_packages_path=cosfly.lerobot --env.type=cosfly --env.recipe=recipes/suites/street.toml ...`, or
 `lerobot.envs.factory.make_env(CosflyEnv(recipe=...), n_envs=4)`. Observations have `agent_pos` (16 numbers), which
-LeRobot calls `observation.state`; an action is five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s).
+LeRobot calls `observation.state`, and with `size` colours as `pixels`, which LeRobot calls `observation.image`; an action is five
+numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s).
 """
 
 from __future__ import annotations
@@ -25,10 +26,15 @@ class LeRobotTrack(gymnasium.Env):
 
     metadata = {"render_modes": [], "render_fps": 10}
 
-    def __init__(self, recipe: str, step_s: float = 0.1, prompt: str = PROMPT, **more: Any) -> None:
-        self._track = Track(recipe, step_s=step_s, **more)
+    def __init__(
+        self, recipe: str, step_s: float = 0.1, prompt: str = PROMPT, size: int = 0, **more: Any
+    ) -> None:
+        pictures = {"obs": ("state", "rgb"), "size": size} if size else {}
+        self._track = Track(recipe, step_s=step_s, **pictures, **more)
         self._step_s, self.task_description, self.task = step_s, prompt, prompt
-        self.observation_space = gymnasium.spaces.Dict({"agent_pos": self._track.observation_space})
+        space = self._track.observation_space
+        names = {"agent_pos": space["state"], "pixels": space["rgb"]} if size else {"agent_pos": space}
+        self.observation_space = gymnasium.spaces.Dict(names)
         self.action_space = ACTIONS
         self._outcome = Outcome(1, step_s)
 
@@ -40,15 +46,21 @@ class LeRobotTrack(gymnasium.Env):
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
         super().reset(seed=seed)
-        state, info = self._track.reset(seed=seed, options=options)
+        observation, info = self._track.reset(seed=seed, options=options)
         self._outcome = Outcome(self._track.planned_steps, self._step_s)
-        return {"agent_pos": state}, {**info, "is_success": False}
+        return self._named(observation), {**info, "is_success": False}
 
     def step(self, action: np.ndarray) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
-        state, reward, terminated, truncated, info = self._track.step(action)
+        observation, reward, terminated, truncated, info = self._track.step(action)
         self._outcome.count(bool(info["tracked"]), reward, terminated, truncated)
         told = {**info, "is_success": self._outcome.success, "tracking_rate": self._outcome.tracking_rate}
-        return {"agent_pos": state}, reward, terminated, truncated, told
+        return self._named(observation), reward, terminated, truncated, told
+
+    @staticmethod
+    def _named(observation: Any) -> dict[str, np.ndarray]:
+        if isinstance(observation, dict):
+            return {"agent_pos": observation["state"], "pixels": observation["rgb"]}
+        return {"agent_pos": observation}
 
 
 def _register() -> None:
@@ -75,6 +87,10 @@ else:
         task: str | None = "LeRobotTrack-v0"
         fps: int = 10
         recipe: str = "recipes/suites/street.toml"
+        # Width and height of pictures in pixels; without pictures at 0.
+        size: int = 0
+        # Look of the pictures: `simple` or `full`; in the weather of the recipe.
+        look: str = "simple"
         features: dict[str, PolicyFeature] = field(
             default_factory=lambda: {
                 "action": PolicyFeature(type=FeatureType.ACTION, shape=(5,)),
@@ -84,6 +100,11 @@ else:
         features_map: dict[str, str] = field(
             default_factory=lambda: {"action": "action", "agent_pos": "observation.state"}
         )
+
+        def __post_init__(self) -> None:
+            if self.size:
+                self.features["pixels"] = PolicyFeature(type=FeatureType.VISUAL, shape=(self.size, self.size, 3))
+                self.features_map["pixels"] = "observation.image"
 
         @property
         def package_name(self) -> str:
@@ -98,4 +119,4 @@ else:
         @property
         def gym_kwargs(self) -> dict[str, Any]:
             """Arguments of the environment."""
-            return {"recipe": self.recipe, "step_s": 1.0 / self.fps}
+            return {"recipe": self.recipe, "step_s": 1.0 / self.fps, "size": self.size, "look": self.look}
