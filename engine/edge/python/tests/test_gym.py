@@ -129,12 +129,9 @@ def test_the_expert_tracks_and_the_terms_add_up():
 
 
 def test_colours_show_the_weather_of_the_recipe_unless_another_is_named():
-    night = RECIPE.replace("street.toml", "night_rain.toml")
-    pictures = {}
+    night, pictures = ['stages.frames.weathers=["HardRainNight"]'], {}
     for name, named in (("own", {}), ("noon", {"weather": "ClearNoon"}), ("full", {"look": "full"})):
-        envs = gym.make_vec(
-            "cosfly/Track-v0", vectorization_mode="vector_entry_point", recipe=night, obs=("rgb",), size=48, **named
-        )
+        envs = make_vec(num_envs=2, obs=("rgb",), size=48, overrides=night, **named)
         pictures[name] = envs.reset(seed=1)[0].astype(float)
     assert pictures["own"].mean() < pictures["noon"].mean() - 20
     assert np.abs(pictures["own"] - pictures["full"]).mean() > 2
