@@ -100,7 +100,7 @@ pub struct SmallReport {
 /// Runs the measurement.
 pub fn measure(options: &SmallOptions) -> SmallReport {
     let ground = &options.ground;
-    let (scene, prepare_s) = timed(|| BatchScene::without_colours(&ground.town));
+    let (scene, prepare_s) = timed(|| BatchScene::without_colours(&ground.town, &GroundIndex::new(&ground.town)));
     let index = GroundIndex::new(&ground.town);
     let crowds: Vec<Vec<Bystander>> =
         ground.views.iter().map(|place| crowd(place.target.state.feet_in_world, options.people, &index)).collect();

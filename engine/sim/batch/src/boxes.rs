@@ -1,6 +1,6 @@
 //! Boxes of a town in groups of eight neighbours, projected together.
 
-use crate::eye::{Eye, Linear};
+use crate::eye::{Eye, Linear, in_single, scaled};
 use crate::faces::DrawnFace;
 use crate::lanes::{Bounds, BoxLanes, LANES};
 use crate::raster::BoxOnScreen;
@@ -105,10 +105,11 @@ impl SolidBox {
         let away = center_in_world - eye.position_in_world;
         let center = [cos * away.x + sin * away.y, cos * away.y - sin * away.x, away.z];
         let rays = eye.ray_in_world;
+        let (ahead, across) = (|ray: DVec3| cos * ray.x + sin * ray.y, |ray: DVec3| cos * ray.y - sin * ray.x);
         let along: [Linear; 3] = [
-            rays.map(|ray| cos * ray.x + sin * ray.y),
-            rays.map(|ray| cos * ray.y - sin * ray.x),
-            rays.map(|ray| ray.z),
+            [ahead(rays[0]), ahead(rays[1]), ahead(rays[2])],
+            [across(rays[0]), across(rays[1]), across(rays[2])],
+            [rays[0].z, rays[1].z, rays[2].z],
         ];
         let mut planes = [[0.0f32; 3]; 6];
         let mut numbers = [0.0f32; 3];
@@ -116,8 +117,7 @@ impl SolidBox {
         let lift = 1.0 + self.lift;
         let mut leave = |axis: usize, way: f64| {
             exits -= 1;
-            let scale = lift / way;
-            planes[exits] = along[axis].map(|part| (part * scale) as f32);
+            planes[exits] = in_single(scaled(along[axis], lift / way));
         };
         let mut ways = [0.0; 3];
         for axis in 0..3 {
@@ -136,9 +136,8 @@ impl SolidBox {
         }
         for axis in 0..3 {
             if ways[axis] != 0.0 {
-                let scale = 1.0 / ways[axis];
-                let plane = along[axis].map(|part| part * scale);
-                planes[entries] = plane.map(|part| (part * lift) as f32);
+                let plane = scaled(along[axis], 1.0 / ways[axis]);
+                planes[entries] = in_single(scaled(plane, lift));
                 numbers[entries] = faces.len() as f32;
                 // Faces 0, 2 and 4 look along the axes' negative directions; a way is positive behind the lower face.
                 let number = self.first_face + 2 * axis as u32 + u32::from(ways[axis] < 0.0);

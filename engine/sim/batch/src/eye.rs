@@ -8,6 +8,18 @@ pub const NEAR_M: f64 = 0.01;
 /// A linear function over the image: its value at the centre, its steps per pixel to the right and down.
 pub type Linear = [f64; 3];
 
+/// A linear function times a number. Written out, as all that runs once for each shape: `map` of arrays is a call.
+#[inline(always)]
+pub fn scaled([center, across, down]: Linear, by: f64) -> Linear {
+    [center * by, across * by, down * by]
+}
+
+/// A linear function in single precision.
+#[inline(always)]
+pub fn in_single([center, across, down]: Linear) -> [f32; 3] {
+    [center as f32, across as f32, down as f32]
+}
+
 /// A camera with the size of its pictures.
 #[derive(Clone, Copy)]
 pub struct Eye {
@@ -61,7 +73,8 @@ impl Eye {
     /// Component of each pixel's ray along a world direction.
     #[inline]
     pub fn along(&self, direction_in_world: DVec3) -> Linear {
-        self.ray_in_world.map(|part| part.dot(direction_in_world))
+        let [center, across, down] = &self.ray_in_world;
+        [center.dot(direction_in_world), across.dot(direction_in_world), down.dot(direction_in_world)]
     }
 
     /// Inverse depth of the plane with a unit normal and the component `offset_m` of its points along it; `None` when the
@@ -72,7 +85,6 @@ impl Eye {
         if distance.abs() < 1e-12 || !distance.is_finite() {
             return None;
         }
-        let scale = 1.0 / distance;
-        Some(self.along(normal_in_world).map(|part| part * scale))
+        Some(scaled(self.along(normal_in_world), 1.0 / distance))
     }
 }

@@ -3,7 +3,7 @@
 use crate::boxes::{Boxes, Grouped};
 use crate::canvas::{Canvas, Part, WIDE};
 use crate::colours::Colours;
-use crate::eye::{Eye, Linear, NEAR_M};
+use crate::eye::{Eye, Linear, NEAR_M, scaled};
 use crate::faces::{DrawnFace, SKY};
 use crate::figures::{Around, SeenPart, Stance, Wardrobe};
 use crate::ground::{FAR_OFF_PX, Ground, Pack, Polygon, SeenPack};
@@ -340,7 +340,7 @@ impl Painter {
 
     /// Adds a face to the list.
     fn surface(&mut self, face: DrawnFace, lift: f64) -> Surface {
-        let plane = face.plane.map(|part| part * (1.0 + lift));
+        let plane = scaled(face.plane, 1.0 + lift);
         let number = self.faces.len() as f32;
         self.faces.push(face);
         Surface { plane, face: number }

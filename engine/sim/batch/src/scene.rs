@@ -18,20 +18,24 @@ pub struct BatchScene {
 impl BatchScene {
     /// Prepares a town; `seed` draws its looks, as for [`Scene::new`].
     pub fn new(town: &Town, seed: Seed) -> Self {
-        Self { large: Some(Scene::new(town, seed)), ..Self::without_colours(town) }
+        Self::without_colours(town, &GroundIndex::new(town)).with_colours(town, seed)
     }
 
-    /// Prepares a town for all channels but colours: a small part of the memory.
-    pub fn without_colours(town: &Town) -> Self {
+    /// The same with what colours need.
+    pub fn with_colours(self, town: &Town, seed: Seed) -> Self {
+        Self { large: Some(Scene::new(town, seed)), ..self }
+    }
+
+    /// Prepares a town with the index of its ground for all channels but colours: a small part of the memory.
+    pub fn without_colours(town: &Town, index: &GroundIndex) -> Self {
         let mut faces = Scene::faces_of(town);
         // Six faces of each box come first, then the ground's.
         let boxes = faces.partition_point(|face| face.outward_in_world.is_some());
-        let index = GroundIndex::new(town);
         // Ground has no instances: the field holds the number of each face.
         for (number, face) in (0u32..).zip(&mut faces).skip(boxes) {
             face.instance = number;
         }
-        let ground = seen_from_above(&faces[boxes..], &index);
+        let ground = seen_from_above(&faces[boxes..], index);
         let ground = Ground::of(ground.iter().collect());
         Self { boxes: Boxes::of(&faces[..boxes]), ground, large: None }
     }

@@ -7,7 +7,7 @@ mod towns;
 use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_maps::Town;
+use cosfly_maps::{GroundIndex, Town};
 use cosfly_render::frame::object_instance;
 use cosfly_render::{
     BodyShape, Camera, FrameParts, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Walker, Weather,
@@ -97,7 +97,7 @@ fn setup_of(target: &Walker) -> TargetSetup {
 /// rounding decides.
 fn agrees_with_large(town: &Town, count: usize, people: u32, rare: usize) {
     let scene = Scene::new(town, Seed([1; 32]));
-    let batch = BatchScene::without_colours(town);
+    let batch = BatchScene::without_colours(town, &GroundIndex::new(town));
     let weather = Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") };
     for (number, place) in with_vehicles(towns::places(town, count, people)).iter().enumerate() {
         for size in [64u32, 84, 128, 224] {

@@ -4,6 +4,7 @@ mod towns;
 
 use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
 use cosfly_frames::Seed;
+use cosfly_render::PictureLook;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 

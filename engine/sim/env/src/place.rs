@@ -55,9 +55,13 @@ impl Place {
     /// in pictures. What colours need is prepared where they are asked for only: it is most of the memory.
     pub fn scene(&self, has_colours: bool) -> &BatchScene {
         if has_colours {
-            return self.with_colours.get_or_init(|| BatchScene::new(&self.town, self.looks));
+            return self.with_colours.get_or_init(|| self.prepared().with_colours(&self.town, self.looks));
         }
-        self.without_colours.get_or_init(|| BatchScene::without_colours(&self.town))
+        self.without_colours.get_or_init(|| self.prepared())
+    }
+
+    fn prepared(&self) -> BatchScene {
+        BatchScene::without_colours(&self.town, &self.ground)
     }
 
     /// Largest instance id of an object of the town.
