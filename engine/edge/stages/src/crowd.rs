@@ -31,7 +31,12 @@ impl Crowd {
             for (instance, (number, body)) in instances.into_iter().zip(around.bodies()) {
                 let person = Person::of(body, around.traffic.dt_s);
                 let ((height_m, radius_m), outfit) = (person.size_m(), person.outfit());
-                let (walk_id, kind) = (Traffic::body_id(&around.traffic.name, number), body.plan.kind);
+                let kind = body.plan.kind;
+                // A drone has the name of its flight.
+                let walk_id = match kind {
+                    BodyKind::Drone => body.plan.source.clone(),
+                    _ => Traffic::body_id(&around.traffic.name, number),
+                };
                 members.push((OtherPerson { instance, walk_id, kind, height_m, radius_m, outfit }, person));
             }
         }

@@ -1,7 +1,9 @@
-//! Part `nearby` of a `render` stage: the people who may appear in the pictures of a flight, or throw a shadow into them. An
+//! Part `nearby` of a `render` stage: the people, vehicles and other drones that may appear in the pictures of a flight, or throw a
+//! shadow into them. An
 //! item of its own per film, so that one more walker films nothing anew where that walker is never in view.
 
 use crate::memo::Memo;
+use crate::other_drones::Formation;
 use crate::ports::{self, NEARBY, TRAJECTORY, WALK};
 use crate::shooting::Shooting;
 use crate::traffic::{BODIES, followed, traffic_of};
@@ -19,7 +21,7 @@ use cosfly_render::{Buildings, Camera, Outlook, RenderConfig, Walker};
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::{Around, Followed, Traffic};
+use cosfly_world::{Around, Body, Followed, Traffic};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -126,7 +128,8 @@ impl Stage for NearbyStage {
             return Ok(Produced::default());
         };
         let world = world(inputs)?;
-        let (candidates, left_out) = candidates(inputs, &world, &trajectory)?;
+        let (mut candidates, left_out) = candidates(inputs, &world, &trajectory)?;
+        candidates.extend(drones(inputs, &world, &trajectory)?);
         let about = candidates.len();
         let buildings = self
             .buildings
@@ -200,8 +203,7 @@ fn candidates<'a>(
     world: &World,
     trajectory: &Trajectory,
 ) -> Result<(Vec<Candidate<'a>>, usize)> {
-    let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
-    let largest_object = objects.max().unwrap_or(TARGET_INSTANCE);
+    let largest_object = largest_object(world);
     let (mut candidates, mut left_out) = (vec![], 0);
     let target = followed(inputs, inputs.one("trajectories")?)?;
     for (stage, artifacts) in inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).enumerate() {
@@ -244,13 +246,45 @@ fn candidates<'a>(
     Ok((candidates, left_out))
 }
 
+/// The other drones behind the target.
+fn drones<'a>(inputs: &Inputs<'_>, world: &World, trajectory: &Trajectory) -> Result<Vec<Candidate<'a>>> {
+    let artifact = inputs.one("trajectories")?;
+    let traffic = Arc::new(Formation::of(inputs, artifact)?.as_traffic(trajectory.track.dt_s));
+    let largest_object = largest_object(world);
+    let candidate = |(number, body): (u32, &Body)| {
+        let instance = instance_of_drone(number).and_then(|number| largest_object.checked_add(number));
+        let (origin, person) = (Origin::Body(Arc::clone(&traffic), number), Person::of(body, traffic.dt_s));
+        Ok(Candidate { instance: instance.ok_or_else(|| too_many(artifact))?, origin, person })
+    };
+    (0..).zip(&traffic.bodies).filter(|(_, body)| !body.states.is_empty()).map(candidate).collect()
+}
+
+/// Largest id of an object in instance images.
+fn largest_object(world: &World) -> u32 {
+    let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
+    objects.max().unwrap_or(TARGET_INSTANCE)
+}
+
+/// Place among the stages at port `others` that drones have instead of a stage.
+const PLACE_OF_DRONES: usize = 12;
+
+/// Instance id of a drone by its number behind the walk, as [`instance_of`].
+fn instance_of_drone(number: u32) -> Option<u32> {
+    odd_multiple(PLACE_OF_DRONES, number as usize)
+}
+
 /// Instance id of a person, counted after the ids of objects: a number that no other person has, and that depends on the
 /// places of the stage at the port and of the item in the stage alone. More people, and stages that are added at the end,
 /// change no id: the first stage has every second number, the next one every second of the rest, and so on. `None` beyond
 /// 32 bits.
 fn instance_of(stage: usize, item: usize) -> Option<u32> {
+    odd_multiple(stage + usize::from(stage >= PLACE_OF_DRONES), item)
+}
+
+/// Number `item` of those that can be halved just so often.
+fn odd_multiple(halvings: usize, item: usize) -> Option<u32> {
     let odd = u32::try_from(item).ok()?.checked_mul(2)?.checked_add(1)?;
-    odd.checked_mul(1u32.checked_shl(u32::try_from(stage).ok()?)?)
+    odd.checked_mul(1u32.checked_shl(u32::try_from(halvings).ok()?)?)
 }
 
 fn too_many(artifact: &Artifact) -> Box<Diagnostic> {
@@ -310,11 +344,11 @@ mod tests {
 
     #[test]
     fn ids_of_people_differ_and_do_not_depend_on_how_many_there_are() {
-        let ids: BTreeSet<u32> =
-            (0..6).flat_map(|stage| (0..300).map(move |item| instance_of(stage, item).unwrap())).collect();
-        assert_eq!((ids.len(), ids.first()), (1800, Some(&1)));
+        let people = (0..14).flat_map(|stage| (0..300).map(move |item| instance_of(stage, item).unwrap()));
+        let ids: BTreeSet<u32> = people.chain((0..8).map(|number| instance_of_drone(number).unwrap())).collect();
+        assert_eq!((ids.len(), ids.first()), (14 * 300 + 8, Some(&1)));
         assert_eq!([0, 1, 2].map(|item| instance_of(0, item)), [Some(1), Some(3), Some(5)]);
         assert_eq!([0, 1, 2].map(|item| instance_of(1, item)), [Some(2), Some(6), Some(10)]);
-        assert_eq!((instance_of(31, 0), instance_of(31, 1), instance_of(32, 0)), (Some(1 << 31), None, None));
+        assert_eq!((instance_of(30, 0), instance_of(30, 1), instance_of(31, 0)), (Some(1 << 31), None, None));
     }
 }

@@ -49,6 +49,15 @@ impl Trial {
         Self { is_lost, beside_look_alike }
     }
 
+    /// Of several drones behind one walk: all of them lose the target.
+    pub fn of_all(trials: impl Iterator<Item = Self>) -> Self {
+        let both = |one: Self, other: Self| Self {
+            is_lost: one.is_lost && other.is_lost,
+            beside_look_alike: one.beside_look_alike && other.beside_look_alike,
+        };
+        trials.reduce(both).unwrap_or(Self { is_lost: false, beside_look_alike: false })
+    }
+
     /// Writes the trial as the output of its item.
     pub fn put(&self, outputs: &mut dyn OutputSink) -> Result<()> {
         outputs.put(TRIAL, &codec::encode(LOSSES, self)?)
