@@ -1,9 +1,7 @@
-//! Part `nearby` of a `render` stage: the people, vehicles and other drones that may appear in the pictures of a flight, or throw a
-//! shadow into them. An
+//! Part `nearby` of a `render` stage: the people who may appear in the pictures of a flight, or throw a shadow into them. An
 //! item of its own per film, so that one more walker films nothing anew where that walker is never in view.
 
 use crate::memo::Memo;
-use crate::other_drones::Formation;
 use crate::ports::{self, NEARBY, TRAJECTORY, WALK};
 use crate::shooting::Shooting;
 use crate::traffic::{BODIES, followed, traffic_of};
@@ -21,7 +19,7 @@ use cosfly_render::{Buildings, Camera, Outlook, RenderConfig, Walker};
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::{Around, Body, Followed, Traffic};
+use cosfly_world::{Around, Followed, Traffic};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -128,8 +126,7 @@ impl Stage for NearbyStage {
             return Ok(Produced::default());
         };
         let world = world(inputs)?;
-        let (mut candidates, left_out) = candidates(inputs, &world, &trajectory)?;
-        candidates.extend(drones(inputs, &world, &trajectory)?);
+        let (candidates, left_out) = candidates(inputs, &world, &trajectory)?;
         let about = candidates.len();
         let buildings = self
             .buildings
@@ -246,21 +243,8 @@ fn candidates<'a>(
     Ok((candidates, left_out))
 }
 
-/// The other drones behind the target.
-fn drones<'a>(inputs: &Inputs<'_>, world: &World, trajectory: &Trajectory) -> Result<Vec<Candidate<'a>>> {
-    let artifact = inputs.one("trajectories")?;
-    let traffic = Arc::new(Formation::of(inputs, artifact)?.as_traffic(trajectory.track.dt_s));
-    let largest_object = largest_object(world);
-    let candidate = |(number, body): (u32, &Body)| {
-        let instance = instance_of_drone(number).and_then(|number| largest_object.checked_add(number));
-        let (origin, person) = (Origin::Body(Arc::clone(&traffic), number), Person::of(body, traffic.dt_s));
-        Ok(Candidate { instance: instance.ok_or_else(|| too_many(artifact))?, origin, person })
-    };
-    (0..).zip(&traffic.bodies).filter(|(_, body)| !body.states.is_empty()).map(candidate).collect()
-}
-
 /// Largest id of an object in instance images.
-fn largest_object(world: &World) -> u32 {
+pub fn largest_object(world: &World) -> u32 {
     let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
     objects.max().unwrap_or(TARGET_INSTANCE)
 }
@@ -268,8 +252,8 @@ fn largest_object(world: &World) -> u32 {
 /// Place among the stages at port `others` that drones have instead of a stage.
 const PLACE_OF_DRONES: usize = 12;
 
-/// Instance id of a drone by its number behind the walk, as [`instance_of`].
-fn instance_of_drone(number: u32) -> Option<u32> {
+/// Instance id of a drone by its number behind the walk, counted after the ids of objects as those of people are.
+pub fn instance_of_drone(number: u32) -> Option<u32> {
     odd_multiple(PLACE_OF_DRONES, number as usize)
 }
 
@@ -287,7 +271,7 @@ fn odd_multiple(halvings: usize, item: usize) -> Option<u32> {
     odd.checked_mul(1u32.checked_shl(u32::try_from(halvings).ok()?)?)
 }
 
-fn too_many(artifact: &Artifact) -> Box<Diagnostic> {
+pub fn too_many(artifact: &Artifact) -> Box<Diagnostic> {
     let message = format!("there is no instance id left for `{}`", artifact.id);
     Diagnostic::new("crowd-large", Fault::Recipe, message)
         .hint("connect fewer stages to `inputs.others`, with fewer people in the last ones")

@@ -7,7 +7,7 @@ use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_geometry::OrientedBox;
 use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes};
 use cosfly_stage::{Artifact, Inputs};
-use cosfly_world::{Body, BodyKind, BodyPlan, Traffic};
+use cosfly_world::{Body, BodyKind, BodyPlan};
 use serde::{Deserialize, Serialize};
 
 /// Blob of a flight with its [`Formation`]; absent where the drone is alone.
@@ -68,18 +68,15 @@ impl Formation {
         OtherDrones { count, separation_m: self.separation_m }
     }
 
-    /// All other drones as bodies, by their places in the list; drones without a flight and the own one have no states.
-    pub fn as_traffic(&self, dt_s: f64) -> Traffic {
-        let body = |(place, drone): (usize, &Option<Drone>)| {
-            let drone = drone.as_ref().filter(|_| place != self.own as usize);
-            let looks = Seed([0; 32]).child("drone", place as u64);
-            let source = drone.map_or_else(String::new, |drone| drone.flight.clone());
+    /// All other drones as bodies, with their numbers behind the walk.
+    pub fn bodies(&self, dt_s: f64) -> impl Iterator<Item = (u32, Body)> {
+        let body = move |(number, drone): (u32, &Option<Drone>)| {
+            let drone = drone.as_ref().filter(|_| number != self.own)?;
+            let (source, looks) = (drone.flight.clone(), Seed([0; 32]).child("drone", u64::from(number)));
             let plan = BodyPlan { source, kind: BodyKind::Drone, size_m: BODY_M, looks, group: None };
-            Body { plan, first_frame: 0, states: drone.map_or_else(Vec::new, |drone| drone.states(dt_s)) }
+            Some((number, Body { plan, first_frame: 0, states: drone.states(dt_s) }))
         };
-        let bodies: Vec<Body> = self.drones.iter().enumerate().map(body).collect();
-        let frames = bodies.iter().map(Body::end_frame).max().unwrap_or(0);
-        Traffic { name: "drones".to_owned(), dt_s, frames, bodies, notes: vec![] }
+        (0..).zip(&self.drones).filter_map(body)
     }
 }
 
