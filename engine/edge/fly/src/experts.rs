@@ -114,7 +114,8 @@ impl<'a> Experts<'a> {
         }
         let around = blobs.get(read::AROUND_BLOB).map(|blob| read::around(&self.store.read(blob)?)).transpose()?;
         let movers = around.map_or_else(Vec::new, |around| around.boxes());
-        let before = blobs.get(read::DRONES_BLOB).map(|blob| read::drones_before(&self.store.read(blob)?)).transpose()?;
+        let before =
+            blobs.get(read::DRONES_BLOB).map(|blob| read::drones_before(&self.store.read(blob)?)).transpose()?;
         let companions = self.companions(stage, item)?;
         let bodies = Bodies { walk: Some(track), companions, movers };
         let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());

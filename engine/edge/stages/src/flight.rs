@@ -388,7 +388,8 @@ mod tests {
         let walk = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states };
         let world = Arc::new(World::new(Town::default()));
         let fly = |count: u32| -> Vec<Vec<DVec3>> {
-            let expert = Expert::read(serde_json::json!({ "drones": { "count": count, "separation_m": 7.0 } })).unwrap();
+            let expert =
+                Expert::read(serde_json::json!({ "drones": { "count": count, "separation_m": 7.0 } })).unwrap();
             let bodies = Bodies { walk: Some(walk.clone()), ..Bodies::default() };
             let places = |flown: Flown| match flown.outcome {
                 PlanOutcome::Planned(flight) => flight.poses_in_world.iter().map(|it| it.position_in_world).collect(),

@@ -36,10 +36,8 @@ pub fn parts(expert: Expert, properties: StageProperties) -> Vec<StagePart> {
     planning.artifact = FORMATION;
     let stage = FormationStage { expert: expert.clone(), properties: planning, is_trial: false };
     parts.push(StagePart { suffix: NAME, stage: Box::new(stage) });
-    let mut formed = StageProperties {
-        items: ItemRule::PerVariant { port: "paths", variants: expert.drones() },
-        ..properties
-    };
+    let mut formed =
+        StageProperties { items: ItemRule::PerVariant { port: "paths", variants: expert.drones() }, ..properties };
     formed.inputs.push(port());
     parts.push(StagePart { suffix: "", stage: Box::new(FormedStage { expert, properties: formed }) });
     parts

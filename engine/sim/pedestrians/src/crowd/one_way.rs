@@ -24,7 +24,8 @@ impl Crowd {
             let (mut at, mut last) = (place, start);
             for _ in 0..AHEAD_M / LEG_M {
                 at = (0..LEG_M).fold(at, |at, _| at + along(at));
-                let leg = self.grid.node_near(at, company.piece, 6).map(|next| (next, self.search.find(last, next, &[])));
+                let leg =
+                    self.grid.node_near(at, company.piece, 6).map(|next| (next, self.search.find(last, next, &[])));
                 let Some((next, Some(leg))) = leg else { break };
                 way.extend(&leg[1..]);
                 last = next;
