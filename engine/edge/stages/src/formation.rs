@@ -27,7 +27,12 @@ pub fn parts(expert: Expert, properties: StageProperties) -> Vec<StagePart> {
     let mut parts = vec![];
     let occlusion = &expert.config.occlusion;
     if occlusion.has_quota() {
-        let trial = StageProperties { artifact: ports::LOSSES, bytes_per_item: 100, ..planning.clone() };
+        let trial = StageProperties {
+            version: quotas::TRIALS_VERSION,
+            artifact: ports::LOSSES,
+            bytes_per_item: 100,
+            ..planning.clone()
+        };
         let trial = FormationStage { expert: expert.clone(), properties: trial, is_trial: true };
         parts.push(StagePart { suffix: quotas::TRIALS, stage: Box::new(trial) });
         parts.push(quotas::orders_part(occlusion));

@@ -72,7 +72,12 @@ impl StageKind for Muco {
         }
         let mut main = properties.clone();
         if occlusion.has_quota() && expert.count().is_none() {
-            let trial = StageProperties { artifact: ports::LOSSES, bytes_per_item: 100, ..properties };
+            let trial = StageProperties {
+                version: quotas::TRIALS_VERSION,
+                artifact: ports::LOSSES,
+                bytes_per_item: 100,
+                ..properties
+            };
             let trial = MucoStage { expert: expert.clone(), properties: trial, is_trial: true };
             parts.push(StagePart { suffix: quotas::TRIALS, stage: Box::new(trial) });
             parts.push(quotas::orders_part(&occlusion));
