@@ -340,7 +340,7 @@ fn bounds(world: &World) -> (DVec2, DVec2) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expert::Expert;
+    use crate::expert::{Expert, Flown};
     use cosfly_frames::TargetState;
     use cosfly_maps::Town;
 
