@@ -73,6 +73,32 @@ fn a_crowd_is_in_pictures_and_tables_and_another_one_plans_nothing_anew() {
 }
 
 #[test]
+fn drones_behind_one_walk_are_in_each_others_pictures_under_the_names_of_their_flights() {
+    let behind = "paths = \"walkers\" }\n";
+    let with_drones = RECIPE.replacen(behind, &format!("{behind}drones = {{ count = 2, separation_m = 4.0 }}\n"), 1);
+    let street = Street::with(&with_drones, &map());
+    let wide = ["stages.frames.width=320", "stages.frames.height=180", "stages.frames.fov_deg=120"];
+    let first = made(&street, &wide);
+    assert_eq!((first["expert.formation"], first["expert"], first["frames"]), (3, 6, 12));
+    let dataset = street.dataset();
+    cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+    let (mut kinds, mut names) = (BTreeSet::new(), BTreeMap::new());
+    let people = rows(&dataset, "people", "kind", "instance");
+    let named = rows(&dataset, "people", "walk_id", "instance").into_iter();
+    for (((kind, _), (walk_id, id)), (flight, _)) in
+        people.into_iter().zip(named).zip(rows(&dataset, "people", "trajectory_id", "instance"))
+    {
+        kinds.insert(kind);
+        // The other drone of the same walk, never the own one or that of another walk.
+        let own = flight.split_once('-').expect("a stage and an item").1;
+        let other = walk_id.split_once('-').expect("a stage and an item").1;
+        assert!(own != other && own[..6] == other[..6], "{flight} shows {walk_id}");
+        assert_eq!(*names.entry(other[7..].to_owned()).or_insert(id), id, "one id in all flights");
+    }
+    assert_eq!((kinds, names.len()), (BTreeSet::from(["drone".to_owned()]), 2));
+}
+
+#[test]
 fn a_crowd_has_the_same_bytes_on_one_thread_and_on_three() {
     let dataset = |jobs: &str| {
         let street = street();

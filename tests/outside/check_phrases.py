@@ -20,7 +20,7 @@ COLOURS = dict(zip(
 ))
 KINDS = {
     "pedestrian": ("person", "人"), "bicycle": ("cyclist", "骑自行车的人"), "motorcycle": ("motorcyclist", "骑摩托车的人"),
-    "car": ("car", "汽车"), "van": ("van", "面包车"), "truck": ("lorry", "卡车"), "bus": ("bus", "公交车"),
+    "car": ("car", "汽车"), "van": ("van", "面包车"), "truck": ("lorry", "卡车"), "bus": ("bus", "公交车"), "drone": ("drone", "无人机"),
 }
 ENGLISH = re.compile(
     r"the (?:(?P<motion>walking|moving|standing|stationary) )?(?:(?P<paint>[a-z]+) )??(?P<kind>person|cyclist|motorcyclist|car|van|lorry|bus)"

@@ -6,7 +6,7 @@ use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Arrival, RecipeStage};
 use cosfly_runner::Plan;
 use cosfly_stage::{BlobSource, Blobs, ItemName};
-use cosfly_stages::expert::{Bodies, Companion, Expert, Flight, drones_before};
+use cosfly_stages::expert::{Bodies, Companion, Expert, Flight};
 use cosfly_stages::plugins::Plugins;
 use cosfly_stages::read;
 use cosfly_stages::world::World;
@@ -114,16 +114,18 @@ impl<'a> Experts<'a> {
         }
         let around = blobs.get(read::AROUND_BLOB).map(|blob| read::around(&self.store.read(blob)?)).transpose()?;
         let movers = around.map_or_else(Vec::new, |around| around.boxes());
-        let drones_before = drones_before(&described.items[item]);
+        let before =
+            blobs.get(read::DRONES_BLOB).map(|blob| read::drones_before(&self.store.read(blob)?)).transpose()?;
         let companions = self.companions(stage, item)?;
-        let bodies = Bodies { walk: Some(track), companions, movers, drones_before };
+        let bodies = Bodies { walk: Some(track), companions, movers };
         let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());
         let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
         let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());
-        let flight = expert.flight(&world, bodies, seed, plugins)?.map_err(|reason| {
+        let mut flight = expert.flight(&world, bodies, seed, plugins)?.map_err(|reason| {
             Diagnostic::new("plan-from-nothing", Fault::Recipe, format!("`{name}` has no flight to go on from"))
                 .because(reason)
         })?;
+        before.into_iter().flatten().for_each(|places| flight.beside(places));
         Ok(KnownFlight { world, flight, flown })
     }
 

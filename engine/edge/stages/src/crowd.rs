@@ -1,11 +1,13 @@
-//! Other people in the pictures of a flight: those whom part `nearby` found.
+//! Everybody else in the pictures of a flight: those whom part `nearby` found, and the other drones behind the target.
 
 use crate::nearby::{self, NearbyBodies, NearbyPerson};
+use crate::other_drones::Formation;
 use crate::walks::Person;
+use crate::world::World;
 use cosfly_diagnose::Result;
 use cosfly_render::{Bystander, PersonView};
 use cosfly_schema::{OtherPerson, Sighting};
-use cosfly_stage::Inputs;
+use cosfly_stage::{Artifact, Inputs};
 use cosfly_world::{BodyKind, Traffic};
 
 /// Other people around one flight, by instance id.
@@ -37,6 +39,21 @@ impl Crowd {
         }
         members.sort_by_key(|(other, _)| other.instance);
         Ok(Self { members })
+    }
+
+    /// The same with the other drones behind the target of `flight`, which have the names of their flights.
+    pub fn and_drones(mut self, inputs: &Inputs<'_>, flight: &Artifact, world: &World, dt_s: f64) -> Result<Self> {
+        let largest_object = nearby::largest_object(world);
+        for (number, body) in Formation::of(inputs, flight)?.bodies(dt_s) {
+            let number = nearby::instance_of_drone(number).and_then(|number| largest_object.checked_add(number));
+            let instance = number.ok_or_else(|| nearby::too_many(flight))?;
+            let person = Person::of(&body, dt_s);
+            let ((height_m, radius_m), outfit) = (person.size_m(), person.outfit());
+            let (walk_id, kind) = (body.plan.source, body.plan.kind);
+            self.members.push((OtherPerson { instance, walk_id, kind, height_m, radius_m, outfit }, person));
+        }
+        self.members.sort_by_key(|(other, _)| other.instance);
+        Ok(self)
     }
 
     /// Number of people.

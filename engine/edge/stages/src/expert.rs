@@ -2,7 +2,9 @@
 //! again from another state.
 
 pub use crate::flight::{Bodies, Companion, Flight};
+pub use crate::flown::Flown;
 
+use crate::flown::take_aim;
 use crate::parameters;
 use crate::plugins::config::ExpertPlugins;
 use crate::plugins::{Plugins, Role, source};
@@ -13,8 +15,8 @@ use cosfly_objectives::{Objective, ObjectiveConfig};
 use cosfly_pilot::aim::AimConfig;
 use cosfly_planner::config::{Foresight, Planner};
 use cosfly_planner::weights::Preset;
-use cosfly_planner::{MucoConfig, PlanOutcome};
-use cosfly_stage::{ItemName, Source};
+use cosfly_planner::{MucoConfig, PlanOutcome, Trajectory};
+use cosfly_stage::Source;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -163,19 +165,36 @@ impl Expert {
         seed: Seed,
         plugins: Plugins,
     ) -> cosfly_diagnose::Result<Result<Flight, String>> {
-        let drones_before = bodies.drones_before;
         let flight = Flight::of((&self.config, &self.objective), world, bodies, seed, plugins)?;
-        let mut flight = match flight {
-            Ok(flight) => flight.aiming(&self.aim),
-            Err(reason) => return Ok(Err(reason)),
+        Ok(flight.map(|flight| flight.aiming(&self.aim)))
+    }
+
+    /// Flights of all drones behind a walk, one after the other, each beside those before it; none of them aims (see
+    /// [`Self::aim_of`]). Drones without a flight are in nobody's way.
+    ///
+    /// # Errors
+    /// Failures of a plugin.
+    pub fn formation(&self, world: &Arc<World>, bodies: Bodies, seed: Seed) -> cosfly_diagnose::Result<Vec<Flown>> {
+        let all = (&self.config, &self.objective);
+        let mut flight = match Flight::of(all, world, bodies, seed, Plugins::default())? {
+            Ok(flight) => flight,
+            Err(reason) => return Ok((0..self.config.drones.count).map(|_| Flown::none(&reason)).collect()),
         };
-        // One after the other, each beside those before it. Drones without a flight are in nobody's way.
-        for _ in 0..drones_before {
-            if let PlanOutcome::Planned(flown) = flight.plan(world)?.0 {
-                flight.beside(&flown);
+        let mut flown = vec![];
+        for _ in 0..self.config.drones.count {
+            let own = Flown::of(&flight, world)?;
+            if let PlanOutcome::Planned(trajectory) = &own.outcome {
+                flight.beside(trajectory.poses_in_world.iter().map(|pose| pose.position_in_world).collect());
             }
+            flown.push(own);
         }
-        Ok(Ok(flight))
+        Ok(flown)
+    }
+
+    /// Turns the views of a flight of [`Self::formation`] as its pilot aims.
+    pub fn aim_of(&self, flight: &mut Trajectory, seed: Seed) {
+        let track = flight.track.clone();
+        take_aim(flight, 0, &self.aim, &track, seed);
     }
 
     /// Names of the variants of each walk's item, one per drone; none where there is one drone alone.
@@ -183,12 +202,6 @@ impl Expert {
         let count = self.config.drones.count;
         if count > 1 { (1..=count).map(|number| format!("d{number}")).collect() } else { vec![] }
     }
-}
-
-/// Number of drones that are planned before that of an item, which is named by a variant of [`Expert::drones`].
-pub fn drones_before(item: &ItemName) -> usize {
-    let number: Option<usize> = item.variant().and_then(|name| name.strip_prefix('d')?.parse().ok());
-    number.unwrap_or(1).saturating_sub(1)
 }
 
 /// Refuses parameters that the chosen planner does not support.

@@ -1,6 +1,6 @@
 //! One flight of a `muco` stage: its mission, its companions, and how it is planned, from its beginning or from any state.
 
-use crate::other_drones::DronesBefore;
+use crate::flown::take_aim;
 use crate::plugins::{DrawnReference, Plugins};
 use crate::world::World;
 use cosfly_frames::{DVec2, DVec3, Seed, TargetTrack};
@@ -9,8 +9,7 @@ use cosfly_maps::ObstacleKind;
 use cosfly_objectives::inspect::{self, Inspection};
 use cosfly_objectives::patrol::{self, MET_M, Patrol};
 use cosfly_objectives::{Mission, Objective, ObjectiveConfig, Site, reference, track};
-use cosfly_pilot::aim::{AimConfig, aimed};
-use cosfly_planner::certificate::view_rates_deg_s;
+use cosfly_pilot::aim::AimConfig;
 use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_planner::obstacles::ground::GroundGrid;
 use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes, hides};
@@ -35,8 +34,6 @@ pub struct Bodies {
     /// Boxes of everybody else who matters, frame by frame of the walk, world frame: kept clear of and looked past. Between
     /// frames they move evenly and turn the shorter way.
     pub movers: Vec<Vec<OrientedBox>>,
-    /// Number of drones behind the same walk that are planned before this one.
-    pub drones_before: usize,
 }
 
 enum Purpose {
@@ -101,7 +98,7 @@ impl Flight {
         plugins: Plugins,
         drawn: Option<DrawnReference>,
     ) -> Result<Self, String> {
-        let Bodies { walk, companions, movers, .. } = bodies;
+        let Bodies { walk, companions, movers } = bodies;
         let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let structures = if objective.objective == Objective::Inspect { buildings(world) } else { Vec::new() };
         let site = Site { exact: &world.exact, structures: &structures, ground: &ground, bounds: bounds(world) };
@@ -144,18 +141,10 @@ impl Flight {
         self
     }
 
-    /// Adds the flight of another drone behind the same walker, to be kept apart from.
-    pub fn beside(&mut self, flown: &Trajectory) {
-        let places: Vec<DVec3> = flown.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
+    /// Adds another drone behind the same walker, to be kept apart from: its places, frame by frame, world frame, metres.
+    pub fn beside(&mut self, places: Vec<DVec3>) {
         self.movers.push(drone_boxes(&places));
         self.drones += 1;
-    }
-
-    /// The drones before this one, for those who fly its route otherwise.
-    pub fn drones_before(&self) -> DronesBefore {
-        let boxes = &self.movers[self.movers.len() - self.drones..];
-        let places = boxes.iter().map(|places| places.iter().map(|it| it.center_in_world).collect()).collect();
-        DronesBefore { separation_m: self.mission.config.drones.separation_m, places }
     }
 
     fn others(&self) -> OtherDrones {
@@ -235,18 +224,9 @@ impl Flight {
         Ok(outcome)
     }
 
-    /// Turns the views of a planned flight, whose first frame is `first_frame` of the mission, as the pilot aims, within the
-    /// flight's limits; the certificate states the rates of the result.
     fn take_aim(&self, outcome: &mut PlanOutcome, first_frame: usize) {
         if let (PlanOutcome::Planned(flight), Some(aim)) = (outcome, &self.aim) {
-            let limits = &flight.certificate.limits;
-            let fastest = aim.max_rate_deg_s.min(limits.yaw_rate_deg_s).min(limits.pitch_rate_deg_s);
-            let aim = AimConfig { max_rate_deg_s: fastest, ..aim.clone() };
-            let positions: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
-            let (track, seed) = (&self.mission.track, self.seed.child("aim", 0));
-            flight.poses_in_world = aimed(&positions, track, first_frame, None, &aim, seed);
-            let [yaw, pitch] = view_rates_deg_s(&flight.poses_in_world, track.dt_s);
-            (flight.certificate.max_yaw_rate_deg_s, flight.certificate.max_pitch_rate_deg_s) = (yaw, pitch);
+            take_aim(flight, first_frame, aim, &self.mission.track, self.seed);
         }
     }
 
@@ -360,7 +340,7 @@ fn bounds(world: &World) -> (DVec2, DVec2) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expert::Expert;
+    use crate::expert::{Expert, Flown};
     use cosfly_frames::TargetState;
     use cosfly_maps::Town;
 
@@ -402,22 +382,23 @@ mod tests {
     }
 
     #[test]
-    fn each_drone_keeps_apart_from_those_before_it_and_is_the_same_whoever_asks() {
+    fn each_drone_keeps_apart_from_those_before_it_and_knows_none_after_it() {
         let state = |x: f64| TargetState { feet_in_world: DVec3::new(x, 0.0, 0.0), heading_rad: 0.0, speed_mps: 1.0 };
         let states = (0..60).map(|i| state(0.5 * f64::from(i))).collect();
         let walk = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states };
         let world = Arc::new(World::new(Town::default()));
-        let given = serde_json::json!({ "drones": { "count": 3, "separation_m": 7.0 } });
-        let places = |drone: usize| -> Vec<DVec3> {
-            let bodies = Bodies { walk: Some(walk.clone()), drones_before: drone, ..Bodies::default() };
-            let expert = Expert::read(given.clone()).unwrap();
-            let flight = expert.flight(&world, bodies, Seed([1; 32]), Plugins::default()).unwrap().unwrap();
-            match flight.plan(&world).unwrap().0 {
+        let fly = |count: u32| -> Vec<Vec<DVec3>> {
+            let expert =
+                Expert::read(serde_json::json!({ "drones": { "count": count, "separation_m": 7.0 } })).unwrap();
+            let bodies = Bodies { walk: Some(walk.clone()), ..Bodies::default() };
+            let places = |flown: Flown| match flown.outcome {
                 PlanOutcome::Planned(flight) => flight.poses_in_world.iter().map(|it| it.position_in_world).collect(),
                 PlanOutcome::Rejected { reason, .. } => panic!("{reason}"),
-            }
+            };
+            expert.formation(&world, bodies, Seed([1; 32])).unwrap().into_iter().map(places).collect()
         };
-        let flown = [0, 1, 2].map(places);
+        let flown = fly(3);
+        assert_eq!(flown[..2], fly(2));
         for (one, other) in [(0, 1), (0, 2), (1, 2)] {
             let apart = flown[one].iter().zip(&flown[other]).map(|(a, b)| a.distance(*b)).fold(f64::INFINITY, f64::min);
             assert!(apart >= 7.0, "{one} {other}: {apart}");

@@ -11,6 +11,8 @@ mod crowd;
 mod dataset;
 pub mod expert;
 mod flight;
+mod flown;
+mod formation;
 mod group_notes;
 mod group_splits;
 mod inspect;

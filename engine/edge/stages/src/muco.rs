@@ -1,21 +1,20 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
-use crate::expert::{Bodies, Expert, drones_before};
-use crate::other_drones::DronesBefore;
+use crate::expert::{Bodies, Expert, Flown};
 use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::quotas::{self, Trial};
-use crate::world::{check_same_town, link_town, world};
-use crate::{codec, companions, traffic};
+use crate::world::{World, check_same_town, link_town, world};
+use crate::{codec, companions, formation, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
-use cosfly_frames::{Seed, TargetTrack};
+use cosfly_frames::Seed;
 use cosfly_objectives::Objective;
-use cosfly_objectives::config::DT_S;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
 use cosfly_world::Around;
+use std::sync::Arc;
 
 /// Stage kind `muco`.
 pub struct Muco;
@@ -44,11 +43,7 @@ impl StageKind for Muco {
         let (mut parts, inputs, items) = match expert.count() {
             None => {
                 let ports = vec![ports::town(), paths(), companions::port(count == 0)];
-                let items = match expert.drones() {
-                    alone if alone.is_empty() => ItemRule::PerInput("paths"),
-                    variants => ItemRule::PerVariant { port: "paths", variants },
-                };
-                (vec![companions::part(count, paths(), others())], ports, items)
+                (vec![companions::part(count, paths(), others())], ports, ItemRule::PerInput("paths"))
             }
             Some(count) => (vec![], vec![ports::town()], ItemRule::Count { prefix: "f", count }),
         };
@@ -71,9 +66,18 @@ impl StageKind for Muco {
             intermediate: &[],
             asks: None,
         };
+        if expert.config.drones.count > 1 {
+            parts.extend(formation::parts(expert, properties));
+            return Ok(parts);
+        }
         let mut main = properties.clone();
         if occlusion.has_quota() && expert.count().is_none() {
-            let trial = StageProperties { artifact: ports::LOSSES, bytes_per_item: 100, ..properties };
+            let trial = StageProperties {
+                version: quotas::TRIALS_VERSION,
+                artifact: ports::LOSSES,
+                bytes_per_item: 100,
+                ..properties
+            };
             let trial = MucoStage { expert: expert.clone(), properties: trial, is_trial: true };
             parts.push(StagePart { suffix: quotas::TRIALS, stage: Box::new(trial) });
             parts.push(quotas::orders_part(&occlusion));
@@ -105,41 +109,16 @@ impl Stage for MucoStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let world = world(inputs)?;
-        let mut around = Around::default();
-        let bodies = if self.expert.objective.objective == Objective::Track {
-            check_same_town(inputs, "paths")?;
-            let artifact = inputs.one("paths")?;
-            let walk: PedestrianPath = codec::decode(WALK, &inputs.read(artifact, "walk")?)?;
-            around = traffic::cut_around(inputs, artifact, &walk.track)?;
-            let (companions, movers) = (companions::read(inputs)?, around.boxes());
-            Bodies { walk: Some(walk.track), companions, movers, drones_before: drones_before(&context.id.item) }
-        } else {
-            Bodies::default()
-        };
         let mut expert = self.expert.clone();
         if quotas::order(inputs, context)? == Some(false) {
             expert.config.occlusion.count = 0;
         }
+        let Setting { world, around, bodies } = Setting::read(inputs, &expert)?;
         let plugins = Plugins::of_expert(&expert.plugins, &context.sources)?;
         let plugins = plugins.for_item(context.id.to_string());
-        let flight = expert.flight(&world, bodies, Seed(context.seed), plugins)?;
-        let mut before = DronesBefore::default();
-        let (outcome, findings) = match flight {
-            Ok(flight) => {
-                before = flight.drones_before();
-                let (outcome, said) = flight.plan(&world)?;
-                let (notes, mut warnings) = match &outcome {
-                    PlanOutcome::Planned(trajectory) => flight.findings(&world, trajectory),
-                    PlanOutcome::Rejected { .. } => Default::default(),
-                };
-                warnings.extend(said);
-                (outcome, (notes, warnings))
-            }
-            Err(reason) => {
-                let track = TargetTrack { dt_s: DT_S, height_m: 0.0, radius_m: 0.0, states: vec![] };
-                (PlanOutcome::Rejected { track, reason }, Default::default())
-            }
+        let Flown { outcome, notes, warnings } = match expert.flight(&world, bodies, Seed(context.seed), plugins)? {
+            Ok(flight) => Flown::of(&flight, &world)?,
+            Err(reason) => Flown::none(&reason),
         };
         if self.is_trial {
             let followed = traffic::followed(inputs, inputs.one("paths")?)?;
@@ -151,11 +130,36 @@ impl Stage for MucoStage {
         if let Some(walk) = inputs.all("paths").first() {
             traffic::put_around(walk, &around, outputs)?;
         }
-        before.put(outputs)?;
         let mut produced = produced(&outcome);
-        produced.notes.extend(findings.0);
-        produced.warnings.extend(findings.1);
+        produced.notes.extend(notes);
+        produced.warnings.extend(warnings);
         Ok(produced)
+    }
+}
+
+/// What the flights of an item are planned among.
+pub struct Setting {
+    /// The town.
+    pub world: Arc<World>,
+    /// The bodies around the target.
+    pub around: Around,
+    /// Walk, companions and what moves.
+    pub bodies: Bodies,
+}
+
+impl Setting {
+    /// The setting of a task.
+    pub fn read(inputs: &Inputs<'_>, expert: &Expert) -> Result<Self> {
+        let world = world(inputs)?;
+        if expert.objective.objective != Objective::Track {
+            return Ok(Self { world, around: Around::default(), bodies: Bodies::default() });
+        }
+        check_same_town(inputs, "paths")?;
+        let artifact = inputs.one("paths")?;
+        let walk: PedestrianPath = codec::decode(WALK, &inputs.read(artifact, "walk")?)?;
+        let around = traffic::cut_around(inputs, artifact, &walk.track)?;
+        let (companions, movers) = (companions::read(inputs)?, around.boxes());
+        Ok(Self { world, around, bodies: Bodies { walk: Some(walk.track), companions, movers } })
     }
 }
 

@@ -200,8 +200,7 @@ fn candidates<'a>(
     world: &World,
     trajectory: &Trajectory,
 ) -> Result<(Vec<Candidate<'a>>, usize)> {
-    let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
-    let largest_object = objects.max().unwrap_or(TARGET_INSTANCE);
+    let largest_object = largest_object(world);
     let (mut candidates, mut left_out) = (vec![], 0);
     let target = followed(inputs, inputs.one("trajectories")?)?;
     for (stage, artifacts) in inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).enumerate() {
@@ -244,16 +243,35 @@ fn candidates<'a>(
     Ok((candidates, left_out))
 }
 
+/// Largest id of an object in instance images.
+pub fn largest_object(world: &World) -> u32 {
+    let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
+    objects.max().unwrap_or(TARGET_INSTANCE)
+}
+
+/// Place among the stages at port `others` that drones have instead of a stage.
+const PLACE_OF_DRONES: usize = 12;
+
+/// Instance id of a drone by its number behind the walk, counted after the ids of objects as those of people are.
+pub fn instance_of_drone(number: u32) -> Option<u32> {
+    odd_multiple(PLACE_OF_DRONES, number as usize)
+}
+
 /// Instance id of a person, counted after the ids of objects: a number that no other person has, and that depends on the
 /// places of the stage at the port and of the item in the stage alone. More people, and stages that are added at the end,
 /// change no id: the first stage has every second number, the next one every second of the rest, and so on. `None` beyond
 /// 32 bits.
 fn instance_of(stage: usize, item: usize) -> Option<u32> {
-    let odd = u32::try_from(item).ok()?.checked_mul(2)?.checked_add(1)?;
-    odd.checked_mul(1u32.checked_shl(u32::try_from(stage).ok()?)?)
+    odd_multiple(stage + usize::from(stage >= PLACE_OF_DRONES), item)
 }
 
-fn too_many(artifact: &Artifact) -> Box<Diagnostic> {
+/// Number `item` of those that can be halved just so often.
+fn odd_multiple(halvings: usize, item: usize) -> Option<u32> {
+    let odd = u32::try_from(item).ok()?.checked_mul(2)?.checked_add(1)?;
+    odd.checked_mul(1u32.checked_shl(u32::try_from(halvings).ok()?)?)
+}
+
+pub fn too_many(artifact: &Artifact) -> Box<Diagnostic> {
     let message = format!("there is no instance id left for `{}`", artifact.id);
     Diagnostic::new("crowd-large", Fault::Recipe, message)
         .hint("connect fewer stages to `inputs.others`, with fewer people in the last ones")
@@ -310,11 +328,11 @@ mod tests {
 
     #[test]
     fn ids_of_people_differ_and_do_not_depend_on_how_many_there_are() {
-        let ids: BTreeSet<u32> =
-            (0..6).flat_map(|stage| (0..300).map(move |item| instance_of(stage, item).unwrap())).collect();
-        assert_eq!((ids.len(), ids.first()), (1800, Some(&1)));
+        let people = (0..14).flat_map(|stage| (0..300).map(move |item| instance_of(stage, item).unwrap()));
+        let ids: BTreeSet<u32> = people.chain((0..8).map(|number| instance_of_drone(number).unwrap())).collect();
+        assert_eq!((ids.len(), ids.first()), (14 * 300 + 8, Some(&1)));
         assert_eq!([0, 1, 2].map(|item| instance_of(0, item)), [Some(1), Some(3), Some(5)]);
         assert_eq!([0, 1, 2].map(|item| instance_of(1, item)), [Some(2), Some(6), Some(10)]);
-        assert_eq!((instance_of(31, 0), instance_of(31, 1), instance_of(32, 0)), (Some(1 << 31), None, None));
+        assert_eq!((instance_of(30, 0), instance_of(30, 1), instance_of(31, 0)), (Some(1 << 31), None, None));
     }
 }

@@ -1,7 +1,7 @@
 //! `perturb`: the twin of every expert trajectory, with errors of position and rotation.
 
 use crate::muco::produced;
-use crate::other_drones::DronesBefore;
+use crate::other_drones::Formation;
 use crate::ports::{self, TRAJECTORY};
 use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single, traffic};
@@ -73,7 +73,7 @@ impl Stage for PerturbStage {
         let twin = match expert {
             PlanOutcome::Planned(expert) => {
                 let mut movers = traffic::around(inputs, artifact)?.boxes();
-                let drones = DronesBefore::of(inputs, artifact)?.join(&mut movers);
+                let drones = Formation::of(inputs, artifact)?.join(&mut movers);
                 let clearance_m = self.config.clearance_m;
                 let map = ExactMap { drones, clearance_m, ..ExactMap::among(&world.exact, &movers) };
                 perturb(&expert, &expert_id, map, &self.config, Seed(context.seed))

@@ -18,6 +18,8 @@ pub const AROUND: &str = "around/1";
 pub const LOSSES: &str = "losses/1";
 /// Artifact of the orders to lose the target, by item.
 pub const ORDERS: &str = "orders/1";
+/// Artifact of the flights of all drones behind a walk.
+pub const FORMATION: &str = "formation/1";
 /// Artifact of a planned or perturbed trajectory.
 pub const TRAJECTORY: &str = "trajectory/3";
 /// Artifact of the people who are near a flight.

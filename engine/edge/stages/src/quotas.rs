@@ -11,7 +11,10 @@ use cosfly_render::{BodyShape, Outfit};
 use cosfly_stage::{Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StagePart, StageProperties, TaskContext};
 use cosfly_world::{Around, Followed};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
+/// Version of the trials, which is theirs and not that of the flights.
+pub const TRIALS_VERSION: u32 = 5;
 /// Part with the trial of every flight.
 pub const TRIALS: &str = "trials";
 /// Part with the orders of all flights.
@@ -34,8 +37,12 @@ impl Trial {
     /// Of a flight planned with the loss.
     pub fn of(outcome: &PlanOutcome, ordered: &OcclusionConfig, around: &Around, followed: Option<&Followed>) -> Self {
         let PlanOutcome::Planned(flight) = outcome else { return Self { is_lost: false, beside_look_alike: false } };
-        let least_s = f64::from(ordered.count) * ordered.min_s;
-        let is_lost = flight.certificate.occlusion_reached_s >= least_s;
+        let dt_s = flight.track.dt_s;
+        let is_ordered = |loss: &Range<usize>| {
+            let length_s = loss.len() as f64 * dt_s;
+            length_s >= ordered.min_s - 1e-9 && length_s <= ordered.max_s + 1e-9
+        };
+        let is_lost = losses(flight).iter().filter(|loss| is_ordered(loss)).count() >= ordered.count as usize;
         let seen_again = seen_again(flight);
         let beside_look_alike = followed.zip(seen_again).is_some_and(|(followed, frame)| {
             let looks = |seed| Outfit::of(BodyShape::Person, seed);
@@ -49,19 +56,34 @@ impl Trial {
         Self { is_lost, beside_look_alike }
     }
 
+    /// Of several drones behind one walk: all of them lose the target.
+    pub fn of_all(trials: impl Iterator<Item = Self>) -> Self {
+        let both = |one: Self, other: Self| Self {
+            is_lost: one.is_lost && other.is_lost,
+            beside_look_alike: one.beside_look_alike && other.beside_look_alike,
+        };
+        trials.reduce(both).unwrap_or(Self { is_lost: false, beside_look_alike: false })
+    }
+
     /// Writes the trial as the output of its item.
     pub fn put(&self, outputs: &mut dyn OutputSink) -> Result<()> {
         outputs.put(TRIAL, &codec::encode(LOSSES, self)?)
     }
 }
 
-/// Frame after the longest stretch in which no ray reaches the target; `None` where it is the end.
-fn seen_again(flight: &Trajectory) -> Option<usize> {
+/// Frames of each loss: of each longest stretch in which no ray reaches the target.
+fn losses(flight: &Trajectory) -> Vec<Range<usize>> {
     let lost = |frame: &usize| flight.visibility[*frame] == 0.0;
     let frames: Vec<usize> = (0..flight.visibility.len()).collect();
     let stretches = frames.chunk_by(|a, b| lost(a) == lost(b)).filter(|stretch| lost(&stretch[0]));
-    let longest = stretches.reduce(|longest, next| if next.len() > longest.len() { next } else { longest })?;
-    Some(longest[longest.len() - 1] + 1).filter(|frame| *frame < flight.visibility.len())
+    stretches.map(|stretch| stretch[0]..stretch[stretch.len() - 1] + 1).collect()
+}
+
+/// Frame after the first of the longest losses; `None` where it is the end.
+fn seen_again(flight: &Trajectory) -> Option<usize> {
+    let longest =
+        losses(flight).into_iter().reduce(|longest, next| if next.len() > longest.len() { next } else { longest })?;
+    Some(longest.end).filter(|frame| *frame < flight.visibility.len())
 }
 
 /// Who loses the target: for each flight in turn, from its trial and those before it.

@@ -1,11 +1,12 @@
 //! Results of stages, read back by other tools.
 
 use crate::flight::Companion;
-use crate::ports::{AROUND, TOWN, TRAJECTORY, WALK};
+use crate::other_drones::Formation;
+use crate::ports::{AROUND, FORMATION, TOWN, TRAJECTORY, WALK};
 use crate::walks::walk_seed;
 use crate::{codec, companions};
 use cosfly_diagnose::Result;
-use cosfly_frames::{Seed, TargetTrack};
+use cosfly_frames::{DVec3, Seed, TargetTrack};
 use cosfly_maps::Town;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
@@ -18,6 +19,8 @@ pub const WALK_BLOB: &str = "walk";
 /// Name of the blob of a `muco` or `perturb` item that holds the trajectory.
 pub const TRAJECTORY_BLOB: &str = "trajectory";
 
+/// Name of the blob of a `muco` or `perturb` item that holds all drones behind the walk, where there are several.
+pub const DRONES_BLOB: &str = crate::other_drones::DRONES_BLOB;
 /// Name of the blob of an item of part `companions` of a `muco` stage.
 pub const COMPANIONS_BLOB: &str = companions::NAME;
 
@@ -73,6 +76,14 @@ pub fn looks(track: &TargetTrack) -> Result<Seed> {
 /// As [`town`].
 pub fn trajectory(bytes: &[u8]) -> Result<PlanOutcome> {
     codec::decode(TRAJECTORY, bytes)
+}
+
+/// Places of the drones that were planned before that of a flight, frame by frame, from a blob named [`DRONES_BLOB`].
+///
+/// # Errors
+/// As [`town`].
+pub fn drones_before(bytes: &[u8]) -> Result<Vec<Vec<DVec3>>> {
+    Ok(codec::decode::<Formation>(FORMATION, bytes)?.before().collect())
 }
 
 /// Companions in a blob named [`COMPANIONS_BLOB`].

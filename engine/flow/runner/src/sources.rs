@@ -1,11 +1,15 @@
 //! Files outside the store that stages read: hashed once per run, and checked for changes during the run.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_fingerprint::Digest;
+use cosfly_fingerprint::{Digest, DigestOfPieces};
 use std::collections::BTreeMap;
-use std::fs::{self, Metadata};
+use std::fs::{self, File, Metadata};
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
+
+/// Bytes of a file that are in memory while it is hashed.
+const PIECE_BYTES: usize = 1 << 20;
 
 /// A source file as it was when it was planned.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,7 +63,17 @@ impl HashedSource {
 
 fn digest_of(path: &Path) -> std::io::Result<(Digest, (u64, Option<SystemTime>))> {
     let before = stamp(&fs::metadata(path)?);
-    Ok((Digest::of(&fs::read(path)?), before))
+    let (mut file, mut pieces) = (File::open(path)?, DigestOfPieces::default());
+    // Piece by piece: files of recorded traffic may be larger than the memory.
+    let mut piece = vec![0; PIECE_BYTES];
+    loop {
+        match file.read(&mut piece) {
+            Ok(0) => return Ok((pieces.digest(), before)),
+            Ok(length) => pieces.add(&piece[..length]),
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
 }
 
 fn stamp(metadata: &Metadata) -> (u64, Option<SystemTime>) {

@@ -14,7 +14,7 @@ pub enum BodyShape {
     /// A person on foot.
     #[default]
     Person,
-    /// A vehicle, with its rider where it has one.
+    /// A vehicle, with its rider where it has one, or a drone.
     Vehicle {
         /// Kind of the vehicle; a pedestrian is drawn as a car.
         kind: BodyKind,
@@ -29,7 +29,7 @@ impl BodyShape {
         if kind.is_person() { Self::Person } else { Self::Vehicle { kind, size_m } }
     }
 
-    /// CARLA's label of a region of the body. Vans are cars; riders have a label of their own.
+    /// CARLA's label of a region of the body. Vans are cars; riders have a label of their own; drones are dynamic things.
     pub fn label(&self, region: Region) -> SemanticLabel {
         let Self::Vehicle { kind, .. } = self else { return SemanticLabel::Pedestrian };
         match kind {
@@ -38,6 +38,7 @@ impl BodyShape {
             BodyKind::Motorcycle => SemanticLabel::Motorcycle,
             BodyKind::Truck => SemanticLabel::Truck,
             BodyKind::Bus => SemanticLabel::Bus,
+            BodyKind::Drone => SemanticLabel::Dynamic,
             BodyKind::Car | BodyKind::Van | BodyKind::Pedestrian => SemanticLabel::Car,
         }
     }

@@ -1,4 +1,4 @@
-//! Draws vehicles of all kinds on a street of a town, from both ends and from above, as PNG files.
+//! Draws vehicles of all kinds on a street of a town, and a drone above them, from both ends and from above, as PNG files.
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_maps::{MapConfig, WalkableKind};
@@ -10,7 +10,8 @@ use std::fs::File;
 use std::path::Path;
 
 /// Kinds with their sizes, metres.
-const PARK: [(BodyKind, [f64; 3]); 10] = [
+const PARK: [(BodyKind, [f64; 3]); 11] = [
+    (BodyKind::Drone, [0.6, 0.6, 0.2]),
     (BodyKind::Bus, [12.0, 2.55, 3.1]),
     (BodyKind::Car, [4.6, 1.85, 1.46]),
     (BodyKind::Bicycle, [1.8, 0.65, 1.75]),
@@ -38,9 +39,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut others = vec![];
     let mut ahead_m = 0.0;
     for (instance, (kind, size_m)) in (90_000..).zip(PARK) {
+        let height_m = if kind == BodyKind::Drone { 2.5 } else { 0.0 };
         let side = if instance % 2 == 0 { 1.8 } else { -1.8 };
         let state = TargetState {
-            feet_in_world: middle + (along * ahead_m - along.perp() * side).extend(0.0),
+            feet_in_world: middle + (along * ahead_m - along.perp() * side).extend(height_m),
             heading_rad: if side > 0.0 { heading_rad } else { heading_rad + real::PI },
             speed_mps: 4.0,
         };

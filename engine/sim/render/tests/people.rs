@@ -87,14 +87,22 @@ fn cast(triangles: &[([DVec3; 3], u32)], origin: DVec3, ray: DVec3) -> (f64, u32
     first
 }
 
-/// Vehicles of all kinds around a place.
+/// Vehicles of all kinds and drones in the air around a place.
 fn traffic(random: &mut RandomStream, around: DVec3, count: u32) -> Vec<Bystander> {
-    let sizes =
-        [[1.8, 0.65, 1.75], [2.1, 0.8, 1.6], [4.5, 1.8, 1.5], [5.2, 2.0, 2.3], [8.0, 2.5, 3.4], [12.0, 2.5, 3.1]];
+    let kinds = [
+        (BodyKind::Bicycle, [1.8, 0.65, 1.75]),
+        (BodyKind::Motorcycle, [2.1, 0.8, 1.6]),
+        (BodyKind::Car, [4.5, 1.8, 1.5]),
+        (BodyKind::Van, [5.2, 2.0, 2.3]),
+        (BodyKind::Truck, [8.0, 2.5, 3.4]),
+        (BodyKind::Bus, [12.0, 2.5, 3.1]),
+        (BodyKind::Drone, [0.6, 0.6, 0.2]),
+    ];
     let vehicle = |k: u32| {
-        let away = DVec3::new(random.uniform(-25.0, 25.0), random.uniform(-25.0, 25.0), 0.0);
-        let kind = k as usize % sizes.len();
-        let body = BodyShape::of(BodyKind::ALL[kind + 1], DVec3::from_array(sizes[kind]));
+        let (kind, size_m) = kinds[k as usize % kinds.len()];
+        let height_m = if kind == BodyKind::Drone { 5.0 + f64::from(k % 5) } else { 0.0 };
+        let away = DVec3::new(random.uniform(-25.0, 25.0), random.uniform(-25.0, 25.0), height_m);
+        let body = BodyShape::of(kind, DVec3::from_array(size_m));
         Bystander { walker: Walker { body, ..walker(around + away, k as u8) }, instance: FIRST + k }
     };
     (0..count).map(vehicle).collect()

@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             in_solid_things(&town, &traffic)
         );
         println!("  {} stand for the last minute", stuck(&traffic));
-        for kind in BodyKind::ALL {
+        for kind in BodyKind::ON_THE_GROUND {
             figures(&traffic, kind);
         }
         traffic.notes.iter().for_each(|note| println!("  {note}"));

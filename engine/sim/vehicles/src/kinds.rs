@@ -32,7 +32,7 @@ pub(crate) fn limits(kind: BodyKind) -> Limits {
         BodyKind::Van => of(36.0, 1.3, 2.0, 2.0),
         BodyKind::Truck => of(25.0, 0.9, 1.8, 1.5),
         BodyKind::Bus => of(24.0, 1.0, 1.6, 1.2),
-        BodyKind::Car | BodyKind::Pedestrian => of(45.0, 1.5, 2.0, 2.2),
+        BodyKind::Car | BodyKind::Pedestrian | BodyKind::Drone => of(45.0, 1.5, 2.0, 2.2),
     }
 }
 
@@ -44,7 +44,7 @@ pub(crate) fn size_m(kind: BodyKind, random: &mut RandomStream) -> DVec3 {
         BodyKind::Van => [[4.80, 5.90], [1.90, 2.05], [1.95, 2.55]],
         BodyKind::Truck => [[6.50, 8.50], [2.30, 2.50], [2.90, 3.50]],
         BodyKind::Bus => [[10.5, 12.0], [2.50, 2.55], [3.00, 3.20]],
-        BodyKind::Car | BodyKind::Pedestrian => [[3.60, 4.85], [1.66, 1.90], [1.42, 1.68]],
+        BodyKind::Car | BodyKind::Pedestrian | BodyKind::Drone => [[3.60, 4.85], [1.66, 1.90], [1.42, 1.68]],
     };
     let mut draw = |[low, high]: [f64; 2]| random.uniform(low, high);
     DVec3::new(draw(length), draw(width), draw(height))

@@ -85,7 +85,10 @@ fn what_cannot_be_used_is_refused_at_its_line() {
     let good = step(0.0, &vehicle("a", 100.0, 50.0, 0.0));
     for (text, expected) in [
         (file(&(step(1.0, "") + &step(0.5, ""))), "time goes from 1 s to 0.5 s; it must grow (line 7)"),
-        (file(&step(0.0, &vehicle("a", f64::NAN, 0.0, 0.0))), "`x` is `NaN`; it must be a finite number (line 5)"),
+        (
+            file(&step(0.0, &vehicle("a", f64::NAN, 0.0, 0.0))),
+            "`x` is `NaN`; it must be a number between -1e9 and 1e9 (line 5)",
+        ),
         (file(&step(0.0, "<vehicle id=\"a\" x=\"1\" y=\"2\" speed=\"1\"/>\n")), "`vehicle` has no `angle` (line 5)"),
         (file(&step(0.0, &vehicle("a", 1e5, 0.0, 0.0))), "all 1 positions lie outside of the town"),
         (file(&step(0.0, &vehicle("a", 100.0, 50.0, 0.0).repeat(2))), "`a` is twice in the time step 0 s (line 7)"),

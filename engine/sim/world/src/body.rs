@@ -23,11 +23,14 @@ pub enum BodyKind {
     Truck,
     /// A bus.
     Bus,
+    /// A drone: another one behind the same target. No traffic has drones, so recipes cannot name the kind.
+    #[schemars(skip)]
+    Drone,
 }
 
 impl BodyKind {
-    /// All kinds, in the order of their declaration.
-    pub const ALL: [Self; 7] =
+    /// Kinds that walk and drive, in the order of their declaration: those of traffic.
+    pub const ON_THE_GROUND: [Self; 7] =
         [Self::Pedestrian, Self::Bicycle, Self::Motorcycle, Self::Car, Self::Van, Self::Truck, Self::Bus];
 
     /// Name in recipes and tables.
@@ -40,6 +43,7 @@ impl BodyKind {
             Self::Van => "van",
             Self::Truck => "truck",
             Self::Bus => "bus",
+            Self::Drone => "drone",
         }
     }
 
@@ -64,7 +68,7 @@ pub struct BodyPlan {
     pub group: Option<u32>,
 }
 
-/// One person or vehicle and its track.
+/// One person, vehicle or drone and its track.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Body {
     /// What does not change.

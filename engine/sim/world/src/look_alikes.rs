@@ -56,12 +56,14 @@ impl LookAlikeConfig {
     /// # Errors
     /// Shares that are negative or do not add up to 1.
     pub fn check(&self) -> Result<(), String> {
+        if let Some(share) = self.shares.iter().find(|share| share.is_nan() || **share < 0.0) {
+            return Err(format!("a share is `{share}`; it must be at least `0`"));
+        }
         let sum: f64 = self.shares.iter().sum();
-        let is_sound = self.shares.iter().all(|share| *share >= 0.0) && (sum - 1.0).abs() <= 1e-6;
-        if self.shares.is_empty() || is_sound {
+        if self.shares.is_empty() || (sum - 1.0).abs() <= 1e-6 {
             return Ok(());
         }
-        Err(format!("the shares add up to `{sum}`; they must not be negative and add up to `1`"))
+        Err(format!("the shares add up to `{sum}`; they must add up to `1`"))
     }
 
     /// Looks like `target` for somebody who has the looks `own`: the same clothes and bag, build and gait as configured.

@@ -161,9 +161,11 @@ impl LooksConfig {
         for (name, shares, _) in self.orders() {
             let Some(shares) = shares else { continue };
             let sum: f64 = shares.iter().sum();
-            if shares.iter().any(|share| share.is_nan() || *share < 0.0) || (sum - 1.0).abs() > 1e-6 {
-                let rule = "they must not be negative and add up to `1`";
-                return Err((name, format!("the shares add up to `{sum}`; {rule}")));
+            if let Some(share) = shares.iter().find(|share| share.is_nan() || **share < 0.0) {
+                return Err((name, format!("a share is `{share}`; it must be at least `0`")));
+            }
+            if (sum - 1.0).abs() > 1e-6 {
+                return Err((name, format!("the shares add up to `{sum}`; they must add up to `1`")));
             }
         }
         Ok(())

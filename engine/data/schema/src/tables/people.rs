@@ -9,7 +9,7 @@ use cosfly_world::Traits;
 
 /// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
-    let doc = "Bystanders, people and vehicles, one row for each frame that shows at least one pixel of them; empty in towns without bystanders.";
+    let doc = "Bystanders, people, vehicles and other drones behind the target, one row for each frame that shows at least one pixel of them; empty in towns without bystanders.";
     let key = &["trajectory_id", "frame", "instance"];
     let rows = |item: &DatasetItem| item.record.sightings.len();
     Table { per_frame: true, ..Table::new("people", doc, key, rows, People::COLUMNS) }
@@ -27,10 +27,10 @@ columns! { People::COLUMNS of DatasetItem;
     frame: u32 = |item, i| sighting(item, i).frame;
     /// Id in instance images and in `frames.occluder_instance`: greater than those of all objects.
     instance: u32 = |item, i| person(item, i).instance;
-    /// Stage and item of the walk, such as `crowd-p00003`, or traffic and number of the body, such as `street-b00003`; the same
-    /// person in all trajectories.
+    /// Stage and item of the walk, such as `crowd-p00003`, or traffic and number of the body, such as `street-b00003`, or
+    /// the flight of another drone, such as `expert-p00003-d2`; the same in all trajectories.
     walk_id: String = |item, i| person(item, i).walk_id.clone();
-    /// Kind: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`.
+    /// Kind: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck`, `bus` or `drone`.
     kind: String = |item, i| person(item, i).kind.name().to_owned();
     /// Ground point between the feet, world frame: x, y, z.
     feet_in_world_m: [f64; 3] = |item, i| sighting(item, i).state.feet_in_world.to_array();

@@ -168,6 +168,7 @@ fn instances(town: &Town, record: &RenderedTrajectory) -> BTreeMap<String, Strin
             BodyKind::Van => ("van", SemanticLabel::Car),
             BodyKind::Truck => ("truck", SemanticLabel::Truck),
             BodyKind::Bus => ("bus", SemanticLabel::Bus),
+            BodyKind::Drone => ("drone", SemanticLabel::Dynamic),
         };
         let label = label.id();
         let value = format!("{what} label {label} of walk {}, {:.2} m high", person.walk_id, person.height_m);

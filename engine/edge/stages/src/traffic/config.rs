@@ -139,6 +139,12 @@ impl TrafficConfig {
             let message = format!("`{}` is listed twice", self.follow.kinds[at].name());
             return Err(ConfigRule { path: &["follow", "kinds"], message });
         }
+        let mut types = self.sumo.iter().flat_map(|sumo| &sumo.options.types);
+        if let Some((name, _)) = types.find(|(_, it)| it.kind == BodyKind::Drone) {
+            let known = BodyKind::ON_THE_GROUND.map(|kind| format!("`{}`", kind.name())).join(", ");
+            let message = format!("type `{name}` is a `drone`, which no traffic has; its kind must be one of {known}");
+            return Err(ConfigRule { path: &["sumo", "options", "types"], message });
+        }
         if let Err((table, message)) = self.looks.check() {
             let path: &'static [&'static str] = match table {
                 "bags" => &["looks", "bags"],

@@ -215,8 +215,9 @@ fn missing(artifact: &Artifact) -> Box<Diagnostic> {
 fn too_few(config: &TrafficConfig, eligible: usize) -> Box<Diagnostic> {
     let follow = &config.follow;
     let message = format!(
-        "`follow.count` is {}, but only {eligible} bodies of the kinds {} are there all the time and cover {} m",
+        "`follow.count` is {}, but {} of the kinds {} are there all the time and cover {} m",
         follow.count,
+        if eligible == 0 { "no bodies".to_owned() } else { format!("only {eligible} bodies") },
         follow.names(),
         follow.min_length_m
     );

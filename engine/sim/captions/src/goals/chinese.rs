@@ -210,6 +210,7 @@ fn hider_words(hider: Hider) -> &'static str {
         Hider::Body(BodyKind::Van) => "一辆面包车",
         Hider::Body(BodyKind::Truck) => "一辆卡车",
         Hider::Body(BodyKind::Bus) => "一辆公交车",
+        Hider::Body(BodyKind::Drone) => "另一架无人机",
     }
 }
 

@@ -298,6 +298,7 @@ fn hider_words(hider: Hider) -> &'static str {
         Hider::Body(BodyKind::Van) => "a van",
         Hider::Body(BodyKind::Truck) => "a lorry",
         Hider::Body(BodyKind::Bus) => "a bus",
+        Hider::Body(BodyKind::Drone) => "another drone",
     }
 }
 

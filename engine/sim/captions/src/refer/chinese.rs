@@ -15,6 +15,7 @@ pub(super) fn text(phrase: &Phrase) -> String {
         BodyKind::Van => ("面包车", false),
         BodyKind::Truck => ("卡车", false),
         BodyKind::Bus => ("公交车", false),
+        BodyKind::Drone => ("无人机", false),
     };
     let mut said: Vec<String> = vec![];
     if phrase.names(Property::Motion) {

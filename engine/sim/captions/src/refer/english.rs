@@ -15,6 +15,7 @@ pub(super) fn text(phrase: &Phrase) -> String {
         BodyKind::Van => ("van", false),
         BodyKind::Truck => ("lorry", false),
         BodyKind::Bus => ("bus", false),
+        BodyKind::Drone => ("drone", false),
     };
     let (top, trousers) = (of.top.name(), of.trousers.name());
     let mut words = vec!["the".to_owned()];

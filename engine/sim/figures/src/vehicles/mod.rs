@@ -1,6 +1,7 @@
-//! Vehicles: bodies of flat faces, and riders, within the boxes of their bodies.
+//! Vehicles and drones: bodies of flat faces, and riders, within the boxes of their bodies.
 
 mod coaches;
+mod drones;
 mod livery;
 mod model;
 mod riders;
@@ -32,6 +33,7 @@ pub fn add(
         BodyKind::Van => coaches::van(&mut model),
         BodyKind::Truck => coaches::truck(&mut model),
         BodyKind::Bus => coaches::bus(&mut model),
+        BodyKind::Drone => drones::quadrotor(&mut model),
         BodyKind::Car | BodyKind::Pedestrian => coaches::car(&mut model, Livery::draw(&walker.clothes_seed).body),
     }
 }

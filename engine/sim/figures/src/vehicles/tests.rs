@@ -11,13 +11,14 @@ use cosfly_world::BodyPlan;
 /// No corner is farther outside of the box than this, and every side of the box has a corner as near, metres.
 const BOUND_M: f64 = 0.01;
 
-const KINDS: [(BodyKind, [f64; 3], SemanticLabel); 6] = [
+const KINDS: [(BodyKind, [f64; 3], SemanticLabel); 7] = [
     (BodyKind::Bicycle, [1.8, 0.65, 1.75], SemanticLabel::Bicycle),
     (BodyKind::Motorcycle, [2.1, 0.8, 1.6], SemanticLabel::Motorcycle),
     (BodyKind::Car, [4.5, 1.85, 1.5], SemanticLabel::Car),
     (BodyKind::Van, [5.4, 2.0, 2.3], SemanticLabel::Car),
     (BodyKind::Truck, [8.5, 2.5, 3.4], SemanticLabel::Truck),
     (BodyKind::Bus, [12.0, 2.55, 3.1], SemanticLabel::Bus),
+    (BodyKind::Drone, [0.6, 0.6, 0.2], SemanticLabel::Dynamic),
 ];
 
 fn vehicle(kind: BodyKind, size_m: DVec3, number: u64) -> Walker {

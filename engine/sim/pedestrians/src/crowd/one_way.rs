@@ -1,13 +1,17 @@
-//! A crowd whose people all begin in a stated direction, as in the experiments that speed is measured by density in.
+//! A crowd whose people all walk in a stated direction, as in the experiments that speed is measured by density in.
 
 use crate::crowd::Crowd;
 use cosfly_frames::{DVec2, real};
 
-/// So many metres of way lie behind everybody: goals are sought ahead of them.
+/// So many metres of way lie behind everybody.
 const BEHIND_M: u32 = 20;
+/// So many metres of way lie ahead, in legs of so many.
+const AHEAD_M: u32 = 240;
+const LEG_M: u32 = 6;
 
 impl Crowd {
-    /// The same people, who come along the direction that `along` gives for a place, a unit vector, and go on in it.
+    /// The same people, who come along the direction that `along` gives for a place, a unit vector, and go on in it for
+    /// 240 m; then they choose goals as others do.
     #[must_use]
     pub fn coming(mut self, along: &dyn Fn(DVec2) -> DVec2) -> Self {
         for company in &mut self.companies {
@@ -15,11 +19,21 @@ impl Crowd {
             let place = self.grid.center(start);
             let behind = (0..BEHIND_M).fold(place, |at, _| at - along(at));
             let Some(behind) = self.grid.node_near(behind, company.piece, 6) else { continue };
-            let Some(way) = self.search.find(behind, start, &[]) else { continue };
+            let Some(mut way) = self.search.find(behind, start, &[]) else { continue };
+            let progress = way.len() - 1;
+            let (mut at, mut last) = (place, start);
+            for _ in 0..AHEAD_M / LEG_M {
+                at = (0..LEG_M).fold(at, |at, _| at + along(at));
+                let leg =
+                    self.grid.node_near(at, company.piece, 6).map(|next| (next, self.search.find(last, next, &[])));
+                let Some((next, Some(leg))) = leg else { break };
+                way.extend(&leg[1..]);
+                last = next;
+            }
             for person in &mut self.people[company.members.clone()] {
                 let ahead = along(person.at);
                 person.heading_rad = real::atan2(ahead.y, ahead.x);
-                person.progress = way.len() - 1;
+                person.progress = progress;
             }
             company.route = way;
         }

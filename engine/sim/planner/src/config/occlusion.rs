@@ -50,6 +50,15 @@ impl OcclusionConfig {
     }
 
     pub(super) fn check_order(&self) -> Result<(), Refusal> {
+        for (path, value, default) in [
+            ("occlusion.share", self.share, Self::default().share),
+            ("occlusion.beside_look_alike", self.beside_look_alike, Self::default().beside_look_alike),
+        ] {
+            if self.count == 0 && value != default {
+                let rule = "but `occlusion.count` is `0`, so that no flight loses its target; set it to `1` or more";
+                return Err((path.to_owned(), format!("`{path}` is `{value}`, {rule}")));
+            }
+        }
         ordered(("occlusion.min_s", self.min_s), ("occlusion.max_s", self.max_s))
     }
 }

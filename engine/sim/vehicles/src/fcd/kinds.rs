@@ -49,6 +49,7 @@ fn class_size_m(kind: BodyKind) -> [f64; 3] {
         BodyKind::Van => [6.5, 2.16, 2.86],
         BodyKind::Truck => [7.1, 2.4, 2.4],
         BodyKind::Bus => [12.0, 2.5, 3.4],
+        BodyKind::Drone => [0.6, 0.6, 0.2],
     }
 }
 

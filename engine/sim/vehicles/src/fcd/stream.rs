@@ -349,5 +349,6 @@ fn number(element: &BytesStart<'_>, name: &str, line: u64) -> Result<f64, FcdErr
         FcdError::new(format!("`{element}` has no `{name}`")).at(line)
     })?;
     let value = own.trim().parse::<f64>().ok().filter(|value| value.is_finite() && value.abs() < 1e9);
-    value.ok_or_else(|| FcdError::new(format!("`{name}` is `{own}`; it must be a finite number")).at(line))
+    value
+        .ok_or_else(|| FcdError::new(format!("`{name}` is `{own}`; it must be a number between -1e9 and 1e9")).at(line))
 }
