@@ -1,6 +1,6 @@
 //! Shadow maps packed for look-up, and the share of the sun's light at each pixel's place.
 
-use super::lanes::{Block, FOUR, WIDE, get};
+use super::lanes::{Block, FOUR, Lane, WIDE, get};
 use super::pattern::{NoiseTexture, Noises, floor_int, least, lerp, most, one_if, smoothstep};
 use super::shadow_frame::DEPTH_M;
 use super::sun_map::{GRAINS, WINDOW_TILES};
@@ -170,8 +170,9 @@ simd_kernel! {
                     (four[1].sunlight, four[2].sunlight) = (four[0].sunlight, four[0].sunlight);
                     break;
                 }
-                if !lit_by_squares(&mut four[pixel], summary, &places) {
-                    alike &= !lit_through_leaves(&mut four[pixel], map, &places, noise);
+                let (spots, sunlight) = (spots(&four[pixel], &places), &mut four[pixel].sunlight);
+                if !lit_by_squares(sunlight, &spots, summary) {
+                    alike &= !lit_through_leaves(sunlight, &spots, map, &places, noise);
                 }
                 if number == 1 {
                     let mut differ = 0u32;
@@ -185,52 +186,74 @@ simd_kernel! {
     }
 }
 
-/// A place in the town's map.
-#[derive(Clone, Copy)]
-struct Spot {
-    u: f32,
-    v: f32,
+/// Places of sixteen pixels in the town's map, each among the finest texels that a frame has there.
+struct Spots {
+    /// Coordinates of the finest texels.
+    finest: [Lane; 2],
+    /// Heights over the map's lowest, metres.
+    height_m: Lane,
+    u: Lane,
+    v: Lane,
     /// Number of the size of texels, from the finest.
-    grain: u32,
-    /// Whether the map tells of it.
-    is_known: bool,
+    grain: [u32; WIDE],
+    /// 1 where the map tells of the place.
+    known: [u32; WIDE],
 }
 
-/// The finest texels that a frame has at a place.
+/// Finds a block's places. Sizes of texels are the outer loop: the inner one becomes vector code.
 #[inline(always)]
-fn spot(places: &Places, point: Vec3) -> Spot {
-    let (finest_u, finest_v) = (affine(places.rows[0], point), affine(places.rows[1], point));
-    let mut spot = Spot { u: 1.0, v: 1.0, grain: 0, is_known: false };
-    let mut number = places.used.min(GRAINS) as u32;
-    for grain in places.grains[..places.used.min(GRAINS)].iter().rev() {
-        number = number.wrapping_sub(1);
-        let (u, v) = (finest_u * grain.scale[0] + grain.shift[0], finest_v * grain.scale[1] + grain.shift[1]);
-        let inside = (u >= grain.low[0]) & (v >= grain.low[1]) & (u < grain.high[0]) & (v < grain.high[1]);
-        spot.u = if inside { u } else { spot.u };
-        spot.v = if inside { v } else { spot.v };
-        spot.grain = if inside { number } else { spot.grain };
-        spot.is_known |= inside;
+fn spots(block: &Block, places: &Places) -> Spots {
+    let mut spots = Spots {
+        finest: [[0.0; WIDE]; 2],
+        height_m: [0.0; WIDE],
+        u: [1.0; WIDE],
+        v: [1.0; WIDE],
+        grain: [0; WIDE],
+        known: [0; WIDE],
+    };
+    for k in 0..WIDE {
+        let (point, height_m) = lifted(block, k, places.base_m);
+        spots.finest[0][k] = affine(places.rows[0], point);
+        spots.finest[1][k] = affine(places.rows[1], point);
+        spots.height_m[k] = height_m;
     }
-    spot
+    for (number, grain) in places.grains.iter().enumerate().take(places.used) {
+        let mut all_known = 1;
+        for k in 0..WIDE {
+            let u = spots.finest[0][k] * grain.scale[0] + grain.shift[0];
+            let v = spots.finest[1][k] * grain.scale[1] + grain.shift[1];
+            let inside = (u >= grain.low[0]) & (v >= grain.low[1]) & (u < grain.high[0]) & (v < grain.high[1]);
+            // What finer texels told stays.
+            let new = inside & (spots.known[k] == 0);
+            spots.u[k] = if new { u } else { spots.u[k] };
+            spots.v[k] = if new { v } else { spots.v[k] };
+            spots.grain[k] = if new { number as u32 } else { spots.grain[k] };
+            spots.known[k] |= u32::from(inside);
+            all_known &= spots.known[k];
+        }
+        if all_known != 0 {
+            break;
+        }
+    }
+    spots
 }
 
 /// Looks a block's sunlight up in whole squares, which tells the same wherever a square is all above or all below the
 /// places; whether it did for all of them.
 #[inline(always)]
-fn lit_by_squares(block: &mut Block, summary: &SummaryMap, places: &Places) -> bool {
+fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> bool {
     const BITS: u32 = SQUARES.trailing_zeros();
     const MASK: u32 = SQUARES as u32 - 1;
     let mut unknown = 0u32;
     for k in 0..WIDE {
-        let (point, height) = lifted(block, k, places.base_m);
-        let Spot { u, v, grain, is_known } = spot(places, point);
-        let (column, row) = (floor_int(u - 0.5) as u32 >> IN_SQUARE, floor_int(v - 0.5) as u32 >> IN_SQUARE);
-        let at = (grain << (2 * BITS)) | ((row & MASK) << BITS) | (column & MASK);
+        let column = floor_int(spots.u[k] - 0.5) as u32 >> IN_SQUARE;
+        let row = floor_int(spots.v[k] - 0.5) as u32 >> IN_SQUARE;
+        let at = (spots.grain[k] << (2 * BITS)) | ((row & MASK) << BITS) | (column & MASK);
         let square = summary[at as usize & (GRAINS * SQUARES * SQUARES - 1)];
-        let steps = height * STEPS_PER_M;
-        let lit = !is_known | ((square >> 16) as i32 as f32 <= steps);
+        let steps = spots.height_m[k] * STEPS_PER_M;
+        let lit = (spots.known[k] == 0) | ((square >> 16) as i32 as f32 <= steps);
         let dark = (square & 0xffff) as i32 as f32 > steps;
-        block.sunlight[k] = one_if(lit);
+        sunlight[k] = one_if(lit);
         unknown |= u32::from(!(lit | dark));
     }
     unknown == 0
@@ -238,24 +261,28 @@ fn lit_by_squares(block: &mut Block, summary: &SummaryMap, places: &Places) -> b
 
 /// Looks a block's sunlight up; whether leaves shade some of it.
 #[inline(always)]
-fn lit_through_leaves(block: &mut Block, map: &TownMap, places: &Places, noise: &NoiseTexture) -> bool {
+fn lit_through_leaves(
+    sunlight: &mut Lane,
+    spots: &Spots,
+    map: &TownMap,
+    places: &Places,
+    noise: &NoiseTexture,
+) -> bool {
     let mut under_leaves = [0.0f32; WIDE];
     let mut flecks = 0u32;
     for (k, under) in under_leaves.iter_mut().enumerate() {
-        let (point, height) = lifted(block, k, places.base_m);
-        let (dark, leaves) = town_darkness(map, spot(places, point), height);
-        block.sunlight[k] = 1.0 - dark;
+        let (dark, leaves) = town_darkness(map, spots, k);
+        sunlight[k] = 1.0 - dark;
         *under = dark * leaves;
         flecks |= u32::from(dark * leaves > 0.0);
     }
     if flecks != 0 {
         // Sun flecks: gaps between the leaves.
         for (k, under) in under_leaves.iter().enumerate() {
-            let (point, _) = lifted(block, k, places.base_m);
-            let u = affine(places.rows[0], point) * places.texel_m + places.corner_m[0];
-            let v = affine(places.rows[1], point) * places.texel_m + places.corner_m[1];
+            let u = spots.finest[0][k] * places.texel_m + places.corner_m[0];
+            let v = spots.finest[1][k] * places.texel_m + places.corner_m[1];
             let gap = smoothstep(0.52, 0.70, noise.clumps(u * 18.0, v * 18.0, 1.5));
-            block.sunlight[k] += under * (0.75 * gap);
+            sunlight[k] += under * (0.75 * gap);
         }
     }
     flecks != 0
@@ -264,16 +291,17 @@ fn lit_through_leaves(block: &mut Block, map: &TownMap, places: &Places, noise: 
 /// Share of a texel's size around a spot that is above the height, and 1 when leaves are there; none where the map tells
 /// nothing.
 #[inline(always)]
-fn town_darkness(map: &TownMap, spot: Spot, height_m: f32) -> (f32, f32) {
+fn town_darkness(map: &TownMap, spots: &Spots, k: usize) -> (f32, f32) {
     const BITS: u32 = WINDOW.trailing_zeros();
     const MASK: u32 = WINDOW as u32 - 1;
-    let (u, v) = (spot.u - 0.5, spot.v - 0.5);
+    let (u, v) = (spots.u[k] - 0.5, spots.v[k] - 0.5);
     let (column, row) = (floor_int(u), floor_int(v));
-    let start = (spot.grain << (2 * BITS)) | (column as u32 & MASK);
-    let texel = |row: u32| map[(start | ((row & MASK) << BITS)) as usize & (GRAINS * WINDOW * WINDOW - 1)];
-    let (upper, lower) = (texel(row as u32), texel((row as u32).wrapping_add(1)));
-    let (dark, leaves) = between(upper, lower, [u - column as f32, v - row as f32], height_m);
-    (if spot.is_known { dark } else { 0.0 }, leaves)
+    let start = (spots.grain[k] << (2 * BITS)) | (column as u32 & MASK);
+    let upper = map[(start | ((row as u32 & MASK) << BITS)) as usize & (GRAINS * WINDOW * WINDOW - 1)];
+    let next = (row as u32).wrapping_add(1) & MASK;
+    let lower = map[(start | (next << BITS)) as usize & (GRAINS * WINDOW * WINDOW - 1)];
+    let (dark, leaves) = between(upper, lower, [u - column as f32, v - row as f32], spots.height_m[k]);
+    (if spots.known[k] == 0 { 0.0 } else { dark }, leaves)
 }
 
 simd_kernel! {
