@@ -13,9 +13,7 @@ use crate::shade::shadow_frame::Frame;
 use crate::shade::shadow_region::Region;
 use crate::shade::sun_map::{Sun, draw};
 use crate::shade::sun_window::Window;
-use crate::shade::sunlight::{
-    FIGURE_SIDE, FigureShadow, Places, SOLID, figure_shadow, pack_figure, town_sunlight,
-};
+use crate::shade::sunlight::{FIGURE_SIDE, FigureShadow, Places, SOLID, figure_shadow, pack_figure, town_sunlight};
 use crate::shade::vector::Vec3;
 use crate::visibility::{Screen, Visibility};
 use cosfly_figures::figure::FigureTriangle;

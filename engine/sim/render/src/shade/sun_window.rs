@@ -195,3 +195,35 @@ fn places(parts: &[Part; GRAINS]) -> Places {
         used,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use crate::shade::vector::Vec3;
+    use cosfly_frames::Pose;
+
+    #[test]
+    fn ground_within_forty_metres_of_the_target_has_the_finest_texels() {
+        let camera = Camera { width: 640, height: 640, horizontal_fov_rad: 1.9 };
+        let down = |x: f64| Pose {
+            position_in_world: DVec3::new(x, 0.0, 150.0),
+            pitch_rad: -1.5,
+            yaw_rad: 0.3,
+            roll_rad: 0.0,
+        };
+        for (number, height) in [0.25f32, 0.6, 0.95].into_iter().enumerate() {
+            let lattice = Sun::new(Vec3::new(0.7, -0.4, height).unit(), 0.0).lattice(0);
+            for step in 0..40 {
+                let target = DVec3::new(1.7 * f64::from(step), 3.1 * number as f64, 0.0);
+                let eye = Eye::new(&down(target.x));
+                let part = part_seen(&lattice, target, (&eye, &Screen::new(&camera)), 0.0);
+                let [low, high] = part.inside();
+                for away in [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y] {
+                    let at = lattice.sheared(target + 40.0 * away);
+                    assert!(at.cmpge(low).all() && at.cmplt(high).all(), "{step} {height}: {at} in {low} to {high}");
+                }
+            }
+        }
+    }
+}

@@ -276,9 +276,8 @@ mod tests {
     fn stripes_end_where_the_road_ends() {
         let crossing = crosswalk();
         let stripe = |from: f64| clipped_to_band(&crossing.plan(), DVec2::X, from, from + 0.5);
-        let pieces = |from: f64, is_road: &dyn Fn(DVec2) -> bool| {
-            crossing.on_road(stripe(from), [from, from + 0.5], is_road)
-        };
+        let pieces =
+            |from: f64, is_road: &dyn Fn(DVec2) -> bool| crossing.on_road(stripe(from), [from, from + 0.5], is_road);
         assert_eq!(pieces(-1.0, &|at| at.x.abs() <= 2.0), [stripe(-1.0)]);
         assert!(pieces(-2.75, &|at| at.x.abs() <= 2.0).is_empty());
         // Half of the stripe lies on the pavement.
