@@ -245,7 +245,7 @@ fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> b
     const BITS: u32 = SQUARES.trailing_zeros();
     const MASK: u32 = SQUARES as u32 - 1;
     let mut unknown = 0u32;
-    for k in 0..WIDE {
+    for (k, sunlight) in sunlight.iter_mut().enumerate() {
         let column = floor_int(spots.u[k] - 0.5) as u32 >> IN_SQUARE;
         let row = floor_int(spots.v[k] - 0.5) as u32 >> IN_SQUARE;
         let at = (spots.grain[k] << (2 * BITS)) | ((row & MASK) << BITS) | (column & MASK);
@@ -253,7 +253,7 @@ fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> b
         let steps = spots.height_m[k] * STEPS_PER_M;
         let lit = (spots.known[k] == 0) | ((square >> 16) as i32 as f32 <= steps);
         let dark = (square & 0xffff) as i32 as f32 > steps;
-        sunlight[k] = one_if(lit);
+        *sunlight = one_if(lit);
         unknown |= u32::from(!(lit | dark));
     }
     unknown == 0
