@@ -104,6 +104,7 @@ impl PublishedFlight {
             mount: Mount {
                 pitch_rad: rows.get_or(Trajectories::camera_mount_pitch_deg, row, 0.0)?.to_radians(),
                 yaw_rad: rows.get_or(Trajectories::camera_mount_yaw_deg, row, 0.0)?.to_radians(),
+                levelled: rows.get_or(Trajectories::camera_mount_levelled, row, false)?,
             },
             readout_s: rows.get_or(Trajectories::camera_readout_s, row, 0.0)?,
             target_height_m: rows.get(Trajectories::target_height_m, row)?,

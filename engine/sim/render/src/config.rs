@@ -115,13 +115,22 @@ impl BackendKind {
 }
 
 /// Ranges of the camera's turn against the drone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct GimbalConfig {
     /// Lowest and highest turn upwards, degrees, -90 to 90.
     pub pitch_range_deg: [f64; 2],
     /// Lowest and highest turn to the right, degrees, -180 to 180.
     pub yaw_range_deg: [f64; 2],
+    /// Holds the horizon level in the pictures whatever the drone's tilt, as gimbals do: the turns add to the drone's yaw and
+    /// pitch. `false`: the camera is turned in the drone's body frame, and the horizon tilts with it.
+    pub levelled: bool,
+}
+
+impl Default for GimbalConfig {
+    fn default() -> Self {
+        Self { pitch_range_deg: [0.0; 2], yaw_range_deg: [0.0; 2], levelled: true }
+    }
 }
 
 /// A value that the schema cannot refuse but the renderer must.
@@ -255,6 +264,7 @@ impl RenderConfig {
         Mount {
             pitch_rad: draw(walk_seed, "gimbal-pitch", self.gimbal.pitch_range_deg).to_radians(),
             yaw_rad: draw(walk_seed, "gimbal-yaw", self.gimbal.yaw_range_deg).to_radians(),
+            levelled: self.gimbal.levelled,
         }
     }
 

@@ -7,17 +7,14 @@
 
 pub mod backend;
 mod buildings;
-pub mod camera;
 mod channel_set;
 pub mod channels;
 pub mod config;
 pub mod effects;
-mod eye;
 mod faces;
 pub mod frame;
 mod ground_polygons;
 mod look;
-mod nearer;
 mod outlook;
 pub mod outside;
 mod passes;
@@ -32,12 +29,12 @@ mod setup;
 mod shade;
 mod stages;
 mod target_view;
-mod visibility;
 pub mod weather;
+
+use cosfly_raster::{eye, nearer, visibility};
 
 pub use backend::{Backend, BackendError};
 pub use buildings::Buildings;
-pub use camera::{Camera, Mount};
 pub use channel_set::ChannelSet;
 pub use channels::Channel;
 pub use config::{BackendKind, ConfigProblem, GimbalConfig, RenderConfig};
@@ -46,6 +43,7 @@ pub use cosfly_figures::{clothes, figure};
 pub use cosfly_figures::{clothes_seed_of_target, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
 pub use cosfly_models::{Model, ModelConfig, ModelFit, ModelKind};
 pub use cosfly_optics::Optics;
+pub use cosfly_raster::camera::{self, Camera, Mount};
 pub use effects::{Effects, Lens, Moment, MotionBlur, Noise, RollingShutter, Shot};
 pub use frame::{ChannelImage, FrameImages, PersonView, PixelBox, RenderedFrame, TargetView};
 pub use look::PictureLook;

@@ -83,7 +83,7 @@ impl Renderer {
             },
             nearest: Visibility::new(screen.width, screen.height),
             alone: Visibility::new(screen.width, screen.height),
-            nearer: Nearer::new(),
+            nearer: Nearer::default(),
             faces: Vec::new(),
             visible: Vec::new(),
             seen_points: Vec::new(),

@@ -6,6 +6,7 @@ use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox};
 use crate::shade::grid::LightGrid;
 use crate::shade::outskirts::Outskirts;
 use crate::shade::pattern::{NoiseTexture, noise_texture};
+use crate::shade::sun_map::SunMaps;
 use cosfly_frames::{DVec3, Seed, real};
 use cosfly_maps::{ObstacleKind, Town};
 use std::collections::BTreeMap;
@@ -22,6 +23,8 @@ pub struct Scene {
     pub(crate) grid: LightGrid,
     pub(crate) outskirts: Outskirts,
     pub(crate) props: Props,
+    /// Shadows of everything above, drawn as views need them.
+    pub(crate) sun_maps: SunMaps,
     /// Tells scenes of one process apart; buffers that outlive a frame remember it.
     pub(crate) identity: u64,
 }
@@ -56,7 +59,7 @@ impl Scene {
         props.replace(&mut boxes);
         static SCENES: AtomicU64 = AtomicU64::new(0);
         let identity = SCENES.fetch_add(1, Ordering::Relaxed);
-        Self { boxes, clusters, noise, grid, outskirts, props, identity }
+        Self { boxes, clusters, noise, grid, outskirts, props, sun_maps: SunMaps::default(), identity }
     }
 
     /// Every triangle that the renderer draws except the target's, for casting the same rays

@@ -193,3 +193,29 @@ fn depth_carried_into_the_next_frame_agrees_but_where_something_comes_between() 
     assert!(f64::from(contradicted) < 2e-3 * f64::from(compared), "{contradicted} of {compared}");
     assert!(f64::from(other_id) < 2e-3 * f64::from(compared), "{other_id} of {compared}");
 }
+
+#[test]
+fn colours_do_not_depend_on_what_other_cameras_of_the_town_saw_before() {
+    let town = default_town();
+    let scene = |_: u32| Scene::new(&town, Seed([1; 32]));
+    let flown = flight(&town, &mut Seed([8; 32]).stream("shadows"), 30);
+    let mut weather = Weather::preset("ClearSunset").expect("a preset");
+    let colours = |renderer: &mut Renderer, scene: &Scene, weather: &Weather, frame: usize| {
+        let (pose, target) = flown[frame];
+        let setup = FrameSetup { pose, weather, target: Some(target), others: &[] };
+        renderer.render(scene, &setup).images.rgb.clone()
+    };
+    let shared = scene(0);
+    let mut follower = Renderer::new(CAMERA);
+    let mut turned = weather.clone();
+    turned.sun_azimuth_angle = 100.0;
+    for frame in 0..29 {
+        colours(&mut follower, &shared, if frame % 7 == 3 { &turned } else { &weather }, frame);
+    }
+    let followed = colours(&mut follower, &shared, &weather, 29);
+    let alone = colours(&mut Renderer::new(CAMERA), &scene(1), &weather, 29);
+    assert!(followed == alone, "a flight's last frame differs from the same frame alone");
+    assert!(colours(&mut Renderer::new(CAMERA), &shared, &weather, 29) == alone);
+    weather.sun_azimuth_angle += 1.0;
+    assert!(colours(&mut follower, &shared, &weather, 29) != alone, "the sun moved");
+}

@@ -63,7 +63,7 @@ pub fn transforms(time_ns: u64, drone: &Pose, mount: &Mount, target: &Pose) -> m
     };
     let optical = messages::FrameTransform {
         parent_frame_id: "drone".into(),
-        ..transform(time_ns, OPTICAL_FRAME, DVec3::ZERO, right_handed::body_from_optical(mount))
+        ..transform(time_ns, OPTICAL_FRAME, DVec3::ZERO, right_handed::body_from_optical(mount, drone))
     };
     messages::FrameTransforms { transforms: vec![in_map("drone", drone), optical, in_map("target", target)] }
 }

@@ -10,10 +10,14 @@ use foxglove::messages;
 /// Rotation from the optical axes (x right, y down, z ahead) to the right-handed body axes (x ahead, y left, z up).
 pub const BODY_FROM_OPTICAL: DQuat = DQuat::from_xyzw(-0.5, 0.5, -0.5, 0.5);
 
-/// Rotation from the optical axes of a camera in this mount to the drone's right-handed body axes.
-pub fn body_from_optical(mount: &Mount) -> DQuat {
-    if *mount == Mount::default() {
+/// Rotation from the optical axes of a camera in this mount to the right-handed body axes of a drone.
+pub fn body_from_optical(mount: &Mount, drone: &Pose) -> DQuat {
+    let camera = mount.camera_pose(drone);
+    if camera == *drone {
         return BODY_FROM_OPTICAL;
+    }
+    if mount.levelled {
+        return map_from_body(drone).inverse() * map_from_body(&camera) * BODY_FROM_OPTICAL;
     }
     let turn =
         Pose { position_in_world: DVec3::ZERO, pitch_rad: mount.pitch_rad, yaw_rad: mount.yaw_rad, roll_rad: 0.0 };
@@ -94,10 +98,15 @@ mod tests {
 
     #[test]
     fn a_turned_camera_looks_the_same_way_in_both_frames() {
-        let (pose, mount) = (turned(), Mount { pitch_rad: 0.2, yaw_rad: -0.7 });
-        let ahead = mount.camera_pose(&pose).world_from_body() * DVec3::X;
-        let in_map = map_from_body(&pose) * body_from_optical(&mount) * DVec3::Z;
-        assert!((in_map - map_from_world_point(ahead)).length() < 1e-12);
+        for levelled in [false, true] {
+            let (pose, mount) = (turned(), Mount { pitch_rad: 0.2, yaw_rad: -0.7, levelled });
+            let world_from_camera = mount.camera_pose(&pose).world_from_body();
+            let map_from_optical = map_from_body(&pose) * body_from_optical(&mount, &pose);
+            for (axis, in_optical) in [(DVec3::X, DVec3::Z), (DVec3::Y, DVec3::X), (DVec3::Z, DVec3::NEG_Y)] {
+                let expected = map_from_world_point(world_from_camera * axis);
+                assert!((map_from_optical * in_optical - expected).length() < 1e-12, "{levelled} {axis}");
+            }
+        }
     }
 
     #[test]

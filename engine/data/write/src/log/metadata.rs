@@ -94,6 +94,7 @@ fn camera(record: &RenderedTrajectory) -> BTreeMap<String, String> {
         ("k2", record.lens.k2.to_string()),
         ("mount_yaw_deg", record.mount.yaw_rad.to_degrees().to_string()),
         ("mount_pitch_deg", record.mount.pitch_rad.to_degrees().to_string()),
+        ("mount_levelled", record.mount.levelled.to_string()),
         ("shutter_s", record.motion_blur.shutter_s.to_string()),
         ("readout_s", record.rolling_shutter.readout_s.to_string()),
         ("noise_gaussian", record.noise.gaussian.to_string()),

@@ -17,6 +17,7 @@ mod process;
 mod render;
 mod simplify;
 mod small;
+mod steady;
 mod town_of_recipe;
 
 use clap::{Parser, Subcommand};
@@ -66,6 +67,9 @@ enum Command {
     /// Small pictures: depth, labels and ids in the large renderer and in the batch renderer, in turns
     #[command(after_help = small::EXAMPLES)]
     Small(small::SmallArguments),
+    /// Steadiness of pictures: pixels that pop in clips of a slowly moving camera, by what they show
+    #[command(after_help = steady::EXAMPLES)]
+    Steady(steady::SteadyArguments),
     /// A command of `cluster`
     #[command(hide = true)]
     Task(cluster::TaskArguments),
@@ -87,6 +91,7 @@ impl Arguments {
             Command::Render(arguments) => render::render(arguments),
             Command::Simplify(arguments) => simplify::simplify(arguments),
             Command::Small(arguments) => small::small(arguments),
+            Command::Steady(arguments) => steady::steady(arguments),
             Command::Task(arguments) => cluster::task(arguments),
         }
     }

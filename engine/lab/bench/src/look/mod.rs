@@ -2,8 +2,10 @@
 
 mod spectrum;
 mod statistics;
+mod steady;
 
 pub use statistics::{Statistics, of_picture};
+pub use steady::{SteadyReport, SteadyRow, of_clips};
 
 use crate::render::views::Ground;
 use cosfly_diagnose::{Diagnostic, Fault, Result};

@@ -2,6 +2,7 @@
 
 use crate::scene_parts::{Cluster, SceneBox};
 use crate::shade::pattern::{blend, fixed_size, floor_int, four_bytes, least, lerp, most, nearest_index, share};
+use crate::shade::things::bulb;
 use cosfly_frames::DVec3;
 use cosfly_maps::ObstacleKind;
 
@@ -317,6 +318,7 @@ impl LightGrid {
             }
             let cell = self.cell_of(b.center_in_world);
             let (column, row) = (cell % self.columns, cell / self.columns);
+            let strength = bulb(b.seed);
             for y in row.saturating_sub(radius)..(row + radius + 1).min(self.rows) {
                 for x in column.saturating_sub(radius)..(column + radius + 1).min(self.columns) {
                     let (dx, dy) = (x as f32 - column as f32, y as f32 - row as f32);
@@ -324,7 +326,7 @@ impl LightGrid {
                     let height = 5.5f32;
                     let fall = height * height / (height * height + far);
                     let edge = (1.0 - far / 484.0).max(0.0);
-                    self.cells[y * self.columns + x].lamps += fall * fall * edge;
+                    self.cells[y * self.columns + x].lamps += strength * fall * fall * edge;
                 }
             }
         }

@@ -115,7 +115,9 @@ fn asphalt(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
     let wide = noise.clumps(x * 1.05 + 50.0, y * 1.05, size * 1.05);
     // Mended pieces and cracks: level sets of wide noise.
     let mended = 0.16 * smoothstep(0.63, 0.64 + 0.03 * size, wide) - 0.07 * smoothstep(0.40, 0.39 - 0.03 * size, wide);
-    let crack = 0.30 * (1.0 - smoothstep(0.0, 0.004 + 0.04 * size, (wide - 0.52).abs())) * most(0.12 - size, 0.0) * 8.0;
+    // Cracks fade where a pixel is long: lines thinner than a row of pixels would flicker.
+    let long = most(point.footprints_m[0], point.footprints_m[1]);
+    let crack = 0.30 * (1.0 - smoothstep(0.0, 0.004 + 0.04 * long, (wide - 0.52).abs())) * most(0.12 - long, 0.0) * 8.0;
     let tone = 0.125 * (0.62 + 0.62 * rough + 0.18 * wide) * (1.0 - mended) * (1.0 - crack);
     Vec3::new(tone, tone * 0.99, tone * 0.975)
 }

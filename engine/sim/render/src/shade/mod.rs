@@ -26,6 +26,8 @@ pub mod simple;
 mod skin;
 pub mod sky;
 pub mod smooth;
+pub(crate) mod sun_map;
+mod sun_window;
 mod sunlight;
 pub mod surface;
 pub mod things;

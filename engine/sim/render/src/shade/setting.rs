@@ -63,7 +63,8 @@ impl Setting {
         self.haze =
             self.light.horizon * (0.8 - 0.2 * self.light.rain) + self.light.zenith * 0.2 + self.light.lamp * 0.02;
         if self.look == PictureLook::Full {
-            self.shadows.prepare(self.level, scene, (eye, &self.screen), self.light.to_sun, people);
+            let target = setup.target.map(|target| target.state.feet_in_world);
+            self.shadows.prepare(self.level, scene, (eye, &self.screen), self.light.to_sun, (people, target));
         }
     }
 }

@@ -24,18 +24,6 @@ impl Region {
         let is_empty = first[0] >= end[0] || first[1] >= end[1];
         if is_empty { Self { first: [0; 2], end: [0; 2] } } else { Self { first, end } }
     }
-
-    /// The least region that holds both.
-    pub fn with(self, other: Self) -> Self {
-        let is_empty = |region: &Self| region.first[0] >= region.end[0];
-        if is_empty(&self) || is_empty(&other) {
-            return if is_empty(&self) { other } else { self };
-        }
-        Self {
-            first: [0, 1].map(|k| self.first[k].min(other.first[k])),
-            end: [0, 1].map(|k| self.end[k].max(other.end[k])),
-        }
-    }
 }
 
 /// Visits points whose convex hull holds all that a camera sees above a height, up to [`FAR_M`] ahead: corners of the
@@ -101,8 +89,5 @@ mod tests {
         assert_eq!(region, Region { first: [0, 128], end: [256, 384] });
         let nothing = Region::around(DVec2::new(-9.0, 5.0), DVec2::new(-1.0, 6.0), 1024, 128);
         assert_eq!(nothing, Region::around(DVec2::INFINITY, DVec2::NEG_INFINITY, 1024, 128));
-        assert_eq!((nothing.with(region), region.with(nothing)), (region, region));
-        let other = Region { first: [128, 0], end: [512, 128] };
-        assert_eq!(region.with(other), Region { first: [0, 0], end: [512, 384] });
     }
 }

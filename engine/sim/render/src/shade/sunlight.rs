@@ -1,88 +1,97 @@
 //! Shadow maps packed for look-up, and the share of the sun's light at each pixel's place.
 
-use super::lanes::{Block, FOUR, WIDE, get};
+use super::lanes::{Block, FOUR, Lane, WIDE, get};
 use super::pattern::{NoiseTexture, Noises, floor_int, least, lerp, most, one_if, smoothstep};
 use super::shadow_frame::DEPTH_M;
-use super::shadow_region::Region;
+use super::sun_map::{GRAINS, WINDOW_TILES};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
 
-/// Texels along a side of the town's map.
-pub(super) const SIDE: usize = 1536;
+/// Texels along a side of a tile of the town's map, and of its window there.
+pub(super) const TILE: usize = 128;
+const WINDOW: usize = WINDOW_TILES as usize * TILE;
+/// Rows of a tile's texels, with the first of the tile below.
+pub(super) const PACKED_ROWS: usize = TILE + 1;
+/// Squares of texels along a side of a tile whose least and greatest heights are kept.
+pub(super) const SUMMARY_SIDE: usize = TILE >> IN_SQUARE;
 /// Texels along a side of the target's own map.
 pub(super) const FIGURE_SIDE: usize = 96;
 /// Content of a texel of the town's map.
 pub(super) const SOLID: u32 = 0;
 pub(super) const LEAVES: u32 = 1;
 
-/// Maps as the kernel reads them. A number holds a texel in its low half and the one to the right in its high half:
-/// height above [`LOWEST_M`] below the reference in steps of 1/32 m, times two, plus one for leaves.
-pub(super) struct Packed {
-    pub(super) town: Box<TownMap>,
-    pub(super) tiles: Box<TileMap>,
-    /// One for each of a frame's people, and some that wait to be used again.
-    pub(super) figures: Vec<FigureShadow>,
-    pub(super) places: Places,
-}
-
-/// A figure's own map, and where it lies; nowhere without a shadow.
+/// A figure's own map.
 pub(super) struct FigureShadow {
     pub(super) map: Box<FigureMap>,
     /// Number of rows and columns in use.
     pub(super) side: usize,
+    /// Where it lies; nowhere without a shadow.
     pub(super) rows: Option<[[f32; 4]; 2]>,
 }
 
 /// Place of the town's map.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Places {
+    /// Coordinates of the finest texels, from a corner near the view.
     pub(super) rows: [[f32; 4]; 2],
     pub(super) base_m: f32,
-    pub(super) texels_m: [f32; 2],
+    /// Size of the finest texels, metres.
+    pub(super) texel_m: f32,
+    /// The corner over the sheared ground, metres.
     pub(super) corner_m: [f32; 2],
-    /// Map coordinates within which this frame sees shadows.
+    pub(super) grains: [Grain; GRAINS],
+    /// Sizes of texels that this frame reads, from the finest.
+    pub(super) used: usize,
+}
+
+/// Place of the texels of a size: coordinates of the finest times `scale` plus `shift`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Grain {
+    pub(super) scale: [f32; 2],
+    pub(super) shift: [f32; 2],
+    /// Coordinates within which this frame reads them.
     pub(super) low: [f32; 2],
     pub(super) high: [f32; 2],
 }
 
-type TownMap = [u32; TOWN_TEXELS];
-/// Of each tile of texels, and those right and below of it: the least height in the low half, 0 where leaves are, and the
+/// Windows of all sizes of texels, one after the other. A number holds a texel in its low half and the one to the right in its
+/// high half: height above [`LOWEST_M`] below the reference in steps of 1/32 m, times two, plus one for leaves.
+pub(super) type TownMap = [u32; GRAINS * WINDOW * WINDOW];
+/// Of each square of texels, and those right and below of it: the least height in the low half, 0 where leaves are, and the
 /// greatest in the high half; steps.
-type TileMap = [u32; TILES];
+pub(super) type SummaryMap = [u32; GRAINS * SQUARES * SQUARES];
 type FigureMap = [u32; FIGURE_TEXELS];
 
-/// Powers of two that hold the maps.
-const TOWN_TEXELS: usize = 1 << 22;
+/// A power of two that holds the map.
 const FIGURE_TEXELS: usize = 1 << 14;
-const TILES: usize = 1 << (2 * TILES_SHIFT);
-/// A row of tiles has room for so many bits of columns.
-const TILES_SHIFT: u32 = 8;
-/// Bits of a texel's column or row within its tile.
-const IN_TILE: u32 = 3;
+/// Squares along a side of a window.
+const SQUARES: usize = WINDOW >> IN_SQUARE;
+/// Bits of a texel's column or row within its square.
+const IN_SQUARE: u32 = 3;
 /// Nothing lower than this below the reference casts a shadow.
 pub(super) const LOWEST_M: f64 = 200.0;
 /// Steps per metre of packed heights.
 const STEPS_PER_M: f32 = 32.0;
 
+/// A texel's height and class.
+#[inline(always)]
+fn packed_texel(height_m: f32, class: u32) -> u32 {
+    let lowest = (DEPTH_M - LOWEST_M) as f32;
+    // Adding 2^23 leaves the nearest whole number in the low bits.
+    let steps = least(most((height_m - lowest) * STEPS_PER_M, 0.0), 32767.0) + 8_388_608.0;
+    // Classes count where something stands.
+    ((steps.to_bits() & 0x7fff) << 1) | u32::from((class == LEAVES) & (height_m > 0.0))
+}
+
 simd_kernel! {
-    /// Packs a part of a map `side` texels wide.
-    pub(super) fn pack(heights: &[f32], classes: &[u32], side: usize, part: &Region, packed: &mut [u32]) {
-        let lowest = (DEPTH_M - LOWEST_M) as f32;
-        let ([first, top], [end, bottom]) = (part.first, part.end);
-        for row in top..bottom {
-            let texels = row.wrapping_mul(side).wrapping_add(first)..row.wrapping_mul(side).wrapping_add(end);
-            let (Some(heights), Some(classes), Some(packed)) =
-                (heights.get(texels.clone()), classes.get(texels.clone()), packed.get_mut(texels))
-            else {
-                return;
-            };
-            for ((packed, height_m), class) in packed.iter_mut().zip(heights).zip(classes) {
-                // Adding 2^23 leaves the nearest whole number in the low bits.
-                let steps = least(most((height_m - lowest) * STEPS_PER_M, 0.0), 32767.0) + 8_388_608.0;
-                // Classes count where something stands.
-                *packed = ((steps.to_bits() & 0x7fff) << 1) | u32::from((*class == LEAVES) & (*height_m > 0.0));
+    /// Packs the first `side` rows and columns of a figure's map.
+    pub(super) fn pack_figure(heights: &[f32], side: usize, packed: &mut FigureMap) {
+        let rows = heights.chunks_exact(FIGURE_SIDE).zip(packed.chunks_exact_mut(FIGURE_SIDE));
+        for (heights, packed) in rows.take(side) {
+            for (packed, height_m) in packed.iter_mut().zip(heights).take(side) {
+                *packed = packed_texel(*height_m, SOLID);
             }
-            for column in 1..packed.len() {
+            for column in 1..side.min(FIGURE_SIDE) {
                 packed[column.wrapping_sub(1)] |= packed[column] << 16;
             }
         }
@@ -90,15 +99,43 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// Measures the tiles of a part of the town's packed map.
-    pub(super) fn measure_tiles(map: &TownMap, part: &Region, tiles: &mut TileMap) {
-        const TEXELS: usize = 1 << IN_TILE;
-        for row in part.first[1] / TEXELS..part.end[1].div_ceil(TEXELS) {
-            for column in part.first[0] / TEXELS..part.end[0].div_ceil(TEXELS) {
+    /// Packs a tile from rows `width` apart, with the first row and column of the tiles below and to the right; whether
+    /// anything stands there.
+    pub(super) fn pack_tile(heights: &[f32], classes: &[u32], width: usize, packed: &mut [u32]) -> bool {
+        let mut anything = 0u32;
+        for (row, packed) in packed.chunks_exact_mut(TILE).enumerate().take(PACKED_ROWS) {
+            let from = row.wrapping_mul(width);
+            let (Some(heights), Some(classes)) = (
+                heights.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
+                classes.get(from..).and_then(|rest| rest.first_chunk::<PACKED_ROWS>()),
+            ) else {
+                return false;
+            };
+            let mut single = [0u32; PACKED_ROWS];
+            for ((single, height_m), class) in single.iter_mut().zip(heights).zip(classes) {
+                *single = packed_texel(*height_m, *class);
+            }
+            for (k, packed) in packed.iter_mut().enumerate().take(TILE) {
+                *packed = single[k] | single[k.wrapping_add(1)] << 16;
+                anything |= *packed;
+            }
+        }
+        anything != 0
+    }
+}
+
+simd_kernel! {
+    /// Measures the squares of a packed tile.
+    pub(super) fn measure_tile(packed: &[u32], summary: &mut [u32; SUMMARY_SIDE * SUMMARY_SIDE]) {
+        const TEXELS: usize = 1 << IN_SQUARE;
+        for row in 0..SUMMARY_SIDE {
+            for column in 0..SUMMARY_SIDE {
                 let (mut least, mut greatest) = ([u32::MAX; TEXELS], [0u32; TEXELS]);
                 for below in 0..=TEXELS {
-                    let texel = (row * TEXELS + below) * SIDE + column * TEXELS;
-                    let Some(texels) = map.get(texel..).and_then(|rest| rest.first_chunk::<TEXELS>()) else { continue };
+                    let texel = (row * TEXELS + below) * TILE + column * TEXELS;
+                    let Some(texels) = packed.get(texel..).and_then(|rest| rest.first_chunk::<TEXELS>()) else {
+                        continue;
+                    };
                     for k in 0..TEXELS {
                         for half in [texels[k] & 0xffff, texels[k] >> 16] {
                             let low = if half & 1 == LEAVES { 0 } else { half >> 1 };
@@ -109,7 +146,7 @@ simd_kernel! {
                 }
                 let least = least.into_iter().fold(0x7fff, u32::min);
                 let greatest = greatest.into_iter().fold(0, u32::max);
-                tiles[((row << TILES_SHIFT) | column) & (TILES - 1)] = least | greatest << 16;
+                summary[row * SUMMARY_SIDE + column] = least | greatest << 16;
             }
         }
     }
@@ -119,7 +156,7 @@ simd_kernel! {
     pub(super) fn town_sunlight(
         blocks: &mut [Block],
         map: &TownMap,
-        tiles: &TileMap,
+        summary: &SummaryMap,
         places: &Places,
         flat: bool,
         noise: &NoiseTexture,
@@ -133,8 +170,9 @@ simd_kernel! {
                     (four[1].sunlight, four[2].sunlight) = (four[0].sunlight, four[0].sunlight);
                     break;
                 }
-                if !lit_by_tiles(&mut four[pixel], tiles, &places) {
-                    alike &= !lit_through_leaves(&mut four[pixel], map, &places, noise);
+                let (spots, sunlight) = (spots(&four[pixel], &places), &mut four[pixel].sunlight);
+                if !lit_by_squares(sunlight, &spots, summary) {
+                    alike &= !lit_through_leaves(sunlight, &spots, map, &places, noise);
                 }
                 if number == 1 {
                     let mut differ = 0u32;
@@ -148,22 +186,74 @@ simd_kernel! {
     }
 }
 
-/// Looks a block's sunlight up in whole tiles, which tells the same wherever a tile is all above or all below the
+/// Places of sixteen pixels in the town's map, each among the finest texels that a frame has there.
+struct Spots {
+    /// Coordinates of the finest texels.
+    finest: [Lane; 2],
+    /// Heights over the map's lowest, metres.
+    height_m: Lane,
+    u: Lane,
+    v: Lane,
+    /// Number of the size of texels, from the finest.
+    grain: [u32; WIDE],
+    /// 1 where the map tells of the place.
+    known: [u32; WIDE],
+}
+
+/// Finds a block's places. Sizes of texels are the outer loop: the inner one becomes vector code.
+#[inline(always)]
+fn spots(block: &Block, places: &Places) -> Spots {
+    let mut spots = Spots {
+        finest: [[0.0; WIDE]; 2],
+        height_m: [0.0; WIDE],
+        u: [1.0; WIDE],
+        v: [1.0; WIDE],
+        grain: [0; WIDE],
+        known: [0; WIDE],
+    };
+    for k in 0..WIDE {
+        let (point, height_m) = lifted(block, k, places.base_m);
+        spots.finest[0][k] = affine(places.rows[0], point);
+        spots.finest[1][k] = affine(places.rows[1], point);
+        spots.height_m[k] = height_m;
+    }
+    for (number, grain) in places.grains.iter().enumerate().take(places.used) {
+        let mut all_known = 1;
+        for k in 0..WIDE {
+            let u = spots.finest[0][k] * grain.scale[0] + grain.shift[0];
+            let v = spots.finest[1][k] * grain.scale[1] + grain.shift[1];
+            let inside = (u >= grain.low[0]) & (v >= grain.low[1]) & (u < grain.high[0]) & (v < grain.high[1]);
+            // What finer texels told stays.
+            let new = inside & (spots.known[k] == 0);
+            spots.u[k] = if new { u } else { spots.u[k] };
+            spots.v[k] = if new { v } else { spots.v[k] };
+            spots.grain[k] = if new { number as u32 } else { spots.grain[k] };
+            spots.known[k] |= u32::from(inside);
+            all_known &= spots.known[k];
+        }
+        if all_known != 0 {
+            break;
+        }
+    }
+    spots
+}
+
+/// Looks a block's sunlight up in whole squares, which tells the same wherever a square is all above or all below the
 /// places; whether it did for all of them.
 #[inline(always)]
-fn lit_by_tiles(block: &mut Block, tiles: &TileMap, places: &Places) -> bool {
-    let Places { rows: [row_u, row_v], base_m, low, high, .. } = *places;
+fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> bool {
+    const BITS: u32 = SQUARES.trailing_zeros();
+    const MASK: u32 = SQUARES as u32 - 1;
     let mut unknown = 0u32;
-    for k in 0..WIDE {
-        let (point, height) = lifted(block, k, base_m);
-        let (u, v) = (affine(row_u, point) - 0.5, affine(row_v, point) - 0.5);
-        let inside = (u >= low[0]) & (v >= low[1]) & (u < high[0]) & (v < high[1]);
-        let (column, row) = (floor_int(u) as u32 >> IN_TILE, floor_int(v) as u32 >> IN_TILE);
-        let tile = tiles[(row.wrapping_shl(TILES_SHIFT) | column) as usize & (TILES - 1)];
-        let steps = height * STEPS_PER_M;
-        let lit = !inside | ((tile >> 16) as i32 as f32 <= steps);
-        let dark = (tile & 0xffff) as i32 as f32 > steps;
-        block.sunlight[k] = one_if(lit);
+    for (k, sunlight) in sunlight.iter_mut().enumerate() {
+        let column = floor_int(spots.u[k] - 0.5) as u32 >> IN_SQUARE;
+        let row = floor_int(spots.v[k] - 0.5) as u32 >> IN_SQUARE;
+        let at = (spots.grain[k] << (2 * BITS)) | ((row & MASK) << BITS) | (column & MASK);
+        let square = summary[at as usize & (GRAINS * SQUARES * SQUARES - 1)];
+        let steps = spots.height_m[k] * STEPS_PER_M;
+        let lit = (spots.known[k] == 0) | ((square >> 16) as i32 as f32 <= steps);
+        let dark = (square & 0xffff) as i32 as f32 > steps;
+        *sunlight = one_if(lit);
         unknown |= u32::from(!(lit | dark));
     }
     unknown == 0
@@ -171,29 +261,47 @@ fn lit_by_tiles(block: &mut Block, tiles: &TileMap, places: &Places) -> bool {
 
 /// Looks a block's sunlight up; whether leaves shade some of it.
 #[inline(always)]
-fn lit_through_leaves(block: &mut Block, map: &TownMap, places: &Places, noise: &NoiseTexture) -> bool {
-    let Places { rows: [row_u, row_v], base_m, texels_m, corner_m, low, high } = *places;
+fn lit_through_leaves(
+    sunlight: &mut Lane,
+    spots: &Spots,
+    map: &TownMap,
+    places: &Places,
+    noise: &NoiseTexture,
+) -> bool {
     let mut under_leaves = [0.0f32; WIDE];
     let mut flecks = 0u32;
     for (k, under) in under_leaves.iter_mut().enumerate() {
-        let (point, height) = lifted(block, k, base_m);
-        let (u, v) = (affine(row_u, point), affine(row_v, point));
-        let (dark, leaves) = darkness(map, SIDE, [low, high], u, v, height);
-        block.sunlight[k] = 1.0 - dark;
+        let (dark, leaves) = town_darkness(map, spots, k);
+        sunlight[k] = 1.0 - dark;
         *under = dark * leaves;
         flecks |= u32::from(dark * leaves > 0.0);
     }
     if flecks != 0 {
         // Sun flecks: gaps between the leaves.
         for (k, under) in under_leaves.iter().enumerate() {
-            let (point, _) = lifted(block, k, base_m);
-            let u = (affine(row_u, point) - 0.5) * texels_m[0] + corner_m[0];
-            let v = (affine(row_v, point) - 0.5) * texels_m[1] + corner_m[1];
+            let u = spots.finest[0][k] * places.texel_m + places.corner_m[0];
+            let v = spots.finest[1][k] * places.texel_m + places.corner_m[1];
             let gap = smoothstep(0.52, 0.70, noise.clumps(u * 18.0, v * 18.0, 1.5));
-            block.sunlight[k] += under * (0.75 * gap);
+            sunlight[k] += under * (0.75 * gap);
         }
     }
     flecks != 0
+}
+
+/// Share of a texel's size around a spot that is above the height, and 1 when leaves are there; none where the map tells
+/// nothing.
+#[inline(always)]
+fn town_darkness(map: &TownMap, spots: &Spots, k: usize) -> (f32, f32) {
+    const BITS: u32 = WINDOW.trailing_zeros();
+    const MASK: u32 = WINDOW as u32 - 1;
+    let (u, v) = (spots.u[k] - 0.5, spots.v[k] - 0.5);
+    let (column, row) = (floor_int(u), floor_int(v));
+    let start = (spots.grain[k] << (2 * BITS)) | (column as u32 & MASK);
+    let upper = map[(start | ((row as u32 & MASK) << BITS)) as usize & (GRAINS * WINDOW * WINDOW - 1)];
+    let next = (row as u32).wrapping_add(1) & MASK;
+    let lower = map[(start | (next << BITS)) as usize & (GRAINS * WINDOW * WINDOW - 1)];
+    let (dark, leaves) = between(upper, lower, [u - column as f32, v - row as f32], spots.height_m[k]);
+    (if spots.known[k] == 0 { 0.0 } else { dark }, leaves)
 }
 
 simd_kernel! {
@@ -214,8 +322,7 @@ simd_kernel! {
                     for k in 0..WIDE {
                         let (point, height) = lifted(block, k, base_m);
                         let (u, v) = (affine(row_u, point), affine(row_v, point));
-                        let (dark, _) = darkness(map, FIGURE_SIDE, [[0.0; 2], [limit - 2.0; 2]], u, v, height + 0.04);
-                        let lit = 1.0 - dark;
+                        let lit = 1.0 - figure_darkness(map, limit - 2.0, u, v, height + 0.04);
                         block.sunlight[k] = if lit < block.sunlight[k] { lit } else { block.sunlight[k] };
                     }
                 }
@@ -238,24 +345,22 @@ fn affine(row: [f32; 4], point: Vec3) -> f32 {
     row[0] * point.x + row[1] * point.y + row[2] * point.z + row[3]
 }
 
-/// Share of a texel's size around a place that is above the height, and 1 when leaves are there; none outside of
-/// `low`..`high`.
+/// Share of a texel's size around a place of a figure's map that is above the height; none outside of it.
 #[inline(always)]
-fn darkness<const N: usize>(
-    map: &[u32; N],
-    side: usize,
-    [low, high]: [[f32; 2]; 2],
-    u: f32,
-    v: f32,
-    height_m: f32,
-) -> (f32, f32) {
+fn figure_darkness(map: &FigureMap, limit: f32, u: f32, v: f32, height_m: f32) -> f32 {
     let (u, v) = (u - 0.5, v - 0.5);
-    let inside = (u >= low[0]) & (v >= low[1]) & (u < high[0]) & (v < high[1]);
+    let inside = (u >= 0.0) & (v >= 0.0) & (u < limit) & (v < limit);
     let (column, row) = (floor_int(u), floor_int(v));
-    let (fx, fy) = (u - column as f32, v - row as f32);
-    let at = (row as u32).wrapping_mul(side as u32).wrapping_add(column as u32);
-    let upper = map[at as usize & (N - 1)];
-    let lower = map[at.wrapping_add(side as u32) as usize & (N - 1)];
+    let at = (row as u32).wrapping_mul(FIGURE_SIDE as u32).wrapping_add(column as u32);
+    let upper = map[at as usize & (FIGURE_TEXELS - 1)];
+    let lower = map[at.wrapping_add(FIGURE_SIDE as u32) as usize & (FIGURE_TEXELS - 1)];
+    let (dark, _) = between(upper, lower, [u - column as f32, v - row as f32], height_m);
+    if inside { dark } else { 0.0 }
+}
+
+/// The share of four texels above the height at a place between them, and 1 when leaves are at the first.
+#[inline(always)]
+fn between(upper: u32, lower: u32, [fx, fy]: [f32; 2], height_m: f32) -> (f32, f32) {
     let steps = height_m * STEPS_PER_M;
     let above = |texel: u32| one_if((texel >> 1) as i32 as f32 > steps);
     let dark = lerp(
@@ -263,6 +368,5 @@ fn darkness<const N: usize>(
         lerp(above(lower & 0xffff), above(lower >> 16), fx),
         fy,
     );
-    let leaves = (upper & 1) as i32 as f32;
-    (if inside { dark } else { 0.0 }, leaves)
+    (dark, (upper & 1) as i32 as f32)
 }

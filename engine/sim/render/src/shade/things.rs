@@ -33,6 +33,14 @@ const SPECIES: [[f32; 3]; 10] = [
     [0.075, 0.045, 0.040],
 ];
 
+/// Light of bulbs, linear RGB: warm, sodium, cold; the first are the most frequent.
+const BULBS: [[f32; 3]; 3] = [[1.0, 0.78, 0.45], [1.0, 0.58, 0.20], [0.86, 0.92, 1.0]];
+
+/// Strength of a street lamp's bulb by the lamp's seed: bulbs age, and one in thirty is out.
+pub fn bulb(seed: u32) -> f32 {
+    if draw(seed, 9) < 1.0 / 30.0 { 0.0 } else { 0.72 + 0.56 * draw(seed, 10) }
+}
+
 /// The box a thing is made of, and one of its faces.
 #[derive(Clone, Copy, Debug)]
 pub struct Thing {
@@ -107,6 +115,10 @@ impl Thing {
                 let [r, g, b] = SPECIES[choice];
                 tint = Vec3::new(r, g, b) * (0.8 + 0.45 * draw(seed, 1));
             }
+            ObstacleKind::Lamp => {
+                let [r, g, b] = BULBS[usize::from(draw(seed, 11) > 0.6) + usize::from(draw(seed, 11) > 0.85)];
+                tint = Vec3::new(r, g, b) * bulb(seed);
+            }
             ObstacleKind::Car => tint = PAINTS[pick(2, PAINTS.len())],
             ObstacleKind::TrafficLight => {
                 choice = pick(3, 3);
@@ -133,6 +145,7 @@ impl Thing {
         match self.kind {
             ObstacleKind::TreeCrown | ObstacleKind::Bush => self.tint * 1.2,
             ObstacleKind::TreeTrunk => Vec3::new(0.115, 0.082, 0.055),
+            ObstacleKind::Lamp => Vec3::splat(0.2),
             _ => self.tint,
         }
     }
@@ -263,7 +276,7 @@ impl Thing {
         // The head: a flat box, or the top end of a mast drawn as one box.
         let flat = self.half.z < 0.6 * self.half.x.max(self.half.y);
         let head = if flat { 1.0 } else { smoothstep(0.25, 0.2, self.half.z - at.local.z) };
-        look.emission = Vec3::new(1.0, 0.78, 0.45) * (0.9 * head * self.night);
+        look.emission = self.tint * (0.9 * head * self.night);
         look.albedo = look.albedo.lerp(Vec3::splat(0.5), 0.6 * head);
         look
     }

@@ -21,10 +21,13 @@ columns! { Trajectories::CAMERA of DatasetItem;
     camera_k1: f64 = |item, _| item.record.lens.k1;
     /// Lens distortion, OpenCV's k2.
     camera_k2: f64 = |item, _| item.record.lens.k2;
-    /// Yaw of the camera relative to the drone, around the drone's up axis, positive to the right; before the pitch.
+    /// Yaw of the camera relative to the drone, around the drone's up axis, positive to the right; before the pitch. Of a
+    /// levelled mount, around the vertical.
     camera_mount_yaw_deg: f64 = |item, _| item.record.mount.yaw_rad.to_degrees();
     /// Pitch of the camera relative to the drone, positive upwards; after the yaw.
     camera_mount_pitch_deg: f64 = |item, _| item.record.mount.pitch_rad.to_degrees();
+    /// Whether a gimbal holds the horizon level: yaw and pitch of the mount add to the drone's, and the camera has no roll.
+    camera_mount_levelled: bool = |item, _| item.record.mount.levelled;
     /// Exposure time, centred on `time_s`, over which colour is blurred; depth and ids are of `time_s`; 0: no blur.
     camera_shutter_s: f64 = |item, _| item.record.motion_blur.shutter_s;
     /// Time from the top row to the bottom row, the middle row at `time_s`, in all channels; 0: all rows at once.

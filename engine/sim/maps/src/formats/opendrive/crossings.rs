@@ -16,6 +16,10 @@ use cosfly_frames::{DVec2, DVec3, real};
 const STRIPE_M: f64 = 0.5;
 /// Most stripes of one crossing.
 const MOST_STRIPES: f64 = 200.0;
+/// Stripes end where the road ends: they are looked at in this many strips, in cells of this length, metres.
+const STRIPS: u32 = 4;
+const CELL_M: f64 = 0.25;
+const MOST_CELLS: f64 = 400.0;
 /// A crossing that ends this close to a pavement is joined to it, metres.
 const JOINT_REACH_M: f64 = 4.0;
 /// Width of an unmarked crossing, metres.
@@ -86,29 +90,70 @@ impl Crosswalk {
         }
     }
 
-    /// Stripes across the walking direction, just above whatever road lies there.
+    /// Stripes across the walking direction, just above the road, as far as there is road.
     pub(super) fn paint(&self, builder: &mut MeshBuilder, ground: &GroundIndex) {
         let plan = self.plan();
-        let reach = |pick: fn(f64, f64) -> f64, start: f64| plan.iter().map(|p| p.dot(self.across)).fold(start, pick);
-        let (low, high) = (reach(f64::min, f64::INFINITY), reach(f64::max, f64::NEG_INFINITY));
+        let [low, high] = span(&plan, self.across);
         let z_m = self.center().z;
+        let below = |corner: DVec2| ground.ground_below(corner.extend(z_m), 0.4);
+        let is_road = |corner: DVec2| {
+            below(corner).is_none_or(|ground| {
+                matches!(ground.label, SemanticLabel::Roads | SemanticLabel::RoadLine | SemanticLabel::Bridge)
+            })
+        };
         let stripes = ((high - low) / (2.0 * STRIPE_M)).round().clamp(1.0, MOST_STRIPES) as usize;
         let period_m = (high - low) / stripes as f64;
         for stripe in 0..stripes {
             let from = low + (stripe as f64 + 0.25) * period_m;
             let outline = clipped_to_band(&plan, self.across, from, from + 0.5 * period_m);
-            let vertices: Vec<(DVec3, DVec2)> = outline
-                .iter()
-                .map(|corner| {
-                    let height_m = ground.ground_below(corner.extend(z_m), 0.4).map_or(z_m, |ground| ground.height_m);
-                    (
-                        corner.extend(height_m + PAINT_ABOVE_M),
-                        DVec2::new(corner.dot(self.across.perp()), corner.dot(self.across)),
-                    )
-                })
-                .collect();
-            builder.polygon(SemanticLabel::RoadLine, false, &vertices, &triangulated(&outline));
+            for outline in self.on_road(outline, [from, from + 0.5 * period_m], is_road) {
+                let vertex = |corner: &DVec2| {
+                    let height_m = below(*corner).map_or(z_m, |ground| ground.height_m);
+                    let place = DVec2::new(corner.dot(self.across.perp()), corner.dot(self.across));
+                    (corner.extend(height_m + PAINT_ABOVE_M), place)
+                };
+                let vertices: Vec<(DVec3, DVec2)> = outline.iter().map(vertex).collect();
+                builder.polygon(SemanticLabel::RoadLine, false, &vertices, &triangulated(&outline));
+            }
         }
+    }
+
+    /// The pieces of a stripe that lie on road: the whole stripe, or strips of it without the cells that reach beyond.
+    fn on_road(&self, stripe: Vec<DVec2>, [from, to]: [f64; 2], is_road: impl Fn(DVec2) -> bool) -> Vec<Vec<DVec2>> {
+        let along = self.across.perp();
+        let [low, high] = span(&stripe, along);
+        let cells = ((high - low) / CELL_M).ceil().clamp(1.0, MOST_CELLS);
+        let (cell_m, strip_m) = ((high - low) / cells, (to - from) / f64::from(STRIPS));
+        let corner = |strip: u32, cell: u32| {
+            is_road((low + f64::from(cell) * cell_m) * along + (from + f64::from(strip) * strip_m) * self.across)
+        };
+        let is_free = |strip: u32, cell: u32| {
+            corner(strip, cell) && corner(strip, cell + 1) && corner(strip + 1, cell) && corner(strip + 1, cell + 1)
+        };
+        let cells = cells as u32;
+        if (0..STRIPS).all(|strip| (0..cells).all(|cell| is_free(strip, cell))) {
+            return vec![stripe];
+        }
+        // Runs of free cells; strips with the same run are one piece.
+        let mut pieces: Vec<([u32; 2], [u32; 2])> = Vec::new();
+        for strip in 0..STRIPS {
+            let mut cell = 0;
+            while cell < cells {
+                let end = (cell..cells).find(|at| !is_free(strip, *at)).unwrap_or(cells);
+                match pieces.iter_mut().find(|(run, strips)| *run == [cell, end] && strips[1] == strip) {
+                    Some((_, strips)) => strips[1] += 1,
+                    None if end > cell => pieces.push(([cell, end], [strip, strip + 1])),
+                    None => {}
+                }
+                cell = end + 1;
+            }
+        }
+        let piece = |(run, strips): &([u32; 2], [u32; 2])| {
+            let [start, end] = strips.map(|strip| from + f64::from(strip) * strip_m);
+            let [first, last] = run.map(|cell| low + f64::from(cell) * cell_m);
+            clipped_to_band(&clipped_to_band(&stripe, self.across, start, end), along, first, last)
+        };
+        pieces.iter().map(piece).filter(|outline| outline.len() >= 3).collect()
     }
 
     /// Short pieces that lead from the ends of the crossing onto pavements that do not quite touch it.
@@ -137,6 +182,12 @@ impl Crosswalk {
         }
         out
     }
+}
+
+/// Lowest and highest place of points along a unit vector.
+fn span(points: &[DVec2], along: DVec2) -> [f64; 2] {
+    let places = || points.iter().map(|point| point.dot(along));
+    [places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max)]
 }
 
 /// Distance from a point to the first pavement in a direction, metres, and its number; `None` when the point is on one.
@@ -208,4 +259,33 @@ fn far_pavement_edge(road: &Road, section: &LaneSection, side: usize, s_m: f64, 
         .rev()
         .find(|(lane, span)| is_walkable(lane.kind) && (span.t_m[1] - span.t_m[0]).abs() > 0.3);
     found.map(|(_, span)| (span.t_m[1], span.z_m[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polygons::twice_area_m2;
+
+    /// A crossing of 6 m by 3 m over a road 4 m wide along y.
+    fn crosswalk() -> Crosswalk {
+        let corners = [[-3.0, 0.0], [3.0, 0.0], [3.0, 3.0], [-3.0, 3.0]];
+        Crosswalk { outline_in_world: corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(), across: DVec2::X }
+    }
+
+    #[test]
+    fn stripes_end_where_the_road_ends() {
+        let crossing = crosswalk();
+        let stripe = |from: f64| clipped_to_band(&crossing.plan(), DVec2::X, from, from + 0.5);
+        let pieces =
+            |from: f64, is_road: &dyn Fn(DVec2) -> bool| crossing.on_road(stripe(from), [from, from + 0.5], is_road);
+        assert_eq!(pieces(-1.0, &|at| at.x.abs() <= 2.0), [stripe(-1.0)]);
+        assert!(pieces(-2.75, &|at| at.x.abs() <= 2.0).is_empty());
+        // Half of the stripe lies on the pavement.
+        let half = pieces(1.75, &|at| at.x.abs() <= 2.0);
+        assert!(half.len() == 1 && half.iter().flatten().all(|corner| corner.x <= 2.0 + 1e-9), "{half:?}");
+        assert!((twice_area_m2(&half[0]).abs() - 2.0 * 0.25 * 3.0).abs() < 1e-9);
+        // An island in the middle of the road.
+        let around = pieces(0.0, &|at| (at.y - 1.5).abs() > 0.4);
+        assert!(around.len() == 2 && around.iter().flatten().all(|corner| (corner.y - 1.5).abs() > 0.4), "{around:?}");
+    }
 }

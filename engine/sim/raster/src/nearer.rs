@@ -7,17 +7,13 @@ use cosfly_frames::simd_kernel;
 const TILE: [usize; 2] = [32, 8];
 
 /// The frame so far, coarsely: the least inverse depth in each tile. Shapes that are nowhere nearer are hidden.
+#[derive(Default)]
 pub struct Nearer {
     columns: usize,
     least: Vec<f32>,
 }
 
 impl Nearer {
-    /// For images of any size.
-    pub fn new() -> Self {
-        Self { columns: 0, least: Vec::new() }
-    }
-
     /// Measures the tiles of a drawing.
     pub fn measure(&mut self, drawn: &Visibility) {
         let (width, height) = drawn.size();

@@ -5,13 +5,16 @@ use cosfly_frames::{DMat3, DVec3, Pose};
 
 /// The camera's position and turn.
 #[derive(Clone, Copy)]
-pub(crate) struct Eye {
+pub struct Eye {
+    /// Position, metres.
     pub position_in_world: DVec3,
+    /// Columns are the camera's axes: ahead, right, up.
     pub world_from_body: DMat3,
     body_from_world: DMat3,
 }
 
 impl Eye {
+    /// The eye of a camera in a pose.
     pub fn new(pose: &Pose) -> Self {
         let world_from_body = pose.world_from_body();
         Self {

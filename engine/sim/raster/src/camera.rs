@@ -49,8 +49,10 @@ impl Camera {
 pub struct Mount {
     /// Turn upwards, after the yaw, radians.
     pub pitch_rad: f64,
-    /// Turn to the right around the drone's up axis, radians.
+    /// Turn to the right around the drone's up axis, radians; around the vertical where the mount is levelled.
     pub yaw_rad: f64,
+    /// A gimbal holds the horizon level, whatever the drone's tilt: the turns add to the drone's yaw and pitch, without roll.
+    pub levelled: bool,
 }
 
 impl Mount {
@@ -63,8 +65,14 @@ impl Mount {
 
     /// The pose of the camera on a drone at `body`; the very pose of the drone when nothing is turned.
     pub fn camera_pose(&self, body: &Pose) -> Pose {
-        if *self == Self::default() {
+        let rolls = self.levelled && body.roll_rad != 0.0;
+        if self.pitch_rad == 0.0 && self.yaw_rad == 0.0 && !rolls {
             return *body;
+        }
+        if self.levelled {
+            let pitch_rad = (body.pitch_rad + self.pitch_rad).clamp(-0.5 * real::PI, 0.5 * real::PI);
+            let yaw_rad = real::wrap_angle_rad(body.yaw_rad + self.yaw_rad);
+            return Pose { pitch_rad, yaw_rad, roll_rad: 0.0, ..*body };
         }
         let world_from_camera = body.world_from_body() * self.body_from_camera();
         let [ahead, right, up] = [world_from_camera.x_axis, world_from_camera.y_axis, world_from_camera.z_axis];
@@ -84,7 +92,7 @@ mod tests {
     #[test]
     fn a_turned_camera_looks_where_its_mount_says() {
         let body = Pose { position_in_world: DVec3::ONE, pitch_rad: -0.6, yaw_rad: 2.9, roll_rad: 0.2 };
-        let mount = Mount { pitch_rad: 0.3, yaw_rad: -0.8 };
+        let mount = Mount { pitch_rad: 0.3, yaw_rad: -0.8, levelled: false };
         let expected = body.world_from_body() * mount.body_from_camera();
         assert!(mount.camera_pose(&body).world_from_body().abs_diff_eq(expected, 1e-12));
         assert_eq!(Mount::default().camera_pose(&body), body);
@@ -93,5 +101,19 @@ mod tests {
         let turned = mount.camera_pose(&level);
         assert!((turned.pitch_rad - 0.3).abs() < 1e-12 && (turned.yaw_rad - 2.1).abs() < 1e-12);
         assert!(turned.roll_rad.abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_levelled_camera_holds_the_horizon_on_any_drone() {
+        let body = Pose { position_in_world: DVec3::ONE, pitch_rad: -0.6, yaw_rad: 2.9, roll_rad: 0.2 };
+        let mount = Mount { pitch_rad: 0.3, yaw_rad: 0.8, levelled: true };
+        let camera = mount.camera_pose(&body);
+        assert_eq!((camera.roll_rad, camera.position_in_world), (0.0, body.position_in_world));
+        let turned = real::wrap_angle_rad(camera.yaw_rad - 3.7);
+        assert!((camera.pitch_rad + 0.3).abs() < 1e-12 && turned.abs() < 1e-12, "{camera:?}");
+        assert_eq!(Mount { levelled: true, ..Mount::default() }.camera_pose(&body), Pose { roll_rad: 0.0, ..body });
+        // Beyond straight down it stops.
+        let down = Mount { pitch_rad: -1.4, ..mount }.camera_pose(&body);
+        assert!((down.pitch_rad + 0.5 * real::PI).abs() < 1e-12);
     }
 }

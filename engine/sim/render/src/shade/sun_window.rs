@@ -1,0 +1,229 @@
+//! A view's window into the town's shadow map: tiles around what the camera looks at, fine ones near the target.
+
+use super::shadow_frame::Frame;
+use super::shadow_region::{Region, for_seen_points};
+use super::sun_map::{GRAINS, Painter, Sun, TEXEL_M, Tile, TilePlace, WINDOW_TILES};
+use super::sunlight::{Grain, LOWEST_M, Places, SUMMARY_SIDE, SummaryMap, TILE, TownMap};
+use crate::eye::Eye;
+use crate::scene::Scene;
+use crate::shade::pattern::fixed_size;
+use crate::visibility::Screen;
+use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec2, DVec3};
+
+/// Where the windows of the coarser texels have their middle, along the camera's axis, metres.
+const AHEAD_M: [f64; GRAINS] = [30.0, 60.0, 120.0, 240.0];
+/// Places this near what the view shows are drawn, too, metres: shading moves points a little.
+const MARGIN_M: f64 = 3.0;
+
+/// The tiles that a renderer's kernels read, each at its place modulo the window's size.
+pub(super) struct Window {
+    pub(super) map: Box<TownMap>,
+    pub(super) summary: Box<SummaryMap>,
+    /// Scene and sun of the tiles.
+    of: Option<(u64, Sun)>,
+    held: Vec<Option<TilePlace>>,
+    wanted: Vec<TilePlace>,
+    painter: Painter,
+}
+
+/// What a window shows of the texels of a size.
+#[derive(Clone, Copy)]
+struct Part {
+    lattice: Frame,
+    /// Tiles.
+    first: [i32; 2],
+    end: [i32; 2],
+}
+
+impl Part {
+    /// Corners of a rectangle of tiles over the sheared ground, metres.
+    fn metres(&self, first: [i32; 2], end: [i32; 2]) -> [DVec2; 2] {
+        let corner = |tile: [i32; 2]| DVec2::new(tile[0].into(), tile[1].into()) * TILE as f64 * self.lattice.texels_m;
+        [corner(first), corner(end)]
+    }
+
+    /// Whether kernels read finer texels instead of a tile and all that lies so near that they would read it.
+    fn is_covered(&self, tile: [i32; 2], finer: &Self) -> bool {
+        let [low, high] = self.metres(tile, tile.map(|at| at + 1));
+        let [from, to] = finer.inside();
+        let near = 2.0 * self.lattice.texels_m;
+        (low - near).cmpge(from).all() && (high + near).cmple(to).all()
+    }
+
+    /// The area in which kernels read it, metres: they need the texels around a place.
+    fn inside(&self) -> [DVec2; 2] {
+        let [low, high] = self.metres(self.first, self.end);
+        [low + self.lattice.texels_m, high - 2.0 * self.lattice.texels_m]
+    }
+}
+
+impl Window {
+    pub(super) fn new() -> Self {
+        Self {
+            map: fixed_size(vec![]),
+            summary: fixed_size(vec![]),
+            of: None,
+            held: vec![None; GRAINS * (WINDOW_TILES * WINDOW_TILES) as usize],
+            wanted: Vec::new(),
+            painter: Painter::new(),
+        }
+    }
+
+    /// Brings the tiles that a view needs; says where they are.
+    pub(super) fn prepare(
+        &mut self,
+        level: Level,
+        (scene, sun): (&Scene, &Sun),
+        (eye, screen): (&Eye, &Screen),
+        (target, lowest_m): (Option<DVec3>, f64),
+    ) -> Places {
+        if self.of.is_none_or(|of| of != (scene.identity, *sun)) {
+            self.of = Some((scene.identity, *sun));
+            self.held.fill(None);
+        }
+        let parts: [Part; GRAINS] = core::array::from_fn(|grain| {
+            let lattice = sun.lattice(grain);
+            let focus = match target {
+                Some(feet) if grain == 0 => feet,
+                _ => on_ground(scene, eye, AHEAD_M[grain]),
+            };
+            part_seen(&lattice, focus, (eye, screen), lowest_m)
+        });
+        self.wanted.clear();
+        for (grain, part) in parts.iter().enumerate() {
+            for row in part.first[1]..part.end[1] {
+                for column in part.first[0]..part.end[0] {
+                    let is_covered = parts[..grain].iter().any(|finer| part.is_covered([column, row], finer));
+                    if !is_covered && self.held[slot((grain, row, column))] != Some((grain, row, column)) {
+                        self.wanted.push((grain, row, column));
+                    }
+                }
+            }
+        }
+        if !self.wanted.is_empty() {
+            let Self { map, summary, held, wanted, painter, .. } = self;
+            let mut take = |place: TilePlace, tile: Option<&Tile>| {
+                held[slot(place)] = Some(place);
+                put(place, tile, map, summary);
+            };
+            scene.sun_maps.take_kept(sun, wanted, &mut take);
+            painter.draw(level, (scene, sun), wanted, &mut take);
+        }
+        places(&parts)
+    }
+}
+
+/// Place of a tile among those held.
+fn slot((grain, row, column): TilePlace) -> usize {
+    let [row, column] = [row, column].map(|at| at.rem_euclid(WINDOW_TILES) as usize);
+    (grain * WINDOW_TILES as usize + row) * WINDOW_TILES as usize + column
+}
+
+/// The ground under a point on the camera's axis.
+fn on_ground(scene: &Scene, eye: &Eye, ahead_m: f64) -> DVec3 {
+    let ahead = eye.position_in_world + ahead_m * eye.world_from_body.x_axis;
+    ahead.with_z(f64::from(scene.grid.sample(ahead.x as f32, ahead.y as f32).ground_m))
+}
+
+/// The part of the lattice that a view may need, within the window around a focus: it depends on the frame alone.
+fn part_seen(lattice: &Frame, focus: DVec3, (eye, screen): (&Eye, &Screen), lowest_m: f64) -> Part {
+    let side = WINDOW_TILES as usize * TILE;
+    let margin = MARGIN_M / lattice.texels_m;
+    let middle = (DVec2::from_array(lattice.place(focus)) / TILE as f64).round();
+    let corner = middle - f64::from(WINDOW_TILES / 2);
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for_seen_points(eye, screen, lowest_m, |point| {
+        let place = DVec2::from_array(lattice.place(point)) - corner * TILE as f64;
+        low = low.min(place - margin);
+        high = high.max(place + margin);
+    });
+    let region = Region::around(low, high, side, TILE);
+    let tiles = |texels: [usize; 2]| [0, 1].map(|k| corner[k] as i32 + (texels[k] / TILE) as i32);
+    Part { lattice: *lattice, first: tiles(region.first), end: tiles(region.end) }
+}
+
+/// Copies a tile to its place.
+fn put(place: TilePlace, tile: Option<&Tile>, map: &mut TownMap, summary: &mut SummaryMap) {
+    let from = slot(place);
+    let (row, column) = (from / WINDOW_TILES as usize, from % WINDOW_TILES as usize);
+    copy(map, (row, column), TILE, tile.map(|tile| &*tile.texels));
+    copy(summary, (row, column), SUMMARY_SIDE, tile.map(|tile| tile.summary.as_slice()));
+}
+
+/// Copies the rows of a square, or nothing, into a row and column of such squares, [`WINDOW_TILES`] side by side.
+fn copy(to: &mut [u32], (row, column): (usize, usize), side: usize, square: Option<&[u32]>) {
+    let stride = WINDOW_TILES as usize * side;
+    for line in 0..side {
+        let at = (row * side + line) * stride + column * side;
+        match square {
+            Some(square) => to[at..at + side].copy_from_slice(&square[line * side..(line + 1) * side]),
+            None => to[at..at + side].fill(0),
+        }
+    }
+}
+
+/// Places of the windows' parts for the kernels: coordinates of the finest texels from near the view, and from them those of
+/// each size, counted from a corner that is a whole number of windows from the lattice's.
+fn places(parts: &[Part; GRAINS]) -> Places {
+    let side = f64::from(WINDOW_TILES) * TILE as f64;
+    let finest = parts[0].lattice;
+    let seen = parts.iter().find(|part| part.first[0] < part.end[0]).unwrap_or(&parts[0]);
+    let near = seen.metres(seen.first, seen.end)[0] / finest.texels_m;
+    let corner = (near / side).floor() * side;
+    let frame = Frame { corner_m: corner * finest.texels_m, ..finest };
+    let grains = parts.map(|part| {
+        let first = DVec2::new(part.first[0].into(), part.first[1].into()) * TILE as f64;
+        let base = (first / side).floor() * side;
+        let scale = finest.texels_m / part.lattice.texels_m;
+        let [low, high] = part.inside().map(|at| at / part.lattice.texels_m - base);
+        let is_empty = part.first[0] >= part.end[0];
+        Grain {
+            scale: scale.as_vec2().to_array(),
+            shift: (corner * scale - base).as_vec2().to_array(),
+            low: if is_empty { [f32::INFINITY; 2] } else { low.as_vec2().to_array() },
+            high: if is_empty { [f32::NEG_INFINITY; 2] } else { high.as_vec2().to_array() },
+        }
+    });
+    let used = parts.iter().rposition(|part| part.first[0] < part.end[0]).map_or(0, |last| last + 1);
+    Places {
+        rows: frame.rows(),
+        base_m: (LOWEST_M - finest.reference_m) as f32,
+        texel_m: TEXEL_M as f32,
+        corner_m: frame.corner_m.as_vec2().to_array(),
+        grains,
+        used,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use crate::shade::vector::Vec3;
+    use cosfly_frames::Pose;
+
+    #[test]
+    fn ground_within_forty_metres_of_the_target_has_the_finest_texels() {
+        let camera = Camera { width: 640, height: 640, horizontal_fov_rad: 1.9 };
+        let down = |x: f64| Pose {
+            position_in_world: DVec3::new(x, 0.0, 150.0),
+            pitch_rad: -1.5,
+            yaw_rad: 0.3,
+            roll_rad: 0.0,
+        };
+        for (number, height) in [0.25f32, 0.6, 0.95].into_iter().enumerate() {
+            let lattice = Sun::new(Vec3::new(0.7, -0.4, height).unit(), 0.0).lattice(0);
+            for step in 0..40 {
+                let target = DVec3::new(1.7 * f64::from(step), 3.1 * number as f64, 0.0);
+                let eye = Eye::new(&down(target.x));
+                let part = part_seen(&lattice, target, (&eye, &Screen::new(&camera)), 0.0);
+                let [low, high] = part.inside();
+                for away in [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y] {
+                    let at = lattice.sheared(target + 40.0 * away);
+                    assert!(at.cmpge(low).all() && at.cmplt(high).all(), "{step} {height}: {at} in {low} to {high}");
+                }
+            }
+        }
+    }
+}
