@@ -1,8 +1,8 @@
 //! Things in Chinese texts, by their words and by their place in a clause.
 
 use super::chinese_words::{
-    BEFORE_PLACES, BESIDE, CHARACTERS, COMPANIONS_BEGIN, GOES_ON_DOING, HARMLESS, OF_THE_WALK, PASSING, SOME_OF,
-    SOMEWHERE, THINGS, TOGETHER,
+    BEFORE_PLACES, BESIDE, CHARACTERS, COMPANIONS_BEGIN, HARMLESS, HOLDING, OF_THE_WALK, PASSING, SOME_OF, SOMEWHERE,
+    THINGS, TOGETHER,
 };
 use crate::reading::chinese::clauses;
 
@@ -24,7 +24,7 @@ fn in_clause(clause: &str) -> Vec<String> {
         found.extend(plain.chars().filter(|c| CHARACTERS.contains(*c)).map(String::from).take(1));
     }
     if found.is_empty() {
-        let places = [passed(&plain), beside(&plain), there(&plain), company(&plain), carried(&plain), doing(&plain)];
+        let places = [passed(&plain), beside(&plain), there(&plain), company(&plain), carried(&plain), holding(&plain)];
         found.extend(places.into_iter().flatten().take(1));
     }
     found
@@ -85,18 +85,11 @@ fn company(clause: &str) -> Option<String> {
     (!is_of_the_walk(who)).then(|| who.to_owned())
 }
 
-/// `捏着票`: what somebody does or holds that is no part of a walk.
-fn doing(clause: &str) -> Option<String> {
-    let chars: Vec<char> = clause.chars().collect();
-    let is_other = |at: &usize| {
-        let next = chars.get(at + 1).copied().unwrap_or_default();
-        chars[*at] == '着'
-            && *at > 0
-            && chars[at - 1] != '·'
-            && !GOES_ON_DOING.contains(chars[at - 1])
-            && !"装色重陆落".contains(next)
-    };
-    (0..chars.len()).find(is_other).map(|at| chars[at - 1..(at + 3).min(chars.len())].iter().collect())
+/// `捏着票`: what somebody holds or does with the hands, which is no part of a walk.
+fn holding(clause: &str) -> Option<String> {
+    let of_hands = |(at, _): &(usize, &str)| clause[..*at].ends_with(|c: char| HOLDING.contains(c));
+    let (at, _) = clause.match_indices(['着', '了']).find(of_hands)?;
+    (!is_of_the_walk(&clause[at..])).then(|| first(&clause[at..], REACH))
 }
 
 /// `带着小孩`: what the target has with it.
