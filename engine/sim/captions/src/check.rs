@@ -106,7 +106,7 @@ pub fn claimed(text: &str, language: Language) -> Vec<Slot> {
         Claim::Way(_) => Slot::Way,
         Claim::Duration(_) | Claim::Seconds(_) => Slot::Duration,
         Claim::Speed(_) => Slot::Speed,
-        Claim::Stops(_) | Claim::SomeStops => Slot::Stops,
+        Claim::Stops(_) | Claim::SomeStops | Claim::Times(_) => Slot::Stops,
         Claim::Standing(_) => Slot::Standing,
         Claim::Turn(_)
         | Claim::Turns(_)
@@ -293,6 +293,10 @@ impl Checker<'_> {
             Claim::Speed(found) => self.number(Slot::Speed, found, facts.walking_speed_mps, SPEED_STEP_MPS),
             Claim::Standing(found) => self.number(Slot::Standing, found, facts.standing_s(), STOP_STEP_S),
             Claim::Stops(count) => self.expect(count == facts.stops.len(), Slot::Stops, count, facts.stops.len()),
+            Claim::Times(count) => {
+                let holds = [facts.stops.len(), facts.turns.len()].contains(&count);
+                self.expect(holds, Slot::Stops, count, facts.stops.len());
+            }
             Claim::SomeStops => self.expect(!facts.stops.is_empty(), Slot::Stops, "some", 0),
             Claim::Turns(count) => self.expect(count == facts.turns.len(), Slot::Turns, count, facts.turns.len()),
             Claim::NoTurns | Claim::Straight => self.expect(facts.turns.is_empty(), Slot::Turns, 0, facts.turns.len()),

@@ -1,8 +1,8 @@
 //! Things in Chinese texts, by their words and by their place in a clause.
 
 use super::chinese_words::{
-    BEFORE_PLACES, BESIDE, CHARACTERS, COMPANIONS_BEGIN, HARMLESS, HOLDING, OF_THE_WALK, PASSING, SOME_OF, SOMEWHERE,
-    THINGS, TOGETHER,
+    BEFORE_PLACES, BESIDE, CHARACTERS, COMPANIONS_BEGIN, HARMLESS, HOLDING, MEASURES, OF_THE_WALK, PASSING, SOME_OF,
+    SOMEWHERE, THINGS, TOGETHER,
 };
 use crate::reading::chinese::clauses;
 
@@ -24,7 +24,16 @@ fn in_clause(clause: &str) -> Vec<String> {
         found.extend(plain.chars().filter(|c| CHARACTERS.contains(*c)).map(String::from).take(1));
     }
     if found.is_empty() {
-        let places = [passed(&plain), beside(&plain), there(&plain), company(&plain), carried(&plain), holding(&plain)];
+        let places = [
+            passed(&plain),
+            beside(&plain),
+            there(&plain),
+            company(&plain),
+            carried(&plain),
+            holding(&plain),
+            counted(&plain),
+            from(&plain),
+        ];
         found.extend(places.into_iter().flatten().take(1));
     }
     found
@@ -45,7 +54,7 @@ fn passed(clause: &str) -> Option<String> {
     let behind = words.filter_map(|word| clause.find(word).map(|at| &clause[at + word.len()..]));
     let mut foreign = behind.filter(|after| {
         let is_number = after.trim_start_matches(['了', '约', '大', '概']).starts_with(|c: char| c.is_ascii_digit());
-        !is_number && !is_ended(after) && !is_of_the_walk(after)
+        !is_number && !is_ended(after) && !begins_with_colour(after) && !is_of_the_walk(after)
     });
     foreign.next().map(|after| first(after, REACH))
 }
@@ -90,6 +99,33 @@ fn holding(clause: &str) -> Option<String> {
     let of_hands = |(at, _): &(usize, &str)| clause[..*at].ends_with(|c: char| HOLDING.contains(c));
     let (at, _) = clause.match_indices(['着', '了']).find(of_hands)?;
     (!is_of_the_walk(&clause[at..])).then(|| first(&clause[at..], REACH))
+}
+
+/// `一名水手`: a count of things, by the measure word.
+fn counted(clause: &str) -> Option<String> {
+    let numbers = "一两二三四五六七八九十几数某另";
+    let chars: Vec<char> = clause.chars().collect();
+    let is_measured = |at: &usize| numbers.contains(chars[*at]) && MEASURES.contains(chars[at + 1]);
+    let at = (0..chars.len().saturating_sub(2)).find(is_measured)?;
+    let after: String = chars[at + 2..].iter().collect();
+    let is_own = ["的", "裤", "衣", "线", "路", "直", "弯", "·", "人", "距", "行", "步", "度", "目", "对", "机"]
+        .iter()
+        .any(|it| after.starts_with(it));
+    (!is_own && !is_of_the_walk(&after) && !begins_with_colour(&after)).then(|| first(&after, REACH))
+}
+
+/// `从脚手架下面过`
+fn from(clause: &str) -> Option<String> {
+    let after = &clause[clause.find('从')? + '从'.len_utf8()..];
+    let place = &after[..["下面", "底下", "下方", "旁边", "面前", "中间", "边上", "跟前"]
+        .iter()
+        .filter_map(|it| after.find(it))
+        .min()?];
+    (!place.is_empty() && after.contains('过') && !is_of_the_walk(place)).then(|| place.to_owned())
+}
+
+fn begins_with_colour(text: &str) -> bool {
+    crate::reading::chinese::begins_with_colour(text)
 }
 
 /// `带着小孩`: what the target has with it.

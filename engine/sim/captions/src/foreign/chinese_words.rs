@@ -27,10 +27,13 @@ pub const THINGS: &str = "
 
 /// Verbs of the hands and of riding, before `着` and `了`; what they have is no part of a walk.
 pub const HOLDING: &str = "拿提拎抱捧握举捏叼推拖搀扶挽搂骑坐吃喝啃嚼唱哼聊翻玩打扫喂遛撑牵扛挑踩躲踏";
+/// Measure words of people, animals, vehicles and things that stand about.
+pub const MEASURES: &str = "名位只辆架艘匹头群队棵座栋所间家株盏把根台伙帮批堆排";
 /// Verbs of passing; what they pass must be of the walk.
-pub const PASSING: [&str; 22] = [
-    "路过", "途经", "途径", "穿过", "越过", "绕过", "跨过", "穿越", "横穿", "走进", "走出", "进入", "经过", "走过",
-    "绕开", "避开", "躲开", "跨越", "翻过", "爬上", "钻过", "绕着",
+pub const PASSING: [&str; 30] = [
+    "掠过", "驶过", "飞过", "飘过", "开过", "滑过", "闪过", "擦过", "路过", "途经", "途径", "穿过", "越过", "绕过",
+    "跨过", "穿越", "横穿", "走进", "走出", "进入", "经过", "走过", "绕开", "避开", "躲开", "跨越", "翻过", "爬上",
+    "钻过", "绕着",
 ];
 /// Words before a place.
 pub const BEFORE_PLACES: [&str; 20] = [
@@ -83,8 +86,23 @@ pub const OF_THE_WALK: [&str; 34] = [
 pub const SOMEWHERE: [&str; 14] =
     ["身后", "前方", "前面", "后面", "头顶", "地上", "远处", "左边", "右边", "左侧", "右侧", "路上", "脚边", "上空"];
 /// Words of company, where who it is comes before them.
-pub const TOGETHER: [&str; 5] = ["一起", "一道", "一块儿", "一同", "同行"];
+pub const TOGETHER: [&str; 11] =
+    ["并排", "并行", "为伴", "结队", "搭伙", "同走", "一起", "一道", "一块儿", "一同", "同行"];
 pub const COMPANIONS_BEGIN: [&str; 4] = ["和", "与", "跟", "同"];
 /// Measure words of numbers that a walk has; before any other a number counts things.
-pub const SOME_OF: [&str; 10] =
-    ["有个", "有一个", "有位", "有一位", "有名", "有一名", "有只", "有一只", "有群", "有一群"];
+pub const SOME_OF: [&str; 14] = [
+    "来了个",
+    "来了位",
+    "来了一",
+    "来个",
+    "有个",
+    "有一个",
+    "有位",
+    "有一位",
+    "有名",
+    "有一名",
+    "有只",
+    "有一只",
+    "有群",
+    "有一群",
+];

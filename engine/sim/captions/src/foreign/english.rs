@@ -1,7 +1,8 @@
 //! Things in English texts, by their words and by their place in a clause.
 
 use super::english_words::{ADJECTIVES, BARE_PLACES, DETERMINERS, FUNCTION_WORDS, HARMLESS, PERSONS, THINGS};
-use crate::reading::english::{Token, clauses};
+use crate::reading::LUGGAGE;
+use crate::reading::english::{Token, clauses, is_of_a_walk};
 use crate::reading::english_clothes::{colour, is_garment, is_numeral};
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -48,7 +49,10 @@ fn unknown_thing(words: &[&str], at: usize) -> Option<String> {
     let likened = words[at.saturating_sub(3)..at].contains(&"like");
     let is_end = |word: &str| word.is_empty() || (KNOWN_FUNCTION_WORDS.contains(word) && word != "of");
     let phrase = words[at..].iter().take(PHRASE).take_while(|word| !is_end(word));
-    let mut things = phrase.filter(|word| is_in_dictionary(word));
+    let phrase: Vec<&str> = phrase.copied().collect();
+    // What stands before a garment or luggage says more of it: `corduroy trousers`.
+    let clothes = phrase.iter().rposition(|word| is_garment(word) || in_singular(word, |it| LUGGAGE.contains(&it)));
+    let mut things = phrase[clothes.map_or(0, |at| at + 1)..].iter().filter(|word| is_in_dictionary(word));
     things.next().filter(|_| !likened).map(|word| (*word).to_owned())
 }
 
@@ -58,9 +62,16 @@ const PHRASE: usize = 4;
 /// Whether the dictionary has a word as a thing, and it is no word of a walk, clothes or a camera.
 fn is_in_dictionary(word: &str) -> bool {
     !is_harmless(word)
+        && !is_of_a_walk(word)
         && colour(word).is_none()
         && !KNOWN_ADJECTIVES.contains(word)
-        && in_singular(word, |it| DICTIONARY.contains(it))
+        && (in_singular(word, |it| DICTIONARY.contains(it)) || is_person(word))
+}
+
+/// `postwoman`, `fishermen`
+fn is_person(word: &str) -> bool {
+    ["woman", "women", "man", "men"].iter().any(|end| word.strip_suffix(end).is_some_and(|stem| stem.len() > 2))
+        && !word.ends_with("ment")
 }
 
 /// `a walking stick`, `the park`: things of words that are none in other places.

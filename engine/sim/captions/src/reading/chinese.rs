@@ -78,24 +78,7 @@ fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
             claims.push(claim);
             rest = after;
         } else if let Some((claim, after)) = garment(rest).or_else(|| worn(clause, rest)) {
-            let denied = ["没", "未", "不", "无"].iter().any(|word| clause[..at].ends_with(word))
-                || [
-                    "没有背包",
-                    "未背",
-                    "不背",
-                    "没背",
-                    "没带",
-                    "未带",
-                    "不带",
-                    "没有带",
-                    "没有背",
-                    "没有",
-                    "不见",
-                    "没挎",
-                    "没有任何",
-                ]
-                .iter()
-                .any(|word| clause[..at].ends_with(word));
+            let denied = denied_near(&clause[..at]);
             claims.push(if denied && claim == Claim::Backpack { Claim::NoBackpack } else { claim });
             rest = after;
         } else if let Some(after) =
@@ -128,14 +111,20 @@ fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
         }
     }
     // A time of standing tells a stop from a target that stands all the time.
-    let stands = STANDING_WORDS.iter().any(|word| clause.contains(word)) && !denied_word(clause, "原地");
+    let stands =
+        STANDING_WORDS.iter().any(|word| clause.contains(word)) || MOVES.iter().any(|word| denied_word(clause, word));
     if stands && (!about_stops || is_only_standing(clause)) {
         claims.push(Claim::Stays);
     }
     if NO_TURN_WORDS.iter().any(|word| clause.contains(word)) || TURNS.iter().any(|word| denied_word(clause, word)) {
         claims.retain(|claim| !matches!(claim, Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..)));
         claims.push(Claim::NoTurns);
-    } else if STRAIGHT_WORDS.iter().any(|word| clause.contains(word)) {
+    } else if STRAIGHT_WORDS.iter().any(|word| clause.contains(word))
+        || ["方向", "朝向", "航向"].iter().any(|it| clause.contains(it))
+            && ["不变", "没变", "未变", "一致", "恒定", "如一", "不改", "没改", "未改", "固定"]
+                .iter()
+                .any(|it| clause.contains(it))
+    {
         claims.push(Claim::Straight);
     }
     if STOP_CHARS.iter().any(|word| denied_word(clause, word)) || NEVER_STOPS.iter().any(|it| clause.contains(it)) {
@@ -150,6 +139,25 @@ fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
     stands_for(claims)
 }
 
+/// Characters that, behind `上` or `下`, tell where a camera looks.
+const AIMED: &str = "调偏压倾斜探俯仰扬抬翘移摆拨打看望瞧视瞄指对垂沉弯勾挑摇";
+/// Words that, denied, say that the target stays.
+const MOVES: [&str; 14] = [
+    "移动",
+    "位移",
+    "走动",
+    "挪动",
+    "动弹",
+    "动过",
+    "挪窝",
+    "迈步",
+    "迈开",
+    "离开原",
+    "挪步",
+    "移步",
+    "挪位",
+    "动地方",
+];
 /// Words that, denied, say that a walk has no turn.
 const TURNS: [&str; 8] = ["转", "拐", "弯", "变向", "变方向", "换方向", "掉头", "调头"];
 /// Words that say that a walk has no stop.
@@ -191,6 +199,11 @@ fn is_only_standing(clause: &str) -> bool {
     .iter()
     .any(|it| clause.contains(it))
         && !clause.contains(['次', '回'])
+}
+
+/// Whether a text begins with a colour.
+pub(crate) fn begins_with_colour(text: &str) -> bool {
+    COLOURS.iter().any(|(name, _)| text.starts_with(name)) || SHADES.iter().any(|(name, _)| text.starts_with(name))
 }
 
 /// A shade of a garment, or said of one: `藏青色裤子`, `上衣是卡其色`.
@@ -285,6 +298,12 @@ pub(crate) fn garment(text: &str) -> Option<(Claim, &str)> {
 }
 
 /// Whether a negation comes before the word in the clause.
+/// `未携带`: a negation within the last four characters.
+fn denied_near(before: &str) -> bool {
+    let last: String = before.chars().rev().take(4).collect();
+    last.contains(['没', '未', '无', '不'])
+}
+
 fn denied_word(clause: &str, word: &str) -> bool {
     let negations = ["不", "没", "未", "无", "零", "从来没", "毫无"];
     clause.match_indices(word).any(|(at, _)| {
@@ -377,54 +396,61 @@ fn is_times(after: &str) -> bool {
 fn quantity(value: f64, after: &str, clause: &str, at: usize, about_stops: bool) -> (Claim, usize) {
     let unit = UNITS.into_iter().find(|unit| after.starts_with(unit));
     let before = &clause[..at];
-    let has = |words: &[&str]| words.iter().any(|word| clause.contains(word));
-    let is_up = has(&[
-        "仰",
-        "扬",
-        "抬",
-        "向上",
-        "朝上",
-        "往上",
-        "高于水平",
-        "高于地平",
-        "朝天",
-        "上翘",
-        "上倾",
-        "上斜",
-        "上挑",
-        "向天",
-        "昂",
-        "翘",
-        "冲上",
-    ]);
-    let is_down = has(&[
-        "俯",
-        "向下",
-        "朝下",
-        "下压",
-        "往下",
-        "低于水平",
-        "低于地平",
-        "下倾",
-        "朝地",
-        "低头",
-        "下垂",
-        "下斜",
-        "下探",
-        "下沉",
-        "压低",
-        "斜下",
-        "向地",
-        "压下",
-        "下看",
-        "下拍",
-        "冲下",
-        "下打",
-        "下偏",
-        "下俯",
-        "埋",
-        "垂",
-    ]);
+    let aim = clause.replace("俯仰", "");
+    let has = |words: &[&str]| words.iter().any(|word| aim.contains(word));
+    let aimed = |from: char| {
+        let chars: Vec<char> = clause.chars().collect();
+        chars.windows(2).any(|pair| pair[0] == from && AIMED.contains(pair[1]))
+    };
+    let is_up = aimed('上')
+        || has(&[
+            "仰",
+            "扬",
+            "抬",
+            "向上",
+            "朝上",
+            "往上",
+            "高于水平",
+            "高于地平",
+            "朝天",
+            "上翘",
+            "上倾",
+            "上斜",
+            "上挑",
+            "向天",
+            "昂",
+            "翘",
+            "冲上",
+        ]);
+    let is_down = aimed('下')
+        || has(&[
+            "俯",
+            "向下",
+            "朝下",
+            "下压",
+            "往下",
+            "低于水平",
+            "低于地平",
+            "下倾",
+            "朝地",
+            "低头",
+            "下垂",
+            "下斜",
+            "下探",
+            "下沉",
+            "压低",
+            "斜下",
+            "向地",
+            "压下",
+            "下看",
+            "下拍",
+            "冲下",
+            "下打",
+            "下偏",
+            "下俯",
+            "埋",
+            "垂",
+        ]);
     let stops = STOP_CHARS.iter().any(|word| clause.contains(word));
     let walks = ["用时", "历时", "耗时", "走", "全程", "飞", "时长", "花", "行"]
         .iter()

@@ -2,7 +2,7 @@
 
 use cosfly_render::Colour;
 
-pub const STANDING_WORDS: [&str; 71] = [
+pub const STANDING_WORDS: [&str; 82] = [
     "站立",
     "站着",
     "静止",
@@ -74,6 +74,17 @@ pub const STANDING_WORDS: [&str; 71] = [
     "站住不",
     "不移",
     "立在",
+    "站那",
+    "站这",
+    "站原",
+    "站得",
+    "一直站",
+    "在站",
+    "没在动",
+    "没怎么动",
+    "没有在动",
+    "没再动",
+    "没动弹",
 ];
 pub const STRAIGHT_WORDS: [&str; 38] = [
     "直行",
@@ -323,8 +334,31 @@ pub const COLOURS: [(&str, Colour); 21] = [
     ("米", Colour::Beige),
 ];
 /// Words that name a place of the drone beyond doubt, near a length.
-pub const STRONG_ALTITUDE: [&str; 14] =
-    ["高度", "上方", "上空", "头顶", "高出", "离地", "高差", "海拔", "之上", "高处", "顶上", "升到", "升至", "垂直"];
+pub const STRONG_ALTITUDE: [&str; 23] = [
+    "高度",
+    "上方",
+    "上空",
+    "头顶",
+    "高出",
+    "离地",
+    "高差",
+    "海拔",
+    "之上",
+    "高处",
+    "顶上",
+    "升到",
+    "升至",
+    "垂直",
+    "比他高",
+    "比人高",
+    "比目标高",
+    "比其高",
+    "高他",
+    "头上",
+    "高于目标",
+    "高于人",
+    "比行人高",
+];
 pub const STRONG_WAY: [&str; 28] = [
     "全程",
     "路程",

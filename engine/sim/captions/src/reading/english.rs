@@ -4,8 +4,8 @@ use super::english_clothes::{clothes_claim, colour};
 use super::english_idioms::{is_of_the_drone, is_right_of_no_turn, number_follows, without_idioms};
 use super::english_numbers::fold_numbers;
 use super::english_words::{
-    DOWN_WORDS, DURATION_WORDS, GOES_ON, LUGGAGE, MOTION, NEGATIONS, STANDS, STOP_STEMS, STOP_WORDS, STRONG_ALTITUDE,
-    STRONG_DISTANCE, STRONG_WAY, TURN_NOUNS, TURN_STEMS, UNPAUSED, UNTURNED, UP_WORDS,
+    DOWN_STEMS, DURATION_WORDS, GOES_ON, LUGGAGE, MOTION, NEGATIONS, STANDS, STOP_STEMS, STOP_WORDS, STRONG_ALTITUDE,
+    STRONG_DISTANCE, STRONG_WAY, TURN_NOUNS, TURN_STEMS, UNPAUSED, UNTURNED, UP_STEMS,
 };
 use super::{Claim, count, sentences, stands_for};
 use crate::compass::Compass;
@@ -21,13 +21,21 @@ pub(crate) enum Token {
 pub fn read(text: &str) -> Vec<Claim> {
     let sentence = |sentence: &str| {
         let mut after_stop = false;
+        let parts = clauses(sentence);
+        // `Right, here is the shot`: a word of its own that begins a sentence is no side.
+        let begins = |clause: &[Token]| matches!(clause, [Token::Word(word)] if word == "right");
+        let is_call = parts.first().is_some_and(|it| begins(it))
+            && parts
+                .get(1)
+                .and_then(|it| it.first())
+                .is_some_and(|it| !["then", "left", "right", "and", "next"].contains(&word_of(it)));
         let read = |clause: Vec<Token>| {
             let tokens = fold_numbers(clause);
             let claims = read_clause(&tokens, after_stop);
             after_stop = tokens.iter().any(|token| is_stop(word_of(token)));
             claims
         };
-        clauses(sentence).into_iter().flat_map(read).collect::<Vec<_>>()
+        parts.into_iter().skip(usize::from(is_call)).flat_map(read).collect::<Vec<_>>()
     };
     sentences(text).into_iter().flat_map(sentence).collect()
 }
@@ -89,7 +97,7 @@ fn letter(chars: &[char], at: usize) -> bool {
 }
 
 fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
-    let words = without_idioms(tokens.iter().map(word_of).collect());
+    let words = seen_from(without_idioms(tokens.iter().map(word_of).collect()));
     let about_stops = words.iter().any(|word| is_stop(word)) || stands_repeatedly(&words);
     // `They pause once, for about 3 seconds`: the time belongs to the stop.
     let sums = || {
@@ -158,7 +166,8 @@ fn pauses_denied(words: &[&str], about_stops: bool, claims: &mut Vec<Claim>) {
             .any(|it| has(it))
         || (words.windows(2).any(|it| it[0].starts_with("keep") && ["moving", "walking", "going"].contains(&it[1]))
             && words.iter().any(|it| ["throughout", "whole", "entire", "always", "constantly", "all"].contains(it)));
-    if goes_on || denied(words, is_stop) {
+    let rests = |word: &str| is_stop(word) || word == "rest";
+    if goes_on || denied(words, rests) && !has(&["the", "rest"]) {
         claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));
     } else if about_stops && !claims.iter().any(|claim| matches!(claim, Claim::Stops(_))) {
@@ -202,10 +211,27 @@ fn is_turning(word: &str) -> bool {
         || ["uturn", "uturns", "aboutturn"].contains(&word)
 }
 
+/// Whether a word speaks of pauses, turns or motion.
+pub(crate) fn is_of_a_walk(word: &str) -> bool {
+    is_stop(word) || is_turning(word) || MOTION.contains(&word)
+}
+
 /// Whether a denial ends before the word behind these words: `does not stop before it turns`.
 fn is_parted(between: &[&str]) -> bool {
     between.iter().any(|it| ["before", "until", "till", "but", "then", "after", "when", "just"].contains(it))
         || between.iter().any(|word| LUGGAGE.contains(word))
+}
+
+/// A camera that looks from above looks down.
+fn seen_from(mut words: Vec<&str>) -> Vec<&str> {
+    for at in 1..words.len() {
+        match (words[at - 1], words[at]) {
+            ("from", "above" | "overhead") => words[at] = "downward",
+            ("from", "below" | "beneath") => words[at] = "upward",
+            _ => {}
+        }
+    }
+    words
 }
 
 /// `one pause, about 3 seconds long`: a time in a clause of its own.
@@ -252,10 +278,10 @@ fn order_of_stop_and_turn(words: &[&str], turns: &[(usize, TurnKind)]) -> Option
     Some(Claim::StopFirst(stop_first))
 }
 
-/// The list that has the word nearest to place `at`, by its number; of equally near ones the word behind counts.
+/// The list of beginnings that has the word nearest to place `at`, by its number; of equally near ones the word behind counts.
 fn nearest(words: &[&str], at: usize, lists: &[&[&str]]) -> Option<usize> {
     let places = (0..words.len()).filter(|place| *place != at);
-    let of = |word: &str| lists.iter().position(|list| list.contains(&word));
+    let of = |word: &str| lists.iter().position(|list| list.iter().any(|stem| word.starts_with(stem)));
     let found = places.filter_map(|place| Some((place.abs_diff(at), place < at, of(words[place])?)));
     found.min().map(|(_, _, list)| list)
 }
@@ -275,6 +301,12 @@ fn repetitions(after: &[Token]) -> usize {
 
 /// The claim of a number at a place, with the word after it, in its clause.
 fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<Claim> {
+    // `two short stops`, `3 different times`: the unit may stand behind an adjective or two.
+    let units = (at + 1..words.len()).take(3).take_while(|it| !words[*it].is_empty());
+    let is_known =
+        |it: &usize| is_unit(words[*it]) || ["s", "sec", "secs", "deg", "km/h", "kmh", "kph"].contains(&words[*it]);
+    let skipped = units.into_iter().find(is_known).map_or(0, |it| it - at - 1);
+    let at = at + skipped;
     let unit = words.get(at + 1).copied().unwrap_or_default();
     let after = |offset: usize| words.get(at + offset).copied().unwrap_or_default();
     let is_metres = matches!(unit, "m" | "metre" | "metres" | "meter" | "meters");
@@ -287,7 +319,7 @@ fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<
         _ if is_metres && value < 0.0 => Claim::Unknown(format!("{value} {unit}")),
         _ if is_metres => length(value, at, words),
         "km/h" | "kmh" | "kph" => Claim::Speed((value / 0.36).round() / 10.0),
-        "degree" | "degrees" | "deg" => match nearest(words, at, &[&UP_WORDS, &DOWN_WORDS]) {
+        "degree" | "degrees" | "deg" => match nearest(words, at, &[&UP_STEMS, &DOWN_STEMS]) {
             Some(0) => Claim::Pitch(-value),
             None => Claim::Tilt(value),
             _ => Claim::Pitch(value),
@@ -301,10 +333,13 @@ fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<
                 _ => Claim::Seconds(value),
             }
         }
-        "time" | "times" | "occasions" if about_stops => count(value, unit, Claim::Stops),
+        "time" | "times" | "occasion" | "occasions" if about_stops => count(value, unit, Claim::Stops),
         // Repetitions of a turn, which the turn's own claims contain.
         "time" | "times" if words.iter().any(|word| turn_word(word).is_some()) => return None,
-        "time" | "times" if words.iter().any(|word| word.starts_with("turn")) => count(value, unit, Claim::Turns),
+        "time" | "times" | "occasion" | "occasions" if words.iter().any(|word| is_turning(word)) => {
+            count(value, unit, Claim::Turns)
+        }
+        "time" | "times" | "occasion" | "occasions" => count(value, unit, Claim::Times),
         turns if TURN_NOUNS.contains(&turns) && !SIDES.contains(&after(2)) => count(value, unit, Claim::Turns),
         stop if is_stop(stop) => count(value, unit, Claim::Stops),
         side => match turn_word(side) {
@@ -333,7 +368,7 @@ fn length(value: f64, at: usize, words: &[&str]) -> Claim {
 }
 
 /// Words between a length and a word that says beyond doubt what it is.
-const STRONG_REACH: usize = 4;
+const STRONG_REACH: usize = 7;
 /// Words of sides, behind which `turn` counts none.
 const SIDES: [&str; 4] = ["left", "right", "around", "round"];
 
@@ -356,13 +391,7 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
         _ => false,
     };
     let turn = turn_word(word).filter(|_| !counted && !is_idiom).map(Claim::Turn);
-    let back = (["back", "round", "tail"].contains(&next)
-        && [
-            "turns", "doubles", "turn", "turning", "doubling", "heads", "turned", "doubled", "double", "spins",
-            "wheels", "goes", "comes", "go",
-        ]
-        .contains(&word)
-        && words.get(at + 2).is_none_or(|it| !["to", "the", "left", "right"].contains(it) || word.starts_with('d')))
+    let back = turns_back(at, words)
         || matches!(
             word,
             "reverses"
@@ -393,6 +422,7 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
             }
             standing if STANDS.contains(&standing) && !about_stops => Some(Claim::Stays),
             "stays" | "stay" | "remains" | "remain" | "staying" | "remaining" | "keeps" | "stayed" | "remained"
+            | "glued" | "fixed" | "stuck" | "pinned" | "nailed" | "frozen"
                 if !is_of_the_drone(words)
                     && (["put", "where"].contains(&next)
                         || (["in", "on", "at", "to"].contains(&next)
@@ -414,6 +444,26 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
 /// Words behind which `straight` is no way of walking.
 const STRAIGHT_AT: [&str; 14] =
     ["down", "at", "above", "up", "away", "behind", "after", "back", "from", "into", "to", "answer", "legs", "face"];
+
+/// `turns tail`, `doubles back`, `head back the other way`
+fn turns_back(at: usize, words: &[&str]) -> bool {
+    let before = at.checked_sub(1).map_or("", |before| words[before]);
+    let next = words.get(at + 1).copied().unwrap_or_default();
+    let is_of = |stems: &[&str]| stems.iter().any(|stem| before.starts_with(stem));
+    match words[at] {
+        "round" | "tail" => is_of(&["turn", "spin", "wheel", "swing", "swivel"]),
+        "back"
+            if is_of(&[
+                "turn", "doubl", "head", "go", "goes", "walk", "com", "track", "trek", "start", "set", "circl", "loop",
+            ]) =>
+        {
+            let is_way = || words[at..].iter().any(|it| ["way", "came", "themselves"].contains(it));
+            !["to", "left", "right", "from", "of", "at"].contains(&next) && (next != "the" || is_way())
+        }
+        "way" => before == "other" && !words[..at].contains(&"back"),
+        _ => false,
+    }
+}
 
 fn compass_word(word: &str) -> Option<Compass> {
     let stem = ["wards", "ward", "bound", "facing", "erly", "ern"]
@@ -481,6 +531,7 @@ pub(crate) fn number_word(word: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_render::Colour;
 
     #[test]
     fn sentences_in_other_words_are_read() {

@@ -37,6 +37,12 @@ pub(super) fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
             return Some(claim(colour));
         }
     }
+    // `the gray-shirt, brown-pants walker`
+    let joined =
+        TOPS.iter().chain(&TROUSERS).find_map(|it| word.strip_suffix(it).and_then(colour).zip(garment(Some(it))));
+    if let Some((found, claim)) = joined {
+        return Some(claim(found));
+    }
     match colour(word) {
         Some(found) => Some(coloured(found, at, words, next)),
         None => shade(at, words),

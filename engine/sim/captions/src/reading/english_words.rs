@@ -2,69 +2,15 @@
 
 use cosfly_render::Colour;
 
-pub const UP_WORDS: [&str; 22] = [
-    "up",
-    "upward",
-    "upwards",
-    "skyward",
-    "raised",
-    "upturned",
-    "above",
-    "sky",
-    "skywards",
-    "heavens",
-    "heavenward",
-    "heavenwards",
-    "raise",
-    "lift",
-    "lifted",
-    "lifts",
-    "elevate",
-    "elevated",
-    "overhead",
-    "heaven",
-    "ceiling",
-    "clouds",
+/// Beginnings of words for a camera that looks up.
+pub const UP_STEMS: [&str; 14] = [
+    "up", "sky", "rais", "rise", "rising", "rose", "lift", "elevat", "heaven", "above", "overhead", "cloud", "ceiling",
+    "ascend",
 ];
-pub const DOWN_WORDS: [&str; 38] = [
-    "down",
-    "downward",
-    "downwards",
-    "below",
-    "lowered",
-    "dipped",
-    "ground",
-    "under",
-    "beneath",
-    "lower",
-    "lowers",
-    "dip",
-    "dips",
-    "depressed",
-    "depression",
-    "depress",
-    "earthward",
-    "earthwards",
-    "groundward",
-    "groundwards",
-    "floor",
-    "earth",
-    "pavement",
-    "downcast",
-    "declination",
-    "droop",
-    "drooped",
-    "drooping",
-    "sunk",
-    "sink",
-    "lowering",
-    "dipping",
-    "descending",
-    "declined",
-    "underneath",
-    "feet",
-    "downhill",
-    "nosedown",
+/// Beginnings of words for a camera that looks down.
+pub const DOWN_STEMS: [&str; 22] = [
+    "down", "below", "lower", "dip", "depress", "ground", "earth", "floor", "pavement", "declin", "droop", "sink",
+    "sunk", "descen", "under", "beneath", "drop", "plung", "nosed", "feet", "slop", "tarmac",
 ];
 /// Pauses, beside those that begin with `stop`, `paus` and `halt`.
 pub const STOP_WORDS: [&str; 37] = [
@@ -284,7 +230,7 @@ pub const TOPS: [&str; 60] = [
     "bodice",
     "doublet",
 ];
-pub const TROUSERS: [&str; 36] = [
+pub const TROUSERS: [&str; 38] = [
     "trousers",
     "pants",
     "jeans",
@@ -320,6 +266,8 @@ pub const TROUSERS: [&str; 36] = [
     "bloomers",
     "strides",
     "pantaloons",
+    "sweats",
+    "trackpants",
     "flannels",
 ];
 pub const LUGGAGE: [&str; 17] = [
@@ -343,7 +291,7 @@ pub const LUGGAGE: [&str; 17] = [
 ];
 /// Colours by the names of their shades, each with the colours that it may be taken for; words that name other things, too, are
 /// colours only before a garment.
-pub const SHADES: [(&str, &[Colour]); 108] = [
+pub const SHADES: [(&str, &[Colour]); 107] = [
     ("navy", &[Colour::Blue]),
     ("azure", &[Colour::Blue]),
     ("cobalt", &[Colour::Blue]),
@@ -351,7 +299,6 @@ pub const SHADES: [(&str, &[Colour]); 108] = [
     ("indigo", &[Colour::Blue, Colour::Purple]),
     ("cerulean", &[Colour::Blue]),
     ("ultramarine", &[Colour::Blue]),
-    ("denim", &[Colour::Blue]),
     ("teal", &[Colour::Blue, Colour::Green]),
     ("turquoise", &[Colour::Blue, Colour::Green]),
     ("cyan", &[Colour::Blue, Colour::Green]),

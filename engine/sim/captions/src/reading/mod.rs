@@ -8,6 +8,8 @@ mod english_idioms;
 mod english_numbers;
 mod english_words;
 
+pub(crate) use english_words::LUGGAGE;
+
 use crate::compass::Compass;
 use crate::turns::TurnKind;
 use cosfly_render::Colour;
@@ -45,6 +47,8 @@ pub enum Claim {
     Standing(f64),
     /// The next turn.
     Turn(TurnKind),
+    /// So many times something was done: stops or turns.
+    Times(usize),
     /// So many turns.
     Turns(usize),
     /// So many turns to this side.
