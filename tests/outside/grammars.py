@@ -1,6 +1,7 @@
 """All grammars of paraphrases by their number, for check_text_judge.py."""
 
 from paraphrases import FifthChinese, FifthEnglish, FourthChinese, FourthEnglish, SecondChinese, SecondEnglish, ThirdChinese, ThirdEnglish
+from paraphrases_eighth import EighthChinese, EighthEnglish
 from paraphrases_seventh import SeventhChinese, SeventhEnglish
 from paraphrases_sixth import SixthChinese, SixthEnglish
 
@@ -11,4 +12,5 @@ GRAMMARS = {
     5: (FifthEnglish, FifthChinese),
     6: (SixthEnglish, SixthChinese),
     7: (SeventhEnglish, SeventhChinese),
+    8: (EighthEnglish, EighthChinese),
 }
