@@ -2,6 +2,7 @@
 
 from paraphrases import FifthChinese, FifthEnglish, FourthChinese, FourthEnglish, SecondChinese, SecondEnglish, ThirdChinese, ThirdEnglish
 from paraphrases_eighth import EighthChinese, EighthEnglish
+from paraphrases_ninth import NinthChinese, NinthEnglish
 from paraphrases_seventh import SeventhChinese, SeventhEnglish
 from paraphrases_sixth import SixthChinese, SixthEnglish
 
@@ -13,4 +14,5 @@ GRAMMARS = {
     6: (SixthEnglish, SixthChinese),
     7: (SeventhEnglish, SeventhChinese),
     8: (EighthEnglish, EighthChinese),
+    9: (NinthEnglish, NinthChinese),
 }

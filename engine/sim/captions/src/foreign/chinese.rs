@@ -67,7 +67,7 @@ fn beside(clause: &str) -> Option<String> {
     let after = &clause[at + word.len()..];
     let is_there = ["有", "是", "停", "立", "坐", "站", "为"].iter().any(|verb| after.starts_with(verb));
     let is_own = is_of_the_walk(&before) || before.ends_with(['人', '其', '它', '他']);
-    (is_there && !is_of_the_walk(after) || !is_own).then(|| if is_there { first(after, REACH) } else { before })
+    (is_there && !is_of_the_walk(after) || !is_own && !before.is_empty()).then(|| if is_there { first(after, REACH) } else { before })
 }
 
 /// `有个木偶`: something that is there and is no part of the walk.
@@ -108,10 +108,12 @@ fn counted(clause: &str) -> Option<String> {
     let is_measured = |at: &usize| numbers.contains(chars[*at]) && MEASURES.contains(chars[at + 1]);
     let at = (0..chars.len().saturating_sub(2)).find(is_measured)?;
     let after: String = chars[at + 2..].iter().collect();
+    let after = after.trim_matches('·').to_owned();
     let is_own = ["的", "裤", "衣", "线", "路", "直", "弯", "·", "人", "距", "行", "步", "度", "目", "对", "机"]
         .iter()
         .any(|it| after.starts_with(it));
-    (!is_own && !is_of_the_walk(&after) && !begins_with_colour(&after)).then(|| first(&after, REACH))
+    (!after.is_empty() && !is_own && !is_of_the_walk(&after) && !begins_with_colour(&after))
+        .then(|| first(&after, REACH))
 }
 
 /// `从脚手架下面过`

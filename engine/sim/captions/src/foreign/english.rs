@@ -32,8 +32,13 @@ fn in_clause<'c>(clause: &'c [Token]) -> Vec<String> {
     };
     let words: Vec<&str> = clause.iter().map(word).collect();
     let is_named = |at: &usize| (is_thing(words[*at]) && !is_saying(&words, *at)) || is_aid(&words, *at);
+    // `the glass inclined 40 degrees`: what is aimed is the camera, by whatever name.
+    let is_aimed = words.iter().any(|word| ["degrees", "degree"].contains(word));
     let mut found: Vec<String> = (0..words.len()).filter(is_named).map(|at| words[at].to_owned()).collect();
-    found.extend((1..words.len()).filter_map(|at| unknown_thing(&words, at)));
+    found.extend((1..words.len()).filter_map(|at| {
+        let is_camera = is_aimed && ["the", "our", "your", "its"].contains(&words[at - 1]);
+        unknown_thing(&words, at).filter(|word| !(is_camera && words[at] == word))
+    }));
     found.dedup();
     found
 }

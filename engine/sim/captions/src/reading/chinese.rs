@@ -12,6 +12,7 @@ use crate::turns::TurnKind;
 pub fn read(text: &str) -> Vec<Claim> {
     let sentence = |sentence: &str| {
         let mut after_stop = false;
+        let mut before = String::new();
         let read = |clause: Vec<char>| {
             let words = without_empty_counts(&clause.iter().collect::<String>());
             // `途中停留一次，约3秒`: the time belongs to the stop.
@@ -19,7 +20,9 @@ pub fn read(text: &str) -> Vec<Claim> {
             let about_stops =
                 speaks || after_stop && (GOES_ON.iter().any(|it| words.starts_with(it)) || is_time_alone(&words));
             after_stop = about_stops && !STOP_CHARS.iter().any(|word| denied_word(&words, word));
-            read_clause(&words, about_stops)
+            let claims = read_clause(&words, &before, about_stops);
+            before = words;
+            claims
         };
         clauses(sentence).into_iter().flat_map(read).collect::<Vec<_>>()
     };
@@ -63,9 +66,10 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
     clauses
 }
 
-fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
+fn read_clause(clause: &str, before: &str, about_stops: bool) -> Vec<Claim> {
     let mut claims = vec![];
     let mut rest = clause;
+    // A turn around in two words is one.
     let turns_here = ['转', '拐', '弯', '折'].iter().any(|word| clause.contains(*word));
     while let Some(first) = rest.chars().next() {
         let at = clause.len() - rest.len();
@@ -82,14 +86,18 @@ fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
             claims.push(if denied && claim == Claim::Backpack { Claim::NoBackpack } else { claim });
             rest = after;
         } else if let Some(after) =
-            ["一秒走", "一秒钟走", "1秒走", "一秒能走"].iter().find_map(|it| rest.strip_prefix(it))
+            ["一秒走", "一秒钟走", "1秒走", "一秒能走", "一秒钟合", "一秒合", "一秒钟", "一秒", "1秒"]
+                .iter()
+                .find_map(|it| rest.strip_prefix(it))
             && let Some((value, after)) = number(after.trim_start_matches(['约', '大', '概', '了']))
             && let Some(after) = after.strip_prefix('米')
         {
             claims.push(Claim::Speed(value));
             rest = after;
+        } else if let Some(after) = ordinal(&clause[..at], rest) {
+            rest = after;
         } else if let Some((value, after)) = number(rest) {
-            let (claim, used) = quantity(value, after, clause, at, about_stops);
+            let (claim, used) = quantity(value, after, clause, at, before, about_stops);
             claims.push(claim);
             rest = &after[used..];
         } else if let Some((direction, length)) = compass(rest) {
@@ -104,6 +112,7 @@ fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
                     claims.push(count(value, "次", |count| Claim::TurnsOf(kind, count)));
                     rest = &after['次'.len_utf8()..];
                 }
+                None if kind == TurnKind::Around && claims.last() == Some(&Claim::Turn(kind)) => {}
                 None => claims.push(Claim::Turn(kind)),
             }
         } else {
@@ -260,6 +269,12 @@ fn worn<'a>(clause: &str, text: &'a str) -> Option<(Claim, &'a str)> {
     Some((claim, after))
 }
 
+/// `头一回`, `下一次`: what follows the word that counts nothing.
+fn ordinal<'a>(before: &str, text: &'a str) -> Option<&'a str> {
+    let is_one = before.ends_with(['头', '下', '上', '第', '这', '那', '每', '又', '再']);
+    ["一回", "一次", "一遭"].iter().find_map(|it| text.strip_prefix(it)).filter(|_| is_one)
+}
+
 /// `两次右转` at the start of `text`: the turn, its repetitions, and what follows.
 fn repeated_turn(text: &str) -> Option<(TurnKind, usize, &str)> {
     let (value, after) = number(text)?;
@@ -321,7 +336,7 @@ const NO_NEGATIONS: [&str; 6] = ["不久", "不远", "不断", "不时", "不过
 /// Characters over which a negation reaches.
 const FAR_NEGATION: usize = 8;
 
-const UNITS: [&str; 18] = [
+const UNITS: [&str; 20] = [
     "米/秒",
     "米每秒",
     "米",
@@ -337,6 +352,8 @@ const UNITS: [&str; 18] = [
     "个弯",
     "个转弯",
     "道弯",
+    "遭",
+    "番",
     "遍",
     "处",
     "个停",
@@ -389,17 +406,20 @@ fn length(value: f64, clause: &str, at: usize) -> Claim {
 
 /// Whether `度` counts times: `两度停下`.
 fn is_times(after: &str) -> bool {
-    after.starts_with(['停', '歇', '驻', '左', '右', '转', '拐', '掉', '等', '站', '逗', '止', '折', '休'])
+    !after.starts_with("左右")
+        && after.starts_with(['停', '歇', '驻', '左', '右', '转', '拐', '掉', '等', '站', '逗', '止', '折', '休'])
 }
 
 /// The claim of a number with the unit after it, and the bytes of that unit.
-fn quantity(value: f64, after: &str, clause: &str, at: usize, about_stops: bool) -> (Claim, usize) {
+fn quantity(value: f64, after: &str, clause: &str, at: usize, context: &str, about_stops: bool) -> (Claim, usize) {
     let unit = UNITS.into_iter().find(|unit| after.starts_with(unit));
     let before = &clause[..at];
-    let aim = clause.replace("俯仰", "");
+    // `镜头往上一挑，29度`: the words stand in the clause before.
+    let is_alone = clause.chars().all(|c| c.is_ascii_digit() || "约大概差不多度°角左右的样子到在，".contains(c));
+    let aim = if is_alone { context } else { clause }.replace("俯仰", "");
     let has = |words: &[&str]| words.iter().any(|word| aim.contains(word));
     let aimed = |from: char| {
-        let chars: Vec<char> = clause.chars().collect();
+        let chars: Vec<char> = aim.replace("上一", "上").replace("下一", "下").chars().collect();
         chars.windows(2).any(|pair| pair[0] == from && AIMED.contains(pair[1]))
     };
     let is_up = aimed('上')
@@ -484,7 +504,9 @@ fn quantity(value: f64, after: &str, clause: &str, at: usize, about_stops: bool)
             seconds(60.0 * value)
         }
         Some("秒" | "秒钟") => seconds(value),
-        Some("次" | "回" | "遍" | "处" | "个停") if about_stops => count(value, "次", Claim::Stops),
+        Some("次" | "回" | "遍" | "处" | "个停" | "遭" | "番") if about_stops => {
+            count(value, "次", Claim::Stops)
+        }
         Some("次" | "回") if clause.contains(['转', '拐', '弯', '向', '折']) => count(value, "次", Claim::Turns),
         Some("个弯" | "个转弯" | "道弯") => count(value, "个弯", Claim::Turns),
         _ => Claim::Unknown(format!("{value}{}", unit.unwrap_or_default())),
@@ -572,7 +594,7 @@ mod tests {
         for (text, expected) in [
             (
                 "跟随向北行走的行人，保持约25米距离，俯仰角约45度。",
-                vec![Claim::Direction(Compass::North), Claim::Distance(25.0), Claim::Pitch(45.0)],
+                vec![Claim::Direction(Compass::North), Claim::Distance(25.0), Claim::Tilt(45.0)],
             ),
             ("仰角约5度", vec![Claim::Pitch(-5.0)]),
             ("途中停了两次，没有转弯。", vec![Claim::Stops(2), Claim::NoTurns]),

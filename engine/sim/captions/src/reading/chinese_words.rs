@@ -2,7 +2,7 @@
 
 use cosfly_render::Colour;
 
-pub const STANDING_WORDS: [&str; 82] = [
+pub const STANDING_WORDS: [&str; 87] = [
     "站立",
     "站着",
     "静止",
@@ -85,6 +85,11 @@ pub const STANDING_WORDS: [&str; 82] = [
     "没有在动",
     "没再动",
     "没动弹",
+    "一动也不动",
+    "动也不动",
+    "动都不动",
+    "一动不",
+    "动也没动",
 ];
 pub const STRAIGHT_WORDS: [&str; 38] = [
     "直行",

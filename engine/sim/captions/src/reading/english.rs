@@ -98,7 +98,10 @@ fn letter(chars: &[char], at: usize) -> bool {
 
 fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
     let words = seen_from(without_idioms(tokens.iter().map(word_of).collect()));
-    let about_stops = words.iter().any(|word| is_stop(word)) || stands_repeatedly(&words);
+    let drone_lingers =
+        words.iter().any(|it| ["aircraft", "drone", "craft", "quadcopter", "uav", "copter", "you"].contains(it))
+            && !words.iter().any(|it| it.starts_with("second") || ["times", "once", "twice"].contains(it));
+    let about_stops = !drone_lingers && words.iter().any(|word| is_stop(word)) || stands_repeatedly(&words);
     // `They pause once, for about 3 seconds`: the time belongs to the stop.
     let sums = || {
         words.iter().any(|word| ["altogether", "together", "total", "all", "told", "standing", "sum"].contains(word))
@@ -119,7 +122,11 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
                 }
                 let counted = i > 0 && matches!(&tokens[i - 1], Token::Number(_));
                 let claim = clothes_claim(i, &words).or_else(|| word_claim(i, &words, counted, about_stops));
-                if let Some(Claim::Turn(kind)) = claim {
+                let is_again = claim == Some(Claim::Turn(TurnKind::Around))
+                    && turns.last().is_some_and(|it| it.1 == TurnKind::Around);
+                if is_again {
+                    // A turn around in two words is one.
+                } else if let Some(Claim::Turn(kind)) = claim {
                     let times = repetitions(&tokens[i + 1..]);
                     turns.push((i, kind));
                     claims.extend(core::iter::repeat_n(Claim::Turn(kind), times));
@@ -181,7 +188,7 @@ fn denies_motion(words: &[&str]) -> bool {
         || words.iter().any(|it| ["spot", "place", "anywhere", "position", "muscle", "foot"].contains(it));
     let of = |word: &str| match word {
         "leave" | "leaves" | "leaving" | "go" | "goes" | "going" | "shift" => is_of_place(),
-        word => MOTION.contains(&word),
+        word => MOTION.contains(&word) || ["mov", "stir", "budg"].iter().any(|stem| word.starts_with(stem)),
     };
     let near = |at: usize| if words[at].starts_with("walk") { 2 } else { 5 };
     let is_denied = |at: &usize| {
@@ -250,7 +257,9 @@ fn stands_repeatedly(words: &[&str]) -> bool {
 /// Whether a negation comes a few words before such a word.
 fn denied(words: &[&str], is_such: impl Fn(&str) -> bool) -> bool {
     (0..words.len()).filter(|at| is_such(words[*at])).any(|at| {
-        let before = &words[at.saturating_sub(4)..at];
+        // `never once does the walker stop`: what is denied ends the clause.
+        let is_inverted = words[..at].iter().any(|it| ["does", "do", "did"].contains(it));
+        let before = &words[at.saturating_sub(if is_inverted { 9 } else { 4 })..at];
         let negation = before.iter().rposition(|word| NEGATIONS.contains(word));
         negation.is_some_and(|from| !is_parted(&before[from..]))
     })
@@ -354,6 +363,12 @@ fn length(value: f64, at: usize, words: &[&str]) -> Claim {
     if value.fract() != 0.0 && words.contains(&"second") {
         return Claim::Speed(value);
     }
+    // With a time or a pace beside it, a length may be the way, whatever else is near.
+    if words.iter().any(|it| ["m/s", "seconds", "secs", "s"].contains(it))
+        && !words.iter().any(|it| STRONG_WAY.contains(it))
+    {
+        return Claim::Metres(value);
+    }
     let lists: [&[&str]; 3] = [&STRONG_ALTITUDE, &STRONG_WAY, &STRONG_DISTANCE];
     let near =
         |list: &&[&str]| (0..words.len()).filter(|it| list.contains(&words[*it])).map(|it| it.abs_diff(at)).min();
@@ -390,6 +405,12 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
         "left" => ["is", "are", "has", "be", "have", "had", "they", "them", "nothing"].contains(&before),
         _ => false,
     };
+    // `turning neither left nor right`
+    if matches!(word, "left" | "right")
+        && (["neither", "nor", "not"].contains(&before) || at > 1 && before == "or" && words.contains(&"neither"))
+    {
+        return Some(Claim::NoTurns);
+    }
     let turn = turn_word(word).filter(|_| !counted && !is_idiom).map(Claim::Turn);
     let back = turns_back(at, words)
         || matches!(

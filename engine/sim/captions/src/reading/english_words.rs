@@ -422,7 +422,7 @@ pub const STRONG_WAY: [&str; 14] = [
 pub const STRONG_DISTANCE: [&str; 10] =
     ["away", "distance", "behind", "apart", "gap", "separation", "spacing", "clearance", "range", "buffer"];
 /// Beginnings of words for a pause.
-pub const STOP_STEMS: [&str; 19] = [
+pub const STOP_STEMS: [&str; 20] = [
     "stop",
     "paus",
     "halt",
@@ -437,6 +437,7 @@ pub const STOP_STEMS: [&str; 19] = [
     "dwell",
     "stall",
     "intermi",
+    "falter",
     "stoppag",
     "standstill",
     "tarri",
@@ -448,9 +449,9 @@ pub const TURN_NOUNS: [&str; 12] = [
     "turn", "turns", "bend", "bends", "corner", "corners", "curve", "curves", "turning", "turnings", "changes", "kinks",
 ];
 /// Beginnings of words for leaving a straight line.
-pub const TURN_STEMS: [&str; 16] = [
+pub const TURN_STEMS: [&str; 18] = [
     "turn", "veer", "swerv", "deviat", "stray", "detour", "zigzag", "diverg", "divert", "bend", "corner", "sidestep",
-    "curv", "twist", "kink", "meander",
+    "curv", "twist", "kink", "meander", "waver", "wander",
 ];
 /// Words beside which `right` is a side.
 pub const TURN_VERBS: [&str; 74] = [
