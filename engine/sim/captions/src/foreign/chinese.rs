@@ -67,7 +67,7 @@ fn beside(clause: &str) -> Option<String> {
     let after = &clause[at + word.len()..];
     let is_there = ["有", "是", "停", "立", "坐", "站", "为"].iter().any(|verb| after.starts_with(verb));
     let is_own = is_of_the_walk(&before) || before.ends_with(['人', '其', '它', '他']);
-    (is_there && !is_of_the_walk(after) || !is_own && !before.is_empty()).then(|| if is_there { first(after, REACH) } else { before })
+    (is_there && !is_of_the_walk(after) || !is_own).then(|| if is_there { first(after, REACH) } else { before })
 }
 
 /// `有个木偶`: something that is there and is no part of the walk.

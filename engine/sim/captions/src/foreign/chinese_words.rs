@@ -41,9 +41,9 @@ pub const BEFORE_PLACES: [&str; 20] = [
     "面对", "正对", "身处", "紧靠", "贴着", "对着",
 ];
 /// Words behind a place, or before what is there.
-pub const BESIDE: [&str; 17] = [
-    "旁边", "附近", "边上", "隔壁", "对面", "周围", "四周", "一带", "周边", "身旁", "身边", "底下", "脚下", "尽头",
-    "近旁", "跟前", "之旁",
+pub const BESIDE: [&str; 16] = [
+    "旁边", "附近", "边上", "隔壁", "对面", "周围", "四周", "一带", "周边", "身旁", "身边", "底下", "尽头", "近旁",
+    "跟前", "之旁",
 ];
 /// Words that make what a place is beside part of the walk.
 pub const OF_THE_WALK: [&str; 34] = [

@@ -56,9 +56,9 @@ fn unknown_thing(words: &[&str], at: usize) -> Option<String> {
     let phrase = words[at..].iter().take(PHRASE).take_while(|word| !is_end(word));
     let phrase: Vec<&str> = phrase.copied().collect();
     // What stands before a garment or luggage says more of it: `corduroy trousers`.
-    let clothes = phrase.iter().rposition(|word| is_garment(word) || in_singular(word, |it| LUGGAGE.contains(&it)));
-    let mut things = phrase[clothes.map_or(0, |at| at + 1)..].iter().filter(|word| is_in_dictionary(word));
-    things.next().filter(|_| !likened).map(|word| (*word).to_owned())
+    let is_clothed = phrase.iter().any(|word| is_garment(word) || in_singular(word, |it| LUGGAGE.contains(&it)));
+    let mut things = phrase.iter().filter(|word| is_in_dictionary(word));
+    things.next().filter(|_| !likened && !is_clothed).map(|word| (*word).to_owned())
 }
 
 /// Words of a phrase in which a thing is looked for.

@@ -395,8 +395,10 @@ fn numeral(text: &str) -> Option<f64> {
 fn length(value: f64, clause: &str, at: usize) -> Claim {
     let has = |words: &[&str]| words.iter().any(|word| clause.contains(word));
     let before = clause[..at].trim_end_matches(['约', '大', '概', '近']);
+    let behind = clause[at..].split_once('米').map_or("", |it| it.1);
     match (has(&STRONG_ALTITUDE), has(&STRONG_WAY), has(&STRONG_DISTANCE)) {
-        _ if before.ends_with("走了") || before.ends_with("走过") => Claim::Way(value),
+        _ if ["走了", "走过", "全程"].iter().any(|it| before.ends_with(it)) => Claim::Way(value),
+        _ if ["外", "开外", "之外"].iter().any(|it| behind.starts_with(it)) => Claim::Distance(value),
         (true, false, false) => Claim::Altitude(value),
         (false, true, false) => Claim::Way(value),
         (false, false, true) => Claim::Distance(value),
@@ -610,7 +612,7 @@ mod tests {
                 "出发后连续两次右转，再左转",
                 vec![Claim::Turn(TurnKind::Right), Claim::Turn(TurnKind::Right), Claim::Turn(TurnKind::Left)],
             ),
-            ("途中停留一次，约3秒，历时约20秒", vec![Claim::Stops(1), Claim::Standing(3.0), Claim::Duration(20.0)]),
+            ("途中停留一次，约3秒，历时约20秒", vec![Claim::Stops(1), Claim::Seconds(3.0), Claim::Duration(20.0)]),
             (
                 "身穿红色上衣、蓝色裤子、背着背包的行人",
                 vec![Claim::Top(Colour::Red), Claim::Trousers(Colour::Blue), Claim::Backpack],

@@ -364,8 +364,7 @@ pub const STRONG_ALTITUDE: [&str; 23] = [
     "高于人",
     "比行人高",
 ];
-pub const STRONG_WAY: [&str; 28] = [
-    "全程",
+pub const STRONG_WAY: [&str; 27] = [
     "路程",
     "全长",
     "总长",
@@ -394,7 +393,8 @@ pub const STRONG_WAY: [&str; 28] = [
     "步程",
     "一路走",
 ];
-pub const STRONG_DISTANCE: [&str; 21] = [
+pub const STRONG_DISTANCE: [&str; 22] = [
+    "距",
     "距离",
     "相距",
     "间距",
