@@ -15,7 +15,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from paraphrases import GRAMMARS
+from grammars import GRAMMARS
 
 COLOURS = ["black", "grey", "white", "red", "orange", "yellow", "green", "blue", "purple", "pink", "brown", "beige"]
 ZH_COLOURS = dict(zip(COLOURS, "黑 灰 白 红 橙 黄 绿 蓝 紫 粉 棕 米".split()))

@@ -627,6 +627,3 @@ class FifthChinese(Grammar):
     def heading(self, text, direction):
         name = ZH_DIRECTIONS[direction]
         return text.rstrip("。") + self.pick(f"，面朝{name}方。", f"，一直往{name}。", f"，冲{name}边走。")
-
-
-GRAMMARS = {2: (SecondEnglish, SecondChinese), 3: (ThirdEnglish, ThirdChinese), 4: (FourthEnglish, FourthChinese), 5: (FifthEnglish, FifthChinese)}

@@ -87,10 +87,11 @@ pub fn check(text: &str, language: Language, facts: &Facts) -> Result<(), Vec<Sl
     let mut checker = Checker { facts, mismatches: vec![] };
     checker.script(text, language);
     checker.directions(&claims);
-    for claim in &claims {
+    for claim in claims.iter().filter(|claim| is_of_weight(claim, &claims, facts)) {
         checker.claim(claim);
     }
     checker.turns(&claims);
+    checker.pair_of_colours(&claims);
     checker.required(&claims);
     if checker.mismatches.is_empty() { Ok(()) } else { Err(checker.mismatches) }
 }
@@ -99,17 +100,27 @@ pub fn check(text: &str, language: Language, facts: &Facts) -> Result<(), Vec<Sl
 pub fn claimed(text: &str, language: Language) -> Vec<Slot> {
     let slot = |claim: Claim| match claim {
         Claim::Direction(_) => Slot::Direction,
-        Claim::Distance(_) => Slot::Distance,
+        Claim::Distance(_) | Claim::Metres(_) => Slot::Distance,
         Claim::Altitude(_) => Slot::Altitude,
-        Claim::Pitch(_) => Slot::Pitch,
+        Claim::Pitch(_) | Claim::Tilt(_) => Slot::Pitch,
         Claim::Way(_) => Slot::Way,
-        Claim::Duration(_) => Slot::Duration,
+        Claim::Duration(_) | Claim::Seconds(_) => Slot::Duration,
         Claim::Speed(_) => Slot::Speed,
-        Claim::Stops(_) | Claim::SomeStops => Slot::Stops,
+        Claim::Stops(_) | Claim::SomeStops | Claim::Times(_) => Slot::Stops,
         Claim::Standing(_) => Slot::Standing,
-        Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..) | Claim::NoTurns | Claim::StopFirst(_) => Slot::Turns,
-        Claim::Top(_) | Claim::Trousers(_) | Claim::Backpack | Claim::NoBackpack | Claim::Wears(_) => Slot::Clothes,
-        Claim::Stays => Slot::Walking,
+        Claim::Turn(_)
+        | Claim::Turns(_)
+        | Claim::TurnsOf(..)
+        | Claim::NoTurns
+        | Claim::Straight
+        | Claim::StopFirst(_) => Slot::Turns,
+        Claim::Top(_)
+        | Claim::Trousers(_)
+        | Claim::Backpack
+        | Claim::NoBackpack
+        | Claim::Wears(_)
+        | Claim::Shade { .. } => Slot::Clothes,
+        Claim::Stays | Claim::StandsFor(_) => Slot::Walking,
         Claim::Unknown(_) => Slot::Number,
     };
     claims_of(text, language).into_iter().map(slot).collect::<std::collections::BTreeSet<_>>().into_iter().collect()
@@ -130,6 +141,12 @@ pub(crate) fn clothes_mismatch(claim: &Claim, wear: &Wear) -> Option<SlotMismatc
         Claim::Trousers(colour) => ("trousers", colour.name(), wear.trousers.name()),
         Claim::Backpack => ("backpack", "one", if wear.backpack { "one" } else { "none" }),
         Claim::NoBackpack => ("backpack", "none", if wear.backpack { "one" } else { "none" }),
+        Claim::Shade { is_top, name, colours } => {
+            let (garment, worn) = if *is_top { ("top", wear.top) } else { ("trousers", wear.trousers) };
+            let told = |words: &str| format!("{garment}: {words}");
+            let mismatch = SlotMismatch { slot: Slot::Clothes, found: told(name), expected: told(worn.name()) };
+            return (!colours.contains(&worn)).then_some(mismatch);
+        }
         Claim::Wears(colour) if *colour == wear.top || *colour == wear.trousers => return None,
         Claim::Wears(colour) => ("colour", colour.name(), wear.top.name()),
         _ => return None,
@@ -172,6 +189,24 @@ fn listed_turns(claims: Vec<Claim>) -> Vec<Claim> {
     claims.into_iter().flat_map(listed).collect()
 }
 
+/// Whether a stated number is a multiple of the step, and no nearer multiple to the fact exists.
+fn is_step(found: f64, fact: f64, step: f64) -> bool {
+    let steps = found / step;
+    (steps - steps.round()).abs() < 1e-6 && (found - fact).abs() <= 0.5 * step + 1e-6
+}
+
+/// Whether a claim says anything beside the others of its text: `straight on` before a turn does not, nor does the pause of a
+/// target that stands all the time.
+fn is_of_weight(claim: &Claim, claims: &[Claim], facts: &Facts) -> bool {
+    let is_turn = |claim: &Claim| matches!(claim, Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..));
+    let stays = |claim: &Claim| matches!(claim, Claim::Stays | Claim::StandsFor(_));
+    match claim {
+        Claim::Straight => !claims.iter().any(is_turn),
+        Claim::SomeStops => facts.walks || !claims.iter().any(stays),
+        _ => true,
+    }
+}
+
 struct Checker<'a> {
     facts: &'a Facts,
     mismatches: Vec<SlotMismatch>,
@@ -184,11 +219,31 @@ impl Checker<'_> {
         }
     }
 
-    /// A stated number is a multiple of its step, and no nearer multiple exists.
+    /// A stated number is the fact, to its step.
     fn number(&mut self, slot: Slot, found: f64, fact: f64, step: f64) {
-        let steps = found / step;
-        let holds = (steps - steps.round()).abs() < 1e-6 && (found - fact).abs() <= 0.5 * step + 1e-6;
-        self.expect(holds, slot, found, format_args!("{fact:.2}"));
+        self.expect(is_step(found, fact, step), slot, found, format_args!("{fact:.2}"));
+    }
+
+    /// A stated number that may be one of several facts is one of them.
+    fn one_of(&mut self, slot: Slot, found: f64, facts: &[(f64, f64)]) {
+        let fits = facts.iter().any(|(fact, step)| is_step(found, *fact, *step));
+        let expected: Vec<String> = facts.iter().map(|(fact, _)| format!("{fact:.2}")).collect();
+        self.expect(fits, slot, found, expected.join("` or `"));
+    }
+
+    /// Two colours without garments are those of the top and the trousers, in any order.
+    fn pair_of_colours(&mut self, claims: &[Claim]) {
+        let Some(wear) = &self.facts.wear else { return };
+        let is_garment = |claim: &Claim| matches!(claim, Claim::Top(_) | Claim::Trousers(_) | Claim::Shade { .. });
+        let worn = claims.iter().filter_map(|claim| match claim {
+            Claim::Wears(colour) => Some(colour.name()),
+            _ => None,
+        });
+        if let ([one, other], false) = (&worn.collect::<Vec<_>>()[..], claims.iter().any(is_garment)) {
+            let expected = [wear.top.name(), wear.trousers.name()];
+            let holds = [*one, *other] == expected || [*other, *one] == expected;
+            self.expect(holds, Slot::Clothes, format_args!("{one}, {other}"), expected.join(", "));
+        }
     }
 
     fn script(&mut self, text: &str, language: Language) {
@@ -219,17 +274,42 @@ impl Checker<'_> {
             Claim::Duration(found) => {
                 self.number(Slot::Duration, found, facts.duration_s, duration_step_s(facts.duration_s));
             }
+            Claim::Metres(found) => {
+                let way = (facts.way_m, way_step_m(facts.way_m));
+                let places = [(facts.distance_m, DISTANCE_STEP_M), (facts.altitude_m, DISTANCE_STEP_M), way];
+                self.one_of(Slot::Distance, found, &places[..2 + usize::from(facts.walks)]);
+            }
+            Claim::Tilt(found) => self.number(Slot::Pitch, found, facts.pitch_down_deg.abs(), PITCH_STEP_DEG),
+            Claim::Seconds(found) => {
+                let whole = (facts.duration_s, duration_step_s(facts.duration_s));
+                self.one_of(Slot::Duration, found, &[whole, (facts.standing_s(), STOP_STEP_S)]);
+            }
+            Claim::StandsFor(found) if facts.walks => {
+                self.number(Slot::Standing, found, facts.standing_s(), STOP_STEP_S);
+            }
+            Claim::StandsFor(found) => {
+                self.number(Slot::Duration, found, facts.duration_s, duration_step_s(facts.duration_s));
+            }
             Claim::Speed(found) => self.number(Slot::Speed, found, facts.walking_speed_mps, SPEED_STEP_MPS),
             Claim::Standing(found) => self.number(Slot::Standing, found, facts.standing_s(), STOP_STEP_S),
             Claim::Stops(count) => self.expect(count == facts.stops.len(), Slot::Stops, count, facts.stops.len()),
+            Claim::Times(count) => {
+                let holds = [facts.stops.len(), facts.turns.len()].contains(&count);
+                self.expect(holds, Slot::Stops, count, facts.stops.len());
+            }
             Claim::SomeStops => self.expect(!facts.stops.is_empty(), Slot::Stops, "some", 0),
             Claim::Turns(count) => self.expect(count == facts.turns.len(), Slot::Turns, count, facts.turns.len()),
-            Claim::NoTurns => self.expect(facts.turns.is_empty(), Slot::Turns, 0, facts.turns.len()),
+            Claim::NoTurns | Claim::Straight => self.expect(facts.turns.is_empty(), Slot::Turns, 0, facts.turns.len()),
             Claim::TurnsOf(kind, count) => {
                 let expected = facts.turns_of(kind);
                 self.expect(count == expected, Slot::Turns, format_args!("{count} {kind:?}"), expected);
             }
-            Claim::Top(_) | Claim::Trousers(_) | Claim::Backpack | Claim::NoBackpack | Claim::Wears(_) => {
+            Claim::Top(_)
+            | Claim::Trousers(_)
+            | Claim::Backpack
+            | Claim::NoBackpack
+            | Claim::Wears(_)
+            | Claim::Shade { .. } => {
                 self.mismatches.extend(facts.wear.as_ref().and_then(|wear| clothes_mismatch(claim, wear)));
             }
             Claim::StopFirst(first) => {
@@ -268,11 +348,16 @@ impl Checker<'_> {
     }
 
     fn required(&mut self, claims: &[Claim]) {
-        let has = |wanted: fn(&Claim) -> bool| claims.iter().any(wanted);
         let facts = self.facts;
-        self.expect(has(|claim| matches!(claim, Claim::Distance(_))), Slot::Distance, "", facts.distance_m);
-        self.expect(has(|claim| matches!(claim, Claim::Pitch(_))), Slot::Pitch, "", facts.pitch_down_deg);
-        let stays = has(|claim| matches!(claim, Claim::Stays));
+        let is_distance = |claim: &Claim| match claim {
+            Claim::Distance(_) => true,
+            Claim::Metres(found) => is_step(*found, facts.distance_m, DISTANCE_STEP_M),
+            _ => false,
+        };
+        self.expect(claims.iter().any(is_distance), Slot::Distance, "", facts.distance_m);
+        let is_pitch = |claim: &Claim| matches!(claim, Claim::Pitch(_) | Claim::Tilt(_));
+        self.expect(claims.iter().any(is_pitch), Slot::Pitch, "", facts.pitch_down_deg);
+        let stays = claims.iter().any(|claim| matches!(claim, Claim::Stays | Claim::StandsFor(_)));
         self.expect(facts.walks || stays, Slot::Walking, "walks", "stands");
     }
 }

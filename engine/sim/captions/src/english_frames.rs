@@ -90,7 +90,7 @@ pub(crate) const INSTRUCTIONS: &[&str] = &[
     "We need you to [c]. [K]; [l].",
     "Your target for this flight is the {who}. [K], and [l].",
     "Look for the {who}. Then [k] and [l].",
-    "See the {who}? [C]: [k] and [l].",
+    "See the {who}? That is your target: [k] and [l].",
     "Once you have the {who} in view, [k] and [l].",
     "Find the {who}; [k], and [l].",
     "Task: [c]. [K]. [L].",

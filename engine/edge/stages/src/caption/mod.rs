@@ -79,7 +79,7 @@ impl StageKind for Caption {
         }
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 5,
+            version: 6,
             parameters: canonical,
             sources: vec![],
             inputs,

@@ -1,7 +1,7 @@
 //! Things in Chinese texts, by their words and by their place in a clause.
 
 use super::chinese_words::{
-    BEFORE_PLACES, BESIDE, CHARACTERS, COMPANIONS_BEGIN, GOES_ON_DOING, HARMLESS, OF_THE_WALK, PASSING, SOME_OF,
+    BEFORE_PLACES, BESIDE, CHARACTERS, COMPANIONS_BEGIN, HARMLESS, HOLDING, MEASURES, OF_THE_WALK, PASSING, SOME_OF,
     SOMEWHERE, THINGS, TOGETHER,
 };
 use crate::reading::chinese::clauses;
@@ -24,7 +24,16 @@ fn in_clause(clause: &str) -> Vec<String> {
         found.extend(plain.chars().filter(|c| CHARACTERS.contains(*c)).map(String::from).take(1));
     }
     if found.is_empty() {
-        let places = [passed(&plain), beside(&plain), there(&plain), company(&plain), carried(&plain), doing(&plain)];
+        let places = [
+            passed(&plain),
+            beside(&plain),
+            there(&plain),
+            company(&plain),
+            carried(&plain),
+            holding(&plain),
+            counted(&plain),
+            from(&plain),
+        ];
         found.extend(places.into_iter().flatten().take(1));
     }
     found
@@ -45,7 +54,7 @@ fn passed(clause: &str) -> Option<String> {
     let behind = words.filter_map(|word| clause.find(word).map(|at| &clause[at + word.len()..]));
     let mut foreign = behind.filter(|after| {
         let is_number = after.trim_start_matches(['了', '约', '大', '概']).starts_with(|c: char| c.is_ascii_digit());
-        !is_number && !is_ended(after) && !is_of_the_walk(after)
+        !is_number && !is_ended(after) && !begins_with_colour(after) && !is_of_the_walk(after)
     });
     foreign.next().map(|after| first(after, REACH))
 }
@@ -85,18 +94,40 @@ fn company(clause: &str) -> Option<String> {
     (!is_of_the_walk(who)).then(|| who.to_owned())
 }
 
-/// `捏着票`: what somebody does or holds that is no part of a walk.
-fn doing(clause: &str) -> Option<String> {
+/// `捏着票`: what somebody holds or does with the hands, which is no part of a walk.
+fn holding(clause: &str) -> Option<String> {
+    let of_hands = |(at, _): &(usize, &str)| clause[..*at].ends_with(|c: char| HOLDING.contains(c));
+    let (at, _) = clause.match_indices(['着', '了']).find(of_hands)?;
+    (!is_of_the_walk(&clause[at..])).then(|| first(&clause[at..], REACH))
+}
+
+/// `一名水手`: a count of things, by the measure word.
+fn counted(clause: &str) -> Option<String> {
+    let numbers = "一两二三四五六七八九十几数某另";
     let chars: Vec<char> = clause.chars().collect();
-    let is_other = |at: &usize| {
-        let next = chars.get(at + 1).copied().unwrap_or_default();
-        chars[*at] == '着'
-            && *at > 0
-            && chars[at - 1] != '·'
-            && !GOES_ON_DOING.contains(chars[at - 1])
-            && !"装色重陆落".contains(next)
-    };
-    (0..chars.len()).find(is_other).map(|at| chars[at - 1..(at + 3).min(chars.len())].iter().collect())
+    let is_measured = |at: &usize| numbers.contains(chars[*at]) && MEASURES.contains(chars[at + 1]);
+    let at = (0..chars.len().saturating_sub(2)).find(is_measured)?;
+    let after: String = chars[at + 2..].iter().collect();
+    let after = after.trim_matches('·').to_owned();
+    let is_own = ["的", "裤", "衣", "线", "路", "直", "弯", "·", "人", "距", "行", "步", "度", "目", "对", "机"]
+        .iter()
+        .any(|it| after.starts_with(it));
+    (!after.is_empty() && !is_own && !is_of_the_walk(&after) && !begins_with_colour(&after))
+        .then(|| first(&after, REACH))
+}
+
+/// `从脚手架下面过`
+fn from(clause: &str) -> Option<String> {
+    let after = &clause[clause.find('从')? + '从'.len_utf8()..];
+    let place = &after[..["下面", "底下", "下方", "旁边", "面前", "中间", "边上", "跟前"]
+        .iter()
+        .filter_map(|it| after.find(it))
+        .min()?];
+    (!place.is_empty() && after.contains('过') && !is_of_the_walk(place)).then(|| place.to_owned())
+}
+
+fn begins_with_colour(text: &str) -> bool {
+    crate::reading::chinese::begins_with_colour(text)
 }
 
 /// `带着小孩`: what the target has with it.

@@ -2,7 +2,7 @@
 
 /// Words about a walk, clothes and a camera that have a character of a thing in them; longer ones first.
 pub const HARMLESS: &str = "
-    连帽衫 牛仔裤 牛仔 运动裤 棒球衫 双肩包 背包 书包 背着包 个包 了包 风衣 马甲 帽衫 背心 云台 飞行员 操作员 操控员 马上 鸟瞰 海拔 校准 水平线
+    肩上背 肩上挎 肩背 后背 打住 打左 打右 下打 推镜 拉开 推近 拉近 拉远 拖在 拖后 吊在 提示 提前 聊天室 举例 翻转 打头 推进 坐标 玩转 冲锋衣 羽绒服 登山包 旅行包 山地 同伴机 提醒 江湖 泰山 海量 牛角 鱼贯 猫腰 蛇形 生硬 员工 全员 本人 影像 期间 早晚 日常 晚于 早于 连帽衫 牛仔裤 牛仔 运动裤 棒球衫 双肩包 背包 书包 背着包 个包 了包 风衣 马甲 帽衫 背心 云台 飞行员 操作员 操控员 马上 鸟瞰 海拔 校准 水平线
     水平 水准 地平线 出发 发现 发生 镜头 眼下 眼前 盯着 站立 站着 站定 站在原 站在那 站在这 站住 门清 专门 部门 无人机 飞机视角 机位 机身 江山 老是 老远
     人员 成员 街上 街道 沿街 船型 场景 现场 在场 花了 花费 花去 花掉 花上 花约 共花 天上 天空 朝天 日程 先生成
     走马 山羊绒 灯芯绒 草绿 湖蓝 雪白 桥段 星号 月牙 女式 男式 房顶高 星级 水洗";
@@ -25,12 +25,15 @@ pub const THINGS: &str = "
     眼镜 墨镜 口罩 围巾 手套 头盔 头巾 领带 围裙 皮带 项链 耳环 耳机 手表 拐杖 手杖 手机 电话 行李 公文包 手提包 腰包 钱包 面包 塑料袋 袋子 购物 报纸 杂志 抽烟 吸烟 香烟 咖啡店 奶茶 矿泉水 水瓶 气枪 相框 吉他 婴儿 推车 手推
     头发 长发 短发 卷发 白发 金发 光头 秃头 胡子 胡须 高个 矮个 瘦高 身材 年轻 年迈 年老 岁 手持 肩上 夹在 手里 手上 手中 看书 唱歌 跳舞 聊天 说笑 打电话 跑步 慢跑 奔跑 游泳";
 
-/// Characters before `着` that are about a walk, clothes and a camera; whoever does anything else does what no facts know.
-pub const GOES_ON_DOING: &str = "走跟穿背站看拍沿盯对随朝向顺持飞隔离追停压接陪守套配照冲按等歇望挨身衣有披搭罩裹斜仰俯低倾悬留空差连动转拐直瞄锁护贴绕待靠急不伫立挂活存味带制缓往前进";
+/// Verbs of the hands and of riding, before `着` and `了`; what they have is no part of a walk.
+pub const HOLDING: &str = "拿提拎抱捧握举捏叼推拖搀扶挽搂骑坐吃喝啃嚼唱哼聊翻玩打扫喂遛撑牵扛挑踩躲踏";
+/// Measure words of people, animals, vehicles and things that stand about.
+pub const MEASURES: &str = "名位只辆架艘匹头群队棵座栋所间家株盏把根台伙帮批堆排";
 /// Verbs of passing; what they pass must be of the walk.
-pub const PASSING: [&str; 22] = [
-    "路过", "途经", "途径", "穿过", "越过", "绕过", "跨过", "穿越", "横穿", "走进", "走出", "进入", "经过", "走过",
-    "绕开", "避开", "躲开", "跨越", "翻过", "爬上", "钻过", "绕着",
+pub const PASSING: [&str; 30] = [
+    "掠过", "驶过", "飞过", "飘过", "开过", "滑过", "闪过", "擦过", "路过", "途经", "途径", "穿过", "越过", "绕过",
+    "跨过", "穿越", "横穿", "走进", "走出", "进入", "经过", "走过", "绕开", "避开", "躲开", "跨越", "翻过", "爬上",
+    "钻过", "绕着",
 ];
 /// Words before a place.
 pub const BEFORE_PLACES: [&str; 20] = [
@@ -38,9 +41,9 @@ pub const BEFORE_PLACES: [&str; 20] = [
     "面对", "正对", "身处", "紧靠", "贴着", "对着",
 ];
 /// Words behind a place, or before what is there.
-pub const BESIDE: [&str; 17] = [
-    "旁边", "附近", "边上", "隔壁", "对面", "周围", "四周", "一带", "周边", "身旁", "身边", "底下", "脚下", "尽头",
-    "近旁", "跟前", "之旁",
+pub const BESIDE: [&str; 16] = [
+    "旁边", "附近", "边上", "隔壁", "对面", "周围", "四周", "一带", "周边", "身旁", "身边", "底下", "尽头", "近旁",
+    "跟前", "之旁",
 ];
 /// Words that make what a place is beside part of the walk.
 pub const OF_THE_WALK: [&str; 34] = [
@@ -83,8 +86,23 @@ pub const OF_THE_WALK: [&str; 34] = [
 pub const SOMEWHERE: [&str; 14] =
     ["身后", "前方", "前面", "后面", "头顶", "地上", "远处", "左边", "右边", "左侧", "右侧", "路上", "脚边", "上空"];
 /// Words of company, where who it is comes before them.
-pub const TOGETHER: [&str; 5] = ["一起", "一道", "一块儿", "一同", "同行"];
+pub const TOGETHER: [&str; 11] =
+    ["并排", "并行", "为伴", "结队", "搭伙", "同走", "一起", "一道", "一块儿", "一同", "同行"];
 pub const COMPANIONS_BEGIN: [&str; 4] = ["和", "与", "跟", "同"];
 /// Measure words of numbers that a walk has; before any other a number counts things.
-pub const SOME_OF: [&str; 10] =
-    ["有个", "有一个", "有位", "有一位", "有名", "有一名", "有只", "有一只", "有群", "有一群"];
+pub const SOME_OF: [&str; 14] = [
+    "来了个",
+    "来了位",
+    "来了一",
+    "来个",
+    "有个",
+    "有一个",
+    "有位",
+    "有一位",
+    "有名",
+    "有一名",
+    "有只",
+    "有一只",
+    "有群",
+    "有一群",
+];

@@ -1,16 +1,20 @@
 //! Things in English texts, by their words and by their place in a clause.
 
-use super::english_words::{
-    ABSTRACT_ENDINGS, ADJECTIVE_ENDINGS, ADJECTIVES, BARE_PLACES, DETERMINERS, FUNCTION_WORDS, HARMLESS, PERSONS,
-    THINGS,
-};
-use crate::reading::english::{Token, clauses, colour, is_garment, is_numeral};
+use super::english_words::{ADJECTIVES, BARE_PLACES, DETERMINERS, FUNCTION_WORDS, HARMLESS, PERSONS, THINGS};
+use crate::reading::LUGGAGE;
+use crate::reading::english::{Token, clauses, is_of_a_walk};
+use crate::reading::english_clothes::{colour, is_garment, is_numeral};
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 type Words = LazyLock<BTreeSet<&'static str>>;
 
 static KNOWN_THINGS: Words = LazyLock::new(|| THINGS.split_whitespace().chain(PERSONS.split_whitespace()).collect());
+/// Words for things of any kind, from a dictionary that sorts words by meaning.
+static DICTIONARY: Words = LazyLock::new(|| {
+    let lines = include_str!("wordnet_things.txt").lines().filter(|line| !line.starts_with('#'));
+    lines.flat_map(str::split_whitespace).collect()
+});
 static KNOWN_HARMLESS: Words = LazyLock::new(|| HARMLESS.split_whitespace().collect());
 static KNOWN_ADJECTIVES: Words = LazyLock::new(|| ADJECTIVES.split_whitespace().collect());
 static KNOWN_FUNCTION_WORDS: Words = LazyLock::new(|| FUNCTION_WORDS.split_whitespace().collect());
@@ -28,31 +32,51 @@ fn in_clause<'c>(clause: &'c [Token]) -> Vec<String> {
     };
     let words: Vec<&str> = clause.iter().map(word).collect();
     let is_named = |at: &usize| (is_thing(words[*at]) && !is_saying(&words, *at)) || is_aid(&words, *at);
+    // `the glass inclined 40 degrees`: what is aimed is the camera, by whatever name.
+    let is_aimed = words.iter().any(|word| ["degrees", "degree"].contains(word));
     let mut found: Vec<String> = (0..words.len()).filter(is_named).map(|at| words[at].to_owned()).collect();
-    found.extend((1..words.len()).filter_map(|at| unknown_thing(&words, at)));
+    found.extend((1..words.len()).filter_map(|at| {
+        let is_camera = is_aimed && ["the", "our", "your", "its"].contains(&words[at - 1]);
+        unknown_thing(&words, at).filter(|word| !(is_camera && words[at] == word))
+    }));
     found.dedup();
     found
 }
 
-/// The head of a phrase that begins at a place, where it is in the place of a thing and no word of a walk.
+/// A word for a thing in the phrase that begins at a place, where a determiner or a preposition says that it is one. A word that the
+/// dictionary lacks is none: what nobody knows contradicts nothing.
 fn unknown_thing(words: &[&str], at: usize) -> Option<String> {
     let before = words[at - 1];
-    let is_determined = DETERMINERS.contains(&before);
-    let is_placed = BARE_PLACES.contains(&before);
-    if !(is_determined || is_placed) || DETERMINERS.contains(&words[at]) {
+    if !(DETERMINERS.contains(&before) || BARE_PLACES.contains(&before)) || DETERMINERS.contains(&words[at]) {
         return None;
     }
-    let is_open = |word: &&&str| !is_adjective(word) || is_thing(word);
-    let head = words[at..].iter().find(is_open)?;
-    let is_known = head.is_empty()
-        || colour(head).is_some()
-        || is_harmless(head)
-        || KNOWN_FUNCTION_WORDS.contains(head)
-        || is_thing(head)
-        || has_ending(head, &ABSTRACT_ENDINGS)
-        // `in following`, `by turning`: what is done, not where.
-        || (!is_determined && head.ends_with("ing"));
-    (!is_known).then(|| (*head).to_owned())
+    // `stick to them like glue`
+    let likened = words[at.saturating_sub(3)..at].contains(&"like");
+    let is_end = |word: &str| word.is_empty() || (KNOWN_FUNCTION_WORDS.contains(word) && word != "of");
+    let phrase = words[at..].iter().take(PHRASE).take_while(|word| !is_end(word));
+    let phrase: Vec<&str> = phrase.copied().collect();
+    // What stands before a garment or luggage says more of it: `corduroy trousers`.
+    let is_clothed = phrase.iter().any(|word| is_garment(word) || in_singular(word, |it| LUGGAGE.contains(&it)));
+    let mut things = phrase.iter().filter(|word| is_in_dictionary(word));
+    things.next().filter(|_| !likened && !is_clothed).map(|word| (*word).to_owned())
+}
+
+/// Words of a phrase in which a thing is looked for.
+const PHRASE: usize = 4;
+
+/// Whether the dictionary has a word as a thing, and it is no word of a walk, clothes or a camera.
+fn is_in_dictionary(word: &str) -> bool {
+    !is_harmless(word)
+        && !is_of_a_walk(word)
+        && colour(word).is_none()
+        && !KNOWN_ADJECTIVES.contains(word)
+        && (in_singular(word, |it| DICTIONARY.contains(it)) || is_person(word))
+}
+
+/// `postwoman`, `fishermen`
+fn is_person(word: &str) -> bool {
+    ["woman", "women", "man", "men"].iter().any(|end| word.strip_suffix(end).is_some_and(|stem| stem.len() > 2))
+        && !word.ends_with("ment")
 }
 
 /// `a walking stick`, `the park`: things of words that are none in other places.
@@ -76,14 +100,6 @@ fn is_thing(word: &str) -> bool {
 
 fn is_harmless(word: &str) -> bool {
     in_singular(word, |it| KNOWN_HARMLESS.contains(it)) || is_garment(word)
-}
-
-fn is_adjective(word: &str) -> bool {
-    !is_harmless(word) && (KNOWN_ADJECTIVES.contains(word) || has_ending(word, &ADJECTIVE_ENDINGS))
-}
-
-fn has_ending(word: &str, endings: &[&str]) -> bool {
-    word.len() > 4 && endings.iter().any(|ending| word.ends_with(ending))
 }
 
 /// Whether a word or its singular is such a word.

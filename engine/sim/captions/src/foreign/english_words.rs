@@ -24,6 +24,7 @@ pub const THINGS: &str = "
     tall old young elderly bald bearded blond blonde pregnant barefoot smoking eating drinking talking chatting singing
     dancing limping cycling jogging crowd group queue audience party family police suburb village
     city town downtown countryside desert island valley cliff rock stone brick concrete sculpture mural graffiti
+    skip band orchestra choir flock herd swarm troop squad crew gang throng mob parade procession flipflop machine
     accompanied accompanies hand-in-hand zebra driveways carpark parking rickshaw wheelchair walker-frame";
 
 /// People whom no facts of a flight have, and words that say more of the target than the facts do.
@@ -62,6 +63,18 @@ pub const HARMLESS: &str = "
     total overall full level
     question charge mind care sure example instance fact detail way manner fashion style ease haste hurry rush
     result effect key note reminder attention please request footstep footfall sharp arrow beeline ruler string pin
+    follower chaser tracker pursuer watcher observer eyes lookout sentinel guardian shadow tail tailer hawk glue string tether leash
+    thread lead tabs bead sights crosshair crosshairs reticle limpet quarry heels footstep footsteps trace tracks wake nose chin
+    neck hip ankle knee elbow fingers thumb palm wrist spine torso midriff belly skin bone cuff collar hem fabric cloth
+    cotton denim wool linen leather silk fleece nylon canvas material weave knit textile stitch thread print pattern stripe
+    drop slope incline gradient plumb axis plane vertical rung notch click tick dial marker benchmark level ceiling
+    pirouette loop arc zigzag dogleg hook elbow corner fork bender lefty righty left-hander rightie hairpin
+    hop jump dash sprint plod trudge tramp promenade constitutional footwork pacer
+    rig craft bird airframe eye optic optics footage reel snapshot photograph tape monitor screen display
+    buffer cushion bumper halfway midway mile yardstick tape rule measure odometer meter watch stopwatch clock chronometer timer
+    story tale script scenario brief recipe checklist bullet nutshell summary recap upshot gist synopsis rundown
+    spot mat dime penny sixpence marble statue-still rock-still post
+    drift vend crow bird's fly
     counterpart protagonist star quarry charge lead leader wearer owner pattern trajectory itinerary standpoint hitch";
 
 /// Adjectives, and other words before a noun, that no ending gives away.
@@ -145,6 +158,3 @@ pub const BARE_PLACES: [&str; 49] = [
     "as",
     "of",
 ];
-pub const ABSTRACT_ENDINGS: [&str; 9] = ["tion", "sion", "ment", "ness", "ity", "ance", "ence", "ings", "ism"];
-pub const ADJECTIVE_ENDINGS: [&str; 12] =
-    ["ly", "al", "ous", "ful", "less", "ed", "ive", "able", "ible", "ish", "ward", "wards"];

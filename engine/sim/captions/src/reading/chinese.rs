@@ -1,10 +1,10 @@
 //! Reads Chinese texts: characters and numbers, clause by clause.
 
 use super::chinese_words::{
-    ALTITUDE_WORDS, COLOURS, DISTANCE_WORDS, GOES_ON, NO_STOP, OTHER_COLOURS, STANDING_WORDS, STOP_CHARS,
-    STRAIGHT_WORDS, TOPS, TROUSERS, WAY_WORDS,
+    COLOURS, GOES_ON, NO_STOP, NO_TURN_WORDS, SHADES, STANDING_WORDS, STOP_CHARS, STRAIGHT_WORDS, STRONG_ALTITUDE,
+    STRONG_DISTANCE, STRONG_WAY, TOPS, TROUSERS,
 };
-use super::{Claim, count, sentences};
+use super::{Claim, count, sentences, stands_for};
 use crate::compass::Compass;
 use crate::turns::TurnKind;
 
@@ -12,6 +12,7 @@ use crate::turns::TurnKind;
 pub fn read(text: &str) -> Vec<Claim> {
     let sentence = |sentence: &str| {
         let mut after_stop = false;
+        let mut before = String::new();
         let read = |clause: Vec<char>| {
             let words = without_empty_counts(&clause.iter().collect::<String>());
             // `途中停留一次，约3秒`: the time belongs to the stop.
@@ -19,7 +20,9 @@ pub fn read(text: &str) -> Vec<Claim> {
             let about_stops =
                 speaks || after_stop && (GOES_ON.iter().any(|it| words.starts_with(it)) || is_time_alone(&words));
             after_stop = about_stops && !STOP_CHARS.iter().any(|word| denied_word(&words, word));
-            read_clause(&words, about_stops)
+            let claims = read_clause(&words, &before, about_stops);
+            before = words;
+            claims
         };
         clauses(sentence).into_iter().flat_map(read).collect::<Vec<_>>()
     };
@@ -63,10 +66,11 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
     clauses
 }
 
-fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
+fn read_clause(clause: &str, before: &str, about_stops: bool) -> Vec<Claim> {
     let mut claims = vec![];
     let mut rest = clause;
-    let turns_here = ['转', '拐', '弯'].iter().any(|word| clause.contains(*word));
+    // A turn around in two words is one.
+    let turns_here = ['转', '拐', '弯', '折'].iter().any(|word| clause.contains(*word));
     while let Some(first) = rest.chars().next() {
         let at = clause.len() - rest.len();
         if let Some(after) = rest.strip_prefix("左右") {
@@ -74,23 +78,26 @@ fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
         } else if let Some((kind, times, after)) = repeated_turn(rest) {
             claims.extend(core::iter::repeat_n(Claim::Turn(kind), times));
             rest = after;
-        } else if let Some(other) = OTHER_COLOURS.iter().find(|it| rest.starts_with(**it)) {
-            claims.push(Claim::Unknown((*other).to_owned()));
-            rest = &rest[other.len()..];
+        } else if let Some((claim, after)) = shade(clause, rest) {
+            claims.push(claim);
+            rest = after;
         } else if let Some((claim, after)) = garment(rest).or_else(|| worn(clause, rest)) {
-            let denied = ["没", "未", "不", "无"].iter().any(|word| clause[..at].ends_with(word))
-                || ["没有", "未背", "不背", "没背", "没带", "未带"].iter().any(|word| clause[..at].ends_with(word));
+            let denied = denied_near(&clause[..at]);
             claims.push(if denied && claim == Claim::Backpack { Claim::NoBackpack } else { claim });
             rest = after;
         } else if let Some(after) =
-            ["一秒走", "一秒钟走", "1秒走", "一秒能走"].iter().find_map(|it| rest.strip_prefix(it))
+            ["一秒走", "一秒钟走", "1秒走", "一秒能走", "一秒钟合", "一秒合", "一秒钟", "一秒", "1秒"]
+                .iter()
+                .find_map(|it| rest.strip_prefix(it))
             && let Some((value, after)) = number(after.trim_start_matches(['约', '大', '概', '了']))
             && let Some(after) = after.strip_prefix('米')
         {
             claims.push(Claim::Speed(value));
             rest = after;
+        } else if let Some(after) = ordinal(&clause[..at], rest) {
+            rest = after;
         } else if let Some((value, after)) = number(rest) {
-            let (claim, used) = quantity(value, after, clause, at, about_stops);
+            let (claim, used) = quantity(value, after, clause, at, before, about_stops);
             claims.push(claim);
             rest = &after[used..];
         } else if let Some((direction, length)) = compass(rest) {
@@ -105,31 +112,129 @@ fn read_clause(clause: &str, about_stops: bool) -> Vec<Claim> {
                     claims.push(count(value, "次", |count| Claim::TurnsOf(kind, count)));
                     rest = &after['次'.len_utf8()..];
                 }
+                None if kind == TurnKind::Around && claims.last() == Some(&Claim::Turn(kind)) => {}
                 None => claims.push(Claim::Turn(kind)),
             }
         } else {
             rest = &rest[first.len_utf8()..];
         }
     }
-    if STANDING_WORDS.iter().any(|word| clause.contains(word)) && !about_stops {
+    // A time of standing tells a stop from a target that stands all the time.
+    let stands =
+        STANDING_WORDS.iter().any(|word| clause.contains(word)) || MOVES.iter().any(|word| denied_word(clause, word));
+    if stands && (!about_stops || is_only_standing(clause)) {
         claims.push(Claim::Stays);
     }
-    if STRAIGHT_WORDS.iter().any(|word| clause.contains(word)) || denied(clause, '转') || denied(clause, '拐') {
+    if NO_TURN_WORDS.iter().any(|word| clause.contains(word)) || TURNS.iter().any(|word| denied_word(clause, word)) {
         claims.retain(|claim| !matches!(claim, Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..)));
         claims.push(Claim::NoTurns);
-    }
-    if STOP_CHARS.iter().any(|word| denied_word(clause, word))
-        || ["一刻不停", "一口气"].iter().any(|it| clause.contains(it))
+    } else if STRAIGHT_WORDS.iter().any(|word| clause.contains(word))
+        || ["方向", "朝向", "航向"].iter().any(|it| clause.contains(it))
+            && ["不变", "没变", "未变", "一致", "恒定", "如一", "不改", "没改", "未改", "固定"]
+                .iter()
+                .any(|it| clause.contains(it))
     {
+        claims.push(Claim::Straight);
+    }
+    if STOP_CHARS.iter().any(|word| denied_word(clause, word)) || NEVER_STOPS.iter().any(|it| clause.contains(it)) {
         claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));
     } else if STOP_CHARS.iter().any(|word| clause.contains(word))
-        && !claims.iter().any(|claim| matches!(claim, Claim::Stops(_) | Claim::Standing(_)))
+        && !claims.iter().any(|claim| matches!(claim, Claim::Stops(_) | Claim::Standing(_) | Claim::Stays))
     {
         claims.push(Claim::SomeStops);
     }
     claims.extend(order_of_stop_and_turn(clause, about_stops));
-    claims
+    stands_for(claims)
+}
+
+/// Characters that, behind `上` or `下`, tell where a camera looks.
+const AIMED: &str = "调偏压倾斜探俯仰扬抬翘移摆拨打看望瞧视瞄指对垂沉弯勾挑摇";
+/// Words that, denied, say that the target stays.
+const MOVES: [&str; 14] = [
+    "移动",
+    "位移",
+    "走动",
+    "挪动",
+    "动弹",
+    "动过",
+    "挪窝",
+    "迈步",
+    "迈开",
+    "离开原",
+    "挪步",
+    "移步",
+    "挪位",
+    "动地方",
+];
+/// Words that, denied, say that a walk has no turn.
+const TURNS: [&str; 8] = ["转", "拐", "弯", "变向", "变方向", "换方向", "掉头", "调头"];
+/// Words that say that a walk has no stop.
+const NEVER_STOPS: [&str; 12] = [
+    "一刻不停",
+    "一口气",
+    "马不停蹄",
+    "一气呵成",
+    "连续不断",
+    "连贯",
+    "没断过",
+    "脚步不断",
+    "一直在走",
+    "始终在走",
+    "一直走着",
+    "脚不沾地",
+];
+
+/// `站了3秒` speaks of standing; `停在原地` of a target that stays, not of a stop.
+fn is_only_standing(clause: &str) -> bool {
+    [
+        "停在原",
+        "停留在原",
+        "站了",
+        "站着",
+        "一动不动",
+        "静止",
+        "没有移动",
+        "没有走动",
+        "站在原",
+        "没走",
+        "不走",
+        "未走",
+        "没动",
+        "未动",
+        "没挪",
+        "纹丝",
+    ]
+    .iter()
+    .any(|it| clause.contains(it))
+        && !clause.contains(['次', '回'])
+}
+
+/// Whether a text begins with a colour.
+pub(crate) fn begins_with_colour(text: &str) -> bool {
+    COLOURS.iter().any(|(name, _)| text.starts_with(name)) || SHADES.iter().any(|(name, _)| text.starts_with(name))
+}
+
+/// A shade of a garment, or said of one: `藏青色裤子`, `上衣是卡其色`.
+fn shade<'a>(clause: &str, text: &'a str) -> Option<(Claim, &'a str)> {
+    let (name, colours) = SHADES.iter().find(|(name, _)| text.starts_with(name))?;
+    let after = &text[name.len()..];
+    let is_coloured = after.starts_with('色');
+    let after = after.strip_prefix('色').unwrap_or(after);
+    let garment = after.trim_start_matches(['的', 'T']);
+    let is_top = TOPS.iter().any(|it| garment.starts_with(it));
+    let is_trousers = TROUSERS.iter().any(|it| garment.starts_with(it));
+    let before = &clause[..clause.len() - text.len()];
+    let last = |words: &[&str]| words.iter().filter_map(|word| before.rfind(word)).max();
+    let is_top = match (is_top, is_trousers) {
+        (false, false) if !is_coloured => return None,
+        (false, false) => {
+            let (top, trousers) = (last(&TOPS).max(last(&["上身"])), last(&TROUSERS).max(last(&["下身"])));
+            (top.is_some() || trousers.is_some()).then_some(top > trousers)?
+        }
+        (is_top, _) => is_top,
+    };
+    Some((Claim::Shade { is_top, name: (*name).to_owned(), colours: colours.to_vec() }, after))
 }
 
 /// `左转前停了一次`, `停留之后右转`.
@@ -164,6 +269,12 @@ fn worn<'a>(clause: &str, text: &'a str) -> Option<(Claim, &'a str)> {
     Some((claim, after))
 }
 
+/// `头一回`, `下一次`: what follows the word that counts nothing.
+fn ordinal<'a>(before: &str, text: &'a str) -> Option<&'a str> {
+    let is_one = before.ends_with(['头', '下', '上', '第', '这', '那', '每', '又', '再']);
+    ["一回", "一次", "一遭"].iter().find_map(|it| text.strip_prefix(it)).filter(|_| is_one)
+}
+
 /// `两次右转` at the start of `text`: the turn, its repetitions, and what follows.
 fn repeated_turn(text: &str) -> Option<(TurnKind, usize, &str)> {
     let (value, after) = number(text)?;
@@ -174,8 +285,22 @@ fn repeated_turn(text: &str) -> Option<(TurnKind, usize, &str)> {
 
 /// A colour before a garment at the start of `text`, or luggage; and what follows.
 pub(crate) fn garment(text: &str) -> Option<(Claim, &str)> {
-    for luggage in ["双肩背包", "双肩包", "背包", "书包", "背着包", "背着个包", "背个包", "背了包", "背了个包"]
-    {
+    for luggage in [
+        "背囊",
+        "行囊",
+        "挎包",
+        "旅行包",
+        "登山包",
+        "双肩背包",
+        "双肩包",
+        "背包",
+        "书包",
+        "背着包",
+        "背着个包",
+        "背个包",
+        "背了包",
+        "背了个包",
+    ] {
         if let Some(after) = text.strip_prefix(luggage) {
             return Some((Claim::Backpack, after));
         }
@@ -188,12 +313,14 @@ pub(crate) fn garment(text: &str) -> Option<(Claim, &str)> {
 }
 
 /// Whether a negation comes before the word in the clause.
-fn denied(clause: &str, word: char) -> bool {
-    denied_word(clause, word.encode_utf8(&mut [0; 4]))
+/// `未携带`: a negation within the last four characters.
+fn denied_near(before: &str) -> bool {
+    let last: String = before.chars().rev().take(4).collect();
+    last.contains(['没', '未', '无', '不'])
 }
 
 fn denied_word(clause: &str, word: &str) -> bool {
-    let negations = ["不", "没", "未", "无"];
+    let negations = ["不", "没", "未", "无", "零", "从来没", "毫无"];
     clause.match_indices(word).any(|(at, _)| {
         let negation = negations.iter().filter_map(|negation| clause[..at].rfind(negation)).max();
         let negation = negation.filter(|from| !NO_NEGATIONS.iter().any(|word| clause[*from..].starts_with(word)));
@@ -209,8 +336,28 @@ const NO_NEGATIONS: [&str; 6] = ["不久", "不远", "不断", "不时", "不过
 /// Characters over which a negation reaches.
 const FAR_NEGATION: usize = 8;
 
-const UNITS: [&str; 14] =
-    ["米/秒", "米每秒", "米", "公尺", "度", "°", "分钟", "分", "秒钟", "秒", "次", "回", "个弯", "个转弯"];
+const UNITS: [&str; 20] = [
+    "米/秒",
+    "米每秒",
+    "米",
+    "公尺",
+    "度",
+    "°",
+    "分钟",
+    "分",
+    "秒钟",
+    "秒",
+    "次",
+    "回",
+    "个弯",
+    "个转弯",
+    "道弯",
+    "遭",
+    "番",
+    "遍",
+    "处",
+    "个停",
+];
 
 /// A number at the start of `text`, in digits or as Chinese numerals before a unit, and what follows it.
 fn number(text: &str) -> Option<(f64, &str)> {
@@ -244,44 +391,109 @@ fn numeral(text: &str) -> Option<f64> {
     (!text.is_empty()).then_some((value + last.unwrap_or(0)) as f64)
 }
 
-/// The list that has the word nearest to a number at a place of the clause.
-fn nearest(clause: &str, at: usize, lists: &[&[&str]]) -> Option<usize> {
-    let places = |word: &&str| {
-        clause
-            .match_indices(*word)
-            .map(|(place, word)| if place < at { at - place - word.len() } else { place - at })
-            .min()
-    };
-    let of = |(number, list): (usize, &&[&str])| Some((list.iter().filter_map(places).min()?, number));
-    lists.iter().enumerate().filter_map(of).min().map(|(_, number)| number)
+/// The claim of a length: of one place where words beyond doubt of that place alone are in the clause.
+fn length(value: f64, clause: &str, at: usize) -> Claim {
+    let has = |words: &[&str]| words.iter().any(|word| clause.contains(word));
+    let before = clause[..at].trim_end_matches(['约', '大', '概', '近']);
+    let behind = clause[at..].split_once('米').map_or("", |it| it.1);
+    match (has(&STRONG_ALTITUDE), has(&STRONG_WAY), has(&STRONG_DISTANCE)) {
+        _ if ["走了", "走过", "全程"].iter().any(|it| before.ends_with(it)) => Claim::Way(value),
+        _ if ["外", "开外", "之外"].iter().any(|it| behind.starts_with(it)) => Claim::Distance(value),
+        (true, false, false) => Claim::Altitude(value),
+        (false, true, false) => Claim::Way(value),
+        (false, false, true) => Claim::Distance(value),
+        _ => Claim::Metres(value),
+    }
+}
+
+/// Whether `度` counts times: `两度停下`.
+fn is_times(after: &str) -> bool {
+    !after.starts_with("左右")
+        && after.starts_with(['停', '歇', '驻', '左', '右', '转', '拐', '掉', '等', '站', '逗', '止', '折', '休'])
 }
 
 /// The claim of a number with the unit after it, and the bytes of that unit.
-fn quantity(value: f64, after: &str, clause: &str, at: usize, about_stops: bool) -> (Claim, usize) {
+fn quantity(value: f64, after: &str, clause: &str, at: usize, context: &str, about_stops: bool) -> (Claim, usize) {
     let unit = UNITS.into_iter().find(|unit| after.starts_with(unit));
     let before = &clause[..at];
-    let is_up = ['仰', '扬', '抬'].iter().any(|word| clause.contains(*word))
-        || clause.contains("向上")
-        || ["朝上", "往上", "高于水平", "朝天"].iter().any(|word| clause.contains(word));
-    let is_down = clause.contains('俯')
-        || clause.contains("向下")
-        || ["朝下", "下压", "往下", "低于水平", "下倾", "朝地"].iter().any(|word| clause.contains(word));
-    let seconds = |value: f64| match about_stops
-        && nearest(&clause.replace("再走", ""), at, &[&STOP_CHARS, &["用时", "历时", "耗时", "走"]]) != Some(1)
-    {
-        true => Claim::Standing(value),
-        false => Claim::Duration(value),
+    // `镜头往上一挑，29度`: the words stand in the clause before.
+    let is_alone = clause.chars().all(|c| c.is_ascii_digit() || "约大概差不多度°角左右的样子到在，".contains(c));
+    let aim = if is_alone { context } else { clause }.replace("俯仰", "");
+    let has = |words: &[&str]| words.iter().any(|word| aim.contains(word));
+    let aimed = |from: char| {
+        let chars: Vec<char> = aim.replace("上一", "上").replace("下一", "下").chars().collect();
+        chars.windows(2).any(|pair| pair[0] == from && AIMED.contains(pair[1]))
+    };
+    let is_up = aimed('上')
+        || has(&[
+            "仰",
+            "扬",
+            "抬",
+            "向上",
+            "朝上",
+            "往上",
+            "高于水平",
+            "高于地平",
+            "朝天",
+            "上翘",
+            "上倾",
+            "上斜",
+            "上挑",
+            "向天",
+            "昂",
+            "翘",
+            "冲上",
+        ]);
+    let is_down = aimed('下')
+        || has(&[
+            "俯",
+            "向下",
+            "朝下",
+            "下压",
+            "往下",
+            "低于水平",
+            "低于地平",
+            "下倾",
+            "朝地",
+            "低头",
+            "下垂",
+            "下斜",
+            "下探",
+            "下沉",
+            "压低",
+            "斜下",
+            "向地",
+            "压下",
+            "下看",
+            "下拍",
+            "冲下",
+            "下打",
+            "下偏",
+            "下俯",
+            "埋",
+            "垂",
+        ]);
+    let stops = STOP_CHARS.iter().any(|word| clause.contains(word));
+    let walks = ["用时", "历时", "耗时", "走", "全程", "飞", "时长", "花", "行"]
+        .iter()
+        .any(|it| clause.replace("再走", "").contains(it));
+    let seconds = |value: f64| match (stops, walks) {
+        (true, false) => Claim::Standing(value),
+        (false, true) if !about_stops => Claim::Duration(value),
+        _ => Claim::Seconds(value),
     };
     let claim = match unit {
         Some("米/秒" | "米每秒") => Claim::Speed(value),
         Some("米" | "公尺") if before.trim_end_matches(['约', '大', '概', '走']).ends_with("每秒") => {
             Claim::Speed(value)
         }
-        Some("米" | "公尺") => match nearest(clause, at, &[&ALTITUDE_WORDS, &WAY_WORDS, &DISTANCE_WORDS]) {
-            Some(0) => Claim::Altitude(value),
-            Some(1) => Claim::Way(value),
-            _ => Claim::Distance(value),
-        },
+        Some("米" | "公尺") if value.fract() != 0.0 && clause.contains('秒') => Claim::Speed(value),
+        Some("米" | "公尺") => length(value, clause, at),
+        Some("度") if is_times(&after["度".len()..]) => {
+            count(value, "度", if about_stops { Claim::Stops } else { Claim::Turns })
+        }
+        Some("度" | "°") if value == 180.0 && !is_up && !is_down => Claim::Turn(TurnKind::Around),
+        Some("度" | "°") if is_up == is_down => Claim::Tilt(value),
         Some("度" | "°") => Claim::Pitch(if is_up && !is_down { -value } else { value }),
         Some(unit @ ("分钟" | "分")) => {
             // `1分30秒` is one time.
@@ -294,9 +506,11 @@ fn quantity(value: f64, after: &str, clause: &str, at: usize, about_stops: bool)
             seconds(60.0 * value)
         }
         Some("秒" | "秒钟") => seconds(value),
-        Some("次" | "回") if about_stops => count(value, "次", Claim::Stops),
-        Some("次" | "回") if clause.contains(['转', '拐']) => count(value, "次", Claim::Turns),
-        Some("个弯" | "个转弯") => count(value, "个弯", Claim::Turns),
+        Some("次" | "回" | "遍" | "处" | "个停" | "遭" | "番") if about_stops => {
+            count(value, "次", Claim::Stops)
+        }
+        Some("次" | "回") if clause.contains(['转', '拐', '弯', '向', '折']) => count(value, "次", Claim::Turns),
+        Some("个弯" | "个转弯" | "道弯") => count(value, "个弯", Claim::Turns),
         _ => Claim::Unknown(format!("{value}{}", unit.unwrap_or_default())),
     };
     (claim, unit.map_or(0, str::len))
@@ -334,6 +548,38 @@ fn turn(text: &str, turns_here: bool) -> Option<(TurnKind, usize)> {
         ("折返", TurnKind::Around),
         ("回头", TurnKind::Around),
         ("原路返回", TurnKind::Around),
+        ("往左一拐", TurnKind::Left),
+        ("往右一拐", TurnKind::Right),
+        ("往左一转", TurnKind::Left),
+        ("往右一转", TurnKind::Right),
+        ("左手边拐", TurnKind::Left),
+        ("右手边拐", TurnKind::Right),
+        ("左手拐", TurnKind::Left),
+        ("右手拐", TurnKind::Right),
+        ("左折", TurnKind::Left),
+        ("右折", TurnKind::Right),
+        ("折向左", TurnKind::Left),
+        ("折向右", TurnKind::Right),
+        ("拐向左", TurnKind::Left),
+        ("拐向右", TurnKind::Right),
+        ("转向左", TurnKind::Left),
+        ("转向右", TurnKind::Right),
+        ("左弯", TurnKind::Left),
+        ("右弯", TurnKind::Right),
+        ("打左", TurnKind::Left),
+        ("打右", TurnKind::Right),
+        ("向后转", TurnKind::Around),
+        ("转身", TurnKind::Around),
+        ("返身", TurnKind::Around),
+        ("折回", TurnKind::Around),
+        ("往回走", TurnKind::Around),
+        ("调转", TurnKind::Around),
+        ("掉转", TurnKind::Around),
+        ("回转", TurnKind::Around),
+        ("走回头路", TurnKind::Around),
+        ("反身", TurnKind::Around),
+        ("倒回", TurnKind::Around),
+        ("原路折", TurnKind::Around),
     ];
     let short = [("左", TurnKind::Left), ("右", TurnKind::Right)];
     let short = short.iter().filter(|_| turns_here && !text.starts_with("左右"));
@@ -350,7 +596,7 @@ mod tests {
         for (text, expected) in [
             (
                 "跟随向北行走的行人，保持约25米距离，俯仰角约45度。",
-                vec![Claim::Direction(Compass::North), Claim::Distance(25.0), Claim::Pitch(45.0)],
+                vec![Claim::Direction(Compass::North), Claim::Distance(25.0), Claim::Tilt(45.0)],
             ),
             ("仰角约5度", vec![Claim::Pitch(-5.0)]),
             ("途中停了两次，没有转弯。", vec![Claim::Stops(2), Claim::NoTurns]),
@@ -366,7 +612,7 @@ mod tests {
                 "出发后连续两次右转，再左转",
                 vec![Claim::Turn(TurnKind::Right), Claim::Turn(TurnKind::Right), Claim::Turn(TurnKind::Left)],
             ),
-            ("途中停留一次，约3秒，历时约20秒", vec![Claim::Stops(1), Claim::Standing(3.0), Claim::Duration(20.0)]),
+            ("途中停留一次，约3秒，历时约20秒", vec![Claim::Stops(1), Claim::Seconds(3.0), Claim::Duration(20.0)]),
             (
                 "身穿红色上衣、蓝色裤子、背着背包的行人",
                 vec![Claim::Top(Colour::Red), Claim::Trousers(Colour::Blue), Claim::Backpack],

@@ -1,15 +1,15 @@
 //! Reads English texts: words and numbers, clause by clause.
 
-use super::english_idioms::{is_travelled, number_follows, without_idioms};
+use super::english_clothes::{clothes_claim, colour};
+use super::english_idioms::{is_of_the_drone, is_right_of_no_turn, number_follows, without_idioms};
 use super::english_numbers::fold_numbers;
 use super::english_words::{
-    ALTITUDE_WORDS, DISTANCE_WORDS, DOWN_WORDS, DURATION_WORDS, GOES_ON, LUGGAGE, NEGATIONS, OTHER_COLOURS, STOP_WORDS,
-    TOPS, TROUSERS, UP_WORDS, WALKED, WAY_WORDS,
+    DOWN_STEMS, DURATION_WORDS, GOES_ON, LUGGAGE, MOTION, NEGATIONS, STANDS, STOP_STEMS, STOP_WORDS, STRONG_ALTITUDE,
+    STRONG_DISTANCE, STRONG_WAY, TURN_NOUNS, TURN_STEMS, UNPAUSED, UNTURNED, UP_STEMS,
 };
-use super::{Claim, count, sentences};
+use super::{Claim, count, sentences, stands_for};
 use crate::compass::Compass;
 use crate::turns::TurnKind;
-use cosfly_render::Colour;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Token {
@@ -21,13 +21,21 @@ pub(crate) enum Token {
 pub fn read(text: &str) -> Vec<Claim> {
     let sentence = |sentence: &str| {
         let mut after_stop = false;
+        let parts = clauses(sentence);
+        // `Right, here is the shot`: a word of its own that begins a sentence is no side.
+        let begins = |clause: &[Token]| matches!(clause, [Token::Word(word)] if word == "right");
+        let is_call = parts.first().is_some_and(|it| begins(it))
+            && parts
+                .get(1)
+                .and_then(|it| it.first())
+                .is_some_and(|it| !["then", "left", "right", "and", "next"].contains(&word_of(it)));
         let read = |clause: Vec<Token>| {
             let tokens = fold_numbers(clause);
             let claims = read_clause(&tokens, after_stop);
             after_stop = tokens.iter().any(|token| is_stop(word_of(token)));
             claims
         };
-        clauses(sentence).into_iter().flat_map(read).collect::<Vec<_>>()
+        parts.into_iter().skip(usize::from(is_call)).flat_map(read).collect::<Vec<_>>()
     };
     sentences(text).into_iter().flat_map(sentence).collect()
 }
@@ -45,7 +53,8 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
                 i += 1;
             }
             let digits: String = chars[start..i].iter().collect();
-            let negative = start > 0 && chars[start - 1] == '-' && (start < 2 || chars[start - 2] == ' ');
+            let negative =
+                start > 0 && matches!(chars[start - 1], '-' | '\u{2212}') && (start < 2 || chars[start - 2] == ' ');
             let value: f64 = digits.parse().unwrap_or(f64::NAN);
             clause.push(Token::Number(if negative { -value } else { value }));
         } else if chars[i].is_alphabetic() {
@@ -88,8 +97,11 @@ fn letter(chars: &[char], at: usize) -> bool {
 }
 
 fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
-    let words = without_idioms(tokens.iter().map(word_of).collect());
-    let about_stops = words.iter().any(|word| is_stop(word)) || stands_repeatedly(&words);
+    let words = seen_from(without_idioms(tokens.iter().map(word_of).collect()));
+    let drone_lingers =
+        words.iter().any(|it| ["aircraft", "drone", "craft", "quadcopter", "uav", "copter", "you"].contains(it))
+            && !words.iter().any(|it| it.starts_with("second") || ["times", "once", "twice"].contains(it));
+    let about_stops = !drone_lingers && words.iter().any(|word| is_stop(word)) || stands_repeatedly(&words);
     // `They pause once, for about 3 seconds`: the time belongs to the stop.
     let sums = || {
         words.iter().any(|word| ["altogether", "together", "total", "all", "told", "standing", "sum"].contains(word))
@@ -110,7 +122,11 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
                 }
                 let counted = i > 0 && matches!(&tokens[i - 1], Token::Number(_));
                 let claim = clothes_claim(i, &words).or_else(|| word_claim(i, &words, counted, about_stops));
-                if let Some(Claim::Turn(kind)) = claim {
+                let is_again = claim == Some(Claim::Turn(TurnKind::Around))
+                    && turns.last().is_some_and(|it| it.1 == TurnKind::Around);
+                if is_again {
+                    // A turn around in two words is one.
+                } else if let Some(Claim::Turn(kind)) = claim {
                     let times = repetitions(&tokens[i + 1..]);
                     turns.push((i, kind));
                     claims.extend(core::iter::repeat_n(Claim::Turn(kind), times));
@@ -122,16 +138,13 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
     }
     if goes_on {
         claims.retain(|claim| *claim != Claim::Stays);
-    } else if !about_stops
-        && denied(&words, |word| {
-            matches!(word, "move" | "moves" | "moving" | "moved" | "movement" | "budge" | "going" | "walk")
-        })
-    {
+    } else if !about_stops && denies_motion(&words) {
         claims.push(Claim::Stays);
     }
     // `turns left after turning right` says the later turn first.
     if let [(first, one), (second, other)] = turns[..]
-        && words[first..second].contains(&"after")
+        && (words[first..second].contains(&"after")
+            || words[first..second].windows(2).any(|it| it[0].starts_with("preced") && it[1] == "by"))
     {
         let listed = |claim: &Claim| matches!(claim, Claim::Turn(_));
         let places: Vec<usize> = (0..claims.len()).filter(|at| listed(&claims[*at])).collect();
@@ -140,19 +153,92 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
         }
     }
     claims.extend(order_of_stop_and_turn(&words, &turns));
-    if ["nonstop", "uninterrupted", "unbroken", "ceaselessly", "incessantly"].iter().any(|it| words.contains(it))
-        || denied(&words, is_stop)
-    {
+    pauses_denied(&words, about_stops, &mut claims);
+    if denied(&words, is_turning) || words.iter().any(|word| UNTURNED.contains(word)) {
+        claims.retain(|claim| !matches!(claim, Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..)));
+        claims.push(Claim::NoTurns);
+    } else if keeps_direction(&words) {
+        claims.push(Claim::Straight);
+    }
+    stands_for(claims)
+}
+
+/// No pauses, or some.
+fn pauses_denied(words: &[&str], about_stops: bool, claims: &mut Vec<Claim>) {
+    // `keeps moving throughout`, `in one go`
+    let has = |run: &[&str]| words.windows(run.len()).any(|it| it == run);
+    let goes_on = UNPAUSED.iter().any(|it| words.contains(it))
+        || [["one", "go"], ["without", "letup"], ["without", "cease"], ["all", "go"], ["single", "go"]]
+            .iter()
+            .any(|it| has(it))
+        || (words.windows(2).any(|it| it[0].starts_with("keep") && ["moving", "walking", "going"].contains(&it[1]))
+            && words.iter().any(|it| ["throughout", "whole", "entire", "always", "constantly", "all"].contains(it)));
+    let rests = |word: &str| is_stop(word) || word == "rest";
+    if goes_on || denied(words, rests) && !has(&["the", "rest"]) {
         claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));
     } else if about_stops && !claims.iter().any(|claim| matches!(claim, Claim::Stops(_))) {
         claims.push(Claim::SomeStops);
     }
-    if denied(&words, |word| word.starts_with("turn") || matches!(word, "bends" | "corners")) {
-        claims.retain(|claim| !matches!(claim, Claim::Turn(_)));
-        claims.push(Claim::NoTurns);
+}
+
+/// `does not move`, `without taking a step`, `goes nowhere`; a drone that shall not go nearer is none of that.
+fn denies_motion(words: &[&str]) -> bool {
+    let is_of_place =
+        || words.iter().any(|it| ["spot", "place", "anywhere", "position", "muscle", "foot"].contains(it));
+    let of = |word: &str| match word {
+        "leave" | "leaves" | "leaving" | "go" | "goes" | "going" | "shift" => is_of_place(),
+        word => MOTION.contains(&word) || ["mov", "stir", "budg"].iter().any(|stem| word.starts_with(stem)),
+    };
+    let near = |at: usize| if words[at].starts_with("walk") { 2 } else { 5 };
+    let is_denied = |at: &usize| {
+        let before = &words[at.saturating_sub(near(*at))..*at];
+        before.iter().rposition(|it| NEGATIONS.contains(it)).is_some_and(|from| !is_parted(&before[from..]))
+    };
+    let nowhere = words.contains(&"nowhere") && words.iter().any(|it| MOTION.contains(it));
+    nowhere || !is_of_the_drone(words) && (0..words.len()).filter(|at| of(words[*at])).any(|at| is_denied(&at))
+}
+
+/// `holds the same heading`, `straight on`: a direction that does not change.
+fn keeps_direction(words: &[&str]) -> bool {
+    let same =
+        ["same", "one", "single", "constant", "fixed", "unchanged", "unchanging", "consistent", "steady", "unaltered"];
+    let way = ["direction", "heading", "course", "bearing", "line"];
+    let is_same = || words.iter().any(|it| same.contains(it));
+    !is_of_the_drone(words) && words.iter().any(|it| way.contains(it)) && is_same()
+        || denied(words, |word| matches!(word, "direction" | "course" | "heading"))
+            && words
+                .iter()
+                .any(|it| ["change", "changes", "changing", "alter", "alters", "altering", "switch"].contains(it))
+}
+
+/// Whether a word speaks of leaving a straight line.
+fn is_turning(word: &str) -> bool {
+    TURN_STEMS.iter().any(|stem| word.starts_with(stem)) && !["turned", "cornered"].contains(&word)
+        || ["uturn", "uturns", "aboutturn"].contains(&word)
+}
+
+/// Whether a word speaks of pauses, turns or motion.
+pub(crate) fn is_of_a_walk(word: &str) -> bool {
+    is_stop(word) || is_turning(word) || MOTION.contains(&word)
+}
+
+/// Whether a denial ends before the word behind these words: `does not stop before it turns`.
+fn is_parted(between: &[&str]) -> bool {
+    between.iter().any(|it| ["before", "until", "till", "but", "then", "after", "when", "just"].contains(it))
+        || between.iter().any(|word| LUGGAGE.contains(word))
+}
+
+/// A camera that looks from above looks down.
+fn seen_from(mut words: Vec<&str>) -> Vec<&str> {
+    for at in 1..words.len() {
+        match (words[at - 1], words[at]) {
+            ("from", "above" | "overhead") => words[at] = "downward",
+            ("from", "below" | "beneath") => words[at] = "upward",
+            _ => {}
+        }
     }
-    claims
+    words
 }
 
 /// `one pause, about 3 seconds long`: a time in a clause of its own.
@@ -171,9 +257,11 @@ fn stands_repeatedly(words: &[&str]) -> bool {
 /// Whether a negation comes a few words before such a word.
 fn denied(words: &[&str], is_such: impl Fn(&str) -> bool) -> bool {
     (0..words.len()).filter(|at| is_such(words[*at])).any(|at| {
-        let before = &words[at.saturating_sub(4)..at];
+        // `never once does the walker stop`: what is denied ends the clause.
+        let is_inverted = words[..at].iter().any(|it| ["does", "do", "did"].contains(it));
+        let before = &words[at.saturating_sub(if is_inverted { 9 } else { 4 })..at];
         let negation = before.iter().rposition(|word| NEGATIONS.contains(word));
-        negation.is_some_and(|from| !before[from..].iter().any(|word| LUGGAGE.contains(word)))
+        negation.is_some_and(|from| !is_parted(&before[from..]))
     })
 }
 
@@ -199,25 +287,12 @@ fn order_of_stop_and_turn(words: &[&str], turns: &[(usize, TurnKind)]) -> Option
     Some(Claim::StopFirst(stop_first))
 }
 
-/// The list that has the word nearest to place `at`, by its number; of equally near ones the word behind counts.
+/// The list of beginnings that has the word nearest to place `at`, by its number; of equally near ones the word behind counts.
 fn nearest(words: &[&str], at: usize, lists: &[&[&str]]) -> Option<usize> {
     let places = (0..words.len()).filter(|place| *place != at);
-    let of = |word: &str| lists.iter().position(|list| list.contains(&word));
+    let of = |word: &str| lists.iter().position(|list| list.iter().any(|stem| word.starts_with(stem)));
     let found = places.filter_map(|place| Some((place.abs_diff(at), place < at, of(words[place])?)));
     found.min().map(|(_, _, list)| list)
-}
-
-/// A colour before a garment, and luggage.
-pub(crate) fn garment_claim(word: &str, next: &str) -> Option<Claim> {
-    if word == "backpack" {
-        return Some(Claim::Backpack);
-    }
-    let colour = Colour::ALL.into_iter().find(|colour| colour.name() == word)?;
-    match next {
-        "top" | "shirt" | "jacket" | "coat" => Some(Claim::Top(colour)),
-        "trousers" | "pants" | "jeans" => Some(Claim::Trousers(colour)),
-        _ => None,
-    }
 }
 
 /// How often the turn before these tokens is made: `twice`, `three times`, or once.
@@ -235,6 +310,12 @@ fn repetitions(after: &[Token]) -> usize {
 
 /// The claim of a number at a place, with the word after it, in its clause.
 fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<Claim> {
+    // `two short stops`, `3 different times`: the unit may stand behind an adjective or two.
+    let units = (at + 1..words.len()).take(3).take_while(|it| !words[*it].is_empty());
+    let is_known =
+        |it: &usize| is_unit(words[*it]) || ["s", "sec", "secs", "deg", "km/h", "kmh", "kph"].contains(&words[*it]);
+    let skipped = units.into_iter().find(is_known).map_or(0, |it| it - at - 1);
+    let at = at + skipped;
     let unit = words.get(at + 1).copied().unwrap_or_default();
     let after = |offset: usize| words.get(at + offset).copied().unwrap_or_default();
     let is_metres = matches!(unit, "m" | "metre" | "metres" | "meter" | "meters");
@@ -244,29 +325,31 @@ fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<
         return Some(Claim::Speed(value));
     }
     Some(match unit {
-        _ if is_metres => match nearest(words, at, &[&ALTITUDE_WORDS, &WAY_WORDS, &DISTANCE_WORDS]) {
-            Some(0) => Claim::Altitude(value),
-            Some(1) => Claim::Way(value),
-            Some(_) if words.contains(&"distance") && WALKED.iter().any(|word| words.contains(word)) => {
-                Claim::Way(value)
-            }
-            // With a time or a pace beside it, a length without a place is the way.
-            None if is_travelled(words) => Claim::Way(value),
-            _ if value < 0.0 => Claim::Unknown(format!("{value} {unit}")),
-            _ => Claim::Distance(value),
+        _ if is_metres && value < 0.0 => Claim::Unknown(format!("{value} {unit}")),
+        _ if is_metres => length(value, at, words),
+        "km/h" | "kmh" | "kph" => Claim::Speed((value / 0.36).round() / 10.0),
+        "degree" | "degrees" | "deg" => match nearest(words, at, &[&UP_STEMS, &DOWN_STEMS]) {
+            Some(0) => Claim::Pitch(-value),
+            None => Claim::Tilt(value),
+            _ => Claim::Pitch(value),
         },
-        "degree" | "degrees" | "deg" => {
-            Claim::Pitch(if nearest(words, at, &[&UP_WORDS, &DOWN_WORDS]) == Some(0) { -value } else { value })
-        }
         "s" | "sec" | "secs" | "second" | "seconds" => {
-            let walks = || nearest(words, at, &[&STOP_WORDS, &DURATION_WORDS]) == Some(1);
-            if about_stops && !walks() { Claim::Standing(value) } else { Claim::Duration(value) }
+            let walks = words.iter().any(|word| DURATION_WORDS.contains(word));
+            let stops = words.iter().any(|word| is_stop(word));
+            match (stops, walks) {
+                (true, false) => Claim::Standing(value),
+                (false, true) if !about_stops => Claim::Duration(value),
+                _ => Claim::Seconds(value),
+            }
         }
-        "time" | "times" | "occasions" if about_stops => count(value, unit, Claim::Stops),
+        "time" | "times" | "occasion" | "occasions" if about_stops => count(value, unit, Claim::Stops),
         // Repetitions of a turn, which the turn's own claims contain.
         "time" | "times" if words.iter().any(|word| turn_word(word).is_some()) => return None,
-        "time" | "times" if words.iter().any(|word| word.starts_with("turn")) => count(value, unit, Claim::Turns),
-        "turn" | "turns" | "corners" | "bends" => count(value, unit, Claim::Turns),
+        "time" | "times" | "occasion" | "occasions" if words.iter().any(|word| is_turning(word)) => {
+            count(value, unit, Claim::Turns)
+        }
+        "time" | "times" | "occasion" | "occasions" => count(value, unit, Claim::Times),
+        turns if TURN_NOUNS.contains(&turns) && !SIDES.contains(&after(2)) => count(value, unit, Claim::Turns),
         stop if is_stop(stop) => count(value, unit, Claim::Stops),
         side => match turn_word(side) {
             Some(kind) => count(value, unit, |count| Claim::TurnsOf(kind, count)),
@@ -275,132 +358,139 @@ fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<
     })
 }
 
-/// Clothes and luggage at a place of a clause.
-fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
-    let (word, next) = (words[at], words.get(at + 1).copied().unwrap_or_default());
-    if LUGGAGE.contains(&word) {
-        let before = &words[at.saturating_sub(4)..at];
-        let denied = before.iter().any(|word| NEGATIONS.contains(word));
-        return Some(if denied { Claim::NoBackpack } else { Claim::Backpack });
+/// The claim of a length: of one place where a word beyond doubt is near and none of another place is in the clause.
+fn length(value: f64, at: usize, words: &[&str]) -> Claim {
+    if value.fract() != 0.0 && words.contains(&"second") {
+        return Claim::Speed(value);
     }
-    if OTHER_COLOURS.contains(&word) {
-        return Some(Claim::Unknown(word.to_owned()));
-    }
-    for (ending, claim) in
-        [("shirted", Claim::Top as fn(Colour) -> Claim), ("topped", Claim::Top), ("trousered", Claim::Trousers)]
+    // With a time or a pace beside it, a length may be the way, whatever else is near.
+    if words.iter().any(|it| ["m/s", "seconds", "secs", "s"].contains(it))
+        && !words.iter().any(|it| STRONG_WAY.contains(it))
     {
-        if let Some(colour) = word.strip_suffix(ending).and_then(colour) {
-            return Some(claim(colour));
-        }
+        return Claim::Metres(value);
     }
-    let found = colour(word)?;
-    // `dressed in red and red`: both garments.
-    if at >= 2 && words[at - 1] == "and" && words[at - 2] == word && garment(Some(&next)).is_none() {
-        return Some(Claim::Trousers(found));
-    }
-    if next == "and" && words.get(at + 2) == Some(&word) && garment(words.get(at + 3)).is_none() {
-        return Some(Claim::Top(found));
-    }
-    if next == "and" {
-        // `a black and white top`, which no garment here is.
-        if let Some(other) =
-            words.get(at + 2).and_then(|word| colour(word)).filter(|_| garment(words.get(at + 3)).is_some())
-        {
-            return (other != found).then(|| Claim::Unknown(format!("{word} and {}", words[at + 2])));
-        }
-    }
-    let of_pair = || words.get(at + 3).filter(|_| next == "pair" && words.get(at + 2) == Some(&"of"));
-    if let Some(claim) = garment(Some(&next)).or_else(|| garment(of_pair())) {
-        return Some(claim(found));
-    }
-    // `a top that is red`, `trousers in black`, `red on top`
-    let before = words[at.saturating_sub(4)..at].iter().rev().find_map(|word| garment(Some(word)));
-    let link = words[at.saturating_sub(2)..at]
-        .iter()
-        .any(|word| ["is", "are", "in", "of", "coloured", "colored"].contains(word));
-    match before.filter(|_| link) {
-        Some(claim) => Some(claim(found)),
-        None => Some(Claim::Wears(found)),
+    let lists: [&[&str]; 3] = [&STRONG_ALTITUDE, &STRONG_WAY, &STRONG_DISTANCE];
+    let near =
+        |list: &&[&str]| (0..words.len()).filter(|it| list.contains(&words[*it])).map(|it| it.abs_diff(at)).min();
+    let [altitude, way, distance] = [near(&lists[0]), near(&lists[1]), near(&lists[2])];
+    let is_near = |cue: Option<usize>| cue.is_some_and(|far| far <= STRONG_REACH);
+    match (altitude, way, distance) {
+        (Some(_), None, None) if is_near(altitude) => Claim::Altitude(value),
+        (None, Some(_), None) if is_near(way) => Claim::Way(value),
+        (None, None, Some(_)) if is_near(distance) => Claim::Distance(value),
+        _ => Claim::Metres(value),
     }
 }
 
-pub(crate) fn colour(word: &str) -> Option<Colour> {
-    let word = if word == "gray" { "grey" } else { word };
-    Colour::ALL.into_iter().find(|colour| colour.name() == word)
-}
-
-/// Whether a word is a number, or a number with its unit, such as `twenty-metre`.
-pub(crate) fn is_numeral(word: &str) -> bool {
-    let tokens = fold_numbers(vec![Token::Word(word.to_owned()), Token::Word("metres".to_owned())]);
-    matches!(tokens.first(), Some(Token::Number(_))) || tokens.len() > 2
-}
-
-/// Whether a word names a top or trousers.
-pub(crate) fn is_garment(word: &str) -> bool {
-    garment(Some(&word)).is_some()
-}
-
-fn garment(word: Option<&&str>) -> Option<fn(Colour) -> Claim> {
-    match word {
-        Some(word) if TOPS.contains(word) => Some(Claim::Top),
-        Some(word) if TROUSERS.contains(word) => Some(Claim::Trousers),
-        _ => None,
-    }
-}
+/// Words between a length and a word that says beyond doubt what it is.
+const STRONG_REACH: usize = 7;
+/// Words of sides, behind which `turn` counts none.
+const SIDES: [&str; 4] = ["left", "right", "around", "round"];
 
 fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Option<Claim> {
     let (word, next) = (words[at], words.get(at + 1).copied().unwrap_or_default());
     let before = at.checked_sub(1).map_or("", |before| words[before]);
     // `right behind`, `around 25 m` are no turns.
     let is_idiom = match word {
-        "right" => {
-            // `the right distance`, `right behind`
-            let is_side =
-                ["turn", "turning", "hand", "bend", "corner", "swing", "one", "", "then", "and"].contains(&next);
-            (before == "the" && !is_side)
-                || !["turns", "turn", "turning", "turned", "takes", "then", "next", "and", ""].contains(&before)
-                    && ["behind", "above", "after", "away", "there", "on", "up", "over", "across", "beside"]
-                        .contains(&next)
-                || before == "all"
-        }
+        "right" => is_right_of_no_turn(at, words),
         "around" | "round" => {
             let is_amount =
                 words.get(at + 1) == Some(&"") && !words.get(at + 2).is_some_and(|it| it.starts_with("time"));
-            is_amount || !["turns", "turn", "turning", "turned", "then", ""].contains(&before)
+            let turns = [
+                "turns", "turn", "turning", "turned", "then", "", "wheels", "spins", "swings", "next", "later",
+                "finally",
+            ];
+            is_amount || !turns.contains(&before)
         }
-        "left" => ["is", "are", "has", "be"].contains(&before),
+        "left" => ["is", "are", "has", "be", "have", "had", "they", "them", "nothing"].contains(&before),
         _ => false,
     };
+    // `turning neither left nor right`
+    if matches!(word, "left" | "right")
+        && (["neither", "nor", "not"].contains(&before) || at > 1 && before == "or" && words.contains(&"neither"))
+    {
+        return Some(Claim::NoTurns);
+    }
     let turn = turn_word(word).filter(|_| !counted && !is_idiom).map(Claim::Turn);
-    let back = (["back", "round"].contains(&next)
-        && ["turns", "doubles", "turn", "turning", "doubling", "heads"].contains(&word))
-        || matches!(word, "reverses" | "backtracks" | "aboutturn" | "aboutface");
+    let back = turns_back(at, words)
+        || matches!(
+            word,
+            "reverses"
+                | "backtracks"
+                | "backtrack"
+                | "backtracking"
+                | "aboutturn"
+                | "aboutface"
+                | "aboutturns"
+                | "volteface"
+                | "turnaround"
+                | "turnabout"
+                | "retraces"
+                | "retracing"
+                | "reversal"
+                | "oneeighty"
+        );
     turn.or_else(|| back.then_some(Claim::Turn(TurnKind::Around)))
         .or_else(|| compass_word(word).map(Claim::Direction))
         .or(match word {
-            "straight" if !["down", "at", "above", "up"].contains(&next) => Some(Claim::NoTurns),
+            "straight" if !STRAIGHT_AT.contains(&next) => Some(Claim::Straight),
             "still" if !["walks", "walking", "keeps", "keep", "moving"].contains(&next) && !about_stops => {
                 Some(Claim::Stays)
             }
-            "stand" | "stands" | "standing" if next != "out" && !about_stops => Some(Claim::Stays),
-            "rooted" if !about_stops => Some(Claim::Stays),
-            "motionless" | "stationary" | "immobile" if !about_stops => Some(Claim::Stays),
-            "stays" | "stay" | "remains" | "remain"
-                if ["put", "where"].contains(&next) || (next == "in" && words.contains(&"place")) =>
+            "stand" if is_of_the_drone(words) => None,
+            "stand" | "stands" | "standing" | "stood" if !["out", "off", "back"].contains(&next) && !about_stops => {
+                Some(Claim::Stays)
+            }
+            standing if STANDS.contains(&standing) && !about_stops => Some(Claim::Stays),
+            "stays" | "stay" | "remains" | "remain" | "staying" | "remaining" | "keeps" | "stayed" | "remained"
+            | "glued" | "fixed" | "stuck" | "pinned" | "nailed" | "frozen"
+                if !is_of_the_drone(words)
+                    && (["put", "where"].contains(&next)
+                        || (["in", "on", "at", "to"].contains(&next)
+                            && ["place", "spot", "position", "rooted"].iter().any(|it| words.contains(it)))) =>
             {
                 Some(Claim::Stays)
             }
             "once" if about_stops => Some(Claim::Stops(1)),
             "single" if is_stop(next) => Some(Claim::Stops(1)),
+            "once" if is_turning(before) => Some(Claim::Turns(1)),
+            "twice" if is_turning(before) => Some(Claim::Turns(2)),
+            "thrice" if is_turning(before) => Some(Claim::Turns(3)),
             "twice" if about_stops && turn_word(before).is_none() => Some(Claim::Stops(2)),
             "thrice" if about_stops => Some(Claim::Stops(3)),
             _ => None,
         })
 }
 
+/// Words behind which `straight` is no way of walking.
+const STRAIGHT_AT: [&str; 14] =
+    ["down", "at", "above", "up", "away", "behind", "after", "back", "from", "into", "to", "answer", "legs", "face"];
+
+/// `turns tail`, `doubles back`, `head back the other way`
+fn turns_back(at: usize, words: &[&str]) -> bool {
+    let before = at.checked_sub(1).map_or("", |before| words[before]);
+    let next = words.get(at + 1).copied().unwrap_or_default();
+    let is_of = |stems: &[&str]| stems.iter().any(|stem| before.starts_with(stem));
+    match words[at] {
+        "round" | "tail" => is_of(&["turn", "spin", "wheel", "swing", "swivel"]),
+        "back"
+            if is_of(&[
+                "turn", "doubl", "head", "go", "goes", "walk", "com", "track", "trek", "start", "set", "circl", "loop",
+            ]) =>
+        {
+            let is_way = || words[at..].iter().any(|it| ["way", "came", "themselves"].contains(it));
+            !["to", "left", "right", "from", "of", "at"].contains(&next) && (next != "the" || is_way())
+        }
+        "way" => before == "other" && !words[..at].contains(&"back"),
+        _ => false,
+    }
+}
+
 fn compass_word(word: &str) -> Option<Compass> {
-    let stem =
-        ["wards", "ward", "bound", "erly", "ern"].iter().find_map(|ending| word.strip_suffix(ending)).unwrap_or(word);
+    let stem = ["wards", "ward", "bound", "facing", "erly", "ern"]
+        .iter()
+        .find_map(|ending| word.strip_suffix(ending))
+        .unwrap_or(word);
     Some(match stem {
         "east" => Compass::East,
         "southeast" => Compass::Southeast,
@@ -425,9 +515,7 @@ fn turn_word(word: &str) -> Option<TurnKind> {
 
 /// A pause, as verb or noun, and what keeps somebody from walking on.
 fn is_stop(word: &str) -> bool {
-    ["stop", "paus", "halt", "linger", "interrupt", "tarr", "loiter", "dawdl", "dall"]
-        .iter()
-        .any(|stem| word.starts_with(stem))
+    (STOP_STEMS.iter().any(|stem| word.starts_with(stem)) && !["tarred", "stopwatch"].contains(&word))
         || STOP_WORDS.contains(&word)
 }
 
@@ -449,7 +537,11 @@ pub fn is_unit(word: &str) -> bool {
         "corners",
         "occasions",
     ];
-    units.contains(&word) || word.starts_with("turn") || is_stop(word) || turn_word(word).is_some()
+    units.contains(&word)
+        || TURN_NOUNS.contains(&word)
+        || word.starts_with("turn")
+        || is_stop(word)
+        || turn_word(word).is_some()
 }
 
 pub(crate) fn number_word(word: &str) -> Option<f64> {
@@ -460,6 +552,7 @@ pub(crate) fn number_word(word: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_render::Colour;
 
     #[test]
     fn sentences_in_other_words_are_read() {

@@ -1,6 +1,7 @@
-//! English words that look like a place and are none, and lengths that are travelled.
+//! English words that look like a place and are none, and clauses about the drone.
 
-use super::english::colour;
+use super::english_clothes::colour;
+use super::english_words::TURN_VERBS;
 
 /// The words without those that look like places of the drone and are none: `a shirt above blue jeans`, `it is over`, `130 m are
 /// behind them`.
@@ -21,10 +22,41 @@ pub fn without_idioms(mut words: Vec<&str>) -> Vec<&str> {
     words
 }
 
-/// Whether a clause has a time or a pace.
-pub fn is_travelled(words: &[&str]) -> bool {
-    words.iter().any(|word| ["m/s", "seconds", "second", "secs", "s"].contains(word))
+/// Whether a clause speaks of the drone, its camera or how near it may come.
+pub fn is_of_the_drone(words: &[&str]) -> bool {
+    const WORDS: [&str; 24] = [
+        "camera", "lens", "gimbal", "drone", "you", "your", "yourself", "closer", "nearer", "nearest", "closest",
+        "farther", "further", "beyond", "within", "gap", "m", "metre", "metres", "meter", "meters", "aircraft",
+        "degrees", "pilot",
+    ];
+    words.iter().any(|word| WORDS.contains(word))
 }
+
+/// Whether `right` at a place is no side: `the right distance`, `right behind them`, `all right`.
+pub fn is_right_of_no_turn(at: usize, words: &[&str]) -> bool {
+    let before = at.checked_sub(1).map_or("", |before| words[before]);
+    let next = words.get(at + 1).copied().unwrap_or_default();
+    let is_side =
+        ["turn", "turning", "hand", "bend", "corner", "swing", "one", "", "then", "and", "turns", "hander", "angle"];
+    let is_place = [
+        "behind", "above", "after", "away", "there", "on", "up", "over", "across", "beside", "at", "in", "from",
+        "through", "to", "now", "where", "along", "about", "down", "before", "next", "off", "under", "below", "here",
+        "until", "into",
+    ];
+    match before {
+        "all" | "is" | "looks" | "get" | "just" => true,
+        "the" | "at" => !is_side.contains(&next),
+        before if before.starts_with("turn") || SURE.contains(&before) => false,
+        "" => is_place.contains(&next),
+        before => is_place.contains(&next) || !(TURN_VERBS.contains(&before) || is_side.contains(&next)),
+    }
+}
+
+/// Words behind which `right` is a side, whatever follows.
+const SURE: [&str; 14] = [
+    "hang", "hangs", "bear", "bears", "veer", "veers", "veering", "bearing", "hanging", "takes", "swings", "hooks",
+    "peels", "swerves",
+];
 
 /// Whether the next character that is no space is a digit.
 pub fn number_follows(chars: &[char], from: usize) -> bool {

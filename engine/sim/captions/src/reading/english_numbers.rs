@@ -61,6 +61,16 @@ fn numeral_run(tokens: &[Token]) -> Option<(f64, usize)> {
             Some(number) => value += number,
             // `a hundred`, `a hundred and five`
             None if word == "a" && !seen && tokens.get(1).is_some_and(|it| word_of(it) == "hundred") => {}
+            // `a couple of turns`, `a pair of stops`
+            None if ["couple", "pair", "brace"].contains(&word.as_str())
+                && !seen
+                && tokens.get(length + 1).is_some_and(|it| word_of(it) == "of") =>
+            {
+                return Some((2.0, length + 2));
+            }
+            None if word == "a"
+                && !seen
+                && tokens.get(1).is_some_and(|it| ["couple", "pair", "brace"].contains(&word_of(it))) => {}
             None if word == "and"
                 && seen
                 && tokens.get(length + 1).is_some_and(|it| numeral(word_of(it)).is_some()) => {}

@@ -3,9 +3,12 @@
 pub mod chinese;
 mod chinese_words;
 pub mod english;
+pub(crate) mod english_clothes;
 mod english_idioms;
 mod english_numbers;
 mod english_words;
+
+pub(crate) use english_words::LUGGAGE;
 
 use crate::compass::Compass;
 use crate::turns::TurnKind;
@@ -22,10 +25,18 @@ pub enum Claim {
     Altitude(f64),
     /// Degrees below the horizon.
     Pitch(f64),
+    /// Degrees of tilt, without a word for up or down.
+    Tilt(f64),
     /// Metres walked.
     Way(f64),
+    /// Metres of the distance, the height or the way.
+    Metres(f64),
     /// Seconds in all.
     Duration(f64),
+    /// Seconds in all, or of standing.
+    Seconds(f64),
+    /// Seconds for which the target stands: all the time, or in its stops.
+    StandsFor(f64),
     /// Metres per second.
     Speed(f64),
     /// So many stops.
@@ -36,12 +47,16 @@ pub enum Claim {
     Standing(f64),
     /// The next turn.
     Turn(TurnKind),
+    /// So many times something was done: stops or turns.
+    Times(usize),
     /// So many turns.
     Turns(usize),
     /// So many turns to this side.
     TurnsOf(TurnKind, usize),
-    /// Straight on.
+    /// No turns.
     NoTurns,
+    /// Straight on, before a turn or all the way.
+    Straight,
     /// The target wears a top of this colour.
     Top(Colour),
     /// The target wears trousers of this colour.
@@ -52,6 +67,15 @@ pub enum Claim {
     NoBackpack,
     /// Something that the target wears has this colour.
     Wears(Colour),
+    /// A garment has one of these colours.
+    Shade {
+        /// Whether it is the top, not the trousers.
+        is_top: bool,
+        /// The shade in the text.
+        name: String,
+        /// Colours that it may be taken for.
+        colours: Vec<Colour>,
+    },
     /// The target stays where it is.
     Stays,
     /// The only stop comes before the only turn, or after it.
@@ -83,4 +107,19 @@ fn count(value: f64, otherwise: &str, claim: impl Fn(usize) -> Claim) -> Claim {
     } else {
         Claim::Unknown(format!("{value} {otherwise}"))
     }
+}
+
+/// Standing with a time is a stop, or the whole flight of a target that stands.
+fn stands_for(claims: Vec<Claim>) -> Vec<Claim> {
+    if !claims.contains(&Claim::Stays) {
+        return claims;
+    }
+    let has_time =
+        claims.iter().any(|claim| matches!(claim, Claim::Seconds(_) | Claim::Duration(_) | Claim::Standing(_)));
+    let timed = |claim: Claim| match claim {
+        Claim::Seconds(value) | Claim::Duration(value) | Claim::Standing(value) => Some(Claim::StandsFor(value)),
+        Claim::Stays if has_time => None,
+        other => Some(other),
+    };
+    claims.into_iter().filter_map(timed).collect()
 }

@@ -4,7 +4,7 @@ use super::facts::{Across, Part, Place, Side};
 use super::landmark_reading::{LandmarkClaim, of_chinese, of_english};
 use crate::language::Language;
 use crate::reading::english::Token;
-use crate::reading::{Claim, chinese, english};
+use crate::reading::{Claim, chinese, english, english_clothes};
 use cosfly_render::Colour;
 
 /// One claim of a text about a picture.
@@ -100,7 +100,7 @@ fn read_english(tokens: &[Token]) -> Vec<SightClaim> {
             ("still", _) => Some(SightClaim::Across(Across::Stands)),
             ("hidden", _) => Some(SightClaim::Hidden),
             ("cannot", _) if starts(&["cannot be seen"]) => Some(SightClaim::Hidden),
-            _ => english::garment_claim(word, next).map(|claim| of_garment(claim, is_near)),
+            _ => english_clothes::garment_claim(word, next).map(|claim| of_garment(claim, is_near)),
         });
     }
     claims.extend(landmark);
