@@ -70,7 +70,8 @@ pub fn score(
 ) -> Result<Vec<MethodTallies>> {
     let clusters = clusters(flights, windows);
     let seen = is_seen(flights);
-    let mut sums: Vec<Sums> = methods.iter().map(|it| Sums::new(&clusters, windows.shape.horizon, it.by_stratum)).collect();
+    let mut sums: Vec<Sums> =
+        methods.iter().map(|it| Sums::new(&clusters, windows.shape.horizon, it.by_stratum)).collect();
     let mut first = 0;
     for part in flights.parts(&windows.flights, &|entry| entry.0) {
         let chosen: Vec<usize> = part.iter().map(|entry| entry.0).collect();
@@ -151,7 +152,9 @@ impl Sums {
     fn add(&mut self, by_flight: &[FlightTally], clusters: &[usize]) {
         for (flight, cluster) in by_flight.iter().zip(clusters) {
             self.overall[*cluster].add(&flight.overall);
-            for (stratum, tally) in self.strata.iter_mut().zip(&flight.strata).filter(|(stratum, _)| !stratum.is_empty()) {
+            for (stratum, tally) in
+                self.strata.iter_mut().zip(&flight.strata).filter(|(stratum, _)| !stratum.is_empty())
+            {
                 stratum[*cluster].add(tally);
             }
             self.by_step_m.iter_mut().zip(&flight.by_step_m).for_each(|(sum, more)| *sum += more);

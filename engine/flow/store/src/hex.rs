@@ -67,7 +67,8 @@ mod tests {
         push_digest(&mut text, &digest);
         assert_eq!(text, digest.to_string());
         assert_eq!(digest_of_hex(&text), Some(digest));
-        for wrong in ["", "0", &text[1..], &format!("{text}0"), &text.to_uppercase(), &"g".repeat(64), &"é".repeat(32)] {
+        for wrong in ["", "0", &text[1..], &format!("{text}0"), &text.to_uppercase(), &"g".repeat(64), &"é".repeat(32)]
+        {
             assert_eq!(digest_of_hex(wrong), None, "{wrong}");
         }
     }

@@ -115,8 +115,17 @@ impl Index {
         let ends = plans.checked_add(count.checked_mul(DIGEST)?)?;
         let entries = ends.checked_add(count.checked_mul(NUMBER)?)?;
         let firsts = firsts(bytes.get(plans..ends)?);
-        (entries <= bytes.len())
-            .then_some(Self { run, done_stamps, blob_stamps, bytes, count, plans, ends, entries, firsts })
+        (entries <= bytes.len()).then_some(Self {
+            run,
+            done_stamps,
+            blob_stamps,
+            bytes,
+            count,
+            plans,
+            ends,
+            entries,
+            firsts,
+        })
     }
 
     /// Number of an entry; `None` where the task is not indexed.

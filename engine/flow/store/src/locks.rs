@@ -101,13 +101,14 @@ mod tests {
         let layout = Layout::create_or_check(&folder.path().join("store")).unwrap();
         let (one, _one) = owner(folder.path(), "one");
         let (two, _two) = owner(folder.path(), "two");
-        let plan = Digest::of(b"task");
+        let (plan, other_plan) = (Digest::of(b"task"), Digest::of(b"other"));
         for (first, others) in [(None, [None, Some(&one)]), (Some(&one), [Some(&one), Some(&two)])] {
-            let take = |owner: Option<&PathBuf>, plan| TaskLock::try_take(&layout, owner.map(PathBuf::as_path), plan);
+            let take =
+                |owner: Option<&PathBuf>, plan: &Digest| TaskLock::try_take(&layout, owner.map(PathBuf::as_path), plan);
             let held = take(first, &plan).unwrap();
             assert!(held.is_some());
             assert!(others.iter().all(|other| take(*other, &plan).unwrap().is_none()));
-            assert!(take(first, &Digest::of(b"other")).unwrap().is_some());
+            assert!(take(first, &other_plan).unwrap().is_some());
             drop(held);
             assert!(take(others[1], &plan).unwrap().is_some());
             assert_eq!(fs::read_dir(layout.root.join("locks")).unwrap().count(), 0);
@@ -125,15 +126,10 @@ mod tests {
             std::mem::forget(TaskLock::try_take(&layout, Some(&dead), &plan).unwrap());
             assert!(TaskLock::try_take(&layout, Some(&owners[0].0), &plan).unwrap().is_none(), "it lives");
             drop(file);
+            let take = |owner: &PathBuf| TaskLock::try_take(&layout, Some(owner), &plan).unwrap();
             let taken: Vec<Option<TaskLock>> = std::thread::scope(|scope| {
-                let take = |owner: &PathBuf| loop {
-                    // One that finds another removing the dead one's file tries again, as a run does.
-                    let taken = TaskLock::try_take(&layout, Some(owner), &plan).unwrap();
-                    if taken.is_some() || File::open(layout.root.join("locks").join(format!("task-{plan}"))).is_ok() {
-                        return taken;
-                    }
-                };
-                let threads: Vec<_> = owners.iter().map(|(owner, _)| scope.spawn(|| take(owner))).collect();
+                let take = &take;
+                let threads: Vec<_> = owners.iter().map(|(owner, _)| scope.spawn(move || take(owner))).collect();
                 threads.into_iter().map(|thread| thread.join().unwrap()).collect()
             });
             assert!(taken.iter().flatten().count() <= 1, "two hold one task");

@@ -20,7 +20,8 @@ impl Present {
         let heads_of = |shard: &u8| -> io::Result<Vec<u64>> {
             Ok(store.layout.list_shard(area, *shard)?.iter().map(head).collect())
         };
-        let listed: io::Result<Vec<Vec<u64>>> = side_by_side(&shards, SHARDS_PER_THREAD, heads_of).into_iter().collect();
+        let listed: io::Result<Vec<Vec<u64>>> =
+            side_by_side(&shards, SHARDS_PER_THREAD, heads_of).into_iter().collect();
         let heads = listed.map_err(|error| {
             Diagnostic::io(format!("list `{}`", store.layout.folder(area.folder()).display()), &error)
         })?;

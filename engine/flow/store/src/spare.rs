@@ -52,22 +52,27 @@ impl<'s> Spare<'s> {
     ///
     /// # Errors
     /// Lost blobs, and refusals of the operating system.
-    pub(crate) fn update(&self, blobs: &Blobs, verified: &Verified, marker: &str) -> Result<Option<Vec<Option<Stamp>>>> {
+    pub(crate) fn update(
+        &self,
+        blobs: &Blobs,
+        verified: &Verified,
+        marker: &str,
+    ) -> Result<Option<Vec<Option<Stamp>>>> {
         let refused = |error: io::Error| Diagnostic::io(format!("write `{}`", self.path.display()), &error);
-        if !self.path.is_dir() {
+        if !fs::symlink_metadata(&self.path).is_ok_and(|metadata| metadata.is_dir()) {
             return Ok(None);
         }
         self.remove_others(blobs).map_err(refused)?;
         let files: Vec<(&String, &BlobRef)> = blobs.iter().collect();
         let stayed = side_by_side(&files, PER_THREAD, |(name, blob)| {
-            verified.same_file(&blob.digest, &self.path.join(name)).map_or_else(
-                || self.replace(name, blob, verified).map(|()| None),
-                |stamp| Ok(Some(stamp)),
-            )
+            verified
+                .same_file(&blob.digest, &self.path.join(name))
+                .map_or_else(|| self.replace(name, blob, verified).map(|()| None), |stamp| Ok(Some(stamp)))
         });
         let mut stayed = stayed.into_iter().collect::<Result<Vec<_>>>()?;
         // A new name of a file changes its time of last status change.
-        let is_placed = |(file, stayed): (&(&String, &BlobRef), &Option<Stamp>)| stayed.is_none().then_some(file.1.digest);
+        let is_placed =
+            |(file, stayed): (&(&String, &BlobRef), &Option<Stamp>)| stayed.is_none().then_some(file.1.digest);
         let placed: BTreeSet<Digest> = files.iter().zip(&stayed).filter_map(is_placed).collect();
         for ((_, blob), stamp) in files.iter().zip(&mut stayed) {
             *stamp = stamp.filter(|_| !placed.contains(&blob.digest));
@@ -131,7 +136,11 @@ pub(crate) fn sweep_spares(layout: &Layout) -> io::Result<()> {
         let entry = entry?;
         let spare = entry.path();
         if !entry.file_type()?.is_dir() || !layout.folder("out").join(entry.file_name()).exists() {
-            if entry.file_type()?.is_dir() { fs::remove_dir_all(&spare)? } else { fs::remove_file(&spare)? }
+            if entry.file_type()?.is_dir() {
+                fs::remove_dir_all(&spare)?
+            } else {
+                fs::remove_file(&spare)?
+            }
             continue;
         }
         let mut listed = Listed::default();
