@@ -86,7 +86,7 @@ impl<'s> Spare<'s> {
         unless_gone(fs::remove_file(self.path.join(VERSION_FILE)))?;
         let mut listed = Listed::default();
         list(&self.path, "", &mut listed)?;
-        for name in listed.files.iter().filter(|name| !blobs.contains_key(*name)) {
+        for name in listed.files.iter().filter(|name| !blobs.contains_key(name)) {
             fs::remove_file(self.path.join(name))?;
         }
         let parents: BTreeSet<&str> = blobs.keys().flat_map(|name| parents_of(name)).collect();
