@@ -6,7 +6,7 @@ use crate::report::result::{
     AnchorReport, AnchoredMethod, DatasetFacts, Evaluation, MethodReport, RowFacts, StratumReport, WindowFacts,
 };
 use crate::report::score::{Score, Scores};
-use crate::scoring::{MethodTallies, clusters, score, total};
+use crate::scoring::{MethodTallies, Scored, clusters, score, total};
 use crate::settings::{InputRole, Settings};
 use crate::strata::STRATA;
 use crate::windows::{Flights, WindowSet};
@@ -59,8 +59,9 @@ pub fn evaluate(
     let mut others: Vec<Method<'_>> = vec![];
     others.extend(file.is_some().then_some(Method::Predictions(&given, &joined)));
     others.extend(baselines(flights, &other, scored, false, &mut vec![])?);
-    let with_settings = methods.iter().map(|it| (it, settings)).chain(others.iter().map(|it| (it, &other)));
-    let mut tallies = score(&with_settings.collect::<Vec<_>>(), flights, &windows, &wanted)?;
+    let of_anchor = methods.iter().map(|method| Scored { method, settings, by_stratum: true });
+    let of_other = others.iter().map(|method| Scored { method, settings: &other, by_stratum: false });
+    let mut tallies = score(&of_anchor.chain(of_other).collect::<Vec<_>>(), flights, &windows, &wanted)?;
     let tallies_of_others = tallies.split_off(methods.len());
     let reports = (methods.par_iter().zip(&tallies)).map(|(method, it)| method_report(method, it, settings)).collect();
     let anchored = |(method, tallies): (&Method<'_>, &MethodTallies)| {

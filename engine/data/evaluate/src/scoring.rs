@@ -47,26 +47,37 @@ struct FlightTally {
     by_step_m: Vec<f64>,
 }
 
-/// Scores methods, each with its settings, on the windows for which `wanted` holds. Tracks of some flights are in memory at a
-/// time. The sums are taken in the order of windows, whatever thread did what.
+/// A method to score.
+#[derive(Clone, Copy)]
+pub struct Scored<'a> {
+    /// The method.
+    pub method: &'a Method<'a>,
+    /// Its settings.
+    pub settings: &'a Settings,
+    /// Whether the strata are wanted, too: nine times the memory.
+    pub by_stratum: bool,
+}
+
+/// Scores methods on the windows for which `wanted` holds. Tracks of some flights are in memory at a time. The sums are taken in the order of windows, whatever thread did what.
 ///
 /// # Errors
 /// Damage of the dataset.
 pub fn score(
-    methods: &[(&Method<'_>, &Settings)],
+    methods: &[Scored<'_>],
     flights: &Flights,
     windows: &WindowSet,
     wanted: &(dyn Fn(usize) -> bool + Sync),
 ) -> Result<Vec<MethodTallies>> {
     let clusters = clusters(flights, windows);
     let seen = is_seen(flights);
-    let mut sums: Vec<Sums> = methods.iter().map(|_| Sums::new(&clusters, windows.shape.horizon)).collect();
+    let mut sums: Vec<Sums> =
+        methods.iter().map(|it| Sums::new(&clusters, windows.shape.horizon, it.by_stratum)).collect();
     let mut first = 0;
     for part in flights.parts(&windows.flights, &|entry| entry.0) {
         let chosen: Vec<usize> = part.iter().map(|entry| entry.0).collect();
         let loaded = flights.part(&chosen)?;
         let memberships = memberships(&loaded, windows, &seen, part);
-        sums.par_iter_mut().zip(methods).for_each(|(sums, (method, settings))| {
+        sums.par_iter_mut().zip(methods).for_each(|(sums, Scored { method, settings, .. })| {
             let of_flight = |(entry, memberships): (&(usize, usize), &Vec<Membership>)| {
                 tally(method, settings, &loaded, windows, *entry, memberships, wanted)
             };
@@ -120,7 +131,7 @@ fn tally(
     sum
 }
 
-/// Sums of a method, cluster by cluster.
+/// Sums of a method, cluster by cluster; those of strata are empty where they are not wanted.
 struct Sums {
     overall: Vec<Tally>,
     strata: [Vec<Tally>; COUNT],
@@ -128,11 +139,12 @@ struct Sums {
 }
 
 impl Sums {
-    fn new(clusters: &[usize], horizon: usize) -> Self {
+    fn new(clusters: &[usize], horizon: usize, by_stratum: bool) -> Self {
         let number = clusters.iter().max().map_or(0, |last| last + 1);
+        let of_stratum = if by_stratum { number } else { 0 };
         Self {
             overall: vec![Tally::default(); number],
-            strata: core::array::from_fn(|_| vec![Tally::default(); number]),
+            strata: core::array::from_fn(|_| vec![Tally::default(); of_stratum]),
             by_step_m: vec![0.0; horizon],
         }
     }
@@ -140,7 +152,9 @@ impl Sums {
     fn add(&mut self, by_flight: &[FlightTally], clusters: &[usize]) {
         for (flight, cluster) in by_flight.iter().zip(clusters) {
             self.overall[*cluster].add(&flight.overall);
-            for (stratum, tally) in self.strata.iter_mut().zip(&flight.strata) {
+            for (stratum, tally) in
+                self.strata.iter_mut().zip(&flight.strata).filter(|(stratum, _)| !stratum.is_empty())
+            {
                 stratum[*cluster].add(tally);
             }
             self.by_step_m.iter_mut().zip(&flight.by_step_m).for_each(|(sum, more)| *sum += more);

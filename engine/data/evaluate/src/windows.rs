@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Frames whose tracks are in memory at a time.
-const FRAMES_AT_ONCE: usize = 1_000_000;
+const FRAMES_AT_ONCE: usize = 250_000;
 
 /// A dataset's flights, with the tracks of all or some of them.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ pub struct Window {
 }
 
 impl Flights {
-    /// Reads the flights of `dataset`; their tracks, too, where they have a million frames at most.
+    /// Reads the flights of `dataset`; their tracks, too, where they have a quarter of a million frames at most.
     ///
     /// # Errors
     /// Damage of the dataset: an expert that is not there, or frames that an expert does not have.
@@ -57,7 +57,7 @@ impl Flights {
     /// # Errors
     /// Those of [`Self::read`].
     pub fn with_frames_at_once(dataset: &PublishedDataset, frames_at_once: usize) -> Result<Self> {
-        let rows = dataset.flights().to_vec();
+        let rows = dataset.shared_flights();
         let mut expert = Vec::with_capacity(rows.len());
         for (place, row) in rows.iter().enumerate() {
             let of = row.expert_id.as_ref().map_or(Some(place), |id| dataset.place(id));
@@ -72,7 +72,7 @@ impl Flights {
         let mut flights = Self {
             name,
             folder: folder.display().to_string(),
-            rows: Arc::new(rows),
+            rows,
             expert: Arc::new(expert),
             by_key: Arc::new(by_key),
             dataset: Arc::new(dataset.clone()),

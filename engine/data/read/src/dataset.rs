@@ -9,6 +9,7 @@ use cosfly_schema::Split;
 use cosfly_schema::tables::{People, Rejected};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 /// Most ids listed in an error.
 const LISTED: usize = 8;
@@ -17,9 +18,10 @@ const LISTED: usize = 8;
 #[derive(Clone, Debug)]
 pub struct PublishedDataset {
     folder: PathBuf,
-    flights: Vec<PublishedFlight>,
+    /// Shared by the copies of this.
+    flights: Arc<Vec<PublishedFlight>>,
     /// Places of the flights in the order of their ids.
-    by_id: Vec<u32>,
+    by_id: Arc<Vec<u32>>,
 }
 
 impl PublishedDataset {
@@ -28,7 +30,7 @@ impl PublishedDataset {
     /// # Errors
     /// `dataset-none` where there is no dataset, otherwise damage of its files.
     pub fn open(folder: &Path) -> Result<Self> {
-        let mut dataset = Self { folder: folder.to_owned(), flights: vec![], by_id: vec![] };
+        let mut dataset = Self { folder: folder.to_owned(), flights: Arc::default(), by_id: Arc::default() };
         let (mut flights, mut shared): (Vec<PublishedFlight>, _) = (vec![], Shared::default());
         for (split, path) in dataset.files("trajectories")? {
             read(&path, &mut |rows| {
@@ -43,9 +45,10 @@ impl PublishedDataset {
         if flights.is_empty() {
             return Err(no_dataset(folder));
         }
-        dataset.by_id = (0..flights.len() as u32).collect();
-        dataset.by_id.sort_by(|a, b| flights[*a as usize].trajectory_id.cmp(&flights[*b as usize].trajectory_id));
-        dataset.flights = flights;
+        let mut by_id: Vec<u32> = (0..flights.len() as u32).collect();
+        by_id.sort_by(|a, b| flights[*a as usize].trajectory_id.cmp(&flights[*b as usize].trajectory_id));
+        flights.shrink_to_fit();
+        (dataset.flights, dataset.by_id) = (Arc::new(flights), Arc::new(by_id));
         Ok(dataset)
     }
 
@@ -57,6 +60,11 @@ impl PublishedDataset {
     /// All trajectories.
     pub fn flights(&self) -> &[PublishedFlight] {
         &self.flights
+    }
+
+    /// All trajectories, to be kept without a copy.
+    pub fn shared_flights(&self) -> Arc<Vec<PublishedFlight>> {
+        Arc::clone(&self.flights)
     }
 
     /// Parquet files of a table with the names of their splits, in the order train, val, test; none where the dataset

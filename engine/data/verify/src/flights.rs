@@ -20,7 +20,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Flights of one file that are checked side by side.
 const TOGETHER: usize = 16;
 /// Files of table `frames` whose findings are joined at a time, per thread.
-const FILES_PER_THREAD: usize = 4;
+const FILES_PER_THREAD: usize = 16;
 
 /// Digest of the motion of a flight.
 pub type Motion = [u8; 16];

@@ -35,11 +35,13 @@ pub use options::Options;
 pub use report::{Finding, LabelGap, VerifyReport};
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use files::CheckedFiles;
 use flights::Flights;
 use options::Wanted;
 use resume::ResumeFile;
 use std::path::Path;
 use std::sync::mpsc;
+use tables::SmallTables;
 
 /// Checks the dataset in `folder`. `progress` hears how many of all flights are done. An error means that the
 /// folder could not be read or holds no dataset; everything else is a finding.
@@ -72,32 +74,41 @@ pub fn verify(folder: &Path, options: &Options, progress: &mut dyn FnMut(u64, u6
 fn check(folder: &Path, options: &Options, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<VerifyReport> {
     let mut report = VerifyReport::default();
     let files = files::check(folder, &mut report)?;
-    let tables = tables::read(folder, &files, &mut report);
-    let wanted = Wanted::of(&tables.flights, options.sample);
-    let resume = options.resume.as_deref().map(|path| ResumeFile::open(path, folder, &files)).transpose()?;
-    report.flights_of_dataset = tables.flights.len() as u64;
-    // Both halves read whole tables, each on one thread.
-    let (of_splits, rest) = rayon::join(
-        || {
-            let mut report = VerifyReport::default();
-            splits::check(folder, &tables, &mut report);
-            report
-        },
+    // The lint of the splits runs on one thread; the other threads do everything else meanwhile.
+    let (leaks, rest) = rayon::join(
+        || splits::lint(folder),
         || -> Result<_> {
-            let mut report = VerifyReport::default();
-            croissant::check(folder, &files, &mut report)?;
-            extras::check(folder, &files, &tables, &mut report);
-            let flights = Flights::new(folder, &files, &tables, &wanted, resume, &mut report);
-            windows::check(&flights, &mut report);
-            Ok((flights, report))
+            let tables = tables::read(folder, &files, &mut report);
+            let mut of_flights = VerifyReport::default();
+            check_flights(folder, options, &files, &tables, &mut of_flights, progress)?;
+            Ok((tables, of_flights))
         },
     );
-    let (flights, of_tables) = rest?;
-    report.absorb(of_splits);
-    report.absorb(of_tables);
-    let motions = flights.check_all(&mut report, progress)?;
-    waypoints::check(&flights, &motions, &mut report);
+    let (tables, of_flights) = rest?;
+    report.flights_of_dataset = tables.flights.len() as u64;
+    splits::check(&tables, leaks, &mut report);
+    report.absorb(of_flights);
     Ok(report)
+}
+
+/// Checks everything but files, small tables and splits.
+fn check_flights(
+    folder: &Path,
+    options: &Options,
+    files: &CheckedFiles,
+    tables: &SmallTables,
+    report: &mut VerifyReport,
+    progress: &(dyn Fn(u64, u64) + Sync),
+) -> Result<()> {
+    let wanted = Wanted::of(&tables.flights, options.sample);
+    let resume = options.resume.as_deref().map(|path| ResumeFile::open(path, folder, files)).transpose()?;
+    croissant::check(folder, files, report)?;
+    extras::check(folder, files, tables, report);
+    let flights = Flights::new(folder, files, tables, &wanted, resume, report);
+    windows::check(&flights, report);
+    let motions = flights.check_all(report, progress)?;
+    waypoints::check(&flights, &motions, report);
+    Ok(())
 }
 
 /// Why nothing in `folder` can be checked, if so. One part of a dataset is enough: missing others are findings.

@@ -88,6 +88,7 @@ impl VerifyReport {
     /// Adds the numbers and findings of a later part of the check.
     pub(super) fn absorb(&mut self, part: Self) {
         self.found += part.found;
+        self.sample = self.sample.or(part.sample);
         let room = KEPT_FINDINGS.saturating_sub(self.findings.len());
         self.findings.extend(part.findings.into_iter().take(room));
         self.files += part.files;

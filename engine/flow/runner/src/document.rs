@@ -113,7 +113,9 @@ fn push_artifact(text: &mut String, index: usize, artifact: &Artifact) {
     for (index, (name, blob)) in artifact.blobs.iter().enumerate() {
         text.push_str(comma(index));
         push_quoted(text, name);
-        let _ = write!(text, ":\"{}\"", blob.digest);
+        text.push_str(":\"");
+        push_digest(text, &blob.digest);
+        text.push('"');
     }
     text.push_str("},\"item\":");
     push_quoted(text, &artifact.name);

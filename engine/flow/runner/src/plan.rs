@@ -4,12 +4,15 @@ use crate::document::{Definition, PlannedInput, PortDocument, gather_document, p
 use crate::reason::Reason;
 use crate::sources::HashedSource;
 use cosfly_diagnose::Result;
-use cosfly_fingerprint::{Digest, canonical_json};
+use cosfly_fingerprint::{Digest, DigestOfPieces, canonical_json};
 use cosfly_recipe::{Arrival, Connection, Recipe, RecipeStage};
 use cosfly_stage::{Sees, StageName};
 use cosfly_store::{Finished, PastRun, PastStage, Store};
 use serde_json::json;
 use std::path::Path;
+
+/// Plan digests that are hashed at once.
+const PIECE: usize = 4096;
 
 /// All tasks of a recipe, held against a store.
 pub struct Plan<'r> {
@@ -105,8 +108,10 @@ impl Plan<'_> {
 
     /// Digest over all plan digests.
     pub(crate) fn run_digest(&self) -> Digest {
-        let plans = self.stages.iter().flat_map(|stage| stage.plans.iter().flat_map(|plan| plan.0));
-        Digest::of(&plans.collect::<Vec<u8>>())
+        let mut plans = DigestOfPieces::default();
+        let each = self.stages.iter().flat_map(|stage| stage.plans.chunks(PIECE));
+        each.for_each(|piece| plans.add(&piece.iter().map(|plan| plan.0).collect::<Vec<_>>().concat()));
+        plans.digest()
     }
 
     /// Plan document of an item.

@@ -47,10 +47,12 @@ fn made<'r>(recipe: &'r Recipe, store: &Store, asked: Option<usize>, make_again:
     find_finished(&mut plan, store);
     store.check_remote()?;
     find_needed(&mut plan, asked, make_again);
-    predict(&mut plan);
-    predict_files(&mut plan);
-    predict_time(&mut plan, store);
-    reasons::give_reasons(&mut plan, store);
+    if plan.to_run() > 0 {
+        predict(&mut plan);
+        predict_files(&mut plan);
+        predict_time(&mut plan, store);
+        reasons::give_reasons(&mut plan, store);
+    }
     Ok(plan)
 }
 
@@ -130,9 +132,9 @@ fn find_needed(plan: &mut Plan<'_>, asked: Option<usize>, make_again: bool) {
         if is_asked(stage) {
             plan.stages[stage].needed.fill(true);
         }
+        let will_run: Vec<usize> =
+            (0..described.items.len()).filter(|item| plan.stages[stage].will_run(*item)).collect();
         for connection in &described.connections {
-            let will_run: Vec<usize> =
-                (0..described.items.len()).filter(|item| plan.stages[stage].will_run(*item)).collect();
             let mut mark = |arrival: &Arrival| {
                 let upstream = &mut plan.stages[arrival.stage];
                 upstream.needed[arrival.item] = true;

@@ -2,6 +2,7 @@
 
 use cosfly_blobs::BlobRef;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::iter::Zip;
 use std::ops::Index;
@@ -22,6 +23,12 @@ pub struct Blobs {
 }
 
 impl Blobs {
+    /// Blobs and their names, in order; `None` where the names are not in order.
+    pub fn in_order(names: &[&str], blobs: Vec<BlobRef>) -> Option<Self> {
+        let is_sound = names.len() == blobs.len() && names.windows(2).all(|pair| pair[0] < pair[1]);
+        is_sound.then(|| Self { names: recent(names), blobs: blobs.into() })
+    }
+
     /// The blob called `name`.
     pub fn get(&self, name: &str) -> Option<&BlobRef> {
         self.names.binary_search_by(|known| known.as_str().cmp(name)).ok().map(|at| &self.blobs[at])
@@ -76,6 +83,27 @@ fn shared(names: Vec<String>) -> Arc<[String]> {
         lists.insert(Arc::clone(&names));
     }
     names
+}
+
+/// Lists of names that a thread remembers.
+const MOST_RECENT: usize = 8;
+
+/// As [`shared`], without a copy of the names where this thread had the same list not long ago.
+fn recent(names: &[&str]) -> Arc<[String]> {
+    thread_local! {
+        static RECENT: RefCell<Vec<Arc<[String]>>> = const { RefCell::new(Vec::new()) };
+    }
+    RECENT.with_borrow_mut(|lists| {
+        if let Some(known) = lists.iter().find(|list| list.iter().eq(names)) {
+            return Arc::clone(known);
+        }
+        let list = shared(names.iter().map(|name| (*name).to_owned()).collect());
+        if names.len() <= MOST_SHARED_NAMES {
+            lists.truncate(MOST_RECENT - 1);
+            lists.insert(0, Arc::clone(&list));
+        }
+        list
+    })
 }
 
 impl Default for Blobs {
@@ -150,6 +178,11 @@ mod tests {
         let text = serde_json::to_string(&map).expect("JSON");
         assert_eq!(serde_json::to_string(&blobs).expect("JSON"), text);
         assert_eq!(serde_json::from_str::<Blobs>(&text).expect("blobs"), blobs);
+        let (names, refs): (Vec<&str>, Vec<BlobRef>) = map.iter().map(|(name, blob)| (name.as_str(), *blob)).unzip();
+        let ordered = Blobs::in_order(&names, refs.clone()).expect("in order");
+        assert!(ordered == blobs && Arc::ptr_eq(&ordered.names, &blobs.names));
+        let reversed: Vec<&str> = names.iter().rev().copied().collect();
+        assert!(Blobs::in_order(&reversed, refs.clone()).is_none() && Blobs::in_order(&names[1..], refs).is_none());
         let others: Blobs = map.keys().map(|name| (name.clone(), blob("other"))).collect();
         assert!(Arc::ptr_eq(&others.names, &blobs.names) && others != blobs);
         let twice: Blobs =

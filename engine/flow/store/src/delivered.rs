@@ -3,8 +3,9 @@
 //! The record is in the store, not in the folder, so that two folders of one artifact are equal to the byte.
 
 use crate::fault::Step;
+use crate::hex::{digest_of_hex, push_digest, push_quoted, unquoted};
 use crate::history::{seal, unsealed};
-use crate::side_by_side::side_by_side;
+use crate::side_by_side::{PER_THREAD, side_by_side};
 use crate::store::Store;
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::Result;
@@ -20,7 +21,7 @@ const HEADER: &str = "cosfly-out 2 ";
 
 /// Size, time of last modification, time of last status change, device and inode of a file. While all of them are
 /// unchanged, the bytes are unchanged. Times in nanoseconds since 1970.
-type Stamp = [u64; 5];
+pub(crate) type Stamp = [u64; 5];
 
 /// Stamps of the files of one folder, from the last time they were verified.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -35,9 +36,18 @@ impl Delivered {
     /// Stamps of the files of `folder` now, which hold `blobs` by name; absent files are left out.
     pub(crate) fn look(version: Digest, folder: &Path, blobs: &Blobs) -> Self {
         let blobs: Vec<(&String, &BlobRef)> = blobs.iter().collect();
-        let stamps = side_by_side(&blobs, |(name, _)| stamp(&folder.join(name)));
+        let stamps = side_by_side(&blobs, PER_THREAD, |(name, _)| stamp(&folder.join(name)));
         let files = blobs.into_iter().zip(stamps);
         let files = files.filter_map(|((name, blob), stamp)| Some((name.clone(), (blob.digest, stamp?))));
+        Self { version, files: files.collect() }
+    }
+
+    /// Like [`Self::look`], without another look at the files whose stamps are in `known`, in the order of `blobs`.
+    pub(crate) fn look_again(version: Digest, folder: &Path, blobs: &Blobs, known: Vec<Option<Stamp>>) -> Self {
+        let files = blobs.iter().zip(known);
+        let files = files.filter_map(|((name, blob), known)| {
+            Some((name.clone(), (blob.digest, known.or_else(|| stamp(&folder.join(name)))?)))
+        });
         Self { version, files: files.collect() }
     }
 
@@ -60,8 +70,10 @@ impl Delivered {
         let (mut body, start) = unsealed(HEADER);
         let _ = writeln!(body, "{}", self.version);
         for (name, (digest, [size, modified, changed, device, number])) in &self.files {
-            let name = serde_json::Value::from(name.as_str());
-            let _ = writeln!(body, "{digest} {size} {modified} {changed} {device} {number} {name}");
+            push_digest(&mut body, digest);
+            let _ = write!(body, " {size} {modified} {changed} {device} {number} ");
+            push_quoted(&mut body, name);
+            body.push('\n');
         }
         seal(&mut body, start);
         body
@@ -77,12 +89,12 @@ impl Delivered {
         let mut delivered = Self { version: lines.next()?.parse().ok()?, files: BTreeMap::new() };
         for line in lines {
             let mut words = line.splitn(7, ' ');
-            let digest = words.next()?.parse().ok()?;
+            let digest = digest_of_hex(words.next()?)?;
             let mut stamp = Stamp::default();
             for number in &mut stamp {
                 *number = words.next()?.parse().ok()?;
             }
-            delivered.files.insert(serde_json::from_str(words.next()?).ok()?, (digest, stamp));
+            delivered.files.insert(unquoted(words.next()?)?, (digest, stamp));
         }
         Some(delivered)
     }
@@ -93,9 +105,9 @@ impl Delivered {
 pub(crate) struct Verified(BTreeMap<Digest, Stamp>);
 
 impl Verified {
-    /// Whether the file at `path` is the one whose bytes were verified to have `digest`.
-    pub(crate) fn is_same_file(&self, digest: &Digest, path: &Path) -> bool {
-        self.0.get(digest).is_some_and(|known| stamp(path).as_ref() == Some(known))
+    /// Stamp of the file at `path` where it is the one whose bytes were verified to have `digest`.
+    pub(crate) fn same_file(&self, digest: &Digest, path: &Path) -> Option<Stamp> {
+        self.0.get(digest).copied().filter(|known| stamp(path).as_ref() == Some(known))
     }
 }
 

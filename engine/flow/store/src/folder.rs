@@ -50,16 +50,17 @@ pub(crate) fn sync_file_system(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Exchanges the new folder with the old one, in one step where the system supports it.
-pub(crate) fn put_in_place(new: &Path, folder: &Path) -> io::Result<()> {
+/// Exchanges the new folder with the old one, in one step where the system supports it. True where the old folder is in the
+/// place of the new one then; false where there was none.
+pub(crate) fn put_in_place(new: &Path, folder: &Path) -> io::Result<bool> {
     match fs::rename(new, folder) {
         // The folder did not exist or was empty.
-        Ok(()) => return Ok(()),
+        Ok(()) => return Ok(false),
         Err(error) if fs::symlink_metadata(folder).is_err() => return Err(error),
         Err(_) => {}
     }
     if exchange(new, folder).is_ok() {
-        return fs::remove_dir_all(new);
+        return Ok(true);
     }
     let old = new.with_extension("cosfly-old");
     let _ = fs::remove_dir_all(&old);
@@ -68,7 +69,7 @@ pub(crate) fn put_in_place(new: &Path, folder: &Path) -> io::Result<()> {
         fs::rename(&old, folder)?;
         return Err(error);
     }
-    fs::remove_dir_all(&old)
+    fs::rename(&old, new).map(|()| true)
 }
 
 #[cfg(target_os = "linux")]

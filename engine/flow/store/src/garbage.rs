@@ -6,6 +6,7 @@ use crate::locks::lock_file;
 use crate::names::is_relative_path;
 use crate::records;
 use crate::scratch::sweep_orphans;
+use crate::spare::sweep_spares;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use std::collections::{BTreeMap, BTreeSet};
@@ -67,6 +68,7 @@ pub fn collect_garbage(root: &Path, options: &GarbageOptions) -> Result<GarbageR
         sweep_old(&layout, folder, options, &mut report).map_err(failed)?;
     }
     if !options.dry_run {
+        sweep_spares(&layout).map_err(failed)?;
         remove_stale_locks(&layout).map_err(failed)?;
     }
     Ok(report)

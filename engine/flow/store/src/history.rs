@@ -1,12 +1,12 @@
 //! Tasks of earlier runs of a recipe, for `cosfly why` and as roots of garbage collection.
 
 use crate::fault::Step;
+use crate::hex::{digest_of_hex, push_digest, push_quoted, unquoted};
 use crate::layout::read_dir_or_nothing;
 use crate::store::Store;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_fingerprint::Digest;
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -49,16 +49,18 @@ impl PastRun {
     }
 
     fn encode(&self) -> String {
-        let quoted = |text: &str| serde_json::Value::from(text).to_string();
         let (mut body, start) = unsealed(HEADER);
+        let mut line = |what: &str, digest: &Digest, name: &str| {
+            body.push_str(what);
+            push_digest(&mut body, digest);
+            body.push(' ');
+            push_quoted(&mut body, name);
+            body.push('\n');
+        };
         for stage in &self.stages {
-            let _ = writeln!(body, "stage {} {}", stage.definition, quoted(&stage.name));
-            for blob in &stage.spent {
-                let _ = writeln!(body, "spent {} {}", stage.definition, quoted(blob));
-            }
-            for (item, plan) in &stage.items {
-                let _ = writeln!(body, "item {plan} {}", quoted(item));
-            }
+            line("stage ", &stage.definition, &stage.name);
+            stage.spent.iter().for_each(|blob| line("spent ", &stage.definition, blob));
+            stage.items.iter().for_each(|(item, plan)| line("item ", plan, item));
         }
         seal(&mut body, start);
         body
@@ -73,8 +75,7 @@ impl PastRun {
         let mut run = Self::default();
         for line in body.lines() {
             let mut words = line.splitn(3, ' ');
-            let (what, digest, name) = (words.next()?, words.next()?.parse().ok()?, words.next()?);
-            let name: String = serde_json::from_str(name).ok()?;
+            let (what, digest, name) = (words.next()?, digest_of_hex(words.next()?)?, unquoted(words.next()?)?);
             match what {
                 "stage" => run.stages.push(PastStage::new(name, digest)),
                 "spent" => run.stages.last_mut()?.spent.push(name),

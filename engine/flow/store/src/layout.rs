@@ -1,5 +1,6 @@
 //! Layout of a store, and the version of the layout.
 
+use crate::hex::{digest_of_hex, push_digest};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use std::fs;
@@ -10,7 +11,7 @@ use std::path::{Path, PathBuf};
 const VERSION: u32 = 1;
 const FORMAT_NAME: &str = "cosfly-store";
 /// Folders of a store.
-const OWN_FOLDERS: [&str; 16] = [
+const OWN_FOLDERS: [&str; 17] = [
     "answers",
     "locks",
     "tmp",
@@ -24,6 +25,7 @@ const OWN_FOLDERS: [&str; 16] = [
     "pins",
     "divergence",
     "out",
+    "spare",
     "failed",
     "costs",
     "lost+found",
@@ -59,7 +61,8 @@ pub(crate) struct Layout {
 
 impl Layout {
     pub(crate) fn file(&self, area: Area, digest: &Digest) -> PathBuf {
-        let hex = digest.to_string();
+        let mut hex = String::with_capacity(64);
+        push_digest(&mut hex, digest);
         let mut path = PathBuf::with_capacity(self.root.as_os_str().len() + 80);
         path.push(&self.root);
         path.push(area.folder());
@@ -86,7 +89,7 @@ impl Layout {
         let mut digests = Vec::new();
         let folder = self.folder(area.folder()).join(format!("{shard:02x}"));
         for entry in read_dir_or_nothing(&folder)? {
-            digests.extend(entry?.file_name().to_str().and_then(|name| name.parse::<Digest>().ok()));
+            digests.extend(entry?.file_name().to_str().and_then(digest_of_hex));
         }
         digests.retain(|digest| digest.0[0] == shard);
         digests.sort_unstable();

@@ -13,6 +13,7 @@
 //! STORE/index/<recipe>             a cache of `done` and `ac` for quick starts; may be deleted
 //! STORE/costs/<stage>            measured time of tasks, for predictions; may be deleted
 //! STORE/out/<path digest>          sizes and times of the files of a delivered folder; may be deleted
+//! STORE/spare/<path digest>/     the version before of a delivered folder, as links; may be deleted
 //! STORE/pins/<name>                a copy of a run that garbage collection keeps
 //! STORE/failed/<plan digest>       reason why a task failed that ran apart from its run
 //! STORE/divergence/<action>-<n>    two executions of one action with different bytes
@@ -39,8 +40,10 @@ mod failures;
 mod fault;
 mod folder;
 mod garbage;
+mod hex;
 mod history;
 mod index;
+mod index_format;
 mod layout;
 mod locks;
 mod materialise;
@@ -54,6 +57,7 @@ mod remote_garbage;
 mod scratch;
 mod side_by_side;
 mod sink;
+mod spare;
 mod store;
 
 pub use blobs::digest_of_file;

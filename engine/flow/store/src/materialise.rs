@@ -1,12 +1,13 @@
-//! Writes an artifact as an ordinary folder: built in a sibling folder, then exchanged in one step.
+//! Writes an artifact as an ordinary folder: built in a sibling folder, or from the version before, then exchanged in one step.
 
 use crate::blobs::digest_of_file;
-use crate::delivered::{Delivered, Verified};
+use crate::delivered::{Delivered, Stamp, Verified};
 use crate::folder::{first_foreign, fresh_beside, put_in_place, sync_file_system};
 use crate::locks::lock_file;
 use crate::names::is_relative_path;
 use crate::places::check_out_folder;
-use crate::side_by_side::side_by_side;
+use crate::side_by_side::{PER_THREAD, side_by_side};
+use crate::spare::Spare;
 use crate::store::Store;
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -57,17 +58,56 @@ pub fn materialise(store: &Store, blobs: &Blobs, folder: &Path) -> Result<Materi
         return Ok(result(false));
     }
     check_ours(&folder, marker.as_deref(), before.as_ref())?;
-    let beside = beside(&folder)?;
     let verified = before.as_ref().map(Delivered::verified).unwrap_or_default();
-    let built = build(store, blobs, &verified, &new_marker, &beside)
-        .and_then(|()| put_in_place(&beside, &folder).map_err(|error| refused(&folder, &error)));
-    if let Err(diagnostic) = built {
-        let _ = fs::remove_dir_all(&beside);
-        return Err(diagnostic);
-    }
+    let spare = Spare::of(store, &folder);
+    let delivered = match exchange_spare(&spare, blobs, &verified, &new_marker, &folder)? {
+        Some(stayed) => Delivered::look_again(version, &folder, blobs, stayed),
+        None => {
+            build_anew(&spare, blobs, &verified, &new_marker, &folder)?;
+            Delivered::look(version, &folder, blobs)
+        }
+    };
     // Without this record the files are read again.
-    let _ = store.remember_delivered(&folder, &Delivered::look(version, &folder, blobs));
+    let _ = store.remember_delivered(&folder, &delivered);
     Ok(result(true))
+}
+
+/// Makes the spare of the folder the new version and exchanges both. Gives the stamps of the files that stayed, in the order
+/// of `blobs`; `None` where there is no spare, or one on another file system.
+fn exchange_spare(
+    spare: &Spare<'_>,
+    blobs: &Blobs,
+    verified: &Verified,
+    marker: &str,
+    folder: &Path,
+) -> Result<Option<Vec<Option<Stamp>>>> {
+    if !folder.is_dir() {
+        return Ok(None);
+    }
+    let updated = spare.update(blobs, verified, marker)?;
+    Ok(updated.filter(|_| put_in_place(spare.path(), folder).is_ok()))
+}
+
+/// Builds the new version beside the folder and exchanges both; what was in the folder is its spare then.
+fn build_anew(spare: &Spare<'_>, blobs: &Blobs, verified: &Verified, marker: &str, folder: &Path) -> Result<()> {
+    let beside = beside(folder)?;
+    let built = build(spare.store, blobs, verified, marker, &beside)
+        .and_then(|linked| Ok((linked, put_in_place(&beside, folder).map_err(|error| refused(folder, &error))?)));
+    match built {
+        // A spare of copies would take as much room again.
+        Ok((false, true)) => fs::remove_dir_all(&beside).map_err(|error| refused(folder, &error)),
+        Ok((true, true)) => spare.keep(&beside).map_err(|error| refused(folder, &error)),
+        Ok((linked, false)) => {
+            if linked {
+                spare.make(blobs);
+            }
+            Ok(())
+        }
+        Err(diagnostic) => {
+            let _ = fs::remove_dir_all(&beside);
+            Err(diagnostic)
+        }
+    }
 }
 
 /// Whether every file of `folder` is correct. A file with the size and times of `before` is not read.
@@ -181,28 +221,31 @@ fn beside(folder: &Path) -> Result<PathBuf> {
     made.map_err(|error| refused(folder, &error))
 }
 
-/// Fills an empty folder. A blob that is the file that was verified in the folder before is linked without being read.
-fn build(store: &Store, blobs: &Blobs, verified: &Verified, marker: &str, folder: &Path) -> Result<()> {
+/// Fills an empty folder; true where all files are links. A blob that is the file that was verified in the folder before is
+/// linked without being read.
+fn build(store: &Store, blobs: &Blobs, verified: &Verified, marker: &str, folder: &Path) -> Result<bool> {
     let parents: BTreeSet<&str> = blobs.keys().filter_map(|name| Some(name.rsplit_once('/')?.0)).collect();
     for parent in parents {
         fs::create_dir_all(folder.join(parent)).map_err(|error| refused(folder, &error))?;
     }
     let files: Vec<(&String, &BlobRef)> = blobs.iter().collect();
-    let placed = side_by_side(&files, |(name, blob)| place(store, blob, verified, &folder.join(name)));
-    placed.into_iter().collect::<Result<()>>()?;
+    let placed = side_by_side(&files, PER_THREAD, |(name, blob)| place(store, blob, verified, &folder.join(name)));
+    let linked = placed.into_iter().try_fold(true, |all, linked| linked.map(|linked| all && linked))?;
     fs::write(folder.join(VERSION_FILE), marker)
         .and_then(|()| sync_file_system(folder))
-        .map_err(|error| refused(folder, &error))
+        .map_err(|error| refused(folder, &error))?;
+    Ok(linked)
 }
 
-fn place(store: &Store, blob: &BlobRef, verified: &Verified, path: &Path) -> Result<()> {
+/// Puts a blob at `path`, where nothing is; true where it is a link.
+pub(crate) fn place(store: &Store, blob: &BlobRef, verified: &Verified, path: &Path) -> Result<bool> {
     let stored = store.blob_path(blob);
-    if verified.is_same_file(&blob.digest, &stored) && fs::hard_link(&stored, path).is_ok() {
-        return Ok(());
+    if verified.same_file(&blob.digest, &stored).is_some() && fs::hard_link(&stored, path).is_ok() {
+        return Ok(true);
     }
     let mut source = store.open(blob)?;
-    let placed =
-        fs::hard_link(&stored, path).or_else(|_| io::copy(&mut source, &mut File::create_new(path)?).map(|_| ()));
+    let mut copy = || io::copy(&mut source, &mut File::create_new(path)?).map(|_| false);
+    let placed = fs::hard_link(&stored, path).map_or_else(|_| copy(), |()| Ok(true));
     placed.map_err(|error| refused(path, &error))
 }
 

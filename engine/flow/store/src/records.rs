@@ -1,6 +1,6 @@
 //! Action and done records, each bound to its key by a check line: a torn, edited or exchanged record is detected.
 
-use cosfly_blobs::BlobRef;
+use crate::hex::{push_digest, push_quoted};
 use cosfly_fingerprint::{Digest, canonical_json};
 use cosfly_stage::{Blobs, Produced};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -69,9 +69,11 @@ pub(crate) fn encode(action: &Digest, record: &ActionRecord) -> Vec<u8> {
 fn canonical(record: &ActionRecord) -> String {
     let mut text = "{\"outputs\":{".to_owned();
     for (index, (name, blob)) in record.outputs.iter().enumerate() {
-        let comma = if index == 0 { "" } else { "," };
-        let (name, BlobRef { digest, bytes }) = (serde_json::Value::from(name.as_str()), blob);
-        let _ = write!(text, "{comma}{name}:{{\"bytes\":{bytes},\"digest\":\"{digest}\"}}");
+        text.push_str(if index == 0 { "" } else { "," });
+        push_quoted(&mut text, name);
+        let _ = write!(text, ":{{\"bytes\":{},\"digest\":\"", blob.bytes);
+        push_digest(&mut text, &blob.digest);
+        text.push_str("\"}");
     }
     let (produced, schema) = (canonical_json(&record.produced), canonical_json(&record.schema));
     let _ = write!(text, "}},\"produced\":{produced},\"schema\":{schema}}}");
@@ -119,6 +121,7 @@ pub(crate) fn decode_done(plan: &Digest, bytes: &[u8]) -> Option<Digest> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_blobs::BlobRef;
     use std::collections::BTreeMap;
 
     #[test]

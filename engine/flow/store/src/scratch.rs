@@ -50,6 +50,11 @@ impl Scratch {
         Self { folder: layout.folder("tmp").join("read-only"), next: AtomicU64::new(0), owner: None }
     }
 
+    /// File that this process keeps locked while the store is open; `None` in a store opened for reading.
+    pub(crate) fn owner(&self) -> Option<PathBuf> {
+        self.owner.as_ref().map(|_| self.folder.join(OWNER))
+    }
+
     /// An unused path in the folder.
     pub(crate) fn next_path(&self) -> PathBuf {
         self.folder.join(self.next.fetch_add(1, Ordering::Relaxed).to_string())

@@ -2,15 +2,15 @@
 
 use std::num::NonZero;
 
-/// Fewer than this are not worth a thread.
-const PER_THREAD: usize = 1024;
+/// Fewer files than this are not worth a thread.
+pub(crate) const PER_THREAD: usize = 1024;
 /// More threads than this wait for the disk, not for each other.
 const MOST_THREADS: usize = 8;
 
-/// Results of `work` for all items, in their order.
-pub(crate) fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+/// Results of `work` for all items, in their order; a thread has at least `per_thread` items.
+pub(crate) fn side_by_side<T: Sync, R: Send>(items: &[T], per_thread: usize, work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get).min(MOST_THREADS);
-    let part = items.len().div_ceil(threads).max(PER_THREAD);
+    let part = items.len().div_ceil(threads).max(per_thread);
     if items.len() <= part {
         return items.iter().map(work).collect();
     }
@@ -33,7 +33,10 @@ mod tests {
     fn results_come_in_the_order_of_the_items() {
         for count in [0, 1, 1024, 1025, 5000, 10_000] {
             let items: Vec<usize> = (0..count).collect();
-            assert_eq!(side_by_side(&items, |item| item * 2), items.iter().map(|item| item * 2).collect::<Vec<_>>());
+            assert_eq!(
+                side_by_side(&items, PER_THREAD, |item| item * 2),
+                items.iter().map(|item| item * 2).collect::<Vec<_>>()
+            );
         }
     }
 }

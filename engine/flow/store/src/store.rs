@@ -123,7 +123,7 @@ impl Store {
 
     /// Lock of one task; `None` while another runner holds it.
     pub fn try_lock_task(&self, plan: &Digest) -> Result<Option<TaskLock>> {
-        TaskLock::try_take(&self.layout, plan)
+        TaskLock::try_take(&self.layout, self.scratch.owner().as_deref(), plan)
     }
 
     /// Whether the task was finished once, whether or not its output is complete.

@@ -75,9 +75,10 @@ pub fn diversity<'t>(texts: impl IntoIterator<Item = &'t str>, language: Languag
     let pairs: BTreeSet<(u32, u32)> = all.iter().flat_map(|it| it.windows(2).map(|pair| (pair[0], pair[1]))).collect();
     let all_pairs: usize = all.iter().map(|it| it.len().saturating_sub(1)).sum();
     let share = |part: usize, whole: usize| part as f64 / whole.max(1) as f64;
+    let runs = runs_of(&all);
     let bleu = |at: usize| {
-        let others = all[at.saturating_sub(NEIGHBOURS)..at].iter().chain(all.iter().skip(at + 1).take(NEIGHBOURS));
-        bleu(&all[at], &others.map(Vec::as_slice).collect::<Vec<_>>())
+        let others = (at.saturating_sub(NEIGHBOURS)..at).chain((at + 1..all.len()).take(NEIGHBOURS));
+        bleu(&all, &runs, at, &others.collect::<Vec<_>>())
     };
     Diversity {
         texts: all.len(),
@@ -91,26 +92,61 @@ pub fn diversity<'t>(texts: impl IntoIterator<Item = &'t str>, language: Languag
     }
 }
 
-/// BLEU-4 of a text against several; runs that do not occur count half of one.
-fn bleu(text: &[u32], others: &[&[u32]]) -> f64 {
-    if text.is_empty() || others.is_empty() {
+/// Runs of words of a text: the number of each different run, in order, and how often it occurs.
+type Runs = Vec<(u32, usize)>;
+
+/// The runs of each length in each text; equal runs of one length have the same number in all texts.
+fn runs_of(texts: &[Vec<u32>]) -> [Vec<Runs>; LONGEST] {
+    // Runs of one word less that begin at each word.
+    let mut shorter: Vec<Vec<u32>> = texts.iter().map(|text| vec![0; text.len() + 1]).collect();
+    std::array::from_fn(|longer_by| {
+        let mut numbers: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+        let mut of_length = vec![];
+        for (text, shorter) in texts.iter().zip(&mut shorter) {
+            let number = |(run, word): (&u32, &u32)| {
+                let next = numbers.len() as u32;
+                *numbers.entry((*run, *word)).or_insert(next)
+            };
+            *shorter = shorter.iter().zip(text.iter().skip(longer_by)).map(number).collect();
+            let mut sorted = shorter.clone();
+            sorted.sort_unstable();
+            of_length.push(sorted.chunk_by(|a, b| a == b).map(|alike| (alike[0], alike.len())).collect());
+        }
+        of_length
+    })
+}
+
+/// Number of runs of a text that others have, too: of each run as many as the one that has most of them.
+fn shared_runs(text: &Runs, others: &[&Runs]) -> usize {
+    let mut most = vec![0; text.len()];
+    for other in others {
+        let mut other = other.iter().peekable();
+        for ((run, _), most) in text.iter().zip(&mut most) {
+            while other.next_if(|(it, _)| it < run).is_some() {}
+            if let Some((_, count)) = other.next_if(|(it, _)| it == run) {
+                *most = (*most).max(*count);
+            }
+        }
+    }
+    text.iter().zip(most).map(|((_, count), most)| (*count).min(most)).sum()
+}
+
+/// BLEU-4 of text number `at` against several; runs that do not occur count half of one.
+fn bleu(texts: &[Vec<u32>], runs: &[Vec<Runs>; LONGEST], at: usize, others: &[usize]) -> f64 {
+    let words = texts[at].len();
+    if words == 0 || others.is_empty() {
         return 0.0;
     }
-    let longest = LONGEST.min(text.len());
+    let longest = LONGEST.min(words);
     let mut logarithms = 0.0;
-    for length in 1..=longest {
-        let mut counts: BTreeMap<&[u32], usize> = BTreeMap::new();
-        text.windows(length).for_each(|run| *counts.entry(run).or_default() += 1);
-        let in_others = |run: &[u32]| {
-            others.iter().map(|other| other.windows(length).filter(|it| *it == run).count()).max().unwrap_or(0)
-        };
-        let shared: usize = counts.iter().map(|(run, count)| (*count).min(in_others(run))).sum();
-        let runs = text.len() + 1 - length;
-        logarithms += real::ln(if shared == 0 { 0.5 } else { shared as f64 } / runs as f64);
+    for (length, runs) in (1..=longest).zip(runs) {
+        let of_others: Vec<&Runs> = others.iter().map(|other| &runs[*other]).collect();
+        let shared = shared_runs(&runs[at], &of_others);
+        logarithms += real::ln(if shared == 0 { 0.5 } else { shared as f64 } / (words + 1 - length) as f64);
     }
-    let distance = |other: &&&[u32]| (other.len().abs_diff(text.len()), other.len());
-    let nearest = others.iter().min_by_key(distance).map_or(0, |other| other.len());
-    let brevity = if text.len() >= nearest { 0.0 } else { 1.0 - nearest as f64 / text.len() as f64 };
+    let distance = |other: &usize| (other.abs_diff(words), *other);
+    let nearest = others.iter().map(|other| texts[*other].len()).min_by_key(distance).unwrap_or(0);
+    let brevity = if words >= nearest { 0.0 } else { 1.0 - nearest as f64 / words as f64 };
     real::exp(logarithms / longest as f64 + brevity).min(1.0)
 }
 
@@ -126,6 +162,30 @@ mod tests {
         let other = diversity(["one two three four", "five six seven eight"], Language::En);
         assert!((other.distinct_1 - 1.0).abs() < 1e-12 && other.self_bleu < 0.3, "{other:?}");
         assert_eq!(diversity([], Language::Zh), Diversity::default());
+    }
+
+    /// Runs that a text shares with others, counted run by run.
+    fn counted(text: &[u32], others: &[&[u32]], length: usize) -> usize {
+        let mut counts: BTreeMap<&[u32], usize> = BTreeMap::new();
+        text.windows(length).for_each(|run| *counts.entry(run).or_default() += 1);
+        let most = |run: &[u32]| others.iter().map(|it| it.windows(length).filter(|other| *other == run).count()).max();
+        counts.iter().map(|(run, count)| (*count).min(most(run).unwrap_or(0))).sum()
+    }
+
+    #[test]
+    fn shared_runs_are_those_that_are_counted_one_by_one() {
+        let text = |seed: u32| (0..seed % 9).map(|at| (seed * 7 + at * at * 5) % 4).collect();
+        let texts: Vec<Vec<u32>> = (0..40).map(text).collect();
+        let runs = runs_of(&texts);
+        for at in 0..texts.len() {
+            let others: Vec<usize> = (0..texts.len()).filter(|other| other % 7 == at % 5).collect();
+            for length in 1..=LONGEST {
+                let of_length = &runs[length - 1];
+                let found = shared_runs(&of_length[at], &others.iter().map(|it| &of_length[*it]).collect::<Vec<_>>());
+                let all: Vec<&[u32]> = others.iter().map(|it| texts[*it].as_slice()).collect();
+                assert_eq!(found, counted(&texts[at], &all, length), "text {at}, length {length}");
+            }
+        }
     }
 
     #[test]

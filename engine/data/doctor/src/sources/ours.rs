@@ -13,8 +13,15 @@ use cosfly_read::{
 };
 use cosfly_render::Colour;
 use cosfly_render::frame::TARGET_INSTANCE;
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Flights whose logs are read side by side.
+const TOGETHER: usize = 32;
+
+/// An episode without its looks, its flight, and the frames of the flight.
+type Read = (Episode, PublishedFlight, Vec<FrameRow>);
 
 /// Whether `folder` has this layout.
 pub fn recognises(folder: &Path) -> bool {
@@ -26,20 +33,17 @@ pub fn recognises(folder: &Path) -> bool {
 /// # Errors
 /// Refusals of the machine where the folder cannot be listed.
 pub fn files(folder: &Path) -> Result<Vec<Flag>> {
-    let mut flags = vec![];
-    for path in crate::files::files_below(folder)? {
-        let name = path.strip_prefix(folder).unwrap_or(&path).display().to_string();
-        if name.ends_with(".parquet")
-            && let Some(problem) = parquet_problem(&path)
-        {
-            flags.push(Flag::damage("parquet-damaged", name, problem));
-        } else if name.ends_with(".mcap")
-            && let Some(problem) = log_problem(&path)
-        {
-            flags.push(Flag::damage("log-damaged", name, problem));
+    let fault = |path: &PathBuf| {
+        let name = path.strip_prefix(folder).unwrap_or(path).display().to_string();
+        if name.ends_with(".parquet") {
+            Some(Flag::damage("parquet-damaged", name, parquet_problem(path)?))
+        } else if name.ends_with(".mcap") {
+            Some(Flag::damage("log-damaged", name, log_problem(path)?))
+        } else {
+            None
         }
-    }
-    Ok(flags)
+    };
+    Ok(crate::files::files_below(folder)?.par_iter().filter_map(fault).collect())
 }
 
 /// Gives all flights to `visit`, one at a time; logs that cannot be read were flagged by [`files`] and are passed over. Where
@@ -91,20 +95,35 @@ fn read(dataset: &PublishedDataset, progress: &mut dyn FnMut(u64, u64), visit: &
             _ => walls.entry(object.town).or_default().entry(object.instance).or_default().push(object.shape),
         }
     }
+    let logged = |(mut episode, flight, rows): Read| {
+        episode.vehicles = vehicles.get(&flight.town).cloned().unwrap_or_default();
+        let walls = walls.get(&flight.town).filter(|_| episode.camera.is_some());
+        episode.looks = looks(dataset, &flight, &rows, walls).unwrap_or_default();
+        episode
+    };
     let (mut done, all) = (0, dataset.flights().len() as u64);
-    dataset.walk(&|_| true, &mut |flight, rows| {
-        progress(done, all);
-        done += 1;
+    let mut visit_all = |together: &mut Vec<Read>| {
+        let episodes: Vec<Episode> = std::mem::take(together).into_par_iter().map(logged).collect();
+        for episode in episodes {
+            progress(done, all);
+            done += 1;
+            visit(episode);
+        }
+    };
+    let mut together: Vec<Read> = vec![];
+    let outcome = dataset.walk(&|_| true, &mut |flight, rows| {
         let mut episode = episode(flight, &rows);
         let place = dataset.place(&flight.trajectory_id).unwrap_or_default();
         episode.captions =
             captions.at(dataset, place)?.iter().map(|it| (it.language.clone(), it.text.clone())).collect();
-        episode.vehicles = vehicles.get(&flight.town).cloned().unwrap_or_default();
-        let walls = walls.get(&flight.town).filter(|_| episode.camera.is_some());
-        episode.looks = looks(dataset, flight, &rows, walls).unwrap_or_default();
-        visit(episode);
+        together.push((episode, flight.clone(), rows));
+        if together.len() == TOGETHER {
+            visit_all(&mut together);
+        }
         Ok(())
-    })
+    });
+    visit_all(&mut together);
+    outcome
 }
 
 fn named(flight: &PublishedFlight) -> Episode {
