@@ -142,10 +142,20 @@ impl Studio {
     /// Draws the pictures of some environments that follow each other from number `first` on.
     fn draw(&mut self, birds: &[Bird], album: &mut Album, first: usize) {
         let environments: Vec<&Environment> = birds.iter().map(|bird| &bird.environment).collect();
+        self.work(|pictures| pictures.draw(&environments, album, first));
+    }
+
+    /// Draws the pictures of a whole team.
+    fn draw_team(&mut self, birds: &[Bird], album: &mut Album) {
+        let environments: Vec<&Environment> = birds.iter().map(|bird| &bird.environment).collect();
+        self.work(|pictures| pictures.draw_team(&environments, album));
+    }
+
+    fn work(&mut self, draw: impl FnOnce(&mut Pictures) + Send) {
         let pictures = &mut self.pictures;
         match &self.pool {
-            Some(pool) => pool.install(|| pictures.draw(&environments, album, first)),
-            None => pictures.draw(&environments, album, first),
+            Some(pool) => pool.install(|| draw(pictures)),
+            None => draw(pictures),
         }
     }
 }
@@ -330,6 +340,10 @@ impl Flock {
     /// Draws the pictures of the chosen environments, neighbours together.
     fn draw(&mut self, chosen: impl Fn(usize) -> bool) {
         let Some(studio) = &mut self.studio else { return };
+        if self.shared.is_team {
+            studio.draw_team(&self.birds, &mut self.outputs.album);
+            return;
+        }
         let mut first = 0;
         while first < self.birds.len() {
             let end = (first..self.birds.len()).find(|number| !chosen(*number)).unwrap_or(self.birds.len());

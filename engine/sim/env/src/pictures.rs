@@ -3,7 +3,9 @@
 use crate::environment::Environment;
 use crate::others::Present;
 use cosfly_batch::{BatchRenderer, Outputs, View};
+use cosfly_frames::{DVec3, TargetState};
 use cosfly_render::{BodyShape, Bystander, PictureLook, Walker, Weather, gait_phase_rad};
+use cosfly_world::BodyKind;
 use std::ops::Range;
 
 /// A channel of pictures.
@@ -162,12 +164,38 @@ impl Pictures {
     /// # Panics
     /// Where the album has no room for all pictures.
     pub fn draw(&mut self, environments: &[&Environment], album: &mut Album, first: usize) {
+        self.draw_beside(environments, |_| None, album, first);
+    }
+
+    /// The same for drones of a team, each of which sees the others that fly.
+    ///
+    /// # Panics
+    /// Where the album has no room for all pictures.
+    pub fn draw_team(&mut self, environments: &[&Environment], album: &mut Album) {
+        let drones: Vec<Option<Walker>> = environments.iter().map(|environment| drone(environment)).collect();
+        self.draw_beside(environments, |number| drones.get(number).copied().flatten(), album, 0);
+    }
+
+    /// Draws pictures with drones of their numbers, each of which all environments see but its own.
+    fn draw_beside(
+        &mut self,
+        environments: &[&Environment],
+        drone: impl Fn(usize) -> Option<Walker>,
+        album: &mut Album,
+        first: usize,
+    ) {
         let Self { format, renderer, bystanders, ranges } = self;
         bystanders.clear();
         ranges.clear();
-        for environment in environments {
+        for (own, environment) in environments.iter().enumerate() {
             let start = bystanders.len();
             bystanders.extend(self::bystanders(environment));
+            let others = (0..environments.len()).filter(|number| *number != own);
+            bystanders.extend(others.filter_map(|number| {
+                let after = (number as u32).saturating_mul(2).saturating_add(2);
+                let instance = environment.episode().place.largest_instance().saturating_add(after);
+                drone(number).map(|walker| Bystander { walker, instance })
+            }));
             ranges.push(start..bystanders.len());
         }
         let has_colours = format.channels.contains(&Channel::Rgb);
@@ -210,8 +238,29 @@ pub fn target(environment: &Environment) -> Walker {
     }
 }
 
+/// Length, width and height of a drone in pictures, metres.
+const DRONE_M: DVec3 = DVec3::new(0.6, 0.6, 0.2);
+
+/// The drone of an environment as others see it; none where its episode is over.
+fn drone(environment: &Environment) -> Option<Walker> {
+    let observation = environment.observation();
+    let state = TargetState {
+        feet_in_world: observation.motion.position_in_world - DVec3::Z * (0.5 * DRONE_M.z),
+        heading_rad: observation.yaw_rad,
+        speed_mps: observation.motion.velocity_in_world.length(),
+    };
+    environment.score().end.is_none().then_some(Walker {
+        state,
+        height_m: DRONE_M.z,
+        radius_m: 0.5 * DRONE_M.x,
+        clothes_seed: environment.episode().looks.child("drone", 0),
+        gait_phase_rad: 0.0,
+        body: BodyShape::of(BodyKind::Drone, DRONE_M),
+    })
+}
+
 /// Everybody else who is there now, with ids that follow those of the town's objects: the body number `n` of traffic has the odd
-/// number `2 n + 1` after the largest.
+/// number `2 n + 1` after the largest; drones of a team have the even ones, `2 n + 2`.
 pub fn bystanders(environment: &Environment) -> impl Iterator<Item = Bystander> {
     let episode = environment.episode();
     let largest = episode.place.largest_instance();

@@ -5,6 +5,7 @@ use cosfly_env::pictures::Channel;
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Episode, Place, Start};
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
+use cosfly_render::PictureLook;
 
 /// Targets that stand for 1 to 4 s.
 fn tasks() -> Arc<[Task]> {
@@ -85,6 +86,7 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
         channels: vec![Channel::Depth, Channel::Mask],
         farthest_m: 99.0,
         weather: None,
+        look: PictureLook::Simple,
     };
     for mode in [Autoreset::NextStep, Autoreset::SameStep, Autoreset::Disabled] {
         let mut flocks = [1, 2].map(|threads| {
