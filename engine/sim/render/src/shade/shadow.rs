@@ -105,7 +105,7 @@ impl Shadows {
         }
         let texels_m = size / (side as f64 - 4.0);
         let whole = Region { first: [0; 2], end: [side; 2] };
-        let frame = Frame { corner_m: low - 2.0 * texels_m, texels_m, ..*town_frame };
+        let frame = Frame { corner: low / texels_m - 2.0, texels_m, ..*town_frame };
         let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         for triangle in triangles.iter().filter(|triangle| triangle.normal_in_world.dot(to_sun) > 1e-6) {
             let normal = triangle.normal_in_world;

@@ -10,8 +10,9 @@ pub(super) const DEPTH_M: f64 = 1000.0;
 /// whose shadows run that way, follow the texels and do not turn into stairs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frame {
-    /// Sheared ground coordinates of texel (0, 0), along `axes`, metres.
-    pub(super) corner_m: DVec2,
+    /// Sheared ground coordinates of texel (0, 0), along `axes`, texels: whole for tiles, whose places then differ by whole numbers
+    /// to the last bit, whichever tiles are drawn together.
+    pub(super) corner: DVec2,
     pub(super) reference_m: f64,
     pub(super) shear: DVec2,
     pub(super) axes: [DVec2; 2],
@@ -26,7 +27,7 @@ impl Frame {
     }
 
     pub(super) fn place(&self, point: DVec3) -> [f64; 2] {
-        ((self.sheared(point) - self.corner_m) / self.texels_m).to_array()
+        (self.sheared(point) / self.texels_m - self.corner).to_array()
     }
 
     /// Whether a box around `center`, `half` its size along the world's axes, casts no shadow into a part of the map.
@@ -48,7 +49,7 @@ impl Frame {
         [0, 1].map(|k| {
             let axis = self.axes[k] / self.texels_m[k];
             let slope = -self.shear.dot(axis);
-            let constant = -slope * self.reference_m - self.corner_m[k] / self.texels_m[k];
+            let constant = -slope * self.reference_m - self.corner[k];
             [axis.x as f32, axis.y as f32, slope as f32, constant as f32]
         })
     }

@@ -50,7 +50,7 @@ impl Sun {
         // Coarse texels are long where shadows are; the finest are square.
         let stretch = if grain == 0 { 1.0 } else { shear.length().clamp(1.0, 3.0) };
         Frame {
-            corner_m: DVec2::ZERO,
+            corner: DVec2::ZERO,
             reference_m: self.reference_m,
             shear,
             axes: [DVec2::new(-along.y, along.x), along],
@@ -154,7 +154,7 @@ impl Painter {
             let (grain, first, end) = self.parts[at];
             let lattice = sun.lattice(grain);
             let corner = DVec2::new(f64::from(first[0]), f64::from(first[1])) * TILE as f64;
-            let frame = Frame { corner_m: corner * lattice.texels_m, ..lattice };
+            let frame = Frame { corner, ..lattice };
             // Of the neighbours one row and column more.
             let size = [0, 1].map(|k| (end[k] - first[k]) as usize * TILE + 1);
             let anything = self.draw_part(scene, sun, &frame, Region { first: [0; 2], end: size });

@@ -171,7 +171,7 @@ fn places(parts: &[Part; GRAINS]) -> Places {
     let seen = parts.iter().find(|part| part.first[0] < part.end[0]).unwrap_or(&parts[0]);
     let near = seen.metres(seen.first, seen.end)[0] / finest.texels_m;
     let corner = (near / side).floor() * side;
-    let frame = Frame { corner_m: corner * finest.texels_m, ..finest };
+    let frame = Frame { corner, ..finest };
     let grains = parts.map(|part| {
         let first = DVec2::new(part.first[0].into(), part.first[1].into()) * TILE as f64;
         let base = (first / side).floor() * side;
@@ -190,7 +190,7 @@ fn places(parts: &[Part; GRAINS]) -> Places {
         rows: frame.rows(),
         base_m: (LOWEST_M - finest.reference_m) as f32,
         texel_m: TEXEL_M as f32,
-        corner_m: frame.corner_m.as_vec2().to_array(),
+        corner_m: (frame.corner * frame.texels_m).as_vec2().to_array(),
         grains,
         used,
     }
