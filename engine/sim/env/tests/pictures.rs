@@ -162,3 +162,40 @@ fn a_picture_is_the_same_alone_and_in_any_batch_on_any_number_of_threads() {
     assert_eq!(copied, together);
     assert!(together.mask.contains(&1) && together.depth_m.iter().all(|depth| *depth <= FARTHEST_M));
 }
+
+#[test]
+fn drones_of_a_team_are_in_each_others_pictures_and_nobodys_own() {
+    let town = downtown();
+    let first = environments(&town, 1).remove(0);
+    let episode = first.episode();
+    let (from, feet) = (episode.start.position_in_world, episode.target_at(0.0).feet_in_world);
+    // The second hangs in the first one's line of sight, and a third is behind both.
+    let beside = |share: f64| {
+        let start = Start { position_in_world: from.lerp(feet + DVec3::Z, share), ..episode.start };
+        Environment::new(Arc::new(Episode { start, ..Episode::clone(episode) }), Settings::default())
+    };
+    let team = [first.clone(), beside(0.15), beside(-0.15)];
+    let team: Vec<&Environment> = team.iter().collect();
+    let largest = episode.place.largest_instance();
+    let pixels = format(128).pixels();
+    let drawn_by = |threads: usize| {
+        let mut album = Album::new(&format(128), 3);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| Pictures::new(format(128), threads).draw_team(&team, &mut album));
+        album
+    };
+    let album = drawn_by(1);
+    assert_eq!(drawn_by(2), album);
+    let seen = |own: usize, other: u32| {
+        let ids = album.instance[own * pixels..(own + 1) * pixels].iter();
+        ids.filter(|id| **id == largest + 2 * other + 2).count()
+    };
+    let sees = |own: usize, other: u32| seen(own, other) > 0;
+    assert!(sees(0, 1) && sees(2, 0), "those ahead");
+    assert!([(0, 0), (0, 2), (1, 0), (1, 1), (1, 2), (2, 2)].iter().all(|(own, other)| !sees(*own, *other)));
+    let at = album.instance[..pixels].iter().position(|id| *id == largest + 4).expect("the second drone");
+    let way_m = 0.15 * (from - feet - DVec3::Z).length();
+    assert!((f64::from(album.depth_m[at]) - way_m).abs() < 0.6 && album.semantic[at] == 21);
+    let alone = drawn(&[&first], 128, 1);
+    assert!(!alone.instance.contains(&(largest + 4)));
+}
