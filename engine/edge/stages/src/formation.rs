@@ -75,7 +75,9 @@ impl Stage for FormationStage {
         let walk = inputs.one("paths")?;
         if self.is_trial {
             let followed = traffic::followed(inputs, walk)?;
-            let trial = |flown: &Flown| Trial::of(&flown.outcome, &expert.config.occlusion, &around, followed.as_ref());
+            let trial = |flown: &Flown| {
+                Trial::of(&flown.outcome, &expert.config.occlusion, &world.exact, &around, followed.as_ref())
+            };
             Trial::of_all(flown.iter().map(trial)).put(outputs)?;
             return Ok(Produced::default());
         }

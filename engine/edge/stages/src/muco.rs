@@ -122,7 +122,7 @@ impl Stage for MucoStage {
         };
         if self.is_trial {
             let followed = traffic::followed(inputs, inputs.one("paths")?)?;
-            Trial::of(&outcome, &expert.config.occlusion, &around, followed.as_ref()).put(outputs)?;
+            Trial::of(&outcome, &expert.config.occlusion, &world.exact, &around, followed.as_ref()).put(outputs)?;
             return Ok(Produced::default());
         }
         outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;

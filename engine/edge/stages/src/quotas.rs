@@ -5,16 +5,18 @@ use crate::codec;
 use crate::ports::{self, LOSSES, ORDERS};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
+use cosfly_frames::DVec3;
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_planner::config::OcclusionConfig;
 use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::{BodyShape, Outfit};
 use cosfly_stage::{Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StagePart, StageProperties, TaskContext};
-use cosfly_world::{Around, Followed};
+use cosfly_world::{Around, Body, Followed};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Version of the trials, which is theirs and not that of the flights.
-pub const TRIALS_VERSION: u32 = 5;
+pub const TRIALS_VERSION: u32 = 6;
 /// Part with the trial of every flight.
 pub const TRIALS: &str = "trials";
 /// Part with the orders of all flights.
@@ -23,6 +25,12 @@ pub const ORDERS_PART: &str = "orders";
 const TRIAL: &str = "trial";
 /// Somebody within this distance of the target, where it is seen again, is beside it, metres.
 const BESIDE_M: f64 = 15.0;
+/// Cosine of the largest angle at the camera between the target and somebody who is in the picture with it: 26 degrees, within
+/// all usual fields of view.
+const IN_PICTURE_COS: f64 = 0.9;
+/// Frames from the one in which the target is seen again in which the other one is seen as well: pixels may show the target a
+/// frame sooner or later than rays.
+const FRAMES_BESIDE: usize = 3;
 
 /// What came of ordering a loss.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -34,8 +42,14 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Of a flight planned with the loss.
-    pub fn of(outcome: &PlanOutcome, ordered: &OcclusionConfig, around: &Around, followed: Option<&Followed>) -> Self {
+    /// Of a flight planned with the loss among the boxes of a town.
+    pub fn of(
+        outcome: &PlanOutcome,
+        ordered: &OcclusionConfig,
+        boxes: &BoxBvh,
+        around: &Around,
+        followed: Option<&Followed>,
+    ) -> Self {
         let PlanOutcome::Planned(flight) = outcome else { return Self { is_lost: false, beside_look_alike: false } };
         let dt_s = flight.track.dt_s;
         let is_ordered = |loss: &Range<usize>| {
@@ -46,12 +60,11 @@ impl Trial {
         let seen_again = seen_again(flight);
         let beside_look_alike = followed.zip(seen_again).is_some_and(|(followed, frame)| {
             let looks = |seed| Outfit::of(BodyShape::Person, seed);
-            let feet = flight.track.states[frame].feet_in_world;
-            around.traffic.bodies.iter().filter(|body| body.plan.kind == followed.plan.kind).any(|body| {
-                let state = body.state(frame as u32);
-                state.is_some_and(|state| (state.feet_in_world - feet).length() <= BESIDE_M)
-                    && looks(&body.plan.looks).is_like(&looks(&followed.plan.looks))
-            })
+            let bodies = around.bodies().map(|(_, body)| body);
+            let mut alike = bodies.filter(|body| {
+                body.plan.kind == followed.plan.kind && looks(&body.plan.looks).is_like(&looks(&followed.plan.looks))
+            });
+            alike.any(|body| is_seen_beside(body, flight, frame, boxes))
         });
         Self { is_lost, beside_look_alike }
     }
@@ -84,6 +97,22 @@ fn seen_again(flight: &Trajectory) -> Option<usize> {
     let longest =
         losses(flight).into_iter().reduce(|longest, next| if next.len() > longest.len() { next } else { longest })?;
     Some(longest.end).filter(|frame| *frame < flight.visibility.len())
+}
+
+/// Whether somebody is near the target and in the picture with it, with nothing of the town before the middle of the body, in
+/// `frame` and some frames after it.
+fn is_seen_beside(body: &Body, flight: &Trajectory, frame: usize, boxes: &BoxBvh) -> bool {
+    let last = (frame + FRAMES_BESIDE).min(flight.poses_in_world.len());
+    (frame..last).all(|frame| {
+        let Some(state) = body.state(frame as u32) else { return false };
+        let eye = flight.poses_in_world[frame].position_in_world;
+        let feet = flight.track.states[frame].feet_in_world;
+        let middle = state.feet_in_world + DVec3::Z * (0.5 * body.plan.size_m.z);
+        let [to_body, to_target] = [middle - eye, feet - eye];
+        (state.feet_in_world - feet).length() <= BESIDE_M
+            && to_body.dot(to_target) >= IN_PICTURE_COS * to_body.length() * to_target.length()
+            && !boxes.blocked(eye, middle)
+    })
 }
 
 /// Who loses the target: for each flight in turn, from its trial and those before it.
@@ -173,7 +202,7 @@ impl OrdersStage {
         if beside < wanted_beside {
             let can = can(&|trial| trial.beside_look_alike);
             warnings.push(format!(
-                "`occlusion.beside_look_alike` asks for {wanted_beside} losses that end beside a look-alike; {beside} do: somebody in the same clothes is there at the end of {can}; ask for more with `look_alikes.shares` of stage `traffic`"
+                "`occlusion.beside_look_alike` asks for {wanted_beside} losses that end beside a look-alike; {beside} do: somebody in the same clothes is near and in the picture at the end of {can}; ask for more with `look_alikes.shares` of stage `traffic`"
             ));
         }
         let percent = |share: f64| format!("{}", (1_000.0 * share).round() / 10.0);

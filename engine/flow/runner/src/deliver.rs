@@ -1,8 +1,8 @@
 //! A run, then the artifact of a stage as a folder; blobs that turn out damaged on the way are made again.
 
 use crate::options::RunOptions;
-use crate::run::run;
-use crate::summary::{RunOutcome, RunSummary};
+use crate::run::{Ran, work};
+use crate::summary::RunSummary;
 use cosfly_diagnose::{Fault, Result};
 use cosfly_recipe::Recipe;
 use cosfly_stage::{Blobs, RunEvent};
@@ -24,7 +24,7 @@ pub struct Delivery {
 /// with several items are in one folder per item. A run that failed elsewhere still delivers a finished stage.
 ///
 /// # Errors
-/// As [`run`] and [`materialise`].
+/// As [`crate::run`] and [`materialise`].
 pub fn deliver(
     recipe: &Recipe,
     store: &Store,
@@ -36,10 +36,17 @@ pub fn deliver(
     check_out_folder(store.root(), folder)?;
     let mut tries = 0;
     loop {
-        let summary = run(recipe, store, options, report)?;
-        let Some(blobs) = files_of(&summary, stage) else { return Ok(Delivery { summary, folder: None }) };
-        match materialise(store, &blobs, folder) {
-            Ok(folder) => return Ok(Delivery { summary, folder: Some(folder) }),
+        let ran = work(recipe, store, options, report)?;
+        let blobs = files_of(&ran, stage);
+        // The run is remembered while its folder is made: neither needs the other.
+        let (remembered, delivered) = std::thread::scope(|scope| {
+            let remembered = scope.spawn(|| ran.remember(store));
+            let delivered = blobs.map(|blobs| materialise(store, &blobs, folder)).transpose();
+            (remembered.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), delivered)
+        });
+        let summary = ran.summary(remembered, store);
+        match delivered {
+            Ok(folder) => return Ok(Delivery { summary, folder }),
             Err(lost) if lost.fault == Fault::Lost && tries < MOST_HEALINGS => tries += 1,
             Err(diagnostic) => return Err(diagnostic),
         }
@@ -47,12 +54,8 @@ pub fn deliver(
 }
 
 /// Files of all items of a finished stage.
-fn files_of(summary: &RunSummary, stage: usize) -> Option<Blobs> {
-    let items: Vec<_> = summary.finished_items(stage).collect();
-    let is_whole = items.len() as u64 == summary.stages[stage].total;
-    if summary.outcome == RunOutcome::Cancelled || items.is_empty() || !is_whole {
-        return None;
-    }
+fn files_of(ran: &Ran<'_>, stage: usize) -> Option<Blobs> {
+    let items = ran.whole_stage(stage)?;
     if let [(_, finished)] = &items[..] {
         return Some(Blobs::clone(&finished.record.outputs));
     }

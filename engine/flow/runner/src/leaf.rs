@@ -86,7 +86,10 @@ pub(crate) fn execute(store: &Store, task: &Task<'_>) -> Result<Ended> {
         Err(diagnostic) => return Err(diagnostic),
     };
     task.sources.iter().try_for_each(HashedSource::check_unchanged)?;
-    let settled = sink.settle(&action, produced)?;
+    let settled = match sink.settle(&action, produced) {
+        Err(diagnostic) if diagnostic.fault == Fault::Lost => return Ok(Ended::InputsLost),
+        settled => settled?,
+    };
     let finished = Finished { action, record: settled.record };
     let divergence = settled.divergence.map(|diagnostic| in_task(diagnostic, task));
     Ok(Ended::Settled(Settlement { finished, work: Work::Ran, divergence, lock: Some(lock) }))
@@ -94,7 +97,7 @@ pub(crate) fn execute(store: &Store, task: &Task<'_>) -> Result<Ended> {
 
 fn inputs_are_there(store: &Store, task: &Task<'_>) -> bool {
     let artifacts = task.ports.values().flat_map(|artifacts| artifacts.iter());
-    artifacts.flat_map(|artifact| artifact.blobs.values()).all(|blob| store.holds_blob(blob))
+    store.holds_all(artifacts.flat_map(|artifact| artifact.blobs.values()))
 }
 
 fn run_stage(

@@ -7,7 +7,7 @@ use cosfly_diagnose::Result;
 use cosfly_fingerprint::{Digest, DigestOfPieces, canonical_json};
 use cosfly_recipe::{Arrival, Connection, Recipe, RecipeStage};
 use cosfly_stage::{Sees, StageName};
-use cosfly_store::{Finished, PastRun, PastStage, Store};
+use cosfly_store::{Finished, FolderTimes, PastRun, PastStage, Store};
 use serde_json::json;
 use std::path::Path;
 
@@ -24,6 +24,8 @@ pub struct Plan<'r> {
     pub stages: Vec<PlannedStage>,
     /// True where history and index are of this very plan, so that a run with nothing to do writes nothing.
     pub(crate) index_is_current: bool,
+    /// Folders of the store that had lost nothing when the recipe was planned.
+    pub(crate) folders: FolderTimes,
 }
 
 /// One stage of a plan. Everything per item is in the order of [`RecipeStage::items`].
@@ -49,8 +51,8 @@ pub struct PlannedStage {
     pub predicted_s: Option<f64>,
     /// Reasons why items will run, with the number of items; empty where all are finished.
     pub reasons: Vec<(Reason, u64)>,
-    /// Whether some intermediate blob of each finished item is gone.
-    pub(crate) spent_items: Vec<bool>,
+    /// Whether each item that was finished when the recipe was planned had all its blobs; `None` for the others.
+    pub(crate) was_whole: Vec<Option<bool>>,
     pub(crate) definition: Definition,
     pub(crate) sources: Vec<HashedSource>,
     pub(crate) ports: Vec<PortDocument>,

@@ -8,7 +8,7 @@ use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Arrival, Recipe, RecipeStage};
 use cosfly_stage::{Fan, ItemName};
-use cosfly_store::{Known, Store};
+use cosfly_store::{FolderTimes, Known, Store};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -64,7 +64,8 @@ fn digest_tasks(recipe: &Recipe) -> Result<Plan<'_>> {
         let planned = digest_stage(recipe, stage, &stages, &mut sources)?;
         stages.push(planned);
     }
-    Ok(Plan { recipe, recipe_id: recipe_id(recipe), stages, index_is_current: false })
+    let (index_is_current, folders) = (false, FolderTimes::default());
+    Ok(Plan { recipe, recipe_id: recipe_id(recipe), stages, index_is_current, folders })
 }
 
 fn digest_stage(
@@ -96,7 +97,7 @@ fn digest_stage(
         finished: vec![None; plans.len()],
         needed: vec![false; plans.len()],
         spent: 0,
-        spent_items: Vec::new(),
+        was_whole: Vec::new(),
         plans,
         predicted_bytes: 0,
         predicted_files: 0,
@@ -114,10 +115,11 @@ fn find_finished(plan: &mut Plan<'_>, store: &Store) {
         let intermediate = described.stage.properties().intermediate;
         let plans = stage.plans.par_iter().with_min_len(PER_THREAD);
         let found: Vec<Option<Known>> = plans.map(|digest| known.finished(digest, intermediate)).collect();
-        stage.spent_items = found.iter().map(|known| known.as_ref().is_some_and(|known| !known.whole)).collect();
+        stage.was_whole = found.iter().map(|known| known.as_ref().map(|known| known.whole)).collect();
         stage.finished = found.into_iter().map(|known| known.map(|known| known.finished)).collect();
     }
     plan.index_is_current = known.is_current(&plan.run_digest());
+    plan.folders = known.unchanged_folders();
 }
 
 /// Walks from what is asked for to what it reads: an item is needed where something that will run reads it. With
@@ -140,7 +142,7 @@ fn find_needed(plan: &mut Plan<'_>, asked: Option<usize>, make_again: bool) {
                 upstream.needed[arrival.item] = true;
                 let properties = recipe.stages[arrival.stage].stage.properties();
                 let sees = properties.intermediate.iter().any(|name| sees(connection, name));
-                if sees && upstream.spent_items[arrival.item] {
+                if sees && upstream.was_whole[arrival.item] == Some(false) {
                     spent[arrival.stage].insert(arrival.item);
                     if make_again {
                         upstream.finished[arrival.item] = None;

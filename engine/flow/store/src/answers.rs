@@ -55,7 +55,7 @@ impl Answers for Store {
         {
             return Ok(first.to_owned());
         }
-        let temporary = self.write_temporary(&record, 0o644, Step::WriteDocument)?;
+        let temporary = self.write_temporary(&[&record], 0o644, Step::WriteDocument)?;
         if !self.place_first(&temporary, &path).map_err(failed)? {
             if let Some(first) = self.answer(question) {
                 let _ = fs::remove_file(&temporary);

@@ -5,7 +5,7 @@
 //! found when the file is read.)
 
 use crate::fault::Step;
-use crate::index_format::{Entry, Index, SHARDS, Stamps, encode};
+use crate::index_format::{Entry, FolderTimes, Index, SHARDS, Stamps, encode};
 use crate::layout::{Area, Layout};
 use crate::present::Present;
 use crate::records::Finished;
@@ -37,6 +37,18 @@ pub struct KnownTasks<'s> {
     missed: AtomicBool,
 }
 
+/// A finished task for the index.
+pub struct IndexedTask<'e> {
+    /// Digest of the task's plan.
+    pub plan: &'e Digest,
+    /// Result of the task.
+    pub finished: &'e Finished,
+    /// Names of blobs that may be removed.
+    pub removable: &'e [&'e str],
+    /// Whether all blobs were there when the run was planned; `None` where the task was not finished then.
+    pub was_whole: Option<bool>,
+}
+
 /// A finished task.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Known {
@@ -60,53 +72,62 @@ impl Store {
         };
         KnownTasks {
             store: self,
-            done_is_whole: whole(Area::Done, &index.done_stamps),
-            blobs_are_whole: whole(Area::Blobs, &index.blob_stamps),
+            done_is_whole: whole(Area::Done, &index.times.done),
+            blobs_are_whole: whole(Area::Blobs, &index.times.blobs),
             index,
             done: (0..SHARDS).map(|_| OnceLock::new()).collect(),
             missed: AtomicBool::new(false),
         }
     }
 
-    /// Replaces the index of `recipe` by the finished tasks of its run `run`, each with the names of blobs that may be
-    /// removed.
+    /// Replaces the index of `recipe` by the finished tasks of its run `run`. `before` are the folders that had lost nothing when the
+    /// run was planned: those that have not changed since need not be listed.
     pub fn write_index<'e>(
         &self,
         recipe: &str,
         run: &Digest,
-        entries: impl Iterator<Item = (&'e Digest, &'e Finished, &'e [&'e str])>,
+        before: &FolderTimes,
+        tasks: impl Iterator<Item = IndexedTask<'e>>,
     ) -> Result<()> {
         // Folders that changed a moment ago have times that can be relied on after a moment.
         std::thread::sleep(CLOCK_STEP + CLOCK_STEP / 4);
         // The times are read before the files: a file that goes missing in between changes a time.
         let now = self.file_system_time()?;
-        let reliable = |stamps: Stamps| -> Stamps {
+        let reliable = |area| -> Stamps {
             let limit = now.saturating_sub(nanoseconds(CLOCK_STEP));
-            stamps.into_iter().map(|stamp| if stamp < limit { stamp } else { 0 }).collect()
+            stamps(&self.layout, area).into_iter().map(|stamp| if stamp < limit { stamp } else { 0 }).collect()
         };
-        let done_stamps = reliable(stamps(&self.layout, Area::Done));
-        let blob_stamps = reliable(stamps(&self.layout, Area::Blobs));
+        let times = FolderTimes { done: reliable(Area::Done), blobs: reliable(Area::Blobs) };
         // Folders are listed, which costs a tenth of a look at each file. Sizes are checked where blobs are read.
-        let (done, blobs) = (Present::of(self, Area::Done)?, Present::of(self, Area::Blobs)?);
-        let there = |(plan, finished, removable): (&'e Digest, &'e Finished, &'e [&'e str])| {
-            let (mut lasts, mut whole) = (done.holds(plan), true);
-            for (name, blob) in finished.record.outputs.iter() {
-                if !blobs.holds(&blob.digest) && !self.remote_holds(&blob.digest) {
+        let list = |area, now: &Stamps, before: &Stamps| {
+            // Of what is in the remote alone the folders know nothing.
+            let may_have_changed = |shard: usize| now[shard] == 0 || before.get(shard) != Some(&now[shard]);
+            Present::of(self, area, |shard| self.remote.is_some() || may_have_changed(shard))
+        };
+        let done = list(Area::Done, &times.done, &before.done)?;
+        let blobs = list(Area::Blobs, &times.blobs, &before.blobs)?;
+        let there = |task: IndexedTask<'e>| {
+            let (mut lasts, mut whole) = (done.holds(task.plan).unwrap_or(true), true);
+            for (name, blob) in task.finished.record.outputs.iter() {
+                let may_go = task.removable.contains(&name.as_str());
+                let unchanged = || !may_go || task.was_whole.unwrap_or_else(|| self.holds_blob(blob));
+                if !blobs.holds(&blob.digest).unwrap_or_else(unchanged) && !self.remote_holds(&blob.digest) {
                     whole = false;
-                    lasts &= removable.contains(&name.as_str());
+                    lasts &= may_go;
                 }
             }
-            lasts.then_some((plan, finished, whole))
+            lasts.then_some((task.plan, task.finished, whole))
         };
-        let mut entries: Vec<_> = entries.filter_map(there).collect();
+        let mut entries: Vec<_> = tasks.filter_map(there).collect();
         entries.sort_unstable_by_key(|(plan, ..)| **plan);
-        let bytes = encode(run, &done_stamps, &blob_stamps, entries.into_iter());
-        self.write_file(&self.layout.folder("index").join(recipe), &bytes, Step::WriteRun, Step::RenameRun)
+        let pieces = encode(run, &times, entries.into_iter());
+        let path = self.layout.folder("index").join(recipe);
+        self.write_pieces(&path, &pieces.each_ref().map(Vec::as_slice), Step::WriteRun, Step::RenameRun)
     }
 
     /// Current time by the clock of the store's file system.
     fn file_system_time(&self) -> Result<u64> {
-        let probe = self.write_temporary(b"", 0o644, Step::WriteRun)?;
+        let probe = self.write_temporary(&[], 0o644, Step::WriteRun)?;
         let now = stamp(&probe);
         let _ = fs::remove_file(&probe);
         Ok(now)
@@ -133,6 +154,17 @@ impl KnownTasks<'_> {
         self.missed.store(true, Ordering::Relaxed);
         let whole = removable.is_empty() || self.store.holds(&finished.record);
         Some(Known { finished, whole })
+    }
+
+    /// Times of the folders that lost nothing since the index was written; 0 for the others.
+    pub fn unchanged_folders(&self) -> FolderTimes {
+        let times = |whole: &[bool], times: &Stamps| {
+            whole.iter().zip(times).map(|(whole, time)| if *whole { *time } else { 0 }).collect()
+        };
+        FolderTimes {
+            done: times(&self.done_is_whole, &self.index.times.done),
+            blobs: times(&self.blobs_are_whole, &self.index.times.blobs),
+        }
     }
 
     /// Whether the index is of the run `run` and as good as a new one.
@@ -221,10 +253,15 @@ mod tests {
         let entries: Vec<_> = (0..5).map(|n| finish(&store, &n.to_string())).collect();
         // Older than the step of the file system's clock, so that the index relies on the folders' times.
         std::thread::sleep(2 * CLOCK_STEP);
-        store
-            .write_index("r", &Digest::of(b"run"), entries.iter().map(|(plan, finished)| (plan, finished, REMOVABLE)))
-            .unwrap();
+        write(&store, &FolderTimes::default(), &entries, [None; 5]);
         (root, entries)
+    }
+
+    fn write(store: &Store, before: &FolderTimes, entries: &[(Digest, Finished)], was_whole: [Option<bool>; 5]) {
+        let tasks = entries.iter().zip(was_whole);
+        let tasks =
+            tasks.map(|((plan, finished), was_whole)| IndexedTask { plan, finished, removable: REMOVABLE, was_whole });
+        store.write_index("r", &Digest::of(b"run"), before, tasks).unwrap();
     }
 
     #[test]
@@ -264,9 +301,23 @@ mod tests {
         let expected = [true, true, false, true, true].map(Some);
         assert_eq!(whole(&store), expected);
         std::thread::sleep(2 * CLOCK_STEP);
-        let given = entries.iter().map(|(plan, finished)| (plan, finished, REMOVABLE));
-        store.write_index("r", &Digest::of(b"run"), given).unwrap();
+        write(&store, &FolderTimes::default(), &entries, [None; 5]);
         assert_eq!(whole(&store), expected);
+        // Another index, for which only folders that changed are listed.
+        let before = store.known_tasks("r").unchanged_folders();
+        assert!(before.done.iter().any(|time| *time != 0) && before.blobs.iter().any(|time| *time != 0));
+        store.remove_blob(&entries[3].1.record.outputs["means"]).unwrap();
+        std::thread::sleep(2 * CLOCK_STEP);
+        write(&store, &before, &entries, [Some(true), Some(true), None, Some(true), None]);
+        assert_eq!(whole(&store), [true, true, false, false, true].map(Some));
+        fs::remove_file(store.layout.file(Area::Done, &entries[4].0)).unwrap();
+        fs::remove_file(store.blob_path(&entries[1].1.record.outputs["a"])).unwrap();
+        let before = store.known_tasks("r").unchanged_folders();
+        std::thread::sleep(2 * CLOCK_STEP);
+        write(&store, &before, &entries, [true, true, false, false, true].map(Some));
+        let bytes = fs::read(root.path().join("index/r")).unwrap();
+        let indexed = |plan| Index::decode(bytes.clone()).unwrap().number_of(plan).is_some();
+        assert_eq!([0, 1, 2, 3, 4].map(|place: usize| indexed(&entries[place].0)), [true, false, true, true, false]);
         assert_eq!(store.known_tasks("r").finished(&entries[2].0, &[]), None);
     }
 

@@ -6,7 +6,7 @@
 
 use crate::records::{ActionRecord, Finished};
 use cosfly_blobs::BlobRef;
-use cosfly_fingerprint::Digest;
+use cosfly_fingerprint::{Digest, DigestOfPieces};
 use cosfly_stage::{Blobs, Produced};
 use std::sync::Arc;
 
@@ -20,6 +20,13 @@ const NUMBER: usize = 8;
 /// Times of last change of the folders of an area, nanoseconds since 1970; 0 where they are not reliable.
 pub(crate) type Stamps = Vec<u64>;
 
+/// Times of last change of the folders of `done` and `cas`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FolderTimes {
+    pub(crate) done: Stamps,
+    pub(crate) blobs: Stamps,
+}
+
 /// An indexed result.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Entry {
@@ -32,8 +39,7 @@ pub(crate) struct Entry {
 #[derive(Default)]
 pub(crate) struct Index {
     pub(crate) run: Option<Digest>,
-    pub(crate) done_stamps: Stamps,
-    pub(crate) blob_stamps: Stamps,
+    pub(crate) times: FolderTimes,
     bytes: Vec<u8>,
     /// Number of entries.
     count: usize,
@@ -45,28 +51,24 @@ pub(crate) struct Index {
     firsts: Vec<u32>,
 }
 
-/// Bytes of an index of sorted entries.
+/// Pieces of the bytes of an index of sorted entries, which are many megabytes.
 pub(crate) fn encode<'e>(
     run: &Digest,
-    done: &Stamps,
-    blobs: &Stamps,
+    times: &FolderTimes,
     entries: impl Iterator<Item = (&'e Digest, &'e Finished, bool)>,
-) -> Vec<u8> {
-    let start = HEADER.len() + DIGEST;
+) -> [Vec<u8>; 5] {
     let (mut plans, mut ends, mut body) = (vec![], vec![], vec![]);
     for (plan, finished, whole) in entries {
         plans.extend(plan.0);
         put_entry(&mut body, finished, whole);
         put_count(&mut ends, body.len());
     }
-    let mut bytes = Vec::with_capacity(start + 2 * SHARDS * NUMBER + plans.len() + ends.len() + body.len() + 64);
-    bytes.extend([HEADER, &[0; DIGEST], &run.0].concat());
-    done.iter().chain(blobs).for_each(|stamp| bytes.extend(stamp.to_le_bytes()));
-    put_count(&mut bytes, plans.len() / DIGEST);
-    [plans, ends, body].iter().for_each(|part| bytes.extend_from_slice(part));
-    let digest = Digest::of(&bytes[start..]);
-    bytes[HEADER.len()..start].copy_from_slice(&digest.0);
-    bytes
+    let mut head = run.0.to_vec();
+    times.done.iter().chain(&times.blobs).for_each(|time| head.extend(time.to_le_bytes()));
+    put_count(&mut head, plans.len() / DIGEST);
+    let mut digest = DigestOfPieces::default();
+    [&head, &plans, &ends, &body].iter().for_each(|piece| digest.add(piece));
+    [[HEADER, &digest.digest().0].concat(), head, plans, ends, body]
 }
 
 fn put_entry(bytes: &mut Vec<u8>, finished: &Finished, whole: bool) {
@@ -108,24 +110,14 @@ impl Index {
         }
         let mut reader = Reader(body);
         let run = Some(reader.digest()?);
-        let done_stamps = (0..SHARDS).map(|_| reader.number()).collect::<Option<_>>()?;
-        let blob_stamps = (0..SHARDS).map(|_| reader.number()).collect::<Option<_>>()?;
+        let mut stamps = || (0..SHARDS).map(|_| reader.number()).collect::<Option<_>>();
+        let times = FolderTimes { done: stamps()?, blobs: stamps()? };
         let count = usize::try_from(reader.number()?).ok()?;
         let plans = bytes.len() - reader.0.len();
         let ends = plans.checked_add(count.checked_mul(DIGEST)?)?;
         let entries = ends.checked_add(count.checked_mul(NUMBER)?)?;
         let firsts = firsts(bytes.get(plans..ends)?);
-        (entries <= bytes.len()).then_some(Self {
-            run,
-            done_stamps,
-            blob_stamps,
-            bytes,
-            count,
-            plans,
-            ends,
-            entries,
-            firsts,
-        })
+        (entries <= bytes.len()).then_some(Self { run, times, bytes, count, plans, ends, entries, firsts })
     }
 
     /// Number of an entry; `None` where the task is not indexed.

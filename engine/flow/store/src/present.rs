@@ -10,27 +10,31 @@ use std::io;
 /// Fewer folders than this are not worth a thread.
 const SHARDS_PER_THREAD: usize = 32;
 
-/// Files of an area by the first bytes of their digests, sorted: eight bytes a file.
-pub(crate) struct Present(Vec<u64>);
+/// Files in some folders of an area, by the first bytes of their digests: eight bytes a file.
+pub(crate) struct Present(Vec<Option<Vec<u64>>>);
 
 impl Present {
-    /// Lists the folders of the area.
-    pub(crate) fn of(store: &Store, area: Area) -> Result<Self> {
-        let shards: Vec<u8> = (0..=u8::MAX).collect();
+    /// Lists those folders of the area for which `is_wanted` is true.
+    pub(crate) fn of(store: &Store, area: Area, is_wanted: impl Fn(usize) -> bool) -> Result<Self> {
+        let shards: Vec<u8> = (0..=u8::MAX).filter(|shard| is_wanted(usize::from(*shard))).collect();
         let heads_of = |shard: &u8| -> io::Result<Vec<u64>> {
             Ok(store.layout.list_shard(area, *shard)?.iter().map(head).collect())
         };
-        let listed: io::Result<Vec<Vec<u64>>> =
-            side_by_side(&shards, SHARDS_PER_THREAD, heads_of).into_iter().collect();
-        let heads = listed.map_err(|error| {
-            Diagnostic::io(format!("list `{}`", store.layout.folder(area.folder()).display()), &error)
-        })?;
-        Ok(Self(heads.concat()))
+        let listed = side_by_side(&shards, SHARDS_PER_THREAD, heads_of);
+        let mut present = vec![None; 1 + usize::from(u8::MAX)];
+        for (shard, heads) in shards.into_iter().zip(listed) {
+            let heads = heads.map_err(|error| {
+                Diagnostic::io(format!("list `{}`", store.layout.folder(area.folder()).display()), &error)
+            })?;
+            present[usize::from(shard)] = Some(heads);
+        }
+        Ok(Self(present))
     }
 
-    /// Whether the area had a file of the digest when it was listed.
-    pub(crate) fn holds(&self, digest: &Digest) -> bool {
-        self.0.binary_search(&head(digest)).is_ok()
+    /// Whether the area had a file of the digest when its folder was listed; `None` where it was not listed.
+    pub(crate) fn holds(&self, digest: &Digest) -> Option<bool> {
+        let heads = self.0[usize::from(digest.0[0])].as_ref()?;
+        Some(heads.binary_search(&head(digest)).is_ok())
     }
 }
 

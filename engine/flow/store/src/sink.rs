@@ -34,7 +34,11 @@ pub struct Settled {
 impl<'s> TaskSink<'s> {
     /// Moves the blobs into the store and records them as the outcome of `action`. An earlier outcome with other bytes
     /// is kept while it is intact.
+    ///
+    /// # Errors
+    /// [`Fault::Lost`] where a linked blob is missing; refusals of the disk.
     pub fn settle(mut self, action: &Digest, produced: Produced) -> Result<Settled> {
+        self.check_links()?;
         let outputs: Blobs = self.outputs.iter().map(|(name, (blob, _))| (name.clone(), *blob)).collect();
         let record = ActionRecord::new(outputs, produced);
         let earlier = self.store.action(action).filter(|earlier| self.store.holds(earlier));
@@ -52,6 +56,22 @@ impl<'s> TaskSink<'s> {
             }
         }
         self.store.settle_record(action, record)
+    }
+
+    /// Refuses links to blobs that are not in the store.
+    fn check_links(&self) -> Result<()> {
+        let links = || self.outputs.iter().filter(|(_, (_, temporary))| temporary.is_none());
+        if self.store.holds_all(links().map(|(_, (blob, _))| blob)) {
+            return Ok(());
+        }
+        let lost = links().find(|(_, (blob, _))| !self.store.holds_blob(blob));
+        let (name, digest) = lost.map_or(("", None), |(name, (blob, _))| (name, Some(blob.digest)));
+        let blob = digest.map_or_else(String::new, |digest| digest.short());
+        Err(Diagnostic::new(
+            "store-blob-lost",
+            Fault::Lost,
+            format!("blob `{blob}` of the store, linked as `{name}`, is missing"),
+        ))
     }
 
     fn claim(&self, name: &str) -> Result<()> {
@@ -77,7 +97,7 @@ impl<'s> TaskSink<'s> {
 impl OutputSink for TaskSink<'_> {
     fn put(&mut self, name: &str, bytes: &[u8]) -> Result<()> {
         self.claim(name)?;
-        let temporary = self.store.write_temporary(bytes, 0o444, Step::WriteBlob)?;
+        let temporary = self.store.write_temporary(&[bytes], 0o444, Step::WriteBlob)?;
         let blob = BlobRef { digest: Digest::of(bytes), bytes: bytes.len() as u64 };
         self.outputs.insert(name.to_owned(), (blob, Some(temporary)));
         Ok(())
@@ -115,13 +135,6 @@ impl OutputSink for TaskSink<'_> {
 
     fn link(&mut self, name: &str, blob: BlobRef) -> Result<()> {
         self.claim(name)?;
-        if !self.store.holds_blob(&blob) {
-            return Err(Diagnostic::new(
-                "store-blob-lost",
-                Fault::Lost,
-                format!("blob `{}` of the store, linked as `{name}`, is missing", blob.digest.short()),
-            ));
-        }
         self.outputs.insert(name.to_owned(), (blob, None));
         Ok(())
     }
@@ -151,7 +164,7 @@ impl Store {
                 self.diverged(action, earlier, &record)
             };
         }
-        let temporary = self.write_temporary(&records::encode(action, &record), 0o644, Step::WriteAction)?;
+        let temporary = self.write_temporary(&[&records::encode(action, &record)], 0o644, Step::WriteAction)?;
         let linked = self
             .faults
             .before(Step::RenameAction)

@@ -8,6 +8,7 @@ use crate::locks::{TaskLock, lock_file};
 use crate::records::{self, ActionRecord, Finished};
 use crate::remote::Remote;
 use crate::scratch::{Scratch, sweep_orphans};
+use crate::side_by_side::{PER_THREAD, side_by_side};
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
@@ -15,6 +16,7 @@ use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
 /// A store opened by this process. Any number of processes may have it open at once.
@@ -159,6 +161,19 @@ impl Store {
             || self.remote_holds(&blob.digest)
     }
 
+    /// Whether all of some blobs exist with the right sizes; many are looked at by several threads.
+    pub fn holds_all<'b>(&self, blobs: impl Iterator<Item = &'b BlobRef>) -> bool {
+        let blobs: Vec<&BlobRef> = blobs.collect();
+        let is_lost = AtomicBool::new(false);
+        side_by_side(&blobs, PER_THREAD, |blob| {
+            // One that is missing is enough.
+            if !is_lost.load(Ordering::Relaxed) && !self.holds_blob(blob) {
+                is_lost.store(true, Ordering::Relaxed);
+            }
+        });
+        !is_lost.into_inner()
+    }
+
     /// Records that the task `plan` is finished by `action`. Call it after a [`Self::sync`] that began after the action
     /// was settled; another sync makes the record itself durable.
     pub fn publish_done(&self, plan: &Digest, document: &str, action: &Digest) -> Result<()> {
@@ -213,15 +228,20 @@ impl Store {
 
     /// Writes a small temporary file and renames it into place.
     pub(crate) fn write_file(&self, path: &Path, bytes: &[u8], write: Step, rename: Step) -> Result<()> {
-        let temporary = self.write_temporary(bytes, 0o644, write)?;
+        self.write_pieces(path, &[bytes], write, rename)
+    }
+
+    /// Writes a temporary file of some pieces and renames it into place.
+    pub(crate) fn write_pieces(&self, path: &Path, pieces: &[&[u8]], write: Step, rename: Step) -> Result<()> {
+        let temporary = self.write_temporary(pieces, 0o644, write)?;
         self.move_into_place(&temporary, path, rename)
     }
 
-    /// Writes a temporary file; a failed one is removed.
-    pub(crate) fn write_temporary(&self, bytes: &[u8], mode: u32, step: Step) -> Result<PathBuf> {
+    /// Writes a temporary file of some pieces; a failed one is removed.
+    pub(crate) fn write_temporary(&self, pieces: &[&[u8]], mode: u32, step: Step) -> Result<PathBuf> {
         let path = self.scratch.next_path();
-        let written =
-            self.faults.before(step).and_then(|()| create_file(&path, mode)).and_then(|mut file| file.write_all(bytes));
+        let created = self.faults.before(step).and_then(|()| create_file(&path, mode));
+        let written = created.and_then(|mut file| pieces.iter().try_for_each(|piece| file.write_all(piece)));
         written.map(|()| path.clone()).map_err(|error| {
             let _ = fs::remove_file(&path);
             Diagnostic::io(format!("write to the store `{}`", self.root().display()), &error)
