@@ -4,8 +4,9 @@ use crate::history::{PastRun, newest_runs, read_run, run_numbers};
 use crate::layout::{Area, Layout, read_dir_or_nothing};
 use crate::locks::lock_file;
 use crate::names::is_relative_path;
-use crate::records;
+use crate::records::{self, ActionRecord};
 use crate::scratch::sweep_orphans;
+use crate::side_by_side::read_side_by_side;
 use crate::spare::sweep_spares;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
@@ -14,6 +15,9 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
+
+/// Documents whose files are read at once: what they name is held until all are read.
+const PIECE: usize = 4096;
 
 /// Rules of garbage collection.
 #[derive(Clone, Debug)]
@@ -162,17 +166,24 @@ fn mark(layout: &Layout, keep_runs: usize) -> io::Result<Needed> {
 }
 
 /// File of a digest in an area; `None` where it is absent.
-type ReadFile<'a> = dyn Fn(Area, &Digest) -> Option<Vec<u8>> + 'a;
+type ReadFile<'a> = dyn Fn(Area, &Digest) -> Option<Vec<u8>> + Sync + 'a;
 
 /// Everything that the runs `roots` need, and their spent blobs.
 pub(crate) fn needed_by(roots: &[PastRun], read: &ReadFile<'_>) -> Needed {
     let spent = spent_names(roots);
     let mut needed = Needed::default();
-    let mut waiting: Vec<Digest> = roots.iter().flat_map(PastRun::digests).collect();
-    while let Some(document) = waiting.pop() {
-        if needed.documents.insert(document) {
-            waiting.extend(documents_named_in(read, &document));
-            mark_finished(read, &document, spent.get(&document), &mut needed);
+    let mut next: BTreeSet<Digest> = roots.iter().flat_map(PastRun::digests).collect();
+    while !next.is_empty() {
+        let documents = Vec::from_iter(std::mem::take(&mut next));
+        needed.documents.extend(&documents);
+        for piece in documents.chunks(PIECE) {
+            for (document, found) in piece.iter().zip(read_side_by_side(piece, |document| Found::of(read, document))) {
+                next.extend(found.named.into_iter().filter(|named| !needed.documents.contains(named)));
+                if let Some((action, record)) = found.finished {
+                    needed.actions.insert(action);
+                    mark_outputs(record.as_ref(), spent.get(document), &mut needed);
+                }
+            }
         }
     }
     let Needed { blobs, spent, .. } = &mut needed;
@@ -180,11 +191,24 @@ pub(crate) fn needed_by(roots: &[PastRun], read: &ReadFile<'_>) -> Needed {
     needed
 }
 
-fn mark_finished(read: &ReadFile<'_>, plan: &Digest, spent: Option<&BTreeSet<&str>>, needed: &mut Needed) {
-    let done = read(Area::Done, plan);
-    let Some(action) = done.and_then(|bytes| records::decode_done(plan, &bytes)) else { return };
-    needed.actions.insert(action);
-    let record = read(Area::Actions, &action).and_then(|bytes| records::decode(&action, &bytes));
+/// What the files of a document name.
+struct Found {
+    /// Other documents.
+    named: Vec<Digest>,
+    /// Action of the finished task and its record.
+    finished: Option<(Digest, Option<ActionRecord>)>,
+}
+
+impl Found {
+    fn of(read: &ReadFile<'_>, document: &Digest) -> Self {
+        let done = read(Area::Done, document).and_then(|bytes| records::decode_done(document, &bytes));
+        let record = |action: &Digest| records::decode(action, &read(Area::Actions, action)?);
+        let finished = done.map(|action| (action, record(&action)));
+        Self { named: documents_named_in(read, document), finished }
+    }
+}
+
+fn mark_outputs(record: Option<&ActionRecord>, spent: Option<&BTreeSet<&str>>, needed: &mut Needed) {
     for (name, blob) in record.iter().flat_map(|record| record.outputs.iter()) {
         let is_spent = spent.is_some_and(|names| names.contains(name.as_str()));
         if is_spent { &mut needed.spent } else { &mut needed.blobs }.insert(blob.digest);

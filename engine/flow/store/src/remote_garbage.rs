@@ -9,8 +9,8 @@ use crate::layout::Area;
 use crate::remote::{Remote, RemoteObject};
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_fingerprint::Digest;
-use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 /// Removes (or counts) everything in a remote store that is older than the limit and needed by no recent run or pin.
 ///
@@ -18,15 +18,15 @@ use std::collections::BTreeMap;
 /// Those of the remote; nothing is removed where something could not be read.
 pub fn collect_remote_garbage(remote: &dyn Remote, options: &GarbageOptions) -> Result<GarbageReport> {
     let roots = roots(remote, options.keep_runs)?;
-    let refused: RefCell<Option<Box<Diagnostic>>> = RefCell::new(None);
+    let refused: Mutex<Option<Box<Diagnostic>>> = Mutex::new(None);
     let needed = needed_by(&roots, &|area, digest| {
         let name = format!("{}/{}/{digest}", area.folder(), &digest.to_string()[..2]);
         remote.get(&name).unwrap_or_else(|refusal| {
-            refused.borrow_mut().get_or_insert(refusal);
+            refused.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(refusal);
             None
         })
     });
-    if let Some(refusal) = refused.into_inner() {
+    if let Some(refusal) = refused.into_inner().unwrap_or_else(PoisonError::into_inner) {
         return Err(refusal);
     }
     let mut report = GarbageReport::default();
