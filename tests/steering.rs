@@ -87,6 +87,19 @@ fn ordered_losses_are_stated_and_what_is_missing_is_a_warning() {
     }
 }
 
+#[test]
+fn losses_ordered_for_a_share_leave_the_other_flights_as_they_are() {
+    let (_, usual) = flights(&[]);
+    let (_, some) = flights(&["stages.expert.occlusion.count=1", "stages.expert.occlusion.share=0.34"]);
+    assert_eq!((usual.len(), some.len()), (3, 3), "a flight is missing");
+    assert!(some.iter().filter(|flight| flight["occlusion_ordered_s"] > 0.0).count() <= 2);
+    let kept = some.iter().filter(|flight| flight["occlusion_ordered_s"] == 0.0);
+    assert!(
+        kept.clone().count() >= 1
+            && kept.clone().all(|flight| usual.iter().any(|it| it["length_m"] == flight["length_m"]))
+    );
+}
+
 /// The street with companions for its experts.
 fn accompanied(companions: u32) -> String {
     let with = format!(

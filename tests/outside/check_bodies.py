@@ -50,6 +50,9 @@ def to_box(point, feet, yaw, size):
 
 def main(folder):
     wrong = []
+    for row in rows(folder, "rejected", ["trajectory_id", "reason"]) if (folder / "data/rejected").is_dir() else []:
+        if "occlusion" in row["reason"]:
+            wrong.append(f"{row['trajectory_id']} was rejected for its parameters: {row['reason']}")
     flights = {row["trajectory_id"]: row for row in rows(folder, "trajectories", [
         "trajectory_id", "target_kind", "target_top_colour", "target_trousers_colour", "target_has_backpack", "min_clearance_m", "dt_s"])}
     frames = defaultdict(dict)

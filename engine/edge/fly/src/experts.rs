@@ -110,7 +110,7 @@ impl<'a> Experts<'a> {
             PlanOutcome::Rejected { track, .. } => (track, vec![]),
         };
         if published_without_loss {
-            expert.config.occlusion.count = 0;
+            expert.config.occlusion = expert.config.occlusion.without_losses();
         }
         let around = blobs.get(read::AROUND_BLOB).map(|blob| read::around(&self.store.read(blob)?)).transpose()?;
         let movers = around.map_or_else(Vec::new, |around| around.boxes());

@@ -65,11 +65,8 @@ impl Stage for FormationStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let mut expert = self.expert.clone();
         // All drones behind a walk have the order of the walk.
-        if quotas::order(inputs, context)? == Some(false) {
-            expert.config.occlusion.count = 0;
-        }
+        let expert = quotas::ordered(&self.expert, inputs, context)?;
         let Setting { world, around, bodies } = Setting::read(inputs, &expert)?;
         let flown = expert.formation(&world, bodies, Seed(context.seed))?;
         let walk = inputs.one("paths")?;

@@ -55,7 +55,7 @@ impl StageKind for Muco {
         }
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 4,
+            version: 5,
             parameters,
             sources: expert.sources(),
             inputs,
@@ -109,10 +109,7 @@ impl Stage for MucoStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let mut expert = self.expert.clone();
-        if quotas::order(inputs, context)? == Some(false) {
-            expert.config.occlusion.count = 0;
-        }
+        let expert = quotas::ordered(&self.expert, inputs, context)?;
         let Setting { world, around, bodies } = Setting::read(inputs, &expert)?;
         let plugins = Plugins::of_expert(&expert.plugins, &context.sources)?;
         let plugins = plugins.for_item(context.id.to_string());

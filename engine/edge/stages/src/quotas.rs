@@ -2,6 +2,7 @@
 //! with its loss once, and the orders go to flights that succeeded, so that the shares are filled.
 
 use crate::codec;
+use crate::expert::Expert;
 use crate::ports::{self, LOSSES, ORDERS};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
@@ -16,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Version of the trials, which is theirs and not that of the flights.
-pub const TRIALS_VERSION: u32 = 6;
+pub const TRIALS_VERSION: u32 = 7;
 /// Part with the trial of every flight.
 pub const TRIALS: &str = "trials";
 /// Part with the orders of all flights.
@@ -56,7 +57,9 @@ impl Trial {
             let length_s = loss.len() as f64 * dt_s;
             length_s >= ordered.min_s - 1e-9 && length_s <= ordered.max_s + 1e-9
         };
-        let is_lost = losses(flight).iter().filter(|loss| is_ordered(loss)).count() >= ordered.count as usize;
+        let least_s = f64::from(ordered.count) * ordered.min_s;
+        let is_lost = losses(flight).iter().filter(|loss| is_ordered(loss)).count() >= ordered.count as usize
+            && flight.certificate.occlusion_reached_s >= least_s - 1e-9;
         let seen_again = seen_again(flight);
         let beside_look_alike = followed.zip(seen_again).is_some_and(|(followed, frame)| {
             let looks = |seed| Outfit::of(BodyShape::Person, seed);
@@ -156,10 +159,16 @@ pub fn port() -> InputPort {
     InputPort { sees: Sees::Own, ..ports::sibling(ORDERS_PART, ORDERS, Fan::Broadcast, doc) }
 }
 
-/// Whether a flight is to lose its target; `None` where the stage gives no orders.
-pub fn order(inputs: &Inputs<'_>, context: &TaskContext) -> Result<Option<bool>> {
-    let Some(artifact) = inputs.all(ORDERS_PART).first() else { return Ok(None) };
-    codec::decode(ORDERS, &inputs.read(artifact, &context.id.item.to_string())?).map(Some)
+/// The expert of a flight, which keeps its target unless it got an order.
+pub fn ordered(expert: &Expert, inputs: &Inputs<'_>, context: &TaskContext) -> Result<Expert> {
+    let mut expert = expert.clone();
+    if let Some(artifact) = inputs.all(ORDERS_PART).first() {
+        let is_ordered: bool = codec::decode(ORDERS, &inputs.read(artifact, &context.id.item.to_string())?)?;
+        if !is_ordered {
+            expert.config.occlusion = expert.config.occlusion.without_losses();
+        }
+    }
+    Ok(expert)
 }
 
 struct OrdersStage {
