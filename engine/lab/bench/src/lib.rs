@@ -12,3 +12,4 @@ pub mod planner;
 pub mod render;
 pub mod simplify;
 pub mod small;
+pub mod vehicles;

@@ -10,7 +10,7 @@ const CONFLICT_M: f64 = 2.9;
 /// Distance between the points that are compared, metres.
 const SPACING_M: f64 = 1.0;
 /// Bends are measured over this length, metres.
-const BEND_M: f64 = 3.0;
+pub(crate) const BEND_M: f64 = 3.0;
 /// Side of a cell of the search for conflicts, metres.
 const CELL_M: f64 = 8.0;
 /// Ways ahead are followed so far, metres.

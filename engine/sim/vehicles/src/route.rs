@@ -1,10 +1,14 @@
 //! [`Route`]: the lanes that a vehicle drives along, and places on them.
 
-use crate::network::{Drive, Network};
+use crate::network::{BEND_M, Drive, Network};
 use cosfly_frames::{DVec2, DVec3, RandomStream, TargetState, real};
 
 /// Axles lie this far from the middle, as a share of the length.
 const AXLE_SHARE: f64 = 0.3;
+/// Drivers round the corners of lanes: an axle is at the mean of places around its way, metres and weights. They reach as far as
+/// the bends that speeds are chosen for.
+const ROUNDED: [(f64, f64); 5] =
+    [(-0.5 * BEND_M, 0.125), (-0.25 * BEND_M, 0.25), (0.0, 0.25), (0.25 * BEND_M, 0.25), (0.5 * BEND_M, 0.125)];
 /// Routes are drawn so far ahead, metres.
 const AHEAD_M: f64 = 120.0;
 /// Lanes that lead farther are preferred, metres.
@@ -67,12 +71,17 @@ impl Route {
         (point + (self.aside_m * along.perp()).extend(0.0), along)
     }
 
-    /// State of a vehicle whose middle is at a way: its axles lie on the route.
+    /// Place of an axle whose way is given.
+    fn axle(&self, network: &Network, way_m: f64) -> DVec3 {
+        ROUNDED.iter().map(|(offset_m, weight)| *weight * self.at(network, way_m + offset_m).0).sum()
+    }
+
+    /// State of a vehicle whose middle is at a way: its axles lie on the rounded route.
     pub fn state(&self, network: &Network, way_m: f64, length_m: f64, speed_mps: f64) -> TargetState {
         let axle_m = AXLE_SHARE * length_m;
-        let [(rear, _), (front, along)] = [-axle_m, axle_m].map(|offset| self.at(network, way_m + offset));
+        let [rear, front] = [-axle_m, axle_m].map(|offset| self.axle(network, way_m + offset));
         let ahead = (front - rear).truncate();
-        let ahead = if ahead.length_squared() > 1e-6 { ahead } else { along };
+        let ahead = if ahead.length_squared() > 1e-6 { ahead } else { self.at(network, way_m).1 };
         TargetState { feet_in_world: 0.5 * (rear + front), heading_rad: real::atan2(ahead.y, ahead.x), speed_mps }
     }
 }

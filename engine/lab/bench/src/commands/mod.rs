@@ -19,6 +19,7 @@ mod simplify;
 mod small;
 mod steady;
 mod town_of_recipe;
+mod vehicles;
 
 use clap::{Parser, Subcommand};
 use outcome::Outcome;
@@ -70,6 +71,9 @@ enum Command {
     /// Steadiness of pictures: pixels that pop in clips of a slowly moving camera, by what they show
     #[command(after_help = steady::EXAMPLES)]
     Steady(steady::SteadyArguments),
+    /// Simulated vehicles: speeds, accelerations along and across their ways by kind
+    #[command(after_help = vehicles::EXAMPLES)]
+    Vehicles(vehicles::VehiclesArguments),
     /// A command of `cluster`
     #[command(hide = true)]
     Task(cluster::TaskArguments),
@@ -92,6 +96,7 @@ impl Arguments {
             Command::Simplify(arguments) => simplify::simplify(arguments),
             Command::Small(arguments) => small::small(arguments),
             Command::Steady(arguments) => steady::steady(arguments),
+            Command::Vehicles(arguments) => vehicles::vehicles(arguments),
             Command::Task(arguments) => cluster::task(arguments),
         }
     }

@@ -1,0 +1,58 @@
+//! `vehicles`: how simulated vehicles drive.
+
+use super::outcome::{Outcome, print};
+use clap::Args;
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_frames::Seed;
+use cosfly_lab::vehicles::driving;
+use cosfly_maps::{MapConfig, read_town};
+use std::path::PathBuf;
+
+/// Examples of `vehicles`.
+pub const EXAMPLES: &str = "\
+Examples:
+  cosfly-lab vehicles --town recipes/towns/downtown.xodr
+  cosfly-lab vehicles --town helsinki.osm.pbf --count 300 --frames 400";
+
+/// Arguments of `vehicles`.
+#[derive(Args, Debug)]
+pub struct VehiclesArguments {
+    /// Map of the town
+    #[arg(long, value_name = "FILE")]
+    pub town: PathBuf,
+    /// Number of vehicles
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    pub count: u32,
+    /// Number of frames
+    #[arg(long, value_name = "N", default_value_t = 200)]
+    pub frames: u32,
+    /// Time between frames, seconds
+    #[arg(long, value_name = "S", default_value_t = 0.5)]
+    pub frame_s: f64,
+    /// Seed of the vehicles
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Measures and prints the table.
+pub fn vehicles(arguments: &VehiclesArguments) -> Outcome {
+    if !(0.01..=10.0).contains(&arguments.frame_s) {
+        let message = format!("`--frame-s` is {}; it must be from 0.01 to 10", arguments.frame_s);
+        return Err(vec![Diagnostic::new("bench-vehicles", Fault::Recipe, message)]);
+    }
+    let refused = |code, message: String| vec![Diagnostic::new(code, Fault::Input, message)];
+    let path = &arguments.town;
+    let map =
+        std::fs::read(path).map_err(|error| vec![Diagnostic::io(format!("read `{}`", path.display()), &error)])?;
+    let seed = Seed::of_item(arguments.seed, "vehicles", "town");
+    let read = read_town(&map, &MapConfig::default(), seed);
+    let (mut town, ..) = read.map_err(|error| refused("bench-town", error.to_string()))?;
+    town.name = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("town").to_owned();
+    let driving = driving(&town, arguments.count, (arguments.frames, arguments.frame_s), arguments.seed)
+        .map_err(|error| refused("bench-vehicles", error.to_string()))?;
+    let as_json = || serde_json::to_string_pretty(&driving).unwrap_or_default() + "\n";
+    print(&if arguments.json { as_json() } else { driving.to_string() })
+}
