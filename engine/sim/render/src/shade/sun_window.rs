@@ -3,20 +3,22 @@
 use super::shadow_frame::Frame;
 use super::shadow_region::{Region, for_seen_points};
 use super::sun_map::{GRAINS, Painter, Sun, TEXEL_M, Tile, TilePlace, WINDOW_TILES};
-use super::sunlight::{Grain, LOWEST_M, Places, SUMMARY_SIDE, SummaryMap, TILE, TownMap};
+use super::sunlight::{Grain, LOWEST_M, Places, SUMMARY_SIDE, SummaryMap, TILE, Texels, TownMap, WINDOWS};
 use crate::eye::Eye;
 use crate::scene::Scene;
 use crate::shade::pattern::fixed_size;
 use crate::visibility::Screen;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// Where the windows of the coarser texels have their middle, along the camera's axis, metres.
 const AHEAD_M: [f64; GRAINS] = [30.0, 60.0, 120.0, 240.0];
 /// Places this near what the view shows are drawn, too, metres: shading moves points a little.
 const MARGIN_M: f64 = 3.0;
 
-/// The tiles that a renderer's kernels read, each at its place modulo the window's size.
+/// The tiles that a renderer's kernels read, each at its place modulo the window's size. Cameras that look at one town share
+/// them: nothing but their summaries is copied.
 pub(super) struct Window {
     pub(super) map: Box<TownMap>,
     pub(super) summary: Box<SummaryMap>,
@@ -24,7 +26,10 @@ pub(super) struct Window {
     of: Option<(u64, Sun)>,
     held: Vec<Option<TilePlace>>,
     wanted: Vec<TilePlace>,
-    painter: Painter,
+    /// A tile where nothing stands.
+    nothing: Arc<Texels>,
+    /// There once a tile has to be drawn.
+    painter: Option<Painter>,
 }
 
 /// What a window shows of the texels of a size.
@@ -60,13 +65,15 @@ impl Part {
 
 impl Window {
     pub(super) fn new() -> Self {
+        let nothing = Arc::new([0; TILE * TILE]);
         Self {
-            map: fixed_size(vec![]),
+            map: Box::new(core::array::from_fn(|_| Arc::clone(&nothing))),
             summary: fixed_size(vec![]),
             of: None,
-            held: vec![None; GRAINS * (WINDOW_TILES * WINDOW_TILES) as usize],
+            held: vec![None; WINDOWS],
             wanted: Vec::new(),
-            painter: Painter::new(),
+            nothing,
+            painter: None,
         }
     }
 
@@ -102,13 +109,16 @@ impl Window {
             }
         }
         if !self.wanted.is_empty() {
-            let Self { map, summary, held, wanted, painter, .. } = self;
+            let Self { map, summary, held, wanted, nothing, painter, .. } = self;
             let mut take = |place: TilePlace, tile: Option<&Tile>| {
                 held[slot(place)] = Some(place);
-                put(place, tile, map, summary);
+                map[slot(place)] = Arc::clone(tile.map_or(&*nothing, |tile| &tile.texels));
+                put_summary(place, tile.map(|tile| tile.summary.as_slice()), summary);
             };
             scene.sun_maps.take_kept(sun, wanted, &mut take);
-            painter.draw(level, (scene, sun), wanted, &mut take);
+            if !wanted.is_empty() {
+                painter.get_or_insert_with(Painter::new).draw(level, (scene, sun), wanted, &mut take);
+            }
         }
         places(&parts)
     }
@@ -143,22 +153,16 @@ fn part_seen(lattice: &Frame, focus: DVec3, (eye, screen): (&Eye, &Screen), lowe
     Part { lattice: *lattice, first: tiles(region.first), end: tiles(region.end) }
 }
 
-/// Copies a tile to its place.
-fn put(place: TilePlace, tile: Option<&Tile>, map: &mut TownMap, summary: &mut SummaryMap) {
-    let from = slot(place);
-    let (row, column) = (from / WINDOW_TILES as usize, from % WINDOW_TILES as usize);
-    copy(map, (row, column), TILE, tile.map(|tile| &*tile.texels));
-    copy(summary, (row, column), SUMMARY_SIDE, tile.map(|tile| tile.summary.as_slice()));
-}
-
-/// Copies the rows of a square, or nothing, into a row and column of such squares, [`WINDOW_TILES`] side by side.
-fn copy(to: &mut [u32], (row, column): (usize, usize), side: usize, square: Option<&[u32]>) {
-    let stride = WINDOW_TILES as usize * side;
-    for line in 0..side {
-        let at = (row * side + line) * stride + column * side;
-        match square {
-            Some(square) => to[at..at + side].copy_from_slice(&square[line * side..(line + 1) * side]),
-            None => to[at..at + side].fill(0),
+/// Copies the summary of a tile, or nothing, to its place among all.
+fn put_summary(place: TilePlace, of_tile: Option<&[u32]>, summary: &mut SummaryMap) {
+    let stride = WINDOW_TILES as usize * SUMMARY_SIDE;
+    let (row, column) = (slot(place) / WINDOW_TILES as usize, slot(place) % WINDOW_TILES as usize);
+    for line in 0..SUMMARY_SIDE {
+        let at = (row * SUMMARY_SIDE + line) * stride + column * SUMMARY_SIDE;
+        let to = &mut summary[at..at + SUMMARY_SIDE];
+        match of_tile {
+            Some(squares) => to.copy_from_slice(&squares[line * SUMMARY_SIDE..(line + 1) * SUMMARY_SIDE]),
+            None => to.fill(0),
         }
     }
 }
