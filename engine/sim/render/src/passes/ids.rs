@@ -250,8 +250,7 @@ mod tests {
     #[test]
     fn runs_cover_every_row_once() {
         let (width, rows) = (2800, BAND_ROWS + 3);
-        let ids: Vec<u32> =
-            (0..(width * rows) as u32).map(|i| i % 5400).map(|i| NO_FACE - i * i / 3000).collect();
+        let ids: Vec<u32> = (0..(width * rows) as u32).map(|i| i % 5400).map(|i| NO_FACE - i * i / 3000).collect();
         let mut images = FrameImages {
             width: width as u32,
             height: rows as u32,
