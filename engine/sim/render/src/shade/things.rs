@@ -1,7 +1,7 @@
 //! Trunks, cars, lamps and everything else that stands in a street.
 
-use super::lanes::{Block, Shared, WIDE, get, groups, set};
-use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, most, smoothstep, stripes, unit};
+use super::lanes::{Block, Shared, WIDE, groups};
+use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
