@@ -217,7 +217,7 @@ impl Renderer {
         }
         watch.lap(1);
         if parts == FrameParts::All {
-            self.shader.prepare(scene, setup, &eye, &self.people);
+            self.shader.prepare(scene, setup, &eye, &self.people, &self.nearest);
             watch.lap(2);
         }
         self.view = target_view::NOT_IN_VIEW;

@@ -26,7 +26,7 @@ impl Renderer {
         }
         let drawn = is_full.then_some(&self.nearer);
         self.people.adopt(setup, (&eye, &self.screen), to_sun(setup.weather), picture.parts, drawn);
-        self.shader.prepare(scene, setup, &eye, &self.people);
+        self.shader.prepare(scene, setup, &eye, &self.people, &self.nearest);
         self.fill_channels(scene, true);
         if is_full {
             self.smooth_edges(scene);

@@ -20,6 +20,7 @@ pub mod lighting;
 pub(crate) mod material;
 pub mod outskirts;
 pub mod pattern;
+mod seen_places;
 pub mod setting;
 pub mod shader;
 pub mod shadow;

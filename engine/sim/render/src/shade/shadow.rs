@@ -60,6 +60,7 @@ impl Shadows {
         (eye, screen): (&Eye, &Screen),
         to_sun: Vec3,
         (people, target): (&People, Option<DVec3>),
+        drawn: &Visibility,
     ) {
         let lowest_m = match self.lowest_m {
             Some((id, lowest_m)) if id == scene.identity => lowest_m,
@@ -67,7 +68,7 @@ impl Shadows {
         };
         self.lowest_m = Some((scene.identity, lowest_m));
         let sun = Sun::new(to_sun, lowest_m);
-        self.places = self.window.prepare(level, (scene, &sun), (eye, screen), (target, lowest_m));
+        self.places = self.window.prepare(level, (scene, &sun), (eye, screen), (target, lowest_m), drawn);
         let lattice = sun.lattice(0);
         for (position, person) in people.members.iter().enumerate() {
             if self.figures.len() <= position {

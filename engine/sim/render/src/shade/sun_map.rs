@@ -106,12 +106,22 @@ impl SunMaps {
         });
     }
 
-    /// Keeps a tile; where there are too many, those of the sun longest out of use go.
+    /// Keeps a tile; where there are too many, those of the sun longest out of use go, or a quarter of the only sun's.
     fn keep(&self, sun: &Sun, place: TilePlace, tile: Option<Tile>) {
         let mut suns = self.suns.lock().unwrap_or_else(PoisonError::into_inner);
-        let count = |suns: &[([u64; 4], Tiles)]| suns.iter().map(|(_, tiles)| tiles.len()).sum::<usize>();
-        if count(&suns) >= MOST_TILES {
-            suns.remove(0);
+        let held = |tiles: &Tiles| tiles.values().filter(|tile| tile.is_some()).count();
+        if tile.is_some() && suns.iter().map(|(_, tiles)| held(tiles)).sum::<usize>() >= MOST_TILES {
+            match suns.as_mut_slice() {
+                // Cameras that take turns all over a town would find none of their tiles if all, or the oldest, went.
+                [(_, tiles)] => {
+                    let mut number = 0;
+                    tiles.retain(|_, _| {
+                        number += 1;
+                        number % 4 != 0
+                    });
+                }
+                _ => _ = suns.remove(0),
+            }
         }
         let at = match suns.iter().position(|(key, _)| *key == sun.key()) {
             Some(at) => at,
