@@ -6,9 +6,10 @@
 use super::pattern::{floor_int, least, most, share};
 use super::shadow_frame::Frame;
 use super::sunlight::FIGURE_SIDE;
-use cosfly_figures::figure::{FigureParts, Ring, SIDES, Walker};
+use cosfly_figures::figure::{FigureParts, MOST_PARTS, Ring, SIDES, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3, real, simd_kernel};
+use glam::Vec2;
 
 /// Texels that are compared at a time.
 const WIDE: usize = 16;
@@ -29,6 +30,8 @@ struct SeenRing {
     height_m: f32,
 }
 
+const NO_RING: SeenRing = SeenRing { corners: [[0.0; 2]; CORNERS], height_m: 0.0 };
+
 /// Draws the shadow of a person into the first `side` rows and columns of a map; says where they lie.
 pub(super) fn draw_person(
     level: Level,
@@ -38,25 +41,31 @@ pub(super) fn draw_person(
     heights: &mut Heights,
 ) -> Option<Frame> {
     let stance = Stance::new(lattice, walker, parts);
-    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for ring in parts.iter().flat_map(|part| [part.low, part.high]) {
-        for k in 0..SIDES {
-            let corner = stance.corner(&ring, k);
-            (low, high) = (low.min(corner), high.max(corner));
+    let mut rings = [NO_RING; 2 * MOST_PARTS];
+    let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+    let mut count = 0;
+    for (part, pair) in parts.iter().zip(rings.as_chunks_mut::<2>().0) {
+        count += 1;
+        for (seen, ring) in pair.iter_mut().zip([&part.low, &part.high]) {
+            *seen = stance.see(ring);
+            for corner in &seen.corners {
+                for axis in 0..2 {
+                    low[axis] = least(low[axis], corner[axis]);
+                    high[axis] = most(high[axis], corner[axis]);
+                }
+            }
         }
     }
-    let size = high - low;
+    let (low_m, high_m) = (Vec2::from_array(low).as_dvec2(), Vec2::from_array(high).as_dvec2());
+    let size = high_m - low_m;
     if !size.is_finite() || size.min_element() <= 0.0 || size.max_element() > 100.0 {
         return None;
     }
     let texels_m = size / (side as f64 - 4.0);
-    let frame = Frame { corner: (stance.feet + low) / texels_m - 2.0, texels_m, ..*lattice };
+    let frame = Frame { corner: (stance.feet + low_m) / texels_m - 2.0, texels_m, ..*lattice };
     heights[..FIGURE_SIDE * side].fill(0.0);
-    for part in parts.iter() {
-        let rings = [part.low, part.high].map(|ring| stance.see(&ring, low, texels_m));
-        let turned = if part.high.up < part.low.up { -1.0 } else { 1.0 };
-        draw_part(level, &rings, turned, side, heights);
-    }
+    let per_m = [(1.0 / texels_m.x) as f32, (1.0 / texels_m.y) as f32];
+    draw_parts(level, &mut rings[..2 * count], low, per_m, side, heights);
     Some(frame)
 }
 
@@ -92,31 +101,48 @@ impl Stance {
             + up * ring.up.max(0.0)
     }
 
-    /// A ring in texels, from a margin of two before `low` on.
-    fn see(&self, ring: &Ring, low: DVec2, texels_m: DVec2) -> SeenRing {
-        let corners = core::array::from_fn(|k| {
-            let corner = (self.corner(ring, k % SIDES) - low) / texels_m + 2.0;
-            corner.as_vec2().to_array()
-        });
-        SeenRing { corners, height_m: (self.foot_height_m + self.height_m * ring.up.max(0.0)) as f32 }
+    /// A ring from the feet on, metres.
+    fn see(&self, ring: &Ring) -> SeenRing {
+        let height_m = (self.foot_height_m + self.height_m * ring.up.max(0.0)) as f32;
+        let mut seen = SeenRing { corners: [[0.0; 2]; CORNERS], height_m };
+        for k in 0..CORNERS {
+            let corner = self.corner(ring, k % SIDES);
+            seen.corners[k] = [corner.x as f32, corner.y as f32];
+        }
+        seen
     }
 }
 
 simd_kernel! {
-    /// Draws a part between two rings; `turned` is -1 where the second lies below the first.
-    fn draw_part(rings: &[SeenRing; 2], turned: f32, side: usize, heights: &mut Heights) {
-        let [low, high] = rings;
-        let rise_m = high.height_m - low.height_m;
-        for k in 0..SIDES {
-            let (a, b) = (low.corners[k], low.corners[k + 1]);
-            let (c, d) = (high.corners[k], high.corners[k + 1]);
-            draw_triangle([a, b, c], turned, low.height_m, rise_m, side, heights);
-            draw_triangle([d, c, b], turned, high.height_m, -rise_m, side, heights);
+    /// Draws parts, each between two rings in metres, which are turned into texels from a margin of two before `low_m` on.
+    fn draw_parts(
+        rings: &mut [SeenRing],
+        low_m: [f32; 2],
+        texels_per_m: [f32; 2],
+        side: usize,
+        heights: &mut Heights,
+    ) {
+        for ring in rings.iter_mut() {
+            for corner in &mut ring.corners {
+                for axis in 0..2 {
+                    corner[axis] = (corner[axis] - low_m[axis]) * texels_per_m[axis] + 2.0;
+                }
+            }
         }
-        let upper = if rise_m < 0.0 { low } else { high };
-        let [first, rest @ ..] = &upper.corners;
-        for k in 0..SIDES - 2 {
-            draw_triangle([*first, rest[k], rest[k + 1]], 1.0, upper.height_m, 0.0, side, heights);
+        for [low, high] in rings.as_chunks::<2>().0 {
+            let rise_m = high.height_m - low.height_m;
+            let turned = if rise_m < 0.0 { -1.0 } else { 1.0 };
+            for k in 0..SIDES {
+                let (a, b) = (low.corners[k], low.corners[k + 1]);
+                let (c, d) = (high.corners[k], high.corners[k + 1]);
+                draw_triangle([a, b, c], turned, low.height_m, rise_m, side, heights);
+                draw_triangle([d, c, b], turned, high.height_m, -rise_m, side, heights);
+            }
+            let upper = if rise_m < 0.0 { low } else { high };
+            let [first, rest @ ..] = &upper.corners;
+            for k in 0..SIDES - 2 {
+                draw_triangle([*first, rest[k], rest[k + 1]], 1.0, upper.height_m, 0.0, side, heights);
+            }
         }
     }
 }
@@ -166,10 +192,12 @@ fn draw_triangle(corners: [[f32; 2]; 3], turned: f32, base_m: f32, rise_m: f32, 
             let at = (row as u32 as usize).wrapping_mul(FIGURE_SIDE).wrapping_add(column as u32 as usize);
             let Some(texels) = heights.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<WIDE>()) else { return };
             let x = column as f32 + 0.5;
-            let [from, second, third] = edges.map(|[constant, across, down]| constant + across * x + down * y);
+            // Written out: `map` of arrays is a call.
+            let [[e0, ex, ey], [f0, fx, fy], [g0, gx, gy]] = edges;
+            let (from, second, third) = (e0 + ex * x + ey * y, f0 + fx * x + fy * y, g0 + gx * x + gy * y);
             for k in 0..WIDE {
                 let aside = k as i32 as f32;
-                let (e, f, g) = (from + edges[0][1] * aside, second + edges[1][1] * aside, third + edges[2][1] * aside);
+                let (e, f, g) = (from + ex * aside, second + fx * aside, third + gx * aside);
                 let inside = (e >= 0.0) & (f >= 0.0) & (g >= 0.0) & (x + aside < limit);
                 let height_m = base_m + rise_m * share((e - SEAM) * per_area);
                 texels[k] = if inside & (height_m > texels[k]) { height_m } else { texels[k] };

@@ -175,8 +175,9 @@ simd_kernel! {
                     break;
                 }
                 let (spots, sunlight) = (spots(&four[pixel], &places), &mut four[pixel].sunlight);
-                if !lit_by_squares(sunlight, &spots, summary) {
-                    alike &= !lit_through_leaves(sunlight, &spots, map, &places, noise);
+                let unknown = lit_by_squares(sunlight, &spots, summary);
+                if unknown != [0; WIDE] {
+                    alike &= !lit_through_leaves(sunlight, &unknown, &spots, map, &places, noise);
                 }
                 if number == 1 {
                     let mut differ = 0u32;
@@ -243,12 +244,12 @@ fn spots(block: &Block, places: &Places) -> Spots {
 }
 
 /// Looks a block's sunlight up in whole squares, which tells the same wherever a square is all above or all below the
-/// places; whether it did for all of them.
+/// places; 1 for those of which it does not tell.
 #[inline(always)]
-fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> bool {
+fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> [u32; WIDE] {
     const BITS: u32 = SQUARES.trailing_zeros();
     const MASK: u32 = SQUARES as u32 - 1;
-    let mut unknown = 0u32;
+    let mut unknown = [0u32; WIDE];
     for (k, sunlight) in sunlight.iter_mut().enumerate() {
         let column = floor_int(spots.u[k] - 0.5) as u32 >> IN_SQUARE;
         let row = floor_int(spots.v[k] - 0.5) as u32 >> IN_SQUARE;
@@ -258,15 +259,17 @@ fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> b
         let lit = (spots.known[k] == 0) | ((square >> 16) as i32 as f32 <= steps);
         let dark = (square & 0xffff) as i32 as f32 > steps;
         *sunlight = one_if(lit);
-        unknown |= u32::from(!(lit | dark));
+        unknown[k] = u32::from(!(lit | dark));
     }
-    unknown == 0
+    unknown
 }
 
-/// Looks a block's sunlight up; whether leaves shade some of it.
+/// Looks the sunlight of a block's unknown places up, one after the other: texels are scattered over memory; whether leaves
+/// shade some of them.
 #[inline(always)]
 fn lit_through_leaves(
     sunlight: &mut Lane,
+    unknown: &[u32; WIDE],
     spots: &Spots,
     map: &TownMap,
     places: &Places,
@@ -275,6 +278,9 @@ fn lit_through_leaves(
     let mut under_leaves = [0.0f32; WIDE];
     let mut flecks = 0u32;
     for (k, under) in under_leaves.iter_mut().enumerate() {
+        if unknown[k] == 0 {
+            continue;
+        }
         let (dark, leaves) = town_darkness(map, spots, k);
         sunlight[k] = 1.0 - dark;
         *under = dark * leaves;
