@@ -231,19 +231,26 @@ impl SeenPart {
             let corners = [[(0, k), (0, k + 1), (1, k)], [(1, k), (0, k + 1), (1, k + 1)]];
             let seen = (0..2).filter(move |half| self.areas[*half][k] > 0.0);
             seen.map(move |half| {
-                let points = corners[half].map(|(ring, k)| self.point(ring, k));
-                (part, points, corners[half].map(|(ring, k)| self.pixel(ring, k)))
+                // Written out: `map` of arrays is a call.
+                let [(i, a), (j, b), (k, c)] = corners[half];
+                let points = [self.point(i, a), self.point(j, b), self.point(k, c)];
+                (part, points, [self.pixel(i, a), self.pixel(j, b), self.pixel(k, c)])
             })
         })
     }
 
     /// The flat ends that are seen from outside: three corners in body axes, all corners on the screen.
     pub fn ends(&self) -> impl Iterator<Item = ([DVec3; 3], [[f32; 2]; SIDES])> {
-        (0..2)
-            .filter(|ring| self.ends[*ring] > 0.0)
-            .map(|ring| ([0, 2, 4].map(|k| self.point(ring, k)), core::array::from_fn(|k| self.pixel(ring, k))))
+        (0..2).filter(|ring| self.ends[*ring] > 0.0).map(|ring| {
+            let mut pixels = [[0.0; 2]; SIDES];
+            for (k, pixel) in pixels.iter_mut().enumerate() {
+                *pixel = self.pixel(ring, k);
+            }
+            ([self.point(ring, 0), self.point(ring, 2), self.point(ring, 4)], pixels)
+        })
     }
 
+    #[inline]
     fn pixel(&self, ring: usize, k: usize) -> [f32; 2] {
         [self.pixels[ring][0][k], self.pixels[ring][1][k]]
     }

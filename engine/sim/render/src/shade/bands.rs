@@ -247,11 +247,20 @@ impl Worker {
             return;
         }
         let mut spans = Spans { row: [i32::MAX; FOURS], first: [0; FOURS], end: [0; FOURS] };
+        let (mut first, mut end) = ([i32::MAX; 2], [i32::MIN; 2]);
         for (at, piece) in self.pieces.iter().enumerate().take(FOURS) {
-            (spans.row[at], spans.first[at]) = (piece.v as i32, piece.u as i32);
-            spans.end[at] = piece.u as i32 + piece.length as i32;
+            let (row, column) = (piece.v as i32, piece.u as i32);
+            let next = column + piece.length as i32;
+            (spans.row[at], spans.first[at], spans.end[at]) = (row, column, next);
+            first = [first[0].min(column), first[1].min(row)];
+            end = [end[0].max(next), end[1].max(row + 1)];
         }
-        let near = self.near_band.iter().filter(|(_, reach)| meets_any(level, &spans, *reach));
+        let near = self.near_band.iter().filter(|(_, reach)| {
+            let [left, top, right, bottom] = *reach;
+            // Most are told by all pieces at once.
+            let meets_all = left < end[0] && right > first[0] && top < end[1] && bottom > first[1];
+            meets_all && meets_any(level, &spans, *reach)
+        });
         self.near.extend(near.map(|(person, _)| *person));
     }
 
