@@ -19,10 +19,8 @@ const CORNERS: usize = SIDES + 1;
 const SEAM: f32 = 1e-3;
 
 /// Heights over a map's lowest place, rows of [`FIGURE_SIDE`] texels, with room for writing beyond the last; 0: nothing.
-pub(super) type Heights = [f32; FIGURE_SIDE * FIGURE_SIDE + WIDE];
-/// Nothing anywhere.
-pub(super) const EMPTY: Heights = [0.0; FIGURE_SIDE * FIGURE_SIDE + WIDE];
-
+pub(super) type Heights = [f32; HEIGHTS];
+pub(super) const HEIGHTS: usize = FIGURE_SIDE * FIGURE_SIDE + WIDE;
 /// A ring over the sheared ground.
 #[derive(Clone, Copy)]
 struct SeenRing {
@@ -195,12 +193,12 @@ fn draw_triangle(corners: [[f32; 2]; 3], turned: f32, base_m: f32, rise_m: f32, 
             // Written out: `map` of arrays is a call.
             let [[e0, ex, ey], [f0, fx, fy], [g0, gx, gy]] = edges;
             let (from, second, third) = (e0 + ex * x + ey * y, f0 + fx * x + fy * y, g0 + gx * x + gy * y);
-            for k in 0..WIDE {
+            for (k, texel) in texels.iter_mut().enumerate() {
                 let aside = k as i32 as f32;
                 let (e, f, g) = (from + ex * aside, second + fx * aside, third + gx * aside);
                 let inside = (e >= 0.0) & (f >= 0.0) & (g >= 0.0) & (x + aside < limit);
                 let height_m = base_m + rise_m * share((e - SEAM) * per_area);
-                texels[k] = if inside & (height_m > texels[k]) { height_m } else { texels[k] };
+                *texel = if inside & (height_m > *texel) { height_m } else { *texel };
             }
             column = column.wrapping_add(WIDE as i32);
         }
@@ -239,7 +237,7 @@ mod tests {
             };
             let clothes = Clothes::draw(&walker.clothes_seed);
             let lattice = Sun::new(Vec3::new(0.5, -0.4, 0.6).unit(), 0.0).lattice(0);
-            let mut heights = [0.0; FIGURE_SIDE * FIGURE_SIDE + WIDE];
+            let mut heights = [0.0; HEIGHTS];
             let parts = FigureParts::of(&walker, &clothes);
             let frame = draw_person(Level::best(), &lattice, (&walker, &parts), side, &mut heights).expect("a shadow");
             let triangles = walker_triangles(&walker);

@@ -116,9 +116,9 @@ simd_kernel! {
         for (group, (shared, four)) in groups(shared, blocks).enumerate() {
             let shift = Stage::lane(&crowns.shift, group);
             for block in four {
-                for k in 0..WIDE {
+                for (k, shift) in shift.iter().enumerate() {
                     let point = block.point(shared, k);
-                    let look = look(&point, three_of(&crowns.tint, group, k), shift[k], noise);
+                    let look = look(&point, three_of(&crowns.tint, group, k), *shift, noise);
                     block.put_bent(k, &look);
                 }
             }

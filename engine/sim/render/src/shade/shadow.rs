@@ -7,7 +7,7 @@ use crate::eye::Eye;
 use crate::frame::TARGET_INSTANCE;
 use crate::people::People;
 use crate::scene::Scene;
-use crate::shade::body_shadow::{EMPTY, Heights, draw_person};
+use crate::shade::body_shadow::{HEIGHTS, Heights, draw_person};
 use crate::shade::lanes::Block;
 use crate::shade::pattern::{NoiseTexture, fixed_size};
 use crate::shade::shadow_frame::Frame;
@@ -47,7 +47,7 @@ impl Shadows {
             places: Places::default(),
             lowest_m: None,
             figure: Visibility::new(FIGURE_SIDE, FIGURE_SIDE),
-            heights: Box::new(EMPTY),
+            heights: Box::new([0.0; HEIGHTS]),
             figures: Vec::new(),
         }
     }
