@@ -10,10 +10,14 @@ pub struct DrawnFace {
     /// Inverse depth, exact.
     pub plane: Linear,
     pub instance: u32,
-    /// Its number in [`cosfly_render::Scene::faces`]; [`NO_FACE`] for what moves and for the sky.
+    /// Its number in [`cosfly_render::Scene::faces`]; for bodies, [`BODY`] more than the number of their part in this picture;
+    /// [`NO_FACE`] for what else moves and for the sky.
     pub number: u32,
     pub label: u8,
 }
+
+/// Numbers from here on are those of parts of bodies.
+pub const BODY: u32 = 1 << 31;
 
 /// Face 0: the sky.
 pub const SKY: DrawnFace = DrawnFace { plane: [0.0; 3], instance: 0, number: NO_FACE, label: SemanticLabel::Sky as u8 };

@@ -3,9 +3,8 @@
 use crate::canvas::{Canvas, Part, Parts, WIDE};
 use crate::eye::{Eye, NEAR_M};
 use cosfly_frames::simd::Level;
-use cosfly_frames::{DVec3, Seed, real, simd_kernel};
+use cosfly_frames::{DVec3, real, simd_kernel};
 use cosfly_render::Walker;
-use cosfly_render::clothes::Clothes;
 use cosfly_render::figure::{FigurePart, SIDES};
 
 /// A box around something on the screen: bounds in pixels from the image's centre, and the nearest depth.
@@ -75,6 +74,9 @@ pub struct Stance {
     height_m: f64,
     focal_px: f32,
     size_px: [f32; 2],
+    /// Feet and axes in the world.
+    feet_in_world: DVec3,
+    axes_in_world: [DVec3; 3],
 }
 
 /// Directions of the corners of a ring; the last two repeat the first, to fill eight lanes.
@@ -96,7 +98,16 @@ impl Stance {
             height_m: walker.height_m,
             focal_px: eye.focal_px as f32,
             size_px: eye.half_px.map(|half| 2.0 * half as f32),
+            feet_in_world: sunk,
+            axes_in_world: axes.map(|axis| axis * walker.height_m),
         }
+    }
+
+    /// The ends of a part's middle line.
+    pub fn middle_in_world(&self, part: &FigurePart) -> [DVec3; 2] {
+        let [forward, right, up] = self.axes_in_world;
+        [part.low, part.high]
+            .map(|ring| self.feet_in_world + forward * ring.forward + right * ring.right + up * ring.up.max(0.0))
     }
 
     /// The pixels that a part of the body may cover, roughly; `None` when it covers none.
@@ -205,25 +216,6 @@ simd_kernel! {
     }
 }
 
-/// Clothes of people by their seeds, so that nobody's are drawn again in every picture. Forgets rather than grows.
-pub struct Wardrobe {
-    shelves: Vec<Option<(Seed, Clothes)>>,
-}
-
-impl Wardrobe {
-    pub fn new() -> Self {
-        Self { shelves: vec![None; 256] }
-    }
-
-    pub fn clothes(&mut self, seed: &Seed) -> Clothes {
-        let shelf = &mut self.shelves[usize::from(seed.0[0])];
-        match shelf {
-            Some((known, clothes)) if known == seed => *clothes,
-            _ => shelf.insert((*seed, Clothes::draw(seed))).1,
-        }
-    }
-}
-
 impl SeenPart {
     /// Corner `k` of a ring in body axes, metres.
     #[inline]
@@ -239,19 +231,26 @@ impl SeenPart {
             let corners = [[(0, k), (0, k + 1), (1, k)], [(1, k), (0, k + 1), (1, k + 1)]];
             let seen = (0..2).filter(move |half| self.areas[*half][k] > 0.0);
             seen.map(move |half| {
-                let points = corners[half].map(|(ring, k)| self.point(ring, k));
-                (part, points, corners[half].map(|(ring, k)| self.pixel(ring, k)))
+                // Written out: `map` of arrays is a call.
+                let [(i, a), (j, b), (k, c)] = corners[half];
+                let points = [self.point(i, a), self.point(j, b), self.point(k, c)];
+                (part, points, [self.pixel(i, a), self.pixel(j, b), self.pixel(k, c)])
             })
         })
     }
 
     /// The flat ends that are seen from outside: three corners in body axes, all corners on the screen.
     pub fn ends(&self) -> impl Iterator<Item = ([DVec3; 3], [[f32; 2]; SIDES])> {
-        (0..2)
-            .filter(|ring| self.ends[*ring] > 0.0)
-            .map(|ring| ([0, 2, 4].map(|k| self.point(ring, k)), core::array::from_fn(|k| self.pixel(ring, k))))
+        (0..2).filter(|ring| self.ends[*ring] > 0.0).map(|ring| {
+            let mut pixels = [[0.0; 2]; SIDES];
+            for (k, pixel) in pixels.iter_mut().enumerate() {
+                *pixel = self.pixel(ring, k);
+            }
+            ([self.point(ring, 0), self.point(ring, 2), self.point(ring, 4)], pixels)
+        })
     }
 
+    #[inline]
     fn pixel(&self, ring: usize, k: usize) -> [f32; 2] {
         [self.pixels[ring][0][k], self.pixels[ring][1][k]]
     }

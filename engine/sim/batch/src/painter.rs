@@ -1,11 +1,12 @@
 //! One picture: boxes from near to far, ground, people, other figures; then the channels.
 
+mod bodies;
+
 use crate::boxes::{Boxes, Grouped};
 use crate::canvas::{Canvas, Part, WIDE};
 use crate::colours::Colours;
 use crate::eye::{Eye, Linear, NEAR_M, scaled};
 use crate::faces::{DrawnFace, SKY};
-use crate::figures::{Around, SeenPart, Stance, Wardrobe};
 use crate::ground::{FAR_OFF_PX, Ground, Pack, Polygon, SeenPack};
 use crate::hidden::Hidden;
 use crate::lanes::Candidate;
@@ -15,10 +16,8 @@ use crate::resolve::resolve;
 use crate::view::View;
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
-use cosfly_maps::SemanticLabel;
-use cosfly_render::figure::{FigureParts, FigureTriangle, figure};
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{BodyShape, LEAST_HEIGHT_PX, Walker};
+use cosfly_render::figure::FigureTriangle;
+use cosfly_render::{BodyPart, Wardrobe};
 
 /// Most corners of a polygon.
 const MOST_CORNERS: usize = WIDE * MOST_LINES;
@@ -38,6 +37,9 @@ pub struct Painter {
     wardrobe: Wardrobe,
     /// Triangles of a vehicle.
     vehicle: Vec<FigureTriangle>,
+    /// Whether colours are asked for, and the parts of bodies that they need.
+    has_colours: bool,
+    parts: Vec<BodyPart>,
     colours: Colours,
 }
 
@@ -51,8 +53,10 @@ impl Painter {
             groups: Vec::new(),
             candidates: Vec::new(),
             seen: SeenPack::default(),
-            wardrobe: Wardrobe::new(),
+            wardrobe: Wardrobe::default(),
             vehicle: Vec::new(),
+            has_colours: false,
+            parts: Vec::new(),
             colours: Colours::default(),
         }
     }
@@ -74,12 +78,14 @@ impl Painter {
         self.draw_boxes(&eye, boxes, boxes.small());
         self.hidden.measure(self.level, &self.canvas);
         self.draw_ground(&eye, &view.scene.ground);
+        self.has_colours = outputs.rgb.is_some();
+        self.parts.clear();
+        self.draw_people(&eye, view);
         if let Some(rgb) = &mut outputs.rgb {
-            // Colours come from the large renderer, which draws who moves itself.
-            self.colours.draw(self.level, view, &self.canvas, &self.faces, rgb);
+            self.colours.draw(self.level, view, &self.canvas, (&self.faces, &self.parts), rgb);
         }
         if outputs.has_geometry() {
-            self.draw_people(&eye, view);
+            self.draw_figures(&eye, view.figures);
             resolve(self.level, &self.canvas, &self.faces, outputs);
         }
     }
@@ -106,99 +112,9 @@ impl Painter {
         }
     }
 
-    fn draw_people(&mut self, eye: &Eye, view: &View<'_>) {
-        if let Some(target) = view.target.as_ref().filter(|target| target.has_body()) {
-            self.draw_walker(eye, target, TARGET_INSTANCE);
-        }
-        for other in view.others.iter().filter(|other| other.walker.has_body()) {
-            self.draw_walker(eye, &other.walker, other.instance);
-        }
-        for figure in view.figures {
-            let corners = || figure.triangles_in_world.iter().flatten().copied();
-            let low = corners().fold(DVec3::INFINITY, DVec3::min);
-            let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
-            if !self.may_show(&Around::of_box(eye, low, high)) {
-                continue;
-            }
-            for corners in figure.triangles_in_world {
-                self.draw_triangle(eye, corners, figure.instance, figure.label);
-            }
-        }
-    }
-
-    /// Whether something covers a pixel centre and is not hidden.
-    fn may_show(&self, around: &Around) -> bool {
-        let part = self.canvas.part(around.low, around.high);
-        let nearest = (1.0 / around.nearest_m.max(NEAR_M)) as f32;
-        part.is_some_and(|part| !self.hidden.hides(&self.canvas, part, nearest))
-    }
-
-    fn draw_walker(&mut self, eye: &Eye, walker: &Walker, instance: u32) {
-        let (low, high) = walker.bounds_in_world();
-        if eye.see(0.5 * (low + high)).x < -(high - low).max_element() {
-            return;
-        }
-        let away_m = (eye.position_in_world - eye.position_in_world.clamp(low, high)).length();
-        if instance != TARGET_INSTANCE
-            && eye.focal_px * walker.body.height_m(walker.height_m) < LEAST_HEIGHT_PX * away_m
-        {
-            return;
-        }
-        if !self.may_show(&Around::of_box(eye, low, high)) {
-            return;
-        }
-        if walker.body != BodyShape::Person {
-            self.draw_vehicle(eye, walker, instance);
-            return;
-        }
-        let parts = FigureParts::of(walker, &self.wardrobe.clothes(&walker.clothes_seed));
-        let stance = Stance::new(eye, walker, parts.lowest());
-        let face = DrawnFace { instance, label: SemanticLabel::Pedestrian.id(), ..SKY };
-        for part in parts.iter() {
-            if stance.part(&self.canvas, part).is_some() {
-                self.draw_body_part(eye, &stance.see(self.level, part), face);
-            }
-        }
-    }
-
-    /// A vehicle with its rider, as in large pictures.
-    fn draw_vehicle(&mut self, eye: &Eye, walker: &Walker, instance: u32) {
-        let mut triangles = core::mem::take(&mut self.vehicle);
-        triangles.clear();
-        figure(walker, &self.wardrobe.clothes(&walker.clothes_seed), 0, &mut triangles);
-        for triangle in &triangles {
-            self.draw_triangle(eye, &triangle.corners_in_world, instance, walker.body.label(triangle.region).id());
-        }
-        self.vehicle = triangles;
-    }
-
-    /// A closed frustum: its sides as two triangles each, its ends.
-    fn draw_body_part(&mut self, eye: &Eye, seen: &SeenPart, face: DrawnFace) {
-        if seen.nearest_m < NEAR_M as f32 {
-            for corners in seen.triangles() {
-                self.draw_seen_triangle(eye, &corners, face);
-            }
-            return;
-        }
-        let Some(part) = self.canvas.part(seen.low, seen.high) else { return };
-        if self.hidden.hides(&self.canvas, part, 1.0 / seen.nearest_m) {
-            return;
-        }
-        for (part, corners, points) in seen.sides() {
-            if let Some(plane) = plane_through(eye, &corners) {
-                self.draw_part(part, &points, DrawnFace { plane, ..face }, 0.0);
-            }
-        }
-        for (corners, points) in seen.ends() {
-            if let Some(plane) = plane_through(eye, &corners) {
-                self.draw_points(&points, DrawnFace { plane, ..face }, 0.0);
-            }
-        }
-    }
-
-    fn draw_triangle(&mut self, eye: &Eye, corners_in_world: &[DVec3; 3], instance: u32, label: u8) {
+    fn draw_triangle(&mut self, eye: &Eye, corners_in_world: &[DVec3; 3], face: DrawnFace) {
         let corners = corners_in_world.map(|corner| eye.see(corner));
-        self.draw_seen_triangle(eye, &corners, DrawnFace { instance, label, ..SKY });
+        self.draw_seen_triangle(eye, &corners, face);
     }
 
     /// Draws a triangle by its corners in body axes; the plane of `face` is set here.

@@ -58,14 +58,20 @@ fn the_second_batch_allocates_nothing() {
         })
         .collect();
     let mut renderer = BatchRenderer::new(84, 84);
-    let mut depth_m = vec![0.0f32; views.len() * renderer.pixels()];
-    let mut instance = vec![0; views.len() * renderer.pixels()];
-    let mut pass = || {
+    let pixels = views.len() * renderer.pixels();
+    let (mut depth_m, mut instance, mut rgb) = (vec![0.0f32; pixels], vec![0; pixels], vec![0; 3 * pixels]);
+    let mut pass = |look: Option<PictureLook>| {
+        let views: Vec<View<'_>> = views.iter().map(|view| View { look: look.unwrap_or(view.look), ..*view }).collect();
         let before = ALLOCATIONS.with(Cell::get);
-        let (depth_m, instance) = (Some(&mut depth_m[..]), Some(&mut instance[..]));
-        renderer.render(&views, Outputs { depth_m, instance, ..Outputs::default() });
+        let outputs = match look {
+            Some(_) => Outputs { rgb: Some(&mut rgb), ..Outputs::default() },
+            None => Outputs { depth_m: Some(&mut depth_m), instance: Some(&mut instance), ..Outputs::default() },
+        };
+        renderer.render(&views, outputs);
         ALLOCATIONS.with(Cell::get) - before
     };
-    assert!(pass() > 0, "the first pass grows the buffers");
-    assert_eq!(pass(), 0);
+    for look in [None, Some(PictureLook::Simple), Some(PictureLook::Full)] {
+        assert!(pass(look) > 0, "{look:?}: the first pass grows the buffers");
+        assert_eq!(pass(look), 0, "{look:?}");
+    }
 }

@@ -158,7 +158,7 @@ pub(crate) fn around() -> [(f64, f64); SIDES] {
 }
 
 /// Most parts of a figure.
-const MOST_PARTS: usize = 27;
+pub const MOST_PARTS: usize = 27;
 
 /// The parts of a figure, before it sinks to the ground: closed frustums of [`SIDES`] sides.
 pub struct FigureParts {

@@ -165,6 +165,16 @@ impl Visibility {
         self.face[span].fill(face);
     }
 
+    /// Takes over a whole picture that was found elsewhere: face numbers, and inverse depths in 1/m.
+    ///
+    /// # Panics
+    /// Where either does not have exactly the pixels of this one.
+    pub fn adopt_all(&mut self, faces: &[u32], inverse_depth: &[f32]) {
+        self.dirty_rows = (0, self.height);
+        self.face.copy_from_slice(faces);
+        self.inverse_depth.copy_from_slice(inverse_depth);
+    }
+
     /// Draws a flat convex polygon given by its corners in the camera's body axes (x ahead, y right, z up, metres).
     /// `bias` lifts its inverse depth by that share in the comparison only (coplanar road marks win over the road).
     /// Edges are computed from their lower end, so polygons that share an edge share its pixels without gap or overlap.

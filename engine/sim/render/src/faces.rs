@@ -22,8 +22,8 @@ pub(crate) enum FaceSource {
     Ground { cluster: u32, polygon: u16 },
     /// Triangle of the scene's models.
     Prop { triangle: u32 },
-    /// Triangle of the figures, and the first face drawn of the same part of a body.
-    Figure { triangle: u32, first_face: u32 },
+    /// A part of a figure: its look, the first face drawn of it, and whether it is of a person.
+    Figure { look: u32, first_face: u32, is_cloth: bool },
 }
 
 /// Share by which the inverse depth of a box counts as greater: of coplanar faces of different boxes, the number decides,

@@ -1,15 +1,15 @@
 //! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
 
 use crate::eye::Eye;
+use crate::found::BodyPart;
 use crate::frame::TARGET_INSTANCE;
 use crate::nearer::Nearer;
 use crate::setup::FrameSetup;
 use crate::shade::vector::Vec3;
 use crate::visibility::{NEAR_M, Screen};
-use cosfly_figures::Livery;
-use cosfly_figures::Pattern;
 use cosfly_figures::clothes::{Clothes, Region};
 use cosfly_figures::figure::{FigureTriangle, Walker, figure};
+use cosfly_figures::{BodyShape, Livery, Wardrobe};
 use cosfly_frames::{DVec3, real};
 use std::ops::Range;
 
@@ -23,14 +23,13 @@ pub const LEAST_HEIGHT_PX: f64 = 1.0;
 /// Somebody whose figure is built in this frame.
 pub(crate) struct Person {
     pub walker: Walker,
+    pub clothes: Clothes,
     /// Linear RGB, indexed by [`Region`].
     pub colours: [[f32; 3]; Region::COUNT],
-    /// Pattern of the top.
-    pub pattern: Pattern,
     /// To the right of the body, unit length.
     pub side_in_world: Vec3,
     pub instance: u32,
-    /// Triangles of the figure among those of all.
+    /// Triangles of the figure among those of all, where they are needed.
     pub triangles: Range<usize>,
     /// Whether the body itself may be seen.
     pub is_seen: bool,
@@ -46,6 +45,7 @@ pub(crate) struct Reach(pub [f64; 4]);
 
 impl Reach {
     const EVERYWHERE: Self = Self([f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY]);
+    const NOWHERE: Self = Self([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]);
 
     /// Around points in body axes; everywhere, when one is not ahead of the camera.
     fn around(screen: &Screen, points: impl Iterator<Item = DVec3>) -> Self {
@@ -61,15 +61,26 @@ impl Reach {
         Self(edges)
     }
 
+    /// First column and row of pixels that it holds any part of, and the ones past the last.
+    pub fn pixels(&self) -> [i32; 4] {
+        let [left, top, right, bottom] = self.0;
+        [left.floor() as i32, top.floor() as i32, right.ceil() as i32, bottom.ceil() as i32]
+    }
+
     /// Whether it holds a pixel of these rows.
     pub fn meets_rows(&self, rows: Range<usize>) -> bool {
         self.0[1] < rows.end as f64 && self.0[3] > rows.start as f64
     }
+}
 
-    /// Whether it holds a pixel of these rows and columns.
-    pub fn meets(&self, rows: Range<usize>, columns: Range<usize>) -> bool {
-        self.meets_rows(rows) && self.0[0] < columns.end as f64 && self.0[2] > columns.start as f64
-    }
+/// What a part of somebody's figure looks like.
+#[derive(Clone, Copy)]
+pub(crate) struct PartLook {
+    /// Index among the members.
+    pub person: u32,
+    pub region: Region,
+    /// The ends of its middle line.
+    pub middle_in_world: [DVec3; 2],
 }
 
 /// Everybody in a frame; the target comes first, if there is one.
@@ -77,6 +88,20 @@ impl Reach {
 pub(crate) struct People {
     pub members: Vec<Person>,
     pub triangles: Vec<FigureTriangle>,
+    /// Parts of figures that were drawn.
+    pub looks: Vec<PartLook>,
+    wardrobe: Wardrobe,
+    /// Of the target and everybody else: whether they were found, and then their numbers among the members.
+    found: Vec<Option<u32>>,
+}
+
+/// What triangles of a figure are built for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Built {
+    ForPicture,
+    /// Those of people are not: their shadows are drawn from the parts of their figures.
+    ForShadow,
+    Never,
 }
 
 impl People {
@@ -84,10 +109,11 @@ impl People {
     pub fn begin(&mut self, setup: &FrameSetup<'_>, eye: &Eye, screen: &Screen, to_sun: DVec3) {
         self.members.clear();
         self.triangles.clear();
+        self.looks.clear();
         if let Some(target) = setup.target.as_ref().map(|target| target.walker()).filter(Walker::has_body) {
             let body = Bounds::new(&target);
             let height_px = body.height_px(&target, eye, screen);
-            self.add(target, TARGET_INSTANCE, true, body.reach(eye, screen, to_sun), height_px);
+            self.add(target, TARGET_INSTANCE, true, body.reach(eye, screen, to_sun), height_px, Built::ForPicture);
         }
     }
 
@@ -101,24 +127,82 @@ impl People {
             }
             let height_px = body.height_px(&other.walker, eye, screen);
             let is_seen = body.is_in_view(eye, screen) && !body.is_hidden(eye, screen, drawn);
-            self.add(other.walker, other.instance, is_seen, body.reach(eye, screen, to_sun), height_px);
+            self.add(
+                other.walker,
+                other.instance,
+                is_seen,
+                body.reach(eye, screen, to_sun),
+                height_px,
+                Built::ForPicture,
+            );
         }
     }
 
-    fn add(&mut self, walker: Walker, instance: u32, is_seen: bool, reach: Reach, height_px: f64) {
+    /// Takes over those whose parts were found in a picture; with `drawn`, all who may darken what it shows, too.
+    pub fn adopt(
+        &mut self,
+        setup: &FrameSetup<'_>,
+        (eye, screen): (&Eye, &Screen),
+        to_sun: DVec3,
+        parts: &[BodyPart],
+        drawn: Option<&Nearer>,
+    ) {
+        self.members.clear();
+        self.triangles.clear();
+        self.looks.clear();
+        self.found.clear();
+        self.found.resize(setup.others.len() + 1, None);
+        for part in parts {
+            if let Some(found) = self.found.get_mut(part.who as usize) {
+                *found = Some(0);
+            }
+        }
+        let target = setup.target.as_ref().map(|target| (target.walker(), TARGET_INSTANCE));
+        let others = setup.others.iter().map(|other| Some((other.walker, other.instance)));
+        for (who, body) in core::iter::once(target).chain(others).enumerate() {
+            let Some((walker, instance)) = body.filter(|(walker, _)| walker.has_body()) else { continue };
+            let (bounds, is_target) = (Bounds::new(&walker), who == 0);
+            let darkens = drawn.is_some_and(|drawn| {
+                is_target
+                    || bounds.may_matter(&walker, eye, screen, to_sun)
+                        && !bounds.with_shadow(to_sun).is_hidden(eye, screen, drawn)
+            });
+            if darkens {
+                let height_px = bounds.height_px(&walker, eye, screen);
+                let reach = bounds.reach(eye, screen, to_sun);
+                self.found[who] = Some(self.members.len() as u32);
+                self.add(walker, instance, true, reach, height_px, Built::ForShadow);
+            } else if self.found[who].is_some() {
+                self.found[who] = Some(self.members.len() as u32);
+                self.add(walker, instance, true, Reach::NOWHERE, 0.0, Built::Never);
+            }
+        }
+        let found = &self.found;
+        self.looks.extend(parts.iter().map(|part| {
+            let person = found.get(part.who as usize).copied().flatten().unwrap_or(0);
+            PartLook { person, region: part.region, middle_in_world: part.middle_in_world }
+        }));
+    }
+
+    fn add(&mut self, walker: Walker, instance: u32, is_seen: bool, reach: Reach, height_px: f64, built: Built) {
         let first = self.triangles.len();
-        let clothes = Clothes::draw(&walker.clothes_seed);
-        figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);
+        let clothes = self.wardrobe.clothes(&walker.clothes_seed);
+        let is_person = walker.body == BodyShape::Person;
+        if built == Built::ForPicture || built == Built::ForShadow && !is_person {
+            figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);
+        }
         let triangles = first..self.triangles.len();
-        let mut colours = Livery::draw(&walker.clothes_seed).colours(&walker.body);
+        let mut colours = match walker.body {
+            BodyShape::Person => [[0.0; 3]; Region::COUNT],
+            BodyShape::Vehicle { .. } => Livery::draw(&walker.clothes_seed).colours(&walker.body),
+        };
         colours[..clothes.colours.len()].copy_from_slice(&clothes.colours);
         let (sin, cos) = real::sin_cos(walker.state.heading_rad);
         let side_in_world = Vec3::new(-sin as f32, cos as f32, 0.0);
-        let pattern = clothes.pattern;
         self.members.push(Person {
             walker,
+            clothes,
             colours,
-            pattern,
             side_in_world,
             instance,
             triangles,
@@ -250,8 +334,9 @@ mod tests {
     #[test]
     fn reach_is_tested_by_pixels() {
         let reach = Reach([10.5, 4.0, 20.0, 6.5]);
-        assert!(reach.meets(6..7, 0..11) && !reach.meets(7..9, 0..99) && !reach.meets(0..4, 0..99));
-        assert!(!reach.meets(5..6, 0..10) && reach.meets(0..9, 19..30) && !reach.meets(5..6, 20..30));
-        assert!(Reach::EVERYWHERE.meets(0..1, 0..1));
+        assert!(reach.meets_rows(6..7) && !reach.meets_rows(7..9) && !reach.meets_rows(0..4));
+        assert_eq!(reach.pixels(), [10, 4, 20, 7]);
+        assert!(Reach::EVERYWHERE.meets_rows(0..1));
+        assert_eq!(Reach::EVERYWHERE.pixels(), [i32::MIN, i32::MIN, i32::MAX, i32::MAX]);
     }
 }

@@ -1,9 +1,12 @@
 //! One frame from start to end: cull, draw, resolve, shade, measure the target.
 
+mod colours;
+mod ground;
+
 use crate::camera::Camera;
 use crate::channel_set::ChannelSet;
 use crate::eye::Eye;
-use crate::faces::{DrawnFace, FaceSource, box_lift, ground_lift};
+use crate::faces::{DrawnFace, FaceSource, box_lift};
 use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame, TARGET_INSTANCE, TargetView};
 use crate::look::PictureLook;
 use crate::nearer::Nearer;
@@ -11,16 +14,16 @@ use crate::outlook::to_sun;
 use crate::outside::Found;
 use crate::passes::ids::{SeenRuns, for_each_band};
 use crate::passes::on_request;
-use crate::people::People;
+use crate::people::{PartLook, People};
 use crate::scene::Scene;
-use crate::scene_parts::{BOX_FACES, Cluster};
+use crate::scene_parts::BOX_FACES;
 use crate::setup::FrameSetup;
 use crate::shade::setting::Seen;
 use crate::shade::shader::Shader;
 use crate::shade::smooth;
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
-use crate::visibility::{MAX_CORNERS, NEAR_M, PlaneOnScreen, Screen, Visibility, bounds};
+use crate::visibility::{PlaneOnScreen, Screen, Visibility};
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 use cosfly_maps::SemanticLabel;
@@ -46,6 +49,8 @@ pub struct Renderer {
     alone: Visibility,
     nearer: Nearer,
     faces: Vec<DrawnFace>,
+    /// Of faces that were found elsewhere: the first of each part of a body.
+    first_faces: Vec<u32>,
     visible: Vec<(u64, u32)>,
     /// A cluster's points in body axes and on the screen.
     seen_points: Vec<(DVec3, [f64; 2])>,
@@ -85,6 +90,7 @@ impl Renderer {
             alone: Visibility::new(screen.width, screen.height),
             nearer: Nearer::default(),
             faces: Vec::new(),
+            first_faces: Vec::new(),
             visible: Vec::new(),
             seen_points: Vec::new(),
             people: People::default(),
@@ -211,7 +217,7 @@ impl Renderer {
         }
         watch.lap(1);
         if parts == FrameParts::All {
-            self.shader.prepare(scene, setup, &eye, &self.people);
+            self.shader.prepare(scene, setup, &eye, &self.people, &self.nearest);
             watch.lap(2);
         }
         self.view = target_view::NOT_IN_VIEW;
@@ -230,15 +236,25 @@ impl Renderer {
             watch.lap(4);
         }
         if parts == FrameParts::All && self.look == PictureLook::Full {
-            let seen = Seen { scene, faces: &self.faces, people: &self.people };
-            self.shader.fray(&seen, self.runs.rows(), &mut self.images);
-            self.smoother.smooth(self.runs.rows(), self.screen.width, &mut self.images.rgb);
+            self.smooth_edges(scene);
             watch.lap(5);
-            self.shader.overlay(&mut self.images);
-            let FrameImages { width, rgb, .. } = &mut self.images;
-            self.glass.see(self.level, &self.optics, self.shader.is_night(), *width as usize, rgb);
+            self.finish_colours();
             watch.lap(6);
         }
+    }
+
+    /// Broken edges of crowns, and no stair steps along all others.
+    fn smooth_edges(&mut self, scene: &Scene) {
+        let seen = Seen { scene, faces: &self.faces, people: &self.people };
+        self.shader.fray(&seen, self.runs.rows(), &mut self.images);
+        self.smoother.smooth(self.runs.rows(), self.screen.width, &mut self.images.rgb);
+    }
+
+    /// Rain, and the light's way through the lens.
+    fn finish_colours(&mut self) {
+        self.shader.overlay(&mut self.images);
+        let FrameImages { width, rgb, .. } = &mut self.images;
+        self.glass.see(self.level, &self.optics, self.shader.is_night(), *width as usize, rgb);
     }
 
     /// Depth and ids, and RGB before smoothing, band by band while a band's pixels are at hand.
@@ -339,88 +355,21 @@ impl Renderer {
                     let number = self.faces.len() as u32;
                     if part != Some((triangle.person, triangle.part)) {
                         (part, first_face) = (Some((triangle.person, triangle.part)), number);
+                        let (person, region) = (triangle.person, triangle.region);
+                        let middle_in_world = triangle.middle_in_world;
+                        self.people.looks.push(PartLook { person, region, middle_in_world });
                     }
                     self.nearest.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
                     if is_target {
                         self.alone.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
                     }
-                    let source = FaceSource::Figure { triangle: index as u32, first_face };
+                    let (look, is_cloth) = (self.people.looks.len() as u32 - 1, triangle.region.is_of_people());
+                    let source = FaceSource::Figure { look, first_face, is_cloth };
                     let label = person.walker.body.label(triangle.region).id();
                     let normal = triangle.normal_in_world.as_vec3().to_array();
                     self.faces.push(DrawnFace { plane, normal, source, label, instance: person.instance });
                 }
             }
-        }
-    }
-
-    fn draw_ground(&mut self, scene: &Scene, eye: &Eye) {
-        self.visible.clear();
-        for (index, cluster) in scene.clusters.iter().enumerate() {
-            if let Some(key) = eye.order_if_seen(&self.screen, cluster.center_in_world, cluster.half_bounds_m) {
-                self.visible.push((key, index as u32));
-            }
-        }
-        self.visible.sort_unstable();
-        for position in 0..self.visible.len() {
-            let index = self.visible[position].1;
-            let cluster = &scene.clusters[index as usize];
-            self.draw_cluster(cluster, index, eye);
-        }
-    }
-
-    /// Whether all of the seen points lie behind what is drawn.
-    fn is_hidden_cluster(&self) -> bool {
-        let nearest_m = self.seen_points.iter().map(|(seen, _)| seen.x).fold(f64::INFINITY, f64::min);
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for (_, point) in &self.seen_points {
-            for k in 0..2 {
-                low[k] = low[k].min(point[k]);
-                high[k] = high[k].max(point[k]);
-            }
-        }
-        nearest_m >= NEAR_M && self.nearer.hides(low, high, 1.0 / nearest_m)
-    }
-
-    fn draw_cluster(&mut self, cluster: &Cluster, index: u32, eye: &Eye) {
-        let screen = self.screen;
-        self.seen_points.clear();
-        self.seen_points.extend(cluster.points_in_world.iter().map(|point| {
-            let seen = eye.see(*point);
-            let scale = screen.focal_px / seen.x;
-            (seen, [screen.center_u + seen.y * scale, screen.center_v - seen.z * scale])
-        }));
-        if self.is_hidden_cluster() {
-            return;
-        }
-        for (number, polygon) in cluster.polygons.iter().enumerate() {
-            let mut corners = [DVec3::ZERO; MAX_CORNERS];
-            let mut points = [[0.0; 2]; MAX_CORNERS];
-            let mut nearest_m = f64::INFINITY;
-            let numbers = &cluster.corners[polygon.range()];
-            let count = numbers.len().min(MAX_CORNERS);
-            for ((corner, point), number) in corners.iter_mut().zip(&mut points).zip(numbers) {
-                (*corner, *point) = self.seen_points[usize::from(*number)];
-                nearest_m = nearest_m.min(corner.x);
-            }
-            let is_ahead = nearest_m >= NEAR_M;
-            let (low, high) = bounds(&points[..count]);
-            let rows = if is_ahead { self.nearest.rows_between(low, high) } else { Some((0, 0)) };
-            let Some(rows) = rows else { continue };
-            if is_ahead && self.nearer.hides(low, high, 1.0 / nearest_m) {
-                continue;
-            }
-            let normal = eye.turn(polygon.normal_in_world);
-            let Some(plane) = PlaneOnScreen::new(&screen, normal, eye.see(polygon.middle_in_world)) else { continue };
-            let face = self.faces.len() as u32;
-            let bias = ground_lift(polygon.label);
-            if is_ahead {
-                self.nearest.draw_rows(&points[..count], rows, &plane.lifted(bias), face);
-            } else {
-                self.nearest.draw_polygon(&screen, &corners[..count], &plane, bias, face);
-            }
-            let source = FaceSource::Ground { cluster: index, polygon: number as u16 };
-            let normal = polygon.normal_in_world.as_vec3().to_array();
-            self.faces.push(DrawnFace { plane, normal, source, label: polygon.label.id(), instance: 0 });
         }
     }
 }

@@ -4,9 +4,12 @@ use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::props::{Props, SceneModel};
 use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox};
 use crate::shade::grid::LightGrid;
+use crate::shade::leaves::Leaves;
+use crate::shade::material::colour_of;
 use crate::shade::outskirts::Outskirts;
 use crate::shade::pattern::{NoiseTexture, noise_texture};
 use crate::shade::sun_map::SunMaps;
+use crate::shade::vector::Vec3;
 use cosfly_frames::{DVec3, Seed, real};
 use cosfly_maps::{ObstacleKind, Town};
 use std::collections::BTreeMap;
@@ -18,7 +21,13 @@ const CLUSTER_POLYGONS: usize = 48;
 /// Everything static, ready to be drawn. Built once per town, shared by all threads.
 pub struct Scene {
     pub(crate) boxes: Vec<SceneBox>,
+    /// Colours of boxes in the simple look.
+    pub(crate) colours: Vec<Vec3>,
+    /// Crowns of the boxes that have leaves.
+    pub(crate) crowns: Vec<Option<Leaves>>,
     pub(crate) clusters: Vec<Cluster>,
+    /// Numbers at which the faces of each cluster end, see [`Self::faces`].
+    face_ends: Vec<u32>,
     pub(crate) noise: Box<NoiseTexture>,
     pub(crate) grid: LightGrid,
     pub(crate) outskirts: Outskirts,
@@ -59,7 +68,39 @@ impl Scene {
         props.replace(&mut boxes);
         static SCENES: AtomicU64 = AtomicU64::new(0);
         let identity = SCENES.fetch_add(1, Ordering::Relaxed);
-        Self { boxes, clusters, noise, grid, outskirts, props, sun_maps: SunMaps::default(), identity }
+        let ends = clusters.iter().scan((BOX_FACES.len() * boxes.len()) as u32, |end, cluster| {
+            *end += cluster.polygons.len() as u32;
+            Some(*end)
+        });
+        let face_ends = ends.collect();
+        let colours = boxes.iter().map(colour_of).collect();
+        let crowns = boxes.iter().map(Leaves::of).collect();
+        Self {
+            boxes,
+            colours,
+            crowns,
+            clusters,
+            face_ends,
+            noise,
+            grid,
+            outskirts,
+            props,
+            sun_maps: SunMaps::default(),
+            identity,
+        }
+    }
+
+    /// Whether a face of a box is the wall of a building.
+    pub(crate) fn is_wall(&self, index: u32, face: u8) -> bool {
+        BOX_FACES[usize::from(face)].0 != 2 && self.boxes[index as usize].kind == ObstacleKind::Building
+    }
+
+    /// Cluster and polygon of a face of the ground by its number in [`Self::faces`]; the last one for numbers beyond it.
+    pub(crate) fn ground_face(&self, number: u32) -> (usize, usize) {
+        let cluster = self.face_ends.partition_point(|end| *end <= number).min(self.clusters.len().saturating_sub(1));
+        let count = self.clusters[cluster].polygons.len();
+        let left = self.face_ends[cluster].saturating_sub(number).clamp(1, count as u32);
+        (cluster, count - left as usize)
     }
 
     /// Every triangle that the renderer draws except the target's, for casting the same rays

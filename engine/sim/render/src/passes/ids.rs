@@ -9,7 +9,14 @@ use cosfly_maps::SemanticLabel;
 use rayon::prelude::*;
 
 /// Rows of a band, the piece of an image that one thread works on.
-pub(crate) const BAND_ROWS: usize = 24;
+const BAND_ROWS: usize = 24;
+/// An image of so few pixels is one band: its faces are small, and kernels take pixels of one face together.
+const ONE_BAND_PIXELS: usize = 1 << 16;
+
+/// Rows of the bands of an image: they follow from its size alone, as kernels work out shadows of pixels together.
+fn band_rows(width: usize, pixels: usize) -> usize {
+    if pixels <= ONE_BAND_PIXELS { (pixels / width).max(1) } else { BAND_ROWS }
+}
 
 /// Neighbouring pixels of one face in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +83,8 @@ pub(crate) fn for_each_band(
     if width == 0 {
         return;
     }
-    let pixels = BAND_ROWS * width;
+    let rows = band_rows(width, faces_seen.len());
+    let pixels = rows * width;
     seen.0.resize(faces_seen.len().div_ceil(pixels), BandRuns::default());
     let FrameImages { rgb, depth_m, semantic, instance, .. } = images;
     macro_rules! visit_all {
@@ -86,7 +94,7 @@ pub(crate) fn for_each_band(
                 .zip(instance.$chunks_mut(pixels).zip(rgb.$chunks_mut(3 * pixels)))
                 .enumerate()
                 .for_each(|(band, (((runs, ids), (depth_m, semantic)), (instance, rgb)))| {
-                    let first_row = band * BAND_ROWS;
+                    let first_row = band * rows;
                     visit(Band { first_row, width, runs, ids, depth_m, semantic, instance, rgb });
                 })
         };
@@ -241,8 +249,8 @@ mod tests {
 
     #[test]
     fn runs_cover_every_row_once() {
-        let (width, rows) = (200, BAND_ROWS + 3);
-        let ids: Vec<u32> = (0..(width * rows) as u32).map(|i| NO_FACE - i * i / 3000).collect();
+        let (width, rows) = (2800, BAND_ROWS + 3);
+        let ids: Vec<u32> = (0..(width * rows) as u32).map(|i| i % 5400).map(|i| NO_FACE - i * i / 3000).collect();
         let mut images = FrameImages {
             width: width as u32,
             height: rows as u32,

@@ -1,28 +1,30 @@
 //! Bands of rows: pixels gathered by face, taken through the kernels, put back.
 
-use super::cloth::cloth;
-use super::facade::{facade, roofs};
-use super::geometry::{FaceAxes, open, place, points};
-use super::ground::ground;
-use super::lanes::{Block, FOUR, FOURS, GROUPS, LANES, Shared, Stage, WIDE, get};
-use super::lighting;
-use super::material::{Material, coach, material_of};
-use super::pattern::{most, share};
+use super::cloth::{Cloth, Cloths, put_cloth};
+use super::geometry::FaceAxes;
+use super::kernels::{Staged, run_kernels, run_simple_kernels};
+use super::lanes::{
+    Block, EMPTY_ROW, FOUR, FOURS, GROUPS, LANES, Shared, Stage, StageRow, WIDE, write_row, write_three,
+};
+use super::leaves::{Crowns, Leaves, put_crown};
+use super::material::{FLAT, Material, axes_of, even_colour, material_of};
 use super::setting::{Seen, Setting};
-use super::simple;
-use super::skin::painted;
-use super::things::{swell, things};
+use super::simple::put_colour;
 use super::vector::Vec3;
-use crate::faces::{DrawnFace, FaceSource};
+use crate::faces::FaceSource;
 use crate::look::PictureLook;
 use crate::passes::ids::{Band, Run};
 use crate::visibility::{NO_FACE, PlaneOnScreen};
-use cosfly_figures::BodyShape;
-use cosfly_frames::{real, simd_kernel};
+use cosfly_frames::simd::Level;
+use cosfly_frames::simd_kernel;
 
-/// Groups of pixels that are not of a single face: the sky, and ground by label. Faces of one part of a body are a group,
-/// too, named after the first of them.
+/// Groups of pixels that are not of a single face: the sky, people, crowns, and ground by label. Faces of one part of a vehicle are a
+/// group, too, named after the first of them.
 const SKY: usize = 63;
+const PEOPLE: usize = 62;
+const CROWNS: usize = 61;
+/// Even surfaces of the simple look that are not ground.
+const EVEN: usize = 60;
 const SHARED_GROUPS: usize = 64;
 /// No run follows.
 const END: u32 = u32::MAX;
@@ -30,6 +32,9 @@ const END: u32 = u32::MAX;
 /// Buffers of one thread that shades bands.
 pub(crate) struct Worker {
     stage: Box<Stage>,
+    cloths: Box<Cloths>,
+    crowns: Box<Crowns>,
+    colours: Box<[StageRow; 3]>,
     shared: Box<[Shared; GROUPS]>,
     blocks: Box<[Block; FOUR * GROUPS]>,
     /// Bytes of the blocks' pixels, in a row.
@@ -42,8 +47,8 @@ pub(crate) struct Worker {
     /// Groups that have runs.
     present: Vec<u32>,
     pieces: Vec<Piece>,
-    /// Numbers of the people who may darken something in the band, and of those among the pieces.
-    near_band: Vec<u32>,
+    /// Numbers of the people who may darken something in the band, with the pixels where they may; and of those among the pieces.
+    near_band: Vec<(u32, [i32; 4])>,
     near: Vec<u32>,
 }
 
@@ -72,6 +77,27 @@ struct Piece {
     down: f32,
     /// Unit normal of the face, any side.
     normal: [f32; 3],
+    axes: FaceAxes,
+}
+
+/// Rows and columns of pieces: first ones, and ones past the last.
+struct Spans {
+    row: [i32; FOURS],
+    first: [i32; FOURS],
+    end: [i32; FOURS],
+}
+
+simd_kernel! {
+    /// Whether any piece has a pixel in a part of the screen: first column and row, and the ones past the last.
+    fn meets_any(spans: &Spans, reach: [i32; 4]) -> bool {
+        let [left, top, right, bottom] = reach;
+        let mut any = 0u32;
+        for k in 0..FOURS {
+            let inside = (spans.row[k] >= top) & (spans.row[k] < bottom) & (spans.first[k] < right) & (spans.end[k] > left);
+            any |= u32::from(inside);
+        }
+        any != 0
+    }
 }
 
 simd_kernel! {
@@ -97,6 +123,9 @@ impl Worker {
     pub fn new() -> Self {
         Self {
             stage: Box::new(Stage::EMPTY),
+            cloths: Box::new(Cloths::EMPTY),
+            crowns: Box::new(Crowns::EMPTY),
+            colours: Box::new([EMPTY_ROW; 3]),
             shared: Box::new([Shared::EMPTY; GROUPS]),
             blocks: Box::new([Block::EMPTY; FOUR * GROUPS]),
             developed: Box::new([0; LANES + WIDE]),
@@ -113,11 +142,12 @@ impl Worker {
     /// Shades a band from its runs.
     pub fn shade(&mut self, setting: &Setting, seen: &Seen<'_>, band: &mut Band<'_>) {
         self.picture.resize(band.rgb.len() / 3, 0);
-        self.gather(seen, band);
+        self.gather(setting, seen, band);
         let rows = band.first_row..band.first_row + self.picture.len() / band.width.max(1);
         let people = (0u32..).zip(&seen.people.members);
         self.near_band.clear();
-        self.near_band.extend(people.filter(|(_, person)| person.reach.meets_rows(rows.clone())).map(|(k, _)| k));
+        let near = people.filter(|(_, person)| person.reach.meets_rows(rows.clone()));
+        self.near_band.extend(near.map(|(k, person)| (k, person.reach.pixels())));
         for position in 0..self.present.len() {
             let group = self.present[position] as usize;
             self.shade_group(setting, seen, band, group);
@@ -129,16 +159,16 @@ impl Worker {
     }
 
     /// Lists the band's runs by group; neighbours in a row that are alike to the kernels become one.
-    fn gather(&mut self, seen: &Seen<'_>, band: &Band<'_>) {
+    fn gather(&mut self, setting: &Setting, seen: &Seen<'_>, band: &Band<'_>) {
         let groups = SHARED_GROUPS + seen.faces.len();
         if self.first.len() < groups {
             self.first.resize(groups, END);
         }
         let mut last_group = usize::MAX;
         for run in &band.runs.all {
-            let group = group_of(seen.faces, run.face);
+            let group = group_of(setting, seen, run.face);
             if group == last_group
-                && group < SKY
+                && group < EVEN
                 && let Some(last) = self.runs.last_mut()
                 && !(run.start as usize).is_multiple_of(band.width)
                 && are_one_plane(seen, band, &last.run, run)
@@ -159,13 +189,20 @@ impl Worker {
     fn shade_group(&mut self, setting: &Setting, seen: &Seen<'_>, band: &Band<'_>, group: usize) {
         let mut next = self.first[group];
         let first = self.runs[next as usize].run;
-        let (material, axes) = material_of(setting, seen, first.face);
+        let (material, mut axes) =
+            if group == EVEN { (Material::Even, FLAT) } else { material_of(setting, seen, first.face) };
         let mut lanes = 0;
         while next != END {
             let Link { run, next: after } = self.runs[next as usize];
             next = after;
             let (on_screen, normal) = plane_of(seen, run.face);
             let (mut start, end) = (run.start as usize, (run.start + run.length) as usize);
+            let look = if group == PEOPLE { cloth_of(seen, run.face) } else { None };
+            let colour = (group == EVEN).then(|| even_colour(seen, run.face));
+            let crown = if group == CROWNS { crown_of(seen, run.face) } else { None };
+            if crown.is_some() {
+                axes = axes_of(seen, run.face);
+            }
             while start < end {
                 let length = (end - start).min(LANES - lanes);
                 let (u, v) = center_of(band, start);
@@ -179,54 +216,64 @@ impl Worker {
                     across: on_screen.across as f32,
                     down: on_screen.down as f32,
                     normal,
+                    axes,
                 });
+                if let Some(look) = &look {
+                    put_cloth(setting.level, &mut self.cloths, lanes / FOUR, length.div_ceil(FOUR), look);
+                }
+                if let Some(colour) = colour {
+                    put_colour(setting.level, &mut self.colours, lanes / FOUR, length.div_ceil(FOUR), colour);
+                }
+                if let Some(look) = crown {
+                    put_crown(setting.level, &mut self.crowns, lanes / FOUR, length.div_ceil(FOUR), look);
+                }
                 lanes += length.next_multiple_of(FOUR);
                 start += length;
                 if lanes == LANES {
-                    self.flush(setting, seen, &material, &axes, lanes);
+                    self.flush(setting, seen, &material, lanes);
                     lanes = 0;
                 }
             }
         }
         if lanes > 0 {
-            self.flush(setting, seen, &material, &axes, lanes);
+            self.flush(setting, seen, &material, lanes);
         }
     }
 
     /// Lists who may darken a pixel of the pieces.
-    fn find_near(&mut self, seen: &Seen<'_>) {
+    fn find_near(&mut self, level: Level) {
         self.near.clear();
         if self.near_band.is_empty() {
             return;
         }
-        let place = |piece: &Piece| {
-            let column = piece.u as usize;
-            (piece.v as usize, column..column + piece.length)
-        };
-        let columns = self.pieces.iter().map(|piece| place(piece).1);
-        let around = columns.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(0..0);
-        let rows = self.pieces.iter().map(|piece| place(piece).0..place(piece).0 + 1);
-        let rows = rows.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(0..0);
-        for person in &self.near_band {
-            let reach = &seen.people.members[*person as usize].reach;
-            if reach.meets(rows.clone(), around.clone())
-                && self.pieces.iter().map(place).any(|(row, columns)| reach.meets(row..row + 1, columns))
-            {
-                self.near.push(*person);
-            }
+        let mut spans = Spans { row: [i32::MAX; FOURS], first: [0; FOURS], end: [0; FOURS] };
+        let (mut first, mut end) = ([i32::MAX; 2], [i32::MIN; 2]);
+        for (at, piece) in self.pieces.iter().enumerate().take(FOURS) {
+            let (row, column) = (piece.v as i32, piece.u as i32);
+            let next = column + piece.length as i32;
+            (spans.row[at], spans.first[at], spans.end[at]) = (row, column, next);
+            first = [first[0].min(column), first[1].min(row)];
+            end = [end[0].max(next), end[1].max(row + 1)];
         }
+        let near = self.near_band.iter().filter(|(_, reach)| {
+            let [left, top, right, bottom] = *reach;
+            // Most are told by all pieces at once.
+            let meets_all = left < end[0] && right > first[0] && top < end[1] && bottom > first[1];
+            meets_all && meets_any(level, &spans, *reach)
+        });
+        self.near.extend(near.map(|(person, _)| *person));
     }
 
     /// Takes the filled lanes through the kernels and writes their pixels.
-    fn flush(&mut self, setting: &Setting, seen: &Seen<'_>, material: &Material, axes: &FaceAxes, lanes: usize) {
+    fn flush(&mut self, setting: &Setting, seen: &Seen<'_>, material: &Material, lanes: usize) {
         let groups = lanes.div_ceil(FOUR * WIDE);
-        self.find_near(seen);
+        self.find_near(setting.level);
         fill(setting.level, &self.pieces, &mut self.stage);
-        let (shared, blocks) = (&mut self.shared[..groups], &mut self.blocks[..FOUR * groups]);
-        let blocks = (shared, blocks);
+        let staged = Staged { stage: &self.stage, cloths: &self.cloths, crowns: &self.crowns, colours: &self.colours };
+        let blocks = (&mut self.shared[..groups], &mut self.blocks[..FOUR * groups]);
         match setting.look {
-            PictureLook::Full => run_kernels(setting, seen, material, axes, &self.stage, blocks, &self.near),
-            PictureLook::Simple => run_simple_kernels(setting, material, axes, &self.stage, blocks),
+            PictureLook::Full => run_kernels(setting, seen, material, &staged, blocks, &self.near),
+            PictureLook::Simple => run_simple_kernels(setting, material, &staged, blocks),
         }
         put_back(setting.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, &mut self.picture);
         self.pieces.clear();
@@ -271,20 +318,18 @@ simd_kernel! {
                     u[k] = from_u + FOUR as f32 * aside;
                     inverses[k] = inverse + step * aside;
                 }
-                let [x, y, z] = &mut stage.normal;
                 for (row, values) in [(&mut stage.u, u), (&mut stage.inverse, inverses)] {
                     row[fours.clone()].copy_from_slice(&values);
                 }
-                for (row, value) in [
-                    (&mut stage.v, piece.v),
-                    (&mut stage.across, piece.across),
-                    (&mut stage.down, piece.down),
-                    (x, piece.normal[0]),
-                    (y, piece.normal[1]),
-                    (z, piece.normal[2]),
-                ] {
-                    row[fours.clone()].copy_from_slice(&[value; WIDE]);
+                for (row, value) in
+                    [(&mut stage.v, piece.v), (&mut stage.across, piece.across), (&mut stage.down, piece.down)]
+                {
+                    write_row(row, fours.start, value);
                 }
+                let [x, y, z] = piece.normal;
+                write_three(&mut stage.normal, fours.start, Vec3::new(x, y, z));
+                write_three(&mut stage.along, fours.start, piece.axes.along);
+                write_three(&mut stage.up, fours.start, piece.axes.up);
             }
         }
     }
@@ -329,156 +374,32 @@ simd_kernel! {
     }
 }
 
-fn run_kernels(
-    setting: &Setting,
-    seen: &Seen<'_>,
-    material: &Material,
-    axes: &FaceAxes,
-    stage: &Stage,
-    (shared, blocks): (&mut [Shared], &mut [Block]),
-    near: &[u32],
-) {
-    let (level, light, noise) = (setting.level, &setting.light, &seen.scene.noise);
-    if let Material::Sky = material {
-        let air = (light, setting.haze, &seen.scene.outskirts);
-        lighting::sky(level, blocks, stage, &setting.view, air, &setting.tone, noise);
-        return;
-    }
-    let grid = &seen.scene.grid;
-    place(level, shared, stage, &setting.view, axes, light);
-    points(level, shared, blocks, stage, &setting.view);
-    open(level, shared, grid.tables(), &grid.frame(), light.night > 0.0);
-    if let Material::Ground(_) = material {
-        for person in near {
-            let walker = &seen.people.members[*person as usize].walker;
-            let feet = walker.state.feet_in_world.into();
-            match walker.body {
-                BodyShape::Person => contact(level, shared, feet, walker.radius_m.clamp(0.1, 2.0) as f32),
-                BodyShape::Vehicle { size_m, .. } => {
-                    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
-                    let half_m = 0.5 * size_m.truncate().as_vec2();
-                    contact_below(level, shared, feet, [cos as f32, sin as f32], half_m.to_array());
-                }
-            }
-        }
-    }
-    let is_bent = material.is_bent();
-    if let Material::Thing(thing) = material
-        && is_bent
-    {
-        swell(level, blocks, thing, setting.view.position);
-    }
-    if material.faces_away(stage, light) {
-        blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
-    } else {
-        setting.shadows.sunlight(level, blocks, !is_bent, noise, near);
-    }
-    match material {
-        Material::Sky => {}
-        Material::Ground(label) => ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), noise),
-        Material::Facade(look, face) => facade(level, shared, blocks, look, face, light, noise),
-        Material::Roof(roof) => roofs(level, shared, blocks, roof, light, noise),
-        Material::Thing(thing) => things(level, shared, blocks, thing, noise),
-        Material::Cloth(look) => cloth(level, shared, blocks, look, noise),
-        Material::Coach(look) => coach(level, blocks, look),
-        Material::Skin(look) => painted(shared, blocks, look, &seen.scene.props.textures),
-    }
-    lighting::arriving(level, shared, light, setting.haze);
-    if is_bent {
-        lighting::develop_bent(level, shared, blocks, light, &setting.tone);
-        return;
-    }
-    let answers = material.answers();
-    let is_wet = answers.wettable && light.wet > 0.0;
-    if is_wet {
-        lighting::wet(level, shared, blocks, light, noise);
-    }
-    let is_shiny = is_wet || answers.shiny;
-    if is_shiny {
-        lighting::mirrored(level, shared, light, (grid.tables(), &grid.frame()));
-    }
-    lighting::develop(level, shared, blocks, light, &setting.tone, answers.glows && light.night > 0.0, is_shiny);
-}
-
-/// Draws a group in the simple look.
-fn run_simple_kernels(
-    setting: &Setting,
-    material: &Material,
-    axes: &FaceAxes,
-    stage: &Stage,
-    (shared, blocks): (&mut [Shared], &mut [Block]),
-) {
-    let (level, light, tone) = (setting.level, &setting.light, &setting.tone);
-    if let Material::Sky = material {
-        simple::sky(level, blocks, stage, &setting.view, light, tone);
-        return;
-    }
-    place(level, shared, stage, &setting.view, axes, light);
-    simple::open_sky(level, shared);
-    lighting::arriving(level, shared, light, setting.haze);
-    match material {
-        Material::Facade(look, face) => {
-            points(level, shared, blocks, stage, &setting.view);
-            simple::windows(level, shared, blocks, look, face, light, tone);
-        }
-        Material::Thing(thing) if material.is_bent() => {
-            points(level, shared, blocks, stage, &setting.view);
-            swell(level, blocks, thing, setting.view.position);
-            simple::crown(level, blocks, thing.colour());
-            lighting::develop_bent(level, shared, blocks, light, tone);
-        }
-        Material::Ground(label) => simple::even(level, shared, blocks, simple::ground_colour(*label), tone),
-        Material::Roof(roof) => simple::even(level, shared, blocks, roof.colour(), tone),
-        Material::Thing(thing) => simple::even(level, shared, blocks, thing.colour(), tone),
-        Material::Cloth(look) => simple::even(level, shared, blocks, look.colour, tone),
-        Material::Coach(look) => simple::even(level, shared, blocks, look.colour, tone),
-        Material::Skin(look) => simple::even(level, shared, blocks, look.even, tone),
-        Material::Sky => {}
-    }
-}
-
-fn group_of(faces: &[DrawnFace], face: u32) -> usize {
+fn group_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> usize {
     if face == NO_FACE {
         return SKY;
     }
-    let drawn = &faces[face as usize];
+    let drawn = &seen.faces[face as usize];
+    let is_simple = setting.look == PictureLook::Simple;
     match drawn.source {
-        FaceSource::Ground { .. } => usize::from(drawn.label).min(SKY - 1),
+        FaceSource::Ground { .. } => usize::from(drawn.label).min(EVEN - 1),
+        FaceSource::Figure { .. } if is_simple => EVEN,
+        FaceSource::Figure { is_cloth: true, .. } => PEOPLE,
         FaceSource::Figure { first_face, .. } => SHARED_GROUPS + first_face as usize,
+        FaceSource::Box { index, .. } if seen.scene.crowns[index as usize].is_some() => CROWNS,
+        FaceSource::Box { index, face } if is_simple && !seen.scene.is_wall(index, face) => EVEN,
         FaceSource::Box { .. } | FaceSource::Prop { .. } => SHARED_GROUPS + face as usize,
     }
 }
 
-simd_kernel! {
-    /// Less sky where something stands on the ground: around `feet`, `radius_m` wide.
-    fn contact(shared: &mut [Shared], feet: Vec3, radius_m: f32) {
-        let per_radius2 = 1.0 / (radius_m * radius_m);
-        for shared in shared.iter_mut() {
-            for k in 0..WIDE {
-                let away = get(&shared.middle, k) - feet;
-                let shade = share(1.0 - away.dot(away) * per_radius2 * (1.0 / 9.0));
-                let kept = 1.0 - 0.55 * shade * shade * shade;
-                shared.sky[k] *= kept;
-                shared.lamps[k] *= kept;
-            }
-        }
-    }
+/// The crown that a face belongs to.
+fn crown_of<'a>(seen: &Seen<'a>, face: u32) -> Option<&'a Leaves> {
+    let FaceSource::Box { index, .. } = seen.faces.get(face as usize)?.source else { return None };
+    seen.scene.crowns.get(index as usize)?.as_ref()
 }
 
-simd_kernel! {
-    /// Less sky below and beside a vehicle: a rectangle around `feet` whose length lies along `along`.
-    fn contact_below(shared: &mut [Shared], feet: Vec3, along: [f32; 2], half_m: [f32; 2]) {
-        let ([cos, sin], [half_length_m, half_width_m]) = (along, half_m);
-        for shared in shared.iter_mut() {
-            for k in 0..WIDE {
-                let away = get(&shared.middle, k) - feet;
-                let (ahead, aside) = (away.x * cos + away.y * sin, away.y * cos - away.x * sin);
-                let (ahead, aside) = (most(ahead.abs() - half_length_m, 0.0), most(aside.abs() - half_width_m, 0.0));
-                let shade = share(1.0 - (ahead * ahead + aside * aside + away.z * away.z) * 1.6);
-                let kept = 1.0 - 0.75 * shade * shade * shade;
-                shared.sky[k] *= kept;
-                shared.lamps[k] *= kept;
-            }
-        }
-    }
+/// The look of a part of a person that a face belongs to.
+fn cloth_of(seen: &Seen<'_>, face: u32) -> Option<Cloth> {
+    let FaceSource::Figure { look, .. } = seen.faces.get(face as usize)?.source else { return None };
+    let look = seen.people.looks.get(look as usize)?;
+    Some(Cloth::new(seen.people.members.get(look.person as usize)?, look))
 }

@@ -1,13 +1,12 @@
 //! Clothes, skin and hair: round around the middle line of their part, with folds, weave and patterns that move with the body.
 
-use super::lanes::{Block, Shared, WIDE, groups};
+use super::lanes::{Block, EMPTY_ROW, Shared, Stage, StageRow, WIDE, groups, three_of, write_row, write_three};
 use super::pattern::{NoiseTexture, Noises, share, stripes};
 use super::surface::Look;
 use super::vector::Vec3;
-use crate::people::Person;
+use crate::people::{PartLook, Person};
 use cosfly_figures::Pattern;
 use cosfly_figures::clothes::Region;
-use cosfly_figures::figure::FigureTriangle;
 use cosfly_frames::simd_kernel;
 
 /// Rings and lines of a patterned top in a metre.
@@ -18,7 +17,7 @@ const OTHER_SHARE: f32 = 0.34;
 /// A part of a figure.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cloth {
-    pub(super) colour: Vec3,
+    colour: Vec3,
     /// Added to the colour where a pattern has its other one.
     other: Vec3,
     /// 1 where the pattern has rings.
@@ -34,10 +33,10 @@ pub(super) struct Cloth {
 
 impl Cloth {
     /// The look of a part of a person.
-    pub(super) fn new(person: &Person, part: &FigureTriangle) -> Self {
+    pub(super) fn new(person: &Person, part: &PartLook) -> Self {
         let to_vec = |[r, g, b]: [f32; 3]| Vec3::new(r, g, b);
         let colour = to_vec(person.colours[part.region as usize]);
-        let (rings, lines, other) = match person.pattern {
+        let (rings, lines, other) = match person.clothes.pattern {
             _ if part.region != Region::Top => (0.0, 0.0, colour),
             Pattern::Plain => (0.0, 0.0, colour),
             Pattern::Rings(other) => (1.0, 0.0, to_vec(other)),
@@ -49,27 +48,74 @@ impl Cloth {
     }
 }
 
+/// Parts of figures on the stage, a part for each four: parts are small on the screen, and all of a picture are shaded together.
+pub(super) struct Cloths {
+    colour: [StageRow; 3],
+    other: [StageRow; 3],
+    rings: StageRow,
+    lines: StageRow,
+    from: [StageRow; 3],
+    along: [StageRow; 3],
+    side: [StageRow; 3],
+}
+
+impl Cloths {
+    /// Nothing in particular.
+    pub(super) const EMPTY: Self = Self {
+        colour: [EMPTY_ROW; 3],
+        other: [EMPTY_ROW; 3],
+        rings: EMPTY_ROW,
+        lines: EMPTY_ROW,
+        from: [EMPTY_ROW; 3],
+        along: [EMPTY_ROW; 3],
+        side: [EMPTY_ROW; 3],
+    };
+}
+
+simd_kernel! {
+    /// Puts a part on the stage from a four on, sixteen fours at a time: what is too much, the next part writes over.
+    pub(super) fn put_cloth(cloths: &mut Cloths, first: usize, fours: usize, look: &Cloth) {
+        for done in (0..fours).step_by(WIDE) {
+            let at = first.wrapping_add(done);
+            write_three(&mut cloths.colour, at, look.colour);
+            write_three(&mut cloths.other, at, look.other);
+            write_row(&mut cloths.rings, at, look.rings);
+            write_row(&mut cloths.lines, at, look.lines);
+            write_three(&mut cloths.from, at, look.from);
+            write_three(&mut cloths.along, at, look.along);
+            write_three(&mut cloths.side, at, look.side);
+        }
+    }
+}
+
 simd_kernel! {
     /// Shades the pixels of a part. Coordinates along and across the part carry noise and pattern: neither crawls over a body
     /// that moves.
-    pub(super) fn cloth(shared: &[Shared], blocks: &mut [Block], look: &Cloth, noise: &NoiseTexture) {
-        let Cloth { colour, other, rings, lines, from, along, side } = *look;
-        let per_length2 = 1.0 / (along.dot(along) + 1e-9);
-        let length = along.dot(along).sqrt();
-        for (shared, four) in groups(shared, blocks) {
+    pub(super) fn cloth(shared: &[Shared], blocks: &mut [Block], cloths: &Cloths, noise: &NoiseTexture) {
+        for (group, (shared, four)) in groups(shared, blocks).enumerate() {
+            let [rings, lines] = [&cloths.rings, &cloths.lines].map(|row| Stage::lane(row, group));
+            let (mut per_length2, mut length) = ([0.0; WIDE], [0.0; WIDE]);
+            for k in 0..WIDE {
+                let along = three_of(&cloths.along, group, k);
+                per_length2[k] = 1.0 / (along.dot(along) + 1e-9);
+                length[k] = along.dot(along).sqrt();
+            }
             for block in four {
                 for k in 0..WIDE {
+                    let (colour, other) = (three_of(&cloths.colour, group, k), three_of(&cloths.other, group, k));
+                    let (from, along) = (three_of(&cloths.from, group, k), three_of(&cloths.along, group, k));
+                    let side = three_of(&cloths.side, group, k);
                     let point = block.point(shared, k);
                     let away = point.world - from;
-                    let height = away.dot(along) * per_length2;
-                    let (u, v) = (away.dot(side), height * length);
+                    let height = away.dot(along) * per_length2[k];
+                    let (u, v) = (away.dot(side), height * length[k]);
                     let weave = noise.grain(u * 40.0, v * 40.0, point.footprint_m * 40.0);
                     let fold = noise.clumps(u * 55.0, v * 35.0, point.footprint_m * 45.0);
                     let round = (away - along * share(height)).unit();
                     let normal = (round + point.normal * 0.4).unit();
                     let width = point.footprint_m * PER_METRE;
-                    let across = stripes(v * PER_METRE, 0.0, OTHER_SHARE, width) * rings;
-                    let down = stripes(u * PER_METRE, 0.0, OTHER_SHARE, width) * lines;
+                    let across = stripes(v * PER_METRE, 0.0, OTHER_SHARE, width) * rings[k];
+                    let down = stripes(u * PER_METRE, 0.0, OTHER_SHARE, width) * lines[k];
                     let dyed = colour + other * (across + down - across * down);
                     block.put_bent(k, &Look::matt(dyed * (0.62 + 0.25 * weave + 0.5 * fold), normal));
                 }

@@ -11,7 +11,6 @@ use crate::faces::{DrawnFace, FaceSource};
 use crate::frame::FrameImages;
 use crate::passes::ids::Run;
 use crate::scene::Scene;
-use cosfly_maps::ObstacleKind;
 
 /// Gaps reach this far into a crown, metres.
 const REACH_M: f32 = 0.42;
@@ -147,8 +146,7 @@ impl Crowns<'_> {
     fn tree(&self, face: u32) -> Option<u32> {
         let face = self.faces.get(face as usize)?;
         let FaceSource::Box { index, .. } = face.source else { return None };
-        let kind = self.scene.boxes[index as usize].kind;
-        matches!(kind, ObstacleKind::TreeCrown | ObstacleKind::Bush).then_some(face.instance)
+        self.scene.crowns[index as usize].is_some().then_some(face.instance)
     }
 
     /// Noise of the leaves at a pixel, 0 to 1: it stays where it is in the world while the camera moves little.

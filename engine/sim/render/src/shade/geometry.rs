@@ -1,7 +1,7 @@
 //! From pixels to places: world points, pixel sizes on the surface, openness to the sky, haze.
 
 use super::grid::{GridFrame, GridTables};
-use super::lanes::{Block, Shared, Stage, WIDE, get, groups, set};
+use super::lanes::{Block, Shared, Stage, WIDE, get, groups, set, three_of};
 use super::light::Light;
 use super::pattern::{least, most, one_if};
 use super::vector::Vec3;
@@ -41,11 +41,9 @@ pub struct FaceAxes {
 
 simd_kernel! {
     /// Fills in what fours share that follows from pixel, depth and normal; turns normals to the camera.
-    pub fn place(shared: &mut [Shared], stage: &Stage, view: &View, axes: &FaceAxes, light: &Light) {
-        let (view, axes) = (*view, *axes);
+    pub fn place(shared: &mut [Shared], stage: &Stage, view: &View, light: &Light) {
+        let view = *view;
         let (haze_start_m, haze_per_m) = (light.haze_start_m, light.haze_per_m);
-        let [across_along, down_along] = [view.across.dot(axes.along), view.down.dot(axes.along)];
-        let [across_up, down_up] = [view.across.dot(axes.up), view.down.dot(axes.up)];
         for (group, shared) in shared.iter_mut().enumerate() {
             let [u, v] = [&stage.u, &stage.v].map(|row| Stage::lane(row, group));
             let [inverse, across, down] =
@@ -57,7 +55,10 @@ simd_kernel! {
                 let depth = 1.0 / inverse_at(inverse[k], across[k], MIDDLE);
                 // One pixel aside moves along the ray by as much as depth changes over the plane.
                 let (aside, below) = (-depth * depth * across[k], -depth * depth * down[k]);
-                let (ray_along, ray_up) = (ray.dot(axes.along), ray.dot(axes.up));
+                let (along, up) = (three_of(&stage.along, group, k), three_of(&stage.up, group, k));
+                let [across_along, down_along] = [view.across.dot(along), view.down.dot(along)];
+                let [across_up, down_up] = [view.across.dot(up), view.down.dot(up)];
+                let (ray_along, ray_up) = (ray.dot(along), ray.dot(up));
                 let along_m =
                     (across_along * depth + ray_along * aside).abs() + (down_along * depth + ray_along * below).abs();
                 let up_m = (across_up * depth + ray_up * aside).abs() + (down_up * depth + ray_up * below).abs();

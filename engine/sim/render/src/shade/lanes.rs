@@ -24,6 +24,9 @@ pub type Lane3 = [Lane; 3];
 /// One quantity of fours on their way. Room beyond the last lets sixteen be written at a time.
 pub type StageRow = [f32; FOURS + WIDE];
 
+/// A row of nothing in particular.
+pub const EMPTY_ROW: StageRow = [0.0; FOURS + WIDE];
+
 /// Fours on their way into blocks.
 pub struct Stage {
     /// Centre of the first pixel, from the left, pixels.
@@ -38,6 +41,9 @@ pub struct Stage {
     pub down: StageRow,
     /// Unit normal of the face, any side.
     pub normal: [StageRow; 3],
+    /// The face's own horizontal, and the other direction along it, unit vectors.
+    pub along: [StageRow; 3],
+    pub up: [StageRow; 3],
 }
 
 impl Stage {
@@ -48,7 +54,9 @@ impl Stage {
         inverse: [1.0; FOURS + WIDE],
         across: [0.0; FOURS + WIDE],
         down: [0.0; FOURS + WIDE],
-        normal: [[0.0; FOURS + WIDE]; 3],
+        normal: [EMPTY_ROW; 3],
+        along: [EMPTY_ROW; 3],
+        up: [EMPTY_ROW; 3],
     };
 
     /// Sixteen fours of a row.
@@ -56,6 +64,30 @@ impl Stage {
     pub fn lane(row: &StageRow, group: usize) -> &Lane {
         &row.as_chunks().0[group]
     }
+}
+
+/// Three numbers of four `k` of a group.
+#[inline(always)]
+pub fn three_of(rows: &[StageRow; 3], group: usize, k: usize) -> Vec3 {
+    let [x, y, z] = rows;
+    Vec3::new(Stage::lane(x, group)[k], Stage::lane(y, group)[k], Stage::lane(z, group)[k])
+}
+
+/// Writes a number for sixteen fours.
+#[inline(always)]
+pub fn write_row(row: &mut StageRow, at: usize, value: f32) {
+    if let Some(sixteen) = row.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<WIDE>()) {
+        *sixteen = [value; WIDE];
+    }
+}
+
+/// Writes three numbers for sixteen fours.
+#[inline(always)]
+pub fn write_three(rows: &mut [StageRow; 3], at: usize, value: Vec3) {
+    let [x, y, z] = rows;
+    write_row(x, at, value.x);
+    write_row(y, at, value.y);
+    write_row(z, at, value.z);
 }
 
 /// Values that the pixels of sixteen fours share. Lanes that no pixel fills hold whatever they held.

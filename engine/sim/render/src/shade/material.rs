@@ -1,6 +1,5 @@
 //! Materials of drawn faces.
 
-use super::cloth::Cloth;
 use super::facade::{BoxFace, Facade, Roof};
 use super::geometry::FaceAxes;
 use super::lanes::{Block, Stage, WIDE, set};
@@ -23,14 +22,22 @@ pub(super) enum Material {
     Facade(Facade, BoxFace),
     Roof(Roof),
     Thing(Thing),
-    Cloth(Cloth),
+    /// See [`super::cloth::Cloths`].
+    Cloth,
+    /// Even surfaces of the simple look, of many colours: see [`even_colour`].
+    Even,
+    /// See [`super::leaves::Crowns`].
+    Leaves,
     Coach(Coach),
     Skin(Painted),
 }
 
+/// The axes of flat ground.
+pub(super) const FLAT: FaceAxes = FaceAxes { along: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) };
+
 /// Material of a drawn face, and the axes along its surface.
 pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Material, FaceAxes) {
-    let flat = FaceAxes { along: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) };
+    let flat = FLAT;
     let Some(face) = seen.faces.get(face as usize) else { return (Material::Sky, flat) };
     match face.source {
         FaceSource::Ground { cluster, polygon } => {
@@ -41,31 +48,72 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
             let props = &seen.scene.props;
             (Material::Skin(Painted::new(&props.triangles[triangle as usize].skin, &props.textures)), flat)
         }
-        FaceSource::Figure { triangle, .. } => {
-            let part = &seen.people.triangles[triangle as usize];
-            let person = &seen.people.members[part.person as usize];
-            if !part.region.is_of_people() {
-                let [r, g, b] = person.colours[part.region as usize];
-                return (Material::Coach(Coach::new(part.region, Vec3::new(r, g, b), setting.light.night)), flat);
-            }
-            (Material::Cloth(Cloth::new(person, part)), flat)
+        FaceSource::Figure { is_cloth: true, .. } => (Material::Cloth, flat),
+        FaceSource::Figure { look, .. } => {
+            let look = &seen.people.looks[look as usize];
+            let person = seen.people.members.get(look.person as usize);
+            let [r, g, b] = person.map_or([0.0; 3], |person| person.colours[look.region as usize]);
+            (Material::Coach(Coach::new(look.region, Vec3::new(r, g, b), setting.light.night)), flat)
         }
         FaceSource::Box { index, face } => {
-            box_material(&seen.scene.boxes[index as usize], usize::from(face), setting.light.night)
+            let (b, face) = (&seen.scene.boxes[index as usize], usize::from(face));
+            (box_material(b, face, setting.light.night), box_axes(b, face))
         }
     }
 }
 
-fn box_material(b: &SceneBox, face: usize, night: f32) -> (Material, FaceAxes) {
+/// The colour of a figure's face or of a thing or roof, in the simple look.
+pub(super) fn even_colour(seen: &Seen<'_>, face: u32) -> Vec3 {
+    match seen.faces.get(face as usize).map(|face| face.source) {
+        Some(FaceSource::Figure { look, .. }) => {
+            let look = &seen.people.looks[look as usize];
+            let person = seen.people.members.get(look.person as usize);
+            let [red, green, blue] = person.map_or([0.0; 3], |person| person.colours[look.region as usize]);
+            Vec3::new(red, green, blue)
+        }
+        Some(FaceSource::Box { index, .. }) => seen.scene.colours[index as usize],
+        _ => Vec3::ZERO,
+    }
+}
+
+/// The colour of a box's faces in the simple look; of a building's, that of its roof.
+pub(crate) fn colour_of(b: &SceneBox) -> Vec3 {
+    match box_material(b, ROOF, 0.0) {
+        Material::Thing(thing) => thing.colour(),
+        Material::Roof(roof) => roof.colour(),
+        _ => Vec3::ZERO,
+    }
+}
+
+/// The upper face of a box among [`BOX_FACES`].
+const ROOF: usize = 5;
+
+/// The axes along a box's face; any for other faces.
+pub(super) fn axes_of(seen: &Seen<'_>, face: u32) -> FaceAxes {
+    match seen.faces.get(face as usize).map(|face| face.source) {
+        Some(FaceSource::Box { index, face }) => box_axes(&seen.scene.boxes[index as usize], usize::from(face)),
+        _ => FLAT,
+    }
+}
+
+fn box_axes(b: &SceneBox, face: usize) -> FaceAxes {
+    let axis = BOX_FACES[face].0;
+    let axes = b.axes_in_world.map(Vec3::from);
+    let up = if axis == 2 { axes[1] } else { Vec3::new(0.0, 0.0, 1.0) };
+    FaceAxes { along: axes[usize::from(axis == 0)], up }
+}
+
+fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
     let axis = BOX_FACES[face].0;
     let center: Vec3 = b.center_in_world.into();
     let axes = b.axes_in_world.map(Vec3::from);
     let half = Vec3::new(b.half_extents_m.x, b.half_extents_m.y, b.half_extents_m.z);
     let along = axes[usize::from(axis == 0)];
-    let up = if axis == 2 { axes[1] } else { Vec3::new(0.0, 0.0, 1.0) };
-    let material = if b.kind != ObstacleKind::Building {
-        let whole = b.whole.map(|v| Vec3::new(v.x, v.y, v.z));
-        Material::Thing(Thing::new(b.kind, center, axes, half, b.seed, axis, whole, night))
+    if b.kind != ObstacleKind::Building {
+        match b.kind {
+            ObstacleKind::TreeCrown | ObstacleKind::Bush => Material::Leaves,
+            kind => Material::Thing(Thing::new(kind, center, axes, half, b.seed, axis, night)),
+        }
     } else if axis == 2 {
         Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y]))
     } else {
@@ -73,23 +121,18 @@ fn box_material(b: &SceneBox, face: usize, night: f32) -> (Material, FaceAxes) {
         let look = Facade::new(b.seed, b.town, face as u32, 2.0 * half_width, 2.0 * half.z);
         let edge_m = center.dot(Vec3::new(along.x, along.y, 0.0)) - half_width;
         Material::Facade(look, BoxFace { along, edge_m, foot_m: center.z - half.z })
-    };
-    (material, FaceAxes { along, up })
+    }
 }
 
 impl Material {
     /// Whether the material has normals of its own.
     pub(super) fn is_bent(&self) -> bool {
-        match self {
-            Self::Thing(thing) => matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush),
-            Self::Cloth(_) => true,
-            Self::Sky | Self::Ground(_) | Self::Facade(..) | Self::Roof(_) | Self::Coach(_) | Self::Skin(_) => false,
-        }
+        matches!(self, Self::Leaves | Self::Cloth)
     }
 
     /// Whether the sun shines on the back of a flat face: no shadow matters there. Faces of boxes show their outside.
     pub(super) fn faces_away(&self, stage: &Stage, light: &Light) -> bool {
-        let is_flat = matches!(self, Self::Facade(..) | Self::Roof(_) | Self::Thing(_)) && !self.is_bent();
+        let is_flat = matches!(self, Self::Facade(..) | Self::Roof(_) | Self::Thing(_));
         let [x, y, z] = stage.normal.each_ref().map(|row| row[0]);
         is_flat && Vec3::new(x, y, z).dot(light.to_sun) <= 0.0
     }
@@ -112,7 +155,7 @@ impl Material {
                 }
                 _ => matt,
             },
-            Self::Sky | Self::Cloth(_) | Self::Skin(_) => matt,
+            Self::Sky | Self::Even | Self::Cloth | Self::Leaves | Self::Skin(_) => matt,
         }
     }
 }

@@ -5,18 +5,22 @@
 //! [`things`]), what it sends to the camera ([`lighting`]). Bands depend on nothing but the faces, so threads share them.
 
 mod bands;
+mod body_shadow;
 mod cloth;
 pub mod facade;
 pub mod foliage;
 pub mod geometry;
 pub mod grid;
 pub mod ground;
+mod kernels;
 pub mod lanes;
+pub(crate) mod leaves;
 pub mod light;
 pub mod lighting;
-mod material;
+pub(crate) mod material;
 pub mod outskirts;
 pub mod pattern;
+mod seen_places;
 pub mod setting;
 pub mod shader;
 pub mod shadow;

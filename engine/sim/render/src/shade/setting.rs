@@ -12,7 +12,7 @@ use crate::look::PictureLook;
 use crate::people::People;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
-use crate::visibility::Screen;
+use crate::visibility::{Screen, Visibility};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose};
 
@@ -56,7 +56,14 @@ impl Setting {
     }
 
     /// Takes over a frame's light, camera and shadows.
-    pub(crate) fn prepare(&mut self, scene: &Scene, setup: &FrameSetup<'_>, eye: &Eye, people: &People) {
+    pub(crate) fn prepare(
+        &mut self,
+        scene: &Scene,
+        setup: &FrameSetup<'_>,
+        eye: &Eye,
+        people: &People,
+        drawn: &Visibility,
+    ) {
         self.light = Light::new(setup.weather);
         self.light.exposure *= self.exposure;
         self.view = View::new(&self.screen, eye);
@@ -64,7 +71,7 @@ impl Setting {
             self.light.horizon * (0.8 - 0.2 * self.light.rain) + self.light.zenith * 0.2 + self.light.lamp * 0.02;
         if self.look == PictureLook::Full {
             let target = setup.target.map(|target| target.state.feet_in_world);
-            self.shadows.prepare(self.level, scene, (eye, &self.screen), self.light.to_sun, (people, target));
+            self.shadows.prepare(self.level, scene, (eye, &self.screen), self.light.to_sun, (people, target), drawn);
         }
     }
 }

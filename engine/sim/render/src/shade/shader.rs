@@ -12,7 +12,7 @@ use crate::passes::ids::{Band, Run};
 use crate::people::People;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
-use crate::visibility::Screen;
+use crate::visibility::{Screen, Visibility};
 use cosfly_frames::simd::Level;
 use cosfly_optics::Optics;
 use std::sync::{Mutex, PoisonError};
@@ -54,8 +54,15 @@ impl Shader {
     }
 
     /// Takes over a frame's light, camera and shadows.
-    pub(crate) fn prepare(&mut self, scene: &Scene, setup: &FrameSetup<'_>, eye: &Eye, people: &People) {
-        self.setting.prepare(scene, setup, eye, people);
+    pub(crate) fn prepare(
+        &mut self,
+        scene: &Scene,
+        setup: &FrameSetup<'_>,
+        eye: &Eye,
+        people: &People,
+        drawn: &Visibility,
+    ) {
+        self.setting.prepare(scene, setup, eye, people, drawn);
     }
 
     /// Shades the faces seen in a band, without smoothing.

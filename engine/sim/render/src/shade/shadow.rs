@@ -7,6 +7,7 @@ use crate::eye::Eye;
 use crate::frame::TARGET_INSTANCE;
 use crate::people::People;
 use crate::scene::Scene;
+use crate::shade::body_shadow::{HEIGHTS, Heights, draw_person};
 use crate::shade::lanes::Block;
 use crate::shade::pattern::{NoiseTexture, fixed_size};
 use crate::shade::shadow_frame::Frame;
@@ -16,7 +17,8 @@ use crate::shade::sun_window::Window;
 use crate::shade::sunlight::{FIGURE_SIDE, FigureShadow, Places, SOLID, figure_shadow, pack_figure, town_sunlight};
 use crate::shade::vector::Vec3;
 use crate::visibility::{Screen, Visibility};
-use cosfly_figures::figure::FigureTriangle;
+use cosfly_figures::BodyShape;
+use cosfly_figures::figure::{FigureParts, FigureTriangle};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
 
@@ -32,6 +34,7 @@ pub struct Shadows {
     /// A scene and the height of its lowest place, metres.
     lowest_m: Option<(u64, f64)>,
     figure: Visibility,
+    heights: Box<Heights>,
     /// One for each of a frame's people, and some that wait to be used again.
     figures: Vec<FigureShadow>,
 }
@@ -44,6 +47,7 @@ impl Shadows {
             places: Places::default(),
             lowest_m: None,
             figure: Visibility::new(FIGURE_SIDE, FIGURE_SIDE),
+            heights: Box::new([0.0; HEIGHTS]),
             figures: Vec::new(),
         }
     }
@@ -56,6 +60,7 @@ impl Shadows {
         (eye, screen): (&Eye, &Screen),
         to_sun: Vec3,
         (people, target): (&People, Option<DVec3>),
+        drawn: &Visibility,
     ) {
         let lowest_m = match self.lowest_m {
             Some((id, lowest_m)) if id == scene.identity => lowest_m,
@@ -63,7 +68,7 @@ impl Shadows {
         };
         self.lowest_m = Some((scene.identity, lowest_m));
         let sun = Sun::new(to_sun, lowest_m);
-        self.places = self.window.prepare(level, (scene, &sun), (eye, screen), (target, lowest_m));
+        self.places = self.window.prepare(level, (scene, &sun), (eye, screen), (target, lowest_m), drawn);
         let lattice = sun.lattice(0);
         for (position, person) in people.members.iter().enumerate() {
             if self.figures.len() <= position {
@@ -74,17 +79,25 @@ impl Shadows {
                 TARGET_INSTANCE => FIGURE_SIDE,
                 _ => by_height.map_or(0, |(_, side)| *side),
             };
-            let triangles = &people.triangles[person.triangles.clone()];
-            let drawn = if side > 0 { self.draw_figure(&lattice, to_sun, triangles, side) } else { None };
+            let is_person = person.walker.body == BodyShape::Person;
+            let drawn = match side {
+                0 => None,
+                _ if is_person => {
+                    let parts = FigureParts::of(&person.walker, &person.clothes);
+                    draw_person(level, &lattice, (&person.walker, &parts), side, &mut self.heights)
+                }
+                _ => self.draw_figure(&lattice, to_sun, &people.triangles[person.triangles.clone()], side),
+            };
+            let heights = if is_person { self.heights.as_slice() } else { self.figure.inverse_depth.as_slice() };
             let figure = &mut self.figures[position];
             (figure.side, figure.rows) = (side, drawn.map(|frame| frame.rows()));
             if figure.rows.is_some() {
-                pack_figure(level, &self.figure.inverse_depth, side, &mut figure.map);
+                pack_figure(level, heights, side, &mut figure.map);
             }
         }
     }
 
-    /// Draws a figure's shadow into the first `side` rows and columns of the scratch map; says where they lie.
+    /// Draws a vehicle's shadow into the first `side` rows and columns of the scratch map; says where they lie.
     fn draw_figure(
         &mut self,
         town_frame: &Frame,

@@ -26,6 +26,12 @@ impl Frame {
         DVec2::new(at.dot(self.axes[0]), at.dot(self.axes[1]))
     }
 
+    /// A direction over the sheared ground, along the axes.
+    pub(super) fn turned(&self, direction: DVec3) -> DVec2 {
+        let flat = direction.truncate() - direction.z * self.shear;
+        DVec2::new(flat.dot(self.axes[0]), flat.dot(self.axes[1]))
+    }
+
     pub(super) fn place(&self, point: DVec3) -> [f64; 2] {
         (self.sheared(point) / self.texels_m - self.corner).to_array()
     }

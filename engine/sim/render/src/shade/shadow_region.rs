@@ -5,7 +5,7 @@ use crate::visibility::Screen;
 use cosfly_frames::{DVec2, DVec3};
 
 /// Shadows on what is farther ahead are left out, metres.
-const FAR_M: f64 = 600.0;
+pub(super) const FAR_M: f64 = 600.0;
 
 /// A rectangle of texels: first ones, and ones past the last, by column and row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 
 use super::facade::{BoxFace, Facade};
 use super::geometry::View;
-use super::lanes::{Block, FOUR, Shared, Stage, WIDE, get, groups, set};
+use super::lanes::{Block, FOUR, Shared, Stage, StageRow, WIDE, get, groups, three_of, write_three};
 use super::light::Light;
 use super::tone::ToneCurve;
 use super::vector::Vec3;
@@ -46,6 +46,30 @@ simd_kernel! {
             let mut bytes = [0; WIDE];
             for (k, bytes) in bytes.iter_mut().enumerate() {
                 *bytes = tone.pixel(seen(shared, k, albedo));
+            }
+            for block in four {
+                block.bytes = bytes;
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Puts a colour on the stage from a four on, sixteen fours at a time: what is too much, the next one writes over.
+    pub fn put_colour(colours: &mut [StageRow; 3], first: usize, fours: usize, colour: Vec3) {
+        for done in (0..fours).step_by(WIDE) {
+            write_three(colours, first.wrapping_add(done), colour);
+        }
+    }
+}
+
+simd_kernel! {
+    /// Flat surfaces of one colour for each four.
+    pub fn even_fours(shared: &[Shared], blocks: &mut [Block], colours: &[StageRow; 3], tone: &ToneCurve) {
+        for (group, (shared, four)) in groups(shared, blocks).enumerate() {
+            let mut bytes = [0; WIDE];
+            for (k, bytes) in bytes.iter_mut().enumerate() {
+                *bytes = tone.pixel(seen(shared, k, three_of(colours, group, k)));
             }
             for block in four {
                 block.bytes = bytes;
@@ -104,21 +128,6 @@ fn mixed(from: u32, to: u32, t: f32) -> u32 {
     let outer = pair(from, rest).wrapping_add(pair(to, weight)) >> 8;
     let inner = green(from, rest).wrapping_add(green(to, weight)) >> 8;
     (outer & 0x00ff_00ff) | (inner & 0xff00)
-}
-
-simd_kernel! {
-    /// Round crowns of one colour, darker below.
-    pub fn crown(blocks: &mut [Block], albedo: Vec3) {
-        for block in blocks.iter_mut() {
-            for k in 0..WIDE {
-                let normal = get(&block.normal, k);
-                set(&mut block.albedo, k, albedo);
-                set(&mut block.bent, k, normal);
-                block.openness[k] = 0.75 + 0.25 * normal.z;
-                block.sunlight[k] = 1.0;
-            }
-        }
-    }
 }
 
 simd_kernel! {

@@ -5,7 +5,7 @@
 
 use super::shadow_frame::Frame;
 use super::shadow_region::Region;
-use super::sunlight::{LEAVES, PACKED_ROWS, SOLID, SUMMARY_SIDE, TILE, measure_tile, pack_tile};
+use super::sunlight::{LEAVES, PACKED_ROWS, SOLID, SUMMARY_SIDE, TILE, Texels, measure_tile, pack_tile};
 use super::vector::Vec3;
 use crate::scene::Scene;
 use crate::scene_parts::BOX_FACES;
@@ -67,15 +67,16 @@ impl Sun {
 pub(super) type TilePlace = (usize, i32, i32);
 
 /// A drawn tile.
+#[derive(Clone)]
 pub(super) struct Tile {
-    /// Texels as kernels read them.
-    pub(super) texels: Box<[u32]>,
+    /// Texels as kernels read them: all renderers of a town read the same ones.
+    pub(super) texels: Arc<Texels>,
     /// Their summary, see [`measure_tile`].
-    pub(super) summary: [u32; SUMMARY_SIDE * SUMMARY_SIDE],
+    pub(super) summary: Arc<[u32; SUMMARY_SIDE * SUMMARY_SIDE]>,
 }
 
 /// Tiles under one sun; `None` where nothing stands.
-type Tiles = BTreeMap<TilePlace, Option<Arc<Tile>>>;
+type Tiles = BTreeMap<TilePlace, Option<Tile>>;
 
 /// Tiles of a town under the suns of late, the latest sun last.
 #[derive(Default)]
@@ -98,19 +99,29 @@ impl SunMaps {
         let tiles = &suns[count - 1].1;
         wanted.retain(|place| match tiles.get(place) {
             Some(tile) => {
-                take(*place, tile.as_deref());
+                take(*place, tile.as_ref());
                 false
             }
             None => true,
         });
     }
 
-    /// Keeps a tile; where there are too many, those of the sun longest out of use go.
-    fn keep(&self, sun: &Sun, place: TilePlace, tile: Option<Arc<Tile>>) {
+    /// Keeps a tile; where there are too many, those of the sun longest out of use go, or a quarter of the only sun's.
+    fn keep(&self, sun: &Sun, place: TilePlace, tile: Option<Tile>) {
         let mut suns = self.suns.lock().unwrap_or_else(PoisonError::into_inner);
-        let count = |suns: &[([u64; 4], Tiles)]| suns.iter().map(|(_, tiles)| tiles.len()).sum::<usize>();
-        if count(&suns) >= MOST_TILES {
-            suns.remove(0);
+        let held = |tiles: &Tiles| tiles.values().filter(|tile| tile.is_some()).count();
+        if tile.is_some() && suns.iter().map(|(_, tiles)| held(tiles)).sum::<usize>() >= MOST_TILES {
+            match suns.as_mut_slice() {
+                // Cameras that take turns all over a town would find none of their tiles if all, or the oldest, went.
+                [(_, tiles)] => {
+                    let mut number = 0;
+                    tiles.retain(|_, _| {
+                        number += 1;
+                        number % 4 != 0
+                    });
+                }
+                _ => _ = suns.remove(0),
+            }
         }
         let at = match suns.iter().position(|(key, _)| *key == sun.key()) {
             Some(at) => at,
@@ -162,7 +173,7 @@ impl Painter {
                 for column in first[0]..end[0] {
                     let texel = [(column - first[0]) as usize * TILE, (row - first[1]) as usize * TILE];
                     let tile = if anything { self.tile(level, texel) } else { None };
-                    take((grain, row, column), tile.as_deref());
+                    take((grain, row, column), tile.as_ref());
                     scene.sun_maps.keep(sun, (grain, row, column), tile);
                 }
             }
@@ -170,7 +181,7 @@ impl Painter {
     }
 
     /// The tile whose first texel is at a place of the canvas; none where nothing stands.
-    fn tile(&mut self, level: Level, [column, row]: [usize; 2]) -> Option<Arc<Tile>> {
+    fn tile(&mut self, level: Level, [column, row]: [usize; 2]) -> Option<Tile> {
         let (width, _) = self.canvas.size();
         let from = row * width + column;
         let (heights, classes) = (&self.canvas.inverse_depth[from..], &self.canvas.face[from..]);
@@ -179,7 +190,8 @@ impl Painter {
         }
         let mut summary = [0; SUMMARY_SIDE * SUMMARY_SIDE];
         measure_tile(level, &self.packed, &mut summary);
-        Some(Arc::new(Tile { texels: self.packed[..TILE * TILE].into(), summary }))
+        let texels: Arc<[u32]> = self.packed[..TILE * TILE].into();
+        Some(Tile { texels: texels.try_into().ok()?, summary: Arc::new(summary) })
     }
 
     /// Draws everything that throws shadows into a part of the canvas; whether there is anything.

@@ -1,22 +1,25 @@
 //! A view's window into the town's shadow map: tiles around what the camera looks at, fine ones near the target.
 
+use super::seen_places::SeenPlaces;
 use super::shadow_frame::Frame;
 use super::shadow_region::{Region, for_seen_points};
 use super::sun_map::{GRAINS, Painter, Sun, TEXEL_M, Tile, TilePlace, WINDOW_TILES};
-use super::sunlight::{Grain, LOWEST_M, Places, SUMMARY_SIDE, SummaryMap, TILE, TownMap};
+use super::sunlight::{Grain, LOWEST_M, Places, SUMMARY_SIDE, SummaryMap, TILE, Texels, TownMap, WINDOWS};
 use crate::eye::Eye;
 use crate::scene::Scene;
 use crate::shade::pattern::fixed_size;
-use crate::visibility::Screen;
+use crate::visibility::{Screen, Visibility};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// Where the windows of the coarser texels have their middle, along the camera's axis, metres.
 const AHEAD_M: [f64; GRAINS] = [30.0, 60.0, 120.0, 240.0];
-/// Places this near what the view shows are drawn, too, metres: shading moves points a little.
-const MARGIN_M: f64 = 3.0;
+/// Places this near what the view shows are drawn, too, metres: shading moves points a little, those of crowns the most.
+const MARGIN_M: f64 = 4.0;
 
-/// The tiles that a renderer's kernels read, each at its place modulo the window's size.
+/// The tiles that a renderer's kernels read, each at its place modulo the window's size. Cameras that look at one town share
+/// them: nothing but their summaries is copied.
 pub(super) struct Window {
     pub(super) map: Box<TownMap>,
     pub(super) summary: Box<SummaryMap>,
@@ -24,7 +27,11 @@ pub(super) struct Window {
     of: Option<(u64, Sun)>,
     held: Vec<Option<TilePlace>>,
     wanted: Vec<TilePlace>,
-    painter: Painter,
+    seen: SeenPlaces,
+    /// A tile where nothing stands.
+    nothing: Arc<Texels>,
+    /// There once a tile has to be drawn.
+    painter: Option<Painter>,
 }
 
 /// What a window shows of the texels of a size.
@@ -41,6 +48,16 @@ impl Part {
     fn metres(&self, first: [i32; 2], end: [i32; 2]) -> [DVec2; 2] {
         let corner = |tile: [i32; 2]| DVec2::new(tile[0].into(), tile[1].into()) * TILE as f64 * self.lattice.texels_m;
         [corner(first), corner(end)]
+    }
+
+    /// Its tiles at and around places between two, metres.
+    fn tiles_between(&self, grain: usize, low: DVec2, high: DVec2) -> impl Iterator<Item = TilePlace> {
+        let tile_m = TILE as f64 * self.lattice.texels_m;
+        let margin_m = MARGIN_M + 2.0 * self.lattice.texels_m;
+        let from = ((low - margin_m) / tile_m).floor().as_ivec2().to_array();
+        let to = ((high + margin_m) / tile_m).floor().as_ivec2().to_array();
+        let [columns, rows] = [0, 1].map(|k| from[k].max(self.first[k])..(to[k].saturating_add(1)).min(self.end[k]));
+        rows.flat_map(move |row| columns.clone().map(move |column| (grain, row, column)))
     }
 
     /// Whether kernels read finer texels instead of a tile and all that lies so near that they would read it.
@@ -60,28 +77,31 @@ impl Part {
 
 impl Window {
     pub(super) fn new() -> Self {
+        let nothing = Arc::new([0; TILE * TILE]);
         Self {
-            map: fixed_size(vec![]),
+            map: Box::new(core::array::from_fn(|_| Arc::clone(&nothing))),
             summary: fixed_size(vec![]),
             of: None,
-            held: vec![None; GRAINS * (WINDOW_TILES * WINDOW_TILES) as usize],
+            held: vec![None; WINDOWS],
             wanted: Vec::new(),
-            painter: Painter::new(),
+            seen: SeenPlaces::default(),
+            nothing,
+            painter: None,
         }
     }
 
-    /// Brings the tiles that a view needs; says where they are.
+    /// Brings the tiles that a picture needs, whose nearest surfaces are `drawn`, and forgets all others: what a place looks
+    /// like follows from its own picture. Says where the tiles are.
     pub(super) fn prepare(
         &mut self,
         level: Level,
         (scene, sun): (&Scene, &Sun),
         (eye, screen): (&Eye, &Screen),
         (target, lowest_m): (Option<DVec3>, f64),
+        drawn: &Visibility,
     ) -> Places {
-        if self.of.is_none_or(|of| of != (scene.identity, *sun)) {
-            self.of = Some((scene.identity, *sun));
-            self.held.fill(None);
-        }
+        let is_same = self.of == Some((scene.identity, *sun));
+        self.of = Some((scene.identity, *sun));
         let parts: [Part; GRAINS] = core::array::from_fn(|grain| {
             let lattice = sun.lattice(grain);
             let focus = match target {
@@ -90,25 +110,42 @@ impl Window {
             };
             part_seen(&lattice, focus, (eye, screen), lowest_m)
         });
-        self.wanted.clear();
-        for (grain, part) in parts.iter().enumerate() {
-            for row in part.first[1]..part.end[1] {
-                for column in part.first[0]..part.end[0] {
-                    let is_covered = parts[..grain].iter().any(|finer| part.is_covered([column, row], finer));
-                    if !is_covered && self.held[slot((grain, row, column))] != Some((grain, row, column)) {
-                        self.wanted.push((grain, row, column));
-                    }
+        let mut needed = [None; WINDOWS];
+        self.seen.visit(level, &parts[0].lattice, (eye, screen), drawn, |low, high| {
+            for (grain, part) in parts.iter().enumerate() {
+                for place in part.tiles_between(grain, low, high) {
+                    needed[slot(place)] = Some(place);
                 }
+            }
+        });
+        for needed in &mut needed {
+            let is_covered = |&(grain, row, column): &TilePlace| {
+                parts[..grain].iter().any(|finer| parts[grain].is_covered([column, row], finer))
+            };
+            *needed = needed.filter(|place| !is_covered(place));
+        }
+        self.wanted.clear();
+        for (slot, needed) in needed.iter().enumerate() {
+            if self.held[slot].is_some() && (!is_same || self.held[slot] != *needed) {
+                self.map[slot] = Arc::clone(&self.nothing);
+                put_summary(slot, None, &mut self.summary);
+                self.held[slot] = None;
+            }
+            if self.held[slot].is_none() {
+                self.wanted.extend(needed);
             }
         }
         if !self.wanted.is_empty() {
-            let Self { map, summary, held, wanted, painter, .. } = self;
+            let Self { map, summary, held, wanted, nothing, painter, .. } = self;
             let mut take = |place: TilePlace, tile: Option<&Tile>| {
                 held[slot(place)] = Some(place);
-                put(place, tile, map, summary);
+                map[slot(place)] = Arc::clone(tile.map_or(&*nothing, |tile| &tile.texels));
+                put_summary(slot(place), tile.map(|tile| tile.summary.as_slice()), summary);
             };
             scene.sun_maps.take_kept(sun, wanted, &mut take);
-            painter.draw(level, (scene, sun), wanted, &mut take);
+            if !wanted.is_empty() {
+                painter.get_or_insert_with(Painter::new).draw(level, (scene, sun), wanted, &mut take);
+            }
         }
         places(&parts)
     }
@@ -143,22 +180,16 @@ fn part_seen(lattice: &Frame, focus: DVec3, (eye, screen): (&Eye, &Screen), lowe
     Part { lattice: *lattice, first: tiles(region.first), end: tiles(region.end) }
 }
 
-/// Copies a tile to its place.
-fn put(place: TilePlace, tile: Option<&Tile>, map: &mut TownMap, summary: &mut SummaryMap) {
-    let from = slot(place);
-    let (row, column) = (from / WINDOW_TILES as usize, from % WINDOW_TILES as usize);
-    copy(map, (row, column), TILE, tile.map(|tile| &*tile.texels));
-    copy(summary, (row, column), SUMMARY_SIDE, tile.map(|tile| tile.summary.as_slice()));
-}
-
-/// Copies the rows of a square, or nothing, into a row and column of such squares, [`WINDOW_TILES`] side by side.
-fn copy(to: &mut [u32], (row, column): (usize, usize), side: usize, square: Option<&[u32]>) {
-    let stride = WINDOW_TILES as usize * side;
-    for line in 0..side {
-        let at = (row * side + line) * stride + column * side;
-        match square {
-            Some(square) => to[at..at + side].copy_from_slice(&square[line * side..(line + 1) * side]),
-            None => to[at..at + side].fill(0),
+/// Copies the summary of a tile, or nothing, to its slot among all.
+fn put_summary(slot: usize, of_tile: Option<&[u32]>, summary: &mut SummaryMap) {
+    let stride = WINDOW_TILES as usize * SUMMARY_SIDE;
+    let (row, column) = (slot / WINDOW_TILES as usize, slot % WINDOW_TILES as usize);
+    for line in 0..SUMMARY_SIDE {
+        let at = (row * SUMMARY_SIDE + line) * stride + column * SUMMARY_SIDE;
+        let to = &mut summary[at..at + SUMMARY_SIDE];
+        match of_tile {
+            Some(squares) => to.copy_from_slice(&squares[line * SUMMARY_SIDE..(line + 1) * SUMMARY_SIDE]),
+            None => to.fill(0),
         }
     }
 }

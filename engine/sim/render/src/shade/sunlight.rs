@@ -6,10 +6,10 @@ use super::shadow_frame::DEPTH_M;
 use super::sun_map::{GRAINS, WINDOW_TILES};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
+use std::sync::Arc;
 
 /// Texels along a side of a tile of the town's map, and of its window there.
 pub(super) const TILE: usize = 128;
-const WINDOW: usize = WINDOW_TILES as usize * TILE;
 /// Rows of a tile's texels, with the first of the tile below.
 pub(super) const PACKED_ROWS: usize = TILE + 1;
 /// Squares of texels along a side of a tile whose least and greatest heights are kept.
@@ -54,9 +54,13 @@ pub(super) struct Grain {
     pub(super) high: [f32; 2],
 }
 
-/// Windows of all sizes of texels, one after the other. A number holds a texel in its low half and the one to the right in its
-/// high half: height above [`LOWEST_M`] below the reference in steps of 1/32 m, times two, plus one for leaves.
-pub(super) type TownMap = [u32; GRAINS * WINDOW * WINDOW];
+/// Texels of a tile. A number holds a texel in its low half and the one to the right in its high half: height above
+/// [`LOWEST_M`] below the reference in steps of 1/32 m, times two, plus one for leaves.
+pub(super) type Texels = [u32; TILE * TILE];
+/// Windows of all sizes of texels, one after the other: their tiles.
+pub(super) type TownMap = [Arc<Texels>; WINDOWS];
+/// Tiles of all windows.
+pub(super) const WINDOWS: usize = GRAINS * (WINDOW_TILES * WINDOW_TILES) as usize;
 /// Of each square of texels, and those right and below of it: the least height in the low half, 0 where leaves are, and the
 /// greatest in the high half; steps.
 pub(super) type SummaryMap = [u32; GRAINS * SQUARES * SQUARES];
@@ -65,7 +69,7 @@ type FigureMap = [u32; FIGURE_TEXELS];
 /// A power of two that holds the map.
 const FIGURE_TEXELS: usize = 1 << 14;
 /// Squares along a side of a window.
-const SQUARES: usize = WINDOW >> IN_SQUARE;
+const SQUARES: usize = WINDOW_TILES as usize * SUMMARY_SIDE;
 /// Bits of a texel's column or row within its square.
 const IN_SQUARE: u32 = 3;
 /// Nothing lower than this below the reference casts a shadow.
@@ -171,8 +175,9 @@ simd_kernel! {
                     break;
                 }
                 let (spots, sunlight) = (spots(&four[pixel], &places), &mut four[pixel].sunlight);
-                if !lit_by_squares(sunlight, &spots, summary) {
-                    alike &= !lit_through_leaves(sunlight, &spots, map, &places, noise);
+                let unknown = lit_by_squares(sunlight, &spots, summary);
+                if unknown != [0; WIDE] {
+                    alike &= !lit_through_leaves(sunlight, &unknown, &spots, map, &places, noise);
                 }
                 if number == 1 {
                     let mut differ = 0u32;
@@ -239,12 +244,12 @@ fn spots(block: &Block, places: &Places) -> Spots {
 }
 
 /// Looks a block's sunlight up in whole squares, which tells the same wherever a square is all above or all below the
-/// places; whether it did for all of them.
+/// places; 1 for those of which it does not tell.
 #[inline(always)]
-fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> bool {
+fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> [u32; WIDE] {
     const BITS: u32 = SQUARES.trailing_zeros();
     const MASK: u32 = SQUARES as u32 - 1;
-    let mut unknown = 0u32;
+    let mut unknown = [0u32; WIDE];
     for (k, sunlight) in sunlight.iter_mut().enumerate() {
         let column = floor_int(spots.u[k] - 0.5) as u32 >> IN_SQUARE;
         let row = floor_int(spots.v[k] - 0.5) as u32 >> IN_SQUARE;
@@ -254,15 +259,17 @@ fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> b
         let lit = (spots.known[k] == 0) | ((square >> 16) as i32 as f32 <= steps);
         let dark = (square & 0xffff) as i32 as f32 > steps;
         *sunlight = one_if(lit);
-        unknown |= u32::from(!(lit | dark));
+        unknown[k] = u32::from(!(lit | dark));
     }
-    unknown == 0
+    unknown
 }
 
-/// Looks a block's sunlight up; whether leaves shade some of it.
+/// Looks the sunlight of a block's unknown places up, one after the other: texels are scattered over memory; whether leaves
+/// shade some of them.
 #[inline(always)]
 fn lit_through_leaves(
     sunlight: &mut Lane,
+    unknown: &[u32; WIDE],
     spots: &Spots,
     map: &TownMap,
     places: &Places,
@@ -271,6 +278,9 @@ fn lit_through_leaves(
     let mut under_leaves = [0.0f32; WIDE];
     let mut flecks = 0u32;
     for (k, under) in under_leaves.iter_mut().enumerate() {
+        if unknown[k] == 0 {
+            continue;
+        }
         let (dark, leaves) = town_darkness(map, spots, k);
         sunlight[k] = 1.0 - dark;
         *under = dark * leaves;
@@ -292,16 +302,23 @@ fn lit_through_leaves(
 /// nothing.
 #[inline(always)]
 fn town_darkness(map: &TownMap, spots: &Spots, k: usize) -> (f32, f32) {
-    const BITS: u32 = WINDOW.trailing_zeros();
-    const MASK: u32 = WINDOW as u32 - 1;
     let (u, v) = (spots.u[k] - 0.5, spots.v[k] - 0.5);
     let (column, row) = (floor_int(u), floor_int(v));
-    let start = (spots.grain[k] << (2 * BITS)) | (column as u32 & MASK);
-    let upper = map[(start | ((row as u32 & MASK) << BITS)) as usize & (GRAINS * WINDOW * WINDOW - 1)];
-    let next = (row as u32).wrapping_add(1) & MASK;
-    let lower = map[(start | (next << BITS)) as usize & (GRAINS * WINDOW * WINDOW - 1)];
+    let upper = texel(map, spots.grain[k], column as u32, row as u32);
+    let lower = texel(map, spots.grain[k], column as u32, (row as u32).wrapping_add(1));
     let (dark, leaves) = between(upper, lower, [u - column as f32, v - row as f32], spots.height_m[k]);
     (if spots.known[k] == 0 { 0.0 } else { dark }, leaves)
+}
+
+/// A texel, and the one to the right of it, by their place modulo the window.
+#[inline(always)]
+fn texel(map: &TownMap, grain: u32, column: u32, row: u32) -> u32 {
+    const BITS: u32 = TILE.trailing_zeros();
+    const ACROSS: u32 = (WINDOW_TILES as u32).trailing_zeros();
+    let tile_of = |place: u32| (place >> BITS) & (WINDOW_TILES as u32 - 1);
+    let tile = (((grain << ACROSS) | tile_of(row)) << ACROSS) | tile_of(column);
+    let at = (row & (TILE as u32 - 1)) << BITS | column & (TILE as u32 - 1);
+    map[tile as usize & (WINDOWS - 1)][at as usize & (TILE * TILE - 1)]
 }
 
 simd_kernel! {

@@ -1,7 +1,7 @@
-//! Trees, cars, lamps and everything else that stands in a street.
+//! Trunks, cars, lamps and everything else that stands in a street.
 
-use super::lanes::{Block, Shared, WIDE, get, groups, set};
-use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, most, smoothstep, stripes, unit};
+use super::lanes::{Block, Shared, WIDE, groups};
+use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
@@ -17,20 +17,6 @@ const PAINTS: [Vec3; 8] = [
     Vec3::new(0.18, 0.19, 0.20),
     Vec3::new(0.05, 0.14, 0.10),
     Vec3::new(0.45, 0.38, 0.28),
-];
-
-/// Leaves by species, linear RGB: plane, lime, maple, oak, ash, willow, cherry, olive, birch, and copper beech.
-const SPECIES: [[f32; 3]; 10] = [
-    [0.085, 0.135, 0.036],
-    [0.095, 0.160, 0.042],
-    [0.070, 0.125, 0.030],
-    [0.062, 0.100, 0.030],
-    [0.080, 0.120, 0.045],
-    [0.130, 0.165, 0.060],
-    [0.075, 0.110, 0.034],
-    [0.105, 0.120, 0.070],
-    [0.125, 0.150, 0.040],
-    [0.075, 0.045, 0.040],
 ];
 
 /// Light of bulbs, linear RGB: warm, sodium, cold; the first are the most frequent.
@@ -56,16 +42,12 @@ pub struct Thing {
     pub seed: u32,
     /// Outward axis of the face: 0 x, 1 y, 2 z.
     pub axis: usize,
-    /// Middle and half size of the whole thing, metres.
-    pub whole: [Vec3; 2],
     /// 0 by day, 1 at night.
     pub night: f32,
     /// Colour, drawn from the seed.
     tint: Vec3,
     /// Which of several looks it has, drawn from the seed.
     choice: usize,
-    /// One divided by `whole`'s half size.
-    shrink: Vec3,
 }
 
 /// A point in the box's own axes from its middle, and on the face: horizontal and vertical (x and y on top), metres.
@@ -95,7 +77,6 @@ macro_rules! paint_all {
 
 impl Thing {
     /// A face of a box; see the fields.
-    #[expect(clippy::too_many_arguments, reason = "everything that looks depend on")]
     pub fn new(
         kind: ObstacleKind,
         center: Vec3,
@@ -103,18 +84,11 @@ impl Thing {
         half: Vec3,
         seed: u32,
         axis: usize,
-        whole: [Vec3; 2],
         night: f32,
     ) -> Self {
         let pick = |index: u32, count: usize| (draw(seed, index) * count as f32) as usize % count;
         let (mut tint, mut choice) = (Vec3::splat(0.2), 0);
         match kind {
-            ObstacleKind::TreeCrown | ObstacleKind::Bush => {
-                // The last species is rare.
-                choice = if draw(seed, 8) < 0.03 { SPECIES.len() - 1 } else { pick(7, SPECIES.len() - 1) };
-                let [r, g, b] = SPECIES[choice];
-                tint = Vec3::new(r, g, b) * (0.8 + 0.45 * draw(seed, 1));
-            }
             ObstacleKind::Lamp => {
                 let [r, g, b] = BULBS[usize::from(draw(seed, 11) > 0.6) + usize::from(draw(seed, 11) > 0.85)];
                 tint = Vec3::new(r, g, b) * bulb(seed);
@@ -136,14 +110,12 @@ impl Thing {
             }
             _ => {}
         }
-        let shrink = whole[1].map(|h| 1.0 / h.max(0.1));
-        Self { kind, center, axes, half, seed, axis, whole, night, tint, choice, shrink }
+        Self { kind, center, axes, half, seed, axis, night, tint, choice }
     }
 
     /// Colour without patterns.
     pub fn colour(&self) -> Vec3 {
         match self.kind {
-            ObstacleKind::TreeCrown | ObstacleKind::Bush => self.tint * 1.2,
             ObstacleKind::TreeTrunk => Vec3::new(0.115, 0.082, 0.055),
             ObstacleKind::Lamp => Vec3::splat(0.2),
             _ => self.tint,
@@ -166,9 +138,8 @@ impl Thing {
     #[inline(always)]
     fn all<const AXIS: usize>(&self, shared: &[Shared], blocks: &mut [Block], noise: &NoiseTexture) {
         match self.kind {
-            ObstacleKind::TreeCrown | ObstacleKind::Bush => {
-                paint_all!(put_bent, self, shared, blocks, point, _at => self.leaves(&point, noise));
-            }
+            // Shaded together, see `leaves`.
+            ObstacleKind::TreeCrown | ObstacleKind::Bush => {}
             ObstacleKind::TreeTrunk => {
                 paint_all!(put, self, shared, blocks, point, at => self.bark(&point, &at, noise))
             }
@@ -191,33 +162,6 @@ impl Thing {
                 paint_all!(put, self, shared, blocks, point, at => self.furniture(&point, &at, noise))
             }
         }
-    }
-
-    /// Leaves: clumps of light and dark over a round crown, see [`swell`].
-    #[inline(always)]
-    fn leaves(&self, point: &SurfacePoint, noise: &NoiseTexture) -> Look {
-        let out = point.normal;
-        let size = point.footprint_m;
-        let shift = 37.0 * unit(self.seed);
-        let p = point.world * 30.0;
-        // Each pattern lies on the plane of two axes that the surface faces most. They change planes in different places.
-        let clumps = |weights: [f32; 3], offset: f32| {
-            let (u, v) = faced(p, out, weights);
-            noise.clumps(u + offset, v - offset, size * 30.0) - 0.5
-        };
-        let big = clumps([1.0, 1.0, 1.0], shift);
-        let aside = clumps([1.2, 0.9, 0.95], shift + 91.0);
-        let upward = clumps([0.9, 1.2, 1.05], shift + 173.0);
-        let (u, v) = faced(p, out, [1.0, 1.1, 0.85]);
-        let small = noise.grain(u * 0.55, v * 0.55, size * 16.5) - 0.5;
-        // Every clump of leaves faces its own way.
-        let bent = out + Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big) * 1.7;
-        let deep = smoothstep(-0.24, 0.22, big + 0.8 * small);
-        // Light shines through leaves at the rim of a clump: they are yellower there.
-        let tint = self.tint.lerp(self.tint * 0.6 + Vec3::new(0.11, 0.115, 0.02), 0.5 * (small + 0.5) * deep);
-        // Darker below, where the crown shades itself.
-        let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z);
-        Look { openness: (0.55 + 0.55 * deep) * shade, ..Look::matt(tint * (0.50 + 0.95 * deep), bent.unit()) }
     }
 
     #[inline(always)]
@@ -323,35 +267,6 @@ impl Thing {
         let plank = stripes(v / 0.12, 0.0, 0.12, point.footprints_m[1] / 0.12);
         let streak = noise.clumps(u * 8.0 + unit(hash(self.seed, 8)) * 50.0, v * 40.0, point.footprint_m * 20.0);
         Look::matt(self.tint * ((0.7 + 0.5 * streak) * (1.0 - 0.5 * plank)), point.normal)
-    }
-}
-
-/// Coordinates of a point on the plane of two axes that a direction faces most, by weights of the axes.
-#[inline(always)]
-fn faced(p: Vec3, direction: Vec3, weights: [f32; 3]) -> (f32, f32) {
-    let (x, y, z) = (direction.x.abs() * weights[0], direction.y.abs() * weights[1], direction.z.abs() * weights[2]);
-    let is_x = (x > y) & (x > z);
-    let is_y = (y > z) & !is_x;
-    (if is_x { p.y } else { p.x }, if is_x | is_y { p.z } else { p.y })
-}
-
-simd_kernel! {
-    /// Moves places on a crown's boxes to the round crown around them, along the view, and turns normals its way:
-    /// light and leaves then know nothing of boxes. Where the view passes the round crown, its nearest place counts.
-    pub fn swell(blocks: &mut [Block], thing: &Thing, eye: Vec3) {
-        let thing = *thing;
-        let [middle, half] = thing.whole;
-        let from = (eye - middle) * thing.shrink;
-        for block in blocks.iter_mut() {
-            for k in 0..WIDE {
-                let along = (get(&block.world, k) - eye) * thing.shrink;
-                let (a, b, c) = (along.dot(along), along.dot(from), from.dot(from) - 1.25);
-                let reach = most(b * b - a * c, 0.0).sqrt();
-                let out = from + along * ((-b - reach) / a);
-                set(&mut block.world, k, middle + out * half);
-                set(&mut block.normal, k, (out * thing.shrink).unit());
-            }
-        }
     }
 }
 

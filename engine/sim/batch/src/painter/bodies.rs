@@ -1,0 +1,127 @@
+//! Whoever moves in a picture: people as frustums, vehicles and other figures as triangles.
+
+use super::Painter;
+use crate::eye::{Eye, NEAR_M};
+use crate::faces::{BODY, DrawnFace, SKY};
+use crate::figures::{Around, SeenPart, Stance};
+use crate::view::{Figure, View};
+use cosfly_frames::DVec3;
+use cosfly_maps::SemanticLabel;
+use cosfly_render::clothes::Region;
+use cosfly_render::figure::{FigureParts, figure};
+use cosfly_render::frame::TARGET_INSTANCE;
+use cosfly_render::outside::NO_FACE;
+use cosfly_render::{BodyPart, BodyShape, LEAST_HEIGHT_PX, Walker};
+
+impl Painter {
+    pub(super) fn draw_people(&mut self, eye: &Eye, view: &View<'_>) {
+        if let Some(target) = view.target.as_ref().filter(|target| target.has_body()) {
+            self.draw_walker(eye, target, (0, TARGET_INSTANCE));
+        }
+        for (who, other) in (1..).zip(view.others).filter(|(_, other)| other.walker.has_body()) {
+            self.draw_walker(eye, &other.walker, (who, other.instance));
+        }
+    }
+
+    pub(super) fn draw_figures(&mut self, eye: &Eye, figures: &[Figure<'_>]) {
+        for figure in figures {
+            let corners = || figure.triangles_in_world.iter().flatten().copied();
+            let low = corners().fold(DVec3::INFINITY, DVec3::min);
+            let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+            if !self.may_show(&Around::of_box(eye, low, high)) {
+                continue;
+            }
+            for corners in figure.triangles_in_world {
+                let face = DrawnFace { instance: figure.instance, label: figure.label, ..SKY };
+                self.draw_triangle(eye, corners, face);
+            }
+        }
+    }
+
+    /// Whether something covers a pixel centre and is not hidden.
+    fn may_show(&self, around: &Around) -> bool {
+        let part = self.canvas.part(around.low, around.high);
+        let nearest = (1.0 / around.nearest_m.max(NEAR_M)) as f32;
+        part.is_some_and(|part| !self.hidden.hides(&self.canvas, part, nearest))
+    }
+
+    /// Draws somebody: `who` is 0 for the target, else one more than the place among the others.
+    fn draw_walker(&mut self, eye: &Eye, walker: &Walker, (who, instance): (u32, u32)) {
+        let (low, high) = walker.bounds_in_world();
+        if eye.see(0.5 * (low + high)).x < -(high - low).max_element() {
+            return;
+        }
+        let away_m = (eye.position_in_world - eye.position_in_world.clamp(low, high)).length();
+        if instance != TARGET_INSTANCE
+            && eye.focal_px * walker.body.height_m(walker.height_m) < LEAST_HEIGHT_PX * away_m
+        {
+            return;
+        }
+        if !self.may_show(&Around::of_box(eye, low, high)) {
+            return;
+        }
+        if walker.body != BodyShape::Person {
+            self.draw_vehicle(eye, walker, (who, instance));
+            return;
+        }
+        let parts = FigureParts::of(walker, &self.wardrobe.clothes(&walker.clothes_seed));
+        let stance = Stance::new(eye, walker, parts.lowest());
+        let face = DrawnFace { instance, label: SemanticLabel::Pedestrian.id(), ..SKY };
+        for part in parts.iter() {
+            if stance.part(&self.canvas, part).is_some() {
+                let number = self.body_part(who, part.region, || stance.middle_in_world(part));
+                self.draw_body_part(eye, &stance.see(self.level, part), DrawnFace { number, ..face });
+            }
+        }
+    }
+
+    /// A vehicle with its rider, as in large pictures.
+    fn draw_vehicle(&mut self, eye: &Eye, walker: &Walker, (who, instance): (u32, u32)) {
+        let mut triangles = core::mem::take(&mut self.vehicle);
+        triangles.clear();
+        figure(walker, &self.wardrobe.clothes(&walker.clothes_seed), 0, &mut triangles);
+        let (mut part, mut number) = (None, NO_FACE);
+        for triangle in &triangles {
+            if part != Some(triangle.part) {
+                part = Some(triangle.part);
+                number = self.body_part(who, triangle.region, || triangle.middle_in_world);
+            }
+            let label = walker.body.label(triangle.region).id();
+            self.draw_triangle(eye, &triangle.corners_in_world, DrawnFace { instance, label, number, ..SKY });
+        }
+        self.vehicle = triangles;
+    }
+
+    /// Notes a part of a body, where colours need it; its number for faces.
+    fn body_part(&mut self, who: u32, region: Region, middle_in_world: impl FnOnce() -> [DVec3; 2]) -> u32 {
+        if !self.has_colours {
+            return NO_FACE;
+        }
+        self.parts.push(BodyPart { who, region, middle_in_world: middle_in_world() });
+        BODY + (self.parts.len() as u32 - 1)
+    }
+
+    /// A closed frustum: its sides as two triangles each, its ends.
+    fn draw_body_part(&mut self, eye: &Eye, seen: &SeenPart, face: DrawnFace) {
+        if seen.nearest_m < NEAR_M as f32 {
+            for corners in seen.triangles() {
+                self.draw_seen_triangle(eye, &corners, face);
+            }
+            return;
+        }
+        let Some(part) = self.canvas.part(seen.low, seen.high) else { return };
+        if self.hidden.hides(&self.canvas, part, 1.0 / seen.nearest_m) {
+            return;
+        }
+        for (part, corners, points) in seen.sides() {
+            if let Some(plane) = super::plane_through(eye, &corners) {
+                self.draw_part(part, &points, DrawnFace { plane, ..face }, 0.0);
+            }
+        }
+        for (corners, points) in seen.ends() {
+            if let Some(plane) = super::plane_through(eye, &corners) {
+                self.draw_points(&points, DrawnFace { plane, ..face }, 0.0);
+            }
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Which kernels pixels of a material go through, in both looks.
+
+use super::cloth::{Cloths, cloth};
+use super::facade::{facade, roofs};
+use super::geometry::{open, place, points};
+use super::ground::ground;
+use super::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
+use super::leaves::{Crowns, even_leaves, leaves, swell};
+use super::lighting;
+use super::material::{Material, coach};
+use super::pattern::{most, share};
+use super::setting::{Seen, Setting};
+use super::simple;
+use super::skin::painted;
+use super::things::things;
+use super::vector::Vec3;
+use cosfly_figures::BodyShape;
+use cosfly_frames::{real, simd_kernel};
+
+/// Fours on the stage, with the people, crowns or colours that they show.
+pub(super) struct Staged<'a> {
+    pub stage: &'a Stage,
+    pub cloths: &'a Cloths,
+    pub crowns: &'a Crowns,
+    /// Colours of even surfaces in the simple look.
+    pub colours: &'a [StageRow; 3],
+}
+
+/// Draws a group in the full look; `near` are the people who may darken it.
+pub(super) fn run_kernels(
+    setting: &Setting,
+    seen: &Seen<'_>,
+    material: &Material,
+    &Staged { stage, cloths, crowns, .. }: &Staged<'_>,
+    (shared, blocks): (&mut [Shared], &mut [Block]),
+    near: &[u32],
+) {
+    let (level, light, noise) = (setting.level, &setting.light, &seen.scene.noise);
+    if let Material::Sky = material {
+        let air = (light, setting.haze, &seen.scene.outskirts);
+        lighting::sky(level, blocks, stage, &setting.view, air, &setting.tone, noise);
+        return;
+    }
+    let grid = &seen.scene.grid;
+    place(level, shared, stage, &setting.view, light);
+    points(level, shared, blocks, stage, &setting.view);
+    open(level, shared, grid.tables(), &grid.frame(), light.night > 0.0);
+    if let Material::Ground(_) = material {
+        for person in near {
+            let walker = &seen.people.members[*person as usize].walker;
+            let feet = walker.state.feet_in_world.into();
+            match walker.body {
+                BodyShape::Person => contact(level, shared, feet, walker.radius_m.clamp(0.1, 2.0) as f32),
+                BodyShape::Vehicle { size_m, .. } => {
+                    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+                    let half_m = 0.5 * size_m.truncate().as_vec2();
+                    contact_below(level, shared, feet, [cos as f32, sin as f32], half_m.to_array());
+                }
+            }
+        }
+    }
+    let is_bent = material.is_bent();
+    if let Material::Leaves = material {
+        swell(level, blocks, crowns, setting.view.position);
+    }
+    if material.faces_away(stage, light) {
+        blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
+    } else {
+        setting.shadows.sunlight(level, blocks, !is_bent, noise, near);
+    }
+    match material {
+        // The sky is done; even surfaces are of the simple look.
+        Material::Sky | Material::Even => {}
+        Material::Ground(label) => ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), noise),
+        Material::Facade(look, face) => facade(level, shared, blocks, look, face, light, noise),
+        Material::Roof(roof) => roofs(level, shared, blocks, roof, light, noise),
+        Material::Thing(thing) => things(level, shared, blocks, thing, noise),
+        Material::Cloth => cloth(level, shared, blocks, cloths, noise),
+        Material::Leaves => leaves(level, shared, blocks, crowns, noise),
+        Material::Coach(look) => coach(level, blocks, look),
+        Material::Skin(look) => painted(shared, blocks, look, &seen.scene.props.textures),
+    }
+    lighting::arriving(level, shared, light, setting.haze);
+    if is_bent {
+        lighting::develop_bent(level, shared, blocks, light, &setting.tone);
+        return;
+    }
+    let answers = material.answers();
+    let is_wet = answers.wettable && light.wet > 0.0;
+    if is_wet {
+        lighting::wet(level, shared, blocks, light, noise);
+    }
+    let is_shiny = is_wet || answers.shiny;
+    if is_shiny {
+        lighting::mirrored(level, shared, light, (grid.tables(), &grid.frame()));
+    }
+    lighting::develop(level, shared, blocks, light, &setting.tone, answers.glows && light.night > 0.0, is_shiny);
+}
+
+/// Draws a group in the simple look.
+pub(super) fn run_simple_kernels(
+    setting: &Setting,
+    material: &Material,
+    &Staged { stage, crowns, colours, .. }: &Staged<'_>,
+    (shared, blocks): (&mut [Shared], &mut [Block]),
+) {
+    let (level, light, tone) = (setting.level, &setting.light, &setting.tone);
+    if let Material::Sky = material {
+        simple::sky(level, blocks, stage, &setting.view, light, tone);
+        return;
+    }
+    place(level, shared, stage, &setting.view, light);
+    simple::open_sky(level, shared);
+    lighting::arriving(level, shared, light, setting.haze);
+    match material {
+        Material::Facade(look, face) => {
+            points(level, shared, blocks, stage, &setting.view);
+            simple::windows(level, shared, blocks, look, face, light, tone);
+        }
+        Material::Leaves => {
+            points(level, shared, blocks, stage, &setting.view);
+            swell(level, blocks, crowns, setting.view.position);
+            even_leaves(level, blocks, crowns);
+            lighting::develop_bent(level, shared, blocks, light, tone);
+        }
+        Material::Ground(label) => simple::even(level, shared, blocks, simple::ground_colour(*label), tone),
+        Material::Even => simple::even_fours(level, shared, blocks, colours, tone),
+        Material::Skin(look) => simple::even(level, shared, blocks, look.even, tone),
+        // The sky is done; all others are even in this look.
+        Material::Sky | Material::Roof(_) | Material::Thing(_) | Material::Cloth | Material::Coach(_) => {}
+    }
+}
+
+simd_kernel! {
+    /// Less sky where something stands on the ground: around `feet`, `radius_m` wide.
+    fn contact(shared: &mut [Shared], feet: Vec3, radius_m: f32) {
+        let per_radius2 = 1.0 / (radius_m * radius_m);
+        for shared in shared.iter_mut() {
+            for k in 0..WIDE {
+                let away = get(&shared.middle, k) - feet;
+                let shade = share(1.0 - away.dot(away) * per_radius2 * (1.0 / 9.0));
+                let kept = 1.0 - 0.55 * shade * shade * shade;
+                shared.sky[k] *= kept;
+                shared.lamps[k] *= kept;
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Less sky below and beside a vehicle: a rectangle around `feet` whose length lies along `along`.
+    fn contact_below(shared: &mut [Shared], feet: Vec3, along: [f32; 2], half_m: [f32; 2]) {
+        let ([cos, sin], [half_length_m, half_width_m]) = (along, half_m);
+        for shared in shared.iter_mut() {
+            for k in 0..WIDE {
+                let away = get(&shared.middle, k) - feet;
+                let (ahead, aside) = (away.x * cos + away.y * sin, away.y * cos - away.x * sin);
+                let (ahead, aside) = (most(ahead.abs() - half_length_m, 0.0), most(aside.abs() - half_width_m, 0.0));
+                let shade = share(1.0 - (ahead * ahead + aside * aside + away.z * away.z) * 1.6);
+                let kept = 1.0 - 0.75 * shade * shade * shade;
+                shared.sky[k] *= kept;
+                shared.lamps[k] *= kept;
+            }
+        }
+    }
+}
