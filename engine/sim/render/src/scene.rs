@@ -2,6 +2,7 @@
 
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::props::{Props, SceneModel};
+use crate::roof_steps::roof_steps;
 use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox};
 use crate::shade::grid::LightGrid;
 use crate::shade::outskirts::Outskirts;
@@ -51,6 +52,8 @@ impl Scene {
         let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
         let mut boxes = boxes_of(town, look_seed);
         join_crowns(&mut boxes);
+        let steps = roof_steps(&boxes);
+        boxes.iter_mut().zip(steps).for_each(|(b, step)| b.roof = step.map(Box::new));
         let clusters = clusters_of(town);
         let noise = noise_texture(look_seed);
         let grid = LightGrid::new(&boxes, &clusters);
@@ -121,6 +124,7 @@ fn scene_box(obstacle: &cosfly_maps::Obstacle, look_seed: u32) -> Option<SceneBo
         seed: crate::shade::pattern::hash(obstacle.object_id, look_seed),
         town: look_seed,
         whole: [shape.center_in_world.as_vec3a(), half.as_vec3a()],
+        roof: None,
     })
 }
 

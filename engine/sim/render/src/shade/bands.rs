@@ -1,7 +1,7 @@
 //! Bands of rows: pixels gathered by face, taken through the kernels, put back.
 
 use super::cloth::cloth;
-use super::facade::{facade, roofs};
+use super::facade::{facade, lift, roofs, tiles};
 use super::geometry::{FaceAxes, open, place, points};
 use super::ground::ground;
 use super::lanes::{Block, FOUR, FOURS, GROUPS, LANES, Shared, Stage, WIDE, get};
@@ -368,6 +368,9 @@ fn run_kernels(
     {
         swell(level, blocks, thing, setting.view.position);
     }
+    if let Material::Tiles(_) = material {
+        lift(level, blocks);
+    }
     if material.faces_away(stage, light) {
         blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
     } else {
@@ -378,6 +381,7 @@ fn run_kernels(
         Material::Ground(label) => ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), noise),
         Material::Facade(look, face) => facade(level, shared, blocks, look, face, light, noise),
         Material::Roof(roof) => roofs(level, shared, blocks, roof, light, noise),
+        Material::Tiles(slope) => tiles(level, shared, blocks, slope, noise),
         Material::Thing(thing) => things(level, shared, blocks, thing, noise),
         Material::Cloth(look) => cloth(level, shared, blocks, look, noise),
         Material::Coach(look) => coach(level, blocks, look),
@@ -429,6 +433,7 @@ fn run_simple_kernels(
         }
         Material::Ground(label) => simple::even(level, shared, blocks, simple::ground_colour(*label), tone),
         Material::Roof(roof) => simple::even(level, shared, blocks, roof.colour(), tone),
+        Material::Tiles(slope) => simple::even(level, shared, blocks, slope.colour(), tone),
         Material::Thing(thing) => simple::even(level, shared, blocks, thing.colour(), tone),
         Material::Cloth(look) => simple::even(level, shared, blocks, look.colour, tone),
         Material::Coach(look) => simple::even(level, shared, blocks, look.colour, tone),

@@ -1,7 +1,7 @@
 //! Materials of drawn faces.
 
 use super::cloth::Cloth;
-use super::facade::{BoxFace, Facade, Roof};
+use super::facade::{BoxFace, Facade, Roof, Tiles};
 use super::geometry::FaceAxes;
 use super::lanes::{Block, Stage, WIDE, set};
 use super::light::Light;
@@ -11,6 +11,7 @@ use super::skin::Painted;
 use super::things::Thing;
 use super::vector::Vec3;
 use crate::faces::FaceSource;
+use crate::roof_steps::Side;
 use crate::scene_parts::{BOX_FACES, SceneBox};
 use cosfly_figures::clothes::Region;
 use cosfly_frames::simd_kernel;
@@ -22,6 +23,7 @@ pub(super) enum Material {
     Ground(SemanticLabel),
     Facade(Facade, BoxFace),
     Roof(Roof),
+    Tiles(Tiles),
     Thing(Thing),
     Cloth(Cloth),
     Coach(Coach),
@@ -66,6 +68,8 @@ fn box_material(b: &SceneBox, face: usize, night: f32) -> (Material, FaceAxes) {
     let material = if b.kind != ObstacleKind::Building {
         let whole = b.whole.map(|v| Vec3::new(v.x, v.y, v.z));
         Material::Thing(Thing::new(b.kind, center, axes, half, b.seed, axis, whole, night))
+    } else if let Some(material) = roof_material(b, face, (center, axes)) {
+        material
     } else if axis == 2 {
         Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y]))
     } else {
@@ -77,12 +81,34 @@ fn box_material(b: &SceneBox, face: usize, night: f32) -> (Material, FaceAxes) {
     (material, FaceAxes { along, up })
 }
 
+/// Material of a face of a pitched roof; none for other faces.
+fn roof_material(b: &SceneBox, face: usize, (center, axes): (Vec3, [Vec3; 2])) -> Option<Material> {
+    let step = b.roof.as_deref()?;
+    let (axis, sign, _) = BOX_FACES[face];
+    if axis == 2 {
+        let slope = step.top.filter(|_| sign > 0.0)?;
+        return Some(Material::Tiles(Tiles::top(b.seed, b.town, center, axes, &slope)));
+    }
+    match step.sides[face] {
+        Side::Wall => None,
+        Side::Slope(pitch) => Some(Material::Tiles(Tiles::side(b.seed, b.town, axes[axis] * sign as f32, pitch))),
+        Side::Gable => {
+            let half_width = if axis == 0 { b.half_extents_m.y } else { b.half_extents_m.x };
+            let [foot_m, height_m] = step.wall_m.map(|value| value as f32);
+            let look = Facade::new(b.seed, b.town, face as u32, 2.0 * half_width, height_m).bare();
+            let along = axes[usize::from(axis == 0)];
+            let edge_m = center.dot(along) - half_width;
+            Some(Material::Facade(look, BoxFace { along, edge_m, foot_m }))
+        }
+    }
+}
+
 impl Material {
     /// Whether the material has normals of its own.
     pub(super) fn is_bent(&self) -> bool {
         match self {
             Self::Thing(thing) => matches!(thing.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush),
-            Self::Cloth(_) => true,
+            Self::Cloth(_) | Self::Tiles(_) => true,
             Self::Sky | Self::Ground(_) | Self::Facade(..) | Self::Roof(_) | Self::Coach(_) | Self::Skin(_) => false,
         }
     }
@@ -112,7 +138,7 @@ impl Material {
                 }
                 _ => matt,
             },
-            Self::Sky | Self::Cloth(_) | Self::Skin(_) => matt,
+            Self::Sky | Self::Cloth(_) | Self::Skin(_) | Self::Tiles(_) => matt,
         }
     }
 }
