@@ -33,9 +33,7 @@ fn nine_thousand_buildings_keep_their_heights() {
     let region = WideTown::new(90);
     let mut expected: Vec<f64> = region.houses.iter().map(|house| house.eaves_m + house.rise_m).collect();
     expected.sort_by(f64::total_cmp);
-    for (name, text, ground_m) in
-        [("OpenStreetMap", region.osm(), 0.0), ("CityJSON", region.city_json(), 500.0)]
-    {
+    for (name, text, ground_m) in [("OpenStreetMap", region.osm(), 0.0), ("CityJSON", region.city_json(), 500.0)] {
         let town = read(name, &text);
         let size = town.max_in_world - town.min_in_world;
         assert!(size.min_element() > TOWER_M && size.x > 8_000.0 && size.y > 19_000.0, "{name}: {size}");

@@ -227,9 +227,11 @@ mod tests {
     #[test]
     fn hips_slope_to_all_sides_and_level_roofs_do_not() {
         let hips = steps_of(house(Roof::Hipped { rise_m: 3.0 }));
-        assert!(hips.iter().skip(1).all(|step| {
-            step.as_ref().unwrap().sides.iter().all(|side| matches!(side, Side::Slope(_)))
-        }));
+        assert!(
+            hips.iter()
+                .skip(1)
+                .all(|step| { step.as_ref().unwrap().sides.iter().all(|side| matches!(side, Side::Slope(_))) })
+        );
         assert_eq!(steps_of(house(Roof::Flat)), [None]);
         // The house of a lift on a wide roof, a tower on a podium, and two houses of one height side by side.
         let shape = |center: [f64; 3], half: [f64; 3]| OrientedBox {

@@ -137,8 +137,16 @@ mod tests {
 
     #[test]
     fn parts_outside_a_shape_hold_what_the_shape_does_not() {
-        let outer =
-            ring(&[(0.0, 0.0), (0.0, 20.0), (30.0, 20.0), (30.0, 0.0), (20.0, 0.0), (20.0, 8.0), (9.0, 8.0), (9.0, 0.0)]);
+        let outer = ring(&[
+            (0.0, 0.0),
+            (0.0, 20.0),
+            (30.0, 20.0),
+            (30.0, 0.0),
+            (20.0, 0.0),
+            (20.0, 8.0),
+            (9.0, 8.0),
+            (9.0, 0.0),
+        ]);
         let hole = ring(&[(3.0, 12.0), (3.0, 16.0), (26.0, 17.0), (26.0, 12.0)]);
         let region = Region::new(&outer, &[hole]);
         let mut stream = Seed::of_item(3, "regions", "cuts").stream("shapes");
@@ -165,7 +173,8 @@ mod tests {
     fn a_cut_through_two_prongs_leaves_nothing_between_them() {
         let fork =
             ring(&[(0.0, 0.0), (9.0, 0.0), (9.0, 8.0), (6.0, 8.0), (6.0, 3.0), (3.0, 3.0), (3.0, 8.0), (0.0, 8.0)]);
-        let parts = Region::new(&fork, &[]).outside(&ring(&[(-1.0, 5.0), (10.0, 5.0), (10.0, 6.0), (-1.0, 6.0)])).unwrap();
+        let parts =
+            Region::new(&fork, &[]).outside(&ring(&[(-1.0, 5.0), (10.0, 5.0), (10.0, 6.0), (-1.0, 6.0)])).unwrap();
         let rings: Vec<usize> = parts.iter().map(|part| part.rings.len()).collect();
         assert_eq!(rings, [1, 2], "the root, and two tips that are apart");
         assert!((parts.iter().map(area_m2).sum::<f64>() - (57.0 - 6.0)).abs() < 1e-9);

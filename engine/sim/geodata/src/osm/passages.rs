@@ -18,8 +18,9 @@ pub const LOWEST_M: f64 = 2.2;
 const HIGHEST_M: f64 = 30.0;
 /// Least height of the building above a passage, metres.
 const LINTEL_M: f64 = 0.3;
-/// Distance on each side of a way that stays clear beyond its width, metres: boxes stand over outlines by up to 0.25 m.
-const SPARE_M: f64 = 0.3;
+/// Distance on each side of a way that is cut out beyond its width, metres: boxes stand over what is left by up to 0.5 m, a
+/// tenth more where rows of slanted sides are joined.
+const SPARE_M: f64 = 0.55;
 /// Distance by which a passage goes on beyond the ends of its way, metres.
 const BEYOND_M: f64 = 0.5;
 /// Places along a way where it is looked for a building over it lie this far apart, metres, and are at most so many.
