@@ -13,6 +13,8 @@ const CLOSE_M: f64 = 0.03;
 const FLUSH_M: f64 = 0.05;
 /// Flattest slope, run over rise.
 const FLATTEST: f64 = 4.0;
+/// Steps beside a strip of a roof are at most so many times their height away.
+const BESIDE: f64 = 2.0;
 
 /// Place of a box in a building with a pitched roof.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,8 +74,9 @@ impl Rectangle {
         Self { low: middle - half, high: middle + half }
     }
 
-    fn overlaps(&self, other: &Self) -> bool {
-        (self.low + CLOSE_M).cmplt(other.high).all() && (other.low + CLOSE_M).cmplt(self.high).all()
+    /// Whether another is at most so far away along both axes; a negative distance is an overlap.
+    fn is_within(&self, other: &Self, distance_m: f64) -> bool {
+        (self.low - distance_m).cmplt(other.high).all() && (other.low - distance_m).cmplt(self.high).all()
     }
 
     fn around(self, other: Self) -> Self {
@@ -126,11 +129,17 @@ pub(crate) fn roof_steps(boxes: &[SceneBox]) -> Vec<Option<RoofStep>> {
         let on_it: Vec<usize> = near.filter(|other| (ends_m(&boxes[*other])[0] - top_m).abs() <= CLOSE_M).collect();
         let own = Rectangle::of_box(b);
         let rise_m = on_it.iter().map(|other| ends_m(&boxes[*other])[1] - top_m).fold(0.0, f64::max);
-        let over: Vec<usize> =
-            on_it.into_iter().filter(|other| Rectangle::seen_from(b, &boxes[*other]).overlaps(&own)).collect();
+        let within = |distance_m: f64| -> Vec<usize> {
+            let is_within = |other: &usize| Rectangle::seen_from(b, &boxes[*other]).is_within(&own, distance_m);
+            on_it.iter().copied().filter(is_within).collect()
+        };
+        // A strip that no step stands on falls from the steps beside it.
+        let over = within(-CLOSE_M);
+        let over = if over.is_empty() { within(BESIDE * rise_m) } else { over };
+        let run_m = over_run_m(boxes, index, &over);
         let slope = top_slope(boxes, index, &over, rise_m);
-        if slope.is_some() {
-            over.iter().for_each(|other| below.entry(*other).or_default().push(index));
+        if run_m <= FLATTEST * rise_m + FLUSH_M {
+            within(2.0 * CLOSE_M).into_iter().for_each(|other| below.entry(other).or_default().push(index));
         }
         steps[index] = match below.get(&index) {
             Some(lower) => Some(step(boxes, index, lower, slope, &steps)),
@@ -143,13 +152,21 @@ pub(crate) fn roof_steps(boxes: &[SceneBox]) -> Vec<Option<RoofStep>> {
     steps
 }
 
+/// The rectangle around the steps over a box, along its axes.
+fn around(boxes: &[SceneBox], index: usize, over: &[usize]) -> Option<Rectangle> {
+    over.iter().map(|other| Rectangle::seen_from(&boxes[index], &boxes[*other])).reduce(Rectangle::around)
+}
+
+/// Largest distance from the steps over a box to one of its sides, metres.
+fn over_run_m(boxes: &[SceneBox], index: usize, over: &[usize]) -> f64 {
+    let own = Rectangle::of_box(&boxes[index]);
+    around(boxes, index, over).map_or(f64::INFINITY, |all| all.gaps_m(&own).into_iter().fold(0.0, f64::max))
+}
+
 /// The slope from the steps over a box down to its sides; none where its upper face is level.
 fn top_slope(boxes: &[SceneBox], index: usize, over: &[usize], rise_m: f64) -> Option<TopSlope> {
-    let b = &boxes[index];
-    let own = Rectangle::of_box(b);
-    let all = over.iter().map(|other| Rectangle::seen_from(b, &boxes[*other])).reduce(Rectangle::around)?;
-    let all = Rectangle { low: all.low.max(own.low), high: all.high.min(own.high) };
-    let run_m = all.gaps_m(&own).into_iter().fold(0.0, f64::max);
+    let all = around(boxes, index, over)?;
+    let run_m = over_run_m(boxes, index, over);
     let is_slope = run_m > FLUSH_M && run_m <= FLATTEST * rise_m + FLUSH_M;
     let (middle, half) = (0.5 * (all.low + all.high), 0.5 * (all.high - all.low));
     is_slope.then(|| TopSlope {
