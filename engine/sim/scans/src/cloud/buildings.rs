@@ -1,6 +1,7 @@
 //! Buildings: roofs as columns of cells down to the ground, on grids that are turned along the walls.
 
 use super::class;
+use super::outline::smooth_unseen;
 use super::survey::{Survey, is_ground, plan_of};
 use crate::grid::{Grid, nearest_seeds, parts};
 use crate::plan::{convex_hull, smallest_rectangle_rad};
@@ -14,8 +15,6 @@ use rayon::prelude::*;
 const OVERHANG_M: f64 = 2.5;
 /// Cells from a wall within which a roof over ground that was seen counts as eaves, not as hanging.
 const EAVES: usize = 2;
-/// Height of the steps in which boxes follow a roof, metres.
-const STEP_M: f64 = 1.0;
 /// Distance of a column's foot above ground that was seen in its cell, metres.
 const ABOVE_GROUND_M: f64 = 0.1;
 /// Cells at the edge over which the direction of a wall is felt.
@@ -40,11 +39,11 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
             let site = Site::new(survey, cells, &part);
             let rasters = site.directions_rad(cells, &is_building).map(|yaw_rad| site.columns(yaw_rad));
             // Walls along the cells take few boxes and have few corners.
-            let mut rasters = rasters.map(|(grid, columns)| (corners(&grid, &columns), grid, columns));
+            let mut rasters = rasters.map(|(grid, columns)| (corners(&grid, &columns, survey.step_m), grid, columns));
             rasters.sort_by_key(|(corners, _, _)| *corners);
             let covers = rasters[..2]
                 .iter()
-                .map(|(_, grid, columns)| boxes_of(grid, columns, STEP_M.max(grid.cell_m), Bases::Highest));
+                .map(|(_, grid, columns)| boxes_of(grid, columns, survey.step_m, Bases::Highest));
             covers.min_by_key(|cover| cover.shapes.len()).unwrap_or_default()
         })
         .collect();
@@ -59,8 +58,8 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
 }
 
 /// Corners of the outlines of a roof's levels: middles of four cells that no straight line parts.
-fn corners(grid: &Grid, columns: &[Option<Column>]) -> usize {
-    let level = |column: &Option<Column>| column.map(|column| (column.top_m / STEP_M.max(grid.cell_m)).ceil() as i64);
+fn corners(grid: &Grid, columns: &[Option<Column>], step_m: f64) -> usize {
+    let level = |column: &Option<Column>| column.map(|column| (column.top_m / step_m).ceil() as i64);
     let levels: Vec<Option<i64>> = columns.iter().map(level).collect();
     let is_corner = |cell: usize| {
         let [a, b, c, d] = [cell, cell + 1, cell + grid.columns, cell + grid.columns + 1].map(|cell| levels[cell]);
@@ -141,6 +140,7 @@ impl<'a> Site<'a> {
             |(cell, seed): (usize, &u32)| roof.get(*seed as usize).copied().flatten().filter(|_| is_seen(cell));
         let mut roofs: Vec<Option<Column>> = seeds.iter().enumerate().map(nearest).collect();
         drop_slivers(&grid, &mut roofs, |cell| roof[cell].is_some());
+        smooth_unseen(&grid, &mut roofs, |cell| !is_seed[cell] && is_seen(cell));
         fill_pits(&grid, &mut roofs, (self.survey.reach_cells() / 2).max(1));
         let columns = self.standing(&grid, &roofs, &ground_m);
         (grid, columns)
