@@ -17,6 +17,8 @@ const OVERHANG_M: f64 = 2.5;
 const EAVES: usize = 2;
 /// Distance of a column's foot above ground that was seen in its cell, metres.
 const ABOVE_GROUND_M: f64 = 0.1;
+/// Of the eight cells around one in which nothing was seen, so many of a building make it a notch, over which boxes may stand.
+const NOTCH: usize = 3;
 /// Cells at the edge over which the direction of a wall is felt.
 const EDGE_REACH: usize = 2;
 
@@ -39,11 +41,11 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
             let site = Site::new(survey, cells, &part);
             let rasters = site.directions_rad(cells, &is_building).map(|yaw_rad| site.columns(yaw_rad));
             // Walls along the cells take few boxes and have few corners.
-            let mut rasters = rasters.map(|(grid, columns)| (corners(&grid, &columns, survey.step_m), grid, columns));
-            rasters.sort_by_key(|(corners, _, _)| *corners);
-            let covers = rasters[..2]
-                .iter()
-                .map(|(_, grid, columns)| boxes_of(grid, columns, survey.step_m, Bases::Highest));
+            let mut rasters = rasters.map(|raster| (corners(&raster, survey.step_m), raster));
+            rasters.sort_by_key(|(corners, _)| *corners);
+            let covers = rasters[..2].iter().map(|(_, Raster { grid, columns, is_free })| {
+                boxes_of(grid, columns, survey.step_m, Bases::Highest, |cell| is_free[cell])
+            });
             covers.min_by_key(|cover| cover.shapes.len()).unwrap_or_default()
         })
         .collect();
@@ -58,7 +60,7 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
 }
 
 /// Corners of the outlines of a roof's levels: middles of four cells that no straight line parts.
-fn corners(grid: &Grid, columns: &[Option<Column>], step_m: f64) -> usize {
+fn corners(Raster { grid, columns, .. }: &Raster, step_m: f64) -> usize {
     let level = |column: &Option<Column>| column.map(|column| (column.top_m / step_m).ceil() as i64);
     let levels: Vec<Option<i64>> = columns.iter().map(level).collect();
     let is_corner = |cell: usize| {
@@ -69,6 +71,14 @@ fn corners(grid: &Grid, columns: &[Option<Column>], step_m: f64) -> usize {
     rows.flat_map(|row| (0..grid.columns - 1).map(move |column| row * grid.columns + column))
         .filter(|cell| is_corner(*cell))
         .count()
+}
+
+/// A building on a grid.
+struct Raster {
+    grid: Grid,
+    columns: Vec<Option<Column>>,
+    /// Notches of its outline in which nothing was seen.
+    is_free: Vec<bool>,
 }
 
 /// One building: the points on it and on the ground beside it.
@@ -110,7 +120,7 @@ impl<'a> Site<'a> {
     }
 
     /// Columns on a grid of a direction.
-    fn columns(&self, yaw_rad: f64) -> (Grid, Vec<Option<Column>>) {
+    fn columns(&self, yaw_rad: f64) -> Raster {
         let (cloud, cell_m) = (self.survey.cloud, self.survey.grid.cell_m);
         let grid = Grid::around(plan_of(cloud, &self.roof), cell_m, yaw_rad);
         let mut roof: Vec<Option<Column>> = vec![None; grid.cells()];
@@ -143,7 +153,10 @@ impl<'a> Site<'a> {
         smooth_unseen(&grid, &mut roofs, |cell| !is_seed[cell] && is_seen(cell));
         fill_pits(&grid, &mut roofs, (self.survey.reach_cells() / 2).max(1));
         let columns = self.standing(&grid, &roofs, &ground_m);
-        (grid, columns)
+        let beside = |cell: usize| grid.around_cell(cell, 1).filter(|near| columns[*near].is_some()).count();
+        let is_free = |cell: usize| !is_seed[cell] && is_seen(cell) && beside(cell) >= NOTCH;
+        let is_free = (0..grid.cells()).map(is_free).collect();
+        Raster { grid, columns, is_free }
     }
 
     /// Columns from the roofs down to the foot, or to the ground that was seen in a cell, or only the roof where it

@@ -77,7 +77,7 @@ fn add_kind(
         }
     }
     let first_id = super::next_id(obstacles);
-    let Boxes { shapes, volumes } = boxes_of(grid, &columns, survey.step_m, Bases::Highest);
+    let Boxes { shapes, volumes } = boxes_of(grid, &columns, survey.step_m, Bases::Highest, |_| false);
     let number = |shape: &cosfly_geometry::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
     let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();
     numbered.sort_by_key(|(number, _)| *number);
