@@ -117,6 +117,20 @@ mod tests {
     }
 
     #[test]
+    fn boxes_stand_over_free_cells_alone_beside_columns() {
+        let grid = Grid::around([DVec2::ZERO, DVec2::new(11.9, 19.9)].into_iter(), 1.0, 0.0);
+        let notch = |cell: usize| (cell % grid.columns, cell / grid.columns) == (6, 5);
+        let is_house =
+            |cell: usize| (1..13).contains(&(cell % grid.columns)) && (5..12).contains(&(cell / grid.columns));
+        let column = |cell: usize| (is_house(cell) && !notch(cell)).then_some(Column { base_m: 0.0, top_m: 6.0 });
+        let columns: Vec<_> = (0..grid.cells()).map(column).collect();
+        let closed = boxes_of(&grid, &columns, 1.0, Bases::Highest, |_| false);
+        assert_eq!((closed.shapes.len(), closed.volumes.gained), (3, 0.0));
+        let open = boxes_of(&grid, &columns, 1.0, Bases::Highest, notch);
+        assert_eq!((open.shapes.len(), open.volumes.gained), (1, 6.0));
+    }
+
+    #[test]
     fn a_ridged_roof_is_one_box_for_each_step() {
         let grid = Grid::around([DVec2::ZERO, DVec2::new(11.9, 19.9)].into_iter(), 1.0, 0.0);
         let column = |cell: usize| {
