@@ -178,7 +178,8 @@ impl Passages {
         let [people_m, vehicles_m] = CLEAR_M;
         format!(
             "{} passages through buildings are open ({} of an assumed height: {people_m} m, for vehicles {vehicles_m} m), {closed} \
-             are closed, because the building over them is lower than {} m or its outline crosses itself",
+             are closed, because the building over them is lower than {} m, \
+             has more than {MOST_STRETCHES} of them, or crosses itself",
             self.open.len(),
             self.of_assumed_height.len(),
             LOWEST_M + LINTEL_M
