@@ -42,7 +42,7 @@ impl StageKind for Map {
         let (config, files) = checked(given)?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 8,
+            version: 9,
             parameters: canonical(&config)?,
             sources: sources(files),
             inputs: self.ports(),

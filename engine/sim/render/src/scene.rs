@@ -2,6 +2,7 @@
 
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::props::{Props, SceneModel};
+use crate::roof_steps::{RoofStep, Side, roof_steps};
 use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox};
 use crate::shade::grid::LightGrid;
 use crate::shade::leaves::Leaves;
@@ -60,6 +61,8 @@ impl Scene {
         let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
         let mut boxes = boxes_of(town, look_seed);
         join_crowns(&mut boxes);
+        let steps = roof_steps(&boxes);
+        boxes.iter_mut().zip(steps).for_each(|(b, step)| b.roof = step.map(Box::new));
         let clusters = clusters_of(town);
         let noise = noise_texture(look_seed);
         let grid = LightGrid::new(&boxes, &clusters);
@@ -90,9 +93,11 @@ impl Scene {
         }
     }
 
-    /// Whether a face of a box is the wall of a building.
+    /// Whether a face of a box is the wall of a building, not its roof.
     pub(crate) fn is_wall(&self, index: u32, face: u8) -> bool {
-        BOX_FACES[usize::from(face)].0 != 2 && self.boxes[index as usize].kind == ObstacleKind::Building
+        let (b, face) = (&self.boxes[index as usize], usize::from(face));
+        let is_slope = |roof: &RoofStep| matches!(roof.sides.get(face), Some(Side::Slope(_)));
+        BOX_FACES[face].0 != 2 && b.kind == ObstacleKind::Building && !b.roof.as_deref().is_some_and(is_slope)
     }
 
     /// Cluster and polygon of a face of the ground by its number in [`Self::faces`]; the last one for numbers beyond it.
@@ -162,6 +167,7 @@ fn scene_box(obstacle: &cosfly_maps::Obstacle, look_seed: u32) -> Option<SceneBo
         seed: crate::shade::pattern::hash(obstacle.object_id, look_seed),
         town: look_seed,
         whole: [shape.center_in_world.as_vec3a(), half.as_vec3a()],
+        roof: None,
     })
 }
 

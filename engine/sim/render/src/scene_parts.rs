@@ -1,5 +1,6 @@
 //! Boxes with their faces, and clusters of ground polygons: the parts of a scene.
 
+use crate::roof_steps::RoofStep;
 use cosfly_frames::DVec3;
 use cosfly_maps::{ObstacleKind, SemanticLabel};
 use glam::Vec3A as Vec3;
@@ -21,6 +22,8 @@ pub(crate) struct SceneBox {
     pub town: u32,
     /// Middle and half size of the whole crown that a crown's box belongs to; of the box itself for other kinds.
     pub whole: [Vec3; 2],
+    /// Place in a pitched roof; none for most boxes.
+    pub roof: Option<Box<RoofStep>>,
 }
 
 /// A box's six faces: outward axis (0 x, 1 y, 2 z), its sign, and the corner numbers around it.

@@ -35,8 +35,14 @@ pub struct Boxes {
 }
 
 /// Boxes that hold every column to its top. None stands over a column by more than `tolerance_m`, or over a cell without
-/// one. Each is as wide as it can be: it may reach under higher columns, and what stands on it begins at its top.
-pub fn boxes_of(grid: &Grid, columns: &[Option<Column>], tolerance_m: f64, bases: Bases) -> Boxes {
+/// one that is not free. Each is as wide as it can be: it may reach under higher columns, and what stands on it begins at its top.
+pub fn boxes_of(
+    grid: &Grid,
+    columns: &[Option<Column>],
+    tolerance_m: f64,
+    bases: Bases,
+    is_free: impl Fn(usize) -> bool + Sync,
+) -> Boxes {
     let (part, _) = parts(grid, |cell| columns[cell].is_some());
     let mut pieces: BTreeMap<[usize; 3], Vec<([usize; 2], Column)>> = BTreeMap::new();
     for (cell, column) in columns.iter().enumerate() {
@@ -45,7 +51,8 @@ pub fn boxes_of(grid: &Grid, columns: &[Option<Column>], tolerance_m: f64, bases
         pieces.entry(piece).or_default().push((place, *column));
     }
     let pieces: Vec<_> = pieces.into_values().collect();
-    let cover = |cells: &Vec<([usize; 2], Column)>| Window::of(cells).blocks(tolerance_m, bases);
+    let is_free = |[column, row]: [usize; 2]| is_free(row * grid.columns + column);
+    let cover = |cells: &Vec<([usize; 2], Column)>| Window::of(cells, is_free).blocks(tolerance_m, bases);
     let covers: Vec<(Vec<Block>, Volumes)> = pieces.par_iter().map(cover).collect();
     let cell_m2 = grid.cell_m * grid.cell_m;
     Boxes {
@@ -79,7 +86,7 @@ mod tests {
             (!cell.is_multiple_of(3) || cell.is_multiple_of(5)).then_some(Column { base_m, top_m })
         };
         let columns: Vec<_> = (0..grid.cells()).map(column).collect();
-        let Boxes { shapes: boxes, volumes } = boxes_of(&grid, &columns, 0.5, Bases::Lowest);
+        let Boxes { shapes: boxes, volumes } = boxes_of(&grid, &columns, 0.5, Bases::Lowest, |_| false);
         let solid_m3: f64 = columns.iter().flatten().map(|column| column.top_m - column.base_m).sum();
         assert!((volumes.solid - solid_m3).abs() < 1e-6 * solid_m3, "{volumes:?}");
         assert!(volumes.lost < 1e-6 * solid_m3 && volumes.gained < 0.15 * solid_m3, "{volumes:?}");
@@ -110,6 +117,20 @@ mod tests {
     }
 
     #[test]
+    fn boxes_stand_over_free_cells_alone_beside_columns() {
+        let grid = Grid::around([DVec2::ZERO, DVec2::new(11.9, 19.9)].into_iter(), 1.0, 0.0);
+        let notch = |cell: usize| (cell % grid.columns, cell / grid.columns) == (6, 5);
+        let is_house =
+            |cell: usize| (1..13).contains(&(cell % grid.columns)) && (5..12).contains(&(cell / grid.columns));
+        let column = |cell: usize| (is_house(cell) && !notch(cell)).then_some(Column { base_m: 0.0, top_m: 6.0 });
+        let columns: Vec<_> = (0..grid.cells()).map(column).collect();
+        let closed = boxes_of(&grid, &columns, 1.0, Bases::Highest, |_| false);
+        assert_eq!((closed.shapes.len(), closed.volumes.gained), (3, 0.0));
+        let open = boxes_of(&grid, &columns, 1.0, Bases::Highest, notch);
+        assert_eq!((open.shapes.len(), open.volumes.gained), (1, 6.0));
+    }
+
+    #[test]
     fn a_ridged_roof_is_one_box_for_each_step() {
         let grid = Grid::around([DVec2::ZERO, DVec2::new(11.9, 19.9)].into_iter(), 1.0, 0.0);
         let column = |cell: usize| {
@@ -119,7 +140,7 @@ mod tests {
             is_house.then_some(Column { base_m: 0.0, top_m: 6.0 + rise_m })
         };
         let columns: Vec<_> = (0..grid.cells()).map(column).collect();
-        let boxes = boxes_of(&grid, &columns, 1.0, Bases::Highest).shapes;
+        let boxes = boxes_of(&grid, &columns, 1.0, Bases::Highest, |_| false).shapes;
         assert!(boxes.len() <= 4, "{boxes:?}");
     }
 }

@@ -19,6 +19,8 @@ pub struct Window {
     first: [usize; 2],
     size: [usize; 2],
     columns: Vec<Option<Column>>,
+    /// Cells without a column that blocks may stand over.
+    is_free: Vec<bool>,
 }
 
 /// A block over a rectangle of cells.
@@ -65,8 +67,8 @@ struct Level {
 type Offer = (u32, Reverse<usize>, Reverse<[usize; 4]>);
 
 impl Window {
-    /// Columns by their cells of the grid: column and row, within [`WIDEST`] of each other.
-    pub fn of(cells: &[([usize; 2], Column)]) -> Self {
+    /// Columns by their cells of the grid: column and row, within [`WIDEST`] of each other. Blocks may stand over free cells.
+    pub fn of(cells: &[([usize; 2], Column)], is_free: impl Fn([usize; 2]) -> bool) -> Self {
         let places = || cells.iter().map(|(place, _)| *place);
         let first = places().reduce(|a, b| [a[0].min(b[0]), a[1].min(b[1])]).unwrap_or_default();
         let last = places().reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]).unwrap_or_default();
@@ -75,10 +77,12 @@ impl Window {
         for ([column, row], solid) in cells {
             columns[(row - first[1]) * size[0] + column - first[0]] = Some(*solid);
         }
-        Self { first, size, columns }
+        let place = |cell: usize| [first[0] + cell % size[0], first[1] + cell / size[0]];
+        let is_free = (0..columns.len()).map(|cell| columns[cell].is_none() && is_free(place(cell))).collect();
+        Self { first, size, columns, is_free }
     }
 
-    /// Blocks that hold every column. None stands over a column by more than the tolerance, or over a cell without one;
+    /// Blocks that hold every column. None stands over a column by more than the tolerance, or over a cell without one that is not free;
     /// a block may reach under higher columns.
     pub fn blocks(&self, tolerance_m: f64, bases: Bases) -> (Vec<Block>, Volumes) {
         let mut cover = Cover::new(self, tolerance_m);
@@ -109,8 +113,10 @@ impl Window {
                 }
             }
         }
+        let covered = self.is_free.iter().zip(&ends).filter(|(is_free, [low, high])| **is_free && low < high);
+        let gained = covered.map(|(_, [low, high])| high - low).sum();
         let columns = self.columns.iter().zip(&ends).filter_map(|(column, ends)| Some((column.as_ref()?, ends)));
-        columns.fold(Volumes::default(), |sum, (column, [low, high])| {
+        columns.fold(Volumes { gained, ..Volumes::default() }, |sum, (column, [low, high])| {
             let (above, below) = (high - column.top_m, column.base_m - low);
             let gained = above.max(0.0) + below.max(0.0);
             let lost = (-above).max(0.0) + (-below).max(0.0);
@@ -169,8 +175,12 @@ impl Cover {
                 cells.entry(level(column)).or_insert_with(|| vec![0; rows])[cell / columns] |= 1 << (cell % columns);
             }
         }
+        let mut free = vec![0; rows];
+        for cell in (0..window.is_free.len()).filter(|cell| window.is_free[*cell]) {
+            free[cell / columns] |= 1 << (cell % columns);
+        }
         let layer = |level: &Level| {
-            let mut layer = Layer { allowed: vec![0; rows], held: vec![0; rows], rows: [0, rows] };
+            let mut layer = Layer { allowed: free.clone(), held: vec![0; rows], rows: [0, rows] };
             for (own, bits) in &cells {
                 let is_allowed = own.top > level.top.saturating_sub(STEPS) && own.base <= level.base;
                 let is_held = is_allowed && own.top <= level.top && own.base == level.base;

@@ -12,6 +12,7 @@ pub mod mesh;
 pub mod open_ground;
 pub mod options;
 pub mod polygons;
+pub mod regions;
 pub mod semantics;
 pub mod simplify;
 pub mod solids;

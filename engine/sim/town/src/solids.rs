@@ -1,7 +1,10 @@
 //! Solid boxes of things that a map gives by their outline and heights.
 
-use crate::cover::{COVER_TOLERANCE_M, LOOSE_TOLERANCE_M, MOST, Plan, Row, Rows, Span, TurnedRectangle, strips};
+use crate::cover::{
+    COVER_TOLERANCE_M, LOOSE_TOLERANCE_M, MOST, Plan, Row, Rows, Span, TurnedRectangle, cover_rings, strips,
+};
 use crate::polygons::{contains, twice_area_m2};
+use crate::regions::Region;
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
 
@@ -93,6 +96,12 @@ pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Ro
         step += 1.0;
     }
     boxes
+}
+
+/// Boxes whose union covers a region between two heights, world, metres; overhang in plan as in [`crate::cover`].
+pub fn layer_boxes(region: &Region, base_m: f64, top_m: f64) -> Vec<OrientedBox> {
+    let (outer, holes) = region.rings();
+    cover_rings(&outer, &holes).into_iter().map(|one| upright(one, base_m, top_m)).collect()
 }
 
 fn upright(rectangle: TurnedRectangle, low_m: f64, high_m: f64) -> OrientedBox {

@@ -4,13 +4,14 @@ use super::elements::{Elements, Relation, Role};
 use super::frame::Frame;
 use super::heights::{heights, rectangle_around};
 use super::options::OsmOptions;
+use super::passages::Passages;
 use super::rings::{Area, Problems, Source, areas};
 use super::tags::Tags;
 use super::tally::Tally;
 use crate::slabs::inner_point;
 use cosfly_frames::DVec2;
 use cosfly_town::polygons::PolygonIndex;
-use cosfly_town::solids::{Footprint, building_boxes};
+use cosfly_town::solids::{Footprint, building_boxes, layer_boxes};
 use cosfly_town::{MapError, Obstacle, ObstacleKind};
 use std::collections::BTreeMap;
 
@@ -60,6 +61,7 @@ pub fn read(
     elements: &Elements,
     frame: &Frame,
     options: &OsmOptions,
+    passages: &mut Passages,
     next_id: &mut u32,
     problems: &mut Problems,
 ) -> Result<Buildings, MapError> {
@@ -80,15 +82,15 @@ pub fn read(
         if covered_share(outline, &own) >= REPLACING_SHARE {
             out.replaced += 1;
         } else {
-            out.add(outline, id, options)?;
+            out.add(outline, id, options, passages)?;
         }
         for part in own {
-            out.add(part, id, options)?;
+            out.add(part, id, options, passages)?;
         }
     }
     for (part, _) in parts.iter().zip(&parents).filter(|(_, parent)| parent.is_none()) {
         let id = out.next(next_id);
-        out.add(part, id, options)?;
+        out.add(part, id, options, passages)?;
     }
     out.parts = parts.len();
     Ok(out)
@@ -116,13 +118,25 @@ impl Buildings {
         kept
     }
 
-    fn add(&mut self, area: &Area<'_>, object_id: u32, options: &OsmOptions) -> Result<(), MapError> {
+    fn add(
+        &mut self,
+        area: &Area<'_>,
+        object_id: u32,
+        options: &OsmOptions,
+        passages: &mut Passages,
+    ) -> Result<(), MapError> {
         let (sides_m, longer_yaw_rad) = rectangle_around(&area.outer);
         let heights = heights(area.tags, sides_m, longer_yaw_rad, options);
         self.of_default_height += usize::from(heights.is_default);
         self.of_guessed_rise += usize::from(heights.is_rise_guessed);
         let footprint = Footprint { outer: area.outer.clone(), holes: area.holes.clone() };
-        let boxes = building_boxes(&footprint, heights.base_m, heights.eaves_m, heights.roof);
+        let mut base_m = heights.base_m;
+        let mut boxes = Vec::new();
+        for layer in passages.layers(area, heights.base_m, heights.eaves_m) {
+            boxes.extend(layer.regions.iter().flat_map(|region| layer_boxes(region, layer.base_m, layer.top_m)));
+            base_m = layer.top_m;
+        }
+        boxes.extend(building_boxes(&footprint, base_m, heights.eaves_m, heights.roof));
         self.obstacles.extend(boxes.into_iter().map(|shape| Obstacle {
             shape,
             kind: ObstacleKind::Building,

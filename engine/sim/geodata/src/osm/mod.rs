@@ -1,7 +1,7 @@
 //! OpenStreetMap extracts: `.osm.pbf`, `.osm` and `.osm.gz`.
 //!
 //! `elements` is what a file holds, read by `pbf` or `xml`; `frame` is its place in the world; `rings` makes areas of ways
-//! and relations; `buildings`, `roads`, `pavements`, `paths`, `land` and `things` make a town of them.
+//! and relations; `buildings`, `passages`, `roads`, `pavements`, `paths`, `land` and `things` make a town of them.
 
 mod buildings;
 mod elements;
@@ -10,6 +10,7 @@ mod heights;
 mod land;
 mod lanes;
 mod options;
+mod passages;
 mod paths;
 mod pavements;
 mod pbf;
@@ -24,6 +25,8 @@ mod town;
 mod unpacked;
 mod xml;
 
+#[cfg(test)]
+mod passage_tests;
 #[cfg(test)]
 mod tests;
 

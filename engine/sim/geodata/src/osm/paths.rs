@@ -58,6 +58,15 @@ fn usual(tags: &Tags) -> Option<(WalkableKind, f64)> {
     }
 }
 
+fn stated_width_m(tags: &Tags) -> Option<f64> {
+    tags.length_m(&["width"]).filter(|width| (1.2..=30.0).contains(width))
+}
+
+/// Width of the ground along a way, metres; none where people do not walk.
+pub fn usual_width_m(tags: &Tags) -> Option<f64> {
+    usual(tags).map(|(_, usual_m)| stated_width_m(tags).unwrap_or(usual_m))
+}
+
 /// Kind of the ground of an area; none where it is not for people.
 fn kind_of_area(tags: &Tags) -> Option<WalkableKind> {
     if tags.is_hidden() || tags.is("foot", &["no"]) {
@@ -99,7 +108,7 @@ pub fn read(
             continue;
         }
         let Some((kind, usual_m)) = usual(&way.tags) else { continue };
-        let width_m = way.tags.length_m(&["width"]).filter(|width| (1.2..=30.0).contains(width)).unwrap_or(usual_m);
+        let width_m = stated_width_m(&way.tags).unwrap_or(usual_m);
         out.nodes.extend(&way.nodes);
         for piece in lines(elements, frame, way, &mut length_m)? {
             out.add_path(&piece, kind, width_m, is_marked(&way.tags), &index, meshes);

@@ -37,6 +37,7 @@ const KEYS: &[&str] = &[
     "level",
     "location",
     "man_made",
+    "maxheight",
     "maxspeed",
     "min_height",
     "natural",

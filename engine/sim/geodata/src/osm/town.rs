@@ -3,6 +3,7 @@
 use super::elements::Elements;
 use super::frame::Frame;
 use super::options::OsmOptions;
+use super::passages::Passages;
 use super::rings::{Problems, areas};
 use super::tags::Tags;
 use super::things::Things;
@@ -29,7 +30,8 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     let mut meshes = MeshBuilder::default();
     let mut next_id = 0;
     let roads = roads::read(elements, &frame)?;
-    let mut buildings = buildings::read(elements, &frame, options, &mut next_id, &mut problems)?;
+    let mut passages = Passages::read(elements, &frame, &roads);
+    let mut buildings = buildings::read(elements, &frame, options, &mut passages, &mut next_id, &mut problems)?;
     let mut paths = paths::read(elements, &frame, &roads, options, &mut meshes, &mut problems)?;
     let mut things = things::read(elements, &frame, &paths.nodes, &mut next_id)?;
     let around = (roads.as_slice(), &paths, buildings.obstacles.as_slice());
@@ -48,6 +50,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     notes.extend(plants);
     notes.append(&mut paths.notes);
     notes.push(one_level(elements));
+    notes.push(passages.note());
     terrain::add_terrain(&mut meshes, &obstacles, terrain::USUAL_MARGIN_M)?;
     let surfaces = meshes.finish();
     if paths.walkable.is_empty() {
@@ -117,7 +120,7 @@ fn whole_extract(frame: &Frame) -> WalkablePolygon {
     WalkablePolygon { kind: WalkableKind::Plaza, outline_in_world, synthetic: true }
 }
 
-/// What becomes of bridges, tunnels and passages, in words.
+/// What becomes of bridges and tunnels, in words.
 fn one_level(elements: &Elements) -> String {
     let is_way = |tags: &Tags| tags.has("highway") || tags.has("railway");
     let count = |counts: &dyn Fn(&Tags) -> bool| {
@@ -126,10 +129,9 @@ fn one_level(elements: &Elements) -> String {
     let is_bridge = |tags: &Tags| tags.has("bridge") && !tags.is_hidden();
     format!(
         "everything stands on one level: the file has no heights of the ground; {} ways on bridges lie on it, {} in tunnels \
-         or below it are left out, {} passages through buildings are closed by the buildings over them",
+         or below it are left out",
         count(&is_bridge),
-        count(&Tags::is_hidden),
-        count(&|tags: &Tags| tags.is("tunnel", &["building_passage"]))
+        count(&Tags::is_hidden)
     )
 }
 

@@ -1,7 +1,7 @@
 //! Which kernels pixels of a material go through, in both looks.
 
 use super::cloth::{Cloths, cloth};
-use super::facade::{facade, roofs};
+use super::facade::{facade, lift, roofs, tiles};
 use super::geometry::{open, place, points};
 use super::ground::ground;
 use super::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
@@ -63,6 +63,9 @@ pub(super) fn run_kernels(
     if let Material::Leaves = material {
         swell(level, blocks, crowns, setting.view.position);
     }
+    if let Material::Tiles(_) = material {
+        lift(level, blocks);
+    }
     if material.faces_away(stage, light) {
         blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
     } else {
@@ -74,6 +77,7 @@ pub(super) fn run_kernels(
         Material::Ground(label) => ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), noise),
         Material::Facade(look, face) => facade(level, shared, blocks, look, face, light, noise),
         Material::Roof(roof) => roofs(level, shared, blocks, roof, light, noise),
+        Material::Tiles(slope) => tiles(level, shared, blocks, slope, noise),
         Material::Thing(thing) => things(level, shared, blocks, thing, noise),
         Material::Cloth => cloth(level, shared, blocks, cloths, noise),
         Material::Leaves => leaves(level, shared, blocks, crowns, noise),
@@ -127,7 +131,12 @@ pub(super) fn run_simple_kernels(
         Material::Even => simple::even_fours(level, shared, blocks, colours, tone),
         Material::Skin(look) => simple::even(level, shared, blocks, look.even, tone),
         // The sky is done; all others are even in this look.
-        Material::Sky | Material::Roof(_) | Material::Thing(_) | Material::Cloth | Material::Coach(_) => {}
+        Material::Sky
+        | Material::Roof(_)
+        | Material::Tiles(_)
+        | Material::Thing(_)
+        | Material::Cloth
+        | Material::Coach(_) => {}
     }
 }
 

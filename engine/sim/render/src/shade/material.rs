@@ -1,6 +1,6 @@
 //! Materials of drawn faces.
 
-use super::facade::{BoxFace, Facade, Roof};
+use super::facade::{BoxFace, Facade, Roof, Tiles};
 use super::geometry::FaceAxes;
 use super::lanes::{Block, Stage, WIDE, set};
 use super::light::Light;
@@ -10,6 +10,7 @@ use super::skin::Painted;
 use super::things::Thing;
 use super::vector::Vec3;
 use crate::faces::FaceSource;
+use crate::roof_steps::Side;
 use crate::scene_parts::{BOX_FACES, SceneBox};
 use cosfly_figures::clothes::Region;
 use cosfly_frames::simd_kernel;
@@ -21,6 +22,7 @@ pub(super) enum Material {
     Ground(SemanticLabel),
     Facade(Facade, BoxFace),
     Roof(Roof),
+    Tiles(Tiles),
     Thing(Thing),
     /// See [`super::cloth::Cloths`].
     Cloth,
@@ -78,6 +80,13 @@ pub(super) fn even_colour(seen: &Seen<'_>, face: u32) -> Vec3 {
 
 /// The colour of a box's faces in the simple look; of a building's, that of its roof.
 pub(crate) fn colour_of(b: &SceneBox) -> Vec3 {
+    let tiles = |face| match box_material(b, face, 0.0) {
+        Material::Tiles(slope) => Some(slope.colour()),
+        _ => None,
+    };
+    if let Some(colour) = b.roof.iter().flat_map(|_| 0..BOX_FACES.len()).find_map(tiles) {
+        return colour;
+    }
     match box_material(b, ROOF, 0.0) {
         Material::Thing(thing) => thing.colour(),
         Material::Roof(roof) => roof.colour(),
@@ -114,6 +123,8 @@ fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
             ObstacleKind::TreeCrown | ObstacleKind::Bush => Material::Leaves,
             kind => Material::Thing(Thing::new(kind, center, axes, half, b.seed, axis, night)),
         }
+    } else if let Some(material) = roof_material(b, face, (center, axes)) {
+        material
     } else if axis == 2 {
         Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y]))
     } else {
@@ -124,10 +135,32 @@ fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
     }
 }
 
+/// Material of a face of a pitched roof; none for other faces.
+fn roof_material(b: &SceneBox, face: usize, (center, axes): (Vec3, [Vec3; 2])) -> Option<Material> {
+    let step = b.roof.as_deref()?;
+    let (axis, sign, _) = BOX_FACES[face];
+    if axis == 2 {
+        let slope = step.top.filter(|_| sign > 0.0)?;
+        return Some(Material::Tiles(Tiles::top(b.seed, b.town, center, axes, &slope)));
+    }
+    match step.sides[face] {
+        Side::Wall => None,
+        Side::Slope(pitch) => Some(Material::Tiles(Tiles::side(b.seed, b.town, axes[axis] * sign as f32, pitch))),
+        Side::Gable => {
+            let half_width = if axis == 0 { b.half_extents_m.y } else { b.half_extents_m.x };
+            let [foot_m, height_m] = step.wall_m.map(|value| value as f32);
+            let look = Facade::new(b.seed, b.town, face as u32, 2.0 * half_width, height_m).bare();
+            let along = axes[usize::from(axis == 0)];
+            let edge_m = center.dot(along) - half_width;
+            Some(Material::Facade(look, BoxFace { along, edge_m, foot_m }))
+        }
+    }
+}
+
 impl Material {
     /// Whether the material has normals of its own.
     pub(super) fn is_bent(&self) -> bool {
-        matches!(self, Self::Leaves | Self::Cloth)
+        matches!(self, Self::Leaves | Self::Cloth | Self::Tiles(_))
     }
 
     /// Whether the sun shines on the back of a flat face: no shadow matters there. Faces of boxes show their outside.
@@ -155,7 +188,7 @@ impl Material {
                 }
                 _ => matt,
             },
-            Self::Sky | Self::Even | Self::Cloth | Self::Leaves | Self::Skin(_) => matt,
+            Self::Sky | Self::Even | Self::Cloth | Self::Leaves | Self::Skin(_) | Self::Tiles(_) => matt,
         }
     }
 }

@@ -16,11 +16,19 @@ pub const HIGHEST: f32 = 0.13;
 /// Rays that fall faster than this pass below all rings, but near one that the camera is high above.
 pub const LOWEST: f32 = -0.40;
 
+/// Width of the belt in which the lawns at the town's border become fields, metres.
+const BELT_M: f32 = 260.0;
+
 /// Place and size of the town that the land surrounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Outskirts {
     center: [f32; 2],
+    /// Half its size, metres.
+    half_m: [f32; 2],
+    /// Half the longer side times the root of 2: the ellipse of these proportions through the corners.
     radius_m: f32,
+    /// Factors of x and y that make a circle of that ellipse.
+    round: [f32; 2],
     ground_m: f32,
 }
 
@@ -42,6 +50,7 @@ pub const RINGS: [Ring; 3] = [
     Ring { beyond_m: 420.0, house_m: 24.0, heights_m: [8.0, 34.0], seed: 2 },
     Ring { beyond_m: 150.0, house_m: 17.0, heights_m: [4.0, 17.0], seed: 1 },
 ];
+const UP: Vec3 = Vec3::new(0.0, 0.0, 1.0);
 /// Distance of the hills beyond the town's corners, metres.
 const HILLS_M: f32 = 2600.0;
 
@@ -62,10 +71,14 @@ impl Outskirts {
     /// The land around the town of a grid.
     pub fn of(grid: &LightGrid) -> Self {
         let [low, high] = grid.bounds_m();
-        let size = [high[0] - low[0], high[1] - low[1]];
+        let half_m = [0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])];
+        let longer_m = most(half_m[0], half_m[1]);
         Self {
             center: [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])],
-            radius_m: 0.5 * (size[0] * size[0] + size[1] * size[1]).sqrt(),
+            half_m,
+            radius_m: core::f32::consts::SQRT_2 * longer_m,
+            // Rings around a long town are not rounder than this: far from its ends they would be thin.
+            round: half_m.map(|half| least(longer_m / most(half, 1.0), 4.0)),
             ground_m: grid.border_m(),
         }
     }
@@ -96,9 +109,16 @@ impl Outskirts {
         let field = Vec3::new(0.10, 0.15, 0.045).lerp(Vec3::new(0.22, 0.20, 0.10), smoothstep(0.45, 0.7, dry));
         let built = Vec3::new(0.24, 0.21, 0.19).lerp(Vec3::new(0.30, 0.15, 0.10), one_if(dry > 0.5));
         let plain = field.lerp(built, 0.75 * roofs).lerp(Vec3::new(0.055, 0.085, 0.035), 0.8 * woods);
-        let on_plain = light.ambient(Vec3::new(0.0, 0.0, 1.0)) * 0.85 + light.sun * most(light.to_sun.z, 0.0);
+        let plain = plain * (0.55 + 0.9 * noise.rough(x * 3.0, y * 3.0, size * 3.0));
+        // The lawns at the border go on into the fields, in bays.
+        let [aside, along] = [(x - self.center[0], self.half_m[0]), (y - self.center[1], self.half_m[1])]
+            .map(|(from, half)| most(from.abs() - half, 0.0));
+        let bays = 0.5 + noise.clumps(x * 0.55, y * 0.55 + 31.0, size * 0.55);
+        let wild = smoothstep(0.04, 1.0, (aside * aside + along * along).sqrt() * bays * (1.0 / BELT_M));
+        let plain = lawn(x, y, size, noise).lerp(plain, wild);
+        let on_plain = light.ambient(UP) * (1.0 - 0.15 * wild) + light.sun * most(light.to_sun.z, 0.0);
         let below = one_if((ray.slope < 0.0) & (ray.above_m > 0.0));
-        let lit = plain * on_plain * (0.55 + 0.9 * noise.rough(x * 3.0, y * 3.0, size * 3.0));
+        let lit = plain * on_plain;
         colour.lerp(hazy(lit, to_plain, light, sight), below)
     }
 
@@ -139,11 +159,13 @@ impl Outskirts {
 /// A ray over the ground, from the town's middle.
 #[derive(Clone, Copy)]
 struct Level {
-    from: [f32; 2],
     /// Its direction over the ground, unit length, and its rise per metre.
     flat: [f32; 2],
     slope: f32,
     above_m: f32,
+    /// Place and direction, stretched so that the rings are circles.
+    from: [f32; 2],
+    round: [f32; 2],
 }
 
 impl Level {
@@ -151,26 +173,33 @@ impl Level {
     fn of(land: &Outskirts, sight: &Sight) -> Self {
         let Vec3 { x, y, z } = sight.direction;
         let level = 1.0 / ((x * x + y * y).sqrt() + 1e-6);
+        let flat = [x * level, y * level];
         Self {
-            from: [sight.position.x - land.center[0], sight.position.y - land.center[1]],
-            flat: [x * level, y * level],
+            flat,
             slope: z * level,
             above_m: sight.position.z - land.ground_m,
+            from: [
+                (sight.position.x - land.center[0]) * land.round[0],
+                (sight.position.y - land.center[1]) * land.round[1],
+            ],
+            round: [flat[0] * land.round[0], flat[1] * land.round[1]],
         }
     }
 
-    /// Distance over ground to a circle around the town's middle.
+    /// Distance over ground to a ring around the town's middle.
     #[inline(always)]
     fn reach(&self, radius: f32) -> f32 {
-        let along = self.from[0] * self.flat[0] + self.from[1] * self.flat[1];
-        let off2 = self.from[0] * self.from[0] + self.from[1] * self.from[1] - along * along;
-        most(most(radius * radius - off2, 0.0).sqrt() - along, 1.0)
+        let [x, y] = self.round;
+        let stretch = most(x * x + y * y, 1e-6);
+        let along = self.from[0] * x + self.from[1] * y;
+        let off = self.from[0] * self.from[0] + self.from[1] * self.from[1] - radius * radius;
+        most((most(along * along - stretch * off, 0.0).sqrt() - along) / stretch, 1.0)
     }
 
-    /// Where on a circle the ray meets it.
+    /// Where on a ring the ray meets it.
     #[inline(always)]
     fn place(&self, far: f32, radius: f32) -> f32 {
-        ring_place(self.from, self.flat, far, radius)
+        ring_place(self.from, self.round, far, radius)
     }
 
     /// Light on upright faces that look back along the ray.
@@ -179,6 +208,14 @@ impl Level {
         let facing = Vec3::new(-self.flat[0], -self.flat[1], 0.0);
         light.ambient(facing) * 0.9 + light.sun * (0.85 * most(facing.dot(light.to_sun), 0.0))
     }
+}
+
+/// Lawn as the terrain of towns has it.
+#[inline(always)]
+fn lawn(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
+    let dry = smoothstep(0.42, 0.75, noise.clumps(x * 1.43, y * 1.43, size * 1.43));
+    let blades = noise.rough(x * 16.0, y * 16.0, size * 16.0);
+    Vec3::new(0.084, 0.146, 0.040).lerp(Vec3::new(0.200, 0.195, 0.080), 0.65 * dry) * lerp(0.45, 1.55, blades)
 }
 
 /// A colour as the air shows it from afar.

@@ -1,6 +1,7 @@
 //! Buildings: roofs as columns of cells down to the ground, on grids that are turned along the walls.
 
 use super::class;
+use super::outline::smooth_unseen;
 use super::survey::{Survey, is_ground, plan_of};
 use crate::grid::{Grid, nearest_seeds, parts};
 use crate::plan::{convex_hull, smallest_rectangle_rad};
@@ -14,10 +15,10 @@ use rayon::prelude::*;
 const OVERHANG_M: f64 = 2.5;
 /// Cells from a wall within which a roof over ground that was seen counts as eaves, not as hanging.
 const EAVES: usize = 2;
-/// Height of the steps in which boxes follow a roof, metres.
-const STEP_M: f64 = 1.0;
 /// Distance of a column's foot above ground that was seen in its cell, metres.
 const ABOVE_GROUND_M: f64 = 0.1;
+/// Of the eight cells around one in which nothing was seen, so many of a building make it a notch, over which boxes may stand.
+const NOTCH: usize = 3;
 /// Cells at the edge over which the direction of a wall is felt.
 const EDGE_REACH: usize = 2;
 
@@ -40,11 +41,11 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
             let site = Site::new(survey, cells, &part);
             let rasters = site.directions_rad(cells, &is_building).map(|yaw_rad| site.columns(yaw_rad));
             // Walls along the cells take few boxes and have few corners.
-            let mut rasters = rasters.map(|(grid, columns)| (corners(&grid, &columns), grid, columns));
-            rasters.sort_by_key(|(corners, _, _)| *corners);
-            let covers = rasters[..2]
-                .iter()
-                .map(|(_, grid, columns)| boxes_of(grid, columns, STEP_M.max(grid.cell_m), Bases::Highest));
+            let mut rasters = rasters.map(|raster| (corners(&raster, survey.step_m), raster));
+            rasters.sort_by_key(|(corners, _)| *corners);
+            let covers = rasters[..2].iter().map(|(_, Raster { grid, columns, is_free })| {
+                boxes_of(grid, columns, survey.step_m, Bases::Highest, |cell| is_free[cell])
+            });
             covers.min_by_key(|cover| cover.shapes.len()).unwrap_or_default()
         })
         .collect();
@@ -59,8 +60,8 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
 }
 
 /// Corners of the outlines of a roof's levels: middles of four cells that no straight line parts.
-fn corners(grid: &Grid, columns: &[Option<Column>]) -> usize {
-    let level = |column: &Option<Column>| column.map(|column| (column.top_m / STEP_M.max(grid.cell_m)).ceil() as i64);
+fn corners(Raster { grid, columns, .. }: &Raster, step_m: f64) -> usize {
+    let level = |column: &Option<Column>| column.map(|column| (column.top_m / step_m).ceil() as i64);
     let levels: Vec<Option<i64>> = columns.iter().map(level).collect();
     let is_corner = |cell: usize| {
         let [a, b, c, d] = [cell, cell + 1, cell + grid.columns, cell + grid.columns + 1].map(|cell| levels[cell]);
@@ -70,6 +71,14 @@ fn corners(grid: &Grid, columns: &[Option<Column>]) -> usize {
     rows.flat_map(|row| (0..grid.columns - 1).map(move |column| row * grid.columns + column))
         .filter(|cell| is_corner(*cell))
         .count()
+}
+
+/// A building on a grid.
+struct Raster {
+    grid: Grid,
+    columns: Vec<Option<Column>>,
+    /// Notches of its outline in which nothing was seen.
+    is_free: Vec<bool>,
 }
 
 /// One building: the points on it and on the ground beside it.
@@ -111,7 +120,7 @@ impl<'a> Site<'a> {
     }
 
     /// Columns on a grid of a direction.
-    fn columns(&self, yaw_rad: f64) -> (Grid, Vec<Option<Column>>) {
+    fn columns(&self, yaw_rad: f64) -> Raster {
         let (cloud, cell_m) = (self.survey.cloud, self.survey.grid.cell_m);
         let grid = Grid::around(plan_of(cloud, &self.roof), cell_m, yaw_rad);
         let mut roof: Vec<Option<Column>> = vec![None; grid.cells()];
@@ -141,9 +150,13 @@ impl<'a> Site<'a> {
             |(cell, seed): (usize, &u32)| roof.get(*seed as usize).copied().flatten().filter(|_| is_seen(cell));
         let mut roofs: Vec<Option<Column>> = seeds.iter().enumerate().map(nearest).collect();
         drop_slivers(&grid, &mut roofs, |cell| roof[cell].is_some());
+        smooth_unseen(&grid, &mut roofs, |cell| !is_seed[cell] && is_seen(cell));
         fill_pits(&grid, &mut roofs, (self.survey.reach_cells() / 2).max(1));
         let columns = self.standing(&grid, &roofs, &ground_m);
-        (grid, columns)
+        let beside = |cell: usize| grid.around_cell(cell, 1).filter(|near| columns[*near].is_some()).count();
+        let is_free = |cell: usize| !is_seed[cell] && is_seen(cell) && beside(cell) >= NOTCH;
+        let is_free = (0..grid.cells()).map(is_free).collect();
+        Raster { grid, columns, is_free }
     }
 
     /// Columns from the roofs down to the foot, or to the ground that was seen in a cell, or only the roof where it

@@ -7,6 +7,7 @@ pub mod buildings;
 pub mod classify;
 pub mod ground;
 pub mod options;
+pub mod outline;
 pub mod planes;
 pub mod points;
 pub mod sorting;
@@ -44,7 +45,7 @@ pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<St
     if !classify::is_classified(&cloud) {
         notes.push(classify::estimate(&mut cloud, &sorted, &relief));
     }
-    let survey = Survey::new(&cloud, relief, sorted, spacing_m);
+    let survey = Survey::new(&cloud, relief, sorted, spacing_m, options.step_m);
     let mut obstacles = Vec::new();
     let houses = buildings::add(&survey, &mut obstacles);
     trees::add(&survey, &mut obstacles);

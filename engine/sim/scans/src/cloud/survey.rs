@@ -10,6 +10,8 @@ use std::ops::Range;
 
 /// Narrowest and widest cells that the density of the points asks for, metres.
 const USUAL_VOXELS_M: [f64; 2] = [0.5, 2.0];
+/// Usual height of the steps in which boxes follow roofs, metres.
+const USUAL_STEP_M: f64 = 1.0;
 /// Side of the cells in distances between neighbouring points.
 const VOXELS_IN_SPACINGS: f64 = 0.7;
 /// Cells over which the density is measured, metres.
@@ -39,14 +41,17 @@ pub struct Survey<'a> {
     sorted: Sorted,
     /// Cells without points take after points at most this far away, metres.
     pub reach_m: f64,
+    /// Height of the steps in which boxes follow roofs and things, metres.
+    pub step_m: f64,
 }
 
 impl<'a> Survey<'a> {
     /// The cloud, its points at some distance from each other.
-    pub fn new(cloud: &'a Cloud, relief: Relief, sorted: Sorted, spacing_m: f64) -> Self {
+    pub fn new(cloud: &'a Cloud, relief: Relief, sorted: Sorted, spacing_m: f64, step_m: Option<f64>) -> Self {
         let voxel_m = sorted.grid.cell_m;
         let reach_m = (REACH_IN_SPACINGS * spacing_m).clamp(voxel_m, WIDEST_REACH_M.max(voxel_m));
-        Self { cloud, relief, grid: sorted.grid, sorted, reach_m }
+        let step_m = step_m.unwrap_or(USUAL_STEP_M.max(voxel_m));
+        Self { cloud, relief, grid: sorted.grid, sorted, reach_m, step_m }
     }
 
     /// The points of a cell.

@@ -10,8 +10,6 @@ use rayon::prelude::*;
 
 /// Lower points are kerbs and litter, metres.
 const LOWEST_M: f64 = 0.4;
-/// Height of the steps in which boxes follow a thing, metres.
-const STEP_M: f64 = 1.0;
 /// Fewer points are no thing.
 const LEAST_POINTS: usize = 4;
 /// Distance of a thing above ground that was seen in its cell, metres.
@@ -79,7 +77,7 @@ fn add_kind(
         }
     }
     let first_id = super::next_id(obstacles);
-    let Boxes { shapes, volumes } = boxes_of(grid, &columns, STEP_M.max(grid.cell_m), Bases::Highest);
+    let Boxes { shapes, volumes } = boxes_of(grid, &columns, survey.step_m, Bases::Highest, |_| false);
     let number = |shape: &cosfly_geometry::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
     let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();
     numbered.sort_by_key(|(number, _)| *number);

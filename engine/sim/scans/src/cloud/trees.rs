@@ -17,6 +17,8 @@ const LOWEST_TREE_M: f64 = 3.0;
 /// Height of the boxes of a crown that is aimed at, metres, and most boxes of a crown.
 const LAYER_M: f64 = 3.0;
 const MOST_LAYERS: f64 = 5.0;
+/// Neighbouring boxes of a crown become one where they fill at least this share of it.
+const LEAST_FILLED: f64 = 0.8;
 /// Distance of plants above the ground under them, metres.
 const ABOVE_GROUND_M: f64 = 0.15;
 /// Half width of a trunk as a share of the tree's height, and its limits, metres.
@@ -110,7 +112,28 @@ fn layers(survey: &Survey<'_>, points: &[DVec3], cell_m: f64, most: f64) -> Vec<
         let is_above = top_m > base_m + 0.1 || count == 1.0;
         is_above.then(|| OrientedBox::from_corners(low.extend(base_m), high.extend(top_m.max(base_m + 0.2))))
     });
-    boxes.collect()
+    joined(boxes.collect())
+}
+
+/// Neighbouring boxes of a crown as one where that fills little more, the best fit first.
+fn joined(mut boxes: Vec<OrientedBox>) -> Vec<OrientedBox> {
+    let volume_m3 = |one: &OrientedBox| 8.0 * one.half_extents_m.element_product();
+    loop {
+        let both = boxes.windows(2).enumerate().map(|(lower, pair)| {
+            let whole = around(&pair[0], &pair[1]);
+            (lower, volume_m3(&pair[0]) + volume_m3(&pair[1]), whole)
+        });
+        let fits = both.map(|(lower, filled_m3, whole)| (filled_m3 / volume_m3(&whole).max(1e-9), lower, whole));
+        let best = fits.filter(|(share, ..)| *share >= LEAST_FILLED).max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, lower, whole)) = best else { return boxes };
+        boxes[lower] = whole;
+        boxes.remove(lower + 1);
+    }
+}
+
+fn around(a: &OrientedBox, b: &OrientedBox) -> OrientedBox {
+    let ((a_low, a_high), (b_low, b_high)) = (a.bounds_in_world(), b.bounds_in_world());
+    OrientedBox::from_corners(a_low.min(b_low), a_high.max(b_high))
 }
 
 /// A trunk under the lowest box of a crown that hangs; it reaches a little into the crown.

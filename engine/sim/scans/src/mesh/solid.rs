@@ -32,7 +32,7 @@ pub fn boxes(part: &Part, voxel_m: f64) -> Vec<OrientedBox> {
     let mut out = Vec::new();
     for layer in 0..layers {
         let own: Vec<Option<Column>> = columns.iter().map(|pieces| pieces.get(layer).copied()).collect();
-        out.extend(boxes_of(&grid, &own, grid.cell_m, Bases::Lowest).shapes);
+        out.extend(boxes_of(&grid, &own, grid.cell_m, Bases::Lowest, |_| false).shapes);
     }
     for one in &mut out {
         clip(one, low, high, [bottom.z, top.z]);

@@ -1,10 +1,12 @@
-//! Buildings: facades with storeys, deep windows, balconies, shops and doors, and flat roofs, all drawn from the building's
+//! Buildings: facades with storeys, deep windows, balconies, shops and doors, and flat and pitched roofs, all drawn from the building's
 //! seed and its family.
 
 mod family;
 mod roof;
+mod tiles;
 
 pub use roof::{Roof, roofs};
+pub use tiles::{Tiles, lift, tiles};
 
 use super::lanes::{Block, Lane, Shared, WIDE, get, groups};
 use super::light::Light;
@@ -119,6 +121,13 @@ impl Facade {
             height_m,
             shift: 200.0 * draw(seed, 11),
         }
+    }
+
+    /// The same wall without anything in it: a gable.
+    pub fn bare(self) -> Self {
+        let bare = Self { window: [0.5; 2], shops: false, balconies: 0.0, ledge: 0.0, joint: 0.0, ..self };
+        // No cornice.
+        Self { height_m: self.height_m + 100.0, ..bare }
     }
 
     /// The colour of its wall.
