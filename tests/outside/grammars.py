@@ -7,6 +7,7 @@ from paraphrases_ninth import NinthChinese, NinthEnglish
 from paraphrases_seventh import SeventhChinese, SeventhEnglish
 from paraphrases_sixth import SixthChinese, SixthEnglish
 from paraphrases_tenth import TenthChinese, TenthEnglish
+from paraphrases_thirteenth import ThirteenthChinese, ThirteenthEnglish
 from paraphrases_twelfth import TwelfthChinese, TwelfthEnglish
 
 GRAMMARS = {
@@ -21,4 +22,5 @@ GRAMMARS = {
     10: (TenthEnglish, TenthChinese),
     11: (EleventhEnglish, EleventhChinese),
     12: (TwelfthEnglish, TwelfthChinese),
+    13: (ThirteenthEnglish, ThirteenthChinese),
 }
