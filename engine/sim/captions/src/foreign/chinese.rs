@@ -8,6 +8,8 @@ use crate::reading::chinese::clauses;
 
 /// Characters that the thing a place is beside may have.
 const REACH: usize = 6;
+/// Characters of the longest clause that only calls somebody.
+const ADDRESS: usize = 6;
 
 /// Words that name a thing, and places, company and what is passed that are no part of a walk.
 pub fn foreign_things(text: &str) -> Vec<String> {
@@ -15,6 +17,10 @@ pub fn foreign_things(text: &str) -> Vec<String> {
 }
 
 fn in_clause(clause: &str) -> Vec<String> {
+    // `家人们，`: who is spoken to is no part of the flight.
+    if clause.chars().count() <= ADDRESS && (clause.ends_with("们") || clause.starts_with("各位")) {
+        return vec![];
+    }
     // What is harmless is taken out, so that the characters beside it are not joined.
     let mut plain = clause.to_owned();
     HARMLESS.split_whitespace().for_each(|word| plain = plain.replace(word, "·"));
@@ -127,7 +133,7 @@ fn from(clause: &str) -> Option<String> {
 }
 
 fn begins_with_colour(text: &str) -> bool {
-    crate::reading::chinese::begins_with_colour(text)
+    crate::reading::chinese::clothes::begins_with_colour(text)
 }
 
 /// `带着小孩`: what the target has with it.

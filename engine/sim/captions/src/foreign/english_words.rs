@@ -158,3 +158,10 @@ pub const BARE_PLACES: [&str; 49] = [
     "as",
     "of",
 ];
+/// Words after which even `the` thing is one that nobody spoke of before.
+pub const PLACES: [&str; 35] = [
+    "past", "near", "beside", "behind", "between", "among", "amongst", "amid", "amidst", "outside", "inside", "opposite",
+    "beyond", "alongside", "along", "through", "under", "underneath", "beneath", "across", "around", "round", "against",
+    "passing", "passes", "carrying", "carries", "pushing", "pulling", "holding", "holds", "crossing", "crosses", "by",
+    "with",
+];

@@ -1,14 +1,9 @@
 //! Reads texts back: the claims of a text, whoever wrote it.
 
 pub mod chinese;
-mod chinese_words;
 pub mod english;
-pub(crate) mod english_clothes;
-mod english_idioms;
-mod english_numbers;
-mod english_words;
 
-pub(crate) use english_words::LUGGAGE;
+pub(crate) use english::words::LUGGAGE;
 
 use crate::compass::Compass;
 use crate::turns::TurnKind;
@@ -78,6 +73,8 @@ pub enum Claim {
     },
     /// The target stays where it is.
     Stays,
+    /// The target walks.
+    Walks,
     /// The only stop comes before the only turn, or after it.
     StopFirst(bool),
     /// A number that says nothing this reader knows.

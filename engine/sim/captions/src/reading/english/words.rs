@@ -1,17 +1,17 @@
-//! English words by what they tell about a number or a garment.
-
-use cosfly_render::Colour;
+//! English words by what they tell about a number, a walk or a pause.
 
 /// Beginnings of words for a camera that looks up.
 pub const UP_STEMS: [&str; 14] = [
     "up", "sky", "rais", "rise", "rising", "rose", "lift", "elevat", "heaven", "above", "overhead", "cloud", "ceiling",
     "ascend",
 ];
+
 /// Beginnings of words for a camera that looks down.
 pub const DOWN_STEMS: [&str; 22] = [
     "down", "below", "lower", "dip", "depress", "ground", "earth", "floor", "pavement", "declin", "droop", "sink",
     "sunk", "descen", "under", "beneath", "drop", "plung", "nosed", "feet", "slop", "tarmac",
 ];
+
 /// Pauses, beside those that begin with `stop`, `paus` and `halt`.
 pub const STOP_WORDS: [&str; 37] = [
     "stop",
@@ -52,6 +52,7 @@ pub const STOP_WORDS: [&str; 37] = [
     "stoppages",
     "letup",
 ];
+
 pub const DURATION_WORDS: [&str; 50] = [
     "travel",
     "walk",
@@ -104,6 +105,7 @@ pub const DURATION_WORDS: [&str; 50] = [
     "reel",
     "take-off",
 ];
+
 /// First words of a clause that goes on about the stop before.
 pub const GOES_ON: [&str; 22] = [
     "for",
@@ -129,6 +131,7 @@ pub const GOES_ON: [&str; 22] = [
     "that",
     "and",
 ];
+
 /// Of `doesn't` and its like the part behind the apostrophe is a word of its own.
 pub const NEGATIONS: [&str; 36] = [
     "no",
@@ -168,108 +171,7 @@ pub const NEGATIONS: [&str; 36] = [
     "unburdened",
     "n't",
 ];
-pub const TOPS: [&str; 60] = [
-    "top",
-    "shirt",
-    "tshirt",
-    "jacket",
-    "coat",
-    "sweater",
-    "jumper",
-    "hoodie",
-    "blouse",
-    "pullover",
-    "tee",
-    "jersey",
-    "cardigan",
-    "sweatshirt",
-    "polo",
-    "vest",
-    "parka",
-    "anorak",
-    "fleece",
-    "tunic",
-    "singlet",
-    "tank",
-    "windbreaker",
-    "windcheater",
-    "blazer",
-    "waistcoat",
-    "gilet",
-    "poncho",
-    "overcoat",
-    "raincoat",
-    "mac",
-    "puffer",
-    "bomber",
-    "henley",
-    "turtleneck",
-    "rollneck",
-    "torso",
-    "chest",
-    "upper",
-    "uppers",
-    "kagoul",
-    "cagoule",
-    "knit",
-    "knitwear",
-    "shirts",
-    "tops",
-    "hoody",
-    "bodywarmer",
-    "longsleeve",
-    "topcoat",
-    "trenchcoat",
-    "sweatertop",
-    "tshirts",
-    "smock",
-    "camisole",
-    "tabard",
-    "upperwear",
-    "sleeves",
-    "bodice",
-    "doublet",
-];
-pub const TROUSERS: [&str; 38] = [
-    "trousers",
-    "pants",
-    "jeans",
-    "slacks",
-    "leggings",
-    "bottoms",
-    "chinos",
-    "joggers",
-    "denims",
-    "shorts",
-    "tights",
-    "cords",
-    "legs",
-    "khakis",
-    "sweatpants",
-    "cargos",
-    "breeches",
-    "trackies",
-    "culottes",
-    "capris",
-    "legwear",
-    "trouser",
-    "pant",
-    "bottom",
-    "legging",
-    "lowers",
-    "lowerwear",
-    "corduroys",
-    "overtrousers",
-    "dungarees",
-    "tracksuit",
-    "leg",
-    "bloomers",
-    "strides",
-    "pantaloons",
-    "sweats",
-    "trackpants",
-    "flannels",
-];
+
 pub const LUGGAGE: [&str; 17] = [
     "backpack",
     "rucksack",
@@ -289,120 +191,11 @@ pub const LUGGAGE: [&str; 17] = [
     "luggage",
     "baggage",
 ];
-/// Colours by the names of their shades, each with the colours that it may be taken for; words that name other things, too, are
-/// colours only before a garment.
-pub const SHADES: [(&str, &[Colour]); 107] = [
-    ("navy", &[Colour::Blue]),
-    ("azure", &[Colour::Blue]),
-    ("cobalt", &[Colour::Blue]),
-    ("sapphire", &[Colour::Blue]),
-    ("indigo", &[Colour::Blue, Colour::Purple]),
-    ("cerulean", &[Colour::Blue]),
-    ("ultramarine", &[Colour::Blue]),
-    ("teal", &[Colour::Blue, Colour::Green]),
-    ("turquoise", &[Colour::Blue, Colour::Green]),
-    ("cyan", &[Colour::Blue, Colour::Green]),
-    ("aqua", &[Colour::Blue, Colour::Green]),
-    ("aquamarine", &[Colour::Blue, Colour::Green]),
-    ("petrol", &[Colour::Blue, Colour::Green]),
-    ("crimson", &[Colour::Red]),
-    ("scarlet", &[Colour::Red]),
-    ("ruby", &[Colour::Red]),
-    ("cherry", &[Colour::Red]),
-    ("vermilion", &[Colour::Red]),
-    ("cardinal", &[Colour::Red]),
-    ("carmine", &[Colour::Red]),
-    ("maroon", &[Colour::Red, Colour::Brown, Colour::Purple]),
-    ("burgundy", &[Colour::Red, Colour::Purple]),
-    ("wine", &[Colour::Red, Colour::Purple]),
-    ("claret", &[Colour::Red, Colour::Purple]),
-    ("brick", &[Colour::Red, Colour::Brown]),
-    ("rust", &[Colour::Orange, Colour::Brown, Colour::Red]),
-    ("russet", &[Colour::Brown, Colour::Red, Colour::Orange]),
-    ("gold", &[Colour::Yellow, Colour::Orange]),
-    ("golden", &[Colour::Yellow, Colour::Orange]),
-    ("mustard", &[Colour::Yellow, Colour::Brown]),
-    ("lemon", &[Colour::Yellow]),
-    ("amber", &[Colour::Orange, Colour::Yellow]),
-    ("ochre", &[Colour::Yellow, Colour::Brown, Colour::Orange]),
-    ("canary", &[Colour::Yellow]),
-    ("saffron", &[Colour::Yellow, Colour::Orange]),
-    ("primrose", &[Colour::Yellow]),
-    ("blonde", &[Colour::Yellow]),
-    ("olive", &[Colour::Green]),
-    ("lime", &[Colour::Green]),
-    ("emerald", &[Colour::Green]),
-    ("jade", &[Colour::Green]),
-    ("mint", &[Colour::Green]),
-    ("moss", &[Colour::Green]),
-    ("bottle", &[Colour::Green]),
-    ("sage", &[Colour::Green]),
-    ("khaki", &[Colour::Green, Colour::Beige, Colour::Brown]),
-    ("chartreuse", &[Colour::Green, Colour::Yellow]),
-    ("silver", &[Colour::Grey, Colour::White]),
-    ("charcoal", &[Colour::Grey, Colour::Black]),
-    ("slate", &[Colour::Grey]),
-    ("ash", &[Colour::Grey]),
-    ("ashen", &[Colour::Grey]),
-    ("graphite", &[Colour::Grey, Colour::Black]),
-    ("anthracite", &[Colour::Grey, Colour::Black]),
-    ("gunmetal", &[Colour::Grey]),
-    ("silvery", &[Colour::Grey, Colour::White]),
-    ("jet", &[Colour::Black]),
-    ("ebony", &[Colour::Black]),
-    ("inky", &[Colour::Black]),
-    ("sable", &[Colour::Black, Colour::Brown]),
-    ("raven", &[Colour::Black]),
-    ("ivory", &[Colour::White, Colour::Beige]),
-    ("snowy", &[Colour::White]),
-    ("snow", &[Colour::White]),
-    ("cream", &[Colour::White, Colour::Beige, Colour::Yellow]),
-    ("creamy", &[Colour::White, Colour::Beige]),
-    ("pearl", &[Colour::White]),
-    ("chalk", &[Colour::White]),
-    ("alabaster", &[Colour::White]),
-    ("offwhite", &[Colour::White, Colour::Beige]),
-    ("tan", &[Colour::Beige, Colour::Brown]),
-    ("sand", &[Colour::Beige]),
-    ("sandy", &[Colour::Beige, Colour::Yellow]),
-    ("camel", &[Colour::Beige, Colour::Brown]),
-    ("fawn", &[Colour::Beige, Colour::Brown]),
-    ("taupe", &[Colour::Beige, Colour::Brown, Colour::Grey]),
-    ("buff", &[Colour::Beige, Colour::Yellow]),
-    ("ecru", &[Colour::Beige]),
-    ("oatmeal", &[Colour::Beige]),
-    ("biscuit", &[Colour::Beige]),
-    ("chocolate", &[Colour::Brown]),
-    ("chestnut", &[Colour::Brown]),
-    ("coffee", &[Colour::Brown]),
-    ("mahogany", &[Colour::Brown, Colour::Red]),
-    ("bronze", &[Colour::Brown]),
-    ("copper", &[Colour::Brown, Colour::Orange]),
-    ("umber", &[Colour::Brown]),
-    ("sepia", &[Colour::Brown]),
-    ("hazel", &[Colour::Brown]),
-    ("tawny", &[Colour::Brown, Colour::Orange]),
-    ("auburn", &[Colour::Brown, Colour::Red]),
-    ("violet", &[Colour::Purple]),
-    ("lilac", &[Colour::Purple]),
-    ("lavender", &[Colour::Purple]),
-    ("plum", &[Colour::Purple]),
-    ("mauve", &[Colour::Purple, Colour::Pink]),
-    ("aubergine", &[Colour::Purple]),
-    ("amethyst", &[Colour::Purple]),
-    ("magenta", &[Colour::Pink, Colour::Purple]),
-    ("fuchsia", &[Colour::Pink, Colour::Purple]),
-    ("rose", &[Colour::Pink]),
-    ("salmon", &[Colour::Pink, Colour::Orange]),
-    ("coral", &[Colour::Pink, Colour::Orange, Colour::Red]),
-    ("peach", &[Colour::Pink, Colour::Orange]),
-    ("tangerine", &[Colour::Orange]),
-    ("apricot", &[Colour::Orange, Colour::Beige]),
-    ("rosy", &[Colour::Pink]),
-];
+
 /// Words that name the place of the drone beyond doubt, where they stand near a length.
 pub const STRONG_ALTITUDE: [&str; 8] =
     ["above", "higher", "height", "altitude", "overhead", "aloft", "high", "elevation"];
+
 pub const STRONG_WAY: [&str; 14] = [
     "walks",
     "walked",
@@ -419,8 +212,10 @@ pub const STRONG_WAY: [&str; 14] = [
     "length",
     "trek",
 ];
+
 pub const STRONG_DISTANCE: [&str; 10] =
     ["away", "distance", "behind", "apart", "gap", "separation", "spacing", "clearance", "range", "buffer"];
+
 /// Beginnings of words for a pause.
 pub const STOP_STEMS: [&str; 20] = [
     "stop",
@@ -444,15 +239,18 @@ pub const STOP_STEMS: [&str; 20] = [
     "breather",
     "respit",
 ];
+
 /// Words that speak of a turn, beside those that begin with a stem.
 pub const TURN_NOUNS: [&str; 12] = [
     "turn", "turns", "bend", "bends", "corner", "corners", "curve", "curves", "turning", "turnings", "changes", "kinks",
 ];
+
 /// Beginnings of words for leaving a straight line.
 pub const TURN_STEMS: [&str; 18] = [
     "turn", "veer", "swerv", "deviat", "stray", "detour", "zigzag", "diverg", "divert", "bend", "corner", "sidestep",
     "curv", "twist", "kink", "meander", "waver", "wander",
 ];
+
 /// Words beside which `right` is a side.
 pub const TURN_VERBS: [&str; 74] = [
     "turn",
@@ -530,11 +328,13 @@ pub const TURN_VERBS: [&str; 74] = [
     "further",
     "eventually",
 ];
+
 /// Words of motion that, denied, say that the target stays.
 pub const MOTION: [&str; 24] = [
     "move", "moves", "moving", "moved", "movement", "budge", "budges", "budging", "going", "go", "goes", "walk",
     "stir", "stirs", "stirring", "shift", "shifts", "step", "inch", "leave", "leaves", "leaving", "motion", "walking",
 ];
+
 /// Words of standing, each of which says that the target stays.
 pub const STANDS: [&str; 13] = [
     "motionless",
@@ -551,6 +351,7 @@ pub const STANDS: [&str; 13] = [
     "planted",
     "immovable",
 ];
+
 /// Words that say that a walk has no pause.
 pub const UNPAUSED: [&str; 12] = [
     "nonstop",
@@ -566,6 +367,7 @@ pub const UNPAUSED: [&str; 12] = [
     "ceaseless",
     "incessant",
 ];
+
 /// Words that say that a walk has no turn.
 pub const UNTURNED: [&str; 14] = [
     "beeline",
@@ -582,4 +384,8 @@ pub const UNTURNED: [&str; 14] = [
     "unbending",
     "straightaway",
     "straightline",
+];
+/// Verbs that say that the target walks.
+pub const WALKS: [&str; 10] = [
+    "walks", "walking", "strolls", "strolling", "wanders", "wandering", "strides", "striding", "ambles", "ambling",
 ];

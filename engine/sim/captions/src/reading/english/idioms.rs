@@ -1,7 +1,7 @@
 //! English words that look like a place and are none, and clauses about the drone.
 
-use super::english_clothes::colour;
-use super::english_words::TURN_VERBS;
+use super::clothes::colour;
+use super::words::TURN_VERBS;
 
 /// The words without those that look like places of the drone and are none: `a shirt above blue jeans`, `it is over`, `130 m are
 /// behind them`.

@@ -1,9 +1,8 @@
 //! Clothes and luggage in English texts: colours, their shades, and the garment that each belongs to.
 
-use super::Claim;
-use super::english::Token;
-use super::english_numbers::fold_numbers;
-use super::english_words::{LUGGAGE, NEGATIONS, SHADES, TOPS, TROUSERS};
+use super::garments::{SHADES, TOPS, TROUSERS};
+use super::words::{LUGGAGE, NEGATIONS};
+use crate::reading::Claim;
 use cosfly_render::Colour;
 
 /// Words between a colour and its garment: `a red long-sleeved cotton shirt`.
@@ -135,12 +134,6 @@ pub(crate) fn garment_claim(word: &str, next: &str) -> Option<Claim> {
         "trousers" | "pants" | "jeans" => Some(Claim::Trousers(colour)),
         _ => None,
     }
-}
-
-/// Whether a word is a number, or a number with its unit, such as `twenty-metre`.
-pub(crate) fn is_numeral(word: &str) -> bool {
-    let tokens = fold_numbers(vec![Token::Word(word.to_owned()), Token::Word("metres".to_owned())]);
-    matches!(tokens.first(), Some(Token::Number(_))) || tokens.len() > 2
 }
 
 /// Whether a word names a top or trousers.
