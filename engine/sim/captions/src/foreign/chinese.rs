@@ -18,7 +18,7 @@ pub fn foreign_things(text: &str) -> Vec<String> {
 
 fn in_clause(clause: &str) -> Vec<String> {
     // `家人们，`: who is spoken to is no part of the flight.
-    if clause.chars().count() <= ADDRESS && (clause.ends_with("们") || clause.starts_with("各位")) {
+    if clause.chars().count() <= ADDRESS && (clause.ends_with("们") || clause.starts_with("各位")) || clause.ends_with("请注意") {
         return vec![];
     }
     // What is harmless is taken out, so that the characters beside it are not joined.
@@ -40,7 +40,8 @@ fn in_clause(clause: &str) -> Vec<String> {
             counted(&plain),
             from(&plain),
         ];
-        found.extend(places.into_iter().flatten().take(1));
+        let says = |it: &String| it.chars().any(|c| !"·的人了着".contains(c));
+        found.extend(places.into_iter().flatten().filter(says).take(1));
     }
     found
 }
@@ -115,7 +116,8 @@ fn counted(clause: &str) -> Option<String> {
     let at = (0..chars.len().saturating_sub(2)).find(is_measured)?;
     let after: String = chars[at + 2..].iter().collect();
     let after = after.trim_matches('·').to_owned();
-    let is_own = ["的", "裤", "衣", "线", "路", "直", "弯", "·", "人", "距", "行", "步", "度", "目", "对", "机"]
+    let is_dressed = after.chars().take(2).any(|c| "穿着身".contains(c));
+    let is_own = is_dressed || ["的", "裤", "衣", "线", "路", "直", "弯", "·", "人", "距", "行", "步", "度", "目", "对", "机"]
         .iter()
         .any(|it| after.starts_with(it));
     (!after.is_empty() && !is_own && !is_of_the_walk(&after) && !begins_with_colour(&after))

@@ -125,7 +125,13 @@ fn is_aid(words: &[&str], at: usize) -> bool {
 /// `hold station`: words that name a thing in other places only.
 fn is_saying(words: &[&str], at: usize) -> bool {
     let before = at.checked_sub(1).map_or("", |before| words[before]);
-    words[at] == "station" && ["hold", "holds", "holding", "keep", "on"].contains(&before)
+    match words[at] {
+        "station" => ["hold", "holds", "holding", "keep", "on"].contains(&before),
+        "morning" | "afternoon" | "evening" | "day" => before == "good",
+        // `our friend` is who is followed.
+        "friend" | "friends" => ["our", "your", "my"].contains(&before),
+        _ => false,
+    }
 }
 
 fn is_thing(word: &str) -> bool {

@@ -163,5 +163,5 @@ pub const PLACES: [&str; 35] = [
     "past", "near", "beside", "behind", "between", "among", "amongst", "amid", "amidst", "outside", "inside", "opposite",
     "beyond", "alongside", "along", "through", "under", "underneath", "beneath", "across", "around", "round", "against",
     "passing", "passes", "carrying", "carries", "pushing", "pulling", "holding", "holds", "crossing", "crosses", "by",
-    "with",
+    "over",
 ];

@@ -81,14 +81,14 @@ pub enum Claim {
     Unknown(String),
 }
 
-/// Sentences of a text in either language; a point between digits ends none.
+/// Sentences of a text in either language; a point between digits ends none, nor does a question, whose answer belongs to it.
 fn sentences(text: &str) -> Vec<&str> {
     let mut sentences = vec![];
     let mut start = 0;
     for (at, c) in text.char_indices() {
         let end = at + c.len_utf8();
         let is_decimal = c == '.' && text[end..].starts_with(|next: char| next.is_ascii_digit());
-        if "。！？!?\n".contains(c) || (c == '.' && !is_decimal) {
+        if "。！!\n".contains(c) || (c == '.' && !is_decimal) {
             sentences.push(&text[start..end]);
             start = end;
         }

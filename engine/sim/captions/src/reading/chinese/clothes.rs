@@ -2,7 +2,6 @@
 
 use super::garments::{COLOURS, SHADES, TOPS, TROUSERS};
 use crate::reading::Claim;
-use cosfly_render::Colour;
 
 /// Whether a text begins with a colour.
 pub(crate) fn begins_with_colour(text: &str) -> bool {
@@ -34,13 +33,15 @@ pub(super) fn shade<'a>(clause: &str, text: &'a str) -> Option<(Claim, &'a str)>
 /// `上衣是红色`, `上身穿红色`: a colour behind its garment; `红色` alone: something that is worn.
 pub(super) fn worn<'a>(clause: &str, text: &'a str) -> Option<(Claim, &'a str)> {
     let (colour, after) = COLOURS.iter().find_map(|(name, colour)| Some((*colour, text.strip_prefix(name)?)))?;
-    let after = after.strip_prefix('色')?;
     let before = &clause[..clause.len() - text.len()];
+    // `上面穿红的`
+    let is_worn = || before.ends_with("穿") && after.starts_with('的');
+    let after = after.strip_prefix('色').or_else(|| is_worn().then_some(after))?;
     let last = |words: &[&str]| words.iter().filter_map(|word| before.rfind(word)).max();
     let links = before.ends_with(['是', '为', '穿', '着', '呈', '深', '浅'])
         || TOPS.iter().chain(&TROUSERS).any(|garment| before.ends_with(garment));
-    let top = last(&TOPS).max(last(&["上身"])).filter(|_| links);
-    let trousers = last(&TROUSERS).max(last(&["下身"])).filter(|_| links);
+    let top = last(&TOPS).max(last(&["上身", "上面", "上边"])).filter(|_| links);
+    let trousers = last(&TROUSERS).max(last(&["下身", "下面", "下边"])).filter(|_| links);
     let claim = match (top, trousers) {
         (None, None) => Claim::Wears(colour),
         (top, trousers) if top > trousers => Claim::Top(colour),

@@ -69,6 +69,11 @@ pub(super) fn denied_near(before: &str) -> bool {
 pub(super) fn denied_word(clause: &str, word: &str) -> bool {
     let negations = ["不", "没", "未", "无", "零", "从来没", "毫无"];
     clause.match_indices(word).any(|(at, _)| {
+        // `停顿是没有的`, `停留：无`
+        let behind: String = clause[at + word.len()..].chars().take(5).collect();
+        if ["是没有", "为没有", "为无", "为零", "为未"].iter().any(|it| behind.contains(it)) {
+            return true;
+        }
         let negation = negations.iter().filter_map(|negation| clause[..at].rfind(negation)).max();
         let negation = negation.filter(|from| !NO_NEGATIONS.iter().any(|word| clause[*from..].starts_with(word)));
         negation.is_some_and(|from| {

@@ -6,12 +6,14 @@ use crate::reading::{Claim, count};
 use crate::turns::TurnKind;
 
 /// The claim of a number with the unit after it, and the bytes of that unit.
-pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context: &str, about_stops: bool) -> (Claim, usize) {
+pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context: &str, stops: (bool, bool)) -> (Claim, usize) {
+    let (about_stops, is_near_stop) = stops;
     let unit = UNITS.into_iter().find(|unit| after.starts_with(unit));
     let before = &clause[..at];
     // `镜头往上一挑，29度`: the words stand in the clause before.
     let is_alone = clause.chars().all(|c| c.is_ascii_digit() || "约大概差不多度°角左右的样子到在，".contains(c));
-    let aim = if is_alone { context } else { clause }.replace("俯仰", "");
+    let is_aimed = |text: &str| text.contains(['上', '下', '俯', '仰', '低', '抬', '垂', '昂', '翘', '扬', '压']);
+    let aim = if is_alone || !is_aimed(clause) { context } else { clause }.replace("俯仰", "");
     let has = |words: &[&str]| words.iter().any(|word| aim.contains(word));
     let aimed = |from: char| {
         let chars: Vec<char> = aim.replace("上一", "上").replace("下一", "下").chars().collect();
@@ -72,12 +74,12 @@ pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context
         .any(|it| clause.replace("再走", "").contains(it));
     let seconds = |value: f64| match (stops, walks) {
         (true, false) => Claim::Standing(value),
-        (false, true) if !about_stops => Claim::Duration(value),
+        (false, true) if !is_near_stop => Claim::Duration(value),
         _ => Claim::Seconds(value),
     };
     let claim = match unit {
         Some("米/秒" | "米每秒") => Claim::Speed(value),
-        Some("米" | "公尺") if before.trim_end_matches(['约', '大', '概', '走']).ends_with("每秒") => {
+        Some("米" | "公尺") if is_each_second(before) => {
             Claim::Speed(value)
         }
         Some("米" | "公尺") if value.fract() != 0.0 && clause.contains('秒') => Claim::Speed(value),
@@ -122,6 +124,12 @@ pub(super) fn length(value: f64, clause: &str, at: usize) -> Claim {
         (false, false, true) => Claim::Distance(value),
         _ => Claim::Metres(value),
     }
+}
+
+/// `每秒钟走约1.4米`
+fn is_each_second(before: &str) -> bool {
+    let before = before.trim_end_matches(['约', '大', '概', '走', '合', '钟']);
+    before.ends_with("每秒") || before.ends_with("一秒")
 }
 
 /// Whether `度` counts times: `两度停下`.

@@ -21,12 +21,18 @@ pub fn read(text: &str) -> Vec<Claim> {
             let speaks = STOP_CHARS.iter().any(|word| words.contains(word));
             let about_stops =
                 speaks || after_stop && (GOES_ON.iter().any(|it| words.starts_with(it)) || is_time_alone(&words));
+            let is_near_stop = about_stops || after_stop;
             after_stop = about_stops && !STOP_CHARS.iter().any(|word| denied_word(&words, word));
-            let claims = read_clause(&words, &before, about_stops);
+            let claims = read_clause(&words, &before, about_stops, is_near_stop);
             before = words;
             claims
         };
-        clauses(sentence).into_iter().flat_map(read).collect::<Vec<_>>()
+        let mut claims: Vec<Claim> = clauses(sentence).into_iter().flat_map(read).collect();
+        // A word of pausing in a sentence with a negation may be what is denied.
+        let is_denied = sentence.contains(['没', '不', '未', '无', '别', '零']);
+        let is_told = claims.iter().any(|claim| matches!(claim, Claim::Stops(_)));
+        claims.retain(|claim| !((is_denied || is_told) && *claim == Claim::SomeStops));
+        claims
     };
     sentences(text).into_iter().flat_map(sentence).collect()
 }
@@ -42,6 +48,9 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
         // `上衣：红色`
         if c == '：' && COLOURS.iter().any(|(name, _)| rest().starts_with(name)) {
             clauses.last_mut().expect("there is always one clause").push('是');
+        } else if "：:？?".contains(c) && ["无", "零", "没有", "未"].iter().any(|it| rest().starts_with(it)) {
+            // `停留：无`
+            clauses.last_mut().expect("there is always one clause").push('为');
         } else if ("，。；：！？、（）,;:!?()\n".contains(c) && !is_list) || (c == '.' && !decimal) {
             clauses.push(vec![]);
         } else {
@@ -51,7 +60,7 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
     clauses
 }
 
-fn read_clause(clause: &str, before: &str, about_stops: bool) -> Vec<Claim> {
+fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool) -> Vec<Claim> {
     let mut claims = vec![];
     let mut rest = clause;
     // A turn around in two words is one.
@@ -82,7 +91,7 @@ fn read_clause(clause: &str, before: &str, about_stops: bool) -> Vec<Claim> {
         } else if let Some(after) = ordinal(&clause[..at], rest) {
             rest = after;
         } else if let Some((value, after)) = number(rest) {
-            let (claim, used) = quantity(value, after, clause, at, before, about_stops);
+            let (claim, used) = quantity(value, after, clause, at, before, (about_stops, is_near_stop));
             claims.push(claim);
             rest = &after[used..];
         } else if let Some((direction, length)) = compass(rest) {
@@ -94,6 +103,9 @@ fn read_clause(clause: &str, before: &str, about_stops: bool) -> Vec<Claim> {
             let times = rest.trim_start_matches(['了', '过']);
             match number(times).filter(|(_, after)| after.starts_with(['次', '回'])) {
                 Some((value, after)) => {
+                    if kind == TurnKind::Around && claims.last() == Some(&Claim::Turn(kind)) {
+                        claims.pop();
+                    }
                     claims.push(count(value, "次", |count| Claim::TurnsOf(kind, count)));
                     rest = &after['次'.len_utf8()..];
                 }

@@ -22,7 +22,8 @@ pub(super) fn pauses_denied(words: &[&str], about_stops: bool, claims: &mut Vec<
             .any(|it| has(it))
         || (words.windows(2).any(|it| it[0].starts_with("keep") && ["moving", "walking", "going"].contains(&it[1]))
             && words.iter().any(|it| ["throughout", "whole", "entire", "always", "constantly", "all"].contains(it)));
-    let rests = |word: &str| is_stop(word) || word == "rest";
+    let is_broken_off = has(&["broken", "off"]) || has(&["broken", "up"]);
+    let rests = |word: &str| is_stop(word) || word == "rest" || is_broken_off && word == "broken";
     if goes_on || denied(words, rests) && !has(&["the", "rest"]) {
         claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));

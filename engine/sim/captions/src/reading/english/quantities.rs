@@ -26,7 +26,7 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
         _ if is_metres && value < 0.0 => Claim::Unknown(format!("{value} {unit}")),
         _ if is_metres => length(value, at, words),
         "km/h" | "kmh" | "kph" => Claim::Speed((value / 0.36).round() / 10.0),
-        "degree" | "degrees" | "deg" => match nearest(words, at, &[&UP_STEMS, &DOWN_STEMS]) {
+        "degree" | "degrees" | "deg" => match aim(words, at) {
             Some(0) => Claim::Pitch(-value),
             None => Claim::Tilt(value),
             _ => Claim::Pitch(value),
@@ -34,6 +34,7 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
         "s" | "sec" | "secs" | "second" | "seconds" => {
             let walks = words.iter().any(|word| DURATION_WORDS.contains(word));
             let stops = words.iter().any(|word| is_stop(word));
+            // Beside a stop a time may be that of the stop or of the whole.
             match (stops, walks) {
                 (true, false) => Claim::Standing(value),
                 (false, true) if !about_stops => Claim::Duration(value),
@@ -87,6 +88,16 @@ pub(super) fn length(value: f64, at: usize, words: &[&str]) -> Claim {
         (None, None, Some(_)) if is_near(distance) => Claim::Distance(value),
         _ => Claim::Metres(value),
     }
+}
+
+/// Whether the words nearest to an angle speak of looking up (0) or down (1); of both equally near, nobody knows.
+fn aim(words: &[&str], at: usize) -> Option<usize> {
+    // `15 degrees over the horizon`
+    let over = words.iter().position(|word| *word == "over");
+    if over.is_some_and(|over| words[over..].iter().any(|word| word.starts_with("horizon"))) {
+        return Some(0);
+    }
+    nearest(words, at, &[&UP_STEMS, &DOWN_STEMS])
 }
 
 /// The list of beginnings that has the word nearest to place `at`, by its number; of equally near ones the word behind counts.

@@ -10,7 +10,7 @@ use super::quantities::quantity;
 use super::tokens::{Token, clauses, word_of};
 use super::turns::{compass_word, is_turning, keeps_direction, repetitions, turn_word, turns_back};
 use super::units::is_unit;
-use super::words::{GOES_ON, MOTION, NEGATIONS, STANDS, UNTURNED, WALKS};
+use super::words::{GOES_ON, MOTION, LUGGAGE, NEGATIONS, STANDS, UNTURNED, WALKS};
 use crate::turns::TurnKind;
 
 /// Everything that the text claims, in order.
@@ -25,19 +25,44 @@ pub fn read(text: &str) -> Vec<Claim> {
                 .get(1)
                 .and_then(|it| it.first())
                 .is_some_and(|it| !["then", "left", "right", "and", "next"].contains(&word_of(it)));
+        let mut subject = vec![];
         let read = |clause: Vec<Token>| {
             let tokens = fold_numbers(clause);
+            if let Some(claim) = answer(&tokens, &subject) {
+                return vec![claim];
+            }
             let claims = read_clause(&tokens, after_stop);
             after_stop = tokens.iter().any(|token| is_stop(word_of(token)));
+            subject = tokens;
             claims
         };
         let is_denied = parts.iter().flatten().any(|token| NEGATIONS.contains(&word_of(token)));
         let mut claims: Vec<Claim> = parts.into_iter().skip(usize::from(is_call)).flat_map(read).collect();
         // A word of pausing in a sentence with a negation may be what is denied.
-        claims.retain(|claim| !(is_denied && *claim == Claim::SomeStops));
+        let is_told = claims.iter().any(|claim| matches!(claim, Claim::Stops(_)));
+        claims.retain(|claim| !((is_denied || is_told) && *claim == Claim::SomeStops));
         claims
     };
     sentences(text).into_iter().flat_map(sentence).collect()
+}
+
+/// `Stops? None.`, `turns: 0`: a clause that is nothing but a number or a denial answers the clause before.
+fn answer(tokens: &[Token], subject: &[Token]) -> Option<Claim> {
+    let number = match tokens {
+        [Token::Number(value)] => *value,
+        [Token::Word(word)] if NEGATIONS.contains(&word.as_str()) => 0.0,
+        [Token::Word(word)] => number_word(word)?,
+        _ => return None,
+    };
+    let asks = |is_such: &dyn Fn(&str) -> bool| subject.iter().any(|token| is_such(word_of(token)));
+    match () {
+        () if asks(&is_stop) => Some(count(number, "stops", Claim::Stops)),
+        () if asks(&|word| is_turning(word) || ["left", "right"].contains(&word)) => {
+            Some(count(number, "turns", Claim::Turns))
+        }
+        () if number == 0.0 && asks(&|word| LUGGAGE.contains(&word)) => Some(Claim::NoBackpack),
+        () => None,
+    }
 }
 
 fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
@@ -58,10 +83,10 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
     for (i, token) in tokens.iter().enumerate() {
         let next = words.get(i + 1).copied().unwrap_or_default();
         match token {
-            Token::Number(value) => claims.extend(quantity(*value, i, &words, about_stops || goes_on)),
+            Token::Number(value) => claims.extend(quantity(*value, i, &words, about_stops || after_stop)),
             Token::Word(word) => {
                 if let Some(value) = number_word(word).filter(|_| is_unit(next)) {
-                    claims.extend(quantity(value, i, &words, about_stops || goes_on));
+                    claims.extend(quantity(value, i, &words, about_stops || after_stop));
                     continue;
                 }
                 let counted = i > 0 && matches!(&tokens[i - 1], Token::Number(_));
@@ -186,6 +211,7 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
             | "glued" | "fixed" | "stuck" | "pinned" | "nailed" | "frozen"
                 if !is_of_the_drone(words)
                     && (["put", "where"].contains(&next)
+                        || words.get(at + 2) == Some(&"where")
                         || (["in", "on", "at", "to"].contains(&next)
                             && ["place", "spot", "position", "rooted"].iter().any(|it| words.contains(it)))) =>
             {

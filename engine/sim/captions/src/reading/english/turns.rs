@@ -4,12 +4,17 @@ use super::idioms::is_of_the_drone;
 use super::negation::denied;
 use super::numbers::number_word;
 use super::tokens::Token;
-use super::words::{MOTION, TURN_STEMS};
+use super::words::TURN_STEMS;
 use crate::compass::Compass;
 use crate::turns::TurnKind;
 
 pub(super) fn turn_word(word: &str) -> Option<TurnKind> {
+    let is_of = |side: &str| {
+        word.strip_prefix(side).is_some_and(|rest| ["hand", "ward", "turn", "hook"].iter().any(|it| rest.starts_with(it)))
+    };
     match word {
+        _ if is_of("left") => Some(TurnKind::Left),
+        _ if is_of("right") => Some(TurnKind::Right),
         "left" | "leftward" | "leftwards" | "lefts" | "lefthand" => Some(TurnKind::Left),
         "right" | "rightward" | "rightwards" | "rights" | "righthand" => Some(TurnKind::Right),
         "around" | "uturn" | "uturns" => Some(TurnKind::Around),
@@ -37,6 +42,10 @@ pub(super) fn turns_back(at: usize, words: &[&str]) -> bool {
         {
             let is_way = || words[at..].iter().any(|it| ["way", "came", "themselves"].contains(it));
             !["to", "left", "right", "from", "of", "at"].contains(&next) && (next != "the" || is_way())
+        }
+        "heel" | "heels" => {
+            let turns = |word: &&str| ["turn", "spin", "wheel", "swivel", "pivot"].iter().any(|it| word.starts_with(it));
+            words[at.saturating_sub(3)..at].iter().any(turns)
         }
         "way" => before == "other" && !words[..at].contains(&"back"),
         _ => false,

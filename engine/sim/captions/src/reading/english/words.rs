@@ -7,10 +7,7 @@ pub const UP_STEMS: [&str; 14] = [
 ];
 
 /// Beginnings of words for a camera that looks down.
-pub const DOWN_STEMS: [&str; 22] = [
-    "down", "below", "lower", "dip", "depress", "ground", "earth", "floor", "pavement", "declin", "droop", "sink",
-    "sunk", "descen", "under", "beneath", "drop", "plung", "nosed", "feet", "slop", "tarmac",
-];
+pub const DOWN_STEMS: [&str; 22] = ["down", "below", "lower", "dip", "depress", "ground", "earth", "floor", "pavement", "declin", "droop", "bow", "sink", "sunk", "descen", "under", "beneath", "drop", "plung", "nosed", "feet", "tarmac"];
 
 /// Pauses, beside those that begin with `stop`, `paus` and `halt`.
 pub const STOP_WORDS: [&str; 37] = [
@@ -213,32 +210,10 @@ pub const STRONG_WAY: [&str; 14] = [
     "trek",
 ];
 
-pub const STRONG_DISTANCE: [&str; 10] =
-    ["away", "distance", "behind", "apart", "gap", "separation", "spacing", "clearance", "range", "buffer"];
+pub const STRONG_DISTANCE: [&str; 9] = ["away", "behind", "apart", "gap", "separation", "spacing", "clearance", "range", "buffer"];
 
 /// Beginnings of words for a pause.
-pub const STOP_STEMS: [&str; 20] = [
-    "stop",
-    "paus",
-    "halt",
-    "linger",
-    "interrupt",
-    "tarr",
-    "loiter",
-    "dawdl",
-    "dall",
-    "hesitat",
-    "idl",
-    "dwell",
-    "stall",
-    "intermi",
-    "falter",
-    "stoppag",
-    "standstill",
-    "tarri",
-    "breather",
-    "respit",
-];
+pub const STOP_STEMS: [&str; 21] = ["stop", "paus", "halt", "linger", "interrupt", "tarr", "loiter", "dawdl", "dall", "hesitat", "idl", "dwell", "stall", "intermi", "falter", "stoppag", "standstill", "tarri", "breather", "respit", "interrup"];
 
 /// Words that speak of a turn, beside those that begin with a stem.
 pub const TURN_NOUNS: [&str; 12] = [
