@@ -1,7 +1,7 @@
 //! Which claims weigh: a reading that a true statement of the same text makes void is none.
 
 use crate::facts::Facts;
-use crate::precision::{SPEED_STEP_MPS, STOP_STEP_S, is_step, way_step_m};
+use crate::precision::{DISTANCE_STEP_M, SPEED_STEP_MPS, STOP_STEP_S, is_step, way_step_m};
 use crate::reading::Claim;
 use crate::turns::TurnKind;
 
@@ -58,4 +58,24 @@ pub(super) fn states_the_walk(claims: &[Claim], facts: &Facts) -> bool {
         _ => false,
     };
     facts.walks && (claims.iter().any(is_of_the_walk) || states_the_turns(claims, facts))
+}
+
+/// The claims, in which the length that is the distance is one, where no other is: words near it may speak of the camera.
+pub(super) fn with_distance(mut claims: Vec<Claim>, facts: &Facts) -> Vec<Claim> {
+    let is_distance = |value: f64| is_step(value, facts.distance_m, DISTANCE_STEP_M);
+    let states = |claim: &Claim| match claim {
+        Claim::Distance(_) => true,
+        Claim::Metres(value) => is_distance(*value),
+        _ => false,
+    };
+    if !claims.iter().any(states) {
+        let length = claims.iter_mut().find_map(|claim| match *claim {
+            Claim::Altitude(value) | Claim::Way(value) if is_distance(value) => Some((claim, value)),
+            _ => None,
+        });
+        if let Some((claim, value)) = length {
+            *claim = Claim::Distance(value);
+        }
+    }
+    claims
 }

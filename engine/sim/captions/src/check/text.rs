@@ -1,5 +1,6 @@
 //! The slot check of a text: its claims against facts of the trajectory.
 
+use super::agreement::with_distance;
 use super::claims::mismatches;
 use super::clothes::clothes_mismatch;
 use super::script::script_mismatch;
@@ -17,7 +18,7 @@ use crate::reading::{Claim, chinese, english};
 /// # Errors
 /// All disagreements, in the order of the text; missing slots come last.
 pub fn check(text: &str, language: Language, facts: &Facts) -> Result<(), Vec<SlotMismatch>> {
-    let claims = listed_turns(claims_of(text, language));
+    let claims = with_distance(listed_turns(claims_of(text, language)), facts);
     let mut all: Vec<SlotMismatch> = script_mismatch(text, language).into_iter().collect();
     all.extend(mismatches(&claims, facts));
     if all.is_empty() { Ok(()) } else { Err(all) }

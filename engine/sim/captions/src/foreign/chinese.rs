@@ -72,9 +72,9 @@ fn beside(clause: &str) -> Option<String> {
     let before: String = clause[..at].chars().rev().take(REACH).collect();
     let before: String = before.chars().rev().collect();
     let after = &clause[at + word.len()..];
-    let is_there = ["有", "是", "停", "立", "坐", "站", "为"].iter().any(|verb| after.starts_with(verb));
+    let is_there = ["有", "是", "停", "立", "坐", "站", "为", "走着", "跟着"].iter().any(|verb| after.starts_with(verb));
     let is_own = is_of_the_walk(&before) || before.ends_with(['人', '其', '它', '他']);
-    (is_there && !is_of_the_walk(after) || !is_own).then(|| if is_there { first(after, REACH) } else { before })
+    (is_there && !is_of_the_walk(after) || !is_own).then(|| if is_there || before.is_empty() { first(after, REACH) } else { before })
 }
 
 /// `有个木偶`: something that is there and is no part of the walk.

@@ -128,6 +128,11 @@ fn is_saying(words: &[&str], at: usize) -> bool {
     match words[at] {
         "station" => ["hold", "holds", "holding", "keep", "on"].contains(&before),
         "morning" | "afternoon" | "evening" | "day" => before == "good",
+        // `tilted towards the clouds` says of the camera that it looks up.
+        "cloud" | "clouds" | "star" | "stars" | "pavement" | "grass" => {
+            words.iter().any(|word| word.starts_with("degree"))
+                && words[at.saturating_sub(3)..at].iter().any(|it| ["to", "at", "toward", "towards"].contains(it))
+        }
         // `our friend` is who is followed.
         "friend" | "friends" => ["our", "your", "my"].contains(&before),
         _ => false,

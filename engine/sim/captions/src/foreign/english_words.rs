@@ -159,9 +159,9 @@ pub const BARE_PLACES: [&str; 49] = [
     "of",
 ];
 /// Words after which even `the` thing is one that nobody spoke of before.
-pub const PLACES: [&str; 35] = [
+pub const PLACES: [&str; 36] = [
     "past", "near", "beside", "behind", "between", "among", "amongst", "amid", "amidst", "outside", "inside", "opposite",
     "beyond", "alongside", "along", "through", "under", "underneath", "beneath", "across", "around", "round", "against",
     "passing", "passes", "carrying", "carries", "pushing", "pulling", "holding", "holds", "crossing", "crosses", "by",
-    "over",
+    "over", "mind",
 ];

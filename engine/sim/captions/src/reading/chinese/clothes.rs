@@ -38,7 +38,7 @@ pub(super) fn worn<'a>(clause: &str, text: &'a str) -> Option<(Claim, &'a str)> 
     let is_worn = || before.ends_with("穿") && after.starts_with('的');
     let after = after.strip_prefix('色').or_else(|| is_worn().then_some(after))?;
     let last = |words: &[&str]| words.iter().filter_map(|word| before.rfind(word)).max();
-    let links = before.ends_with(['是', '为', '穿', '着', '呈', '深', '浅'])
+    let links = before.ends_with(['是', '为', '穿', '着', '呈', '深', '浅', '身'])
         || TOPS.iter().chain(&TROUSERS).any(|garment| before.ends_with(garment));
     let top = last(&TOPS).max(last(&["上身", "上面", "上边"])).filter(|_| links);
     let trousers = last(&TROUSERS).max(last(&["下身", "下面", "下边"])).filter(|_| links);
@@ -75,6 +75,25 @@ pub(crate) fn garment(text: &str) -> Option<(Claim, &str)> {
     let (colour, after) = COLOURS.iter().find_map(|(name, colour)| Some((*colour, text.strip_prefix(name)?)))?;
     let after = after.strip_prefix('色').unwrap_or(after).trim_start_matches(['的', 'T']);
     let starts = |garments: &[&str]| garments.iter().find_map(|garment| after.strip_prefix(garment));
-    let top = starts(&TOPS).map(|after| (Claim::Top(colour), after));
-    top.or_else(|| starts(&TROUSERS).map(|after| (Claim::Trousers(colour), after)))
+    if let Some(after) = starts(&TOPS) {
+        return Some((Claim::Top(colour), after));
+    }
+    if let Some(after) = starts(&TROUSERS) {
+        return Some((Claim::Trousers(colour), after));
+    }
+    // The head of a word for a garment is its last character: `衬衣`, `夹裤`.
+    let (at, head) = after.char_indices().take(HEAD).find(|(_, c)| "衣衫袄裤".contains(*c) || is_of_colour(*c))?;
+    let rest = &after[at + head.len_utf8()..];
+    match head {
+        '裤' => Some((Claim::Trousers(colour), rest)),
+        head if !is_of_colour(head) => Some((Claim::Top(colour), rest)),
+        _ => None,
+    }
+}
+
+/// Characters of a garment's name.
+const HEAD: usize = 3;
+
+fn is_of_colour(c: char) -> bool {
+    "色的和与及".contains(c) || COLOURS.iter().any(|(name, _)| name.contains(c))
 }

@@ -12,7 +12,7 @@ pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context
     let before = &clause[..at];
     // `镜头往上一挑，29度`: the words stand in the clause before.
     let is_alone = clause.chars().all(|c| c.is_ascii_digit() || "约大概差不多度°角左右的样子到在，".contains(c));
-    let is_aimed = |text: &str| text.contains(['上', '下', '俯', '仰', '低', '抬', '垂', '昂', '翘', '扬', '压']);
+    let is_aimed = |text: &str| text.contains(['上', '下', '俯', '仰', '高', '低', '抬', '垂', '昂', '翘', '扬', '压', '天', '地']);
     let aim = if is_alone || !is_aimed(clause) { context } else { clause }.replace("俯仰", "");
     let has = |words: &[&str]| words.iter().any(|word| aim.contains(word));
     let aimed = |from: char| {

@@ -65,8 +65,9 @@ pub const TOPS: [&str; 60] = [
     "doublet",
 ];
 
-pub const TROUSERS: [&str; 38] = [
+pub const TROUSERS: [&str; 39] = [
     "trousers",
+    "lower",
     "pants",
     "jeans",
     "slacks",

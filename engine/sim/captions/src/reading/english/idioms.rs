@@ -45,6 +45,8 @@ pub fn is_right_of_no_turn(at: usize, words: &[&str]) -> bool {
     ];
     match before {
         "all" | "is" | "looks" | "get" | "just" => true,
+        // `a swing to the right is made`
+        "the" if at > 1 && words[at - 2] == "to" => next == "of",
         "the" | "at" => !is_side.contains(&next),
         before if before.starts_with("turn") || SURE.contains(&before) => false,
         "" => is_place.contains(&next),

@@ -91,7 +91,7 @@ pub(super) fn length(value: f64, at: usize, words: &[&str]) -> Claim {
 }
 
 /// Whether the words nearest to an angle speak of looking up (0) or down (1); of both equally near, nobody knows.
-fn aim(words: &[&str], at: usize) -> Option<usize> {
+pub(super) fn aim(words: &[&str], at: usize) -> Option<usize> {
     // `15 degrees over the horizon`
     let over = words.iter().position(|word| *word == "over");
     if over.is_some_and(|over| words[over..].iter().any(|word| word.starts_with("horizon"))) {

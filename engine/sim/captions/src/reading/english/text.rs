@@ -6,7 +6,7 @@ use super::idioms::{is_of_the_drone, is_right_of_no_turn, without_idioms};
 use super::negation::denied;
 use super::numbers::{fold_numbers, number_word};
 use super::pauses::{denies_motion, is_stop, is_time_alone, order_of_stop_and_turn, pauses_denied, stands_repeatedly};
-use super::quantities::quantity;
+use super::quantities::{aim, quantity};
 use super::tokens::{Token, clauses, word_of};
 use super::turns::{compass_word, is_turning, keeps_direction, repetitions, turn_word, turns_back};
 use super::units::is_unit;
@@ -31,7 +31,7 @@ pub fn read(text: &str) -> Vec<Claim> {
             if let Some(claim) = answer(&tokens, &subject) {
                 return vec![claim];
             }
-            let claims = read_clause(&tokens, after_stop);
+            let claims = read_clause(&tokens, after_stop, &subject);
             after_stop = tokens.iter().any(|token| is_stop(word_of(token)));
             subject = tokens;
             claims
@@ -50,7 +50,7 @@ pub fn read(text: &str) -> Vec<Claim> {
 fn answer(tokens: &[Token], subject: &[Token]) -> Option<Claim> {
     let number = match tokens {
         [Token::Number(value)] => *value,
-        [Token::Word(word)] if NEGATIONS.contains(&word.as_str()) => 0.0,
+        [Token::Word(word)] if ["no", "none", "nil", "neither", "never", "nought"].contains(&word.as_str()) => 0.0,
         [Token::Word(word)] => number_word(word)?,
         _ => return None,
     };
@@ -65,7 +65,7 @@ fn answer(tokens: &[Token], subject: &[Token]) -> Option<Claim> {
     }
 }
 
-fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
+fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Claim> {
     let words = seen_from(without_idioms(tokens.iter().map(word_of).collect()));
     let drone_lingers =
         words.iter().any(|it| ["aircraft", "drone", "craft", "quadcopter", "uav", "copter", "you"].contains(it))
@@ -132,7 +132,18 @@ fn read_clause(tokens: &[Token], after_stop: bool) -> Vec<Claim> {
     } else if keeps_direction(&words) {
         claims.push(Claim::Straight);
     }
+    aimed_before(&mut claims, before);
     stands_for(claims)
+}
+
+/// `the view is angled up, 36 degrees`: where the clause of an angle does not say which way, the clause before may.
+fn aimed_before(claims: &mut [Claim], before: &[Token]) {
+    let words: Vec<&str> = before.iter().map(word_of).collect();
+    for claim in claims {
+        if let (Claim::Tilt(value), Some(way)) = (&*claim, aim(&words, words.len())) {
+            *claim = Claim::Pitch(if way == 0 { -value } else { *value });
+        }
+    }
 }
 
 /// Whether a word speaks of pauses, turns or motion.
@@ -165,7 +176,12 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
                 "turns", "turn", "turning", "turned", "then", "", "wheels", "spins", "swings", "next", "later",
                 "finally",
             ];
-            is_amount || !turns.contains(&before)
+            // `after that, around`: where the clause ends, nothing is gone around.
+            let ends = || {
+                let stays = ["all", "way", "stand", "stands", "hang", "hangs", "walk", "walks", "look", "looks", "is", "are"];
+                at + 1 == words.len() && !stays.contains(&before)
+            };
+            is_amount || !(turns.contains(&before) || ends())
         }
         "left" => ["is", "are", "has", "be", "have", "had", "they", "them", "nothing"].contains(&before),
         _ => false,
