@@ -17,6 +17,10 @@ pub fn foreign_things(text: &str) -> Vec<String> {
 }
 
 fn in_clause(clause: &str) -> Vec<String> {
+    // `孩子，`
+    if clause.chars().count() <= 2 && clause.ends_with(['子', '学', '师', '友', '员', '长', '傅']) {
+        return vec![];
+    }
     // `家人们，`: who is spoken to is no part of the flight.
     if clause.chars().count() <= ADDRESS && (clause.ends_with("们") || clause.starts_with("各位")) || clause.ends_with("请注意") {
         return vec![];
@@ -73,7 +77,7 @@ fn beside(clause: &str) -> Option<String> {
     let before: String = before.chars().rev().collect();
     let after = &clause[at + word.len()..];
     let is_there = ["有", "是", "停", "立", "坐", "站", "为", "走着", "跟着"].iter().any(|verb| after.starts_with(verb));
-    let is_own = is_of_the_walk(&before) || before.ends_with(['人', '其', '它', '他']);
+    let is_own = is_of_the_walk(&before) || before.ends_with(['人', '其', '它', '他', '脚', '头', '身', '眼']);
     (is_there && !is_of_the_walk(after) || !is_own).then(|| if is_there || before.is_empty() { first(after, REACH) } else { before })
 }
 

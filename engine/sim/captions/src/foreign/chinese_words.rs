@@ -46,7 +46,11 @@ pub const BESIDE: [&str; 16] = [
     "跟前", "之旁",
 ];
 /// Words that make what a place is beside part of the walk.
-pub const OF_THE_WALK: [&str; 34] = [
+pub const OF_THE_WALK: [&str; 38] = [
+    "掉头",
+    "调头",
+    "折返",
+    "动作",
     "目标",
     "行人",
     "路人",

@@ -6,6 +6,7 @@ use crate::reading::english::clothes::{colour, is_garment};
 use crate::reading::english::is_of_a_walk;
 use crate::reading::english::numbers::is_numeral;
 use crate::reading::english::tokens::{Token, clauses};
+use crate::reading::english::units::is_unit;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
@@ -77,7 +78,7 @@ fn unknown_thing(words: &[&str], at: usize) -> Option<String> {
 fn is_introduced(words: &[&str], at: usize) -> bool {
     let before = words[at - 1];
     // `7 bananas`: a number is no word.
-    if BARE_PLACES.contains(&before) || before.is_empty() {
+    if BARE_PLACES.contains(&before) || before.is_empty() && !is_unit(words[at]) {
         return true;
     }
     let is_known = ["the", "their", "its", "your", "our", "my", "no", "any", "whose"].contains(&before);
@@ -133,6 +134,7 @@ fn is_saying(words: &[&str], at: usize) -> bool {
             words.iter().any(|word| word.starts_with("degree"))
                 && words[at.saturating_sub(3)..at].iter().any(|it| ["to", "at", "toward", "towards"].contains(it))
         }
+        "steps" => words.iter().any(|it| ["take", "takes", "taken", "taking", "made"].contains(it)),
         // `our friend` is who is followed.
         "friend" | "friends" => ["our", "your", "my"].contains(&before),
         _ => false,

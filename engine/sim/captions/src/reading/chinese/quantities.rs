@@ -19,7 +19,10 @@ pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context
         let chars: Vec<char> = aim.replace("上一", "上").replace("下一", "下").chars().collect();
         chars.windows(2).any(|pair| pair[0] == from && AIMED.contains(pair[1]))
     };
-    let is_up = aimed('上')
+    // `俯仰负45度`
+    let signed = |sign: char| before.ends_with(sign) && clause.contains('俯');
+    let is_up = signed('正')
+        || aimed('上')
         || has(&[
             "仰",
             "扬",
@@ -39,7 +42,8 @@ pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context
             "翘",
             "冲上",
         ]);
-    let is_down = aimed('下')
+    let is_down = signed('负')
+        || aimed('下')
         || has(&[
             "俯",
             "向下",
@@ -84,10 +88,10 @@ pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context
         }
         Some("米" | "公尺") if value.fract() != 0.0 && clause.contains('秒') => Claim::Speed(value),
         Some("米" | "公尺") => length(value, clause, at),
-        Some("度") if is_times(&after["度".len()..]) => {
+        Some("度" | "°") if value == 180.0 && !is_up && !is_down => Claim::Turn(TurnKind::Around),
+        Some("度") if value < 20.0 && is_times(&after["度".len()..]) => {
             count(value, "度", if about_stops { Claim::Stops } else { Claim::Turns })
         }
-        Some("度" | "°") if value == 180.0 && !is_up && !is_down => Claim::Turn(TurnKind::Around),
         Some("度" | "°") if is_up == is_down => Claim::Tilt(value),
         Some("度" | "°") => Claim::Pitch(if is_up && !is_down { -value } else { value }),
         Some(unit @ ("分钟" | "分")) => {

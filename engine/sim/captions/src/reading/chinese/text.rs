@@ -16,7 +16,7 @@ pub fn read(text: &str) -> Vec<Claim> {
         let mut after_stop = false;
         let mut before = String::new();
         let read = |clause: Vec<char>| {
-            let words = without_empty_counts(&clause.iter().collect::<String>());
+            let words = without_empty_counts(&joined(&clause.iter().collect::<String>()));
             // `途中停留一次，约3秒`: the time belongs to the stop.
             let speaks = STOP_CHARS.iter().any(|word| words.contains(word));
             let about_stops =
@@ -58,6 +58,12 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
         }
     }
     clauses
+}
+
+/// Verb and object without what stands between them: `掉过头来` as `掉头来`.
+fn joined(clause: &str) -> String {
+    let parted = [("掉过头", "掉头"), ("掉了头", "掉头"), ("转过身", "转身"), ("转了身", "转身"), ("调过头", "调头"), ("掉了个头", "掉头")];
+    parted.iter().fold(clause.to_owned(), |clause, (from, to)| clause.replace(from, to))
 }
 
 fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool) -> Vec<Claim> {

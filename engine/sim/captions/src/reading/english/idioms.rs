@@ -32,6 +32,12 @@ pub fn is_of_the_drone(words: &[&str]) -> bool {
     words.iter().any(|word| WORDS.contains(word))
 }
 
+/// Whether a clause speaks of the pilot or of the room between drone and target: `do not deviate from a distance of 28 m`.
+pub fn is_of_the_gap(words: &[&str]) -> bool {
+    let of_the_gap = ["distance", "gap", "spacing", "pilot", "drone", "camera", "you", "separation"];
+    words.iter().any(|word| of_the_gap.contains(word))
+}
+
 /// Whether `right` at a place is no side: `the right distance`, `right behind them`, `all right`.
 pub fn is_right_of_no_turn(at: usize, words: &[&str]) -> bool {
     let before = at.checked_sub(1).map_or("", |before| words[before]);

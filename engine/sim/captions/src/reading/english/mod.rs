@@ -10,7 +10,7 @@ mod quantities;
 mod text;
 pub(crate) mod tokens;
 mod turns;
-mod units;
+pub(crate) mod units;
 pub(crate) mod words;
 
 pub(crate) use text::is_of_a_walk;

@@ -49,6 +49,14 @@ pub(super) fn denies_motion(words: &[&str]) -> bool {
     nowhere || !is_of_the_drone(words) && (0..words.len()).filter(|at| of(words[*at])).any(|at| is_denied(&at))
 }
 
+/// `the position remains unchanged`
+pub(super) fn keeps_place(words: &[&str]) -> bool {
+    let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
+    has(&["position", "place", "location", "spot"])
+        && has(&["unchanged", "same", "constant", "unaltered"])
+        && !is_of_the_drone(words)
+}
+
 /// `one pause, about 3 seconds long`: a time in a clause of its own.
 pub(super) fn is_time_alone(words: &[&str]) -> bool {
     let is_time = |word: &&str| word.starts_with("second");

@@ -5,6 +5,7 @@ use super::turns::{is_turning, turn_word};
 use super::units::is_unit;
 use super::words::{DOWN_STEMS, DURATION_WORDS, STRONG_ALTITUDE, STRONG_DISTANCE, STRONG_WAY, TURN_NOUNS, UP_STEMS};
 use crate::reading::{Claim, count};
+use crate::turns::TurnKind;
 
 /// The claim of a number at a place, with the word after it, in its clause.
 pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<Claim> {
@@ -26,6 +27,7 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
         _ if is_metres && value < 0.0 => Claim::Unknown(format!("{value} {unit}")),
         _ if is_metres => length(value, at, words),
         "km/h" | "kmh" | "kph" => Claim::Speed((value / 0.36).round() / 10.0),
+        "degree" | "degrees" | "deg" if value == 180.0 => Claim::Turn(TurnKind::Around),
         "degree" | "degrees" | "deg" => match aim(words, at) {
             Some(0) => Claim::Pitch(-value),
             None => Claim::Tilt(value),
@@ -92,6 +94,10 @@ pub(super) fn length(value: f64, at: usize, words: &[&str]) -> Claim {
 
 /// Whether the words nearest to an angle speak of looking up (0) or down (1); of both equally near, nobody knows.
 pub(super) fn aim(words: &[&str], at: usize) -> Option<usize> {
+    // `pitch minus 45 degrees`
+    if words.contains(&"pitch") && words.iter().any(|word| ["plus", "minus"].contains(word)) {
+        return Some(usize::from(words.contains(&"minus")));
+    }
     // `15 degrees over the horizon`
     let over = words.iter().position(|word| *word == "over");
     if over.is_some_and(|over| words[over..].iter().any(|word| word.starts_with("horizon"))) {
@@ -103,7 +109,7 @@ pub(super) fn aim(words: &[&str], at: usize) -> Option<usize> {
 /// The list of beginnings that has the word nearest to place `at`, by its number; of equally near ones the word behind counts.
 pub(super) fn nearest(words: &[&str], at: usize, lists: &[&[&str]]) -> Option<usize> {
     let places = (0..words.len()).filter(|place| *place != at);
-    let of = |word: &str| lists.iter().position(|list| list.iter().any(|stem| word.starts_with(stem)));
+    let of = |word: &str| lists.iter().position(|list| list.iter().any(|stem| word.starts_with(stem) || word.strip_prefix("look") == Some(stem)));
     let found = places.filter_map(|place| Some((place.abs_diff(at), place < at, of(words[place])?)));
     found.min().map(|(_, _, list)| list)
 }

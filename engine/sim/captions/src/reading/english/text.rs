@@ -2,10 +2,10 @@
 
 use crate::reading::{Claim, count, sentences, stands_for};
 use super::clothes::clothes_claim;
-use super::idioms::{is_of_the_drone, is_right_of_no_turn, without_idioms};
+use super::idioms::{is_of_the_drone, is_of_the_gap, is_right_of_no_turn, without_idioms};
 use super::negation::denied;
 use super::numbers::{fold_numbers, number_word};
-use super::pauses::{denies_motion, is_stop, is_time_alone, order_of_stop_and_turn, pauses_denied, stands_repeatedly};
+use super::pauses::{denies_motion, is_stop, keeps_place, is_time_alone, order_of_stop_and_turn, pauses_denied, stands_repeatedly};
 use super::quantities::{aim, quantity};
 use super::tokens::{Token, clauses, word_of};
 use super::turns::{compass_word, is_turning, keeps_direction, repetitions, turn_word, turns_back};
@@ -40,6 +40,9 @@ pub fn read(text: &str) -> Vec<Claim> {
         let mut claims: Vec<Claim> = parts.into_iter().skip(usize::from(is_call)).flat_map(read).collect();
         // A word of pausing in a sentence with a negation may be what is denied.
         let is_told = claims.iter().any(|claim| matches!(claim, Claim::Stops(_)));
+        // `backpack: no`
+        let no_luggage = claims.contains(&Claim::NoBackpack);
+        claims.retain(|claim| !(no_luggage && *claim == Claim::Backpack));
         claims.retain(|claim| !((is_denied || is_told) && *claim == Claim::SomeStops));
         claims
     };
@@ -91,8 +94,11 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
                 }
                 let counted = i > 0 && matches!(&tokens[i - 1], Token::Number(_));
                 let claim = clothes_claim(i, &words).or_else(|| word_claim(i, &words, counted, about_stops));
-                let is_again = claim == Some(Claim::Turn(TurnKind::Around))
-                    && turns.last().is_some_and(|it| it.1 == TurnKind::Around);
+                let is_near = |(place, kind): &(usize, TurnKind)| {
+                    let between = &words[*place..i];
+                    *kind == TurnKind::Around && !between.iter().any(|it| ["then", "next", "finally", "later"].contains(it))
+                };
+                let is_again = claim == Some(Claim::Turn(TurnKind::Around)) && turns.last().is_some_and(is_near);
                 if is_again {
                     // A turn around in two words is one.
                 } else if let Some(Claim::Turn(kind)) = claim {
@@ -107,7 +113,7 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
     }
     if goes_on {
         claims.retain(|claim| *claim != Claim::Stays);
-    } else if !about_stops && denies_motion(&words) {
+    } else if !about_stops && (denies_motion(&words) || keeps_place(&words)) {
         claims.push(Claim::Stays);
     }
     if walks(&words) {
@@ -126,10 +132,10 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
     }
     claims.extend(order_of_stop_and_turn(&words, &turns));
     pauses_denied(&words, about_stops, &mut claims);
-    if denied(&words, is_turning) || words.iter().any(|word| UNTURNED.contains(word)) {
+    if !is_of_the_gap(&words) && denied(&words, is_turning) || words.iter().any(|word| UNTURNED.contains(word)) {
         claims.retain(|claim| !matches!(claim, Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..)));
         claims.push(Claim::NoTurns);
-    } else if keeps_direction(&words) {
+    } else if keeps_direction(&words) || words.windows(2).any(|it| it == ["dead", "ahead"]) {
         claims.push(Claim::Straight);
     }
     aimed_before(&mut claims, before);

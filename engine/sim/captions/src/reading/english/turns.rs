@@ -24,7 +24,7 @@ pub(super) fn turn_word(word: &str) -> Option<TurnKind> {
 
 /// Whether a word speaks of leaving a straight line.
 pub(super) fn is_turning(word: &str) -> bool {
-    TURN_STEMS.iter().any(|stem| word.starts_with(stem)) && !["turned", "cornered"].contains(&word)
+    TURN_STEMS.iter().any(|stem| word.starts_with(stem)) && !["turned", "cornered", "turnstile", "turnstiles", "turnpike"].contains(&word)
         || ["uturn", "uturns", "aboutturn"].contains(&word)
 }
 

@@ -4,7 +4,7 @@ use super::pauses::is_stop;
 use super::turns::turn_word;
 use super::words::TURN_NOUNS;
 
-pub(super) fn is_unit(word: &str) -> bool {
+pub(crate) fn is_unit(word: &str) -> bool {
     let units = [
         "m",
         "m/s",
@@ -12,6 +12,7 @@ pub(super) fn is_unit(word: &str) -> bool {
         "metres",
         "meter",
         "meters",
+        "deg",
         "degree",
         "degrees",
         "second",

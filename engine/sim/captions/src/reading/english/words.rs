@@ -7,7 +7,7 @@ pub const UP_STEMS: [&str; 14] = [
 ];
 
 /// Beginnings of words for a camera that looks down.
-pub const DOWN_STEMS: [&str; 22] = ["down", "below", "lower", "dip", "depress", "ground", "earth", "floor", "pavement", "declin", "droop", "bow", "sink", "sunk", "descen", "under", "beneath", "drop", "plung", "nosed", "feet", "tarmac"];
+pub const DOWN_STEMS: [&str; 22] = ["down", "below", "low", "dip", "depress", "ground", "earth", "floor", "pavement", "declin", "droop", "bow", "sink", "sunk", "descen", "under", "beneath", "drop", "plung", "nosed", "feet", "tarmac"];
 
 /// Pauses, beside those that begin with `stop`, `paus` and `halt`.
 pub const STOP_WORDS: [&str; 37] = [
@@ -305,10 +305,7 @@ pub const TURN_VERBS: [&str; 74] = [
 ];
 
 /// Words of motion that, denied, say that the target stays.
-pub const MOTION: [&str; 24] = [
-    "move", "moves", "moving", "moved", "movement", "budge", "budges", "budging", "going", "go", "goes", "walk",
-    "stir", "stirs", "stirring", "shift", "shifts", "step", "inch", "leave", "leaves", "leaving", "motion", "walking",
-];
+pub const MOTION: [&str; 25] = ["move", "moves", "moving", "moved", "movement", "budge", "budges", "budging", "going", "go", "goes", "walk", "stir", "stirs", "stirring", "shift", "shifts", "step", "inch", "leave", "leaves", "leaving", "motion", "walking", "steps"];
 
 /// Words of standing, each of which says that the target stays.
 pub const STANDS: [&str; 13] = [
