@@ -3,6 +3,7 @@
 from paraphrases import FifthChinese, FifthEnglish, FourthChinese, FourthEnglish, SecondChinese, SecondEnglish, ThirdChinese, ThirdEnglish
 from paraphrases_eighth import EighthChinese, EighthEnglish
 from paraphrases_eleventh import EleventhChinese, EleventhEnglish
+from paraphrases_fourteenth import FourteenthChinese, FourteenthEnglish
 from paraphrases_ninth import NinthChinese, NinthEnglish
 from paraphrases_seventh import SeventhChinese, SeventhEnglish
 from paraphrases_sixth import SixthChinese, SixthEnglish
@@ -23,4 +24,5 @@ GRAMMARS = {
     11: (EleventhEnglish, EleventhChinese),
     12: (TwelfthEnglish, TwelfthChinese),
     13: (ThirteenthEnglish, ThirteenthChinese),
+    14: (FourteenthEnglish, FourteenthChinese),
 }
