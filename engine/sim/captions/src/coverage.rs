@@ -48,17 +48,44 @@ const RELATIONS: [Kind; 12] = [
     },
     Kind {
         name: "hidden",
-        english: &["hidden", "hides", "hid", "out of sight", "out of view", "lost behind", "disappear~", "vanish~", "blocks"],
+        english: &[
+            "hidden",
+            "hides",
+            "hid",
+            "out of sight",
+            "out of view",
+            "lost behind",
+            "disappear~",
+            "vanish~",
+            "blocks",
+        ],
         chinese: &["挡", "遮", "看不见", "看不到", "消失", "不见", "画面外", "跟丢", "视野外"],
     },
     Kind {
         name: "seen again",
-        english: &["seen again", "back in sight", "back in view", "reappear~", "comes back", "come back", "found again"],
+        english: &[
+            "seen again",
+            "back in sight",
+            "back in view",
+            "reappear~",
+            "comes back",
+            "come back",
+            "found again",
+        ],
         chinese: &["重新出现", "再次出现", "又出现", "回到画面", "露出", "再出现", "找回", "重新"],
     },
     Kind {
         name: "with other people",
-        english: &["people", "others", "another person", "other person", "someone", "side by side", "other one", "nobody else"],
+        english: &[
+            "people",
+            "others",
+            "another person",
+            "other person",
+            "someone",
+            "side by side",
+            "other one",
+            "nobody else",
+        ],
         chinese: &["旁人", "别人", "另一", "其他人", "迎面", "并排", "一起走", "人群", "几个人", "个人里", "那一位"],
     },
     Kind {
@@ -68,7 +95,16 @@ const RELATIONS: [Kind; 12] = [
     },
     Kind {
         name: "in the picture",
-        english: &["of the picture", "in the picture", "of the frame", "in the frame", "leftmost", "rightmost", "nearest", "closest"],
+        english: &[
+            "of the picture",
+            "in the picture",
+            "of the frame",
+            "in the frame",
+            "leftmost",
+            "rightmost",
+            "nearest",
+            "closest",
+        ],
         chinese: &["画面", "最左", "最右", "最近", "镜头左", "镜头右"],
     },
 ];
@@ -76,7 +112,18 @@ const RELATIONS: [Kind; 12] = [
 const INTENTS: [Kind; 10] = [
     Kind {
         name: "follow",
-        english: &["follow~", "track~", "tail~", "pursue~", "trail~", "shadow~", "stay with", "stay on", "keep up with", "keep with"],
+        english: &[
+            "follow~",
+            "track~",
+            "tail~",
+            "pursue~",
+            "trail~",
+            "shadow~",
+            "stay with",
+            "stay on",
+            "keep up with",
+            "keep with",
+        ],
         chinese: &["跟随", "跟踪", "跟住", "跟着", "跟拍", "追随", "追踪", "尾随", "跟上", "盯"],
     },
     Kind {
@@ -86,12 +133,34 @@ const INTENTS: [Kind; 10] = [
     },
     Kind {
         name: "aim the camera",
-        english: &["camera", "lens", "gimbal", "look down", "look up", "looks down", "looks up", "looking down", "looking up", "degrees", "tilt~", "pitch~"],
+        english: &[
+            "camera",
+            "lens",
+            "gimbal",
+            "look down",
+            "look up",
+            "looks down",
+            "looks up",
+            "looking down",
+            "looking up",
+            "degrees",
+            "tilt~",
+            "pitch~",
+        ],
         chinese: &["镜头", "相机", "云台", "俯", "仰", "度角"],
     },
     Kind {
         name: "keep a height",
-        english: &["height", "altitude", "above them", "above the target", "above the person", "m above", "metres above", "higher"],
+        english: &[
+            "height",
+            "altitude",
+            "above them",
+            "above the target",
+            "above the person",
+            "m above",
+            "metres above",
+            "higher",
+        ],
         chinese: &["高度", "上方", "高出", "上空", "头顶", "高于"],
     },
     Kind {
@@ -182,7 +251,8 @@ mod tests {
 
     fn names(text: &str, language: Language) -> [Vec<&'static str>; 2] {
         let found = coverage([text], language);
-        [found.relations, found.intents].map(|it| it.into_iter().filter(|(_, count)| *count > 0).map(|it| it.0).collect())
+        [found.relations, found.intents]
+            .map(|it| it.into_iter().filter(|(_, count)| *count > 0).map(|it| it.0).collect())
     }
 
     #[test]

@@ -4,7 +4,9 @@ use super::agreement::{is_of_weight, listed, states_the_walk};
 use super::clothes::clothes_mismatch;
 use super::slot::{Slot, SlotMismatch};
 use crate::facts::Facts;
-use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, is_step, way_step_m};
+use crate::precision::{
+    DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, is_step, way_step_m,
+};
 use crate::reading::Claim;
 use crate::turns::TurnKind;
 use std::fmt;

@@ -22,7 +22,9 @@ fn in_clause(clause: &str) -> Vec<String> {
         return vec![];
     }
     // `家人们，`: who is spoken to is no part of the flight.
-    if clause.chars().count() <= ADDRESS && (clause.ends_with("们") || clause.starts_with("各位")) || clause.ends_with("请注意") {
+    if clause.chars().count() <= ADDRESS && (clause.ends_with("们") || clause.starts_with("各位"))
+        || clause.ends_with("请注意")
+    {
         return vec![];
     }
     // What is harmless is taken out, so that the characters beside it are not joined.
@@ -76,9 +78,11 @@ fn beside(clause: &str) -> Option<String> {
     let before: String = clause[..at].chars().rev().take(REACH).collect();
     let before: String = before.chars().rev().collect();
     let after = &clause[at + word.len()..];
-    let is_there = ["有", "是", "停", "立", "坐", "站", "为", "走着", "跟着"].iter().any(|verb| after.starts_with(verb));
+    let is_there =
+        ["有", "是", "停", "立", "坐", "站", "为", "走着", "跟着"].iter().any(|verb| after.starts_with(verb));
     let is_own = is_of_the_walk(&before) || before.ends_with(['人', '其', '它', '他', '脚', '头', '身', '眼']);
-    (is_there && !is_of_the_walk(after) || !is_own).then(|| if is_there || before.is_empty() { first(after, REACH) } else { before })
+    (is_there && !is_of_the_walk(after) || !is_own)
+        .then(|| if is_there || before.is_empty() { first(after, REACH) } else { before })
 }
 
 /// `有个木偶`: something that is there and is no part of the walk.
@@ -121,9 +125,10 @@ fn counted(clause: &str) -> Option<String> {
     let after: String = chars[at + 2..].iter().collect();
     let after = after.trim_matches('·').to_owned();
     let is_dressed = after.chars().take(2).any(|c| "穿着身".contains(c));
-    let is_own = is_dressed || ["的", "裤", "衣", "线", "路", "直", "弯", "·", "人", "距", "行", "步", "度", "目", "对", "机"]
-        .iter()
-        .any(|it| after.starts_with(it));
+    let is_own = is_dressed
+        || ["的", "裤", "衣", "线", "路", "直", "弯", "·", "人", "距", "行", "步", "度", "目", "对", "机"]
+            .iter()
+            .any(|it| after.starts_with(it));
     (!after.is_empty() && !is_own && !is_of_the_walk(&after) && !begins_with_colour(&after))
         .then(|| first(&after, REACH))
 }

@@ -54,7 +54,8 @@ fn in_clause<'c>(clause: &'c [Token]) -> Vec<String> {
 /// `ladies and gentlemen`, `dear friend`: who is spoken to is no part of the flight.
 fn is_address(words: &[&str]) -> bool {
     let is_called = |word: &str| in_singular(word, |it| PERSONS.split_whitespace().any(|person| person == it));
-    let is_of_address = |word: &&str| is_called(word) || ["and", "dear", "my", "hello", "hi", "hey", "ok"].contains(word);
+    let is_of_address =
+        |word: &&str| is_called(word) || ["and", "dear", "my", "hello", "hi", "hey", "ok"].contains(word);
     !words.is_empty() && words.len() <= 4 && words.iter().all(is_of_address)
 }
 

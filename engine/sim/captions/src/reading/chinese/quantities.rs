@@ -6,13 +6,22 @@ use crate::reading::{Claim, count};
 use crate::turns::TurnKind;
 
 /// The claim of a number with the unit after it, and the bytes of that unit.
-pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context: &str, stops: (bool, bool)) -> (Claim, usize) {
+pub(super) fn quantity(
+    value: f64,
+    after: &str,
+    clause: &str,
+    at: usize,
+    context: &str,
+    stops: (bool, bool),
+) -> (Claim, usize) {
     let (about_stops, is_near_stop) = stops;
     let unit = UNITS.into_iter().find(|unit| after.starts_with(unit));
     let before = &clause[..at];
     // `镜头往上一挑，29度`: the words stand in the clause before.
     let is_alone = clause.chars().all(|c| c.is_ascii_digit() || "约大概差不多度°角左右的样子到在，".contains(c));
-    let is_aimed = |text: &str| text.contains(['上', '下', '俯', '仰', '高', '低', '抬', '垂', '昂', '翘', '扬', '压', '天', '地']);
+    let is_aimed = |text: &str| {
+        text.contains(['上', '下', '俯', '仰', '高', '低', '抬', '垂', '昂', '翘', '扬', '压', '天', '地'])
+    };
     let aim = if is_alone || !is_aimed(clause) { context } else { clause }.replace("俯仰", "");
     let has = |words: &[&str]| words.iter().any(|word| aim.contains(word));
     let aimed = |from: char| {
@@ -38,6 +47,7 @@ pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context
             "上斜",
             "上挑",
             "向天",
+            "天空",
             "昂",
             "翘",
             "冲上",
@@ -62,6 +72,7 @@ pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context
             "压低",
             "斜下",
             "向地",
+            "地面",
             "压下",
             "下看",
             "下拍",
@@ -83,9 +94,7 @@ pub(super) fn quantity(value: f64, after: &str, clause: &str, at: usize, context
     };
     let claim = match unit {
         Some("米/秒" | "米每秒") => Claim::Speed(value),
-        Some("米" | "公尺") if is_each_second(before) => {
-            Claim::Speed(value)
-        }
+        Some("米" | "公尺") if is_each_second(before) => Claim::Speed(value),
         Some("米" | "公尺") if value.fract() != 0.0 && clause.contains('秒') => Claim::Speed(value),
         Some("米" | "公尺") => length(value, clause, at),
         Some("度" | "°") if value == 180.0 && !is_up && !is_down => Claim::Turn(TurnKind::Around),

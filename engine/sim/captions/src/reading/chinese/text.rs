@@ -1,13 +1,17 @@
 //! Chinese texts, clause by clause: characters and numbers become claims.
 
-use crate::reading::{Claim, count, sentences, stands_for};
 use super::clothes::{garment, shade, worn};
 use super::garments::COLOURS;
 use super::numbers::number;
-use super::pauses::{denied_near, denied_word, is_only_standing, is_time_alone, order_of_stop_and_turn, without_empty_counts};
+use super::pauses::{
+    denied_near, denied_word, is_only_standing, is_time_alone, order_of_stop_and_turn, without_empty_counts,
+};
 use super::quantities::quantity;
 use super::turns::{compass, repeated_turn, turn};
-use super::words::{GOES_ON, MOVES, NEVER_STOPS, NO_TURN_WORDS, STANDING_WORDS, STOP_CHARS, STRAIGHT_WORDS, TURNS, WALKING};
+use super::words::{
+    GOES_ON, MOVES, NEVER_STOPS, NO_TURN_WORDS, STANDING_WORDS, STOP_CHARS, STRAIGHT_WORDS, TURNS, WALKING,
+};
+use crate::reading::{Claim, count, sentences, stands_for};
 use crate::turns::TurnKind;
 
 /// Everything that the text claims, in order.
@@ -62,7 +66,14 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
 
 /// Verb and object without what stands between them: `掉过头来` as `掉头来`.
 fn joined(clause: &str) -> String {
-    let parted = [("掉过头", "掉头"), ("掉了头", "掉头"), ("转过身", "转身"), ("转了身", "转身"), ("调过头", "调头"), ("掉了个头", "掉头")];
+    let parted = [
+        ("掉过头", "掉头"),
+        ("掉了头", "掉头"),
+        ("转过身", "转身"),
+        ("转了身", "转身"),
+        ("调过头", "调头"),
+        ("掉了个头", "掉头"),
+    ];
     parted.iter().fold(clause.to_owned(), |clause, (from, to)| clause.replace(from, to))
 }
 
@@ -164,6 +175,7 @@ fn ordinal<'a>(before: &str, text: &'a str) -> Option<&'a str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compass::Compass;
     use cosfly_render::Colour;
 
     #[test]
@@ -187,7 +199,7 @@ mod tests {
                 "出发后连续两次右转，再左转",
                 vec![Claim::Turn(TurnKind::Right), Claim::Turn(TurnKind::Right), Claim::Turn(TurnKind::Left)],
             ),
-            ("途中停留一次，约3秒，历时约20秒", vec![Claim::Stops(1), Claim::Seconds(3.0), Claim::Duration(20.0)]),
+            ("途中停留一次，约3秒，历时约20秒", vec![Claim::Stops(1), Claim::Seconds(3.0), Claim::Seconds(20.0)]),
             (
                 "身穿红色上衣、蓝色裤子、背着背包的行人",
                 vec![Claim::Top(Colour::Red), Claim::Trousers(Colour::Blue), Claim::Backpack],

@@ -17,7 +17,7 @@ pub(super) fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
     let (word, next) = (words[at], words.get(at + 1).copied().unwrap_or_default());
     if is_luggage(at, words) {
         let before = &words[at.saturating_sub(4)..at];
-        return match before.iter().any(|word| NEGATIONS.contains(word) || *word == "any") {
+        return match next == "off" || before.iter().any(|word| NEGATIONS.contains(word) || *word == "any") {
             true => Some(Claim::NoBackpack),
             // Whether luggage of another kind is there, nobody knows.
             false => (!["luggage", "baggage"].contains(&word)).then_some(Claim::Backpack),
@@ -52,6 +52,7 @@ pub(super) fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
 fn is_luggage(at: usize, words: &[&str]) -> bool {
     let before = at.checked_sub(1).map_or("", |before| words[before]);
     LUGGAGE.contains(&words[at])
+        || words[at] == "pack" && ["on", "off"].contains(&words.get(at + 1).copied().unwrap_or_default())
         || words[at] == "pack" && ["a", "the", "no", "any", "with", "without", "their"].contains(&before)
 }
 

@@ -6,7 +6,8 @@ use super::words::{LUGGAGE, NEGATIONS};
 pub(super) fn denied(words: &[&str], is_such: impl Fn(&str) -> bool) -> bool {
     (0..words.len()).filter(|at| is_such(words[*at])).any(|at| {
         // `never once does the walker stop`: what is denied ends the clause.
-        let is_inverted = words[..at].iter().any(|it| ["does", "do", "did", "was", "were", "is", "has", "had", "will"].contains(it));
+        let is_inverted =
+            words[..at].iter().any(|it| ["does", "do", "did", "was", "were", "is", "has", "had", "will"].contains(it));
         let before = &words[at.saturating_sub(if is_inverted { 9 } else { 5 })..at];
         let negation = before.iter().rposition(|word| NEGATIONS.contains(word));
         negation.is_some_and(|from| !is_parted(&before[from..]))

@@ -49,9 +49,12 @@ pub(super) fn denies_motion(words: &[&str]) -> bool {
     nowhere || !is_of_the_drone(words) && (0..words.len()).filter(|at| of(words[*at])).any(|at| is_denied(&at))
 }
 
-/// `the position remains unchanged`
+/// `the position remains unchanged`, `they hold their ground`
 pub(super) fn keeps_place(words: &[&str]) -> bool {
     let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
+    if words.windows(3).any(|it| it[2] == "ground" && ["hold", "holds", "held"].contains(&it[0])) {
+        return true;
+    }
     has(&["position", "place", "location", "spot"])
         && has(&["unchanged", "same", "constant", "unaltered"])
         && !is_of_the_drone(words)

@@ -54,7 +54,13 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
         stop if is_stop(stop) => count(value, unit, Claim::Stops),
         side => match turn_word(side) {
             Some(kind) => count(value, unit, |count| Claim::TurnsOf(kind, count)),
-            None => unlabelled(value, unit, at.checked_sub(skipped + 1).map_or("", |before| words[before])),
+            None => {
+                // `number of stops equals 2`
+                let before: Vec<&str> = words[..at - skipped].iter().rev().take(2).copied().collect();
+                let is_equal = |word: &&str| word.starts_with("equal") || ["is", "are", "was", "were"].contains(word);
+                let subject = before.iter().find(|word| !is_equal(word));
+                unlabelled(value, unit, subject.copied().unwrap_or_default())
+            }
         },
     })
 }
@@ -109,7 +115,11 @@ pub(super) fn aim(words: &[&str], at: usize) -> Option<usize> {
 /// The list of beginnings that has the word nearest to place `at`, by its number; of equally near ones the word behind counts.
 pub(super) fn nearest(words: &[&str], at: usize, lists: &[&[&str]]) -> Option<usize> {
     let places = (0..words.len()).filter(|place| *place != at);
-    let of = |word: &str| lists.iter().position(|list| list.iter().any(|stem| word.starts_with(stem) || word.strip_prefix("look") == Some(stem)));
+    let of = |word: &str| {
+        lists
+            .iter()
+            .position(|list| list.iter().any(|stem| word.starts_with(stem) || word.strip_prefix("look") == Some(stem)))
+    };
     let found = places.filter_map(|place| Some((place.abs_diff(at), place < at, of(words[place])?)));
     found.min().map(|(_, _, list)| list)
 }

@@ -1,16 +1,18 @@
 //! English texts, clause by clause: words and numbers become claims.
 
-use crate::reading::{Claim, count, sentences, stands_for};
 use super::clothes::clothes_claim;
 use super::idioms::{is_of_the_drone, is_of_the_gap, is_right_of_no_turn, without_idioms};
 use super::negation::denied;
 use super::numbers::{fold_numbers, number_word};
-use super::pauses::{denies_motion, is_stop, keeps_place, is_time_alone, order_of_stop_and_turn, pauses_denied, stands_repeatedly};
+use super::pauses::{
+    denies_motion, is_stop, is_time_alone, keeps_place, order_of_stop_and_turn, pauses_denied, stands_repeatedly,
+};
 use super::quantities::{aim, quantity};
 use super::tokens::{Token, clauses, word_of};
 use super::turns::{compass_word, is_turning, keeps_direction, repetitions, turn_word, turns_back};
 use super::units::is_unit;
-use super::words::{GOES_ON, MOTION, LUGGAGE, NEGATIONS, STANDS, UNTURNED, WALKS};
+use super::words::{GOES_ON, LUGGAGE, MOTION, NEGATIONS, STANDS, UNTURNED, WALKS};
+use crate::reading::{Claim, count, sentences, stands_for};
 use crate::turns::TurnKind;
 
 /// Everything that the text claims, in order.
@@ -63,6 +65,7 @@ fn answer(tokens: &[Token], subject: &[Token]) -> Option<Claim> {
         () if asks(&|word| is_turning(word) || ["left", "right"].contains(&word)) => {
             Some(count(number, "turns", Claim::Turns))
         }
+        () if number == 0.0 && asks(&|word| ["motion", "movement"].contains(&word)) => Some(Claim::Stays),
         () if number == 0.0 && asks(&|word| LUGGAGE.contains(&word)) => Some(Claim::NoBackpack),
         () => None,
     }
@@ -88,7 +91,8 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
         match token {
             Token::Number(value) => claims.extend(quantity(*value, i, &words, about_stops || after_stop)),
             Token::Word(word) => {
-                if let Some(value) = number_word(word).filter(|_| is_unit(next)) {
+                let is_equal = i > 0 && words[i - 1].starts_with("equal");
+                if let Some(value) = number_word(word).filter(|_| is_unit(next) || is_equal) {
                     claims.extend(quantity(value, i, &words, about_stops || after_stop));
                     continue;
                 }
@@ -96,7 +100,8 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
                 let claim = clothes_claim(i, &words).or_else(|| word_claim(i, &words, counted, about_stops));
                 let is_near = |(place, kind): &(usize, TurnKind)| {
                     let between = &words[*place..i];
-                    *kind == TurnKind::Around && !between.iter().any(|it| ["then", "next", "finally", "later"].contains(it))
+                    *kind == TurnKind::Around
+                        && !between.iter().any(|it| ["then", "next", "finally", "later"].contains(it))
                 };
                 let is_again = claim == Some(Claim::Turn(TurnKind::Around)) && turns.last().is_some_and(is_near);
                 if is_again {
@@ -179,12 +184,13 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
             let is_amount =
                 words.get(at + 1) == Some(&"") && !words.get(at + 2).is_some_and(|it| it.starts_with("time"));
             let turns = [
-                "turns", "turn", "turning", "turned", "then", "", "wheels", "spins", "swings", "next", "later",
+                "turns", "turn", "turning", "turned", "spun", "then", "", "wheels", "spins", "swings", "next", "later",
                 "finally",
             ];
             // `after that, around`: where the clause ends, nothing is gone around.
             let ends = || {
-                let stays = ["all", "way", "stand", "stands", "hang", "hangs", "walk", "walks", "look", "looks", "is", "are"];
+                let stays =
+                    ["all", "way", "stand", "stands", "hang", "hangs", "walk", "walks", "look", "looks", "is", "are"];
                 at + 1 == words.len() && !stays.contains(&before)
             };
             is_amount || !(turns.contains(&before) || ends())
@@ -193,8 +199,8 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
         _ => false,
     };
     // `turning neither left nor right`
-    if matches!(word, "left" | "right")
-        && (["neither", "nor", "not"].contains(&before) || at > 1 && before == "or" && words.contains(&"neither"))
+    if matches!(word, "left" | "right" | "lefts" | "rights")
+        && (["neither", "nor", "not", "no"].contains(&before) || at > 1 && before == "or" && words.contains(&"neither"))
     {
         return Some(Claim::NoTurns);
     }
@@ -271,6 +277,7 @@ const STRAIGHT_AT: [&str; 14] =
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compass::Compass;
     use cosfly_render::Colour;
 
     #[test]

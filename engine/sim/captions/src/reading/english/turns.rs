@@ -10,7 +10,8 @@ use crate::turns::TurnKind;
 
 pub(super) fn turn_word(word: &str) -> Option<TurnKind> {
     let is_of = |side: &str| {
-        word.strip_prefix(side).is_some_and(|rest| ["hand", "ward", "turn", "hook"].iter().any(|it| rest.starts_with(it)))
+        word.strip_prefix(side)
+            .is_some_and(|rest| ["hand", "ward", "turn", "hook"].iter().any(|it| rest.starts_with(it)))
     };
     match word {
         _ if is_of("left") => Some(TurnKind::Left),
@@ -24,7 +25,8 @@ pub(super) fn turn_word(word: &str) -> Option<TurnKind> {
 
 /// Whether a word speaks of leaving a straight line.
 pub(super) fn is_turning(word: &str) -> bool {
-    TURN_STEMS.iter().any(|stem| word.starts_with(stem)) && !["turned", "cornered", "turnstile", "turnstiles", "turnpike"].contains(&word)
+    TURN_STEMS.iter().any(|stem| word.starts_with(stem))
+        && !["turned", "cornered", "turnstile", "turnstiles", "turnpike"].contains(&word)
         || ["uturn", "uturns", "aboutturn"].contains(&word)
 }
 
@@ -37,14 +39,17 @@ pub(super) fn turns_back(at: usize, words: &[&str]) -> bool {
         "round" | "tail" => is_of(&["turn", "spin", "wheel", "swing", "swivel"]),
         "back"
             if is_of(&[
-                "turn", "doubl", "head", "go", "goes", "walk", "com", "track", "trek", "start", "set", "circl", "loop",
+                "turn", "doubl", "head", "go", "goes", "went", "came", "walk", "com", "track", "trek", "start", "set",
+                "circl", "loop",
             ]) =>
         {
             let is_way = || words[at..].iter().any(|it| ["way", "came", "themselves"].contains(it));
-            !["to", "left", "right", "from", "of", "at"].contains(&next) && (next != "the" || is_way())
+            let is_origin = next == "to" && words.get(at + 2) == Some(&"where");
+            is_origin || !["to", "left", "right", "from", "of", "at"].contains(&next) && (next != "the" || is_way())
         }
         "heel" | "heels" => {
-            let turns = |word: &&str| ["turn", "spin", "wheel", "swivel", "pivot"].iter().any(|it| word.starts_with(it));
+            let turns =
+                |word: &&str| ["turn", "spin", "wheel", "swivel", "pivot"].iter().any(|it| word.starts_with(it));
             words[at.saturating_sub(3)..at].iter().any(turns)
         }
         "way" => before == "other" && !words[..at].contains(&"back"),

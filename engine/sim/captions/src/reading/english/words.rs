@@ -7,7 +7,10 @@ pub const UP_STEMS: [&str; 14] = [
 ];
 
 /// Beginnings of words for a camera that looks down.
-pub const DOWN_STEMS: [&str; 22] = ["down", "below", "low", "dip", "depress", "ground", "earth", "floor", "pavement", "declin", "droop", "bow", "sink", "sunk", "descen", "under", "beneath", "drop", "plung", "nosed", "feet", "tarmac"];
+pub const DOWN_STEMS: [&str; 22] = [
+    "down", "below", "low", "dip", "depress", "ground", "earth", "floor", "pavement", "declin", "droop", "bow", "sink",
+    "sunk", "descen", "under", "beneath", "drop", "plung", "nosed", "feet", "tarmac",
+];
 
 /// Pauses, beside those that begin with `stop`, `paus` and `halt`.
 pub const STOP_WORDS: [&str; 37] = [
@@ -210,10 +213,33 @@ pub const STRONG_WAY: [&str; 14] = [
     "trek",
 ];
 
-pub const STRONG_DISTANCE: [&str; 9] = ["away", "behind", "apart", "gap", "separation", "spacing", "clearance", "range", "buffer"];
+pub const STRONG_DISTANCE: [&str; 9] =
+    ["away", "behind", "apart", "gap", "separation", "spacing", "clearance", "range", "buffer"];
 
 /// Beginnings of words for a pause.
-pub const STOP_STEMS: [&str; 21] = ["stop", "paus", "halt", "linger", "interrupt", "tarr", "loiter", "dawdl", "dall", "hesitat", "idl", "dwell", "stall", "intermi", "falter", "stoppag", "standstill", "tarri", "breather", "respit", "interrup"];
+pub const STOP_STEMS: [&str; 21] = [
+    "stop",
+    "paus",
+    "halt",
+    "linger",
+    "interrupt",
+    "tarr",
+    "loiter",
+    "dawdl",
+    "dall",
+    "hesitat",
+    "idl",
+    "dwell",
+    "stall",
+    "intermi",
+    "falter",
+    "stoppag",
+    "standstill",
+    "tarri",
+    "breather",
+    "respit",
+    "interrup",
+];
 
 /// Words that speak of a turn, beside those that begin with a stem.
 pub const TURN_NOUNS: [&str; 12] = [
@@ -305,7 +331,11 @@ pub const TURN_VERBS: [&str; 74] = [
 ];
 
 /// Words of motion that, denied, say that the target stays.
-pub const MOTION: [&str; 25] = ["move", "moves", "moving", "moved", "movement", "budge", "budges", "budging", "going", "go", "goes", "walk", "stir", "stirs", "stirring", "shift", "shifts", "step", "inch", "leave", "leaves", "leaving", "motion", "walking", "steps"];
+pub const MOTION: [&str; 25] = [
+    "move", "moves", "moving", "moved", "movement", "budge", "budges", "budging", "going", "go", "goes", "walk",
+    "stir", "stirs", "stirring", "shift", "shifts", "step", "inch", "leave", "leaves", "leaving", "motion", "walking",
+    "steps",
+];
 
 /// Words of standing, each of which says that the target stays.
 pub const STANDS: [&str; 13] = [
@@ -358,6 +388,5 @@ pub const UNTURNED: [&str; 14] = [
     "straightline",
 ];
 /// Verbs that say that the target walks.
-pub const WALKS: [&str; 10] = [
-    "walks", "walking", "strolls", "strolling", "wanders", "wandering", "strides", "striding", "ambles", "ambling",
-];
+pub const WALKS: [&str; 10] =
+    ["walks", "walking", "strolls", "strolling", "wanders", "wandering", "strides", "striding", "ambles", "ambling"];
