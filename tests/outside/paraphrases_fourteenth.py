@@ -1,4 +1,4 @@
-"""The fourteenth grammar for check_text_judge.py: a coach's and a robot's English, a poet's and a controller's Chinese. Written before its first run; held out."""
+"""The fourteenth grammar for check_text_judge.py: a coach's and a robot's English, a poet's and a controller's Chinese. Written before its first run."""
 
 from paraphrases import ZH_COLOURS, ZH_DIRECTIONS, Grammar, an
 from paraphrases_tenth import upper

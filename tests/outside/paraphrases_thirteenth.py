@@ -1,4 +1,4 @@
-"""The thirteenth grammar for check_text_judge.py: a learner's English and a lawyer's, a teacher's and a grandfather's Chinese. Written before its first run; held out."""
+"""The thirteenth grammar for check_text_judge.py: a learner's English and a lawyer's, a teacher's and a grandfather's Chinese. Written before its first run."""
 
 from paraphrases import ZH_COLOURS, ZH_DIRECTIONS, Grammar, an
 from paraphrases_tenth import minutes, upper

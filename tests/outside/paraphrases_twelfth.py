@@ -1,4 +1,4 @@
-"""The twelfth grammar for check_text_judge.py: notes in haste with loose case and punctuation, engineers' logs and plain talk in English, a dispatcher's and a netizen's Chinese. Written before its first run; held out."""
+"""The twelfth grammar for check_text_judge.py: notes in haste with loose case and punctuation, engineers' logs and plain talk in English, a dispatcher's and a netizen's Chinese. Written before its first run."""
 
 from paraphrases import ZH_COLOURS, ZH_DIRECTIONS, Grammar, an
 from paraphrases_tenth import minutes, upper

@@ -38,7 +38,7 @@ const RELATIONS: [Kind; 12] = [
     },
     Kind {
         name: "by number",
-        english: &["first", "second", "third", "fourth", "fifth", "sixth"],
+        english: &["the first", "the second", "the third", "the fourth", "the fifth", "the sixth"],
         chinese: &["第一", "第二", "第三", "第四", "第五", "第六"],
     },
     Kind {
