@@ -1,4 +1,4 @@
-"""The ninth grammar for check_text_judge.py: a detective's English, a newspaper's Chinese. Written in full before its first run; held out."""
+"""The ninth grammar for check_text_judge.py: a detective's English, a newspaper's Chinese. Written in full before its first run."""
 
 from paraphrases import ZH_COLOURS, ZH_DIRECTIONS, Grammar, an
 

@@ -4,7 +4,7 @@
 use crate::Episode;
 use crate::checks::words;
 use cosfly_captions::teaching::foreign_words;
-use cosfly_captions::{Diversity, Facts, Language, Slot, check, claimed, diversity};
+use cosfly_captions::{Coverage, Diversity, Facts, Language, Slot, check, claimed, coverage, diversity};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -38,6 +38,10 @@ pub struct TextFigures {
     pub singles_out_share: f64,
     /// By subject: number of texts that speak of it, and of texts that contradict the facts in it.
     pub subjects: BTreeMap<&'static str, [usize; 2]>,
+    /// Number of texts by relation of the target to its surroundings that they speak of.
+    pub relations: BTreeMap<&'static str, usize>,
+    /// Number of texts by intent, what a pilot shall do.
+    pub intents: BTreeMap<&'static str, usize>,
 }
 
 /// The verdict on a given text.
@@ -153,13 +157,17 @@ impl TextTally {
     pub(crate) fn figures(&self) -> Vec<TextFigures> {
         let of = |at: usize| {
             let share = |part: usize, whole: usize| part as f64 / whole.max(1) as f64;
+            let texts = || self.texts[at].iter().map(String::as_str);
+            let Coverage { relations, intents } = coverage(texts(), Language::ALL[at]);
             TextFigures {
                 language: Language::ALL[at].code(),
-                diversity: diversity(self.texts[at].iter().map(String::as_str), Language::ALL[at]),
+                diversity: diversity(texts(), Language::ALL[at]),
                 true_share: share(self.clean[at], self.texts[at].len()),
                 names_target_share: share(self.dressed[at][0], self.dressed[at][1]),
                 singles_out_share: share(self.singled[at][0], self.singled[at][1]),
                 subjects: self.subjects[at].iter().map(|(slot, counts)| (slot.name(), *counts)).collect(),
+                relations,
+                intents,
             }
         };
         (0..Language::ALL.len()).filter(|at| !self.texts[*at].is_empty()).map(of).collect()

@@ -5,7 +5,7 @@
 //!
 //! [`refer`] names the target by properties that nobody else in a picture has.
 //!
-//! [`teaching`] puts the facts into questions to a language model, and judges what it writes; [`diversity`] measures texts.
+//! [`teaching`] puts the facts into questions to a language model, and judges what it writes; [`diversity`] and [`coverage`] measure texts.
 //!
 //! [`goals`] says what a pilot shall do at several grains: a flight, its steps, dialogues, and goals that do not fit.
 //!
@@ -17,6 +17,7 @@ mod chinese;
 mod chinese_frames;
 pub mod compass;
 pub mod config;
+pub mod coverage;
 pub mod diversity;
 mod english;
 mod english_frames;
@@ -36,6 +37,7 @@ pub use caption::{Caption, captions};
 pub use check::{Slot, SlotMismatch, check, check_clothes, claimed};
 pub use compass::Compass;
 pub use config::{CaptionConfig, Style, Writer};
+pub use coverage::{Coverage, coverage};
 pub use diversity::{Diversity, diversity};
 pub use facts::{Facts, Stop, Wear, facts};
 pub use language::Language;

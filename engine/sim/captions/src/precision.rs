@@ -22,3 +22,9 @@ pub fn way_step_m(way_m: f64) -> f64 {
         _ => 10.0,
     }
 }
+
+/// Whether a stated number is a multiple of the step, and no nearer multiple to the fact exists.
+pub fn is_step(found: f64, fact: f64, step: f64) -> bool {
+    let steps = found / step;
+    (steps - steps.round()).abs() < 1e-6 && (found - fact).abs() <= 0.5 * step + 1e-6
+}

@@ -2,7 +2,7 @@
 
 use crate::model::Report;
 use crate::sketch::TextSketch;
-use cosfly_captions::{Diversity, Language, diversity};
+use cosfly_captions::{Diversity, Language, coverage, diversity};
 use cosfly_plot::text::{escaped, grouped, percent};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -64,6 +64,22 @@ fn of_language(texts: &[&TextSketch], language: Language) -> String {
         let _ = write!(html, "<tr><td>{subject}</td><td>{count} ({share})</td><td>{refused}</td></tr>");
     }
     html.push_str("</tbody></table>");
+    html += &of_coverage(texts, language);
+    html
+}
+
+/// Tables of the relations and the intents that the texts speak of.
+fn of_coverage(texts: &[&TextSketch], language: Language) -> String {
+    let found = coverage(texts.iter().map(|text| text.text.as_str()), language);
+    let mut html = String::new();
+    for (title, counts) in [("Relation", found.relations), ("Intent", found.intents)] {
+        let _ = write!(html, "<table><thead><tr><th>{title}</th><th>Texts that speak of it</th></tr></thead><tbody>");
+        for (kind, count) in counts {
+            let share = percent(count as f64 / texts.len() as f64);
+            let _ = write!(html, "<tr><td>{kind}</td><td>{} ({share})</td></tr>", grouped(count as u64));
+        }
+        html.push_str("</tbody></table>");
+    }
     html
 }
 
@@ -110,6 +126,7 @@ mod tests {
         let html = section(&Report { figures, ..Report::default() });
         assert!(html.contains("English") && html.contains("Chinese") && html.contains("&lt;turn&gt;"), "{html}");
         assert!(html.contains("2 (100"), "{html}");
+        assert!(html.contains("<td>wait</td><td>1 (50"), "{html}");
         assert_eq!(section(&Report::default()), "");
     }
 }

@@ -6,7 +6,7 @@ use crate::exit;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::Diagnostic;
-use cosfly_doctor::{Examination, GivenTexts, Layout, Severity, ShortcutFigures, examine_texts};
+use cosfly_doctor::{Examination, GivenTexts, Layout, Severity, ShortcutFigures, TextFigures, examine_texts};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -108,28 +108,7 @@ fn text(examination: &Examination, allowed: f64) -> String {
         let _ = writeln!(text, "frames by visible share of the target: {}", shares.collect::<Vec<_>>().join(", "));
     }
     text.push_str(&examination.shortcuts.as_ref().map_or_else(String::new, shortcuts));
-    for figures in &examination.texts {
-        let it = &figures.diversity;
-        let _ = writeln!(
-            text,
-            "texts ({}): {} of {} different; {:.1} % true; distinct-1 {:.3}, distinct-2 {:.3}, self-BLEU {:.2}; {} to {} words, {:.1} on average; {:.0} % name clothes, {:.0} % single the target out",
-            figures.language,
-            it.different_texts,
-            it.texts,
-            100.0 * figures.true_share,
-            it.distinct_1,
-            it.distinct_2,
-            it.self_bleu,
-            it.words[0],
-            it.words[1],
-            it.mean_words,
-            100.0 * figures.names_target_share,
-            100.0 * figures.singles_out_share,
-        );
-        let verdict = |(subject, [told, wrong]): (&&str, &[usize; 2])| format!("{subject} {told} ({wrong} wrong)");
-        let verdicts: Vec<String> = figures.subjects.iter().map(verdict).collect();
-        let _ = writeln!(text, "  texts by subject, and those that contradict the facts: {}", verdicts.join(", "));
-    }
+    examination.texts.iter().for_each(|figures| text.push_str(&language(figures)));
     for gap in &examination.unchecked {
         let _ = writeln!(text, "not checked: {gap}");
     }
@@ -154,6 +133,37 @@ fn text(examination: &Examination, allowed: f64) -> String {
         100.0 * allowed,
         examination.damaged
     );
+    text
+}
+
+/// Figures of the texts of one language: how different, how true, what they speak of.
+fn language(figures: &TextFigures) -> String {
+    let mut text = String::new();
+    let it = &figures.diversity;
+    let _ = writeln!(
+        text,
+        "texts ({}): {} of {} different; {:.1} % true; distinct-1 {:.3}, distinct-2 {:.3}, self-BLEU {:.2}; {} to {} words, {:.1} on average; {:.0} % name clothes, {:.0} % single the target out",
+        figures.language,
+        it.different_texts,
+        it.texts,
+        100.0 * figures.true_share,
+        it.distinct_1,
+        it.distinct_2,
+        it.self_bleu,
+        it.words[0],
+        it.words[1],
+        it.mean_words,
+        100.0 * figures.names_target_share,
+        100.0 * figures.singles_out_share,
+    );
+    let verdict = |(subject, [told, wrong]): (&&str, &[usize; 2])| format!("{subject} {told} ({wrong} wrong)");
+    let verdicts: Vec<String> = figures.subjects.iter().map(verdict).collect();
+    let _ = writeln!(text, "  texts by subject, and those that contradict the facts: {}", verdicts.join(", "));
+    for (title, counts) in [("relation", &figures.relations), ("intent", &figures.intents)] {
+        let found = counts.values().filter(|count| **count > 0).count();
+        let kinds: Vec<String> = counts.iter().map(|(kind, count)| format!("{kind} {count}")).collect();
+        let _ = writeln!(text, "  texts by {title} ({found} of {} occur): {}", counts.len(), kinds.join(", "));
+    }
     text
 }
 

@@ -8,6 +8,8 @@ use crate::reading::chinese::clauses;
 
 /// Characters that the thing a place is beside may have.
 const REACH: usize = 6;
+/// Characters of the longest clause that only calls somebody.
+const ADDRESS: usize = 6;
 
 /// Words that name a thing, and places, company and what is passed that are no part of a walk.
 pub fn foreign_things(text: &str) -> Vec<String> {
@@ -15,6 +17,16 @@ pub fn foreign_things(text: &str) -> Vec<String> {
 }
 
 fn in_clause(clause: &str) -> Vec<String> {
+    // `孩子，`
+    if clause.chars().count() <= 2 && clause.ends_with(['子', '学', '师', '友', '员', '长', '傅']) {
+        return vec![];
+    }
+    // `家人们，`: who is spoken to is no part of the flight.
+    if clause.chars().count() <= ADDRESS && (clause.ends_with("们") || clause.starts_with("各位"))
+        || clause.ends_with("请注意")
+    {
+        return vec![];
+    }
     // What is harmless is taken out, so that the characters beside it are not joined.
     let mut plain = clause.to_owned();
     HARMLESS.split_whitespace().for_each(|word| plain = plain.replace(word, "·"));
@@ -34,7 +46,8 @@ fn in_clause(clause: &str) -> Vec<String> {
             counted(&plain),
             from(&plain),
         ];
-        found.extend(places.into_iter().flatten().take(1));
+        let says = |it: &String| it.chars().any(|c| !"·的人了着".contains(c));
+        found.extend(places.into_iter().flatten().filter(says).take(1));
     }
     found
 }
@@ -65,9 +78,11 @@ fn beside(clause: &str) -> Option<String> {
     let before: String = clause[..at].chars().rev().take(REACH).collect();
     let before: String = before.chars().rev().collect();
     let after = &clause[at + word.len()..];
-    let is_there = ["有", "是", "停", "立", "坐", "站", "为"].iter().any(|verb| after.starts_with(verb));
-    let is_own = is_of_the_walk(&before) || before.ends_with(['人', '其', '它', '他']);
-    (is_there && !is_of_the_walk(after) || !is_own).then(|| if is_there { first(after, REACH) } else { before })
+    let is_there =
+        ["有", "是", "停", "立", "坐", "站", "为", "走着", "跟着"].iter().any(|verb| after.starts_with(verb));
+    let is_own = is_of_the_walk(&before) || before.ends_with(['人', '其', '它', '他', '脚', '头', '身', '眼']);
+    (is_there && !is_of_the_walk(after) || !is_own)
+        .then(|| if is_there || before.is_empty() { first(after, REACH) } else { before })
 }
 
 /// `有个木偶`: something that is there and is no part of the walk.
@@ -109,9 +124,11 @@ fn counted(clause: &str) -> Option<String> {
     let at = (0..chars.len().saturating_sub(2)).find(is_measured)?;
     let after: String = chars[at + 2..].iter().collect();
     let after = after.trim_matches('·').to_owned();
-    let is_own = ["的", "裤", "衣", "线", "路", "直", "弯", "·", "人", "距", "行", "步", "度", "目", "对", "机"]
-        .iter()
-        .any(|it| after.starts_with(it));
+    let is_dressed = after.chars().take(2).any(|c| "穿着身".contains(c));
+    let is_own = is_dressed
+        || ["的", "裤", "衣", "线", "路", "直", "弯", "·", "人", "距", "行", "步", "度", "目", "对", "机"]
+            .iter()
+            .any(|it| after.starts_with(it));
     (!after.is_empty() && !is_own && !is_of_the_walk(&after) && !begins_with_colour(&after))
         .then(|| first(&after, REACH))
 }
@@ -127,7 +144,7 @@ fn from(clause: &str) -> Option<String> {
 }
 
 fn begins_with_colour(text: &str) -> bool {
-    crate::reading::chinese::begins_with_colour(text)
+    crate::reading::chinese::clothes::begins_with_colour(text)
 }
 
 /// `带着小孩`: what the target has with it.

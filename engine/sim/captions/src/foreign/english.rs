@@ -1,9 +1,12 @@
 //! Things in English texts, by their words and by their place in a clause.
 
-use super::english_words::{ADJECTIVES, BARE_PLACES, DETERMINERS, FUNCTION_WORDS, HARMLESS, PERSONS, THINGS};
+use super::english_words::{ADJECTIVES, BARE_PLACES, DETERMINERS, FUNCTION_WORDS, HARMLESS, PERSONS, PLACES, THINGS};
 use crate::reading::LUGGAGE;
-use crate::reading::english::{Token, clauses, is_of_a_walk};
-use crate::reading::english_clothes::{colour, is_garment, is_numeral};
+use crate::reading::english::clothes::{colour, is_garment};
+use crate::reading::english::is_of_a_walk;
+use crate::reading::english::numbers::is_numeral;
+use crate::reading::english::tokens::{Token, clauses};
+use crate::reading::english::units::is_unit;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
@@ -31,7 +34,12 @@ fn in_clause<'c>(clause: &'c [Token]) -> Vec<String> {
         _ => "",
     };
     let words: Vec<&str> = clause.iter().map(word).collect();
-    let is_named = |at: &usize| (is_thing(words[*at]) && !is_saying(&words, *at)) || is_aid(&words, *at);
+    if is_address(&words) {
+        return vec![];
+    }
+    let is_named = |at: &usize| {
+        (is_thing(words[*at]) && !is_saying(&words, *at) && !is_likened(&words, *at)) || is_aid(&words, *at)
+    };
     // `the glass inclined 40 degrees`: what is aimed is the camera, by whatever name.
     let is_aimed = words.iter().any(|word| ["degrees", "degree"].contains(word));
     let mut found: Vec<String> = (0..words.len()).filter(is_named).map(|at| words[at].to_owned()).collect();
@@ -43,22 +51,50 @@ fn in_clause<'c>(clause: &'c [Token]) -> Vec<String> {
     found
 }
 
-/// A word for a thing in the phrase that begins at a place, where a determiner or a preposition says that it is one. A word that the
+/// `ladies and gentlemen`, `dear friend`: who is spoken to is no part of the flight.
+fn is_address(words: &[&str]) -> bool {
+    let is_called = |word: &str| in_singular(word, |it| PERSONS.split_whitespace().any(|person| person == it));
+    let is_of_address =
+        |word: &&str| is_called(word) || ["and", "dear", "my", "hello", "hi", "hey", "ok"].contains(word);
+    !words.is_empty() && words.len() <= 4 && words.iter().all(is_of_address)
+}
+
+/// A word for a thing in the phrase that begins at a place, where the words before say that the thing is there. A word that the
 /// dictionary lacks is none: what nobody knows contradicts nothing.
 fn unknown_thing(words: &[&str], at: usize) -> Option<String> {
-    let before = words[at - 1];
-    if !(DETERMINERS.contains(&before) || BARE_PLACES.contains(&before)) || DETERMINERS.contains(&words[at]) {
+    if !is_introduced(words, at) || DETERMINERS.contains(&words[at]) || is_likened(words, at) {
         return None;
     }
-    // `stick to them like glue`
-    let likened = words[at.saturating_sub(3)..at].contains(&"like");
     let is_end = |word: &str| word.is_empty() || (KNOWN_FUNCTION_WORDS.contains(word) && word != "of");
     let phrase = words[at..].iter().take(PHRASE).take_while(|word| !is_end(word));
     let phrase: Vec<&str> = phrase.copied().collect();
     // What stands before a garment or luggage says more of it: `corduroy trousers`.
     let is_clothed = phrase.iter().any(|word| is_garment(word) || in_singular(word, |it| LUGGAGE.contains(&it)));
     let mut things = phrase.iter().filter(|word| is_in_dictionary(word));
-    things.next().filter(|_| !likened && !is_clothed).map(|word| (*word).to_owned())
+    things.next().filter(|_| !is_clothed).map(|word| (*word).to_owned())
+}
+
+/// Whether the words before a phrase bring something new: `a priest`, `past the pawn shop`, `carrying books`. What `the suspect`
+/// and `our lens` name is known already: the target and the camera, by whatever name.
+fn is_introduced(words: &[&str], at: usize) -> bool {
+    let before = words[at - 1];
+    // `7 bananas`: a number is no word.
+    if BARE_PLACES.contains(&before) || before.is_empty() && !is_unit(words[at]) {
+        return true;
+    }
+    let is_known = ["the", "their", "its", "your", "our", "my", "no", "any", "whose"].contains(&before);
+    let of_place = || match words[..at - 1] {
+        [.., place] if PLACES.contains(&place) => true,
+        [.., one, other] => matches!((one, other), ("front", "of") | ("next" | "close", "to")),
+        _ => false,
+    };
+    DETERMINERS.contains(&before) && (!is_known || of_place())
+}
+
+/// `stick to them like glue`, `as still as a statue`
+fn is_likened(words: &[&str], at: usize) -> bool {
+    let before = &words[at.saturating_sub(4)..at];
+    before.contains(&"like") || matches!(before, [.., "as", "a" | "an" | "the"])
 }
 
 /// Words of a phrase in which a thing is looked for.
@@ -91,7 +127,19 @@ fn is_aid(words: &[&str], at: usize) -> bool {
 /// `hold station`: words that name a thing in other places only.
 fn is_saying(words: &[&str], at: usize) -> bool {
     let before = at.checked_sub(1).map_or("", |before| words[before]);
-    words[at] == "station" && ["hold", "holds", "holding", "keep", "on"].contains(&before)
+    match words[at] {
+        "station" => ["hold", "holds", "holding", "keep", "on"].contains(&before),
+        "morning" | "afternoon" | "evening" | "day" => before == "good",
+        // `tilted towards the clouds` says of the camera that it looks up.
+        "cloud" | "clouds" | "star" | "stars" | "pavement" | "grass" => {
+            words.iter().any(|word| word.starts_with("degree"))
+                && words[at.saturating_sub(3)..at].iter().any(|it| ["to", "at", "toward", "towards"].contains(it))
+        }
+        "steps" => words.iter().any(|it| ["take", "takes", "taken", "taking", "made"].contains(it)),
+        // `our friend` is who is followed.
+        "friend" | "friends" => ["our", "your", "my"].contains(&before),
+        _ => false,
+    }
 }
 
 fn is_thing(word: &str) -> bool {

@@ -1,14 +1,9 @@
 //! Reads texts back: the claims of a text, whoever wrote it.
 
 pub mod chinese;
-mod chinese_words;
 pub mod english;
-pub(crate) mod english_clothes;
-mod english_idioms;
-mod english_numbers;
-mod english_words;
 
-pub(crate) use english_words::LUGGAGE;
+pub(crate) use english::words::LUGGAGE;
 
 use crate::compass::Compass;
 use crate::turns::TurnKind;
@@ -78,20 +73,22 @@ pub enum Claim {
     },
     /// The target stays where it is.
     Stays,
+    /// The target walks.
+    Walks,
     /// The only stop comes before the only turn, or after it.
     StopFirst(bool),
     /// A number that says nothing this reader knows.
     Unknown(String),
 }
 
-/// Sentences of a text in either language; a point between digits ends none.
+/// Sentences of a text in either language; a point between digits ends none, nor does a question, whose answer belongs to it.
 fn sentences(text: &str) -> Vec<&str> {
     let mut sentences = vec![];
     let mut start = 0;
     for (at, c) in text.char_indices() {
         let end = at + c.len_utf8();
         let is_decimal = c == '.' && text[end..].starts_with(|next: char| next.is_ascii_digit());
-        if "。！？!?\n".contains(c) || (c == '.' && !is_decimal) {
+        if "。！!\n".contains(c) || (c == '.' && !is_decimal) {
             sentences.push(&text[start..end]);
             start = end;
         }

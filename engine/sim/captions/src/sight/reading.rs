@@ -3,8 +3,10 @@
 use super::facts::{Across, Part, Place, Side};
 use super::landmark_reading::{LandmarkClaim, of_chinese, of_english};
 use crate::language::Language;
-use crate::reading::english::Token;
-use crate::reading::{Claim, chinese, english, english_clothes};
+use crate::reading::english::clothes as english_clothes;
+use crate::reading::english::numbers::number_word;
+use crate::reading::english::tokens::{self, Token};
+use crate::reading::{Claim, chinese};
 use cosfly_render::Colour;
 
 /// One claim of a text about a picture.
@@ -37,7 +39,7 @@ pub(super) enum SightClaim {
 /// Everything that the text claims, in order.
 pub(super) fn read(text: &str, language: Language) -> Vec<SightClaim> {
     match language {
-        Language::En => english::clauses(text).iter().flat_map(|clause| read_english(clause)).collect(),
+        Language::En => tokens::clauses(text).iter().flat_map(|clause| read_english(clause)).collect(),
         Language::Zh => {
             let words = |clause: &Vec<char>| clause.iter().collect::<String>();
             chinese::clauses(text).iter().flat_map(|clause| read_chinese(&words(clause))).collect()
@@ -74,7 +76,7 @@ fn read_english(tokens: &[Token]) -> Vec<SightClaim> {
             () => None,
         };
         let is_left = word == "left";
-        let count = word.parse().ok().or_else(|| english::number_word(word));
+        let count = word.parse().ok().or_else(|| number_word(word));
         claims.extend(match (word.as_str(), count) {
             _ if place.is_some() => {
                 is_near = true;
@@ -160,7 +162,7 @@ fn read_chinese(clause: &str) -> Vec<SightClaim> {
             claims.push(if walks { SightClaim::Across(across) } else { SightClaim::Part(part) });
         }
     }
-    let garments = clause.char_indices().filter_map(|(at, _)| chinese::garment(&clause[at..]));
+    let garments = clause.char_indices().filter_map(|(at, _)| chinese::clothes::garment(&clause[at..]));
     claims.extend(garments.map(|(claim, _)| of_garment(claim, place.is_some())));
     claims.extend(landmark.map(|(claim, _)| SightClaim::Landmark(claim)));
     claims

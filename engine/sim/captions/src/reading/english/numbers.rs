@@ -1,6 +1,7 @@
 //! English numbers in words, and times in minutes, folded into plain numbers.
 
-use super::english::{Token, is_unit, number_word, word_of};
+use super::tokens::{Token, word_of};
+use super::units::is_unit;
 
 /// Runs of numerals before a unit as one number, and minutes in seconds.
 pub fn fold_numbers(tokens: Vec<Token>) -> Vec<Token> {
@@ -95,4 +96,15 @@ fn numeral(word: &str) -> Option<f64> {
         let rest = &word[length..];
         if rest.is_empty() { Some(value) } else { number_word(rest).map(|unit| value + unit) }
     })
+}
+
+pub(crate) fn number_word(word: &str) -> Option<f64> {
+    let words = ["zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+    words.iter().position(|known| *known == word).map(|value| value as f64)
+}
+
+/// Whether a word is a number, or a number with its unit, such as `twenty-metre`.
+pub(crate) fn is_numeral(word: &str) -> bool {
+    let tokens = fold_numbers(vec![Token::Word(word.to_owned()), Token::Word("metres".to_owned())]);
+    matches!(tokens.first(), Some(Token::Number(_))) || tokens.len() > 2
 }

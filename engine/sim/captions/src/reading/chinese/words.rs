@@ -1,6 +1,4 @@
-//! Chinese words by what they tell about a number or a garment.
-
-use cosfly_render::Colour;
+//! Chinese words by what they tell about a number, a walk or a pause.
 
 pub const STANDING_WORDS: [&str; 87] = [
     "站立",
@@ -91,6 +89,7 @@ pub const STANDING_WORDS: [&str; 87] = [
     "一动不",
     "动也没动",
 ];
+
 pub const STRAIGHT_WORDS: [&str; 38] = [
     "直行",
     "笔直",
@@ -131,7 +130,8 @@ pub const STRAIGHT_WORDS: [&str; 38] = [
     "勇往直前",
     "一条直",
 ];
-pub const STOP_CHARS: [&str; 33] = [
+
+pub const STOP_CHARS: [&str; 31] = [
     "停",
     "驻足",
     "歇",
@@ -160,12 +160,11 @@ pub const STOP_CHARS: [&str; 33] = [
     "间断",
     "断过",
     "候了",
-    "住脚",
-    "住步",
     "顿了",
     "停顿",
     "站了",
 ];
+
 /// First words of a clause that goes on about the stop before.
 pub const GOES_ON: [&str; 32] = [
     "共",
@@ -201,143 +200,11 @@ pub const GOES_ON: [&str; 32] = [
     "等",
     "时间",
 ];
+
 /// Words of a clause whose time is not that of the stop before.
 pub const NO_STOP: [&str; 14] =
     ["走", "用时", "历时", "耗时", "全程", "飞", "行", "米", "转", "拐", "全部", "整", "度", "花"];
-pub const TOPS: [&str; 40] = [
-    "上衣",
-    "外套",
-    "衬衫",
-    "夹克",
-    "卫衣",
-    "毛衣",
-    "短袖",
-    "上装",
-    "衣服",
-    "衣裳",
-    "大衣",
-    "衫",
-    "衣",
-    "恤",
-    "马甲",
-    "风衣",
-    "帽衫",
-    "背心",
-    "棉服",
-    "羽绒服",
-    "冲锋衣",
-    "针织衫",
-    "棉袄",
-    "袄",
-    "外衣",
-    "褂",
-    "皮衣",
-    "运动服",
-    "工装",
-    "长袖",
-    "坎肩",
-    "罩衫",
-    "开衫",
-    "套头衫",
-    "西装",
-    "西服",
-    "上半身",
-    "圆领衫",
-    "毛线衣",
-    "绒衣",
-];
-pub const TROUSERS: [&str; 14] = [
-    "裤子",
-    "长裤",
-    "牛仔裤",
-    "裤装",
-    "短裤",
-    "裤",
-    "牛仔",
-    "运动裤",
-    "下装",
-    "休闲裤",
-    "西裤",
-    "工装裤",
-    "下半身",
-    "裤腿",
-];
-/// Shades, each with the colours that it may be taken for.
-pub const SHADES: [(&str, &[Colour]); 49] = [
-    ("藏青", &[Colour::Blue, Colour::Black]),
-    ("靛青", &[Colour::Blue]),
-    ("青灰", &[Colour::Grey, Colour::Blue]),
-    ("青绿", &[Colour::Green, Colour::Blue]),
-    ("蓝绿", &[Colour::Green, Colour::Blue]),
-    ("青", &[Colour::Green, Colour::Blue, Colour::Black]),
-    ("金黄", &[Colour::Yellow, Colour::Orange]),
-    ("金", &[Colour::Yellow, Colour::Orange]),
-    ("银灰", &[Colour::Grey]),
-    ("银白", &[Colour::White, Colour::Grey]),
-    ("银", &[Colour::Grey, Colour::White]),
-    ("卡其", &[Colour::Beige, Colour::Brown, Colour::Yellow, Colour::Green]),
-    ("米白", &[Colour::White, Colour::Beige]),
-    ("米黄", &[Colour::Beige, Colour::Yellow]),
-    ("乳白", &[Colour::White, Colour::Beige]),
-    ("灰白", &[Colour::Grey, Colour::White]),
-    ("杏", &[Colour::Beige, Colour::Orange, Colour::Yellow]),
-    ("驼", &[Colour::Beige, Colour::Brown]),
-    ("酒红", &[Colour::Red, Colour::Purple]),
-    ("枣红", &[Colour::Red, Colour::Brown]),
-    ("玫红", &[Colour::Pink, Colour::Red, Colour::Purple]),
-    ("玫瑰红", &[Colour::Pink, Colour::Red]),
-    ("桃红", &[Colour::Pink, Colour::Red]),
-    ("紫红", &[Colour::Purple, Colour::Red, Colour::Pink]),
-    ("砖红", &[Colour::Red, Colour::Brown, Colour::Orange]),
-    ("橘红", &[Colour::Orange, Colour::Red]),
-    ("橙红", &[Colour::Orange, Colour::Red]),
-    ("棕红", &[Colour::Brown, Colour::Red]),
-    ("红棕", &[Colour::Brown, Colour::Red]),
-    ("土黄", &[Colour::Yellow, Colour::Brown, Colour::Beige]),
-    ("姜黄", &[Colour::Yellow, Colour::Brown]),
-    ("黄绿", &[Colour::Green, Colour::Yellow]),
-    ("蓝紫", &[Colour::Blue, Colour::Purple]),
-    ("蓝灰", &[Colour::Grey, Colour::Blue]),
-    ("灰蓝", &[Colour::Grey, Colour::Blue]),
-    ("灰绿", &[Colour::Grey, Colour::Green]),
-    ("灰棕", &[Colour::Grey, Colour::Brown]),
-    ("军绿", &[Colour::Green]),
-    ("藕荷", &[Colour::Pink, Colour::Purple]),
-    ("藕", &[Colour::Pink]),
-    ("赤", &[Colour::Red]),
-    ("酱", &[Colour::Brown, Colour::Red]),
-    ("巧克力", &[Colour::Brown]),
-    ("丁香", &[Colour::Purple]),
-    ("象牙", &[Colour::White, Colour::Beige]),
-    ("香槟", &[Colour::Beige, Colour::Yellow]),
-    ("肉", &[Colour::Beige, Colour::Pink]),
-    ("沙", &[Colour::Beige]),
-    ("湖水", &[Colour::Blue, Colour::Green]),
-];
 
-pub const COLOURS: [(&str, Colour); 21] = [
-    ("桔", Colour::Orange),
-    ("茶", Colour::Brown),
-    ("乌黑", Colour::Black),
-    ("粉红", Colour::Pink),
-    ("橙黄", Colour::Orange),
-    ("橘", Colour::Orange),
-    ("褐", Colour::Brown),
-    ("咖啡", Colour::Brown),
-    ("咖", Colour::Brown),
-    ("黑", Colour::Black),
-    ("灰", Colour::Grey),
-    ("白", Colour::White),
-    ("红", Colour::Red),
-    ("橙", Colour::Orange),
-    ("黄", Colour::Yellow),
-    ("绿", Colour::Green),
-    ("蓝", Colour::Blue),
-    ("紫", Colour::Purple),
-    ("粉", Colour::Pink),
-    ("棕", Colour::Brown),
-    ("米", Colour::Beige),
-];
 /// Words that name a place of the drone beyond doubt, near a length.
 pub const STRONG_ALTITUDE: [&str; 23] = [
     "高度",
@@ -364,6 +231,7 @@ pub const STRONG_ALTITUDE: [&str; 23] = [
     "高于人",
     "比行人高",
 ];
+
 pub const STRONG_WAY: [&str; 27] = [
     "路程",
     "全长",
@@ -393,6 +261,7 @@ pub const STRONG_WAY: [&str; 27] = [
     "步程",
     "一路走",
 ];
+
 pub const STRONG_DISTANCE: [&str; 22] = [
     "距",
     "距离",
@@ -417,6 +286,7 @@ pub const STRONG_DISTANCE: [&str; 22] = [
     "离对方",
     "保持",
 ];
+
 /// Words that say that a walk has no turn.
 pub const NO_TURN_WORDS: [&str; 33] = [
     "方向没改",
@@ -453,3 +323,42 @@ pub const NO_TURN_WORDS: [&str; 33] = [
     "没改过方向",
     "从未改变方向",
 ];
+
+/// Words that, denied, say that the target stays.
+pub const MOVES: [&str; 14] = [
+    "移动",
+    "位移",
+    "走动",
+    "挪动",
+    "动弹",
+    "动过",
+    "挪窝",
+    "迈步",
+    "迈开",
+    "离开原",
+    "挪步",
+    "移步",
+    "挪位",
+    "动地方",
+];
+
+/// Words that, denied, say that a walk has no turn.
+pub const TURNS: [&str; 8] = ["转", "拐", "弯", "变向", "变方向", "换方向", "掉头", "调头"];
+
+/// Words that say that a walk has no stop.
+pub const NEVER_STOPS: [&str; 12] = [
+    "一刻不停",
+    "一口气",
+    "马不停蹄",
+    "一气呵成",
+    "连续不断",
+    "连贯",
+    "没断过",
+    "脚步不断",
+    "一直在走",
+    "始终在走",
+    "一直走着",
+    "脚不沾地",
+];
+/// Words that say that the target walks.
+pub const WALKING: [&str; 8] = ["行走", "走着", "走去", "前行", "正走", "走动", "在走", "行进"];

@@ -1,7 +1,7 @@
 //! English words that look like a place and are none, and clauses about the drone.
 
-use super::english_clothes::colour;
-use super::english_words::TURN_VERBS;
+use super::clothes::colour;
+use super::words::TURN_VERBS;
 
 /// The words without those that look like places of the drone and are none: `a shirt above blue jeans`, `it is over`, `130 m are
 /// behind them`.
@@ -32,6 +32,12 @@ pub fn is_of_the_drone(words: &[&str]) -> bool {
     words.iter().any(|word| WORDS.contains(word))
 }
 
+/// Whether a clause speaks of the pilot or of the room between drone and target: `do not deviate from a distance of 28 m`.
+pub fn is_of_the_gap(words: &[&str]) -> bool {
+    let of_the_gap = ["distance", "gap", "spacing", "pilot", "drone", "camera", "you", "separation"];
+    words.iter().any(|word| of_the_gap.contains(word))
+}
+
 /// Whether `right` at a place is no side: `the right distance`, `right behind them`, `all right`.
 pub fn is_right_of_no_turn(at: usize, words: &[&str]) -> bool {
     let before = at.checked_sub(1).map_or("", |before| words[before]);
@@ -45,6 +51,8 @@ pub fn is_right_of_no_turn(at: usize, words: &[&str]) -> bool {
     ];
     match before {
         "all" | "is" | "looks" | "get" | "just" => true,
+        // `a swing to the right is made`
+        "the" if at > 1 && words[at - 2] == "to" => next == "of",
         "the" | "at" => !is_side.contains(&next),
         before if before.starts_with("turn") || SURE.contains(&before) => false,
         "" => is_place.contains(&next),

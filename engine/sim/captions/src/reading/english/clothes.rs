@@ -1,9 +1,8 @@
 //! Clothes and luggage in English texts: colours, their shades, and the garment that each belongs to.
 
-use super::Claim;
-use super::english::Token;
-use super::english_numbers::fold_numbers;
-use super::english_words::{LUGGAGE, NEGATIONS, SHADES, TOPS, TROUSERS};
+use super::garments::{SHADES, TOPS, TROUSERS};
+use super::words::{LUGGAGE, NEGATIONS};
+use crate::reading::Claim;
 use cosfly_render::Colour;
 
 /// Words between a colour and its garment: `a red long-sleeved cotton shirt`.
@@ -18,7 +17,7 @@ pub(super) fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
     let (word, next) = (words[at], words.get(at + 1).copied().unwrap_or_default());
     if is_luggage(at, words) {
         let before = &words[at.saturating_sub(4)..at];
-        return match before.iter().any(|word| NEGATIONS.contains(word)) {
+        return match next == "off" || before.iter().any(|word| NEGATIONS.contains(word) || *word == "any") {
             true => Some(Claim::NoBackpack),
             // Whether luggage of another kind is there, nobody knows.
             false => (!["luggage", "baggage"].contains(&word)).then_some(Claim::Backpack),
@@ -53,6 +52,7 @@ pub(super) fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
 fn is_luggage(at: usize, words: &[&str]) -> bool {
     let before = at.checked_sub(1).map_or("", |before| words[before]);
     LUGGAGE.contains(&words[at])
+        || words[at] == "pack" && ["on", "off"].contains(&words.get(at + 1).copied().unwrap_or_default())
         || words[at] == "pack" && ["a", "the", "no", "any", "with", "without", "their"].contains(&before)
 }
 
@@ -135,12 +135,6 @@ pub(crate) fn garment_claim(word: &str, next: &str) -> Option<Claim> {
         "trousers" | "pants" | "jeans" => Some(Claim::Trousers(colour)),
         _ => None,
     }
-}
-
-/// Whether a word is a number, or a number with its unit, such as `twenty-metre`.
-pub(crate) fn is_numeral(word: &str) -> bool {
-    let tokens = fold_numbers(vec![Token::Word(word.to_owned()), Token::Word("metres".to_owned())]);
-    matches!(tokens.first(), Some(Token::Number(_))) || tokens.len() > 2
 }
 
 /// Whether a word names a top or trousers.

@@ -1,0 +1,74 @@
+//! English texts as words and numbers, parted at punctuation.
+
+use super::clothes::colour;
+use super::idioms::number_follows;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Token {
+    Word(String),
+    Number(f64),
+}
+
+/// Lower-case tokens, parted at punctuation.
+pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
+    let chars: Vec<char> = text.to_lowercase().chars().collect();
+    let mut clauses = vec![vec![]];
+    let mut i = 0;
+    while i < chars.len() {
+        let start = i;
+        let clause = clauses.last_mut().expect("there is always one clause");
+        if chars[i].is_ascii_digit() {
+            while i < chars.len() && (chars[i].is_ascii_digit() || decimal_point(&chars, i)) {
+                i += 1;
+            }
+            let digits: String = chars[start..i].iter().collect();
+            let negative =
+                start > 0 && matches!(chars[start - 1], '-' | '\u{2212}') && (start < 2 || chars[start - 2] == ' ');
+            let value: f64 = digits.parse().unwrap_or(f64::NAN);
+            clause.push(Token::Number(if negative { -value } else { value }));
+        } else if chars[i].is_alphabetic() {
+            // A slash joins units (m/s), a hyphen compass words (north-east).
+            while i < chars.len()
+                && (chars[i].is_alphabetic() || (matches!(chars[i], '/' | '-') && letter(&chars, i + 1)))
+            {
+                i += 1;
+            }
+            let word: String = chars[start..i].iter().filter(|c| **c != '-').collect();
+            clause.push(Token::Word(word));
+        } else {
+            match chars[i] {
+                '°' => clause.push(Token::Word("degrees".into())),
+                '%' => clause.push(Token::Word("percent".into())),
+                // `Length: 130 m` is one statement.
+                ':' if number_follows(&chars, i + 1) => {}
+                // `coat: red`
+                ':' if colour_follows(&chars, i + 1) => clause.push(Token::Word("is".into())),
+                ',' | ';' | ':' | '.' | '!' | '?' | '(' | ')' | '\n' => clauses.push(vec![]),
+                _ => {}
+            }
+            i += 1;
+        }
+    }
+    clauses
+}
+
+pub(super) fn colour_follows(chars: &[char], from: usize) -> bool {
+    let word: String = chars[from..].iter().skip_while(|c| **c == ' ').take_while(|c| c.is_alphabetic()).collect();
+    colour(&word).is_some()
+}
+
+pub(super) fn decimal_point(chars: &[char], at: usize) -> bool {
+    chars[at] == '.' && chars.get(at + 1).is_some_and(char::is_ascii_digit)
+}
+
+pub(super) fn letter(chars: &[char], at: usize) -> bool {
+    chars.get(at).is_some_and(|c| c.is_alphabetic())
+}
+
+/// Numbers have no word.
+pub(super) fn word_of(token: &Token) -> &str {
+    match token {
+        Token::Word(word) => word,
+        Token::Number(_) => "",
+    }
+}
