@@ -24,6 +24,7 @@ pub mod presets;
 pub mod preview;
 mod props;
 pub mod renderer;
+mod roof_edges;
 mod roof_steps;
 pub mod scene;
 mod scene_parts;

@@ -2,6 +2,7 @@
 
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::props::{Props, SceneModel};
+use crate::roof_edges::roofs_that_go_on;
 use crate::roof_steps::{RoofStep, Side, roof_steps};
 use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox};
 use crate::shade::grid::LightGrid;
@@ -63,6 +64,8 @@ impl Scene {
         join_crowns(&mut boxes);
         let steps = roof_steps(&boxes);
         boxes.iter_mut().zip(steps).for_each(|(b, step)| b.roof = step.map(Box::new));
+        let sides = roofs_that_go_on(&boxes);
+        boxes.iter_mut().zip(sides).for_each(|(b, sides)| b.roof_goes_on = sides);
         let clusters = clusters_of(town);
         let noise = noise_texture(look_seed);
         let grid = LightGrid::new(&boxes, &clusters);
@@ -168,6 +171,7 @@ fn scene_box(obstacle: &cosfly_maps::Obstacle, look_seed: u32) -> Option<SceneBo
         town: look_seed,
         whole: [shape.center_in_world.as_vec3a(), half.as_vec3a()],
         roof: None,
+        roof_goes_on: [false; 4],
     })
 }
 

@@ -24,6 +24,8 @@ pub(crate) struct SceneBox {
     pub whole: [Vec3; 2],
     /// Place in a pitched roof; none for most boxes.
     pub roof: Option<Box<RoofStep>>,
+    /// Sides, in the order of the faces, on which the flat roof of a building goes on over another box, or ends at a wall.
+    pub roof_goes_on: [bool; 4],
 }
 
 /// A box's six faces: outward axis (0 x, 1 y, 2 z), its sign, and the corner numbers around it.

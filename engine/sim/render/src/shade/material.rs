@@ -126,7 +126,7 @@ fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
     } else if let Some(material) = roof_material(b, face, (center, axes)) {
         material
     } else if axis == 2 {
-        Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y]))
+        Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y], b.roof_goes_on))
     } else {
         let half_width = if axis == 0 { half.y } else { half.x };
         let look = Facade::new(b.seed, b.town, face as u32, 2.0 * half_width, 2.0 * half.z);

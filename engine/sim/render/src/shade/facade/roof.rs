@@ -24,6 +24,9 @@ simd_kernel! {
     }
 }
 
+/// Farther than any roof reaches, metres.
+const FAR_M: f32 = 1.0e4;
+
 /// Properties of a whole roof.
 #[derive(Clone, Copy, Debug)]
 pub struct Roof {
@@ -33,11 +36,14 @@ pub struct Roof {
     center: Vec3,
     axes: [Vec3; 2],
     half_m: [f32; 2],
+    /// Distances from the middle to the parapets, metres: low x, high x, low y, high y; far where the roof goes on.
+    parapets_m: [f32; 4],
 }
 
 impl Roof {
-    /// The flat roof of a building `seed` around `center`, `half_m` half its size along `axes`.
-    pub fn new(seed: u32, center: Vec3, axes: [Vec3; 2], half_m: [f32; 2]) -> Self {
+    /// The flat roof of a building `seed` around `center`, `half_m` half its size along `axes`; sides on which it `goes_on` over
+    /// another box have no parapet.
+    pub fn new(seed: u32, center: Vec3, axes: [Vec3; 2], half_m: [f32; 2], goes_on: [bool; 4]) -> Self {
         let tones = [
             Vec3::new(0.20, 0.19, 0.18),
             Vec3::new(0.34, 0.32, 0.29),
@@ -47,7 +53,9 @@ impl Roof {
             Vec3::new(0.13, 0.16, 0.07),
         ];
         let tone = tones[(draw(seed, 20) * 6.0) as usize % 6];
-        Self { seed, tone, shift: unit(seed) * 99.0, center, axes, half_m }
+        let parapet_m = |side: usize| half_m[side / 2] + if goes_on[side] { FAR_M } else { 0.0 };
+        let parapets_m = [0, 1, 2, 3].map(parapet_m);
+        Self { seed, tone, shift: unit(seed) * 99.0, center, axes, half_m, parapets_m }
     }
 
     /// Colour without patterns.
@@ -60,12 +68,14 @@ impl Roof {
         let size = point.footprint_m;
         let away = point.world - self.center;
         let (x, y) = (away.dot(self.axes[0]), away.dot(self.axes[1]));
-        let rough = noise.rough(x * 10.0 + self.shift, y * 10.0, size * 10.0);
-        let stain = noise.clumps(x * 1.5 + self.shift, y * 1.5, size * 1.5);
+        // Patterns go on from box to box.
+        let (across_x, across_y) = (point.world.dot(self.axes[0]), point.world.dot(self.axes[1]));
+        let rough = noise.rough(across_x * 10.0 + self.shift, across_y * 10.0, size * 10.0);
+        let stain = noise.clumps(across_x * 1.5 + self.shift, across_y * 1.5, size * 1.5);
         // Where water stood: rings around the lowest places.
         let pool = smoothstep(0.60, 0.63, stain) - smoothstep(0.66, 0.72, stain);
-        let sheet = stripes(x * (1.0 / 3.0), 0.0, 0.03, point.footprints_m[0] * (1.0 / 3.0));
-        let across = stripes(y * (1.0 / 8.0), 0.0, 0.012, point.footprints_m[1] * (1.0 / 8.0));
+        let sheet = stripes(across_x * (1.0 / 3.0), 0.0, 0.03, point.footprints_m[0] * (1.0 / 3.0));
+        let across = stripes(across_y * (1.0 / 8.0), 0.0, 0.012, point.footprints_m[1] * (1.0 / 8.0));
         let seam = most(sheet, across);
         let mut albedo = self.tone * ((0.5 + 0.5 * rough + 0.5 * stain) * (1.0 - 0.25 * seam) * (1.0 - 0.25 * pool));
         // Things on a grid: machines, skylights, chimneys, the house of the stairs, each with its shadow.
@@ -91,8 +101,10 @@ impl Roof {
         let metal = machine.lerp(Vec3::new(0.10, 0.16, 0.22), glass);
         albedo = albedo.lerp(metal, thing * there);
         // The parapet, its coping and the shade inside of it.
-        let coping = band(inner, -1.0, 0.32, size);
-        let shade = band(inner, 0.32, 0.75, size);
+        let [low_x, high_x, low_y, high_y] = self.parapets_m;
+        let inside = least(least(low_x + x, high_x - x), least(low_y + y, high_y - y));
+        let coping = band(inside, -1.0, 0.32, size);
+        let shade = band(inside, 0.32, 0.75, size);
         albedo = albedo.lerp(Vec3::splat(0.44) * (0.8 + 0.3 * rough), coping) * (1.0 - 0.4 * shade);
         Look { mirror: 0.25 * glass * thing * there, ..Look::matt(albedo, point.normal) }
     }
