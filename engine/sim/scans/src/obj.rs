@@ -123,7 +123,7 @@ impl Reader<'_> {
         if (3..=MOST_CORNERS).contains(&(group.corners.len() - start)) {
             return Ok(());
         }
-        Err(format!("a face must have 3 to {MOST_CORNERS} corners"))
+        Err(format!("a face must have at least three corners, and at most {MOST_CORNERS}"))
     }
 
     /// The groups as parts, each with the corners that it uses.

@@ -46,8 +46,7 @@ pub struct Buildings {
 }
 
 /// Values of `building` of what is no building, or not yet, or not any more.
-const NOT_THERE: &[&str] =
-    &["entrance", "proposed", "planned", "demolished", "destroyed", "razed", "removed", "underground"];
+const NOT_THERE: &[&str] = &["proposed", "planned", "demolished", "destroyed", "razed", "removed", "underground"];
 
 fn is_outline(tags: &Tags) -> bool {
     tags.has("building") && !tags.is("building", NOT_THERE)

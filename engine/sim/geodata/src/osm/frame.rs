@@ -31,7 +31,8 @@ impl Frame {
     /// # Errors
     /// An extract without nodes, or a very wide one.
     pub fn new(elements: &Elements) -> Result<Self, MapError> {
-        let has_nodes = |bounds: &Bounds| elements.nodes.iter().any(|node| bounds.holds(node));
+        let has_nodes =
+            |bounds: &Bounds| elements.nodes.is_empty() || elements.nodes.iter().any(|node| bounds.holds(node));
         let stated = elements.bounds.filter(|bounds| bounds.is_an_area() && has_nodes(bounds));
         let Some(bounds) = stated.or_else(|| most_nodes(&elements.nodes)) else {
             return Err(MapError::new("the file has no nodes with a place")

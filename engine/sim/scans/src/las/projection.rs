@@ -154,3 +154,16 @@ fn unit_m(code: u16) -> Option<f64> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_code_alone_tells_the_unit() {
+        for (code, unit) in [(2263, SURVEY_FOOT_M), (2222, FOOT_M), (2154, 1.0)] {
+            let keys = Keys { keys: vec![[PLAN_CODE, 0, 1, code]], ..Keys::default() };
+            assert_eq!(keys.units().plan_m, Some(unit), "{code}");
+        }
+    }
+}
