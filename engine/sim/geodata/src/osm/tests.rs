@@ -298,7 +298,7 @@ fn what_is_not_there_or_below_the_ground_is_no_building() {
 
 #[test]
 fn bounds_that_hold_no_node_are_those_of_another_place() {
-    let text = osm(&SQUARE, &way(8, &RING, &[("building", "yes")])).replace("lon=\"0", "lon=\"10");
+    let text = osm(&SQUARE, &way(8, &RING, &[("building", "yes")])).replace(" lon=\"0", " lon=\"10");
     let (town, _) = read(text.as_bytes()).unwrap();
     assert_eq!(town.obstacles.len(), 1);
 }
