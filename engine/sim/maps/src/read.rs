@@ -121,6 +121,7 @@ pub fn recognise(head: &[u8]) -> Result<&'static Format, MapError> {
         let names: Vec<_> = FORMATS.iter().map(Format::name).collect();
         let message = if head.is_empty() { "the file is empty" } else { "the file is of no known map format" };
         let error = MapError::new(message).hint(format!("known formats: {}", names.join(", ")));
+        let head = &head[..head.len().min(Format::HEAD_BYTES)];
         RELATIVES.iter().filter(|(is_it, _)| is_it(head)).fold(error, |error, (_, advice)| error.hint(*advice))
     })
 }

@@ -172,3 +172,17 @@ pub fn nearest_seeds(grid: &Grid, is_seed: impl Fn(usize) -> bool, reach: usize)
     }
     nearest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flush_cells_begin_at_the_lowest_points() {
+        let corners = [DVec2::new(3.21, -7.43), DVec2::new(17.21, 2.57)];
+        let grid = Grid::flush(corners.into_iter(), 0.5, 0.0);
+        let places = corners.map(|corner| grid.in_cells(corner));
+        assert!((places[0] - 1.01).abs().max_element() < 1e-9, "{places:?}");
+        assert!(places[1].cmplt(DVec2::new(grid.columns as f64, grid.rows as f64)).all(), "{places:?}");
+    }
+}
