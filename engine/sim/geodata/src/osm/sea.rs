@@ -74,7 +74,7 @@ impl Sea {
         let (mut count, mut wet) = (0_usize, 0_usize);
         for at in nodes.filter(|at| frame.holds(*at, 0.0)).step_by(1 + elements.nodes.len() / MOST_NODES) {
             count += 1;
-            wet += usize::from(self.rings.iter().filter(|ring| contains(ring, at)).count() % 2);
+            wet += self.rings.iter().filter(|ring| contains(ring, at)).count() % 2;
         }
         wet as f64 <= MOST_STREETS_IN_SEA * count as f64
     }
