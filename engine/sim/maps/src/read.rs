@@ -13,8 +13,11 @@ const LEAST_HOUSES: usize = 5;
 /// Heights that half of a town's houses may have, metres.
 const USUAL_HEIGHT_M: core::ops::RangeInclusive<f64> = 1.5..=150.0;
 
+/// Whether a file of this beginning is of some format.
+type IsIt = fn(&[u8]) -> bool;
+
 /// Formats that are not read, by the beginnings of their files, and the way to one that is.
-const RELATIVES: &[(fn(&[u8]) -> bool, &str)] = &[
+const RELATIVES: &[(IsIt, &str)] = &[
     (|head| head.starts_with(b"BZh"), "the file is packed by bzip2: unpack it with `bunzip2`"),
     (|head| head.starts_with(b"PK\x03\x04"), "the file is a ZIP archive: unpack it"),
     (|head| head.starts_with(&[0x1f, 0x8b]), "the file is packed by gzip: unpack it with `gunzip`"),
