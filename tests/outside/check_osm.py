@@ -67,6 +67,9 @@ def number(text):
         return None
 
 
+NOT_THERE = ("proposed", "planned", "demolished", "destroyed", "razed", "removed", "underground")
+
+
 def is_hidden(tags):
     tunnel = tags.get("tunnel", "no")
     below = any((number(tags.get(key)) or 0) < 0 for key in ("layer", "level"))
@@ -75,7 +78,9 @@ def is_hidden(tags):
 
 
 def is_kept(tags):
-    return tags.get("location") != "underground" and not (number(tags.get("layer")) or 0) < 0
+    below = any((number(tags.get(key)) or 0) < 0 for key in ("layer", "level"))
+    is_there = tags.get("building") not in NOT_THERE
+    return tags.get("location") != "underground" and not below and is_there
 
 
 def rectangle(box):

@@ -42,7 +42,7 @@ impl StageKind for Map {
         let (config, files) = checked(given)?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 9,
+            version: 10,
             parameters: canonical(&config)?,
             sources: sources(files),
             inputs: self.ports(),

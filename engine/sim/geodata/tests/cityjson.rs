@@ -127,16 +127,44 @@ fn what_is_broken_is_left_out_and_counted_with_its_name() {
 }
 
 #[test]
+fn members_may_come_in_any_order_and_unused_vertices_anywhere() {
+    use serde_json::Value;
+    let (town, _) = read(PLACE).unwrap();
+    let mut place: Value = serde_json::from_str(PLACE).unwrap();
+    place["vertices"].as_array_mut().unwrap().push(serde_json::json!([-40_000_000, 0, 0]));
+    let (far, _) = read(&place.to_string()).unwrap();
+    assert_eq!((town.obstacles, town.walkable), (far.obstacles, far.walkable));
+    let long = format!("[{}]", vec!["[1, 2, 3]"; 1000].join(", "));
+    for first in
+        [format!("\"vertices\": {long}"), "\"transform\": {\"scale\": [1, 1, 1], \"translate\": [0, 0, 0]}".into()]
+    {
+        let text = format!("{{{first}, \"more\": {long}, \"type\": \"CityJSON\"}}");
+        assert!(CityJson::recognises(&text.as_bytes()[..4096]), "{first}");
+    }
+}
+
+#[test]
+fn a_house_of_walls_and_slabs_is_one_building() {
+    let (parts, _) = read(&PLACE.replace("\"BuildingPart\"", "\"BuildingConstructiveElement\"")).unwrap();
+    let (low_m, high_m) = heights_m(&parts, ObstacleKind::Building)[0];
+    assert!((low_m - 1.0).abs() < 1e-9 && (high_m - 12.0).abs() < 1e-9, "{low_m} to {high_m}");
+}
+
+#[test]
 fn wrong_files_say_what_is_wrong() {
     for (text, expected) in [
         (with("\"2.0\"", "\"0.9\""), "versions 1.0 to 2.0 are read"),
         (with("[[0, 1, 2, 3]]", "[[0, 1, -2, 3]]"), "the index of a vertex"),
         (with("[0.01, 0.01, 0.01]", "[1e7, 1e7, 1]"), "m across; at most 100000 m are read"),
         (PLACE[..PLACE.len() / 2].to_owned(), "EOF"),
-        ("{\"type\": \"CityJSON\", \"version\": \"2.0\", \"CityObjects\": {}, \"vertices\": []}".into(), "no vertices"),
+        ("{\"type\": \"CityJSON\", \"version\": \"2.0\", \"CityObjects\": {}, \"vertices\": []}".into(), "has a shape"),
         (
             "{\"type\": \"CityJSON\", \"version\": \"2.0\", \"CityObjects\": {}, \"vertices\": [[0, 0, 0]]}".into(),
-            "neither",
+            "has a shape",
+        ),
+        (
+            with("[0.01, 0.01, 0.01]", "[1e-7, 1e-7, 0.01]").replace("[85000, 447500, 1]", "[139.76, 35.68, 1]"),
+            "seem to be degrees",
         ),
     ] {
         let error = read(&text).unwrap_err();

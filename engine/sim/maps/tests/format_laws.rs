@@ -40,6 +40,44 @@ fn formats_are_sorted_and_each_recognises_its_own_files_only() {
 }
 
 #[test]
+fn files_of_relatives_name_the_way_to_a_known_format() {
+    for (head, expected) in [
+        (&b"BZh91AY&SY"[..], "bunzip2"),
+        (b"<?xml version=\"1.0\"?><core:CityModel>", "citygml-tools"),
+        (b"{\"version\": 0.6, \"generator\": \"Overpass API\"}", "out:xml"),
+        (b"ISO-10303-21;\nHEADER;", "IFC"),
+        (b"b3dm\x01\x00\x00\x00", "3D Tiles"),
+    ] {
+        let error = recognise(head).unwrap_err();
+        assert!(error.hints.last().is_some_and(|hint| hint.contains(expected)), "{:?}", error.hints);
+    }
+}
+
+#[test]
+fn houses_of_absurd_height_are_a_warning() {
+    let box_of = |at: u32, height_m: f64| {
+        let middle_m = 0.5 * height_m;
+        format!(
+            "{{\"kind\": \"building\", \"center_m\": [{}, 20, {middle_m}], \"size_m\": [9, 9, {height_m}]}}",
+            20 * at
+        )
+    };
+    for (height_m, is_odd) in [(0.12, true), (12.0, false), (1200.0, true)] {
+        let boxes: Vec<String> = (0..7).map(|at| box_of(at, height_m)).collect();
+        let walk = "{\"kind\": \"sidewalk\", \"outline_m\": [[0, 0, 0], [99, 0, 0], [99, 4, 0], [0, 4, 0]]}";
+        let text =
+            format!("{{\"format\": \"cosfly-boxes/1\", \"boxes\": [{}], \"walkable\": [{walk}]}}", boxes.join(", "));
+        let (_, warnings) =
+            read_town(text.as_bytes(), &MapConfig::default(), Seed::of_item(1, "town", "town")).unwrap();
+        assert_eq!(
+            warnings.iter().any(|warning| warning.contains("check the unit")),
+            is_odd,
+            "{height_m}: {warnings:?}"
+        );
+    }
+}
+
+#[test]
 fn files_of_no_format_are_refused_with_the_names_of_all() {
     for (bytes, expected) in [(&b""[..], "the file is empty"), (b"hello", "the file is of no known map format")] {
         let error = read_plainly(bytes).unwrap_err();

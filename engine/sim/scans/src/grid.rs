@@ -19,16 +19,33 @@ pub struct Grid {
     pub rows: usize,
 }
 
+/// Distance of the lowest points from the border of their cells, in cells.
+const WITHIN: f64 = 0.01;
+
 impl Grid {
     /// Cells around points of the world, with one free cell on each side.
     pub fn around(points: impl Iterator<Item = DVec2>, cell_m: f64, yaw_rad: f64) -> Self {
+        Self::with_corner(points, cell_m, yaw_rad, |low| ((low / cell_m).floor() - 1.0) * cell_m)
+    }
+
+    /// [`Self::around`] with the lowest points at borders of cells: a wall along them leaves no cells half full.
+    pub fn flush(points: impl Iterator<Item = DVec2>, cell_m: f64, yaw_rad: f64) -> Self {
+        Self::with_corner(points, cell_m, yaw_rad, |low| low - (1.0 + WITHIN) * cell_m)
+    }
+
+    fn with_corner(
+        points: impl Iterator<Item = DVec2>,
+        cell_m: f64,
+        yaw_rad: f64,
+        corner: impl Fn(DVec2) -> DVec2,
+    ) -> Self {
         let (sin, cos) = real::sin_cos(yaw_rad);
         let turned = |point: DVec2| DVec2::new(cos * point.x + sin * point.y, cos * point.y - sin * point.x);
         let (low, high) = points
             .map(turned)
             .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)));
         let (low, high) = if low.is_finite() && high.is_finite() { (low, high) } else { (DVec2::ZERO, DVec2::ZERO) };
-        let low = ((low / cell_m).floor() - 1.0) * cell_m;
+        let low = corner(low);
         let [columns, rows] = ((high - low) / cell_m).to_array().map(|cells| cells as usize + 2);
         Self { low, sin, cos, yaw_rad, cell_m, columns, rows }
     }
@@ -154,4 +171,18 @@ pub fn nearest_seeds(grid: &Grid, is_seed: impl Fn(usize) -> bool, reach: usize)
         ring = next;
     }
     nearest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flush_cells_begin_at_the_lowest_points() {
+        let corners = [DVec2::new(3.21, -7.43), DVec2::new(17.21, 2.57)];
+        let grid = Grid::flush(corners.into_iter(), 0.5, 0.0);
+        let places = corners.map(|corner| grid.in_cells(corner));
+        assert!((places[0] - 1.01).abs().max_element() < 1e-9, "{places:?}");
+        assert!(places[1].cmplt(DVec2::new(grid.columns as f64, grid.rows as f64)).all(), "{places:?}");
+    }
 }

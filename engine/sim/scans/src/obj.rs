@@ -1,7 +1,8 @@
 //! `OBJ`: meshes of Wavefront OBJ files, by objects and groups.
 
 use crate::mesh::{MeshOptions, PartBuilder, town_of};
-use cosfly_frames::DVec3;
+use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::polygons::triangulated;
 use cosfly_town::text::decoded;
 use cosfly_town::{MapError, MapFormat, Town};
 
@@ -21,17 +22,31 @@ impl MapFormat for Obj {
 
     fn recognises(head: &[u8]) -> bool {
         let text = String::from_utf8_lossy(head);
-        const FIRST: [&str; 5] = ["v ", "o ", "g ", "mtllib ", "vn "];
-        let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
-        let is_own = |line: &str| FIRST.iter().any(|word| line.starts_with(word));
-        lines.next().is_some_and(is_own) && lines.any(|line| ["v ", "f "].iter().any(|word| line.starts_with(word)))
+        const FIRST: [&str; 9] = ["v", "o", "g", "mtllib", "usemtl", "s", "vn", "vt", "f"];
+        const DATA: [&str; 4] = ["v", "vn", "vt", "f"];
+        let mut words = text
+            .lines()
+            .filter_map(|line| line.trim_start().split_once([' ', '\t']))
+            .map(|(word, _)| word)
+            .filter(|word| !word.starts_with('#'));
+        let begins = text.trim_start_matches(|c: char| c == '\u{feff}' || c.is_whitespace());
+        let first = if begins.starts_with('#') { words.next() } else { begins.split([' ', '\t']).next() };
+        first.is_some_and(|word| FIRST.contains(&word)) && words.any(|word| DATA.contains(&word))
     }
 
     fn read(bytes: &[u8], options: &MeshOptions) -> Result<(Town, Vec<String>), MapError> {
         let text = decoded(bytes)?;
-        let mut reader = Reader { options, vertices: Vec::new(), groups: vec![Group::default()] };
+        let mut reader =
+            Reader { options, vertices: Vec::new(), object: String::new(), groups: vec![Group::default()] };
+        let mut whole = String::new();
         for (at, line) in text.lines().enumerate() {
-            reader.line(line).map_err(|rule| {
+            if let Some(begun) = line.strip_suffix('\\') {
+                whole.push_str(begun);
+                continue;
+            }
+            whole.push_str(line);
+            let line = std::mem::take(&mut whole);
+            reader.line(&line).map_err(|rule| {
                 let shown: String = line.chars().take(60).collect();
                 MapError::new(format!("line {} is `{shown}`; {rule}", at + 1))
                     .hint("the file seems to be damaged: export it again")
@@ -43,17 +58,28 @@ impl MapFormat for Obj {
     }
 }
 
-/// Faces under one name; corners are numbers of corners of the whole file, from 0.
+/// Polygons under one name; corners are numbers of corners of the whole file, from 0.
 #[derive(Default)]
 struct Group {
     name: String,
-    faces: Vec<[u32; 3]>,
+    corners: Vec<u32>,
+    /// Ends of the polygons in `corners`.
+    ends: Vec<usize>,
+}
+
+impl Group {
+    fn polygons(&self) -> impl Iterator<Item = &[u32]> {
+        let starts = core::iter::once(0).chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(start, end)| &self.corners[start..*end])
+    }
 }
 
 struct Reader<'a> {
     options: &'a MeshOptions,
     /// All corners so far, map frame, metres.
     vertices: Vec<DVec3>,
+    /// Name of the object that groups belong to.
+    object: String,
     groups: Vec<Group>,
 }
 
@@ -63,13 +89,20 @@ impl Reader<'_> {
         match word {
             "v" => self.vertices.push(self.options.in_map(vertex(rest)?)),
             "f" => self.face(rest)?,
-            "o" | "g" => self.groups.push(Group { name: rest.trim().to_owned(), faces: Vec::new() }),
+            "o" => {
+                self.object = rest.trim().to_owned();
+                self.groups.push(Group { name: self.object.clone(), ..Group::default() });
+            }
+            "g" => {
+                let name = format!("{} {}", self.object, rest.trim()).trim().to_owned();
+                self.groups.push(Group { name, ..Group::default() });
+            }
             _ => {}
         }
         Ok(())
     }
 
-    /// A polygon as a fan of triangles. Its corners may follow later in the file.
+    /// A polygon. Its corners may follow later in the file.
     fn face(&mut self, rest: &str) -> Result<(), String> {
         let count = self.vertices.len() as i64;
         let number = |word: &str| {
@@ -81,20 +114,23 @@ impl Reader<'_> {
                 .and_then(|index| u32::try_from(index).ok())
                 .ok_or_else(|| "a corner is no number of a corner".to_owned())
         };
-        let corners = rest.split_whitespace().take(MOST_CORNERS).map(number).collect::<Result<Vec<u32>, String>>()?;
-        if corners.len() < 3 {
-            return Err("a face must have at least three corners".to_owned());
+        let group = self.groups.last_mut().ok_or("there is no group")?;
+        let start = group.corners.len();
+        for word in rest.split_whitespace() {
+            group.corners.push(number(word)?);
         }
-        let triangles = corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]);
-        self.groups.last_mut().ok_or("there is no group")?.faces.extend(triangles);
-        Ok(())
+        group.ends.push(group.corners.len());
+        if (3..=MOST_CORNERS).contains(&(group.corners.len() - start)) {
+            return Ok(());
+        }
+        Err(format!("a face must have at least three corners, and at most {MOST_CORNERS}"))
     }
 
     /// The groups as parts, each with the corners that it uses.
     fn parts(&self) -> Result<PartBuilder, MapError> {
         let mut parts = PartBuilder::default();
         for group in &self.groups {
-            let mut used: Vec<u32> = group.faces.iter().flatten().copied().collect();
+            let mut used: Vec<u32> = group.corners.clone();
             used.sort_unstable();
             used.dedup();
             let corner = |corner: &u32| {
@@ -110,10 +146,37 @@ impl Reader<'_> {
             };
             let vertices = used.iter().map(corner).collect::<Result<Vec<DVec3>, MapError>>()?;
             let own = |corner: u32| used.binary_search(&corner).unwrap_or(0) as u32;
-            parts.add(&group.name, vertices, group.faces.iter().map(|face| face.map(own)))?;
+            let triangles: Vec<[u32; 3]> = group
+                .polygons()
+                .flat_map(|polygon| {
+                    let corners: Vec<u32> = polygon.iter().map(|corner| own(*corner)).collect();
+                    in_triangles(&corners, &vertices)
+                })
+                .collect();
+            parts.add(&group.name, vertices, triangles.into_iter())?;
         }
         Ok(parts)
     }
+}
+
+/// Triangles of a polygon: a fan where it is convex, else its ears in the plane that it lies in most.
+fn in_triangles(corners: &[u32], vertices: &[DVec3]) -> Vec<[u32; 3]> {
+    let fan = || corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]).collect();
+    let at = |index: usize| vertices[corners[index % corners.len()] as usize];
+    let normal: DVec3 = (2..corners.len()).map(|k| (at(k - 1) - at(0)).cross(at(k) - at(0))).sum();
+    let turn = |k: usize| (at(k + 1) - at(k)).cross(at(k + 2) - at(k + 1)).dot(normal);
+    if corners.len() == 3 || (0..corners.len()).all(|k| turn(k) >= 0.0) {
+        return fan();
+    }
+    let away = normal.abs();
+    let in_plane = |point: DVec3| match () {
+        () if away.z >= away.x.max(away.y) => point.truncate(),
+        () if away.y >= away.x => DVec2::new(point.x, point.z),
+        () => DVec2::new(point.y, point.z),
+    };
+    let plan: Vec<DVec2> = (0..corners.len()).map(|k| in_plane(at(k))).collect();
+    let ears = triangulated(&plan);
+    if ears.is_empty() { fan() } else { ears.into_iter().map(|ear| ear.map(|k| corners[k as usize])).collect() }
 }
 
 fn vertex(rest: &str) -> Result<DVec3, String> {

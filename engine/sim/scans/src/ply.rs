@@ -1,5 +1,6 @@
 //! `PLY`: vertices of a PLY file as a point cloud; text, little-endian or big-endian.
 
+use crate::cloud::survey::spacing_m;
 use crate::cloud::table::Columns;
 use crate::cloud::{CloudBuilder, CloudOptions, town_of};
 use crate::scalar::Scalar;
@@ -7,6 +8,8 @@ use cosfly_town::{MapError, MapFormat, Town};
 
 /// Longest head, bytes.
 const LONGEST_HEAD: usize = 64 << 10;
+/// Vertices of faces farther apart than this are corners of a drawing, not a scan, metres.
+const WIDEST_SPACING_M: f64 = 1.0;
 const END: &[u8] = b"end_header";
 
 /// The format `PLY`.
@@ -34,7 +37,13 @@ impl MapFormat for Ply {
             Encoding::Text => head.add_lines(data, &columns, unit_m, &mut cloud)?,
             Encoding::Binary { is_big_endian } => head.add_rows(data, &columns, unit_m, is_big_endian, &mut cloud)?,
         }
-        let (town, mut warnings) = town_of(columns.finish(cloud, options.unit_m)?, options)?;
+        let cloud = columns.finish(cloud, options.unit_m)?;
+        let spacing_m = spacing_m(&cloud);
+        if head.has_faces && spacing_m > WIDEST_SPACING_M {
+            let message = format!("the file is a mesh: its vertices, {spacing_m:.1} m apart, are no cloud of points");
+            return Err(MapError::new(message).hint("export the mesh as GLB or OBJ"));
+        }
+        let (town, mut warnings) = town_of(cloud, options)?;
         if head.has_faces {
             warnings.push("the file has faces: only its vertices are read, as points".to_owned());
         }

@@ -140,3 +140,29 @@ fn check_ply_with_gaps(bytes: &[u8]) {
     let (_, warnings) = Ply::read(bytes, &CloudOptions::default()).unwrap();
     assert!(warnings.iter().any(|warning| warning.contains("without finite coordinates")), "{warnings:?}");
 }
+
+/// The scene with the points of a class told as unclassified.
+fn without(class: u8) -> Vec<write_clouds::Point> {
+    scene().into_iter().map(|(at, own)| (at, if own == class { 1 } else { own })).collect()
+}
+
+#[test]
+fn a_class_that_a_survey_does_not_tell_is_found_by_shape() {
+    for class in [5, 6] {
+        let town = read::<Las>(&las(&without(class), false).unwrap(), &CloudOptions::default()).unwrap();
+        check_scene(&format!("class {class} untold"), &town);
+        assert!(town.synthetic.notes.iter().any(|note| note.starts_with("unclassified points")), "{class}");
+    }
+}
+
+#[test]
+fn degrees_and_corners_of_drawings_are_no_clouds() {
+    let options = CloudOptions::default();
+    let degrees = |([x, y, z], class): write_clouds::Point| ([2.0 + 1e-5 * x, 48.0 + 1e-5 * y, z], class);
+    let text: Vec<_> = scene().into_iter().map(degrees).collect();
+    let refused = read::<Ply>(&ply(&text, "binary_little_endian"), &options).unwrap_err();
+    assert!(refused.message.contains("degrees"), "{refused}");
+    let mesh = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
+                property list uchar int vertex_indices\nend_header\n0 0 0\n40 0 0\n40 40 0\n0 40 9\n4 0 1 2 3\n";
+    assert!(read::<Ply>(mesh.as_bytes(), &options).unwrap_err().message.contains("mesh"));
+}

@@ -139,3 +139,92 @@ fn files_that_lie_are_refused_or_read_without_what_is_missing() {
     assert!(warnings.iter().any(|warning| warning.contains("left out")), "{warnings:?}");
     assert!(read::<GlTf>(&file[..file.len() - 9], &options).is_err());
 }
+
+/// A GLB file: text, then data.
+fn glb_of(json: &str, data: &[u8]) -> Vec<u8> {
+    let mut text = json.as_bytes().to_vec();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let chunk = |kind: &[u8; 4], content: &[u8]| [&(content.len() as u32).to_le_bytes(), &kind[..], content].concat();
+    let chunks = [chunk(b"JSON", &text), chunk(b"BIN\0", data)].concat();
+    [&b"glTF"[..], &2_u32.to_le_bytes(), &(12 + chunks.len() as u32).to_le_bytes(), &chunks].concat()
+}
+
+/// A house of 8 m by 6 m and 5 m high at four places, as packed or as sparse corners.
+fn houses(is_sparse: bool, required: &str) -> Vec<u8> {
+    let corner = |at: usize| [8 * (at & 1) as i16, 5 * (at >> 1 & 1) as i16, 6 * (at >> 2) as i16];
+    let sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let mut data: Vec<u8> = sides.iter().flat_map(|[a, b, c, d]| [*a, *b, *c, *a, *c, *d]).collect();
+    let places = [[0.0_f32, 0.0, 0.0], [40.0, 0.0, 0.0], [0.0, 0.0, 40.0], [40.0, 0.0, 40.0]];
+    data.extend(places.iter().flatten().flat_map(|number| number.to_le_bytes()));
+    data.extend(0..8_u8);
+    let start = data.len();
+    for corner in (0..8).map(corner) {
+        if is_sparse {
+            data.extend(corner.iter().flat_map(|number| f32::from(*number).to_le_bytes()));
+        } else {
+            data.extend([corner[0], corner[1], corner[2], 0].iter().flat_map(|number| number.to_le_bytes()));
+        }
+    }
+    let length = data.len() - start;
+    let (corners, stride) = if is_sparse {
+        let indices = r#""indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":3}"#;
+        (format!(r#""componentType":5126,"sparse":{{"count":8,{indices}}}"#), "")
+    } else {
+        (r#""bufferView":3,"componentType":5122"#.to_owned(), r#","byteStride":8"#)
+    };
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},{required}"nodes":[{{"name":"House","mesh":0,"extensions":{{"EXT_mesh_gpu_instancing":{{"attributes":{{"TRANSLATION":2}}}}}}}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":1}},"indices":0}}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5121,"count":36,"type":"SCALAR"}},{{{corners},"count":8,"type":"VEC3"}},
+        {{"bufferView":1,"componentType":5126,"count":4,"type":"VEC3"}}],
+        "bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":48}},
+        {{"buffer":0,"byteOffset":84,"byteLength":8}},{{"buffer":0,"byteOffset":{start},"byteLength":{length}{stride}}}],
+        "buffers":[{{"byteLength":{}}}]}}"#,
+        data.len()
+    );
+    glb_of(&json, &data)
+}
+
+#[test]
+fn packed_and_sparse_corners_and_repeated_meshes_are_read() {
+    let options = MeshOptions::default();
+    for is_sparse in [false, true] {
+        let town = read::<GlTf>(&houses(is_sparse, ""), &options).unwrap();
+        assert_eq!(town.obstacles.len(), 4, "{:?}", town.obstacles);
+        let size = |one: &cosfly_town::Obstacle| (2.0 * one.shape.half_extents_m - DVec3::new(8.0, 6.0, 5.0)).abs();
+        assert!(town.obstacles.iter().all(|one| size(one).max_element() < 0.02), "{:?}", town.obstacles);
+    }
+    let required = r#""extensionsRequired":["KHR_draco_mesh_compression"],"#;
+    let refused = read::<GlTf>(&houses(false, required), &options).unwrap_err();
+    assert!(refused.message.contains("KHR_draco_mesh_compression"), "{refused}");
+}
+
+#[test]
+fn drawings_of_other_programs_are_the_same_house() {
+    let corners = "v 0 0 0\nv 20 0 0\nv 20 0 -8\nv 8 0 -8\nv 8 0 -20\nv 0 0 -20\nv 0 9 0\nv 20 9 0\nv 20 9 -8\nv 8 9 -8\nv 8 9 -20\nv 0 9 -20\n";
+    // The first corner of the floor and of the roof is one from which a fan of triangles leaves the house.
+    let walls: String = (1..=6).map(|at| format!("f {at} {} {} {}\n", at % 6 + 1, at % 6 + 7, at + 6)).collect();
+    let house = format!("o House\n{corners}f 6 5 4 3 2 1\nf 8 9 10 11 12 7\n{walls}");
+    let solid = |text: &str| {
+        let town = read::<Obj>(text.as_bytes(), &MeshOptions::default()).unwrap();
+        let cover = BoxBvh::build(town.obstacles.iter().map(|one| one.shape).collect());
+        let is_in = |x: f64, y: f64| {
+            let at = town.origin.offset_m;
+            let point = DVec3::new(x - at.x, -y - at.y, 4.5);
+            cover.nearest(point, 50.0).is_some_and(|near| near.distance_m <= 1e-6)
+        };
+        assert!(town.obstacles.iter().all(|one| one.kind == ObstacleKind::Building));
+        [(4.0, 4.0), (16.0, 4.0), (4.0, 16.0), (14.0, 14.0), (10.0, 10.0)].map(|(x, y)| is_in(x, y))
+    };
+    let expected = [true, true, true, false, false];
+    for (name, text) in [
+        ("plain", house.clone()),
+        ("tabs", house.replace(' ', "\t")),
+        ("indented", format!("  {}", house.replace('\n', "\n  "))),
+        ("continued", house.replace("f 6 5", "f 6 \\\n5")),
+        ("coordinates of pictures first", format!("vt 0 0\nusemtl walls\n{house}")),
+        ("groups", house.replace("o House", "# drawn\ns off\no House\ng Cube")),
+    ] {
+        assert_eq!(solid(&text), expected, "{name}");
+    }
+}

@@ -19,6 +19,7 @@ pub mod solids;
 pub mod terrain;
 pub mod text;
 pub mod town;
+pub mod units;
 pub mod world;
 
 pub use error::{MapError, Place};

@@ -11,7 +11,6 @@ mod layers;
 mod plants;
 mod shapes;
 mod town;
-mod units;
 mod words;
 
 use cosfly_town::{MapError, MapFormat, Town};
@@ -38,10 +37,14 @@ impl MapFormat for CityJson {
         let text = String::from_utf8_lossy(head);
         let text = text.trim_start_matches('\u{feff}').trim_start();
         let Some(members) = text.strip_prefix('{') else { return false };
-        // Members may come in any order; these are first in files of sorted or unsorted members.
+        // Members may come in any order, and the first one may fill the head.
         let first = members.trim_start();
-        let own = ["\"CityObjects\"", "\"appearance\"", "\"geometry-templates\""];
-        own.iter().any(|name| first.starts_with(name)) || text.contains("\"CityJSON\"") || text.contains(own[0])
+        const FIRST: [&str; 4] = ["\"CityObjects\"", "\"appearance\"", "\"geometry-templates\"", "\"vertices\""];
+        const ANYWHERE: [&str; 3] = ["\"CityJSON\"", "\"CityObjects\"", "\"referenceSystem\""];
+        let has_transform = || ["\"transform\"", "\"scale\"", "\"translate\""].iter().all(|name| text.contains(name));
+        FIRST.iter().any(|name| first.starts_with(name))
+            || ANYWHERE.iter().any(|name| text.contains(name))
+            || has_transform()
     }
 
     fn read(bytes: &[u8], _: &CityJsonOptions) -> Result<(Town, Vec<String>), MapError> {

@@ -2,13 +2,15 @@
 
 use super::document::{CityObject, Document, Geometry, Templates, Transform};
 use super::faces::Face;
-use super::units::{epsg_code, unit_m};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::MapError;
+use cosfly_town::units::{epsg_code, unit_m};
 use cosfly_town::world::WorldFromMap;
 
 /// Farthest coordinate, metres.
 const FARTHEST_M: f64 = 1e8;
+/// Maps narrower than this are in degrees: the longest way through a town is a fraction of one.
+const NARROWEST: f64 = 2.0;
 /// Widest map, metres.
 const WIDEST_M: f64 = 100_000.0;
 /// Most faces of one object; a building of the finest level has some ten thousand.
@@ -48,12 +50,12 @@ impl Space {
         let templates = head.templates.take();
         let mut space = Self { transform, unit_m, templates, world: WorldFromMap::default(), reference_system };
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for vertex in documents.iter().flat_map(|document| &document.vertices) {
-            let point = space.in_map(*vertex);
+        for vertex in documents.iter().flat_map(used_vertices) {
+            let point = space.in_map(vertex);
             (low, high) = (low.min(point), high.max(point));
         }
         if !low.is_finite() {
-            return Err(MapError::new("the file has no vertices"));
+            return Err(MapError::new("no object of the file has a shape"));
         }
         let across_m = (high - low).max_element();
         if low.abs().max(high.abs()).max_element() > FARTHEST_M || across_m > WIDEST_M {
@@ -61,8 +63,17 @@ impl Space {
             return Err(error.hint("check `transform` and `vertices`, or cut the map into smaller pieces"));
         }
         let is_geographic = code.is_some_and(|code| (4000..5000).contains(&code));
-        if is_geographic && low.abs().max(high.abs()).truncate().cmple(DVec2::new(360.0, 360.0)).all() {
-            let error = MapError::new("the coordinates are degrees; cosfly needs a projected reference system");
+        let is_tiny = (high - low).truncate().max_element() < NARROWEST;
+        let may_be_degrees = low.abs().max(high.abs()).truncate().cmple(DVec2::splat(360.0)).all();
+        if (is_geographic || is_tiny) && may_be_degrees {
+            let error = MapError::new(if is_geographic {
+                "the coordinates are degrees; cosfly needs a projected reference system".to_owned()
+            } else {
+                format!(
+                    "the map is {:.5} m across: its coordinates seem to be degrees",
+                    (high - low).truncate().max_element()
+                )
+            });
             return Err(error.hint("`cjio FILE reproject EPSG save NEW` projects the map"));
         }
         space.world = WorldFromMap::around([low.truncate(), high.truncate()]);
@@ -128,6 +139,13 @@ impl Space {
             Some(self.world.point(place + self.unit_m * turned(point)))
         });
     }
+}
+
+/// Vertices that a shape has; files cut out of larger ones may keep others.
+fn used_vertices(document: &Document) -> impl Iterator<Item = [f64; 3]> {
+    let geometries = document.objects.values().flat_map(|object| object.geometry.iter().flatten());
+    let corners = geometries.flat_map(|geometry| geometry.boundaries.corners());
+    corners.filter_map(|vertex| document.vertices.get(*vertex as usize).copied())
 }
 
 impl Shape {

@@ -230,11 +230,12 @@ impl Parts {
         if !walkable.iter().any(|polygon| polygon.kind != WalkableKind::Road) {
             notes.push(add_open_ground(&mut walkable, &self.obstacles, &surfaces));
         }
+        let warnings = self.tally.warnings();
         if walkable.is_empty() {
             let error = MapError::new("the map has neither ground for people to walk on nor buildings to walk around");
-            return Err(error.hint("use a file with objects of type `Building` or `Road`"));
+            let error = error.hint("use a file with objects of type `Building` or `Road` that have shapes");
+            return Err(warnings.into_iter().fold(error, MapError::hint));
         }
-        let warnings = self.tally.warnings();
         let town = Town {
             name: "town".to_owned(),
             origin: self.space.world.origin(self.space.reference_system.clone()),

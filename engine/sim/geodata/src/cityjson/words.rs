@@ -54,7 +54,9 @@ const LAMPS: &[&str] = &["lamp", "lantern", "light", "lichtmast"];
 pub(super) fn part_of(kind: &str, attributes: Option<&Attributes>) -> Part {
     let says = |words: &[&str]| attributes.is_some_and(|attributes| says_one_of(attributes, words));
     match kind {
-        "Building" | "BuildingPart" | "BuildingInstallation" | "BuildingUnit" => Part::Building,
+        "Building" | "BuildingPart" | "BuildingInstallation" | "BuildingUnit" | "BuildingConstructiveElement" => {
+            Part::Building
+        }
         "CityFurniture" | "GenericCityObject" | "OtherConstruction" | "+GenericCityObject" => Part::Solid(match () {
             () if says(WALLS) => ObstacleKind::Wall,
             () if says(FENCES) => ObstacleKind::Fence,

@@ -45,8 +45,11 @@ pub struct Buildings {
     pub far: Tally,
 }
 
+/// Values of `building` of what is no building, or not yet, or not any more.
+const NOT_THERE: &[&str] = &["proposed", "planned", "demolished", "destroyed", "razed", "removed", "underground"];
+
 fn is_outline(tags: &Tags) -> bool {
-    tags.has("building")
+    tags.has("building") && !tags.is("building", NOT_THERE)
 }
 
 fn is_part(tags: &Tags) -> bool {
@@ -106,8 +109,8 @@ impl Buildings {
     fn kept<'e>(&mut self, areas: Vec<Area<'e>>, frame: &Frame) -> Vec<Area<'e>> {
         let mut kept = Vec::with_capacity(areas.len());
         for area in areas {
-            if area.tags.is("location", &["underground"]) || area.tags.number("layer").is_some_and(|layer| layer < 0.0)
-            {
+            let below = |key| area.tags.number(key).is_some_and(|number| number < 0.0);
+            if area.tags.is("location", &["underground"]) || below("layer") || below("level") {
                 self.hidden += 1;
             } else if area.outer.iter().any(|corner| frame.holds(*corner, MARGIN_M)) {
                 kept.push(area);

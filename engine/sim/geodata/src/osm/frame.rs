@@ -31,7 +31,9 @@ impl Frame {
     /// # Errors
     /// An extract without nodes, or a very wide one.
     pub fn new(elements: &Elements) -> Result<Self, MapError> {
-        let stated = elements.bounds.filter(Bounds::is_an_area);
+        let has_nodes =
+            |bounds: &Bounds| elements.nodes.is_empty() || elements.nodes.iter().any(|node| bounds.holds(node));
+        let stated = elements.bounds.filter(|bounds| bounds.is_an_area() && has_nodes(bounds));
         let Some(bounds) = stated.or_else(|| most_nodes(&elements.nodes)) else {
             return Err(MapError::new("the file has no nodes with a place")
                 .hint("export an area with its nodes, ways and relations"));
@@ -120,6 +122,11 @@ impl Bounds {
         let [low, high] = [self.low, self.high];
         let is_place = |[lon, lat]: [f64; 2]| lon.abs() <= 180.0 && lat.abs() < 89.0;
         is_place(low) && is_place(high) && low[0] < high[0] && low[1] < high[1]
+    }
+
+    fn holds(&self, node: &Node) -> bool {
+        let at = [node.lon, node.lat].map(|value| f64::from(value) / UNITS_PER_DEGREE);
+        (0..2).all(|axis| (self.low[axis]..=self.high[axis]).contains(&at[axis]))
     }
 }
 

@@ -50,7 +50,7 @@ pub fn heights(tags: &Tags, sides_m: [f64; 2], longer_yaw_rad: f64, options: &Os
     let kind = tags.get("building").or(tags.get("building:part")).unwrap_or_default();
     let within = |height: &f64| (LOWEST_M..=HIGHEST_M).contains(height);
     let stated_m = tags.length_m(&["height", "building:height", "est_height"]).filter(within);
-    let storeys = tags.number("building:levels").filter(|levels| (0.0..=300.0).contains(levels));
+    let storeys = tags.storeys("building:levels").filter(|levels| (0.0..=200.0).contains(levels));
     let shape = RoofShape::of(tags.get("roof:shape").unwrap_or_default());
     let stated_rise_m = stated_rise_m(tags, sides_m, options).filter(|rise| (0.0..=HIGHEST_M).contains(rise));
     let is_rise_guessed = shape != RoofShape::Flat && stated_rise_m.is_none();
@@ -66,7 +66,7 @@ pub fn heights(tags: &Tags, sides_m: [f64; 2], longer_yaw_rad: f64, options: &Os
     let is_default = top_m.is_none();
     let top_m = top_m.unwrap_or_else(default_m);
 
-    let lowest_storey = tags.number("building:min_level").filter(|level| (0.0..=300.0).contains(level));
+    let lowest_storey = tags.number("building:min_level").filter(|level| (0.0..=200.0).contains(level));
     let stated_base_m = tags
         .length_m(&["min_height", "building:min_height"])
         .or(lowest_storey.map(|level| level * options.storey_height_m));

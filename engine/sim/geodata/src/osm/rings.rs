@@ -70,6 +70,8 @@ pub struct Problems {
     pub crossed: Tally,
     /// Rings of too many corners.
     pub too_long: Tally,
+    /// Ends of the coast that were led on to the edge of the extract.
+    pub coast_ends: usize,
     /// The sea cannot be told from the land.
     pub is_coast_open: bool,
 }

@@ -114,6 +114,12 @@ impl Tags {
         number(self.get(key)?.trim())
     }
 
+    /// Number of storeys under a key: of a list or a range (`3;4`, `2-3`) the larger one.
+    pub fn storeys(&self, key: &str) -> Option<f64> {
+        let numbers = self.get(key)?.split([';', '-']).map(|part| number(part.trim()));
+        numbers.reduce(|a, b| Some(a?.max(b?)))?
+    }
+
     /// Whether the thing lies under the ground, or inside a house on another storey.
     pub fn is_hidden(&self) -> bool {
         let below = |key| self.number(key).is_some_and(|number| number < 0.0);
@@ -147,6 +153,10 @@ pub fn length_m(text: &str) -> Option<f64> {
         let inches = inches.trim().trim_end_matches(['"', '″', '”', '\'', '′', '’']).trim();
         let inches = if inches.is_empty() { 0.0 } else { number(inches)? };
         return Some(FOOT_M * (number(feet.trim())? + inches / 12.0));
+    }
+    if let Some((feet, inches)) = text.split_once("ft").filter(|(_, inches)| inches.contains("in")) {
+        let inches = inches.trim_end_matches(|c: char| !c.is_ascii_digit());
+        return Some(FOOT_M * (number(feet.trim())? + number(inches.trim())? / 12.0));
     }
     let split = text.find(|c: char| !(c.is_ascii_digit() || "+-.,".contains(c))).unwrap_or(text.len());
     let (value, unit) = text.split_at(split);
@@ -190,6 +200,8 @@ mod tests {
             ("40 ft", 12.192),
             ("12'6\"", 3.81),
             ("12′ 6″", 3.81),
+            ("12ft 6in", 3.81),
+            ("12 ft 6 inches", 3.81),
             ("0.5 km", 500.0),
             ("250 cm", 2.5),
             ("~7", 7.0),
@@ -202,6 +214,17 @@ mod tests {
         }
         for text in ["", "high", "NaN", "inf", "1e9", "3 storeys", "m", "'", "--", "1.2.3"] {
             assert_eq!(length_m(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn storeys_are_the_larger_end_of_a_range_or_list() {
+        for (text, storeys) in
+            [("3", Some(3.0)), ("3.5", Some(3.5)), ("3;4", Some(4.0)), ("2-3", Some(3.0)), ("five", None), ("-1", None)]
+        {
+            let mut tags = Tags::default();
+            tags.add("building:levels", text);
+            assert_eq!(tags.storeys("building:levels"), storeys, "{text}");
         }
     }
 

@@ -282,6 +282,28 @@ fn a_gate_and_a_path_open_a_wall() {
 }
 
 #[test]
+fn what_is_not_there_or_below_the_ground_is_no_building() {
+    for (tags, expected) in [
+        ([("building", "yes"), ("level", "0")], 1),
+        ([("building", "yes"), ("level", "-2")], 0),
+        ([("building", "yes"), ("layer", "-1")], 0),
+        ([("building", "demolished"), ("height", "9")], 0),
+        ([("building", "construction"), ("height", "9")], 1),
+    ] {
+        let street = way(9, &[1, 3], &[("highway", "footway")]);
+        let (town, _) = read(osm(&SQUARE, &(way(8, &RING, &tags) + &street)).as_bytes()).unwrap();
+        assert_eq!(town.obstacles.len(), expected, "{tags:?}");
+    }
+}
+
+#[test]
+fn bounds_that_hold_no_node_are_those_of_another_place() {
+    let text = osm(&SQUARE, &way(8, &RING, &[("building", "yes")])).replace(" lon=\"0", " lon=\"10");
+    let (town, _) = read(text.as_bytes()).unwrap();
+    assert_eq!(town.obstacles.len(), 1);
+}
+
+#[test]
 fn hostile_files_are_refused_with_a_reason() {
     let check = |bytes: &[u8], expected: &str| {
         let error = read(bytes).unwrap_err().to_string();

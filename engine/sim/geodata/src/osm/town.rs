@@ -98,8 +98,9 @@ fn add_ground(elements: &Elements, frame: &Frame, meshes: &mut MeshBuilder, prob
     for area in areas(elements, frame, is_water, problems) {
         paths::add_ground(meshes, SemanticLabel::Water, &area, frame, WATER_HEIGHT_M);
     }
-    match sea::rings(elements, frame) {
-        Some(rings) => {
+    match sea::sea(elements, frame) {
+        Some(sea::Sea { rings, led_on }) => {
+            problems.coast_ends = led_on;
             let rings: Vec<&[DVec2]> = rings.iter().map(Vec::as_slice).collect();
             for piece in trapezoids(&rings).unwrap_or_default() {
                 paths::add_trapezoid(meshes, SemanticLabel::Water, &piece, WATER_HEIGHT_M);
@@ -187,6 +188,9 @@ fn warnings(elements: &Elements, problems: &Problems, buildings: &buildings::Bui
         problems.too_long.line("rings have too many corners and are left out"),
         buildings.far.line("buildings lie far outside the bounds of the file and are left out"),
         hidden,
+        (problems.coast_ends > 0).then(|| {
+            format!("{} ends of the coastline are led straight on to the edge of the extract", problems.coast_ends)
+        }),
         problems.is_coast_open.then(|| "the coastline ends within the extract: the sea is left out".to_owned()),
     ]
     .into_iter()

@@ -122,7 +122,7 @@ impl<'a> Site<'a> {
     /// Columns on a grid of a direction.
     fn columns(&self, yaw_rad: f64) -> Raster {
         let (cloud, cell_m) = (self.survey.cloud, self.survey.grid.cell_m);
-        let grid = Grid::around(plan_of(cloud, &self.roof), cell_m, yaw_rad);
+        let grid = Grid::flush(plan_of(cloud, &self.roof), cell_m, yaw_rad);
         let mut roof: Vec<Option<Column>> = vec![None; grid.cells()];
         for point in &self.roof {
             let at = cloud.point(*point);

@@ -23,22 +23,58 @@ const ROOF_DEPTH_M: f64 = 1.0;
 const EDGE_STEP: f64 = 1.0;
 /// Share of smooth cells around a cell of a roof.
 const SMOOTH_SHARE: f64 = 0.5;
+/// Share of all points that must be of a class for it to count.
+const LEAST_SHARE: f64 = 0.001;
 /// Smallest roof, square metres.
 const SMALLEST_ROOF_M2: f64 = 16.0;
 
-/// Whether the file says which points are buildings or plants.
-pub fn is_classified(cloud: &Cloud) -> bool {
-    let known = |class: &u8| *class == class::BUILDING || class::PLANTS.contains(class);
-    let count = cloud.classes.par_iter().filter(|class| known(class)).count();
-    count > 0 && count as f64 >= 0.001 * cloud.len() as f64
+/// What the classes of a file leave open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknown {
+    /// Which points are buildings and which plants.
+    Both,
+    /// Which unclassified points are buildings.
+    Buildings,
+    /// Which unclassified points are plants.
+    Plants,
+}
+
+impl Unknown {
+    /// What the classes of a cloud leave open; none where both are there.
+    pub fn of(cloud: &Cloud) -> Option<Self> {
+        let has = |known: fn(&u8) -> bool| {
+            let count = cloud.classes.par_iter().filter(|class| known(class)).count();
+            count > 0 && count as f64 >= LEAST_SHARE * cloud.len() as f64
+        };
+        match (has(|class| *class == class::BUILDING), has(|class| class::PLANTS.contains(class))) {
+            (true, true) => None,
+            (true, false) => Some(Self::Plants),
+            (false, true) => Some(Self::Buildings),
+            (false, false) => Some(Self::Both),
+        }
+    }
+
+    /// Whether a point of a class may be of the unknown ones.
+    fn is_open(self, class: u8) -> bool {
+        if self == Self::Both { !is_ground(class) } else { class == class::UNCLASSIFIED }
+    }
+
+    fn note(self) -> String {
+        match self {
+            Self::Both => "buildings and plants are told apart by their shape: the cloud has no points of their classes",
+            Self::Buildings => "unclassified points in smooth roofs are buildings: the cloud has no points of their class",
+            Self::Plants => "unclassified points above 2 m and in no smooth roof are plants: the cloud has no points of their classes",
+        }
+        .to_owned()
+    }
 }
 
 /// Gives unclassified points high above the ground the class of buildings or of plants; says so in words.
-pub fn estimate(cloud: &mut Cloud, sorted: &Sorted, relief: &Relief) -> String {
+pub fn estimate(cloud: &mut Cloud, sorted: &Sorted, relief: &Relief, unknown: Unknown) -> String {
     let widest_m = ((cloud.bounds[1] - cloud.bounds[0]).element_product() / MOST_CELLS).sqrt();
     let grid = grid_of(cloud, coarse_enough(cloud, (2.0 * sorted.grid.cell_m).max(NARROWEST_CELL_M).max(widest_m)));
     let is_high_point = |point: usize, at: DVec3| {
-        !is_ground(cloud.classes[point]) && at.z - relief.height_m(at.truncate()) > LOWEST_ROOF_M
+        unknown.is_open(cloud.classes[point]) && at.z - relief.height_m(at.truncate()) > LOWEST_ROOF_M
     };
     let top_m = sorted.gathered(cloud, &grid, f64::NEG_INFINITY, |top_m, point, at| {
         if is_high_point(point, at) {
@@ -76,14 +112,20 @@ pub fn estimate(cloud: &mut Cloud, sorted: &Sorted, relief: &Relief) -> String {
         let is_low = at.z - relief.height_m(at.truncate()) <= LOWEST_ROOF_M;
         match cloud.classes[point] {
             known if is_ground(known) || known == class::BRIDGE => known,
-            known if is_low => known,
-            _ if part[cell] != 0 && sizes[part[cell] as usize] as f64 >= least => class::BUILDING,
-            _ => class::HIGH_PLANTS,
+            known if is_low || !unknown.is_open(known) => known,
+            open => {
+                let is_roof = part[cell] != 0 && sizes[part[cell] as usize] as f64 >= least;
+                match unknown {
+                    Unknown::Both | Unknown::Buildings if is_roof => class::BUILDING,
+                    Unknown::Both | Unknown::Plants if !is_roof => class::HIGH_PLANTS,
+                    _ => open,
+                }
+            }
         }
     };
     let classes = (0..cloud.len()).into_par_iter().map(class_of).collect();
     cloud.classes = classes;
-    "buildings and plants are told apart by their shape: the cloud has no points of their classes".to_owned()
+    unknown.note()
 }
 
 /// Cells of which points lie in one plane with those around, or with those around a neighbour.

@@ -20,6 +20,7 @@ pub use options::CloudOptions;
 pub use points::{Cloud, CloudBuilder, class};
 
 use crate::open_ground::open_ground;
+use classify::Unknown;
 use cosfly_frames::DVec2;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
@@ -42,8 +43,8 @@ pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<St
         notes.push(ground::estimate(&mut cloud, &sorted));
     }
     let relief = ground::relief(&cloud, &sorted);
-    if !classify::is_classified(&cloud) {
-        notes.push(classify::estimate(&mut cloud, &sorted, &relief));
+    if let Some(unknown) = Unknown::of(&cloud) {
+        notes.push(classify::estimate(&mut cloud, &sorted, &relief, unknown));
     }
     let survey = Survey::new(&cloud, relief, sorted, spacing_m, options.step_m);
     let mut obstacles = Vec::new();

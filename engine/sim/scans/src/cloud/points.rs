@@ -29,6 +29,11 @@ pub mod class {
     pub const HIGH_NOISE: u8 = 18;
 }
 
+/// What to do with coordinates in degrees.
+pub const PROJECT_FIRST: &str =
+    "project the cloud first, for instance with `pdal translate` and `filters.reprojection`";
+/// Narrower clouds may be in degrees.
+const NARROWEST: f64 = 2.0;
 /// Widest cloud, metres.
 const WIDEST_M: f64 = 20_000.0;
 /// Largest coordinate, metres.
@@ -119,6 +124,7 @@ impl CloudBuilder {
                 MapError::new(message).hint("cut the cloud into tiles, or give the length of its unit with `unit_m`")
             );
         }
+        self.refuse_degrees([low, high])?;
         if self.absurd > 0 {
             warnings.push(format!("{} points without finite coordinates on Earth were left out", self.absurd));
         }
@@ -139,6 +145,23 @@ impl CloudBuilder {
             geo_reference,
             warnings,
         })
+    }
+}
+
+impl CloudBuilder {
+    /// # Errors
+    /// Coordinates that are degrees beside heights in metres: a cloud much higher than it is wide.
+    fn refuse_degrees(&self, [low, high]: [DVec2; 2]) -> Result<(), MapError> {
+        let across = (high - low).max_element();
+        let far = low.abs().max(high.abs()).max_element();
+        let heights = || self.positions.par_iter().map(|[.., z]| *z);
+        let up = || heights().reduce(|| f32::NEG_INFINITY, f32::max) - heights().reduce(|| f32::INFINITY, f32::min);
+        if across >= NARROWEST || far > 360.0 || f64::from(up()) < 2.0 * across.max(0.5) {
+            return Ok(());
+        }
+        let message =
+            format!("the cloud is {across:.5} across and {:.0} high: its coordinates seem to be degrees", up());
+        Err(MapError::new(message).hint(PROJECT_FIRST))
     }
 }
 

@@ -1,5 +1,6 @@
 //! [`Document`]: the parts of a glTF file that shapes need. Every index and every range is checked where it is used.
 
+use super::accessors::{Accessor, Instances, View};
 use crate::bytes::Bytes;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -15,8 +16,8 @@ pub const MAGIC: &[u8] = b"glTF";
 /// Marks of its two chunks.
 const TEXT_CHUNK: u32 = 0x4E4F_534A;
 const DATA_CHUNK: u32 = 0x004E_4942;
-/// Kinds of numbers.
-const REAL: u32 = 5126;
+/// Extensions that keep shapes in a packing of their own.
+const PACKINGS: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
 
 /// A file.
 #[derive(Debug, Default, Deserialize)]
@@ -26,15 +27,16 @@ pub struct Document {
     scenes: Vec<Scene>,
     nodes: Vec<Node>,
     meshes: Vec<Mesh>,
-    accessors: Vec<Accessor>,
-    buffer_views: Vec<View>,
+    pub(super) accessors: Vec<Accessor>,
+    pub(super) buffer_views: Vec<View>,
     buffers: Vec<Buffer>,
     materials: Vec<Material>,
     textures: Vec<Texture>,
     images: Vec<Image>,
+    extensions_required: Vec<String>,
     /// Bytes of the buffers.
     #[serde(skip)]
-    data: Vec<Vec<u8>>,
+    pub(super) data: Vec<Vec<u8>>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -57,6 +59,7 @@ pub struct Node {
     translation: Option<[f64; 3]>,
     rotation: Option<[f64; 4]>,
     scale: Option<[f64; 3]>,
+    pub(super) extensions: NodeExtensions,
 }
 
 impl Node {
@@ -71,6 +74,13 @@ impl Node {
             ),
         }
     }
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct NodeExtensions {
+    #[serde(rename = "EXT_mesh_gpu_instancing")]
+    pub(super) instances: Option<Instances>,
 }
 
 /// Shapes that belong together.
@@ -146,27 +156,6 @@ struct Image {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
-struct Accessor {
-    buffer_view: Option<usize>,
-    byte_offset: usize,
-    component_type: u32,
-    count: usize,
-    #[serde(rename = "type")]
-    kind: String,
-    sparse: Option<serde::de::IgnoredAny>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-struct View {
-    buffer: usize,
-    byte_offset: usize,
-    byte_length: usize,
-    byte_stride: Option<usize>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
 struct Buffer {
     uri: Option<String>,
     byte_length: usize,
@@ -185,6 +174,10 @@ impl Document {
                 if error.is_eof() { "the file seems to be cut off: export it again" } else { "glTF 2.0 is read" };
             MapError::new(format!("the glTF file cannot be read: {error}")).hint(hint)
         })?;
+        if let Some(packing) = document.extensions_required.iter().find(|name| PACKINGS.contains(&name.as_str())) {
+            let error = MapError::new(format!("the meshes are compressed by `{packing}`, which is not read"));
+            return Err(error.hint("export the file without compression of meshes"));
+        }
         let buffers = std::mem::take(&mut document.buffers);
         let data = buffers.into_iter().enumerate().map(|(index, buffer)| buffer.bytes(index, blob));
         document.data = data.collect::<Result<_, _>>()?;
@@ -219,46 +212,6 @@ impl Document {
         self.meshes.get(index)
     }
 
-    fn viewed(&self, view: &View) -> Option<&[u8]> {
-        self.data.get(view.buffer)?.get(view.byte_offset..)?.get(..view.byte_length)
-    }
-
-    /// Bytes of each element of an accessor; none where it is sparse or reaches beyond its data.
-    fn elements(&self, accessor: &Accessor, bytes: usize) -> Option<impl Iterator<Item = &[u8]>> {
-        let view = self.buffer_views.get(accessor.buffer_view.filter(|_| accessor.sparse.is_none())?)?;
-        let data = self.viewed(view)?.get(accessor.byte_offset..)?;
-        let stride = view.byte_stride.unwrap_or(bytes).max(bytes);
-        let end = accessor.count.checked_sub(1)?.checked_mul(stride)?.checked_add(bytes)?;
-        (end <= data.len()).then(|| (0..accessor.count).map(move |at| &data[at * stride..][..bytes]))
-    }
-
-    /// Points of an accessor.
-    pub fn positions(&self, accessor: usize) -> Option<Vec<DVec3>> {
-        let accessor = self.accessors.get(accessor)?;
-        if accessor.component_type != REAL || accessor.kind != "VEC3" {
-            return None;
-        }
-        let number = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]).into();
-        let points = self.elements(accessor, 12)?;
-        Some(points.map(|own| DVec3::new(number(own), number(&own[4..]), number(&own[8..]))).collect())
-    }
-
-    /// Texture coordinates of an accessor: from the left and from the top, 0 to 1 over the picture.
-    pub fn texture_coordinates(&self, accessor: usize) -> Option<Vec<[f32; 2]>> {
-        let accessor = self.accessors.get(accessor)?;
-        if accessor.kind != "VEC2" {
-            return None;
-        }
-        let short = |bytes: &[u8]| f32::from(u16::from_le_bytes([bytes[0], bytes[1]])) / 65535.0;
-        let real = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
-        Some(match accessor.component_type {
-            5121 => self.elements(accessor, 2)?.map(|own| [0, 1].map(|k| f32::from(own[k]) / 255.0)).collect(),
-            5123 => self.elements(accessor, 4)?.map(|own| [0, 2].map(|k| short(&own[k..]))).collect(),
-            REAL => self.elements(accessor, 8)?.map(|own| [0, 4].map(|k| real(&own[k..]))).collect(),
-            _ => return None,
-        })
-    }
-
     /// A material.
     pub fn material(&self, index: usize) -> Option<&Material> {
         self.materials.get(index)
@@ -286,19 +239,6 @@ impl Document {
             MapError::new(message).hint("the file seems to be cut off: export it again")
         };
         found.transpose()?.flatten().ok_or_else(missing)
-    }
-
-    /// Numbers of corners of an accessor.
-    pub fn indices(&self, accessor: usize) -> Option<Vec<u32>> {
-        let accessor = self.accessors.get(accessor)?;
-        let bytes = match accessor.component_type {
-            5121 => 1,
-            5123 => 2,
-            5125 => 4,
-            _ => return None,
-        };
-        let number = |own: &[u8]| own.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte));
-        Some(self.elements(accessor, bytes)?.map(number).collect())
     }
 }
 

@@ -1,5 +1,6 @@
 //! `glTF`: meshes of glTF 2.0, as text with embedded data (`.gltf`) or binary (`.glb`), by the names of nodes.
 
+mod accessors;
 pub mod document;
 
 use crate::mesh::{MeshOptions, PartBuilder, town_of};
@@ -42,7 +43,7 @@ impl MapFormat for GlTf {
         let mut warnings = reader.parts.warnings();
         if reader.skipped > 0 {
             warnings.push(format!(
-                "{} meshes were left out: points or lines, compressed or sparse data, or data beyond the end of the file",
+                "{} meshes were left out: points or lines, compressed data, or data beyond the end of the file",
                 reader.skipped
             ));
         }
@@ -106,7 +107,12 @@ fn shapes_below(
     let mesh = node.mesh.and_then(|mesh| document.mesh(mesh));
     let names = [node.name.as_deref(), mesh.and_then(|mesh| mesh.name.as_deref())];
     let name = names.into_iter().flatten().find(|name| !name.is_empty()).unwrap_or(name_above);
-    mesh.iter().flat_map(|mesh| &mesh.primitives).try_for_each(|shape| visit(name, &matrix, shape))?;
+    if let Some(mesh) = mesh {
+        for place in document.places(node)? {
+            let matrix = matrix * place;
+            mesh.primitives.iter().try_for_each(|shape| visit(name, &matrix, shape))?;
+        }
+    }
     let mut below = node.children.iter();
     below.try_for_each(|child| shapes_below(document, nodes, (*child, depth + 1), matrix, name, visit))
 }

@@ -70,9 +70,10 @@ impl<'a> Header<'a> {
                 "the scale is {scale} and the offset {offset}; they must be finite and the scale above 0"
             )));
         }
+        let old_count = bytes.u32(107, "the number of points")?.into();
         let points = match minor {
-            4 => bytes.u64(247, "the number of points")?,
-            _ => bytes.u32(107, "the number of points")?.into(),
+            4 => Some(bytes.u64(247, "the number of points")?).filter(|count| *count > 0).unwrap_or(old_count),
+            _ => old_count,
         };
         let mut header = Self {
             bytes,

@@ -73,9 +73,15 @@ impl Record {
         // Formats 6 to 10 have a byte of flags and a byte for the class, older ones share one.
         const WITHHELD: [u8; 2] = [1 << 7, 1 << 2];
         const OVERLAP: u8 = 12;
+        // Older formats have a class for ground that a coarse model keeps.
+        const KEY_POINT: u8 = 8;
         let class = if is_long { bytes[16] } else { bytes[15] & 31 };
         let is_kept = bytes[15] & WITHHELD[usize::from(is_long)] == 0 && class != OVERLAP;
-        let class = if class == 0 { class::UNCLASSIFIED } else { class };
+        let class = match class {
+            0 => class::UNCLASSIFIED,
+            KEY_POINT if !is_long => class::GROUND,
+            other => other,
+        };
         Self { position: [number(0), number(4), number(8)], class, is_kept }
     }
 }

@@ -2,7 +2,8 @@
 
 use super::header::Header;
 use super::wkt::{self, Units};
-use cosfly_town::MapError;
+use crate::cloud::points::PROJECT_FIRST;
+use cosfly_town::{MapError, units};
 
 /// User of the records about the projection.
 const USER: &str = "LASF_Projection";
@@ -52,9 +53,7 @@ impl Projection {
         };
         if units.is_geographic {
             let error = MapError::new("the coordinates of the cloud are degrees of longitude and latitude");
-            return Err(
-                error.hint("project the cloud first, for instance with `pdal translate` and `filters.reprojection`")
-            );
+            return Err(error.hint(PROJECT_FIRST));
         }
         Ok(Self { units, text: text.or_else(|| keys.name()) })
     }
@@ -132,10 +131,9 @@ impl<'a> Keys<'a> {
             if is_survey_foot { Some(SURVEY_FOOT_M) } else { is_foot.then_some(FOOT_M) }
         };
         let stated_m = || self.real(PLAN_UNIT_M).filter(|length| (1e-6..=1000.0).contains(length));
-        // A code without a unit is that of a projection in metres, but for the names that say feet.
-        let has_code = || self.code(PLAN_CODE).filter(|code| *code != NO_CODE).map(|_| 1.0);
+        let of_code = || self.code(PLAN_CODE).filter(|code| *code != NO_CODE).map(|code| units::unit_m(code.into()));
         Units {
-            plan_m: self.code(PLAN_UNIT).and_then(unit_m).or_else(stated_m).or_else(named).or_else(has_code),
+            plan_m: self.code(PLAN_UNIT).and_then(unit_m).or_else(stated_m).or_else(named).or_else(of_code),
             height_m: self.code(HEIGHT_UNIT).and_then(unit_m),
             is_geographic: self.code(MODEL) == Some(ANGLES),
         }
@@ -154,5 +152,18 @@ fn unit_m(code: u16) -> Option<f64> {
         9002 => Some(FOOT_M),
         9003 => Some(SURVEY_FOOT_M),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_code_alone_tells_the_unit() {
+        for (code, unit) in [(2263, SURVEY_FOOT_M), (2222, FOOT_M), (2154, 1.0)] {
+            let keys = Keys { keys: vec![[PLAN_CODE, 0, 1, code]], ..Keys::default() };
+            assert_eq!(keys.units().plan_m, Some(unit), "{code}");
+        }
     }
 }

@@ -32,7 +32,8 @@ pub fn units(text: &str) -> Units {
             b'[' | b'(' if open.len() < DEEPEST => {
                 let word = before.rsplit([',', ' ', '\n', '\r', '\t']).next().unwrap_or_default().to_ascii_uppercase();
                 has_projection |= matches!(word.as_str(), "PROJCS" | "PROJCRS" | "PROJECTEDCRS");
-                is_angular |= matches!(word.as_str(), "GEOGCS" | "GEOGCRS" | "GEODCRS");
+                is_angular |=
+                    matches!(word.as_str(), "GEOGCS" | "GEOGCRS" | "GEODCRS" | "GEOGRAPHICCRS" | "GEODETICCRS");
                 if matches!(word.as_str(), "UNIT" | "LENGTHUNIT") {
                     note(&mut found, &open, length_m(after));
                 }

@@ -33,7 +33,7 @@ const MOST_BOXES: usize = 500_000;
 pub fn town_of(
     mut parts: Vec<Part>,
     options: &MeshOptions,
-    warnings: Vec<String>,
+    mut warnings: Vec<String>,
 ) -> Result<(Town, Vec<String>), MapError> {
     parts.retain(|part| !part.triangles.is_empty());
     if parts.is_empty() {
@@ -50,6 +50,14 @@ pub fn town_of(
             (high - low).max_element()
         ));
         return Err(error.hint("give the length of the file's unit with `unit_m`: 0.01 for centimetres"));
+    }
+    let size = high - low;
+    if size.z > size.truncate().min_element() {
+        let narrow_m = size.truncate().min_element();
+        warnings.push(format!(
+            "the scene is {:.0} m high and {narrow_m:.0} m wide: check `up_axis`, the axis of the file that points up",
+            size.z
+        ));
     }
     let mut notes = Vec::new();
     let things = names::things(parts, &mut notes);

@@ -49,6 +49,9 @@ const WORDS: &[(&[&str], Thing)] = &[
 /// A part without a telling name is ground when it is wider than this share of the scene and flatter than this share of its width.
 const GROUND_WIDTH_SHARE: f64 = 0.6;
 const GROUND_HEIGHT_SHARE: f64 = 0.05;
+/// A part without a telling name is ground, too, when it is as flat as this and lies as low over the scene's lowest point, metres.
+const FLAT_M: f64 = 0.3;
+const LOW_M: f64 = 0.5;
 /// Smallest building, height and width, metres.
 const SMALLEST_BUILDING_M: [f64; 2] = [2.5, 3.0];
 
@@ -67,7 +70,7 @@ pub fn things(parts: Vec<Part>, notes: &mut Vec<String>) -> Vec<(Thing, Part)> {
             Some(solid) => things.extend(part.connected().into_iter().map(|one| (solid, one))),
             None => {
                 for one in part.connected() {
-                    let thing = by_size(&one, high - low);
+                    let thing = by_size(&one, low, high - low);
                     grounds += usize::from(matches!(thing, Thing::Ground(..)));
                     things.push((thing, one));
                 }
@@ -75,7 +78,7 @@ pub fn things(parts: Vec<Part>, notes: &mut Vec<String>) -> Vec<(Thing, Part)> {
         }
     }
     if grounds > 0 {
-        notes.push(format!("{grounds} wide flat meshes are taken as the ground: their names say nothing"));
+        notes.push(format!("{grounds} flat meshes are taken as the ground: their names say nothing"));
     }
     things
 }
@@ -85,10 +88,14 @@ fn by_name(name: &str) -> Option<Thing> {
     WORDS.iter().find(|(words, _)| words.iter().any(|word| name.contains(word))).map(|(_, thing)| *thing)
 }
 
-fn by_size(part: &Part, scene: DVec3) -> Thing {
+fn by_size(part: &Part, lowest: DVec3, scene: DVec3) -> Thing {
     let (low, high) = bounds(part.vertices.iter());
     let size = high - low;
     let (widest, scene_width) = (size.truncate().max_element(), scene.truncate().max_element());
+    let lies_low = size.z <= FLAT_M && high.z - lowest.z <= LOW_M;
+    if lies_low && size.truncate().min_element() > size.z {
+        return Thing::Ground(SemanticLabel::Terrain, false);
+    }
     if size.truncate().min_element() >= GROUND_WIDTH_SHARE * scene.truncate().min_element().min(scene_width)
         && size.z <= GROUND_HEIGHT_SHARE * widest
     {

@@ -6,7 +6,7 @@ const FOOT_M: f64 = 0.3048;
 const SURVEY_FOOT_M: f64 = 1200.0 / 3937.0;
 
 /// The code in a text such as `https://www.opengis.net/def/crs/EPSG/0/7415` or `urn:ogc:def:crs:EPSG::28992`.
-pub(super) fn epsg_code(reference_system: &str) -> Option<u32> {
+pub fn epsg_code(reference_system: &str) -> Option<u32> {
     let (_, behind) = reference_system.split_once("EPSG")?;
     // A compound system lists the plan first.
     let first = behind.split(',').next()?;
@@ -14,7 +14,7 @@ pub(super) fn epsg_code(reference_system: &str) -> Option<u32> {
 }
 
 /// Length of the unit, metres; 1 for codes in neither table.
-pub(super) fn unit_m(code: u32) -> f64 {
+pub fn unit_m(code: u32) -> f64 {
     let is_in =
         |table: &[(u16, u16)]| table.iter().any(|(low, high)| (u32::from(*low)..=u32::from(*high)).contains(&code));
     match () {

@@ -1,0 +1,187 @@
+//! Accessors of a glTF file: numbers in its buffers, plain, packed or sparse. Every index and every range is checked.
+
+use super::document::{Document, Node};
+use crate::scalar::Scalar;
+use cosfly_frames::DVec3;
+use cosfly_town::MapError;
+use glam::{DMat4, DQuat};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// Real numbers of 4 bytes.
+const REAL: u32 = 5126;
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+pub(super) struct Accessor {
+    buffer_view: Option<usize>,
+    byte_offset: usize,
+    component_type: u32,
+    count: usize,
+    normalized: bool,
+    #[serde(rename = "type")]
+    kind: String,
+    sparse: Option<Sparse>,
+}
+
+/// Elements that differ from those of the buffer view, or from zero.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Sparse {
+    count: usize,
+    indices: Place,
+    values: Place,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct Place {
+    buffer_view: usize,
+    byte_offset: usize,
+    component_type: u32,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+pub(super) struct View {
+    buffer: usize,
+    byte_offset: usize,
+    byte_length: usize,
+    byte_stride: Option<usize>,
+}
+
+/// Accessors of the places of a mesh that stands in many.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Instances {
+    attributes: BTreeMap<String, usize>,
+}
+
+impl Document {
+    /// Bytes of a view.
+    pub(super) fn viewed(&self, view: &View) -> Option<&[u8]> {
+        self.data.get(view.buffer)?.get(view.byte_offset..)?.get(..view.byte_length)
+    }
+
+    /// Bytes of each element of an accessor; none where it is sparse or reaches beyond its data.
+    fn elements(&self, accessor: &Accessor, bytes: usize) -> Option<impl Iterator<Item = &[u8]>> {
+        let view = accessor.buffer_view.filter(|_| accessor.sparse.is_none())?;
+        self.elements_of(view, accessor.byte_offset, accessor.count, bytes)
+    }
+
+    fn elements_of(
+        &self,
+        view: usize,
+        offset: usize,
+        count: usize,
+        bytes: usize,
+    ) -> Option<impl Iterator<Item = &[u8]>> {
+        let view = self.buffer_views.get(view)?;
+        let data = self.viewed(view)?.get(offset..)?;
+        let stride = view.byte_stride.unwrap_or(bytes).max(bytes);
+        let end = count.checked_sub(1)?.checked_mul(stride)?.checked_add(bytes)?;
+        (end <= data.len()).then(|| (0..count).map(move |at| &data[at * stride..][..bytes]))
+    }
+
+    /// Elements of `N` numbers, plain or sparse.
+    fn vectors<const N: usize>(&self, accessor: usize, kind: &str) -> Option<Vec<[f64; N]>> {
+        let accessor = self.accessors.get(accessor).filter(|accessor| accessor.kind == kind)?;
+        let scalar = scalar(accessor.component_type)?;
+        let most = match (accessor.normalized, scalar) {
+            (true, Scalar::Signed(bytes)) => (1_u64 << (8 * bytes - 1)) as f64 - 1.0,
+            (true, Scalar::Unsigned(bytes)) => (1_u64 << (8 * bytes)) as f64 - 1.0,
+            _ => 1.0,
+        };
+        let number = |own: &[u8], at: usize| {
+            let number = scalar.read(&own[at * scalar.bytes()..], false).unwrap_or(f64::NAN) / most;
+            if accessor.normalized { number.max(-1.0) } else { number }
+        };
+        let vector = |own: &[u8]| core::array::from_fn(|at| number(own, at));
+        let bytes = N * scalar.bytes();
+        let mut all: Vec<[f64; N]> = match accessor.buffer_view {
+            Some(view) => self.elements_of(view, accessor.byte_offset, accessor.count, bytes)?.map(vector).collect(),
+            // Zeros cost a file nothing: it must have as many bytes.
+            None if accessor.count <= self.data.iter().map(Vec::len).sum() => vec![[0.0; N]; accessor.count],
+            None => return None,
+        };
+        if let Some(Sparse { count, indices, values }) = &accessor.sparse {
+            let index = scalar_of_index(indices.component_type)?;
+            let places = self.elements_of(indices.buffer_view, indices.byte_offset, *count, index.bytes())?;
+            let values = self.elements_of(values.buffer_view, values.byte_offset, *count, bytes)?;
+            for (place, own) in places.zip(values) {
+                *all.get_mut(index.read(place, false)? as usize)? = vector(own);
+            }
+        }
+        Some(all)
+    }
+
+    /// Points of an accessor, of real or of packed numbers.
+    pub fn positions(&self, accessor: usize) -> Option<Vec<DVec3>> {
+        Some(self.vectors(accessor, "VEC3")?.into_iter().map(DVec3::from_array).collect())
+    }
+
+    /// From the places of a node's mesh to the node: one, or those of `EXT_mesh_gpu_instancing`.
+    ///
+    /// # Errors
+    /// Places that the file does not hold.
+    pub fn places(&self, node: &Node) -> Result<Vec<DMat4>, MapError> {
+        let Some(Instances { attributes }) = &node.extensions.instances else { return Ok(vec![DMat4::IDENTITY]) };
+        let missing = || MapError::new("the places of a mesh that stands in many are not all in the file");
+        let shifts = attributes.get("TRANSLATION").map(|at| self.vectors::<3>(*at, "VEC3").ok_or_else(missing));
+        let turns = attributes.get("ROTATION").map(|at| self.vectors::<4>(*at, "VEC4").ok_or_else(missing));
+        let scales = attributes.get("SCALE").map(|at| self.vectors::<3>(*at, "VEC3").ok_or_else(missing));
+        let (shifts, turns, scales) = (shifts.transpose()?, turns.transpose()?, scales.transpose()?);
+        let counts = [shifts.as_ref().map(Vec::len), turns.as_ref().map(Vec::len), scales.as_ref().map(Vec::len)];
+        let count = counts.into_iter().flatten().min().unwrap_or(0);
+        let place = |at: usize| {
+            DMat4::from_scale_rotation_translation(
+                scales.as_ref().map_or(DVec3::ONE, |all| DVec3::from_array(all[at])),
+                turns.as_ref().map_or(DQuat::IDENTITY, |all| DQuat::from_array(all[at])),
+                shifts.as_ref().map_or(DVec3::ZERO, |all| DVec3::from_array(all[at])),
+            )
+        };
+        Ok((0..count).map(place).collect())
+    }
+
+    /// Texture coordinates of an accessor: from the left and from the top, 0 to 1 over the picture.
+    pub fn texture_coordinates(&self, accessor: usize) -> Option<Vec<[f32; 2]>> {
+        let accessor = self.accessors.get(accessor)?;
+        if accessor.kind != "VEC2" {
+            return None;
+        }
+        let short = |bytes: &[u8]| f32::from(u16::from_le_bytes([bytes[0], bytes[1]])) / 65535.0;
+        let real = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
+        Some(match accessor.component_type {
+            5121 => self.elements(accessor, 2)?.map(|own| [0, 1].map(|k| f32::from(own[k]) / 255.0)).collect(),
+            5123 => self.elements(accessor, 4)?.map(|own| [0, 2].map(|k| short(&own[k..]))).collect(),
+            REAL => self.elements(accessor, 8)?.map(|own| [0, 4].map(|k| real(&own[k..]))).collect(),
+            _ => return None,
+        })
+    }
+
+    /// Numbers of corners of an accessor.
+    pub fn indices(&self, accessor: usize) -> Option<Vec<u32>> {
+        let accessor = self.accessors.get(accessor)?;
+        let scalar = scalar_of_index(accessor.component_type)?;
+        let numbers = self.elements(accessor, scalar.bytes())?;
+        numbers.map(|own| scalar.read(own, false).map(|number| number as u32)).collect()
+    }
+}
+
+fn scalar(component_type: u32) -> Option<Scalar> {
+    Some(match component_type {
+        5120 => Scalar::Signed(1),
+        5122 => Scalar::Signed(2),
+        REAL => Scalar::Real(4),
+        _ => return scalar_of_index(component_type),
+    })
+}
+
+fn scalar_of_index(component_type: u32) -> Option<Scalar> {
+    Some(match component_type {
+        5121 => Scalar::Unsigned(1),
+        5123 => Scalar::Unsigned(2),
+        5125 => Scalar::Unsigned(4),
+        _ => return None,
+    })
+}
