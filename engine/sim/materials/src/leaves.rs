@@ -8,7 +8,7 @@ use super::lanes::{
 use super::pattern::{NoiseTexture, Noises, draw, most, smoothstep, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
-use crate::scene_parts::SceneBox;
+use crate::parts::SceneBox;
 use cosfly_frames::simd_kernel;
 use cosfly_maps::ObstacleKind;
 
@@ -28,7 +28,7 @@ const SPECIES: [[f32; 3]; 10] = [
 
 /// A crown.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Leaves {
+pub struct Leaves {
     /// Middle and half size of the whole crown, metres; one divided by that size.
     middle: Vec3,
     half: Vec3,
@@ -40,7 +40,7 @@ pub(crate) struct Leaves {
 
 impl Leaves {
     /// The crown that a box belongs to, if there are leaves in it.
-    pub(crate) fn of(b: &SceneBox) -> Option<Self> {
+    pub fn of(b: &SceneBox) -> Option<Self> {
         if !matches!(b.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush) {
             return None;
         }
@@ -55,7 +55,7 @@ impl Leaves {
 }
 
 /// Crowns on the stage, one for each four.
-pub(super) struct Crowns {
+pub struct Crowns {
     middle: [StageRow; 3],
     half: [StageRow; 3],
     shrink: [StageRow; 3],
@@ -65,7 +65,7 @@ pub(super) struct Crowns {
 
 impl Crowns {
     /// Nothing in particular.
-    pub(super) const EMPTY: Self = Self {
+    pub const EMPTY: Self = Self {
         middle: [EMPTY_ROW; 3],
         half: [EMPTY_ROW; 3],
         shrink: [EMPTY_ROW; 3],
@@ -76,7 +76,7 @@ impl Crowns {
 
 simd_kernel! {
     /// Puts a crown on the stage from a four on, sixteen fours at a time: what is too much, the next one writes over.
-    pub(super) fn put_crown(crowns: &mut Crowns, first: usize, fours: usize, look: &Leaves) {
+    pub fn put_crown(crowns: &mut Crowns, first: usize, fours: usize, look: &Leaves) {
         for done in (0..fours).step_by(WIDE) {
             let at = first.wrapping_add(done);
             write_three(&mut crowns.middle, at, look.middle);
@@ -91,7 +91,7 @@ simd_kernel! {
 simd_kernel! {
     /// Moves places on a crown's boxes to the round crown around them, along the view, and turns normals its way:
     /// light and leaves then know nothing of boxes. Where the view passes the round crown, its nearest place counts.
-    pub(super) fn swell(blocks: &mut [Block], crowns: &Crowns, eye: Vec3) {
+    pub fn swell(blocks: &mut [Block], crowns: &Crowns, eye: Vec3) {
         for (group, four) in blocks.as_chunks_mut::<FOUR>().0.iter_mut().enumerate() {
             for block in four {
                 for k in 0..WIDE {
@@ -112,7 +112,7 @@ simd_kernel! {
 
 simd_kernel! {
     /// The look of leaves.
-    pub(super) fn leaves(shared: &[Shared], blocks: &mut [Block], crowns: &Crowns, noise: &NoiseTexture) {
+    pub fn leaves(shared: &[Shared], blocks: &mut [Block], crowns: &Crowns, noise: &NoiseTexture) {
         for (group, (shared, four)) in groups(shared, blocks).enumerate() {
             let shift = Stage::lane(&crowns.shift, group);
             for block in four {
@@ -128,7 +128,7 @@ simd_kernel! {
 
 simd_kernel! {
     /// Crowns in the simple look: of one colour each, darker below.
-    pub(super) fn even_leaves(blocks: &mut [Block], crowns: &Crowns) {
+    pub fn even_leaves(blocks: &mut [Block], crowns: &Crowns) {
         for (group, four) in blocks.as_chunks_mut::<FOUR>().0.iter_mut().enumerate() {
             for block in four {
                 for k in 0..WIDE {
