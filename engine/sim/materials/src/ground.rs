@@ -129,21 +129,23 @@ fn to_manhole(x: f32, y: f32) -> f32 {
     let cell = hash(floor_int(u) as u32, floor_int(v) as u32 ^ 0x3a7e);
     let (middle_u, middle_v) = (0.1 + 0.8 * unit(hash(cell, 1)), 0.1 + 0.8 * unit(hash(cell, 2)));
     let (dx, dy) = (u - floor_int(u) as f32 - middle_u, v - floor_int(v) as f32 - middle_v);
-    (dx * dx + dy * dy).sqrt() * MANHOLE_M + if unit(cell) < 0.30 { 0.0 } else { 99.0 }
+    (dx * dx + dy * dy).sqrt() * MANHOLE_M + if unit(cell) < 0.30 { 0.0 } else { FAR_M }
 }
 
 /// Asphalt with the lid of a manhole `away_m` from its middle.
 #[inline(always)]
 fn lid(point: &SurfacePoint, away_m: f32, asphalt: Vec3) -> Vec3 {
     let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
-    let inside = 1.0 - band(away_m, 0.34, 9.0, size);
+    let inside = band(away_m, -FAR_M, 0.34, size);
     let rim = band(away_m, 0.27, 0.34, size);
     let ribs = stripes(x * 12.0, 0.0, 0.5, size * 12.0) * stripes(y * 12.0, 0.0, 0.5, size * 12.0);
-    asphalt.lerp(Vec3::splat(0.075) * (0.7 + 0.7 * ribs), least(inside, 1.0)).lerp(Vec3::splat(0.16), rim)
+    asphalt.lerp(Vec3::splat(0.075) * (0.7 + 0.7 * ribs), inside).lerp(Vec3::splat(0.16), rim)
 }
 
 /// Side of the squares of ground that have at most one manhole, metres.
 const MANHOLE_M: f32 = 13.0;
+/// Farther away than any manhole of a square, metres.
+const FAR_M: f32 = 99.0;
 
 /// Ground along a wall: slabs with an edging, then soil, then what `grass` is.
 #[inline(always)]
