@@ -2,9 +2,7 @@
 
 use super::grid::{GridFrame, GridTables};
 use super::lanes::{Block, Shared, WIDE, get, groups, set};
-use super::pattern::{
-    NoiseTexture, Noises, band, floor_int, hash, least, lerp, most, one_if, smoothstep, stripes, unit,
-};
+use super::pattern::{NoiseTexture, Noises, band, floor_int, hash, lerp, most, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
@@ -178,10 +176,7 @@ fn slabs(point: &SurfacePoint, worn: f32, noise: &NoiseTexture) -> Vec3 {
     let near = 1.0 - smoothstep(0.25, 0.8, size * PER_M);
     let slab = unit(hash(super::pattern::floor_int(u) as u32, super::pattern::floor_int(v) as u32)) - 0.5;
     let rough = noise.rough(x * 15.0, y * 15.0, size * 15.0) - 0.5;
-    let slab_tone = 0.34 * (1.0 + 0.18 * slab * near + 0.42 * rough + 0.28 * worn) * (1.0 - 0.4 * joint);
-    // Kerbs: upright faces of lighter stone.
-    let kerb_tone = 0.44 * (1.0 + 0.3 * rough) * (1.0 - 0.3 * joint);
-    let tone = lerp(slab_tone, kerb_tone, one_if(point.normal.z < 0.6));
+    let tone = 0.34 * (1.0 + 0.18 * slab * near + 0.42 * rough + 0.28 * worn) * (1.0 - 0.4 * joint);
     Vec3::new(tone, tone * 0.97, tone * 0.925)
 }
 

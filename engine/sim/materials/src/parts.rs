@@ -1,5 +1,6 @@
 //! Boxes with their faces, and clusters of ground polygons: the parts of a scene.
 
+use crate::kerbs::KerbLine;
 use crate::pattern::hash;
 use crate::roof_steps::RoofStep;
 use cosfly_frames::{DVec3, real};
@@ -83,6 +84,8 @@ pub struct ClusterPolygon {
     pub normal_in_world: DVec3,
     /// A point of its plane.
     pub middle_in_world: DVec3,
+    /// The kerb beside it.
+    pub kerb: KerbLine,
 }
 
 impl ClusterPolygon {

@@ -15,6 +15,7 @@ mod faces;
 mod found;
 pub mod frame;
 mod ground_polygons;
+mod kerb_lines;
 mod look;
 mod outlook;
 pub mod outside;

@@ -1,6 +1,7 @@
 //! A town prepared for the renderer: boxes with faces, ground polygons in small bounded clusters, seeds for looks.
 
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
+use crate::kerb_lines::kerb_lines;
 use crate::props::{Props, SceneModel};
 use crate::roof_edges::roofs_that_go_on;
 use crate::roof_steps::{RoofStep, Side, roof_steps};
@@ -14,6 +15,7 @@ use crate::shade::sun_map::SunMaps;
 use crate::shade::vector::Vec3;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_maps::{ObstacleKind, Town};
+use cosfly_materials::kerbs::{KerbLine, tone_of_town};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -23,6 +25,8 @@ const CLUSTER_POLYGONS: usize = 48;
 /// Everything static, ready to be drawn. Built once per town, shared by all threads.
 pub struct Scene {
     pub(crate) boxes: Vec<SceneBox>,
+    /// Stone of its kerbs.
+    pub(crate) kerb_tone: Vec3,
     /// Colours of boxes in the simple look.
     pub(crate) colours: Vec<Vec3>,
     /// Crowns of the boxes that have leaves.
@@ -83,6 +87,7 @@ impl Scene {
         let crowns = boxes.iter().map(Leaves::of).collect();
         Self {
             boxes,
+            kerb_tone: tone_of_town(look_seed),
             colours,
             crowns,
             clusters,
@@ -155,10 +160,11 @@ pub(crate) fn clusters_of(town: &Town) -> Vec<Cluster> {
         })
         .collect();
     order.sort_unstable();
-    order.chunks(CLUSTER_POLYGONS).map(|members| cluster_of(&ground, members)).collect()
+    let kerbs = kerb_lines(&ground.points_in_world, &ground.polygons);
+    order.chunks(CLUSTER_POLYGONS).map(|members| cluster_of(&ground, &kerbs, members)).collect()
 }
 
-fn cluster_of(ground: &GroundPolygons, members: &[(u64, u32)]) -> Cluster {
+fn cluster_of(ground: &GroundPolygons, kerbs: &[KerbLine], members: &[(u64, u32)]) -> Cluster {
     let mut numbers = BTreeMap::new();
     let mut points: Vec<DVec3> = Vec::new();
     let (mut polygons, mut all_corners) = (Vec::new(), Vec::new());
@@ -177,6 +183,7 @@ fn cluster_of(ground: &GroundPolygons, members: &[(u64, u32)]) -> Cluster {
             label: *label,
             normal_in_world: *normal_in_world,
             middle_in_world: *middle_in_world,
+            kerb: kerbs[number as usize],
         });
     }
     let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);

@@ -4,6 +4,7 @@ use super::cloth::{Cloths, cloth};
 use super::facade::{facade, lift, roofs, tiles};
 use super::geometry::{open, place, points};
 use super::ground::ground;
+use super::kerbs::{Kerbs, stones};
 use super::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
 use super::leaves::{Crowns, even_leaves, leaves, swell};
 use super::lighting;
@@ -16,12 +17,17 @@ use super::things::things;
 use super::vector::Vec3;
 use cosfly_figures::BodyShape;
 use cosfly_frames::{real, simd_kernel};
+use cosfly_maps::SemanticLabel;
+
+/// Sunlight on leaves is looked up this far towards the sun, metres.
+const OFF_CROWN_M: f32 = 1.5;
 
 /// Fours on the stage, with the people, crowns or colours that they show.
 pub(super) struct Staged<'a> {
     pub stage: &'a Stage,
     pub cloths: &'a Cloths,
     pub crowns: &'a Crowns,
+    pub kerbs: &'a Kerbs,
     /// Colours of even surfaces in the simple look.
     pub colours: &'a [StageRow; 3],
 }
@@ -31,7 +37,7 @@ pub(super) fn run_kernels(
     setting: &Setting,
     seen: &Seen<'_>,
     material: &Material,
-    &Staged { stage, cloths, crowns, .. }: &Staged<'_>,
+    &Staged { stage, cloths, crowns, kerbs, .. }: &Staged<'_>,
     (shared, blocks): (&mut [Shared], &mut [Block]),
     near: &[u32],
 ) {
@@ -74,7 +80,12 @@ pub(super) fn run_kernels(
     match material {
         // The sky is done; even surfaces are of the simple look.
         Material::Sky | Material::Even => {}
-        Material::Ground(label) => ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), noise),
+        Material::Ground(label) => {
+            ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), noise);
+            if *label == SemanticLabel::SideWalks {
+                stones(level, shared, blocks, kerbs, seen.scene.kerb_tone, noise);
+            }
+        }
         Material::Facade(look, face) => facade(level, shared, blocks, look, face, light, noise),
         Material::Roof(roof) => roofs(level, shared, blocks, roof, light, noise),
         Material::Tiles(slope) => tiles(level, shared, blocks, slope, noise),

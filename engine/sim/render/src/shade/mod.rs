@@ -28,4 +28,6 @@ mod sun_window;
 mod sunlight;
 pub mod tone;
 
-pub(crate) use cosfly_materials::{facade, grid, ground, lanes, leaves, light, pattern, surface, things, vector};
+pub(crate) use cosfly_materials::{
+    facade, grid, ground, kerbs, lanes, leaves, light, pattern, surface, things, vector,
+};
