@@ -6,7 +6,7 @@ use super::geometry::{open, place, points};
 use super::ground::ground;
 use super::kerbs::{Kerbs, stones};
 use super::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
-use super::leaves::{Crowns, even_leaves, leaves, swell};
+use super::leaves::{Crowns, even_leaves, leaves, shift, swell};
 use super::lighting;
 use super::material::{Material, coach};
 use super::pattern::{most, share};
@@ -50,6 +50,9 @@ pub(super) fn run_kernels(
     let grid = &seen.scene.grid;
     place(level, shared, stage, &setting.view, light);
     points(level, shared, blocks, stage, &setting.view);
+    if let Material::Leaves = material {
+        swell(level, shared, blocks, crowns, setting.view.position, setting.view.pixel());
+    }
     open(level, shared, grid.tables(), &grid.frame(), light.night > 0.0);
     if let Material::Ground(_) = material {
         for person in near {
@@ -66,16 +69,21 @@ pub(super) fn run_kernels(
         }
     }
     let is_bent = material.is_bent();
-    if let Material::Leaves = material {
-        swell(level, blocks, crowns, setting.view.position);
-    }
     if let Material::Tiles(_) = material {
         lift(level, blocks);
     }
     if material.faces_away(stage, light) {
         blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
     } else {
+        let is_leaves = matches!(material, Material::Leaves);
+        let off_crown = light.to_sun * if is_leaves { OFF_CROWN_M } else { 0.0 };
+        if is_leaves {
+            shift(level, blocks, off_crown);
+        }
         setting.shadows.sunlight(level, blocks, !is_bent, noise, near);
+        if is_leaves {
+            shift(level, blocks, off_crown * -1.0);
+        }
     }
     match material {
         // The sky is done; even surfaces are of the simple look.
@@ -134,7 +142,7 @@ pub(super) fn run_simple_kernels(
         }
         Material::Leaves => {
             points(level, shared, blocks, stage, &setting.view);
-            swell(level, blocks, crowns, setting.view.position);
+            swell(level, shared, blocks, crowns, setting.view.position, setting.view.pixel());
             even_leaves(level, blocks, crowns);
             lighting::develop_bent(level, shared, blocks, light, tone);
         }
