@@ -212,3 +212,42 @@ fn grass(point: &SurfacePoint, dry: f32, noise: &NoiseTexture) -> Vec3 {
     let straw = Vec3::new(0.200, 0.195, 0.080);
     fresh.lerp(straw, 0.65 * dry) * lerp(0.45, 1.55, blades)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::grid::LightGrid;
+    use super::super::lanes::FOUR;
+    use super::super::pattern::noise_texture;
+    use super::*;
+    use cosfly_frames::simd::Level;
+
+    /// Albedo of road at sixteen places a pixel of 5 cm wide.
+    fn road(places: [[f32; 2]; WIDE], grid: &LightGrid, noise: &NoiseTexture) -> [Vec3; WIDE] {
+        let (mut shared, mut four) = (Shared::EMPTY, [const { Block::EMPTY }; FOUR]);
+        for (k, [x, y]) in places.into_iter().enumerate() {
+            set(&mut shared.middle, k, Vec3::new(x, y, 0.0));
+            set(&mut shared.normal, k, Vec3::new(0.0, 0.0, 1.0));
+            (shared.along_m[k], shared.up_m[k], shared.footprint_m[k]) = (0.05, 0.05, 0.05);
+        }
+        for block in &mut four {
+            (block.world, block.normal) = (shared.middle, shared.normal);
+        }
+        ground(Level::PLAIN, &[shared], &mut four, SemanticLabel::Roads, (grid.tables(), &grid.frame()), noise);
+        core::array::from_fn(|k| get(&four[0].albedo, k))
+    }
+
+    #[test]
+    fn a_manhole_changes_no_place_beside_it() {
+        let place = |k: usize| [0.7 * (k % 200) as f32, 0.9 * (k / 200) as f32];
+        let lid = (0..40_000).map(place).find(|[x, y]| to_manhole(*x, *y) < 0.3).unwrap();
+        let (grid, noise) = (LightGrid::new(&[], &[]), noise_texture(3));
+        let mut far = (0..40_000).map(place).filter(|[x, y]| to_manhole(*x, *y) > 3.0);
+        for _ in 0..60 {
+            let mut places: [[f32; 2]; WIDE] = core::array::from_fn(|_| far.next().unwrap());
+            let without = road(places, &grid, &noise);
+            places[5] = lid;
+            let beside = road(places, &grid, &noise);
+            assert!((0..WIDE).all(|k| k == 5 || beside[k] == without[k]));
+        }
+    }
+}
