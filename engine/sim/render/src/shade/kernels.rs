@@ -115,7 +115,7 @@ pub(super) fn run_kernels(
     }
     let is_shiny = is_wet || answers.shiny;
     if is_shiny {
-        lighting::mirrored(level, shared, light, (grid.tables(), &grid.frame()));
+        lighting::mirrored(level, shared, light, is_wet, (grid.tables(), &grid.frame()));
     }
     lighting::develop(level, shared, blocks, light, &setting.tone, answers.glows && light.night > 0.0, is_shiny);
 }
