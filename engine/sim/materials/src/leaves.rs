@@ -42,6 +42,10 @@ const AUTUMN: [[f32; 3]; 10] = [
 /// Share of towns that are seen in autumn.
 const AUTUMN_SHARE: f32 = 0.2;
 
+fn is_autumn(town: u32) -> bool {
+    draw(town, 9) < AUTUMN_SHARE
+}
+
 /// A crown.
 #[derive(Clone, Copy, Debug)]
 pub struct Leaves {
@@ -66,7 +70,7 @@ impl Leaves {
         let species = if draw(seed, 8) < 0.03 { common } else { (draw(seed, 7) * common as f32) as usize % common };
         let [green, late] = [SPECIES, AUTUMN].map(|leaves| leaves[species]).map(|[r, g, b]| Vec3::new(r, g, b));
         // Trees of a town turn one after the other.
-        let turned = if draw(b.town, 9) < AUTUMN_SHARE { share(1.4 * draw(seed, 9) - 0.1) } else { 0.0 };
+        let turned = if is_autumn(b.town) { share(1.4 * draw(seed, 9) - 0.1) } else { 0.0 };
         let tint = green.lerp(late, turned) * (0.8 + 0.45 * draw(seed, 1));
         Some(Self { middle, half, shrink: half.map(|half| 1.0 / half.max(0.1)), tint, shift: 37.0 * unit(seed) })
     }
@@ -251,5 +255,16 @@ impl OnMap {
         let out = ((world - self.middle) * self.shrink).unit();
         let scale = 42.0 / (1.0 + out.z.abs());
         (out.x * self.half.x * scale, out.y * self.half.y * scale, scale)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_town_in_five_is_seen_in_autumn() {
+        let share = (0..5000u32).filter(|town| is_autumn(town.wrapping_mul(0x9e37_79b1))).count() as f32 / 5000.0;
+        assert!((share - AUTUMN_SHARE).abs() < 0.02, "{share}");
     }
 }
