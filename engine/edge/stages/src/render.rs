@@ -72,7 +72,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 13,
+            version: 14,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -144,7 +144,8 @@ impl Stage for RenderStage {
         let target = traffic::followed(inputs, artifact)?;
         let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), &context.id.item)?;
         let preset = preset(&self.config, &context.id.item);
-        let crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
+        let mut crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
+        crowd.dress_for(&shooting);
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
         let seen = self.draw(outputs, context, &place, &trajectory, &shooting)?;
         let notes = notes_of(&crowd, &seen.sightings);

@@ -55,6 +55,7 @@ mod tests {
             clothes_seed: Seed([1; 32]),
             gait_phase_rad: 0.5,
             body: BodyShape::default(),
+            umbrella: false,
         }
     }
 

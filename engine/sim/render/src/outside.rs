@@ -2,8 +2,8 @@
 
 use crate::eye::Eye;
 use crate::faces::{DrawnFace, FaceSource, box_lift, ground_lift};
-use crate::scene::{Scene, boxes_of, clusters_of};
-use crate::scene_parts::{BOX_FACES, Cluster, SceneBox};
+use crate::scene::{Scene, clusters_of};
+use crate::scene_parts::{BOX_FACES, Cluster, SceneBox, boxes_of};
 use crate::visibility::{PlaneOnScreen, Screen, Visibility};
 use cosfly_frames::DVec3;
 use cosfly_maps::Town;

@@ -1,10 +1,11 @@
 //! A town prepared for the renderer: boxes with faces, ground polygons in small bounded clusters, seeds for looks.
 
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
+use crate::kerb_lines::kerb_lines;
 use crate::props::{Props, SceneModel};
 use crate::roof_edges::roofs_that_go_on;
 use crate::roof_steps::{RoofStep, Side, roof_steps};
-use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox};
+use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox, boxes_of, join_crowns};
 use crate::shade::grid::LightGrid;
 use crate::shade::leaves::Leaves;
 use crate::shade::material::colour_of;
@@ -12,8 +13,9 @@ use crate::shade::outskirts::Outskirts;
 use crate::shade::pattern::{NoiseTexture, noise_texture};
 use crate::shade::sun_map::SunMaps;
 use crate::shade::vector::Vec3;
-use cosfly_frames::{DVec3, Seed, real};
+use cosfly_frames::{DVec3, Seed};
 use cosfly_maps::{ObstacleKind, Town};
+use cosfly_materials::kerbs::{KerbLine, tone_of_town};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -23,6 +25,8 @@ const CLUSTER_POLYGONS: usize = 48;
 /// Everything static, ready to be drawn. Built once per town, shared by all threads.
 pub struct Scene {
     pub(crate) boxes: Vec<SceneBox>,
+    /// Stone of its kerbs.
+    pub(crate) kerb_tone: Vec3,
     /// Colours of boxes in the simple look.
     pub(crate) colours: Vec<Vec3>,
     /// Crowns of the boxes that have leaves.
@@ -83,6 +87,7 @@ impl Scene {
         let crowns = boxes.iter().map(Leaves::of).collect();
         Self {
             boxes,
+            kerb_tone: tone_of_town(look_seed),
             colours,
             crowns,
             clusters,
@@ -144,52 +149,6 @@ impl Scene {
     }
 }
 
-/// The boxes of a town that are finite.
-pub(crate) fn boxes_of(town: &Town, look_seed: u32) -> Vec<SceneBox> {
-    town.obstacles.iter().filter_map(|obstacle| scene_box(obstacle, look_seed)).collect()
-}
-
-fn scene_box(obstacle: &cosfly_maps::Obstacle, look_seed: u32) -> Option<SceneBox> {
-    let shape = &obstacle.shape;
-    let half = shape.half_extents_m;
-    if !shape.center_in_world.is_finite() || !half.is_finite() || !shape.yaw_rad.is_finite() || half.min_element() < 0.0
-    {
-        return None;
-    }
-    let (sin, cos) = real::sin_cos(shape.yaw_rad);
-    let (low, high) = shape.bounds_in_world();
-    Some(SceneBox {
-        corners_in_world: shape.corners_in_world(),
-        center_in_world: shape.center_in_world,
-        half_bounds_m: 0.5 * (high - low),
-        half_extents_m: half.as_vec3a(),
-        axes_in_world: [DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0)],
-        kind: obstacle.kind,
-        label: obstacle.kind.label().id(),
-        instance: obstacle.object_id.saturating_add(2),
-        seed: crate::shade::pattern::hash(obstacle.object_id, look_seed),
-        town: look_seed,
-        whole: [shape.center_in_world.as_vec3a(), half.as_vec3a()],
-        roof: None,
-        roof_goes_on: [false; 4],
-    })
-}
-
-/// Tells the boxes of each crown how large the whole crown is, so that light falls on it as on one round thing.
-fn join_crowns(boxes: &mut [SceneBox]) {
-    let mut bounds: BTreeMap<u32, (DVec3, DVec3)> = BTreeMap::new();
-    for b in boxes.iter().filter(|b| b.kind == ObstacleKind::TreeCrown) {
-        let (low, high) = bounds.entry(b.instance).or_insert((DVec3::INFINITY, DVec3::NEG_INFINITY));
-        *low = low.min(b.center_in_world - b.half_bounds_m);
-        *high = high.max(b.center_in_world + b.half_bounds_m);
-    }
-    for b in boxes.iter_mut().filter(|b| b.kind == ObstacleKind::TreeCrown) {
-        if let Some((low, high)) = bounds.get(&b.instance) {
-            b.whole = [(0.5 * (*low + *high)).as_vec3a(), (0.5 * (*high - *low)).as_vec3a()];
-        }
-    }
-}
-
 /// Cuts the ground into clusters of neighbouring polygons, ordered along a Z curve over the ground.
 pub(crate) fn clusters_of(town: &Town) -> Vec<Cluster> {
     let ground = GroundPolygons::of(town);
@@ -201,10 +160,11 @@ pub(crate) fn clusters_of(town: &Town) -> Vec<Cluster> {
         })
         .collect();
     order.sort_unstable();
-    order.chunks(CLUSTER_POLYGONS).map(|members| cluster_of(&ground, members)).collect()
+    let kerbs = kerb_lines(&ground.points_in_world, &ground.polygons);
+    order.chunks(CLUSTER_POLYGONS).map(|members| cluster_of(&ground, &kerbs, members)).collect()
 }
 
-fn cluster_of(ground: &GroundPolygons, members: &[(u64, u32)]) -> Cluster {
+fn cluster_of(ground: &GroundPolygons, kerbs: &[KerbLine], members: &[(u64, u32)]) -> Cluster {
     let mut numbers = BTreeMap::new();
     let mut points: Vec<DVec3> = Vec::new();
     let (mut polygons, mut all_corners) = (Vec::new(), Vec::new());
@@ -223,6 +183,7 @@ fn cluster_of(ground: &GroundPolygons, members: &[(u64, u32)]) -> Cluster {
             label: *label,
             normal_in_world: *normal_in_world,
             middle_in_world: *middle_in_world,
+            kerb: kerbs[number as usize],
         });
     }
     let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);

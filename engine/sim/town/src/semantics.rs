@@ -73,7 +73,7 @@ impl SemanticLabel {
     ];
 
     /// CARLA's id.
-    pub fn id(self) -> u8 {
+    pub const fn id(self) -> u8 {
         self as u8
     }
 

@@ -2,6 +2,7 @@
 
 use super::cloth::{Cloth, Cloths, put_cloth};
 use super::geometry::FaceAxes;
+use super::kerbs::{KerbLine, Kerbs, put_kerb};
 use super::kernels::{Staged, run_kernels, run_simple_kernels};
 use super::lanes::{
     Block, EMPTY_ROW, FOUR, FOURS, GROUPS, LANES, Shared, Stage, StageRow, WIDE, write_row, write_three,
@@ -17,6 +18,7 @@ use crate::passes::ids::{Band, Run};
 use crate::visibility::{NO_FACE, PlaneOnScreen};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
+use cosfly_maps::SemanticLabel;
 
 /// Groups of pixels that are not of a single face: the sky, people, crowns, and ground by label. Faces of one part of a vehicle are a
 /// group, too, named after the first of them.
@@ -26,6 +28,7 @@ const CROWNS: usize = 61;
 /// Even surfaces of the simple look that are not ground.
 const EVEN: usize = 60;
 const SHARED_GROUPS: usize = 64;
+const PAVEMENT: usize = SemanticLabel::SideWalks.id() as usize;
 /// No run follows.
 const END: u32 = u32::MAX;
 
@@ -34,6 +37,7 @@ pub(crate) struct Worker {
     stage: Box<Stage>,
     cloths: Box<Cloths>,
     crowns: Box<Crowns>,
+    kerbs: Box<Kerbs>,
     colours: Box<[StageRow; 3]>,
     shared: Box<[Shared; GROUPS]>,
     blocks: Box<[Block; FOUR * GROUPS]>,
@@ -125,6 +129,7 @@ impl Worker {
             stage: Box::new(Stage::EMPTY),
             cloths: Box::new(Cloths::EMPTY),
             crowns: Box::new(Crowns::EMPTY),
+            kerbs: Box::new(Kerbs::EMPTY),
             colours: Box::new([EMPTY_ROW; 3]),
             shared: Box::new([Shared::EMPTY; GROUPS]),
             blocks: Box::new([Block::EMPTY; FOUR * GROUPS]),
@@ -172,6 +177,7 @@ impl Worker {
                 && let Some(last) = self.runs.last_mut()
                 && !(run.start as usize).is_multiple_of(band.width)
                 && are_one_plane(seen, band, &last.run, run)
+                && (group != PAVEMENT || kerb_of(seen, last.run.face) == kerb_of(seen, run.face))
             {
                 last.run.length += run.length;
                 continue;
@@ -200,6 +206,7 @@ impl Worker {
             let look = if group == PEOPLE { cloth_of(seen, run.face) } else { None };
             let colour = (group == EVEN).then(|| even_colour(seen, run.face));
             let crown = if group == CROWNS { crown_of(seen, run.face) } else { None };
+            let kerb = if group == PAVEMENT { Some(kerb_of(seen, run.face)) } else { None };
             if crown.is_some() {
                 axes = axes_of(seen, run.face);
             }
@@ -226,6 +233,9 @@ impl Worker {
                 }
                 if let Some(look) = crown {
                     put_crown(setting.level, &mut self.crowns, lanes / FOUR, length.div_ceil(FOUR), look);
+                }
+                if let Some(line) = &kerb {
+                    put_kerb(setting.level, &mut self.kerbs, lanes / FOUR, length.div_ceil(FOUR), line);
                 }
                 lanes += length.next_multiple_of(FOUR);
                 start += length;
@@ -269,10 +279,11 @@ impl Worker {
         let groups = lanes.div_ceil(FOUR * WIDE);
         self.find_near(setting.level);
         fill(setting.level, &self.pieces, &mut self.stage);
-        let staged = Staged { stage: &self.stage, cloths: &self.cloths, crowns: &self.crowns, colours: &self.colours };
-        let blocks = (&mut self.shared[..groups], &mut self.blocks[..FOUR * groups]);
+        let Self { stage, cloths, crowns, kerbs, colours, shared, blocks, near, .. } = &mut *self;
+        let staged = Staged { stage, cloths, crowns, kerbs, colours };
+        let blocks = (&mut shared[..groups], &mut blocks[..FOUR * groups]);
         match setting.look {
-            PictureLook::Full => run_kernels(setting, seen, material, &staged, blocks, &self.near),
+            PictureLook::Full => run_kernels(setting, seen, material, &staged, blocks, near),
             PictureLook::Simple => run_simple_kernels(setting, material, &staged, blocks),
         }
         put_back(setting.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, &mut self.picture);
@@ -388,6 +399,16 @@ fn group_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> usize {
         FaceSource::Box { index, .. } if seen.scene.crowns[index as usize].is_some() => CROWNS,
         FaceSource::Box { index, face } if is_simple && !seen.scene.is_wall(index, face) => EVEN,
         FaceSource::Box { .. } | FaceSource::Prop { .. } => SHARED_GROUPS + face as usize,
+    }
+}
+
+/// The kerb beside a face of ground.
+fn kerb_of(seen: &Seen<'_>, face: u32) -> KerbLine {
+    match seen.faces.get(face as usize).map(|face| face.source) {
+        Some(FaceSource::Ground { cluster, polygon }) => {
+            seen.scene.clusters[cluster as usize].polygons[usize::from(polygon)].kerb
+        }
+        _ => KerbLine::NONE,
     }
 }
 

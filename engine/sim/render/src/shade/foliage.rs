@@ -13,9 +13,11 @@ use crate::passes::ids::Run;
 use crate::scene::Scene;
 
 /// Gaps reach this far into a crown, metres.
-const REACH_M: f32 = 0.42;
+const REACH_M: f32 = 0.6;
+/// And no farther than this share of its half width.
+const REACH_SHARE: f32 = 0.28;
 /// And no farther than this, pixels.
-const MOST_PX: usize = 18;
+const MOST_PX: f32 = 20.0;
 
 /// Buffers of the pass.
 #[derive(Default)]
@@ -40,6 +42,15 @@ struct Edge {
     most: usize,
     /// Pixels beyond the edge within the picture, at most.
     beyond: usize,
+    tree: Tree,
+}
+
+/// A tree or bush.
+#[derive(Clone, Copy)]
+struct Tree {
+    instance: u32,
+    /// Gaps reach this far into it, metres.
+    reach_m: f32,
 }
 
 impl Foliage {
@@ -53,13 +64,13 @@ impl Foliage {
         self.changes.clear();
         for (row, runs) in rows.enumerate() {
             let mut column = 0;
-            let mut span: Option<(usize, usize, u32)> = None;
+            let mut span: Option<(usize, usize, Tree)> = None;
             for run in runs {
                 let (from, to) = (column, column + run.length as usize);
                 column = to;
                 let tree = crowns.tree(run.face);
                 match (&mut span, tree) {
-                    (Some((_, end, of)), Some(tree)) if *of == tree && *end == from => *end = to,
+                    (Some((_, end, of)), Some(tree)) if of.instance == tree.instance && *end == from => *end = to,
                     _ => {
                         if let Some(done) = span.take() {
                             self.span(crowns, images, row, done);
@@ -80,60 +91,64 @@ impl Foliage {
     }
 
     /// The edges of a tree's pixels from `from` to before `to` in a row.
-    fn span(&mut self, crowns: &Crowns<'_>, images: &FrameImages, row: usize, (from, to, tree): (usize, usize, u32)) {
+    fn span(&mut self, crowns: &Crowns<'_>, images: &FrameImages, row: usize, (from, to, tree): (usize, usize, Tree)) {
         let (width, height) = (images.width as usize, images.height as usize);
         let (start, length) = (row * width, to - from);
-        let left = Edge { first: start + from, inward: 1, most: length, beyond: from };
-        let right = Edge { first: start + to - 1, inward: -1, most: length, beyond: width - to };
+        let left = Edge { first: start + from, inward: 1, most: length, beyond: from, tree };
+        let right = Edge { first: start + to - 1, inward: -1, most: length, beyond: width - to, tree };
         self.edge(crowns, images, &left);
         self.edge(crowns, images, &right);
         let down = width as isize;
-        let others =
-            |first: usize| images.instance[first..first + length].iter().enumerate().filter(|(_, id)| **id != tree);
+        let others = |first: usize| {
+            images.instance[first..first + length].iter().enumerate().filter(|(_, id)| **id != tree.instance)
+        };
         if row > 0 {
             for (at, _) in others(start + from - width) {
                 let first = start + from + at;
-                self.edge(crowns, images, &Edge { first, inward: down, most: height - row, beyond: row });
+                self.edge(crowns, images, &Edge { first, inward: down, most: height - row, beyond: row, tree });
             }
         }
         if row + 1 < height {
             for (at, _) in others(start + from + width) {
                 let (first, beyond) = (start + from + at, height - row - 1);
-                self.edge(crowns, images, &Edge { first, inward: -down, most: row + 1, beyond });
+                self.edge(crowns, images, &Edge { first, inward: -down, most: row + 1, beyond, tree });
             }
         }
     }
 
     fn edge(&mut self, crowns: &Crowns<'_>, images: &FrameImages, edge: &Edge) {
-        let Edge { first, inward, most, beyond } = *edge;
-        let tree = images.instance[first];
+        let Edge { first, inward, most, beyond, tree: Tree { instance, reach_m } } = *edge;
         let depth = images.depth_m[first];
         if beyond == 0 {
             return;
         }
         let outside = first.wrapping_add_signed(-inward);
         // Nothing farther away, or another face of the same tree.
-        if images.depth_m[outside] < depth + 0.3 || images.instance[outside] == tree {
+        if images.depth_m[outside] < depth + 0.3 || images.instance[outside] == instance {
             return;
         }
-        let pixels_per_m = 1.0 / (crowns.view.across.dot(crowns.view.across).sqrt() * depth);
-        let reach = REACH_M * pixels_per_m;
-        let count = (reach as usize).min(MOST_PX).min(most).min(beyond);
+        let pixels_per_m = 1.0 / (crowns.view.pixel() * depth);
+        let reach = (reach_m * pixels_per_m).min(MOST_PX);
+        let count = (reach as usize).min(most).min(beyond);
         for k in 0..count {
             let pixel = first.wrapping_add_signed(inward * k as isize);
-            if images.instance[pixel] != tree {
+            if images.instance[pixel] != instance {
                 break;
             }
             let depth = images.depth_m[pixel];
-            let noise = crowns.leaves(pixel, images.width as usize, depth, tree, 1.0 / pixels_per_m);
-            // Fewer gaps farther inside.
-            if noise < 0.42 + 0.34 * (k as f32 + 0.5) / reach {
+            let [leaves, branches] = crowns.gaps(pixel, images.width as usize, depth, instance, 1.0 / pixels_per_m);
+            // Fewer gaps farther inside: dents between branches, ragged by leaves.
+            let inside = (k as f32 + 0.5) / reach;
+            if 1.7 * branches + 0.75 * leaves < 1.02 + 0.78 * inside {
                 continue;
             }
-            let behind = first.wrapping_add_signed(-inward * (k as isize + 1));
-            if images.instance[behind] == tree || images.depth_m[behind] < depth + 0.3 {
+            let behind = first.wrapping_add_signed(-inward * (k as isize / 2 + 1));
+            if images.depth_m[behind] < depth + 0.3 {
                 continue;
             }
+            // One thing only: what stands beyond the edge has no image within the crown.
+            let is_same = images.instance[behind] == images.instance[outside];
+            let behind = if is_same { behind } else { outside };
             if let Some(colour) = images.rgb.get(3 * behind..).and_then(|rest| rest.first_chunk::<3>()) {
                 self.changes.push((3 * pixel as u32, *colour));
             }
@@ -142,20 +157,27 @@ impl Foliage {
 }
 
 impl Crowns<'_> {
-    /// The instance of the tree or bush that a face belongs to.
-    fn tree(&self, face: u32) -> Option<u32> {
+    /// The tree or bush that a face belongs to.
+    fn tree(&self, face: u32) -> Option<Tree> {
         let face = self.faces.get(face as usize)?;
         let FaceSource::Box { index, .. } = face.source else { return None };
-        self.scene.crowns[index as usize].is_some().then_some(face.instance)
+        let leaves = self.scene.crowns[index as usize].as_ref()?;
+        Some(Tree { instance: face.instance, reach_m: REACH_M.min(REACH_SHARE * leaves.half_width_m()) })
     }
 
-    /// Noise of the leaves at a pixel, 0 to 1: it stays where it is in the world while the camera moves little.
-    fn leaves(&self, pixel: usize, width: usize, depth: f32, tree: u32, pixel_m: f32) -> f32 {
+    /// Noise of the leaves and of the branches at a pixel, 0 to 1: both stay where they are in the world while the camera
+    /// moves little.
+    fn gaps(&self, pixel: usize, width: usize, depth: f32, tree: u32, pixel_m: f32) -> [f32; 2] {
         let (u, v) = ((pixel % width) as u16, (pixel / width) as u16);
         let ray = self.view.ray(f32::from(u) + 0.5, f32::from(v) + 0.5);
         let place: Vec3 = self.view.position + ray * depth;
         let shift = 97.0 * unit(hash(tree, 12));
-        let (x, y) = (0.7 * (place.x + place.y) + 0.4 * (place.x - place.y), place.z);
-        self.scene.noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0)
+        // No face of a box is seen edge-on in these two directions.
+        let (x, y) = (0.8 * place.x + 0.45 * place.y + 0.3 * place.z, 0.35 * place.x - 0.7 * place.y + 0.85 * place.z);
+        let noise = &self.scene.noise;
+        [
+            noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0),
+            noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0),
+        ]
     }
 }

@@ -28,6 +28,12 @@ impl View {
     pub fn ray(&self, u: f32, v: f32) -> Vec3 {
         self.corner + self.across * u + self.down * v
     }
+
+    /// Size of a pixel at a distance of 1 along the optical axis.
+    #[inline(always)]
+    pub fn pixel(&self) -> f32 {
+        self.across.dot(self.across).sqrt()
+    }
 }
 
 /// A face's own horizontal and vertical (x and y on flat ground).

@@ -4,8 +4,9 @@ use super::cloth::{Cloths, cloth};
 use super::facade::{facade, lift, roofs, tiles};
 use super::geometry::{open, place, points};
 use super::ground::ground;
+use super::kerbs::{Kerbs, stones};
 use super::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
-use super::leaves::{Crowns, even_leaves, leaves, swell};
+use super::leaves::{Crowns, even_leaves, leaves, shift, swell};
 use super::lighting;
 use super::material::{Material, coach};
 use super::pattern::{most, share};
@@ -16,12 +17,17 @@ use super::things::things;
 use super::vector::Vec3;
 use cosfly_figures::BodyShape;
 use cosfly_frames::{real, simd_kernel};
+use cosfly_maps::SemanticLabel;
+
+/// Sunlight on leaves is looked up this far towards the sun, metres.
+const OFF_CROWN_M: f32 = 1.5;
 
 /// Fours on the stage, with the people, crowns or colours that they show.
 pub(super) struct Staged<'a> {
     pub stage: &'a Stage,
     pub cloths: &'a Cloths,
     pub crowns: &'a Crowns,
+    pub kerbs: &'a Kerbs,
     /// Colours of even surfaces in the simple look.
     pub colours: &'a [StageRow; 3],
 }
@@ -31,7 +37,7 @@ pub(super) fn run_kernels(
     setting: &Setting,
     seen: &Seen<'_>,
     material: &Material,
-    &Staged { stage, cloths, crowns, .. }: &Staged<'_>,
+    &Staged { stage, cloths, crowns, kerbs, .. }: &Staged<'_>,
     (shared, blocks): (&mut [Shared], &mut [Block]),
     near: &[u32],
 ) {
@@ -44,6 +50,9 @@ pub(super) fn run_kernels(
     let grid = &seen.scene.grid;
     place(level, shared, stage, &setting.view, light);
     points(level, shared, blocks, stage, &setting.view);
+    if let Material::Leaves = material {
+        swell(level, shared, blocks, crowns, setting.view.position, setting.view.pixel());
+    }
     open(level, shared, grid.tables(), &grid.frame(), light.night > 0.0);
     if let Material::Ground(_) = material {
         for person in near {
@@ -60,21 +69,31 @@ pub(super) fn run_kernels(
         }
     }
     let is_bent = material.is_bent();
-    if let Material::Leaves = material {
-        swell(level, blocks, crowns, setting.view.position);
-    }
     if let Material::Tiles(_) = material {
         lift(level, blocks);
     }
     if material.faces_away(stage, light) {
         blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
     } else {
+        let is_leaves = matches!(material, Material::Leaves);
+        let off_crown = light.to_sun * if is_leaves { OFF_CROWN_M } else { 0.0 };
+        if is_leaves {
+            shift(level, blocks, off_crown);
+        }
         setting.shadows.sunlight(level, blocks, !is_bent, noise, near);
+        if is_leaves {
+            shift(level, blocks, off_crown * -1.0);
+        }
     }
     match material {
         // The sky is done; even surfaces are of the simple look.
         Material::Sky | Material::Even => {}
-        Material::Ground(label) => ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), noise),
+        Material::Ground(label) => {
+            ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), noise);
+            if *label == SemanticLabel::SideWalks {
+                stones(level, shared, blocks, kerbs, seen.scene.kerb_tone, noise);
+            }
+        }
         Material::Facade(look, face) => facade(level, shared, blocks, look, face, light, noise),
         Material::Roof(roof) => roofs(level, shared, blocks, roof, light, noise),
         Material::Tiles(slope) => tiles(level, shared, blocks, slope, noise),
@@ -96,7 +115,7 @@ pub(super) fn run_kernels(
     }
     let is_shiny = is_wet || answers.shiny;
     if is_shiny {
-        lighting::mirrored(level, shared, light, (grid.tables(), &grid.frame()));
+        lighting::mirrored(level, shared, light, is_wet, (grid.tables(), &grid.frame()));
     }
     lighting::develop(level, shared, blocks, light, &setting.tone, answers.glows && light.night > 0.0, is_shiny);
 }
@@ -123,7 +142,7 @@ pub(super) fn run_simple_kernels(
         }
         Material::Leaves => {
             points(level, shared, blocks, stage, &setting.view);
-            swell(level, blocks, crowns, setting.view.position);
+            swell(level, shared, blocks, crowns, setting.view.position, setting.view.pixel());
             even_leaves(level, blocks, crowns);
             lighting::develop_bent(level, shared, blocks, light, tone);
         }

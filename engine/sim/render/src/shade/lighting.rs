@@ -35,7 +35,7 @@ simd_kernel! {
                     let puddle = smoothstep(edge, edge + 0.05, level) * flat;
                     let albedo = get(&block.albedo, k) * (1.0 - 0.42 * flat - 0.10 * puddle);
                     set(&mut block.albedo, k, albedo);
-                    block.mirror[k] = most(block.mirror[k], 0.24 * flat + 0.45 * puddle);
+                    block.mirror[k] = most(block.mirror[k], 0.32 * flat + 0.55 * puddle);
                 }
             }
         }
@@ -61,9 +61,11 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// Sky, houses across the street and lamps as flat surfaces mirror them.
-    pub fn mirrored(shared: &mut [Shared], light: &Light, grid: (&GridTables, &GridFrame)) {
+    /// Sky, houses across the street and lamps as flat surfaces mirror them; `film` tells a film of water from glass and paint.
+    pub fn mirrored(shared: &mut [Shared], light: &Light, film: bool, grid: (&GridTables, &GridFrame)) {
         let (light, tables, frame) = (*light, grid.0, *grid.1);
+        // Water mirrors more along it than from above.
+        let [from_above, along] = if film { [0.26, 2.0] } else { [0.30, 0.9] };
         for shared in shared.iter_mut() {
             for k in 0..WIDE {
                 let (ray, normal) = (get(&shared.ray, k), get(&shared.normal, k));
@@ -73,7 +75,7 @@ simd_kernel! {
                 let grazing2 = grazing * grazing;
                 let fresnel = 0.05 + 0.95 * grazing2 * grazing2 * grazing;
                 let out = view + normal * (2.0 * cosine);
-                shared.fresnel[k] = 0.30 + 0.9 * fresnel;
+                shared.fresnel[k] = from_above + along * fresnel;
                 // A wall mirrors the houses across the street up to their roofs, and ground beside it its own houses: as
                 // high as a place some way along the mirrored ray sees little of the sky.
                 let level_m = 16.0 / (out.x * out.x + out.y * out.y + 0.02).sqrt();

@@ -7,19 +7,12 @@
 mod bands;
 mod body_shadow;
 mod cloth;
-pub mod facade;
 pub mod foliage;
 pub mod geometry;
-pub mod grid;
-pub mod ground;
 mod kernels;
-pub mod lanes;
-pub(crate) mod leaves;
-pub mod light;
 pub mod lighting;
 pub(crate) mod material;
 pub mod outskirts;
-pub mod pattern;
 mod seen_places;
 pub mod setting;
 pub mod shader;
@@ -33,7 +26,8 @@ pub mod smooth;
 pub(crate) mod sun_map;
 mod sun_window;
 mod sunlight;
-pub mod surface;
-pub mod things;
 pub mod tone;
-pub mod vector;
+
+pub(crate) use cosfly_materials::{
+    facade, grid, ground, kerbs, lanes, leaves, light, pattern, surface, things, vector,
+};

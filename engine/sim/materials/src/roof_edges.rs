@@ -1,6 +1,6 @@
 //! Where the flat roof of a building that is made of several boxes goes on from box to box: no parapet stands there.
 
-use crate::scene_parts::{BOX_FACES, SceneBox};
+use crate::parts::{BOX_FACES, SceneBox};
 use cosfly_frames::DVec2;
 use cosfly_maps::ObstacleKind;
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ const BESIDE_M: f64 = 0.3;
 const ONE_HEIGHT_M: f64 = 0.1;
 
 /// For each box the sides on which its roof goes on.
-pub(crate) fn roofs_that_go_on(boxes: &[SceneBox]) -> Vec<[bool; 4]> {
+pub fn roofs_that_go_on(boxes: &[SceneBox]) -> Vec<[bool; 4]> {
     let mut buildings: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (index, b) in boxes.iter().enumerate().filter(|(_, b)| b.kind == ObstacleKind::Building) {
         buildings.entry(b.instance).or_default().push(index);
@@ -69,7 +69,7 @@ fn contains(b: &SceneBox, place: DVec2) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::boxes_of;
+    use crate::parts::boxes_of;
     use cosfly_frames::DVec3;
     use cosfly_geometry::OrientedBox;
     use cosfly_maps::{Obstacle, Town};

@@ -46,14 +46,14 @@ impl Weather {
     /// Names of all presets, in CARLA's order.
     pub const PRESETS: [&'static str; 22] = names();
 
-    /// A preset by its name. Its `sun_azimuth_angle` is CARLA's -1 ("keep"); [`crate::RenderConfig::draw_weather`] draws it.
+    /// A preset by its name. Its `sun_azimuth_angle` is CARLA's -1 ("keep"); the renderer draws it.
     pub fn preset(name: &str) -> Option<Self> {
         ROWS.iter().find(|row| row.0 == name).map(from_row)
     }
 }
 
 /// The preset that is used where none is asked for.
-pub(crate) fn clear_noon() -> Weather {
+pub fn clear_noon() -> Weather {
     from_row(&ROWS[0])
 }
 

@@ -1,10 +1,10 @@
 //! Pitched roofs: the steps of their boxes drawn as slopes of tiles.
 
+use crate::lanes::{Block, Shared, WIDE, get, groups, set};
+use crate::pattern::{NoiseTexture, Noises, draw, hash, lerp, one_if, stripes, unit};
 use crate::roof_steps::{Pitch, TopSlope};
-use crate::shade::lanes::{Block, Shared, WIDE, get, groups, set};
-use crate::shade::pattern::{NoiseTexture, Noises, draw, hash, lerp, one_if, stripes, unit};
-use crate::shade::surface::{Look, SurfacePoint};
-use crate::shade::vector::Vec3;
+use crate::surface::{Look, SurfacePoint};
+use crate::vector::Vec3;
 use cosfly_frames::simd_kernel;
 
 /// Height above a step at which its sunlight is looked up, metres: no step shades the next one there.

@@ -1,6 +1,6 @@
 //! Which boxes of a building are steps of a pitched roof: they are drawn as slopes, whatever their faces.
 
-use crate::scene_parts::SceneBox;
+use crate::parts::SceneBox;
 use cosfly_frames::DVec2;
 use cosfly_maps::ObstacleKind;
 use std::collections::BTreeMap;
@@ -18,7 +18,7 @@ const BESIDE: f64 = 2.0;
 
 /// Place of a box in a building with a pitched roof.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct RoofStep {
+pub struct RoofStep {
     /// What the upright faces show, in the order of the faces of boxes.
     pub sides: [Side; 4],
     /// Slope of the upper face; none where it is level.
@@ -29,7 +29,7 @@ pub(crate) struct RoofStep {
 
 /// What an upright face shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Side {
+pub enum Side {
     /// A wall of its own.
     Wall,
     /// The wall below goes on.
@@ -39,13 +39,14 @@ pub(crate) enum Side {
 }
 
 /// Sine and cosine of a slope's angle.
-pub(crate) type Pitch = [f32; 2];
+pub type Pitch = [f32; 2];
 
 /// An upper face that slopes down from a rectangle on all sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct TopSlope {
+pub struct TopSlope {
     /// Middle and half size of the rectangle along the box's axes, from its middle, metres.
     pub above_m: [f32; 4],
+    /// Its angle.
     pub pitch: Pitch,
 }
 
@@ -106,7 +107,7 @@ fn pitch(rise_m: f64, run_m: f64) -> Pitch {
 }
 
 /// The places of all boxes in pitched roofs; none for most.
-pub(crate) fn roof_steps(boxes: &[SceneBox]) -> Vec<Option<RoofStep>> {
+pub fn roof_steps(boxes: &[SceneBox]) -> Vec<Option<RoofStep>> {
     let mut bases: BTreeMap<(u32, i64), Vec<usize>> = BTreeMap::new();
     let level = |height_m: f64| (height_m / CLOSE_M).floor() as i64;
     let is_building = |b: &SceneBox| b.kind == ObstacleKind::Building;
@@ -207,7 +208,7 @@ fn ridge(half_m: DVec2, sides: &[Side; 4], pitch: Pitch) -> TopSlope {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::boxes_of;
+    use crate::parts::boxes_of;
     use cosfly_frames::DVec3;
     use cosfly_geometry::OrientedBox;
     use cosfly_maps::solids::{Footprint, Roof, building_boxes};

@@ -6,8 +6,11 @@ use cosfly_frames::DVec3;
 /// A point, direction or linear colour (red, green, blue).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vec3 {
+    /// The first, or red.
     pub x: f32,
+    /// The second, or green.
     pub y: f32,
+    /// The third, or blue.
     pub z: f32,
 }
 

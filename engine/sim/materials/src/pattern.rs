@@ -181,6 +181,7 @@ pub fn four_bytes(bytes: [u8; 4]) -> u32 {
     u32::from_le_bytes(bytes)
 }
 
+/// From `a` to `b` as `t` goes from 0 to 1.
 #[inline(always)]
 pub fn lerp(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t

@@ -1,7 +1,7 @@
 //! Families of houses by use and age: what their walls, windows and ground floors are drawn from.
 
-use crate::shade::pattern::{draw, hash, one_if};
-use crate::shade::vector::Vec3;
+use crate::pattern::{draw, hash, one_if};
+use crate::vector::Vec3;
 
 /// What a family's houses have in common. Pairs are the lowest and highest value to draw.
 pub(super) struct Family {

@@ -1,12 +1,12 @@
 //! Flat roofs: roofing, parapets, skylights, machines and their shadows.
 
-use crate::shade::lanes::{Block, Shared, WIDE, groups};
-use crate::shade::light::Light;
-use crate::shade::pattern::{
+use crate::lanes::{Block, Shared, WIDE, groups};
+use crate::light::Light;
+use crate::pattern::{
     NoiseTexture, Noises, band, draw, floor_int, hash, least, most, one_if, smoothstep, stripes, unit,
 };
-use crate::shade::surface::{Look, SurfacePoint};
-use crate::shade::vector::Vec3;
+use crate::surface::{Look, SurfacePoint};
+use crate::vector::Vec3;
 use cosfly_frames::simd_kernel;
 
 simd_kernel! {

@@ -41,8 +41,9 @@ pub struct Stage {
     pub down: StageRow,
     /// Unit normal of the face, any side.
     pub normal: [StageRow; 3],
-    /// The face's own horizontal, and the other direction along it, unit vectors.
+    /// The face's own horizontal, unit vectors.
     pub along: [StageRow; 3],
+    /// The other direction along it, unit vectors.
     pub up: [StageRow; 3],
 }
 

@@ -1,8 +1,8 @@
 //! Light that stays in place: how much sky the ground sees, and how much lamps give, on a coarse grid over the town.
 
-use crate::scene_parts::{Cluster, SceneBox};
-use crate::shade::pattern::{blend, fixed_size, floor_int, four_bytes, least, lerp, most, nearest_index, share};
-use crate::shade::things::bulb;
+use crate::parts::{Cluster, SceneBox};
+use crate::pattern::{blend, fixed_size, floor_int, four_bytes, least, lerp, most, nearest_index, share};
+use crate::things::bulb;
 use cosfly_frames::DVec3;
 use cosfly_maps::ObstacleKind;
 
@@ -101,7 +101,7 @@ impl GridFrame {
 
 impl LightGrid {
     /// Measures the town.
-    pub(crate) fn new(boxes: &[SceneBox], clusters: &[Cluster]) -> Self {
+    pub fn new(boxes: &[SceneBox], clusters: &[Cluster]) -> Self {
         let mut low = DVec3::INFINITY;
         let mut high = DVec3::NEG_INFINITY;
         for (center, half) in boxes
@@ -170,11 +170,13 @@ impl LightGrid {
     }
 
     /// The cells as kernels read them.
+    #[inline]
     pub fn tables(&self) -> &GridTables {
         &self.tables
     }
 
     /// Place of the tables in the world.
+    #[inline]
     pub fn frame(&self) -> GridFrame {
         let last = [self.columns, self.rows].map(|count| count as f32 - 1.501);
         GridFrame { min: self.min, cells_per_m: self.cells_per_m, last }

@@ -1,0 +1,270 @@
+//! Leaves of trees and bushes: clumps of light and dark over round crowns.
+//!
+//! Boxes of crowns are small on the screen: all of a picture are shaded together, each four with the numbers of its crown.
+
+use super::lanes::{
+    Block, EMPTY_ROW, FOUR, Shared, Stage, StageRow, WIDE, get, groups, set, three_of, write_row, write_three,
+};
+use super::pattern::{NoiseTexture, Noises, draw, least, most, share, smoothstep, unit};
+use super::surface::{Look, SurfacePoint};
+use super::vector::Vec3;
+use crate::parts::SceneBox;
+use cosfly_frames::simd_kernel;
+use cosfly_maps::ObstacleKind;
+
+/// Leaves by species, linear RGB: plane, lime, maple, oak, ash, willow, cherry, olive, birch, and copper beech.
+const SPECIES: [[f32; 3]; 10] = [
+    [0.085, 0.135, 0.036],
+    [0.095, 0.160, 0.042],
+    [0.070, 0.125, 0.030],
+    [0.062, 0.100, 0.030],
+    [0.080, 0.120, 0.045],
+    [0.130, 0.165, 0.060],
+    [0.075, 0.110, 0.034],
+    [0.105, 0.120, 0.070],
+    [0.125, 0.150, 0.040],
+    [0.075, 0.045, 0.040],
+];
+
+/// The same leaves in autumn; olives stay green.
+const AUTUMN: [[f32; 3]; 10] = [
+    [0.230, 0.150, 0.040],
+    [0.330, 0.240, 0.040],
+    [0.330, 0.100, 0.030],
+    [0.190, 0.095, 0.035],
+    [0.250, 0.215, 0.050],
+    [0.230, 0.210, 0.070],
+    [0.270, 0.075, 0.035],
+    [0.105, 0.120, 0.070],
+    [0.360, 0.260, 0.050],
+    [0.190, 0.085, 0.035],
+];
+/// Share of towns that are seen in autumn.
+const AUTUMN_SHARE: f32 = 0.2;
+
+fn is_autumn(town: u32) -> bool {
+    draw(town, 9) < AUTUMN_SHARE
+}
+
+/// A crown.
+#[derive(Clone, Copy, Debug)]
+pub struct Leaves {
+    /// Middle and half size of the whole crown, metres; one divided by that size.
+    middle: Vec3,
+    half: Vec3,
+    shrink: Vec3,
+    tint: Vec3,
+    /// Where its patterns begin.
+    shift: f32,
+}
+
+impl Leaves {
+    /// The crown that a box belongs to, if there are leaves in it.
+    pub fn of(b: &SceneBox) -> Option<Self> {
+        if !matches!(b.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush) {
+            return None;
+        }
+        let [middle, half] = b.whole.map(|v| Vec3::new(v.x, v.y, v.z));
+        let (seed, common) = (b.seed, SPECIES.len() - 1);
+        // The last species is rare.
+        let species = if draw(seed, 8) < 0.03 { common } else { (draw(seed, 7) * common as f32) as usize % common };
+        let [green, late] = [SPECIES, AUTUMN].map(|leaves| leaves[species]).map(|[r, g, b]| Vec3::new(r, g, b));
+        // Trees of a town turn one after the other.
+        let turned = if is_autumn(b.town) { share(1.4 * draw(seed, 9) - 0.1) } else { 0.0 };
+        let tint = green.lerp(late, turned) * (0.8 + 0.45 * draw(seed, 1));
+        Some(Self { middle, half, shrink: half.map(|half| 1.0 / half.max(0.1)), tint, shift: 37.0 * unit(seed) })
+    }
+}
+
+impl Leaves {
+    /// Half the lesser width of the crown, metres.
+    pub fn half_width_m(&self) -> f32 {
+        least(self.half.x, self.half.y)
+    }
+}
+
+/// Crowns on the stage, one for each four.
+pub struct Crowns {
+    middle: [StageRow; 3],
+    half: [StageRow; 3],
+    shrink: [StageRow; 3],
+    tint: [StageRow; 3],
+    shift: StageRow,
+}
+
+impl Crowns {
+    /// Nothing in particular.
+    pub const EMPTY: Self = Self {
+        middle: [EMPTY_ROW; 3],
+        half: [EMPTY_ROW; 3],
+        shrink: [EMPTY_ROW; 3],
+        tint: [EMPTY_ROW; 3],
+        shift: EMPTY_ROW,
+    };
+
+    #[inline(always)]
+    fn seen(&self, eye: Vec3, group: usize, k: usize) -> Seen {
+        let [middle, half, shrink] = [&self.middle, &self.half, &self.shrink].map(|rows| three_of(rows, group, k));
+        Seen { eye, middle, half, shrink }
+    }
+}
+
+simd_kernel! {
+    /// Puts a crown on the stage from a four on, sixteen fours at a time: what is too much, the next one writes over.
+    pub fn put_crown(crowns: &mut Crowns, first: usize, fours: usize, look: &Leaves) {
+        for done in (0..fours).step_by(WIDE) {
+            let at = first.wrapping_add(done);
+            write_three(&mut crowns.middle, at, look.middle);
+            write_three(&mut crowns.half, at, look.half);
+            write_three(&mut crowns.shrink, at, look.shrink);
+            write_three(&mut crowns.tint, at, look.tint);
+            write_row(&mut crowns.shift, at, look.shift);
+        }
+    }
+}
+
+/// A crown on the stage at four `k` of a group, and the eye that sees it.
+#[derive(Clone, Copy)]
+struct Seen {
+    eye: Vec3,
+    middle: Vec3,
+    half: Vec3,
+    shrink: Vec3,
+}
+
+impl Seen {
+    /// The place on the round crown on the way from the eye to a place, and the normal there. Where the way passes the round
+    /// crown, the crown's nearest place counts.
+    #[inline(always)]
+    fn round(self, place: Vec3) -> (Vec3, Vec3) {
+        let from = (self.eye - self.middle) * self.shrink;
+        let along = (place - self.eye) * self.shrink;
+        let (a, b, c) = (along.dot(along), along.dot(from), from.dot(from) - 1.25);
+        let reach = most(b * b - a * c, 0.0).sqrt();
+        let out = from + along * ((-b - reach) / a);
+        (self.middle + out * self.half, (out * self.shrink).unit())
+    }
+}
+
+simd_kernel! {
+    /// Moves places on a crown's boxes to the round crown around them, along the view, and turns normals its way:
+    /// light and leaves then know nothing of boxes. `pixel` is the size of a pixel at a distance of 1.
+    pub fn swell(shared: &mut [Shared], blocks: &mut [Block], crowns: &Crowns, eye: Vec3, pixel: f32) {
+        for (group, shared) in shared.iter_mut().enumerate() {
+            for k in 0..WIDE {
+                let crown = crowns.seen(eye, group, k);
+                let (place, normal) = crown.round(get(&shared.middle, k));
+                let away = place - eye;
+                set(&mut shared.middle, k, place);
+                set(&mut shared.normal, k, normal);
+                shared.footprint_m[k] = pixel * away.dot(away).sqrt();
+            }
+        }
+        for (group, four) in blocks.as_chunks_mut::<FOUR>().0.iter_mut().enumerate() {
+            for block in four {
+                for k in 0..WIDE {
+                    let (place, normal) = crowns.seen(eye, group, k).round(get(&block.world, k));
+                    set(&mut block.world, k, place);
+                    set(&mut block.normal, k, normal);
+                }
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Moves places by a vector: the light of a crown is that of its surroundings, no box of its own shades another.
+    pub fn shift(blocks: &mut [Block], by: Vec3) {
+        for block in blocks.iter_mut() {
+            for k in 0..WIDE {
+                let place = get(&block.world, k);
+                set(&mut block.world, k, place + by);
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// The look of leaves.
+    pub fn leaves(shared: &[Shared], blocks: &mut [Block], crowns: &Crowns, noise: &NoiseTexture) {
+        for (group, (shared, four)) in groups(shared, blocks).enumerate() {
+            let shifts = Stage::lane(&crowns.shift, group);
+            for block in four {
+                for (k, shift) in shifts.iter().enumerate() {
+                    let [middle, half, shrink, tint] = [&crowns.middle, &crowns.half, &crowns.shrink, &crowns.tint]
+                        .map(|rows| three_of(rows, group, k));
+                    let crown = OnMap { middle, half, shrink, tint, shift: *shift };
+                    let look = look(&block.point(shared, k), &crown, noise);
+                    block.put_bent(k, &look);
+                }
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// Crowns in the simple look: of one colour each, darker below.
+    pub fn even_leaves(blocks: &mut [Block], crowns: &Crowns) {
+        for (group, four) in blocks.as_chunks_mut::<FOUR>().0.iter_mut().enumerate() {
+            for block in four {
+                for k in 0..WIDE {
+                    let normal = get(&block.normal, k);
+                    set(&mut block.albedo, k, three_of(&crowns.tint, group, k) * 1.2);
+                    set(&mut block.bent, k, normal);
+                    block.openness[k] = 0.75 + 0.25 * normal.z;
+                    block.sunlight[k] = 1.0;
+                }
+            }
+        }
+    }
+}
+
+/// The look of a place on a round crown. Patterns lie on a map that keeps shapes (stereographic) of its upper half, and on the
+/// mirrored one of its lower half: there are no seams.
+#[inline(always)]
+fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> Look {
+    let out = point.normal;
+    let size = point.footprint_m;
+    let (u, v, scale) = crown.place(point.world);
+    let clumps = |offset: f32| noise.clumps(u + offset, v - offset, size * scale) - 0.5;
+    let (big, aside, upward) = (clumps(crown.shift), clumps(crown.shift + 91.0), clumps(crown.shift + 173.0));
+    let small = noise.grain(u * 0.55, v * 0.55, size * scale * 0.55) - 0.5;
+    // Every clump of leaves faces its own way.
+    let bent = out + Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big) * 1.5;
+    let deep = smoothstep(-0.42, 0.42, 0.9 * big + 1.5 * small);
+    // Light shines through leaves at the rim of a clump: they are yellower there.
+    let tint = crown.tint.lerp(crown.tint * 0.6 + Vec3::new(0.11, 0.115, 0.02), 0.5 * (small + 0.5) * deep);
+    // Darker below, where the crown shades itself.
+    let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z);
+    Look { openness: (0.55 + 0.55 * deep) * shade, ..Look::matt(tint * (0.50 + 0.95 * deep), bent.unit()) }
+}
+
+/// A crown as its patterns know it.
+struct OnMap {
+    middle: Vec3,
+    half: Vec3,
+    shrink: Vec3,
+    tint: Vec3,
+    shift: f32,
+}
+
+impl OnMap {
+    /// Where a place of the crown lies on its map, and the map's scale there, per metre.
+    #[inline(always)]
+    fn place(&self, world: Vec3) -> (f32, f32, f32) {
+        let out = ((world - self.middle) * self.shrink).unit();
+        let scale = 42.0 / (1.0 + out.z.abs());
+        (out.x * self.half.x * scale, out.y * self.half.y * scale, scale)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_town_in_five_is_seen_in_autumn() {
+        let share = (0..5000u32).filter(|town| is_autumn(town.wrapping_mul(0x9e37_79b1))).count() as f32 / 5000.0;
+        assert!((share - AUTUMN_SHARE).abs() < 0.02, "{share}");
+    }
+}

@@ -1,0 +1,24 @@
+//! What towns are made of, as pictures show it: walls, roofs, ground, leaves and things, each drawn from a seed, and the light
+//! on them. No camera and no picture: a material is a kernel that answers for sixteen points at a time.
+//!
+//! [`parts`] are the boxes and ground of a town that carry materials; [`roof_steps`] and [`roof_edges`] say which of their
+//! faces make one roof. [`facade`], [`ground`], [`kerbs`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`]
+//! and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
+//! the lamps each place of a town sees.
+
+pub mod facade;
+pub mod grid;
+pub mod ground;
+pub mod kerbs;
+pub mod lanes;
+pub mod leaves;
+pub mod light;
+pub mod parts;
+pub mod pattern;
+pub mod presets;
+pub mod roof_edges;
+pub mod roof_steps;
+pub mod surface;
+pub mod things;
+pub mod vector;
+pub mod weather;
