@@ -57,7 +57,7 @@ impl StageKind for TrafficKind {
         let sources = config.take_sources();
         let properties = |parameters, inputs, artifact, items, bytes_per_item| StageProperties {
             kind: self.name().into(),
-            version: 4,
+            version: 5,
             parameters,
             sources: vec![],
             inputs,
