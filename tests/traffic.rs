@@ -101,3 +101,26 @@ fn tracks_that_cannot_be_used_are_named_with_their_line() {
     assert_ne!(printed.code, Some(0));
     assert!(printed.stderr.contains("tracks.csv") && printed.stderr.contains("line 3"), "{}", printed.stderr);
 }
+
+#[test]
+fn scripted_people_are_followed_by_their_names() {
+    let folder = tempfile::tempdir().expect("scratch");
+    let recipe = "name = \"named\"\nseed = 1\n[stages.town]\nuse = \"map\"\nsource = \"MAP\"\n[stages.street]\nuse = \"traffic\"\n\
+                  inputs.town = \"town\"\nframes = 20\npeople.count = 5\nvehicles.count = 0\nfollow = { count = 1, named = [\"Ada\"] }\n\
+                  scripted = [{ id = \"Ada\", route = [{ at_m = [16.0, 1.0] }, { at_m = [56.0, 6.0] }] }]\n";
+    let map = crate::support::repository_root().join("recipes/towns/downtown.xodr");
+    let path = folder.path().join("recipe.toml");
+    std::fs::write(&path, recipe.replace("MAP", &map.display().to_string())).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let printed = run(folder.path(), path, "out", &[]).run_ok();
+    assert_eq!(made(&printed.stdout).iter().find(|it| it.0 == "street").map(|it| it.1), Some(1));
+    let refused = run(folder.path(), path, "eve", &["stages.street.follow.named=[\"Eve\"]"]).run();
+    assert!(refused.stderr.contains("nobody is called so") && refused.stderr.contains("`Ada`"), "{}", refused.stderr);
+    let off = run(
+        folder.path(),
+        path,
+        "off",
+        &["stages.street.scripted=[{ id = \"Ada\", route = [{ at_m = [10.0, 6.0] }] }]"],
+    );
+    assert!(off.run().stderr.contains("the nearest is"));
+}

@@ -15,6 +15,7 @@ mod flown;
 mod formation;
 mod group_notes;
 mod group_splits;
+mod hidden;
 mod inspect;
 mod logs;
 pub mod map;

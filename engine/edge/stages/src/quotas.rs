@@ -3,6 +3,7 @@
 
 use crate::codec;
 use crate::expert::Expert;
+use crate::hidden::hidden;
 use crate::ports::{self, LOSSES, ORDERS};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
@@ -17,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Version of the trials, which is theirs and not that of the flights.
-pub const TRIALS_VERSION: u32 = 7;
+pub const TRIALS_VERSION: u32 = 8;
 /// Part with the trial of every flight.
 pub const TRIALS: &str = "trials";
 /// Part with the orders of all flights.
@@ -36,7 +37,7 @@ const FRAMES_BESIDE: usize = 3;
 /// What came of ordering a loss.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Trial {
-    /// Whether the target is lost for as long as ordered.
+    /// Whether the target is lost for as long as ordered, by its points and by its whole figure.
     pub is_lost: bool,
     /// Whether somebody in the target's clothes is beside it where it is seen again.
     pub beside_look_alike: bool,
@@ -57,10 +58,13 @@ impl Trial {
             let length_s = loss.len() as f64 * dt_s;
             length_s >= ordered.min_s - 1e-9 && length_s <= ordered.max_s + 1e-9
         };
+        let ordered_among = |lost: &[bool]| losses(lost).iter().filter(|loss| is_ordered(loss)).count();
+        let by_points: Vec<bool> = flight.visibility.iter().map(|visibility| *visibility == 0.0).collect();
+        let by_figure = hidden(flight, boxes, around, followed);
         let least_s = f64::from(ordered.count) * ordered.min_s;
-        let is_lost = losses(flight).iter().filter(|loss| is_ordered(loss)).count() >= ordered.count as usize
+        let is_lost = [&by_points, &by_figure].iter().all(|lost| ordered_among(lost) >= ordered.count as usize)
             && flight.certificate.occlusion_reached_s >= least_s - 1e-9;
-        let seen_again = seen_again(flight);
+        let seen_again = seen_again(&by_points);
         let beside_look_alike = followed.zip(seen_again).is_some_and(|(followed, frame)| {
             let looks = |seed| Outfit::of(BodyShape::Person, seed);
             let bodies = around.bodies().map(|(_, body)| body);
@@ -87,19 +91,18 @@ impl Trial {
     }
 }
 
-/// Frames of each loss: of each longest stretch in which no ray reaches the target.
-fn losses(flight: &Trajectory) -> Vec<Range<usize>> {
-    let lost = |frame: &usize| flight.visibility[*frame] == 0.0;
-    let frames: Vec<usize> = (0..flight.visibility.len()).collect();
-    let stretches = frames.chunk_by(|a, b| lost(a) == lost(b)).filter(|stretch| lost(&stretch[0]));
+/// Frames of each loss: of each longest stretch in which the target is lost.
+fn losses(lost: &[bool]) -> Vec<Range<usize>> {
+    let frames: Vec<usize> = (0..lost.len()).collect();
+    let stretches = frames.chunk_by(|a, b| lost[*a] == lost[*b]).filter(|stretch| lost[stretch[0]]);
     stretches.map(|stretch| stretch[0]..stretch[stretch.len() - 1] + 1).collect()
 }
 
 /// Frame after the first of the longest losses; `None` where it is the end.
-fn seen_again(flight: &Trajectory) -> Option<usize> {
+fn seen_again(lost: &[bool]) -> Option<usize> {
     let longest =
-        losses(flight).into_iter().reduce(|longest, next| if next.len() > longest.len() { next } else { longest })?;
-    Some(longest.end).filter(|frame| *frame < flight.visibility.len())
+        losses(lost).into_iter().reduce(|longest, next| if next.len() > longest.len() { next } else { longest })?;
+    Some(longest.end).filter(|frame| *frame < lost.len())
 }
 
 /// Whether somebody is near the target and in the picture with it, with nothing of the town before the middle of the body, in
@@ -118,20 +121,35 @@ fn is_seen_beside(body: &Body, flight: &Trajectory, frame: usize, boxes: &BoxBvh
     })
 }
 
-/// Who loses the target: for each flight in turn, from its trial and those before it.
+/// Number of flights that a share of `count` asks for: up to one more than the share.
+fn wanted(share: f64, count: usize) -> usize {
+    (share * count as f64 - 1e-9).ceil() as usize
+}
+
+/// Who loses the target, by the trials of all flights: as many as are wanted and can, in turn, and among them as many as are wanted
+/// and can who are beside a look-alike.
 fn assigned(trials: &[Trial], share: f64, share_beside: f64) -> Vec<bool> {
-    let (mut given, mut given_beside) = (0.0, 0.0);
-    let assign = |(place, trial): (usize, &Trial)| {
-        // Ahead by up to one: who comes later may not be able to.
-        let wanted = (share * (place + 1) as f64 - 1e-9).ceil();
-        let wanted_beside = (share_beside * wanted - 1e-9).ceil();
-        let is_beside = trial.beside_look_alike;
-        let goes = trial.is_lost && ((is_beside && given_beside < wanted_beside) || given < wanted);
-        given += f64::from(u8::from(goes));
-        given_beside += f64::from(u8::from(goes && is_beside));
+    let mut given = 0;
+    let in_turn = trials.iter().enumerate().map(|(place, trial)| {
+        let goes = trial.is_lost && given < wanted(share, place + 1);
+        given += usize::from(goes);
         goes
-    };
-    trials.iter().enumerate().map(assign).collect()
+    });
+    let mut goes: Vec<bool> = in_turn.collect();
+    // Where those at the end cannot, others do.
+    let wanted_in_all = wanted(share, trials.len());
+    let others = (0..trials.len()).rev().filter(|place| trials[*place].is_lost && !goes[*place]);
+    let others: Vec<usize> = others.take(wanted_in_all - given).collect();
+    others.into_iter().for_each(|place| goes[place] = true);
+    // Who is beside a look-alike takes the order of the last one who is not.
+    let is_beside = |place: &usize| trials[*place].is_lost && trials[*place].beside_look_alike;
+    let beside = goes.iter().enumerate().filter(|(place, goes)| **goes && is_beside(place)).count();
+    let missing = wanted(share_beside, wanted_in_all).saturating_sub(beside);
+    let to = (0..goes.len()).filter(|place| !goes[*place] && is_beside(place));
+    let from = (0..goes.len()).rev().filter(|place| goes[*place] && !is_beside(place));
+    let swaps: Vec<(usize, usize)> = to.zip(from).take(missing).collect();
+    swaps.into_iter().for_each(|(to, from)| goes.swap(to, from));
+    goes
 }
 
 /// The part that gives the orders of `config`.
@@ -139,7 +157,7 @@ pub fn orders_part(config: &OcclusionConfig) -> StagePart {
     let trials = ports::sibling(TRIALS, LOSSES, Fan::Gather, "The trials of all flights.");
     let properties = StageProperties {
         kind: "muco".into(),
-        version: 2,
+        version: 3,
         parameters: serde_json::json!({ "share": config.share, "beside_look_alike": config.beside_look_alike }),
         sources: vec![],
         inputs: vec![trials],
@@ -228,16 +246,37 @@ impl OrdersStage {
 mod tests {
     use super::*;
 
+    fn trials() -> Vec<Trial> {
+        let trial = |number: u32| Trial { is_lost: !number.is_multiple_of(3), beside_look_alike: number % 7 == 1 };
+        (0..400).map(trial).collect()
+    }
+
     #[test]
-    fn shares_are_filled_in_turn_and_more_flights_change_no_order() {
-        let trial = |number: u32| Trial { is_lost: !number.is_multiple_of(3), beside_look_alike: number % 5 == 1 };
-        let trials: Vec<Trial> = (0..400).map(trial).collect();
-        let all = assigned(&trials, 0.2, 0.1);
-        let lost = || trials.iter().zip(&all).filter(|it| *it.1);
-        assert!(lost().all(|it| it.0.is_lost));
-        assert_eq!((lost().count(), lost().filter(|it| it.0.beside_look_alike).count() >= 8), (80, true));
-        assert_eq!(assigned(&trials[..123], 0.2, 0.1), all[..123]);
-        assert_eq!(assigned(&trials, 0.9, 0.0).iter().filter(|goes| **goes).count(), 266, "no more can be lost");
-        assert!(assigned(&trials, 0.0, 1.0).iter().all(|goes| !goes));
+    fn shares_are_filled_as_far_as_flights_can_and_no_further() {
+        let count = |trials: &[Trial], is: &dyn Fn(usize) -> bool| (0..trials.len()).filter(|place| is(*place)).count();
+        for flights in 0..120 {
+            for (share, share_beside) in [(0.2, 0.1), (0.2, 0.0), (0.2, 0.9), (0.7, 0.3), (1.0, 1.0), (0.0, 1.0)] {
+                let trials = &trials()[400 - flights..];
+                let goes = assigned(trials, share, share_beside);
+                assert!(trials.iter().zip(&goes).all(|(trial, goes)| trial.is_lost || !goes));
+                let can = count(trials, &|place| trials[place].is_lost);
+                let wanted = (share * flights as f64 - 1e-9).ceil() as usize;
+                let lost = count(trials, &|place| goes[place]);
+                assert_eq!(lost, wanted.min(can), "{flights} flights, share {share}");
+                let beside = |place: usize| trials[place].is_lost && trials[place].beside_look_alike;
+                let wanted_beside = (share_beside * wanted as f64 - 1e-9).ceil() as usize;
+                let reached = count(trials, &|place| goes[place] && beside(place));
+                assert!(reached >= wanted_beside.min(count(trials, &beside)).min(lost), "{flights} {share_beside}");
+            }
+        }
+    }
+
+    #[test]
+    fn more_flights_change_no_order_where_none_needs_a_look_alike_beside_it() {
+        let trials = trials();
+        let all = assigned(&trials, 0.2, 0.0);
+        for flights in (5..400).step_by(5) {
+            assert_eq!(assigned(&trials[..flights], 0.2, 0.0), all[..flights]);
+        }
     }
 }

@@ -98,6 +98,13 @@ fn impossible(person: &ScriptedPerson, waypoint: usize, problem: String) -> Pede
     PedestrianError::Config(ConfigRule { path: &["route"], message })
 }
 
+/// What is wrong with a place off the ground: the nearest one that is not.
+fn off_ground(at: DVec2, grid: &WalkableGrid) -> String {
+    let places = (0..grid.len() as u32).map(|node| grid.center(node));
+    let nearest = places.min_by(|a, b| (*a - at).length().total_cmp(&(*b - at).length())).unwrap_or(at);
+    format!("at ({}, {}) is not on walkable ground; the nearest is at ({:.1}, {:.1})", at.x, at.y, nearest.x, nearest.y)
+}
+
 /// Plays scripts over the ground of a town. Everybody is present in all frames: standing at the first waypoint before its time,
 /// and at the last one after the script.
 ///
@@ -183,8 +190,7 @@ impl Timeline {
             let node = (0..grid.components.len() as u32).filter_map(|piece| grid.node_near(at, piece, REACH_CELLS));
             let nearest =
                 node.min_by(|a, b| (grid.center(*a) - at).length().total_cmp(&(grid.center(*b) - at).length()));
-            let problem = || format!("at ({}, {}) is not on walkable ground", at.x, at.y);
-            nodes.push(nearest.ok_or_else(|| impossible(person, waypoint, problem()))?);
+            nodes.push(nearest.ok_or_else(|| impossible(person, waypoint, off_ground(at, grid)))?);
         }
         let mut points = vec![grid.center(nodes[0])];
         let mut legs = vec![];

@@ -193,7 +193,7 @@ fn scripts_that_cannot_be_played_are_refused() {
     assert_eq!(refused(vec![]), "the route of `Ada` has no waypoint; it needs at least one");
     assert_eq!(
         refused(vec![at(0.0, 6.0, None), at(0.0, 60.0, None)]),
-        "waypoint 2 of `Ada` at (0, 60) is not on walkable ground"
+        "waypoint 2 of `Ada` at (0, 60) is not on walkable ground; the nearest is at (-0.2, 7.8)"
     );
     let fast = refused(vec![at(0.0, 6.0, None), at(50.0, 6.0, Some(5.0))]);
     assert!(fast.starts_with("waypoint 2 of `Ada` is 5") && fast.ends_with("at most 3 m/s are allowed"), "{fast}");

@@ -121,7 +121,7 @@ fn broken_files_are_refused_with_their_line() {
         ("{\"type\": \"Topology\"}", "the JSON is neither a `FeatureCollection` nor a `Feature`"),
         (
             "{\"type\":\"Feature\",\"properties\":{\"times\":[1]},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[[0,0],[0,1]]}}",
-            "feature 0: it has 2 points and 1 times",
+            "`feature 1`: it has 2 points and 1 times",
         ),
     ] {
         let error = Recording::read(text.as_bytes(), &RecordedConfig::default()).unwrap_err();
@@ -165,7 +165,10 @@ fn what_is_odd_is_counted_and_said() {
     assert_eq!(error.to_string(), "no recorded person is present in the 45 s from `start_s` on");
     let far = RecordedConfig { origin_m: [5000.0, 0.0], ..RecordedConfig::default() };
     let error = recording.placed(&town, &far, clock, seed()).unwrap_err();
-    assert_eq!(error.to_string(), "none of the 4 recorded people is in the town");
+    assert_eq!(
+        error.to_string(),
+        "none of the 4 recorded people is in the town: the first place is 5000 m from its middle"
+    );
 }
 
 #[test]

@@ -96,6 +96,8 @@ impl Driver<'_> {
     fn wanted_mps(&self) -> f64 {
         let Limits { top_mps, brake_mps2, sideways_mps2, .. } = *self.limits;
         let look_m = self.look_m();
+        // Drivers do not slow down at once: they begin so much earlier than they need.
+        let early_m = 2.0 * TOO_FAST_S * self.speed_mps;
         let mut wanted_mps = top_mps;
         let steps = (look_m / SPACING_M) as usize;
         for step in 0..=steps {
@@ -104,11 +106,12 @@ impl Driver<'_> {
             if way_m > self.route.end_m {
                 break;
             }
-            let (lane, own_m) = self.route.lane(self.network, way_m);
-            let in_bend = (sideways_mps2 / lane.curvature(own_m).max(1e-6)).sqrt();
+            let (lane, _) = self.route.lane(self.network, way_m);
+            let in_bend = (sideways_mps2 / self.route.curvature(way_m, SPACING_M).max(1e-6)).sqrt();
             let here_mps = in_bend.min(self.speed_share * lane.limit_mps);
             // Bends may be reached while braking; limits, too.
-            wanted_mps = wanted_mps.min((here_mps * here_mps + 2.0 * 0.7 * brake_mps2 * ahead_m).sqrt());
+            let braking_m = (ahead_m - early_m).max(0.0);
+            wanted_mps = wanted_mps.min((here_mps * here_mps + 2.0 * 0.7 * brake_mps2 * braking_m).sqrt());
         }
         wanted_mps
     }

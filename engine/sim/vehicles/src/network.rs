@@ -1,6 +1,6 @@
-//! [`Network`]: the lanes of a town prepared for driving: places along them, bends, crossings, conflicts in junctions.
+//! [`Network`]: the lanes of a town prepared for driving: places along them, crossings, conflicts in junctions.
 
-use cosfly_frames::{DVec2, DVec3, real};
+use cosfly_frames::{DVec2, DVec3};
 use cosfly_maps::polygons::contains;
 use cosfly_maps::{Lane, LaneKind, Town};
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,8 +9,6 @@ use std::collections::{BTreeMap, BTreeSet};
 const CONFLICT_M: f64 = 2.9;
 /// Distance between the points that are compared, metres.
 const SPACING_M: f64 = 1.0;
-/// Bends are measured over this length, metres.
-pub(crate) const BEND_M: f64 = 3.0;
 /// Side of a cell of the search for conflicts, metres.
 const CELL_M: f64 = 8.0;
 /// Ways ahead are followed so far, metres.
@@ -38,8 +36,6 @@ pub(crate) struct Drive {
     points: Vec<DVec3>,
     /// Way along the lane to each point, metres.
     at_m: Vec<f64>,
-    /// Curvature around each metre, 1/m.
-    bends: Vec<f64>,
 }
 
 /// Ground where people cross a lane.
@@ -82,9 +78,7 @@ impl Drive {
             is_exit: false,
             points,
             at_m,
-            bends: vec![],
         };
-        drive.bends = (0..=length_m as usize).map(|metre| drive.bend(metre as f64)).collect();
         let outlines = lane.crossings.iter().map(|number| town.walkable[*number as usize].plan());
         drive.crossings = outlines.filter_map(|outline| drive.crossing(outline)).collect();
         drive.crossings.sort_by(|a, b| a.from_m.total_cmp(&b.from_m));
@@ -98,17 +92,6 @@ impl Drive {
         let span_m = self.at_m[after] - self.at_m[after - 1];
         let share = ((way_m - self.at_m[after - 1]) / span_m.max(1e-9)).clamp(0.0, 1.0);
         (from.lerp(to, share), (to - from).truncate().normalize_or_zero())
-    }
-
-    /// Curvature around a way along the lane, 1/m.
-    pub fn curvature(&self, way_m: f64) -> f64 {
-        self.bends.get(way_m.max(0.0) as usize).or(self.bends.last()).copied().unwrap_or(0.0)
-    }
-
-    fn bend(&self, way_m: f64) -> f64 {
-        let (low, high) = ((way_m - 0.5 * BEND_M).max(0.0), (way_m + 0.5 * BEND_M).min(self.length_m));
-        let ((_, from), (_, to)) = (self.at(low), self.at(high));
-        real::atan2(from.perp_dot(to), from.dot(to)).abs() / (high - low).max(0.5 * BEND_M)
     }
 
     fn crossing(&self, outline: Vec<DVec2>) -> Option<Crossing> {
@@ -129,7 +112,6 @@ impl Drive {
 impl Network {
     pub fn new(town: &Town) -> Self {
         let mut lanes: Vec<Drive> = town.lanes.iter().map(|lane| Drive::new(lane, town)).collect();
-        bend_at_joints(&mut lanes);
         find_conflicts(&mut lanes);
         let kerb = kerb_side(&lanes);
         let mut network = Self { lanes, kerb };
@@ -193,25 +175,6 @@ impl Network {
                 && (other.truncate() - place).length() < 1.5
         };
         (0u32..).zip(&self.lanes).find(|(other, lane)| *other != number && is_there(lane)).map(|(other, _)| other)
-    }
-}
-
-/// Bends from lane to lane: where the next lane begins in another direction than one ends, both have a bend there.
-fn bend_at_joints(lanes: &mut [Drive]) {
-    let half_m = 0.5 * BEND_M;
-    let mut joints: Vec<(usize, usize, f64)> = vec![];
-    for (number, lane) in lanes.iter().enumerate() {
-        for next in lane.successors.iter().map(|next| *next as usize) {
-            let ((_, from), (_, to)) = (lane.at(lane.length_m - half_m), lanes[next].at(half_m));
-            let turn_rad = real::atan2(from.perp_dot(to), from.dot(to)).abs();
-            joints.push((number, next, turn_rad / BEND_M));
-        }
-    }
-    let near = half_m as usize + 1;
-    for (number, next, curvature) in joints {
-        let last = lanes[number].bends.iter_mut().rev().take(near);
-        last.for_each(|bend| *bend = bend.max(curvature));
-        lanes[next].bends.iter_mut().take(near).for_each(|bend| *bend = bend.max(curvature));
     }
 }
 

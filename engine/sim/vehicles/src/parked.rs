@@ -75,7 +75,7 @@ pub(crate) fn park(
                 lane.crossings.iter().any(|it| (it.from_m - FROM_ENDS_M..it.to_m + FROM_ENDS_M).contains(&middle_m));
             let aside_m = network.kerb * (0.5 * (lane.width_m - size_m.y) - FROM_KERB_M).max(0.0);
             let plan = BodyPlan { source: String::new(), kind, size_m, looks: own.child("looks", place), group: None };
-            let route = Route::new(network, *number, aside_m);
+            let route = Route::new(network, *number, aside_m, size_m.x);
             let mut vehicle = Vehicle::new(network, plan, route, middle_m, Doing::IsParked);
             // Some are parked the other way round.
             if random.chance(0.05) {

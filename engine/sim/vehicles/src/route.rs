@@ -1,14 +1,16 @@
 //! [`Route`]: the lanes that a vehicle drives along, and places on them.
 
-use crate::network::{BEND_M, Drive, Network};
+use crate::network::{Drive, Network};
 use cosfly_frames::{DVec2, DVec3, RandomStream, TargetState, real};
 
 /// Axles lie this far from the middle, as a share of the length.
 const AXLE_SHARE: f64 = 0.3;
-/// Drivers round the corners of lanes: an axle is at the mean of places around its way, metres and weights. They reach as far as
-/// the bends that speeds are chosen for.
-const ROUNDED: [(f64, f64); 5] =
-    [(-0.5 * BEND_M, 0.125), (-0.25 * BEND_M, 0.25), (0.0, 0.25), (0.25 * BEND_M, 0.25), (0.5 * BEND_M, 0.125)];
+/// Drivers round the corners of lanes over this length: an axle is at the mean of places around its way, metres.
+const ROUNDED_M: f64 = 3.0;
+/// Number of these places, evenly spaced.
+const ROUNDED: u32 = 12;
+/// Bends are measured at places so far apart, metres.
+const MEASURED_M: f64 = 0.5;
 /// Routes are drawn so far ahead, metres.
 const AHEAD_M: f64 = 120.0;
 /// Lanes that lead farther are preferred, metres.
@@ -23,18 +25,24 @@ pub(crate) struct Route {
     /// Where the last one ends, metres.
     pub end_m: f64,
     /// Distance from the lanes' middle to the right, metres.
-    pub aside_m: f64,
+    aside_m: f64,
+    /// Distance of the axles from the middle of the vehicle, metres.
+    axle_m: f64,
+    /// How much the vehicle turns, or the way of its middle where that is more, at places [`MEASURED_M`] apart, 1/m.
+    bends: Vec<f64>,
 }
 
 impl Route {
-    pub fn new(network: &Network, lane: u32, aside_m: f64) -> Self {
+    /// The route of a vehicle so long, which begins with a lane.
+    pub fn new(network: &Network, lane: u32, aside_m: f64, length_m: f64) -> Self {
         let end_m = network.lanes[lane as usize].length_m;
-        Self { lanes: vec![lane], starts_m: vec![0.0], end_m, aside_m }
+        Self { lanes: vec![lane], starts_m: vec![0.0], end_m, aside_m, axle_m: AXLE_SHARE * length_m, bends: vec![] }
     }
 
     /// Draws further lanes until the route reaches far enough beyond a way, or nothing follows. Lanes that lead far and are at least
     /// `width_m` wide are preferred.
     pub fn extend(&mut self, network: &Network, way_m: f64, width_m: f64, random: &mut RandomStream) {
+        let mut is_at_end = false;
         while self.end_m < way_m + AHEAD_M {
             let last = &network.lanes[self.lanes[self.lanes.len() - 1] as usize];
             let is_good = |next: &&u32| {
@@ -46,11 +54,39 @@ impl Route {
                 0 => last.successors.get(random.index(last.successors.len())),
                 count => last.successors.iter().filter(is_good).nth(random.index(count)),
             };
-            let Some(next) = next.copied() else { return };
+            let Some(next) = next.copied() else {
+                is_at_end = true;
+                break;
+            };
             self.lanes.push(next);
             self.starts_m.push(self.end_m);
             self.end_m += network.lanes[next as usize].length_m;
         }
+        // Where lanes will follow, the last bends depend on them.
+        let unknown_m = if is_at_end { 0.0 } else { self.axle_m + ROUNDED_M };
+        self.measure(network, self.end_m - unknown_m);
+    }
+
+    /// Measures the bends up to a way.
+    fn measure(&mut self, network: &Network, to_m: f64) {
+        for place in self.bends.len()..(to_m / MEASURED_M).max(0.0) as usize {
+            let [before, here, after] = [-1.0, 0.0, 1.0].map(|step| {
+                let [rear, front] = self.axles(network, MEASURED_M * (place as f64 + step));
+                (0.5 * (rear + front).truncate(), (front - rear).truncate())
+            });
+            let turn_rad = real::atan2(before.1.perp_dot(after.1), before.1.dot(after.1));
+            let change = (after.0 - here.0) - (here.0 - before.0);
+            let aside_m = change.perp_dot((after.0 - before.0).normalize_or_zero());
+            let bend = (aside_m / (MEASURED_M * MEASURED_M)).abs().max((turn_rad / (2.0 * MEASURED_M)).abs());
+            self.bends.push(bend);
+        }
+    }
+
+    /// Largest curvature between a way and another one so far ahead, 1/m.
+    pub fn curvature(&self, way_m: f64, ahead_m: f64) -> f64 {
+        let place = |way_m: f64| (way_m.max(0.0) / MEASURED_M) as usize;
+        let places = place(way_m)..(place(way_m + ahead_m) + 2).min(self.bends.len());
+        self.bends.get(places).unwrap_or_default().iter().copied().fold(0.0, f64::max)
     }
 
     /// Index in the route of the lane at a way.
@@ -73,13 +109,18 @@ impl Route {
 
     /// Place of an axle whose way is given.
     fn axle(&self, network: &Network, way_m: f64) -> DVec3 {
-        ROUNDED.iter().map(|(offset_m, weight)| *weight * self.at(network, way_m + offset_m).0).sum()
+        let offset_m = |place: u32| ROUNDED_M * ((f64::from(place) + 0.5) / f64::from(ROUNDED) - 0.5);
+        (0..ROUNDED).map(|place| self.at(network, way_m + offset_m(place)).0).sum::<DVec3>() / f64::from(ROUNDED)
     }
 
-    /// State of a vehicle whose middle is at a way: its axles lie on the rounded route.
-    pub fn state(&self, network: &Network, way_m: f64, length_m: f64, speed_mps: f64) -> TargetState {
-        let axle_m = AXLE_SHARE * length_m;
-        let [rear, front] = [-axle_m, axle_m].map(|offset| self.axle(network, way_m + offset));
+    /// Places of the axles of a vehicle whose middle is at a way: rear and front.
+    fn axles(&self, network: &Network, way_m: f64) -> [DVec3; 2] {
+        [-self.axle_m, self.axle_m].map(|offset_m| self.axle(network, way_m + offset_m))
+    }
+
+    /// State of the vehicle when its middle is at a way: its axles lie on the rounded route.
+    pub fn state(&self, network: &Network, way_m: f64, speed_mps: f64) -> TargetState {
+        let [rear, front] = self.axles(network, way_m);
         let ahead = (front - rear).truncate();
         let ahead = if ahead.length_squared() > 1e-6 { ahead } else { self.at(network, way_m).1 };
         TargetState { feet_in_world: 0.5 * (rear + front), heading_rad: real::atan2(ahead.y, ahead.x), speed_mps }

@@ -62,7 +62,8 @@ pub(crate) fn driving(
             if !fits {
                 continue;
             }
-            let route = Route::new(network, *number, aside_m(network, lane.kind, lane.width_m, kind, size_m.y));
+            let aside_m = aside_m(network, lane.kind, lane.width_m, kind, size_m.y);
+            let route = Route::new(network, *number, aside_m, size_m.x);
             let vehicle = Vehicle::new(network, plan.clone(), route, way_m, Doing::Drives);
             let place = vehicle.state.feet_in_world;
             let is_inside = config.area_m.is_none_or(|[left, top, right, bottom]| {

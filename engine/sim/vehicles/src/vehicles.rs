@@ -70,7 +70,7 @@ impl Vehicle {
             random: plan.looks.stream("route"),
             way_m,
             speed_mps: 0.0,
-            state: route.state(network, way_m, plan.size_m.x, 0.0),
+            state: route.state(network, way_m, 0.0),
             route,
             plan,
             doing,
@@ -220,7 +220,7 @@ impl Vehicles {
             self.junctions.release(&self.network, vehicle, true);
             return;
         }
-        let state = vehicle.route.state(&self.network, way_m, vehicle.length_m(), speed_mps);
+        let state = vehicle.route.state(&self.network, way_m, speed_mps);
         self.steps += 1;
         let is_still = way_m <= self.vehicles[number].way_m;
         if is_still || self.may_go(number, &state, step_s, everybody) {

@@ -62,6 +62,39 @@ fn vehicles_never_overlap_and_hardly_ever_stop_at_once() {
 }
 
 #[test]
+fn bends_are_taken_at_speeds_that_the_kinds_allow() {
+    let frame_s = 0.2;
+    let clock = Clock::new(500, frame_s, 0.1);
+    for seed in 0..3 {
+        let town = town(seed);
+        let config = VehicleConfig { count: 60, ..VehicleConfig::default() };
+        let vehicles = Vehicles::new(&town, &config, clock, Seed([7; 32]).child("bends", seed)).unwrap();
+        let traffic = run(&mut [Box::new(vehicles)], clock);
+        for (kind, limit_mps2) in [
+            (BodyKind::Bicycle, 1.6),
+            (BodyKind::Motorcycle, 2.5),
+            (BodyKind::Car, 2.2),
+            (BodyKind::Van, 2.0),
+            (BodyKind::Truck, 1.5),
+            (BodyKind::Bus, 1.2),
+        ] {
+            let mut sideways_mps2 = vec![];
+            for body in traffic.bodies.iter().filter(|body| body.plan.kind == kind) {
+                let places: Vec<DVec2> = body.states.iter().map(|state| state.feet_in_world.truncate()).collect();
+                sideways_mps2.extend(places.windows(3).map(|places| {
+                    let change = (places[2] - places[1]) - (places[1] - places[0]);
+                    change.perp_dot((places[2] - places[0]).normalize_or_zero()).abs() / (frame_s * frame_s)
+                }));
+            }
+            sideways_mps2.sort_unstable_by(f64::total_cmp);
+            let Some(most) = sideways_mps2.last() else { continue };
+            let usual = sideways_mps2[sideways_mps2.len() * 99 / 100];
+            assert!(usual <= limit_mps2 && *most <= 1.2 * limit_mps2, "town {seed}: {kind:?} {usual} {most}");
+        }
+    }
+}
+
+#[test]
 fn the_same_seed_gives_the_same_traffic_and_another_one_another() {
     let town = town(1);
     let [one, same, other] = [3, 3, 4].map(|seed| run(&mut [vehicles(&town, 40, seed)], Clock::new(40, 0.5, 0.1)));

@@ -88,7 +88,10 @@ pub struct Follow {
     /// Number of followed bodies; a higher number changes none of the first. Default 4.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub count: u64,
-    /// Kinds of followed bodies, in turn. Default `["pedestrian"]`.
+    /// Names of those who are followed first: scripted and recorded people, vehicles and people of SUMO. They count among `count`.
+    /// Default `[]`.
+    pub named: Vec<String>,
+    /// Kinds of the other followed bodies, in turn. Default `["pedestrian"]`.
     #[schemars(length(min = 1))]
     pub kinds: Vec<BodyKind>,
     /// Least distance that a followed body covers, metres. Default 20.
@@ -98,24 +101,38 @@ pub struct Follow {
 
 impl Default for Follow {
     fn default() -> Self {
-        Self { count: 4, kinds: vec![BodyKind::Pedestrian], min_length_m: 20.0 }
+        Self { count: 4, named: vec![], kinds: vec![BodyKind::Pedestrian], min_length_m: 20.0 }
     }
 }
 
 impl Follow {
-    /// Numbers of all bodies that may be followed, in the order in which they are: the first of each kind, the second of each
-    /// kind and so on, so that further ones change nothing.
-    pub fn eligible(&self, traffic: &Traffic) -> Vec<u32> {
+    /// Numbers of all bodies that may be followed, in the order in which they are: those with names, then the first of each
+    /// kind, the second of each kind and so on, so that further ones change nothing.
+    ///
+    /// # Errors
+    /// A name that nobody has who is there all the time.
+    pub fn eligible<'a>(&'a self, traffic: &Traffic) -> Result<Vec<u32>, &'a str> {
+        let is_there = |number: &u32| traffic.track(*number).is_some();
+        let numbers = || 0..traffic.bodies.len() as u32;
+        let of_name = |name: &'a String| {
+            let mut called = numbers().filter(|number| traffic.bodies[*number as usize].plan.source == *name);
+            called.find(is_there).ok_or(name.as_str())
+        };
+        let named: Vec<u32> = self.named.iter().map(of_name).collect::<Result<_, _>>()?;
         let of_kind = |kind: &BodyKind| -> Vec<u32> {
             let may = |number: &u32| {
                 let body = &traffic.bodies[*number as usize];
-                body.plan.kind == *kind && traffic.track(*number).is_some() && body.length_m() >= self.min_length_m
+                body.plan.kind == *kind
+                    && !named.contains(number)
+                    && is_there(number)
+                    && body.length_m() >= self.min_length_m
             };
-            (0..traffic.bodies.len() as u32).filter(may).collect()
+            numbers().filter(may).collect()
         };
         let lists: Vec<Vec<u32>> = self.kinds.iter().map(of_kind).collect();
         let longest = lists.iter().map(Vec::len).max().unwrap_or(0);
-        (0..longest).flat_map(|place| lists.iter().filter_map(move |list| list.get(place))).copied().collect()
+        let others = (0..longest).flat_map(|place| lists.iter().filter_map(move |list| list.get(place))).copied();
+        Ok(named.iter().copied().chain(others).collect())
     }
 
     /// Names of the kinds, for messages.
@@ -123,6 +140,11 @@ impl Follow {
         let names: Vec<String> = self.kinds.iter().map(|kind| format!("`{}`", kind.name())).collect();
         names.join(", ")
     }
+}
+
+/// Whether sides, metres, are none of a body.
+fn is_no_size(size_m: &[f64; 3]) -> bool {
+    !size_m.iter().all(|side_m| (0.1..=50.0).contains(side_m))
 }
 
 impl TrafficConfig {
@@ -139,10 +161,28 @@ impl TrafficConfig {
             let message = format!("`{}` is listed twice", self.follow.kinds[at].name());
             return Err(ConfigRule { path: &["follow", "kinds"], message });
         }
+        let named = &self.follow.named;
+        if let Some(at) = (1..named.len()).find(|at| named[..*at].contains(&named[*at])) {
+            let message = format!("`{}` is listed twice", named[at]);
+            return Err(ConfigRule { path: &["follow", "named"], message });
+        }
+        if named.len() as u64 > self.follow.count {
+            let message = format!(
+                "`follow.named` has {} names, but `follow.count` is `{}`; it must be at least as many",
+                named.len(),
+                self.follow.count
+            );
+            return Err(ConfigRule { path: &["follow", "named"], message });
+        }
         let mut types = self.sumo.iter().flat_map(|sumo| &sumo.options.types);
         if let Some((name, _)) = types.find(|(_, it)| it.kind == BodyKind::Drone) {
             let known = BodyKind::ON_THE_GROUND.map(|kind| format!("`{}`", kind.name())).join(", ");
             let message = format!("type `{name}` is a `drone`, which no traffic has; its kind must be one of {known}");
+            return Err(ConfigRule { path: &["sumo", "options", "types"], message });
+        }
+        let mut types = self.sumo.iter().flat_map(|sumo| &sumo.options.types);
+        if let Some((name, size_m)) = types.find_map(|(name, it)| Some((name, it.size_m.filter(is_no_size)?))) {
+            let message = format!("`size_m` of type `{name}` is `{size_m:?}`; each side must be from 0.1 to 50 m long");
             return Err(ConfigRule { path: &["sumo", "options", "types"], message });
         }
         if let Err((table, message)) = self.looks.check() {

@@ -57,7 +57,7 @@ impl StageKind for TrafficKind {
         let sources = config.take_sources();
         let properties = |parameters, inputs, artifact, items, bytes_per_item| StageProperties {
             kind: self.name().into(),
-            version: 4,
+            version: 5,
             parameters,
             sources: vec![],
             inputs,
@@ -153,7 +153,8 @@ impl Stage for BodiesStage {
         let mut populations = population::all(&self.config, &world.town, by, &context.sources)?;
         let simulated = simulate(&mut populations.all, clock, |_| context.check_cancelled())?;
         let mut traffic = Traffic { name: context.id.stage.recipe_name().to_owned(), ..simulated };
-        let mut followed = self.config.follow.eligible(&traffic);
+        // Followed people matter here to those who are dressed like them; walks refuse names that nobody has.
+        let mut followed = self.config.follow.eligible(&traffic).unwrap_or_default();
         followed.truncate(self.config.follow.count as usize);
         let outfit = |looks: &Seed| Outfit::of(BodyShape::Person, looks);
         let traits = |looks: &Seed| outfit(looks).traits.unwrap_or(Traits::PLAIN);
@@ -189,7 +190,7 @@ impl Stage for WalksStage {
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let artifact = inputs.one(BODIES)?;
         let traffic = traffic_of(inputs, artifact)?.ok_or_else(|| missing(artifact))?;
-        let eligible = self.config.follow.eligible(&traffic);
+        let eligible = self.config.follow.eligible(&traffic).map_err(|name| nobody(name, &traffic))?;
         let place = context.id.item.number().unwrap_or(0) as usize;
         let number = *eligible.get(place).ok_or_else(|| too_few(&self.config, eligible.len()))?;
         let body: &Body = &traffic.bodies[number as usize];
@@ -210,6 +211,24 @@ impl Stage for WalksStage {
 
 fn missing(artifact: &Artifact) -> Box<Diagnostic> {
     Diagnostic::new("artifact-decode", Fault::Bug, format!("`{}` holds no traffic", artifact.id))
+}
+
+/// The refusal of a name in `follow.named`.
+fn nobody(name: &str, traffic: &Traffic) -> Box<Diagnostic> {
+    const MOST: usize = 8;
+    let called = traffic.bodies.iter().filter(|body| body.plan.source == name).count();
+    let message = match called {
+        0 => format!("`follow.named` names `{name}`, but nobody is called so"),
+        _ => format!("`follow.named` names `{name}`, who is not there in all frames"),
+    };
+    let whole = (0..traffic.bodies.len()).filter(|number| traffic.track(*number as u32).is_some());
+    let names = whole.map(|number| &traffic.bodies[number].plan.source).filter(|name| !name.is_empty());
+    let names: Vec<String> = names.take(MOST).map(|name| format!("`{name}`")).collect();
+    let hint = match names.len() {
+        0 => "nobody with a name is there all the time: use fewer frames, or another `start_s` or `begin_s`".to_owned(),
+        _ => format!("there all the time, among others: {}", names.join(", ")),
+    };
+    Diagnostic::new("traffic-few", Fault::Recipe, message).hint(hint)
 }
 
 fn too_few(config: &TrafficConfig, eligible: usize) -> Box<Diagnostic> {

@@ -40,7 +40,11 @@ fn number(text: &str, column: &str, line: u32) -> Result<f64, RecordedError> {
     value.ok_or_else(|| {
         RecordedError::new(format!("`{}` in column `{column}` is not a finite number", shortened(text.trim())))
             .at(line)
-            .hint("leave out the rows in which a person has no place")
+            .hint(match column {
+                "t" | "frame" => "times are seconds from any beginning, or numbers of frames with `rate_hz`",
+                "id" => "people of `obsmat` files are numbers",
+                _ => "leave out the rows in which a person has no place",
+            })
     })
 }
 
@@ -64,7 +68,9 @@ pub(super) fn read_obsmat(text: &str, config: &RecordedConfig) -> Result<Recordi
         if cells.len() != OBSMAT_COLUMNS {
             let message =
                 format!("a row of an `obsmat` file has {OBSMAT_COLUMNS} numbers; this one has {}", cells.len());
-            return Err(RecordedError::new(message).at(line).hint("if the file is CSV, set `format = \"csv\"`"));
+            return Err(RecordedError::new(message)
+                .at(line)
+                .hint("the file may be cut off; if it is CSV, set `format = \"csv\"`"));
         }
         let time_s = number(cells[0], "frame", line)? / rate_hz;
         number(cells[1], "id", line)?;

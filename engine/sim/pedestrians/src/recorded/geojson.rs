@@ -14,7 +14,7 @@ pub(super) fn read(text: &str) -> Result<Recording, RecordedError> {
     let root: Value = serde_json::from_str(text).map_err(|error| {
         RecordedError::new(format!("broken JSON: {error}"))
             .at(error.line() as u32)
-            .hint("export the tracks as GeoJSON again")
+            .hint("the file may be cut off, and JSON knows no NaN: export the tracks as GeoJSON again")
     })?;
     let features: &[Value] = match root["type"].as_str() {
         Some("FeatureCollection") => root["features"].as_array().map(Vec::as_slice).unwrap_or_default(),
@@ -31,7 +31,7 @@ pub(super) fn read(text: &str) -> Result<Recording, RecordedError> {
         let (geometry, properties) = (&feature["geometry"], &feature["properties"]);
         let id = id_of(feature).unwrap_or_else(|| format!("feature {}", number + 1));
         let wrong = |message: String| {
-            RecordedError::new(format!("feature {number}: {message}"))
+            RecordedError::new(format!("`{id}`: {message}"))
                 .hint("points have `time`; lines have one time per vertex in `coordTimes`, `times` or `coordinateProperties.times`")
         };
         match geometry["type"].as_str() {

@@ -32,6 +32,9 @@ fn digits(text: &str, count: usize) -> Option<i64> {
 }
 
 fn zone_minutes(zone: &str) -> Option<i64> {
+    if zone.is_empty() {
+        return Some(0);
+    }
     let (sign, clock) = match zone.split_at_checked(1)? {
         ("Z" | "z", "") => return Some(0),
         ("+", clock) => (1, clock),
@@ -63,6 +66,7 @@ mod tests {
         for (text, expected) in [
             ("1970-01-01T00:00:00Z", 0.0),
             ("2010-10-03T09:36:30Z", 1_286_098_590.0),
+            ("2010-10-03T09:36:30", 1_286_098_590.0),
             ("2024-02-29T23:59:59.25+05:30", 1_709_231_399.25),
             ("2000-03-01 00:00:00-0100", 951_872_400.0),
             ("1969-12-31T23:59:59Z", -1.0),

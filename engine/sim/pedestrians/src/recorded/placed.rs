@@ -42,14 +42,11 @@ impl Recording {
         }
         if bodies.is_empty() {
             let frames_s = f64::from(clock.frames) * clock.dt_s;
-            let message = match timely {
-                0 => format!("no recorded person is present in the {frames_s} s from `start_s` on"),
-                _ => format!("none of the {timely} recorded people is in the town"),
-            };
-            return Err(RecordedError::new(message).hint(match timely {
-                0 => "change `start_s`, or simulate longer",
-                _ => "check `origin_m` and `turn_deg`, or that the map is of the place of the recording",
-            }));
+            if timely == 0 {
+                let message = format!("no recorded person is present in the {frames_s} s from `start_s` on");
+                return Err(RecordedError::new(message).hint("change `start_s`, or simulate longer"));
+            }
+            return Err(self.elsewhere(&from_file, town, timely));
         }
         let mut notes = vec![];
         if outside > 0 {
@@ -58,6 +55,24 @@ impl Recording {
         notes.extend(meetings_with_things(&bodies, town)?);
         notes.extend(make_room(&mut bodies, clock));
         Ok(Prescribed::new(bodies, clock.dt_s, notes))
+    }
+}
+
+impl Recording {
+    /// Why nobody is in the town: the distance of the first recorded place, and what may be wrong with it.
+    fn elsewhere(&self, from_file: &Placing, town: &Town, people: usize) -> RecordedError {
+        let middle = (0.5 * (town.min_in_world + town.max_in_world)).truncate();
+        let first = self.tracks.iter().flat_map(|track| track.points.first()).next();
+        let away_m = first.map_or(f64::NAN, |point| (from_file.place(point.at) - middle).length());
+        let place = match away_m {
+            away_m if away_m.is_finite() => format!("the first place is {away_m:.0} m from its middle"),
+            _ => "the first place is outside of its projection".to_owned(),
+        };
+        let message = format!("none of the {people} recorded people is in the town: {place}");
+        RecordedError::new(message).hint(match self.is_geographic {
+            true => "is the map of the place of the recording? GeoJSON has the longitude first",
+            false => "check `origin_m`, `turn_deg` and `y_is_left`",
+        })
     }
 }
 

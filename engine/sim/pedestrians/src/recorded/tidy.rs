@@ -46,7 +46,9 @@ impl Counts {
                 .hint("are the places metres and the times seconds? `rate_hz` is for times in frames");
         }
         let hint = match (self.gaps > 0, all_are_timed) {
-            (true, _) => "all points are farther apart in time than `longest_gap_s`; set it higher",
+            (true, _) => {
+                "all points are farther apart in time than `longest_gap_s`: set it higher, or `rate_hz = 1000` for times in milliseconds"
+            }
             (false, true) => "the file needs at least one person with two points",
             (false, false) => "tracks need a time for each point",
         };

@@ -18,25 +18,31 @@ pub struct FcdType {
     pub size_m: Option<[f64; 3]>,
 }
 
-/// Words in names of types, the first that fits, with the size of SUMO's class.
-const WORDS: [(&str, BodyKind); 17] = [
-    ("ped", BodyKind::Pedestrian),
-    ("person", BodyKind::Pedestrian),
+/// Beginnings and ends of words in names of types; the first that fits.
+const WORDS: [(&str, BodyKind); 23] = [
+    ("motorcycl", BodyKind::Motorcycle),
     ("motorcycle", BodyKind::Motorcycle),
     ("moped", BodyKind::Motorcycle),
     ("scooter", BodyKind::Motorcycle),
     ("motorbike", BodyKind::Motorcycle),
-    ("bicycle", BodyKind::Bicycle),
-    ("bike", BodyKind::Bicycle),
+    ("ped", BodyKind::Pedestrian),
+    ("person", BodyKind::Pedestrian),
     ("cycl", BodyKind::Bicycle),
+    ("cycle", BodyKind::Bicycle),
+    ("bicycl", BodyKind::Bicycle),
+    ("bike", BodyKind::Bicycle),
     ("truck", BodyKind::Truck),
     ("lorry", BodyKind::Truck),
     ("trailer", BodyKind::Truck),
+    ("container", BodyKind::Truck),
     ("bus", BodyKind::Bus),
     ("coach", BodyKind::Bus),
     ("delivery", BodyKind::Van),
     ("van", BodyKind::Van),
-    ("container", BodyKind::Truck),
+    ("car", BodyKind::Car),
+    ("passenger", BodyKind::Car),
+    ("taxi", BodyKind::Car),
+    ("veh", BodyKind::Car),
 ];
 
 /// Sizes of SUMO's classes, metres. People are cylinders as wide as their shoulders.
@@ -53,17 +59,28 @@ fn class_size_m(kind: BodyKind) -> [f64; 3] {
     }
 }
 
-/// Kind and size of a type, by the user's list, then by words in its name; a passenger car, when nothing fits.
-pub(super) fn kind_of(name: &str, is_person: bool, types: &BTreeMap<String, FcdType>) -> (BodyKind, DVec3) {
+/// Kind of a type by the words in its name.
+fn kind_by_words(name: &str) -> Option<BodyKind> {
+    let lower = name.to_lowercase();
+    let pieces: Vec<&str> = lower.split(|sign: char| !sign.is_alphabetic()).collect();
+    let is_in = |word: &str| pieces.iter().any(|piece| piece.starts_with(word) || piece.ends_with(word));
+    WORDS.iter().find(|(word, _)| is_in(word)).map(|(_, kind)| *kind)
+}
+
+/// Kind and size of a type, by the user's list, then by words in its name; `None` for vehicles when nothing fits.
+pub(super) fn kind_of(name: &str, is_person: bool, types: &BTreeMap<String, FcdType>) -> Option<(BodyKind, DVec3)> {
     // Types of a distribution are called `type@distribution`.
     let stated = types.get(name).or_else(|| types.get(name.split('@').next().unwrap_or(name)));
     if let Some(FcdType { kind, size_m }) = stated {
-        return (*kind, DVec3::from_array(size_m.unwrap_or(class_size_m(*kind))));
+        return Some((*kind, DVec3::from_array(size_m.unwrap_or(class_size_m(*kind)))));
     }
-    let lower = name.to_lowercase();
-    let by_word = WORDS.iter().find(|(word, _)| lower.contains(word)).map_or(BodyKind::Car, |(_, kind)| *kind);
-    let kind = if is_person { BodyKind::Pedestrian } else { by_word };
-    (kind, DVec3::from_array(class_size_m(kind)))
+    let kind = if is_person { Some(BodyKind::Pedestrian) } else { kind_by_words(name) }?;
+    Some((kind, DVec3::from_array(class_size_m(kind))))
+}
+
+/// A passenger car, which vehicles of unknown types are.
+pub(super) fn passenger_car() -> (BodyKind, DVec3) {
+    (BodyKind::Car, DVec3::from_array(class_size_m(BodyKind::Car)))
 }
 
 #[cfg(test)]
@@ -74,13 +91,23 @@ mod tests {
     fn types_are_told_by_the_list_and_by_their_names() {
         let types =
             BTreeMap::from([("taxi".to_owned(), FcdType { kind: BodyKind::Van, size_m: Some([5.0, 2.0, 2.0]) })]);
-        let kind = |name: &str| kind_of(name, false, &types).0;
-        assert_eq!(kind("DEFAULT_VEHTYPE"), BodyKind::Car);
-        assert_eq!(kind("DEFAULT_BIKETYPE"), BodyKind::Bicycle);
-        assert_eq!(kind("veh_motorcycle@d"), BodyKind::Motorcycle);
-        assert_eq!(kind("city_bus"), BodyKind::Bus);
-        assert_eq!(kind_of("taxi@all", false, &types), (BodyKind::Van, DVec3::new(5.0, 2.0, 2.0)));
-        assert_eq!(kind_of("DEFAULT_PEDTYPE", true, &types).0, BodyKind::Pedestrian);
-        assert_eq!(kind_of("car", true, &types).0, BodyKind::Pedestrian);
+        let kind = |name: &str| kind_of(name, false, &types).map(|it| it.0);
+        for (name, expected) in [
+            ("DEFAULT_VEHTYPE", BodyKind::Car),
+            ("passenger2b", BodyKind::Car),
+            ("veh_speed50", BodyKind::Car),
+            ("DEFAULT_BIKETYPE", BodyKind::Bicycle),
+            ("cyclist", BodyKind::Bicycle),
+            ("veh_motorcycle@d", BodyKind::Motorcycle),
+            ("moped", BodyKind::Motorcycle),
+            ("city_bus", BodyKind::Bus),
+            ("minibus3", BodyKind::Bus),
+            ("DEFAULT_PEDTYPE", BodyKind::Pedestrian),
+        ] {
+            assert_eq!(kind(name), Some(expected), "{name}");
+        }
+        assert_eq!([kind("tram"), kind("speedy"), kind("t0"), kind("")], [None; 4]);
+        assert_eq!(kind_of("taxi@all", false, &types), Some((BodyKind::Van, DVec3::new(5.0, 2.0, 2.0))));
+        assert_eq!(kind_of("car", true, &types).map(|it| it.0), Some(BodyKind::Pedestrian));
     }
 }

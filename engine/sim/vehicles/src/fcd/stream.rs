@@ -1,6 +1,6 @@
 //! The stream of time steps, and the frames between them.
 
-use super::kinds::kind_of;
+use super::kinds::{kind_of, passenger_car};
 use super::lines::Lines;
 use super::samples::Sample;
 use super::{FcdType, Place};
@@ -10,7 +10,7 @@ use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::io::BufRead;
 
@@ -22,6 +22,8 @@ const MOST_STATES: usize = 20_000_000;
 const LONGEST_NAME: usize = 200;
 /// A body that moves faster than this between two steps was moved by SUMO (a teleport), m/s.
 const JUMP_MPS: f64 = 70.0;
+/// Names of unknown types that are kept for the note.
+const NAMED_TYPES: usize = 5;
 
 /// How a file of SUMO's floating-car data is read.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -166,6 +168,8 @@ struct Frames<'a> {
     states: usize,
     outside: usize,
     jumps: usize,
+    /// The first types of vehicles of which no kind is known.
+    unknown_types: BTreeSet<String>,
 }
 
 impl<'a> Frames<'a> {
@@ -182,6 +186,7 @@ impl<'a> Frames<'a> {
             states: 0,
             outside: 0,
             jumps: 0,
+            unknown_types: BTreeSet::new(),
         }
     }
 
@@ -203,10 +208,11 @@ impl<'a> Frames<'a> {
     fn sample(&mut self, element: &BytesStart<'_>, is_person: bool, line: u64) -> Result<Option<Sample>, FcdError> {
         let id = text(element, "id", line)?.ok_or_else(|| FcdError::new("a body has no `id`").at(line))?;
         let type_name = text(element, "type", line)?.unwrap_or_default();
-        let (kind, size_m) = kind_of(&type_name, is_person, &self.config.types);
+        let known = kind_of(&type_name, is_person, &self.config.types);
+        let (kind, size_m) = known.unwrap_or_else(passenger_car);
         if !(size_m.is_finite() && size_m.min_element() > 0.05 && size_m.max_element() < 60.0) {
             let message = format!("the size of type `{type_name}` is {size_m} m; a side is 0.05 to 60 m long");
-            return Err(FcdError::new(message));
+            return Err(FcdError::new(message).at(line));
         }
         let point = DVec2::new(number(element, "x", line)?, number(element, "y", line)?);
         let angle_deg = number(element, "angle", line)?;
@@ -215,6 +221,9 @@ impl<'a> Frames<'a> {
         let is_placed = sample.place(self.place, point, angle_deg, is_person).is_some();
         let is_inside = is_placed && self.place.holds(sample.middle);
         self.outside += usize::from(!is_inside);
+        if known.is_none() && is_inside && self.unknown_types.len() < NAMED_TYPES {
+            self.unknown_types.insert(type_name);
+        }
         Ok(is_inside.then_some(sample))
     }
 
@@ -325,6 +334,13 @@ impl<'a> Frames<'a> {
             if count > 0 {
                 notes.push(format!("{count} {what}"));
             }
+        }
+        if !self.unknown_types.is_empty() {
+            let names: Vec<String> = self.unknown_types.iter().map(|name| format!("`{name}`")).collect();
+            let names = names.join(", ");
+            notes.push(format!(
+                "vehicles of types that no word tells are cars; the first: {names}; `types` states kinds"
+            ));
         }
         Ok(Prescribed::new(self.bodies, self.clock.dt_s, notes))
     }

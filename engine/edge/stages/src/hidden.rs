@@ -1,0 +1,43 @@
+//! Frames of a flight in which nothing of the target's figure is in sight, before any picture is made: hundreds of rays.
+
+use crate::body_rays::BodyRays;
+use crate::shooting::Shooting;
+use crate::walks::Person;
+use cosfly_frames::{DVec3, Seed};
+use cosfly_geometry::BoxBvh;
+use cosfly_planner::Trajectory;
+use cosfly_render::{Bystander, TargetSetup, Walker};
+use cosfly_world::{Around, Body, BodyKind, BodyPlan, Followed};
+
+/// Where more of the eight points of the certificate is seen, the figure is in sight.
+const MOST_SEEN: f64 = 0.25;
+
+/// Whether the figure of the target is hidden, frame by frame: from the default camera, by the boxes of the town and the bodies
+/// around the target.
+pub fn hidden(flight: &Trajectory, boxes: &BoxBvh, around: &Around, followed: Option<&Followed>) -> Vec<bool> {
+    let track = &flight.track;
+    let plan = followed.map_or_else(|| pedestrian(track.radius_m, track.height_m), |it| it.plan.clone());
+    let target = Person::of(&Body { plan, first_frame: 0, states: track.states.clone() }, track.dt_s);
+    let others: Vec<Person> = around.bodies().map(|(_, body)| Person::of(body, around.traffic.dt_s)).collect();
+    let camera = Shooting::plain(Seed([0; 32])).camera;
+    let mut rays = BodyRays::default();
+    let mut is_hidden = |frame: usize| {
+        let time_s = frame as f64 * track.dt_s;
+        let Some(walker) = target.walker(time_s) else { return false };
+        let about = others.iter().filter_map(|other| Some(Bystander { walker: other.walker(time_s)?, instance: 1 }));
+        let about: Vec<Bystander> = about.collect();
+        let seen = rays.visible_share(boxes, &about, &camera, &flight.poses_in_world[frame], &setup(walker));
+        seen.is_none_or(|share| share == 0.0)
+    };
+    (0..track.states.len()).map(|frame| flight.visibility[frame] <= MOST_SEEN && is_hidden(frame)).collect()
+}
+
+fn pedestrian(radius_m: f64, height_m: f64) -> BodyPlan {
+    let size_m = DVec3::new(2.0 * radius_m, 2.0 * radius_m, height_m);
+    BodyPlan { source: String::new(), kind: BodyKind::Pedestrian, size_m, looks: Seed([0; 32]), group: None }
+}
+
+fn setup(walker: Walker) -> TargetSetup {
+    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker;
+    TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 0.0, body }
+}
