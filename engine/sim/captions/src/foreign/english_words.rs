@@ -25,7 +25,7 @@ pub const THINGS: &str = "
     dancing limping cycling jogging crowd group queue audience party family police suburb village
     city town downtown countryside desert island valley cliff rock stone brick concrete sculpture mural graffiti
     skip band orchestra choir flock herd swarm troop squad crew gang throng mob parade procession flipflop machine
-    accompanied accompanies hand-in-hand zebra driveways carpark parking rickshaw wheelchair walker-frame";
+    hand-in-hand zebra driveways carpark parking rickshaw wheelchair walker-frame";
 
 /// People whom no facts of a flight have, and words that say more of the target than the facts do.
 pub const PERSONS: &str = "
@@ -75,7 +75,7 @@ pub const HARMLESS: &str = "
     story tale script scenario brief recipe checklist bullet nutshell summary recap upshot gist synopsis rundown
     spot mat dime penny sixpence marble statue-still rock-still post
     drift vend crow bird's fly
-    counterpart protagonist star quarry charge lead leader wearer owner pattern trajectory itinerary standpoint hitch";
+    counterpart participant platform whoever party unit flat opposite protagonist star quarry charge lead leader wearer owner pattern trajectory itinerary standpoint hitch";
 
 /// Adjectives, and other words before a noun, that no ending gives away.
 pub const ADJECTIVES: &str = "

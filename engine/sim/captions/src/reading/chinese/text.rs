@@ -9,9 +9,9 @@ use super::pauses::{
 use super::quantities::quantity;
 use super::turns::{compass, repeated_turn, turn};
 use super::words::{
-    GOES_ON, MOVES, NEVER_STOPS, NO_TURN_WORDS, STANDING_WORDS, STOP_CHARS, STRAIGHT_WORDS, TURNS, WALKING,
+    GOES_ON, LEVEL, MOVES, NEVER_STOPS, NO_TURN_WORDS, STANDING_WORDS, STOP_CHARS, STRAIGHT_WORDS, TURNS, WALKING,
 };
-use crate::reading::{Claim, count, sentences, stands_for};
+use crate::reading::{Claim, count, sentences, stands_for, with_level_view};
 use crate::turns::TurnKind;
 
 /// Everything that the text claims, in order.
@@ -38,7 +38,8 @@ pub fn read(text: &str) -> Vec<Claim> {
         claims.retain(|claim| !((is_denied || is_told) && *claim == Claim::SomeStops));
         claims
     };
-    sentences(text).into_iter().flat_map(sentence).collect()
+    let is_level = LEVEL.iter().any(|word| text.contains(word));
+    with_level_view(sentences(text).into_iter().flat_map(sentence).collect(), is_level)
 }
 
 pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {

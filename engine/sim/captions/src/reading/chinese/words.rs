@@ -360,5 +360,8 @@ pub const NEVER_STOPS: [&str; 12] = [
     "一直走着",
     "脚不沾地",
 ];
+/// Words for a camera that looks neither up nor down.
+pub const LEVEL: [&str; 8] = ["水平", "平视", "平拍", "放平", "平齐", "地平线", "端平", "平直"];
+
 /// Words that say that the target walks.
 pub const WALKING: [&str; 8] = ["行走", "走着", "走去", "前行", "正走", "走动", "在走", "行进"];

@@ -5,6 +5,7 @@ use super::words::{LUGGAGE, NEGATIONS};
 use crate::reading::Claim;
 use cosfly_render::Colour;
 
+const CARRIES: [&str; 7] = ["wearing", "carrying", "toting", "bearing", "clad", "laden", "wearer"];
 /// Words between a colour and its garment: `a red long-sleeved cotton shirt`.
 const REACH: usize = 3;
 /// Words that end the reach of a colour.
@@ -22,6 +23,10 @@ pub(super) fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
             // Whether luggage of another kind is there, nobody knows.
             false => (!["luggage", "baggage"].contains(&word)).then_some(Claim::Backpack),
         };
+    }
+    // `a rucksack-wearing walker`
+    if LUGGAGE.iter().any(|it| word.strip_prefix(it).is_some_and(|rest| CARRIES.contains(&rest))) {
+        return Some(Claim::Backpack);
     }
     if word == "emptyhanded" || word == "unladen" {
         return Some(Claim::NoBackpack);

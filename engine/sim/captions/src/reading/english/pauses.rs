@@ -13,18 +13,23 @@ pub(super) fn is_stop(word: &str) -> bool {
 }
 
 /// No pauses, or some.
-pub(super) fn pauses_denied(words: &[&str], about_stops: bool, claims: &mut Vec<Claim>) {
+pub(super) fn pauses_denied(words: &[&str], about_stops: bool, after_stop: bool, claims: &mut Vec<Claim>) {
     // `keeps moving throughout`, `in one go`
     let has = |run: &[&str]| words.windows(run.len()).any(|it| it == run);
+    let of_a_stop = about_stops || after_stop;
     let goes_on = UNPAUSED.iter().any(|it| words.contains(it))
         || [["one", "go"], ["without", "letup"], ["without", "cease"], ["all", "go"], ["single", "go"]]
             .iter()
-            .any(|it| has(it))
-        || (words.windows(2).any(|it| it[0].starts_with("keep") && ["moving", "walking", "going"].contains(&it[1]))
+            .any(|it| has(it) && !of_a_stop)
+        || (words.windows(2).any(|it| (it[0].starts_with("keep") || it[0] == "kept") && ["moving", "walking", "going"].contains(&it[1]))
             && words.iter().any(|it| ["throughout", "whole", "entire", "always", "constantly", "all"].contains(it)));
     let is_broken_off = has(&["broken", "off"]) || has(&["broken", "up"]);
     let rests = |word: &str| is_stop(word) || word == "rest" || is_broken_off && word == "broken";
-    if goes_on || denied(words, rests) && !has(&["the", "rest"]) {
+    // `the number of stops was zero`
+    let stop = words.iter().position(|word| is_stop(word));
+    let is_none = |word: &&str| ["zero", "none", "nil", "nought"].contains(word);
+    let counts_none = stop.is_some_and(|stop| words[stop..].iter().take(4).any(is_none));
+    if goes_on || counts_none || denied(words, rests) && !has(&["the", "rest"]) {
         claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));
     } else if about_stops && !claims.iter().any(|claim| matches!(claim, Claim::Stops(_))) {

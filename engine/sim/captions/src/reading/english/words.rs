@@ -387,6 +387,10 @@ pub const UNTURNED: [&str; 14] = [
     "straightaway",
     "straightline",
 ];
+/// Words for a camera that looks neither up nor down.
+pub const LEVEL: [&str; 8] =
+    ["level", "levelled", "leveled", "horizontal", "horizontally", "horizon", "untilted", "flat"];
+
 /// Verbs that say that the target walks.
 pub const WALKS: [&str; 10] =
     ["walks", "walking", "strolls", "strolling", "wanders", "wandering", "strides", "striding", "ambles", "ambling"];
