@@ -46,7 +46,7 @@ pub const BESIDE: [&str; 16] = [
     "跟前", "之旁",
 ];
 /// Words that make what a place is beside part of the walk.
-pub const OF_THE_WALK: [&str; 38] = [
+pub const OF_THE_WALK: [&str; 41] = [
     "掉头",
     "调头",
     "折返",
@@ -83,6 +83,9 @@ pub const OF_THE_WALK: [&str; 38] = [
     "人物",
     "主角",
     "被摄",
+    "被试",
+    "前面",
+    "拍",
     "这人",
     "那人",
 ];

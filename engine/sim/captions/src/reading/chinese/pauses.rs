@@ -45,6 +45,11 @@ pub(super) fn is_only_standing(clause: &str) -> bool {
         && !clause.contains(['次', '回'])
 }
 
+/// `把飞机停在离人32米的地方`: the drone, not the target.
+pub(super) fn is_of_the_drone(clause: &str) -> bool {
+    ["飞机停", "无人机停", "机位停", "悬停", "机停", "镜头停", "飞行器停"].iter().any(|it| clause.contains(it))
+}
+
 /// `左转前停了一次`, `停留之后右转`.
 pub(super) fn order_of_stop_and_turn(clause: &str, about_stops: bool) -> Option<Claim> {
     let stop = STOP_CHARS.iter().find_map(|word| clause.find(word)).filter(|_| about_stops)?;

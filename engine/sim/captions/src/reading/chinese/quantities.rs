@@ -119,6 +119,9 @@ pub(super) fn quantity(
         }
         Some("次" | "回") if clause.contains(['转', '拐', '弯', '向', '折']) => count(value, "次", Claim::Turns),
         Some("个弯" | "个转弯" | "道弯") => count(value, "个弯", Claim::Turns),
+        // `停留次数：2`
+        None if clause.contains("停") || clause.contains("驻足") => count(value, "次", Claim::Stops),
+        None if clause.contains(['转', '拐', '弯']) => count(value, "次", Claim::Turns),
         _ => Claim::Unknown(format!("{value}{}", unit.unwrap_or_default())),
     };
     (claim, unit.map_or(0, str::len))
