@@ -131,6 +131,7 @@ impl Checker<'_> {
             }
             Claim::Speed(found) => self.number(Slot::Speed, found, facts.walking_speed_mps, SPEED_STEP_MPS),
             Claim::Duration(found) => self.number(Slot::Duration, found, whole.0, whole.1),
+            Claim::Standing(found) if !facts.walks => self.number(Slot::Duration, found, whole.0, whole.1),
             Claim::Standing(found) => self.number(Slot::Standing, found, standing.0, standing.1),
             Claim::Seconds(found) => self.one_of(Slot::Duration, found, &[whole, standing]),
             Claim::StandsFor(found) if !facts.walks => self.number(Slot::Duration, found, whole.0, whole.1),

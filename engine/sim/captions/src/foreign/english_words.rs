@@ -13,13 +13,13 @@ pub const THINGS: &str = "
     windy sunny cloudy stormy misty overcast umbrella hat cap scarf glasses sunglasses phone telephone mobile suitcase
     pram stroller pushchair buggy helmet handbag purse skateboard tunnel stair staircase steps escalator lift elevator
     bakery cafe café restaurant pub bar market supermarket hospital museum hotel cinema theatre theater office factory
-    library pharmacy chemist kiosk newsstand stall store mall platform railway railroad motorway highway canal beach hill
+    library pharmacy chemist kiosk newsstand stall store mall railway railroad motorway highway canal beach hill
     mountain forest wood meadow field flower flowerbed harbour harbor port pier dock quay playground stadium pool bank
     temple mosque cathedral castle monument memorial cemetery petrol gas garage parasol cane crutch trolley basket
     newspaper magazine book cigarette mask skirt dress shoe boot trainer sneaker sandal glove belt tie sock earphone
     headphone earbud briefcase balloon ladder crane scaffold scaffolding barrier bollard bin dustbin litter billboard poster
     banner flag awning balcony window door doorway porch entrance archway arch column pillar terrace courtyard yard
-    apartment flat skyscraper cottage cabin tent barn warehouse shed hut chimney antenna cable wire traffic-light
+    apartment skyscraper cottage cabin tent barn warehouse shed hut chimney antenna cable wire traffic-light
     grocery shopping parcel package bottle coffee icecream sandwich food drink guitar camera-bag ball kite toy
     tall old young elderly bald bearded blond blonde pregnant barefoot smoking eating drinking talking chatting singing
     dancing limping cycling jogging crowd group queue audience party family police suburb village

@@ -4,7 +4,15 @@ use super::numbers::numeral;
 
 const NUMERALS: &str = "零一二两三四五六七八九十百";
 /// Spellings, each with the one that the reader knows.
-const SPELLINGS: [(&str, &str); 20] = [
+const SPELLINGS: [(&str, &str); 28] = [
+    ("OK", "好"),
+    ("直线距离", "距离"),
+    ("在同一处", "在原地"),
+    ("在一处", "在原地"),
+    ("在一个地方", "在原地"),
+    ("步行者", "行人"),
+    ("1人", "此人"),
+    ("人数：一人", "此人"),
     ("TA", "此人"),
     ("Ta", "此人"),
     ("ta", "此人"),

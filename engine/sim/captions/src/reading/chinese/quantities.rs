@@ -114,11 +114,14 @@ pub(super) fn quantity(
             seconds(60.0 * value)
         }
         Some("秒" | "秒钟") => seconds(value),
-        Some("次" | "回" | "遍" | "处" | "个停" | "遭" | "番") if about_stops => {
+        Some("次" | "回" | "遍" | "处" | "个停" | "遭" | "番")
+            if about_stops && (stops || !clause.contains(['转', '拐', '弯'])) =>
+        {
             count(value, "次", Claim::Stops)
         }
         Some("次" | "回") if clause.contains(['转', '拐', '弯', '向', '折']) => count(value, "次", Claim::Turns),
         Some("个弯" | "个转弯" | "道弯") => count(value, "个弯", Claim::Turns),
+        None if ["角度", "云台", "镜头", "相机", "俯", "仰"].iter().any(|it| clause.contains(it)) => Claim::Tilt(value),
         // `停留次数：2`
         None if clause.contains("停") || clause.contains("驻足") => count(value, "次", Claim::Stops),
         None if clause.contains(['转', '拐', '弯']) => count(value, "次", Claim::Turns),

@@ -28,8 +28,9 @@ pub fn read(text: &str) -> Vec<Claim> {
             let about_stops =
                 speaks || after_stop && (GOES_ON.iter().any(|it| words.starts_with(it)) || is_time_alone(&words));
             let is_near_stop = about_stops || after_stop;
+            let was_stop = after_stop;
             after_stop = about_stops && !STOP_CHARS.iter().any(|word| denied_word(&words, word));
-            let claims = read_clause(&words, &before, about_stops, is_near_stop);
+            let claims = read_clause(&words, &before, about_stops, is_near_stop, was_stop);
             before = words;
             claims
         };
@@ -70,9 +71,9 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
     clauses
 }
 
-/// Whether a character behind a colon says a number or a turn.
+/// Whether a character behind a colon begins a number.
 fn starts_statement(c: char) -> bool {
-    c.is_ascii_digit() || "零一二两三四五六七八九十左右掉调折".contains(c)
+    c.is_ascii_digit() || "零一二两三四五六七八九十".contains(c)
 }
 
 /// Verb and object without what stands between them: `掉过头来` as `掉头来`.
@@ -84,11 +85,13 @@ fn joined(clause: &str) -> String {
         ("转了身", "转身"),
         ("调过头", "调头"),
         ("掉了个头", "掉头"),
+        ("调了个头", "调头"),
+        ("调了头", "调头"),
     ];
     parted.iter().fold(clause.to_owned(), |clause, (from, to)| clause.replace(from, to))
 }
 
-fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool) -> Vec<Claim> {
+fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool, was_stop: bool) -> Vec<Claim> {
     let mut claims = vec![];
     let mut rest = clause;
     while let Some(first) = rest.chars().next() {
@@ -147,7 +150,7 @@ fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool
     }
     later_first(&mut claims, clause);
     // A time of standing tells a stop from a target that stands all the time.
-    let is_timed_stop = is_near_stop && clause.contains('秒') && !clause.contains("原地") && !clause.contains("一直");
+    let is_timed_stop = was_stop && clause.contains('秒') && !clause.contains("原地") && !clause.contains("一直");
     let stands = !is_timed_stop
         && (STANDING_WORDS.iter().any(|word| clause.contains(word)) || MOVES.iter().any(|word| denied_word(clause, word)));
     if stands && (!about_stops || is_only_standing(clause)) {

@@ -361,9 +361,10 @@ pub const NEVER_STOPS: [&str; 12] = [
     "脚不沾地",
 ];
 /// Words for a camera that looks neither up nor down.
-pub const LEVEL: [&str; 20] = [
+pub const LEVEL: [&str; 28] = [
     "水平", "平视", "平拍", "放平", "平齐", "地平线", "端平", "平直", "不俯不仰", "不仰不俯", "既不", "不上不下", "正前方",
     "没有俯仰", "无俯仰", "没有角度", "不带角度", "不抬不压", "不要上", "不要下",
+    "调平", "打平", "置平", "归零", "平放", "没俯", "别俯", "没有俯",
 ];
 
 /// Words that say that the target walks.

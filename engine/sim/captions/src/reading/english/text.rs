@@ -138,7 +138,7 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
     }
     // `turns left after turning right` says the later turn first.
     if let [(first, one), (second, other)] = turns[..]
-        && (words[first..second].contains(&"after")
+        && (words[first..second].windows(2).any(|it| it[0] == "after" && !["that", "which", "this"].contains(&it[1]))
             || words[first..second].windows(2).any(|it| it[0].starts_with("preced") && it[1] == "by"))
     {
         let listed = |claim: &Claim| matches!(claim, Claim::Turn(_));

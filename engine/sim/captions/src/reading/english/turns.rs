@@ -31,7 +31,10 @@ pub(super) fn turn_word(word: &str) -> Option<TurnKind> {
 pub(super) fn is_side(at: usize, words: &[&str]) -> bool {
     let before = at.checked_sub(1).map_or("", |before| words[before]);
     let next = words.get(at + 1).copied().unwrap_or_default();
-    let is_told = || ["is", "are", "was", "were"].contains(&before) && words[..at].iter().any(|word| is_of_turns(word));
+    let is_told = || {
+        ["is", "are", "was", "were"].contains(&before)
+            && (words.len() == 2 || words[..at].iter().any(|word| is_of_turns(word)))
+    };
     let follows = turn_word(before).is_some() || is_told();
     match words[at] {
         "left" => {
@@ -39,7 +42,7 @@ pub(super) fn is_side(at: usize, words: &[&str]) -> bool {
             !is_verb && (follows || !NEVER_LEFT.contains(&before))
         }
         "right" if ["round", "around"].contains(&next) => false,
-        "right" => follows || !is_right_of_no_turn(at, words),
+        "right" => follows || ["a", "another"].contains(&before) || !is_right_of_no_turn(at, words),
         "around" | "round" => is_turned_around(at, words) || follows && at + 1 == words.len(),
         _ => true,
     }
@@ -113,6 +116,8 @@ pub(super) fn turns_back(at: usize, words: &[&str]) -> bool {
 /// How often the turn before these tokens is made: `twice`, `three times`, or once.
 pub(super) fn repetitions(after: &[Token]) -> usize {
     match after {
+        // `reversed direction twice`
+        [Token::Word(object), rest @ ..] if ["direction", "course"].contains(&object.as_str()) => repetitions(rest),
         [Token::Word(word), ..] if word == "twice" => 2,
         [Token::Word(turn), Token::Word(word), ..] if turn.starts_with("turn") && word == "twice" => 2,
         [Token::Word(number), Token::Word(times), ..] if times == "times" => {
