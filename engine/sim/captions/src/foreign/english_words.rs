@@ -35,6 +35,22 @@ pub const PERSONS: &str = "
     vendor seller shopkeeper worker builder postman courier runner jogger schoolgirl schoolboy grandmother grandfather
     granny grandma grandpa pensioner mother father mum mom dad parent wife husband spouse partner girlfriend boyfriend
     sister brother daughter son uncle aunt cousin passenger commuter hiker skater beggar busker monk priest athlete
+    bride groom colonel general captain sergeant sailor fisherman fisherwoman farmer shepherd carpenter plumber electrician
+    painter sculptor musician violinist pianist guitarist drummer singer dancer ballerina actor actress clown juggler acrobat
+    magician wizard witch poet novelist author journalist reporter photographer librarian professor lecturer scholar scientist
+    chemist physicist engineer mechanic welder miner lumberjack gardener florist baker butcher grocer greengrocer chef cook barber
+    hairdresser tailor seamstress cobbler blacksmith goldsmith jeweller jeweler watchmaker locksmith janitor caretaker cleaner
+    maid butler gardener doorman bouncer bodyguard detective inspector sheriff constable cop firefighter fireman paramedic surgeon
+    dentist vet veterinarian midwife therapist psychologist pharmacist accountant banker lawyer barrister solicitor judge
+    magistrate politician mayor senator minister president king queen prince princess duke duchess knight bishop nun vicar rabbi
+    imam pastor pilgrim missionary salesman saleswoman salesperson merchant trader cashier clerk secretary receptionist typist
+    manager boss executive landlord landlady tenant hitchhiker backpacker camper mountaineer climber swimmer surfer sailor
+    rower boxer wrestler gymnast cricketer footballer golfer goalkeeper referee umpire coach skier snowboarder sprinter
+    jockey cowboy cowgirl rancher hunter trapper fisher angler beekeeper milkman mailman dustman roofer bricklayer mason
+    plasterer glazier decorator architect surveyor astronaut stewardess steward gentlewoman grandparent grandson granddaughter
+    grandchild nephew niece fiancé fiancée fiance fiancee widow widower orphan veteran retiree infantryman cadet recruit
+    conductor porter bellboy usher chauffeur cabbie trucker bus-driver stranger lover buddy mate pal roommate flatmate classmate
+    teammate sibling twins youngster oldster elder granddad grandad nan nanny babysitter retired
     bystander onlooker spectator people passersby guy bloke chap lad lass dude twin guest customer";
 
 /// Words in which people speak of a walk, a person's clothes and a camera, in the singular.

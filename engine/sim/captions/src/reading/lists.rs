@@ -1,30 +1,34 @@
 //! Marks of list items, which say nothing: `1.`, `(2)`, `a)`, `- `.
 
-/// Characters behind which an item of a list may begin.
-const BEFORE_ITEMS: &str = "\n;:.!?,。；：！？，、";
+/// Characters behind which an item of a list may begin, with a mark in brackets or with a number and a point.
+const BEFORE_BRACKETS: &str = "\n;:.!?,。；：！？，、";
+const BEFORE_POINTS: &str = "\n;.。；";
 const BULLETS: &str = "-*•·–—";
 
 /// The text without the marks of its list items.
 pub(crate) fn without_marks(text: &str) -> String {
     let chars: Vec<char> = text.chars().collect();
     let mut plain = String::with_capacity(text.len());
-    let mut is_start = true;
+    let mut last = '\n';
     let mut i = 0;
     while i < chars.len() {
-        let begins = is_start && (i == 0 || chars[i - 1].is_whitespace() || !".:".contains(chars[i - 1]));
-        if let Some(length) = begins.then(|| mark(&chars[i..])).flatten() {
+        let is_apart = i == 0 || chars[i - 1].is_whitespace() || !".:".contains(chars[i - 1]);
+        let begins = is_apart && BEFORE_BRACKETS.contains(last);
+        if let Some(length) = begins.then(|| mark(&chars[i..], BEFORE_POINTS.contains(last))).flatten() {
             i += length;
             continue;
         }
-        is_start = BEFORE_ITEMS.contains(chars[i]) || is_start && chars[i].is_whitespace();
+        if chars[i] == '\n' || !chars[i].is_whitespace() {
+            last = chars[i];
+        }
         plain.push(chars[i]);
         i += 1;
     }
     plain
 }
 
-/// Length of a mark at the start.
-fn mark(chars: &[char]) -> Option<usize> {
+/// Length of a mark at the start; `pointed`: a number with a point may be one.
+fn mark(chars: &[char], pointed: bool) -> Option<usize> {
     if BULLETS.contains(chars[0]) && chars.get(1) == Some(&' ') {
         return Some(2);
     }
@@ -42,7 +46,7 @@ fn mark(chars: &[char]) -> Option<usize> {
     let goes_on = chars.get(end + 1).is_some_and(char::is_ascii_digit);
     let is_closed = match close {
         ')' | '）' => true,
-        '.' | '、' | '．' => open == 0 && digits > 0 && !goes_on,
+        '.' | '、' | '．' => pointed && open == 0 && digits > 0 && !goes_on,
         _ => false,
     };
     (name > 0 && digits <= 2 && is_closed).then_some(end + 1)
@@ -61,6 +65,7 @@ mod tests {
             ("（1）跟随；2、保持25米", "跟随；保持25米"),
             ("- Pitch: -8 degrees", "Pitch: -8 degrees"),
             ("Turns (4): right", "Turns (4): right"),
+            ("Stops: 0. Turns: 2.", "Stops: 0. Turns: 2."),
         ] {
             assert_eq!(without_marks(text), plain, "{text}");
         }

@@ -30,7 +30,11 @@ pub(super) fn quantity(
     };
     // `俯仰负45度`
     let signed = |sign: char| before.ends_with(sign) && clause.contains('俯');
+    // `比水平线低4度`, `水平面以上17度`
+    let level = ["水平", "地平"].iter().filter_map(|word| aim.find(word)).min().map_or("", |at| &aim[at..]);
+    let from_level = |words: &[&str]| words.iter().any(|word| level.contains(word));
     let is_up = signed('正')
+        || from_level(&["高", "以上", "上方", "之上"])
         || aimed('上')
         || has(&[
             "仰",
@@ -53,6 +57,7 @@ pub(super) fn quantity(
             "冲上",
         ]);
     let is_down = signed('负')
+        || from_level(&["低", "以下", "下方", "之下"])
         || aimed('下')
         || has(&[
             "俯",

@@ -53,6 +53,18 @@ pub(super) fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
     }
 }
 
+/// `top and trousers are both yellow`: the colour of both garments, where a clause names one colour.
+pub(super) fn both_garments(words: &[&str], claims: &mut Vec<Claim>) {
+    let is_both = words.iter().any(|word| ["both", "matching", "alike", "all"].contains(word))
+        || words.windows(3).any(|it| ["head", "to", "toe"] == it);
+    let has = |garments: &[&str]| words.iter().any(|word| garments.contains(word));
+    let mut found = words.iter().filter_map(|word| colour(word));
+    if let (true, Some(one), None) = (is_both && has(&TOPS) && has(&TROUSERS), found.next(), found.next()) {
+        claims.retain(|claim| !matches!(claim, Claim::Top(_) | Claim::Trousers(_) | Claim::Wears(_)));
+        claims.extend([Claim::Top(one), Claim::Trousers(one)]);
+    }
+}
+
 /// A bag on the back; a `pack` is one only as a noun.
 fn is_luggage(at: usize, words: &[&str]) -> bool {
     let before = at.checked_sub(1).map_or("", |before| words[before]);

@@ -40,15 +40,15 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
                 _ => Claim::Seconds(value),
             }
         }
-        "time" | "times" | "occasion" | "occasions" if about_stops && !is_of_turns(at, words) => {
+        "time" | "times" | "x" | "occasion" | "occasions" if about_stops && !is_of_turns(at, words) => {
             count(value, unit, Claim::Stops)
         }
         // Repetitions of a turn, which the turn's own claims contain.
         "time" | "times" if words.iter().any(|word| turn_word(word).is_some()) => return None,
-        "time" | "times" | "occasion" | "occasions" if words.iter().any(|word| is_turning(word)) => {
+        "time" | "times" | "x" | "occasion" | "occasions" if words.iter().any(|word| is_turning(word)) => {
             count(value, unit, Claim::Turns)
         }
-        "time" | "times" | "occasion" | "occasions" => count(value, unit, Claim::Times),
+        "time" | "times" | "x" | "occasion" | "occasions" => count(value, unit, Claim::Times),
         turns if TURN_NOUNS.contains(&turns) && !SIDES.contains(&after(2)) => count(value, unit, Claim::Turns),
         stop if is_stop(stop) => count(value, unit, Claim::Stops),
         side => match turn_word(side) {

@@ -1,6 +1,6 @@
 //! English texts, clause by clause: words and numbers become claims.
 
-use super::clothes::clothes_claim;
+use super::clothes::{both_garments, clothes_claim};
 use super::idioms::{is_of_the_drone, is_of_the_gap, without_idioms};
 use super::negation::{denied, is_denied_at};
 use super::numbers::{fold_numbers, number_word};
@@ -9,7 +9,7 @@ use super::pauses::{
 };
 use super::quantities::{aim, is_level, quantity};
 use super::tokens::{Token, clauses, word_of};
-use super::turns::{compass_word, is_side, is_turning, keeps_direction, repetitions, turn_word, turns_back};
+use super::turns::{compass_word, counts_no_turns, is_side, is_turning, keeps_direction, repetitions, turn_word, turns_back};
 use super::units::is_unit;
 use super::words::{GOES_ON, LUGGAGE, MOTION, NEGATIONS, STANDS, UNTURNED, WALKS};
 use crate::reading::{Claim, count, sentences, stands_for, with_level_view};
@@ -74,7 +74,8 @@ fn answer(tokens: &[Token], subject: &[Token]) -> Option<Claim> {
 }
 
 /// Words of an answer that there is none: `not a single one`.
-const NONE: [&str; 19] = [
+const NONE: [&str; 21] = [
+    "nope", "nah",
     "no", "none", "nil", "neither", "never", "nought", "zero", "not", "one", "a", "single", "at", "all", "any", "ever",
     "whatsoever", "nothing", "were", "made",
 ];
@@ -128,6 +129,7 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
             }
         }
     }
+    both_garments(&words, &mut claims);
     if goes_on {
         claims.retain(|claim| *claim != Claim::Stays);
     } else if !about_stops && (denies_motion(&words) || keeps_place(&words)) {
@@ -151,7 +153,7 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
     pauses_denied(&words, about_stops, after_stop, &mut claims);
     let lists = claims.iter().any(|claim| matches!(claim, Claim::Turn(_) | Claim::Turns(1..) | Claim::TurnsOf(..)));
     claims.retain(|claim| !(lists && *claim == Claim::NoTurns));
-    if !is_of_the_gap(&words) && (denied(&words, is_turning) || words.iter().any(|word| UNTURNED.contains(word))) {
+    if !is_of_the_gap(&words) && (counts_no_turns(&words) || denied(&words, is_turning) || words.iter().any(|word| UNTURNED.contains(word))) {
         claims.retain(|claim| !matches!(claim, Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..)));
         claims.push(Claim::NoTurns);
     } else if keeps_direction(&words) || words.windows(2).any(|it| it == ["dead", "ahead"]) {

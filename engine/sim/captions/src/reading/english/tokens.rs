@@ -1,6 +1,6 @@
 //! English texts as words and numbers, parted at punctuation.
 
-use super::clothes::colour;
+use super::clothes::{colour, is_garment};
 use super::idioms::number_follows;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,12 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
             {
                 i += 1;
             }
-            let word: String = chars[start..i].iter().filter(|c| **c != '-').collect();
+            let joined: String = chars[start..i].iter().collect();
+            if is_joined(&joined) {
+                clause.extend(joined.split('-').map(|part| Token::Word(part.to_owned())));
+                continue;
+            }
+            let word = joined.replace('-', "");
             // `left/right/left`
             match word.contains('/') && !is_rate(&word) {
                 true => clause.extend(word.split('/').map(|part| Token::Word(part.to_owned()))),
@@ -56,6 +61,13 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
         }
     }
     clauses
+}
+
+/// `the green-top-black-bottoms person`, `L-R`: words that stand for themselves.
+fn is_joined(word: &str) -> bool {
+    let parts: Vec<&str> = word.split('-').collect();
+    parts.len() > 2 && parts.iter().any(|part| colour(part).is_some()) && parts.iter().any(|part| is_garment(part))
+        || parts.len() > 1 && parts.iter().all(|part| ["l", "r", "u", "left", "right", "around"].contains(part))
 }
 
 /// `m/s`

@@ -48,6 +48,12 @@ pub(super) fn is_side(at: usize, words: &[&str]) -> bool {
     }
 }
 
+/// `turns: none`, `the number of turns was zero`
+pub(super) fn counts_no_turns(words: &[&str]) -> bool {
+    let turn = words.iter().position(|word| is_turning(word));
+    turn.is_some_and(|turn| words[turn..].iter().take(4).any(|it| ["zero", "none", "nil", "nought"].contains(it)))
+}
+
 fn is_of_turns(word: &str) -> bool {
     is_turning(word) || ["order", "sequence", "direction", "directions"].contains(&word)
 }

@@ -133,7 +133,10 @@ pub const GOES_ON: [&str; 22] = [
 ];
 
 /// Of `doesn't` and its like the part behind the apostrophe is a word of its own.
-pub const NEGATIONS: [&str; 36] = [
+pub const NEGATIONS: [&str; 39] = [
+    "nope",
+    "nah",
+    "neither",
     "no",
     "not",
     "never",
