@@ -143,7 +143,7 @@ pub(super) fn is_level(clauses: &[Vec<Token>]) -> bool {
     let is_said = |clause: &Vec<Token>| {
         has(clause, &|word| LEVEL.contains(&word))
             || has(clause, &is_tilt) && has(clause, &is_denial)
-            || has(clause, &|word| CAMERA.contains(&word)) && has(clause, &|word| word == "straight")
+            || has(clause, &|word| CAMERA.contains(&word)) && has(clause, &|word| ["straight", "zero", "zeroed", "neutral"].contains(&word))
     };
     let is_answer = |pair: &[Vec<Token>]| has(&pair[0], &is_tilt) && pair[1].first().is_some_and(|it| is_denial(word_of(it)));
     clauses.iter().any(is_said) || clauses.windows(2).any(is_answer)

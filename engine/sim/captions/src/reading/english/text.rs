@@ -68,7 +68,7 @@ fn answer(tokens: &[Token], subject: &[Token]) -> Option<Claim> {
             Some(count(number, "turns", Claim::Turns))
         }
         () if number == 0.0 && asks(&|word| ["motion", "movement"].contains(&word)) => Some(Claim::Stays),
-        () if number == 0.0 && asks(&|word| LUGGAGE.contains(&word)) => Some(Claim::NoBackpack),
+        () if number == 0.0 && word_of(&tokens[0]) != "nothing" && asks(&|word| LUGGAGE.contains(&word)) => Some(Claim::NoBackpack),
         () => None,
     }
 }

@@ -43,7 +43,7 @@ pub(super) fn is_side(at: usize, words: &[&str]) -> bool {
         }
         "right" if ["round", "around"].contains(&next) => false,
         "right" => follows || ["a", "another"].contains(&before) || !is_right_of_no_turn(at, words),
-        "around" | "round" => is_turned_around(at, words) || follows && at + 1 == words.len(),
+        "around" | "round" => follows || is_turned_around(at, words),
         _ => true,
     }
 }
