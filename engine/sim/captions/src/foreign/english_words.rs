@@ -91,6 +91,9 @@ pub const HARMLESS: &str = "
     story tale script scenario brief recipe checklist bullet nutshell summary recap upshot gist synopsis rundown
     spot mat dime penny sixpence marble statue-still rock-still post
     drift vend crow bird's fly
+    sortie briefing log logbook entry memo record report capture airtime kit apparatus device sensor viewfinder recorder hover datum
+    baseline stance posture garb getup gear apparel ensemble layer half circuit errand promenade jaunt expedition star show hero interest
+    soul character player candidate volunteer mover traveller traveler rambler breath clockwork shooter handler flyer flier airframe
     counterpart participant platform whoever party unit flat opposite protagonist star quarry charge lead leader wearer owner pattern trajectory itinerary standpoint hitch";
 
 /// Adjectives, and other words before a noun, that no ending gives away.

@@ -4,7 +4,17 @@ use super::numbers::numeral;
 
 const NUMERALS: &str = "零一二两三四五六七八九十百";
 /// Spellings, each with the one that the reader knows.
-const SPELLINGS: [(&str, &str); 28] = [
+const SPELLINGS: [(&str, &str); 38] = [
+    ("1名", "一名"),
+    ("1位", "一位"),
+    ("1架", "一架"),
+    ("U型弯", "掉头"),
+    ("U形弯", "掉头"),
+    ("U型转弯", "掉头"),
+    ("U形转弯", "掉头"),
+    ("U型掉头", "掉头"),
+    ("米/s", "米/秒"),
+    ("秒速", "每秒"),
     ("OK", "好"),
     ("直线距离", "距离"),
     ("在同一处", "在原地"),

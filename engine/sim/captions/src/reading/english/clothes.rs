@@ -18,7 +18,9 @@ pub(super) fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
     let (word, next) = (words[at], words.get(at + 1).copied().unwrap_or_default());
     if is_luggage(at, words) {
         let before = &words[at.saturating_sub(4)..at];
-        return match next == "off" || before.iter().any(|word| NEGATIONS.contains(word) || *word == "any") {
+        let lacks = ["absent", "missing", "none", "nil", "nope"];
+        let is_lacking = next == "off" || words[at + 1..].iter().take(3).any(|word| lacks.contains(word));
+        return match is_lacking || before.iter().any(|word| NEGATIONS.contains(word) || *word == "any") {
             true => Some(Claim::NoBackpack),
             // Whether luggage of another kind is there, nobody knows.
             false => (!["luggage", "baggage"].contains(&word)).then_some(Claim::Backpack),

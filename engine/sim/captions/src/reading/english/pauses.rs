@@ -42,7 +42,7 @@ pub(super) fn denies_motion(words: &[&str]) -> bool {
     let is_of_place =
         || words.iter().any(|it| ["spot", "place", "anywhere", "position", "muscle", "foot"].contains(it));
     let of = |word: &str| match word {
-        "leave" | "leaves" | "leaving" | "go" | "goes" | "going" | "shift" => is_of_place(),
+        "leave" | "leaves" | "leaving" | "left" | "go" | "goes" | "going" | "shift" => is_of_place(),
         word => MOTION.contains(&word) || ["mov", "stir", "budg"].iter().any(|stem| word.starts_with(stem)),
     };
     let near = |at: usize| if words[at].starts_with("walk") { 2 } else { 5 };
@@ -51,7 +51,14 @@ pub(super) fn denies_motion(words: &[&str]) -> bool {
         before.iter().rposition(|it| NEGATIONS.contains(it)).is_some_and(|from| !is_parted(&before[from..]))
     };
     let nowhere = words.contains(&"nowhere") && words.iter().any(|it| MOTION.contains(it));
-    nowhere || !is_of_the_drone(words) && (0..words.len()).filter(|at| of(words[*at])).any(|at| is_denied(&at))
+    let is_spot = words.contains(&"spot");
+    nowhere || (is_spot || !is_of_the_drone(words)) && (0..words.len()).filter(|at| of(words[*at])).any(|at| is_denied(&at))
+}
+
+/// `stayed put`, unless it is what the drone shall do.
+pub(super) fn stays_put(words: &[&str]) -> bool {
+    let puts = |it: &[&str]| it[1] == "put" && ["stay", "remain"].iter().any(|stem| it[0].starts_with(stem));
+    words.windows(2).any(puts) && !["drone", "you", "aircraft"].contains(&words[0]) && words.get(1) != Some(&"drone")
 }
 
 /// `the position remains unchanged`, `they hold their ground`

@@ -19,7 +19,10 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
     let unit = words.get(at + 1).copied().unwrap_or_default();
     let after = |offset: usize| words.get(at + offset).copied().unwrap_or_default();
     let is_metres = matches!(unit, "m" | "metre" | "metres" | "meter" | "meters");
+    // `1 person`, `100 %`: numbers that say nothing of a flight.
+    let says_nothing = value == 1.0 && !unit.is_empty() || unit == "percent";
     if unit == "m/s"
+        || is_rate(unit)
         || (is_metres && ["per", "a", "each", "every"].contains(&after(2)) && after(3).starts_with("second"))
     {
         return Some(Claim::Speed(value));
@@ -61,6 +64,9 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
                     return Some(angle(value, aim(words, at)));
                 }
                 let subject = before.iter().find(|word| !is_equal(word));
+                if says_nothing && unit != "percent" && subject.is_none_or(|it| !is_stop(it)) || unit == "percent" {
+                    return None;
+                }
                 unlabelled(value, unit, subject.copied().unwrap_or_default())
             }
         },
@@ -77,6 +83,11 @@ fn angle(value: f64, aim: Option<usize>) -> Claim {
         Some(_) => Claim::Pitch(value.abs()),
         None => Claim::Tilt(value.abs()),
     }
+}
+
+/// `metres/second`, `mps`
+fn is_rate(unit: &str) -> bool {
+    unit == "mps" || ["m/", "metres/", "meters/", "metre/", "meter/"].iter().any(|it| unit.starts_with(it))
 }
 
 /// Whether a word of turning is nearer before a place than a word of pausing.
@@ -143,7 +154,7 @@ pub(super) fn is_level(clauses: &[Vec<Token>]) -> bool {
     let is_said = |clause: &Vec<Token>| {
         has(clause, &|word| LEVEL.contains(&word))
             || has(clause, &is_tilt) && has(clause, &is_denial)
-            || has(clause, &|word| CAMERA.contains(&word)) && has(clause, &|word| ["straight", "zero", "zeroed", "neutral"].contains(&word))
+            || has(clause, &|word| CAMERA.contains(&word)) && has(clause, &|word| ["straight", "zero", "zeroed", "neutral", "forward", "forwards", "ahead"].contains(&word))
     };
     let is_answer = |pair: &[Vec<Token>]| has(&pair[0], &is_tilt) && pair[1].first().is_some_and(|it| is_denial(word_of(it)));
     clauses.iter().any(is_said) || clauses.windows(2).any(is_answer)

@@ -5,7 +5,7 @@ use super::idioms::{is_of_the_drone, is_of_the_gap, without_idioms};
 use super::negation::{denied, is_denied_at};
 use super::numbers::{fold_numbers, number_word};
 use super::pauses::{
-    denies_motion, is_stop, is_time_alone, keeps_place, order_of_stop_and_turn, pauses_denied, stands_repeatedly,
+    denies_motion, is_stop, is_time_alone, keeps_place, order_of_stop_and_turn, pauses_denied, stands_repeatedly, stays_put,
 };
 use super::quantities::{aim, is_level, quantity};
 use super::tokens::{Token, clauses, word_of};
@@ -133,6 +133,9 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
     if goes_on {
         claims.retain(|claim| *claim != Claim::Stays);
     } else if !about_stops && (denies_motion(&words) || keeps_place(&words)) {
+        claims.push(Claim::Stays);
+    }
+    if !goes_on && !about_stops && stays_put(&words) {
         claims.push(Claim::Stays);
     }
     if walks(&words) {
