@@ -98,7 +98,8 @@ fn counts(claims: &[Claim], facts: &Facts) -> Vec<Value> {
             _ => return None,
         };
         let is_list = matches!(claim, Claim::Turn(_) | Claim::NoTurns);
-        let fits = known.iter().enumerate().map(|(place, fact)| found > 0 && found == *fact && !(is_list && place == 0));
+        let fits =
+            known.iter().enumerate().map(|(place, fact)| found > 0 && found == *fact && !(is_list && place == 0));
         Some(Value::new(at, place, fits))
     };
     claims.iter().enumerate().filter_map(value).collect()

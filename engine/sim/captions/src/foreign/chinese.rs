@@ -58,7 +58,8 @@ fn is_of_the_walk(text: &str) -> bool {
 
 /// `穿红色上衣的人`
 fn is_of_clothes(text: &str) -> bool {
-    let start: String = text.trim_start_matches(['的', '是', '着', '那', '个', '位', '名', '一']).chars().take(2).collect();
+    let start: String =
+        text.trim_start_matches(['的', '是', '着', '那', '个', '位', '名', '一']).chars().take(2).collect();
     start.contains(['穿', '身', '上', '下', '背', '人', '衣', '裤', '着', '·']) || begins_with_colour(&start)
 }
 

@@ -38,7 +38,8 @@ pub(super) fn worn<'a>(clause: &str, text: &'a str) -> Option<(Claim, &'a str)> 
     // `上面穿红的`
     let is_worn = || before.ends_with("穿") && after.starts_with('的');
     // `上身黄，下身紫`
-    let is_named = || ["上身", "下身", "上衣", "裤子", "上装", "下装", "上是", "下是"].iter().any(|it| before.ends_with(it));
+    let is_named =
+        || ["上身", "下身", "上衣", "裤子", "上装", "下装", "上是", "下是"].iter().any(|it| before.ends_with(it));
     let after = after.strip_prefix('色').or_else(|| (is_worn() || is_named()).then_some(after))?;
     let last = |words: &[&str]| words.iter().filter_map(|word| before.rfind(word)).max();
     let links = before.ends_with(['是', '为', '穿', '着', '呈', '深', '浅', '身'])
@@ -57,7 +58,8 @@ pub(super) fn worn<'a>(clause: &str, text: &'a str) -> Option<(Claim, &'a str)> 
 /// `上衣和裤子都是紫色`, `上下都穿紫色`: the colour of both garments, where a clause names one colour.
 pub(super) fn both_garments(clause: &str, claims: &mut Vec<Claim>) {
     let has = |words: &[&str]| words.iter().any(|word| clause.contains(word));
-    let names = clause.contains("上下") || has(&TOPS) && has(&TROUSERS) || clause.contains("上身") && clause.contains("下身");
+    let names =
+        clause.contains("上下") || has(&TOPS) && has(&TROUSERS) || clause.contains("上身") && clause.contains("下身");
     let colour = |claim: &Claim| match claim {
         Claim::Top(colour) | Claim::Trousers(colour) | Claim::Wears(colour) => Some(*colour),
         _ => None,

@@ -126,7 +126,9 @@ pub(super) fn quantity(
         }
         Some("次" | "回") if clause.contains(['转', '拐', '弯', '向', '折']) => count(value, "次", Claim::Turns),
         Some("个弯" | "个转弯" | "道弯") => count(value, "个弯", Claim::Turns),
-        None if ["角度", "云台", "镜头", "相机", "俯", "仰"].iter().any(|it| clause.contains(it)) => Claim::Tilt(value),
+        None if ["角度", "云台", "镜头", "相机", "俯", "仰"].iter().any(|it| clause.contains(it)) => {
+            Claim::Tilt(value)
+        }
         // `停留次数：2`
         None if clause.contains("停") || clause.contains("驻足") => count(value, "次", Claim::Stops),
         None if clause.contains(['转', '拐', '弯']) => count(value, "次", Claim::Turns),

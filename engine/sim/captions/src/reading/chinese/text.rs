@@ -4,7 +4,8 @@ use super::clothes::{both_garments, garment, shade, worn};
 use super::garments::COLOURS;
 use super::numbers::number;
 use super::pauses::{
-    denied_near, denied_word, is_of_the_drone, is_count_alone, is_only_standing, is_time_alone, order_of_stop_and_turn, without_empty_counts,
+    denied_near, denied_word, is_count_alone, is_of_the_drone, is_only_standing, is_time_alone, order_of_stop_and_turn,
+    without_empty_counts,
 };
 use super::plain::plain;
 use super::quantities::quantity;
@@ -25,8 +26,11 @@ pub fn read(text: &str) -> Vec<Claim> {
             let words = without_empty_counts(&joined(&clause.iter().collect::<String>()));
             // `途中停留一次，约3秒`: the time belongs to the stop.
             let speaks = STOP_CHARS.iter().any(|word| words.contains(word)) && !is_of_the_drone(&words);
-            let about_stops =
-                speaks || after_stop && (GOES_ON.iter().any(|it| words.starts_with(it)) || is_time_alone(&words) || is_count_alone(&words));
+            let about_stops = speaks
+                || after_stop
+                    && (GOES_ON.iter().any(|it| words.starts_with(it))
+                        || is_time_alone(&words)
+                        || is_count_alone(&words));
             let is_near_stop = about_stops || after_stop;
             let was_stop = after_stop;
             after_stop = about_stops && !STOP_CHARS.iter().any(|word| denied_word(&words, word));
@@ -153,7 +157,8 @@ fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool
     // A time of standing tells a stop from a target that stands all the time.
     let is_timed_stop = was_stop && clause.contains('秒') && !clause.contains("原地") && !clause.contains("一直");
     let stands = !is_timed_stop
-        && (STANDING_WORDS.iter().any(|word| clause.contains(word)) || MOVES.iter().any(|word| denied_word(clause, word)));
+        && (STANDING_WORDS.iter().any(|word| clause.contains(word))
+            || MOVES.iter().any(|word| denied_word(clause, word)));
     if stands && (!about_stops || is_only_standing(clause)) {
         claims.push(Claim::Stays);
     }
@@ -172,7 +177,9 @@ fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool
     {
         claims.push(Claim::Straight);
     }
-    if about_stops && STOP_CHARS.iter().any(|word| denied_word(clause, word)) || NEVER_STOPS.iter().any(|it| clause.contains(it)) {
+    if about_stops && STOP_CHARS.iter().any(|word| denied_word(clause, word))
+        || NEVER_STOPS.iter().any(|it| clause.contains(it))
+    {
         claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));
     } else if about_stops

@@ -22,6 +22,11 @@ pub(super) fn is_denied_at(at: usize, words: &[&str]) -> bool {
 
 /// Whether a denial ends before the word behind these words: `does not stop before it turns`.
 pub(super) fn is_parted(between: &[&str]) -> bool {
-    between.iter().any(|it| ["before", "until", "till", "but", "then", "after", "when", "just", "and", "while", "with", "plus", "only", "else", "other", "further"].contains(it))
-        || between.iter().any(|word| LUGGAGE.contains(word))
+    between.iter().any(|it| {
+        [
+            "before", "until", "till", "but", "then", "after", "when", "just", "and", "while", "with", "plus", "only",
+            "else", "other", "further",
+        ]
+        .contains(it)
+    }) || between.iter().any(|word| LUGGAGE.contains(word))
 }

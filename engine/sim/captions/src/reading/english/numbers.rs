@@ -48,7 +48,8 @@ fn half_turns(mut tokens: Vec<Token>) -> Vec<Token> {
         let is_one = ["a", "an", "another", "one", "did", "do", "does", "doing", "the"].contains(&before.as_str());
         let is_count = !is_one && number_word(&before).is_some() || matches!(tokens[at - 1], Token::Number(_));
         let next = tokens.get(at + 1).map_or("", word_of).to_owned();
-        if tokens[at] == Token::Number(180.0) && (is_one && (!is_unit(&next) && next != "s") || is_count && next == "s") {
+        if tokens[at] == Token::Number(180.0) && (is_one && (!is_unit(&next) && next != "s") || is_count && next == "s")
+        {
             tokens[at] = Token::Word("uturn".to_owned());
             if next == "s" {
                 tokens[at + 1] = Token::Word(String::new());

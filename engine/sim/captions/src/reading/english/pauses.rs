@@ -21,8 +21,9 @@ pub(super) fn pauses_denied(words: &[&str], about_stops: bool, after_stop: bool,
         || [["one", "go"], ["without", "letup"], ["without", "cease"], ["all", "go"], ["single", "go"]]
             .iter()
             .any(|it| has(it) && !of_a_stop)
-        || (words.windows(2).any(|it| (it[0].starts_with("keep") || it[0] == "kept") && ["moving", "walking", "going"].contains(&it[1]))
-            && words.iter().any(|it| ["throughout", "whole", "entire", "always", "constantly", "all"].contains(it)));
+        || (words.windows(2).any(|it| {
+            (it[0].starts_with("keep") || it[0] == "kept") && ["moving", "walking", "going"].contains(&it[1])
+        }) && words.iter().any(|it| ["throughout", "whole", "entire", "always", "constantly", "all"].contains(it)));
     let is_broken_off = has(&["broken", "off"]) || has(&["broken", "up"]);
     let rests = |word: &str| is_stop(word) || word == "rest" || is_broken_off && word == "broken";
     // `the number of stops was zero`
@@ -52,7 +53,8 @@ pub(super) fn denies_motion(words: &[&str]) -> bool {
     };
     let nowhere = words.contains(&"nowhere") && words.iter().any(|it| MOTION.contains(it));
     let is_spot = words.contains(&"spot");
-    nowhere || (is_spot || !is_of_the_drone(words)) && (0..words.len()).filter(|at| of(words[*at])).any(|at| is_denied(&at))
+    nowhere
+        || (is_spot || !is_of_the_drone(words)) && (0..words.len()).filter(|at| of(words[*at])).any(|at| is_denied(&at))
 }
 
 /// `stayed put`, unless it is what the drone shall do.

@@ -1,10 +1,12 @@
 //! Numbers with a unit in English clauses.
 
 use super::pauses::is_stop;
+use super::tokens::{Token, word_of};
 use super::turns::{is_turning, turn_word};
 use super::units::is_unit;
-use super::tokens::{Token, word_of};
-use super::words::{DOWN_STEMS, DURATION_WORDS, LEVEL, NEGATIONS, STRONG_ALTITUDE, STRONG_DISTANCE, STRONG_WAY, TURN_NOUNS, UP_STEMS};
+use super::words::{
+    DOWN_STEMS, DURATION_WORDS, LEVEL, NEGATIONS, STRONG_ALTITUDE, STRONG_DISTANCE, STRONG_WAY, TURN_NOUNS, UP_STEMS,
+};
 use crate::reading::{Claim, count};
 use crate::turns::TurnKind;
 
@@ -154,9 +156,13 @@ pub(super) fn is_level(clauses: &[Vec<Token>]) -> bool {
     let is_said = |clause: &Vec<Token>| {
         has(clause, &|word| LEVEL.contains(&word))
             || has(clause, &is_tilt) && has(clause, &is_denial)
-            || has(clause, &|word| CAMERA.contains(&word)) && has(clause, &|word| ["straight", "zero", "zeroed", "neutral", "forward", "forwards", "ahead"].contains(&word))
+            || has(clause, &|word| CAMERA.contains(&word))
+                && has(clause, &|word| {
+                    ["straight", "zero", "zeroed", "neutral", "forward", "forwards", "ahead"].contains(&word)
+                })
     };
-    let is_answer = |pair: &[Vec<Token>]| has(&pair[0], &is_tilt) && pair[1].first().is_some_and(|it| is_denial(word_of(it)));
+    let is_answer =
+        |pair: &[Vec<Token>]| has(&pair[0], &is_tilt) && pair[1].first().is_some_and(|it| is_denial(word_of(it)));
     clauses.iter().any(is_said) || clauses.windows(2).any(is_answer)
 }
 

@@ -5,11 +5,14 @@ use super::idioms::{is_of_the_drone, is_of_the_gap, without_idioms};
 use super::negation::{denied, is_denied_at};
 use super::numbers::{fold_numbers, number_word};
 use super::pauses::{
-    denies_motion, is_stop, is_time_alone, keeps_place, order_of_stop_and_turn, pauses_denied, stands_repeatedly, stays_put,
+    denies_motion, is_stop, is_time_alone, keeps_place, order_of_stop_and_turn, pauses_denied, stands_repeatedly,
+    stays_put,
 };
 use super::quantities::{aim, is_level, quantity};
 use super::tokens::{Token, clauses, word_of};
-use super::turns::{compass_word, counts_no_turns, is_side, is_turning, keeps_direction, repetitions, turn_word, turns_back};
+use super::turns::{
+    compass_word, counts_no_turns, is_side, is_turning, keeps_direction, repetitions, turn_word, turns_back,
+};
 use super::units::is_unit;
 use super::words::{GOES_ON, LUGGAGE, MOTION, NEGATIONS, STANDS, UNTURNED, WALKS};
 use crate::reading::{Claim, count, sentences, stands_for, with_level_view};
@@ -68,16 +71,36 @@ fn answer(tokens: &[Token], subject: &[Token]) -> Option<Claim> {
             Some(count(number, "turns", Claim::Turns))
         }
         () if number == 0.0 && asks(&|word| ["motion", "movement"].contains(&word)) => Some(Claim::Stays),
-        () if number == 0.0 && word_of(&tokens[0]) != "nothing" && asks(&|word| LUGGAGE.contains(&word)) => Some(Claim::NoBackpack),
+        () if number == 0.0 && word_of(&tokens[0]) != "nothing" && asks(&|word| LUGGAGE.contains(&word)) => {
+            Some(Claim::NoBackpack)
+        }
         () => None,
     }
 }
 
 /// Words of an answer that there is none: `not a single one`.
 const NONE: [&str; 21] = [
-    "nope", "nah",
-    "no", "none", "nil", "neither", "never", "nought", "zero", "not", "one", "a", "single", "at", "all", "any", "ever",
-    "whatsoever", "nothing", "were", "made",
+    "nope",
+    "nah",
+    "no",
+    "none",
+    "nil",
+    "neither",
+    "never",
+    "nought",
+    "zero",
+    "not",
+    "one",
+    "a",
+    "single",
+    "at",
+    "all",
+    "any",
+    "ever",
+    "whatsoever",
+    "nothing",
+    "were",
+    "made",
 ];
 
 fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Claim> {
@@ -156,7 +179,9 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
     pauses_denied(&words, about_stops, after_stop, &mut claims);
     let lists = claims.iter().any(|claim| matches!(claim, Claim::Turn(_) | Claim::Turns(1..) | Claim::TurnsOf(..)));
     claims.retain(|claim| !(lists && *claim == Claim::NoTurns));
-    if !is_of_the_gap(&words) && (counts_no_turns(&words) || denied(&words, is_turning) || words.iter().any(|word| UNTURNED.contains(word))) {
+    if !is_of_the_gap(&words)
+        && (counts_no_turns(&words) || denied(&words, is_turning) || words.iter().any(|word| UNTURNED.contains(word)))
+    {
         claims.retain(|claim| !matches!(claim, Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..)));
         claims.push(Claim::NoTurns);
     } else if keeps_direction(&words) || words.windows(2).any(|it| it == ["dead", "ahead"]) {

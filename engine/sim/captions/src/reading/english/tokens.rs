@@ -78,7 +78,8 @@ fn is_rate(word: &str) -> bool {
 /// A word in brackets that says which way a camera looks.
 fn is_aside(chars: &[char]) -> bool {
     let inside: String = chars.iter().take_while(|c| **c != ')').collect();
-    inside.len() < 24 && inside.split(' ').any(|word| ["up", "down", "upward", "downward", "upwards", "downwards"].contains(&word))
+    inside.len() < 24
+        && inside.split(' ').any(|word| ["up", "down", "upward", "downward", "upwards", "downwards"].contains(&word))
 }
 
 pub(super) fn colour_follows(chars: &[char], from: usize) -> bool {

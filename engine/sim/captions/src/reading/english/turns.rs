@@ -38,7 +38,8 @@ pub(super) fn is_side(at: usize, words: &[&str]) -> bool {
     let follows = turn_word(before).is_some() || is_told();
     match words[at] {
         "left" => {
-            let is_verb = ["the", "their", "its", "it", "level", "flat", "horizontal", "alone", "pointing"].contains(&next);
+            let is_verb =
+                ["the", "their", "its", "it", "level", "flat", "horizontal", "alone", "pointing"].contains(&next);
             !is_verb && (follows || !NEVER_LEFT.contains(&before))
         }
         "right" if ["round", "around"].contains(&next) => false,
@@ -70,18 +71,51 @@ fn is_turned_around(at: usize, words: &[&str]) -> bool {
     let next = words.get(at + 1).copied();
     let is_amount = next == Some("") && !words.get(at + 2).is_some_and(|it| it.starts_with("time"));
     let turns = [
-        "turns", "turn", "turning", "turned", "spun", "then", "", "wheels", "spins", "swings", "next", "later",
-        "finally", "first", "by", "swing", "swung", "wheel", "spin", "right", "lastly", "afterwards", "again",
+        "turns",
+        "turn",
+        "turning",
+        "turned",
+        "spun",
+        "then",
+        "",
+        "wheels",
+        "spins",
+        "swings",
+        "next",
+        "later",
+        "finally",
+        "first",
+        "by",
+        "swing",
+        "swung",
+        "wheel",
+        "spin",
+        "right",
+        "lastly",
+        "afterwards",
+        "again",
     ];
     let stays = ["all", "way", "stand", "stands", "hang", "hangs", "walk", "walks", "look", "looks", "is", "are"];
-    let ends = next.is_none() || ["and", "or", "then", "once", "twice", "again", "followed"].iter().any(|it| next == Some(it));
+    let ends =
+        next.is_none() || ["and", "or", "then", "once", "twice", "again", "followed"].iter().any(|it| next == Some(it));
     !is_amount && (turns.contains(&before) || ends && !stays.contains(&before))
 }
 
 /// Beginnings of words for a turn around.
 const AROUND: [&str; 13] = [
-    "uturn", "aboutturn", "aboutface", "turnaround", "turnabout", "reversal", "revers", "backtrack", "retrac",
-    "volteface", "oneeighty", "halfturn", "doubleback",
+    "uturn",
+    "aboutturn",
+    "aboutface",
+    "turnaround",
+    "turnabout",
+    "reversal",
+    "revers",
+    "backtrack",
+    "retrac",
+    "volteface",
+    "oneeighty",
+    "halfturn",
+    "doubleback",
 ];
 
 /// Whether a word speaks of leaving a straight line.

@@ -257,9 +257,35 @@ pub const TURN_STEMS: [&str; 18] = [
 
 /// Words of motion that, denied, say that the target stays.
 pub const MOTION: [&str; 29] = [
-    "move", "moves", "moving", "moved", "movement", "budge", "budges", "budging", "going", "go", "goes", "walk",
-    "stir", "stirs", "stirring", "shift", "shifts", "step", "inch", "leave", "leaves", "leaving", "motion", "walking",
-    "steps", "displacement", "relocate", "relocates", "left",
+    "move",
+    "moves",
+    "moving",
+    "moved",
+    "movement",
+    "budge",
+    "budges",
+    "budging",
+    "going",
+    "go",
+    "goes",
+    "walk",
+    "stir",
+    "stirs",
+    "stirring",
+    "shift",
+    "shifts",
+    "step",
+    "inch",
+    "leave",
+    "leaves",
+    "leaving",
+    "motion",
+    "walking",
+    "steps",
+    "displacement",
+    "relocate",
+    "relocates",
+    "left",
 ];
 
 /// Words of standing, each of which says that the target stays.
