@@ -94,10 +94,10 @@ fn counts(claims: &[Claim], facts: &Facts) -> Vec<Value> {
             Claim::Stops(found) => (Some(0), found),
             Claim::Turns(found) => (Some(1), found),
             Claim::Times(found) => (None, found),
-            Claim::Turn(_) | Claim::NoTurns => (None, known[1]),
+            Claim::Turn(_) | Claim::TurnsOf(..) | Claim::NoTurns => (None, known[1]),
             _ => return None,
         };
-        let is_list = matches!(claim, Claim::Turn(_) | Claim::NoTurns);
+        let is_list = matches!(claim, Claim::Turn(_) | Claim::TurnsOf(..) | Claim::NoTurns);
         let fits =
             known.iter().enumerate().map(|(place, fact)| found > 0 && found == *fact && !(is_list && place == 0));
         Some(Value::new(at, place, fits))
