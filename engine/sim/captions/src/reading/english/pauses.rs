@@ -57,9 +57,9 @@ pub(super) fn denies_motion(words: &[&str]) -> bool {
         || (is_spot || !is_of_the_drone(words)) && (0..words.len()).filter(|at| of(words[*at])).any(|at| is_denied(&at))
 }
 
-/// `stayed put`, unless it is what the drone shall do.
+/// `stayed put`; `stay put` is what the drone shall do.
 pub(super) fn stays_put(words: &[&str]) -> bool {
-    let puts = |it: &[&str]| it[1] == "put" && ["stay", "remain"].iter().any(|stem| it[0].starts_with(stem));
+    let puts = |it: &[&str]| it[1] == "put" && ["stays", "stayed", "staying", "remains", "remained"].contains(&it[0]);
     words.windows(2).any(puts) && !["drone", "you", "aircraft"].contains(&words[0]) && words.get(1) != Some(&"drone")
 }
 

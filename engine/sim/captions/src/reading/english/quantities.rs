@@ -66,7 +66,7 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
                     return Some(angle(value, aim(words, at)));
                 }
                 let subject = before.iter().find(|word| !is_equal(word));
-                if says_nothing && unit != "percent" && subject.is_none_or(|it| !is_stop(it)) || unit == "percent" {
+                if unit == "percent" || says_nothing && subject.is_none_or(|it| !is_stop(it)) {
                     return None;
                 }
                 unlabelled(value, unit, subject.copied().unwrap_or_default())
