@@ -1,9 +1,13 @@
 """Judges the judge of texts: `cosfly doctor --texts` on true paraphrases and on texts with one planted error each.
 
     check_text_judge.py COSFLY DATASET [--texts 1000] [--show 10] [--grammar 1]
+    check_text_judge.py target/release/examples/judge_of_stdin made-up --grammar 15
 
 The grammar here shares nothing with cosfly's templates. A text is written from the facts of a flight; a planted text from facts of
 which one is changed, or with one thing that no facts have. Of planted texts at least 99 % must be refused, of true ones at most 2 %.
+
+The second form needs no dataset: it judges texts about made-up flights by an example of the crate `cosfly-captions`
+(`cargo build --release -p cosfly-captions --example judge_of_stdin`).
 """
 
 import argparse
@@ -15,7 +19,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from grammars import GRAMMARS
+from grammars import GRAMMARS, LEAVE_STANDING_OUT
+from made_up_flights import flights as flights_of_no_drone
 
 COLOURS = ["black", "grey", "white", "red", "orange", "yellow", "green", "blue", "purple", "pink", "brown", "beige"]
 ZH_COLOURS = dict(zip(COLOURS, "黑 灰 白 红 橙 黄 绿 蓝 紫 粉 棕 米".split()))
@@ -338,9 +343,9 @@ def true_text(grammar, flight):
     return grammar.instruction(flight) if grammar.rng.random() < 0.4 else grammar.description(flight)
 
 
-def planted_text(grammar, flight, slot):
+def planted_text(grammar, flight, slot, both=BOTH):
     rng = grammar.rng
-    write = true_text if slot in BOTH else (lambda g, f: g.description(f))
+    write = true_text if slot in both else (lambda g, f: g.description(f))
     if slot == "thing":
         return grammar.foreign(write(grammar, flight))
     if slot == "direction":
@@ -360,6 +365,16 @@ def doctor(cosfly, dataset, lines):
         return json.loads(done.stdout)
 
 
+def judged(program, dataset, facts, lines):
+    """Each line with the contradictions that the judge finds."""
+    if dataset != "made-up":
+        return doctor(program, dataset, lines)["judged"]["verdicts"]
+    asked = [{"facts": facts[it["trajectory_id"]], "language": it["language"], "text": it["text"]} for it in lines]
+    text = "".join(json.dumps(it, ensure_ascii=False) + "\n" for it in asked)
+    done = subprocess.run([program], input=text, capture_output=True, text=True, encoding="utf-8", check=True)
+    return [{**it, "contradictions": json.loads(found)} for it, found in zip(lines, done.stdout.splitlines(), strict=True)]
+
+
 def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("cosfly")
@@ -369,10 +384,14 @@ def main():
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("--grammar", type=int, default=1, help="1: the one of this file; others: held-out paraphrases")
     given = arguments.parse_args()
-    facts = doctor(given.cosfly, given.dataset, [])["judged"]["facts"]
+    if given.dataset == "made-up":
+        facts = flights_of_no_drone(120, given.seed)
+    else:
+        facts = doctor(given.cosfly, given.dataset, [])["judged"]["facts"]
     flights = {name: Flight(it) for name, it in sorted(facts.items())}
     assert flights, "the dataset has no flight with facts"
     names, ok = list(flights), True
+    both = BOTH - {"standing"} if given.grammar in LEAVE_STANDING_OUT else BOTH
     for kind in {1: (English, Chinese), **GRAMMARS}[given.grammar]:
         rng = random.Random(f"{given.seed} {kind.code}")
         grammar = kind(rng)
@@ -385,7 +404,7 @@ def main():
         while len(slot_of) < given.texts:
             name, slot = rng.choice(names), SLOTS[len(slot_of) % len(SLOTS)]
             for name in [name] + rng.sample(names, len(names)):
-                text = planted_text(grammar, flights[name], slot)
+                text = planted_text(grammar, flights[name], slot, both)
                 if text:
                     break
             if text is None:
@@ -396,7 +415,7 @@ def main():
                 continue
             slot_of[name, text] = slot
         lines += [line(name, text) for name, text in slot_of]
-        verdicts = doctor(given.cosfly, given.dataset, lines)["judged"]["verdicts"]
+        verdicts = judged(given.cosfly, given.dataset, facts, lines)
         refused = [it for it in verdicts if (it["trajectory_id"], it["text"]) in true_keys and it["contradictions"]]
         missed = [it for it in verdicts if (it["trajectory_id"], it["text"]) in slot_of and not it["contradictions"]]
         caught = 1 - len(missed) / len(slot_of)

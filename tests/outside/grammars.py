@@ -2,10 +2,14 @@
 
 from paraphrases import FifthChinese, FifthEnglish, FourthChinese, FourthEnglish, SecondChinese, SecondEnglish, ThirdChinese, ThirdEnglish
 from paraphrases_eighth import EighthChinese, EighthEnglish
+from paraphrases_eighteenth import EighteenthChinese, EighteenthEnglish
 from paraphrases_eleventh import EleventhChinese, EleventhEnglish
+from paraphrases_fifteenth import FifteenthChinese, FifteenthEnglish
 from paraphrases_fourteenth import FourteenthChinese, FourteenthEnglish
 from paraphrases_ninth import NinthChinese, NinthEnglish
+from paraphrases_seventeenth import SeventeenthChinese, SeventeenthEnglish
 from paraphrases_seventh import SeventhChinese, SeventhEnglish
+from paraphrases_sixteenth import SixteenthChinese, SixteenthEnglish
 from paraphrases_sixth import SixthChinese, SixthEnglish
 from paraphrases_tenth import TenthChinese, TenthEnglish
 from paraphrases_thirteenth import ThirteenthChinese, ThirteenthEnglish
@@ -25,4 +29,10 @@ GRAMMARS = {
     12: (TwelfthEnglish, TwelfthChinese),
     13: (ThirteenthEnglish, ThirteenthChinese),
     14: (FourteenthEnglish, FourteenthChinese),
+    15: (FifteenthEnglish, FifteenthChinese),
+    16: (SixteenthEnglish, SixteenthChinese),
+    17: (SeventeenthEnglish, SeventeenthChinese),
+    18: (EighteenthEnglish, EighteenthChinese),
 }
+# Grammars whose instructions may leave out that a person stands: such an instruction is true of a person who walks.
+LEAVE_STANDING_OUT = {15, 16, 17, 18}

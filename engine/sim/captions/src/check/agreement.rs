@@ -1,7 +1,7 @@
 //! Which claims weigh: a reading that a true statement of the same text makes void is none.
 
 use crate::facts::Facts;
-use crate::precision::{DISTANCE_STEP_M, SPEED_STEP_MPS, STOP_STEP_S, is_step, way_step_m};
+use crate::precision::{SPEED_STEP_MPS, STOP_STEP_S, is_step, way_step_m};
 use crate::reading::Claim;
 use crate::turns::TurnKind;
 
@@ -12,6 +12,30 @@ pub(super) fn listed(claims: &[Claim]) -> Vec<TurnKind> {
         _ => None,
     };
     claims.iter().filter_map(turn).collect()
+}
+
+/// Whether the turns of a text are these: words that may be turns count where they fit, and `twice, to the right` lists two.
+pub(super) fn is_list_of(claims: &[Claim], expected: &[TurnKind]) -> bool {
+    let listed = listed(claims);
+    let is_counted = claims.contains(&Claim::Turns(expected.len()));
+    if let ([kind], true) = (&listed[..], is_counted)
+        && expected.iter().all(|it| it == kind)
+    {
+        return true;
+    }
+    // Of each beginning of the claims, how many of the expected turns it may list.
+    let mut reached = std::collections::BTreeSet::from([0]);
+    for claim in claims {
+        let next = |count: &usize, kind: TurnKind| (expected.get(*count) == Some(&kind)).then_some(count + 1);
+        reached = match claim {
+            Claim::Turn(kind) => reached.iter().filter_map(|count| next(count, *kind)).collect(),
+            Claim::PerhapsTurn(kind) => {
+                reached.iter().flat_map(|count| [Some(*count), next(count, *kind)]).flatten().collect()
+            }
+            _ => reached,
+        };
+    }
+    reached.contains(&expected.len())
 }
 
 /// Whether a claim says anything beside the others of its text.
@@ -29,13 +53,14 @@ pub(super) fn is_of_weight(claim: &Claim, claims: &[Claim], facts: &Facts) -> bo
         Claim::SomeStops => {
             (facts.walks || !claims.iter().any(stays)) && !claims.contains(&Claim::Stops(facts.stops.len()))
         }
-        Claim::Stays => !states_the_walk(claims, facts),
+        Claim::Stays => !states_the_walk(claims, facts) && !states_the_stops(claims, facts),
         _ => true,
     }
 }
 
 fn lists_the_turns(claims: &[Claim], facts: &Facts) -> bool {
-    !facts.turns.is_empty() && listed(claims).into_iter().eq(facts.turns.iter().map(|turn| turn.kind))
+    let turns: Vec<TurnKind> = facts.turns.iter().map(|turn| turn.kind).collect();
+    !turns.is_empty() && !listed(claims).is_empty() && is_list_of(claims, &turns)
 }
 
 fn states_the_turns(claims: &[Claim], facts: &Facts) -> bool {
@@ -58,24 +83,4 @@ pub(super) fn states_the_walk(claims: &[Claim], facts: &Facts) -> bool {
         _ => false,
     };
     facts.walks && (claims.iter().any(is_of_the_walk) || states_the_turns(claims, facts))
-}
-
-/// The claims, in which the length that is the distance is one, where no other is: words near it may speak of the camera.
-pub(super) fn with_distance(mut claims: Vec<Claim>, facts: &Facts) -> Vec<Claim> {
-    let is_distance = |value: f64| is_step(value, facts.distance_m, DISTANCE_STEP_M);
-    let states = |claim: &Claim| match claim {
-        Claim::Distance(_) => true,
-        Claim::Metres(value) => is_distance(*value),
-        _ => false,
-    };
-    if !claims.iter().any(states) {
-        let length = claims.iter_mut().find_map(|claim| match *claim {
-            Claim::Altitude(value) | Claim::Way(value) if is_distance(value) => Some((claim, value)),
-            _ => None,
-        });
-        if let Some((claim, value)) = length {
-            *claim = Claim::Distance(value);
-        }
-    }
-    claims
 }

@@ -3,6 +3,7 @@
 mod agreement;
 mod claims;
 mod clothes;
+mod labels;
 mod script;
 mod slot;
 #[cfg(test)]

@@ -5,8 +5,11 @@ use crate::language::Language;
 
 /// The disagreement of a text that is not in the script of its language.
 pub(crate) fn script_mismatch(text: &str, language: Language) -> Option<SlotMismatch> {
-    // A letter in a Chinese word.
-    let text = &text.replace("T恤", "恤");
+    // A letter in a Chinese word, and symbols of units.
+    let text = &match language {
+        Language::Zh => crate::reading::chinese::plain(&text.replace("T恤", "恤").replace(['U', 'V'], "")),
+        Language::En => text.to_owned(),
+    };
     let han = text.chars().filter(|c| ('\u{4e00}'..='\u{9fff}').contains(c)).count();
     let latin = text.chars().filter(char::is_ascii_alphabetic).count();
     let foreign = text.chars().filter(|c| c.is_alphabetic() && !c.is_ascii()).count();

@@ -112,7 +112,9 @@ fn a_text_in_the_wrong_script_or_without_its_slots_fails() {
     let chinese = "跟随向东行走的行人，保持约28米距离，俯仰角约45度。";
     assert_eq!(check(chinese, Language::Zh, facts), Ok(()));
     assert!(slots(chinese, Language::En).contains(&Slot::Language));
-    assert_eq!(slots("跟随向东行走的行人，保持约28m距离，俯仰角约45度。", Language::Zh)[0], Slot::Language);
+    assert_eq!(slots("跟随向东行走的行人，保持约28 metres距离，俯仰角约45度。", Language::Zh)[0], Slot::Language);
+    // Symbols of units are in any script.
+    assert_eq!(check("跟随向东行走的行人，保持约28m距离，俯仰角约45°。", Language::Zh, facts), Ok(()));
     assert_eq!(slots("Follow the pedestrian.", Language::En), [Slot::Distance, Slot::Pitch]);
     assert_eq!(slots("", Language::En), [Slot::Language, Slot::Distance, Slot::Pitch]);
 }

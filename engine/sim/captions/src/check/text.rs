@@ -1,13 +1,13 @@
 //! The slot check of a text: its claims against facts of the trajectory.
 
-use super::agreement::with_distance;
 use super::claims::mismatches;
 use super::clothes::clothes_mismatch;
+use super::labels::relabelled;
 use super::script::script_mismatch;
 use super::slot::{Slot, SlotMismatch};
 use crate::facts::{Facts, Wear};
 use crate::language::Language;
-use crate::reading::{Claim, chinese, english};
+use crate::reading::{Claim, chinese, english, without_marks};
 
 /// Compares every number, direction, turn and stop that a text claims with the facts.
 ///
@@ -18,7 +18,7 @@ use crate::reading::{Claim, chinese, english};
 /// # Errors
 /// All disagreements, in the order of the text; missing slots come last.
 pub fn check(text: &str, language: Language, facts: &Facts) -> Result<(), Vec<SlotMismatch>> {
-    let claims = with_distance(listed_turns(claims_of(text, language)), facts);
+    let claims = relabelled(listed_turns(claims_of(text, language)), facts);
     let mut all: Vec<SlotMismatch> = script_mismatch(text, language).into_iter().collect();
     all.extend(mismatches(&claims, facts));
     if all.is_empty() { Ok(()) } else { Err(all) }
@@ -37,6 +37,7 @@ pub fn claimed(text: &str, language: Language) -> Vec<Slot> {
         Claim::Stops(_) | Claim::SomeStops | Claim::Times(_) => Slot::Stops,
         Claim::Standing(_) => Slot::Standing,
         Claim::Turn(_)
+        | Claim::PerhapsTurn(_)
         | Claim::Turns(_)
         | Claim::TurnsOf(..)
         | Claim::NoTurns
@@ -63,9 +64,10 @@ pub fn check_clothes(text: &str, language: Language, wear: Wear) -> Result<(), S
 }
 
 fn claims_of(text: &str, language: Language) -> Vec<Claim> {
+    let text = without_marks(text);
     match language {
-        Language::Zh => chinese::read(text),
-        Language::En => english::read(text),
+        Language::Zh => chinese::read(&text),
+        Language::En => english::read(&text),
     }
 }
 

@@ -4,7 +4,7 @@ use super::chinese_words::{
     BEFORE_PLACES, BESIDE, CHARACTERS, COMPANIONS_BEGIN, HARMLESS, HOLDING, MEASURES, OF_THE_WALK, PASSING, SOME_OF,
     SOMEWHERE, THINGS, TOGETHER,
 };
-use crate::reading::chinese::clauses;
+use crate::reading::chinese::{clauses, plain};
 
 /// Characters that the thing a place is beside may have.
 const REACH: usize = 6;
@@ -13,7 +13,7 @@ const ADDRESS: usize = 6;
 
 /// Words that name a thing, and places, company and what is passed that are no part of a walk.
 pub fn foreign_things(text: &str) -> Vec<String> {
-    clauses(text).iter().flat_map(|clause| in_clause(&clause.iter().collect::<String>())).collect()
+    clauses(&plain(text)).iter().flat_map(|clause| in_clause(&clause.iter().collect::<String>())).collect()
 }
 
 fn in_clause(clause: &str) -> Vec<String> {
@@ -56,6 +56,13 @@ fn is_of_the_walk(text: &str) -> bool {
     OF_THE_WALK.iter().any(|word| text.contains(word))
 }
 
+/// `穿红色上衣的人`
+fn is_of_clothes(text: &str) -> bool {
+    let start: String =
+        text.trim_start_matches(['的', '是', '着', '那', '个', '位', '名', '一']).chars().take(2).collect();
+    start.contains(['穿', '身', '上', '下', '背', '人', '衣', '裤', '着', '·']) || begins_with_colour(&start)
+}
+
 fn first(text: &str, count: usize) -> String {
     text.chars().take(count).collect()
 }
@@ -67,7 +74,7 @@ fn passed(clause: &str) -> Option<String> {
     let behind = words.filter_map(|word| clause.find(word).map(|at| &clause[at + word.len()..]));
     let mut foreign = behind.filter(|after| {
         let is_number = after.trim_start_matches(['了', '约', '大', '概']).starts_with(|c: char| c.is_ascii_digit());
-        !is_number && !is_ended(after) && !begins_with_colour(after) && !is_of_the_walk(after)
+        !is_number && !is_ended(after) && !is_of_clothes(after) && !is_of_the_walk(after)
     });
     foreign.next().map(|after| first(after, REACH))
 }
@@ -98,7 +105,8 @@ fn there(clause: &str) -> Option<String> {
             .then_some(place)
     };
     let after = behind(&SOME_OF).or_else(|| behind(&SOMEWHERE).filter(is_there)).or_else(under)?;
-    (!is_of_the_walk(after) && !after.contains('停')).then(|| first(after, REACH))
+    let is_own = is_of_the_walk(after) || is_of_clothes(after) || after.contains('停');
+    (!is_own).then(|| first(after, REACH))
 }
 
 /// `和爱人一起`: who goes with the target.
@@ -123,8 +131,12 @@ fn counted(clause: &str) -> Option<String> {
     let is_measured = |at: &usize| numbers.contains(chars[*at]) && MEASURES.contains(chars[at + 1]);
     let at = (0..chars.len().saturating_sub(2)).find(is_measured)?;
     let after: String = chars[at + 2..].iter().collect();
+    // `一架无人机`
+    if after.starts_with('·') {
+        return None;
+    }
     let after = after.trim_matches('·').to_owned();
-    let is_dressed = after.chars().take(2).any(|c| "穿着身".contains(c));
+    let is_dressed = after.chars().take(2).any(|c| "穿着身上下背裤衣".contains(c));
     let is_own = is_dressed
         || ["的", "裤", "衣", "线", "路", "直", "弯", "·", "人", "距", "行", "步", "度", "目", "对", "机"]
             .iter()

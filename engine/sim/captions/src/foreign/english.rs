@@ -38,7 +38,8 @@ fn in_clause<'c>(clause: &'c [Token]) -> Vec<String> {
         return vec![];
     }
     let is_named = |at: &usize| {
-        (is_thing(words[*at]) && !is_saying(&words, *at) && !is_likened(&words, *at)) || is_aid(&words, *at)
+        (is_thing(words[*at]) && !is_verb(&words, *at) && !is_saying(&words, *at) && !is_likened(&words, *at))
+            || is_aid(&words, *at)
     };
     // `the glass inclined 40 degrees`: what is aimed is the camera, by whatever name.
     let is_aimed = words.iter().any(|word| ["degrees", "degree"].contains(word));
@@ -113,6 +114,15 @@ fn is_in_dictionary(word: &str) -> bool {
 fn is_person(word: &str) -> bool {
     ["woman", "women", "man", "men"].iter().any(|end| word.strip_suffix(end).is_some_and(|stem| stem.len() > 2))
         && !word.ends_with("ment")
+}
+
+/// `train the camera on them`, `to bank left`: a verb by the words around it.
+fn is_verb(words: &[&str], at: usize) -> bool {
+    let before = at.checked_sub(1).map_or("", |before| words[before]);
+    let leads =
+        ["", "to", "and", "then", "please", "you", "should", "must", "will", "can", "now", "kindly", "just", "they"];
+    let objects = ["the", "your", "it", "them", "a", "an", "left", "right", "on", "their", "that", "this", "around"];
+    leads.contains(&before) && words.get(at + 1).is_some_and(|next| objects.contains(next))
 }
 
 /// `a walking stick`, `the park`: things of words that are none in other places.

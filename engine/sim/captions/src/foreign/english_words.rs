@@ -13,19 +13,19 @@ pub const THINGS: &str = "
     windy sunny cloudy stormy misty overcast umbrella hat cap scarf glasses sunglasses phone telephone mobile suitcase
     pram stroller pushchair buggy helmet handbag purse skateboard tunnel stair staircase steps escalator lift elevator
     bakery cafe café restaurant pub bar market supermarket hospital museum hotel cinema theatre theater office factory
-    library pharmacy chemist kiosk newsstand stall store mall platform railway railroad motorway highway canal beach hill
+    library pharmacy chemist kiosk newsstand stall store mall railway railroad motorway highway canal beach hill
     mountain forest wood meadow field flower flowerbed harbour harbor port pier dock quay playground stadium pool bank
     temple mosque cathedral castle monument memorial cemetery petrol gas garage parasol cane crutch trolley basket
     newspaper magazine book cigarette mask skirt dress shoe boot trainer sneaker sandal glove belt tie sock earphone
     headphone earbud briefcase balloon ladder crane scaffold scaffolding barrier bollard bin dustbin litter billboard poster
     banner flag awning balcony window door doorway porch entrance archway arch column pillar terrace courtyard yard
-    apartment flat skyscraper cottage cabin tent barn warehouse shed hut chimney antenna cable wire traffic-light
+    apartment skyscraper cottage cabin tent barn warehouse shed hut chimney antenna cable wire traffic-light
     grocery shopping parcel package bottle coffee icecream sandwich food drink guitar camera-bag ball kite toy
     tall old young elderly bald bearded blond blonde pregnant barefoot smoking eating drinking talking chatting singing
     dancing limping cycling jogging crowd group queue audience party family police suburb village
     city town downtown countryside desert island valley cliff rock stone brick concrete sculpture mural graffiti
     skip band orchestra choir flock herd swarm troop squad crew gang throng mob parade procession flipflop machine
-    accompanied accompanies hand-in-hand zebra driveways carpark parking rickshaw wheelchair walker-frame";
+    hand-in-hand zebra driveways carpark parking rickshaw wheelchair walker-frame";
 
 /// People whom no facts of a flight have, and words that say more of the target than the facts do.
 pub const PERSONS: &str = "
@@ -35,6 +35,22 @@ pub const PERSONS: &str = "
     vendor seller shopkeeper worker builder postman courier runner jogger schoolgirl schoolboy grandmother grandfather
     granny grandma grandpa pensioner mother father mum mom dad parent wife husband spouse partner girlfriend boyfriend
     sister brother daughter son uncle aunt cousin passenger commuter hiker skater beggar busker monk priest athlete
+    bride groom colonel general captain sergeant sailor fisherman fisherwoman farmer shepherd carpenter plumber electrician
+    painter sculptor musician violinist pianist guitarist drummer singer dancer ballerina actor actress clown juggler acrobat
+    magician wizard witch poet novelist author journalist reporter photographer librarian professor lecturer scholar scientist
+    chemist physicist engineer mechanic welder miner lumberjack gardener florist baker butcher grocer greengrocer chef cook barber
+    hairdresser tailor seamstress cobbler blacksmith goldsmith jeweller jeweler watchmaker locksmith janitor caretaker cleaner
+    maid butler gardener doorman bouncer bodyguard detective inspector sheriff constable cop firefighter fireman paramedic surgeon
+    dentist vet veterinarian midwife therapist psychologist pharmacist accountant banker lawyer barrister solicitor judge
+    magistrate politician mayor senator minister president king queen prince princess duke duchess knight bishop nun vicar rabbi
+    imam pastor pilgrim missionary salesman saleswoman salesperson merchant trader cashier clerk secretary receptionist typist
+    manager boss executive landlord landlady tenant hitchhiker backpacker camper mountaineer climber swimmer surfer sailor
+    rower boxer wrestler gymnast cricketer footballer golfer goalkeeper referee umpire coach skier snowboarder sprinter
+    jockey cowboy cowgirl rancher hunter trapper fisher angler beekeeper milkman mailman dustman roofer bricklayer mason
+    plasterer glazier decorator architect surveyor astronaut stewardess steward gentlewoman grandparent grandson granddaughter
+    grandchild nephew niece fiancé fiancée fiance fiancee widow widower orphan veteran retiree infantryman cadet recruit
+    conductor porter bellboy usher chauffeur cabbie trucker bus-driver stranger lover buddy mate pal roommate flatmate classmate
+    teammate sibling twins youngster oldster elder granddad grandad nan nanny babysitter retired
     bystander onlooker spectator people passersby guy bloke chap lad lass dude twin guest customer";
 
 /// Words in which people speak of a walk, a person's clothes and a camera, in the singular.
@@ -75,7 +91,10 @@ pub const HARMLESS: &str = "
     story tale script scenario brief recipe checklist bullet nutshell summary recap upshot gist synopsis rundown
     spot mat dime penny sixpence marble statue-still rock-still post
     drift vend crow bird's fly
-    counterpart protagonist star quarry charge lead leader wearer owner pattern trajectory itinerary standpoint hitch";
+    sortie briefing log logbook entry memo record report capture airtime kit apparatus device sensor viewfinder recorder hover datum
+    baseline stance posture garb getup gear apparel ensemble layer half circuit errand promenade jaunt expedition star show hero interest
+    soul character player candidate volunteer mover traveller traveler rambler breath clockwork shooter handler flyer flier airframe
+    counterpart participant platform whoever party unit flat opposite protagonist star quarry charge lead leader wearer owner pattern trajectory itinerary standpoint hitch";
 
 /// Adjectives, and other words before a noun, that no ending gives away.
 pub const ADJECTIVES: &str = "

@@ -9,12 +9,14 @@ mod english;
 mod english_words;
 
 use crate::language::Language;
+use crate::reading::without_marks;
 
 /// Words of a text that name things no facts of a flight have, in order.
 pub fn foreign_things(text: &str, language: Language) -> Vec<String> {
+    let text = without_marks(text);
     match language {
-        Language::En => english::foreign_things(text),
-        Language::Zh => chinese::foreign_things(text),
+        Language::En => english::foreign_things(&text),
+        Language::Zh => chinese::foreign_things(&text),
     }
 }
 

@@ -2,8 +2,10 @@
 
 pub mod chinese;
 pub mod english;
+mod lists;
 
 pub(crate) use english::words::LUGGAGE;
+pub(crate) use lists::without_marks;
 
 use crate::compass::Compass;
 use crate::turns::TurnKind;
@@ -42,6 +44,8 @@ pub enum Claim {
     Standing(f64),
     /// The next turn.
     Turn(TurnKind),
+    /// A word that may be a turn, or say the turn before it again.
+    PerhapsTurn(TurnKind),
     /// So many times something was done: stops or turns.
     Times(usize),
     /// So many turns.
@@ -104,6 +108,13 @@ fn count(value: f64, otherwise: &str, claim: impl Fn(usize) -> Claim) -> Claim {
     } else {
         Claim::Unknown(format!("{value} {otherwise}"))
     }
+}
+
+/// The claims of a text, in which a camera without any angle looks level, if the text says so.
+fn with_level_view(mut claims: Vec<Claim>, is_level: bool) -> Vec<Claim> {
+    let has_angle = claims.iter().any(|claim| matches!(claim, Claim::Pitch(_) | Claim::Tilt(_)));
+    claims.extend((is_level && !has_angle).then_some(Claim::Pitch(0.0)));
+    claims
 }
 
 /// Standing with a time is a stop, or the whole flight of a target that stands.

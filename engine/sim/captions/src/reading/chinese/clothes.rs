@@ -2,6 +2,7 @@
 
 use super::garments::{COLOURS, SHADES, TOPS, TROUSERS};
 use crate::reading::Claim;
+use cosfly_render::Colour;
 
 /// Whether a text begins with a colour.
 pub(crate) fn begins_with_colour(text: &str) -> bool {
@@ -36,18 +37,38 @@ pub(super) fn worn<'a>(clause: &str, text: &'a str) -> Option<(Claim, &'a str)> 
     let before = &clause[..clause.len() - text.len()];
     // `上面穿红的`
     let is_worn = || before.ends_with("穿") && after.starts_with('的');
-    let after = after.strip_prefix('色').or_else(|| is_worn().then_some(after))?;
+    // `上身黄，下身紫`
+    let is_named =
+        || ["上身", "下身", "上衣", "裤子", "上装", "下装", "上是", "下是"].iter().any(|it| before.ends_with(it));
+    let after = after.strip_prefix('色').or_else(|| (is_worn() || is_named()).then_some(after))?;
     let last = |words: &[&str]| words.iter().filter_map(|word| before.rfind(word)).max();
     let links = before.ends_with(['是', '为', '穿', '着', '呈', '深', '浅', '身'])
         || TOPS.iter().chain(&TROUSERS).any(|garment| before.ends_with(garment));
-    let top = last(&TOPS).max(last(&["上身", "上面", "上边"])).filter(|_| links);
-    let trousers = last(&TROUSERS).max(last(&["下身", "下面", "下边"])).filter(|_| links);
+    let links = links || is_named();
+    let top = last(&TOPS).max(last(&["上身", "上面", "上边", "上装"])).filter(|_| links);
+    let trousers = last(&TROUSERS).max(last(&["下身", "下面", "下边", "下装"])).filter(|_| links);
     let claim = match (top, trousers) {
         (None, None) => Claim::Wears(colour),
         (top, trousers) if top > trousers => Claim::Top(colour),
         _ => Claim::Trousers(colour),
     };
     Some((claim, after))
+}
+
+/// `上衣和裤子都是紫色`, `上下都穿紫色`: the colour of both garments, where a clause names one colour.
+pub(super) fn both_garments(clause: &str, claims: &mut Vec<Claim>) {
+    let has = |words: &[&str]| words.iter().any(|word| clause.contains(word));
+    let names =
+        clause.contains("上下") || has(&TOPS) && has(&TROUSERS) || clause.contains("上身") && clause.contains("下身");
+    let colour = |claim: &Claim| match claim {
+        Claim::Top(colour) | Claim::Trousers(colour) | Claim::Wears(colour) => Some(*colour),
+        _ => None,
+    };
+    let found: Vec<Colour> = claims.iter().filter_map(colour).collect();
+    if let (true, [one]) = (names && clause.contains(['都', '全', '均', '同', '一', '皆']), &found[..]) {
+        claims.retain(|claim| colour(claim).is_none());
+        claims.extend([Claim::Top(*one), Claim::Trousers(*one)]);
+    }
 }
 
 /// A colour before a garment at the start of `text`, or luggage; and what follows.

@@ -4,10 +4,12 @@ pub(crate) mod clothes;
 pub(crate) mod garments;
 mod numbers;
 mod pauses;
+mod plain;
 mod quantities;
 mod text;
 mod turns;
 mod words;
 
+pub(crate) use plain::plain;
 pub(crate) use text::clauses;
 pub use text::read;

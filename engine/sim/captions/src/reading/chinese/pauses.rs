@@ -9,6 +9,12 @@ pub(super) fn is_time_alone(clause: &str) -> bool {
     clause.contains('秒') && !NO_STOP.iter().any(|word| clause.contains(word))
 }
 
+/// `停顿总时长16秒（5次）`: a count in a clause of its own.
+pub(super) fn is_count_alone(clause: &str) -> bool {
+    let count = clause.trim_end_matches(['次', '回']);
+    count.len() < clause.len() && count.chars().all(|c| c.is_ascii_digit() || "共一两二三四五六七八九十".contains(c))
+}
+
 /// `一次弯都没转`, `一个弯也不拐`: the number there counts nothing.
 pub(super) fn without_empty_counts(clause: &str) -> String {
     let is_denied = ["都没", "都不", "都未", "也没", "也不", "也未"].iter().any(|word| clause.contains(word));
@@ -43,6 +49,11 @@ pub(super) fn is_only_standing(clause: &str) -> bool {
     .iter()
     .any(|it| clause.contains(it))
         && !clause.contains(['次', '回'])
+}
+
+/// `把飞机停在离人32米的地方`: the drone, not the target.
+pub(super) fn is_of_the_drone(clause: &str) -> bool {
+    ["飞机停", "无人机停", "机位停", "悬停", "机停", "镜头停", "飞行器停"].iter().any(|it| clause.contains(it))
 }
 
 /// `左转前停了一次`, `停留之后右转`.

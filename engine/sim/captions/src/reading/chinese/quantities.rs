@@ -30,7 +30,11 @@ pub(super) fn quantity(
     };
     // `俯仰负45度`
     let signed = |sign: char| before.ends_with(sign) && clause.contains('俯');
+    // `比水平线低4度`, `水平面以上17度`
+    let level = ["水平", "地平"].iter().filter_map(|word| aim.find(word)).min().map_or("", |at| &aim[at..]);
+    let from_level = |words: &[&str]| words.iter().any(|word| level.contains(word));
     let is_up = signed('正')
+        || from_level(&["高", "以上", "上方", "之上"])
         || aimed('上')
         || has(&[
             "仰",
@@ -53,6 +57,7 @@ pub(super) fn quantity(
             "冲上",
         ]);
     let is_down = signed('负')
+        || from_level(&["低", "以下", "下方", "之下"])
         || aimed('下')
         || has(&[
             "俯",
@@ -114,11 +119,19 @@ pub(super) fn quantity(
             seconds(60.0 * value)
         }
         Some("秒" | "秒钟") => seconds(value),
-        Some("次" | "回" | "遍" | "处" | "个停" | "遭" | "番") if about_stops => {
+        Some("次" | "回" | "遍" | "处" | "个停" | "遭" | "番")
+            if about_stops && (stops || !clause.contains(['转', '拐', '弯'])) =>
+        {
             count(value, "次", Claim::Stops)
         }
         Some("次" | "回") if clause.contains(['转', '拐', '弯', '向', '折']) => count(value, "次", Claim::Turns),
         Some("个弯" | "个转弯" | "道弯") => count(value, "个弯", Claim::Turns),
+        None if ["角度", "云台", "镜头", "相机", "俯", "仰"].iter().any(|it| clause.contains(it)) => {
+            Claim::Tilt(value)
+        }
+        // `停留次数：2`
+        None if clause.contains("停") || clause.contains("驻足") => count(value, "次", Claim::Stops),
+        None if clause.contains(['转', '拐', '弯']) => count(value, "次", Claim::Turns),
         _ => Claim::Unknown(format!("{value}{}", unit.unwrap_or_default())),
     };
     (claim, unit.map_or(0, str::len))

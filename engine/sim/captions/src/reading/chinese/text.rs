@@ -1,33 +1,40 @@
 //! Chinese texts, clause by clause: characters and numbers become claims.
 
-use super::clothes::{garment, shade, worn};
+use super::clothes::{both_garments, garment, shade, worn};
 use super::garments::COLOURS;
 use super::numbers::number;
 use super::pauses::{
-    denied_near, denied_word, is_only_standing, is_time_alone, order_of_stop_and_turn, without_empty_counts,
+    denied_near, denied_word, is_count_alone, is_of_the_drone, is_only_standing, is_time_alone, order_of_stop_and_turn,
+    without_empty_counts,
 };
+use super::plain::plain;
 use super::quantities::quantity;
 use super::turns::{compass, repeated_turn, turn};
 use super::words::{
-    GOES_ON, MOVES, NEVER_STOPS, NO_TURN_WORDS, STANDING_WORDS, STOP_CHARS, STRAIGHT_WORDS, TURNS, WALKING,
+    GOES_ON, LEVEL, MOVES, NEVER_STOPS, NO_TURN_WORDS, STANDING_WORDS, STOP_CHARS, STRAIGHT_WORDS, TURNS, WALKING,
 };
-use crate::reading::{Claim, count, sentences, stands_for};
+use crate::reading::{Claim, count, sentences, stands_for, with_level_view};
 use crate::turns::TurnKind;
 
 /// Everything that the text claims, in order.
 pub fn read(text: &str) -> Vec<Claim> {
+    let text = &plain(text);
     let sentence = |sentence: &str| {
         let mut after_stop = false;
         let mut before = String::new();
         let read = |clause: Vec<char>| {
             let words = without_empty_counts(&joined(&clause.iter().collect::<String>()));
             // `途中停留一次，约3秒`: the time belongs to the stop.
-            let speaks = STOP_CHARS.iter().any(|word| words.contains(word));
-            let about_stops =
-                speaks || after_stop && (GOES_ON.iter().any(|it| words.starts_with(it)) || is_time_alone(&words));
+            let speaks = STOP_CHARS.iter().any(|word| words.contains(word)) && !is_of_the_drone(&words);
+            let about_stops = speaks
+                || after_stop
+                    && (GOES_ON.iter().any(|it| words.starts_with(it))
+                        || is_time_alone(&words)
+                        || is_count_alone(&words));
             let is_near_stop = about_stops || after_stop;
+            let was_stop = after_stop;
             after_stop = about_stops && !STOP_CHARS.iter().any(|word| denied_word(&words, word));
-            let claims = read_clause(&words, &before, about_stops, is_near_stop);
+            let claims = read_clause(&words, &before, about_stops, is_near_stop, was_stop);
             before = words;
             claims
         };
@@ -38,13 +45,15 @@ pub fn read(text: &str) -> Vec<Claim> {
         claims.retain(|claim| !((is_denied || is_told) && *claim == Claim::SomeStops));
         claims
     };
-    sentences(text).into_iter().flat_map(sentence).collect()
+    let is_level = LEVEL.iter().any(|word| text.contains(word));
+    with_level_view(sentences(text).into_iter().flat_map(sentence).collect(), is_level)
 }
 
 pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
     let chars: Vec<char> = text.chars().collect();
     let mut clauses = vec![vec![]];
     for (i, &c) in chars.iter().enumerate() {
+        let is_statement = "：:".contains(c) && chars.get(i + 1).is_some_and(|next| starts_statement(*next));
         let decimal = c == '.' && chars.get(i + 1).is_some_and(char::is_ascii_digit);
         // `80秒、130米` is one statement.
         let is_list = c == '、' && chars.get(i + 1).is_some_and(char::is_ascii_digit);
@@ -55,6 +64,8 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
         } else if "：:？?".contains(c) && ["无", "零", "没有", "未"].iter().any(|it| rest().starts_with(it)) {
             // `停留：无`
             clauses.last_mut().expect("there is always one clause").push('为');
+        } else if is_statement {
+            // `停顿：2次` is one statement.
         } else if ("，。；：！？、（）,;:!?()\n".contains(c) && !is_list) || (c == '.' && !decimal) {
             clauses.push(vec![]);
         } else {
@@ -62,6 +73,11 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
         }
     }
     clauses
+}
+
+/// Whether a character behind a colon begins a number.
+fn starts_statement(c: char) -> bool {
+    c.is_ascii_digit() || "零一二两三四五六七八九十".contains(c)
 }
 
 /// Verb and object without what stands between them: `掉过头来` as `掉头来`.
@@ -73,15 +89,15 @@ fn joined(clause: &str) -> String {
         ("转了身", "转身"),
         ("调过头", "调头"),
         ("掉了个头", "掉头"),
+        ("调了个头", "调头"),
+        ("调了头", "调头"),
     ];
     parted.iter().fold(clause.to_owned(), |clause, (from, to)| clause.replace(from, to))
 }
 
-fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool) -> Vec<Claim> {
+fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool, was_stop: bool) -> Vec<Claim> {
     let mut claims = vec![];
     let mut rest = clause;
-    // A turn around in two words is one.
-    let turns_here = ['转', '拐', '弯', '折'].iter().any(|word| clause.contains(*word));
     while let Some(first) = rest.chars().next() {
         let at = clause.len() - rest.len();
         if let Some(after) = rest.strip_prefix("左右") {
@@ -114,7 +130,7 @@ fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool
         } else if let Some((direction, length)) = compass(rest) {
             claims.push(direction.map_or_else(|| Claim::Unknown(rest[..length].to_owned()), Claim::Direction));
             rest = &rest[length..];
-        } else if let Some((kind, length)) = turn(rest, turns_here) {
+        } else if let Some((kind, length)) = turn(rest, true) {
             rest = &rest[length..];
             // `左拐了一次`
             let times = rest.trim_start_matches(['了', '过']);
@@ -126,16 +142,23 @@ fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool
                     claims.push(count(value, "次", |count| Claim::TurnsOf(kind, count)));
                     rest = &after['次'.len_utf8()..];
                 }
-                None if kind == TurnKind::Around && claims.last() == Some(&Claim::Turn(kind)) => {}
+                // A turn around in two words is one.
+                None if kind == TurnKind::Around && claims.last() == Some(&Claim::Turn(kind)) => {
+                    claims.push(Claim::PerhapsTurn(kind));
+                }
                 None => claims.push(Claim::Turn(kind)),
             }
         } else {
             rest = &rest[first.len_utf8()..];
         }
     }
+    later_first(&mut claims, clause);
+    both_garments(clause, &mut claims);
     // A time of standing tells a stop from a target that stands all the time.
-    let stands =
-        STANDING_WORDS.iter().any(|word| clause.contains(word)) || MOVES.iter().any(|word| denied_word(clause, word));
+    let is_timed_stop = was_stop && clause.contains('秒') && !clause.contains("原地") && !clause.contains("一直");
+    let stands = !is_timed_stop
+        && (STANDING_WORDS.iter().any(|word| clause.contains(word))
+            || MOVES.iter().any(|word| denied_word(clause, word)));
     if stands && (!about_stops || is_only_standing(clause)) {
         claims.push(Claim::Stays);
     }
@@ -154,16 +177,27 @@ fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool
     {
         claims.push(Claim::Straight);
     }
-    if STOP_CHARS.iter().any(|word| denied_word(clause, word)) || NEVER_STOPS.iter().any(|it| clause.contains(it)) {
+    if about_stops && STOP_CHARS.iter().any(|word| denied_word(clause, word))
+        || NEVER_STOPS.iter().any(|it| clause.contains(it))
+    {
         claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));
-    } else if STOP_CHARS.iter().any(|word| clause.contains(word))
+    } else if about_stops
+        && STOP_CHARS.iter().any(|word| clause.contains(word))
         && !claims.iter().any(|claim| matches!(claim, Claim::Stops(_) | Claim::Standing(_) | Claim::Stays))
     {
         claims.push(Claim::SomeStops);
     }
     claims.extend(order_of_stop_and_turn(clause, about_stops));
     stands_for(claims)
+}
+
+/// `左转之前先右转` says the later turn first.
+fn later_first(claims: &mut [Claim], clause: &str) {
+    let places: Vec<usize> = (0..claims.len()).filter(|at| matches!(claims[*at], Claim::Turn(_))).collect();
+    if let ([one, other], true) = (&places[..], clause.contains("之前先") || clause.contains("前先")) {
+        claims.swap(*one, *other);
+    }
 }
 
 /// `头一回`, `下一次`: what follows the word that counts nothing.

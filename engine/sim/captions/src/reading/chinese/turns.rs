@@ -49,6 +49,15 @@ pub(super) fn turn(text: &str, turns_here: bool) -> Option<(TurnKind, usize)> {
         ("走回头路", TurnKind::Around),
         ("反身", TurnKind::Around),
         ("倒回", TurnKind::Around),
+        ("往左转弯", TurnKind::Left),
+        ("转身往回走", TurnKind::Around),
+        ("往回折", TurnKind::Around),
+        ("原地转身", TurnKind::Around),
+        ("回身", TurnKind::Around),
+        ("反方向", TurnKind::Around),
+        ("反向", TurnKind::Around),
+        ("往回", TurnKind::Around),
+        ("转个身", TurnKind::Around),
         ("原路折", TurnKind::Around),
     ];
     let short = [("左", TurnKind::Left), ("右", TurnKind::Right)];

@@ -5,6 +5,7 @@ use super::words::{LUGGAGE, NEGATIONS};
 use crate::reading::Claim;
 use cosfly_render::Colour;
 
+const CARRIES: [&str; 7] = ["wearing", "carrying", "toting", "bearing", "clad", "laden", "wearer"];
 /// Words between a colour and its garment: `a red long-sleeved cotton shirt`.
 const REACH: usize = 3;
 /// Words that end the reach of a colour.
@@ -17,11 +18,17 @@ pub(super) fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
     let (word, next) = (words[at], words.get(at + 1).copied().unwrap_or_default());
     if is_luggage(at, words) {
         let before = &words[at.saturating_sub(4)..at];
-        return match next == "off" || before.iter().any(|word| NEGATIONS.contains(word) || *word == "any") {
+        let lacks = ["absent", "missing", "none", "nil", "nope"];
+        let is_lacking = next == "off" || words[at + 1..].iter().take(3).any(|word| lacks.contains(word));
+        return match is_lacking || before.iter().any(|word| NEGATIONS.contains(word) || *word == "any") {
             true => Some(Claim::NoBackpack),
             // Whether luggage of another kind is there, nobody knows.
             false => (!["luggage", "baggage"].contains(&word)).then_some(Claim::Backpack),
         };
+    }
+    // `a rucksack-wearing walker`
+    if LUGGAGE.iter().any(|it| word.strip_prefix(it).is_some_and(|rest| CARRIES.contains(&rest))) {
+        return Some(Claim::Backpack);
     }
     if word == "emptyhanded" || word == "unladen" {
         return Some(Claim::NoBackpack);
@@ -45,6 +52,18 @@ pub(super) fn clothes_claim(at: usize, words: &[&str]) -> Option<Claim> {
     match colour(word) {
         Some(found) => Some(coloured(found, at, words, next)),
         None => shade(at, words),
+    }
+}
+
+/// `top and trousers are both yellow`: the colour of both garments, where a clause names one colour.
+pub(super) fn both_garments(words: &[&str], claims: &mut Vec<Claim>) {
+    let is_both = words.iter().any(|word| ["both", "matching", "alike", "all"].contains(word))
+        || words.windows(3).any(|it| ["head", "to", "toe"] == it);
+    let has = |garments: &[&str]| words.iter().any(|word| garments.contains(word));
+    let mut found = words.iter().filter_map(|word| colour(word));
+    if let (true, Some(one), None) = (is_both && has(&TOPS) && has(&TROUSERS), found.next(), found.next()) {
+        claims.retain(|claim| !matches!(claim, Claim::Top(_) | Claim::Trousers(_) | Claim::Wears(_)));
+        claims.extend([Claim::Top(one), Claim::Trousers(one)]);
     }
 }
 

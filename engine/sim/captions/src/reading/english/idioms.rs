@@ -1,7 +1,6 @@
 //! English words that look like a place and are none, and clauses about the drone.
 
 use super::clothes::colour;
-use super::words::TURN_VERBS;
 
 /// The words without those that look like places of the drone and are none: `a shirt above blue jeans`, `it is over`, `130 m are
 /// behind them`.
@@ -47,7 +46,7 @@ pub fn is_right_of_no_turn(at: usize, words: &[&str]) -> bool {
     let is_place = [
         "behind", "above", "after", "away", "there", "on", "up", "over", "across", "beside", "at", "in", "from",
         "through", "to", "now", "where", "along", "about", "down", "before", "next", "off", "under", "below", "here",
-        "until", "into",
+        "until", "into", "with", "as", "when", "so", "if",
     ];
     match before {
         "all" | "is" | "looks" | "get" | "just" => true,
@@ -56,9 +55,15 @@ pub fn is_right_of_no_turn(at: usize, words: &[&str]) -> bool {
         "the" | "at" => !is_side.contains(&next),
         before if before.starts_with("turn") || SURE.contains(&before) => false,
         "" => is_place.contains(&next),
-        before => is_place.contains(&next) || !(TURN_VERBS.contains(&before) || is_side.contains(&next)),
+        before => is_place.contains(&next) || NO_SIDE_BEHIND.contains(&before) && !is_side.contains(&next),
     }
 }
+
+/// Words behind which `right` is no side.
+const NO_SIDE_BEHIND: [&str; 20] = [
+    "s", "are", "be", "was", "do", "doing", "got", "feels", "about", "not", "exactly", "quite", "its", "your", "that",
+    "it", "them", "alright", "stay", "keep",
+];
 
 /// Words behind which `right` is a side, whatever follows.
 const SURE: [&str; 14] = [

@@ -14,8 +14,19 @@ pub(super) fn denied(words: &[&str], is_such: impl Fn(&str) -> bool) -> bool {
     })
 }
 
+/// Whether a negation comes a few words before a place.
+pub(super) fn is_denied_at(at: usize, words: &[&str]) -> bool {
+    let before = &words[at.saturating_sub(6)..at];
+    before.iter().rposition(|word| NEGATIONS.contains(word)).is_some_and(|from| !is_parted(&before[from..]))
+}
+
 /// Whether a denial ends before the word behind these words: `does not stop before it turns`.
 pub(super) fn is_parted(between: &[&str]) -> bool {
-    between.iter().any(|it| ["before", "until", "till", "but", "then", "after", "when", "just"].contains(it))
-        || between.iter().any(|word| LUGGAGE.contains(word))
+    between.iter().any(|it| {
+        [
+            "before", "until", "till", "but", "then", "after", "when", "just", "and", "while", "with", "plus", "only",
+            "else", "other", "further",
+        ]
+        .contains(it)
+    }) || between.iter().any(|word| LUGGAGE.contains(word))
 }

@@ -5,11 +5,11 @@ use super::units::is_unit;
 
 /// Runs of numerals before a unit as one number, and minutes in seconds.
 pub fn fold_numbers(tokens: Vec<Token>) -> Vec<Token> {
-    let tokens: Vec<Token> = tokens.into_iter().flat_map(parted).collect();
+    let tokens: Vec<Token> = half_turns(tokens.into_iter().flat_map(parted).collect());
     let mut folded: Vec<Token> = vec![];
     let mut i = 0;
     while i < tokens.len() {
-        let run = numeral_run(&tokens[i..]);
+        let run = numeral_run(&tokens[i..]).map(|run| with_decimals(run, &tokens[i..]));
         let unit = tokens.get(i + run.map_or(0, |run| run.1)).map_or("", word_of);
         match run {
             Some((value, length)) if length > 0 && (is_unit(unit) || ["minute", "minutes"].contains(&unit)) => {
@@ -39,6 +39,36 @@ pub fn fold_numbers(tokens: Vec<Token>) -> Vec<Token> {
         at += 1;
     }
     folded
+}
+
+/// `a 180`, `two 180s`: turns around. A number with a unit of its own is none.
+fn half_turns(mut tokens: Vec<Token>) -> Vec<Token> {
+    for at in 1..tokens.len() {
+        let before = word_of(&tokens[at - 1]).to_owned();
+        let is_one = ["a", "an", "another", "one", "did", "do", "does", "doing", "the"].contains(&before.as_str());
+        let is_count = !is_one && number_word(&before).is_some() || matches!(tokens[at - 1], Token::Number(_));
+        let next = tokens.get(at + 1).map_or("", word_of).to_owned();
+        if tokens[at] == Token::Number(180.0) && (is_one && (!is_unit(&next) && next != "s") || is_count && next == "s")
+        {
+            tokens[at] = Token::Word("uturn".to_owned());
+            if next == "s" {
+                tokens[at + 1] = Token::Word(String::new());
+            }
+        }
+    }
+    tokens.retain(|token| *token != Token::Word(String::new()));
+    tokens
+}
+
+/// `one point two`: the number with what stands behind its point, and its tokens.
+fn with_decimals((value, length): (f64, usize), tokens: &[Token]) -> (f64, usize) {
+    if length == 0 || tokens.get(length).map(word_of) != Some("point") {
+        return (value, length);
+    }
+    let digits = tokens[length + 1..].iter().map_while(|token| number_word(word_of(token)).filter(|it| *it < 10.0));
+    let (fraction, scale, count) =
+        digits.fold((0.0, 1.0, 0), |(sum, scale, count), digit| (10.0 * sum + digit, 10.0 * scale, count + 1));
+    if count == 0 { (value, length) } else { (value + fraction / scale, length + 1 + count) }
 }
 
 /// `fifty-three-degree`, read as one word, as numeral and unit.

@@ -13,18 +13,24 @@ pub(super) fn is_stop(word: &str) -> bool {
 }
 
 /// No pauses, or some.
-pub(super) fn pauses_denied(words: &[&str], about_stops: bool, claims: &mut Vec<Claim>) {
+pub(super) fn pauses_denied(words: &[&str], about_stops: bool, after_stop: bool, claims: &mut Vec<Claim>) {
     // `keeps moving throughout`, `in one go`
     let has = |run: &[&str]| words.windows(run.len()).any(|it| it == run);
+    let of_a_stop = about_stops || after_stop;
     let goes_on = UNPAUSED.iter().any(|it| words.contains(it))
         || [["one", "go"], ["without", "letup"], ["without", "cease"], ["all", "go"], ["single", "go"]]
             .iter()
-            .any(|it| has(it))
-        || (words.windows(2).any(|it| it[0].starts_with("keep") && ["moving", "walking", "going"].contains(&it[1]))
-            && words.iter().any(|it| ["throughout", "whole", "entire", "always", "constantly", "all"].contains(it)));
+            .any(|it| has(it) && !of_a_stop)
+        || (words.windows(2).any(|it| {
+            (it[0].starts_with("keep") || it[0] == "kept") && ["moving", "walking", "going"].contains(&it[1])
+        }) && words.iter().any(|it| ["throughout", "whole", "entire", "always", "constantly", "all"].contains(it)));
     let is_broken_off = has(&["broken", "off"]) || has(&["broken", "up"]);
     let rests = |word: &str| is_stop(word) || word == "rest" || is_broken_off && word == "broken";
-    if goes_on || denied(words, rests) && !has(&["the", "rest"]) {
+    // `the number of stops was zero`
+    let stop = words.iter().position(|word| is_stop(word));
+    let is_none = |word: &&str| ["zero", "none", "nil", "nought"].contains(word);
+    let counts_none = stop.is_some_and(|stop| words[stop..].iter().take(4).any(is_none));
+    if goes_on || counts_none || denied(words, rests) && !has(&["the", "rest"]) {
         claims.retain(|claim| !matches!(claim, Claim::Stops(_)));
         claims.push(Claim::Stops(0));
     } else if about_stops && !claims.iter().any(|claim| matches!(claim, Claim::Stops(_))) {
@@ -37,7 +43,7 @@ pub(super) fn denies_motion(words: &[&str]) -> bool {
     let is_of_place =
         || words.iter().any(|it| ["spot", "place", "anywhere", "position", "muscle", "foot"].contains(it));
     let of = |word: &str| match word {
-        "leave" | "leaves" | "leaving" | "go" | "goes" | "going" | "shift" => is_of_place(),
+        "leave" | "leaves" | "leaving" | "left" | "go" | "goes" | "going" | "shift" => is_of_place(),
         word => MOTION.contains(&word) || ["mov", "stir", "budg"].iter().any(|stem| word.starts_with(stem)),
     };
     let near = |at: usize| if words[at].starts_with("walk") { 2 } else { 5 };
@@ -46,7 +52,15 @@ pub(super) fn denies_motion(words: &[&str]) -> bool {
         before.iter().rposition(|it| NEGATIONS.contains(it)).is_some_and(|from| !is_parted(&before[from..]))
     };
     let nowhere = words.contains(&"nowhere") && words.iter().any(|it| MOTION.contains(it));
-    nowhere || !is_of_the_drone(words) && (0..words.len()).filter(|at| of(words[*at])).any(|at| is_denied(&at))
+    let is_spot = words.contains(&"spot");
+    nowhere
+        || (is_spot || !is_of_the_drone(words)) && (0..words.len()).filter(|at| of(words[*at])).any(|at| is_denied(&at))
+}
+
+/// `stayed put`; `stay put` is what the drone shall do.
+pub(super) fn stays_put(words: &[&str]) -> bool {
+    let puts = |it: &[&str]| it[1] == "put" && ["stays", "stayed", "staying", "remains", "remained"].contains(&it[0]);
+    words.windows(2).any(puts) && !["drone", "you", "aircraft"].contains(&words[0]) && words.get(1) != Some(&"drone")
 }
 
 /// `the position remains unchanged`, `they hold their ground`

@@ -1,9 +1,12 @@
 //! Numbers with a unit in English clauses.
 
 use super::pauses::is_stop;
+use super::tokens::{Token, word_of};
 use super::turns::{is_turning, turn_word};
 use super::units::is_unit;
-use super::words::{DOWN_STEMS, DURATION_WORDS, STRONG_ALTITUDE, STRONG_DISTANCE, STRONG_WAY, TURN_NOUNS, UP_STEMS};
+use super::words::{
+    DOWN_STEMS, DURATION_WORDS, LEVEL, NEGATIONS, STRONG_ALTITUDE, STRONG_DISTANCE, STRONG_WAY, TURN_NOUNS, UP_STEMS,
+};
 use crate::reading::{Claim, count};
 use crate::turns::TurnKind;
 
@@ -18,7 +21,10 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
     let unit = words.get(at + 1).copied().unwrap_or_default();
     let after = |offset: usize| words.get(at + offset).copied().unwrap_or_default();
     let is_metres = matches!(unit, "m" | "metre" | "metres" | "meter" | "meters");
+    // `1 person`, `100 %`: numbers that say nothing of a flight.
+    let says_nothing = value == 1.0 && !unit.is_empty() || unit == "percent";
     if unit == "m/s"
+        || is_rate(unit)
         || (is_metres && ["per", "a", "each", "every"].contains(&after(2)) && after(3).starts_with("second"))
     {
         return Some(Claim::Speed(value));
@@ -28,11 +34,7 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
         _ if is_metres => length(value, at, words),
         "km/h" | "kmh" | "kph" => Claim::Speed((value / 0.36).round() / 10.0),
         "degree" | "degrees" | "deg" if value == 180.0 => Claim::Turn(TurnKind::Around),
-        "degree" | "degrees" | "deg" => match aim(words, at) {
-            Some(0) => Claim::Pitch(-value),
-            None => Claim::Tilt(value),
-            _ => Claim::Pitch(value),
-        },
+        "degree" | "degrees" | "deg" => angle(value, aim(words, at)),
         "s" | "sec" | "secs" | "second" | "seconds" => {
             let walks = words.iter().any(|word| DURATION_WORDS.contains(word));
             let stops = words.iter().any(|word| is_stop(word));
@@ -43,13 +45,15 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
                 _ => Claim::Seconds(value),
             }
         }
-        "time" | "times" | "occasion" | "occasions" if about_stops => count(value, unit, Claim::Stops),
+        "time" | "times" | "x" | "occasion" | "occasions" if about_stops && !is_of_turns(at, words) => {
+            count(value, unit, Claim::Stops)
+        }
         // Repetitions of a turn, which the turn's own claims contain.
         "time" | "times" if words.iter().any(|word| turn_word(word).is_some()) => return None,
-        "time" | "times" | "occasion" | "occasions" if words.iter().any(|word| is_turning(word)) => {
+        "time" | "times" | "x" | "occasion" | "occasions" if words.iter().any(|word| is_turning(word)) => {
             count(value, unit, Claim::Turns)
         }
-        "time" | "times" | "occasion" | "occasions" => count(value, unit, Claim::Times),
+        "time" | "times" | "x" | "occasion" | "occasions" => count(value, unit, Claim::Times),
         turns if TURN_NOUNS.contains(&turns) && !SIDES.contains(&after(2)) => count(value, unit, Claim::Turns),
         stop if is_stop(stop) => count(value, unit, Claim::Stops),
         side => match turn_word(side) {
@@ -58,11 +62,40 @@ pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool)
                 // `number of stops equals 2`
                 let before: Vec<&str> = words[..at - skipped].iter().rev().take(2).copied().collect();
                 let is_equal = |word: &&str| word.starts_with("equal") || ["is", "are", "was", "were"].contains(word);
+                if words[..at].iter().any(|word| CAMERA.contains(word)) && !is_unit(unit) {
+                    return Some(angle(value, aim(words, at)));
+                }
                 let subject = before.iter().find(|word| !is_equal(word));
+                if unit == "percent" || says_nothing && subject.is_none_or(|it| !is_stop(it)) {
+                    return None;
+                }
                 unlabelled(value, unit, subject.copied().unwrap_or_default())
             }
         },
     })
+}
+
+/// Words of a camera, behind which a number without a unit is an angle.
+const CAMERA: [&str; 6] = ["gimbal", "camera", "lens", "pitch", "tilt", "angle"];
+
+/// An angle with the way that words near it name: up (0), down, or none.
+fn angle(value: f64, aim: Option<usize>) -> Claim {
+    match aim {
+        Some(0) => Claim::Pitch(-value.abs()),
+        Some(_) => Claim::Pitch(value.abs()),
+        None => Claim::Tilt(value.abs()),
+    }
+}
+
+/// `metres/second`, `mps`
+fn is_rate(unit: &str) -> bool {
+    unit == "mps" || ["m/", "metres/", "meters/", "metre/", "meter/"].iter().any(|it| unit.starts_with(it))
+}
+
+/// Whether a word of turning is nearer before a place than a word of pausing.
+fn is_of_turns(at: usize, words: &[&str]) -> bool {
+    let near = words[..at].iter().rev().find(|word| is_stop(word) || is_turning(word) || **word == "turned");
+    near.is_some_and(|word| !is_stop(word))
 }
 
 /// `stops: 2`: a number without a unit counts what stands before it.
@@ -101,15 +134,36 @@ pub(super) fn length(value: f64, at: usize, words: &[&str]) -> Claim {
 /// Whether the words nearest to an angle speak of looking up (0) or down (1); of both equally near, nobody knows.
 pub(super) fn aim(words: &[&str], at: usize) -> Option<usize> {
     // `pitch minus 45 degrees`
-    if words.contains(&"pitch") && words.iter().any(|word| ["plus", "minus"].contains(word)) {
+    if words.iter().any(|word| CAMERA.contains(word)) && words.iter().any(|word| ["plus", "minus"].contains(word)) {
         return Some(usize::from(words.contains(&"minus")));
     }
     // `15 degrees over the horizon`
-    let over = words.iter().position(|word| *word == "over");
-    if over.is_some_and(|over| words[over..].iter().any(|word| word.starts_with("horizon"))) {
+    let is_over = |run: &[&str]| run[0] == "over" && run[1..].iter().any(|word| word.starts_with("horizon"));
+    if words.windows(3).any(is_over) {
         return Some(0);
     }
     nearest(words, at, &[&UP_STEMS, &DOWN_STEMS])
+}
+
+/// Whether a text says that the camera looks neither up nor down: `level`, `no tilt`, `tilt: none`.
+pub(super) fn is_level(clauses: &[Vec<Token>]) -> bool {
+    let has = |clause: &[Token], is_such: &dyn Fn(&str) -> bool| clause.iter().any(|token| is_such(word_of(token)));
+    let is_tilt = |word: &str| {
+        ["tilt", "pitch", "inclin", "upward", "downward"].iter().any(|stem| word.starts_with(stem))
+            || ["up", "down", "angle"].contains(&word)
+    };
+    let is_denial = |word: &str| NEGATIONS.contains(&word);
+    let is_said = |clause: &Vec<Token>| {
+        has(clause, &|word| LEVEL.contains(&word))
+            || has(clause, &is_tilt) && has(clause, &is_denial)
+            || has(clause, &|word| CAMERA.contains(&word))
+                && has(clause, &|word| {
+                    ["straight", "zero", "zeroed", "neutral", "forward", "forwards", "ahead"].contains(&word)
+                })
+    };
+    let is_answer =
+        |pair: &[Vec<Token>]| has(&pair[0], &is_tilt) && pair[1].first().is_some_and(|it| is_denial(word_of(it)));
+    clauses.iter().any(is_said) || clauses.windows(2).any(is_answer)
 }
 
 /// The list of beginnings that has the word nearest to place `at`, by its number; of equally near ones the word behind counts.

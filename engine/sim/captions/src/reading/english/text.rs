@@ -1,18 +1,21 @@
 //! English texts, clause by clause: words and numbers become claims.
 
-use super::clothes::clothes_claim;
-use super::idioms::{is_of_the_drone, is_of_the_gap, is_right_of_no_turn, without_idioms};
-use super::negation::denied;
+use super::clothes::{both_garments, clothes_claim};
+use super::idioms::{is_of_the_drone, is_of_the_gap, without_idioms};
+use super::negation::{denied, is_denied_at};
 use super::numbers::{fold_numbers, number_word};
 use super::pauses::{
     denies_motion, is_stop, is_time_alone, keeps_place, order_of_stop_and_turn, pauses_denied, stands_repeatedly,
+    stays_put,
 };
-use super::quantities::{aim, quantity};
+use super::quantities::{aim, is_level, quantity};
 use super::tokens::{Token, clauses, word_of};
-use super::turns::{compass_word, is_turning, keeps_direction, repetitions, turn_word, turns_back};
+use super::turns::{
+    compass_word, counts_no_turns, is_side, is_turning, keeps_direction, repetitions, turn_word, turns_back,
+};
 use super::units::is_unit;
 use super::words::{GOES_ON, LUGGAGE, MOTION, NEGATIONS, STANDS, UNTURNED, WALKS};
-use crate::reading::{Claim, count, sentences, stands_for};
+use crate::reading::{Claim, count, sentences, stands_for, with_level_view};
 use crate::turns::TurnKind;
 
 /// Everything that the text claims, in order.
@@ -34,7 +37,8 @@ pub fn read(text: &str) -> Vec<Claim> {
                 return vec![claim];
             }
             let claims = read_clause(&tokens, after_stop, &subject);
-            after_stop = tokens.iter().any(|token| is_stop(word_of(token)));
+            let words: Vec<&str> = tokens.iter().map(word_of).collect();
+            after_stop = words.iter().any(|word| is_stop(word)) || stands_repeatedly(&words);
             subject = tokens;
             claims
         };
@@ -48,28 +52,56 @@ pub fn read(text: &str) -> Vec<Claim> {
         claims.retain(|claim| !((is_denied || is_told) && *claim == Claim::SomeStops));
         claims
     };
-    sentences(text).into_iter().flat_map(sentence).collect()
+    with_level_view(sentences(text).into_iter().flat_map(sentence).collect(), is_level(&clauses(text)))
 }
 
 /// `Stops? None.`, `turns: 0`: a clause that is nothing but a number or a denial answers the clause before.
 fn answer(tokens: &[Token], subject: &[Token]) -> Option<Claim> {
+    let is_none = |token: &Token| NONE.contains(&word_of(token));
     let number = match tokens {
         [Token::Number(value)] => *value,
-        [Token::Word(word)] if ["no", "none", "nil", "neither", "never", "nought"].contains(&word.as_str()) => 0.0,
+        [first, ..] if tokens.iter().all(is_none) && NEGATIONS.contains(&word_of(first)) => 0.0,
         [Token::Word(word)] => number_word(word)?,
         _ => return None,
     };
     let asks = |is_such: &dyn Fn(&str) -> bool| subject.iter().any(|token| is_such(word_of(token)));
     match () {
         () if asks(&is_stop) => Some(count(number, "stops", Claim::Stops)),
-        () if asks(&|word| is_turning(word) || ["left", "right"].contains(&word)) => {
+        () if asks(&|word| is_turning(word) || ["left", "right", "direction"].contains(&word)) => {
             Some(count(number, "turns", Claim::Turns))
         }
         () if number == 0.0 && asks(&|word| ["motion", "movement"].contains(&word)) => Some(Claim::Stays),
-        () if number == 0.0 && asks(&|word| LUGGAGE.contains(&word)) => Some(Claim::NoBackpack),
+        () if number == 0.0 && word_of(&tokens[0]) != "nothing" && asks(&|word| LUGGAGE.contains(&word)) => {
+            Some(Claim::NoBackpack)
+        }
         () => None,
     }
 }
+
+/// Words of an answer that there is none: `not a single one`.
+const NONE: [&str; 21] = [
+    "nope",
+    "nah",
+    "no",
+    "none",
+    "nil",
+    "neither",
+    "never",
+    "nought",
+    "zero",
+    "not",
+    "one",
+    "a",
+    "single",
+    "at",
+    "all",
+    "any",
+    "ever",
+    "whatsoever",
+    "nothing",
+    "were",
+    "made",
+];
 
 fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Claim> {
     let words = seen_from(without_idioms(tokens.iter().map(word_of).collect()));
@@ -104,8 +136,12 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
                         && !between.iter().any(|it| ["then", "next", "finally", "later"].contains(it))
                 };
                 let is_again = claim == Some(Claim::Turn(TurnKind::Around)) && turns.last().is_some_and(is_near);
-                if is_again {
+                let is_denied = matches!(claim, Some(Claim::Turn(_))) && is_denied_at(i, &words);
+                if is_denied {
+                    claims.push(Claim::NoTurns);
+                } else if is_again {
                     // A turn around in two words is one.
+                    claims.push(Claim::PerhapsTurn(TurnKind::Around));
                 } else if let Some(Claim::Turn(kind)) = claim {
                     let times = repetitions(&tokens[i + 1..]);
                     turns.push((i, kind));
@@ -116,9 +152,13 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
             }
         }
     }
+    both_garments(&words, &mut claims);
     if goes_on {
         claims.retain(|claim| *claim != Claim::Stays);
     } else if !about_stops && (denies_motion(&words) || keeps_place(&words)) {
+        claims.push(Claim::Stays);
+    }
+    if !goes_on && !about_stops && stays_put(&words) {
         claims.push(Claim::Stays);
     }
     if walks(&words) {
@@ -126,7 +166,7 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
     }
     // `turns left after turning right` says the later turn first.
     if let [(first, one), (second, other)] = turns[..]
-        && (words[first..second].contains(&"after")
+        && (words[first..second].windows(2).any(|it| it[0] == "after" && !["that", "which", "this"].contains(&it[1]))
             || words[first..second].windows(2).any(|it| it[0].starts_with("preced") && it[1] == "by"))
     {
         let listed = |claim: &Claim| matches!(claim, Claim::Turn(_));
@@ -136,8 +176,12 @@ fn read_clause(tokens: &[Token], after_stop: bool, before: &[Token]) -> Vec<Clai
         }
     }
     claims.extend(order_of_stop_and_turn(&words, &turns));
-    pauses_denied(&words, about_stops, &mut claims);
-    if !is_of_the_gap(&words) && denied(&words, is_turning) || words.iter().any(|word| UNTURNED.contains(word)) {
+    pauses_denied(&words, about_stops, after_stop, &mut claims);
+    let lists = claims.iter().any(|claim| matches!(claim, Claim::Turn(_) | Claim::Turns(1..) | Claim::TurnsOf(..)));
+    claims.retain(|claim| !(lists && *claim == Claim::NoTurns));
+    if !is_of_the_gap(&words)
+        && (counts_no_turns(&words) || denied(&words, is_turning) || words.iter().any(|word| UNTURNED.contains(word)))
+    {
         claims.retain(|claim| !matches!(claim, Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..)));
         claims.push(Claim::NoTurns);
     } else if keeps_direction(&words) || words.windows(2).any(|it| it == ["dead", "ahead"]) {
@@ -177,52 +221,14 @@ fn seen_from(mut words: Vec<&str>) -> Vec<&str> {
 fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Option<Claim> {
     let (word, next) = (words[at], words.get(at + 1).copied().unwrap_or_default());
     let before = at.checked_sub(1).map_or("", |before| words[before]);
-    // `right behind`, `around 25 m` are no turns.
-    let is_idiom = match word {
-        "right" => is_right_of_no_turn(at, words),
-        "around" | "round" => {
-            let is_amount =
-                words.get(at + 1) == Some(&"") && !words.get(at + 2).is_some_and(|it| it.starts_with("time"));
-            let turns = [
-                "turns", "turn", "turning", "turned", "spun", "then", "", "wheels", "spins", "swings", "next", "later",
-                "finally",
-            ];
-            // `after that, around`: where the clause ends, nothing is gone around.
-            let ends = || {
-                let stays =
-                    ["all", "way", "stand", "stands", "hang", "hangs", "walk", "walks", "look", "looks", "is", "are"];
-                at + 1 == words.len() && !stays.contains(&before)
-            };
-            is_amount || !(turns.contains(&before) || ends())
-        }
-        "left" => ["is", "are", "has", "be", "have", "had", "they", "them", "nothing"].contains(&before),
-        _ => false,
-    };
     // `turning neither left nor right`
     if matches!(word, "left" | "right" | "lefts" | "rights")
         && (["neither", "nor", "not", "no"].contains(&before) || at > 1 && before == "or" && words.contains(&"neither"))
     {
         return Some(Claim::NoTurns);
     }
-    let turn = turn_word(word).filter(|_| !counted && !is_idiom && !is_either(at, words)).map(Claim::Turn);
-    let back = turns_back(at, words)
-        || matches!(
-            word,
-            "reverses"
-                | "backtracks"
-                | "backtrack"
-                | "backtracking"
-                | "aboutturn"
-                | "aboutface"
-                | "aboutturns"
-                | "volteface"
-                | "turnaround"
-                | "turnabout"
-                | "retraces"
-                | "retracing"
-                | "reversal"
-                | "oneeighty"
-        );
+    let turn = turn_word(word).filter(|_| !counted && is_side(at, words) && !is_either(at, words)).map(Claim::Turn);
+    let back = turns_back(at, words);
     turn.or_else(|| back.then_some(Claim::Turn(TurnKind::Around)))
         .or_else(|| compass_word(word).map(Claim::Direction))
         .or(match word {

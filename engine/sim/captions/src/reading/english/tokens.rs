@@ -1,6 +1,6 @@
 //! English texts as words and numbers, parted at punctuation.
 
-use super::clothes::colour;
+use super::clothes::{colour, is_garment};
 use super::idioms::number_follows;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -33,8 +33,17 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
             {
                 i += 1;
             }
-            let word: String = chars[start..i].iter().filter(|c| **c != '-').collect();
-            clause.push(Token::Word(word));
+            let joined: String = chars[start..i].iter().collect();
+            if is_joined(&joined) {
+                clause.extend(joined.split('-').map(|part| Token::Word(part.to_owned())));
+                continue;
+            }
+            let word = joined.replace('-', "");
+            // `left/right/left`
+            match word.contains('/') && !is_rate(&word) {
+                true => clause.extend(word.split('/').map(|part| Token::Word(part.to_owned()))),
+                false => clause.push(Token::Word(word)),
+            }
         } else {
             match chars[i] {
                 '°' => clause.push(Token::Word("degrees".into())),
@@ -43,6 +52,8 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
                 ':' if number_follows(&chars, i + 1) => {}
                 // `coat: red`
                 ':' if colour_follows(&chars, i + 1) => clause.push(Token::Word("is".into())),
+                // `-20 (down)`
+                '(' if is_aside(&chars[i + 1..]) => {}
                 ',' | ';' | ':' | '.' | '!' | '?' | '(' | ')' | '\n' => clauses.push(vec![]),
                 _ => {}
             }
@@ -50,6 +61,25 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
         }
     }
     clauses
+}
+
+/// `the green-top-black-bottoms person`, `L-R`: words that stand for themselves.
+fn is_joined(word: &str) -> bool {
+    let parts: Vec<&str> = word.split('-').collect();
+    parts.len() > 2 && parts.iter().any(|part| colour(part).is_some()) && parts.iter().any(|part| is_garment(part))
+        || parts.len() > 1 && parts.iter().all(|part| ["l", "r", "u", "left", "right", "around"].contains(part))
+}
+
+/// `m/s`
+fn is_rate(word: &str) -> bool {
+    ["m/", "km/", "metres/", "meters/", "metre/", "meter/"].iter().any(|unit| word.starts_with(unit))
+}
+
+/// A word in brackets that says which way a camera looks.
+fn is_aside(chars: &[char]) -> bool {
+    let inside: String = chars.iter().take_while(|c| **c != ')').collect();
+    inside.len() < 24
+        && inside.split(' ').any(|word| ["up", "down", "upward", "downward", "upwards", "downwards"].contains(&word))
 }
 
 pub(super) fn colour_follows(chars: &[char], from: usize) -> bool {

@@ -19,6 +19,7 @@ pub(crate) fn is_unit(word: &str) -> bool {
         "seconds",
         "time",
         "times",
+        "x",
         "bends",
         "corners",
         "occasions",

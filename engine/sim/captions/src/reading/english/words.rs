@@ -133,7 +133,10 @@ pub const GOES_ON: [&str; 22] = [
 ];
 
 /// Of `doesn't` and its like the part behind the apostrophe is a word of its own.
-pub const NEGATIONS: [&str; 36] = [
+pub const NEGATIONS: [&str; 39] = [
+    "nope",
+    "nah",
+    "neither",
     "no",
     "not",
     "never",
@@ -252,93 +255,41 @@ pub const TURN_STEMS: [&str; 18] = [
     "curv", "twist", "kink", "meander", "waver", "wander",
 ];
 
-/// Words beside which `right` is a side.
-pub const TURN_VERBS: [&str; 74] = [
-    "turn",
-    "turns",
-    "turning",
-    "turned",
-    "takes",
-    "take",
-    "taking",
-    "took",
-    "makes",
-    "make",
-    "making",
-    "made",
-    "then",
-    "next",
-    "and",
-    "veer",
-    "veers",
-    "veering",
-    "bear",
-    "bears",
-    "bearing",
-    "swing",
-    "swings",
-    "swinging",
-    "hang",
-    "hangs",
-    "hanging",
+/// Words of motion that, denied, say that the target stays.
+pub const MOTION: [&str; 29] = [
+    "move",
+    "moves",
+    "moving",
+    "moved",
+    "movement",
+    "budge",
+    "budges",
+    "budging",
+    "going",
     "go",
     "goes",
-    "going",
-    "went",
-    "head",
-    "heads",
-    "heading",
-    "cut",
-    "cuts",
-    "cutting",
-    "peel",
-    "peels",
-    "peeling",
-    "bank",
-    "banks",
-    "banking",
-    "curve",
-    "curves",
-    "hook",
-    "hooks",
-    "wheel",
-    "wheels",
-    "pivot",
-    "pivots",
-    "later",
-    "first",
-    "second",
-    "third",
-    "another",
-    "a",
-    "one",
-    "by",
-    "to",
-    "finally",
-    "lastly",
-    "again",
-    "once",
-    "swerve",
-    "swerves",
-    "break",
-    "breaks",
-    "branch",
-    "branches",
-    "hard",
-    "sharp",
-    "further",
-    "eventually",
-];
-
-/// Words of motion that, denied, say that the target stays.
-pub const MOTION: [&str; 25] = [
-    "move", "moves", "moving", "moved", "movement", "budge", "budges", "budging", "going", "go", "goes", "walk",
-    "stir", "stirs", "stirring", "shift", "shifts", "step", "inch", "leave", "leaves", "leaving", "motion", "walking",
+    "walk",
+    "stir",
+    "stirs",
+    "stirring",
+    "shift",
+    "shifts",
+    "step",
+    "inch",
+    "leave",
+    "leaves",
+    "leaving",
+    "motion",
+    "walking",
     "steps",
+    "displacement",
+    "relocate",
+    "relocates",
+    "left",
 ];
 
 /// Words of standing, each of which says that the target stays.
-pub const STANDS: [&str; 13] = [
+pub const STANDS: [&str; 14] = [
     "motionless",
     "stationary",
     "immobile",
@@ -352,6 +303,7 @@ pub const STANDS: [&str; 13] = [
     "parked",
     "planted",
     "immovable",
+    "standingstill",
 ];
 
 /// Words that say that a walk has no pause.
@@ -387,6 +339,10 @@ pub const UNTURNED: [&str; 14] = [
     "straightaway",
     "straightline",
 ];
+/// Words for a camera that looks neither up nor down.
+pub const LEVEL: [&str; 9] =
+    ["level", "levelled", "leveled", "parallel", "horizontal", "horizontally", "horizon", "untilted", "flat"];
+
 /// Verbs that say that the target walks.
 pub const WALKS: [&str; 10] =
     ["walks", "walking", "strolls", "strolling", "wanders", "wandering", "strides", "striding", "ambles", "ambling"];
