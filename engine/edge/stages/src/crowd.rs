@@ -2,7 +2,6 @@
 
 use crate::nearby::{self, NearbyBodies, NearbyPerson};
 use crate::other_drones::Formation;
-use crate::shooting::Shooting;
 use crate::walks::Person;
 use crate::world::World;
 use cosfly_diagnose::Result;
@@ -55,11 +54,6 @@ impl Crowd {
         }
         self.members.sort_by_key(|(other, _)| other.instance);
         Ok(self)
-    }
-
-    /// Dresses all people for the weather of a flight.
-    pub fn dress_for(&mut self, shooting: &Shooting) {
-        self.members.iter_mut().for_each(|(_, person)| person.dress_for(shooting));
     }
 
     /// Number of people.

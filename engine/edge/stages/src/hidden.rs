@@ -38,6 +38,6 @@ fn pedestrian(radius_m: f64, height_m: f64) -> BodyPlan {
 }
 
 fn setup(walker: Walker) -> TargetSetup {
-    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body, umbrella: _ } = walker;
+    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker;
     TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 0.0, body }
 }

@@ -51,7 +51,7 @@ pub struct NearbyBodies {
 pub fn part(config: &RenderConfig, parameters: serde_json::Value, items: ItemRule) -> StagePart {
     let properties = StageProperties {
         kind: "render".into(),
-        version: 2,
+        version: 1,
         parameters,
         sources: vec![],
         inputs: vec![ports::town(), trajectories(), others()],
@@ -293,9 +293,6 @@ impl NearbyStage {
         let (camera, moments_s): (Camera, Vec<f64>) = (effects.ideal_camera(), effects.moments_s());
         let poses: Vec<Pose> = shooting.poses(trajectory);
         let track = &trajectory.track;
-        for other in &mut others {
-            other.person.dress_for(&shooting);
-        }
         let mut near = vec![];
         for (frame, target) in track.states.iter().enumerate() {
             context.check_cancelled()?;
@@ -306,7 +303,6 @@ impl NearbyStage {
                 clothes_seed: shooting.clothes_seed,
                 gait_phase_rad: 0.0,
                 body: shooting.body,
-                umbrella: false,
             };
             for offset_s in &moments_s {
                 let pose = pose_at(&poses, frame as f64 + offset_s / track.dt_s);

@@ -144,8 +144,7 @@ impl Stage for RenderStage {
         let target = traffic::followed(inputs, artifact)?;
         let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), &context.id.item)?;
         let preset = preset(&self.config, &context.id.item);
-        let mut crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
-        crowd.dress_for(&shooting);
+        let crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
         let seen = self.draw(outputs, context, &place, &trajectory, &shooting)?;
         let notes = notes_of(&crowd, &seen.sightings);

@@ -22,12 +22,7 @@ pub struct Shooting {
     pub clothes_seed: Seed,
     /// Shape of the followed body.
     pub body: BodyShape,
-    /// Whether people hold umbrellas: it rains, and no other rendering in another weather shares its ids.
-    pub has_umbrellas: bool,
 }
-
-/// Precipitation from which on umbrellas are opened, as CARLA counts it.
-const UMBRELLAS_FROM: f64 = 25.0;
 
 impl Shooting {
     /// Settings of the item `item`, which films `trajectory` behind a walker or behind a body of traffic. Twins follow the same walk: same clothes, same weather, same
@@ -47,8 +42,7 @@ impl Shooting {
         let looks = followed.map_or(walk_seed, |followed| followed.plan.looks);
         let clothes_seed = clothes_seed_of_target(&looks, config.target_stands_out);
         let body = followed.map_or(BodyShape::Person, |it| BodyShape::of(it.plan.kind, it.plan.size_m));
-        let has_umbrellas = opens_umbrellas(config, &weather);
-        Ok(Self { camera, mount, weather, clothes_seed, body, has_umbrellas })
+        Ok(Self { camera, mount, weather, clothes_seed, body })
     }
 
     /// The default camera under a clear sky, behind a person with these looks.
@@ -56,18 +50,13 @@ impl Shooting {
         let config = RenderConfig { weathers: vec!["ClearNoon".to_owned()], ..RenderConfig::default() };
         let (weather, clothes_seed) = (config.draw_weather(&looks), clothes_seed_of_target(&looks, 0.0));
         let (camera, mount) = (config.camera(), Mount::default());
-        Self { camera, mount, weather, clothes_seed, body: BodyShape::Person, has_umbrellas: false }
+        Self { camera, mount, weather, clothes_seed, body: BodyShape::Person }
     }
 
     /// Poses of the camera, one per frame.
     pub fn poses(&self, trajectory: &Trajectory) -> Vec<Pose> {
         trajectory.poses_in_world.iter().map(|drone| self.mount.camera_pose(drone)).collect()
     }
-}
-
-/// Whether people on foot open umbrellas in a weather.
-fn opens_umbrellas(config: &RenderConfig, weather: &Weather) -> bool {
-    !config.paired_weathers && weather.precipitation >= UMBRELLAS_FROM
 }
 
 /// The settings of pictures among the parameters of a stage `render`.
@@ -81,21 +70,4 @@ pub fn render_config(parameters: serde_json::Value) -> std::result::Result<Rende
 /// Weather preset that a paired rendering names the item after.
 pub fn preset<'a>(config: &RenderConfig, item: &'a ItemName) -> Option<&'a str> {
     item.variant().filter(|_| config.paired_weathers)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn umbrellas_open_in_rain_and_never_where_other_weathers_share_the_ids() {
-        let [single, paired] =
-            [false, true].map(|paired_weathers| RenderConfig { paired_weathers, ..RenderConfig::default() });
-        let opens = |config: &RenderConfig, preset: &str| {
-            opens_umbrellas(config, &config.weather_called(preset, &Seed([3; 32])))
-        };
-        assert!(opens(&single, "SoftRainNoon") && opens(&single, "HardRainNight"));
-        assert!(!opens(&single, "WetNoon") && !opens(&single, "ClearSunset"));
-        assert!(!opens(&paired, "HardRainNoon"));
-    }
 }

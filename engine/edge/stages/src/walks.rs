@@ -1,13 +1,12 @@
 //! People and vehicles on their tracks, by the clock of a flight.
 
 use crate::codec;
-use crate::shooting::Shooting;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{Seed, TargetState, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::effects::target_state_at;
-use cosfly_render::{BodyShape, Outfit, Walker, gait_phase_rad, has_umbrella};
+use cosfly_render::{BodyShape, Outfit, Walker, gait_phase_rad};
 use cosfly_world::Body;
 
 /// Distance between the axes of two bodies below which one would walk through the other, metres.
@@ -23,7 +22,6 @@ pub struct Person {
     walked_m: Vec<f64>,
     seed: Seed,
     body: BodyShape,
-    umbrella: bool,
 }
 
 impl Person {
@@ -37,7 +35,6 @@ impl Person {
             comes_and_goes: false,
             seed,
             body: BodyShape::Person,
-            umbrella: false,
         })
     }
 
@@ -47,13 +44,7 @@ impl Person {
         let track = TargetTrack { dt_s, height_m, radius_m, states: body.states.clone() };
         let first_s = f64::from(body.first_frame) * dt_s;
         let (seed, shape) = (body.plan.looks, BodyShape::of(body.plan.kind, body.plan.size_m));
-        let walked_m = walked_m(&track.states);
-        Self { walked_m, track, first_s, comes_and_goes: true, seed, body: shape, umbrella: false }
-    }
-
-    /// Dresses the person for the weather of a flight.
-    pub fn dress_for(&mut self, shooting: &Shooting) {
-        self.umbrella = shooting.has_umbrellas && self.body == BodyShape::Person && has_umbrella(&self.seed);
+        Self { walked_m: walked_m(&track.states), track, first_s, comes_and_goes: true, seed, body: shape }
     }
 
     /// Body height and radius seen from above, metres.
@@ -89,7 +80,6 @@ impl Person {
             clothes_seed: self.seed,
             gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
             body: self.body,
-            umbrella: self.umbrella,
         })
     }
 

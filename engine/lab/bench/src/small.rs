@@ -141,7 +141,6 @@ fn crowd(around: DVec3, count: u32, index: &GroundIndex) -> Vec<Bystander> {
             clothes_seed: Seed([6; 32]).child("clothes", u64::from(number)),
             gait_phase_rad: random.uniform(-3.1, 3.1),
             body: cosfly_render::BodyShape::Person,
-            umbrella: false,
         };
         Bystander { walker, instance: 1_000_000 + number }
     };

@@ -113,6 +113,6 @@ fn new_renderer(camera: Camera) -> Renderer {
 }
 
 fn setup_of(walker: Walker) -> TargetSetup {
-    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body, umbrella: _ } = walker;
+    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker;
     TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 1.0, body }
 }

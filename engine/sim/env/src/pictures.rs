@@ -235,7 +235,6 @@ pub fn target(environment: &Environment) -> Walker {
         clothes_seed: episode.looks,
         gait_phase_rad: gait_phase_rad(environment.target_covered_m(), track.height_m),
         body,
-        umbrella: false,
     }
 }
 
@@ -257,7 +256,6 @@ fn drone(environment: &Environment) -> Option<Walker> {
         clothes_seed: environment.episode().looks.child("drone", 0),
         gait_phase_rad: 0.0,
         body: BodyShape::of(BodyKind::Drone, DRONE_M),
-        umbrella: false,
     })
 }
 
@@ -282,6 +280,5 @@ pub fn walker(Present { mover, state, covered_m }: &Present<'_>) -> Walker {
         clothes_seed: plan.looks,
         gait_phase_rad: gait_phase_rad(*covered_m, plan.size_m.z),
         body: BodyShape::of(plan.kind, plan.size_m),
-        umbrella: false,
     }
 }

@@ -77,7 +77,7 @@ fn drawn(environments: &[&Environment], size: u32, threads: usize) -> Album {
 }
 
 fn setup_of(walker: Walker) -> TargetSetup {
-    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body, umbrella: _ } = walker;
+    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker;
     TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 1.0, body }
 }
 

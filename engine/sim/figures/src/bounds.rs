@@ -6,8 +6,6 @@ use cosfly_frames::DVec3;
 
 /// Limbs swing this far from the upright axis, in body heights.
 const REACH_PER_HEIGHT: f64 = 0.45;
-/// Umbrellas end this far above the feet, in body heights; those of children are higher beside them.
-const UMBRELLA_PER_HEIGHT: f64 = 1.4;
 /// Vehicles stay within their boxes and this margin, metres.
 const VEHICLE_MARGIN_M: f64 = 0.02;
 
@@ -20,8 +18,7 @@ impl Walker {
             return ((feet - half).with_z(feet.z - VEHICLE_MARGIN_M), (feet + half).with_z(feet.z + 2.0 * half.z));
         }
         let side = (REACH_PER_HEIGHT * self.height_m).max(3.0 * self.radius_m.clamp(0.1, 2.0));
-        let above = if self.umbrella { UMBRELLA_PER_HEIGHT } else { 1.05 } * self.height_m;
-        let below = 0.05 * self.height_m;
+        let (below, above) = (0.05 * self.height_m, 1.05 * self.height_m);
         (feet - DVec3::new(side, side, below), feet + DVec3::new(side, side, above))
     }
 }

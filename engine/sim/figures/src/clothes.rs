@@ -40,13 +40,11 @@ pub enum Region {
     HeadLamp,
     /// Lamps at the back.
     TailLamp,
-    /// The umbrella of a person on foot.
-    Umbrella,
 }
 
 impl Region {
     /// Number of regions.
-    pub const COUNT: usize = 16;
+    pub const COUNT: usize = 15;
 
     /// Whether people wear it or are made of it.
     pub fn is_of_people(self) -> bool {

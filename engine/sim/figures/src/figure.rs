@@ -3,7 +3,7 @@
 use crate::body_shape::BodyShape;
 use crate::build::{Arm, Hair, head_size};
 use crate::clothes::{Clothes, Region};
-use crate::{umbrella, vehicles};
+use crate::vehicles;
 use cosfly_frames::{DVec3, Seed, TargetState, real};
 
 /// The target of one frame.
@@ -35,7 +35,6 @@ impl TargetSetup {
             clothes_seed: self.clothes_seed,
             gait_phase_rad: self.gait_phase_rad,
             body: self.body,
-            umbrella: false,
         }
     }
 }
@@ -55,8 +54,6 @@ pub struct Walker {
     pub gait_phase_rad: f64,
     /// What moves.
     pub body: BodyShape,
-    /// Whether a person on foot holds an open umbrella; a followed one never does.
-    pub umbrella: bool,
 }
 
 impl Walker {
@@ -161,7 +158,7 @@ pub(crate) fn around() -> [(f64, f64); SIDES] {
 }
 
 /// Most parts of a figure.
-pub const MOST_PARTS: usize = 30;
+pub const MOST_PARTS: usize = 27;
 
 /// The parts of a figure, before it sinks to the ground: closed frustums of [`SIDES`] sides.
 pub struct FigureParts {
@@ -204,10 +201,7 @@ impl FigureParts {
             body.leg(-1.0, left, stride);
             body.leg(1.0, right, stride);
             body.arm(-1.0, right, arm_swing, Arm::Swings);
-            body.arm(1.0, left, arm_swing, if walker.umbrella { Arm::Holds } else { build.right_arm });
-            if walker.umbrella {
-                umbrella::parts().into_iter().for_each(|FigurePart { low, high, region }| body.part(low, high, region));
-            }
+            body.arm(1.0, left, arm_swing, build.right_arm);
             body.bear(build.lean, head_size(walker.height_m));
         }
         body.parts

@@ -8,7 +8,6 @@ mod bounds;
 pub mod build;
 pub mod clothes;
 pub mod figure;
-mod umbrella;
 mod vehicles;
 mod wardrobe;
 
@@ -16,6 +15,5 @@ pub use body_shape::BodyShape;
 pub use build::Build;
 pub use clothes::{Clothes, Colour, Dye, Outfit, Pattern, clothes_seed_of_target};
 pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
-pub use umbrella::{has_umbrella, umbrella_colour};
 pub use vehicles::Livery;
 pub use wardrobe::Wardrobe;

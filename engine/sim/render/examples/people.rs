@@ -39,7 +39,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             clothes_seed: seed,
             gait_phase_rad: gait_phase_rad(0.37 * f64::from(number), height_m),
             body: BodyShape::Person,
-            umbrella: false,
         };
         others.push(Bystander { walker, instance: 90_000 + number });
     }

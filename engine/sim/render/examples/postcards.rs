@@ -99,7 +99,6 @@ fn passers_by(town: &Town, place: DVec3) -> Vec<Bystander> {
                 clothes_seed: Seed([number; 32]),
                 gait_phase_rad: gait_phase_rad(random.uniform(0.0, 2.0), height_m),
                 body: BodyShape::default(),
-                umbrella: false,
             },
             instance: 60_000 + u32::from(number),
         });

@@ -53,7 +53,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             clothes_seed: Seed([instance as u8; 32]),
             gait_phase_rad: pedal_phase_rad(f64::from(instance)),
             body: BodyShape::of(kind, DVec3::from_array(size_m)),
-            umbrella: false,
         };
         others.push(Bystander { walker, instance });
         ahead_m += 4.5;

@@ -55,7 +55,6 @@ mod tests {
             clothes_seed: Seed([1; 32]),
             gait_phase_rad: 0.5,
             body: BodyShape::default(),
-            umbrella: false,
         }
     }
 

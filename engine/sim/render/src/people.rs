@@ -9,7 +9,7 @@ use crate::shade::vector::Vec3;
 use crate::visibility::{NEAR_M, Screen};
 use cosfly_figures::clothes::{Clothes, Region};
 use cosfly_figures::figure::{FigureTriangle, Walker, figure};
-use cosfly_figures::{BodyShape, Livery, Wardrobe, umbrella_colour};
+use cosfly_figures::{BodyShape, Livery, Wardrobe};
 use cosfly_frames::{DVec3, real};
 use std::ops::Range;
 
@@ -197,9 +197,6 @@ impl People {
             BodyShape::Vehicle { .. } => Livery::draw(&walker.clothes_seed).colours(&walker.body),
         };
         colours[..clothes.colours.len()].copy_from_slice(&clothes.colours);
-        if walker.umbrella {
-            colours[Region::Umbrella as usize] = umbrella_colour(&walker.clothes_seed);
-        }
         let (sin, cos) = real::sin_cos(walker.state.heading_rad);
         let side_in_world = Vec3::new(-sin as f32, cos as f32, 0.0);
         self.members.push(Person {
@@ -311,7 +308,6 @@ mod tests {
                 radius_m: 0.3,
                 clothes_seed: Seed([step as u8; 32]),
                 gait_phase_rad: 1.3 * turn,
-                umbrella: step % 2 == 0,
                 body: match step % 3 {
                     0 => BodyShape::Person,
                     1 => BodyShape::Vehicle { kind: BodyKind::Bus, size_m: DVec3::new(5.0, 2.5, 3.0) },

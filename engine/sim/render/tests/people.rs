@@ -30,12 +30,11 @@ fn walker(feet: DVec3, seed: u8) -> Walker {
         clothes_seed: Seed([seed; 32]),
         gait_phase_rad: 0.7 * turn,
         body: BodyShape::default(),
-        umbrella: false,
     }
 }
 
 fn target(feet: DVec3) -> TargetSetup {
-    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body, umbrella: _ } = walker(feet, 2);
+    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker(feet, 2);
     TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 0.5, body }
 }
 

@@ -30,7 +30,6 @@ fn vehicle(kind: BodyKind, size_m: DVec3, number: u64) -> Walker {
         clothes_seed: Seed([9; 32]).child("vehicle", number),
         gait_phase_rad: turn,
         body: BodyShape::of(kind, size_m),
-        umbrella: false,
     }
 }
 

@@ -234,7 +234,6 @@ mod tests {
                 clothes_seed: Seed([number as u8; 32]),
                 gait_phase_rad: 0.9,
                 body: BodyShape::Person,
-                umbrella: false,
             };
             let clothes = Clothes::draw(&walker.clothes_seed);
             let lattice = Sun::new(Vec3::new(0.5, -0.4, 0.6).unit(), 0.0).lattice(0);

@@ -17,7 +17,6 @@ pub fn crowd(around: DVec3, count: u32) -> Vec<Bystander> {
             clothes_seed: Seed([6; 32]).child("clothes", u64::from(number)),
             gait_phase_rad: random.uniform(-3.1, 3.1),
             body: BodyShape::default(),
-            umbrella: false,
         };
         Bystander { walker, instance: 50_000 + number }
     };

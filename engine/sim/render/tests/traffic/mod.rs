@@ -26,7 +26,6 @@ pub fn vehicle(number: u32, place: DVec3, heading_rad: f64) -> Bystander {
         clothes_seed: Seed([7; 32]).child("vehicle", u64::from(number)),
         gait_phase_rad: 0.7 * f64::from(number),
         body: BodyShape::of(kind, DVec3::from_array(size_m)),
-        umbrella: false,
     };
     Bystander { walker, instance: 60_000 + number }
 }
