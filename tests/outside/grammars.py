@@ -6,6 +6,7 @@ from paraphrases_eighteenth import EighteenthChinese, EighteenthEnglish
 from paraphrases_eleventh import EleventhChinese, EleventhEnglish
 from paraphrases_fifteenth import FifteenthChinese, FifteenthEnglish
 from paraphrases_fourteenth import FourteenthChinese, FourteenthEnglish
+from paraphrases_nineteenth import NineteenthChinese, NineteenthEnglish
 from paraphrases_ninth import NinthChinese, NinthEnglish
 from paraphrases_seventeenth import SeventeenthChinese, SeventeenthEnglish
 from paraphrases_seventh import SeventhChinese, SeventhEnglish
@@ -14,6 +15,7 @@ from paraphrases_sixth import SixthChinese, SixthEnglish
 from paraphrases_tenth import TenthChinese, TenthEnglish
 from paraphrases_thirteenth import ThirteenthChinese, ThirteenthEnglish
 from paraphrases_twelfth import TwelfthChinese, TwelfthEnglish
+from paraphrases_twentieth import TwentiethChinese, TwentiethEnglish
 
 GRAMMARS = {
     2: (SecondEnglish, SecondChinese),
@@ -33,6 +35,8 @@ GRAMMARS = {
     16: (SixteenthEnglish, SixteenthChinese),
     17: (SeventeenthEnglish, SeventeenthChinese),
     18: (EighteenthEnglish, EighteenthChinese),
+    19: (NineteenthEnglish, NineteenthChinese),
+    20: (TwentiethEnglish, TwentiethChinese),
 }
 # Grammars whose instructions may leave out that a person stands: such an instruction is true of a person who walks.
-LEAVE_STANDING_OUT = {15, 16, 17, 18}
+LEAVE_STANDING_OUT = {15, 16, 17, 18, 19, 20}

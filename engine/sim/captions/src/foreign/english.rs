@@ -122,7 +122,9 @@ fn is_verb(words: &[&str], at: usize) -> bool {
     let leads =
         ["", "to", "and", "then", "please", "you", "should", "must", "will", "can", "now", "kindly", "just", "they"];
     let objects = ["the", "your", "it", "them", "a", "an", "left", "right", "on", "their", "that", "this", "around"];
-    leads.contains(&before) && words.get(at + 1).is_some_and(|next| objects.contains(next))
+    // `covering 40 m`
+    words[at].ends_with("ing") && words.get(at + 1) == Some(&"")
+        || leads.contains(&before) && words.get(at + 1).is_some_and(|next| objects.contains(next))
 }
 
 /// `a walking stick`, `the park`: things of words that are none in other places.

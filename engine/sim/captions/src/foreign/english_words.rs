@@ -108,7 +108,7 @@ pub const ADJECTIVES: &str = "
     just only about around roughly approximately nearly almost some exactly precisely left right upper lower rear front back
     inner outer sudden complete absolute solid strict set given said stated required desired left-hand right-hand clockwise
     anticlockwise counterclockwise uninterrupted unbroken nonstop whopping mid comfortable respectful walking standing
-    following moving running flying filming tracking looking well also then lefthand righthand";
+    following moving running flying filming tracking looking facing covering well also then lefthand righthand";
 
 /// Words that end a phrase.
 pub const FUNCTION_WORDS: &str = "

@@ -14,6 +14,12 @@ pub(crate) fn without_marks(text: &str) -> String {
     while i < chars.len() {
         let is_apart = i == 0 || chars[i - 1].is_whitespace() || !".:".contains(chars[i - 1]);
         let begins = is_apart && BEFORE_BRACKETS.contains(last);
+        // `1) left 2) right`
+        if !begins && !plain.contains(['(', '（']) && i > 0 && chars[i - 1] == ' ' && is_numbered(&chars[i..]) {
+            plain.push(',');
+            i += 1 + chars[i..].iter().take_while(|c| c.is_ascii_digit()).count();
+            continue;
+        }
         if let Some(length) = begins.then(|| mark(&chars[i..], BEFORE_POINTS.contains(last))).flatten() {
             i += length;
             continue;
@@ -25,6 +31,12 @@ pub(crate) fn without_marks(text: &str) -> String {
         i += 1;
     }
     plain
+}
+
+/// `2)`
+fn is_numbered(chars: &[char]) -> bool {
+    let digits = chars.iter().take_while(|c| c.is_ascii_digit()).count();
+    (1..=2).contains(&digits) && chars.get(digits) == Some(&')')
 }
 
 /// Length of a mark at the start; `pointed`: a number with a point may be one.
@@ -65,6 +77,8 @@ mod tests {
             ("（1）跟随；2、保持25米", "跟随；保持25米"),
             ("- Pitch: -8 degrees", "Pitch: -8 degrees"),
             ("Turns (4): right", "Turns (4): right"),
+            ("turns: 1) left 2) right", "turns:  left , right"),
+            ("six (turns 2) right", "six (turns 2) right"),
             ("Stops: 0. Turns: 2.", "Stops: 0. Turns: 2."),
         ] {
             assert_eq!(without_marks(text), plain, "{text}");

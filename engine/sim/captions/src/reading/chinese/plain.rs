@@ -4,7 +4,7 @@ use super::numbers::numeral;
 
 const NUMERALS: &str = "零一二两三四五六七八九十百";
 /// Spellings, each with the one that the reader knows.
-const SPELLINGS: [(&str, &str); 38] = [
+const SPELLINGS: [(&str, &str); 40] = [
     ("1名", "一名"),
     ("1位", "一位"),
     ("1架", "一架"),
@@ -19,6 +19,8 @@ const SPELLINGS: [(&str, &str); 38] = [
     ("直线距离", "距离"),
     ("在同一处", "在原地"),
     ("在一处", "在原地"),
+    ("于同一处", "在原地"),
+    ("于一处", "在原地"),
     ("在一个地方", "在原地"),
     ("步行者", "行人"),
     ("1人", "此人"),

@@ -361,7 +361,21 @@ pub const NEVER_STOPS: [&str; 12] = [
     "脚不沾地",
 ];
 /// Words for a camera that looks neither up nor down.
-pub const LEVEL: [&str; 36] = [
+pub const LEVEL: [&str; 50] = [
+    "没有上仰",
+    "上仰或下俯",
+    "别抬",
+    "不抬也不",
+    "不压也不",
+    "没往上也没往下",
+    "不往上也不往下",
+    "别上下动",
+    "平着",
+    "要平，",
+    "要平。",
+    "要平；",
+    "置零",
+    "不用仰",
     "水平",
     "平视",
     "平拍",

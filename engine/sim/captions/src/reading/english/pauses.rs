@@ -83,14 +83,14 @@ pub(super) fn is_time_alone(words: &[&str]) -> bool {
 /// `stands still twice`: two stops.
 pub(super) fn stands_repeatedly(words: &[&str]) -> bool {
     let is_stand = |word: &&str| ["stand", "stands", "standing", "still", "stood"].contains(word);
-    let is_count = |word: &&str| ["once", "twice", "thrice", "times"].contains(word);
+    let is_count = |word: &&str| ["once", "twice", "thrice", "times", "occasion", "occasions"].contains(word);
     (0..words.len()).any(|at| is_stand(&words[at]) && words[at + 1..].iter().take(3).any(is_count))
 }
 
 /// `stops before turning left`, `turns left after a stop`.
 pub(super) fn order_of_stop_and_turn(words: &[&str], turns: &[(usize, TurnKind)]) -> Option<Claim> {
     let stop = words.iter().position(|word| is_stop(word))?;
-    let (turn, _) = *turns.first()?;
+    let (turn, _) = *turns.iter().min_by_key(|(turn, _)| turn.abs_diff(stop))?;
     let between = &words[stop.min(turn)..stop.max(turn)];
     let stop_first = match () {
         () if between.contains(&"before") => stop < turn,

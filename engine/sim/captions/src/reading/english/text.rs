@@ -33,6 +33,9 @@ pub fn read(text: &str) -> Vec<Claim> {
         let mut subject = vec![];
         let read = |clause: Vec<Token>| {
             let tokens = fold_numbers(clause);
+            if goes_on_denying(&tokens, &subject) {
+                return vec![];
+            }
             if let Some(claim) = answer(&tokens, &subject) {
                 return vec![claim];
             }
@@ -52,6 +55,8 @@ pub fn read(text: &str) -> Vec<Claim> {
         claims.retain(|claim| !((is_denied || is_told) && *claim == Claim::SomeStops));
         claims
     };
+    // `stops: 2 | camera level`: notes are sentences.
+    let text = &text.replace(['|'], ".\n").replace("//", ".\n");
     with_level_view(sentences(text).into_iter().flat_map(sentence).collect(), is_level(&clauses(text)))
 }
 
@@ -76,6 +81,16 @@ fn answer(tokens: &[Token], subject: &[Token]) -> Option<Claim> {
         }
         () => None,
     }
+}
+
+/// `right or around` behind `they do not turn left`.
+fn goes_on_denying(tokens: &[Token], before: &[Token]) -> bool {
+    let before: Vec<&str> = before.iter().map(word_of).collect();
+    let is_side = |token: &Token| ["left", "right", "around", "or", "nor"].contains(&word_of(token));
+    tokens.len() < 4
+        && tokens.iter().all(is_side)
+        && tokens.iter().any(|token| ["or", "nor"].contains(&word_of(token)))
+        && denied(&before, is_turning)
 }
 
 /// Words of an answer that there is none: `not a single one`.
@@ -232,7 +247,7 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
     turn.or_else(|| back.then_some(Claim::Turn(TurnKind::Around)))
         .or_else(|| compass_word(word).map(Claim::Direction))
         .or(match word {
-            "straight" if !STRAIGHT_AT.contains(&next) => Some(Claim::Straight),
+            "straight" if !STRAIGHT_AT.contains(&next) && !words.contains(&"measured") => Some(Claim::Straight),
             "still" if !["walks", "walking", "keeps", "keep", "moving"].contains(&next) && !about_stops => {
                 Some(Claim::Stays)
             }

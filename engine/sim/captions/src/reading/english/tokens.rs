@@ -54,7 +54,9 @@ pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
                 ':' if colour_follows(&chars, i + 1) => clause.push(Token::Word("is".into())),
                 // `-20 (down)`
                 '(' if is_aside(&chars[i + 1..]) => {}
-                ',' | ';' | ':' | '.' | '!' | '?' | '(' | ')' | '\n' => clauses.push(vec![]),
+                ',' | ';' | ':' | '.' | '!' | '?' | '(' | ')' | '\n' | '>' | '→' => clauses.push(vec![]),
+                // `left - right`
+                '-' | '–' | '/' if is_apart(&chars, i) => clauses.push(vec![]),
                 _ => {}
             }
             i += 1;
@@ -68,6 +70,11 @@ fn is_joined(word: &str) -> bool {
     let parts: Vec<&str> = word.split('-').collect();
     parts.len() > 2 && parts.iter().any(|part| colour(part).is_some()) && parts.iter().any(|part| is_garment(part))
         || parts.len() > 1 && parts.iter().all(|part| ["l", "r", "u", "left", "right", "around"].contains(part))
+}
+
+/// A sign with spaces on both sides, which parts items.
+fn is_apart(chars: &[char], at: usize) -> bool {
+    at > 0 && chars[at - 1] == ' ' && chars.get(at + 1) == Some(&' ')
 }
 
 /// `m/s`

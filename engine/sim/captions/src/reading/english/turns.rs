@@ -32,8 +32,8 @@ pub(super) fn is_side(at: usize, words: &[&str]) -> bool {
     let before = at.checked_sub(1).map_or("", |before| words[before]);
     let next = words.get(at + 1).copied().unwrap_or_default();
     let is_told = || {
-        ["is", "are", "was", "were"].contains(&before)
-            && (words.len() == 2 || words[..at].iter().any(|word| is_of_turns(word)))
+        ["is", "are", "was", "were", "be"].contains(&before)
+            && (at == 1 || words[..at].iter().any(|word| is_of_turns(word)))
     };
     let follows = turn_word(before).is_some() || is_told();
     match words[at] {
@@ -95,7 +95,10 @@ fn is_turned_around(at: usize, words: &[&str]) -> bool {
         "afterwards",
         "again",
     ];
-    let stays = ["all", "way", "stand", "stands", "hang", "hangs", "walk", "walks", "look", "looks", "is", "are"];
+    let stays = [
+        "all", "way", "stand", "stands", "standing", "stood", "hanging", "waiting", "hang", "hangs", "walk", "walks",
+        "look", "looks", "is", "are",
+    ];
     let ends =
         next.is_none() || ["and", "or", "then", "once", "twice", "again", "followed"].iter().any(|it| next == Some(it));
     !is_amount && (turns.contains(&before) || ends && !stays.contains(&before))
