@@ -10,7 +10,7 @@ use cosfly_stage::BlobSource;
 use std::any::{Any, TypeId};
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 impl BlobSource for Store {
@@ -18,6 +18,9 @@ impl BlobSource for Store {
         let path = self.blob_path(blob);
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound && self.is_packed(Area::Blobs, &blob.digest) => {
+                return self.packed(Area::Blobs, &blob.digest).ok_or_else(|| self.damaged(blob));
+            }
             Err(error) if error.kind() == io::ErrorKind::NotFound && self.fetch_blob(&path, &blob.digest) => {
                 return self.read(blob);
             }
@@ -85,12 +88,15 @@ impl Store {
     fn open_unchecked(&self, blob: &BlobRef) -> io::Result<Option<File>> {
         let path = self.blob_path(blob);
         let file = match File::open(&path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound && self.fetch_blob(&path, &blob.digest) => {
-                File::open(&path)?
-            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound && self.bring(blob, &path) => File::open(&path)?,
             opened => opened?,
         };
         Ok((file.metadata()?.len() == blob.bytes).then_some(file))
+    }
+
+    /// Gives a blob without a file its file: from a pack or the remote.
+    fn bring(&self, blob: &BlobRef, path: &Path) -> bool {
+        self.unpack(blob, path) || self.fetch_blob(path, &blob.digest)
     }
 
     /// Bytes of a part; `None` where the blob has another size, ends before them or has others there.
@@ -117,7 +123,7 @@ impl Store {
         Ok(Some(file))
     }
 
-    /// Removes a blob. Whatever needs it has it made again.
+    /// Removes a blob. Whatever needs it has it made again. A packed one, which is small, stays until garbage is collected.
     ///
     /// # Errors
     /// `machine-io`.
@@ -187,7 +193,6 @@ mod tests {
     use crate::ActionRecord;
     use cosfly_blobs::OutputSink;
     use cosfly_stage::Produced;
-    use std::path::Path;
 
     fn store_with(root: &Path, bytes: &[u8]) -> (Store, ActionRecord) {
         let store = Store::open(root).unwrap();

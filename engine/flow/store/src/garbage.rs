@@ -4,6 +4,8 @@ use crate::history::{PastRun, newest_runs, read_run, run_numbers};
 use crate::layout::{Area, Layout, read_dir_or_nothing};
 use crate::locks::lock_file;
 use crate::names::is_relative_path;
+use crate::pack::{Pack, Packed};
+use crate::packs::{PACKED_AREAS, Packs, is_small_and_alone, repack};
 use crate::records::{self, ActionRecord};
 use crate::scratch::sweep_orphans;
 use crate::side_by_side::read_side_by_side;
@@ -14,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::Path;
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 /// Documents whose files are read at once: what they name is held until all are read.
 const PIECE: usize = 4096;
@@ -28,8 +30,15 @@ pub struct GarbageOptions {
     pub keep_age: Duration,
     /// Current time.
     pub now: SystemTime,
+    /// Number of small files of an area from which on they are packed into one.
+    pub pack_from: usize,
     /// Whether to count only.
     pub dry_run: bool,
+}
+
+impl GarbageOptions {
+    /// Small files from which on packing is worth a pack: 16 MB of blocks.
+    pub const PACK_FROM: usize = 4096;
 }
 
 /// Counts of removed files, or of files that would be removed in a dry run.
@@ -51,6 +60,8 @@ pub struct GarbageReport {
     pub kept_blobs: u64,
     /// Bytes of the kept blobs.
     pub kept_blob_bytes: u64,
+    /// Small files packed; 0 in a dry run.
+    pub packed: u64,
 }
 
 /// Removes (or counts) everything in the store at `root` that is older than the limit and needed by no recent run or pin.
@@ -143,7 +154,26 @@ fn spent_names(runs: &[PastRun]) -> BTreeMap<Digest, BTreeSet<&str>> {
     names
 }
 
+impl GarbageReport {
+    fn count(&mut self, area: Area, keep: bool, bytes: u64) {
+        let (count, sum) = match (area, keep) {
+            (Area::Blobs, true) => (&mut self.kept_blobs, &mut self.kept_blob_bytes),
+            (Area::Blobs, false) => (&mut self.blobs, &mut self.blob_bytes),
+            (_, true) => return,
+            (_, false) => (&mut self.records, &mut self.record_bytes),
+        };
+        *count += 1;
+        *sum += bytes;
+    }
+}
+
 impl Needed {
+    /// Whether a file of some age stays.
+    fn keeps(&self, area: Area, digest: &Digest, age: Duration, options: &GarbageOptions) -> bool {
+        let spent = area == Area::Blobs && self.spent.contains(digest);
+        (age < options.keep_age && !spent) || self.in_area(area).contains(digest)
+    }
+
     /// Digests to keep in an area.
     pub(crate) fn in_area(&self, area: Area) -> &BTreeSet<Digest> {
         match area {
@@ -162,7 +192,9 @@ fn mark(layout: &Layout, keep_runs: usize) -> io::Result<Needed> {
     for pin in read_dir_or_nothing(&layout.folder("pins"))? {
         roots.extend(read_run(&pin?.path()));
     }
-    Ok(needed_by(&roots, &|area, digest| fs::read(layout.file(area, digest)).ok()))
+    let packs = Packs::default();
+    let packed = |area, digest: &Digest| packs.of(layout, area)?.read(digest);
+    Ok(needed_by(&roots, &|area, digest| fs::read(layout.file(area, digest)).ok().or_else(|| packed(area, digest))))
 }
 
 /// File of a digest in an area; `None` where it is absent.
@@ -238,28 +270,39 @@ fn sweep(
     options: &GarbageOptions,
     report: &mut GarbageReport,
 ) -> io::Result<()> {
-    let wanted = needed.in_area(area);
-    for digest in layout.list(area)? {
-        let path = layout.file(area, &digest);
+    let listed = layout.list(area)?;
+    let mut small = Vec::new();
+    for digest in &listed {
+        let path = layout.file(area, digest);
         let metadata = match fs::symlink_metadata(&path) {
             // A run may go on during a dry run, and remove a damaged blob.
             Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
             metadata => metadata?,
         };
-        let young = age_of(&metadata, options) < options.keep_age;
-        let spent = area == Area::Blobs && needed.spent.contains(&digest);
-        let keep = (young && !spent) || wanted.contains(&digest);
+        let keep = needed.keeps(area, digest, age_of(&metadata, options), options);
         if !keep && !options.dry_run {
             remove(&path, &metadata)?;
         }
-        let (count, bytes) = match (area, keep) {
-            (Area::Blobs, true) => (&mut report.kept_blobs, &mut report.kept_blob_bytes),
-            (Area::Blobs, false) => (&mut report.blobs, &mut report.blob_bytes),
-            (_, true) => continue,
-            (_, false) => (&mut report.records, &mut report.record_bytes),
-        };
-        *count += 1;
-        *bytes += metadata.len();
+        if keep && needed.in_area(area).contains(digest) && is_small_and_alone(&metadata) {
+            small.push(*digest);
+        }
+        report.count(area, keep, metadata.len());
+    }
+    let stays = |packed: &Packed| {
+        let changed = UNIX_EPOCH + Duration::from_secs(packed.changed_s);
+        needed.keeps(area, &packed.digest, options.now.duration_since(changed).unwrap_or_default(), options)
+    };
+    let mut some_go = false;
+    for packed in Packs::default().of(layout, area).into_iter().flat_map(Pack::entries) {
+        let keep = stays(&packed);
+        some_go |= !keep;
+        if listed.binary_search(&packed.digest).is_err() {
+            report.count(area, keep, packed.bytes.len() as u64);
+        }
+    }
+    let many = PACKED_AREAS.contains(&area) && small.len() >= options.pack_from;
+    if !options.dry_run && (many || some_go) {
+        report.packed += repack(layout, area, &small, &stays)?;
     }
     Ok(())
 }
@@ -334,7 +377,7 @@ mod tests {
     fn collect(root: &Path, keep_runs: usize, age_s: u64, dry_run: bool) -> GarbageReport {
         let now = SystemTime::now() + Duration::from_secs(3600);
         let keep_age = Duration::from_secs(age_s);
-        collect_garbage(root, &GarbageOptions { keep_runs, keep_age, now, dry_run }).unwrap()
+        collect_garbage(root, &GarbageOptions { keep_runs, keep_age, now, pack_from: usize::MAX, dry_run }).unwrap()
     }
 
     #[test]
@@ -361,7 +404,13 @@ mod tests {
         for text in ["older", "old", "new"] {
             run(&store, text);
         }
-        let options = GarbageOptions { keep_runs: 2, keep_age: Duration::ZERO, now: SystemTime::now(), dry_run: false };
+        let options = GarbageOptions {
+            keep_runs: 2,
+            keep_age: Duration::ZERO,
+            now: SystemTime::now(),
+            pack_from: 1,
+            dry_run: false,
+        };
         assert_eq!(collect_garbage(root, &options).unwrap_err().code, "store-in-use");
         drop(store);
         let count = |report: &GarbageReport| (report.blobs, report.blob_bytes, report.records, report.kept_blobs);

@@ -7,6 +7,7 @@
 use crate::fault::Step;
 use crate::index_format::{Entry, FolderTimes, Index, SHARDS, Stamps, encode};
 use crate::layout::{Area, Layout};
+use crate::packs::pack_path;
 use crate::present::Present;
 use crate::records::Finished;
 use crate::store::Store;
@@ -141,6 +142,7 @@ impl KnownTasks<'_> {
         let indexed = self.index.number_of(plan);
         let is_done =
             (indexed.is_some() && self.done_is_whole[shard]) || self.done_in(shard).binary_search(plan).is_ok();
+        let is_done = is_done || self.store.is_packed(Area::Done, plan);
         if !is_done && self.store.remote.is_none() {
             return None;
         }
@@ -204,10 +206,13 @@ impl KnownTasks<'_> {
     }
 }
 
-/// Times of last change of the folders of an area; 0 for absent ones.
+/// Times of last change of the folders of an area, or of its pack where that is younger; 0 for absent folders.
 fn stamps(layout: &Layout, area: Area) -> Stamps {
     let folder = layout.folder(area.folder());
-    (0..SHARDS).map(|shard| stamp(&folder.join(format!("{shard:02x}")))).collect()
+    let pack = pack_path(layout, area);
+    let pack = pack.exists().then(|| stamp(&pack));
+    let younger = |folder: u64| pack.map_or(folder, |pack| if folder.min(pack) == 0 { 0 } else { folder.max(pack) });
+    (0..SHARDS).map(|shard| younger(stamp(&folder.join(format!("{shard:02x}"))))).collect()
 }
 
 fn stamp(path: &Path) -> u64 {

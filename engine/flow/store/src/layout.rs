@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 const VERSION: u32 = 1;
 const FORMAT_NAME: &str = "cosfly-store";
 /// Folders of a store.
-const OWN_FOLDERS: [&str; 17] = [
+const OWN_FOLDERS: [&str; 18] = [
     "answers",
     "locks",
     "tmp",
@@ -23,6 +23,7 @@ const OWN_FOLDERS: [&str; 17] = [
     "runs",
     "index",
     "pins",
+    "packs",
     "divergence",
     "out",
     "spare",

@@ -14,6 +14,7 @@
 //! STORE/costs/<stage>            measured time of tasks, for predictions; may be deleted
 //! STORE/out/<path digest>          sizes and times of the files of a delivered folder; may be deleted
 //! STORE/spare/<path digest>/     the version before of a delivered folder, as links; may be deleted
+//! STORE/packs/<area>               small files of an area in one file, made by garbage collection
 //! STORE/pins/<name>                a copy of a run that garbage collection keeps
 //! STORE/failed/<plan digest>       reason why a task failed that ran apart from its run
 //! STORE/divergence/<action>-<n>    two executions of one action with different bytes
@@ -49,6 +50,8 @@ mod locks;
 mod materialise;
 mod mutex;
 mod names;
+mod pack;
+mod packs;
 mod places;
 mod present;
 mod records;

@@ -350,7 +350,13 @@ mod tests {
         let stage = PastStage { items, ..PastStage::new("s".to_owned(), Digest::of(b"definition")) };
         store.record_run("r", &PastRun { stages: vec![stage] }).unwrap();
         let day = Duration::from_secs(86_400);
-        let options = |dry_run, keep_age| GarbageOptions { keep_runs: 1, keep_age, now: SystemTime::now(), dry_run };
+        let options = |dry_run, keep_age| GarbageOptions {
+            keep_runs: 1,
+            keep_age,
+            now: SystemTime::now(),
+            pack_from: 1,
+            dry_run,
+        };
         let count = || remote.objects().unwrap().len();
         let before = count();
         assert_eq!(collect_remote_garbage(&*remote, &options(true, day)).unwrap().blobs, 1);

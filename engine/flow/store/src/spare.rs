@@ -303,7 +303,8 @@ mod tests {
         let spare = Spare::of(&store, &out).path().to_owned();
         drop(store);
         let now = SystemTime::now() + Duration::from_secs(60);
-        let options = GarbageOptions { keep_runs: 1, keep_age: Duration::from_secs(3600), now, dry_run: false };
+        let options =
+            GarbageOptions { keep_runs: 1, keep_age: Duration::from_secs(3600), now, pack_from: 1, dry_run: false };
         collect_garbage(&root.path().join("store"), &options).unwrap();
         assert_eq!(contents(&spare), expected(ONE), "everything is young");
         let store = Store::open(&root.path().join("store")).unwrap();

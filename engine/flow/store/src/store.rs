@@ -5,6 +5,7 @@ use crate::durability::Durability;
 use crate::fault::{FaultPoints, NoFaults, Step};
 use crate::layout::{Area, Layout};
 use crate::locks::{TaskLock, lock_file};
+use crate::packs::Packs;
 use crate::records::{self, ActionRecord, Finished};
 use crate::remote::Remote;
 use crate::scratch::{Scratch, sweep_orphans};
@@ -34,6 +35,10 @@ pub struct Store {
     pub(crate) remote_trouble: Mutex<Option<Box<Diagnostic>>>,
     /// Blobs that the remote should have and has not.
     pub(crate) remote_lost: Mutex<BTreeSet<Digest>>,
+    /// Small files that have no file of their own.
+    pub(crate) packs: Packs,
+    /// Names that a pack has, whose bytes are damaged.
+    pub(crate) packed_lost: Mutex<BTreeSet<Digest>>,
     /// Lock that runs share, and that garbage collection holds exclusively.
     _garbage_lock: Option<File>,
 }
@@ -82,6 +87,8 @@ impl Store {
             remote: None,
             remote_trouble: Mutex::default(),
             remote_lost: Mutex::default(),
+            packs: Packs::default(),
+            packed_lost: Mutex::default(),
             _garbage_lock: Some(garbage_lock),
         })
     }
@@ -114,6 +121,8 @@ impl Store {
             remote: None,
             remote_trouble: Mutex::default(),
             remote_lost: Mutex::default(),
+            packs: Packs::default(),
+            packed_lost: Mutex::default(),
             _garbage_lock: garbage_lock,
         }))
     }
@@ -130,18 +139,18 @@ impl Store {
 
     /// Whether the task was finished once, whether or not its output is complete.
     pub fn was_finished(&self, plan: &Digest) -> bool {
-        self.read_file(&self.layout.file(Area::Done, plan)).is_some()
+        self.read_record(Area::Done, plan).is_some()
     }
 
     /// Result of a task; `None` where it is not finished or one of its records is damaged.
     pub fn finished(&self, plan: &Digest) -> Option<Finished> {
-        let action = records::decode_done(plan, &self.read_file(&self.layout.file(Area::Done, plan))?)?;
+        let action = records::decode_done(plan, &self.read_record(Area::Done, plan)?)?;
         Some(Finished { action, record: Arc::new(self.action(&action)?) })
     }
 
     /// Output of an action; `None` where it never ran or its record is damaged.
     pub fn action(&self, action: &Digest) -> Option<ActionRecord> {
-        records::decode(action, &self.read_file(&self.layout.file(Area::Actions, action))?)
+        records::decode(action, &self.read_record(Area::Actions, action)?)
     }
 
     /// Whether all blobs of a record exist with the right size. Their bytes are checked when they are read.
@@ -158,6 +167,7 @@ impl Store {
     pub fn holds_blob(&self, blob: &BlobRef) -> bool {
         fs::symlink_metadata(self.layout.file(Area::Blobs, &blob.digest))
             .is_ok_and(|metadata| metadata.is_file() && metadata.len() == blob.bytes)
+            || self.is_packed(Area::Blobs, &blob.digest)
             || self.remote_holds(&blob.digest)
     }
 
@@ -190,7 +200,8 @@ impl Store {
         let path = self.layout.file(Area::Plans, digest);
         // The folder may remember what garbage collection removed from the remote.
         self.upload(&path, document.as_bytes())?;
-        if fs::read(&path).is_ok_and(|there| there == document.as_bytes()) {
+        let there = fs::read(&path).ok().or_else(|| self.packed(Area::Plans, digest));
+        if there.is_some_and(|there| there == document.as_bytes()) {
             return Ok(());
         }
         self.write_file(&path, document.as_bytes(), Step::WriteDocument, Step::RenameDocument)
@@ -198,7 +209,7 @@ impl Store {
 
     /// Plan document; `None` where it is absent or damaged.
     pub fn document(&self, digest: &Digest) -> Option<serde_json::Value> {
-        let bytes = self.read_file(&self.layout.file(Area::Plans, digest))?;
+        let bytes = self.read_record(Area::Plans, digest)?;
         if Digest::of(&bytes) != *digest {
             return None;
         }

@@ -12,6 +12,8 @@ use std::time::{Duration, SystemTime};
 const SECONDS_PER_DAY: u64 = 86_400;
 
 /// Free space in the store; shows what would go unless `--delete` is given
+///
+/// With `--delete`, thousands of small files that stay are packed into one file for each kind.
 #[derive(Debug, Parser)]
 #[command(
     name = "gc",
@@ -41,6 +43,7 @@ impl Command for Arguments {
             keep_runs: self.keep_runs,
             keep_age: Duration::from_secs(self.keep_days.saturating_mul(SECONDS_PER_DAY)),
             now: SystemTime::now(),
+            pack_from: GarbageOptions::PACK_FROM,
             dry_run: !self.delete,
         };
         let report = match self.store.bucket() {
@@ -59,6 +62,9 @@ impl Command for Arguments {
             count(report.kept_blobs, "blob"),
             bytes(report.kept_blob_bytes),
         ))?;
+        if report.packed > 0 {
+            console.print(&format!("packed {}\n", count(report.packed, "small file")))?;
+        }
         if !self.delete {
             console.print("nothing was deleted; add `--delete` to do it\n")?;
         }

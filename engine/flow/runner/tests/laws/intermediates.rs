@@ -34,7 +34,13 @@ fn packs(store: &Store, summary: &RunSummary) -> usize {
 
 fn collected(root: &Path) -> u64 {
     let now = SystemTime::now();
-    let options = GarbageOptions { keep_runs: 3, keep_age: Duration::from_secs(86_400), now, dry_run: false };
+    let options = GarbageOptions {
+        keep_runs: 3,
+        keep_age: Duration::from_secs(86_400),
+        now,
+        pack_from: GarbageOptions::PACK_FROM,
+        dry_run: false,
+    };
     collect_garbage(root, &options).unwrap().blobs
 }
 

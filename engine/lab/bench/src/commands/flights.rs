@@ -93,8 +93,9 @@ pub fn flights(arguments: &FlightsArguments) -> Outcome {
         print(&row(*step, &figures))?;
     }
     print(&format!(
-        "dataset {:.1} MB; store and dataset together {:.1} MB on the disk\n",
+        "dataset {:.1} MB; on the disk by blocks: dataset {:.1} MB, with its store {:.1} MB\n",
         dataset_bytes as f64 / 1e6,
+        used_bytes(&[&root.join("out")]) as f64 / 1e6,
         used_bytes(&[&root.join("store"), &root.join("out")]) as f64 / 1e6
     ))
 }
@@ -125,7 +126,7 @@ fn one(diagnostic: Box<Diagnostic>) -> Refusals {
     vec![diagnostic]
 }
 
-/// Bytes of all files below some folders, each file once whatever the number of its names.
+/// Bytes of the blocks of all files and folders below some folders, each file once whatever the number of its names, as `du` counts.
 fn used_bytes(folders: &[&Path]) -> u64 {
     let mut seen = BTreeSet::new();
     let mut open: Vec<PathBuf> = folders.iter().map(|folder| (*folder).to_owned()).collect();
@@ -135,12 +136,23 @@ fn used_bytes(folders: &[&Path]) -> u64 {
             let Ok(metadata) = entry.metadata() else { continue };
             if metadata.is_dir() {
                 open.push(entry.path());
-            } else if is_new(&metadata, &mut seen) {
-                bytes += metadata.len();
+            }
+            if is_new(&metadata, &mut seen) {
+                bytes += bytes_of_blocks(&metadata);
             }
         }
     }
     bytes
+}
+
+#[cfg(unix)]
+fn bytes_of_blocks(metadata: &fs::Metadata) -> u64 {
+    512 * std::os::unix::fs::MetadataExt::blocks(metadata)
+}
+
+#[cfg(not(unix))]
+fn bytes_of_blocks(metadata: &fs::Metadata) -> u64 {
+    metadata.len()
 }
 
 #[cfg(unix)]
