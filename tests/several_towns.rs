@@ -195,6 +195,11 @@ fn towns_that_cannot_be_told_apart_or_are_not_there_are_refused() {
     );
     let said = refusal(&renamed, &["stages.dataset.splits.towns={ farr = \"test\" }"]);
     assert!(said.contains("names `farr`") && said.contains("did you mean `far`?"), "{said}");
+    let areas = "stages.dataset.splits={ by = \"area\", areas = { farr = { axis = \"x\", splits = [\"train\", \"test\"], at_m = [0.0] } } }";
+    let said = refusal(&renamed, &[areas]);
+    assert!(said.contains("`splits.areas` names `farr`") && said.contains("did you mean `far`?"), "{said}");
+    let said = refusal(&renamed, &["stages.dataset.splits={ guard_m = 5.0 }"]);
+    assert!(said.contains("a guard band has a meaning with `by = \"area\"` only"), "{said}");
     let said = refusal(&renamed, &["stages.dataset.splits.towns={ far = \"tset\" }"]);
     assert!(said.contains("`test`"), "{said}");
     let said = refusal(&renamed, &["stages.far_walkers.dt_s=0.25"]);

@@ -96,6 +96,13 @@ impl DatasetConfig {
                 hint: Some("such as `{ axis = \"x\", splits = [\"train\", \"test\"], at_m = [120.0] }`".into()),
             });
         }
+        if self.splits.has_idle_guard() {
+            return Err(ParameterError {
+                path: vec!["splits".into(), "guard_m".into()],
+                message: "a guard band has a meaning with `by = \"area\"` only".to_owned(),
+                hint: Some("remove `guard_m`, or split by area of the map".into()),
+            });
+        }
         let windows = &self.windows;
         if windows.history >= windows.size {
             return Err(ParameterError {

@@ -103,6 +103,11 @@ impl SplitShares {
         [self.train, self.val, self.test].map(|share| share / total)
     }
 
+    /// Whether a guard band is asked for where no line separates areas.
+    pub(crate) fn has_idle_guard(&self) -> bool {
+        self.by != SplitBy::Area && !is_default_guard(&self.guard_m)
+    }
+
     /// Problem of an area, in words, and the name of its town.
     pub(crate) fn area_problem(&self) -> Option<(&String, String)> {
         self.areas.iter().find_map(|(town, cut)| {

@@ -71,7 +71,18 @@ impl<'a> Experts<'a> {
         }
     }
 
+    /// Id of a flight without the weather that paired weathers add: the flight is the same in all of them.
+    fn without_weather<'t>(&self, trajectory: &'t str) -> &'t str {
+        let Some((flight, end)) = trajectory.rsplit_once('-') else { return trajectory };
+        let is_paired = self.plan.recipe.stages.iter().map(|stage| &stage.stage.properties().parameters).any(|it| {
+            let weathers = it["weathers"].as_array().into_iter().flatten();
+            it["paired_weathers"] == true && weathers.into_iter().any(|weather| weather == end)
+        });
+        if is_paired { flight } else { trajectory }
+    }
+
     fn named(&self, trajectory: &str) -> Result<(usize, usize)> {
+        let trajectory = self.without_weather(trajectory);
         let mut names = Vec::new();
         let stages = self.plan.recipe.stages.iter().enumerate();
         let flies = |stage: &RecipeStage| {

@@ -137,11 +137,14 @@ fn check_twins(facts: &[FlightFacts], places: &[usize]) -> Result<()> {
     }
 }
 
-/// Towns that a recipe gives a split are there.
+/// Towns that a recipe gives a split or areas are there.
 fn check_towns(facts: &[FlightFacts], config: &DatasetConfig) -> Result<()> {
     let known: BTreeSet<&str> = facts.iter().map(|it| it.town.as_str()).collect();
-    let Some(name) = config.splits.towns.keys().find(|name| !known.contains(name.as_str())) else { return Ok(()) };
-    let message = format!("`splits.towns` names `{name}`, but no flight is in a town of that name");
+    let splits = &config.splits;
+    let named = splits.towns.keys().map(|town| ("towns", town)).chain(splits.areas.keys().map(|town| ("areas", town)));
+    let unknown = named.into_iter().find(|(_, name)| !known.contains(name.as_str()));
+    let Some((key, name)) = unknown else { return Ok(()) };
+    let message = format!("`splits.{key}` names `{name}`, but no flight is in a town of that name");
     let refusal = Diagnostic::new("dataset-unknown-town", Fault::Recipe, message);
     let list = || known.iter().map(|it| format!("`{it}`")).collect::<Vec<_>>().join(", ");
     Err(match cosfly_diagnose::nearest_name(name, known.iter().copied()) {

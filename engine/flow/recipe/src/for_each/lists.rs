@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Field of a value that names it.
-const NAME: &str = "name";
+pub(super) const NAME: &str = "name";
 /// Field of a list with a pattern, and of its values.
 const FILES: &str = "files";
-const FILE: &str = "file";
+pub(super) const FILE: &str = "file";
 /// Longest label, characters: labels become parts of names of stages.
 const LONGEST_LABEL: usize = 60;
 
@@ -58,6 +58,11 @@ impl Lists {
 
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.0.keys().map(String::as_str)
+    }
+
+    /// All values of all lists.
+    pub(super) fn choices(&self) -> impl Iterator<Item = &Choice> {
+        self.0.values().flat_map(|(_, choices)| choices)
     }
 
     pub(super) fn places(&self) -> impl Iterator<Item = (&str, &Place)> {

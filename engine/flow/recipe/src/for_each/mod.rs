@@ -56,7 +56,9 @@ pub(crate) fn expand(root: &mut Table, directory: &Path, texts: &Texts, problems
         return None;
     }
     let made = expansion.made(&templates)?;
-    *stages = expansion.written_out(&templates, &made);
+    let mut read = BTreeSet::new();
+    *stages = expansion.written_out(&templates, &made, &mut read);
+    expansion.check_fields(&read);
     (expansion.problems.len() == known_problems).then_some(())
 }
 
@@ -157,7 +159,36 @@ impl Expansion<'_> {
         Some(all)
     }
 
-    fn written_out(&mut self, templates: &BTreeMap<String, Template>, all: &BTreeMap<String, Vec<Made>>) -> Table {
+    /// A field that no stage reads and that some values of the list lack is a mistake, such as a mistyped name. One that all
+    /// have may be idle because `--set` replaced what read it.
+    fn check_fields(&mut self, read: &BTreeSet<(String, String)>) {
+        let mut told = BTreeSet::new();
+        for choice in self.lists.choices() {
+            let fields = choice.node.as_table().into_iter().flatten();
+            for (field, entry) in fields.filter(|(field, _)| *field != lists::NAME && *field != lists::FILE) {
+                let list = &choice.list;
+                let lacks = |other: &Choice| !other.node.as_table().is_some_and(|table| table.contains_key(field));
+                let all_have = !self.lists.get(list).into_iter().flatten().any(lacks);
+                if all_have || read.contains(&(list.clone(), field.clone())) || !told.insert((list, field)) {
+                    continue;
+                }
+                let message = format!("no stage reads `{field}` of the list `{list}`");
+                let problem = self.texts.problem("recipe-unused-field", &entry.key, message);
+                let known = read.iter().filter(|(its, _)| its == list).map(|(_, field)| field.as_str());
+                self.problems.push(match nearest_name(field, known) {
+                    Some(near) => problem.hint(format!("did you mean `{near}`?")),
+                    None => problem.hint(format!("write `{{{list}.{field}}}` in a stage, or remove the field")),
+                });
+            }
+        }
+    }
+
+    fn written_out(
+        &mut self,
+        templates: &BTreeMap<String, Template>,
+        all: &BTreeMap<String, Vec<Made>>,
+        read: &mut BTreeSet<(String, String)>,
+    ) -> Table {
         let mut stages = Table::new();
         for (written, template) in templates {
             for made in &all[written] {
@@ -169,6 +200,7 @@ impl Expansion<'_> {
                         choices: &made.choices,
                         texts: self.texts,
                         problems: self.problems,
+                        read,
                     };
                     table.values_mut().for_each(|entry| filler.fill(&mut entry.node));
                     if let Some(mut inputs) = inputs {

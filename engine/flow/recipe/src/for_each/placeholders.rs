@@ -3,6 +3,7 @@
 use super::lists::{Choice, Lists};
 use crate::document::{Node, Place, Problems, Texts, Value, list};
 use cosfly_diagnose::nearest_name;
+use std::collections::BTreeSet;
 
 /// Replaces placeholders by the values chosen for one stage.
 pub(super) struct Filler<'a> {
@@ -10,6 +11,8 @@ pub(super) struct Filler<'a> {
     pub(super) choices: &'a [Choice],
     pub(super) texts: &'a Texts,
     pub(super) problems: &'a mut Problems,
+    /// Fields of lists that were read: `(list, field)`.
+    pub(super) read: &'a mut BTreeSet<(String, String)>,
 }
 
 impl Filler<'_> {
@@ -81,6 +84,8 @@ impl Filler<'_> {
                 _ => Ok(choice.node.clone()),
             });
         };
+        let first = field.split('.').next().unwrap_or_default();
+        self.read.insert((name.to_owned(), first.to_owned()));
         let mut node = &choice.node;
         for key in field.split('.') {
             match node.as_table().and_then(|table| table.get(key)) {

@@ -417,3 +417,9 @@ fn too_many_stages_and_names_that_are_taken() {
       = help: rename one of them
     "#);
 }
+
+#[test]
+fn a_field_that_no_stage_reads_is_a_mistake() {
+    let text = TOWNS.replace("walks = 3 }", "walks = 3, walk = 9, note = \"x\" }");
+    insta::assert_snapshot!(complaint(&text, &[]), @"");
+}
