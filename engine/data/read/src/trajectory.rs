@@ -55,6 +55,8 @@ pub struct PublishedFlight {
     /// Colours of the target's top and trousers in words, and whether it wears a backpack; `None` without a body, and in
     /// datasets from before the columns existed.
     pub target_clothes: Option<(String, String, bool)>,
+    /// Whether the target holds an open umbrella.
+    pub target_has_umbrella: bool,
     /// Kind of the followed body, `pedestrian` in datasets that do not state one; `None` where nobody is followed.
     pub target_kind: Option<String>,
     /// Limits of clearance (m), speed (m/s), acceleration (m/s^2), jerk (m/s^3), yaw and pitch rate (degrees/s); `None` where
@@ -110,6 +112,7 @@ impl PublishedFlight {
             target_height_m: rows.get(Trajectories::target_height_m, row)?,
             target_radius_m: rows.get(Trajectories::target_radius_m, row)?,
             target_clothes: clothes(rows, row)?,
+            target_has_umbrella: rows.get_or(Trajectories::target_has_umbrella, row, None)?.unwrap_or(false),
             target_kind: rows.get_or(Trajectories::target_kind, row, Some("pedestrian".to_owned()))?,
             limits: [
                 rows.get_or(Trajectories::limit_clearance_m, row, None)?,

@@ -1,14 +1,17 @@
 //! The space that a walking body may fill, projected into the image.
 
-use super::rows::PlacedFlight;
+use super::rows::{PlacedFlight, PlacedFrame};
 use cosfly_frames::{DVec3, Pose, real};
 
 /// A walking body reaches this far from its axis, in body heights: arms and legs swing beyond its radius.
 const REACH_PER_HEIGHT: f64 = 0.42;
+/// Highest point, in body heights: of a head while it bobs, of an umbrella.
+const TOP_PER_HEIGHT: f64 = 1.03;
+const UMBRELLA_PER_HEIGHT: f64 = 1.25;
 /// Slack of projected edges, pixels: pixels are sampled at their centres.
 pub const SLACK_PX: f64 = 1.5;
 
-/// The space a walking body may fill: an upright cylinder.
+/// The space a walking body may fill: an upright cylinder, with the umbrella.
 pub struct Body {
     /// Point on the ground between the feet, world frame, metres.
     pub feet: DVec3,
@@ -16,9 +19,21 @@ pub struct Body {
     pub height_m: f64,
     /// Radius of the trunk, metres.
     pub radius_m: f64,
+    /// Whether an open umbrella is held above it.
+    pub has_umbrella: bool,
 }
 
 impl Body {
+    /// The target of a frame.
+    pub fn of_target(flight: &PlacedFlight, frame: &PlacedFrame) -> Self {
+        Self {
+            feet: frame.target.feet_in_world,
+            height_m: flight.target_height_m,
+            radius_m: flight.target_radius_m,
+            has_umbrella: flight.target_has_umbrella,
+        }
+    }
+
     /// The point on the axis at `share` of the height.
     pub fn on_axis(&self, share: f64) -> DVec3 {
         self.feet + DVec3::Z * (share * self.height_m)
@@ -29,9 +44,10 @@ impl Body {
         const SIDES: u32 = 16;
         // A polygon around a circle is wider than it by 1 / cos(pi / sides).
         let reach = self.radius_m.max(REACH_PER_HEIGHT * self.height_m) / real::cos(real::PI / f64::from(SIDES));
+        let top = if self.has_umbrella { UMBRELLA_PER_HEIGHT } else { TOP_PER_HEIGHT };
         (0..SIDES).flat_map(move |side| {
             let (sin, cos) = real::sin_cos(real::TAU * f64::from(side) / f64::from(SIDES));
-            [-0.02, 1.03].map(|share| self.on_axis(share) + DVec3::new(reach * cos, reach * sin, 0.0))
+            [-0.02, top].map(|share| self.on_axis(share) + DVec3::new(reach * cos, reach * sin, 0.0))
         })
     }
 

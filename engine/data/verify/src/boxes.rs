@@ -20,8 +20,7 @@ pub fn box_problem(flight: &PlacedFlight, frame: &PlacedFrame) -> Option<String>
     if frame.in_view != frame.full_box_px.is_some() || (frame.visible_pixels > 0) != frame.visible_box_px.is_some() {
         return Some("flags, pixel count and boxes contradict each other".into());
     }
-    let body =
-        Body { feet: frame.target.feet_in_world, height_m: flight.target_height_m, radius_m: flight.target_radius_m };
+    let body = Body::of_target(flight, frame);
     let (width, height) = (f64::from(flight.camera.width), f64::from(flight.camera.height));
     let inside_image =
         |u: f64, v: f64| (SLACK_PX..width - SLACK_PX).contains(&u) && (SLACK_PX..height - SLACK_PX).contains(&v);

@@ -250,12 +250,7 @@ impl LogCheck<'_> {
         if self.flight.readout_s > 0.0 {
             return;
         }
-        let body = Body {
-            feet: row.target.feet_in_world,
-            height_m: self.flight.target_height_m,
-            radius_m: self.flight.target_radius_m,
-        };
-        let (near, far) = body.depths_m(&row.camera_pose);
+        let (near, far) = Body::of_target(self.flight, row).depths_m(&row.camera_pose);
         let depth_m = |at: usize| {
             image
                 .data

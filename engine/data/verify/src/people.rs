@@ -27,12 +27,13 @@ pub struct PersonRow {
     pub visible_box: [f64; 4],
     walk_id: String,
     body: [f64; 5],
+    has_umbrella: bool,
 }
 
 impl PersonRow {
     fn body(&self) -> Body {
         let [x, y, z, height_m, radius_m] = self.body;
-        Body { feet: DVec3::new(x, y, z), height_m, radius_m }
+        Body { feet: DVec3::new(x, y, z), height_m, radius_m, has_umbrella: self.has_umbrella }
     }
 }
 
@@ -108,6 +109,7 @@ impl PeopleIndex {
                     visible_box: rows.get(People::visible_box_px, row)?.map(f64::from),
                     walk_id: rows.get(People::walk_id, row)?,
                     body: [x, y, z, rows.get(People::height_m, row)?, rows.get(People::radius_m, row)?],
+                    has_umbrella: rows.get_or(People::has_umbrella, row, false)?,
                 });
             }
             Ok(())

@@ -2,6 +2,7 @@
 
 use crate::nearby::{self, NearbyBodies, NearbyPerson};
 use crate::other_drones::Formation;
+use crate::shooting::Shooting;
 use crate::walks::Person;
 use crate::world::World;
 use cosfly_diagnose::Result;
@@ -54,6 +55,15 @@ impl Crowd {
         }
         self.members.sort_by_key(|(other, _)| other.instance);
         Ok(self)
+    }
+
+    /// The same, dressed for the weather of a flight.
+    pub fn dressed_for(mut self, shooting: &Shooting) -> Self {
+        for (other, person) in &mut self.members {
+            person.dress_for(shooting);
+            other.outfit = person.outfit();
+        }
+        self
     }
 
     /// Number of people.

@@ -51,7 +51,7 @@ pub struct NearbyBodies {
 pub fn part(config: &RenderConfig, parameters: serde_json::Value, items: ItemRule) -> StagePart {
     let properties = StageProperties {
         kind: "render".into(),
-        version: 1,
+        version: 3,
         parameters,
         sources: vec![],
         inputs: vec![ports::town(), trajectories(), others()],
@@ -293,6 +293,7 @@ impl NearbyStage {
         let (camera, moments_s): (Camera, Vec<f64>) = (effects.ideal_camera(), effects.moments_s());
         let poses: Vec<Pose> = shooting.poses(trajectory);
         let track = &trajectory.track;
+        others.iter_mut().for_each(|other| other.person.dress_for(&shooting));
         let mut near = vec![];
         for (frame, target) in track.states.iter().enumerate() {
             context.check_cancelled()?;

@@ -72,7 +72,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 14,
+            version: 15,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -145,6 +145,7 @@ impl Stage for RenderStage {
         let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), &context.id.item)?;
         let preset = preset(&self.config, &context.id.item);
         let crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
+        let crowd = crowd.dressed_for(&shooting);
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
         let seen = self.draw(outputs, context, &place, &trajectory, &shooting)?;
         let notes = notes_of(&crowd, &seen.sightings);

@@ -22,6 +22,8 @@ pub struct Shooting {
     pub clothes_seed: Seed,
     /// Shape of the followed body.
     pub body: BodyShape,
+    /// Precipitation that people open umbrellas against; 0 where renderings in other weathers share the ids.
+    rain: f64,
 }
 
 impl Shooting {
@@ -41,8 +43,9 @@ impl Shooting {
         let (camera, mount) = (config.draw_camera(&walk_seed), config.draw_mount(&walk_seed));
         let looks = followed.map_or(walk_seed, |followed| followed.plan.looks);
         let clothes_seed = clothes_seed_of_target(&looks, config.target_stands_out);
-        let body = followed.map_or(BodyShape::Person, |it| BodyShape::of(it.plan.kind, it.plan.size_m));
-        Ok(Self { camera, mount, weather, clothes_seed, body })
+        let body = followed.map_or(BodyShape::default(), |it| BodyShape::of(it.plan.kind, it.plan.size_m));
+        let rain = if config.paired_weathers { 0.0 } else { weather.precipitation };
+        Ok(Self { camera, mount, body: body.in_rain(rain, &clothes_seed), weather, clothes_seed, rain })
     }
 
     /// The default camera under a clear sky, behind a person with these looks.
@@ -50,7 +53,12 @@ impl Shooting {
         let config = RenderConfig { weathers: vec!["ClearNoon".to_owned()], ..RenderConfig::default() };
         let (weather, clothes_seed) = (config.draw_weather(&looks), clothes_seed_of_target(&looks, 0.0));
         let (camera, mount) = (config.camera(), Mount::default());
-        Self { camera, mount, weather, clothes_seed, body: BodyShape::Person }
+        Self { camera, mount, weather, clothes_seed, body: BodyShape::default(), rain: 0.0 }
+    }
+
+    /// The shape of somebody else with these looks in the weather of the flight.
+    pub fn dressed(&self, body: BodyShape, looks: &Seed) -> BodyShape {
+        body.in_rain(self.rain, looks)
     }
 
     /// Poses of the camera, one per frame.

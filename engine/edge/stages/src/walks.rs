@@ -1,6 +1,7 @@
 //! People and vehicles on their tracks, by the clock of a flight.
 
 use crate::codec;
+use crate::shooting::Shooting;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{Seed, TargetState, TargetTrack};
@@ -34,7 +35,7 @@ impl Person {
             first_s: 0.0,
             comes_and_goes: false,
             seed,
-            body: BodyShape::Person,
+            body: BodyShape::default(),
         })
     }
 
@@ -45,6 +46,11 @@ impl Person {
         let first_s = f64::from(body.first_frame) * dt_s;
         let (seed, shape) = (body.plan.looks, BodyShape::of(body.plan.kind, body.plan.size_m));
         Self { walked_m: walked_m(&track.states), track, first_s, comes_and_goes: true, seed, body: shape }
+    }
+
+    /// Dresses the person for the weather of a flight.
+    pub fn dress_for(&mut self, shooting: &Shooting) {
+        self.body = shooting.dressed(self.body, &self.seed);
     }
 
     /// Body height and radius seen from above, metres.

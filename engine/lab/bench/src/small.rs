@@ -140,7 +140,7 @@ fn crowd(around: DVec3, count: u32, index: &GroundIndex) -> Vec<Bystander> {
             radius_m: random.uniform(0.24, 0.34),
             clothes_seed: Seed([6; 32]).child("clothes", u64::from(number)),
             gait_phase_rad: random.uniform(-3.1, 3.1),
-            body: cosfly_render::BodyShape::Person,
+            body: cosfly_render::BodyShape::default(),
         };
         Bystander { walker, instance: 1_000_000 + number }
     };

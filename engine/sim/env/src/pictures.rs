@@ -189,7 +189,8 @@ impl Pictures {
         ranges.clear();
         for (own, environment) in environments.iter().enumerate() {
             let start = bystanders.len();
-            bystanders.extend(self::bystanders(environment));
+            let rain = rain(format, environment);
+            bystanders.extend(self::bystanders(environment, rain));
             let others = (0..environments.len()).filter(|number| *number != own);
             bystanders.extend(others.filter_map(|number| {
                 let after = (number as u32).saturating_mul(2).saturating_add(2);
@@ -204,9 +205,9 @@ impl Pictures {
                 scene: environment.episode().place.scene(has_colours),
                 pose: environment.camera(),
                 horizontal_fov_rad: environment.settings().lens.horizontal_deg.to_radians(),
-                target: Some(target(environment)),
+                target: Some(target(environment, rain(format, environment))),
                 others: &bystanders[range.clone()],
-                weather: format.weather.as_ref().or(environment.episode().weather.as_ref()),
+                weather: weather(format, environment),
                 look: format.look,
                 figures: &[],
             })
@@ -223,18 +224,28 @@ impl Pictures {
     }
 }
 
-/// The target of an environment as it is drawn now.
-pub fn target(environment: &Environment) -> Walker {
+/// The weather of a picture of an environment.
+fn weather<'a>(format: &'a Format, environment: &'a Environment) -> Option<&'a Weather> {
+    format.weather.as_ref().or(environment.episode().weather.as_ref())
+}
+
+/// Precipitation in a picture of an environment.
+fn rain(format: &Format, environment: &Environment) -> f64 {
+    weather(format, environment).map_or(0.0, |weather| weather.precipitation)
+}
+
+/// The target of an environment as it is drawn now, in a rain.
+pub fn target(environment: &Environment, rain: f64) -> Walker {
     let episode = environment.episode();
     let (track, state) = (&episode.target, episode.target_at(environment.observation().time_s));
-    let body = episode.followed.as_ref().map_or(BodyShape::Person, |plan| BodyShape::of(plan.kind, plan.size_m));
+    let body = episode.followed.as_ref().map_or(BodyShape::default(), |plan| BodyShape::of(plan.kind, plan.size_m));
     Walker {
         state,
         height_m: track.height_m,
         radius_m: track.radius_m,
         clothes_seed: episode.looks,
         gait_phase_rad: gait_phase_rad(environment.target_covered_m(), track.height_m),
-        body,
+        body: body.in_rain(rain, &episode.looks),
     }
 }
 
@@ -261,17 +272,17 @@ fn drone(environment: &Environment) -> Option<Walker> {
 
 /// Everybody else who is there now, with ids that follow those of the town's objects: the body number `n` of traffic has the odd
 /// number `2 n + 1` after the largest; drones of a team have the even ones, `2 n + 2`.
-pub fn bystanders(environment: &Environment) -> impl Iterator<Item = Bystander> {
+pub fn bystanders(environment: &Environment, rain: f64) -> impl Iterator<Item = Bystander> {
     let episode = environment.episode();
     let largest = episode.place.largest_instance();
     episode.others.at(environment.observation().time_s).map(move |present| Bystander {
-        walker: walker(&present),
+        walker: walker(&present, rain),
         instance: largest.saturating_add(present.mover.number.saturating_mul(2).saturating_add(1)),
     })
 }
 
-/// Somebody who is there as they are drawn.
-pub fn walker(Present { mover, state, covered_m }: &Present<'_>) -> Walker {
+/// Somebody who is there as they are drawn in a rain.
+pub fn walker(Present { mover, state, covered_m }: &Present<'_>, rain: f64) -> Walker {
     let plan = &mover.plan;
     Walker {
         state: *state,
@@ -279,6 +290,6 @@ pub fn walker(Present { mover, state, covered_m }: &Present<'_>) -> Walker {
         radius_m: plan.radius_m(),
         clothes_seed: plan.looks,
         gait_phase_rad: gait_phase_rad(*covered_m, plan.size_m.z),
-        body: BodyShape::of(plan.kind, plan.size_m),
+        body: BodyShape::of(plan.kind, plan.size_m).in_rain(rain, &plan.looks),
     }
 }

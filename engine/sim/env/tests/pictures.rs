@@ -91,11 +91,11 @@ fn pictures_are_those_of_the_large_renderer_at_the_pose_of_the_environment() {
         for size in [84, 128] {
             let ours = drawn(&[environment], size, 1);
             let horizontal_fov_rad = environment.settings().lens.horizontal_deg.to_radians();
-            let others: Vec<_> = bystanders(environment).collect();
+            let others: Vec<_> = bystanders(environment, 0.0).collect();
             let setup = FrameSetup {
                 pose: environment.camera(),
                 weather: environment.episode().weather.as_ref().unwrap_or(&noon),
-                target: Some(setup_of(target(environment))),
+                target: Some(setup_of(target(environment, 0.0))),
                 others: &others,
             };
             let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad });
@@ -133,8 +133,9 @@ fn full_colours_are_those_of_the_large_renderer_in_the_weather_of_the_episode_or
             let format = Format { channels, weather: asked, look: PictureLook::Full, ..format(size) };
             let mut album = Album::new(&format, 1);
             Pictures::new(format, 1).draw(&[environment], &mut album, 0);
-            let others: Vec<_> = bystanders(environment).collect();
-            let target = Some(setup_of(target(environment)));
+            let rain = weather(shown).precipitation;
+            let others: Vec<_> = bystanders(environment, rain).collect();
+            let target = Some(setup_of(target(environment, rain)));
             let setup = FrameSetup { pose: environment.camera(), weather: &weather(shown), target, others: &others };
             let horizontal_fov_rad = environment.settings().lens.horizontal_deg.to_radians();
             let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad });

@@ -1,7 +1,8 @@
 //! What moves: a person, or a vehicle of a kind and size.
 
 use crate::clothes::Region;
-use cosfly_frames::{DVec3, real};
+use crate::umbrella;
+use cosfly_frames::{DVec3, Seed, real};
 use cosfly_maps::SemanticLabel;
 use cosfly_world::BodyKind;
 
@@ -9,11 +10,13 @@ use cosfly_world::BodyKind;
 const LARGEST_M: f64 = 60.0;
 
 /// What moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BodyShape {
     /// A person on foot.
-    #[default]
-    Person,
+    Person {
+        /// Whether the person holds an open umbrella, which is a part of the figure: see [`BodyShape::in_rain`].
+        umbrella: bool,
+    },
     /// A vehicle, with its rider where it has one, or a drone.
     Vehicle {
         /// Kind of the vehicle; a pedestrian is drawn as a car.
@@ -23,10 +26,35 @@ pub enum BodyShape {
     },
 }
 
+impl Default for BodyShape {
+    /// A person without an umbrella.
+    fn default() -> Self {
+        Self::Person { umbrella: false }
+    }
+}
+
 impl BodyShape {
     /// The shape of a body of a kind and size.
     pub fn of(kind: BodyKind, size_m: DVec3) -> Self {
-        if kind.is_person() { Self::Person } else { Self::Vehicle { kind, size_m } }
+        if kind.is_person() { Self::default() } else { Self::Vehicle { kind, size_m } }
+    }
+
+    /// The shape of somebody with these looks in the rain, followed or not: people on foot may open umbrellas.
+    pub fn in_rain(self, precipitation: f64, looks: &Seed) -> Self {
+        match self {
+            Self::Person { .. } => Self::Person { umbrella: umbrella::opens(precipitation, looks) },
+            vehicle @ Self::Vehicle { .. } => vehicle,
+        }
+    }
+
+    /// Whether a person on foot moves.
+    pub fn is_person(&self) -> bool {
+        matches!(self, Self::Person { .. })
+    }
+
+    /// Whether somebody holds an open umbrella.
+    pub fn has_umbrella(&self) -> bool {
+        matches!(self, Self::Person { umbrella: true })
     }
 
     /// CARLA's label of a region of the body. Vans are cars; riders have a label of their own; drones are dynamic things.
@@ -46,7 +74,7 @@ impl BodyShape {
     /// Half the diagonal of a vehicle's box, metres; 0 for people, whose extent every bound counts in.
     pub fn reach_m(&self) -> f64 {
         match self {
-            Self::Person => 0.0,
+            Self::Person { .. } => 0.0,
             Self::Vehicle { size_m, .. } => 0.5 * size_m.length(),
         }
     }
@@ -54,7 +82,7 @@ impl BodyShape {
     /// Height of the body, metres; `of_person` for a person.
     pub fn height_m(&self, of_person: f64) -> f64 {
         match self {
-            Self::Person => of_person,
+            Self::Person { .. } => of_person,
             Self::Vehicle { size_m, .. } => size_m.z,
         }
     }
@@ -69,7 +97,7 @@ impl BodyShape {
     /// Whether a vehicle's size is one.
     pub(crate) fn is_drawable(&self) -> bool {
         match self {
-            Self::Person => true,
+            Self::Person { .. } => true,
             Self::Vehicle { size_m, .. } => {
                 size_m.is_finite() && size_m.min_element() > 0.05 && size_m.max_element() <= LARGEST_M
             }

@@ -2,6 +2,7 @@
 
 use crate::body_shape::BodyShape;
 use crate::build::{Build, Hair};
+use crate::umbrella;
 use crate::vehicles::Livery;
 use cosfly_frames::{RandomStream, Seed};
 use cosfly_world::{Bag, BodyKind, Traits};
@@ -22,6 +23,8 @@ pub enum Region {
     Shoes,
     /// Backpack.
     Bag,
+    /// Open umbrella.
+    Umbrella,
     /// Painted sheet of a vehicle, or a painted frame.
     Paint,
     /// The box of a lorry.
@@ -44,20 +47,20 @@ pub enum Region {
 
 impl Region {
     /// Number of regions.
-    pub const COUNT: usize = 15;
+    pub const COUNT: usize = 16;
 
     /// Whether people wear it or are made of it.
     pub fn is_of_people(self) -> bool {
-        self <= Self::Bag
+        self <= Self::Umbrella
     }
 }
 
 /// Colours of a figure, linear RGB.
 #[derive(Clone, Copy, Debug)]
 pub struct Clothes {
-    /// Indexed by the first six of [`Region`].
-    pub colours: [[f32; 3]; 6],
-    /// What texts may say of them.
+    /// Indexed by the first seven of [`Region`].
+    pub colours: [[f32; 3]; 7],
+    /// What texts may say of them; no umbrella.
     pub outfit: Outfit,
     /// Bare forearms.
     pub short_sleeves: bool,
@@ -89,6 +92,8 @@ pub struct Outfit {
     pub trousers: Dye,
     /// Wears a backpack.
     pub backpack: bool,
+    /// Holds an open umbrella.
+    pub umbrella: bool,
     /// Bag, build and gait; `None` for vehicles and their riders.
     pub traits: Option<Traits>,
 }
@@ -99,10 +104,10 @@ impl Outfit {
         match body {
             BodyShape::Vehicle { kind, .. } if !matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle) => {
                 let paint = Livery::draw(seed).paint;
-                Self { top: paint, trousers: paint, backpack: false, traits: None }
+                Self { top: paint, trousers: paint, backpack: false, umbrella: false, traits: None }
             }
             BodyShape::Vehicle { .. } => Self { traits: None, ..Clothes::draw(seed).outfit },
-            BodyShape::Person => Clothes::draw(seed).outfit,
+            BodyShape::Person { umbrella } => Self { umbrella, ..Clothes::draw(seed).outfit },
         }
     }
 
@@ -241,14 +246,15 @@ impl Clothes {
             (false, false) => Bag::None,
         };
         let traits = Some(Traits { bag, build: build.body_build(), gait: build.gait() });
-        let outfit = Outfit { top, trousers, backpack, traits };
+        let outfit = Outfit { top, trousers, backpack, umbrella: false, traits };
         let head = match build.hair {
             Hair::Bald => skin,
             Hair::Cap => one_of(&mut seed.stream("cap"), tops).linear_rgb,
             Hair::Short | Hair::Long | Hair::Bun => hair,
         };
         let bag_colour = bag_cloth.linear_rgb.map(|c| 0.5 * c);
-        let colours = [skin, head, top.linear_rgb, trousers.linear_rgb, shoes, bag_colour];
+        let umbrella = umbrella::colour(seed);
+        let colours = [skin, head, top.linear_rgb, trousers.linear_rgb, shoes, bag_colour, umbrella];
         Self { colours, outfit, short_sleeves, pattern: Pattern::draw(seed, top), build }
     }
 

@@ -3,7 +3,7 @@
 use crate::body_shape::BodyShape;
 use crate::build::{Arm, Hair, head_size};
 use crate::clothes::{Clothes, Region};
-use crate::vehicles;
+use crate::{umbrella, vehicles};
 use cosfly_frames::{DVec3, Seed, TargetState, real};
 
 /// The target of one frame.
@@ -158,7 +158,7 @@ pub(crate) fn around() -> [(f64, f64); SIDES] {
 }
 
 /// Most parts of a figure.
-pub const MOST_PARTS: usize = 27;
+pub const MOST_PARTS: usize = 30;
 
 /// The parts of a figure, before it sinks to the ground: closed frustums of [`SIDES`] sides.
 pub struct FigureParts {
@@ -201,8 +201,11 @@ impl FigureParts {
             body.leg(-1.0, left, stride);
             body.leg(1.0, right, stride);
             body.arm(-1.0, right, arm_swing, Arm::Swings);
-            body.arm(1.0, left, arm_swing, build.right_arm);
+            body.arm(1.0, left, arm_swing, if walker.body.has_umbrella() { Arm::Holds } else { build.right_arm });
             body.bear(build.lean, head_size(walker.height_m));
+            if walker.body.has_umbrella() {
+                umbrella::parts().into_iter().for_each(|FigurePart { low, high, region }| body.part(low, high, region));
+            }
         }
         body.parts
     }
@@ -453,7 +456,7 @@ mod tests {
             clothes_seed: Seed([3; 32]),
             gait_phase_rad: phase,
             visible_by_rays: 1.0,
-            body: BodyShape::Person,
+            body: BodyShape::default(),
         }
     }
 

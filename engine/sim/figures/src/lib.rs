@@ -8,6 +8,7 @@ mod bounds;
 pub mod build;
 pub mod clothes;
 pub mod figure;
+mod umbrella;
 mod vehicles;
 mod wardrobe;
 

@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             radius_m: 0.16 * height_m,
             clothes_seed: seed,
             gait_phase_rad: gait_phase_rad(0.37 * f64::from(number), height_m),
-            body: BodyShape::Person,
+            body: BodyShape::default(),
         };
         others.push(Bystander { walker, instance: 90_000 + number });
     }
@@ -49,8 +49,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("close", "ClearNoon", [-4.4, -0.6, 2.2]),
         ("sunset", "ClearSunset", [-5.5, 2.5, 3.5]),
         ("drone", "CloudyNoon", [-12.0, 3.0, 9.0]),
+        ("rain", "MidRainyNoon", [-6.0, 2.0, 4.0]),
     ] {
         let weather = Weather::preset(preset).ok_or("no such preset")?;
+        for Bystander { walker, .. } in &mut others {
+            walker.body = walker.body.in_rain(weather.precipitation, &walker.clothes_seed);
+        }
         let at = |ahead: f64, aside: f64, up: f64| middle + (along * ahead + along.perp() * aside).extend(up);
         let pose = Pose::looking_at(at(back, aside, up), at(1.0, 0.0, 0.9));
         let frame = renderer.render(&scene, &FrameSetup { pose, weather: &weather, target: None, others: &others });

@@ -187,13 +187,13 @@ impl People {
     fn add(&mut self, walker: Walker, instance: u32, is_seen: bool, reach: Reach, height_px: f64, built: Built) {
         let first = self.triangles.len();
         let clothes = self.wardrobe.clothes(&walker.clothes_seed);
-        let is_person = walker.body == BodyShape::Person;
+        let is_person = walker.body.is_person();
         if built == Built::ForPicture || built == Built::ForShadow && !is_person {
             figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);
         }
         let triangles = first..self.triangles.len();
         let mut colours = match walker.body {
-            BodyShape::Person => [[0.0; 3]; Region::COUNT],
+            BodyShape::Person { .. } => [[0.0; 3]; Region::COUNT],
             BodyShape::Vehicle { .. } => Livery::draw(&walker.clothes_seed).colours(&walker.body),
         };
         colours[..clothes.colours.len()].copy_from_slice(&clothes.colours);
@@ -309,7 +309,7 @@ mod tests {
                 clothes_seed: Seed([step as u8; 32]),
                 gait_phase_rad: 1.3 * turn,
                 body: match step % 3 {
-                    0 => BodyShape::Person,
+                    0 => BodyShape::Person { umbrella: step % 2 == 0 },
                     1 => BodyShape::Vehicle { kind: BodyKind::Bus, size_m: DVec3::new(5.0, 2.5, 3.0) },
                     _ => BodyShape::Vehicle { kind: BodyKind::Bicycle, size_m: DVec3::new(1.8, 0.65, 1.75) },
                 },

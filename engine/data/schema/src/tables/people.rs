@@ -50,6 +50,8 @@ columns! { People::COLUMNS of DatasetItem;
     trousers_colour: String = |item, i| person(item, i).outfit.trousers.name.name().to_owned();
     /// Whether the person wears a backpack.
     has_backpack: bool = |item, i| person(item, i).outfit.backpack;
+    /// Whether the person holds an open umbrella, a part of the person in pixels and boxes: up to 1.25 times `height_m` high.
+    has_umbrella: bool = |item, i| person(item, i).outfit.umbrella;
     /// Bag: `none`, `backpack` or `shoulder_bag`; null for vehicles and their riders.
     bag: Option<String> = |item, i| traits(item, i).map(|it| it.bag.name().to_owned());
     /// Build: `slim`, `medium` or `stout`; null for vehicles and their riders.

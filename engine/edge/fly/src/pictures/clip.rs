@@ -45,9 +45,10 @@ fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> Sho
         clothes_seed: shooting.clothes_seed,
         gait_phase_rad: gait_phase_rad(task.episode.walked_m(line.time_s), track.height_m),
         visible_by_rays: line.visible,
-        body: shooting.body,
+        body: shooting.body.in_rain(shooting.weather.precipitation, &shooting.clothes_seed),
     };
-    let others: Vec<Bystander> = task.episode.others.at(line.time_s).map(|present| bystander(&present)).collect();
+    let rain = shooting.weather.precipitation;
+    let others: Vec<Bystander> = task.episode.others.at(line.time_s).map(|present| bystander(&present, rain)).collect();
     let setup = FrameSetup { pose: line.pose(), weather: &shooting.weather, target: Some(target), others: &others };
     let drawn = renderer.render(scene, &setup);
     let (images, view) = (drawn.images, drawn.target_view);
@@ -78,6 +79,6 @@ fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> Sho
 const FIRST_INSTANCE: u32 = 1 << 24;
 
 /// Somebody beside the target, as the renderer draws them.
-fn bystander(present: &Present<'_>) -> Bystander {
-    Bystander { walker: walker(present), instance: FIRST_INSTANCE + present.mover.number }
+fn bystander(present: &Present<'_>, rain: f64) -> Bystander {
+    Bystander { walker: walker(present, rain), instance: FIRST_INSTANCE + present.mover.number }
 }

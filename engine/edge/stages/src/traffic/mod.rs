@@ -156,7 +156,7 @@ impl Stage for BodiesStage {
         // Followed people matter here to those who are dressed like them; walks refuse names that nobody has.
         let mut followed = self.config.follow.eligible(&traffic).unwrap_or_default();
         followed.truncate(self.config.follow.count as usize);
-        let outfit = |looks: &Seed| Outfit::of(BodyShape::Person, looks);
+        let outfit = |looks: &Seed| Outfit::of(BodyShape::default(), looks);
         let traits = |looks: &Seed| outfit(looks).traits.unwrap_or(Traits::PLAIN);
         let alike = |a: &Seed, b: &Seed| outfit(a).is_like(&outfit(b));
         let seed = |name: &str| Seed(context.seed).child(name, 0);

@@ -11,7 +11,7 @@ use cosfly_render::clothes::Region;
 use cosfly_render::figure::{FigureParts, figure};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::outside::NO_FACE;
-use cosfly_render::{BodyPart, BodyShape, LEAST_HEIGHT_PX, Walker};
+use cosfly_render::{BodyPart, LEAST_HEIGHT_PX, Walker};
 
 impl Painter {
     pub(super) fn draw_people(&mut self, eye: &Eye, view: &View<'_>) {
@@ -60,7 +60,7 @@ impl Painter {
         if !self.may_show(&Around::of_box(eye, low, high)) {
             return;
         }
-        if walker.body != BodyShape::Person {
+        if !walker.body.is_person() {
             self.draw_vehicle(eye, walker, (who, instance));
             return;
         }

@@ -55,7 +55,7 @@ pub fn places(town: &Town, count: usize, people: u32) -> Vec<Place> {
             radius_m: random.uniform(0.24, 0.34),
             clothes_seed: Seed([6; 32]).child("clothes", number),
             gait_phase_rad: random.uniform(-3.1, 3.1),
-            body: cosfly_render::BodyShape::Person,
+            body: cosfly_render::BodyShape::default(),
         };
         let target = walker(feet, 0);
         let mut scatter = Seed([9; 32]).child("crowd", places.len() as u64).stream("crowd");

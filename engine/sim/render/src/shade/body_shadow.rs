@@ -233,7 +233,7 @@ mod tests {
                 radius_m: 0.3,
                 clothes_seed: Seed([number as u8; 32]),
                 gait_phase_rad: 0.9,
-                body: BodyShape::Person,
+                body: BodyShape::default(),
             };
             let clothes = Clothes::draw(&walker.clothes_seed);
             let lattice = Sun::new(Vec3::new(0.5, -0.4, 0.6).unit(), 0.0).lattice(0);

@@ -59,7 +59,7 @@ pub(super) fn run_kernels(
             let walker = &seen.people.members[*person as usize].walker;
             let feet = walker.state.feet_in_world.into();
             match walker.body {
-                BodyShape::Person => contact(level, shared, feet, walker.radius_m.clamp(0.1, 2.0) as f32),
+                BodyShape::Person { .. } => contact(level, shared, feet, walker.radius_m.clamp(0.1, 2.0) as f32),
                 BodyShape::Vehicle { size_m, .. } => {
                     let (sin, cos) = real::sin_cos(walker.state.heading_rad);
                     let half_m = 0.5 * size_m.truncate().as_vec2();

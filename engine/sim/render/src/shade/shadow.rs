@@ -17,7 +17,6 @@ use crate::shade::sun_window::Window;
 use crate::shade::sunlight::{FIGURE_SIDE, FigureShadow, Places, SOLID, figure_shadow, pack_figure, town_sunlight};
 use crate::shade::vector::Vec3;
 use crate::visibility::{Screen, Visibility};
-use cosfly_figures::BodyShape;
 use cosfly_figures::figure::{FigureParts, FigureTriangle};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
@@ -79,7 +78,7 @@ impl Shadows {
                 TARGET_INSTANCE => FIGURE_SIDE,
                 _ => by_height.map_or(0, |(_, side)| *side),
             };
-            let is_person = person.walker.body == BodyShape::Person;
+            let is_person = person.walker.body.is_person();
             let drawn = match side {
                 0 => None,
                 _ if is_person => {

@@ -33,6 +33,8 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     target_trousers_colour: Option<String> = |item, _| outfit(item).map(|it| it.trousers.name.name().to_owned());
     /// Whether the target wears a backpack.
     target_has_backpack: Option<bool> = |item, _| outfit(item).map(|it| it.backpack);
+    /// Whether the target holds an open umbrella, a part of the target in pixels and boxes: up to 1.25 times `target_height_m` high.
+    target_has_umbrella: Option<bool> = |item, _| outfit(item).map(|it| it.umbrella);
     /// The target's bag: `none`, `backpack` or `shoulder_bag`; null for vehicles and their riders.
     target_bag: Option<String> = |item, _| traits(item).map(|it| it.bag.name().to_owned());
     /// The target's build: `slim`, `medium` or `stout`; null for vehicles and their riders.
