@@ -1,6 +1,6 @@
 //! Composition of goals: claims that were picked, put into words of both languages.
 
-use super::claim::{Claim, Passed, Said, Subject};
+use super::claim::{Claim, Said, Subject};
 use super::course::Course;
 use super::{chinese, english, pick, steps};
 use crate::facts::Wear;
@@ -11,6 +11,9 @@ use crate::wording::one_of;
 use cosfly_random::{RandomStream, Seed};
 use cosfly_render::Colour;
 use std::ops::Range;
+
+/// A move within so many frames of the end of a crossing is `after the crossing`.
+const RIGHT_AFTER_FRAMES: usize = 10;
 
 /// Kind of goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,7 +79,8 @@ pub(super) struct Wording {
     pub steps: &'static [&'static str],
     pub keeps: &'static [&'static str],
     pub predicate: fn(&Said, &mut RandomStream) -> String,
-    pub anchored: fn(&Passed, &str, &mut RandomStream) -> String,
+    /// A move right after a claim that [`is_anchor`].
+    pub anchored: fn(&Claim, &str, &mut RandomStream) -> String,
     /// Two things of which none is said to be the first, and things in order of time.
     pub both: fn(&str, &str, &mut RandomStream) -> String,
     pub joined: fn(&[String], &mut RandomStream) -> String,
@@ -162,9 +166,9 @@ fn predicates(said: &[Said], wording: &Wording, words: &mut RandomStream) -> Vec
     while at < told.len() {
         let is_move = |it: &&Said| matches!(it.claim, Claim::Turns(_));
         match (&told[at].claim, told.get(at + 1)) {
-            (Claim::Passes(passed), Some(next)) if is_move(next) && next.frames.start >= told[at].frames.end => {
+            (claim, Some(next)) if is_anchor(told[at], next) && is_move(next) => {
                 let action = (wording.predicate)(next, words);
-                parts.push(((wording.anchored)(passed, &action, words), told[at].frames.start..next.frames.end));
+                parts.push(((wording.anchored)(claim, &action, words), told[at].frames.start..next.frames.end));
                 at += 2;
             }
             _ => {
@@ -174,6 +178,16 @@ fn predicates(said: &[Said], wording: &Wording, words: &mut RandomStream) -> Vec
         }
     }
     parts
+}
+
+/// Whether what is next is told by something before it: the last of some landmarks, or a crossing right before.
+fn is_anchor(said: &Said, next: &Said) -> bool {
+    let after = next.frames.start.checked_sub(said.frames.end);
+    match said.claim {
+        Claim::Passes(_) => after.is_some(),
+        Claim::Crosses => after.is_some_and(|frames| frames <= RIGHT_AFTER_FRAMES),
+        _ => false,
+    }
 }
 
 fn dialogue(

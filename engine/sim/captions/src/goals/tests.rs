@@ -22,7 +22,7 @@ fn tree(object_id: u32, x: f64, y: f64) -> Obstacle {
 
 /// Three trees on the left of a walk east.
 fn town() -> Landmarks {
-    Landmarks::of(&[tree(1, 6.0, -3.0), tree(2, 14.0, -3.0), tree(3, 22.0, -3.0)])
+    Landmarks::among(&[tree(1, 6.0, -3.0), tree(2, 14.0, -3.0), tree(3, 22.0, -3.0)], &[])
 }
 
 /// East for 30 m, then 4 s still, then south for 24 m.
