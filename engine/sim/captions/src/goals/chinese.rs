@@ -19,7 +19,7 @@ pub(super) const WORDING: Wording = Wording {
     keeps: KEEPS,
     predicate,
     anchored,
-    both,
+    together,
     joined,
     finished,
     target,
@@ -52,7 +52,7 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
                 "在原地站了约{s}秒",
                 "停下脚步，等了约{s}秒",
                 "站住不动约{s}秒",
-                "停下约{s}秒再走",
+                "停下约{s}秒",
             ],
         )
         .replace("{s}", &seconds.to_string()),
@@ -140,12 +140,7 @@ fn anchored(claim: &Claim, action: &str, words: &mut RandomStream) -> String {
             "走过斑马线后面{side}第{n}{t}，再{a}",
         ]
     } else {
-        &[
-            "过了{side}第{n}{t}再{a}",
-            "走过{side}第{n}{t}后{a}",
-            "经过{side}第{n}{t}之后{a}",
-            "走到{side}第{n}{t}，过去以后{a}",
-        ]
+        &["过了{side}第{n}{t}再{a}", "走过{side}第{n}{t}后{a}", "经过{side}第{n}{t}之后{a}"]
     };
     let pattern = one_of(words, patterns);
     let (measure, thing) = thing(passed.kind);
@@ -161,7 +156,7 @@ fn lost(behind: Option<Hider>, seconds: u32, found: bool, words: &mut RandomStre
             "走到{h}后面，约{s}秒后重新露面",
             "消失在{h}后面，过了约{s}秒才出来",
             "被{h}遮住约{s}秒，随后重新出现",
-            "让{h}整个挡住约{s}秒",
+            "被{h}整个挡住约{s}秒",
         ],
         (Some(_), false) => {
             &["走到{h}后面，再也没出现", "被{h}完全挡住，直到最后也没露面", "消失在{h}后面，没有再出来"]
@@ -172,9 +167,13 @@ fn lost(behind: Option<Hider>, seconds: u32, found: bool, words: &mut RandomStre
     one_of(words, patterns).replace("{h}", behind.map_or("", hider_words)).replace("{s}", &seconds.to_string())
 }
 
-/// Two things in no order of time.
-fn both(one: &str, two: &str, words: &mut RandomStream) -> String {
-    one_of(words, &["{1}，{2}", "{1}，其间{2}", "{1}，中途{2}"]).replace("{1}", one).replace("{2}", two)
+/// Things that overlap in time, with one word for that at most.
+fn together(parts: &[String], words: &mut RandomStream) -> String {
+    match parts {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first, rest @ ..] => format!("{first}{}{}", one_of(words, &["，", "，途中", "，其间"]), rest.join("，")),
+    }
 }
 
 fn joined(parts: &[String], words: &mut RandomStream) -> String {

@@ -81,8 +81,8 @@ pub(super) struct Wording {
     pub predicate: fn(&Said, &mut RandomStream) -> String,
     /// A move right after a claim that [`is_anchor`].
     pub anchored: fn(&Claim, &str, &mut RandomStream) -> String,
-    /// Two things of which none is said to be the first, and things in order of time.
-    pub both: fn(&str, &str, &mut RandomStream) -> String,
+    /// Several things that overlap in time, and things in order of time.
+    pub together: fn(&[String], &mut RandomStream) -> String,
     pub joined: fn(&[String], &mut RandomStream) -> String,
     pub finished: fn(&str, &str, &str) -> String,
     pub target: fn(&Wear, &mut RandomStream) -> String,
@@ -144,17 +144,17 @@ fn sentence(plan: &Plan, wording: &Wording, words: &mut RandomStream) -> String 
 
 /// Things in order of time; those that overlap are told as one.
 fn told_in_order(parts: Vec<(String, Range<usize>)>, wording: &Wording, words: &mut RandomStream) -> String {
-    let mut told: Vec<(String, usize)> = vec![];
+    let mut groups: Vec<(Vec<String>, usize)> = vec![];
     for (text, frames) in parts {
-        match told.last_mut() {
-            Some((before, end)) if frames.start < *end => {
-                *before = (wording.both)(before, &text, words);
+        match groups.last_mut() {
+            Some((texts, end)) if frames.start < *end => {
+                texts.push(text);
                 *end = (*end).max(frames.end);
             }
-            _ => told.push((text, frames.end)),
+            _ => groups.push((vec![text], frames.end)),
         }
     }
-    let told: Vec<String> = told.into_iter().map(|(text, _)| text).collect();
+    let told: Vec<String> = groups.iter().map(|(texts, _)| (wording.together)(texts, words)).collect();
     (wording.joined)(&told, words)
 }
 

@@ -20,7 +20,7 @@ pub(super) const WORDING: Wording = Wording {
     keeps: KEEPS,
     predicate,
     anchored,
-    both,
+    together,
     joined,
     finished,
     target,
@@ -248,9 +248,14 @@ fn in_seconds(pattern: &str, seconds: u32) -> String {
     pattern.replace("{s}", &if seconds == 1 { "1 second".to_owned() } else { format!("{seconds} seconds") })
 }
 
-/// Two things in no order of time.
-fn both(one: &str, two: &str, _words: &mut RandomStream) -> String {
-    format!("{one} and {two}")
+/// Things that overlap in time, as a list.
+fn together(parts: &[String], _words: &mut RandomStream) -> String {
+    match parts {
+        [] => String::new(),
+        [one] => one.clone(),
+        [one, two] if !one.contains(" and ") => format!("{one} and {two}"),
+        [most @ .., last] => format!("{}, and {last}", most.join(", ")),
+    }
 }
 
 /// What they do, joined. `first` is left out: the base form has no place for it.
