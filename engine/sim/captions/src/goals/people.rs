@@ -96,7 +96,9 @@ fn passing(
         let is_turned = if manner == Manner::Towards { turned_deg >= AGAINST_DEG } else { turned_deg <= WITH_DEG };
         is_turned && it.state.speed_mps >= WALKS_MPS && state.speed_mps >= WALKS_MPS
     };
-    let around = &seen[at.saturating_sub(1)..(at + 3).min(seen.len())];
+    // People who go the same way pass one another slowly.
+    let more = if manner == Manner::FromAhead { 6 } else { 1 };
+    let around = &seen[at.saturating_sub(more)..(at + 2 + more).min(seen.len())];
     let is_through = around.first().is_some_and(|it| ahead_m(it) >= PASSES_M)
         && around.last().is_some_and(|it| ahead_m(it) <= -PASSES_M);
     let frames = seen[at].frame..seen[at + 1].frame + 1;
