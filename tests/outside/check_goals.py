@@ -57,8 +57,8 @@ class Town:
 
 
 class Flight:
-    def __init__(self, row, frames, people, town):
-        self.row, self.town, self.people = row, town, people
+    def __init__(self, row, frames, people, town, crossings):
+        self.row, self.town, self.people, self.crossings = row, town, people, crossings
         frames = sorted(frames, key=lambda it: it["frame"])
         column = lambda name: np.array([it[name] for it in frames])
         self.feet = np.stack([column(f"target_{axis}_m") for axis in "xyz"], 1)
@@ -141,6 +141,41 @@ class Flight:
                     seen[it["instance"]] += 1
         return sum(times >= 0.5 * (end - start) for times in seen.values()) == count
 
+    def on_crossing(self, frame):
+        """Whether the target stands on a marked crossing, by the number of its sides that a ray along x meets."""
+        x, y, z = self.feet[frame]
+        for row in self.crossings:
+            corners = list(zip(row["outline_x_m"], row["outline_y_m"]))
+            if abs(np.mean(row["outline_z_m"]) - z) > 1.5:
+                continue
+            sides = zip(corners, corners[1:] + corners[:1])
+            if sum((a[1] > y) != (b[1] > y) and x < a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) for a, b in sides) % 2:
+                return True
+        return False
+
+    def crosses(self, start, end):
+        """On a crossing in these frames and neither before nor after, and far enough to be on the other side of the street."""
+        around = [self.on_crossing(frame) for frame in (start - 1, end) if 0 <= frame < self.count]
+        way = np.hypot(*(self.feet[end - 1, :2] - self.feet[start, :2]))
+        return all(map(self.on_crossing, range(start, end))) and len(around) == 2 and not any(around) and way >= 5.0
+
+    def is_passed(self, kind, top, ways, turned_by, start, end, reach=3.6):
+        """Whether somebody goes from ahead to behind the target (ways 1), or from behind to ahead (-1), between two frames."""
+        for it in self.people.get(start, []):
+            later = next((its for its in self.people.get(end - 1, []) if its["instance"] == it["instance"]), None)
+            if it["kind"] != kind or top not in (None, it["top_colour"]) or later is None:
+                continue
+            ahead, aside = [], []
+            for frame, body in ((start, it), (end - 1, later)):
+                heading = np.radians(self.heading[frame])
+                way = np.array(body["feet_in_world_m"][:2]) - self.feet[frame, :2]
+                ahead.append(ways * way @ [np.cos(heading), np.sin(heading)])
+                aside.append(abs(way @ [-np.sin(heading), np.cos(heading)]))
+            turned_deg = abs(turned(it["heading_deg"], self.heading[start]))
+            if ahead[0] > 0 >= ahead[1] and max(aside) <= reach and turned_by[0] <= turned_deg <= turned_by[1]:
+                return True
+        return False
+
     def meets(self, top, start, end):
         for it in self.people.get(start, []):
             later = next((its for its in self.people.get(end - 1, []) if its["instance"] == it["instance"]), None)
@@ -176,7 +211,16 @@ class Flight:
             around = [still[frame] for frame in (start - 1, end) if 0 <= frame < self.count]
             return still[frames].all() and not any(around) and abs((end - start) * self.dt - int(rest[0])) <= 0.51
         if name == "passes":
-            return self.passes(rest[0], rest[1], int(rest[2]), start, end)
+            is_after = rest[3:] != ["after_crossing"] or self.on_crossing(start - 1) and not any(map(self.on_crossing, range(start, end)))
+            return is_after and self.passes(rest[0], rest[1], int(rest[2]), start, end)
+        if name == "crosses":
+            return self.crosses(start, end)
+        if name == "overtakes":
+            return self.is_passed("pedestrian", rest[0], 1, (0, 40), start, end)
+        if name == "meets_vehicle":
+            return self.is_passed(rest[0], None, 1, (140, 180), start, end, 8.5)
+        if name == "overtaken_by":
+            return self.is_passed(rest[0], None, -1, (0, 40), start, end, 8.5)
         if name == "lost":
             behind, seconds, end_of = rest
             hidden = (self.pixels[frames] == 0).all() and all(self.pixels[frame] > 0 for frame in (start - 1, end) if 0 <= frame < self.count)
@@ -209,7 +253,7 @@ class Flight:
         return found
 
 
-SUBJECTS = {"wears": "clothes", "distance": "distance", "turns": "turn", "turns_in_all": "turn", "no_turn": "turn", "stops": "stop", "stands": "stop", "passes": "landmark", "lost": "sight", "partly_hidden": "sight", "walks_with": "people", "meets": "people"}
+SUBJECTS = {"wears": "clothes", "distance": "distance", "turns": "turn", "turns_in_all": "turn", "no_turn": "turn", "stops": "stop", "stands": "stop", "passes": "landmark", "lost": "sight", "partly_hidden": "sight", "walks_with": "people", "meets": "people", "overtakes": "people", "crosses": "landmark", "meets_vehicle": "vehicles", "overtaken_by": "vehicles"}
 
 
 def judge(goal, flight, wrong, counts):
@@ -281,7 +325,10 @@ def check(folder, texts):
         frames[row["trajectory_id"]].append(row)
     for row in table("people", ["trajectory_id", "frame", "instance", "kind", "feet_in_world_m", "heading_deg", "speed_mps", "top_colour", "trousers_colour", "visible_pixels"]):
         people[row["trajectory_id"]][row["frame"]].append(row)
-    flights = {row["trajectory_id"]: Flight(row, frames[row["trajectory_id"]], people[row["trajectory_id"]], towns[row["town"]]) for row in table("trajectories")}
+    crossings = defaultdict(list)
+    for row in table("crossings"):
+        crossings[row["trajectory_id"]].append(row)
+    flights = {row["trajectory_id"]: Flight(row, frames[row["trajectory_id"]], people[row["trajectory_id"]], towns[row["town"]], crossings[row["trajectory_id"]]) for row in table("trajectories")}
     goals, wrong, counts, skeletons = table("goals"), [], Counter(), defaultdict(Counter)
     for goal in goals:
         judge(goal, flights[goal["trajectory_id"]], wrong, counts)

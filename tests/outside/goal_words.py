@@ -41,7 +41,11 @@ def english(text, is_pilot):
     it = Reader(text.lower().replace("’", "'"))
     colour, hider, thing = any_of(COLOURS), any_of(EN_HIDERS), any_of(EN_THINGS)
     seconds = r"about (\d+) seconds?"
+    it.take(rf"(?:overtake|catch up with|get ahead of) someone in an? {colour} top(?: and walk past them| who is going the same way)?", lambda m: ("overtakes", m[1]))
     it.take(rf"someone in an? {colour} top", lambda m: ("meets", m[1]))
+    it.take(rf"meet {hider} coming the other way|pass {hider} that comes towards them", lambda m: ("meets_vehicle", EN_HIDERS[m[1] or m[2]]))
+    it.take(rf"overtaken by {hider}|passed by {hider} from behind", lambda m: ("overtaken_by", EN_HIDERS[m[1] or m[2]]))
+    it.take(r"(?:to the other side of the street )?(?:at|by|over|after) a (?:zebra|pedestrian) crossing(?: to the other side)?", lambda m: ("crosses",))
     it.take(rf"an? {colour} top(?: and|, with) {colour} trousers", lambda m: ("wears", m[1], m[2]))
     it.take(rf"{colour} trousers and an? {colour} top", lambda m: ("wears", m[2], m[1]))
     if is_pilot:
@@ -57,7 +61,10 @@ def english(text, is_pilot):
     it.take(rf"(?:leave the picture|drop out of the frame|out of the picture|walk out of shot)(?: and come back after| for) {seconds}", lambda m: ("lost", "outside", m[1], "found"))
     it.take(rf"(?:partly hidden by|half covered by|only partly visible behind) {hider}", lambda m: ("partly_hidden", EN_HIDERS[m[1]]))
     count = any_of([*EN_NUMBERS, *ORDINALS])
-    it.take(rf"\b{count} {thing}s? on (?:the|their) (left|right)", lambda m: ("passes", EN_THINGS[m[2]], m[3], str(EN_NUMBERS.get(m[1], ORDINALS.get(m[1])))))
+    passes = lambda m: ("passes", EN_THINGS[m[2]], m[3], str(EN_NUMBERS.get(m[1], ORDINALS.get(m[1]))))
+    it.take(rf"over the crossing and past the {count} {thing} on the (left|right)", lambda m: (*passes(m), "after_crossing"))
+    it.take(rf"\b{count} {thing}s? on (?:the|their) (left|right)(?: after the crossing| once they are over the crossing|, counted from the crossing)", lambda m: (*passes(m), "after_crossing"))
+    it.take(rf"\b{count} {thing}s? on (?:the|their) (left|right)", passes)
     it.take(r"walk (?:beside|along with|side by side with|together with) (?:(someone else)|(\w+) others)", lambda m: ("walks_with", "1" if m[1] else str(EN_NUMBERS[m[2]])))
     it.take(r"(\d+) (?:times|turns)", lambda m: ("turns_in_all", m[1]))
     it.take(r"sharp turns?|without turning off|never turn off", lambda m: ("no_turn",))
@@ -76,8 +83,11 @@ def english(text, is_pilot):
 def chinese(text, is_pilot):
     it = Reader(text)
     colour, hider, thing = any_of(ZH), any_of(ZH_HIDERS), any_of(ZH_THINGS)
+    it.take(rf"(?:超过|赶上)前面一个穿{colour}上衣的人(?:并超了过去)?|从一个穿{colour}上衣的人身旁超过去", lambda m: ("overtakes", ZH[m[1] or m[2]]))
+    it.take(rf"迎面遇上{hider}|(?:迎面|对面)过来的{hider}", lambda m: ("meets_vehicle", ZH_HIDERS[m[1] or m[2]]))
+    it.take(rf"被{hider}从后面超过|后面来的{hider}超", lambda m: ("overtaken_by", ZH_HIDERS[m[1] or m[2]]))
     it.take(rf"穿{colour}上衣的人(?=擦肩|错身|，|。|；|#)|(?<=遇上一个)穿{colour}上衣的人", lambda m: ("meets", ZH[m[1] or m[2]]) if "迎面" in text or "对面" in text else [("wears", ZH[m[1] or m[2]])])
-    it.take(rf"{colour}上衣(?:和|、下身|配|、){colour}裤子|(?<=穿){colour}上衣、{colour}裤子", lambda m: ("wears", ZH[m[1] or m[3]], ZH[m[2] or m[4]]))
+    it.take(rf"{colour}上衣(?:和|、下身|、下穿|配|、){colour}裤子|(?<=穿){colour}上衣、{colour}裤子", lambda m: ("wears", ZH[m[1] or m[3]], ZH[m[2] or m[4]]))
     it.take(rf"{colour}裤子、{colour}上衣", lambda m: ("wears", ZH[m[2]], ZH[m[1]]))
     it.take(rf"上衣是{colour}，裤子是{colour}", lambda m: ("wears", ZH[m[1]], ZH[m[2]]))
     if is_pilot:
@@ -91,7 +101,10 @@ def chinese(text, is_pilot):
     it.take(r"离开画面约(\d+)秒|走出画面，约(\d+)秒|出画约(\d+)秒", lambda m: ("lost", "outside", m[1] or m[2] or m[3], "found"))
     it.take(rf"被{hider}(?:挡住大半|遮去大半)|从{hider}后面走过", lambda m: ("partly_hidden", ZH_HIDERS[m[1] or m[2]]))
     number = "([零一二三四五六七八九十两])"
-    it.take(rf"(左|右)(?:边|手边|侧)的?第?{number}{thing}", lambda m: ("passes", ZH_THINGS[m[3]], {"左": "left", "右": "right"}[m[1]], str(ZH_NUMBERS[m[2]])))
+    passes = lambda m: ("passes", ZH_THINGS[m[3]], {"左": "left", "右": "right"}[m[1]], str(ZH_NUMBERS[m[2]]))
+    it.take(rf"过[了完]?斑马线(?:后面|后，走过|，再过|后经过|后走过|又路过)(左|右)(?:边|手边|侧)的?第?{number}{thing}", lambda m: (*passes(m), "after_crossing"))
+    it.take(rf"(左|右)(?:边|手边|侧)的?第?{number}{thing}", passes)
+    it.take(r"(?:走|走过一道|过[了完]|沿)斑马线(?:过马路|走到马路对面)?|从人行横道过马路", lambda m: ("crosses",))
     it.take(rf"(?:和|跟|与|同)(?:另一个人|另外{number}个人)(?:走在一起|并肩|结伴|一块儿)", lambda m: ("walks_with", str(ZH_NUMBERS[m[1]]) if m[1] else "1"))
     it.take(rf"(?:拐了|转了|转弯)(?:{number}|(\d+))次", lambda m: ("turns_in_all", str(ZH_NUMBERS[m[1]]) if m[1] else m[2]))
     it.take(r"没有急转弯|没拐急弯", lambda m: ("no_turn",))

@@ -2,7 +2,7 @@
 
 use crate::losses::Loss;
 use crate::phrases::is_clear;
-use crate::{OtherPerson, RenderedTrajectory};
+use crate::{OtherPerson, RenderedTrajectory, Sighting};
 use cosfly_captions::Wear;
 use cosfly_captions::goals::{Course, Flight, Goal, Hidden, Hider, Neighbour, Sample, goals};
 use cosfly_captions::sight::Landmarks;
@@ -42,6 +42,7 @@ fn flight<'a>(record: &'a RenderedTrajectory, outfit: &Outfit, losses: &[Loss], 
         hiders: ids.into_iter().filter_map(|id| hider(record, landmarks, id).map(|it| (id, it))).collect(),
         hidden,
         neighbours: neighbours(record),
+        vehicles: vehicles(record),
     }
 }
 
@@ -89,13 +90,22 @@ fn hider(record: &RenderedTrajectory, landmarks: &Landmarks, instance: u32) -> O
     landmarks.kind_of(object).map(Hider::Object)
 }
 
+/// Frames that show another body.
+fn samples(record: &RenderedTrajectory, place: usize) -> Vec<Sample> {
+    let own = record.sightings.iter().filter(|it| it.person as usize == place);
+    let sample =
+        |it: &Sighting| Sample { frame: it.frame as usize, state: it.state, is_clear: it.view.pixels >= CLEAR_PIXELS };
+    own.map(sample).collect()
+}
+
 fn neighbours(record: &RenderedTrajectory) -> Vec<Neighbour> {
-    let samples = |place: usize| -> Vec<Sample> {
-        let own = record.sightings.iter().filter(|it| it.person as usize == place);
-        own.map(|it| Sample { frame: it.frame as usize, state: it.state, is_clear: it.view.pixels >= CLEAR_PIXELS })
-            .collect()
-    };
     let is_walker = |it: &(usize, &OtherPerson)| it.1.kind == BodyKind::Pedestrian;
     let others = record.others.iter().enumerate().filter(is_walker);
-    others.map(|(place, it)| Neighbour { wear: Wear::from(&it.outfit), samples: samples(place) }).collect()
+    others.map(|(place, it)| Neighbour { wear: Wear::from(&it.outfit), samples: samples(record, place) }).collect()
+}
+
+fn vehicles(record: &RenderedTrajectory) -> Vec<(BodyKind, Vec<Sample>)> {
+    let is_vehicle = |it: &(usize, &OtherPerson)| !matches!(it.1.kind, BodyKind::Pedestrian | BodyKind::Drone);
+    let others = record.others.iter().enumerate().filter(is_vehicle);
+    others.map(|(place, it)| (it.kind, samples(record, place))).collect()
 }

@@ -37,7 +37,7 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
     inputs.extend([ports::group(logs::port()), group_splits::port()]);
     let properties = StageProperties {
         kind: "dataset".into(),
-        version: 4,
+        version: 5,
         parameters: serde_json::json!({
             "windows": canonical["windows"],
             "frames_per_file": canonical["frames_per_file"],
@@ -148,7 +148,7 @@ impl GroupSource for Gathered<'_> {
 
     fn landmarks(&self, index: usize) -> Result<Arc<Landmarks>> {
         self.inputs.decoded(self.flights[index].frames, TOWN_BLOB, |bytes| {
-            codec::decode(TOWN, bytes).map(|town: Town| Landmarks::of(&town.obstacles))
+            codec::decode(TOWN, bytes).map(|town: Town| Landmarks::of(&town))
         })
     }
 

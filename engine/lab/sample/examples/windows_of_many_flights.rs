@@ -23,7 +23,7 @@ fn main() {
     let output = BufWriter::new(File::create(path).expect("the file can be written"));
     let mut writer = TableWriter::new(&table, output).expect("a new file can be written");
     let layout = Arc::new(TownLayout::of(&sample::town()));
-    let landmarks = Arc::new(Landmarks::of(&sample::town().obstacles));
+    let landmarks = Arc::new(Landmarks::of(&sample::town()));
     let patterns = [Role::Expert, Role::Perturbed].map(|role| sample::flight(0, role));
     for pair in 0..PAIRS {
         let expert = long_flight(&patterns[0].record, pair, 0.0);

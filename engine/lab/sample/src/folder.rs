@@ -66,7 +66,7 @@ impl GroupSource for Flights {
     }
 
     fn landmarks(&self, _: usize) -> Result<Arc<Landmarks>> {
-        Ok(Arc::new(Landmarks::of(&town().obstacles)))
+        Ok(Arc::new(Landmarks::of(&town())))
     }
 
     fn previews(&self, index: usize) -> Result<PreviewStrip> {

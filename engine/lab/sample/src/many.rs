@@ -44,7 +44,7 @@ impl ManyFlights {
         let preview = |pack: &Vec<u8>| FramePackReader::new(Cursor::new(pack))?.preview_strip();
         let previews = packs.iter().map(preview).collect::<Result<_>>()?;
         let layout = Arc::new(TownLayout::of(&town()));
-        Ok(Self { samples, packs, previews, layout, landmarks: Arc::new(Landmarks::of(&town().obstacles)), count })
+        Ok(Self { samples, packs, previews, layout, landmarks: Arc::new(Landmarks::of(&town())), count })
     }
 
     /// Number of flights.

@@ -73,7 +73,7 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
     let Some(wear) = wear else { return who.to_owned() };
     let (top, trousers) = (wear.top.name(), wear.trousers.name());
     let article = article(top);
-    let backpack = if wear.backpack { one_of(words, &[" with a backpack", " carrying a backpack"]) } else { "" };
+    let backpack = if wear.backpack { one_of(words, &[" with a backpack", " and carrying a backpack"]) } else { "" };
     let pattern = one_of(
         words,
         &[
@@ -82,7 +82,6 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
             "dressed in # {} top and % trousers",
             "in % trousers and # {} top",
             "wearing % trousers and # {} top",
-            "with # {} top and % trousers",
             "who wears # {} top and % trousers",
             "who is wearing # {} top and % trousers",
             "dressed in % trousers and # {} top",
@@ -128,7 +127,7 @@ fn route(facts: &Facts, words: &mut RandomStream) -> String {
                 1 => format!("starts walking, turns {turns}, and then {ending}."),
                 2 => format!("turns {turns} and {ending}."),
                 3 => format!("moves off, later turns {turns}, and {ending}."),
-                _ => format!("goes ahead at first, turns {turns}, and {ending}."),
+                _ => format!("walks straight on at first, turns {turns}, and {ending}."),
             }
         }
         count => {
@@ -177,7 +176,7 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "They do not pause anywhere.",
                 "Not a single stop is made.",
                 "They keep moving without a pause.",
-                "No pause interrupts the walk.",
+                "They walk without a pause.",
                 "They walk without a break.",
                 "They don't stop once.",
                 "There isn't a single pause.",
@@ -234,17 +233,16 @@ fn length(facts: &Facts, words: &mut RandomStream) -> String {
         words,
         &[
             "The walk covers about {w} m in about {t} seconds, at about {s} m/s.",
-            "The route is about {w} m long, takes about {t} seconds and is walked at about {s} m/s.",
-            "About {w} m are walked in about {t} seconds, at about {s} m/s.",
+            "The route is about {w} m long and takes about {t} seconds; the pace is about {s} m/s.",
+            "They walk about {w} m in about {t} seconds, at about {s} m/s.",
             "In about {t} seconds they cover about {w} m, at about {s} m/s.",
             "At about {s} m/s, the route of about {w} m takes about {t} seconds.",
             "The path measures about {w} m; at about {s} m/s it takes about {t} seconds.",
             "Walking at about {s} m/s, they cover about {w} m in about {t} seconds.",
             "It takes about {t} seconds to walk about {w} m, at a pace of about {s} m/s.",
-            "They walk about {w} m in about {t} seconds, at about {s} m/s.",
             "The whole walk of about {w} m takes about {t} seconds, at about {s} m/s.",
             "It is a walk of about {w} m; it takes about {t} seconds at about {s} m/s.",
-            "In about {t} seconds, about {w} m are covered, at a pace of about {s} m/s.",
+            "In about {t} seconds they cover about {w} m, at a pace of about {s} m/s.",
             "At a pace of about {s} m/s they walk about {w} m in about {t} seconds.",
             "Their route of about {w} m takes them about {t} seconds, at about {s} m/s.",
             "They need about {t} seconds for the route of about {w} m and walk at about {s} m/s.",

@@ -14,7 +14,7 @@ pub(crate) const CALLS: &[&str] = &[
     "film the {who}",
     "keep the {who} in view",
     "keep the {who} in frame",
-    "hold the {who} in shot",
+    "keep the {who} in shot",
     "keep your camera on the {who}",
     "keep sight of the {who}",
 ];
@@ -28,9 +28,8 @@ pub(crate) const KEEPS: &[&str] = &[
     "remain about {d} m off",
     "keep to a range of about {d} m",
     "fly about {d} m away",
-    "let about {d} m lie between you",
+    "leave about {d} m between you",
     "keep your distance at about {d} m",
-    "hover no nearer and no farther than about {d} m away",
     "stay back by about {d} m",
 ];
 pub(crate) const FROM: &[&str] = &[
@@ -52,19 +51,18 @@ pub(crate) const LOOKS: &[&str] = &[
     "pitch the gimbal {v} by about {p} degrees",
     "aim {v} at about {p} degrees",
     "set the camera about {p} degrees {v}",
-    "let the lens face {v} at about {p} degrees",
-    "keep the view about {p} degrees {v}",
+    "point the lens {v} at about {p} degrees",
 ];
 pub(crate) const WITH: &[&str] = &[
     "looking {v} at about {p} degrees",
-    "camera pointing {v} at about {p} degrees",
+    "with the camera pointing {v} at about {p} degrees",
     "with the camera tilted {v} by about {p} degrees",
-    "the lens angled about {p} degrees {v}",
-    "camera pitched {v} by about {p} degrees",
+    "with the lens angled about {p} degrees {v}",
+    "with the camera pitched {v} by about {p} degrees",
     "with the gimbal about {p} degrees {v}",
     "aiming {v} at about {p} degrees",
-    "with a view about {p} degrees {v}",
-    "your lens turned {v} at about {p} degrees",
+    "with the camera about {p} degrees {v}",
+    "with the lens turned {v} at about {p} degrees",
 ];
 /// Orders of call, distance and angle. A capital letter begins the part's sentence.
 pub(crate) const INSTRUCTIONS: &[&str] = &[
@@ -80,7 +78,7 @@ pub(crate) const INSTRUCTIONS: &[&str] = &[
     "The {who} is your target; follow [f], [w].",
     "Please [c]; [l] and [k].",
     "Your job is to [c]. [K], and [l].",
-    "[F] and [w], [c].",
+    "[F], [w], [c].",
     "Pick out the {who}, then [k] and [l].",
     "Go with the {who}: [l], and [k].",
     "Can you [c]? [K], and [l].",
@@ -95,7 +93,7 @@ pub(crate) const INSTRUCTIONS: &[&str] = &[
     "Find the {who}; [k], and [l].",
     "Task: [c]. [K]. [L].",
     "New target: the {who}. [K] and [l].",
-    "The camera belongs on the {who}: [k], [l].",
+    "The camera belongs on the {who}: [k] and [l].",
     "All you have to do is [c]. [K] and [l].",
     "Just [c], [f], [w].",
     "Take off and [c]. [K]; [l].",
@@ -115,8 +113,8 @@ pub(crate) const INSTRUCTIONS: &[&str] = &[
     "Fall in behind the {who}. [K], and [l].",
     "For this shot, [c] [f], [w].",
     "The {who} must stay in shot. [K] and [l].",
-    "[C] all the way: [k], [l].",
+    "[C] all the way: [k] and [l].",
     "[C] from beginning to end; [k] and [l].",
     "[C], and remember to [k] and [l].",
-    "Get going and [c]. [K], then [l].",
+    "Get going and [c]. [K], and [l].",
 ];

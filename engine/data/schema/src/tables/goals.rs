@@ -35,11 +35,12 @@ columns! { Goals::COLUMNS of DatasetItem;
     /// Whether the flight does what the goal says: all but `negative`.
     fits: bool = |item, i| goal(item, i).grain != Grain::Negative;
     /// Subject of what is not so: of a negative, of one claim; of a dialogue, of the pilot's line. `clothes`, `distance`, `turn`, `stop`,
-    /// `landmark`, `sight` or `people`; null otherwise.
+    /// `landmark`, `sight`, `people` or `vehicles`; null otherwise.
     false_subject: Option<String> = |item, i| goal(item, i).wrong.map(|subject| subject.name().to_owned());
     /// What the user says in the end, claim by claim with its frames, such as `passes tree left 2 @ 12..40` (the end is the frame after the
-    /// last one): `wears`, `distance` (mean, metres), `turns`, `turns_in_all`, `no_turn`, `stops` (seconds), `stands`, `passes`, `lost`,
-    /// `partly_hidden`, `walks_with`, `meets`.
+    /// last one): `wears`, `distance` (mean, metres), `turns`, `turns_in_all`, `no_turn`, `stops` (seconds), `stands`, `passes`, `crosses`,
+    /// `lost`, `partly_hidden`, `walks_with`, `meets`, `overtakes`, `meets_vehicle`, `overtaken_by`. `passes ... after_crossing`: counted from the
+    /// only crossing of the stretch on.
     claims: Vec<String> = |item, i| goal(item, i).said.iter().map(ToString::to_string).collect();
 }
 

@@ -7,6 +7,7 @@ mod arrow_schema;
 mod bodies;
 mod captions;
 mod column;
+mod crossings;
 mod files;
 mod frames;
 mod goals;
@@ -28,6 +29,7 @@ pub use bodies::Bodies;
 pub use captions::Captions;
 pub use column::{AnyColumn, CellProblem, Column};
 pub use cosfly_captions::sight::Landmarks;
+pub use crossings::Crossings;
 pub use files::{FileRecord, Files};
 pub use frames::{Frames, ROLES};
 pub use goals::Goals;
@@ -56,6 +58,7 @@ pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
         target_losses::table(),
         phrases::table(),
         goals::table(),
+        crossings::table(),
         windows::table(),
     ]
 }

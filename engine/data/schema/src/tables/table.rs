@@ -5,7 +5,8 @@ use crate::losses::Loss;
 use crate::phrases::Given;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
 use cosfly_captions::goals::Goal;
-use cosfly_captions::sight::Landmarks;
+use cosfly_captions::sight::{Crossing, Landmarks};
+use cosfly_frames::DVec3;
 use cosfly_metrics::WindowShape;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -37,6 +38,9 @@ pub struct DatasetItem {
     pub windows: WindowShape,
 }
 
+/// A crossing whose box is this near to the target's way is around it, metres.
+const AROUND_M: f64 = 20.0;
+
 /// Rows of tables that are worked out once for a trajectory.
 #[derive(Clone, Debug)]
 pub struct Derived {
@@ -46,6 +50,8 @@ pub struct Derived {
     pub phrases: Vec<Given>,
     /// Goals at several grains.
     pub goals: Vec<Goal>,
+    /// Marked crossings around the target's way.
+    pub crossings: Vec<Crossing>,
     /// Present bodies around the target, frame by frame: frame number and place among the bodies.
     pub bodies: Vec<(u32, u32)>,
 }
@@ -55,7 +61,9 @@ impl Derived {
     pub fn of(record: &RenderedTrajectory, landmarks: &Landmarks) -> Self {
         let losses = Loss::all(record);
         let goals = crate::goals::of(record, &losses, landmarks);
-        Self { losses, phrases: Given::all(record), goals, bodies: record.around.present() }
+        let feet: Vec<DVec3> = record.trajectory.track.states.iter().map(|state| state.feet_in_world).collect();
+        let crossings = landmarks.crossings_near(&feet, AROUND_M).into_iter().cloned().collect();
+        Self { losses, phrases: Given::all(record), goals, crossings, bodies: record.around.present() }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Chinese wordings of goals.
 
 use super::chinese_frames::{FLIGHTS, KEEPS, OF_CLOTHES, OF_DISTANCE, OF_MOVES, STEPS};
-use super::claim::{Claim, Hider, Passed, Said, Subject};
+use super::claim::{Claim, Hider, Said, Subject};
 use super::compose::Wording;
 use crate::chinese::{colour, numeral, who};
 use crate::facts::Wear;
@@ -19,7 +19,7 @@ pub(super) const WORDING: Wording = Wording {
     keeps: KEEPS,
     predicate,
     anchored,
-    both,
+    together,
     joined,
     finished,
     target,
@@ -52,7 +52,7 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
                 "在原地站了约{s}秒",
                 "停下脚步，等了约{s}秒",
                 "站住不动约{s}秒",
-                "停下约{s}秒再走",
+                "停下约{s}秒",
             ],
         )
         .replace("{s}", &seconds.to_string()),
@@ -67,13 +67,18 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
 fn surroundings(claim: &Claim, words: &mut RandomStream) -> String {
     match claim {
         Claim::Passes(passed) => {
-            let pattern = one_of(
-                words,
-                &["从{side}的{n}{t}旁边走过", "经过{side}的{n}{t}", "走过{side}的{n}{t}", "路过{side}的{n}{t}"],
-            );
+            let patterns: &[&str] = if passed.after_crossing {
+                &["过了斑马线后经过{side}的{n}{t}", "过斑马线后走过{side}的{n}{t}", "过完斑马线又路过{side}的{n}{t}"]
+            } else {
+                &["从{side}的{n}{t}旁边走过", "经过{side}的{n}{t}", "走过{side}的{n}{t}", "路过{side}的{n}{t}"]
+            };
+            let pattern = one_of(words, patterns);
             let (measure, thing) = thing(passed.kind);
             let count = format!("{}{measure}", numeral(passed.count));
             pattern.replace("{side}", side(passed.side, words)).replace("{n}", &count).replace("{t}", thing)
+        }
+        Claim::Crosses => {
+            one_of(words, &["走斑马线过马路", "从人行横道过马路", "沿斑马线走到马路对面", "走过一道斑马线"]).to_owned()
         }
         Claim::Lost { behind, seconds, found } => lost(*behind, *seconds, *found, words),
         Claim::PartlyHidden(hider) => {
@@ -96,6 +101,21 @@ fn surroundings(claim: &Claim, words: &mut RandomStream) -> String {
             );
             pattern.replace("{}", colour(*top))
         }
+        Claim::Overtakes(top) => {
+            let pattern = one_of(
+                words,
+                &["超过前面一个穿{}上衣的人", "赶上前面一个穿{}上衣的人并超了过去", "从一个穿{}上衣的人身旁超过去"],
+            );
+            pattern.replace("{}", colour(*top))
+        }
+        Claim::MeetsVehicle(kind) => {
+            let pattern = one_of(words, &["迎面遇上{}", "与迎面过来的{}交错而过", "与对面过来的{}错身而过"]);
+            pattern.replace("{}", hider_words(Hider::Body(*kind)))
+        }
+        Claim::OvertakenBy(kind) => {
+            let pattern = one_of(words, &["被{}从后面超过", "被后面来的{}超过", "让后面来的{}超了过去"]);
+            pattern.replace("{}", hider_words(Hider::Body(*kind)))
+        }
         _ => String::new(),
     }
 }
@@ -109,16 +129,20 @@ fn turns(kind: TurnKind) -> &'static [&'static str] {
 }
 
 /// `过了左手边第二棵树再往右拐`.
-fn anchored(passed: &Passed, action: &str, words: &mut RandomStream) -> String {
-    let pattern = one_of(
-        words,
+fn anchored(claim: &Claim, action: &str, words: &mut RandomStream) -> String {
+    let Claim::Passes(passed) = claim else {
+        return one_of(words, &["走斑马线过马路后{a}", "过了斑马线再{a}", "过完斑马线{a}"]).replace("{a}", action);
+    };
+    let patterns: &[&str] = if passed.after_crossing {
         &[
-            "过了{side}第{n}{t}再{a}",
-            "走过{side}第{n}{t}后{a}",
-            "经过{side}第{n}{t}之后{a}",
-            "走到{side}第{n}{t}，过去以后{a}",
-        ],
-    );
+            "过斑马线后，走过{side}第{n}{t}再{a}",
+            "过了斑马线，再过{side}第{n}{t}，然后{a}",
+            "走过斑马线后面{side}第{n}{t}，再{a}",
+        ]
+    } else {
+        &["过了{side}第{n}{t}再{a}", "走过{side}第{n}{t}后{a}", "经过{side}第{n}{t}之后{a}"]
+    };
+    let pattern = one_of(words, patterns);
     let (measure, thing) = thing(passed.kind);
     let ordinal = ["零", "一", "二", "三", "四", "五", "六"].get(passed.count).copied().unwrap_or("几");
     let filled = pattern.replace("{side}", side(passed.side, words)).replace("{n}", &format!("{ordinal}{measure}"));
@@ -132,7 +156,7 @@ fn lost(behind: Option<Hider>, seconds: u32, found: bool, words: &mut RandomStre
             "走到{h}后面，约{s}秒后重新露面",
             "消失在{h}后面，过了约{s}秒才出来",
             "被{h}遮住约{s}秒，随后重新出现",
-            "让{h}整个挡住约{s}秒",
+            "被{h}整个挡住约{s}秒",
         ],
         (Some(_), false) => {
             &["走到{h}后面，再也没出现", "被{h}完全挡住，直到最后也没露面", "消失在{h}后面，没有再出来"]
@@ -143,9 +167,13 @@ fn lost(behind: Option<Hider>, seconds: u32, found: bool, words: &mut RandomStre
     one_of(words, patterns).replace("{h}", behind.map_or("", hider_words)).replace("{s}", &seconds.to_string())
 }
 
-/// Two things in no order of time.
-fn both(one: &str, two: &str, words: &mut RandomStream) -> String {
-    one_of(words, &["{1}，{2}", "{1}，其间{2}", "{1}，中途{2}"]).replace("{1}", one).replace("{2}", two)
+/// Things that overlap in time, with one word for that at most.
+fn together(parts: &[String], words: &mut RandomStream) -> String {
+    match parts {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first, rest @ ..] => format!("{first}{}{}", one_of(words, &["，", "，途中", "，其间"]), rest.join("，")),
+    }
 }
 
 fn joined(parts: &[String], words: &mut RandomStream) -> String {

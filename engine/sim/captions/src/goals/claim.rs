@@ -27,6 +27,8 @@ pub struct Passed {
     pub side: OnSide,
     /// Number of the landmarks, 1 to 6.
     pub count: usize,
+    /// Whether they are counted from the only crossing of the stretch on.
+    pub after_crossing: bool,
 }
 
 /// Something that a goal says of the target, in the frames of a stretch.
@@ -48,6 +50,8 @@ pub enum Claim {
     Stands,
     /// Passes so many landmarks of a kind on a side, no more and no fewer.
     Passes(Passed),
+    /// Crosses the street at a marked crossing.
+    Crosses,
     /// Out of sight for some seconds, behind something or outside of the picture; seen again or not.
     Lost {
         /// What hides the target; `None`: it is outside of the picture.
@@ -63,6 +67,12 @@ pub enum Claim {
     WalksWith(usize),
     /// Somebody in a top of this colour comes towards the target and passes it.
     Meets(Colour),
+    /// Walks past somebody in a top of this colour who goes the same way.
+    Overtakes(Colour),
+    /// A vehicle comes towards the target and passes it.
+    MeetsVehicle(BodyKind),
+    /// A vehicle comes from behind and passes the target.
+    OvertakenBy(BodyKind),
 }
 
 /// A claim and its frames.
@@ -85,6 +95,7 @@ pub enum Subject {
     Landmark,
     Sight,
     People,
+    Vehicles,
 }
 
 impl Subject {
@@ -98,6 +109,7 @@ impl Subject {
             Self::Landmark => "landmark",
             Self::Sight => "sight",
             Self::People => "people",
+            Self::Vehicles => "vehicles",
         }
     }
 }
@@ -110,9 +122,10 @@ impl Claim {
             Self::Distance(_) => Subject::Distance,
             Self::Turns(_) | Self::TurnsInAll(_) | Self::NoTurn => Subject::Turn,
             Self::Stops(_) | Self::Stands => Subject::Stop,
-            Self::Passes(_) => Subject::Landmark,
+            Self::Passes(_) | Self::Crosses => Subject::Landmark,
             Self::Lost { .. } | Self::PartlyHidden(_) => Subject::Sight,
-            Self::WalksWith(_) | Self::Meets(_) => Subject::People,
+            Self::WalksWith(_) | Self::Meets(_) | Self::Overtakes(_) => Subject::People,
+            Self::MeetsVehicle(_) | Self::OvertakenBy(_) => Subject::Vehicles,
         }
     }
 }
@@ -135,7 +148,11 @@ impl fmt::Display for Said {
             Claim::Stands => write!(formatter, "stands")?,
             Claim::Passes(it) => {
                 write!(formatter, "passes {} {} {}", landmark_name(it.kind), side_name(it.side), it.count)?;
+                if it.after_crossing {
+                    write!(formatter, " after_crossing")?;
+                }
             }
+            Claim::Crosses => write!(formatter, "crosses")?,
             Claim::Lost { behind, seconds, found } => {
                 let behind = behind.map_or("outside", hider_name);
                 write!(formatter, "lost {behind} {seconds} {}", if *found { "found" } else { "gone" })?;
@@ -143,6 +160,9 @@ impl fmt::Display for Said {
             Claim::PartlyHidden(hider) => write!(formatter, "partly_hidden {}", hider_name(*hider))?,
             Claim::WalksWith(count) => write!(formatter, "walks_with {count}")?,
             Claim::Meets(top) => write!(formatter, "meets {}", top.name())?,
+            Claim::Overtakes(top) => write!(formatter, "overtakes {}", top.name())?,
+            Claim::MeetsVehicle(kind) => write!(formatter, "meets_vehicle {}", kind.name())?,
+            Claim::OvertakenBy(kind) => write!(formatter, "overtaken_by {}", kind.name())?,
         }
         write!(formatter, " @ {}..{}", self.frames.start, self.frames.end)
     }

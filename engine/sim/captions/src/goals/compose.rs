@@ -1,6 +1,6 @@
 //! Composition of goals: claims that were picked, put into words of both languages.
 
-use super::claim::{Claim, Passed, Said, Subject};
+use super::claim::{Claim, Said, Subject};
 use super::course::Course;
 use super::{chinese, english, pick, steps};
 use crate::facts::Wear;
@@ -11,6 +11,9 @@ use crate::wording::one_of;
 use cosfly_random::{RandomStream, Seed};
 use cosfly_render::Colour;
 use std::ops::Range;
+
+/// A move within so many frames of the end of a crossing is `after the crossing`.
+const RIGHT_AFTER_FRAMES: usize = 10;
 
 /// Kind of goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,9 +79,10 @@ pub(super) struct Wording {
     pub steps: &'static [&'static str],
     pub keeps: &'static [&'static str],
     pub predicate: fn(&Said, &mut RandomStream) -> String,
-    pub anchored: fn(&Passed, &str, &mut RandomStream) -> String,
-    /// Two things of which none is said to be the first, and things in order of time.
-    pub both: fn(&str, &str, &mut RandomStream) -> String,
+    /// A move right after a claim that [`is_anchor`].
+    pub anchored: fn(&Claim, &str, &mut RandomStream) -> String,
+    /// Several things that overlap in time, and things in order of time.
+    pub together: fn(&[String], &mut RandomStream) -> String,
     pub joined: fn(&[String], &mut RandomStream) -> String,
     pub finished: fn(&str, &str, &str) -> String,
     pub target: fn(&Wear, &mut RandomStream) -> String,
@@ -140,17 +144,17 @@ fn sentence(plan: &Plan, wording: &Wording, words: &mut RandomStream) -> String 
 
 /// Things in order of time; those that overlap are told as one.
 fn told_in_order(parts: Vec<(String, Range<usize>)>, wording: &Wording, words: &mut RandomStream) -> String {
-    let mut told: Vec<(String, usize)> = vec![];
+    let mut groups: Vec<(Vec<String>, usize)> = vec![];
     for (text, frames) in parts {
-        match told.last_mut() {
-            Some((before, end)) if frames.start < *end => {
-                *before = (wording.both)(before, &text, words);
+        match groups.last_mut() {
+            Some((texts, end)) if frames.start < *end => {
+                texts.push(text);
                 *end = (*end).max(frames.end);
             }
-            _ => told.push((text, frames.end)),
+            _ => groups.push((vec![text], frames.end)),
         }
     }
-    let told: Vec<String> = told.into_iter().map(|(text, _)| text).collect();
+    let told: Vec<String> = groups.iter().map(|(texts, _)| (wording.together)(texts, words)).collect();
     (wording.joined)(&told, words)
 }
 
@@ -162,9 +166,9 @@ fn predicates(said: &[Said], wording: &Wording, words: &mut RandomStream) -> Vec
     while at < told.len() {
         let is_move = |it: &&Said| matches!(it.claim, Claim::Turns(_));
         match (&told[at].claim, told.get(at + 1)) {
-            (Claim::Passes(passed), Some(next)) if is_move(next) && next.frames.start >= told[at].frames.end => {
+            (claim, Some(next)) if is_anchor(told[at], next) && is_move(next) => {
                 let action = (wording.predicate)(next, words);
-                parts.push(((wording.anchored)(passed, &action, words), told[at].frames.start..next.frames.end));
+                parts.push(((wording.anchored)(claim, &action, words), told[at].frames.start..next.frames.end));
                 at += 2;
             }
             _ => {
@@ -174,6 +178,16 @@ fn predicates(said: &[Said], wording: &Wording, words: &mut RandomStream) -> Vec
         }
     }
     parts
+}
+
+/// Whether what is next is told by something before it: the last of some landmarks, or a crossing right before.
+fn is_anchor(said: &Said, next: &Said) -> bool {
+    let after = next.frames.start.checked_sub(said.frames.end);
+    match said.claim {
+        Claim::Passes(_) => after.is_some(),
+        Claim::Crosses => after.is_some_and(|frames| frames <= RIGHT_AFTER_FRAMES),
+        _ => false,
+    }
 }
 
 fn dialogue(

@@ -6,6 +6,7 @@ use crate::facts::Wear;
 use crate::sight::Landmarks;
 use crate::turns::{Turn, directions, turns};
 use cosfly_frames::{DVec2, TargetState};
+use cosfly_world::BodyKind;
 use std::ops::Range;
 
 /// Slower than this is standing, m/s.
@@ -69,6 +70,8 @@ pub struct Flight<'a> {
     pub hiders: Vec<(u32, Hider)>,
     /// Everybody else on foot.
     pub neighbours: Vec<Neighbour>,
+    /// All vehicles that are seen: kind and the frames that show them, in order.
+    pub vehicles: Vec<(BodyKind, Vec<Sample>)>,
 }
 
 /// What can be said of a flight.
@@ -82,6 +85,8 @@ pub struct Course<'a> {
     pub(super) turns: Vec<Turn>,
     /// The pauses, in order.
     pub(super) stops: Vec<Range<usize>>,
+    /// Frames on marked crossings, in order.
+    pub(super) crossings: Vec<Range<usize>>,
 }
 
 impl<'a> Course<'a> {
@@ -93,7 +98,8 @@ impl<'a> Course<'a> {
         let walks = way_m >= LEAST_WALK_M;
         let turns = if walks { turns(&directions(&feet, &moving)) } else { vec![] };
         let stops = if walks { pauses(&moving, flight.dt_s) } else { vec![] };
-        Self { flight, landmarks, walks, turns, stops }
+        let crossings = passing::crossings(flight.states, landmarks);
+        Self { flight, landmarks, walks, turns, stops, crossings }
     }
 
     /// Number of frames.
@@ -164,11 +170,12 @@ impl<'a> Course<'a> {
         begin.filter_map(said).collect()
     }
 
-    /// Landmarks that are passed, and people who walk along or come towards the target, in the frames.
+    /// Crossings and landmarks on the way, people who walk along, and people and vehicles that pass the target, in the frames.
     pub(super) fn surroundings(&self, frames: &Range<usize>) -> Vec<Said> {
         let mut found = passing::passed(self, frames);
         found.extend(people::walks_with(self, frames));
-        found.extend(people::meets(self, frames));
+        found.extend(passing::crossed(self, frames));
+        found.extend(people::passed(self, frames));
         found
     }
 }

@@ -20,7 +20,7 @@ pub(super) const WORDING: Wording = Wording {
     keeps: KEEPS,
     predicate,
     anchored,
-    both,
+    together,
     joined,
     finished,
     target,
@@ -77,21 +77,36 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
     }
 }
 
+/// A crossing that they use.
+const CROSSES: &[&str] = &[
+    "cross the street at a zebra crossing",
+    "cross the road at a pedestrian crossing",
+    "get to the other side of the street by a zebra crossing",
+    "walk over a pedestrian crossing to the other side",
+];
+
 /// What is around them, and hides them.
 fn surroundings(claim: &Claim, words: &mut RandomStream) -> String {
     match claim {
         Claim::Passes(passed) => {
-            let pattern = one_of(
-                words,
+            let patterns: &[&str] = if passed.after_crossing {
+                &[
+                    "walk past {t} on the {side} after the crossing",
+                    "pass {t} on their {side} after the crossing",
+                    "go past {t} on the {side} once they are over the crossing",
+                ]
+            } else {
                 &[
                     "walk past {t} on the {side}",
                     "pass {t} on their {side}",
                     "go past {t} on the {side}",
                     "walk by {t} on their {side}",
-                ],
-            );
+                ]
+            };
+            let pattern = one_of(words, patterns);
             pattern.replace("{t}", &things(passed)).replace("{side}", side(passed.side))
         }
+        Claim::Crosses => one_of(words, CROSSES).to_owned(),
         Claim::Lost { behind, seconds, found } => lost(*behind, *seconds, *found, words),
         Claim::PartlyHidden(hider) => {
             let pattern = one_of(
@@ -124,6 +139,25 @@ fn surroundings(claim: &Claim, words: &mut RandomStream) -> String {
             );
             pattern.replace("{}", &a_colour(*top))
         }
+        Claim::Overtakes(top) => {
+            let pattern = one_of(
+                words,
+                &[
+                    "overtake someone in {} top",
+                    "catch up with someone in {} top and walk past them",
+                    "get ahead of someone in {} top who is going the same way",
+                ],
+            );
+            pattern.replace("{}", &a_colour(*top))
+        }
+        Claim::MeetsVehicle(kind) => {
+            let pattern = one_of(words, &["meet {} coming the other way", "pass {} that comes towards them"]);
+            pattern.replace("{}", hider_words(Hider::Body(*kind)))
+        }
+        Claim::OvertakenBy(kind) => {
+            let pattern = one_of(words, &["{be} overtaken by {}", "{be} passed by {} from behind"]);
+            pattern.replace("{}", hider_words(Hider::Body(*kind)))
+        }
         _ => String::new(),
     }
 }
@@ -152,18 +186,28 @@ fn turns(kind: TurnKind) -> &'static [&'static str] {
     }
 }
 
-/// A move right after the last of some landmarks: `turn left after the second tree on the right`.
-fn anchored(passed: &Passed, action: &str, words: &mut RandomStream) -> String {
+/// A move right after a crossing or the last of some landmarks: `turn left after the second tree on the right`.
+fn anchored(claim: &Claim, action: &str, words: &mut RandomStream) -> String {
+    let Claim::Passes(passed) = claim else {
+        let patterns = ["cross the street at a zebra crossing and {a} after it", "{a} after a zebra crossing"];
+        return one_of(words, &patterns).replace("{a}", action);
+    };
     let ordinals = ["", "first", "second", "third", "fourth", "fifth", "sixth"];
-    let pattern = one_of(
-        words,
+    let patterns: &[&str] = if passed.after_crossing {
+        &[
+            "{a} after the {n} {t} on the {side}, counted from the crossing",
+            "go over the crossing and past the {n} {t} on the {side}, and then {a}",
+            "{a} once they are past the {n} {t} on the {side} after the crossing",
+        ]
+    } else {
         &[
             "{a} after the {n} {t} on the {side}",
             "go past the {n} {t} on their {side} and then {a}",
             "{a} once they are past the {n} {t} on the {side}",
             "reach the {n} {t} on the {side}, pass it and {a}",
-        ],
-    );
+        ]
+    };
+    let pattern = one_of(words, patterns);
     let (one, _) = thing(passed.kind);
     let filled = pattern.replace("{a}", action).replace("{n}", ordinals.get(passed.count).copied().unwrap_or("last"));
     filled.replace("{t}", one).replace("{side}", side(passed.side))
@@ -204,9 +248,14 @@ fn in_seconds(pattern: &str, seconds: u32) -> String {
     pattern.replace("{s}", &if seconds == 1 { "1 second".to_owned() } else { format!("{seconds} seconds") })
 }
 
-/// Two things in no order of time.
-fn both(one: &str, two: &str, _words: &mut RandomStream) -> String {
-    format!("{one} and {two}")
+/// Things that overlap in time, as a list.
+fn together(parts: &[String], _words: &mut RandomStream) -> String {
+    match parts {
+        [] => String::new(),
+        [one] => one.clone(),
+        [one, two] if !one.contains(" and ") => format!("{one} and {two}"),
+        [most @ .., last] => format!("{}, and {last}", most.join(", ")),
+    }
 }
 
 /// What they do, joined. `first` is left out: the base form has no place for it.

@@ -1,10 +1,10 @@
-//! Landmarks that a target passes, counted by kind and side.
+//! Crossings that a target uses, and landmarks that it passes, counted by kind and side.
 
 use super::claim::{Claim, Passed, Said};
 use super::course::Course;
 use crate::sight::landmarks::way_to;
-use crate::sight::{LandmarkKind, OnSide};
-use cosfly_frames::real;
+use crate::sight::{LandmarkKind, Landmarks, OnSide};
+use cosfly_frames::{DVec3, TargetState, real};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -22,6 +22,9 @@ const EDGE_FRAMES: usize = 2;
 const MOST: usize = 6;
 /// A landmark begins at most this far above or below the feet, metres.
 const LEVEL_M: f64 = 3.0;
+
+/// Who crosses a street goes at least this far on the crossing, metres: more than the width of most.
+const LEAST_ACROSS_M: f64 = 5.0;
 
 /// Frames in which one landmark is beside the target.
 #[derive(Default)]
@@ -51,11 +54,46 @@ pub(super) fn passed(course: &Course<'_>, frames: &Range<usize>) -> Vec<Said> {
             };
             if (1..=MOST).contains(&there.len()) && there.iter().all(is_clear) {
                 let frames = frames.clone();
-                found.push(Said { claim: Claim::Passes(Passed { kind, side, count: there.len() }), frames });
+                found.push(Said {
+                    claim: Claim::Passes(Passed { kind, side, count: there.len(), after_crossing: false }),
+                    frames,
+                });
             }
         }
     }
     found
+}
+
+/// Crossings at which the target crosses the street in the frames; and what it passes after the crossing, where there is one only.
+pub(super) fn crossed(course: &Course<'_>, frames: &Range<usize>) -> Vec<Said> {
+    let inside = |run: &&Range<usize>| run.end > frames.start && run.start < frames.end;
+    let runs: Vec<&Range<usize>> = course.crossings.iter().filter(inside).collect();
+    let is_whole = |run: &&&Range<usize>| run.start > frames.start && run.end < frames.end;
+    let crosses = |run: &&&Range<usize>| {
+        let [from, to] = [run.start, run.end - 1].map(|frame| course.flight.states[frame].feet_in_world.truncate());
+        is_whole(run) && from.distance(to) >= LEAST_ACROSS_M
+    };
+    let told: Vec<&Range<usize>> = runs.iter().filter(crosses).copied().collect();
+    let mut found: Vec<Said> = told.iter().map(|it| Said { claim: Claim::Crosses, frames: (*it).clone() }).collect();
+    if let ([only], 1) = (told.as_slice(), runs.len()) {
+        for mut said in passed(course, &(only.end..frames.end)) {
+            if let Claim::Passes(passed) = &mut said.claim {
+                passed.after_crossing = true;
+            }
+            found.push(said);
+        }
+    }
+    found
+}
+
+/// Runs of frames in which the target is on a marked crossing.
+pub(super) fn crossings(states: &[TargetState], landmarks: &Landmarks) -> Vec<Range<usize>> {
+    let feet: Vec<DVec3> = states.iter().map(|state| state.feet_in_world).collect();
+    let near = landmarks.crossings_near(&feet, 0.0);
+    let is_on: Vec<bool> = feet.iter().map(|point| near.iter().any(|crossing| crossing.holds(*point))).collect();
+    let frames: Vec<usize> = (0..feet.len()).collect();
+    let runs = frames.chunk_by(|a, b| is_on[*a] == is_on[*b]).filter(|run| is_on[run[0]]);
+    runs.map(|run| run[0]..run[0] + run.len()).collect()
 }
 
 /// Whether no landmark of a kind is on a side of the target in the frames, not even at the border.

@@ -1,4 +1,4 @@
-//! People around a target on its way: who walks beside it, and who comes towards it.
+//! People and vehicles around a target on its way: who walks beside it, and who passes it.
 
 use super::claim::{Claim, Said};
 use super::course::{Course, Neighbour, Sample};
@@ -21,6 +21,7 @@ const MOST_WITH: usize = 6;
 /// aside, metres.
 const AGAINST_DEG: f64 = 150.0;
 const MEETS_ASIDE_M: f64 = 3.0;
+const VEHICLE_ASIDE_M: f64 = 8.0;
 /// Way before and behind the target of somebody who passes it, metres.
 const PASSES_M: f64 = 1.0;
 
@@ -47,31 +48,61 @@ pub(super) fn walks_with(course: &Course<'_>, frames: &Range<usize>) -> Option<S
     is_said.then(|| Said { claim: Claim::WalksWith(count), frames: frames.clone() })
 }
 
-/// People who come towards the target and pass it in the frames.
-pub(super) fn meets(course: &Course<'_>, frames: &Range<usize>) -> Vec<Said> {
-    let meeting = |neighbour: &Neighbour| {
-        let seen: Vec<&Sample> = in_frames(neighbour, frames).collect();
-        let passes = |pair: &[&Sample]| {
-            let [from, to] = [pair[0], pair[1]].map(|it| place(course, it));
-            let is_near = from.1.abs() <= MEETS_ASIDE_M && to.1.abs() <= MEETS_ASIDE_M;
-            pair[1].frame == pair[0].frame + 1 && from.0 > 0.0 && to.0 <= 0.0 && is_near
-        };
-        let at = seen.windows(2).position(passes)?;
-        let goes_against = |it: &&Sample| {
-            let state = &course.flight.states[it.frame];
-            let turned = real::wrap_angle_rad(it.state.heading_rad - state.heading_rad).to_degrees().abs();
-            turned >= AGAINST_DEG && it.state.speed_mps >= WALKS_MPS && state.speed_mps >= WALKS_MPS
-        };
-        let around = &seen[at.saturating_sub(1)..(at + 3).min(seen.len())];
-        let is_through = around.first().is_some_and(|it| place(course, it).0 >= PASSES_M)
-            && around.last().is_some_and(|it| place(course, it).0 <= -PASSES_M);
-        let frames = seen[at].frame..seen[at + 1].frame + 1;
-        (is_through && around.iter().all(goes_against))
-            .then_some(Said { claim: Claim::Meets(neighbour.wear.top), frames })
+/// How somebody passes the target.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Manner {
+    Towards,
+    FromAhead,
+    FromBehind,
+}
+
+/// People and vehicles that pass the target in the frames, and people whom it passes.
+pub(super) fn passed(course: &Course<'_>, frames: &Range<usize>) -> Vec<Said> {
+    let said = |samples: &[Sample], manner, aside_m, claim| {
+        passing(course, samples, frames, manner, aside_m).map(|frames| Said { claim, frames })
     };
-    let mut met: Vec<Said> = course.flight.neighbours.iter().filter_map(meeting).collect();
-    met.sort_by_key(|said| said.frames.start);
-    met
+    let mut found: Vec<Said> = vec![];
+    for it in &course.flight.neighbours {
+        found.extend(said(&it.samples, Manner::Towards, MEETS_ASIDE_M, Claim::Meets(it.wear.top)));
+        found.extend(said(&it.samples, Manner::FromAhead, MEETS_ASIDE_M, Claim::Overtakes(it.wear.top)));
+    }
+    for (kind, samples) in &course.flight.vehicles {
+        found.extend(said(samples, Manner::Towards, VEHICLE_ASIDE_M, Claim::MeetsVehicle(*kind)));
+        found.extend(said(samples, Manner::FromBehind, VEHICLE_ASIDE_M, Claim::OvertakenBy(*kind)));
+    }
+    found.sort_by_key(|said| said.frames.start);
+    found
+}
+
+/// The two frames between which somebody passes the target in a manner, at most so far aside.
+fn passing(
+    course: &Course<'_>,
+    samples: &[Sample],
+    frames: &Range<usize>,
+    manner: Manner,
+    aside_m: f64,
+) -> Option<Range<usize>> {
+    let sign = if manner == Manner::FromBehind { -1.0 } else { 1.0 };
+    let ahead_m = |it: &Sample| sign * place(course, it).0;
+    let seen: Vec<&Sample> = samples.iter().filter(|it| frames.contains(&it.frame)).collect();
+    let passes = |pair: &[&Sample]| {
+        let is_near = pair.iter().all(|it| place(course, it).1.abs() <= aside_m);
+        pair[1].frame == pair[0].frame + 1 && ahead_m(pair[0]) > 0.0 && ahead_m(pair[1]) <= 0.0 && is_near
+    };
+    let at = seen.windows(2).position(passes)?;
+    let goes_so = |it: &&Sample| {
+        let state = &course.flight.states[it.frame];
+        let turned_deg = real::wrap_angle_rad(it.state.heading_rad - state.heading_rad).to_degrees().abs();
+        let is_turned = if manner == Manner::Towards { turned_deg >= AGAINST_DEG } else { turned_deg <= WITH_DEG };
+        is_turned && it.state.speed_mps >= WALKS_MPS && state.speed_mps >= WALKS_MPS
+    };
+    // People who go the same way pass one another slowly.
+    let more = if manner == Manner::FromAhead { 6 } else { 1 };
+    let around = &seen[at.saturating_sub(more)..(at + 2 + more).min(seen.len())];
+    let is_through = around.first().is_some_and(|it| ahead_m(it) >= PASSES_M)
+        && around.last().is_some_and(|it| ahead_m(it) <= -PASSES_M);
+    let frames = seen[at].frame..seen[at + 1].frame + 1;
+    (is_through && around.iter().all(goes_so)).then_some(frames)
 }
 
 fn in_frames<'a>(neighbour: &'a Neighbour, frames: &Range<usize>) -> impl Iterator<Item = &'a Sample> {

@@ -6,6 +6,7 @@ use super::course::{Course, Neighbour};
 use crate::facts::Wear;
 use cosfly_random::RandomStream;
 use cosfly_render::Colour;
+use cosfly_world::BodyKind;
 
 /// Goals of a whole flight, dialogues, and goals that do not fit.
 const FLIGHTS: usize = 3;
@@ -46,7 +47,10 @@ fn flight(course: &Course<'_>, words: &mut RandomStream) -> Plan {
     }
     for _ in 0..2 {
         if told.len() < 3 && !more.is_empty() {
-            told.push(more.swap_remove(words.index(more.len())));
+            let one = more.swap_remove(words.index(more.len()));
+            // Nobody tells two things of one kind in the same words.
+            more.retain(|it| std::mem::discriminant(&it.claim) != std::mem::discriminant(&one.claim));
+            told.push(one);
         }
     }
     told.sort_by_key(|it| (it.frames.start, it.frames.end));
@@ -190,8 +194,27 @@ fn falsified(course: &Course<'_>, ground: &Plan, said: &Said, words: &mut Random
             Claim::Lost { behind: *behind, seconds: unlike(2 * seconds + 5, &losses_s(course))?, found: true }
         }
         Claim::WalksWith(count) if *count <= 4 => Claim::WalksWith(count + 2),
+        Claim::Meets(_) => Claim::Meets(worn_by_nobody(course, words)?),
+        Claim::Overtakes(_) => Claim::Overtakes(worn_by_nobody(course, words)?),
+        Claim::MeetsVehicle(_) => Claim::MeetsVehicle(not_there(course, words)?),
+        Claim::OvertakenBy(_) => Claim::OvertakenBy(not_there(course, words)?),
         _ => return None,
     })
+}
+
+/// Colour of a top that no one else in the flight wears.
+fn worn_by_nobody(course: &Course<'_>, words: &mut RandomStream) -> Option<Colour> {
+    let is_free = |colour: &Colour| course.flight.neighbours.iter().all(|it| it.wear.top != *colour);
+    let free: Vec<Colour> = Colour::ALL.into_iter().filter(is_free).collect();
+    free.get(words.index(free.len().max(1))).copied()
+}
+
+/// Kind of vehicle that the flight does not show.
+fn not_there(course: &Course<'_>, words: &mut RandomStream) -> Option<BodyKind> {
+    let kinds = [BodyKind::Bicycle, BodyKind::Motorcycle, BodyKind::Car, BodyKind::Truck, BodyKind::Bus];
+    let is_free = |kind: &BodyKind| course.flight.vehicles.iter().all(|it| it.0 != *kind);
+    let free: Vec<BodyKind> = kinds.into_iter().filter(is_free).collect();
+    free.get(words.index(free.len().max(1))).copied()
 }
 
 /// A time that is not near any of the true ones.

@@ -58,7 +58,7 @@ fn step(course: &Course<'_>, frames: Range<usize>, action: Option<Said>, words: 
     let sights: Vec<Said> = course.sights(&before).into_iter().filter(|it| it.frames.end <= before.end).collect();
     said.extend(sights.into_iter().max_by_key(|it| (it.frames.len(), std::cmp::Reverse(it.frames.start))));
     said.sort_by_key(|it| it.frames.start);
-    said.extend(action.or_else(|| course.quiet(&frames)));
+    said.extend(action.or_else(|| course.quiet(&frames).filter(|_| said.is_empty())));
     if said.is_empty() {
         said.extend(course.sights(&frames).into_iter().next());
     }

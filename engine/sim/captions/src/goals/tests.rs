@@ -8,7 +8,7 @@ use crate::language::Language;
 use crate::sight::Landmarks;
 use cosfly_frames::{DVec3, TargetState, real};
 use cosfly_geometry::OrientedBox;
-use cosfly_maps::{Obstacle, ObstacleKind};
+use cosfly_maps::{Obstacle, ObstacleKind, WalkableKind, WalkablePolygon};
 use cosfly_random::Seed;
 use cosfly_render::Colour;
 use cosfly_world::BodyKind;
@@ -22,7 +22,7 @@ fn tree(object_id: u32, x: f64, y: f64) -> Obstacle {
 
 /// Three trees on the left of a walk east.
 fn town() -> Landmarks {
-    Landmarks::of(&[tree(1, 6.0, -3.0), tree(2, 14.0, -3.0), tree(3, 22.0, -3.0)])
+    Landmarks::among(&[tree(1, 6.0, -3.0), tree(2, 14.0, -3.0), tree(3, 22.0, -3.0)], &[])
 }
 
 /// East for 30 m, then 4 s still, then south for 24 m.
@@ -57,6 +57,7 @@ fn flight(states: &[TargetState]) -> Flight<'_> {
         wear: wear(Colour::Grey),
         hidden: vec![Hidden { frames: 70..76, behind: Some(9), is_outside: false, is_whole: true }],
         hiders: vec![(9, Hider::Body(BodyKind::Van))],
+        vehicles: vec![],
         neighbours: vec![Neighbour { wear: wear(Colour::Red), samples: (0..states.len()).map(beside).collect() }],
     }
 }
@@ -79,6 +80,47 @@ fn a_walk_is_cut_at_its_moves_and_says_what_is_on_the_way() {
     // At the border of the frames nobody could say whether the last tree counts.
     assert_eq!(names(course.surroundings(&(0..37))), ["walks_with 1 @ 0..37"]);
     assert_eq!(names(course.quiet(&(0..40)).into_iter().collect()), ["no_turn @ 0..40"]);
+}
+
+#[test]
+fn crossings_are_told_whole_and_the_only_one_begins_a_count() {
+    let states = states();
+    let crossing = |x: f64| WalkablePolygon {
+        kind: WalkableKind::Crossing,
+        outline_in_world: [(x, -2.0), (x + 7.0, -2.0), (x + 7.0, 2.0), (x, 2.0)]
+            .map(|(x, y)| DVec3::new(x, y, 0.0))
+            .to_vec(),
+        synthetic: false,
+    };
+    let trees = [tree(1, 6.0, -3.0), tree(2, 14.0, -3.0), tree(3, 22.0, -3.0)];
+    let told = |ground: &[WalkablePolygon]| -> Vec<String> {
+        let (flight, town) = (flight(&states), Landmarks::among(&trees, ground));
+        let all = Course::of(&flight, &town).surroundings(&(0..48));
+        all.iter().map(ToString::to_string).filter(|it| it.contains("cross")).collect()
+    };
+    assert_eq!(told(&[crossing(4.0)]), ["crosses @ 6..18", "passes tree left 2 after_crossing @ 18..48"]);
+    assert_eq!(told(&[crossing(4.0), crossing(16.0)]), ["crosses @ 6..18", "crosses @ 26..38"]);
+    // Already on it in the first frame: nobody sees the target step onto it.
+    assert!(told(&[crossing(-2.0)]).is_empty());
+}
+
+#[test]
+fn who_passes_is_told_by_the_way_it_goes() {
+    let states = states();
+    let drive = |from_m: f64, speed_mps: f64| -> Vec<Sample> {
+        let heading_rad = if speed_mps < 0.0 { std::f64::consts::PI } else { 0.0 };
+        let at = |frame: usize| TargetState {
+            feet_in_world: DVec3::new(from_m + 0.5 * speed_mps * frame as f64, 2.5, 0.0),
+            heading_rad,
+            speed_mps: speed_mps.abs(),
+        };
+        (0..48).map(|frame| Sample { frame, state: at(frame), is_clear: true }).collect()
+    };
+    let neighbours = vec![Neighbour { wear: wear(Colour::Green), samples: drive(9.1, 0.5) }];
+    let vehicles = vec![(BodyKind::Bus, drive(60.0, -4.0)), (BodyKind::Bicycle, drive(-30.0, 4.0))];
+    let (flight, town) = (Flight { neighbours, vehicles, ..flight(&states) }, Landmarks::default());
+    let told: Vec<String> = Course::of(&flight, &town).surroundings(&(0..48)).iter().map(ToString::to_string).collect();
+    assert_eq!(told, ["overtaken_by bicycle @ 21..23", "meets_vehicle bus @ 22..24", "overtakes green @ 24..26"]);
 }
 
 #[test]

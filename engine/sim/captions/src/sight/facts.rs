@@ -287,12 +287,15 @@ pub(crate) mod test_views {
             object_id,
             synthetic: false,
         };
-        Landmarks::of(&[
-            thing(ObstacleKind::TreeTrunk, 0, [12.5, 7.0, 1.2], [0.2, 0.2, 1.2]),
-            thing(ObstacleKind::TreeCrown, 0, [12.5, 7.0, 3.2], [1.0, 1.0, 1.0]),
-            thing(ObstacleKind::Lamp, 1, [17.0, -4.0, 2.5], [0.2, 0.2, 2.5]),
-            thing(ObstacleKind::Building, 2, [21.0, 0.0, 4.0], [3.0, 12.0, 4.0]),
-        ])
+        Landmarks::among(
+            &[
+                thing(ObstacleKind::TreeTrunk, 0, [12.5, 7.0, 1.2], [0.2, 0.2, 1.2]),
+                thing(ObstacleKind::TreeCrown, 0, [12.5, 7.0, 3.2], [1.0, 1.0, 1.0]),
+                thing(ObstacleKind::Lamp, 1, [17.0, -4.0, 2.5], [0.2, 0.2, 2.5]),
+                thing(ObstacleKind::Building, 2, [21.0, 0.0, 4.0], [3.0, 12.0, 4.0]),
+            ],
+            &[],
+        )
     }
 
     /// A picture 640 pixels wide, taken 5 m above the world's origin along x. Everybody walked on for 2 s.

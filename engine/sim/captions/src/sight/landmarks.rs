@@ -1,8 +1,9 @@
-//! Things of a town that a text may name: trees, street lamps, traffic lights and signs, parked cars, buildings.
+//! Things of a town that a text may name: trees, street lamps, traffic lights and signs, parked cars, buildings, crossings.
 
+use super::crossings::Crossing;
 use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_maps::{Obstacle, ObstacleKind};
+use cosfly_maps::{Obstacle, ObstacleKind, Town, WalkablePolygon};
 
 /// Kind of a landmark. Things of other kinds have no name that everybody would give them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,18 +36,19 @@ impl LandmarkKind {
     }
 }
 
-/// The boxes of a town, and which of them are landmarks.
+/// The boxes of a town, which of them are landmarks, and its crossings.
 pub struct Landmarks {
     boxes: BoxBvh,
     /// Object and kind of every box. A crown belongs to its tree, whose place is that of the trunk.
     parts: Vec<(u32, ObstacleKind)>,
     /// Pairs of an object and one of its boxes, in order.
     objects: Vec<(u32, u32)>,
+    crossings: Vec<Crossing>,
 }
 
 impl Default for Landmarks {
     fn default() -> Self {
-        Self::of(&[])
+        Self::among(&[], &[])
     }
 }
 
@@ -57,13 +59,19 @@ impl std::fmt::Debug for Landmarks {
 }
 
 impl Landmarks {
-    /// The landmarks among the obstacles of a town.
-    pub fn of(obstacles: &[Obstacle]) -> Self {
+    /// The landmarks of a town.
+    pub fn of(town: &Town) -> Self {
+        Self::among(&town.obstacles, &town.walkable)
+    }
+
+    /// The landmarks among obstacles and walkable ground.
+    pub fn among(obstacles: &[Obstacle], walkable: &[WalkablePolygon]) -> Self {
         let parts = obstacles.iter().map(|it| (it.object_id, it.kind)).collect();
         let mut objects: Vec<(u32, u32)> =
             obstacles.iter().zip(0..).map(|(it, number)| (it.object_id, number)).collect();
         objects.sort_unstable();
-        Self { boxes: BoxBvh::build(obstacles.iter().map(|it| it.shape).collect()), parts, objects }
+        let boxes = BoxBvh::build(obstacles.iter().map(|it| it.shape).collect());
+        Self { boxes, parts, objects, crossings: Crossing::all(walkable) }
     }
 
     /// Landmarks whose box comes within `reach_m` of a point along x, y or z: kind, object and box, in the order of the town.
@@ -77,6 +85,11 @@ impl Landmarks {
             LandmarkKind::of(kind).map(|kind| (kind, object, &self.boxes.boxes()[number as usize]))
         };
         found.into_iter().filter_map(landmark).collect()
+    }
+
+    /// Crossings within about `reach_m` of any of the points.
+    pub fn crossings_near(&self, points: &[DVec3], reach_m: f64) -> Vec<&Crossing> {
+        Crossing::near(&self.crossings, points, reach_m)
     }
 
     /// The first box on the way from one point to another: its kind, its object and the point that is hit.

@@ -4,6 +4,7 @@
 mod beside;
 pub mod check;
 mod chinese;
+mod crossings;
 mod english;
 pub mod facts;
 mod landmark_reading;
@@ -13,6 +14,7 @@ mod wording;
 
 pub use beside::{Beside, NearLandmark, OnSide};
 pub use check::check_sight;
+pub use crossings::Crossing;
 pub use facts::{Across, Near, Part, Person, Place, Seen, Side, Sight, View, sight};
 pub use landmarks::{LandmarkKind, Landmarks};
 pub use wording::instruction;
