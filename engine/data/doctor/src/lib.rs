@@ -19,7 +19,7 @@ mod tests;
 mod texts;
 pub mod walls;
 
-pub use cosfly_metrics::shortcuts::ShortcutFigures;
+pub use cosfly_metrics::shortcuts::{Probe, ShortcutFigures};
 pub use episode::{Episode, Look, Moment};
 pub use examination::{Examination, Layout, Quota, examine, examine_texts};
 pub use flag::{Flag, Severity};

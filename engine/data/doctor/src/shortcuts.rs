@@ -1,7 +1,8 @@
-//! What gives the targets of a dataset of cosfly away: their place in the picture, and their clothes.
+//! What gives the targets of a dataset of cosfly away: their place and size in the picture, and their looks.
 
 use cosfly_diagnose::Result;
-use cosfly_metrics::shortcuts::{Edges, ShortcutFigures, Shortcuts};
+use cosfly_frames::{DVec3, Pose};
+use cosfly_metrics::shortcuts::{Edges, Looks, Seen, ShortcutFigures, Shortcuts};
 use cosfly_read::{PublishedDataset, PublishedFlight, RowIndex};
 use cosfly_schema::tables::{People, Trajectories};
 use std::collections::BTreeMap;
@@ -13,59 +14,121 @@ use std::collections::BTreeMap;
 /// Damage of the tables.
 pub fn figures(dataset: &PublishedDataset) -> Result<ShortcutFigures> {
     let mut shortcuts = Shortcuts::default();
-    let town = |id: &str| dataset.place(id).map_or("", |place| &dataset.flights()[place].town);
+    add_targets(dataset, &mut shortcuts)?;
+    add_others(dataset, &mut shortcuts)?;
+    let mut people = PeopleBoxes::of(dataset)?;
+    dataset.walk(&|flight| flight.expert_id.is_none(), &mut |flight, rows| {
+        let image_px = [flight.camera.width, flight.camera.height].map(f64::from);
+        let mut bodies = people.bodies(flight)?;
+        let frames = rows.iter().enumerate().filter_map(|(frame, row)| {
+            let seen = |body: &SeenBody| body.seen(flight, &row.camera_pose);
+            let own = SeenBody {
+                kind: flight.target_kind.clone()?,
+                edges_px: row.visible_box_px?.map(f64::from),
+                feet_in_world: row.target.feet_in_world,
+                height_m: flight.target_height_m,
+            };
+            let others = bodies.remove(&(frame as u32)).unwrap_or_default();
+            Some((seen(&own), others.iter().filter(|other| other.kind == own.kind).map(seen).collect()))
+        });
+        shortcuts.add_flight(image_px, frames);
+        Ok(())
+    })?;
+    Ok(shortcuts.figures())
+}
+
+/// Looks of the people who are followed; the paint of vehicles is no clothes.
+fn add_targets(dataset: &PublishedDataset, shortcuts: &mut Shortcuts) -> Result<()> {
     for (_, path) in dataset.files("trajectories")? {
         cosfly_read::read(&path, &mut |rows| {
             for row in 0..rows.len() {
-                if let Some(top) = rows.get_or(Trajectories::target_top_linear_rgb, row, None)? {
-                    let id = rows.get(Trajectories::trajectory_id, row)?;
-                    shortcuts
-                        .add_target(&format!("{} {}", town(&id), rows.get(Trajectories::pedestrian_id, row)?), top);
-                }
+                let kind = rows.get_or(Trajectories::target_kind, row, Some(PERSON.to_owned()))?;
+                let top = rows.get_or(Trajectories::target_top_linear_rgb, row, None)?;
+                let Some(top) = top.filter(|_| kind.as_deref() == Some(PERSON)) else { continue };
+                let id = rows.get(Trajectories::trajectory_id, row)?;
+                let pedestrian = rows.get(Trajectories::pedestrian_id, row)?;
+                let words = [
+                    rows.get_or(Trajectories::target_bag, row, None)?,
+                    rows.get_or(Trajectories::target_build, row, None)?,
+                    rows.get_or(Trajectories::target_gait, row, None)?,
+                ];
+                let looks = looks(top, rows.get(Trajectories::target_height_m, row)?, words);
+                shortcuts.add_target(&format!("{} {pedestrian}", town(dataset, &id)), looks);
             }
             Ok(())
         })?;
     }
+    Ok(())
+}
+
+/// Looks of the people who are seen.
+fn add_others(dataset: &PublishedDataset, shortcuts: &mut Shortcuts) -> Result<()> {
     for (_, path) in dataset.files("people")? {
         cosfly_read::read(&path, &mut |rows| {
             for row in 0..rows.len() {
                 let is_person = rows.get_or(People::kind, row, PERSON.to_owned())? == PERSON;
                 if is_person && rows.has(People::top_linear_rgb) {
                     let id = rows.get(People::trajectory_id, row)?;
-                    let walk = format!("{} {}", town(&id), rows.get(People::walk_id, row)?);
-                    shortcuts.add_other(&walk, rows.get(People::top_linear_rgb, row)?);
+                    let words = [
+                        rows.get_or(People::bag, row, None)?,
+                        rows.get_or(People::build, row, None)?,
+                        rows.get_or(People::gait, row, None)?,
+                    ];
+                    let top = rows.get(People::top_linear_rgb, row)?;
+                    let looks = looks(top, rows.get(People::height_m, row)?, words);
+                    shortcuts.add_other(&format!("{} {}", town(dataset, &id), rows.get(People::walk_id, row)?), looks);
                 }
             }
             Ok(())
         })?;
     }
-    let mut people = PeopleBoxes::of(dataset)?;
-    dataset.walk(&|flight| flight.expert_id.is_none(), &mut |flight, rows| {
-        let image_px = [flight.camera.width, flight.camera.height].map(f64::from);
-        let boxes = people.boxes(flight)?;
-        for (frame, row) in rows.iter().enumerate() {
-            if let Some(target) = row.visible_box_px {
-                let others = boxes.get(&(frame as u32)).into_iter().flatten();
-                let alike = others.filter(|other| flight.target_kind.as_ref() == Some(&other.0)).map(|other| other.1);
-                shortcuts.add_frame(image_px, target.map(f64::from), alike);
-            }
-        }
-        Ok(())
-    })?;
-    Ok(shortcuts.figures())
+    Ok(())
 }
 
-/// Kinds and boxes of bodies by frame.
-type Boxes = BTreeMap<u32, Vec<(String, Edges)>>;
+fn town<'a>(dataset: &'a PublishedDataset, trajectory_id: &str) -> &'a str {
+    dataset.place(trajectory_id).map_or("", |place| &dataset.flights()[place].town)
+}
+
+fn looks(top: [f64; 3], height_m: f64, words: [Option<String>; 3]) -> Looks {
+    let [bag, build, gait] = words.map(Option::unwrap_or_default);
+    let bag = if bag.is_empty() { "none".to_owned() } else { bag };
+    Looks::of_words(top, height_m, [&bag, &build, &gait])
+}
+
+/// Bodies that are seen, by frame.
+type Bodies = BTreeMap<u32, Vec<SeenBody>>;
 
 /// Kind of people, and of all bodies in tables without kinds.
 const PERSON: &str = "pedestrian";
 
-/// Boxes of people, flight by flight; those of neighbouring flights are read together.
+/// A body that is seen in a frame.
+struct SeenBody {
+    kind: String,
+    edges_px: Edges,
+    feet_in_world: DVec3,
+    height_m: f64,
+}
+
+impl SeenBody {
+    /// The body as the camera sees it; crown and feet of people only.
+    fn seen(&self, flight: &PublishedFlight, camera_pose: &Pose) -> Seen {
+        let is_person = self.kind == PERSON;
+        let row = |point| flight.camera.project(camera_pose, point).filter(|_| is_person).map(|(_, row, _)| row);
+        let crown = row(self.feet_in_world + self.height_m * DVec3::Z);
+        Seen {
+            edges_px: self.edges_px,
+            crown_and_feet_px: crown.zip(row(self.feet_in_world)).map(|(crown, feet)| [crown, feet]),
+            distance_m: (self.feet_in_world - camera_pose.position_in_world).length(),
+            height_m: self.height_m,
+        }
+    }
+}
+
+/// Bodies that are seen, flight by flight; those of neighbouring flights are read together.
 struct PeopleBoxes<'a> {
     dataset: &'a PublishedDataset,
     index: RowIndex,
-    known: BTreeMap<usize, Boxes>,
+    known: BTreeMap<usize, Bodies>,
 }
 
 impl<'a> PeopleBoxes<'a> {
@@ -73,23 +136,28 @@ impl<'a> PeopleBoxes<'a> {
         Ok(Self { dataset, index: dataset.row_index("people")?, known: BTreeMap::new() })
     }
 
-    fn boxes(&mut self, flight: &PublishedFlight) -> Result<Boxes> {
+    fn bodies(&mut self, flight: &PublishedFlight) -> Result<Bodies> {
         let Some(place) = self.dataset.place(&flight.trajectory_id).filter(|it| self.index.has(*it)) else {
-            return Ok(Boxes::new());
+            return Ok(Bodies::new());
         };
         if !self.known.contains_key(&place) {
             let wanted = self.index.beside(place);
-            let mut known: BTreeMap<usize, Boxes> = BTreeMap::new();
+            let mut known: BTreeMap<usize, Bodies> = BTreeMap::new();
             self.index.visit(&wanted, &mut |rows, _| {
                 let ids = rows.values(People::trajectory_id)?;
                 let (frames, edges) = (rows.values(People::frame)?, rows.values(People::visible_box_px)?);
+                let (feet, heights) = (rows.values(People::feet_in_world_m)?, rows.values(People::height_m)?);
                 for row in 0..rows.len() {
                     let Some(place) = self.dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) else {
                         continue;
                     };
                     let of_frame = known.entry(place).or_default().entry(frames.at(row)?).or_default();
-                    let kind = rows.get_or(People::kind, row, PERSON.to_owned())?;
-                    of_frame.push((kind, edges.at(row)?.map(f64::from)));
+                    of_frame.push(SeenBody {
+                        kind: rows.get_or(People::kind, row, PERSON.to_owned())?,
+                        edges_px: edges.at(row)?.map(f64::from),
+                        feet_in_world: DVec3::from_array(feet.at(row)?),
+                        height_m: heights.at(row)?,
+                    });
                 }
                 Ok(())
             })?;

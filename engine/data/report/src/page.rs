@@ -87,7 +87,7 @@ mod tests {
     use crate::figures::Figures;
     use crate::model::{BoxSketch, RejectionSketch, TownSketch};
     use crate::sketch::FlightSketch;
-    use cosfly_metrics::shortcuts::{ShortcutFigures, Shortcuts};
+    use cosfly_metrics::shortcuts::{Looks, Seen, ShortcutFigures, Shortcuts};
     use std::convert::Infallible;
 
     fn flight(number: usize, is_perturbed: bool) -> FlightSketch {
@@ -123,9 +123,15 @@ mod tests {
 
     fn shortcuts() -> ShortcutFigures {
         let mut shortcuts = Shortcuts::default();
-        shortcuts.add_frame([64.0, 48.0], [30.0, 10.0, 40.0, 30.0], [[32.0, 20.0, 33.0, 24.0]].into_iter());
-        shortcuts.add_target("p1", [0.5, 0.1, 0.1]);
-        shortcuts.add_other("p2", [0.2, 0.2, 0.2]);
+        let at = |x: f64| Seen {
+            edges_px: [x, 10.0, x + 10.0, 30.0],
+            crown_and_feet_px: Some([10.0, 30.0]),
+            distance_m: 20.0,
+            height_m: 1.7,
+        };
+        shortcuts.add_flight([64.0, 48.0], [(at(30.0), vec![at(32.0)])].into_iter());
+        shortcuts.add_target("p1", Looks::of_words([0.5, 0.1, 0.1], 1.7, ["none", "slim", "short"]));
+        shortcuts.add_other("p2", Looks::of_words([0.2, 0.2, 0.2], 1.7, ["none", "slim", "short"]));
         shortcuts.figures()
     }
 

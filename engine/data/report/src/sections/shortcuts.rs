@@ -1,7 +1,7 @@
-//! Signs that give the target away: the middle of the picture, and the clothes.
+//! Signs that give the target away: the middle of the picture, size, and looks.
 
 use crate::model::Report;
-use cosfly_metrics::shortcuts::ShortcutFigures;
+use cosfly_metrics::shortcuts::{Probe, ShortcutFigures};
 use cosfly_plot::text::{escaped, grouped, percent};
 use std::fmt::Write;
 
@@ -19,9 +19,9 @@ pub fn section(report: &Report) -> String {
     }
     text.push_str("</dl>");
     text.push_str(
-        "<p class=\"note\">A model that takes the person in the middle, or the one in bright clothes, for the target needs no \
-         instruction and no memory. An AUC is the probability that a random target's top is more colourful, or brighter, \
-         than a random bystander's: 0.5 tells nothing.</p>",
+        "<p class=\"note\">A model that takes the person in the middle, or the tallest one, for the target needs no instruction and no \
+         memory. An AUC is the probability that a target has more of a sign than somebody else: 0.5 tells nothing. Who is followed is \
+         near the camera and in view; in the same place are people as far away and as far from the middle, seen from feet to head.</p>",
     );
     text
 }
@@ -36,20 +36,41 @@ fn rows(figures: &ShortcutFigures) -> Vec<(&'static str, String, String)> {
     if let Some(nearer) = figures.mean_people_nearer {
         rows.push(("People nearer to the centre", format!("{nearer:.2}"), "mean over these frames".to_owned()));
     }
-    for (name, auc) in [("Place, AUC", figures.place_auc), ("Height in pixels, AUC", figures.height_auc)] {
-        if let Some(auc) = auc {
-            rows.push((name, format!("{auc:.2}"), "against others in the same frame; 0.50 by chance".to_owned()));
+    for (name, probe, against) in [
+        ("Place, AUC", figures.place, "others in the same frame"),
+        ("Height in pixels, AUC", figures.height, "others in the same frame"),
+        ("Height in the same place, AUC", figures.height_in_the_same_place, "people in the same place"),
+    ] {
+        if let Some(Probe { auc, standard_error, flights, .. }) = probe {
+            let note = format!("against {against}; {}", error_of(standard_error, flights));
+            rows.push((name, format!("{auc:.2}"), note));
         }
     }
+    let Some(looks) = figures.looks else { return rows };
     let people = format!("{} targets, {} bystanders", figures.targets, figures.others);
-    let error = figures.clothes_auc_standard_error.unwrap_or_default();
     for (name, auc) in [
-        ("Clothes, AUC of colourfulness", figures.clothes_auc_colourfulness),
-        ("Clothes, AUC of brightness", figures.clothes_auc_brightness),
+        ("Colourfulness of tops, AUC", looks.colourfulness),
+        ("Brightness of tops, AUC", looks.brightness),
+        ("Body height, AUC", looks.height),
+        ("Bags, AUC", looks.bag),
+        ("Build, AUC", looks.build),
+        ("Steps, AUC", looks.steps),
     ] {
-        if let Some(auc) = auc {
-            rows.push((name, format!("{auc:.2}"), format!("{people}; 0.50 \u{b1} {error:.2} by chance")));
-        }
+        let note = format!("{people}; 0.50 \u{b1} {:.2} by chance{}", looks.standard_error, few(looks.standard_error));
+        rows.push((name, format!("{auc:.2}"), note));
     }
     rows
+}
+
+/// The error of a figure in words.
+fn error_of(standard_error: Option<f64>, flights: u64) -> String {
+    match standard_error {
+        Some(error) => format!("\u{b1} {error:.2} over {} flights{}", grouped(flights), few(error)),
+        None => "of one flight: too few to tell".to_owned(),
+    }
+}
+
+/// A warning where a figure is of too few targets.
+fn few(standard_error: f64) -> &'static str {
+    if ShortcutFigures::is_telling(standard_error) { "" } else { ": too few to tell" }
 }

@@ -1,36 +1,55 @@
 //! What gives the targets of rendered flights away: counted flight by flight.
 
-use cosfly_metrics::shortcuts::Shortcuts;
-use cosfly_render::PixelBox;
+use cosfly_frames::{DVec3, Pose, TargetState};
+use cosfly_metrics::shortcuts::{Looks, Seen, Shortcuts};
+use cosfly_render::{Outfit, PixelBox};
 use cosfly_schema::log::messages::edges_px;
 use cosfly_schema::{RenderedTrajectory, Role};
-use cosfly_world::BodyKind;
+use cosfly_world::{BodyKind, Traits};
 
 /// Counts a flight: the frames of experts, where others are those of the target's kind, and the people of all flights.
 pub fn count(record: &RenderedTrajectory, shortcuts: &mut Shortcuts) {
-    let colour = |rgb: [f32; 3]| rgb.map(f64::from);
     let town = &record.town.name;
     let kind = record.target_kind();
+    let track = &record.trajectory.track;
     if let Some(outfit) = record.outfit.as_ref().filter(|_| kind.is_some_and(BodyKind::is_person)) {
-        shortcuts.add_target(&format!("{town} {}", record.pedestrian_id), colour(outfit.top.linear_rgb));
+        shortcuts.add_target(&format!("{town} {}", record.pedestrian_id), looks(outfit, track.height_m));
     }
     for sighting in &record.sightings {
         let other = &record.others[sighting.person as usize];
-        if !other.kind.is_person() {
-            continue;
+        if other.kind.is_person() {
+            shortcuts.add_other(&format!("{town} {}", other.walk_id), looks(&other.outfit, other.height_m));
         }
-        shortcuts.add_other(&format!("{town} {}", other.walk_id), colour(other.outfit.top.linear_rgb));
     }
     if record.role == Role::Perturbed {
         return;
     }
     let image_px = [record.camera.width, record.camera.height].map(f64::from);
-    let edges = |it: &PixelBox| edges_px(it).map(|edge| edge as f64);
-    for (frame, view) in record.views.iter().enumerate() {
-        if let Some(visible) = &view.visible_box {
-            let alike = record.seen_in(frame).filter(|(other, _)| Some(other.kind) == kind);
-            let others = alike.map(|(_, sighting)| edges(&sighting.view.visible_box));
-            shortcuts.add_frame(image_px, edges(visible), others);
-        }
+    let frames = record.views.iter().enumerate().filter_map(|(frame, view)| {
+        let pose = record.camera_pose(frame);
+        let target = seen(record, &pose, view.visible_box.as_ref()?, (&track.states[frame], track.height_m));
+        let alike = record.seen_in(frame).filter(|(other, _)| Some(other.kind) == kind);
+        let others =
+            alike.map(|(other, it)| seen(record, &pose, &it.view.visible_box, (&it.state, other.height_m))).collect();
+        Some((target, others))
+    });
+    shortcuts.add_flight(image_px, frames);
+}
+
+fn looks(outfit: &Outfit, height_m: f64) -> Looks {
+    let Traits { bag, build, gait } = outfit.traits.unwrap_or(Traits::PLAIN);
+    Looks::of_words(outfit.top.linear_rgb.map(f64::from), height_m, [bag.name(), build.name(), gait.name()])
+}
+
+/// A body in the picture; crown and feet of a person only.
+fn seen(record: &RenderedTrajectory, pose: &Pose, visible: &PixelBox, (state, height_m): (&TargetState, f64)) -> Seen {
+    let feet = state.feet_in_world;
+    let is_person = record.target_kind().is_some_and(BodyKind::is_person);
+    let row = |point| record.camera.project(pose, point).filter(|_| is_person).map(|(_, row, _)| row);
+    Seen {
+        edges_px: edges_px(visible).map(|edge| edge as f64),
+        crown_and_feet_px: row(feet + height_m * DVec3::Z).zip(row(feet)).map(|(crown, feet)| [crown, feet]),
+        distance_m: (feet - pose.position_in_world).length(),
+        height_m,
     }
 }

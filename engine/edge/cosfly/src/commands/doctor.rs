@@ -6,7 +6,7 @@ use crate::exit;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::Diagnostic;
-use cosfly_doctor::{Examination, GivenTexts, Layout, Severity, ShortcutFigures, TextFigures, examine_texts};
+use cosfly_doctor::{Examination, GivenTexts, Layout, Probe, Severity, ShortcutFigures, TextFigures, examine_texts};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -178,20 +178,40 @@ fn shortcuts(figures: &ShortcutFigures) -> String {
             count(figures.frames, "expert frame")
         );
     }
-    if let (Some(place), Some(height)) = (figures.place_auc, figures.height_auc) {
+    for (sign, probe, others) in [
+        ("nearness to the centre", figures.place, "others in the frame"),
+        ("height in pixels", figures.height, "others in the frame"),
+        ("height", figures.height_in_the_same_place, "whole people as far away and as far from the centre"),
+    ] {
+        let Some(Probe { auc, standard_error, flights, .. }) = probe else { continue };
+        let error = standard_error.map_or_else(String::new, |error| format!(" +- {error:.3}"));
+        let of = count(flights, "flight");
+        let few = few(standard_error.unwrap_or(f64::INFINITY));
         let _ = writeln!(
             text,
-            "the picture tells the target from others in the frame with AUC {place:.2} by its place, {height:.2} by its height; 0.50 is chance"
+            "{sign} tells the target from {others} with AUC {auc:.2}{error} ({of}{few}); 0.50 tells nothing"
         );
     }
-    let (colourful, bright) = (figures.clothes_auc_colourfulness, figures.clothes_auc_brightness);
-    if let (Some(colourful), Some(bright), Some(error)) = (colourful, bright, figures.clothes_auc_standard_error) {
+    if let Some(looks) = figures.looks {
         let _ = writeln!(
             text,
-            "clothes tell {} from {} with AUC {colourful:.2} by colourfulness, {bright:.2} by brightness; 0.50 +- {error:.2} is chance",
+            "looks tell {} from {} with AUC {:.2} by colourfulness, {:.2} by brightness, {:.2} by body height, {:.2} by bags, {:.2} by build, {:.2} by steps; 0.50 +- {:.2} is chance{}",
             count(figures.targets as u64, "target"),
-            count(figures.others as u64, "bystander")
+            count(figures.others as u64, "bystander"),
+            looks.colourfulness,
+            looks.brightness,
+            looks.height,
+            looks.bag,
+            looks.build,
+            looks.steps,
+            looks.standard_error,
+            few(looks.standard_error)
         );
     }
     text
+}
+
+/// A warning where a figure is of too few targets.
+fn few(standard_error: f64) -> &'static str {
+    if ShortcutFigures::is_telling(standard_error) { "" } else { ", too few to tell" }
 }

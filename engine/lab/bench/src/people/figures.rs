@@ -53,6 +53,8 @@ pub struct Figures {
     pub departure_m: [f64; 2],
     /// Share of the people who walk or stand together with somebody.
     pub in_groups: f64,
+    /// Distance to the nearest one of those whom somebody is together with: median and 95 %, metres.
+    pub apart_m: [f64; 2],
     /// Of the pairs that come within 3 m, share that ever come below 0.4 m.
     pub close_pairs: f64,
 }
@@ -62,7 +64,7 @@ impl Figures {
     pub fn of(tracks: &Tracks) -> Self {
         let mut samples = Samples::default();
         tracks.people.iter().for_each(|(_, places)| samples.add(places));
-        let [in_groups, close_pairs] = company(tracks);
+        let Company { in_groups, mut apart_m, close_pairs } = company(tracks);
         let share = |count: usize, of: usize| count as f64 / of.max(1) as f64;
         let straight = samples.heading_rates_deg_s.iter().filter(|rate| **rate < 1.0).count();
         Self {
@@ -78,6 +80,7 @@ impl Figures {
             heading_rate_deg_s: [0.5, 0.95].map(|part| quantile(&mut samples.heading_rates_deg_s, part)),
             departure_m: [0.25, 0.5].map(|part| quantile(&mut samples.departures_m, part)),
             in_groups,
+            apart_m: [0.5, 0.95].map(|part| quantile(&mut apart_m, part)),
             close_pairs,
         }
     }
@@ -167,8 +170,17 @@ struct Pair {
     least_m: f64,
 }
 
-/// Share of people in groups, and share of near pairs that came below 0.4 m.
-fn company(tracks: &Tracks) -> [f64; 2] {
+/// Who walks with whom.
+struct Company {
+    /// Share of people in groups.
+    in_groups: f64,
+    /// Distance of each of them to the nearest companion at each sample, metres.
+    apart_m: Vec<f64>,
+    /// Share of near pairs that came below 0.4 m.
+    close_pairs: f64,
+}
+
+fn company(tracks: &Tracks) -> Company {
     let end = tracks.people.iter().map(|(first, places)| *first as usize + places.len()).max().unwrap_or(0);
     let mut pairs: BTreeMap<(usize, usize), Pair> = BTreeMap::new();
     let mut present: Vec<(usize, DVec2, DVec2)> = vec![];
@@ -196,16 +208,33 @@ fn company(tracks: &Tracks) -> [f64; 2] {
             }
         }
     }
-    let mut grouped = vec![false; tracks.people.len()];
+    let mut companions = vec![vec![]; tracks.people.len()];
     for ((one, other), pair) in &pairs {
         let common = common_samples(&tracks.people[*one], &tracks.people[*other]);
         if pair.together >= TOGETHER_SAMPLES && pair.together as f64 >= TOGETHER_SHARE * common as f64 {
-            (grouped[*one], grouped[*other]) = (true, true);
+            companions[*one].push(*other);
+            companions[*other].push(*one);
         }
     }
+    let place = |number: usize, sample: usize| {
+        let (first, places) = &tracks.people[number];
+        places.get(sample.checked_sub(*first as usize)?).copied()
+    };
+    let mut apart_m = vec![];
+    for (one, others) in companions.iter().enumerate() {
+        apart_m.extend((0..end).filter_map(|sample| {
+            let own = place(one, sample)?;
+            let distances = others.iter().filter_map(|other| Some((place(*other, sample)? - own).length()));
+            distances.min_by(f64::total_cmp)
+        }));
+    }
     let close = pairs.values().filter(|pair| pair.least_m < 0.4).count();
-    let grouped = grouped.iter().filter(|it| **it).count();
-    [grouped as f64 / tracks.people.len().max(1) as f64, close as f64 / pairs.len().max(1) as f64]
+    let grouped = companions.iter().filter(|others| !others.is_empty()).count();
+    Company {
+        in_groups: grouped as f64 / tracks.people.len().max(1) as f64,
+        apart_m,
+        close_pairs: close as f64 / pairs.len().max(1) as f64,
+    }
 }
 
 /// Samples at which both are present.
@@ -235,5 +264,6 @@ mod tests {
         assert!(figures.braking_mps2.is_nan(), "braking counts above 1 m/s");
         assert_eq!((figures.in_groups, figures.close_pairs, figures.straight), (1.0, 0.0, 1.0));
         assert_eq!(figures.departure_m, [0.0, 0.0]);
+        assert!(figures.apart_m.iter().all(|apart_m| (apart_m - 0.8).abs() < 1e-12));
     }
 }

@@ -40,7 +40,7 @@ pub struct PeopleTable {
 impl fmt::Display for PeopleTable {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let row = |out: &mut fmt::Formatter<'_>, name: &str, cell: &dyn Fn(&Figures) -> String| {
-            write!(out, "{name:<46}")?;
+            write!(out, "{name:<47}")?;
             self.sets.iter().try_for_each(|set| write!(out, " {:>21}", cell(set)))?;
             writeln!(out)
         };
@@ -59,6 +59,7 @@ impl fmt::Display for PeopleTable {
         row(out, "samples turning slower than 1 degree/s, %", &|set| format!("{:.0}", 100.0 * set.straight))?;
         row(out, "departure from an 8 s chord, m, 25 / 50 %", &|set| pair(set.departure_m, 2))?;
         row(out, "people in groups, %", &|set| format!("{:.0}", 100.0 * set.in_groups))?;
+        row(out, "distance to the nearest companion, m, 50 / 95 %", &|set| pair(set.apart_m, 2))?;
         row(out, "pairs within 3 m that come below 0.4 m, %", &|set| format!("{:.1}", 100.0 * set.close_pairs))?;
         for crowd in &self.crowds {
             writeln!(out, "\n{crowd}")?;

@@ -99,7 +99,7 @@ impl Default for SideConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct GroupConfig {
-    /// Share of the people who walk in groups. Default 0.45.
+    /// Share of the people who walk in groups. Default 0.6.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: f64,
     /// Relative frequency of groups of two, three, four and so on. Default [0.75, 0.18, 0.07].
@@ -112,7 +112,7 @@ pub struct GroupConfig {
 
 impl Default for GroupConfig {
     fn default() -> Self {
-        Self { share: 0.45, sizes: vec![0.75, 0.18, 0.07], abreast_m: 0.75 }
+        Self { share: 0.6, sizes: vec![0.75, 0.18, 0.07], abreast_m: 0.75 }
     }
 }
 

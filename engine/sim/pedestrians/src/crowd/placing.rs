@@ -69,7 +69,10 @@ impl Crowd {
             groups += u32::from(size > 1);
             let mut company = Company::new(first..first + size, group, start, &self.config, own);
             company.cruise_mps = people.iter().map(|person| person.cruise_mps).fold(f64::INFINITY, f64::min);
+            let side_m = people[0].side_m;
             for person in &mut people {
+                // A company keeps to one line; its members' places are beside each other on it.
+                person.side_m = side_m;
                 person.z = self.grid.feet_at(person.at).0.z;
                 person.pace_mps = if company.activity == Activity::Walking { company.cruise_mps } else { 0.0 };
                 taken.take(person.at, person.radius_m);

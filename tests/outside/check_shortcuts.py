@@ -1,0 +1,208 @@
+"""Probes for shortcuts, computed from the tables of a dataset: do place, size and looks tell the target from other people?
+
+    venv/bin/python tests/outside/check_shortcuts.py DATASET_FOLDER [--doctor VERDICT.json] [--pictures N]
+
+Shares no code with cosfly. An AUC is the probability that a target has more of a sign than somebody else; errors are over flights. With the
+JSON file of `cosfly doctor`, its section `shortcuts` must agree. Prints also the place in random crops: a window whose place around the
+target is drawn evenly, as large as a share of the picture. `--pictures` reads colour pictures of so many flights and compares the pixels in
+the boxes of targets and others.
+"""
+
+import argparse
+import json
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+import pyarrow.dataset as ds
+
+NEAR, WHOLE = 0.1, 0.1
+CROPS = (0.5, 0.33, 0.25)
+
+
+def rows(folder, name, columns):
+    found = ds.dataset(folder / "data" / name, format="parquet")
+    return found.to_table(columns=[it for it in columns if it in found.schema.names]).to_pylist() if found.files else []
+
+
+def above(a, b):
+    return float(a > b) + 0.5 * float(a == b)
+
+
+def auc(positives, negatives):
+    return float(np.mean([[above(a, b) for b in negatives] for a in positives])) if positives and negatives else None
+
+
+def probe(by_flight):
+    """Mean over frames and its error over flights, from lists of shares by flight."""
+    sums = np.array([sum(it) for it in by_flight.values()])
+    counts = np.array([len(it) for it in by_flight.values()])
+    if not len(counts):
+        return None
+    mean, number = sums.sum() / counts.sum(), len(counts)
+    error = np.sqrt(((sums - mean * counts) ** 2).sum() * number / (number - 1)) / counts.sum() if number > 1 else None
+    return {"auc": mean, "standard_error": error, "flights": number, "frames": int(counts.sum())}
+
+
+def body(flight, frame, feet, height_m, box):
+    """Box, distance from the middle, distance from the camera, and the height in metres that the picture shows (none if partly hidden)."""
+    yaw, pitch, roll = np.radians([frame[f"camera_{it}_deg"] for it in ("yaw", "pitch", "roll")])
+    ahead = np.array([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
+    right = np.array([-np.sin(yaw), np.cos(yaw), 0.0])
+    up = np.array([-np.sin(pitch) * np.cos(yaw), -np.sin(pitch) * np.sin(yaw), np.cos(pitch)])
+    up = up * np.cos(roll) + right * np.sin(roll)
+    away = np.array(feet) - [frame[f"drone_{axis}_m"] for axis in "xyz"]
+    row = lambda it: flight["camera_cy_px"] - flight["camera_focal_px"] * (it @ up) / (it @ ahead) if it @ ahead > 1e-6 else None
+    low, high = row(away), row(away + [0, 0, height_m])
+    metres = None
+    if low is not None and high is not None and low > high:
+        most = WHOLE * (low - high)
+        metres = height_m * (box[3] - box[1]) / (low - high) if box[1] <= high + most and box[3] >= low - most else None
+    middle = np.array([box[0] + box[2] - flight["camera_width_px"], box[1] + box[3] - flight["camera_height_px"]]) / 2
+    return {"box": box, "at": middle, "off": float(np.hypot(*middle)), "far": float(np.linalg.norm(away)), "px": box[3] - box[1], "m": metres}
+
+
+def seen(folder):
+    """Flights, and target and others of its kind in all expert frames in which the target is seen."""
+    flights = {it["trajectory_id"]: it for it in rows(folder, "trajectories", [
+        "trajectory_id", "expert_id", "town", "pedestrian_id", "mcap_path", "target_kind", "target_height_m", "target_top_linear_rgb", "target_bag",
+        "target_build", "target_gait", "camera_width_px", "camera_height_px", "camera_focal_px", "camera_cy_px"])}
+    people = defaultdict(list)
+    for it in rows(folder, "people", ["trajectory_id", "frame", "walk_id", "kind", "feet_in_world_m", "height_m", "visible_box_px", "top_linear_rgb",
+                                      "bag", "build", "gait"]):
+        people[it["trajectory_id"], it["frame"]].append(it)
+    frames = []
+    for it in rows(folder, "frames", ["trajectory_id", "frame", "visible_box_px", "target_x_m", "target_y_m", "target_z_m"]
+                   + [f"drone_{axis}_m" for axis in "xyz"] + [f"camera_{turn}_deg" for turn in ("yaw", "pitch", "roll")]):
+        flight = flights[it["trajectory_id"]]
+        if flight["expert_id"] or it["visible_box_px"] is None:
+            continue
+        target = body(flight, it, [it[f"target_{axis}_m"] for axis in "xyz"], flight["target_height_m"], it["visible_box_px"])
+        others = [body(flight, it, other["feet_in_world_m"], other["height_m"], other["visible_box_px"])
+                  for other in people[it["trajectory_id"], it["frame"]] if other["kind"] == flight["target_kind"]]
+        frames.append((it["trajectory_id"], it["frame"], target, others))
+    return flights, people, frames
+
+
+def in_pictures(flights, frames):
+    """Place and height against all others in the frame, height against those in the same place."""
+    place, height, same = defaultdict(list), defaultdict(list), defaultdict(list)
+    for name, _, target, others in frames:
+        if others:
+            place[name].append(np.mean([above(it["off"], target["off"]) for it in others]))
+            height[name].append(np.mean([above(target["px"], it["px"]) for it in others]))
+        alike = [it for it in others if abs(np.log(it["far"] / target["far"])) <= np.log(1 + NEAR)
+                 and abs(it["off"] - target["off"]) <= NEAR * flights[name]["camera_height_px"] and it["m"] is not None]
+        if alike and target["m"] is not None and flights[name]["target_kind"] == "pedestrian":
+            same[name].append(np.mean([above(target["m"], it["m"]) for it in alike]))
+    return {"place": probe(place), "height": probe(height), "height_in_the_same_place": probe(same)}
+
+
+def of_looks(flights, people):
+    """Looks of followed people against those of bystanders on foot."""
+    words = {"slim": 0, "short": 0, "medium": 1, "stout": 2, "long": 2}
+    signs = {
+        "colourfulness": lambda it: max(it[0]) - min(it[0]), "brightness": lambda it: np.dot(it[0], [0.2126, 0.7152, 0.0722]), "height": lambda it: it[1],
+        "bag": lambda it: it[2] != "none", "build": lambda it: words[it[3]], "steps": lambda it: words[it[4]],
+    }
+    targets = {(it["town"], it["pedestrian_id"]): [it[f"target_{key}"] for key in ("top_linear_rgb", "height_m", "bag", "build", "gait")]
+               for it in flights.values() if it["target_kind"] == "pedestrian"}
+    others = {(flights[name]["town"], it["walk_id"]): [it[key] for key in ("top_linear_rgb", "height_m", "bag", "build", "gait")]
+              for (name, _), there in people.items() for it in there if it["kind"] == "pedestrian"}
+    if not targets or not others:
+        return {"targets": len(targets), "others": len(others), "looks": None}
+    looks = {name: auc([sign(it) for it in targets.values()], [sign(it) for it in others.values()]) for name, sign in signs.items()}
+    looks["standard_error"] = np.sqrt((len(targets) + len(others) + 1) / (12 * len(targets) * len(others)))
+    return {"targets": len(targets), "others": len(others), "looks": looks}
+
+
+def in_crops(flights, frames, share):
+    """Nearness to the middle of a window whose place around the target is drawn evenly; windows that leave the picture are left out."""
+    random, shares, kept = np.random.default_rng(1), defaultdict(list), 0
+    for name, _, target, others in frames:
+        picture = np.array([flights[name]["camera_width_px"], flights[name]["camera_height_px"]])
+        middle = target["at"] + (random.uniform(size=2) - 0.5) * share * picture
+        if (np.abs(middle) > (1 - share) * picture / 2).any():
+            continue
+        kept += 1
+        off = [np.hypot(*(it["at"] - middle)) for it in others if (np.abs(it["at"] - middle) <= share * picture / 2).all()]
+        if off:
+            shares[name].append(np.mean([above(it, np.hypot(*(target["at"] - middle))) for it in off]))
+    return probe(shares), kept / max(len(frames), 1)
+
+
+def of_pixels(folder, flights, frames, number):
+    """Brightness and colourfulness of the middle half of the boxes, against others in the frame, and those in the same place."""
+    import io
+
+    from mcap.reader import make_reader
+    from mcap_protobuf.decoder import DecoderFactory
+    from PIL import Image
+
+    found = {(sign, whom): defaultdict(list) for sign in ("brightness", "colourfulness") for whom in ("all", "same place")}
+    wanted = sorted({name for name, *_ in frames})[:number]
+    listed = {(name, frame): (target, others) for name, frame, target, others in frames}
+    for name in wanted:
+        with (folder / flights[name]["mcap_path"]).open("rb") as file:
+            reader = make_reader(file, decoder_factories=[DecoderFactory()])
+            for frame, (_, _, _, message) in enumerate(reader.iter_decoded_messages(topics=["/camera/rgb/image"])):
+                if (name, frame) not in listed:
+                    continue
+                picture = np.asarray(Image.open(io.BytesIO(message.data)).convert("RGB"), dtype=float)
+                target, others = listed[name, frame]
+
+                def signs(it):
+                    left, top, right, bottom = it["box"]
+                    x, y = (right - left) / 4, (bottom - top) / 4
+                    part = picture[int(top + y):max(int(bottom - y), int(top + y) + 1), int(left + x):max(int(right - x), int(left + x) + 1)]
+                    colour = part.reshape(-1, 3).mean(0)
+                    return {"brightness": colour @ [0.2126, 0.7152, 0.0722], "colourfulness": colour.max() - colour.min()}
+
+                own = signs(target)
+                near = [it for it in others if abs(np.log(it["far"] / target["far"])) <= np.log(1 + NEAR) and it["m"] is not None]
+                for whom, compared in (("all", others), ("same place", near if target["m"] is not None else [])):
+                    for sign in own if compared else []:
+                        found[sign, whom][name].append(np.mean([above(own[sign], signs(it)[sign]) for it in compared]))
+    return {f"{sign} of pixels, {whom}": probe(it) for (sign, whom), it in found.items()}
+
+
+def say(name, it):
+    error = "" if it is None or it["standard_error"] is None else f" +- {it['standard_error']:.3f}"
+    print(f"{name}: " + ("nobody to compare with" if it is None else f"{it['auc']:.3f}{error} ({it['flights']} flights, {it['frames']} frames)"))
+
+
+def differences(own, doctor, path="shortcuts"):
+    """Numbers of the doctor that are not these."""
+    if isinstance(own, dict) and isinstance(doctor, dict):
+        return [it for key, value in own.items() for it in differences(value, doctor.get(key), f"{path}.{key}")]
+    agree = own == doctor if own is None or doctor is None else abs(own - doctor) <= 2e-3
+    return [] if agree else [f"{path}: {own} here, {doctor} by the doctor"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--doctor", type=Path, help="JSON file of cosfly doctor, which must agree")
+    parser.add_argument("--pictures", type=int, default=0, help="read the pictures of so many flights")
+    arguments = parser.parse_args()
+    flights, people, frames = seen(arguments.folder)
+    own = {"frames": len(frames), **in_pictures(flights, frames), **of_looks(flights, people)}
+    for name in ("place", "height", "height_in_the_same_place"):
+        say(name, own[name])
+    print(f"looks of {own['targets']} targets and {own['others']} bystanders: "
+          + ", ".join(f"{name} {value:.3f}" for name, value in (own["looks"] or {}).items()))
+    for share in CROPS:
+        found, kept = in_crops(flights, frames, share)
+        say(f"place in random crops of {share:.2f} of the picture ({100 * kept:.0f} % of the frames)", found)
+    for name, found in of_pixels(arguments.folder, flights, frames, arguments.pictures).items() if arguments.pictures else ():
+        say(name, found)
+    wrong = differences(own, json.loads(arguments.doctor.read_text())["shortcuts"]) if arguments.doctor else []
+    print(*wrong, sep="\n")
+    if arguments.doctor:
+        print("the doctor agrees" if not wrong else f"{len(wrong)} figures differ")
+    return bool(wrong)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
