@@ -16,6 +16,8 @@ from paraphrases_tenth import TenthChinese, TenthEnglish
 from paraphrases_thirteenth import ThirteenthChinese, ThirteenthEnglish
 from paraphrases_twelfth import TwelfthChinese, TwelfthEnglish
 from paraphrases_twentieth import TwentiethChinese, TwentiethEnglish
+from paraphrases_twentyfirst import TwentyFirstChinese, TwentyFirstEnglish
+from paraphrases_twentysecond import TwentySecondChinese, TwentySecondEnglish
 
 GRAMMARS = {
     2: (SecondEnglish, SecondChinese),
@@ -37,6 +39,8 @@ GRAMMARS = {
     18: (EighteenthEnglish, EighteenthChinese),
     19: (NineteenthEnglish, NineteenthChinese),
     20: (TwentiethEnglish, TwentiethChinese),
+    21: (TwentyFirstEnglish, TwentyFirstChinese),
+    22: (TwentySecondEnglish, TwentySecondChinese),
 }
 # Grammars whose instructions may leave out that a person stands: such an instruction is true of a person who walks.
-LEAVE_STANDING_OUT = {15, 16, 17, 18, 19, 20}
+LEAVE_STANDING_OUT = {15, 16, 17, 18, 19, 20, 21, 22}
