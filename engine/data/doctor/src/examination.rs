@@ -202,7 +202,10 @@ impl<'a> Tally<'a> {
         ];
         if layout != Layout::Lerobot {
             gaps.extend([
-                (stated.camera, "projection of the target: no camera with a straight lens whose rows see at one time is stated"),
+                (
+                    stated.camera,
+                    "projection of the target: no camera with a straight lens whose rows see at one time is stated",
+                ),
                 (stated.clearance, "clearance: it is not stated"),
                 (stated.visible, "visibility: it is not stated"),
             ]);

@@ -422,7 +422,10 @@ fn too_many_stages_and_names_that_are_taken() {
 fn a_field_that_no_stage_reads_is_a_mistake() {
     let text = TOWNS.replace("walks = 3 }", "walks = 3, walk = 9, note = \"x\" }");
     let said = complaint(&text, &[]);
-    assert!(said.contains("no stage reads `walk` of the list `town`") && said.contains("did you mean `walks`?"), "{said}");
+    assert!(
+        said.contains("no stage reads `walk` of the list `town`") && said.contains("did you mean `walks`?"),
+        "{said}"
+    );
     assert!(said.contains("no stage reads `note`") && said.contains("`{town.note}`"), "{said}");
     // A field that all values have may be idle: here `--set` replaced what read it.
     let recipe = read(TOWNS, &["stages.people.count=4"]);

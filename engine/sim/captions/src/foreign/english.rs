@@ -63,7 +63,11 @@ fn is_address(words: &[&str]) -> bool {
 /// A word for a thing in the phrase that begins at a place, where the words before say that the thing is there. A word that the
 /// dictionary lacks is none: what nobody knows contradicts nothing.
 fn unknown_thing(words: &[&str], at: usize) -> Option<String> {
-    if !is_introduced(words, at) || DETERMINERS.contains(&words[at]) || is_likened(words, at) {
+    if !is_introduced(words, at)
+        || DETERMINERS.contains(&words[at])
+        || is_likened(words, at)
+        || is_saying(words, at)
+    {
         return None;
     }
     let is_end = |word: &str| word.is_empty() || (KNOWN_FUNCTION_WORDS.contains(word) && word != "of");
@@ -147,7 +151,11 @@ fn is_saying(words: &[&str], at: usize) -> bool {
             words.iter().any(|word| word.starts_with("degree"))
                 && words[at.saturating_sub(3)..at].iter().any(|it| ["to", "at", "toward", "towards"].contains(it))
         }
-        "steps" => words.iter().any(|it| ["take", "takes", "taken", "taking", "made"].contains(it)),
+        "steps" => {
+            before == "their" || words.iter().any(|it| ["take", "takes", "taken", "taking", "made"].contains(it))
+        }
+        // `that is a wrap`: the filming is over.
+        "wrap" => words[at.saturating_sub(3)..at].iter().any(|it| it.starts_with("that")),
         // `our friend` is who is followed.
         "friend" | "friends" => ["our", "your", "my"].contains(&before),
         _ => false,

@@ -4,7 +4,7 @@ use super::numbers::numeral;
 
 const NUMERALS: &str = "零一二两三四五六七八九十百";
 /// Spellings, each with the one that the reader knows.
-const SPELLINGS: [(&str, &str); 40] = [
+const SPELLINGS: [(&str, &str); 44] = [
     ("1名", "一名"),
     ("1位", "一位"),
     ("1架", "一架"),
@@ -28,6 +28,10 @@ const SPELLINGS: [(&str, &str); 40] = [
     ("TA", "此人"),
     ("Ta", "此人"),
     ("ta", "此人"),
+    ("停机", "完毕"),
+    ("再没别的转向", ""),
+    ("再没有别的转向", ""),
+    ("，一个都没有", "一个都没有"),
     ("停没停", "停"),
     ("转没转", "转"),
     ("拐没拐", "拐"),

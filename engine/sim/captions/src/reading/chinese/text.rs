@@ -166,7 +166,12 @@ fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool
     if is_walking && !stands {
         claims.push(Claim::Walks);
     }
-    if NO_TURN_WORDS.iter().any(|word| clause.contains(word)) || TURNS.iter().any(|word| denied_word(clause, word)) {
+    // `左转右转掉头一个都没有`
+    let none_of_these = clause.contains("都没有") && claims.iter().any(|claim| matches!(claim, Claim::Turn(_)));
+    if none_of_these
+        || NO_TURN_WORDS.iter().any(|word| clause.contains(word))
+        || TURNS.iter().any(|word| denied_word(clause, word))
+    {
         claims.retain(|claim| !matches!(claim, Claim::Turn(_) | Claim::Turns(_) | Claim::TurnsOf(..)));
         claims.push(Claim::NoTurns);
     } else if STRAIGHT_WORDS.iter().any(|word| clause.contains(word))

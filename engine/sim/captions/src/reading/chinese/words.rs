@@ -361,7 +361,10 @@ pub const NEVER_STOPS: [&str; 12] = [
     "脚不沾地",
 ];
 /// Words for a camera that looks neither up nor down.
-pub const LEVEL: [&str; 50] = [
+pub const LEVEL: [&str; 53] = [
+    "角度是零",
+    "角度为零",
+    "角度零",
     "没有上仰",
     "上仰或下俯",
     "别抬",

@@ -252,7 +252,9 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
                 Some(Claim::Stays)
             }
             "stand" if is_of_the_drone(words) => None,
-            "stand" | "stands" | "standing" | "stood" if !["out", "off", "back"].contains(&next) && !about_stops => {
+            "stand" | "stands" | "standing" | "stood"
+                if !["out", "off", "back", "by"].contains(&next) && !about_stops =>
+            {
                 Some(Claim::Stays)
             }
             standing if STANDS.contains(&standing) && !about_stops => Some(Claim::Stays),

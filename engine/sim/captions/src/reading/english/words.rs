@@ -340,8 +340,18 @@ pub const UNTURNED: [&str; 14] = [
     "straightline",
 ];
 /// Words for a camera that looks neither up nor down.
-pub const LEVEL: [&str; 9] =
-    ["level", "levelled", "leveled", "parallel", "horizontal", "horizontally", "horizon", "untilted", "flat"];
+pub const LEVEL: [&str; 10] = [
+    "level",
+    "deadlevel",
+    "levelled",
+    "leveled",
+    "parallel",
+    "horizontal",
+    "horizontally",
+    "horizon",
+    "untilted",
+    "flat",
+];
 
 /// Verbs that say that the target walks.
 pub const WALKS: [&str; 10] =
