@@ -65,11 +65,14 @@ fn broken_maps_name_line_column_and_element() {
 }
 
 #[test]
-fn a_town_without_pavements_says_which_option_helps() {
-    let shoulders = map().replace("type=\"sidewalk\"", "type=\"shoulder\"");
-    check_refusal("no_walkable_ground", &Street::with(RECIPE, &shoulders), &["run", "recipe.toml", "--quiet"]);
-    let allowed = RECIPE.replacen("source", "shoulders_as_sidewalks = true\nsource", 1);
-    cosfly(&["run", "recipe.toml"]).within(Street::with(&allowed, &shoulders).path()).run_ok();
+fn a_town_without_pavements_is_refused_on_request_only() {
+    let arguments = ["run", "recipe.toml", "--quiet"];
+    let strict = RECIPE.replacen("source", "assume_ground = false\nsource", 1);
+    for instead in ["shoulder", "none"] {
+        let text = map().replace("type=\"sidewalk\"", &format!("type=\"{instead}\""));
+        check_refusal("no_walkable_ground", &Street::with(&strict, &text), &arguments);
+        cosfly(&arguments).within(Street::with(RECIPE, &text).path()).run_ok();
+    }
 }
 
 #[test]

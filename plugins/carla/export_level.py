@@ -134,7 +134,7 @@ def main():
     except RuntimeError as error:
         sys.exit(f"export_level: {error}")
     if not town["walkable"]:
-        sys.exit("export_level: the level has no pavements; read its OpenDRIVE file with `shoulders_as_sidewalks = true`")
+        sys.exit("export_level: the level has no pavements; read its OpenDRIVE file instead")
     arguments.out.write_text(json.dumps(town))
     print(f"{arguments.out}: {len(town['boxes'])} boxes, {len(town['walkable'])} walkable polygons")
 

@@ -6,8 +6,7 @@ use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result};
 use cosfly_frames::Seed;
-use cosfly_maps::formats::opendrive::OpenDrive;
-use cosfly_maps::{FORMATS, Format, FormatOptions, MapConfig, MapError, MapFormat, Town, read_town_of, recognise};
+use cosfly_maps::{FORMATS, Format, FormatOptions, MapConfig, MapError, Town, read_town_of, recognise};
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Source, SourceCheck, Stage, StageKind, StagePart, StageProperties,
     TaskContext,
@@ -110,8 +109,11 @@ fn named_schema(format: &Format) -> Value {
     schema
 }
 
-/// Parameters for keys. An option at its default is left out, so that a new format moves no key; those of OpenDRIVE
-/// are in all keys since the time when there was no other format.
+/// Options of OpenDRIVE that are in all keys: there was no other format once.
+const IN_ALL_KEYS: [&str; 6] =
+    ["shoulders_as_sidewalks", "signals", "road_marks", "unmarked_crossings", "roofs", "sample_step_m"];
+
+/// Parameters for keys. Any other option at its default is left out, so that a new one moves no key.
 fn canonical(config: &MapConfig) -> Result<Value, ParameterError> {
     let filled = |format: &Format, options: &FormatOptions| {
         format.filled(options).map_err(|error| parameters::refused_at("", error.message))
@@ -120,7 +122,7 @@ fn canonical(config: &MapConfig) -> Result<Value, ParameterError> {
     for format in FORMATS {
         let (own, defaults) = (filled(format, &config.options)?, filled(format, &FormatOptions::default())?);
         for ((name, value), (_, default)) in own.iter().zip(defaults.iter()) {
-            if format.name() == OpenDrive::NAME || value != default {
+            if IN_ALL_KEYS.contains(&name.as_str()) || value != default {
                 all[name] = value.clone();
             }
         }
@@ -291,6 +293,7 @@ mod tests {
             assert_eq!(keys_of(given), plain, "{option}");
         }
         assert_eq!(plain["unmarked_crossings"], true);
+        assert_eq!(plain.get("assume_ground"), None);
         assert_eq!(plain.get("terrain_margin_m"), None);
         let changed = keys_of(json!({ "source": "town.xodr", "terrain_margin_m": 20, "signals": false }));
         assert_eq!((&changed["terrain_margin_m"], &changed["signals"]), (&json!(20.0), &json!(false)));

@@ -1,8 +1,11 @@
 //! OpenDRIVE: every feature of a file reaches the town, and bad input is refused at its place.
 
-use cosfly_frames::Seed;
+use cosfly_frames::{DVec3, Seed};
 use cosfly_maps::formats::opendrive::{OpenDriveOptions, RoadMap, Roofs};
-use cosfly_maps::{FormatOptions, MapConfig, MapError, ObstacleKind, SemanticLabel, Town, WalkableKind, read_town};
+use cosfly_maps::{
+    FormatOptions, GroundIndex, MapConfig, MapError, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind,
+    read_town,
+};
 
 /// A road of every curve, with every kind of profile, object and signal.
 const STREET: &str = include_str!("../src/formats/opendrive/every_feature.xodr");
@@ -17,7 +20,15 @@ fn read_bytes(bytes: &[u8]) -> Result<Town, MapError> {
 
 fn read_with_roofs(bytes: &[u8], roofs: Roofs) -> Result<Town, MapError> {
     let options = OpenDriveOptions { shoulders_as_sidewalks: true, roofs, ..OpenDriveOptions::default() };
-    let config = MapConfig { options: FormatOptions::of(&options), ..MapConfig::default() };
+    read_bytes_with(bytes, &options)
+}
+
+fn read_with(text: &str, options: &OpenDriveOptions) -> Result<Town, MapError> {
+    read_bytes_with(text.as_bytes(), options)
+}
+
+fn read_bytes_with(bytes: &[u8], options: &OpenDriveOptions) -> Result<Town, MapError> {
+    let config = MapConfig { options: FormatOptions::of(options), ..MapConfig::default() };
     let (town, _) = read_town(bytes, &config, Seed::of_item(1, "town", "town"))?;
     town.assert_well_formed().expect("a town that was read is well formed");
     Ok(town)
@@ -204,11 +215,57 @@ fn a_truncated_file_gives_the_place_and_says_that_it_is_cut_off() {
 }
 
 #[test]
-fn a_town_without_pavements_names_the_option_that_helps() {
+fn a_town_without_pavements_is_walked_on_its_shoulders() {
     let text = STREET.replace("type=\"sidewalk\"", "type=\"none\"");
-    let refused = read_town(text.as_bytes(), &MapConfig::default(), Seed::of_item(1, "t", "t")).unwrap_err();
+    let assumed = read_with(&text, &OpenDriveOptions::default()).unwrap();
+    assert!(assumed.walkable.iter().any(|polygon| polygon.kind == WalkableKind::Shoulder));
+    assert!(assumed.synthetic.notes.iter().any(|note| note.contains("use the road shoulders")));
+    // Who asked for shoulders gets the same ground without a note.
+    let asked = read_with(&text, &OpenDriveOptions { shoulders_as_sidewalks: true, ..OpenDriveOptions::default() });
+    let asked = asked.unwrap();
+    assert_eq!(asked.walkable, assumed.walkable);
+    assert!(!asked.synthetic.notes.iter().any(|note| note.contains("shoulders")));
+    // A town that has pavements does not open its shoulders by itself.
+    let whole = read_with(STREET, &OpenDriveOptions::default()).unwrap();
+    assert!(whole.walkable.iter().all(|polygon| polygon.kind != WalkableKind::Shoulder));
+    check_refused_where_nothing_is_assumed(&text);
+}
+
+#[test]
+fn a_town_without_pavements_and_shoulders_gets_pavements_beside_its_carriageways() {
+    let text = STREET.replace("type=\"sidewalk\"", "type=\"none\"").replace("type=\"shoulder\"", "type=\"none\"");
+    let town = read_with(&text, &OpenDriveOptions::default()).unwrap();
+    assert!(town.synthetic.notes.iter().any(|note| note.contains("beside the carriageways")));
+    assert!(town.walkable.iter().all(|polygon| polygon.synthetic || polygon.kind == WalkableKind::Crossing));
+    // The pavements lie on the ground, which is synthetic as they are, and never on a carriageway.
+    let is_pavement = |mesh: &SurfaceMesh| mesh.label == SemanticLabel::SideWalks && mesh.synthetic;
+    let pavements = GroundIndex::of_surfaces(&town.surfaces, is_pavement);
+    let roads = GroundIndex::of_surfaces(&town.surfaces, |mesh| mesh.label == SemanticLabel::Roads);
+    let verges: Vec<_> = town.walkable.iter().filter(|area| area.kind == WalkableKind::Sidewalk).collect();
+    assert!(verges.len() > 20, "{}", verges.len());
+    for area in verges {
+        let corners = &area.outline_in_world;
+        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+        let ground = pavements.ground_near(middle).expect("a pavement has a surface");
+        assert!((ground.height_m - middle.z).abs() < 0.1, "{} at {middle}", ground.height_m);
+        assert!(roads.ground_near(middle).is_none(), "a road at {middle}");
+    }
+    check_refused_where_nothing_is_assumed(&text);
+}
+
+#[test]
+fn a_town_without_carriageways_too_is_refused() {
+    let kinds = ["sidewalk", "shoulder", "driving", "biking", "parking"];
+    let text =
+        kinds.iter().fold(STREET.to_owned(), |text, kind| text.replace(&format!("type=\"{kind}\""), "type=\"none\""));
+    let refused = read_with(&text, &OpenDriveOptions::default()).unwrap_err();
     assert!(refused.message.contains("no walkable ground"), "{refused}");
-    assert!(refused.hints[0].contains("shoulders_as_sidewalks = true"), "{:?}", refused.hints);
-    let town = read(&text).unwrap();
-    assert!(town.walkable.iter().any(|polygon| polygon.kind == WalkableKind::Shoulder));
+    assert!(refused.hints[0].contains("no carriageway"), "{:?}", refused.hints);
+}
+
+fn check_refused_where_nothing_is_assumed(text: &str) {
+    let options = OpenDriveOptions { assume_ground: false, ..OpenDriveOptions::default() };
+    let refused = read_with(text, &options).unwrap_err();
+    assert!(refused.message.contains("no walkable ground"), "{refused}");
+    assert!(refused.hints[0].contains("assume_ground"), "{:?}", refused.hints);
 }

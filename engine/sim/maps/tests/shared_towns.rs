@@ -133,13 +133,19 @@ fn walkable_ground_hangs_together() {
 }
 
 #[test]
-fn a_town_without_pavements_is_refused_with_the_option_that_helps() {
+fn towns_without_pavements_are_walked_beside_their_carriageways() {
     let Some(folder) = shared::shared_input("") else { return };
-    let path = folder.join("carla_xodr/Town06.xodr");
-    let error = try_read(&path, &MapConfig::default()).expect_err("Town06 has no pavements");
-    assert!(error.hints.iter().any(|hint| hint.contains("shoulders_as_sidewalks = true")), "{error:?}");
-    let town = read(&path, &with_shoulders());
+    let town = read(&folder.join("carla_xodr/Town06.xodr"), &MapConfig::default());
     assert!(town.walkable.iter().filter(|polygon| polygon.kind == WalkableKind::Shoulder).count() > 100);
+    assert!(town.synthetic.notes.iter().any(|note| note.contains("use the road shoulders")));
+    for name in ["Junction_with_building0", "Weird_looking_building_road_coord", "stationary_objects"] {
+        let town = read(&folder.join(format!("xodr_city/esmini_{name}.xodr")), &MapConfig::default());
+        check_ground(&town);
+        assert!(!town.walkable.is_empty() && town.walkable.iter().all(|polygon| polygon.synthetic), "{name}");
+        let notes = &town.synthetic.notes;
+        println!("{name}: {notes:?}, {:.3} of the walkable ground in its largest part", largest_part(&town));
+        assert!(notes.iter().any(|note| note.contains("2 m wide, beside the carriageways")), "{name}: {notes:?}");
+    }
 }
 
 #[test]

@@ -93,9 +93,7 @@ impl PedestrianError {
             Self::BrokenPolygon { .. } | Self::BrokenObstacle { .. } => {
                 "the map has a value there that is not a number; repair the map file".into()
             }
-            Self::NoGround => {
-                "choose a map with pavements, or set `shoulders_as_sidewalks = true` in the `map` stage".into()
-            }
+            Self::NoGround => "choose a map with pavements or streets".into(),
             Self::NothingFree { .. } => {
                 "make `grid_m` or `radius.max_m` smaller, or fill in fewer buildings and trees in the `map` stage"
                     .into()

@@ -1,8 +1,7 @@
 //! Walks on real towns: CARLA's own and a surveyed city. Skipped where the shared data is absent.
 
 use cosfly_frames::{DVec2, Seed};
-use cosfly_maps::formats::opendrive::OpenDriveOptions;
-use cosfly_maps::{FormatOptions, MapConfig, Town, WalkableKind, read_town};
+use cosfly_maps::{MapConfig, Town, WalkableKind, read_town};
 use cosfly_pedestrians::{PedestrianConfig, PedestrianPath, WalkableGrid, walk};
 use shared::shared_input;
 use std::path::{Path, PathBuf};
@@ -88,7 +87,5 @@ fn our_own_town_is_walked() {
 
 #[test]
 fn a_town_without_pavements_is_walked_on_its_shoulders() {
-    let options = OpenDriveOptions { shoulders_as_sidewalks: true, ..OpenDriveOptions::default() };
-    let config = MapConfig { options: FormatOptions::of(&options), ..MapConfig::default() };
-    check_town("Town06.xodr, shoulders", shared_input("carla_xodr/Town06.xodr"), &config);
+    check_town("Town06.xodr, shoulders", shared_input("carla_xodr/Town06.xodr"), &MapConfig::default());
 }

@@ -1,10 +1,9 @@
 //! Filled towns: nothing invented stands on a street, everything is flagged, and real towns fill quickly.
 
 use super::*;
-use crate::formats::opendrive::OpenDriveOptions;
 use crate::generate::{GenerateConfig, generate_town};
 use crate::polygons::triangulated;
-use crate::{FormatOptions, GroundIndex, MapConfig, Obstacle, ObstacleKind, SemanticLabel, read_town};
+use crate::{GroundIndex, MapConfig, Obstacle, ObstacleKind, SemanticLabel, read_town};
 use cosfly_frames::DVec2;
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 
@@ -145,8 +144,7 @@ fn a_town_without_open_land_gives_a_warning_instead_of_nothing() {
 fn carla_towns_fill_with_hundreds_of_buildings() {
     for name in ["Town01", "Town03_2019-04", "Town04", "Town06", "Town07"] {
         let Some(path) = shared::shared_input(&format!("carla_xodr/{name}.xodr")) else { continue };
-        let options = OpenDriveOptions { shoulders_as_sidewalks: name == "Town06", ..OpenDriveOptions::default() };
-        let config = MapConfig { options: FormatOptions::of(&options), ..MapConfig::default() };
+        let config = MapConfig::default();
         let bytes = std::fs::read(path).expect("it can be read");
         let (mut town, _) = read_town(&bytes, &config, seed()).expect("it reads");
         assert_eq!(fill(&mut town, &everything(), seed()), Vec::<String>::new(), "{name}");

@@ -85,7 +85,7 @@ fn ground_that_nobody_can_walk_on_is_refused_with_what_helps() {
         assert!(error.to_string().contains(message), "{error}");
         assert!(error.hint().contains(hint), "{}", error.hint());
     };
-    check(town(vec![], vec![]), "no walkable ground", "shoulders_as_sidewalks");
+    check(town(vec![], vec![]), "no walkable ground", "pavements or streets");
     check(town(vec![pavement.clone()], vec![pillar((30.0, 0.0), 80.0, 3.0)]), "none of the town's 1", "radius");
     check(town(vec![rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (0.5, 0.5), 0.0)], vec![]), "none of", "grid_m");
     let mut broken = pavement.clone();

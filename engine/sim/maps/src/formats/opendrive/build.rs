@@ -15,6 +15,7 @@ use super::road_marks::{LinePainter, MOST_STROKES};
 use super::signals;
 use super::stations::{StationBudget, cross_sections};
 use super::surfaces::{self, DEFAULT_KERB_M};
+use super::verges;
 use super::walkable;
 use crate::mesh::MeshBuilder;
 use crate::polygons::PolygonIndex;
@@ -52,6 +53,12 @@ fn build(
         Roofs::Flat => false,
         Roofs::Pitched => true,
     };
+    let has = |kind: LaneKind| network.lanes().any(|lane| lane.kind == kind);
+    let assumes_shoulders = options.assume_ground && !options.shoulders_as_sidewalks && !has(LaneKind::Sidewalk);
+    let options = &OpenDriveOptions {
+        shoulders_as_sidewalks: options.shoulders_as_sidewalks || assumes_shoulders,
+        ..options.clone()
+    };
     for road in &network.roads {
         parts.add_lanes(road, options).map_err(|error| match error.place {
             Some(_) => error,
@@ -61,8 +68,14 @@ fn build(
             parts.obstacles.add(road, object, &parts.world);
         }
     }
+    if !parts.walkable.is_empty() && assumes_shoulders {
+        parts.notes.push("pedestrians use the road shoulders: the file has no lane of type `sidewalk`".to_owned());
+    }
+    if parts.walkable.is_empty() && options.assume_ground {
+        parts.add_verges(&network)?;
+    }
     if parts.walkable.is_empty() {
-        return Err(no_walkable_ground(&network));
+        return Err(no_walkable_ground(options));
     }
     if options.signals {
         parts.add_signals(&network);
@@ -114,6 +127,23 @@ impl Parts {
                 walkable::add_section(&mut self.walkable, road, index, &rows, options.shoulders_as_sidewalks, &world);
             }
         }
+        Ok(())
+    }
+
+    /// Pavements beside the carriageways of a file without ground for pedestrians.
+    fn add_verges(&mut self, network: &RoadNetwork) -> Result<(), MapError> {
+        let surfaces = core::mem::take(&mut self.meshes).finish();
+        let ground = GroundIndex::of_surfaces(&surfaces, |_| true);
+        self.meshes = MeshBuilder::from_meshes(surfaces);
+        let (invented, length_m) = verges::verges(network, &ground, &self.world, &mut self.budget, &mut self.meshes)?;
+        if !invented.is_empty() {
+            self.notes.push(format!(
+                "{length_m:.0} m of pavements, {} m wide, beside the carriageways: the file has no ground for \
+                 pedestrians",
+                verges::WIDTH_M
+            ));
+        }
+        self.walkable = invented;
         Ok(())
     }
 
@@ -256,16 +286,11 @@ fn settle(obstacles: &mut [Obstacle], ground: &GroundIndex) {
     }
 }
 
-fn no_walkable_ground(network: &RoadNetwork) -> MapError {
-    let has_shoulders = network
-        .roads
-        .iter()
-        .flat_map(|road| &road.sections)
-        .any(|section| section.left.iter().chain(&section.right).any(|lane| lane.kind == LaneKind::Shoulder));
+fn no_walkable_ground(options: &OpenDriveOptions) -> MapError {
     let error = MapError::new("the map has no walkable ground: it has no lane of type `sidewalk`");
-    if has_shoulders {
-        error.hint("set `shoulders_as_sidewalks = true` in this stage to let pedestrians use the road shoulders")
+    if options.assume_ground {
+        error.hint("add lanes of type `sidewalk` to the map, or use another map: it has no carriageway, either")
     } else {
-        error.hint("add lanes of type `sidewalk` to the map, or use another map")
+        error.hint("leave out `assume_ground = false` in this stage to let pedestrians walk beside the carriageways")
     }
 }

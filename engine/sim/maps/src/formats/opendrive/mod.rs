@@ -27,6 +27,7 @@ mod road_marks;
 mod signals;
 mod stations;
 mod surfaces;
+mod verges;
 mod walkable;
 mod xml_bounds;
 

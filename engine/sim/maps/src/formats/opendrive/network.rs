@@ -17,6 +17,12 @@ pub struct RoadNetwork {
 }
 
 impl RoadNetwork {
+    /// All lanes of all roads.
+    pub fn lanes(&self) -> impl Iterator<Item = &Lane> {
+        let sections = self.roads.iter().flat_map(|road| &road.sections);
+        sections.flat_map(|section| section.left.iter().chain(&section.right))
+    }
+
     /// First points of all pieces of all reference lines, map frame, metres.
     pub fn plan_points(&self) -> impl Iterator<Item = DVec2> {
         self.roads.iter().flat_map(|road| &road.plan).map(|element| element.start.position_in_map)

@@ -7,8 +7,12 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct OpenDriveOptions {
-    /// Let pedestrians use road shoulders in a town that has no pavements. Off by default: such a town is refused.
+    /// Let pedestrians use road shoulders beside pavements, too. Off by default; a town that has no pavements lets them
+    /// use its shoulders anyway (`assume_ground`).
     pub shoulders_as_sidewalks: bool,
+    /// Let pedestrians of a town that has no pavements use its shoulders; where it has none either, invent pavements of
+    /// 2 m beside the carriageways. On by default; off, such a town is refused.
+    pub assume_ground: bool,
     /// Make poles and plates of the file's signals (signs and traffic lights). On by default.
     pub signals: bool,
     /// Paint lane lines and crossings. On by default.
@@ -42,6 +46,7 @@ impl Default for OpenDriveOptions {
     fn default() -> Self {
         Self {
             shoulders_as_sidewalks: false,
+            assume_ground: true,
             signals: true,
             road_marks: true,
             unmarked_crossings: true,

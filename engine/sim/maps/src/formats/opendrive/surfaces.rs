@@ -9,7 +9,7 @@ use crate::world::WorldFromMap;
 use cosfly_frames::{DVec2, DVec3};
 
 /// Height of the skirt below a road's edge, so that no gap opens towards the terrain, metres.
-const SKIRT_M: f64 = 1.5;
+pub(super) const SKIRT_M: f64 = 1.5;
 /// Height of pavements in files that give none, metres.
 pub(super) const DEFAULT_KERB_M: f64 = 0.15;
 

@@ -55,7 +55,7 @@ pub(super) fn add_section(
     for (side, (_, lanes)) in road.sections[section].sides().into_iter().enumerate() {
         for (index, kind) in walkable_lanes(lanes, rows, side, shoulders).into_iter().enumerate() {
             let Some(kind) = kind else { continue };
-            for piece in pieces(rows) {
+            for piece in pieces(rows, |row| row.s_m) {
                 let widest = piece.iter().map(|row| width_m(row, side, index)).fold(0.0, f64::max);
                 if widest < NARROWEST_M {
                     continue;
@@ -72,12 +72,12 @@ pub(super) fn add_section(
 }
 
 /// Runs of rows that span at most [`LONGEST_PIECE_M`]; neighbours share a row.
-fn pieces(rows: &[CrossSection]) -> Vec<&[CrossSection]> {
+pub(super) fn pieces<R>(rows: &[R], s_m: impl Fn(&R) -> f64) -> Vec<&[R]> {
     let mut out = Vec::new();
     let mut first = 0;
     for last in 1..rows.len() {
         let is_end = last + 1 == rows.len();
-        if is_end || rows[last + 1].s_m - rows[first].s_m > LONGEST_PIECE_M {
+        if is_end || s_m(&rows[last + 1]) - s_m(&rows[first]) > LONGEST_PIECE_M {
             out.push(&rows[first..=last]);
             first = last;
         }
