@@ -63,11 +63,7 @@ fn is_address(words: &[&str]) -> bool {
 /// A word for a thing in the phrase that begins at a place, where the words before say that the thing is there. A word that the
 /// dictionary lacks is none: what nobody knows contradicts nothing.
 fn unknown_thing(words: &[&str], at: usize) -> Option<String> {
-    if !is_introduced(words, at)
-        || DETERMINERS.contains(&words[at])
-        || is_likened(words, at)
-        || is_saying(words, at)
-    {
+    if !is_introduced(words, at) || DETERMINERS.contains(&words[at]) || is_likened(words, at) || is_saying(words, at) {
         return None;
     }
     let is_end = |word: &str| word.is_empty() || (KNOWN_FUNCTION_WORDS.contains(word) && word != "of");
