@@ -12,8 +12,6 @@ use std::time::{Duration, SystemTime};
 const SECONDS_PER_DAY: u64 = 86_400;
 
 /// Free space in the store; shows what would go unless `--delete` is given
-///
-/// With `--delete`, thousands of small files that stay are packed into one file for each kind.
 #[derive(Debug, Parser)]
 #[command(
     name = "gc",
@@ -25,7 +23,7 @@ Examples:
 pub struct Arguments {
     #[command(flatten)]
     store: StoreArguments,
-    /// Delete; without this option, the sizes are only shown
+    /// Delete, and pack thousands of small files that stay; without this option, the sizes are only shown
     #[arg(long)]
     delete: bool,
     /// Runs per recipe whose results are kept
