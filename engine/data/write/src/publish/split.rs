@@ -41,13 +41,14 @@ pub fn plan_groups(
     let facts: Vec<FlightFacts> =
         notes.into_iter().zip(layouts).map(|(note, layout)| note.into_facts(layout)).collect();
     let mut plans: Vec<GroupPlan> = names.into_iter().map(|name| GroupPlan { name, ..GroupPlan::default() }).collect();
+    // Flights in guard bands are left out later: their towns are known.
+    check_towns(&facts, config)?;
     let splits = match config.splits.by {
         SplitBy::Area => area::resolved(&facts, &config.splits),
         _ => config.splits.clone(),
     };
     let config = &DatasetConfig { splits, ..config.clone() };
     let (places, mut facts) = leave_out(facts, places, config, &mut plans);
-    check_towns(&facts, config)?;
     let assignment = cosfly_splits::assign(&facts, &config.splits);
     for ((it, split), group) in facts.iter_mut().zip(&assignment.splits).zip(&assignment.groups) {
         (it.split, it.group) = (split.name().to_owned(), group.clone());
