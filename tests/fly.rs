@@ -50,6 +50,7 @@ fn two_results_compare_and_others_are_refused() {
     refused(&street, &["recipe.toml", "--policy", "folow"], 3, "did you mean `follow`?");
     refused(&street, &["recipe.toml", "--policy", "python:mine"], 3, "python:MODULE:FUNCTION");
     refused(&street, &["recipe.toml", "--policy", "wss://host"], 3, "encrypted");
+    refused(&street, &["recipe.toml", "--policy", "hold", "--policy", "hold"], 3, "the name `hold`");
     refused(&street, &["recipe.toml"], 2, "--policy");
     refused(&street, &["recipe.toml", "--policy", "ws://127.0.0.1:9", "--wait", "0.1", "--out", "gone"], 1, "kept");
 }

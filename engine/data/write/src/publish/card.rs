@@ -42,7 +42,7 @@ pub fn license_text(config: &DatasetConfig) -> String {
 pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
     let mut text = front_matter(config, summary);
     let _ = write!(text, "\n# {}\n\n{}\n\n", config.title, config.description);
-    text.push_str(&figures(summary));
+    text.push_str(&figures(config, summary));
     text.push_str(&loading(config, summary));
     text.push_str(CONVENTIONS);
     for channel in summary.channels.iter().filter(|channel| channel.is_on_request()) {
@@ -124,7 +124,7 @@ fn config_of(table: &str, rows: &BTreeMap<String, u64>) -> String {
     format!("- config_name: {table}\n{default}  data_files:\n{files}")
 }
 
-fn figures(summary: &Summary) -> String {
+fn figures(config: &DatasetConfig, summary: &Summary) -> String {
     let sizes: Vec<String> = summary.image_sizes.iter().map(|(width, height)| format!("{width} x {height}")).collect();
     let mut text = String::from("## In figures\n\n| | |\n| --- | --- |\n");
     let mut row = |name: &str, value: String| {
@@ -140,6 +140,10 @@ fn figures(summary: &Summary) -> String {
     row("items without a flight", format!("{}, each with its reason in `rejected`", summary.rejected));
     row("logs", format!("{:.1} MB", summary.mcap_bytes as f64 / 1e6));
     row("weather", summary.weathers.iter().cloned().collect::<Vec<_>>().join(", "));
+    if summary.rows.get("windows").is_none_or(|rows| rows.values().all(|&rows| rows == 0)) {
+        let frames = config.windows.size;
+        row("training windows", format!("none: no flight has the {frames} frames of one"));
+    }
     row("languages of the captions", summary.languages.iter().cloned().collect::<Vec<_>>().join(", "));
     for (town, figures) in &summary.towns {
         row(&format!("town `{town}`"), format!("{} flights", figures.flights));

@@ -87,6 +87,19 @@ fn the_card_lists_only_tables_with_rows() {
 }
 
 #[test]
+fn the_card_says_where_no_flight_is_as_long_as_a_window() {
+    let card = |size| {
+        let mut config = DatasetConfig::default();
+        (config.windows.size, config.windows.history) = (size, 1);
+        let folder = tempfile::tempdir().unwrap();
+        sample::write_flights(folder.path(), &config, EncodingConfig::default(), sample::flights()).unwrap();
+        std::fs::read_to_string(folder.path().join("README.md")).unwrap()
+    };
+    assert!(card(900).contains("| training windows | none: no flight has the 900 frames of one |"));
+    assert!(!card(2).contains("training windows | none"));
+}
+
+#[test]
 fn a_dataset_without_a_flight_is_refused_with_the_reasons() {
     let folder = tempfile::tempdir().unwrap();
     let outcome = sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), vec![]);

@@ -178,6 +178,7 @@ impl Command for Arguments {
             let message = "`--name` names one policy, but several are given";
             return Err(Diagnostic::new("fly-policy", Fault::Recipe, message).hint("leave it out").into());
         }
+        check_names(&places)?;
         let recipe = recipe.load(console)?;
         let settings = self.settings(&FlySettings::of(&recipe)?)?;
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join("fly").join(&recipe.name));
@@ -222,6 +223,18 @@ impl Command for Arguments {
         self.tell(&arms, console)?;
         Ok(code)
     }
+}
+
+/// Every policy has a name of its own: the folder of its results.
+fn check_names(places: &[Place]) -> cosfly_diagnose::Result<()> {
+    let names: Vec<String> = places.iter().map(Place::name).collect();
+    let Some(name) = names.iter().enumerate().find_map(|(index, name)| names[..index].contains(name).then_some(name))
+    else {
+        return Ok(());
+    };
+    let message = format!("two policies have the name `{name}`: results of both would lie in one folder");
+    let refusal = Diagnostic::new("fly-policy", Fault::Recipe, message);
+    Err(refusal.hint("leave one out, or fly each by a command of its own with `--name`"))
 }
 
 impl Arguments {
