@@ -10,6 +10,9 @@ use super::tone::ToneCurve;
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
 
+/// Rays that rise or fall by less (sine of the angle) may have others beside them on the other side of the horizon.
+const LEVEL: f32 = 1e-3;
+
 /// Which kinds of light a material answers to.
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
@@ -162,6 +165,7 @@ simd_kernel! {
 
 simd_kernel! {
     /// Colours of the sky and of the land before it.
+    /// The sky and the land below it, where no face is.
     pub fn sky(
         blocks: &mut [Block],
         stage: &Stage,
@@ -177,11 +181,21 @@ simd_kernel! {
             // The sky changes slowly: it is blended between the ends of fours, which neighbours share.
             let mut ends = [[[0.0f32; WIDE]; 3]; 2];
             let (mut lowest, mut highest) = (1.0f32, -1.0f32);
-            for (end, aside) in ends.iter_mut().zip([-0.5, 3.5]) {
+            for aside in [-0.5, 3.5] {
                 for k in 0..WIDE {
-                    let direction = view.ray(u[k] + aside, v[k]).unit();
-                    (lowest, highest) = (least(lowest, direction.z), most(highest, direction.z));
-                    set(end, k, super::sky::colour(&light, direction, haze, noise));
+                    let rise = view.ray(u[k] + aside, v[k]).unit().z;
+                    (lowest, highest) = (least(lowest, rise), most(highest, rise));
+                }
+            }
+            // The plain covers everything below the horizon, and nothing above it.
+            let over_land = view.position.z > outskirts.ground_m();
+            let is_plain = over_land & (highest < -LEVEL);
+            if !is_plain {
+                for (end, aside) in ends.iter_mut().zip([-0.5, 3.5]) {
+                    for k in 0..WIDE {
+                        let direction = view.ray(u[k] + aside, v[k]).unit();
+                        set(end, k, super::sky::colour(&light, direction, haze, noise));
+                    }
                 }
             }
             for (aside, block) in four.iter_mut().enumerate() {
@@ -190,21 +204,34 @@ simd_kernel! {
                 for k in 0..WIDE {
                     set(&mut block.albedo, k, get(first, k).lerp(get(last, k), 0.125 + 0.25 * aside));
                 }
-                if lowest < outskirts::HIGHEST {
+                let sight = |k: usize| {
+                    let direction = view.ray(u[k] + aside, v[k]).unit();
+                    Sight { position: view.position, direction, pixel, haze }
+                };
+                if (lowest < outskirts::HIGHEST) & !is_plain {
                     for k in 0..WIDE {
-                        let direction = view.ray(u[k] + aside, v[k]).unit();
-                        let sight = Sight { position: view.position, direction, pixel, haze };
                         let behind = get(&block.albedo, k);
-                        set(&mut block.albedo, k, outskirts.land(behind, &light, &sight, noise));
+                        set(&mut block.albedo, k, outskirts.hills(behind, &light, &sight(k), noise));
+                    }
+                }
+                if over_land & (lowest < LEVEL) {
+                    for k in 0..WIDE {
+                        let behind = get(&block.albedo, k);
+                        set(&mut block.albedo, k, outskirts.plain(behind, &light, &sight(k), noise));
                     }
                 }
                 if lowest < outskirts::HIGHEST && highest > outskirts::LOWEST {
                     for ring in outskirts::RINGS {
+                        let mut reaches = false;
                         for k in 0..WIDE {
-                            let direction = view.ray(u[k] + aside, v[k]).unit();
-                            let sight = Sight { position: view.position, direction, pixel, haze };
+                            reaches |= outskirts.reaches(&ring, &sight(k));
+                        }
+                        if !reaches {
+                            continue;
+                        }
+                        for k in 0..WIDE {
                             let behind = get(&block.albedo, k);
-                            set(&mut block.albedo, k, outskirts.houses(behind, &ring, &light, &sight, noise));
+                            set(&mut block.albedo, k, outskirts.houses(behind, &ring, &light, &sight(k), noise));
                         }
                     }
                 }

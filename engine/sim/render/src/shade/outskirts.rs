@@ -83,9 +83,15 @@ impl Outskirts {
         }
     }
 
-    /// The hills and the plain before `sky`.
+    /// Height of the plain, metres.
     #[inline(always)]
-    pub fn land(&self, sky: Vec3, light: &Light, sight: &Sight, noise: &NoiseTexture) -> Vec3 {
+    pub fn ground_m(&self) -> f32 {
+        self.ground_m
+    }
+
+    /// The hills before `sky`.
+    #[inline(always)]
+    pub fn hills(&self, sky: Vec3, light: &Light, sight: &Sight, noise: &NoiseTexture) -> Vec3 {
         let ray = Level::of(self, sight);
         let arriving = ray.arriving(light);
         // Hills: one smooth line.
@@ -96,9 +102,13 @@ impl Outskirts {
         let cover = share((height - (ray.above_m + far * ray.slope)) / (far * sight.pixel) + 0.5);
         let rough = noise.clumps(place * 900.0, 20.0 + ray.slope * 900.0, 2.0);
         let wood = Vec3::new(0.060, 0.080, 0.045) * (0.6 + 0.8 * rough);
-        let colour = sky.lerp(hazy(wood * arriving, far, light, sight), cover);
+        sky.lerp(hazy(wood * arriving, far, light, sight), cover)
+    }
 
-        // The plain: woods, fields and roofs, in patches that fade where they are smaller than a pixel.
+    /// The plain before `behind`: woods, fields and roofs, in patches that fade where they are smaller than a pixel.
+    #[inline(always)]
+    pub fn plain(&self, behind: Vec3, light: &Light, sight: &Sight, noise: &NoiseTexture) -> Vec3 {
+        let ray = Level::of(self, sight);
         let down = most(-ray.slope, 1e-5);
         let to_plain = least(ray.above_m / down, 60_000.0);
         let (x, y) = (sight.position.x + to_plain * ray.flat[0], sight.position.y + to_plain * ray.flat[1]);
@@ -119,7 +129,17 @@ impl Outskirts {
         let on_plain = light.ambient(UP) * (1.0 - 0.15 * wild) + light.sun * most(light.to_sun.z, 0.0);
         let below = one_if((ray.slope < 0.0) & (ray.above_m > 0.0));
         let lit = plain * on_plain;
-        colour.lerp(hazy(lit, to_plain, light, sight), below)
+        behind.lerp(hazy(lit, to_plain, light, sight), below)
+    }
+
+    /// Whether a ray may meet the houses of a ring.
+    #[inline(always)]
+    pub fn reaches(&self, ring: &Ring, sight: &Sight) -> bool {
+        let ray = Level::of(self, sight);
+        let far = ray.reach(self.radius_m + ring.beyond_m);
+        let (z, pixel_m) = (ray.above_m + far * ray.slope, far * sight.pixel);
+        // No tree is as high as the highest house.
+        (z > -pixel_m) & (z < ring.heights_m[1] + pixel_m)
     }
 
     /// The houses and trees of a ring before `behind`.
