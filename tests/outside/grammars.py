@@ -17,6 +17,7 @@ from paraphrases_thirteenth import ThirteenthChinese, ThirteenthEnglish
 from paraphrases_twelfth import TwelfthChinese, TwelfthEnglish
 from paraphrases_twentieth import TwentiethChinese, TwentiethEnglish
 from paraphrases_twentyfirst import TwentyFirstChinese, TwentyFirstEnglish
+from paraphrases_twentyfourth import TwentyFourthChinese, TwentyFourthEnglish
 from paraphrases_twentysecond import TwentySecondChinese, TwentySecondEnglish
 
 GRAMMARS = {
@@ -41,6 +42,7 @@ GRAMMARS = {
     20: (TwentiethEnglish, TwentiethChinese),
     21: (TwentyFirstEnglish, TwentyFirstChinese),
     22: (TwentySecondEnglish, TwentySecondChinese),
+    24: (TwentyFourthEnglish, TwentyFourthChinese),
 }
 # Grammars whose instructions may leave out that a person stands: such an instruction is true of a person who walks.
-LEAVE_STANDING_OUT = {15, 16, 17, 18, 19, 20, 21, 22}
+LEAVE_STANDING_OUT = {15, 16, 17, 18, 19, 20, 21, 22, 24}

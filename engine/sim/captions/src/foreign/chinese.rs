@@ -10,6 +10,8 @@ use crate::reading::chinese::{clauses, plain};
 const REACH: usize = 6;
 /// Characters of the longest clause that only calls somebody.
 const ADDRESS: usize = 6;
+/// Characters of the longest clause in which somebody begins to speak.
+const SPEECH: usize = 8;
 
 /// Words that name a thing, and places, company and what is passed that are no part of a walk.
 pub fn foreign_things(text: &str) -> Vec<String> {
@@ -19,6 +21,11 @@ pub fn foreign_things(text: &str) -> Vec<String> {
 fn in_clause(clause: &str) -> Vec<String> {
     // `孩子，`
     if clause.chars().count() <= 2 && clause.ends_with(['子', '学', '师', '友', '员', '长', '傅']) {
+        return vec![];
+    }
+    // `妈妈跟你说，`
+    let speaks = ["说", "告诉", "讲", "听"].iter().any(|word| clause.contains(word));
+    if clause.chars().count() <= SPEECH && clause.contains(['你', '您']) && speaks {
         return vec![];
     }
     // `家人们，`: who is spoken to is no part of the flight.

@@ -41,9 +41,12 @@ fn in_clause<'c>(clause: &'c [Token]) -> Vec<String> {
         (is_thing(words[*at]) && !is_verb(&words, *at) && !is_saying(&words, *at) && !is_likened(&words, *at))
             || is_aid(&words, *at)
     };
+    // `officers are to follow`: who is told what to do is no part of the flight.
+    let is_told = matches!(words[..], [_, "are" | "is", "to", ..] | [_, "shall" | "must" | "should", ..]);
     // `the glass inclined 40 degrees`: what is aimed is the camera, by whatever name.
     let is_aimed = words.iter().any(|word| ["degrees", "degree"].contains(word));
-    let mut found: Vec<String> = (0..words.len()).filter(is_named).map(|at| words[at].to_owned()).collect();
+    let mut found: Vec<String> =
+        (usize::from(is_told)..words.len()).filter(is_named).map(|at| words[at].to_owned()).collect();
     found.extend((1..words.len()).filter_map(|at| {
         let is_camera = is_aimed && ["the", "our", "your", "its"].contains(&words[at - 1]);
         unknown_thing(&words, at).filter(|word| !(is_camera && words[at] == word))

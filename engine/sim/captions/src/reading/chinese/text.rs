@@ -45,8 +45,15 @@ pub fn read(text: &str) -> Vec<Claim> {
         claims.retain(|claim| !((is_denied || is_told) && *claim == Claim::SomeStops));
         claims
     };
-    let is_level = LEVEL.iter().any(|word| text.contains(word));
+    let is_level = LEVEL.iter().any(|word| text.contains(word)) || clauses(text).iter().any(|it| denies_tilt(it));
     with_level_view(sentences(text).into_iter().flat_map(sentence).collect(), is_level)
+}
+
+/// `镜头不要俯也不要仰`, `镜头未作俯仰`: neither up nor down.
+fn denies_tilt(clause: &[char]) -> bool {
+    let has = |of: &str| clause.iter().any(|c| of.contains(*c));
+    let is_aim = has("俯") && has("仰") || clause.windows(2).any(|pair| pair == ['角', '度']) && has("镜机云台");
+    is_aim && has("不没未无别勿") && !has("0123456789")
 }
 
 pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
@@ -92,7 +99,20 @@ fn joined(clause: &str) -> String {
         ("调了个头", "调头"),
         ("调了头", "调头"),
     ];
-    parted.iter().fold(clause.to_owned(), |clause, (from, to)| clause.replace(from, to))
+    counted_around(&parted.iter().fold(clause.to_owned(), |clause, (from, to)| clause.replace(from, to)))
+}
+
+/// `掉了1次头` as `掉头1次`.
+fn counted_around(clause: &str) -> String {
+    for verb in ["掉了", "调了", "掉", "调"] {
+        let Some((before, after)) = clause.split_once(verb) else { continue };
+        let Some((_, counted)) = number(after) else { continue };
+        if let Some(rest) = counted.strip_prefix(['次', '个', '回']).and_then(|rest| rest.strip_prefix('头')) {
+            let times = &after[..after.len() - counted.len()];
+            return format!("{before}掉头{times}次{rest}");
+        }
+    }
+    clause.to_owned()
 }
 
 fn read_clause(clause: &str, before: &str, about_stops: bool, is_near_stop: bool, was_stop: bool) -> Vec<Claim> {

@@ -361,7 +361,7 @@ pub const NEVER_STOPS: [&str; 12] = [
     "脚不沾地",
 ];
 /// Words for a camera that looks neither up nor down.
-pub const LEVEL: [&str; 53] = [
+pub const LEVEL: [&str; 54] = [
     "角度是零",
     "角度为零",
     "角度零",
@@ -408,6 +408,7 @@ pub const LEVEL: [&str; 53] = [
     "别俯",
     "没有俯",
     "平的",
+    "平平",
     "不俯",
     "无角度",
     "没有角度",

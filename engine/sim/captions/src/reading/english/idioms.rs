@@ -31,6 +31,12 @@ pub fn is_of_the_drone(words: &[&str]) -> bool {
     words.iter().any(|word| WORDS.contains(word))
 }
 
+/// `let the camera look straight ahead`
+pub fn is_of_a_view(words: &[&str]) -> bool {
+    let has = |such: &[&str]| words.iter().any(|word| such.contains(word));
+    has(&["camera", "lens", "gimbal"]) && has(&["look", "looks", "looking", "looked", "stare", "stares", "staring"])
+}
+
 /// Whether a clause speaks of the pilot or of the room between drone and target: `do not deviate from a distance of 28 m`.
 pub fn is_of_the_gap(words: &[&str]) -> bool {
     let of_the_gap = ["distance", "gap", "spacing", "pilot", "drone", "camera", "you", "separation"];

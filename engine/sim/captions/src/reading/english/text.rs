@@ -1,7 +1,7 @@
 //! English texts, clause by clause: words and numbers become claims.
 
 use super::clothes::{both_garments, clothes_claim};
-use super::idioms::{is_of_the_drone, is_of_the_gap, without_idioms};
+use super::idioms::{is_of_a_view, is_of_the_drone, is_of_the_gap, without_idioms};
 use super::negation::{denied, is_denied_at};
 use super::numbers::{fold_numbers, number_word};
 use super::pauses::{
@@ -247,7 +247,9 @@ fn word_claim(at: usize, words: &[&str], counted: bool, about_stops: bool) -> Op
     turn.or_else(|| back.then_some(Claim::Turn(TurnKind::Around)))
         .or_else(|| compass_word(word).map(Claim::Direction))
         .or(match word {
-            "straight" if !STRAIGHT_AT.contains(&next) && !words.contains(&"measured") => Some(Claim::Straight),
+            "straight" if !STRAIGHT_AT.contains(&next) && !words.contains(&"measured") && !is_of_a_view(words) => {
+                Some(Claim::Straight)
+            }
             "still" if !["walks", "walking", "keeps", "keep", "moving"].contains(&next) && !about_stops => {
                 Some(Claim::Stays)
             }
