@@ -2,9 +2,9 @@
 
 use crate::config::{CaptionConfig, Style};
 use crate::facts::Facts;
-use crate::language::Language;
 use crate::wording::{TEMPLATES, approximately, approximately_in_chinese};
 use crate::{chinese, english};
+use cosfly_claims::Language;
 use cosfly_random::{RandomStream, Seed};
 use serde::{Deserialize, Serialize};
 

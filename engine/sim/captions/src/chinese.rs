@@ -3,8 +3,9 @@
 use crate::chinese_frames::{CALLS, INSTRUCTIONS, KEEPS, LOOKS_DOWN, LOOKS_UP};
 use crate::facts::{Facts, Wear};
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
-use crate::turns::{Turn, TurnKind};
+use crate::turns::Turn;
 use crate::wording::{one_of, rounded};
+use cosfly_claims::TurnKind;
 use cosfly_random::RandomStream;
 use cosfly_render::Colour;
 

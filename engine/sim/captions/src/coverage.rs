@@ -3,7 +3,7 @@
 //! No facts are needed, so that anyone's texts can be counted. A kind without texts shows what a model cannot learn from them.
 
 use crate::diversity::words;
-use crate::language::Language;
+use cosfly_claims::Language;
 use std::collections::BTreeMap;
 
 /// A kind of relation or intent, with phrases that speak of it. An English phrase stands between the ends of words; one that ends

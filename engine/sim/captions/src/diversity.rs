@@ -1,6 +1,6 @@
 //! How different texts are: distinct-n, self-BLEU, lengths.
 
-use crate::language::Language;
+use cosfly_claims::Language;
 use cosfly_frames::real;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};

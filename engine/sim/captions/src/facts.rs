@@ -1,7 +1,8 @@
 //! Facts of a trajectory: directions, turns, stops, distances, angles.
 
-use crate::compass::Compass;
-use crate::turns::{Turn, TurnKind, directions, turns};
+use crate::turns::{Turn, directions, turns};
+use cosfly_claims::Compass;
+use cosfly_claims::TurnKind;
 use cosfly_frames::DVec2;
 use cosfly_planner::Trajectory;
 use cosfly_render::{Colour, Outfit};

@@ -1,7 +1,7 @@
 //! Typed facts of a trajectory, and Chinese and English instructions checked against them.
 //!
 //! [`facts`] reads a trajectory, [`captions`] puts the facts into words, [`check`] reads any text back and compares
-//! it with the facts. The reader shares no code with the templates, so it can judge other people's texts as well.
+//! it with the facts. The reader (`cosfly-claims`) shares no code with the templates, so it can judge other people's texts as well.
 //!
 //! [`refer`] names the target by properties that nobody else in a picture has.
 //!
@@ -15,18 +15,14 @@ pub mod caption;
 pub mod check;
 mod chinese;
 mod chinese_frames;
-pub mod compass;
 pub mod config;
 pub mod coverage;
 pub mod diversity;
 mod english;
 mod english_frames;
 pub mod facts;
-mod foreign;
 pub mod goals;
-pub mod language;
 pub mod precision;
-mod reading;
 pub mod refer;
 pub mod sight;
 pub mod teaching;
@@ -35,10 +31,9 @@ mod wording;
 
 pub use caption::{Caption, captions};
 pub use check::{Slot, SlotMismatch, check, check_clothes, claimed};
-pub use compass::Compass;
 pub use config::{CaptionConfig, Style, Writer};
+pub use cosfly_claims::{Compass, Language, TurnKind};
 pub use coverage::{Coverage, coverage};
 pub use diversity::{Diversity, diversity};
 pub use facts::{Facts, Stop, Wear, facts};
-pub use language::Language;
-pub use turns::{Turn, TurnKind};
+pub use turns::Turn;

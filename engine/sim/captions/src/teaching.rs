@@ -5,12 +5,12 @@
 use crate::check::{Slot, SlotMismatch, check};
 use crate::config::Style;
 use crate::facts::Facts;
-use crate::foreign::foreign_things;
-use crate::language::Language;
 use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
-use crate::turns::TurnKind;
 use crate::wording::rounded;
 use crate::{chinese, english};
+use cosfly_claims::Language;
+use cosfly_claims::TurnKind;
+use cosfly_claims::foreign_things;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 

@@ -1,5 +1,6 @@
 //! Turns of a walk, from its smoothed heading.
 
+use cosfly_claims::TurnKind;
 use cosfly_frames::{DVec2, real};
 use serde::{Deserialize, Serialize};
 
@@ -17,18 +18,6 @@ const AROUND_DEG: f64 = 135.0;
 /// A turn is over when the direction changes by less than `SETTLED_DEG` over `SETTLED_FRAMES`.
 const SETTLED_DEG: f64 = 10.0;
 const SETTLED_FRAMES: usize = 4;
-
-/// Which way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum TurnKind {
-    /// To the walker's left.
-    Left,
-    /// To the walker's right.
-    Right,
-    /// Back where it came from, by more than 135 degrees.
-    Around,
-}
 
 /// One turn of the walk.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

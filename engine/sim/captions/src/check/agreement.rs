@@ -2,8 +2,8 @@
 
 use crate::facts::Facts;
 use crate::precision::{SPEED_STEP_MPS, STOP_STEP_S, is_step, way_step_m};
-use crate::reading::Claim;
-use crate::turns::TurnKind;
+use cosfly_claims::Claim;
+use cosfly_claims::TurnKind;
 
 /// Turns that the text lists, in order.
 pub(super) fn listed(claims: &[Claim]) -> Vec<TurnKind> {

@@ -7,8 +7,8 @@ use crate::facts::Facts;
 use crate::precision::{
     DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, is_step, way_step_m,
 };
-use crate::reading::Claim;
-use crate::turns::TurnKind;
+use cosfly_claims::Claim;
+use cosfly_claims::TurnKind;
 use std::fmt;
 
 /// All disagreements of claims with the facts, in the order of the text; missing slots come last.

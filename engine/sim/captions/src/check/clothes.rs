@@ -2,7 +2,7 @@
 
 use super::slot::{Slot, SlotMismatch};
 use crate::facts::Wear;
-use crate::reading::Claim;
+use cosfly_claims::Claim;
 
 /// Disagreement of a claim about clothes with the clothes; `None` for other claims.
 pub(crate) fn clothes_mismatch(claim: &Claim, wear: &Wear) -> Option<SlotMismatch> {

@@ -6,7 +6,7 @@
 use super::agreement::states_the_walk;
 use crate::facts::Facts;
 use crate::precision::{DISTANCE_STEP_M, STOP_STEP_S, duration_step_s, is_step, way_step_m};
-use crate::reading::Claim;
+use cosfly_claims::Claim;
 
 /// A value of a family: the place that the text names, if any, and the places of all facts that the value equals.
 struct Value {

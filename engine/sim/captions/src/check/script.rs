@@ -1,13 +1,13 @@
 //! The script of a text against its language.
 
 use super::slot::{Slot, SlotMismatch};
-use crate::language::Language;
+use cosfly_claims::Language;
 
 /// The disagreement of a text that is not in the script of its language.
 pub(crate) fn script_mismatch(text: &str, language: Language) -> Option<SlotMismatch> {
     // A letter in a Chinese word, and symbols of units.
     let text = &match language {
-        Language::Zh => crate::reading::chinese::plain(&text.replace("T恤", "恤").replace(['U', 'V'], "")),
+        Language::Zh => cosfly_claims::chinese::plain(&text.replace("T恤", "恤").replace(['U', 'V'], "")),
         Language::En => text.to_owned(),
     };
     let han = text.chars().filter(|c| ('\u{4e00}'..='\u{9fff}').contains(c)).count();

@@ -6,8 +6,8 @@ use super::labels::relabelled;
 use super::script::script_mismatch;
 use super::slot::{Slot, SlotMismatch};
 use crate::facts::{Facts, Wear};
-use crate::language::Language;
-use crate::reading::{Claim, chinese, english, without_marks};
+use cosfly_claims::Language;
+use cosfly_claims::{Claim, chinese, english, without_marks};
 
 /// Compares every number, direction, turn and stop that a text claims with the facts.
 ///

@@ -2,7 +2,7 @@
 
 use crate::facts::Wear;
 use crate::sight::{LandmarkKind, OnSide};
-use crate::turns::TurnKind;
+use cosfly_claims::TurnKind;
 use cosfly_maps::ObstacleKind;
 use cosfly_render::Colour;
 use cosfly_world::BodyKind;

@@ -6,8 +6,8 @@ use super::english_frames::{FLIGHTS, KEEPS, OF_CLOTHES, OF_DISTANCE, OF_MOVES, S
 use crate::english::{article, who};
 use crate::facts::Wear;
 use crate::sight::{LandmarkKind, OnSide};
-use crate::turns::TurnKind;
 use crate::wording::one_of;
+use cosfly_claims::TurnKind;
 use cosfly_maps::ObstacleKind;
 use cosfly_random::RandomStream;
 use cosfly_render::Colour;

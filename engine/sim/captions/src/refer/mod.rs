@@ -3,7 +3,7 @@
 mod chinese;
 mod english;
 
-use crate::language::Language;
+use cosfly_claims::Language;
 use cosfly_render::Colour;
 use cosfly_world::BodyKind;
 

@@ -4,7 +4,7 @@ use super::beside::NearLandmark;
 use super::facts::{Place, Seen, Sight};
 use super::reading::{SightClaim, read};
 use crate::check::{Slot, SlotMismatch, clothes_mismatch, script_mismatch};
-use crate::language::Language;
+use cosfly_claims::Language;
 use std::fmt::Debug;
 
 /// Compares what a text claims of the target's place, way, clothes and of the people around it with the facts of the picture.

@@ -2,11 +2,11 @@
 
 use super::facts::{Across, Part, Place, Side};
 use super::landmark_reading::{LandmarkClaim, of_chinese, of_english};
-use crate::language::Language;
-use crate::reading::english::clothes as english_clothes;
-use crate::reading::english::numbers::number_word;
-use crate::reading::english::tokens::{self, Token};
-use crate::reading::{Claim, chinese};
+use cosfly_claims::Language;
+use cosfly_claims::english::clothes as english_clothes;
+use cosfly_claims::english::numbers::number_word;
+use cosfly_claims::english::tokens::{self, Token};
+use cosfly_claims::{Claim, chinese};
 use cosfly_render::Colour;
 
 /// One claim of a text about a picture.

@@ -2,7 +2,7 @@
 
 use super::facts::{Near, Part, Place, Seen, Side, Sight};
 use super::{chinese, english};
-use crate::language::Language;
+use cosfly_claims::Language;
 use cosfly_random::Seed;
 use cosfly_render::Colour;
 

@@ -1,14 +1,14 @@
 //! Reads English texts: `text` goes clause by clause, the other rooms know one subject each.
 
-pub(crate) mod clothes;
+pub mod clothes;
 mod garments;
 mod idioms;
 mod negation;
-pub(crate) mod numbers;
+pub mod numbers;
 mod pauses;
 mod quantities;
 mod text;
-pub(crate) mod tokens;
+pub mod tokens;
 mod turns;
 pub(crate) mod units;
 pub(crate) mod words;

@@ -13,8 +13,8 @@ use super::turns::{compass, repeated_turn, turn};
 use super::words::{
     GOES_ON, LEVEL, MOVES, NEVER_STOPS, NO_TURN_WORDS, STANDING_WORDS, STOP_CHARS, STRAIGHT_WORDS, TURNS, WALKING,
 };
-use crate::reading::{Claim, count, sentences, stands_for, with_level_view};
-use crate::turns::TurnKind;
+use crate::turn::TurnKind;
+use crate::{Claim, count, sentences, stands_for, with_level_view};
 
 /// Everything that the text claims, in order.
 pub fn read(text: &str) -> Vec<Claim> {
@@ -56,7 +56,8 @@ fn denies_tilt(clause: &[char]) -> bool {
     is_aim && has("不没未无别勿") && !has("0123456789")
 }
 
-pub(crate) fn clauses(text: &str) -> Vec<Vec<char>> {
+/// Clauses of a text, without the marks between them.
+pub fn clauses(text: &str) -> Vec<Vec<char>> {
     let chars: Vec<char> = text.chars().collect();
     let mut clauses = vec![vec![]];
     for (i, &c) in chars.iter().enumerate() {

@@ -1,14 +1,24 @@
-//! Reads texts back: the claims of a text, whoever wrote it.
+//! Claims of texts about a flight in Chinese and English, whoever wrote them: numbers, directions, turns, stops, clothes.
+//!
+//! [`english::read`] and [`chinese::read`] list them; [`foreign_things`] names what no facts of a flight have. The words of the
+//! templates are in `cosfly-captions`, which this crate does not know: a text that is read back proves them.
 
 pub mod chinese;
+mod compass;
 pub mod english;
+mod foreign;
+mod language;
 mod lists;
+mod turn;
+
+pub use compass::Compass;
+pub use foreign::foreign_things;
+pub use language::Language;
+pub use lists::without_marks;
+pub use turn::TurnKind;
 
 pub(crate) use english::words::LUGGAGE;
-pub(crate) use lists::without_marks;
 
-use crate::compass::Compass;
-use crate::turns::TurnKind;
 use cosfly_render::Colour;
 
 /// One claim of a text.

@@ -2,8 +2,8 @@
 
 use super::numbers::{UNITS, number};
 use super::words::{STOP_CHARS, STRONG_ALTITUDE, STRONG_DISTANCE, STRONG_WAY};
-use crate::reading::{Claim, count};
-use crate::turns::TurnKind;
+use crate::turn::TurnKind;
+use crate::{Claim, count};
 
 /// The claim of a number with the unit after it, and the bytes of that unit.
 pub(super) fn quantity(

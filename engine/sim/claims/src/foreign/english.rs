@@ -1,12 +1,12 @@
 //! Things in English texts, by their words and by their place in a clause.
 
 use super::english_words::{ADJECTIVES, BARE_PLACES, DETERMINERS, FUNCTION_WORDS, HARMLESS, PERSONS, PLACES, THINGS};
-use crate::reading::LUGGAGE;
-use crate::reading::english::clothes::{colour, is_garment};
-use crate::reading::english::is_of_a_walk;
-use crate::reading::english::numbers::is_numeral;
-use crate::reading::english::tokens::{Token, clauses};
-use crate::reading::english::units::is_unit;
+use crate::LUGGAGE;
+use crate::english::clothes::{colour, is_garment};
+use crate::english::is_of_a_walk;
+use crate::english::numbers::is_numeral;
+use crate::english::tokens::{Token, clauses};
+use crate::english::units::is_unit;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 

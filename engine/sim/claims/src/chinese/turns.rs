@@ -2,7 +2,7 @@
 
 use super::numbers::number;
 use crate::compass::Compass;
-use crate::turns::TurnKind;
+use crate::turn::TurnKind;
 
 /// A turn at the start of `text`; `turns_here`: the clause speaks of turns, so that `先左后右` is two of them.
 pub(super) fn turn(text: &str, turns_here: bool) -> Option<(TurnKind, usize)> {

@@ -6,7 +6,7 @@ const BEFORE_POINTS: &str = "\n;.。；";
 const BULLETS: &str = "-*•·–—";
 
 /// The text without the marks of its list items.
-pub(crate) fn without_marks(text: &str) -> String {
+pub fn without_marks(text: &str) -> String {
     let chars: Vec<char> = text.chars().collect();
     let mut plain = String::with_capacity(text.len());
     let mut last = '\n';

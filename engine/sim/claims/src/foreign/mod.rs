@@ -9,7 +9,7 @@ mod english;
 mod english_words;
 
 use crate::language::Language;
-use crate::reading::without_marks;
+use crate::without_marks;
 
 /// Words of a text that name things no facts of a flight have, in order.
 pub fn foreign_things(text: &str, language: Language) -> Vec<String> {

@@ -55,7 +55,7 @@ const SYMBOLS: [(&str, &str); 6] =
     [("m/s", "米/秒"), ("km/h", "公里/时"), ("min", "分钟"), ("m", "米"), ("s", "秒"), ("deg", "度")];
 
 /// The text in the reader's spelling.
-pub(crate) fn plain(text: &str) -> String {
+pub fn plain(text: &str) -> String {
     let text = SPELLINGS.iter().fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
     let mut text = with_units(&without_spaces(&text));
     for ordinal in ["第一", "第二", "第三", "第四", "第五", "第六", "第七", "第八"] {

@@ -1,7 +1,7 @@
 //! Clothes and luggage in Chinese clauses.
 
 use super::garments::{COLOURS, SHADES, TOPS, TROUSERS};
-use crate::reading::Claim;
+use crate::Claim;
 use cosfly_render::Colour;
 
 /// Whether a text begins with a colour.
@@ -72,7 +72,7 @@ pub(super) fn both_garments(clause: &str, claims: &mut Vec<Claim>) {
 }
 
 /// A colour before a garment at the start of `text`, or luggage; and what follows.
-pub(crate) fn garment(text: &str) -> Option<(Claim, &str)> {
+pub fn garment(text: &str) -> Option<(Claim, &str)> {
     for luggage in [
         "背囊",
         "行囊",

@@ -3,8 +3,8 @@
 use super::idioms::is_of_the_drone;
 use super::negation::{denied, is_parted};
 use super::words::{DURATION_WORDS, MOTION, NEGATIONS, STOP_STEMS, STOP_WORDS, UNPAUSED};
-use crate::reading::Claim;
-use crate::turns::TurnKind;
+use crate::Claim;
+use crate::turn::TurnKind;
 
 /// A pause, as verb or noun, and what keeps somebody from walking on.
 pub(super) fn is_stop(word: &str) -> bool {

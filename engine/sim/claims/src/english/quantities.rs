@@ -7,8 +7,8 @@ use super::units::is_unit;
 use super::words::{
     DOWN_STEMS, DURATION_WORDS, LEVEL, NEGATIONS, STRONG_ALTITUDE, STRONG_DISTANCE, STRONG_WAY, TURN_NOUNS, UP_STEMS,
 };
-use crate::reading::{Claim, count};
-use crate::turns::TurnKind;
+use crate::turn::TurnKind;
+use crate::{Claim, count};
 
 /// The claim of a number at a place, with the word after it, in its clause.
 pub(super) fn quantity(value: f64, at: usize, words: &[&str], about_stops: bool) -> Option<Claim> {

@@ -3,14 +3,17 @@
 use super::clothes::{colour, is_garment};
 use super::idioms::number_follows;
 
+/// A word or a number of a text.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Token {
+pub enum Token {
+    /// Lower-case letters.
     Word(String),
+    /// A number in digits, or of number words.
     Number(f64),
 }
 
 /// Lower-case tokens, parted at punctuation.
-pub(crate) fn clauses(text: &str) -> Vec<Vec<Token>> {
+pub fn clauses(text: &str) -> Vec<Vec<Token>> {
     let chars: Vec<char> = text.to_lowercase().chars().collect();
     let mut clauses = vec![vec![]];
     let mut i = 0;

@@ -6,7 +6,7 @@ use super::numbers::number_word;
 use super::tokens::Token;
 use super::words::TURN_STEMS;
 use crate::compass::Compass;
-use crate::turns::TurnKind;
+use crate::turn::TurnKind;
 
 pub(super) fn turn_word(word: &str) -> Option<TurnKind> {
     let is_of = |side: &str| {

@@ -4,7 +4,7 @@ use super::chinese_words::{
     BEFORE_PLACES, BESIDE, CHARACTERS, COMPANIONS_BEGIN, HARMLESS, HOLDING, MEASURES, OF_THE_WALK, PASSING, SOME_OF,
     SOMEWHERE, THINGS, TOGETHER,
 };
-use crate::reading::chinese::{clauses, plain};
+use crate::chinese::{clauses, plain};
 
 /// Characters that the thing a place is beside may have.
 const REACH: usize = 6;
@@ -163,7 +163,7 @@ fn from(clause: &str) -> Option<String> {
 }
 
 fn begins_with_colour(text: &str) -> bool {
-    crate::reading::chinese::clothes::begins_with_colour(text)
+    crate::chinese::clothes::begins_with_colour(text)
 }
 
 /// `带着小孩`: what the target has with it.

@@ -15,8 +15,8 @@ use super::turns::{
 };
 use super::units::is_unit;
 use super::words::{GOES_ON, LUGGAGE, MOTION, NEGATIONS, STANDS, UNTURNED, WALKS};
-use crate::reading::{Claim, count, sentences, stands_for, with_level_view};
-use crate::turns::TurnKind;
+use crate::turn::TurnKind;
+use crate::{Claim, count, sentences, stands_for, with_level_view};
 
 /// Everything that the text claims, in order.
 pub fn read(text: &str) -> Vec<Claim> {

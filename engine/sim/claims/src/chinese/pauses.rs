@@ -1,7 +1,7 @@
 //! Pauses, standing and negations in Chinese clauses.
 
 use super::words::{NO_STOP, STOP_CHARS};
-use crate::reading::Claim;
+use crate::Claim;
 
 /// A time in a clause that speaks of nothing else: `有6秒`, `加一块儿14秒`.
 pub(super) fn is_time_alone(clause: &str) -> bool {

@@ -2,7 +2,7 @@
 
 use super::garments::{SHADES, TOPS, TROUSERS};
 use super::words::{LUGGAGE, NEGATIONS};
-use crate::reading::Claim;
+use crate::Claim;
 use cosfly_render::Colour;
 
 const CARRIES: [&str; 7] = ["wearing", "carrying", "toting", "bearing", "clad", "laden", "wearer"];
@@ -132,7 +132,7 @@ fn shade(at: usize, words: &[&str]) -> Option<Claim> {
 }
 
 /// A colour by its name, also as `reddish` or `redcoloured`.
-pub(crate) fn colour(word: &str) -> Option<Colour> {
+pub fn colour(word: &str) -> Option<Colour> {
     let word =
         ["coloured", "colored", "hued", "ish"].iter().find_map(|ending| word.strip_suffix(ending)).unwrap_or(word);
     match word {
@@ -144,7 +144,7 @@ pub(crate) fn colour(word: &str) -> Option<Colour> {
 }
 
 /// A colour before a garment, and luggage.
-pub(crate) fn garment_claim(word: &str, next: &str) -> Option<Claim> {
+pub fn garment_claim(word: &str, next: &str) -> Option<Claim> {
     if word == "backpack" {
         return Some(Claim::Backpack);
     }

@@ -128,7 +128,8 @@ fn numeral(word: &str) -> Option<f64> {
     })
 }
 
-pub(crate) fn number_word(word: &str) -> Option<f64> {
+/// The value of a single word for a number, such as `twelve`.
+pub fn number_word(word: &str) -> Option<f64> {
     let words = ["zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
     words.iter().position(|known| *known == word).map(|value| value as f64)
 }
