@@ -5,7 +5,8 @@
 Shares no code with cosfly. An AUC is the probability that a target has more of a sign than somebody else; errors are over flights. With the
 JSON file of `cosfly doctor`, its section `shortcuts` must agree. Prints also the place in random crops: a window whose place around the
 target is drawn evenly, as large as a share of the picture. `--pictures` reads colour pictures of so many flights and compares the pixels in
-the boxes of targets and others.
+the boxes of targets and others: all, those as far away, and those of them who are seen from the same side, with a backpack or without
+as the target, and those of them who fill as much of their boxes.
 """
 
 import argparse
@@ -17,7 +18,8 @@ from pathlib import Path
 import numpy as np
 import pyarrow.dataset as ds
 
-NEAR, WHOLE = 0.1, 0.1
+NEAR, WHOLE, SIDE_DEG, FULL = 0.1, 0.1, 30, 0.08
+BRIGHTNESS = [0.2126, 0.7152, 0.0722]
 CROPS = (0.5, 0.33, 0.25)
 
 
@@ -45,8 +47,9 @@ def probe(by_flight):
     return {"auc": mean, "standard_error": error, "flights": number, "frames": int(counts.sum())}
 
 
-def body(flight, frame, feet, height_m, box):
-    """Box, distance from the middle, distance from the camera, and the height in metres that the picture shows (none if partly hidden)."""
+def body(flight, frame, feet, height_m, box, pixels, heading_deg, top, backpack):
+    """Box, distance from the middle, distance from the camera, the height in metres that the picture shows (none if partly hidden), the side that
+    is seen (0 degrees from behind), the share of the box that is filled, and what the tables say of the looks."""
     yaw, pitch, roll = np.radians([frame[f"camera_{it}_deg"] for it in ("yaw", "pitch", "roll")])
     ahead = np.array([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
     right = np.array([-np.sin(yaw), np.cos(yaw), 0.0])
@@ -60,26 +63,32 @@ def body(flight, frame, feet, height_m, box):
         most = WHOLE * (low - high)
         metres = height_m * (box[3] - box[1]) / (low - high) if box[1] <= high + most and box[3] >= low - most else None
     middle = np.array([box[0] + box[2] - flight["camera_width_px"], box[1] + box[3] - flight["camera_height_px"]]) / 2
-    return {"box": box, "at": middle, "off": float(np.hypot(*middle)), "far": float(np.linalg.norm(away)), "px": box[3] - box[1], "m": metres}
+    return {"box": box, "at": middle, "off": float(np.hypot(*middle)), "far": float(np.linalg.norm(away)), "px": box[3] - box[1], "m": metres,
+            "full": pixels / max((box[2] - box[0]) * (box[3] - box[1]), 1),
+            "side": heading_deg - np.degrees(np.arctan2(away[1], away[0])), "top": float(np.dot(top, BRIGHTNESS)) if top else None, "backpack": backpack}
 
 
 def seen(folder):
     """Flights, and target and others of its kind in all expert frames in which the target is seen."""
     flights = {it["trajectory_id"]: it for it in rows(folder, "trajectories", [
-        "trajectory_id", "expert_id", "town", "pedestrian_id", "mcap_path", "target_kind", "target_height_m", "target_top_linear_rgb", "target_bag",
-        "target_build", "target_gait", "camera_width_px", "camera_height_px", "camera_focal_px", "camera_cy_px"])}
+        "trajectory_id", "expert_id", "town", "pedestrian_id", "mcap_path", "target_kind", "target_height_m", "target_top_linear_rgb", "target_has_backpack",
+        "target_bag", "target_build", "target_gait", "camera_width_px", "camera_height_px", "camera_focal_px", "camera_cy_px"])}
     people = defaultdict(list)
-    for it in rows(folder, "people", ["trajectory_id", "frame", "walk_id", "kind", "feet_in_world_m", "height_m", "visible_box_px", "top_linear_rgb",
-                                      "bag", "build", "gait"]):
+    for it in rows(folder, "people", ["trajectory_id", "frame", "walk_id", "kind", "feet_in_world_m", "heading_deg", "height_m",
+                                      "visible_pixels", "visible_box_px",
+                                      "top_linear_rgb", "has_backpack", "bag", "build", "gait"]):
         people[it["trajectory_id"], it["frame"]].append(it)
     frames = []
-    for it in rows(folder, "frames", ["trajectory_id", "frame", "visible_box_px", "target_x_m", "target_y_m", "target_z_m"]
+    for it in rows(folder, "frames", ["trajectory_id", "frame", "visible_pixels", "visible_box_px", "target_x_m", "target_y_m", "target_z_m",
+                                      "target_heading_deg"]
                    + [f"drone_{axis}_m" for axis in "xyz"] + [f"camera_{turn}_deg" for turn in ("yaw", "pitch", "roll")]):
         flight = flights[it["trajectory_id"]]
         if flight["expert_id"] or it["visible_box_px"] is None:
             continue
-        target = body(flight, it, [it[f"target_{axis}_m"] for axis in "xyz"], flight["target_height_m"], it["visible_box_px"])
-        others = [body(flight, it, other["feet_in_world_m"], other["height_m"], other["visible_box_px"])
+        target = body(flight, it, [it[f"target_{axis}_m"] for axis in "xyz"], flight["target_height_m"], it["visible_box_px"],
+                      it["visible_pixels"], it["target_heading_deg"], flight["target_top_linear_rgb"], flight["target_has_backpack"])
+        others = [body(flight, it, other["feet_in_world_m"], other["height_m"], other["visible_box_px"], other["visible_pixels"],
+                       other["heading_deg"], other["top_linear_rgb"], other["has_backpack"])
                   for other in people[it["trajectory_id"], it["frame"]] if other["kind"] == flight["target_kind"]]
         frames.append((it["trajectory_id"], it["frame"], target, others))
     return flights, people, frames
@@ -103,7 +112,7 @@ def of_looks(flights, people):
     """Looks of followed people against those of bystanders on foot."""
     words = {"slim": 0, "short": 0, "medium": 1, "stout": 2, "long": 2}
     signs = {
-        "colourfulness": lambda it: max(it[0]) - min(it[0]), "brightness": lambda it: np.dot(it[0], [0.2126, 0.7152, 0.0722]), "height": lambda it: it[1],
+        "colourfulness": lambda it: max(it[0]) - min(it[0]), "brightness": lambda it: np.dot(it[0], BRIGHTNESS), "height": lambda it: it[1],
         "bag": lambda it: it[2] != "none", "build": lambda it: words[it[3]], "steps": lambda it: words[it[4]],
     }
     targets = {(it["town"], it["pedestrian_id"]): [it[f"target_{key}"] for key in ("top_linear_rgb", "height_m", "bag", "build", "gait")]
@@ -132,18 +141,30 @@ def in_crops(flights, frames, share):
     return probe(shares), kept / max(len(frames), 1)
 
 
-def of_pixels(folder, flights, frames, number):
-    """Brightness and colourfulness of the middle half of the boxes, against others in the frame, and those in the same place."""
+def turned(a, b):
+    """Degrees between two directions."""
+    return abs((a["side"] - b["side"] + 180) % 360 - 180)
+
+
+def pixels(picture, box):
+    """Brightness and colourfulness of the middle half of a box."""
+    left, top, right, bottom = box
+    x, y = (right - left) / 4, (bottom - top) / 4
+    part = picture[int(top + y):max(int(bottom - y), int(top + y) + 1), int(left + x):max(int(right - x), int(left + x) + 1)]
+    colour = part.reshape(-1, 3).mean(0)
+    return {"brightness": float(colour @ BRIGHTNESS), "colourfulness": float(colour.max() - colour.min())}
+
+
+def with_pixels(folder, flights, frames, number):
+    """Name, target and others of the frames of so many flights, with their pixels."""
     import io
 
     from mcap.reader import make_reader
     from mcap_protobuf.decoder import DecoderFactory
     from PIL import Image
 
-    found = {(sign, whom): defaultdict(list) for sign in ("brightness", "colourfulness") for whom in ("all", "same place")}
-    wanted = sorted({name for name, *_ in frames})[:number]
     listed = {(name, frame): (target, others) for name, frame, target, others in frames}
-    for name in wanted:
+    for name in sorted({name for name, *_ in frames})[:number]:
         with (folder / flights[name]["mcap_path"]).open("rb") as file:
             reader = make_reader(file, decoder_factories=[DecoderFactory()])
             for frame, (_, _, _, message) in enumerate(reader.iter_decoded_messages(topics=["/camera/rgb/image"])):
@@ -151,20 +172,29 @@ def of_pixels(folder, flights, frames, number):
                     continue
                 picture = np.asarray(Image.open(io.BytesIO(message.data)).convert("RGB"), dtype=float)
                 target, others = listed[name, frame]
+                yield name, {**target, **pixels(picture, target["box"])}, [{**it, **pixels(picture, it["box"])} for it in others]
 
-                def signs(it):
-                    left, top, right, bottom = it["box"]
-                    x, y = (right - left) / 4, (bottom - top) / 4
-                    part = picture[int(top + y):max(int(bottom - y), int(top + y) + 1), int(left + x):max(int(right - x), int(left + x) + 1)]
-                    colour = part.reshape(-1, 3).mean(0)
-                    return {"brightness": colour @ [0.2126, 0.7152, 0.0722], "colourfulness": colour.max() - colour.min()}
 
-                own = signs(target)
-                near = [it for it in others if abs(np.log(it["far"] / target["far"])) <= np.log(1 + NEAR) and it["m"] is not None]
-                for whom, compared in (("all", others), ("same place", near if target["m"] is not None else [])):
-                    for sign in own if compared else []:
-                        found[sign, whom][name].append(np.mean([above(own[sign], signs(it)[sign]) for it in compared]))
-    return {f"{sign} of pixels, {whom}": probe(it) for (sign, whom), it in found.items()}
+def of_pixels(folder, flights, frames, number):
+    """Brightness and colourfulness of pixels, and brightness less what the colour of the top tells of it (a line through all bystanders)."""
+    found = defaultdict(lambda: defaultdict(list))
+    seen_by_frame = [it for it in with_pixels(folder, flights, frames, number) if flights[it[0]]["target_kind"] == "pedestrian"]
+    everybody = [it for _, _, others in seen_by_frame for it in others]
+    if not everybody:
+        return {}
+    slope = np.polyfit(np.log([it["top"] for it in everybody]), [it["brightness"] for it in everybody], 1)[0]
+    signs = {"brightness": lambda it: it["brightness"], "colourfulness": lambda it: it["colourfulness"],
+             "brightness less the top's": lambda it: it["brightness"] - slope * np.log(it["top"])}
+    for name, target, others in seen_by_frame:
+        far = [it for it in others if abs(np.log(it["far"] / target["far"])) <= np.log(1 + NEAR) and None not in (it["m"], target["m"])]
+        side = [it for it in far if turned(it, target) <= SIDE_DEG and it["backpack"] == target["backpack"]]
+        full = [it for it in side if abs(it["full"] - target["full"]) <= FULL]
+        for sign, value in signs.items():
+            for whom, compared in (("all", others), ("as far away", far), ("same side and backpack, too", side),
+                                   ("as full a box, too", full)):
+                if compared:
+                    found[f"{sign} of pixels, {whom}"][name].append(np.mean([above(value(target), value(it)) for it in compared]))
+    return {what: probe(it) for what, it in found.items()}
 
 
 def say(name, it):

@@ -97,7 +97,10 @@ fn broken_files_are_refused_with_their_line() {
     for (text, expected) in [
         ("t,id,x,y\n0,1,0,0\n1,1,nan,0\n", "`nan` in column `x` is not a finite number (line 3)"),
         ("0,1,0,0\n1,1,0\n", "the row has 3 columns; 4 are needed (line 2)"),
+        ("t;id;x;y\n0;1;10,5;2\n", "`10,5` in column `x` is not a finite number (line 2)"),
+        ("0,1,2,1e300\n", "`1e300` in column `y` is no place in metres: it must be between -1e9 and 1e9 (line 1)"),
         ("t,name,x,y\n", "the header has no column `id` (line 1)"),
+        ("t,pedestrian,lon,lat\n", "the header has no column `x` (line 1)"),
         ("0,1,0,0\n\n# a comment\n2,1,1,1\n1,1,0,0\n", "the time of `1` runs backwards by 1.000 s (line 5)"),
         ("", "the file has no track with time"),
         ("0,1,0,0\n", "the file has no track with time"),
@@ -108,6 +111,7 @@ fn broken_files_are_refused_with_their_line() {
         ("1 2 3 4 5 6 7 8\n1 2 3\n", "a row of an `obsmat` file has 8 numbers; this one has 3 (line 2)"),
         ("1 x 3 4 5 6 7 8\n", "`x` in column `id` is not a finite number (line 1)"),
         ("<kml></kml>", "the file begins with `<kml>`, not with `<gpx>` (line 1)"),
+        ("<gpx><rte><rtept lat=\"1\" lon=\"0\"/></rte>\n</gpx>", "the file has no `<trk>` (line 2)"),
         ("<gpx><trk>\n<trkseg>\n", "the file ends before `</gpx>` (line 3)"),
         (
             "<gpx><trk><trkseg>\n<trkpt lat=\"91\" lon=\"0\"/></trkseg></trk></gpx>",

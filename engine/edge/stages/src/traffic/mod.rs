@@ -224,7 +224,12 @@ fn nobody(name: &str, traffic: &Traffic) -> Box<Diagnostic> {
     let whole = (0..traffic.bodies.len()).filter(|number| traffic.track(*number as u32).is_some());
     let names = whole.map(|number| &traffic.bodies[number].plan.source).filter(|name| !name.is_empty());
     let names: Vec<String> = names.take(MOST).map(|name| format!("`{name}`")).collect();
+    let has_names = traffic.bodies.iter().any(|body| !body.plan.source.is_empty());
     let hint = match names.len() {
+        0 if !has_names => {
+            "names are those of `scripted` and `recorded` people and of bodies of `sumo`; this stage has none"
+                .to_owned()
+        }
         0 => "nobody with a name is there all the time: use fewer frames, or another `start_s` or `begin_s`".to_owned(),
         _ => format!("there all the time, among others: {}", names.join(", ")),
     };

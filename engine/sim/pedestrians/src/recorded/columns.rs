@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 /// Frames in a second of the videos of ETH and UCY.
 const OBSMAT_RATE_HZ: f64 = 25.0;
 
+/// Largest coordinate of a place, metres.
+const FARTHEST_M: f64 = 1e9;
+
 /// Columns of `obsmat`: frame, id, x, z (height), y, velocities.
 const OBSMAT_COLUMNS: usize = 8;
 
@@ -36,16 +39,22 @@ impl Rows {
 }
 
 fn number(text: &str, column: &str, line: u32) -> Result<f64, RecordedError> {
-    let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
-    value.ok_or_else(|| {
-        RecordedError::new(format!("`{}` in column `{column}` is not a finite number", shortened(text.trim())))
-            .at(line)
-            .hint(match column {
-                "t" | "frame" => "times are seconds from any beginning, or numbers of frames with `rate_hz`",
-                "id" => "people of `obsmat` files are numbers",
-                _ => "leave out the rows in which a person has no place",
-            })
-    })
+    let text = text.trim();
+    let refused =
+        |what: &str| RecordedError::new(format!("`{}` in column `{column}` {what}", shortened(text))).at(line);
+    let value = text.parse().ok().filter(|value: &f64| value.is_finite());
+    let value: f64 = value.ok_or_else(|| {
+        refused("is not a finite number").hint(match column {
+            _ if text.contains(',') => "write decimals with a point, as in `10.5`",
+            "t" | "frame" => "times are seconds from any beginning, or numbers of frames with `rate_hz`",
+            "id" => "people of `obsmat` files are numbers",
+            _ => "leave out the rows in which a person has no place",
+        })
+    })?;
+    if matches!(column, "x" | "y") && value.abs() > FARTHEST_M {
+        return Err(refused("is no place in metres: it must be between -1e9 and 1e9").hint("leave out broken rows"));
+    }
+    Ok(value)
 }
 
 /// Text of a message, cut to a readable length.
@@ -121,19 +130,36 @@ fn unquoted(cell: &str) -> &str {
 /// Places of the columns time, id, x, y in a header.
 fn header(row: &str, separator: Option<char>) -> Result<[usize; 4], RecordedError> {
     const NAMES: [&[&str]; 4] = [
-        &["t", "time", "time_s", "frame", "timestamp"],
-        &["id", "person", "ped", "agent", "track"],
+        &["t", "time", "time_s", "frame", "frame_id", "timestamp"],
+        &[
+            "id",
+            "person",
+            "person_id",
+            "ped",
+            "ped_id",
+            "pedestrian",
+            "pedestrian_id",
+            "agent",
+            "agent_id",
+            "track",
+            "track_id",
+        ],
         &["x", "x_m"],
         &["y", "y_m"],
     ];
     let cells: Vec<String> = cells(row, separator).map(str::to_lowercase).collect();
+    let is_in_degrees =
+        cells.iter().any(|cell| matches!(cell.as_str(), "lat" | "lon" | "lng" | "latitude" | "longitude"));
+    let hint = if is_in_degrees {
+        "columns hold metres; degrees are read from GPX and GeoJSON"
+    } else {
+        "name the columns `t`, `id`, `x`, `y`, in any order, or leave the header out"
+    };
     let mut columns = [0; 4];
     for (column, names) in columns.iter_mut().zip(NAMES) {
         let place = cells.iter().position(|cell| names.contains(&cell.as_str()));
-        *column = place.ok_or_else(|| {
-            RecordedError::new(format!("the header has no column `{}`", names[0]))
-                .hint("name the columns `t`, `id`, `x`, `y`, in any order, or leave the header out")
-        })?;
+        *column =
+            place.ok_or_else(|| RecordedError::new(format!("the header has no column `{}`", names[0])).hint(hint))?;
     }
     Ok(columns)
 }

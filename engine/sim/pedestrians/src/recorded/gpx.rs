@@ -28,6 +28,10 @@ pub(super) fn read(text: &str) -> Result<Recording, RecordedError> {
                     text.push_str(&piece);
                 }
             }
+            Event::Eof if reading.is_complete && reading.track_count == 0 => {
+                let hint = "people are tracks, `trkpt` with `time`; routes and waypoints say no times";
+                return Err(RecordedError::new("the file has no `<trk>`").at(line).hint(hint));
+            }
             Event::Eof if reading.is_complete => return Ok(reading.finished()),
             Event::Eof => {
                 let message = "the file ends before `</gpx>`";

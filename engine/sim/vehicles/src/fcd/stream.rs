@@ -148,6 +148,9 @@ fn broken(error: &quick_xml::Error, line: u64) -> FcdError {
     FcdError::new(format!("broken XML: {error}")).at(line).hint("write the file again; it may be cut off")
 }
 
+/// What to do with a file that SUMO does not write.
+const WRITE_AGAIN: &str = "write it again with `sumo --fcd-output FILE`, one file a run";
+
 /// A time step of the file.
 struct Step {
     time_s: f64,
@@ -231,13 +234,15 @@ impl<'a> Frames<'a> {
     fn add(&mut self, mut step: Step, line: u64) -> Result<(), FcdError> {
         step.samples.sort_by(|a, b| a.id.cmp(&b.id));
         if let Some(pair) = step.samples.windows(2).find(|pair| pair[0].id == pair[1].id) {
-            return Err(FcdError::new(format!("`{}` is twice in the time step {} s", pair[0].id, step.time_s)).at(line));
+            return Err(FcdError::new(format!("`{}` is twice in the time step {} s", pair[0].id, step.time_s))
+                .at(line)
+                .hint(WRITE_AGAIN));
         }
         if let Some(before) = &self.before
             && step.time_s <= before.time_s
         {
             let message = format!("time goes from {} s to {} s; it must grow", before.time_s, step.time_s);
-            return Err(FcdError::new(message).at(line));
+            return Err(FcdError::new(message).at(line).hint(WRITE_AGAIN));
         }
         let before = self.before.take();
         while !self.is_done() && self.time_s(self.next_frame) <= step.time_s + 1e-6 {
@@ -311,7 +316,7 @@ impl<'a> Frames<'a> {
     fn finish(self, is_fcd: bool, is_cut: bool, line: u64) -> Result<Prescribed, FcdError> {
         if !is_fcd || is_cut && !self.is_done() {
             let what = if is_fcd { "the file ends within a time step" } else { "the file is empty" };
-            return Err(FcdError::new(what).at(line).hint("write it again with `sumo --fcd-output FILE`"));
+            return Err(FcdError::new(what).at(line).hint(WRITE_AGAIN));
         }
         if self.bodies.is_empty() {
             let (first, last) = (self.time_s(0), self.time_s(self.clock.frames.saturating_sub(1)));
@@ -365,6 +370,9 @@ fn number(element: &BytesStart<'_>, name: &str, line: u64) -> Result<f64, FcdErr
         FcdError::new(format!("`{element}` has no `{name}`")).at(line)
     })?;
     let value = own.trim().parse::<f64>().ok().filter(|value| value.is_finite() && value.abs() < 1e9);
-    value
-        .ok_or_else(|| FcdError::new(format!("`{name}` is `{own}`; it must be a number between -1e9 and 1e9")).at(line))
+    value.ok_or_else(|| {
+        FcdError::new(format!("`{name}` is `{own}`; it must be a number between -1e9 and 1e9"))
+            .at(line)
+            .hint(WRITE_AGAIN)
+    })
 }
