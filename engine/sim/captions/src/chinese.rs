@@ -49,13 +49,12 @@ pub(crate) fn description(facts: &Facts, template: usize, words: &mut RandomStre
     }
     let (route, stops, length) =
         (format!("{target}{}", route(facts, words)), stops(facts, words), length(facts, words));
-    match template % 6 {
+    // What follows the drone without a subject would be read as the drone's.
+    match template % 4 {
         0 => format!("{route}{stops}{length}{drone}"),
         1 => format!("{drone}{route}{stops}{length}"),
         2 => format!("{route}{length}{stops}{drone}"),
-        3 => format!("{drone}{length}{route}{stops}"),
-        4 => format!("{route}{stops}{drone}{length}"),
-        _ => format!("{length}{route}{stops}{drone}"),
+        _ => format!("{drone}{route}{length}{stops}"),
     }
 }
 
@@ -70,9 +69,9 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
         &[
             "身穿{}上衣、#裤子%的",
             "穿{}上衣和#裤子%的",
-            "上穿{}上衣、下穿#裤子%的",
+            "穿着{}上衣、#裤子%的",
             "穿着#裤子、{}上衣%的",
-            "{}上衣配#裤子%的",
+            "穿{}上衣配#裤子%的",
             "穿#裤子、{}上衣%的",
             "身着{}上衣、#裤子%的",
         ],
@@ -101,7 +100,7 @@ pub(crate) fn colour(colour: Colour) -> &'static str {
 fn route(facts: &Facts, words: &mut RandomStream) -> String {
     let ending = one_of(
         words,
-        &["随后继续前行", "之后一路向前", "接着往前走", "然后继续走", "最后往前走去", "再往前走", "此后一直往前"],
+        &["随后继续前行", "之后一路向前", "接着往前走", "然后继续走", "又继续往前走", "再往前走", "此后一直往前"],
     );
     match facts.turns.len() {
         0 if facts.start_direction == facts.end_direction => {
@@ -173,7 +172,7 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "从头走到尾，没有停过。",
                 "走得很连贯，没有停下。",
                 "中途没有歇脚。",
-                "没在哪儿停过。",
+                "中途没有停下。",
             ],
         )
         .into(),
@@ -249,18 +248,18 @@ fn drone(facts: &Facts, words: &mut RandomStream) -> String {
     let pattern = one_of(
         words,
         &[
-            "无人机与目标保持约{d}米的距离，飞行高度高出目标约{h}米，#。",
+            "无人机与目标保持约{d}米的距离，比目标高约{h}米，#。",
             "无人机在约{d}米外跟拍，位于目标上方约{h}米，#。",
             "无人机与目标相距约{d}米，相对高度约{h}米，#。",
             "航拍距离约{d}米，比目标高约{h}米，#。",
             "无人机飞得比目标高约{h}米，相隔约{d}米，#。",
-            "#，无人机离目标约{d}米，高度约{h}米。",
+            "#，无人机离目标约{d}米，高出目标约{h}米。",
             "在目标上空约{h}米处，无人机保持约{d}米距离，#。",
             "无人机跟在约{d}米外，比目标高约{h}米，#。",
-            "#，距离约{d}米，飞行高度高出目标约{h}米。",
+            "#，距离约{d}米，无人机高出目标约{h}米。",
             "拍摄时无人机离目标约{d}米，高出目标约{h}米，#。",
             "无人机隔着约{d}米跟拍，比目标高约{h}米，#。",
-            "距离保持在约{d}米，高度比目标高约{h}米，#。",
+            "距离保持在约{d}米，无人机在目标上方约{h}米，#。",
             "无人机高出目标约{h}米，与目标相距约{d}米，#。",
             "跟拍距离约{d}米，#，无人机在目标上方约{h}米。",
         ],

@@ -52,13 +52,12 @@ pub(crate) fn description(facts: &Facts, template: usize, words: &mut RandomStre
     }
     let (route, stops, length) =
         (format!("{subject} {}", route(facts, words)), stops(facts, words), length(facts, words));
-    match template % 6 {
+    // The walker is named before `they`.
+    match template % 4 {
         0 => format!("{route} {stops} {length} {drone}"),
         1 => format!("{drone} {route} {stops} {length}"),
         2 => format!("{route} {length} {stops} {drone}"),
-        3 => format!("{length} {route} {stops} {drone}"),
-        4 => format!("{drone} {length} {route} {stops}"),
-        _ => format!("{route} {stops} {drone} {length}"),
+        _ => format!("{drone} {route} {length} {stops}"),
     }
 }
 
@@ -88,6 +87,8 @@ pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
             "dressed in % trousers and # {} top",
         ],
     );
+    let backpack =
+        if pattern.starts_with("who wears") { backpack.replace("carrying", "carries") } else { backpack.to_owned() };
     format!("{who} {}{backpack}", pattern.replace('#', article).replace("{}", top).replace('%', trousers))
 }
 
@@ -157,6 +158,10 @@ fn listed_turns(facts: &Facts) -> String {
     runs.map(run).collect::<Vec<_>>().join(", then ")
 }
 
+fn in_seconds(number: &str) -> String {
+    format!("{number} {}", if number == "1" { "second" } else { "seconds" })
+}
+
 fn side(kind: TurnKind) -> &'static str {
     match kind {
         TurnKind::Left => "left",
@@ -203,7 +208,7 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "Once they stop and wait for about {} seconds.",
             ],
         )
-        .replace("{}", &standing),
+        .replace("{} seconds", &in_seconds(&standing)),
         count => one_of(
             words,
             &[
@@ -218,7 +223,7 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
             ],
         )
         .replace('#', &times(count))
-        .replace("{}", &standing),
+        .replace("{} seconds", &in_seconds(&standing)),
     }
 }
 
@@ -272,15 +277,15 @@ fn drone(facts: &Facts, words: &mut RandomStream) -> String {
             "From about {d} m away, about {h} m above the target, the camera looks {v} at about {p} degrees.",
             "The drone holds a distance of about {d} m, a height of about {h} m above the target, and points its camera {v} at about {p} degrees.",
             "About {h} m above the target, the drone stays about {d} m away with its camera tilted {v} by about {p} degrees.",
-            "The aircraft follows at a distance of about {d} m, its lens angled {v} at about {p} degrees, at a height of about {h} m.",
-            "It is filmed from about {d} m away and about {h} m above the target, with the camera turned {v} by about {p} degrees.",
+            "The aircraft follows at a distance of about {d} m, its lens angled {v} at about {p} degrees, about {h} m above the target.",
+            "We film from about {d} m away and about {h} m above the target, with the camera turned {v} by about {p} degrees.",
             "The camera, about {h} m higher than the target and about {d} m away, is pitched {v} by about {p} degrees.",
             "The drone flies about {h} m above the target and about {d} m away, with the lens angled {v} at about {p} degrees.",
             "Flying about {h} m above the target, the drone keeps about {d} m away and looks {v} at about {p} degrees.",
             "The drone stays about {d} m away and about {h} m above the target; its camera looks {v} at about {p} degrees.",
             "With its camera tilted {v} by about {p} degrees, the drone follows from about {d} m away, about {h} m higher than the target.",
             "We look {v} at about {p} degrees from about {d} m away, about {h} m above the target.",
-            "The pictures are taken about {d} m away and about {h} m above the target, the camera angled {v} at about {p} degrees.",
+            "The pictures are taken from about {d} m away and about {h} m above the target, with the camera angled {v} at about {p} degrees.",
         ],
     );
     fill(pattern, facts).replace("{h}", &height)

@@ -36,11 +36,9 @@ pub(crate) const FROM: &[&str] = &[
     "from about {d} m away",
     "at a distance of about {d} m",
     "at a range of about {d} m",
-    "with a gap of about {d} m",
     "from a distance of about {d} m",
-    "keeping about {d} m away",
-    "staying about {d} m off",
-    "with about {d} m between you",
+    "from a range of about {d} m",
+    "from about {d} m off",
 ];
 /// Angles as requests, and as circumstances.
 pub(crate) const LOOKS: &[&str] = &[

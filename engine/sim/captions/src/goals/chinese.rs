@@ -172,7 +172,12 @@ fn together(parts: &[String], words: &mut RandomStream) -> String {
     match parts {
         [] => String::new(),
         [one] => one.clone(),
-        [first, rest @ ..] => format!("{first}{}{}", one_of(words, &["，", "，途中", "，其间"]), rest.join("，")),
+        [first, middle @ .., last] => {
+            let link = one_of(words, &["，", "，途中", "，其间"]);
+            let again = if middle.is_empty() || last.contains('又') { "" } else { "又" };
+            let middle: String = middle.iter().map(|part| format!("{part}，")).collect();
+            format!("{first}{link}{middle}{again}{last}")
+        }
     }
 }
 

@@ -38,7 +38,7 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
         Claim::NoTurn => one_of(
             words,
             &[
-                "make no sharp turns",
+                "walk on without a sharp turn",
                 "walk on without turning off",
                 "carry on without a sharp turn",
                 "keep going and never turn off",
@@ -81,7 +81,7 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
 const CROSSES: &[&str] = &[
     "cross the street at a zebra crossing",
     "cross the road at a pedestrian crossing",
-    "get to the other side of the street by a zebra crossing",
+    "go to the other side of the street at a zebra crossing",
     "walk over a pedestrian crossing to the other side",
 ];
 
@@ -272,7 +272,7 @@ fn joined(parts: &[String], words: &mut RandomStream) -> String {
                 [", ", ", and finally "],
                 [", then ", ", and then "],
                 [", then ", ", and after that "],
-                [", next ", " and last of all "],
+                [", then ", ", and last of all "],
             ];
             let [second, last] = links[words.index(links.len())];
             format!("{one}{second}{two}{last}{}", rest.join(" and "))
