@@ -122,8 +122,10 @@ impl Stance {
             if nearest_m < 2.0 * NEAR_M {
                 return canvas.part([f32::NEG_INFINITY; 2], [f32::INFINITY; 2]);
             }
+            let (scale, widest) = (1.0 / center.x, reach_m / nearest_m);
             for (axis, way) in [center.y, -center.z].into_iter().enumerate() {
-                let (at, spread) = (way / center.x, reach_m * (1.0 + (way / center.x).abs()) / nearest_m);
+                let at = way * scale;
+                let spread = widest * (1.0 + at.abs());
                 low[axis] = low[axis].min(self.focal_px * (at - spread) as f32);
                 high[axis] = high[axis].max(self.focal_px * (at + spread) as f32);
             }
@@ -132,16 +134,14 @@ impl Stance {
     }
 
     /// A part of the body on the screen.
-    pub fn see(&self, level: Level, part: &FigurePart) -> SeenPart {
+    pub fn see(&self, level: Level, part: &FigurePart, seen: &mut SeenPart) {
         let [forward, right, up] = self.axes;
         let rings = [part.low, part.high].map(|ring| {
             let center = self.feet + forward * ring.forward + right * ring.right + up * ring.up.max(0.0);
             [center, forward * ring.half_forward, right * ring.half_side].map(|vector| vector.as_vec3().to_array())
         });
-        let mut seen = SeenPart::default();
         let turned = if part.high.up < part.low.up { -1.0 } else { 1.0 };
-        project(level, &rings, self.focal_px, self.size_px, turned, &mut seen);
-        seen
+        project(level, &rings, self.focal_px, self.size_px, turned, seen);
     }
 }
 

@@ -111,47 +111,70 @@ impl BoxLanes {
     }
 }
 
+/// Eight boxes along one axis of the eye: their centres, and half of each of their sides.
+struct Way {
+    center: [f32; LANES],
+    reach: [[f32; LANES]; 3],
+}
+
+#[inline(always)]
+fn along(eight: &Eight, origin: f32, turn: [f32; 3]) -> Way {
+    let mut way = Way { center: [0.0; LANES], reach: [[0.0; LANES]; 3] };
+    for k in 0..LANES {
+        let [x, y, z] = [eight.center_m[0][k], eight.center_m[1][k], eight.center_m[2][k]];
+        way.center[k] = origin + (x * turn[0] + y * turn[1] + z * turn[2]);
+        let [cos, sin] = [eight.axis[0][k], eight.axis[1][k]];
+        way.reach[0][k] = eight.half_m[0][k] * (cos * turn[0] + sin * turn[1]);
+        way.reach[1][k] = eight.half_m[1][k] * (cos * turn[1] - sin * turn[0]);
+        way.reach[2][k] = eight.half_m[2][k] * turn[2];
+    }
+    way
+}
+
 simd_kernel! {
     /// Bounds of the corners of eight boxes on the screen; those that reach behind the camera may be everywhere.
     fn project(eight: &Eight, origin: [f32; 3], turn: &[[f32; 3]; 3], size: [f32; 2], projected: &mut Projected) {
-        let mut center = [[0.0f32; LANES]; 3];
-        let mut reach = [[[0.0f32; LANES]; 3]; 3];
-        for part in 0..3 {
+        // One axis of the eye after the other: over all three at once, compilers take three lanes for eight.
+        let ways = [
+            along(eight, origin[0], [turn[0][0], turn[1][0], turn[2][0]]),
+            along(eight, origin[1], [turn[0][1], turn[1][1], turn[2][1]]),
+            along(eight, origin[2], [turn[0][2], turn[1][2], turn[2][2]]),
+        ];
+        // How far corners reach: ahead, behind, and within the sides of the view.
+        let (mut nearest, mut farthest) = (ways[0].center, ways[0].center);
+        let half = [0.5 * size[0], 0.5 * size[1]];
+        let mut within = [[0.0f32; LANES]; 4];
+        for axis in 0..2 {
             for k in 0..LANES {
-                let [x, y, z] = [eight.center_m[0][k], eight.center_m[1][k], eight.center_m[2][k]];
-                center[part][k] = origin[part] + (x * turn[0][part] + y * turn[1][part] + z * turn[2][part]);
-                let [cos, sin] = [eight.axis[0][k], eight.axis[1][k]];
-                reach[0][part][k] = eight.half_m[0][k] * (cos * turn[0][part] + sin * turn[1][part]);
-                reach[1][part][k] = eight.half_m[1][k] * (cos * turn[1][part] - sin * turn[0][part]);
-                reach[2][part][k] = eight.half_m[2][k] * turn[2][part];
+                let (ahead, aside) = (half[axis] * ways[0].center[k], ways[axis + 1].center[k]);
+                (within[2 * axis][k], within[2 * axis + 1][k]) = (ahead + aside, ahead - aside);
+            }
+        }
+        for side in 0..3 {
+            for k in 0..LANES {
+                nearest[k] -= ways[0].reach[side][k].abs();
+                farthest[k] += ways[0].reach[side][k].abs();
+            }
+            for axis in 0..2 {
+                for k in 0..LANES {
+                    let (ahead, aside) = (half[axis] * ways[0].reach[side][k], ways[axis + 1].reach[side][k]);
+                    within[2 * axis][k] += (ahead + aside).abs();
+                    within[2 * axis + 1][k] += (ahead - aside).abs();
+                }
             }
         }
         let (mut low_u, mut low_v) = ([f32::INFINITY; LANES], [f32::INFINITY; LANES]);
         let (mut high_u, mut high_v) = ([f32::NEG_INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
-        let mut nearest = [f32::INFINITY; LANES];
-        let mut farthest = [f32::NEG_INFINITY; LANES];
-        // How far corners reach within the sides of the view.
-        let (mut left, mut right_side) = ([f32::NEG_INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
-        let (mut top, mut bottom) = ([f32::NEG_INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
         for corner in 0..8 {
             let sign = [0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { -1.0f32 } else { 1.0 });
             for k in 0..LANES {
-                let at = |part: usize| {
-                    let across = sign[0] * reach[0][part][k] + sign[1] * reach[1][part][k];
-                    center[part][k] + across + sign[2] * reach[2][part][k]
+                let at = |way: &Way| {
+                    let across = sign[0] * way.reach[0][k] + sign[1] * way.reach[1][k];
+                    way.center[k] + across + sign[2] * way.reach[2][k]
                 };
-                let (x, right, down) = (at(0), at(1), at(2));
-                let (wide, tall) = (0.5 * size[0] * x, 0.5 * size[1] * x);
-                let (from_left, from_right) = (wide + right, wide - right);
-                let (from_top, from_bottom) = (tall + down, tall - down);
-                left[k] = if from_left > left[k] { from_left } else { left[k] };
-                right_side[k] = if from_right > right_side[k] { from_right } else { right_side[k] };
-                top[k] = if from_top > top[k] { from_top } else { top[k] };
-                bottom[k] = if from_bottom > bottom[k] { from_bottom } else { bottom[k] };
+                let (x, right, down) = (at(&ways[0]), at(&ways[1]), at(&ways[2]));
                 let scale = 1.0 / x;
                 let (u, v) = (right * scale, down * scale);
-                nearest[k] = if x < nearest[k] { x } else { nearest[k] };
-                farthest[k] = if x > farthest[k] { x } else { farthest[k] };
                 low_u[k] = if u < low_u[k] { u } else { low_u[k] };
                 low_v[k] = if v < low_v[k] { v } else { low_v[k] };
                 high_u[k] = if u > high_u[k] { u } else { high_u[k] };
@@ -159,7 +182,6 @@ simd_kernel! {
             }
         }
         let (low, high) = ([low_u, low_v], [high_u, high_v]);
-        let within = [left, right_side, top, bottom];
         let mut from = [[0.0f32; LANES]; 2];
         let mut to = [[0.0f32; LANES]; 2];
         for axis in 0..2 {

@@ -67,10 +67,12 @@ impl Painter {
         let parts = FigureParts::of(walker, &self.wardrobe.clothes(&walker.clothes_seed));
         let stance = Stance::new(eye, walker, parts.lowest());
         let face = DrawnFace { instance, label: SemanticLabel::Pedestrian.id(), ..SKY };
+        let mut seen = SeenPart::default();
         for part in parts.iter() {
             if stance.part(&self.canvas, part).is_some() {
                 let number = self.body_part(who, part.region, || stance.middle_in_world(part));
-                self.draw_body_part(eye, &stance.see(self.level, part), DrawnFace { number, ..face });
+                stance.see(self.level, part, &mut seen);
+                self.draw_body_part(eye, &seen, DrawnFace { number, ..face });
             }
         }
     }
