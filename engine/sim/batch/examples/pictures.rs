@@ -1,4 +1,4 @@
-//! CPU time of pictures of a batch by what they show: `pictures PIXELS depth|simple|full ROUNDS`. Made for profilers, which
+//! Time of pictures of a batch by what they show: `pictures PIXELS depth|simple|full ROUNDS`. Made for profilers, which
 //! see little else than drawing in it when the rounds are many.
 
 #[path = "../tests/towns/mod.rs"]

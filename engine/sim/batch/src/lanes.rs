@@ -144,10 +144,10 @@ simd_kernel! {
         let (mut nearest, mut farthest) = (ways[0].center, ways[0].center);
         let half = [0.5 * size[0], 0.5 * size[1]];
         let mut within = [[0.0f32; LANES]; 4];
-        for axis in 0..2 {
+        for (axis, [low, high]) in within.as_chunks_mut::<2>().0.iter_mut().enumerate() {
             for k in 0..LANES {
                 let (ahead, aside) = (half[axis] * ways[0].center[k], ways[axis + 1].center[k]);
-                (within[2 * axis][k], within[2 * axis + 1][k]) = (ahead + aside, ahead - aside);
+                (low[k], high[k]) = (ahead + aside, ahead - aside);
             }
         }
         for side in 0..3 {
@@ -155,11 +155,11 @@ simd_kernel! {
                 nearest[k] -= ways[0].reach[side][k].abs();
                 farthest[k] += ways[0].reach[side][k].abs();
             }
-            for axis in 0..2 {
+            for (axis, [low, high]) in within.as_chunks_mut::<2>().0.iter_mut().enumerate() {
                 for k in 0..LANES {
                     let (ahead, aside) = (half[axis] * ways[0].reach[side][k], ways[axis + 1].reach[side][k]);
-                    within[2 * axis][k] += (ahead + aside).abs();
-                    within[2 * axis + 1][k] += (ahead - aside).abs();
+                    low[k] += (ahead + aside).abs();
+                    high[k] += (ahead - aside).abs();
                 }
             }
         }
