@@ -14,6 +14,8 @@ const DIALOGUES: usize = 2;
 const NEGATIVES: usize = 3;
 /// More turns are counted instead of told.
 const TOLD_TURNS: usize = 2;
+/// Frames between turns that nobody takes for one.
+const APART: usize = 40;
 /// Draws after which there is no further goal.
 const MOST_DRAWS: usize = 40;
 
@@ -175,7 +177,13 @@ fn falsified(course: &Course<'_>, ground: &Plan, said: &Said, words: &mut Random
             let other = mirrored(*kind)?;
             let is_there =
                 course.turns.iter().any(|it| ground.frames.contains(&(it.frame as usize)) && it.kind == other);
-            if is_there {
+            // Of two turns in a row, people may see one, to the side of both together.
+            let is_in_a_row = course
+                .turns
+                .iter()
+                .map(|it| (it.frame as usize).abs_diff(said.frames.start))
+                .any(|away| away > 0 && away < APART);
+            if is_there || is_in_a_row {
                 return None;
             }
             Claim::Turns(other)
