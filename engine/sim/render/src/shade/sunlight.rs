@@ -71,7 +71,7 @@ const FIGURE_TEXELS: usize = 1 << 14;
 /// Squares along a side of a window.
 const SQUARES: usize = WINDOW_TILES as usize * SUMMARY_SIDE;
 /// Bits of a texel's column or row within its square.
-const IN_SQUARE: u32 = 3;
+const IN_SQUARE: u32 = 2;
 /// Nothing lower than this below the reference casts a shadow.
 pub(super) const LOWEST_M: f64 = 200.0;
 /// Steps per metre of packed heights.
