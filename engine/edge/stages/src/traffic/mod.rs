@@ -57,7 +57,7 @@ impl StageKind for TrafficKind {
         let sources = config.take_sources();
         let properties = |parameters, inputs, artifact, items, bytes_per_item| StageProperties {
             kind: self.name().into(),
-            version: 6,
+            version: 7,
             parameters,
             sources: vec![],
             inputs,

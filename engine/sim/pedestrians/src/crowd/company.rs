@@ -109,7 +109,8 @@ impl Company {
         if (people[0].at - self.seen.0).length() > STUCK_M {
             self.seen = (people[0].at, time_s);
         }
-        if time_s - self.seen.1 > STUCK_S {
+        // Nobody turns round in the middle of a road.
+        if time_s - self.seen.1 > STUCK_S && people.iter().all(|person| self.is_off_roads(person, grid)) {
             self.turn_round(people, search, grid);
             self.seen = (people[0].at, time_s);
         }
@@ -141,6 +142,11 @@ impl Company {
     fn may_stand(&self, person: &Person, grid: &WalkableGrid) -> bool {
         let ahead = person.progress..(person.progress + 5).min(self.route.len());
         self.route[ahead].iter().all(|node| !is_road(grid.nodes[*node as usize].kind))
+    }
+
+    /// Whether the ground under a person is no road.
+    fn is_off_roads(&self, person: &Person, grid: &WalkableGrid) -> bool {
+        !grid.kind_at(person.at).is_some_and(is_road)
     }
 
     /// The node of the route that the person is nearest to, searched around the last one.

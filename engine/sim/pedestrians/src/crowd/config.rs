@@ -16,10 +16,10 @@ pub struct CrowdConfig {
     /// Random variation of a person's own speed, standard deviation as a share of it. Default 0.06.
     #[schemars(range(min = 0.0, max = 0.5))]
     pub speed_noise: f64,
-    /// Irregularity of the steps: standard deviation of the velocity along and across the way, m/s. Default 0.14.
+    /// Irregularity of the steps: standard deviation of the velocity along and across the way, m/s. Default 0.1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub unevenness_mps: f64,
-    /// Deceleration before a stop and acceleration after it, m/s2. Default 0.9.
+    /// Deceleration before a stop and acceleration after it, m/s2. Default 1.1.
     #[schemars(range(min = 0.1, max = 5.0))]
     pub braking_mps2: f64,
     /// Which side of the way people keep to, and how much they sway.
@@ -55,8 +55,8 @@ impl Default for CrowdConfig {
             count: 100,
             speed: lone.speed,
             speed_noise: 0.06,
-            unevenness_mps: 0.14,
-            braking_mps2: 0.9,
+            unevenness_mps: 0.1,
+            braking_mps2: 1.1,
             side: SideConfig::default(),
             groups: GroupConfig::default(),
             stops: CrowdStopConfig::default(),
@@ -105,14 +105,14 @@ pub struct GroupConfig {
     /// Relative frequency of groups of two, three, four and so on. Default [0.75, 0.18, 0.07].
     #[schemars(length(min = 1, max = 5))]
     pub sizes: Vec<f64>,
-    /// Distance between neighbours in a group, metres. Default 0.75.
+    /// Distance between neighbours in a group, metres. Default 0.6.
     #[schemars(range(min = 0.3, max = 3.0))]
     pub abreast_m: f64,
 }
 
 impl Default for GroupConfig {
     fn default() -> Self {
-        Self { share: 0.6, sizes: vec![0.75, 0.18, 0.07], abreast_m: 0.75 }
+        Self { share: 0.6, sizes: vec![0.75, 0.18, 0.07], abreast_m: 0.6 }
     }
 }
 
@@ -120,26 +120,26 @@ impl Default for GroupConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CrowdStopConfig {
-    /// Mean number of stops in 100 m of walk. Default 0.7.
+    /// Mean number of stops in 100 m of walk. Default 0.8.
     #[schemars(range(min = 0.0, max = 50.0))]
     pub per_100m: f64,
-    /// Median length of a stop, seconds. Default 5.
+    /// Median length of a stop, seconds. Default 2.2.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub median_s: f64,
-    /// Spread of the lengths: standard deviation of their natural logarithm. Default 0.9.
+    /// Spread of the lengths: standard deviation of their natural logarithm. Default 1.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub spread: f64,
     /// Longest stop, seconds. Default 120.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub longest_s: f64,
-    /// Share of the people, or of their groups, who stand in one place for all frames. Default 0.05.
+    /// Share of the people, or of their groups, who stand in one place for all frames. Default 0.02.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub standing_share: f64,
 }
 
 impl Default for CrowdStopConfig {
     fn default() -> Self {
-        Self { per_100m: 0.7, median_s: 5.0, spread: 0.9, longest_s: 120.0, standing_share: 0.05 }
+        Self { per_100m: 0.8, median_s: 2.2, spread: 1.0, longest_s: 120.0, standing_share: 0.02 }
     }
 }
 

@@ -24,6 +24,7 @@ use cosfly_maps::Town;
 use cosfly_world::{BodyPlan, Clock, Population, Present, Snapshot};
 use limits::Limits;
 use person::Person;
+use roads::Right;
 use std::ops::Range;
 use std::sync::Arc;
 use steering::Steering;
@@ -31,6 +32,9 @@ use surroundings::Surroundings;
 
 /// Time in which people adapt their velocity, seconds.
 const RELAXATION_S: f64 = 0.5;
+
+/// The same on a road before a vehicle, seconds.
+const ESCAPE_S: f64 = 0.2;
 
 /// Largest acceleration that people choose, m/s2.
 const HARDEST_MPS2: f64 = 2.5;
@@ -149,6 +153,10 @@ impl Crowd {
         let mut change = (wanted + uneven_mps - person.velocity_mps) / RELAXATION_S
             + self.steering.push(neighbours, ahead)
             + self.grid.away_from_edge(at);
+        // Nobody makes way or room for others before a vehicle.
+        if let Right::Escape(_) = right {
+            change = (wanted - person.velocity_mps) / ESCAPE_S;
+        }
         if person.pace_mps <= 0.0 && change.length() < 0.8 {
             change = -person.velocity_mps / RELAXATION_S.max(step_s);
         }

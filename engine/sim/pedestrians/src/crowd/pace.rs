@@ -20,21 +20,24 @@ pub(crate) fn plan(
     (places, ahead): (&[DVec2], DVec2),
     step_s: f64,
 ) -> DVec2 {
-    let free_mps = || {
+    let free_mps = |most_slower: f64| {
         let level = CATCHING_UP * pursuit::lag_m(company, person, places, ahead);
-        company.cruise_mps * (1.0 + person.tempo + level.clamp(MOST_SLOWER, MOST_FASTER))
+        company.cruise_mps * (1.0 + person.tempo + level.clamp(most_slower, MOST_FASTER))
     };
     let goal_mps = match (company.activity, right) {
-        (_, Right::Escape(share)) => share.abs() * company.cruise_mps,
+        (_, Right::Escape(way)) => way.length() * company.cruise_mps,
         (Activity::Standing { .. }, _) => 0.0,
-        (Activity::Walking, Right::Wait(way_m)) => free_mps().min((2.0 * config.braking_mps2 * way_m).sqrt()),
-        (Activity::Walking, Right::Free) => free_mps(),
+        (Activity::Walking, Right::Wait(way_m)) => {
+            free_mps(MOST_SLOWER).min((2.0 * config.braking_mps2 * way_m).sqrt())
+        }
+        (Activity::Walking, Right::Free) => free_mps(MOST_SLOWER),
+        (Activity::Walking, Right::Cross) => free_mps(0.0),
     };
     let is_escape = matches!(right, Right::Escape(_));
     let change_mps = if is_escape { HARDEST_MPS2 } else { config.braking_mps2 } * step_s;
     person.pace_mps += (goal_mps - person.pace_mps).clamp(-change_mps, change_mps);
     match right {
-        Right::Escape(share) if share < 0.0 => -ahead,
+        Right::Escape(way) => way.try_normalize().unwrap_or(ahead),
         _ => ahead,
     }
 }

@@ -2,9 +2,9 @@
 //! that would hit them if they went on.
 
 use crate::WalkableGrid;
-use crate::crowd::CrowdConfig;
 use crate::crowd::company::{Company, is_road};
 use crate::crowd::person::Person;
+use crate::crowd::{CrowdConfig, HARDEST_MPS2};
 use cosfly_frames::{DVec2, real};
 use cosfly_world::Present;
 
@@ -19,25 +19,30 @@ const KERB_M: f64 = 0.7;
 const PROBE_M: f64 = 0.4;
 const PROBES: i32 = 9;
 
-/// Speeds at which a person on a road goes on or back, as multiples of the own one, in order of preference.
+/// Speeds at which a person on a road goes on or back, as multiples of the own one, in order of preference; and the one of the
+/// way straight out of a vehicle's lane.
 const ESCAPES: [f64; 4] = [1.0, 1.5, 0.0, -1.0];
+const ASIDE: f64 = 1.5;
 
 /// Vehicles slower than this let people pass, m/s.
 const WAITING_MPS: f64 = 0.5;
 
-/// On a road, people look so far ahead, seconds, and keep so far from vehicles, metres.
+/// On a road, people look so far ahead, seconds, and keep so far from vehicles, metres; this near where there is no other way.
 const LOOK_S: f64 = 4.0;
 const KEEP_M: f64 = 0.6;
+const NEAR_M: f64 = 0.1;
 
 /// What a person may do on the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Right {
     /// Walk on.
     Free,
+    /// On a road: walk on and wait for nobody.
+    Cross,
     /// Walk on to a kerb so many metres away and wait.
     Wait(f64),
-    /// On a road with vehicles near: walk at once with this velocity, as a multiple of the own speed ahead.
-    Escape(f64),
+    /// On a road with vehicles near: walk at once with this velocity, as a multiple of the own speed.
+    Escape(DVec2),
 }
 
 /// What the vehicles let a person do who walks `ahead` (a unit vector).
@@ -73,19 +78,35 @@ pub(crate) fn right(
 
 /// The first way of going on a road that no vehicle hits; the one that is hit last where all are.
 fn escape(company: &Company, person: &Person, ahead: DVec2, vehicles: &[Present]) -> Right {
-    let mut best = (1.0, 0.0);
-    for share in ESCAPES {
-        let velocity_mps = ahead * (share * company.cruise_mps);
-        let hits = vehicles.iter().filter_map(|vehicle| hit_s(vehicle, person.at, velocity_mps, person.radius_m));
-        let hit_s = hits.fold(LOOK_S, f64::min);
-        if hit_s > best.1 {
-            best = (share, hit_s);
-        }
-        if hit_s >= LOOK_S {
-            break;
+    let mut best = (ahead, 0.0);
+    for keep_m in [KEEP_M, NEAR_M] {
+        let Some((vehicle, _)) = first_hit(person, DVec2::ZERO, vehicles, keep_m) else { return Right::Cross };
+        let (sin, cos) = real::sin_cos(vehicle.state.heading_rad);
+        let aside = [ASIDE, -ASIDE].map(|share| share * DVec2::new(sin, -cos));
+        best = (ahead, 0.0);
+        for way in ESCAPES.into_iter().map(|share| share * ahead).chain(aside) {
+            match first_hit(person, way * company.cruise_mps, vehicles, keep_m) {
+                None => return Right::Escape(way),
+                Some((_, hit_s)) if hit_s > best.1 => best = (way, hit_s),
+                Some(_) => {}
+            }
         }
     }
-    if best.0 == 1.0 { Right::Free } else { Right::Escape(best.0) }
+    Right::Escape(best.0)
+}
+
+/// The vehicle that first comes too near to a person who takes on a velocity as fast as people can, and when, seconds.
+fn first_hit<'a>(
+    person: &Person,
+    velocity_mps: DVec2,
+    vehicles: &'a [Present],
+    keep_m: f64,
+) -> Option<(&'a Present, f64)> {
+    let change_mps = person.velocity_mps - velocity_mps;
+    let from = person.at + change_mps * (0.5 * change_mps.length() / HARDEST_MPS2);
+    let reach_m = person.radius_m + keep_m;
+    let hits = vehicles.iter().filter_map(|vehicle| Some((vehicle, hit_s(vehicle, from, velocity_mps, reach_m)?)));
+    hits.filter(|(_, hit_s)| *hit_s < LOOK_S).min_by(|one, other| one.1.total_cmp(&other.1))
 }
 
 /// Offset from a vehicle's middle along and across it.
@@ -99,9 +120,9 @@ fn turned(vehicle: &Present, vector: DVec2) -> DVec2 {
     DVec2::new(cos * vector.x + sin * vector.y, cos * vector.y - sin * vector.x)
 }
 
-/// Time after which a body at a place comes too near to a vehicle if both go on as now, seconds.
-fn hit_s(vehicle: &Present, at: DVec2, velocity_mps: DVec2, radius_m: f64) -> Option<f64> {
-    let half = 0.5 * vehicle.size_m.truncate() + radius_m + KEEP_M;
+/// Time after which a place that moves is within `reach_m` of a vehicle that goes on as now, seconds.
+fn hit_s(vehicle: &Present, at: DVec2, velocity_mps: DVec2, reach_m: f64) -> Option<f64> {
+    let half = 0.5 * vehicle.size_m.truncate() + reach_m;
     let place = beside(vehicle, at);
     let closing = turned(vehicle, velocity_mps) - DVec2::new(vehicle.state.speed_mps, 0.0);
     let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
