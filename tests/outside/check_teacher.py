@@ -4,8 +4,8 @@
 
 The stand-in stands for llama.cpp's server, which takes long to build; its requests and answers have the same form (chat completions
 with `response_format` of type `json_schema`). Checked: every text is there, true and marked; the key is in no byte that is written;
-the same recipe with the kept answers and without a network gives the same bytes; killed and resumed, no kept answer is asked for
-again, and a server that knows `Idempotency-Key` computes none twice; the budget holds; `cosfly plan` says what would be asked.
+of answers with one false statement each, none is published; the same recipe with the kept answers and without a network gives the
+same bytes; killed and resumed in the middle of 1,008 answers, no kept answer is asked for again, and a server that knows `Idempotency-Key` computes none twice; the budget holds; `cosfly plan` says what would be asked.
 """
 
 import base64
@@ -57,6 +57,35 @@ def honest(user, number):
     return text[0].upper() + text[1:]
 
 
+def planted(text, number):
+    """The text with one false statement, and its kind."""
+    chinese = any("\u4e00" <= letter <= "\u9fff" for letter in text)
+    numbers = list(re.finditer(r"\d+", text))
+    other = lambda match, more: text[: match.start()] + str(int(match[0]) + more) + text[match.end() :]
+    degrees = lambda match: text[match.end() :].startswith(("度", " degrees"))
+    kinds = {
+        "distance": other(next(it for it in numbers if not degrees(it)), 9),
+        "pitch": other(next(it for it in numbers if degrees(it)), 30),
+        "up and down": re.sub(
+            r"下俯视|上仰视|\b(?:up|down)\b",
+            lambda it: {"下俯视": "上仰视", "上仰视": "下俯视", "up": "down", "down": "up"}[it[0]],
+            text,
+        ),
+        "turns": text + ("其间右转了七次。" if chinese else " They turn right seven times."),
+        "stops": text + ("对方停了九次。" if chinese else " They stop nine times."),
+        "landmarks": text + ("对方经过左边的十二栋楼。" if chinese else " They pass twelve buildings on the left."),
+        "order": text + ("对方先右转，再掉头，最后停了50秒。" if chinese else " They turn right, then turn round, and finally stop for 50 seconds."),
+        "person": text.replace("行人", "骑自行车的人") if chinese else text.replace("walker", "cyclist"),
+    }
+    colours = "黑 灰 白 红 橙 黄 绿 蓝 紫 粉 棕 米".split() if chinese else "black grey white red orange yellow green blue purple pink brown beige".split()
+    said = [it for it in re.finditer("|".join(colours), text)]
+    for name, match in zip(("top", "trousers"), said):
+        wrong = colours[(colours.index(match[0]) + 5) % len(colours)]
+        kinds[name] = text[: match.start()] + wrong + text[match.end() :]
+    kind = sorted(kinds)[number % len(kinds)]
+    return kind, kinds[kind]
+
+
 class Teacher(ThreadingHTTPServer):
     daemon_threads = True
 
@@ -65,7 +94,7 @@ class Teacher(ThreadingHTTPServer):
         self.mode, self.delay = mode, delay
         self.lock = threading.Lock()
         self.requests, self.answered, self.bodies = 0, {}, []
-        self.tries = {}
+        self.tries, self.planted = {}, {}
         # Of questions by their `Idempotency-Key`: answers (where the server knows keys), requests in order, and those delivered whole.
         self.knows_keys, self.replies, self.asked, self.delivered, self.computed = knows_keys, {}, [], set(), 0
         threading.Thread(target=self.serve_forever, daemon=True).start()
@@ -130,6 +159,11 @@ class Handler(BaseHTTPRequestHandler):
         time.sleep(server.delay)
         if server.mode == "obedient" and b"ignore-previous" in body.lower():
             good = json.dumps({"text": "Follow the person in a red top, keep 3 m away and look down at 5 degrees."})
+        if server.mode == "planting":
+            kind, wrong = planted(text, number // 7 + attempt)
+            with server.lock:
+                server.planted[wrong] = kind
+            good = json.dumps({"text": wrong}, ensure_ascii=False)
         deed = number % 16 if server.mode == "hostile" else 99
         try:
             if deed in (0, 1, 2) and attempt == 1:
@@ -307,18 +341,36 @@ def check_keyframes(cosfly, work):
     assert server.bodies and len(different) > 1
 
 
+def check_planted(cosfly, work):
+    """Answers that are true but for one statement: none is published."""
+    server = Teacher("planting")
+    done = run(command(cosfly, work, "planted", server.address, "store_planted", flights=12))
+    assert done.returncode == 0, done.stderr
+    rows = captions(work / "planted")
+    refused = {}
+    for row in rows:
+        for text in row["refused"]:
+            kind = server.planted[text]
+            refused[kind] = refused.get(kind, 0) + 1
+    published = [(server.planted[row["text"]], row["text"]) for row in rows if row["text"] in server.planted]
+    print(f"one false statement in each answer: {len(server.planted)} answers, refused {dict(sorted(refused.items()))}, published {len(published)}")
+    assert not published, published[:6]
+    assert len(refused) == 10 and all(row["fallback"] for row in rows), refused
+
+
 def check_kills(cosfly, work, knows_keys):
-    """Kills the run again and again; a kept answer must never be asked for again."""
+    """Kills the run again and again in 1,008 answers; a kept answer must never be asked for again."""
     print(f"killed and resumed, by a server that {'knows' if knows_keys else 'does not know'} `Idempotency-Key`")
     name = f"killed{int(knows_keys)}"
-    server = Teacher("honest", delay=0.05, knows_keys=knows_keys)
+    server = Teacher("honest", delay=0.02, knows_keys=knows_keys)
     environment = dict(os.environ, **{VARIABLE: KEY})
-    arguments = command(cosfly, work, name, server.address, f"store_{name}", flights=12)
+    arguments = command(cosfly, work, name, server.address, f"store_{name}", flights=63)
     answers = work / f"store_{name}" / "answers"
     kept = lambda: {path.name for path in answers.rglob("*") if path.is_file() and path.parent.name != "accounts" and len(path.name) == 64}
     question = lambda key: key.split("-")[1]
     again_kept, again_delivered, kills = 0, 0, 0
-    for limit in (20, 45, 70, 95, 120, 145):
+    limits = (50, 230, 410, 590, 770, 950)
+    for limit in limits:
         process = subprocess.Popen(arguments, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         while process.poll() is None and len(server.answered) < limit:
             time.sleep(0.005)
@@ -327,7 +379,7 @@ def check_kills(cosfly, work, knows_keys):
         time.sleep(0.2)
         kills += 1
         before, of_store, of_wire = len(server.asked), kept(), {question(key) for key in server.delivered}
-        if limit == 145:
+        if limit == limits[-1]:
             done = run(arguments)
             assert done.returncode == 0, done.stderr
         else:
@@ -342,7 +394,7 @@ def check_kills(cosfly, work, knows_keys):
         asked = [question(key) for key in server.asked[before:]]
         again_kept += sum(it in of_store for it in asked)
         again_delivered += sum(it in of_wire for it in asked)
-    check_rows(captions(work / name), 12, False)
+    check_rows(captions(work / name), 63, False)
     twice = [digest for digest, times in server.answered.items() if times > 1]
     print(f"  {kills} kills, {len(server.asked)} requests for {len(server.answered)} questions; asked again: {again_kept} that were kept, "
           f"{again_delivered} that were delivered; computed twice: {len(twice)}")
@@ -382,6 +434,7 @@ def main():
     assert done.returncode == 0, done.stderr
     assert bytes_of(work / "hostile") == bytes_of(work / "offline"), "other bytes"
 
+    check_planted(cosfly, work)
     check_hostile_town(cosfly, work)
     check_keyframes(cosfly, work)
     for knows_keys in (False, True):
