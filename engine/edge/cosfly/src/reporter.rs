@@ -9,7 +9,7 @@ use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
 
 /// Number of failures of one stage and code that are shown in full.
-const SHOWN_ALIKE: u64 = 3;
+const SHOWN_ALIKE: usize = 3;
 
 /// Amount of text that is printed during a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,8 +27,16 @@ pub struct Reporter {
     detail: Detail,
     bars: MultiProgress,
     stages: Mutex<BTreeMap<StageName, Progress>>,
-    /// Number of failed items by stage and code.
-    failures: Mutex<BTreeMap<(StageName, &'static str), u64>>,
+    /// Failed items by stage and code.
+    failures: Mutex<BTreeMap<(StageName, &'static str), Failures>>,
+}
+
+/// Items that failed with one code.
+#[derive(Default)]
+struct Failures {
+    count: usize,
+    /// Messages that were shown.
+    shown: Vec<String>,
 }
 
 struct Progress {
@@ -73,22 +81,25 @@ impl Reporter {
         }
     }
 
-    /// Shows a failure, unless enough items of the same stage failed in the same way: a thousand items, three messages.
+    /// Shows a failure, unless enough items of the same stage failed in the same way: a thousand items, three messages; one where
+    /// all of them say the same.
     fn failed(&self, id: &ItemId, diagnostic: &Diagnostic) {
-        let message = format!("{}\n  (in `{id}`)", render(diagnostic, colour()));
+        let text = render(diagnostic, colour());
         let mut failures = self.failures.lock().unwrap_or_else(PoisonError::into_inner);
-        let alike = failures.entry((id.stage.clone(), diagnostic.code)).or_insert(0);
-        *alike += 1;
-        if *alike <= SHOWN_ALIKE {
-            self.always(&message);
+        let alike = failures.entry((id.stage.clone(), diagnostic.code)).or_default();
+        alike.count += 1;
+        if alike.shown.len() < SHOWN_ALIKE && !alike.shown.contains(&text) {
+            self.always(&format!("{text}\n  (in `{id}`)"));
+            alike.shown.push(text);
         }
     }
 
     /// Removes the bars, and prints the number of failures that were not shown.
     fn finish(&self) {
         for ((stage, code), alike) in self.failures.lock().unwrap_or_else(PoisonError::into_inner).iter() {
-            if *alike > SHOWN_ALIKE {
-                self.always(&format!("{} of `{stage}` failed with `{code}`", count(alike - SHOWN_ALIKE, "more item")));
+            let more = alike.count - alike.shown.len();
+            if more > 0 {
+                self.always(&format!("{} of `{stage}` failed with `{code}`", count(more as u64, "more item")));
             }
         }
         for progress in self.stages.lock().unwrap_or_else(PoisonError::into_inner).values() {

@@ -176,7 +176,7 @@ impl PedestrianConfig {
         let duration_s = f64::from(self.steps) * self.dt_s;
         if duration_s > 86_400.0 {
             let message = format!("`steps` x `dt_s` is `{duration_s}` s; it must not be more than a day, `86400` s");
-            return Err(ConfigRule { path: &["steps"], message });
+            return Err(ConfigRule { path: vec!["steps"], message });
         }
         ConfigRule::in_order(&["speed", "min_mps"], self.speed.min_mps, "max_mps", self.speed.max_mps)?;
         ConfigRule::in_order(&["stops", "min_s"], self.stops.min_s, "max_s", self.stops.max_s)?;

@@ -6,19 +6,25 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConfigRule {
     /// Keys from the config's table to the value.
-    pub path: &'static [&'static str],
+    pub path: Vec<&'static str>,
     /// The value and the rule.
     pub message: String,
 }
 
 impl ConfigRule {
+    /// The same rule, for the config within a table.
+    pub fn within_table(mut self, table: &'static str) -> Self {
+        self.path.insert(0, table);
+        self
+    }
+
     /// Holds when `value` is a number within `min` and `max`.
     pub(crate) fn within(path: &'static [&'static str], value: f64, min: f64, max: f64) -> Result<(), Self> {
         let name = path.last().copied().unwrap_or_default();
         if (min..=max).contains(&value) {
             return Ok(());
         }
-        Err(Self { path, message: format!("`{name}` is `{value}`; it must be within `{min}` and `{max}`") })
+        Err(Self { path: path.to_vec(), message: format!("`{name}` is `{value}`; it must be within `{min}` and `{max}`") })
     }
 
     /// Holds when `value` is not more than its upper limit.
@@ -28,7 +34,7 @@ impl ConfigRule {
             return Ok(());
         }
         let message = format!("`{name}` is `{value}`; it must not be more than `{limit}`, which is `{at_most}`");
-        Err(Self { path, message })
+        Err(Self { path: path.to_vec(), message })
     }
 }
 

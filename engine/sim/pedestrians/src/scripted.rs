@@ -75,7 +75,7 @@ impl ScriptedPerson {
         ConfigRule::within(&["radius_m"], self.radius_m, 0.05, 2.0)?;
         if self.route.is_empty() {
             let message = format!("the route of `{}` has no waypoint; it needs at least one", self.id);
-            return Err(ConfigRule { path: &["route"], message });
+            return Err(ConfigRule { path: vec!["route"], message });
         }
         let mut before_s = 0.0;
         for point in &self.route {
@@ -95,7 +95,7 @@ impl ScriptedPerson {
 /// Why a script cannot be played.
 fn impossible(person: &ScriptedPerson, waypoint: usize, problem: String) -> PedestrianError {
     let message = format!("waypoint {} of `{}` {problem}", waypoint + 1, person.id);
-    PedestrianError::Config(ConfigRule { path: &["route"], message })
+    PedestrianError::Config(ConfigRule { path: vec!["route"], message })
 }
 
 /// What is wrong with a place off the ground: the nearest one that is not.

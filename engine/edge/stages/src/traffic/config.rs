@@ -153,18 +153,18 @@ impl TrafficConfig {
         let duration_s = f64::from(self.frames) * self.dt_s;
         if duration_s > 86_400.0 {
             let message = format!("`frames` x `dt_s` is `{duration_s}` s; it must not be more than a day, `86400` s");
-            return Err(ConfigRule { path: &["frames"], message });
+            return Err(ConfigRule { path: vec!["frames"], message });
         }
         if let Some(at) =
             (1..self.follow.kinds.len()).find(|at| self.follow.kinds[..*at].contains(&self.follow.kinds[*at]))
         {
             let message = format!("`{}` is listed twice", self.follow.kinds[at].name());
-            return Err(ConfigRule { path: &["follow", "kinds"], message });
+            return Err(ConfigRule { path: vec!["follow", "kinds"], message });
         }
         let named = &self.follow.named;
         if let Some(at) = (1..named.len()).find(|at| named[..*at].contains(&named[*at])) {
             let message = format!("`{}` is listed twice", named[at]);
-            return Err(ConfigRule { path: &["follow", "named"], message });
+            return Err(ConfigRule { path: vec!["follow", "named"], message });
         }
         if named.len() as u64 > self.follow.count {
             let message = format!(
@@ -172,41 +172,37 @@ impl TrafficConfig {
                 named.len(),
                 self.follow.count
             );
-            return Err(ConfigRule { path: &["follow", "named"], message });
+            return Err(ConfigRule { path: vec!["follow", "named"], message });
         }
         let mut types = self.sumo.iter().flat_map(|sumo| &sumo.options.types);
         if let Some((name, _)) = types.find(|(_, it)| it.kind == BodyKind::Drone) {
             let known = BodyKind::ON_THE_GROUND.map(|kind| format!("`{}`", kind.name())).join(", ");
             let message = format!("type `{name}` is a `drone`, which no traffic has; its kind must be one of {known}");
-            return Err(ConfigRule { path: &["sumo", "options", "types"], message });
+            return Err(ConfigRule { path: vec!["sumo", "options", "types"], message });
         }
         let mut types = self.sumo.iter().flat_map(|sumo| &sumo.options.types);
         if let Some((name, size_m)) = types.find_map(|(name, it)| Some((name, it.size_m.filter(is_no_size)?))) {
             let message = format!("`size_m` of type `{name}` is `{size_m:?}`; each side must be from 0.1 to 50 m long");
-            return Err(ConfigRule { path: &["sumo", "options", "types"], message });
+            return Err(ConfigRule { path: vec!["sumo", "options", "types"], message });
         }
         if let Err((table, message)) = self.looks.check() {
-            let path: &'static [&'static str] = match table {
-                "bags" => &["looks", "bags"],
-                "builds" => &["looks", "builds"],
-                _ => &["looks", "gaits"],
-            };
-            return Err(ConfigRule { path, message });
+            return Err(ConfigRule { path: vec!["looks", table], message });
         }
-        let shares = |message| ConfigRule { path: &["look_alikes", "shares"], message };
+        let shares = |message| ConfigRule { path: vec!["look_alikes", "shares"], message };
         self.look_alikes.check().map_err(shares)?;
         for person in &self.scripted {
-            let below = |rule: ConfigRule| ConfigRule { path: &["scripted"], ..rule };
+            let below = |rule: ConfigRule| ConfigRule { path: vec!["scripted"], ..rule };
             person.check().map_err(below)?;
         }
         for recorded in &self.recorded {
-            let below = |rule: ConfigRule| ConfigRule { path: &["recorded"], ..rule };
+            let below = |rule: ConfigRule| ConfigRule { path: vec!["recorded"], ..rule };
             recorded.options.check().map_err(below)?;
         }
-        let below = |rule: cosfly_vehicles::ConfigRule| ConfigRule { path: &["vehicles"], message: rule.message };
+        let below = |rule: cosfly_vehicles::ConfigRule| {
+            ConfigRule { path: rule.path.to_vec(), message: rule.message }.within_table("vehicles")
+        };
         self.vehicles.validate().map_err(below)?;
-        let below = |rule: ConfigRule| ConfigRule { path: &["people"], ..rule };
-        self.people.check().map_err(below)
+        self.people.check().map_err(|rule| rule.within_table("people"))
     }
 
     /// Frames and steps.
@@ -241,5 +237,23 @@ impl TrafficConfig {
         let mut follow = parameters::canonical(&self.follow);
         follow.as_object_mut().expect("a table").remove("count");
         follow
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_broken_rule_is_found_at_its_own_key() {
+        let refused = |change: fn(&mut TrafficConfig)| {
+            let mut config = TrafficConfig::default();
+            change(&mut config);
+            config.check().unwrap_err().path.join(".")
+        };
+        assert_eq!(refused(|it| it.people.groups.sizes = vec![0.0, 0.0]), "people.groups.sizes");
+        assert_eq!(refused(|it| it.people.stops.median_s = 500.0), "people.stops.median_s");
+        assert_eq!(refused(|it| it.vehicles.parked_share = 2.0), "vehicles.parked_share");
+        assert_eq!(refused(|it| it.follow.kinds = vec![BodyKind::Car, BodyKind::Car]), "follow.kinds");
     }
 }

@@ -215,8 +215,7 @@ impl CrowdConfig {
 
 impl GroupConfig {
     fn check(&self) -> Result<(), ConfigRule> {
-        let path: &'static [&'static str] = &["groups", "sizes"];
-        let refused = |message: String| Err(ConfigRule { path, message });
+        let refused = |message: String| Err(ConfigRule { path: vec!["groups", "sizes"], message });
         if self.sizes.is_empty() || self.sizes.len() > 5 {
             return refused(format!("`sizes` has {} numbers; it must have between 1 and 5", self.sizes.len()));
         }
