@@ -59,7 +59,7 @@ const RELATIONS: [Kind; 12] = [
             "vanish~",
             "blocks",
         ],
-        chinese: &["挡", "遮", "看不见", "看不到", "消失", "不见", "画面外", "跟丢", "视野外"],
+        chinese: &["挡", "遮", "看不见", "看不到", "消失", "不见", "画面外", "视野外"],
     },
     Kind {
         name: "seen again",
@@ -186,7 +186,7 @@ const INTENTS: [Kind; 10] = [
     Kind {
         name: "find again",
         english: &["find~", "search~", "pick up", "pick them up", "wait until", "lose sight", "lost", "again"],
-        chinese: &["找", "搜", "重新", "再次", "跟丢", "又出现"],
+        chinese: &["找", "搜", "重新", "再次", "跟丢了", "又出现"],
     },
     Kind {
         name: "film",
@@ -266,6 +266,8 @@ mod tests {
         let expected = ["by number", "hidden", "on a side", "passes a landmark", "seen again", "with vehicles"];
         assert_eq!(relations, expected);
         assert_eq!(intents, ["find again", "follow"]);
+        let [relations, intents] = names("别跟丢穿红色上衣的行人。", Language::Zh);
+        assert!(relations.is_empty() && intents.is_empty(), "an order that speaks of no loss");
     }
 
     #[test]
