@@ -24,7 +24,10 @@ impl ConfigRule {
         if (min..=max).contains(&value) {
             return Ok(());
         }
-        Err(Self { path: path.to_vec(), message: format!("`{name}` is `{value}`; it must be within `{min}` and `{max}`") })
+        Err(Self {
+            path: path.to_vec(),
+            message: format!("`{name}` is `{value}`; it must be within `{min}` and `{max}`"),
+        })
     }
 
     /// Holds when `value` is not more than its upper limit.

@@ -5,6 +5,7 @@ use super::{passing, people};
 use crate::facts::Wear;
 use crate::sight::Landmarks;
 use crate::turns::{Turn, directions, turns};
+use cosfly_claims::TurnKind;
 use cosfly_frames::{DVec2, TargetState};
 use cosfly_world::BodyKind;
 use std::ops::Range;
@@ -74,6 +75,11 @@ pub struct Flight<'a> {
     pub vehicles: Vec<(BodyKind, Vec<Sample>)>,
 }
 
+/// Change of direction that people may call a turn, degrees, and the frames with a direction before and after it.
+const SWING_DEG: f64 = 40.0;
+const SWING_BEFORE: usize = 22;
+const SWING_AFTER: usize = 15;
+
 /// What can be said of a flight.
 #[derive(Clone, Debug)]
 pub struct Course<'a> {
@@ -83,6 +89,8 @@ pub struct Course<'a> {
     pub(super) walks: bool,
     /// The turns, in order.
     pub(super) turns: Vec<Turn>,
+    /// Directions of the way, see [`directions`].
+    pub(super) directions: Vec<(usize, f64)>,
     /// The pauses, in order.
     pub(super) stops: Vec<Range<usize>>,
     /// Frames on marked crossings, in order.
@@ -96,15 +104,27 @@ impl<'a> Course<'a> {
         let moving: Vec<bool> = flight.states.iter().map(|state| state.speed_mps >= STANDING_MPS).collect();
         let way_m: f64 = feet.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
         let walks = way_m >= LEAST_WALK_M;
-        let turns = if walks { turns(&directions(&feet, &moving)) } else { vec![] };
+        let directions = if walks { directions(&feet, &moving) } else { vec![] };
+        let turns = turns(&directions);
         let stops = if walks { pauses(&moving, flight.dt_s) } else { vec![] };
         let crossings = passing::crossings(flight.states, landmarks);
-        Self { flight, landmarks, walks, turns, stops, crossings }
+        Self { flight, landmarks, walks, turns, directions, stops, crossings }
     }
 
     /// Number of frames.
     pub(super) fn len(&self) -> usize {
         self.flight.states.len()
+    }
+
+    /// Whether the way around a frame swings to a side so much that people may call it a turn, though it is none of the turns.
+    pub(super) fn swings(&self, frame: usize, to: TurnKind) -> bool {
+        let sign = if to == TurnKind::Left { -1.0 } else { 1.0 };
+        let at = self.directions.partition_point(|(before, _)| *before < frame);
+        let before = &self.directions[at.saturating_sub(SWING_BEFORE)..(at + 1).min(self.directions.len())];
+        let after = &self.directions[at..(at + SWING_AFTER).min(self.directions.len())];
+        let turned =
+            |(_, from): &(usize, f64)| after.iter().any(|(_, to)| (sign * (to - from)).to_degrees() >= SWING_DEG);
+        before.iter().any(turned)
     }
 
     pub(super) fn clothes(&self) -> Said {

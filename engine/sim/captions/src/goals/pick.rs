@@ -183,7 +183,7 @@ fn falsified(course: &Course<'_>, ground: &Plan, said: &Said, words: &mut Random
                 .iter()
                 .map(|it| (it.frame as usize).abs_diff(said.frames.start))
                 .any(|away| away > 0 && away < APART);
-            if is_there || is_in_a_row {
+            if is_there || is_in_a_row || course.swings(said.frames.start, other) {
                 return None;
             }
             Claim::Turns(other)
