@@ -274,6 +274,8 @@ def judge(goal, flight, wrong, counts):
     if said != meant:
         wrong.append(f"{where} says {said}; its claims are {meant}")
         return
+    if goal["grain"] != "dialogue" and all(claim[0] in ("wears", "distance") for claim in claims):
+        wrong.append(f"{where}: nothing is said of the way")
     for claim in claims:
         *name, start, end = claim
         holds = flight.is_true([str(word) for word in name], start, end)

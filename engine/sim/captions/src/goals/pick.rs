@@ -19,12 +19,13 @@ const APART: usize = 40;
 /// Draws after which there is no further goal.
 const MOST_DRAWS: usize = 40;
 
-/// Goals of the whole flight that differ in what they say.
+/// Goals of the whole flight that differ in what they say; none where there is nothing to say but clothes and distance.
 pub(super) fn flights(course: &Course<'_>, words: &mut RandomStream) -> Vec<Plan> {
     let mut plans: Vec<Plan> = vec![];
     for _ in 0..MOST_DRAWS {
         let plan = flight(course, words);
-        if plans.len() < FLIGHTS && plans.iter().all(|it| it.said != plan.said) {
+        let says_way = plan.said.len() > 2;
+        if says_way && plans.len() < FLIGHTS && plans.iter().all(|it| it.said != plan.said) {
             plans.push(plan);
         }
     }

@@ -13,9 +13,9 @@ const LEAST_FRAMES: usize = 6;
 /// Longer stretches without a move are cut, seconds.
 const LONGEST_S: f64 = 20.0;
 
-/// A goal for each stretch.
+/// A goal for each stretch of which there is something to say.
 pub(super) fn steps(course: &Course<'_>, words: &mut RandomStream) -> Vec<Plan> {
-    stretches(course).into_iter().map(|(frames, action)| step(course, frames, action, words)).collect()
+    stretches(course).into_iter().filter_map(|(frames, action)| step(course, frames, action, words)).collect()
 }
 
 /// The stretches in order, each with the move that ends it.
@@ -46,7 +46,7 @@ fn stretches(course: &Course<'_>) -> Vec<(Range<usize>, Option<Said>)> {
     found
 }
 
-fn step(course: &Course<'_>, frames: Range<usize>, action: Option<Said>, words: &mut RandomStream) -> Plan {
+fn step(course: &Course<'_>, frames: Range<usize>, action: Option<Said>, words: &mut RandomStream) -> Option<Plan> {
     let before =
         frames.start..action.as_ref().map_or(frames.end, |said| said.frames.start.saturating_sub(1)).max(frames.start);
     let mut said = vec![];
@@ -62,7 +62,10 @@ fn step(course: &Course<'_>, frames: Range<usize>, action: Option<Said>, words: 
     if said.is_empty() {
         said.extend(course.sights(&frames).into_iter().next());
     }
+    if said.is_empty() {
+        return None;
+    }
     said.push(course.distance(&frames));
     let wrong: Option<Subject> = None;
-    Plan { grain: Grain::Step, frames, said, wrong, mistaken: None, is_other_of_two: false }
+    Some(Plan { grain: Grain::Step, frames, said, wrong, mistaken: None, is_other_of_two: false })
 }
