@@ -99,6 +99,11 @@ def stated_top_m(tags):
     return None
 
 
+def union_of(shapes, index, shape):
+    """Plan of the boxes that touch a shape."""
+    return unary_union([shapes[at] for at in index.query(shape, predicate="intersects")])
+
+
 class Town:
     """A town as `inspect_json` prints it, and the extract in its frame."""
 
@@ -151,10 +156,27 @@ class Town:
             assert median >= 0.9, f"{self.name}: median overlap {median:.3f}, worst {sorted(overlaps)[:5]}"
         wrong = [one for one in heights if one[0] > 0.05]
         assert len(wrong) <= 0.02 * len(heights), f"{self.name}: heights {wrong[:5]}"
+        courts = self.courts([shape for *_, shape in outlines + parts], shapes, index)
+        covered = [union_of(shapes, index, shape).intersection(shape).area / shape.area for _, _, shape in parts]
+        assert not courts or statistics.median(courts) <= 0.05, f"{self.name}: courts are built up: {sorted(courts)[-5:]}"
+        assert not covered or statistics.median(covered) >= 0.95, f"{self.name}: parts are not covered: {sorted(covered)[:5]}"
         self.check_points()
         share = self.check_paths()
         print(f"{self.name}: {objects} buildings ({len(parts)} parts), overlap {statistics.median(v for v, _ in overlaps) if overlaps else math.nan:.3f} "
               f"over {len(overlaps)}, {len(heights)} heights, {len(wrong)} wrong, {share:.3f} of the footpaths walkable")
+        if courts or covered:
+            print(f"  {len(courts)} courts, built up {statistics.median(courts) if courts else math.nan:.3f} in the median; parts covered {statistics.median(covered) if covered else math.nan:.3f}")
+
+    def courts(self, areas, shapes, index):
+        """Share of each court that boxes of buildings cover, 0.5 m and more from its walls and from houses in it."""
+        tree, shares = STRtree(areas), []
+        for ring in (hole for area in areas for hole in area.interiors):
+            hole = Polygon(ring)
+            inside = [areas[at] for at in tree.query(hole, predicate="intersects")]
+            free = hole.difference(unary_union([one for one in inside if not one.equals(hole)])).buffer(-0.5)
+            if free.area >= 10.0:
+                shares.append(union_of(shapes, index, free).intersection(free).area / free.area)
+        return shares
 
     def overlap(self, shape, shapes, index, boxes):
         """Intersection over union with the boxes of the object that covers most of the shape."""

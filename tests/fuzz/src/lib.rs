@@ -22,6 +22,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("boxes", map),
     ("cityjson", map),
     ("frame_pack", frame_pack),
+    ("generated", map),
     ("gltf", map),
     ("image_log", image_log),
     ("jpeg", jpeg),
