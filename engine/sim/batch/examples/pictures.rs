@@ -1,5 +1,6 @@
-//! Time of pictures of a batch by what they show: `pictures PIXELS depth|simple|full ROUNDS`. Made for profilers, which
-//! see little else than drawing in it when the rounds are many.
+//! Time of pictures of a batch by what they show: `pictures PIXELS none|depth|simple|full ROUNDS nothing|boxes|ground|people`.
+//! Made for profilers, which see little else than drawing in it when the rounds are many. `none` makes no channels. The last
+//! word ends the drawing after a stage: what the next one adds is what it costs, as stages change nothing of those before.
 
 #[path = "../tests/towns/mod.rs"]
 mod towns;
@@ -18,13 +19,19 @@ fn main() {
     let number = |at: usize, otherwise: u32| words.get(at).map_or(otherwise, |word| word.parse().expect("a number"));
     let (side, rounds) = (number(0, 84), number(2, 50));
     let content = words.get(1).map_or("depth", String::as_str);
-    let town = towns::shipped("downtown.xodr");
-    let scene = if content == "depth" {
+    let last = words.get(3).map_or("people", String::as_str);
+    let mut town = towns::shipped("downtown.xodr");
+    let places = towns::places(&town, PLACES, if last == "people" { PEOPLE } else { 0 });
+    match last {
+        "nothing" => (town.obstacles, town.surfaces) = (vec![], vec![]),
+        "boxes" => town.surfaces.clear(),
+        _ => {}
+    }
+    let scene = if matches!(content, "none" | "depth") {
         BatchScene::without_colours(&town, &cosfly_maps::GroundIndex::new(&town))
     } else {
         BatchScene::new(&town, Seed([1; 32]))
     };
-    let places = towns::places(&town, PLACES, PEOPLE);
     let look = if content == "full" { PictureLook::Full } else { PictureLook::Simple };
     let views: Vec<View<'_>> = places
         .iter()
@@ -32,7 +39,7 @@ fn main() {
             scene: &scene,
             pose: place.pose,
             horizontal_fov_rad: core::f64::consts::FRAC_PI_2,
-            target: Some(place.target),
+            target: Some(place.target).filter(|_| last == "people"),
             others: &place.others,
             weather: None,
             look,
@@ -46,7 +53,9 @@ fn main() {
     let mut fastest_s = f64::INFINITY;
     for _ in 0..rounds {
         let began = Instant::now();
-        let outputs = if content == "depth" {
+        let outputs = if content == "none" {
+            Outputs::default()
+        } else if content == "depth" {
             Outputs {
                 depth_m: Some(&mut depth_m),
                 semantic: Some(&mut semantic),
