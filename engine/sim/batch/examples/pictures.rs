@@ -21,7 +21,10 @@ fn main() {
     let content = words.get(1).map_or("depth", String::as_str);
     let last = words.get(3).map_or("people", String::as_str);
     let mut town = towns::shipped("downtown.xodr");
-    let places = towns::places(&town, PLACES, if last == "people" { PEOPLE } else { 0 });
+    let mut places = towns::places(&town, PLACES, PEOPLE);
+    if last != "people" {
+        places.iter_mut().for_each(|place| place.others.clear());
+    }
     match last {
         "nothing" => (town.obstacles, town.surfaces) = (vec![], vec![]),
         "boxes" => town.surfaces.clear(),
