@@ -215,14 +215,14 @@ impl OrdersStage {
     fn said(&self, trials: &[Trial], assigned: &[bool]) -> (String, Vec<String>) {
         let count = |is: &dyn Fn(&Trial) -> bool| trials.iter().zip(assigned).filter(|it| *it.1 && is(it.0)).count();
         let (lost, beside) = (count(&|_| true), count(&|trial| trial.beside_look_alike));
-        let wanted = (self.config.share * trials.len() as f64 + 1e-9).floor() as usize;
-        let wanted_beside = (self.config.beside_look_alike * wanted as f64 + 1e-9).floor() as usize;
+        let wanted_in_all = wanted(self.config.share, trials.len());
+        let wanted_beside = wanted(self.config.beside_look_alike, wanted_in_all);
         let can = |is: &dyn Fn(&Trial) -> bool| trials.iter().filter(|trial| trial.is_lost && is(trial)).count();
         let mut warnings = vec![];
-        if lost < wanted {
+        if lost < wanted_in_all {
             let (can, all) = (can(&|_| true), trials.len());
             warnings.push(format!(
-                "`occlusion.share` asks for {wanted} flights that lose their target; {lost} do: {can} of {all} walks lead past something that hides them for {} s",
+                "`occlusion.share` asks for {wanted_in_all} flights that lose their target; {lost} do: {can} of {all} walks lead past something that hides them for {} s",
                 self.config.min_s
             ));
         }
