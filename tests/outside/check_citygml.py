@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Compares the town of a surveyed OpenDRIVE file with a CityGML model of the same houses; this script parses both alone.
+"""Compares the town of a surveyed OpenDRIVE file with a CityGML model of the same houses; no code is shared with cosfly.
 
     check_citygml.py INSPECT_JSON MAP.xodr CITYGML...
 
-INSPECT_JSON is the example `inspect_json` of the room `maps`. Both files must be in one projection; the survey's roads must
-be lines and `paramPoly3`.
+INSPECT_JSON is the example `inspect_json` of the room `maps`. Both files must be in one projection.
 
 The town is judged by the survey's outlines: it cannot be truer than they are. How far these are from the model is printed
 for houses one by one, and for groups: what is one outline in one file may be several houses in the other one.
@@ -16,6 +15,7 @@ import subprocess
 import sys
 import xml.etree.ElementTree as xml
 
+import check_outlines
 import numpy as np
 from check_cityjson import things_of
 from shapely import STRtree, make_valid, union_all
@@ -46,42 +46,6 @@ def houses(path):
         if roofs and footprint.area >= 1.0:
             low = min(ring[:, 2].min() for ring in grounds + walls + roofs)
             yield footprint, low, max(ring[:, 2].max() for ring in roofs)
-
-
-def frame(road, s):
-    """Plan position and unit direction of a road's reference line."""
-    pieces = [one for one in road.findall("planView/geometry") if float(one.get("s")) <= s + 1e-9]
-    piece = pieces[-1] if pieces else road.find("planView/geometry")
-    along = s - float(piece.get("s"))
-    at, onward = complex(along, 0), complex(1, 0)
-    curve = piece.find("paramPoly3")
-    if curve is not None:
-        p = along if curve.get("pRange") == "arcLength" else along / float(piece.get("length"))
-        terms = [complex(float(curve.get(f"{name}U")), float(curve.get(f"{name}V"))) for name in "abcd"]
-        at = sum(term * p**power for power, term in enumerate(terms))
-        onward = sum(power * term * p ** (power - 1) for power, term in enumerate(terms) if power)
-    turn = np.exp(1j * float(piece.get("hdg")))
-    return complex(float(piece.get("x")), float(piece.get("y"))) + turn * at, turn * onward / abs(onward)
-
-
-def place(road, s, t):
-    at, onward = frame(road, s)
-    return at + 1j * onward * t
-
-
-def outlines(path):
-    """Name and outline of each house of the survey, in its projection; shelters of bus stops are no houses."""
-    for road in xml.parse(path).findall("road"):
-        for thing in road.findall("objects/object[@type='building']"):
-            if thing.get("name") == "busStop":
-                continue
-            s, t, turn = (float(thing.get(name)) for name in ("s", "t", "hdg"))
-            foot, onward = place(road, s, t), frame(road, s)[1] * np.exp(1j * turn)
-            ring = [place(road, float(one.get("s")), float(one.get("t"))) for one in thing.findall("outline/cornerRoad")]
-            ring += [foot + onward * complex(float(one.get("u")), float(one.get("v"))) for one in thing.findall("outline/cornerLocal")]
-            shape = make_valid(Polygon([(one.real, one.imag) for one in ring])) if len(ring) > 2 else None
-            if shape and shape.area > 1.0:
-                yield thing.get("id"), shape
 
 
 def overlap(one, other):
@@ -115,7 +79,7 @@ def main():
     inspect, survey, *models = sys.argv[1:]
     town = json.loads(subprocess.run([inspect, survey], check=True, capture_output=True).stdout)
     things = list(things_of(town, "Building"))
-    plans, (names, drawn) = [plan for plan, *_ in things], zip(*outlines(survey))
+    plans, (names, drawn) = [plan for plan, *_ in things], zip(*(house[:2] for house in check_outlines.houses(survey)))
     tree = STRtree(plans)
     fidelity = [max((overlap(shape, plans[at]) for at in tree.query(shape, "intersects")), default=0.0) for shape in drawn]
     print(f"town and outlines of the survey, intersection over union: {quartiles(fidelity)}, least {min(fidelity):.2f}")

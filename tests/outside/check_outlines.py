@@ -16,6 +16,7 @@ import sys
 import tempfile
 import xml.etree.ElementTree as ET
 
+from check_cityjson import things_of
 from shapely import STRtree, make_valid, union_all
 from shapely.geometry import Polygon
 
@@ -40,7 +41,6 @@ class Road:
         pieces = [(numbers(it, "s", "x", "y", "hdg", "length"), it[0]) for it in road.find("planView")]
         self.pieces = sorted(pieces, key=lambda piece: piece[0][0])
         self.heights = sorted(numbers(it, "s", "a", "b", "c", "d") for it in road.iter("elevation"))
-
         self.rolls = sorted(numbers(it, "s", "a", "b", "c", "d") for it in road.iter("superelevation"))
 
     def height(self, s, t):
@@ -120,20 +120,8 @@ def town_of(inspect, path, roofs):
         json.dump({"roofs": roofs}, options)
         options.flush()
         town = json.loads(subprocess.run([inspect, path, options.name], check=True, capture_output=True).stdout)
-    offset, groups = town["offset_m"], {}
-    for box in town["boxes"]:
-        if box["kind"] == "Building":
-            groups.setdefault(box["object"], []).append(box)
-    for boxes in groups.values():
-        shapes = []
-        for box in boxes:
-            (x, y, _), (half_x, half_y, _), yaw = box["center_m"], box["half_m"], box["yaw_rad"]
-            cos, sin = math.cos(yaw), math.sin(yaw)
-            around = [(half_x, half_y), (-half_x, half_y), (-half_x, -half_y), (half_x, -half_y)]
-            corners = [(x + offset[0] + cos * u - sin * v, -(y + offset[1] + sin * u + cos * v)) for u, v in around]
-            shapes.append(Polygon(corners))
-        low = min(box["center_m"][2] - box["half_m"][2] for box in boxes) + offset[2]
-        yield union_all(shapes), low, max(box["center_m"][2] + box["half_m"][2] for box in boxes) + offset[2]
+    lift = town["offset_m"][2]
+    return [(plan, low + lift, high + lift) for plan, low, high, _ in things_of(town, "Building")]
 
 
 def compare(truth, found):
@@ -157,7 +145,7 @@ def main():
         if not truth:
             print(f"{name}: no outlines of buildings")
             continue
-        flat, pitched = (compare(truth, list(town_of(inspect, path, roofs))) for roofs in ("flat", "pitched"))
+        flat, pitched = (compare(truth, town_of(inspect, path, roofs)) for roofs in ("flat", "pitched"))
         overlaps, feet, tops = flat
         missing = [identity for (identity, *_), overlap in zip(truth, overlaps) if overlap == 0.0]
         off = [one for one in tops if abs(one) > 0.3]
