@@ -6,6 +6,7 @@ pub mod config;
 pub mod fill;
 pub mod formats;
 pub mod generate;
+mod paving;
 pub mod read;
 
 pub use config::MapConfig;

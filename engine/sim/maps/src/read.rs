@@ -2,6 +2,7 @@
 
 use crate::combine::add_source;
 use crate::fill::fill;
+use crate::paving::pave_quarters;
 use crate::simplify::simplify;
 use crate::{FORMATS, Format};
 use crate::{MapConfig, MapError, ObstacleKind, Town};
@@ -90,6 +91,7 @@ fn finished(
     if config.fill.is_on() {
         warnings.extend(fill(&mut town, &config.fill, seed));
     }
+    pave_quarters(&mut town);
     (town.planning_boxes, town.simplification) = simplify(&town.obstacles, &town.walkable, &config.simplify);
     town.link_lanes();
     town.update_bounds();

@@ -75,7 +75,8 @@ fn largest_part(town: &Town) -> f64 {
 
 /// The terrain lies below every road and pavement, and pavement polygons lie on the ground.
 fn check_ground(town: &Town) {
-    let is_terrain = |mesh: &SurfaceMesh| mesh.label == SemanticLabel::Terrain && mesh.synthetic;
+    let is_terrain =
+        |mesh: &SurfaceMesh| matches!(mesh.label, SemanticLabel::Terrain | SemanticLabel::Ground) && mesh.synthetic;
     let terrain = GroundIndex::of_surfaces(&town.surfaces, is_terrain);
     for mesh in
         town.surfaces.iter().filter(|mesh| matches!(mesh.label, SemanticLabel::Roads | SemanticLabel::SideWalks))

@@ -1,17 +1,21 @@
 //! Terrain under the streets of a whole town.
 
 use cosfly_frames::Seed;
-use cosfly_maps::{GroundIndex, MapConfig, SemanticLabel, Town, read_town};
+use cosfly_maps::{GroundIndex, MapConfig, SemanticLabel, SurfaceMesh, Town, read_town};
 
 fn downtown() -> Town {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../recipes/towns/downtown.xodr");
     read_town(&std::fs::read(path).unwrap(), &MapConfig::default(), Seed([0; 32])).unwrap().0
 }
 
+/// Whether a mesh is invented ground: lawn, or bare in courts.
+fn is_terrain(mesh: &SurfaceMesh) -> bool {
+    mesh.synthetic && matches!(mesh.label, SemanticLabel::Terrain | SemanticLabel::Ground)
+}
+
 /// Heights of pavements and roads above the terrain, at the corners and middles of their flat triangles.
 fn heights_above_terrain_m(town: &Town, label: SemanticLabel) -> Vec<f64> {
-    let terrain =
-        GroundIndex::of_surfaces(&town.surfaces, |mesh| mesh.label == SemanticLabel::Terrain && mesh.synthetic);
+    let terrain = GroundIndex::of_surfaces(&town.surfaces, |mesh| is_terrain(mesh));
     let meshes = town.surfaces.iter().filter(|mesh| mesh.label == label);
     let triangles = meshes.flat_map(|mesh| {
         mesh.triangles.iter().map(|triangle| triangle.map(|corner| mesh.vertices_in_world[corner as usize]))
@@ -44,7 +48,6 @@ fn terrain_lies_closely_below_pavements_and_never_above_anything_paved() {
             assert!(share(0.5) < 0.3 && share(0.95) < 0.5, "{} {}", share(0.5), share(0.95));
         }
     }
-    let count: usize =
-        town.surfaces.iter().filter(|mesh| mesh.label == SemanticLabel::Terrain).map(|mesh| mesh.triangles.len()).sum();
+    let count: usize = town.surfaces.iter().filter(|mesh| is_terrain(mesh)).map(|mesh| mesh.triangles.len()).sum();
     println!("{count} triangles of terrain");
 }

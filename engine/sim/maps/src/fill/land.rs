@@ -126,7 +126,7 @@ impl Land {
 
 /// Calls `visit` with (row, first column, last column) of the cells that a polygon touches; false from `visit` stops,
 /// and is the answer.
-fn visit_rows(
+pub(crate) fn visit_rows(
     low: DVec2,
     cell_m: f64,
     columns: usize,

@@ -3,7 +3,7 @@
 use super::*;
 use crate::generate::{GenerateConfig, generate_town};
 use crate::polygons::triangulated;
-use crate::{GroundIndex, MapConfig, Obstacle, ObstacleKind, SemanticLabel, read_town};
+use crate::{GroundIndex, MapConfig, Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, read_town};
 use cosfly_frames::DVec2;
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 
@@ -23,6 +23,7 @@ fn bare_town() -> Town {
     let text = generate_town(&GenerateConfig::default(), 4);
     let (mut town, _) = read_town(text.as_bytes(), &MapConfig::default(), seed()).expect("it reads");
     town.obstacles.clear();
+    town.synthetic = crate::Synthetic::default();
     town
 }
 
@@ -66,7 +67,8 @@ fn check_nothing_invented_stands_in_the_way(town: &Town) {
             assert!(is_own || !overlap(outline, &footprint(&other.shape)), "{other:?} overlaps {what} {outline:?}");
         });
     };
-    for mesh in town.surfaces.iter().filter(|mesh| mesh.label != SemanticLabel::Terrain) {
+    let is_open = |mesh: &&SurfaceMesh| matches!(mesh.label, SemanticLabel::Terrain | SemanticLabel::Ground);
+    for mesh in town.surfaces.iter().filter(|mesh| !is_open(mesh)) {
         for triangle in &mesh.triangles {
             let outline = triangle.map(|corner| mesh.vertices_in_world[corner as usize].truncate());
             check(&outline, mesh.label.name(), None);
