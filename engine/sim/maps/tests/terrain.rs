@@ -15,7 +15,7 @@ fn is_terrain(mesh: &SurfaceMesh) -> bool {
 
 /// Heights of pavements and roads above the terrain, at the corners and middles of their flat triangles.
 fn heights_above_terrain_m(town: &Town, label: SemanticLabel) -> Vec<f64> {
-    let terrain = GroundIndex::of_surfaces(&town.surfaces, |mesh| is_terrain(mesh));
+    let terrain = GroundIndex::of_surfaces(&town.surfaces, is_terrain);
     let meshes = town.surfaces.iter().filter(|mesh| mesh.label == label);
     let triangles = meshes.flat_map(|mesh| {
         mesh.triangles.iter().map(|triangle| triangle.map(|corner| mesh.vertices_in_world[corner as usize]))
