@@ -13,32 +13,44 @@ use cosfly_frames::{DVec3, Pose};
 pub struct Outlook {
     eye: Eye,
     screen: Screen,
-    to_sun: DVec3,
+    far: FarLight,
 }
 
 impl Outlook {
     /// The view of `camera` from `pose`.
     pub fn new(camera: &Camera, weather: &Weather, pose: &Pose) -> Self {
-        Self { eye: Eye::new(pose), screen: Screen::new(camera), to_sun: to_sun(weather) }
+        Self { eye: Eye::new(pose), screen: Screen::new(camera), far: FarLight::of(weather) }
     }
 
     /// False where every renderer leaves a person out, whatever hides or surrounds them: the body is less than a pixel
-    /// high, or neither the body nor its shadow is in view.
+    /// high, or neither the body nor its shadow nor the light of its lamps is in view.
     pub fn may_show(&self, walker: &Walker) -> bool {
-        walker.has_body() && Bounds::new(walker).may_matter(walker, &self.eye, &self.screen, self.to_sun)
+        walker.has_body() && Bounds::new(walker).may_matter(walker, &self.eye, &self.screen, self.far)
     }
 
-    /// Corners of a convex hull around a body and all that it darkens above a height, metres: whatever hides the hull from
+    /// Corners of a convex hull around a body and all that it darkens or lights above a height, metres: whatever hides the hull from
     /// the camera hides all of that.
     pub fn hull(&self, walker: &Walker, lowest_m: f64) -> [DVec3; 16] {
-        Bounds::new(walker).hull(lowest_m, self.to_sun)
+        Bounds::new(walker).hull(lowest_m, self.far)
     }
 }
 
-/// Direction to the sun, or to the moon at night; unit length, above the horizon.
-pub(crate) fn to_sun(weather: &Weather) -> DVec3 {
-    let to_sun = Light::new(weather).to_sun;
-    DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z))
+/// Light by which a body changes what lies away from it.
+#[derive(Clone, Copy)]
+pub(crate) struct FarLight {
+    /// Direction to the sun, or to the moon at night; unit length, above the horizon.
+    pub to_sun: DVec3,
+    /// Whether vehicles have their lamps on.
+    pub is_night: bool,
+}
+
+impl FarLight {
+    /// The light of a weather.
+    pub fn of(weather: &Weather) -> Self {
+        let Light { to_sun, night, .. } = Light::new(weather);
+        let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
+        Self { to_sun, is_night: night > 0.0 }
+    }
 }
 
 #[cfg(test)]

@@ -4,13 +4,15 @@ use crate::eye::Eye;
 use crate::found::BodyPart;
 use crate::frame::TARGET_INSTANCE;
 use crate::nearer::Nearer;
+use crate::outlook::FarLight;
 use crate::setup::FrameSetup;
+use crate::shade::headlights;
 use crate::shade::vector::Vec3;
 use crate::visibility::{NEAR_M, Screen};
 use cosfly_figures::clothes::{Clothes, Region};
 use cosfly_figures::figure::{FigureTriangle, Walker, figure};
 use cosfly_figures::{BodyShape, Livery, Wardrobe};
-use cosfly_frames::{DVec3, real};
+use cosfly_frames::{DVec2, DVec3, real};
 use std::ops::Range;
 
 /// Shadows are looked for on ground that lies at most this far below the feet, metres.
@@ -33,7 +35,7 @@ pub(crate) struct Person {
     pub triangles: Range<usize>,
     /// Whether the body itself may be seen.
     pub is_seen: bool,
-    /// Part of the screen where the body and its shadow may be seen.
+    /// Part of the screen where the body, its shadow and the light of its lamps may be seen.
     pub reach: Reach,
     /// Height of the body, pixels.
     pub height_px: f64,
@@ -106,35 +108,28 @@ enum Built {
 
 impl People {
     /// Takes over a frame's target: always, wherever it is.
-    pub fn begin(&mut self, setup: &FrameSetup<'_>, eye: &Eye, screen: &Screen, to_sun: DVec3) {
+    pub fn begin(&mut self, setup: &FrameSetup<'_>, eye: &Eye, screen: &Screen, far: FarLight) {
         self.members.clear();
         self.triangles.clear();
         self.looks.clear();
         if let Some(target) = setup.target.as_ref().map(|target| target.walker()).filter(Walker::has_body) {
             let body = Bounds::new(&target);
             let height_px = body.height_px(&target, eye, screen);
-            self.add(target, TARGET_INSTANCE, true, body.reach(eye, screen, to_sun), height_px, Built::ForPicture);
+            self.add(target, TARGET_INSTANCE, true, body.reach(eye, screen, far), height_px, Built::ForPicture);
         }
     }
 
     /// Adds everybody else who may matter to the picture; `drawn` is what may hide them.
-    pub fn gather(&mut self, setup: &FrameSetup<'_>, eye: &Eye, screen: &Screen, to_sun: DVec3, drawn: &Nearer) {
+    pub fn gather(&mut self, setup: &FrameSetup<'_>, eye: &Eye, screen: &Screen, far: FarLight, drawn: &Nearer) {
         for other in setup.others.iter().filter(|other| other.walker.has_body()) {
             let body = Bounds::new(&other.walker);
-            let may_matter = body.may_matter(&other.walker, eye, screen, to_sun);
-            if !may_matter || body.with_shadow(to_sun).is_hidden(eye, screen, drawn) {
+            let may_matter = body.may_matter(&other.walker, eye, screen, far);
+            if !may_matter || body.with_shadow(far).is_hidden(eye, screen, drawn) {
                 continue;
             }
             let height_px = body.height_px(&other.walker, eye, screen);
             let is_seen = body.is_in_view(eye, screen) && !body.is_hidden(eye, screen, drawn);
-            self.add(
-                other.walker,
-                other.instance,
-                is_seen,
-                body.reach(eye, screen, to_sun),
-                height_px,
-                Built::ForPicture,
-            );
+            self.add(other.walker, other.instance, is_seen, body.reach(eye, screen, far), height_px, Built::ForPicture);
         }
     }
 
@@ -143,7 +138,7 @@ impl People {
         &mut self,
         setup: &FrameSetup<'_>,
         (eye, screen): (&Eye, &Screen),
-        to_sun: DVec3,
+        far: FarLight,
         parts: &[BodyPart],
         drawn: Option<&Nearer>,
     ) {
@@ -164,12 +159,12 @@ impl People {
             let (bounds, is_target) = (Bounds::new(&walker), who == 0);
             let darkens = drawn.is_some_and(|drawn| {
                 is_target
-                    || bounds.may_matter(&walker, eye, screen, to_sun)
-                        && !bounds.with_shadow(to_sun).is_hidden(eye, screen, drawn)
+                    || bounds.may_matter(&walker, eye, screen, far)
+                        && !bounds.with_shadow(far).is_hidden(eye, screen, drawn)
             });
             if darkens {
                 let height_px = bounds.height_px(&walker, eye, screen);
-                let reach = bounds.reach(eye, screen, to_sun);
+                let reach = bounds.reach(eye, screen, far);
                 self.found[who] = Some(self.members.len() as u32);
                 self.add(walker, instance, true, reach, height_px, Built::ForShadow);
             } else if self.found[who].is_some() {
@@ -218,12 +213,14 @@ pub(crate) struct Bounds {
     low: DVec3,
     high: DVec3,
     foot_m: f64,
+    /// Ground that its lamps light, from the body on: along x and y to either side, metres.
+    lit_m: [DVec2; 2],
 }
 
 impl Bounds {
     pub fn new(walker: &Walker) -> Self {
         let (low, high) = walker.bounds_in_world();
-        Self { low, high, foot_m: walker.state.feet_in_world.z }
+        Self { low, high, foot_m: walker.state.feet_in_world.z, lit_m: headlights::reach_m(walker) }
     }
 
     fn is_in_view(&self, eye: &Eye, screen: &Screen) -> bool {
@@ -235,9 +232,9 @@ impl Bounds {
         screen.focal_px * walker.body.height_m(walker.height_m) / away_m.max(NEAR_M)
     }
 
-    /// Whether the body is large enough to be drawn, and it or its shadow may be in view.
-    pub fn may_matter(&self, walker: &Walker, eye: &Eye, screen: &Screen, to_sun: DVec3) -> bool {
-        self.height_px(walker, eye, screen) >= LEAST_HEIGHT_PX && self.with_shadow(to_sun).is_in_view(eye, screen)
+    /// Whether the body is large enough to be drawn, and it, its shadow or the light of its lamps may be in view.
+    pub fn may_matter(&self, walker: &Walker, eye: &Eye, screen: &Screen, far: FarLight) -> bool {
+        self.height_px(walker, eye, screen) >= LEAST_HEIGHT_PX && self.with_shadow(far).is_in_view(eye, screen)
     }
 
     /// Way along the sun's rays down to the lowest ground that counts.
@@ -250,12 +247,19 @@ impl Bounds {
         -to_sun * ((from_m - lowest_m).max(0.0) / to_sun.z.max(0.02))
     }
 
-    fn with_shadow(&self, to_sun: DVec3) -> Self {
-        let (below, tip) = (self.fall(self.low.z, to_sun), self.fall(self.high.z, to_sun));
+    /// The box and the ground that its lamps light.
+    fn with_lamps(&self, far: FarLight) -> Self {
+        let [before, beyond] = if far.is_night { self.lit_m } else { [DVec2::ZERO; 2] };
+        Self { low: self.low - before.extend(0.0), high: self.high + beyond.extend(0.0), ..*self }
+    }
+
+    fn with_shadow(&self, far: FarLight) -> Self {
+        let (below, tip) = (self.fall(self.low.z, far.to_sun), self.fall(self.high.z, far.to_sun));
+        let lit = self.with_lamps(far);
         Self {
-            low: self.low.min(self.low + below).min(self.low + tip),
-            high: self.high.max(self.high + below).max(self.high + tip),
-            foot_m: self.foot_m,
+            low: lit.low.min(self.low + below).min(self.low + tip),
+            high: lit.high.max(self.high + below).max(self.high + tip),
+            ..*self
         }
     }
 
@@ -264,18 +268,19 @@ impl Bounds {
         (0..8).map(move |k| DVec3::new(ends[k & 1].x, ends[k >> 1 & 1].y, ends[k >> 2].z))
     }
 
-    /// The body and all that it may darken: its box, and the same box at the end of the sun's rays.
-    fn reach(&self, eye: &Eye, screen: &Screen, to_sun: DVec3) -> Reach {
-        let corners = self.corners(MARGIN_M).flat_map(|corner| [corner, corner + self.fall(corner.z, to_sun)]);
+    /// The body and all that it may darken or light: its box, and the same box at the end of the sun's rays.
+    fn reach(&self, eye: &Eye, screen: &Screen, far: FarLight) -> Reach {
+        let lit = self.with_lamps(far);
+        let corners = lit.corners(MARGIN_M).flat_map(|corner| [corner, corner + self.fall(corner.z, far.to_sun)]);
         Reach::around(screen, corners.map(|corner| eye.see(corner)))
     }
 
-    /// Corners of a hull of the body and all that it may darken above `lowest_m`.
-    pub fn hull(&self, lowest_m: f64, to_sun: DVec3) -> [DVec3; 16] {
+    /// Corners of a hull of the body and all that it may darken or light above `lowest_m`.
+    pub fn hull(&self, lowest_m: f64, far: FarLight) -> [DVec3; 16] {
         let lowest_m = lowest_m.max(self.foot_m - DROP_M);
         let mut hull = [DVec3::ZERO; 16];
-        for (pair, corner) in hull.chunks_exact_mut(2).zip(self.corners(MARGIN_M)) {
-            pair.copy_from_slice(&[corner, corner + Self::fall_to(lowest_m - MARGIN_M, corner.z, to_sun)]);
+        for (pair, corner) in hull.chunks_exact_mut(2).zip(self.with_lamps(far).corners(MARGIN_M)) {
+            pair.copy_from_slice(&[corner, corner + Self::fall_to(lowest_m - MARGIN_M, corner.z, far.to_sun)]);
         }
         hull
     }
@@ -316,8 +321,9 @@ mod tests {
             };
             let to_sun = DVec3::new(libm::cos(turn), libm::sin(turn), 0.3 + 0.1 * turn).normalize();
             let bounds = Bounds::new(&walker);
-            let Reach([left, top, right, bottom]) = bounds.reach(&eye, &screen, to_sun);
-            let shaded = bounds.with_shadow(to_sun);
+            let far = FarLight { to_sun, is_night: step % 2 == 0 };
+            let Reach([left, top, right, bottom]) = bounds.reach(&eye, &screen, far);
+            let shaded = bounds.with_shadow(far);
             for corner in walker_triangles(&walker).into_iter().flatten() {
                 let tip = corner - to_sun * ((corner.z + 1.0) / to_sun.z);
                 for point in [corner, 0.5 * (corner + tip), tip] {

@@ -10,7 +10,7 @@ use crate::faces::{DrawnFace, FaceSource, box_lift};
 use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame, TARGET_INSTANCE, TargetView};
 use crate::look::PictureLook;
 use crate::nearer::Nearer;
-use crate::outlook::to_sun;
+use crate::outlook::FarLight;
 use crate::outside::Found;
 use crate::passes::ids::{SeenRuns, for_each_band};
 use crate::passes::on_request;
@@ -329,12 +329,12 @@ impl Renderer {
 
     /// People into the frame, and the target alone into its own buffer.
     fn draw_people(&mut self, eye: &Eye, setup: &FrameSetup<'_>) {
-        let to_sun = to_sun(setup.weather);
-        self.people.begin(setup, eye, &self.screen, to_sun);
+        let far = FarLight::of(setup.weather);
+        self.people.begin(setup, eye, &self.screen, far);
         // What hides people hides the ground, too; that they hide some of it themselves is not worth another look.
         self.nearer.measure(&self.nearest);
         if !setup.others.is_empty() {
-            self.people.gather(setup, eye, &self.screen, to_sun, &self.nearer);
+            self.people.gather(setup, eye, &self.screen, far, &self.nearer);
         }
         let mut part = None;
         let mut first_face = 0;

@@ -4,7 +4,7 @@ use super::Renderer;
 use crate::eye::Eye;
 use crate::found::{Adoption, FoundPicture};
 use crate::look::PictureLook;
-use crate::outlook::to_sun;
+use crate::outlook::FarLight;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 
@@ -25,7 +25,7 @@ impl Renderer {
             self.nearer.measure(&self.nearest);
         }
         let drawn = is_full.then_some(&self.nearer);
-        self.people.adopt(setup, (&eye, &self.screen), to_sun(setup.weather), picture.parts, drawn);
+        self.people.adopt(setup, (&eye, &self.screen), FarLight::of(setup.weather), picture.parts, drawn);
         self.shader.prepare(scene, setup, &eye, &self.people, &self.nearest);
         self.fill_channels(scene, true);
         if is_full {

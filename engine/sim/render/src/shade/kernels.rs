@@ -4,6 +4,7 @@ use super::cloth::{Cloths, cloth};
 use super::facade::{facade, lift, roofs, tiles};
 use super::geometry::{open, place, points};
 use super::ground::ground;
+use super::headlights::shine;
 use super::kerbs::{Kerbs, stones};
 use super::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
 use super::leaves::{Crowns, even_leaves, leaves, shift, swell};
@@ -104,6 +105,9 @@ pub(super) fn run_kernels(
         Material::Skin(look) => painted(shared, blocks, look, &seen.scene.props.textures),
     }
     lighting::arriving(level, shared, light, setting.haze);
+    if light.night > 0.0 {
+        near.iter().for_each(|one| shine(level, shared, &seen.people.members[*one as usize].walker, light));
+    }
     if is_bent {
         lighting::develop_bent(level, shared, blocks, light, &setting.tone);
         return;

@@ -209,8 +209,8 @@ impl Coach {
             Region::Cargo => (0.04, 0.0),
             Region::Glass => (0.46, 0.0),
             Region::Metal => (0.30, 0.0),
-            Region::HeadLamp => (0.25, 0.9),
-            Region::TailLamp => (0.20, 0.25),
+            Region::HeadLamp => (0.25, 2.4),
+            Region::TailLamp => (0.20, 1.1),
             _ => (0.0, 0.0),
         };
         Self { colour, mirror, emission: colour * (glow * night) }

@@ -9,6 +9,7 @@ mod body_shadow;
 mod cloth;
 pub mod foliage;
 pub mod geometry;
+pub(crate) mod headlights;
 mod kernels;
 pub mod lighting;
 pub(crate) mod material;

@@ -1,0 +1,178 @@
+//! Lamps of vehicles at night: white light on what is ahead, red light on the ground behind.
+
+use super::lanes::{Shared, WIDE, get, set};
+use super::light::Light;
+use super::pattern::{most, share, smoothstep};
+use super::vector::Vec3;
+use cosfly_figures::BodyShape;
+use cosfly_figures::figure::Walker;
+use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec2, real, simd_kernel};
+use cosfly_world::BodyKind;
+
+/// Distance that lamps of full strength reach ahead of the vehicle and behind it, metres.
+const AHEAD_M: f32 = 16.0;
+const BEHIND_M: f32 = 2.2;
+/// Half the width of the light at the vehicle, and how much wider each metre ahead is.
+const HALF_WIDTH_M: f32 = 0.9;
+const WIDER: f32 = 0.2;
+/// Height of the lamps, metres.
+const LAMPS_M: f32 = 0.65;
+/// Light of the lamps where it is strongest, linear RGB.
+const WHITE: Vec3 = Vec3::new(0.46, 0.43, 0.36);
+const RED: Vec3 = Vec3::new(0.16, 0.008, 0.006);
+
+/// The lamps of a vehicle.
+#[derive(Clone, Copy)]
+struct Lamps {
+    /// Strength, and reach as a share of that of a car.
+    strength: f32,
+    scale: f32,
+}
+
+impl Lamps {
+    fn of(body: &BodyShape) -> Option<Self> {
+        let BodyShape::Vehicle { kind, .. } = body else { return None };
+        match kind {
+            BodyKind::Pedestrian | BodyKind::Drone => None,
+            BodyKind::Bicycle => Some(Self { strength: 0.35, scale: 0.4 }),
+            BodyKind::Motorcycle | BodyKind::Car | BodyKind::Van | BodyKind::Truck | BodyKind::Bus => {
+                Some(Self { strength: 1.0, scale: 1.0 })
+            }
+        }
+    }
+}
+
+/// How far the lamps of somebody light the ground beyond the body's upright box: towards smaller and larger x and y, metres.
+pub(crate) fn reach_m(walker: &Walker) -> [DVec2; 2] {
+    let Some(lamps) = Lamps::of(&walker.body) else { return [DVec2::ZERO; 2] };
+    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+    let ahead = DVec2::new(cos, sin) * f64::from(AHEAD_M * lamps.scale);
+    let aside_m = f64::from(HALF_WIDTH_M + WIDER * AHEAD_M).max(f64::from(BEHIND_M));
+    [(-ahead).max(DVec2::ZERO) + aside_m, ahead.max(DVec2::ZERO) + aside_m]
+}
+
+/// Adds the light of somebody's lamps to what surfaces get.
+pub(super) fn shine(level: Level, shared: &mut [Shared], walker: &Walker, light: &Light) {
+    let (Some(lamps), BodyShape::Vehicle { size_m, .. }) = (Lamps::of(&walker.body), &walker.body) else { return };
+    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+    let beam = Beam {
+        feet: walker.state.feet_in_world.into(),
+        along: [cos as f32, sin as f32],
+        half_length_m: 0.5 * size_m.x as f32,
+        per_scale: 1.0 / lamps.scale,
+        strength: lamps.strength * light.night,
+    };
+    shine_on(level, shared, &beam);
+}
+
+/// Lamps in place.
+#[derive(Clone, Copy)]
+struct Beam {
+    feet: Vec3,
+    along: [f32; 2],
+    half_length_m: f32,
+    per_scale: f32,
+    strength: f32,
+}
+
+simd_kernel! {
+    fn shine_on(shared: &mut [Shared], beam: &Beam) {
+        let Beam { feet, along: [cos, sin], half_length_m, per_scale, strength } = *beam;
+        for shared in shared.iter_mut() {
+            for k in 0..WIDE {
+                let (away, normal) = (get(&shared.middle, k) - feet, get(&shared.normal, k));
+                let (x, y) = (away.x * cos + away.y * sin, away.y * cos - away.x * sin);
+                let ahead_m = (x - half_length_m) * per_scale;
+                let width_m = HALF_WIDTH_M + WIDER * most(ahead_m, 0.0);
+                let inside = 1.0 - smoothstep(0.1 * width_m, width_m, y.abs());
+                let near = smoothstep(0.2, 3.5, ahead_m) * (1.0 - smoothstep(0.3 * AHEAD_M, AHEAD_M, ahead_m));
+                let low = 1.0 - smoothstep(LAMPS_M, 2.0 * LAMPS_M, away.z);
+                // Ground is lit at a flat angle; what stands upright faces the lamps.
+                let towards = normal.x * cos + normal.y * sin;
+                let facing = share(0.9 * normal.z + most(-towards, 0.0));
+                let white = WHITE * (strength * inside * near * low * facing);
+                let behind_m = -x - half_length_m;
+                let aside_m = most(y.abs() - 0.5 * HALF_WIDTH_M, 0.0);
+                let gone = (behind_m * behind_m + aside_m * aside_m + away.z * away.z) * (1.0 / (BEHIND_M * BEHIND_M));
+                let glow = if behind_m > 0.0 { share(1.0 - gone) } else { 0.0 };
+                let red = RED * (strength * glow * glow * share(normal.z));
+                let soft = get(&shared.soft, k) + white + red;
+                set(&mut shared.soft, k, soft);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::weather::Weather;
+    use cosfly_frames::{DVec3, Seed, TargetState};
+
+    fn car(heading_rad: f64, kind: BodyKind) -> Walker {
+        Walker {
+            state: TargetState { feet_in_world: DVec3::new(30.0, -8.0, 1.0), heading_rad, speed_mps: 5.0 },
+            height_m: 1.5,
+            radius_m: 1.0,
+            clothes_seed: Seed([3; 32]),
+            gait_phase_rad: 0.0,
+            body: BodyShape::Vehicle { kind, size_m: DVec3::new(4.4, 1.8, 1.5) },
+        }
+    }
+
+    /// Light that level ground gets at places so far ahead and aside of the feet.
+    fn light_at(walker: &Walker, weather: &str, places: &[[f64; 2]]) -> Vec<Vec3> {
+        let light = Light::new(&Weather::preset(weather).expect("a preset"));
+        let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+        let lit = |&[ahead, aside]: &[f64; 2]| {
+            let mut shared = Shared::EMPTY;
+            let place =
+                walker.state.feet_in_world + DVec3::new(ahead * cos - aside * sin, ahead * sin + aside * cos, 0.0);
+            set(&mut shared.middle, 0, place.into());
+            set(&mut shared.normal, 0, Vec3::new(0.0, 0.0, 1.0));
+            let mut shared = [shared];
+            shine(Level::best(), &mut shared, walker, &light);
+            get(&shared[0].soft, 0)
+        };
+        places.iter().map(lit).collect()
+    }
+
+    #[test]
+    fn lamps_light_the_ground_ahead_and_redden_it_behind_at_night_only() {
+        let places = [[8.0, 0.0], [8.0, 3.5], [-3.0, 0.5], [-8.0, 0.0], [25.0, 0.0]];
+        for heading_rad in [0.0, 1.1, -2.4] {
+            let at = light_at(&car(heading_rad, BodyKind::Car), "ClearNight", &places);
+            assert!(at[0].x > 0.2 && at[0].z > 0.1, "ahead: {:?}", at[0]);
+            assert!(at[2].x > 0.02 && at[2].z < 0.1 * at[2].x, "behind: {:?}", at[2]);
+            for (place, dark) in [1, 3, 4].map(|k| (places[k], at[k])) {
+                assert!(dark.x < 1e-6, "{place:?}: {dark:?}");
+            }
+            let at = light_at(&car(heading_rad, BodyKind::Bicycle), "ClearNight", &places[..1]);
+            assert!(at[0].x < 0.1, "a bicycle's lamp is weak: {:?}", at[0]);
+            for (kind, weather) in [(BodyKind::Car, "ClearNoon"), (BodyKind::Drone, "ClearNight")] {
+                let at = light_at(&car(heading_rad, kind), weather, &places);
+                assert!(at.iter().all(|lit| *lit == Vec3::splat(0.0)), "{kind:?} {weather}");
+            }
+        }
+    }
+
+    #[test]
+    fn lamps_light_nothing_beyond_their_reach() {
+        for step in 0..12 {
+            let walker = car(0.55 * f64::from(step), BodyKind::Truck);
+            let (low, high) = walker.bounds_in_world();
+            let [before, beyond] = reach_m(&walker);
+            let (low, high) = (low.truncate() - before, high.truncate() + beyond);
+            let (sin, cos) = real::sin_cos(walker.state.heading_rad);
+            let places: Vec<[f64; 2]> =
+                (0..60 * 30).map(|k| [f64::from(k % 60) - 30.0, f64::from(k / 60) - 15.0]).collect();
+            for ([ahead, aside], lit) in places.iter().zip(light_at(&walker, "ClearNight", &places)) {
+                let place = walker.state.feet_in_world.truncate()
+                    + DVec2::new(ahead * cos - aside * sin, ahead * sin + aside * cos);
+                let is_within = place.cmpge(low).all() && place.cmple(high).all();
+                assert!(is_within || lit == Vec3::splat(0.0), "{ahead} {aside}: {lit:?}");
+            }
+        }
+    }
+}
