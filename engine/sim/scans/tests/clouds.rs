@@ -156,6 +156,23 @@ fn a_class_that_a_survey_does_not_tell_is_found_by_shape() {
 }
 
 #[test]
+fn narrow_plants_on_a_wall_are_parts_of_the_house() {
+    let mut points = scene();
+    points.extend((0..60).map(|i| {
+        let aside_m = 0.2 * f64::from(i % 5) - 0.4;
+        ([14.0 + aside_m, 17.5 + 0.1 * f64::from(i % 3), 3.4 + 0.02 * f64::from(i)], 5)
+    }));
+    let town = read::<Las>(&las(&points, false).unwrap(), &CloudOptions::default()).unwrap();
+    let trees = |town: &Town| of_kind(town, ObstacleKind::TreeTrunk).len();
+    let plain = read::<Las>(&las(&scene(), false).unwrap(), &CloudOptions::default()).unwrap();
+    assert_eq!(trees(&town), trees(&plain), "no tree stands on the wall");
+    let houses = of_kind(&town, ObstacleKind::Building);
+    let house = BoxBvh::build(houses.iter().map(|one| one.shape).collect());
+    let near = house.nearest(DVec3::new(14.0, -17.5, 4.0), 0.3).expect("the plant is solid");
+    assert_eq!(houses[near.primitive as usize].object_id, houses[0].object_id, "a part of the house");
+}
+
+#[test]
 fn degrees_and_corners_of_drawings_are_no_clouds() {
     let options = CloudOptions::default();
     let degrees = |([x, y, z], class): write_clouds::Point| ([2.0 + 1e-5 * x, 48.0 + 1e-5 * y, z], class);

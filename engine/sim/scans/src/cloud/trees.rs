@@ -1,10 +1,11 @@
-//! Plants: trees found as hills of the canopy, each a stack of boxes on a trunk; low plants as bushes.
+//! Plants: trees found as hills of the canopy, each a stack of boxes on a trunk; low plants as bushes; narrow high ones on
+//! the walls of a house as parts of the house.
 
 use super::class;
 use super::survey::{Survey, coarse_enough, grid_of};
 use crate::grid::{Buckets, Grid};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_geometry::OrientedBox;
+use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_town::{Obstacle, ObstacleKind};
 use rayon::prelude::*;
 
@@ -24,6 +25,10 @@ const ABOVE_GROUND_M: f64 = 0.15;
 /// Half width of a trunk as a share of the tree's height, and its limits, metres.
 const TRUNK_SHARE: f64 = 0.012;
 const TRUNK_M: [f64; 2] = [0.06, 0.4];
+/// High plants on a wall, whose boxes are all this near a house in their middle and this narrow to a side, are balconies,
+/// pipes and creepers, metres.
+const ON_WALL_M: f64 = 1.0;
+const HALF_WIDTH_ON_WALL_M: f64 = 1.25;
 /// Extent of a layer: standard deviations of its points about their middle, at most. Wider ones are twigs.
 const DEVIATIONS: f64 = 2.2;
 
@@ -54,7 +59,13 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
         (peak, layers(survey, &points, cell_m, if is_tree { MOST_LAYERS } else { 1.0 }))
     };
     let crowns: Vec<(usize, Vec<OrientedBox>)> = (0..grid.cells()).into_par_iter().filter(is_peak).map(crown).collect();
+    let houses = Houses::of(obstacles);
     for (peak, crown) in crowns {
+        if let Some(object_id) = houses.behind(&crown).filter(|_| f64::from(top_m[peak]) >= LOWEST_TREE_M) {
+            let part = |shape| Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: false };
+            obstacles.extend(crown.into_iter().map(part));
+            continue;
+        }
         let object_id = super::next_id(obstacles);
         let obstacle = |shape, kind, synthetic| Obstacle { shape, kind, object_id, synthetic };
         let height_m = f64::from(top_m[peak]);
@@ -65,6 +76,31 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
                 .extend(trunk(survey, lowest, height_m).map(|shape| obstacle(shape, ObstacleKind::TreeTrunk, true)));
         }
         obstacles.extend(crown.into_iter().map(|shape| obstacle(shape, kind, false)));
+    }
+}
+
+/// Boxes of buildings, and the thing that each belongs to.
+struct Houses {
+    boxes: BoxBvh,
+    things: Vec<u32>,
+}
+
+impl Houses {
+    fn of(obstacles: &[Obstacle]) -> Self {
+        let houses = || obstacles.iter().filter(|one| one.kind == ObstacleKind::Building);
+        let boxes = BoxBvh::build(houses().map(|one| one.shape).collect());
+        Self { boxes, things: houses().map(|one| one.object_id).collect() }
+    }
+
+    /// The house on whose wall all boxes of a plant are.
+    fn behind(&self, plant: &[OrientedBox]) -> Option<u32> {
+        let house_of = |shape: &OrientedBox| {
+            let is_narrow = shape.half_extents_m.truncate().min_element() <= HALF_WIDTH_ON_WALL_M;
+            let house = self.boxes.nearest(shape.center_in_world, ON_WALL_M)?;
+            is_narrow.then(|| self.things[house.primitive as usize])
+        };
+        let (first, rest) = plant.split_first()?;
+        rest.iter().all(|shape| house_of(shape).is_some()).then(|| house_of(first)).flatten()
     }
 }
 
