@@ -39,6 +39,8 @@ const AUTUMN: [[f32; 3]; 10] = [
     [0.360, 0.260, 0.050],
     [0.190, 0.085, 0.035],
 ];
+/// Size of the round crown as a share of half the size of the box around the whole crown.
+const ROUND: f32 = 1.118_034;
 /// Share of towns that are seen in autumn.
 const AUTUMN_SHARE: f32 = 0.2;
 
@@ -134,14 +136,17 @@ struct Seen {
 
 impl Seen {
     /// The place on the round crown on the way from the eye to a place, and the normal there. Where the way passes the round
-    /// crown, the crown's nearest place counts.
+    /// crown by, the far side counts, as far around as the way passes it by: corners of boxes stand out there.
     #[inline(always)]
     fn round(self, place: Vec3) -> (Vec3, Vec3) {
         let from = (self.eye - self.middle) * self.shrink;
         let along = (place - self.eye) * self.shrink;
-        let (a, b, c) = (along.dot(along), along.dot(from), from.dot(from) - 1.25);
+        let (a, b, c) = (along.dot(along), along.dot(from), from.dot(from) - ROUND * ROUND);
         let reach = most(b * b - a * c, 0.0).sqrt();
         let out = from + along * ((-b - reach) / a);
+        let beyond = most(out.dot(out).sqrt() - ROUND, 0.0);
+        let out = out + along * (beyond / a.sqrt());
+        let out = out * (ROUND / out.dot(out).sqrt());
         (self.middle + out * self.half, (out * self.shrink).unit())
     }
 }

@@ -106,7 +106,7 @@ impl Thing {
                 tint = Vec3::new(0.36, 0.33, 0.29) * (0.8 + 0.4 * draw(seed, 5));
             }
             ObstacleKind::Static => {
-                tint = [Vec3::new(0.24, 0.14, 0.07), Vec3::new(0.06, 0.16, 0.09), Vec3::splat(0.20)][pick(6, 3)];
+                tint = [Vec3::new(0.16, 0.115, 0.075), Vec3::new(0.065, 0.095, 0.07), Vec3::splat(0.20)][pick(6, 3)];
             }
             _ => {}
         }
