@@ -92,6 +92,10 @@ fn covers_contain_the_polygon_and_stay_within_the_tolerance() {
     check_cover("U", &comb, 3, tight_m);
     check_cover("triangle", &[(0.0, 0.0), (12.0, 3.0), (4.0, 10.0)], 20, LOOSE_TOLERANCE_M);
     check_cover("chevron", &[(0.0, 0.0), (10.0, 4.0), (20.0, 0.0), (10.0, 14.0)], 64, LOOSE_TOLERANCE_M);
+    // Rows end behind slanted walls, which have rectangles of their own.
+    check_cover("slanted end", &[(0.0, 0.0), (20.0, 0.0), (26.0, 12.0), (0.0, 12.0)], 8, tight_m);
+    let wings = [(0.0, 0.0), (20.0, 0.0), (34.0, 14.0), (28.3, 19.7), (16.7, 8.0), (0.0, 8.0)];
+    check_cover("two wings", &wings, 8, tight_m);
     check_cover("thin wall", &[(0.0, 0.0), (14.0, 0.3), (14.0, 0.5), (0.0, 0.2)], 2, tight_m);
     let bent_wall = [(0.0, 0.0), (30.0, 0.0), (30.0, 20.0), (29.8, 20.0), (29.8, 0.2), (0.0, 0.2)];
     check_cover("bent wall", &bent_wall, 2, tight_m);

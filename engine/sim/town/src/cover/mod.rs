@@ -1,13 +1,16 @@
 //! Covers a footprint with few turned rectangles that contain it.
 //!
-//! The footprint is cut into rows along one of its sides; rows of nearly the same reach become one strip.
+//! The footprint is cut into rows along one of its sides; rows of nearly the same reach become one strip. Walls that are slanted
+//! to the rows get a rectangle of their own where that takes fewer.
 
 mod rows;
 mod thinning;
+mod walls;
 
 pub(crate) use rows::{Row, Rows, Span, coarse_rows, strips};
 
 use cosfly_frames::{DVec2, real};
+use walls::Wall;
 
 /// A rectangle's overhang beyond the outline is at most this deep, metres, where few rectangles are enough (a tenth
 /// more where rows of slanted sides are joined); less for things of a few metres.
@@ -52,15 +55,21 @@ pub fn cover_rings(outer: &[&[DVec2]], holes: &[&[DVec2]]) -> Vec<TurnedRectangl
 impl Plan {
     /// The cover, with a tolerance of at most `tolerance_m` where few rectangles are enough, and at most `most` rectangles.
     pub fn cover(&self, tolerance_m: f64, most: usize) -> Vec<TurnedRectangle> {
-        let rows: Vec<(f64, Rows)> = self.angles_rad.iter().map(|angle| (*angle, self.rows(*angle))).collect();
-        if rows.iter().any(|(_, rows)| rows.are_too_many()) {
+        let plain = self.angles_rad.iter().map(|angle| Way { yaw_rad: *angle, rows: self.rows(*angle), walls: vec![] });
+        let mut ways: Vec<Way> = plain.collect();
+        if ways.iter().any(|way| way.rows.are_too_many()) {
             return self.coarse_cover(most);
         }
+        let walls = walls::walls(self);
+        ways.extend(self.angles_rad.iter().filter_map(|angle| self.way_behind(&walls, *angle, tolerance_m)));
         let mut allowed_m = (TOLERANCE_SHARE * self.area_m2().sqrt()).clamp(0.02, tolerance_m);
         while allowed_m < self.extent_m {
             let most = if allowed_m < 0.99 * LOOSE_TOLERANCE_M { FEW.min(most) } else { most };
-            let covers =
-                rows.iter().map(|(angle, rows)| self.rectangles(strips(rows.cut(allowed_m), allowed_m), *angle));
+            let covers = ways.iter().map(|way| {
+                let mut cover = self.rectangles(strips(way.rows.cut(allowed_m), allowed_m), way.yaw_rad);
+                cover.extend(&way.walls);
+                cover
+            });
             let best = covers.min_by(|a, b| a.len().cmp(&b.len()).then(sum_m2(a).total_cmp(&sum_m2(b))));
             match best.filter(|cover| !cover.is_empty()) {
                 Some(cover) if cover.len() <= most => return cover,
@@ -71,6 +80,13 @@ impl Plan {
         let around = self.angles_rad.iter().map(|angle| self.bounding(*angle));
         around.min_by(|a, b| area_m2(a).total_cmp(&area_m2(b))).into_iter().collect()
     }
+}
+
+/// Rows in a direction, and rectangles along the walls that are slanted to them.
+struct Way {
+    yaw_rad: f64,
+    rows: Rows,
+    walls: Vec<TurnedRectangle>,
 }
 
 fn area_m2(rectangle: &TurnedRectangle) -> f64 {
@@ -163,6 +179,28 @@ impl Plan {
     pub(crate) fn rows(&self, yaw_rad: f64) -> Rows {
         let rings = self.rings.iter().enumerate();
         Rows::of(rings.map(|(index, ring)| (self.turned(ring, yaw_rad), index >= self.outer_count)))
+    }
+
+    /// Rows that end behind the walls that are slanted to them, if any are.
+    fn way_behind(&self, walls: &[Wall], yaw_rad: f64, tolerance_m: f64) -> Option<Way> {
+        let slanted: Vec<&Wall> = walls.iter().filter(|wall| wall.is_slanted(yaw_rad, tolerance_m)).collect();
+        let rings = self.rings.iter().enumerate().map(|(index, ring)| {
+            let own = |side: usize| slanted.iter().find(move |wall| wall.ring == index && wall.side == side);
+            let mut corners = Vec::with_capacity(ring.len());
+            for (side, corner) in ring.iter().enumerate() {
+                corners.push((*corner, 0.0));
+                if let Some(wall) = own(side) {
+                    corners.extend([(wall.ends[0], wall.depth_m), (wall.ends[1], 0.0)]);
+                }
+            }
+            let (points, depths_m): (Vec<DVec2>, Vec<f64>) = corners.into_iter().unzip();
+            (self.turned(&points, yaw_rad), depths_m, index >= self.outer_count)
+        });
+        (!slanted.is_empty()).then(|| Way {
+            yaw_rad,
+            rows: Rows::behind_walls(rings),
+            walls: slanted.iter().map(|wall| wall.rectangle(self)).collect(),
+        })
     }
 
     /// Convex quads, corners in order, that tile the inside; a ring's sides must not cross. Thinned out like a cover;

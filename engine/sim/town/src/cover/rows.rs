@@ -44,6 +44,8 @@ struct Side {
     a: DVec2,
     b: DVec2,
     winding: i32,
+    /// Depth of the rectangle that covers the inside along the side, metres; 0 without one.
+    wall_m: f64,
 }
 
 /// Sides of rings, lowest first, and the levels of their corners.
@@ -54,8 +56,30 @@ pub(crate) struct Rows {
     crossing_count: usize,
 }
 
-/// x of a side at two levels, and its winding.
-type Crossing = (f64, f64, i32);
+/// A side between two levels: its x at both, its winding, and the depth of the rectangle along it.
+#[derive(Clone, Copy)]
+struct Crossing {
+    x: [f64; 2],
+    winding: i32,
+    wall_m: f64,
+}
+
+impl Crossing {
+    fn low(&self) -> f64 {
+        self.x[0].min(self.x[1])
+    }
+
+    fn high(&self) -> f64 {
+        self.x[0].max(self.x[1])
+    }
+
+    /// Depth by which a row of a height stands over the side, metres: a row beside a side that leans by slant/height adds
+    /// at most height * slant / hypot.
+    fn over_m(&self, height_m: f64) -> f64 {
+        let slant_m = self.high() - self.low();
+        height_m * slant_m / real::hypot(height_m, slant_m).max(1e-12)
+    }
+}
 
 impl Span {
     pub(crate) fn new(low: f64, high: f64) -> Self {
@@ -76,13 +100,19 @@ impl Row {
 impl Rows {
     /// Of rings; the flag marks holes. Sides that two neighbours share cancel out.
     pub(crate) fn of(rings: impl Iterator<Item = (Vec<DVec2>, bool)>) -> Self {
+        Self::behind_walls(rings.map(|(ring, is_hole)| (ring, Vec::new(), is_hole)))
+    }
+
+    /// Of rings some of whose sides, by the number of their first corner, have rectangles of a depth along them.
+    pub(crate) fn behind_walls(rings: impl Iterator<Item = (Vec<DVec2>, Vec<f64>, bool)>) -> Self {
         let mut sides = Vec::new();
-        for (ring, is_hole) in rings {
+        for (ring, walls_m, is_hole) in rings {
             let forwards = if (twice_area_m2(&ring) < 0.0) == is_hole { 1 } else { -1 };
             for i in 0..ring.len() {
                 let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
                 let side = if a.y < b.y { (a, b, forwards) } else { (b, a, -forwards) };
-                sides.push(Side { a: side.0, b: side.1, winding: side.2 });
+                let wall_m = walls_m.get(i).copied().unwrap_or(0.0);
+                sides.push(Side { a: side.0, b: side.1, winding: side.2, wall_m });
             }
         }
         let place = |side: &Side| [side.a.y, side.a.x, side.b.y, side.b.x];
@@ -128,10 +158,9 @@ impl Rows {
                 }
                 next += 1;
             }
-            let slant_m = crossings(&active, pair[0], pair[1]).iter().map(|it| (it.1 - it.0).abs()).fold(0.0, f64::max);
-            // A row of height h beside a side that leans by slant/height adds at most h * slant / hypot deep.
-            let depth_m = height_m * slant_m / real::hypot(height_m, slant_m).max(1e-12);
-            let count = (depth_m / tolerance_m).ceil().clamp(1.0, MOST_PIECES) as usize;
+            let over = |side: Crossing| side.over_m(height_m) / side.wall_m.max(tolerance_m);
+            let pieces = crossings(&active, pair[0], pair[1]).into_iter().map(over).fold(0.0, f64::max);
+            let count = pieces.ceil().clamp(1.0, MOST_PIECES) as usize;
             let count = count.min((left / active.len().max(1)).max(1));
             left = left.saturating_sub(count * active.len());
             let level = |i: usize| if i == count { pair[1] } else { low_y + height_m * i as f64 / count as f64 };
@@ -165,7 +194,7 @@ impl Rows {
             let near: Vec<Side> = near.iter().filter(|side| side.b.y > pair[0]).copied().collect();
             let mut winding = 0;
             let mut left = None;
-            for (low, high, step) in crossings(&near, pair[0], pair[1]) {
+            for Crossing { x: [low, high], winding: step, .. } in crossings(&near, pair[0], pair[1]) {
                 let (from_low, from_high) = *left.get_or_insert((low, high));
                 winding += step;
                 if winding == 0 {
@@ -212,28 +241,39 @@ fn crossings(sides: &[Side], low_y: f64, high_y: f64) -> Vec<Crossing> {
     let middle_y = 0.5 * (low_y + high_y);
     let across = sides.iter().filter(|side| side.a.y <= middle_y && side.b.y > middle_y);
     let mut out: Vec<Crossing> = across
-        .map(|Side { a, b, winding }| {
+        .map(|Side { a, b, winding, wall_m }| {
             let x_at = |y: f64| a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0);
-            (x_at(low_y), x_at(high_y), *winding)
+            Crossing { x: [x_at(low_y), x_at(high_y)], winding: *winding, wall_m: *wall_m }
         })
         .collect();
-    out.sort_by(|p, q| (p.0 + p.1).total_cmp(&(q.0 + q.1)));
+    out.sort_by(|p, q| (p.x[0] + p.x[1]).total_cmp(&(q.x[0] + q.x[1])));
     out
 }
 
 /// Each span holds the sides from where the winding leaves 0 to where it is 0 again. A point outside all spans has all
 /// sides of every span on one hand, hence the winding 0: whatever sides cross in the row, the spans hold the inside.
+///
+/// Where the first or last side has a rectangle along it, the span ends behind the side: what lies between is a triangle
+/// beside the side, no deeper than the rectangle.
 fn spans(sides: &[Side], low_y: f64, high_y: f64) -> Vec<Span> {
     let mut out = Vec::new();
     let mut winding = 0;
     let mut open: Option<Span> = None;
-    for (x_low, x_high, step) in crossings(sides, low_y, high_y) {
-        let (low, high) = (x_low.min(x_high), x_low.max(x_high));
-        let span = open.get_or_insert(Span { low, high, inner_low: high, inner_high: high });
-        (span.low, span.high, span.inner_high) = (span.low.min(low), span.high.max(high), low);
-        winding += step;
-        if winding == 0 {
-            out.extend(open.take());
+    let height_m = high_y - low_y;
+    let is_walled = |side: &Crossing| side.wall_m > 0.0 && side.over_m(height_m) <= side.wall_m;
+    for side in crossings(sides, low_y, high_y) {
+        let (low, high) = (side.low(), side.high());
+        let first = if is_walled(&side) { high } else { low };
+        let span = open.get_or_insert(Span { low: first, high: first, inner_low: high, inner_high: high });
+        winding += side.winding;
+        if winding == 0 && is_walled(&side) {
+            (span.high, span.inner_high) = (span.high.max(low), low);
+            out.extend(open.take().filter(|span| span.low < low));
+        } else {
+            (span.low, span.high, span.inner_high) = (span.low.min(first), span.high.max(high), low);
+            if winding == 0 {
+                out.extend(open.take().filter(|span| span.low <= high));
+            }
         }
     }
     joined(out)
