@@ -16,7 +16,7 @@ use crate::resolve::resolve;
 use crate::view::View;
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
-use cosfly_render::figure::FigureTriangle;
+use cosfly_render::figure::{FigureParts, FigureTriangle};
 use cosfly_render::{BodyPart, Wardrobe};
 
 /// Most corners of a polygon.
@@ -35,6 +35,8 @@ pub struct Painter {
     candidates: Vec<Candidate>,
     seen: SeenPack,
     wardrobe: Wardrobe,
+    /// Parts of the body that is drawn.
+    body: Option<Box<FigureParts>>,
     /// Triangles of a vehicle.
     vehicle: Vec<FigureTriangle>,
     /// Whether colours are asked for, and the parts of bodies that they need.
@@ -54,6 +56,7 @@ impl Painter {
             candidates: Vec::new(),
             seen: SeenPack::default(),
             wardrobe: Wardrobe::default(),
+            body: None,
             vehicle: Vec::new(),
             has_colours: false,
             parts: Vec::new(),

@@ -177,11 +177,25 @@ pub struct FigurePart {
     pub region: Region,
 }
 
+impl Default for FigureParts {
+    fn default() -> Self {
+        let nothing = ring(0.0, 0.0, 0.0, 0.0, 0.0);
+        let nothing = FigurePart { low: nothing, high: nothing, region: Region::Skin };
+        Self { count: 0, parts: [nothing; MOST_PARTS] }
+    }
+}
+
 impl FigureParts {
     /// The parts of a walker's figure; none without a body.
     pub fn of(walker: &Walker, clothes: &Clothes) -> Self {
-        let nothing = ring(0.0, 0.0, 0.0, 0.0, 0.0);
-        let nothing = FigurePart { low: nothing, high: nothing, region: Region::Skin };
+        let mut parts = Self::default();
+        parts.set(walker, clothes);
+        parts
+    }
+
+    /// Makes these the parts of a walker's figure; none without a body.
+    pub fn set(&mut self, walker: &Walker, clothes: &Clothes) {
+        self.count = 0;
         let build = &clothes.build;
         let stout = (walker.radius_m / (0.15 * walker.height_m)).clamp(0.8, 1.25);
         let mut body = Body {
@@ -189,7 +203,7 @@ impl FigureParts {
             shoulders: build.shoulders * stout,
             hips: build.hips * stout,
             depth: build.belly,
-            parts: Self { count: 0, parts: [nothing; MOST_PARTS] },
+            parts: self,
         };
         if walker.has_body() {
             let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
@@ -207,7 +221,6 @@ impl FigureParts {
                 umbrella::parts().into_iter().for_each(|FigurePart { low, high, region }| body.part(low, high, region));
             }
         }
-        body.parts
     }
 
     /// All parts.
@@ -241,17 +254,17 @@ pub(crate) fn ring(forward: f64, right: f64, up: f64, half_side: f64, half_forwa
     Ring { forward, right, up, half_side, half_forward }
 }
 
-struct Body {
+struct Body<'a> {
     /// Widths relative to the usual.
     shoulders: f64,
     hips: f64,
     /// Depth of the trunk relative to the usual.
     depth: f64,
     forearm: Region,
-    parts: FigureParts,
+    parts: &'a mut FigureParts,
 }
 
-impl Body {
+impl Body<'_> {
     fn part(&mut self, low: Ring, high: Ring, region: Region) {
         self.parts.parts[self.parts.count] = FigurePart { low, high, region };
         self.parts.count += 1;

@@ -16,11 +16,11 @@ impl Default for Wardrobe {
 
 impl Wardrobe {
     /// What [`Clothes::draw`] gives.
-    pub fn clothes(&mut self, seed: &Seed) -> Clothes {
+    pub fn clothes(&mut self, seed: &Seed) -> &Clothes {
         let shelf = &mut self.shelves[usize::from(seed.0[0])];
-        match shelf {
-            Some((known, clothes)) if known == seed => *clothes,
-            _ => shelf.insert((*seed, Clothes::draw(seed))).1,
+        if shelf.as_ref().is_none_or(|(known, _)| known != seed) {
+            *shelf = None;
         }
+        &shelf.get_or_insert_with(|| (*seed, Clothes::draw(seed))).1
     }
 }

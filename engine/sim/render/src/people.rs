@@ -181,7 +181,7 @@ impl People {
 
     fn add(&mut self, walker: Walker, instance: u32, is_seen: bool, reach: Reach, height_px: f64, built: Built) {
         let first = self.triangles.len();
-        let clothes = self.wardrobe.clothes(&walker.clothes_seed);
+        let clothes = *self.wardrobe.clothes(&walker.clothes_seed);
         let is_person = walker.body.is_person();
         if built == Built::ForPicture || built == Built::ForShadow && !is_person {
             figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);

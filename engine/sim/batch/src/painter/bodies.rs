@@ -8,7 +8,7 @@ use crate::view::{Figure, View};
 use cosfly_frames::DVec3;
 use cosfly_maps::SemanticLabel;
 use cosfly_render::clothes::Region;
-use cosfly_render::figure::{FigureParts, figure};
+use cosfly_render::figure::figure;
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::outside::NO_FACE;
 use cosfly_render::{BodyPart, LEAST_HEIGHT_PX, Walker};
@@ -64,7 +64,8 @@ impl Painter {
             self.draw_vehicle(eye, walker, (who, instance));
             return;
         }
-        let parts = FigureParts::of(walker, &self.wardrobe.clothes(&walker.clothes_seed));
+        let mut parts = self.body.take().unwrap_or_default();
+        parts.set(walker, self.wardrobe.clothes(&walker.clothes_seed));
         let stance = Stance::new(eye, walker, parts.lowest());
         let face = DrawnFace { instance, label: SemanticLabel::Pedestrian.id(), ..SKY };
         let mut seen = SeenPart::default();
@@ -75,13 +76,14 @@ impl Painter {
                 self.draw_body_part(eye, &seen, DrawnFace { number, ..face });
             }
         }
+        self.body = Some(parts);
     }
 
     /// A vehicle with its rider, as in large pictures.
     fn draw_vehicle(&mut self, eye: &Eye, walker: &Walker, (who, instance): (u32, u32)) {
         let mut triangles = core::mem::take(&mut self.vehicle);
         triangles.clear();
-        figure(walker, &self.wardrobe.clothes(&walker.clothes_seed), 0, &mut triangles);
+        figure(walker, self.wardrobe.clothes(&walker.clothes_seed), 0, &mut triangles);
         let (mut part, mut number) = (None, NO_FACE);
         for triangle in &triangles {
             if part != Some(triangle.part) {
