@@ -1,6 +1,6 @@
 //! People and other figures as triangles.
 
-use crate::canvas::{Canvas, Part, Parts, WIDE};
+use crate::canvas::{Part, Parts, WIDE};
 use crate::eye::{Eye, NEAR_M};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, real, simd_kernel};
@@ -79,6 +79,13 @@ pub struct Stance {
     axes_in_world: [DVec3; 3],
 }
 
+/// Eight rings side by side: their centres in body heights ahead of, right of and above the feet, and how far corners are from them.
+#[derive(Clone, Copy, Default)]
+struct Rings {
+    center: [[f32; WIDE]; 3],
+    reach_m: [f32; WIDE],
+}
+
 /// Directions of the corners of a ring; the last two repeat the first, to fill eight lanes.
 const COS: [f32; WIDE] = [1.0, 0.5, -0.5, -1.0, -0.5, 0.5, 1.0, 0.5];
 const SIN: [f32; WIDE] = {
@@ -110,27 +117,22 @@ impl Stance {
             .map(|ring| self.feet_in_world + forward * ring.forward + right * ring.right + up * ring.up.max(0.0))
     }
 
-    /// The pixels that a part of the body may cover, roughly; `None` when it covers none.
-    pub fn part(&self, canvas: &Canvas, part: &FigurePart) -> Option<Part> {
-        let [forward, right, up] = self.axes;
-        let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
-        for ring in [part.low, part.high] {
-            let center = self.feet + forward * ring.forward + right * ring.right + up * ring.up.max(0.0);
-            // Corners lie on an ellipse around the centre.
-            let reach_m = ring.half_forward.max(ring.half_side) * self.height_m;
-            let nearest_m = center.x - reach_m;
-            if nearest_m < 2.0 * NEAR_M {
-                return canvas.part([f32::NEG_INFINITY; 2], [f32::INFINITY; 2]);
-            }
-            let (scale, widest) = (1.0 / center.x, reach_m / nearest_m);
-            for (axis, way) in [center.y, -center.z].into_iter().enumerate() {
-                let at = way * scale;
-                let spread = widest * (1.0 + at.abs());
-                low[axis] = low[axis].min(self.focal_px * (at - spread) as f32);
-                high[axis] = high[axis].max(self.focal_px * (at + spread) as f32);
+    /// The pixels that each of up to eight parts of the body may cover, roughly.
+    pub fn parts(&self, level: Level, parts: &[FigurePart]) -> Parts<WIDE> {
+        let mut rings = [Rings::default(); 2];
+        for (k, part) in parts.iter().enumerate().take(WIDE) {
+            for (rings, ring) in rings.iter_mut().zip([part.low, part.high]) {
+                rings.center[0][k] = ring.forward as f32;
+                rings.center[1][k] = ring.right as f32;
+                rings.center[2][k] = ring.up.max(0.0) as f32;
+                // Corners lie on an ellipse around the centre.
+                rings.reach_m[k] = (ring.half_forward.max(ring.half_side) * self.height_m) as f32;
             }
         }
-        canvas.part(low, high)
+        let axes = [self.feet, self.axes[0], self.axes[1], self.axes[2]].map(|axis| axis.as_vec3().to_array());
+        let mut found = Parts::default();
+        find_parts(level, &rings, &axes, self.focal_px, self.size_px, &mut found);
+        found
     }
 
     /// A part of the body on the screen.
@@ -142,6 +144,39 @@ impl Stance {
         });
         let turned = if part.high.up < part.low.up { -1.0 } else { 1.0 };
         project(level, &rings, self.focal_px, self.size_px, turned, seen);
+    }
+}
+
+simd_kernel! {
+    fn find_parts(
+        rings: &[Rings; 2],
+        axes: &[[f32; 3]; 4],
+        focal_px: f32,
+        size_px: [f32; 2],
+        found: &mut Parts<WIDE>,
+    ) {
+        let (mut low, mut high) = ([[f32::INFINITY; WIDE]; 2], [[f32::NEG_INFINITY; WIDE]; 2]);
+        let [feet, forward, right, up] = axes;
+        for Rings { center, reach_m } in rings {
+            for k in 0..WIDE {
+                let [a, b, c] = [center[0][k], center[1][k], center[2][k]];
+                let ahead = feet[0] + (forward[0] * a + right[0] * b + up[0] * c);
+                let nearest_m = ahead - reach_m[k];
+                let (scale, widest) = (1.0 / ahead, reach_m[k] / nearest_m);
+                let is_near = nearest_m < 2.0 * NEAR_M as f32;
+                for axis in 0..2 {
+                    // Body axes have y to the right and z up, the screen has its second axis down.
+                    let way = feet[axis + 1] + (forward[axis + 1] * a + right[axis + 1] * b + up[axis + 1] * c);
+                    let at = if axis == 0 { way * scale } else { 0.0 - way * scale };
+                    let spread = widest * (1.0 + at.abs());
+                    let from = if is_near { f32::NEG_INFINITY } else { focal_px * (at - spread) };
+                    let to = if is_near { f32::INFINITY } else { focal_px * (at + spread) };
+                    low[axis][k] = if from < low[axis][k] { from } else { low[axis][k] };
+                    high[axis][k] = if to > high[axis][k] { to } else { high[axis][k] };
+                }
+            }
+        }
+        found.find(size_px, &low, &high);
     }
 }
 

@@ -138,7 +138,7 @@ pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut V
         parts: 0,
         triangles,
     };
-    for FigurePart { low, high, region } in FigureParts::of(walker, clothes).iter() {
+    for FigurePart { low, high, region } in FigureParts::of(walker, clothes).all() {
         surface.part(*low, *high, *region);
     }
     // Bent legs are shorter: the whole body sinks until a foot stands on the ground.
@@ -224,13 +224,13 @@ impl FigureParts {
     }
 
     /// All parts.
-    pub fn iter(&self) -> impl Iterator<Item = &FigurePart> {
-        self.parts[..self.count].iter()
+    pub fn all(&self) -> &[FigurePart] {
+        &self.parts[..self.count]
     }
 
     /// Height of the lowest ring, body heights: the figure sinks by it.
     pub fn lowest(&self) -> f64 {
-        self.iter().flat_map(|part| [part.low.up, part.high.up]).map(|up| up.max(0.0)).fold(f64::INFINITY, f64::min)
+        self.all().iter().flat_map(|part| [part.low.up, part.high.up]).map(|up| up.max(0.0)).fold(f64::INFINITY, f64::min)
     }
 }
 

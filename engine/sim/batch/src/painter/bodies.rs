@@ -1,6 +1,7 @@
 //! Whoever moves in a picture: people as frustums, vehicles and other figures as triangles.
 
 use super::Painter;
+use crate::canvas::WIDE;
 use crate::eye::{Eye, NEAR_M};
 use crate::faces::{BODY, DrawnFace, SKY};
 use crate::figures::{Around, SeenPart, Stance};
@@ -69,8 +70,9 @@ impl Painter {
         let stance = Stance::new(eye, walker, parts.lowest());
         let face = DrawnFace { instance, label: SemanticLabel::Pedestrian.id(), ..SKY };
         let mut seen = SeenPart::default();
-        for part in parts.iter() {
-            if stance.part(&self.canvas, part).is_some() {
+        for eight in parts.all().chunks(WIDE) {
+            let found = stance.parts(self.level, eight);
+            for (_, part) in eight.iter().enumerate().filter(|(k, _)| found.get(*k).is_some()) {
                 let number = self.body_part(who, part.region, || stance.middle_in_world(part));
                 stance.see(self.level, part, &mut seen);
                 self.draw_body_part(eye, &seen, DrawnFace { number, ..face });

@@ -42,7 +42,7 @@ pub(super) fn draw_person(
     let mut rings = [NO_RING; 2 * MOST_PARTS];
     let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
     let mut count = 0;
-    for (part, pair) in parts.iter().zip(rings.as_chunks_mut::<2>().0) {
+    for (part, pair) in parts.all().iter().zip(rings.as_chunks_mut::<2>().0) {
         count += 1;
         for (seen, ring) in pair.iter_mut().zip([&part.low, &part.high]) {
             *seen = stance.see(ring);
