@@ -56,8 +56,8 @@ pub struct SeenPart {
     points: [[[f32; WIDE]; 3]; 2],
     /// Right and down.
     pixels: [[[f32; WIDE]; 2]; 2],
-    /// The pixels that each side may cover.
-    sides: Parts<WIDE>,
+    /// The pixels that each side's two triangles may cover.
+    sides: [Parts<WIDE>; 2],
     /// Twice the areas of each side's two triangles, positive where they are seen from outside.
     areas: [[f32; WIDE]; 2],
     /// Twice the areas of both ends, positive where they are seen from outside.
@@ -219,21 +219,23 @@ simd_kernel! {
         }
         seen.nearest_m = nearest.iter().fold(nearest[0], |least, ahead| if *ahead < least { *ahead } else { least });
         // Side `k` lies between the corners `k` and `k + 1` of both rings.
-        let mut low = [[0.0f32; WIDE]; 2];
-        let mut high = [[0.0f32; WIDE]; 2];
         let [[u, v], [high_u, high_v]] = &seen.pixels;
-        for axis in 0..2 {
-            let (one, other) = (&seen.pixels[0][axis], &seen.pixels[1][axis]);
-            for k in 0..WIDE - 1 {
-                let least = if one[k] < one[k + 1] { one[k] } else { one[k + 1] };
-                let most = if one[k] > one[k + 1] { one[k] } else { one[k + 1] };
-                let other_least = if other[k] < other[k + 1] { other[k] } else { other[k + 1] };
-                let other_most = if other[k] > other[k + 1] { other[k] } else { other[k + 1] };
-                low[axis][k] = if other_least < least { other_least } else { least };
-                high[axis][k] = if other_most > most { other_most } else { most };
+        for (half, found) in seen.sides.iter_mut().enumerate() {
+            let mut low = [[0.0f32; WIDE]; 2];
+            let mut high = [[0.0f32; WIDE]; 2];
+            for axis in 0..2 {
+                let (one, other) = (&seen.pixels[0][axis], &seen.pixels[1][axis]);
+                for k in 0..WIDE - 1 {
+                    // Corner `k + 1` of the first ring and `k` of the second are of both triangles.
+                    let third = if half == 0 { one[k] } else { other[k + 1] };
+                    let least = if one[k + 1] < other[k] { one[k + 1] } else { other[k] };
+                    let most = if one[k + 1] > other[k] { one[k + 1] } else { other[k] };
+                    low[axis][k] = if third < least { third } else { least };
+                    high[axis][k] = if third > most { third } else { most };
+                }
             }
+            found.find(size_px, &low, &high);
         }
-        seen.sides.find(size_px, &low, &high);
         for k in 0..WIDE - 1 {
             let (across, down) = (u[k + 1] - high_u[k], v[k + 1] - high_v[k]);
             let first = (u[k] - high_u[k]) * down - (v[k] - high_v[k]) * across;
@@ -262,15 +264,14 @@ impl SeenPart {
     /// The triangles of the sides that are seen from outside and may cover a pixel: the part of the canvas, corners in body
     /// axes and on the screen.
     pub fn sides(&self) -> impl Iterator<Item = (Part, [DVec3; 3], [[f32; 2]; 3])> {
-        (0..SIDES).filter_map(|k| Some((k, self.sides.get(k)?))).flat_map(move |(k, part)| {
+        (0..SIDES).flat_map(|k| [(k, 0), (k, 1)]).filter_map(|(k, half)| {
+            let is_seen = self.areas[half][k] > 0.0;
+            let part = self.sides[half].get(k).filter(|_| is_seen)?;
             let corners = [[(0, k), (0, k + 1), (1, k)], [(1, k), (0, k + 1), (1, k + 1)]];
-            let seen = (0..2).filter(move |half| self.areas[*half][k] > 0.0);
-            seen.map(move |half| {
-                // Written out: `map` of arrays is a call.
-                let [(i, a), (j, b), (k, c)] = corners[half];
-                let points = [self.point(i, a), self.point(j, b), self.point(k, c)];
-                (part, points, [self.pixel(i, a), self.pixel(j, b), self.pixel(k, c)])
-            })
+            // Written out: `map` of arrays is a call.
+            let [(i, a), (j, b), (k, c)] = corners[half];
+            let points = [self.point(i, a), self.point(j, b), self.point(k, c)];
+            Some((part, points, [self.pixel(i, a), self.pixel(j, b), self.pixel(k, c)]))
         })
     }
 
