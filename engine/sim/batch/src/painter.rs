@@ -11,7 +11,7 @@ use crate::ground::{FAR_OFF_PX, Ground, Pack, Polygon, SeenPack};
 use crate::hidden::Hidden;
 use crate::lanes::Candidate;
 use crate::outputs::Outputs;
-use crate::raster::{Corners, HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_polygon, draw_within};
+use crate::raster::{Corners, HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_lane, draw_polygon, draw_within};
 use crate::resolve::resolve;
 use crate::view::View;
 use cosfly_frames::DVec3;
@@ -170,11 +170,11 @@ impl Painter {
             let Some(face) = ground_face(eye, polygon) else { continue };
             let count = polygon.count().min(MOST_CORNERS);
             if seen.nearest_m[k] >= NEAR_M as f32 && seen.coarse[k] < COARSE_PX_PER_M {
-                let corner = |number: usize| [seen.corners[number][0][k], seen.corners[number][1][k]];
                 if count <= WIDE {
                     let surface = self.surface(face, polygon.lift);
-                    draw_polygon(self.level, &mut self.canvas, part, &Corners::new(count, corner), &surface);
+                    draw_lane(self.level, &mut self.canvas, part, (&seen.corners, k, count), &surface);
                 } else {
+                    let corner = |number: usize| [seen.corners[number][0][k], seen.corners[number][1][k]];
                     let points: [[f32; 2]; MOST_CORNERS] = core::array::from_fn(|k| corner(k.min(count - 1)));
                     self.draw_part(part, &points[..count], face, polygon.lift);
                 }

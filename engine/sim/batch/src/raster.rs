@@ -141,6 +141,17 @@ pub fn draw_polygon(level: Level, canvas: &mut Canvas, part: Part, corners: &Cor
     draw_between(level, Rows::of(canvas, part), corners, surface);
 }
 
+/// Draws polygon `lane` of eight side by side, of up to eight corners, where it is nearer than what is there.
+pub fn draw_lane(
+    level: Level,
+    canvas: &mut Canvas,
+    part: Part,
+    (corners, lane, count): (&[[[f32; WIDE]; 2]], usize, usize),
+    surface: &Surface,
+) {
+    draw_of_eight(level, Rows::of(canvas, part), corners, lane, count, surface);
+}
+
 /// Draws the part of a surface within half planes where it is nearer than what is there.
 pub fn draw_within(level: Level, canvas: &mut Canvas, part: Part, within: &HalfPlanes<MOST_LINES>, surface: &Surface) {
     draw_many(level, Rows::of(canvas, part), within, surface);
@@ -177,18 +188,24 @@ simd_kernel! {
 simd_kernel! {
     fn draw_between(rows: Rows<'_>, corners: &Corners, surface: &Surface) {
         let mut rows = rows;
-        let within = corners.edges();
-        if rows.part.area() <= SMALL_BLOCKS {
-            match corners.count {
-                3 => rows.draw_small::<3>(&within, surface),
-                4 => rows.draw_small::<4>(&within, surface),
-                5 => rows.draw_small::<5>(&within, surface),
-                6 => rows.draw_small::<6>(&within, surface),
-                _ => rows.draw_small::<8>(&within, surface),
+        rows.draw_polygon(corners, surface);
+    }
+}
+
+simd_kernel! {
+    fn draw_of_eight(rows: Rows<'_>, corners: &[[[f32; WIDE]; 2]], lane: usize, count: usize, surface: &Surface) {
+        let mut rows = rows;
+        // Brought here, and not by the caller: what was written piece by piece is slow to read as a whole.
+        let lane = lane % WIDE;
+        let last = corners.len().min(count).wrapping_sub(1);
+        let mut found = Corners { u: [0.0; WIDE], v: [0.0; WIDE], count };
+        for k in 0..WIDE {
+            let at = if k < last { k } else { last };
+            if let Some([u, v]) = corners.get(at) {
+                (found.u[k], found.v[k]) = (u[lane], v[lane]);
             }
-            return;
         }
-        rows.draw(&within, surface);
+        rows.draw_polygon(&found, surface);
     }
 }
 
@@ -244,6 +261,22 @@ impl<'a> Rows<'a> {
             blocks: canvas.blocks,
             part,
         }
+    }
+
+    #[inline(always)]
+    fn draw_polygon(&mut self, corners: &Corners, surface: &Surface) {
+        let within = corners.edges();
+        if self.part.area() <= SMALL_BLOCKS {
+            match corners.count {
+                3 => self.draw_small::<3>(&within, surface),
+                4 => self.draw_small::<4>(&within, surface),
+                5 => self.draw_small::<5>(&within, surface),
+                6 => self.draw_small::<6>(&within, surface),
+                _ => self.draw_small::<8>(&within, surface),
+            }
+            return;
+        }
+        self.draw(&within, surface);
     }
 
     #[inline(always)]
