@@ -11,7 +11,7 @@ use crate::ground::{FAR_OFF_PX, Ground, Pack, Polygon, SeenPack};
 use crate::hidden::Hidden;
 use crate::lanes::Candidate;
 use crate::outputs::Outputs;
-use crate::raster::{Corners, HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_lane, draw_polygon, draw_within};
+use crate::raster::{HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_lane, draw_polygon, draw_within};
 use crate::resolve::resolve;
 use crate::view::View;
 use cosfly_frames::DVec3;
@@ -199,8 +199,7 @@ impl Painter {
     fn draw_part(&mut self, part: Part, points: &[[f32; 2]], face: DrawnFace, lift: f64) {
         let surface = self.surface(face, lift);
         if points.len() <= WIDE {
-            let corners = Corners::new(points.len(), |k| points[k]);
-            draw_polygon(self.level, &mut self.canvas, part, &corners, &surface);
+            draw_polygon(self.level, &mut self.canvas, part, points, &surface);
             return;
         }
         let (mut area, mut from) = (0.0, points[points.len() - 1]);

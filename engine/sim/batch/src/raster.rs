@@ -34,23 +34,13 @@ pub const SEAM_PX: f32 = 2e-5;
 
 /// The corners of a convex polygon of up to eight, pixels from the image's centre; beyond the last, the last again.
 #[derive(Clone, Copy, Debug)]
-pub struct Corners {
+struct Corners {
     u: [f32; WIDE],
     v: [f32; WIDE],
     count: usize,
 }
 
 impl Corners {
-    /// Corner `k` of `count` is `at(k)`.
-    #[inline(always)]
-    pub fn new(count: usize, at: impl Fn(usize) -> [f32; 2]) -> Self {
-        let mut corners = Self { u: [0.0; WIDE], v: [0.0; WIDE], count };
-        for k in 0..WIDE {
-            [corners.u[k], corners.v[k]] = at(k.min(count.saturating_sub(1)));
-        }
-        corners
-    }
-
     /// The half planes between its edges.
     #[inline(always)]
     fn edges(&self) -> HalfPlanes<1> {
@@ -136,8 +126,8 @@ pub fn draw_box(level: Level, canvas: &mut Canvas, part: Part, shape: &BoxOnScre
     draw_faces(level, Rows::of(canvas, part), shape);
 }
 
-/// Draws a convex polygon where it is nearer than what is there.
-pub fn draw_polygon(level: Level, canvas: &mut Canvas, part: Part, corners: &Corners, surface: &Surface) {
+/// Draws a convex polygon of up to eight corners, pixels from the image's centre, where it is nearer than what is there.
+pub fn draw_polygon(level: Level, canvas: &mut Canvas, part: Part, corners: &[[f32; 2]], surface: &Surface) {
     draw_between(level, Rows::of(canvas, part), corners, surface);
 }
 
@@ -186,9 +176,16 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    fn draw_between(rows: Rows<'_>, corners: &Corners, surface: &Surface) {
+    fn draw_between(rows: Rows<'_>, corners: &[[f32; 2]], surface: &Surface) {
         let mut rows = rows;
-        rows.draw_polygon(corners, surface);
+        let last = corners.len().wrapping_sub(1);
+        let mut found = Corners { u: [0.0; WIDE], v: [0.0; WIDE], count: corners.len() };
+        for k in 0..WIDE {
+            if let Some([u, v]) = corners.get(if k < last { k } else { last }) {
+                (found.u[k], found.v[k]) = (*u, *v);
+            }
+        }
+        rows.draw_polygon(&found, surface);
     }
 }
 

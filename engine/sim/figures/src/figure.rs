@@ -230,7 +230,11 @@ impl FigureParts {
 
     /// Height of the lowest ring, body heights: the figure sinks by it.
     pub fn lowest(&self) -> f64 {
-        self.all().iter().flat_map(|part| [part.low.up, part.high.up]).map(|up| up.max(0.0)).fold(f64::INFINITY, f64::min)
+        self.all()
+            .iter()
+            .flat_map(|part| [part.low.up, part.high.up])
+            .map(|up| up.max(0.0))
+            .fold(f64::INFINITY, f64::min)
     }
 }
 
