@@ -190,8 +190,7 @@ impl Painter {
         }
         let mut summary = [0; SUMMARY_SIDE * SUMMARY_SIDE];
         measure_tile(level, &self.packed, &mut summary);
-        let texels: Arc<[u32]> = self.packed[..TILE * TILE].into();
-        Some(Tile { texels: texels.try_into().ok()?, summary: Arc::new(summary) })
+        Some(Tile { texels: Arc::new(Texels::of(&self.packed)), summary: Arc::new(summary) })
     }
 
     /// Draws everything that throws shadows into a part of the canvas; whether there is anything.

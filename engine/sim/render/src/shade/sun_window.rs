@@ -77,7 +77,7 @@ impl Part {
 
 impl Window {
     pub(super) fn new() -> Self {
-        let nothing = Arc::new([0; TILE * TILE]);
+        let nothing = Arc::new(Texels([0; TILE * TILE]));
         Self {
             map: Box::new(core::array::from_fn(|_| Arc::clone(&nothing))),
             summary: fixed_size(vec![]),

@@ -55,8 +55,9 @@ pub(super) struct Grain {
 }
 
 /// Texels of a tile. A number holds a texel in its low half and the one to the right in its high half: height above
-/// [`LOWEST_M`] below the reference in steps of 1/32 m, times two, plus one for leaves.
-pub(super) type Texels = [u32; TILE * TILE];
+/// [`LOWEST_M`] below the reference in steps of 1/32 m, times two, plus one for leaves. In the order of [`in_tile`].
+#[repr(align(64))]
+pub(super) struct Texels(pub(super) [u32; TILE * TILE]);
 /// Windows of all sizes of texels, one after the other: their tiles.
 pub(super) type TownMap = [Arc<Texels>; WINDOWS];
 /// Tiles of all windows.
@@ -125,6 +126,19 @@ simd_kernel! {
             }
         }
         anything != 0
+    }
+}
+
+impl Texels {
+    /// The texels of a packed tile, which come row by row.
+    pub(super) fn of(packed: &[u32]) -> Self {
+        let mut texels = [0; TILE * TILE];
+        for (row, packed) in (0..).zip(packed.chunks_exact(TILE).take(TILE)) {
+            for (column, texel) in (0..).zip(packed) {
+                texels[in_tile(column, row) as usize] = *texel;
+            }
+        }
+        Self(texels)
     }
 }
 
@@ -264,8 +278,8 @@ fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> [
     unknown
 }
 
-/// Looks the sunlight of a block's unknown places up, one after the other: texels are scattered over memory; whether leaves
-/// shade some of them.
+/// Looks the sunlight of a block's unknown places up; whether leaves shade some of them. Texels are scattered over memory: they are
+/// loaded one after the other, between vector code.
 #[inline(always)]
 fn lit_through_leaves(
     sunlight: &mut Lane,
@@ -275,16 +289,33 @@ fn lit_through_leaves(
     places: &Places,
     noise: &NoiseTexture,
 ) -> bool {
+    let (mut tiles, mut texels) = ([[0u32; WIDE]; 2], [[0u32; WIDE]; 2]);
+    for k in 0..WIDE {
+        let (column, row) = (floor_int(spots.u[k] - 0.5) as u32, floor_int(spots.v[k] - 0.5) as u32);
+        // The first texel serves those that are known.
+        let taken = 0u32.wrapping_sub(unknown[k]);
+        for below in 0..2 {
+            let (tile, at) = place_of(spots.grain[k], column, row.wrapping_add(below as u32));
+            (tiles[below][k], texels[below][k]) = (tile & taken, at & taken);
+        }
+    }
+    let mut found = [[0u32; WIDE]; 2];
+    for below in 0..2 {
+        for k in 0..WIDE {
+            let tile = &map[tiles[below][k] as usize & (WINDOWS - 1)].0;
+            found[below][k] = tile[texels[below][k] as usize & (TILE * TILE - 1)];
+        }
+    }
     let mut under_leaves = [0.0f32; WIDE];
     let mut flecks = 0u32;
-    for (k, under) in under_leaves.iter_mut().enumerate() {
-        if unknown[k] == 0 {
-            continue;
-        }
-        let (dark, leaves) = town_darkness(map, spots, k);
-        sunlight[k] = 1.0 - dark;
-        *under = dark * leaves;
-        flecks |= u32::from(dark * leaves > 0.0);
+    for k in 0..WIDE {
+        let (u, v) = (spots.u[k] - 0.5, spots.v[k] - 0.5);
+        let (fx, fy) = (u - floor_int(u) as f32, v - floor_int(v) as f32);
+        let (dark, leaves) = between(found[0][k], found[1][k], [fx, fy], spots.height_m[k]);
+        let is_unknown = unknown[k] != 0;
+        sunlight[k] = if is_unknown { 1.0 - dark } else { sunlight[k] };
+        under_leaves[k] = if is_unknown { dark * leaves } else { 0.0 };
+        flecks |= u32::from(under_leaves[k] > 0.0);
     }
     if flecks != 0 {
         // Sun flecks: gaps between the leaves.
@@ -298,27 +329,22 @@ fn lit_through_leaves(
     flecks != 0
 }
 
-/// Share of a texel's size around a spot that is above the height, and 1 when leaves are there; none where the map tells
-/// nothing.
+/// Number of a texel's tile among those of all windows, and of the texel in it, by its place modulo the window.
 #[inline(always)]
-fn town_darkness(map: &TownMap, spots: &Spots, k: usize) -> (f32, f32) {
-    let (u, v) = (spots.u[k] - 0.5, spots.v[k] - 0.5);
-    let (column, row) = (floor_int(u), floor_int(v));
-    let upper = texel(map, spots.grain[k], column as u32, row as u32);
-    let lower = texel(map, spots.grain[k], column as u32, (row as u32).wrapping_add(1));
-    let (dark, leaves) = between(upper, lower, [u - column as f32, v - row as f32], spots.height_m[k]);
-    (if spots.known[k] == 0 { 0.0 } else { dark }, leaves)
-}
-
-/// A texel, and the one to the right of it, by their place modulo the window.
-#[inline(always)]
-fn texel(map: &TownMap, grain: u32, column: u32, row: u32) -> u32 {
+fn place_of(grain: u32, column: u32, row: u32) -> (u32, u32) {
     const BITS: u32 = TILE.trailing_zeros();
     const ACROSS: u32 = (WINDOW_TILES as u32).trailing_zeros();
     let tile_of = |place: u32| (place >> BITS) & (WINDOW_TILES as u32 - 1);
     let tile = (((grain << ACROSS) | tile_of(row)) << ACROSS) | tile_of(column);
-    let at = (row & (TILE as u32 - 1)) << BITS | column & (TILE as u32 - 1);
-    map[tile as usize & (WINDOWS - 1)][at as usize & (TILE * TILE - 1)]
+    (tile, in_tile(column & (TILE as u32 - 1), row & (TILE as u32 - 1)))
+}
+
+/// Number of a texel in its tile: squares of texels lie one after the other, each in a line of the cache.
+#[inline(always)]
+fn in_tile(column: u32, row: u32) -> u32 {
+    const WITHIN: u32 = (1 << IN_SQUARE) - 1;
+    let square = (row >> IN_SQUARE) << (TILE.trailing_zeros() - IN_SQUARE) | column >> IN_SQUARE;
+    square << (2 * IN_SQUARE) | (row & WITHIN) << IN_SQUARE | column & WITHIN
 }
 
 simd_kernel! {
