@@ -4,9 +4,10 @@
 //! below shows there. Between close houses that ground is stone, gravel or earth far more often than grass; a large piece
 //! without a house beside it is taken for a green square.
 
-use crate::fill::land::visit_rows;
+use crate::fill::land::{Plot, visit_rows};
+use crate::terrain::beside;
 use crate::{ObstacleKind, SemanticLabel, SurfaceMesh, Town};
-use cosfly_frames::{DVec2, real};
+use cosfly_frames::DVec2;
 use std::collections::VecDeque;
 
 /// Wanted side of a cell, metres.
@@ -110,13 +111,9 @@ impl Cells {
         let [columns, rows] = ((high - low) / cell_m).ceil().max(DVec2::ONE).to_array().map(|side| side as usize);
         let mut cells = Self { low, cell_m, columns, rows, uses: vec![0; columns * rows], bare_cells: 0 };
         for house in houses() {
-            let (half, (sin, cos)) = (house.shape.half_extents_m, real::sin_cos(house.shape.yaw_rad));
-            let corner = |x: f64, y: f64| {
-                let (x, y) = (x * half.x, y * half.y);
-                house.shape.center_in_world.truncate() + DVec2::new(cos * x - sin * y, sin * x + cos * y)
-            };
-            let outline = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-            cells.mark(&outline, HOUSE | COVERED);
+            let (shape, half_m) = (&house.shape, house.shape.half_extents_m.truncate());
+            let plot = Plot { center: shape.center_in_world.truncate(), half_m, yaw_rad: shape.yaw_rad };
+            cells.mark(&plot.corners(0.0), HOUSE | COVERED);
         }
         Some(cells)
     }
@@ -148,13 +145,7 @@ impl Cells {
                 share += houses.share_around(column, row);
                 piece.push(cell);
                 is_enclosed &= column > 0 && row > 0 && column + 1 < self.columns && row + 1 < self.rows;
-                let beside = [
-                    (column > 0).then(|| cell - 1),
-                    (column + 1 < self.columns).then_some(cell + 1),
-                    (row > 0).then(|| cell - self.columns),
-                    (row + 1 < self.rows).then_some(cell + self.columns),
-                ];
-                for next in beside.into_iter().flatten() {
+                for next in beside(cell, self.columns, self.rows) {
                     border += usize::from(self.uses[next] & COVERED != 0);
                     walls += usize::from(self.uses[next] & HOUSE != 0);
                     if self.uses[next] & (COVERED | SEEN) == 0 {

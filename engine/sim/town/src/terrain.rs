@@ -36,6 +36,19 @@ struct HeightGrid {
     feet: Vec<(f64, u32)>,
 }
 
+/// The up to four neighbours of a cell of a grid, row by row.
+pub fn beside(cell: usize, columns: usize, rows: usize) -> impl Iterator<Item = usize> + use<> {
+    let (column, row) = (cell % columns, cell / columns);
+    [
+        (column > 0).then(|| cell - 1),
+        (column + 1 < columns).then_some(cell + 1),
+        (row > 0).then(|| cell - columns),
+        (row + 1 < rows).then_some(cell + columns),
+    ]
+    .into_iter()
+    .flatten()
+}
+
 /// Adds the terrain (synthetic, label Terrain) under all meshes made so far, and `margin_m` beyond them and `obstacles`.
 ///
 /// # Errors
@@ -219,16 +232,7 @@ impl HeightGrid {
     }
 
     fn neighbours(&self, vertex: usize) -> impl Iterator<Item = usize> + use<> {
-        let (columns, rows) = (self.columns, self.rows);
-        let (column, row) = (vertex % columns, vertex / columns);
-        [
-            (column > 0).then(|| vertex - 1),
-            (column + 1 < columns).then(|| vertex + 1),
-            (row > 0).then(|| vertex - columns),
-            (row + 1 < rows).then(|| vertex + columns),
-        ]
-        .into_iter()
-        .flatten()
+        beside(vertex, self.columns, self.rows)
     }
 
     /// Columns and rows of blocks.

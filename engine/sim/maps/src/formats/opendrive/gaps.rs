@@ -4,6 +4,7 @@
 //! give them as lanes of no kind.
 
 use crate::mesh::MeshBuilder;
+use crate::terrain::beside;
 use crate::{GroundIndex, SemanticLabel};
 use cosfly_frames::{DVec2, DVec3};
 
@@ -114,13 +115,7 @@ impl Grid {
             next += 1;
             let (column, row) = (cell % self.columns, cell / self.columns);
             is_enclosed &= column > 0 && row > 0 && column + 1 < self.columns && row + 1 < self.rows;
-            let around = [
-                (column > 0).then(|| cell - 1),
-                (column + 1 < self.columns).then_some(cell + 1),
-                (row > 0).then(|| cell - self.columns),
-                (row + 1 < self.rows).then_some(cell + self.columns),
-            ];
-            for neighbour in around.into_iter().flatten() {
+            for neighbour in beside(cell, self.columns, self.rows) {
                 if self.cells[neighbour] != Cell::Open {
                     border.push(neighbour);
                 } else if !seen[neighbour] {
