@@ -1,5 +1,6 @@
 //! The faces drawn in a frame, and where each comes from.
 
+use crate::scene::Scene;
 use crate::visibility::PlaneOnScreen;
 use cosfly_maps::SemanticLabel;
 
@@ -18,12 +19,24 @@ pub(crate) struct DrawnFace {
 pub(crate) enum FaceSource {
     /// Box number, face number.
     Box { index: u32, face: u8 },
+    /// The same of a box of leaves.
+    Crown { index: u32, face: u8 },
     /// Cluster number, polygon number in it.
     Ground { cluster: u32, polygon: u16 },
     /// Triangle of the scene's models.
     Prop { triangle: u32 },
     /// A part of a figure: its look, the first face drawn of it, and whether it is of a person.
     Figure { look: u32, first_face: u32, is_cloth: bool },
+}
+
+impl FaceSource {
+    /// A face of a scene's box.
+    pub fn of_box(scene: &Scene, index: u32, face: u8) -> Self {
+        match scene.crowns.get(index as usize) {
+            Some(Some(_)) => Self::Crown { index, face },
+            _ => Self::Box { index, face },
+        }
+    }
 }
 
 /// Share by which the inverse depth of a box counts as greater: of coplanar faces of different boxes, the number decides,

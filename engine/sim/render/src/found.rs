@@ -102,7 +102,7 @@ impl Adoption<'_> {
         let scene = self.scene;
         let (index, face) = (number as usize / BOX_FACES.len(), number as usize % BOX_FACES.len());
         if let Some(b) = scene.boxes.get(index) {
-            return (FaceSource::Box { index: index as u32, face: face as u8 }, b.normal_in_world(face));
+            return (FaceSource::of_box(scene, index as u32, face as u8), b.normal_in_world(face));
         }
         let (cluster, polygon) = scene.ground_face(number);
         let normal = scene.clusters[cluster].polygons[polygon].normal_in_world;

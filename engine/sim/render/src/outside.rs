@@ -123,7 +123,7 @@ impl Found<'_> {
             let (index, face) = ((found / BOX_FACES.len()) as u32, found % BOX_FACES.len());
             let normal = b.normal_in_world(face);
             let plane = plane(normal, b.corners_in_world[BOX_FACES[face].2[0]])?;
-            let source = FaceSource::Box { index, face: face as u8 };
+            let source = FaceSource::of_box(scene, index, face as u8);
             let normal = normal.as_vec3().to_array();
             return Some(DrawnFace { plane, normal, source, label: b.label, instance: b.instance });
         }

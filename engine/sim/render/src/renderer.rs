@@ -245,8 +245,7 @@ impl Renderer {
 
     /// Broken edges of crowns, and no stair steps along all others.
     fn smooth_edges(&mut self, scene: &Scene) {
-        let seen = Seen { scene, faces: &self.faces, people: &self.people };
-        self.shader.fray(&seen, self.runs.rows(), &mut self.images);
+        self.shader.fray(scene, &self.runs, &mut self.images);
         self.smoother.smooth(self.runs.rows(), self.screen.width, &mut self.images.rgb);
     }
 
@@ -292,7 +291,7 @@ impl Renderer {
                 {
                     let number = self.faces.len() as u32;
                     self.nearest.draw_polygon(&self.screen, &quad, &plane, bias, number);
-                    let source = FaceSource::Box { index, face: face as u8 };
+                    let source = FaceSource::of_box(scene, index, face as u8);
                     let normal = normal_in_world.as_vec3().to_array();
                     self.faces.push(DrawnFace { plane, normal, source, label: b.label, instance: b.instance });
                 }

@@ -31,6 +31,18 @@ pub(crate) struct Run {
     pub surface: u32,
 }
 
+/// Neighbouring pixels of one tree's or bush's crown in a row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CrownSpan {
+    /// From the start of the band, pixels.
+    pub start: u32,
+    /// Pixels.
+    pub length: u32,
+    pub instance: u32,
+    /// Broken edges reach this far into the crown, metres.
+    pub reach_m: f32,
+}
+
 /// The runs of faces seen, by band.
 #[derive(Default)]
 pub(crate) struct SeenRuns(Vec<BandRuns>);
@@ -40,6 +52,8 @@ pub(crate) struct SeenRuns(Vec<BandRuns>);
 pub(crate) struct BandRuns {
     /// Row by row.
     pub all: Vec<Run>,
+    /// Pixels of crowns, row by row.
+    pub crowns: Vec<CrownSpan>,
     /// End of each row's runs.
     row_ends: Vec<usize>,
     /// Bits of the places where a row's faces change.
@@ -53,6 +67,12 @@ impl SeenRuns {
             let starts = core::iter::once(0).chain(band.row_ends.iter().copied());
             starts.zip(&band.row_ends).map(|(start, end)| &band.all[start..*end])
         })
+    }
+
+    /// Pixels of crowns in each band of an image with so many pixels and so many in a row, and the band's first pixel.
+    pub fn crowns(&self, width: usize, pixels: usize) -> impl Iterator<Item = (usize, &[CrownSpan])> {
+        let band_pixels = width * band_rows(width, pixels);
+        self.0.iter().enumerate().map(move |(band, runs)| (band * band_pixels, runs.crowns.as_slice()))
     }
 }
 
@@ -111,6 +131,7 @@ impl Band<'_> {
     pub fn resolve(&mut self, level: Level, faces: &[DrawnFace]) {
         let runs = &mut *self.runs;
         runs.all.clear();
+        runs.crowns.clear();
         runs.row_ends.clear();
         runs.changes.resize(self.width.div_ceil(64), 0);
         for (row, ids) in self.ids.chunks_exact(self.width).enumerate() {
@@ -143,6 +164,8 @@ fn surface_of(number: u32, face: &DrawnFace) -> u32 {
         FaceSource::Figure { first_face, .. } => 0x8200_0000 | (first_face & 0xff_ffff),
         // Textures, not triangles, make what is seen of a model: no edge is smoothed within it.
         FaceSource::Prop { .. } => 0x8300_0000 | (face.instance & 0xff_ffff),
+        // Round crowns have no edges between the faces of their boxes.
+        FaceSource::Crown { .. } => 0x8400_0000 | (face.instance & 0xff_ffff),
         FaceSource::Box { .. } => number & 0x7fff_ffff,
     }
 }

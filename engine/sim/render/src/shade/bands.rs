@@ -1,6 +1,7 @@
 //! Bands of rows: pixels gathered by face, taken through the kernels, put back.
 
 use super::cloth::{Cloth, Cloths, put_cloth};
+use super::foliage;
 use super::geometry::FaceAxes;
 use super::kerbs::{KerbLine, Kerbs, put_kerb};
 use super::kernels::{Staged, run_kernels, run_simple_kernels};
@@ -164,14 +165,18 @@ impl Worker {
     }
 
     /// Lists the band's runs by group; neighbours in a row that are alike to the kernels become one.
-    fn gather(&mut self, setting: &Setting, seen: &Seen<'_>, band: &Band<'_>) {
+    fn gather(&mut self, setting: &Setting, seen: &Seen<'_>, band: &mut Band<'_>) {
         let groups = SHARED_GROUPS + seen.faces.len();
         if self.first.len() < groups {
             self.first.resize(groups, END);
         }
         let mut last_group = usize::MAX;
+        let mut crowns = core::mem::take(&mut band.runs.crowns);
         for run in &band.runs.all {
             let group = group_of(setting, seen, run.face);
+            if group == CROWNS {
+                foliage::note(seen, run, band.width, &mut crowns);
+            }
             if group == last_group
                 && group < EVEN
                 && let Some(last) = self.runs.last_mut()
@@ -190,6 +195,7 @@ impl Worker {
             self.first[group] = self.runs.len() as u32;
             self.runs.push(Link { run: *run, next });
         }
+        band.runs.crowns = crowns;
     }
 
     fn shade_group(&mut self, setting: &Setting, seen: &Seen<'_>, band: &Band<'_>, group: usize) {
@@ -396,7 +402,7 @@ fn group_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> usize {
         FaceSource::Figure { .. } if is_simple => EVEN,
         FaceSource::Figure { is_cloth: true, .. } => PEOPLE,
         FaceSource::Figure { first_face, .. } => SHARED_GROUPS + first_face as usize,
-        FaceSource::Box { index, .. } if seen.scene.crowns[index as usize].is_some() => CROWNS,
+        FaceSource::Crown { .. } => CROWNS,
         FaceSource::Box { index, face } if is_simple && !seen.scene.is_wall(index, face) => EVEN,
         FaceSource::Box { .. } | FaceSource::Prop { .. } => SHARED_GROUPS + face as usize,
     }
@@ -413,8 +419,8 @@ fn kerb_of(seen: &Seen<'_>, face: u32) -> KerbLine {
 }
 
 /// The crown that a face belongs to.
-fn crown_of<'a>(seen: &Seen<'a>, face: u32) -> Option<&'a Leaves> {
-    let FaceSource::Box { index, .. } = seen.faces.get(face as usize)?.source else { return None };
+pub(super) fn crown_of<'a>(seen: &Seen<'a>, face: u32) -> Option<&'a Leaves> {
+    let FaceSource::Crown { index, .. } = seen.faces.get(face as usize)?.source else { return None };
     seen.scene.crowns.get(index as usize)?.as_ref()
 }
 

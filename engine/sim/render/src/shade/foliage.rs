@@ -4,13 +4,14 @@
 //! shows the picture beyond the edge, mirrored at it; where gaps are follows from places in the world, so that they stay on
 //! the tree when the camera moves. Only edges before something farther away are broken.
 
+use super::bands::crown_of;
 use super::geometry::View;
-use super::pattern::{Noises, hash, unit};
-use super::vector::Vec3;
-use crate::faces::{DrawnFace, FaceSource};
+use super::pattern::{NoiseTexture, Noises, hash, unit};
+use super::setting::{Seen, Setting};
 use crate::frame::FrameImages;
-use crate::passes::ids::Run;
+use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
+use cosfly_frames::simd_kernel;
 
 /// Gaps reach this far into a crown, metres.
 const REACH_M: f32 = 0.6;
@@ -18,22 +19,62 @@ const REACH_M: f32 = 0.6;
 const REACH_SHARE: f32 = 0.28;
 /// And no farther than this, pixels.
 const MOST_PX: f32 = 20.0;
+/// Pixels whose leaves are looked at together.
+const TOGETHER: usize = 256;
+
+/// Notes the pixels of a run that shows a crown; neighbours of one crown become one span.
+pub(super) fn note(seen: &Seen<'_>, run: &Run, width: usize, crowns: &mut Vec<CrownSpan>) {
+    let (Some(leaves), Some(face)) = (crown_of(seen, run.face), seen.faces.get(run.face as usize)) else { return };
+    if let Some(last) = crowns.last_mut()
+        && last.start + last.length == run.start
+        && last.instance == face.instance
+        && !(run.start as usize).is_multiple_of(width)
+    {
+        last.length += run.length;
+        return;
+    }
+    let reach_m = REACH_M.min(REACH_SHARE * leaves.half_width_m());
+    crowns.push(CrownSpan { start: run.start, length: run.length, instance: face.instance, reach_m });
+}
 
 /// Buffers of the pass.
 #[derive(Default)]
 pub struct Foliage {
-    /// First byte of a pixel, and its new colour.
-    changes: Vec<(u32, [u8; 3])>,
+    waiting: Option<Box<Waiting>>,
+    changes: Vec<Change>,
 }
 
-/// The finished channels and the scene that they show.
-pub(crate) struct Crowns<'a> {
-    pub scene: &'a Scene,
-    pub faces: &'a [DrawnFace],
-    pub view: &'a View,
+/// A pixel, and the one whose colour it gets.
+struct Change {
+    at: u32,
+    colour: [u8; 3],
 }
 
-/// An edge of a crown: from the first pixel inside, by steps of `inward` bytes' pixels.
+/// Pixels near an edge that may be gaps.
+struct Waiting {
+    count: usize,
+    /// Number of the pixel, and of the one that is seen through it.
+    at: [u32; TOGETHER],
+    behind: [u32; TOGETHER],
+    place: Places,
+    is_gap: [u32; TOGETHER],
+}
+
+/// Where they are, and how thin leaves must be.
+struct Places {
+    /// Centre from the left and the top, pixels.
+    u: [f32; TOGETHER],
+    v: [f32; TOGETHER],
+    depth_m: [f32; TOGETHER],
+    /// Size of a pixel at the edge, metres.
+    pixel_m: [f32; TOGETHER],
+    /// Where the pattern of the tree begins.
+    shift: [f32; TOGETHER],
+    /// Pixels with more of a gap than this have one.
+    least: [f32; TOGETHER],
+}
+
+/// An edge of a crown: from the first pixel inside, by steps of `inward` pixels.
 struct Edge {
     first: usize,
     /// Step between pixels, away from the edge.
@@ -42,142 +83,148 @@ struct Edge {
     most: usize,
     /// Pixels beyond the edge within the picture, at most.
     beyond: usize,
-    tree: Tree,
 }
 
-/// A tree or bush.
-#[derive(Clone, Copy)]
-struct Tree {
-    instance: u32,
-    /// Gaps reach this far into it, metres.
-    reach_m: f32,
+/// A picture whose crowns are broken.
+struct Picture<'a> {
+    view: &'a View,
+    images: &'a FrameImages,
 }
 
 impl Foliage {
     /// Breaks the edges of all crowns in a picture.
-    pub(crate) fn fray<'a>(
-        &mut self,
-        crowns: &Crowns<'_>,
-        rows: impl Iterator<Item = &'a [Run]>,
-        images: &mut FrameImages,
-    ) {
+    pub(crate) fn fray(&mut self, setting: &Setting, scene: &Scene, runs: &SeenRuns, images: &mut FrameImages) {
         self.changes.clear();
-        for (row, runs) in rows.enumerate() {
-            let mut column = 0;
-            let mut span: Option<(usize, usize, Tree)> = None;
-            for run in runs {
-                let (from, to) = (column, column + run.length as usize);
-                column = to;
-                let tree = crowns.tree(run.face);
-                match (&mut span, tree) {
-                    (Some((_, end, of)), Some(tree)) if of.instance == tree.instance && *end == from => *end = to,
-                    _ => {
-                        if let Some(done) = span.take() {
-                            self.span(crowns, images, row, done);
-                        }
-                        span = tree.map(|tree| (from, to, tree));
-                    }
-                }
-            }
-            if let Some(done) = span.take() {
-                self.span(crowns, images, row, done);
+        let (width, pixels) = (images.width as usize, images.depth_m.len());
+        let waiting = self.waiting.get_or_insert_with(|| Box::new(Waiting::EMPTY));
+        let picture = Picture { view: &setting.view, images };
+        let mut look = |waiting: &mut Waiting| waiting.look(setting, &scene.noise, images, &mut self.changes);
+        for (band, crowns) in runs.crowns(width, pixels) {
+            for span in crowns {
+                picture.span(span, band + span.start as usize, waiting, &mut look);
             }
         }
-        for (at, colour) in &self.changes {
-            if let Some(pixel) = images.rgb.get_mut(*at as usize..).and_then(|rest| rest.first_chunk_mut::<3>()) {
+        look(waiting);
+        for Change { at, colour } in &self.changes {
+            if let Some(pixel) = images.rgb.get_mut(3 * *at as usize..).and_then(|rest| rest.first_chunk_mut::<3>()) {
                 *pixel = *colour;
             }
         }
     }
+}
 
-    /// The edges of a tree's pixels from `from` to before `to` in a row.
-    fn span(&mut self, crowns: &Crowns<'_>, images: &FrameImages, row: usize, (from, to, tree): (usize, usize, Tree)) {
-        let (width, height) = (images.width as usize, images.height as usize);
-        let (start, length) = (row * width, to - from);
-        let left = Edge { first: start + from, inward: 1, most: length, beyond: from, tree };
-        let right = Edge { first: start + to - 1, inward: -1, most: length, beyond: width - to, tree };
-        self.edge(crowns, images, &left);
-        self.edge(crowns, images, &right);
-        let down = width as isize;
-        let others = |first: usize| {
-            images.instance[first..first + length].iter().enumerate().filter(|(_, id)| **id != tree.instance)
-        };
+impl Picture<'_> {
+    /// The edges of a tree's pixels in a row, from the pixel `start` on.
+    fn span(&self, span: &CrownSpan, start: usize, waiting: &mut Waiting, look: &mut impl FnMut(&mut Waiting)) {
+        let (width, height) = (self.images.width as usize, self.images.height as usize);
+        let (row, from, length) = (start / width, start % width, span.length as usize);
+        let mut edge = |edge: Edge| self.edge(span, &edge, waiting, look);
+        edge(Edge { first: start, inward: 1, most: length, beyond: from });
+        edge(Edge { first: start + length - 1, inward: -1, most: length, beyond: width - from - length });
+        let (down, instance) = (width as isize, &self.images.instance);
         if row > 0 {
-            for (at, _) in others(start + from - width) {
-                let first = start + from + at;
-                self.edge(crowns, images, &Edge { first, inward: down, most: height - row, beyond: row, tree });
+            for (at, _) in instance[start - width..][..length].iter().enumerate().filter(|(_, id)| **id != span.instance) {
+                edge(Edge { first: start + at, inward: down, most: height - row, beyond: row });
             }
         }
         if row + 1 < height {
-            for (at, _) in others(start + from + width) {
-                let (first, beyond) = (start + from + at, height - row - 1);
-                self.edge(crowns, images, &Edge { first, inward: -down, most: row + 1, beyond, tree });
+            for (at, _) in instance[start + width..][..length].iter().enumerate().filter(|(_, id)| **id != span.instance) {
+                edge(Edge { first: start + at, inward: -down, most: row + 1, beyond: height - row - 1 });
             }
         }
     }
 
-    fn edge(&mut self, crowns: &Crowns<'_>, images: &FrameImages, edge: &Edge) {
-        let Edge { first, inward, most, beyond, tree: Tree { instance, reach_m } } = *edge;
-        let depth = images.depth_m[first];
+    /// Lists the pixels of an edge that may be gaps.
+    fn edge(&self, span: &CrownSpan, edge: &Edge, waiting: &mut Waiting, look: &mut impl FnMut(&mut Waiting)) {
+        let Edge { first, inward, most, beyond } = *edge;
+        let FrameImages { depth_m, instance, width, .. } = self.images;
+        let depth = depth_m[first];
         if beyond == 0 {
             return;
         }
         let outside = first.wrapping_add_signed(-inward);
         // Nothing farther away, or another face of the same tree.
-        if images.depth_m[outside] < depth + 0.3 || images.instance[outside] == instance {
+        if depth_m[outside] < depth + 0.3 || instance[outside] == span.instance {
             return;
         }
-        let pixels_per_m = 1.0 / (crowns.view.pixel() * depth);
-        let reach = (reach_m * pixels_per_m).min(MOST_PX);
+        let pixel_m = self.view.pixel() * depth;
+        let reach = (span.reach_m / pixel_m).min(MOST_PX);
         let count = (reach as usize).min(most).min(beyond);
+        let shift = 97.0 * unit(hash(span.instance, 12));
         for k in 0..count {
             let pixel = first.wrapping_add_signed(inward * k as isize);
-            if images.instance[pixel] != instance {
+            if instance[pixel] != span.instance {
                 break;
             }
-            let depth = images.depth_m[pixel];
-            let [leaves, branches] = crowns.gaps(pixel, images.width as usize, depth, instance, 1.0 / pixels_per_m);
-            // Fewer gaps farther inside: dents between branches, ragged by leaves.
-            let inside = (k as f32 + 0.5) / reach;
-            if 1.7 * branches + 0.75 * leaves < 1.02 + 0.78 * inside {
-                continue;
-            }
+            let depth = depth_m[pixel];
             let behind = first.wrapping_add_signed(-inward * (k as isize / 2 + 1));
-            if images.depth_m[behind] < depth + 0.3 {
+            if depth_m[behind] < depth + 0.3 {
                 continue;
             }
             // One thing only: what stands beyond the edge has no image within the crown.
-            let is_same = images.instance[behind] == images.instance[outside];
-            let behind = if is_same { behind } else { outside };
-            if let Some(colour) = images.rgb.get(3 * behind..).and_then(|rest| rest.first_chunk::<3>()) {
-                self.changes.push((3 * pixel as u32, *colour));
+            let behind = if instance[behind] == instance[outside] { behind } else { outside };
+            // Fewer gaps farther inside: dents between branches, ragged by leaves.
+            let inside = (k as f32 + 0.5) / reach;
+            let at = waiting.count;
+            (waiting.at[at], waiting.behind[at]) = (pixel as u32, behind as u32);
+            let Places { u, v, depth_m, .. } = &mut waiting.place;
+            u[at] = (pixel as u32 % *width) as f32 + 0.5;
+            v[at] = (pixel as u32 / *width) as f32 + 0.5;
+            depth_m[at] = depth;
+            waiting.place.pixel_m[at] = pixel_m;
+            waiting.place.shift[at] = shift;
+            waiting.place.least[at] = 1.02 + 0.78 * inside;
+            waiting.count += 1;
+            if waiting.count == TOGETHER {
+                look(waiting);
             }
         }
     }
 }
 
-impl Crowns<'_> {
-    /// The tree or bush that a face belongs to.
-    fn tree(&self, face: u32) -> Option<Tree> {
-        let face = self.faces.get(face as usize)?;
-        let FaceSource::Box { index, .. } = face.source else { return None };
-        let leaves = self.scene.crowns[index as usize].as_ref()?;
-        Some(Tree { instance: face.instance, reach_m: REACH_M.min(REACH_SHARE * leaves.half_width_m()) })
-    }
+impl Waiting {
+    const EMPTY: Self = Self {
+        count: 0,
+        at: [0; TOGETHER],
+        behind: [0; TOGETHER],
+        place: Places {
+            u: [0.0; TOGETHER],
+            v: [0.0; TOGETHER],
+            depth_m: [1.0; TOGETHER],
+            pixel_m: [1.0; TOGETHER],
+            shift: [0.0; TOGETHER],
+            least: [0.0; TOGETHER],
+        },
+        is_gap: [0; TOGETHER],
+    };
 
-    /// Noise of the leaves and of the branches at a pixel, 0 to 1: both stay where they are in the world while the camera
-    /// moves little.
-    fn gaps(&self, pixel: usize, width: usize, depth: f32, tree: u32, pixel_m: f32) -> [f32; 2] {
-        let (u, v) = ((pixel % width) as u16, (pixel / width) as u16);
-        let ray = self.view.ray(f32::from(u) + 0.5, f32::from(v) + 0.5);
-        let place: Vec3 = self.view.position + ray * depth;
-        let shift = 97.0 * unit(hash(tree, 12));
-        // No face of a box is seen edge-on in these two directions.
-        let (x, y) = (0.8 * place.x + 0.45 * place.y + 0.3 * place.z, 0.35 * place.x - 0.7 * place.y + 0.85 * place.z);
-        let noise = &self.scene.noise;
-        [
-            noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0),
-            noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0),
-        ]
+    /// Tells which pixels that wait are gaps, and notes their colours.
+    fn look(&mut self, setting: &Setting, noise: &NoiseTexture, images: &FrameImages, changes: &mut Vec<Change>) {
+        gaps(setting.level, &self.place, &setting.view, noise, &mut self.is_gap);
+        for at in 0..core::mem::take(&mut self.count) {
+            let behind = 3 * self.behind[at] as usize;
+            if self.is_gap[at] != 0
+                && let Some(colour) = images.rgb.get(behind..).and_then(|rest| rest.first_chunk::<3>())
+            {
+                changes.push(Change { at: self.at[at], colour: *colour });
+            }
+        }
+    }
+}
+
+simd_kernel! {
+    /// 1 for pixels without leaves. Noise of leaves and of branches stays where it is in the world while the camera moves little.
+    fn gaps(places: &Places, view: &View, noise: &NoiseTexture, is_gap: &mut [u32; TOGETHER]) {
+        let view = *view;
+        for k in 0..TOGETHER {
+            let place = view.position + view.ray(places.u[k], places.v[k]) * places.depth_m[k];
+            // No face of a box is seen edge-on in these two directions.
+            let x = 0.8 * place.x + 0.45 * place.y + 0.3 * place.z;
+            let y = 0.35 * place.x - 0.7 * place.y + 0.85 * place.z;
+            let (pixel_m, shift) = (places.pixel_m[k], places.shift[k]);
+            let leaves = noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0);
+            let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0);
+            is_gap[k] = u32::from(1.7 * branches + 0.75 * leaves >= places.least[k]);
+        }
     }
 }

@@ -57,7 +57,7 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
             let [r, g, b] = person.map_or([0.0; 3], |person| person.colours[look.region as usize]);
             (Material::Coach(Coach::new(look.region, Vec3::new(r, g, b), setting.light.night)), flat)
         }
-        FaceSource::Box { index, face } => {
+        FaceSource::Box { index, face } | FaceSource::Crown { index, face } => {
             let (b, face) = (&seen.scene.boxes[index as usize], usize::from(face));
             (box_material(b, face, setting.light.night), box_axes(b, face))
         }
@@ -73,7 +73,7 @@ pub(super) fn even_colour(seen: &Seen<'_>, face: u32) -> Vec3 {
             let [red, green, blue] = person.map_or([0.0; 3], |person| person.colours[look.region as usize]);
             Vec3::new(red, green, blue)
         }
-        Some(FaceSource::Box { index, .. }) => seen.scene.colours[index as usize],
+        Some(FaceSource::Box { index, .. } | FaceSource::Crown { index, .. }) => seen.scene.colours[index as usize],
         _ => Vec3::ZERO,
     }
 }
@@ -100,7 +100,9 @@ const ROOF: usize = 5;
 /// The axes along a box's face; any for other faces.
 pub(super) fn axes_of(seen: &Seen<'_>, face: u32) -> FaceAxes {
     match seen.faces.get(face as usize).map(|face| face.source) {
-        Some(FaceSource::Box { index, face }) => box_axes(&seen.scene.boxes[index as usize], usize::from(face)),
+        Some(FaceSource::Box { index, face } | FaceSource::Crown { index, face }) => {
+            box_axes(&seen.scene.boxes[index as usize], usize::from(face))
+        }
         _ => FLAT,
     }
 }

@@ -1,14 +1,14 @@
 //! Shades whole frames band by band.
 
 use super::bands::Worker;
-use super::foliage::{Crowns, Foliage};
+use super::foliage::Foliage;
 use super::setting::{Seen, Setting};
 use super::sky;
 use super::vector::Vec3;
 use crate::eye::Eye;
 use crate::frame::FrameImages;
 use crate::look::PictureLook;
-use crate::passes::ids::{Band, Run};
+use crate::passes::ids::{Band, SeenRuns};
 use crate::people::People;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
@@ -74,14 +74,8 @@ impl Shader {
     }
 
     /// Breaks the edges of crowns, before edges are smoothed.
-    pub(crate) fn fray<'a>(
-        &mut self,
-        seen: &Seen<'_>,
-        rows: impl Iterator<Item = &'a [Run]>,
-        images: &mut FrameImages,
-    ) {
-        let crowns = Crowns { scene: seen.scene, faces: seen.faces, view: &self.setting.view };
-        self.foliage.fray(&crowns, rows, images);
+    pub(crate) fn fray(&mut self, scene: &Scene, runs: &SeenRuns, images: &mut FrameImages) {
+        self.foliage.fray(&self.setting, scene, runs, images);
     }
 
     /// Rain in front of everything.
