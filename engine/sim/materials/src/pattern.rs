@@ -78,11 +78,13 @@ pub fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
 pub fn stripes(x: f32, low: f32, high: f32, width: f32) -> f32 {
     // An interval of width 1 holds exactly the mean.
     let width = least(most(width, 1e-4), 1.0);
-    let at = x - floor_int(x) as f32;
-    let (from, to) = (at - 0.5 * width, at + 0.5 * width);
-    let overlap = |shift: f32| most(least(to, high + shift) - most(from, low + shift), 0.0);
+    // From the middle of the nearest stripe; the next one is as far away as the rest of the period.
+    let shifted = x + (0.5 - 0.5 * (low + high));
+    let away = (shifted - floor_int(shifted) as f32 - 0.5).abs();
+    let (reach, most_of_it) = (0.5 * (high - low + width), least(high - low, width));
+    let overlap = |away: f32| least(most(reach - away, 0.0), most_of_it);
     // One reciprocal serves all stripes of a width.
-    least((overlap(-1.0) + overlap(0.0) + overlap(1.0)) * (1.0 / width), 1.0)
+    least((overlap(away) + overlap(1.0 - away)) * (1.0 / width), 1.0)
 }
 
 /// Share of the interval of width `width` around `x` that lies in [`low`, `high`].

@@ -11,7 +11,7 @@ pub use tiles::{Tiles, lift, tiles};
 use super::lanes::{Block, Lane, Shared, WIDE, get, groups};
 use super::light::Light;
 use super::pattern::{
-    NoiseTexture, Noises, band, draw, floor_int, hash, least, lerp, most, one_if, smoothstep, stripes, unit,
+    NoiseTexture, Noises, band, draw, floor_int, hash, least, lerp, most, one_if, share, smoothstep, stripes, unit,
 };
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
@@ -38,9 +38,9 @@ const RAIL_M: f32 = 1.0;
 /// Awnings stand out by this much, metres.
 const AWNING_M: f32 = 1.0;
 
-/// Shadows within windows are left out where pixels are larger than this, metres.
+/// Shadows within windows fade until pixels are as large as this, metres.
 const FINE_M: f32 = 0.2;
-/// And balconies where they are larger than this, metres.
+/// And balconies until they are as large as this, metres.
 const COARSE_M: f32 = 0.8;
 
 /// Properties of a whole facade.
@@ -147,21 +147,18 @@ impl Facade {
         (glass, one_if(unit(hash(cell, 7)) < 0.30))
     }
 
-    /// The look at `along_m` from one edge and `up_m` above the building's foot, and how much of the place is opening.
+    /// The wall at `along_m` from one edge and `up_m` above the building's foot, and how much of the place is opening.
     #[inline(always)]
-    fn look(
+    fn wall_and_opening(
         &self,
         point: &SurfacePoint,
         [along_m, up_m]: [f32; 2],
-        view: Slant,
         dirt: f32,
-        night: Option<f32>,
         noise: &NoiseTexture,
     ) -> (Look, f32) {
         let (bay, floor) = (along_m * self.bays_per_m, up_m * self.floors_per_m);
         let (du, dv) = (point.footprints_m[0] * self.bays_per_m, point.footprints_m[1] * self.floors_per_m);
         let wall = self.wall_at(point, along_m, up_m, dirt, noise);
-        let story = floor_int(floor);
         // A ledge between storeys, or the joint between panels.
         let ledge = stripes(floor, 0.0, self.course, dv);
         let wall = wall.lerp(self.trim, self.ledge * ledge) * (1.0 - self.joint * ledge);
@@ -169,7 +166,22 @@ impl Facade {
         let opening = openings
             * stripes(bay, self.window[0], self.window[1], du)
             * stripes(floor, self.sill[0], self.sill[1], dv);
-        // The pane lies deeper than the wall: its place there, and the frame around it.
+        (Look::matt(wall, point.normal), opening)
+    }
+
+    /// A window in an opening of the wall: the pane lies deeper than the wall, within a frame.
+    #[inline(always)]
+    fn window(
+        &self,
+        look: &Look,
+        opening: f32,
+        point: &SurfacePoint,
+        [along_m, up_m]: [f32; 2],
+        view: Slant,
+        night: Option<f32>,
+    ) -> Look {
+        let (bay, floor) = (along_m * self.bays_per_m, up_m * self.floors_per_m);
+        let (du, dv) = (point.footprints_m[0] * self.bays_per_m, point.footprints_m[1] * self.floors_per_m);
         let (deep_along, deep_up) = (self.reveal_m * view.along, self.reveal_m * view.up);
         let (deep_bay, deep_floor) = (bay + deep_along * self.bays_per_m, floor + deep_up * self.floors_per_m);
         let pane = opening
@@ -177,11 +189,11 @@ impl Facade {
             * stripes(deep_floor, self.sill[0] + 0.02, self.sill[1] - 0.02, dv);
         let frame = most(opening - pane, 0.0);
         let mullion = self.mullions * stripes(deep_bay, 0.488, 0.512, du);
-        let mut look = Look::matt(wall.lerp(self.trim * 0.82, frame), point.normal);
-        let cell = hash(floor_int(deep_bay) as u32, story as u32 ^ self.seed);
+        let mut look = Look { albedo: look.albedo.lerp(self.trim * 0.82, frame), ..*look };
+        let cell = hash(floor_int(deep_bay) as u32, floor_int(floor) as u32 ^ self.seed);
         let glass = pane * (1.0 - 0.8 * mullion);
         self.glaze(&mut look, glass, cell, 1.0, smoothstep(0.35, 0.9, du), night);
-        (look, opening)
+        look
     }
 
     /// The share of sunlight that lintels and jambs let through to an opening.
@@ -303,6 +315,16 @@ impl Facade {
         one_if((column < self.balconies) & (floor > 1.0) & (floor < self.floors - 0.3))
     }
 
+    /// Whether a balcony may be seen, or may take sunlight.
+    #[inline(always)]
+    fn near_balcony(&self, [along_m, up_m]: [f32; 2], view: Slant, sun: Slant) -> bool {
+        let (half, floor) = (0.5 * self.bays_per_m, up_m * self.floors_per_m);
+        let (u, passed) = ((along_m - BALCONY_M * view.along) * half, (up_m - BALCONY_M * view.up) * self.floors_per_m);
+        let shaded_u = (along_m + 0.6 * BALCONY_M * sun.along) * half;
+        let has = self.has_balcony(u, passed) + self.has_balcony(along_m * half, floor);
+        has + self.has_balcony(shaded_u, floor + 0.9) > 0.0
+    }
+
     /// A balcony before a look, and the share of sunlight that balconies let through to it.
     #[inline(always)]
     fn balcony(
@@ -350,9 +372,15 @@ impl Facade {
         for (shared, four) in groups(shared, blocks) {
             let mut views = [[0.0f32; WIDE]; 2];
             let mut suns = [[0.0f32; WIDE]; 2];
-            let (mut dirt, mut finest) = ([1.0f32; WIDE], COARSE_M);
+            let (mut fine, mut coarse) = ([0.0f32; WIDE], [0.0f32; WIDE]);
+            let (mut any_fine, mut any_coarse) = (0u32, 0u32);
+            for k in 0..WIDE {
+                (fine[k], coarse[k]) = (fade(shared.footprint_m[k], FINE_M), fade(shared.footprint_m[k], COARSE_M));
+                any_fine |= u32::from(fine[k] > 0.0);
+                any_coarse |= u32::from(coarse[k] > 0.0);
+            }
+            let mut dirt = [1.0f32; WIDE];
             for (k, dirt) in dirt.iter_mut().enumerate() {
-                finest = least(finest, shared.footprint_m[k]);
                 let middle = shared.point(k);
                 *dirt = self.dirt(&middle, [place.along_m(&middle), middle.world.z - place.foot_m], noise);
                 let (ray, normal) = (get(&shared.ray, k), get(&shared.normal, k));
@@ -362,21 +390,35 @@ impl Facade {
                 (suns[0][k], suns[1][k]) = (to_sun.dot(place.along) * out, to_sun.z * out);
             }
             for block in four {
-                let mut in_street = 0u32;
+                let (mut in_street, mut opens) = (0u32, 0u32);
                 for (k, dirt) in dirt.iter().enumerate() {
                     let point = block.point(shared, k);
                     let at = [place.along_m(&point), point.world.z - place.foot_m];
-                    let (look, opening) = self.look(&point, at, slant(&views, k), *dirt, night, noise);
+                    let (look, opening) = self.wall_and_opening(&point, at, *dirt, noise);
                     block.put(k, &look);
                     block.openness[k] = opening;
                     in_street |= u32::from(at[1] < self.floor_m);
+                    opens |= u32::from(opening > 0.0);
                 }
-                if sunny && finest < FINE_M {
+                // Between two rows of windows there are none.
+                if opens != 0 {
                     for k in 0..WIDE {
                         let point = block.point(shared, k);
                         let at = [place.along_m(&point), point.world.z - place.foot_m];
-                        block.sunlight[k] *=
-                            self.lit(&point, block.openness[k], at, [slant(&views, k), slant(&suns, k)]);
+                        let look = self.window(&block.look(k), block.openness[k], &point, at, slant(&views, k), night);
+                        block.put(k, &look);
+                    }
+                }
+                let mut is_lit = 0u32;
+                for lit in block.sunlight {
+                    is_lit |= u32::from(lit > 0.0);
+                }
+                if opens & is_lit & any_fine != 0 && sunny {
+                    for k in 0..WIDE {
+                        let point = block.point(shared, k);
+                        let at = [place.along_m(&point), point.world.z - place.foot_m];
+                        let opening = fine[k] * block.openness[k];
+                        block.sunlight[k] *= self.lit(&point, opening, at, [slant(&views, k), slant(&suns, k)]);
                     }
                 }
                 if self.shops && in_street != 0 {
@@ -397,18 +439,34 @@ impl Facade {
                         block.put(k, &look);
                     }
                 }
-                if self.balconies > 0.0 && finest < COARSE_M {
+                if self.balconies > 0.0 && any_coarse != 0 {
+                    let mut any = 0u32;
                     for k in 0..WIDE {
                         let point = block.point(shared, k);
                         let at = [place.along_m(&point), point.world.z - place.foot_m];
-                        let (look, lit) = self.balcony(&block.look(k), &point, at, [slant(&views, k), slant(&suns, k)]);
-                        block.put(k, &look);
-                        block.sunlight[k] *= lit;
+                        any |= u32::from(self.near_balcony(at, slant(&views, k), slant(&suns, k)));
+                    }
+                    if any == 0 {
+                        continue;
+                    }
+                    for k in 0..WIDE {
+                        let point = block.point(shared, k);
+                        let at = [place.along_m(&point), point.world.z - place.foot_m];
+                        let bare = block.look(k);
+                        let (look, lit) = self.balcony(&bare, &point, at, [slant(&views, k), slant(&suns, k)]);
+                        block.put(k, &bare.lerp(&look, coarse[k]));
+                        block.sunlight[k] *= lerp(1.0, lit, coarse[k]);
                     }
                 }
             }
         }
     }
+}
+
+/// 1 where pixels are much smaller than a size, 0 from there on, metres.
+#[inline(always)]
+fn fade(pixel_m: f32, size_m: f32) -> f32 {
+    share((1.0 - pixel_m * (1.0 / size_m)) * 4.0)
 }
 
 /// The slant of lines at pixel `k`.
