@@ -377,12 +377,19 @@ simd_kernel! {
                         candidates[k] = if candidate < open_to[k] { candidate } else { open_to[k] };
                     }
                     let (old_depths, old_ids) = (*depths, *ids);
+                    // Bits of positive floats are ordered as they are: the sign of a difference is a mask for whole stores. A
+                    // comparison would become masked stores, which are slow on many processors.
+                    let mut nearer = [0u32; WIDE];
                     for k in 0..WIDE {
-                        let nearer = 0u32.wrapping_sub(u32::from(candidates[k] > old_depths[k]));
-                        ids[k] = (face & nearer) | (old_ids[k] & !nearer);
+                        let candidate = if candidates[k] > 0.0 { candidates[k] } else { 0.0 };
+                        let (old, new) = (old_depths[k].to_bits() as i32, candidate.to_bits() as i32);
+                        nearer[k] = (old.wrapping_sub(new) >> 31) as u32;
                     }
                     for k in 0..WIDE {
                         depths[k] = if candidates[k] > old_depths[k] { candidates[k] } else { old_depths[k] };
+                    }
+                    for k in 0..WIDE {
+                        ids[k] = old_ids[k] ^ ((old_ids[k] ^ face) & nearer[k]);
                     }
                 }
                 at = block.wrapping_add(WIDE);
