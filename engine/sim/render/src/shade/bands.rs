@@ -352,6 +352,18 @@ simd_kernel! {
     }
 }
 
+/// Bits of those lanes that are taken, and of the others: slices of it are read, since a comparison would become masked
+/// stores, which are slow on many processors.
+const TAKEN: [u32; 2 * WIDE] = {
+    let mut taken = [0; 2 * WIDE];
+    let mut k = 0;
+    while k < WIDE {
+        taken[k] = u32::MAX;
+        k += 1;
+    }
+    taken
+};
+
 simd_kernel! {
     /// Copies lanes to where their pieces lie in the picture. `developed` is room for their bytes in a row.
     fn put_back(pieces: &[Piece], blocks: &[Block], developed: &mut [u32; LANES + WIDE], picture: &mut [u32]) {
@@ -376,9 +388,9 @@ simd_kernel! {
                         *out = *lanes;
                     } else {
                         let old = *out;
+                        let taken: &[u32; WIDE] = TAKEN[WIDE - left..].first_chunk().unwrap_or(&[0; WIDE]);
                         for k in 0..WIDE {
-                            let taken = 0u32.wrapping_sub(u32::from((k as u32) < left as u32));
-                            out[k] = (lanes[k] & taken) | (old[k] & !taken);
+                            out[k] = old[k] ^ ((old[k] ^ lanes[k]) & taken[k]);
                         }
                     }
                 } else if let Some(out) = picture.get_mut(at..at.wrapping_add(left)) {

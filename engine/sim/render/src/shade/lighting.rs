@@ -38,7 +38,7 @@ simd_kernel! {
                     let puddle = smoothstep(edge, edge + 0.05, level) * flat;
                     let albedo = get(&block.albedo, k) * (1.0 - 0.42 * flat - 0.10 * puddle);
                     set(&mut block.albedo, k, albedo);
-                    block.mirror[k] = most(block.mirror[k], 0.32 * flat + 0.55 * puddle);
+                    block.mirror[k] += most(0.32 * flat + 0.55 * puddle - block.mirror[k], 0.0);
                 }
             }
         }

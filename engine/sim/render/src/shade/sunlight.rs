@@ -225,8 +225,8 @@ fn spots(block: &Block, places: &Places) -> Spots {
     let mut spots = Spots {
         finest: [[0.0; WIDE]; 2],
         height_m: [0.0; WIDE],
-        u: [1.0; WIDE],
-        v: [1.0; WIDE],
+        u: [0.0; WIDE],
+        v: [0.0; WIDE],
         grain: [0; WIDE],
         known: [0; WIDE],
     };
@@ -242,11 +242,11 @@ fn spots(block: &Block, places: &Places) -> Spots {
             let u = spots.finest[0][k] * grain.scale[0] + grain.shift[0];
             let v = spots.finest[1][k] * grain.scale[1] + grain.shift[1];
             let inside = (u >= grain.low[0]) & (v >= grain.low[1]) & (u < grain.high[0]) & (v < grain.high[1]);
-            // What finer texels told stays.
-            let new = inside & (spots.known[k] == 0);
-            spots.u[k] = if new { u } else { spots.u[k] };
-            spots.v[k] = if new { v } else { spots.v[k] };
-            spots.grain[k] = if new { number as u32 } else { spots.grain[k] };
+            // What finer texels told stays. Bits are added to none: a choice would become masked stores, which are slow.
+            let new = 0u32.wrapping_sub(u32::from(inside & (spots.known[k] == 0)));
+            spots.u[k] = f32::from_bits(spots.u[k].to_bits() | (u.to_bits() & new));
+            spots.v[k] = f32::from_bits(spots.v[k].to_bits() | (v.to_bits() & new));
+            spots.grain[k] |= number as u32 & new;
             spots.known[k] |= u32::from(inside);
             all_known &= spots.known[k];
         }
@@ -312,9 +312,10 @@ fn lit_through_leaves(
         let (u, v) = (spots.u[k] - 0.5, spots.v[k] - 0.5);
         let (fx, fy) = (u - floor_int(u) as f32, v - floor_int(v) as f32);
         let (dark, leaves) = between(found[0][k], found[1][k], [fx, fy], spots.height_m[k]);
-        let is_unknown = unknown[k] != 0;
-        sunlight[k] = if is_unknown { 1.0 - dark } else { sunlight[k] };
-        under_leaves[k] = if is_unknown { dark * leaves } else { 0.0 };
+        let is_unknown = unknown[k] as i32 as f32;
+        // Nothing so far where it is unknown.
+        sunlight[k] += is_unknown * (1.0 - dark);
+        under_leaves[k] = is_unknown * dark * leaves;
         flecks |= u32::from(under_leaves[k] > 0.0);
     }
     if flecks != 0 {
@@ -366,7 +367,7 @@ simd_kernel! {
                         let (point, height) = lifted(block, k, base_m);
                         let (u, v) = (affine(row_u, point), affine(row_v, point));
                         let lit = 1.0 - figure_darkness(map, limit - 2.0, u, v, height + 0.04);
-                        block.sunlight[k] = if lit < block.sunlight[k] { lit } else { block.sunlight[k] };
+                        block.sunlight[k] -= most(block.sunlight[k] - lit, 0.0);
                     }
                 }
             }
