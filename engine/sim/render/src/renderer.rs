@@ -23,7 +23,7 @@ use crate::shade::shader::Shader;
 use crate::shade::smooth;
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
-use crate::visibility::{NEAR_M, PlaneOnScreen, Screen, Visibility};
+use crate::visibility::{PlaneOnScreen, Screen, Visibility};
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 use cosfly_maps::SemanticLabel;
@@ -38,23 +38,6 @@ pub enum FrameParts {
     Ids,
     /// Everything.
     All,
-}
-
-/// Boxes farther away than so many others are drawn only where those do not hide them.
-const NEAR_BOXES: usize = 48;
-
-/// Whether what is drawn hides a shape with these corners, metres in body axes.
-fn is_hidden(nearer: &Nearer, screen: &Screen, corners: &[DVec3]) -> bool {
-    let (mut low, mut high, mut nearest_m) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], f64::INFINITY);
-    for corner in corners {
-        let scale = screen.focal_px / corner.x;
-        let point = [screen.center_u + corner.y * scale, screen.center_v - corner.z * scale];
-        nearest_m = nearest_m.min(corner.x);
-        for k in 0..2 {
-            (low[k], high[k]) = (low[k].min(point[k]), high[k].max(point[k]));
-        }
-    }
-    nearest_m >= NEAR_M && nearer.hides(low, high, 1.0 / nearest_m)
 }
 
 /// Draws frames with one camera. Owns every buffer; keep one per thread.
@@ -294,18 +277,10 @@ impl Renderer {
             }
         }
         self.visible.sort_unstable();
-        let mut measured = NEAR_BOXES;
         for position in 0..self.visible.len() {
             let index = self.visible[position].1;
             let b = &scene.boxes[index as usize];
             let corners = b.corners_in_world.map(|corner| eye.see(corner));
-            if position == measured {
-                self.nearer.measure(&self.nearest);
-                measured *= 2;
-            }
-            if position >= NEAR_BOXES && is_hidden(&self.nearer, &self.screen, &corners) {
-                continue;
-            }
             let bias = box_lift(index);
             for (face, (_, _, around)) in BOX_FACES.iter().enumerate() {
                 let normal_in_world = b.normal_in_world(face);
