@@ -2,7 +2,8 @@
 //!
 //! Morphological anti-aliasing (Reshetov 2009) on edges that are known exactly, from the surfaces: where a border between
 //! two surfaces runs along a row and steps to the next one, the true edge is taken as the straight line between the
-//! middles of the steps, and each pixel beside it gets the other side's colour by the area that the line cuts off.
+//! middles of the steps, and each pixel beside it gets the other side's colour by the area that the line cuts off, one piece of
+//! border after the other.
 //! Borders are found as bits, 64 pixels at a time.
 
 use crate::passes::ids::{Run, for_each_bit};
@@ -22,14 +23,6 @@ pub(crate) struct Smoother {
     above: Vec<u64>,
     /// For every column with an upright border that goes on: its first row and the step there.
     first: Vec<(u32, Step)>,
-    changes: Vec<Change>,
-}
-
-/// Change of a pixel by smoothing.
-struct Change {
-    /// First byte of the pixel.
-    at: usize,
-    added: [i16; 3],
 }
 
 impl Smoother {
@@ -46,9 +39,7 @@ impl Smoother {
         }
         self.first.clear();
         self.first.resize(width, (0, Step::None));
-        let mut changes = core::mem::take(&mut self.changes);
-        changes.clear();
-        let mut borders = Borders { rgb, width, changes: &mut changes };
+        let mut borders = Borders { rgb, width };
         let mut rows = rows.peekable();
         let mut number = 0;
         while let Some(row) = rows.next() {
@@ -73,14 +64,6 @@ impl Smoother {
             let (first, step) = self.first[column];
             borders.blend(&Piece::upright(column, first as usize..height, width), step, false);
         });
-        for Change { at, added } in &changes {
-            if let Some(pixel) = rgb.get_mut(*at..).and_then(|rest| rest.first_chunk_mut::<3>()) {
-                for (byte, added) in pixel.iter_mut().zip(added) {
-                    *byte = (i16::from(*byte) + added).clamp(0, 255) as u8;
-                }
-            }
-        }
-        self.changes = changes;
     }
 
     /// Ends and begins pieces of upright borders at a row.
@@ -217,11 +200,10 @@ fn set_bits(bits: &mut [u64], from: usize, to: usize) {
     bits[last] |= high;
 }
 
-/// The image before smoothing, and the changes to add.
+/// The image on its way.
 struct Borders<'a> {
-    rgb: &'a [u8],
+    rgb: &'a mut [u8],
     width: usize,
-    changes: &'a mut Vec<Change>,
 }
 
 impl Borders<'_> {
@@ -232,25 +214,32 @@ impl Borders<'_> {
         if step == Step::None {
             return;
         }
-        let half = 0.5 * piece.length as f32;
+        let Piece { start, length, along, across } = *piece;
+        let half = 0.5 * length as u32 as f32;
         // Area between border and edge from the end to t.
         let slope = 0.5 / (2.0 * half);
         let area = |t: f32| 0.5 * t - t * t * slope;
         let mut before = 0.0;
-        for index in 0..piece.length.div_ceil(2) {
-            let after = area((index as f32 + 1.0).min(half));
+        let (mut near, step_on) = match from_end {
+            true => (start.wrapping_add(length.wrapping_sub(1).wrapping_mul(along)), along.wrapping_neg()),
+            false => (start, along),
+        };
+        for index in 1..=length.div_ceil(2) as u32 {
+            let after = area((index as f32).min(half));
             let weight = ((after - before) * 256.0) as i32;
             before = after;
-            let place = if from_end { piece.length - 1 - index } else { index };
-            let near = piece.start + place * piece.along;
-            let (changed, other) = match step {
-                Step::Near => (near, near + piece.across),
-                _ => (near + piece.across, near),
-            };
-            let pixel = |number: usize| self.rgb[3 * number..].first_chunk::<3>();
-            if let (Some(own), Some(foreign)) = (pixel(changed), pixel(other)) {
-                let change = |k: usize| ((weight * (i32::from(foreign[k]) - i32::from(own[k]))) >> 8) as i16;
-                self.changes.push(Change { at: 3 * changed, added: [change(0), change(1), change(2)] });
+            let far = near.wrapping_add(across);
+            let (changed, other) = if step == Step::Near { (near, far) } else { (far, near) };
+            near = near.wrapping_add(step_on);
+            let pixel = |number: usize| self.rgb.get(number.wrapping_mul(3)..).and_then(|rest| rest.first_chunk::<3>());
+            if let (Some(&own), Some(&foreign)) = (pixel(changed), pixel(other))
+                && let Some(rest) = self.rgb.get_mut(changed.wrapping_mul(3)..)
+                && let Some(pixel) = rest.first_chunk_mut::<3>()
+            {
+                for k in 0..3 {
+                    let difference = i32::from(foreign[k]) - i32::from(own[k]);
+                    pixel[k] = (i32::from(own[k]) + (weight.wrapping_mul(difference) >> 8)) as u8;
+                }
             }
         }
     }
