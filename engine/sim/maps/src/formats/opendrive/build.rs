@@ -7,6 +7,7 @@ use super::gaps::{self, JunctionArea};
 use super::inner_lanes::{self, InnerStrip};
 use super::joining::joining_strips;
 use super::lanes::lanes_of;
+use super::line_ends::LineFree;
 use super::network::{LaneKind, Road, RoadNetwork};
 use super::objects::{MOST_OBSTACLES, ObstacleBuilder, ROOF_PITCH_DEG};
 use super::options::Roofs;
@@ -59,6 +60,9 @@ fn build(
         shoulders_as_sidewalks: options.shoulders_as_sidewalks || assumes_shoulders,
         ..options.clone()
     };
+    let world = parts.world;
+    parts.crosswalks = network.roads.iter().flat_map(|road| crosswalks(road, &world)).collect();
+    parts.painter.free = LineFree::around(&parts.crosswalks);
     for road in &network.roads {
         parts.add_lanes(road, options).map_err(|error| match error.place {
             Some(_) => error,
@@ -91,6 +95,7 @@ fn build(
 struct Parts {
     world: WorldFromMap,
     meshes: MeshBuilder,
+    crosswalks: Vec<Crosswalk>,
     painter: LinePainter,
     walkable: Vec<WalkablePolygon>,
     lanes: Vec<Lane>,
@@ -165,8 +170,7 @@ impl Parts {
 
     /// Marked crossings with their paint and joints; then what pedestrians need to get across where the file has none.
     fn add_crossings(&mut self, network: &RoadNetwork, options: &OpenDriveOptions) {
-        let world = self.world;
-        let marked: Vec<Crosswalk> = network.roads.iter().flat_map(|road| crosswalks(road, &world)).collect();
+        let marked = core::mem::take(&mut self.crosswalks);
         let outlines = self.walkable.iter().map(WalkablePolygon::plan).collect();
         let heights_m: Vec<f64> = self.walkable.iter().map(WalkablePolygon::mean_height_m).collect();
         let pavements = PolygonIndex::new(outlines);

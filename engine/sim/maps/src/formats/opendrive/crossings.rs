@@ -22,6 +22,11 @@ const CELL_M: f64 = 0.25;
 const MOST_CELLS: f64 = 400.0;
 /// A crossing that ends this close to a pavement is joined to it, metres.
 const JOINT_REACH_M: f64 = 4.0;
+/// Lane lines end this far before a crossing and beyond its ends at the kerbs, metres.
+const LINES_END_BEFORE_M: f64 = 1.0;
+const LINES_END_BESIDE_M: f64 = 0.5;
+/// Between a crossing and a junction this close there are no lane lines, metres.
+const JUNCTION_WITHIN_M: f64 = 10.0;
 /// Width of an unmarked crossing, metres.
 const UNMARKED_WIDTH_M: f64 = 3.0;
 /// A junction arm with a marked crossing within this distance gets no unmarked one, metres.
@@ -33,6 +38,9 @@ pub(super) struct Crosswalk {
     pub(super) outline_in_world: Vec<DVec3>,
     /// Unit vector in which pedestrians cross, in plan.
     across: DVec2,
+    /// Unit vector of the road, and the distances to the junctions against and along it, as far as they are near, metres.
+    along_road: DVec2,
+    to_junctions_m: [Option<f64>; 2],
 }
 
 /// The crosswalk objects of a road.
@@ -58,7 +66,13 @@ fn crosswalk(road: &Road, object: &RoadObject, world: &WorldFromMap) -> Option<C
         axes[1]
     };
     let (sin, cos) = real::sin_cos(across_rad);
-    (outline_in_world.len() >= 3).then(|| Crosswalk { outline_in_world, across: DVec2::new(cos, sin) })
+    let (road_sin, road_cos) = real::sin_cos(road_yaw_rad);
+    let to_ends_m = [object.at.s_m, road.length_m - object.at.s_m];
+    let to_junctions_m = core::array::from_fn(|end| {
+        (road.meets_junction[end] && to_ends_m[end] <= JUNCTION_WITHIN_M).then_some(to_ends_m[end])
+    });
+    let (across, along_road) = (DVec2::new(cos, sin), DVec2::new(road_cos, road_sin));
+    (outline_in_world.len() >= 3).then_some(Crosswalk { outline_in_world, across, along_road, to_junctions_m })
 }
 
 /// A crosswalk without an outline, from its length and width.
@@ -88,6 +102,20 @@ impl Crosswalk {
             outline_in_world: self.outline_in_world.clone(),
             synthetic: false,
         }
+    }
+
+    /// The ground without lane lines: that of the crossing, some before it, and up to a near junction.
+    pub(super) fn line_free_outline(&self) -> Vec<DVec2> {
+        let (plan, along) = (self.plan(), self.across.perp());
+        let ([left, right], [mut low, mut high]) = (span(&plan, self.across), span(&plan, along));
+        (low, high) = (low - LINES_END_BEFORE_M, high + LINES_END_BEFORE_M);
+        let middle = self.center().truncate();
+        for (to_junction_m, sign) in self.to_junctions_m.into_iter().zip([-1.0, 1.0]) {
+            let Some(end_m) = to_junction_m.map(|m| (middle + sign * m * self.along_road).dot(along)) else { continue };
+            (low, high) = (low.min(end_m), high.max(end_m));
+        }
+        let (left, right) = (left - LINES_END_BESIDE_M, right + LINES_END_BESIDE_M);
+        [[left, low], [right, low], [right, high], [left, high]].map(|[u, v]| u * self.across + v * along).to_vec()
     }
 
     /// Stripes across the walking direction, just above the road, as far as there is road.
@@ -269,7 +297,15 @@ mod tests {
     /// A crossing of 6 m by 3 m over a road 4 m wide along y.
     fn crosswalk() -> Crosswalk {
         let corners = [[-3.0, 0.0], [3.0, 0.0], [3.0, 3.0], [-3.0, 3.0]];
-        Crosswalk { outline_in_world: corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(), across: DVec2::X }
+        let outline_in_world = corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
+        Crosswalk { outline_in_world, across: DVec2::X, along_road: DVec2::Y, to_junctions_m: [None, Some(6.0)] }
+    }
+
+    #[test]
+    fn no_lane_line_is_on_a_crossing_or_between_it_and_a_near_junction() {
+        let outline = crosswalk().line_free_outline();
+        let spans = [DVec2::X, DVec2::Y].map(|along| span(&outline, along));
+        assert_eq!(spans, [[-3.5, 3.5], [-1.0, 7.5]]);
     }
 
     #[test]

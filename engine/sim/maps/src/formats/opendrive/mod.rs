@@ -11,6 +11,7 @@ mod gaps;
 mod inner_lanes;
 mod joining;
 mod lanes;
+mod line_ends;
 pub mod network;
 mod object_kind;
 mod objects;
