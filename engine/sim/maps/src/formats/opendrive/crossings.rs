@@ -7,7 +7,7 @@ use super::road_geometry::LaneSpan;
 use super::road_marks::PAINT_ABOVE_M;
 use super::walkable::without_repeats;
 use crate::mesh::MeshBuilder;
-use crate::polygons::{PolygonIndex, clipped_to_band, triangulated};
+use crate::polygons::{PolygonIndex, clipped_to_band, triangulated, twice_area_m2};
 use crate::world::WorldFromMap;
 use crate::{GroundIndex, SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, real};
@@ -20,6 +20,8 @@ const MOST_STRIPES: f64 = 200.0;
 const STRIPS: u32 = 4;
 const CELL_M: f64 = 0.25;
 const MOST_CELLS: f64 = 400.0;
+/// Stripes of which less than this share is on road are left out.
+const LEAST_SHARE: f64 = 0.6;
 /// A crossing that ends this close to a pavement is joined to it, metres.
 const JOINT_REACH_M: f64 = 4.0;
 /// Lane lines end this far before a crossing and beyond its ends at the kerbs, metres.
@@ -134,7 +136,13 @@ impl Crosswalk {
         for stripe in 0..stripes {
             let from = low + (stripe as f64 + 0.25) * period_m;
             let outline = clipped_to_band(&plan, self.across, from, from + 0.5 * period_m);
-            for outline in self.on_road(outline, [from, from + 0.5 * period_m], is_road) {
+            let area = |outline: &[DVec2]| twice_area_m2(outline).abs();
+            let whole = area(&outline);
+            let pieces = self.on_road(outline, [from, from + 0.5 * period_m], is_road);
+            if pieces.iter().map(|piece| area(piece)).sum::<f64>() < LEAST_SHARE * whole {
+                continue;
+            }
+            for outline in pieces {
                 let vertex = |corner: &DVec2| {
                     let height_m = below(*corner).map_or(z_m, |ground| ground.height_m);
                     let place = DVec2::new(corner.dot(self.across.perp()), corner.dot(self.across));
@@ -292,7 +300,7 @@ fn far_pavement_edge(road: &Road, section: &LaneSection, side: usize, s_m: f64, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::polygons::twice_area_m2;
+    use crate::SurfaceMesh;
 
     /// A crossing of 6 m by 3 m over a road 4 m wide along y.
     fn crosswalk() -> Crosswalk {
@@ -306,6 +314,29 @@ mod tests {
         let outline = crosswalk().line_free_outline();
         let spans = [DVec2::X, DVec2::Y].map(|along| span(&outline, along));
         assert_eq!(spans, [[-3.5, 3.5], [-1.0, 7.5]]);
+    }
+
+    #[test]
+    fn a_stripe_of_which_the_kerb_covers_most_is_left_out() {
+        let painted_m2 = |half_road_m: f64| {
+            let corners = [[-half_road_m, -9.0], [half_road_m, -9.0], [half_road_m, 9.0], [-half_road_m, 9.0]];
+            let mut builder = MeshBuilder::default();
+            let at = corners.map(|[x, y]| (DVec3::new(x, y, 0.0), DVec2::ZERO));
+            builder.quad(SemanticLabel::Roads, false, at);
+            let side = corners.map(|[x, y]| (DVec3::new(x + 2.0 * half_road_m, y, 0.15), DVec2::ZERO));
+            builder.quad(SemanticLabel::SideWalks, false, side);
+            let ground = GroundIndex::of_surfaces(&builder.finish(), |_| true);
+            let mut builder = MeshBuilder::default();
+            crosswalk().paint(&mut builder, &ground);
+            let corner = |mesh: &SurfaceMesh, k: u32| mesh.vertices_in_world[k as usize].truncate();
+            let meshes = builder.finish();
+            let areas = meshes.iter().flat_map(|mesh| mesh.triangles.iter().map(|it| it.map(|k| corner(mesh, k))));
+            areas.map(|it| 0.5 * twice_area_m2(&it).abs()).sum::<f64>()
+        };
+        // Six stripes of 0.5 m by 3 m, the last from 2.25 m to 2.75 m.
+        assert!((painted_m2(3.0) - 9.0).abs() < 1e-9);
+        assert!((painted_m2(2.64) - (7.5 + 0.375 * 3.0)).abs() < 1e-9, "{}", painted_m2(2.64));
+        assert!((painted_m2(2.4) - 7.5).abs() < 1e-9, "{}", painted_m2(2.4));
     }
 
     #[test]
