@@ -3,6 +3,7 @@
 use super::network::{LaneKind, LaneSection, Road, RoadObject};
 use super::object_kind::{ObjectKind, kind_of};
 use super::objects::outline_in_map;
+use super::refuges::Walkway;
 use super::road_geometry::LaneSpan;
 use super::road_marks::PAINT_ABOVE_M;
 use super::walkable::without_repeats;
@@ -21,7 +22,7 @@ const STRIPS: u32 = 4;
 const CELL_M: f64 = 0.25;
 const MOST_CELLS: f64 = 400.0;
 /// Stripes of which less than this share is on road are left out.
-const LEAST_SHARE: f64 = 0.6;
+const LEAST_SHARE: f64 = 0.8;
 /// A crossing that ends this close to a pavement is joined to it, metres.
 const JOINT_REACH_M: f64 = 4.0;
 /// Lane lines end this far before a crossing and beyond its ends at the kerbs, metres.
@@ -89,7 +90,7 @@ fn rectangle(road: &Road, object: &RoadObject, heading_rad: f64) -> Option<Vec<D
 }
 
 impl Crosswalk {
-    fn plan(&self) -> Vec<DVec2> {
+    pub(super) fn plan(&self) -> Vec<DVec2> {
         self.outline_in_world.iter().map(|corner| corner.truncate()).collect()
     }
 
@@ -120,6 +121,11 @@ impl Crosswalk {
         [[left, low], [right, low], [right, high], [left, high]].map(|[u, v]| u * self.across + v * along).to_vec()
     }
 
+    /// The ground to walk on and its direction.
+    pub(super) fn walkway(&self) -> Walkway {
+        Walkway::new(&self.outline_in_world, self.across)
+    }
+
     /// Stripes across the walking direction, just above the road, as far as there is road.
     pub(super) fn paint(&self, builder: &mut MeshBuilder, ground: &GroundIndex) {
         let plan = self.plan();
@@ -127,7 +133,7 @@ impl Crosswalk {
         let z_m = self.center().z;
         let below = |corner: DVec2| ground.ground_below(corner.extend(z_m), 0.4);
         let is_road = |corner: DVec2| {
-            below(corner).is_none_or(|ground| {
+            below(corner).is_some_and(|ground| {
                 matches!(ground.label, SemanticLabel::Roads | SemanticLabel::RoadLine | SemanticLabel::Bridge)
             })
         };
@@ -335,8 +341,8 @@ mod tests {
         };
         // Six stripes of 0.5 m by 3 m, the last from 2.25 m to 2.75 m.
         assert!((painted_m2(3.0) - 9.0).abs() < 1e-9);
-        assert!((painted_m2(2.64) - (7.5 + 0.375 * 3.0)).abs() < 1e-9, "{}", painted_m2(2.64));
-        assert!((painted_m2(2.4) - 7.5).abs() < 1e-9, "{}", painted_m2(2.4));
+        assert!((painted_m2(2.76) - 9.0).abs() < 1e-9, "{}", painted_m2(2.76));
+        assert!((painted_m2(2.64) - 7.5).abs() < 1e-9, "{}", painted_m2(2.64));
     }
 
     #[test]

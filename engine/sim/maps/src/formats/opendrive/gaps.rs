@@ -14,6 +14,19 @@ const CELL_M: f64 = 0.4;
 const LARGEST_M2: f64 = 40.0;
 /// Least share of a gap's border that is carriageway.
 const PAVED_SHARE: f64 = 0.8;
+/// Beside a pavement, as at junction corners between the gutter and the lanes, larger gaps are paved, square metres.
+const LARGEST_BESIDE_PAVEMENT_M2: f64 = 300.0;
+/// Least share of a border whose carriageway is that of a pavement, and the reach of pavements, cells.
+const PAVEMENT_SHARE: f64 = 0.2;
+const PAVEMENT_REACH: usize = 3;
+/// Places up to this width between carriageways are paved even where they lead out of the junction, metres: short ways
+/// leave them between the gutters of two roads. A pavement is this near, cells.
+const NECK_M: f64 = 2.4;
+const NECK_REACH: usize = 10;
+/// Smallest gap that may be an island, square metres.
+const SMALLEST_ISLAND_M2: f64 = 3.0;
+/// Gaps may reach this far beyond the ways of their junction, metres.
+const MARGIN_M: f64 = 4.0;
 /// Paved gaps lie this much below the carriageways, which keep their edges, metres.
 const BELOW_M: f64 = 0.02;
 /// Paved gaps lie at least this much above lanes of grass, metres.
@@ -49,24 +62,41 @@ enum Cell {
     Open,
 }
 
-/// Paves the gaps of a junction and returns their number; `ground` is all ground so far.
-pub(super) fn pave(builder: &mut MeshBuilder, ground: &GroundIndex, area: &JunctionArea) -> usize {
-    let Some(grid) = Grid::of(ground, area) else { return 0 };
+/// Paves the gaps of a junction and returns their number, and a place in each other piece of grass of a town, which may be an island; `ground` is all ground
+/// so far, `things` are places where something stands.
+pub(super) fn pave(
+    builder: &mut MeshBuilder,
+    ground: &GroundIndex,
+    area: &JunctionArea,
+    things: &[DVec2],
+) -> (usize, Vec<DVec3>) {
+    let Some(mut grid) = Grid::of(ground, area) else { return (0, vec![]) };
+    let mut with_things = vec![false; grid.cells.len()];
+    things.iter().filter_map(|place| grid.cell_at(*place)).for_each(|cell| with_things[cell] = true);
+    let is_in_town = grid.cells.contains(&Cell::Other);
+    let (mut count, mut islands) = (grid.pave_necks(builder, ground), vec![]);
     let mut seen = vec![false; grid.cells.len()];
-    let mut count = 0;
     for start in 0..grid.cells.len() {
         if seen[start] || grid.cells[start] != Cell::Open {
             continue;
         }
         let (gap, border, is_enclosed) = grid.component(start, &mut seen);
-        let paved = border.iter().filter(|cell| matches!(grid.cells[**cell], Cell::Paved(_))).count();
-        let is_small = gap.len() as f64 * CELL_M * CELL_M <= LARGEST_M2;
-        if is_enclosed && is_small && paved as f64 >= PAVED_SHARE * border.len() as f64 {
+        let area_m2 = gap.len() as f64 * CELL_M * CELL_M;
+        let share = |count: usize| count as f64 / border.len() as f64;
+        let paved = share(border.iter().filter(|cell| matches!(grid.cells[**cell], Cell::Paved(_))).count());
+        let is_beside_pavement =
+            |cell: &usize| grid.paved_m(*cell).is_some() && grid.is_near_pavement(*cell, PAVEMENT_REACH);
+        let is_corner = share(border.iter().filter(|cell| is_beside_pavement(cell)).count()) >= PAVEMENT_SHARE;
+        let is_empty = !gap.iter().any(|cell| with_things[*cell]);
+        let is_gap = is_corner && area_m2 <= LARGEST_BESIDE_PAVEMENT_M2 || is_empty && area_m2 <= LARGEST_M2;
+        if is_enclosed && is_gap && paved >= PAVED_SHARE {
             grid.add_quads(builder, ground, [&gap, &border]);
             count += 1;
+        } else if is_in_town && area_m2 >= SMALLEST_ISLAND_M2 {
+            islands.extend(grid.place_in(&gap, &border));
         }
     }
-    count
+    (count, islands)
 }
 
 /// Cells of a junction, row by row.
@@ -79,12 +109,12 @@ struct Grid {
 
 impl Grid {
     fn of(ground: &GroundIndex, area: &JunctionArea) -> Option<Self> {
-        let size = (area.high - area.low).truncate();
+        let size = (area.high - area.low).truncate() + 2.0 * MARGIN_M;
         if !size.is_finite() || size.max_element() > CELL_M * MOST_CELLS as f64 {
             return None;
         }
         let [columns, rows] = size.to_array().map(|side| (side / CELL_M) as usize + 1);
-        let mut grid = Self { low: area.low.truncate(), columns, rows, cells: vec![] };
+        let mut grid = Self { low: area.low.truncate() - MARGIN_M, columns, rows, cells: vec![] };
         if columns.checked_mul(rows)? > MOST_CELLS {
             return None;
         }
@@ -102,8 +132,91 @@ impl Grid {
         Some(grid)
     }
 
+    /// Paves the necks near pavements and gives their number.
+    fn pave_necks(&mut self, builder: &mut MeshBuilder, ground: &GroundIndex) -> usize {
+        let necks = self.necks();
+        let mut elsewhere = vec![true; self.cells.len()];
+        necks.iter().for_each(|cell| elsewhere[*cell] = false);
+        let mut paved = vec![];
+        for start in necks {
+            if !elsewhere[start] {
+                let (neck, border, _) = self.component(start, &mut elsewhere);
+                let heights = border.iter().filter_map(|cell| self.paved_m(*cell));
+                let Some(height_m) = heights.reduce(f64::max) else { continue };
+                self.add_quads(builder, ground, [&neck, &border]);
+                paved.push((neck, height_m));
+            }
+        }
+        let count = paved.len();
+        for (neck, height_m) in paved {
+            neck.iter().for_each(|cell| self.cells[*cell] = Cell::Paved(height_m));
+        }
+        count
+    }
+
+    fn paved_m(&self, cell: usize) -> Option<f64> {
+        match self.cells[cell] {
+            Cell::Paved(height_m) => Some(height_m),
+            Cell::Other | Cell::Open => None,
+        }
+    }
+
+    /// The open cells between two carriageways that are close to each other on opposite sides of the cell.
+    fn necks(&self) -> Vec<usize> {
+        let reach = (NECK_M / CELL_M) as i64;
+        let road_after = |cell: usize, (x, y): (i64, i64)| {
+            let (column, row) = ((cell % self.columns) as i64, (cell / self.columns) as i64);
+            (1..=reach).find_map(|step| {
+                let (column, row) = (column + step * x, row + step * y);
+                let is_within = column >= 0 && row >= 0 && column < self.columns as i64 && row < self.rows as i64;
+                let found = is_within.then(|| self.cells[row as usize * self.columns + column as usize]);
+                match found {
+                    Some(Cell::Open) => None,
+                    Some(Cell::Paved(_)) => Some(Some(step)),
+                    Some(Cell::Other) | None => Some(None),
+                }
+            })?
+        };
+        let width_m = |cell: usize, (x, y): (i64, i64)| {
+            let steps = road_after(cell, (x, y))? + road_after(cell, (-x, -y))? - 1;
+            Some(steps as f64 * CELL_M * f64::hypot(x as f64, y as f64))
+        };
+        let directions = [(1, 0), (0, 1), (1, 1), (1, -1)];
+        let is_neck = |cell: &usize| {
+            self.cells[*cell] == Cell::Open
+                && directions.iter().filter_map(|it| width_m(*cell, *it)).any(|width_m| width_m <= NECK_M)
+                && self.is_near_pavement(*cell, NECK_REACH)
+        };
+        (0..self.cells.len()).filter(is_neck).collect()
+    }
+
     fn middle(&self, cell: usize) -> DVec2 {
         self.low + CELL_M * DVec2::new((cell % self.columns) as f64 + 0.5, (cell / self.columns) as f64 + 0.5)
+    }
+
+    fn cell_at(&self, place: DVec2) -> Option<usize> {
+        let at = (place - self.low) / CELL_M;
+        let is_within =
+            at.cmpge(DVec2::ZERO).all() && at.cmplt(DVec2::new(self.columns as f64, self.rows as f64)).all();
+        is_within.then(|| at.y as usize * self.columns + at.x as usize)
+    }
+
+    /// Whether a pavement is at most some cells away.
+    fn is_near_pavement(&self, cell: usize, reach: usize) -> bool {
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        let around = |at: usize, most: usize| at.saturating_sub(reach)..(at + reach + 1).min(most);
+        around(row, self.rows).any(|row| {
+            around(column, self.columns).any(|column| self.cells[row * self.columns + column] == Cell::Other)
+        })
+    }
+
+    /// A place in a gap at the height of a carriageway around it.
+    fn place_in(&self, gap: &[usize], border: &[usize]) -> Option<DVec3> {
+        let cell = *gap.first()?;
+        let away = |at: usize| self.middle(at).distance_squared(self.middle(cell));
+        let heights = border.iter().filter_map(|at| Some((away(*at), self.paved_m(*at)?)));
+        let (_, height_m) = heights.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(self.middle(cell).extend(height_m))
     }
 
     /// The cells of a gap, those around it, and whether the gap stays within the grid.
@@ -132,13 +245,8 @@ impl Grid {
     /// One quad per cell of the gap and of its border, whose heights follow from those of the carriageways around; above
     /// lanes of grass.
     fn add_quads(&self, builder: &mut MeshBuilder, ground: &GroundIndex, [gap, border]: [&[usize]; 2]) {
-        let known: Vec<(DVec2, f64)> = border
-            .iter()
-            .filter_map(|cell| match self.cells[*cell] {
-                Cell::Paved(height_m) => Some((self.middle(*cell), height_m)),
-                Cell::Other | Cell::Open => None,
-            })
-            .collect();
+        let known: Vec<(DVec2, f64)> =
+            border.iter().filter_map(|cell| Some((self.middle(*cell), self.paved_m(*cell)?))).collect();
         let even_m = |at: DVec2| {
             let weight = |place: &DVec2| 1.0 / (place.distance_squared(at) + 0.01).powi(2);
             let (sum, weights) = known.iter().fold((0.0, 0.0), |(sum, weights), (place, height_m)| {
@@ -191,7 +299,7 @@ mod tests {
         let surfaces = builder.finish();
         let ground = GroundIndex::of_surfaces(&surfaces, |_| true);
         let mut builder = MeshBuilder::from_meshes(surfaces);
-        let count = pave(&mut builder, &ground, &area);
+        let (count, _) = pave(&mut builder, &ground, &area, &[]);
         let ground = GroundIndex::of_surfaces(&builder.finish(), |_| true);
         let middle = ground.ground_below(DVec3::new(0.1, 0.1, 5.0), 0.0);
         assert!(middle.is_none_or(|it| (it.height_m - 1.98).abs() < 1e-9), "{middle:?}");
