@@ -7,6 +7,7 @@ use super::gaps::{self, JunctionArea};
 use super::inner_lanes::{self, InnerStrip};
 use super::islands;
 use super::joining::joining_strips;
+use super::kerb_stones::{self, Kerb};
 use super::lanes::lanes_of;
 use super::line_ends::LineFree;
 use super::network::{LaneKind, Road, RoadNetwork};
@@ -14,6 +15,7 @@ use super::objects::{MOST_OBSTACLES, ObstacleBuilder, ROOF_PITCH_DEG};
 use super::options::Roofs;
 use super::parse_road;
 use super::refuges::Walkway;
+use super::road_ends::{self, LaneEnd};
 use super::road_marks::{LinePainter, MOST_STROKES};
 use super::signals;
 use super::slits::{self, Edge};
@@ -115,6 +117,8 @@ struct Parts {
     junctions: BTreeMap<String, JunctionArea>,
     inner_strips: Vec<InnerStrip>,
     edges: Vec<Edge>,
+    lane_ends: Vec<LaneEnd>,
+    kerbs: Vec<Kerb>,
     notes: Vec<String>,
     warnings: Vec<String>,
 }
@@ -135,9 +139,12 @@ impl Parts {
                 let lanes = section.sides().map(|(_, lanes)| lanes);
                 self.inner_strips.extend(inner_lanes::strips(lanes, &rows, &world));
             }
-            self.edges.extend(slits::edges(section.sides().map(|(_, lanes)| lanes), &rows, &world));
+            let lanes = section.sides().map(|(_, lanes)| lanes);
+            self.edges.extend(slits::edges(lanes, &rows, &world));
+            self.kerbs.extend(kerb_stones::kerbs(section, &rows, &world));
+            self.lane_ends.extend(road_ends::ends(lanes, &rows, &world));
             self.medians.extend(islands::places_on_medians(section, &rows, &world));
-            surfaces::add_section(&mut self.meshes, section.sides().map(|(_, lanes)| lanes), &rows, &world);
+            surfaces::add_section(&mut self.meshes, lanes, &rows, &world);
             if options.road_marks {
                 self.painter.paint_section(&mut self.meshes, road, section, &rows, &world);
             }
@@ -176,6 +183,7 @@ impl Parts {
         let ground = self.ground();
         let refuges: usize = walkways.iter().map(|walkway| walkway.pave(&mut self.meshes, &ground)).sum();
         slits::close(&mut self.meshes, &ground, &self.edges);
+        road_ends::join(&mut self.meshes, &ground, &self.lane_ends);
         let ground = self.ground();
         let things = self.obstacles.obstacles.iter().map(|thing| thing.shape.center_in_world.truncate());
         let things: Vec<DVec2> = things.collect();
@@ -188,7 +196,10 @@ impl Parts {
         let strips = inner_lanes::pave(&mut self.meshes, &ground, &self.inner_strips);
         let ground = self.ground();
         let islands = islands::raise(&mut self.meshes, &ground, &outlines, &islands);
+        let ground = self.ground();
+        let kerbs_m = kerb_stones::lay(&mut self.meshes, &ground, &self.kerbs);
         for (count, what) in [
+            (kerbs_m as usize, "m of kerbs without a pavement behind them".to_owned()),
             (refuges, "pieces of medians on crossings are paved".to_owned()),
             (gaps, "gaps between the lanes of junctions are paved".to_owned()),
             (strips, "pieces of lanes without a kind between carriageways of junctions are paved".to_owned()),

@@ -21,8 +21,8 @@ const MOST_STRIPES: f64 = 200.0;
 const STRIPS: u32 = 4;
 const CELL_M: f64 = 0.25;
 const MOST_CELLS: f64 = 400.0;
-/// Stripes of which less than this share is on road are left out.
-const LEAST_SHARE: f64 = 0.8;
+/// Stripes with less than this share of a whole one's area on road are left out.
+const LEAST_SHARE: f64 = 0.7;
 /// A crossing that ends this close to a pavement is joined to it, metres.
 const JOINT_REACH_M: f64 = 4.0;
 /// Lane lines end this far before a crossing and beyond its ends at the kerbs, metres.
@@ -139,12 +139,16 @@ impl Crosswalk {
         };
         let stripes = ((high - low) / (2.0 * STRIPE_M)).round().clamp(1.0, MOST_STRIPES) as usize;
         let period_m = (high - low) / stripes as f64;
-        for stripe in 0..stripes {
+        let area = |outline: &[DVec2]| twice_area_m2(outline).abs();
+        let bands = (0..stripes).map(|stripe| {
             let from = low + (stripe as f64 + 0.25) * period_m;
-            let outline = clipped_to_band(&plan, self.across, from, from + 0.5 * period_m);
-            let area = |outline: &[DVec2]| twice_area_m2(outline).abs();
-            let whole = area(&outline);
-            let pieces = self.on_road(outline, [from, from + 0.5 * period_m], is_road);
+            [from, from + 0.5 * period_m]
+        });
+        let stripes: Vec<_> =
+            bands.map(|[from, to]| ([from, to], clipped_to_band(&plan, self.across, from, to))).collect();
+        let whole = stripes.iter().map(|(_, outline)| area(outline)).fold(0.0, f64::max);
+        for (band, outline) in stripes {
+            let pieces = self.on_road(outline, band, is_road);
             if pieces.iter().map(|piece| area(piece)).sum::<f64>() < LEAST_SHARE * whole {
                 continue;
             }

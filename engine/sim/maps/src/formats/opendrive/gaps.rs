@@ -19,16 +19,12 @@ const LARGEST_BESIDE_PAVEMENT_M2: f64 = 300.0;
 /// Least share of a border whose carriageway is that of a pavement, and the reach of pavements, cells.
 const PAVEMENT_SHARE: f64 = 0.2;
 const PAVEMENT_REACH: usize = 3;
-/// Places up to this width between carriageways are paved even where they lead out of the junction, metres: short ways
-/// leave them between the gutters of two roads. A pavement is this near, cells.
-const NECK_M: f64 = 2.4;
-const NECK_REACH: usize = 10;
 /// Smallest gap that may be an island, square metres.
 const SMALLEST_ISLAND_M2: f64 = 3.0;
 /// Gaps may reach this far beyond the ways of their junction, metres.
 const MARGIN_M: f64 = 4.0;
 /// Paved gaps lie this much below the carriageways, which keep their edges, metres.
-const BELOW_M: f64 = 0.02;
+const BELOW_M: f64 = 0.006;
 /// Paved gaps lie at least this much above lanes of grass, metres.
 const ABOVE_GRASS_M: f64 = 0.01;
 /// Most cells of a junction; larger ones stay as they are.
@@ -70,11 +66,11 @@ pub(super) fn pave(
     area: &JunctionArea,
     things: &[DVec2],
 ) -> (usize, Vec<DVec3>) {
-    let Some(mut grid) = Grid::of(ground, area) else { return (0, vec![]) };
+    let Some(grid) = Grid::of(ground, area) else { return (0, vec![]) };
     let mut with_things = vec![false; grid.cells.len()];
     things.iter().filter_map(|place| grid.cell_at(*place)).for_each(|cell| with_things[cell] = true);
     let is_in_town = grid.cells.contains(&Cell::Other);
-    let (mut count, mut islands) = (grid.pave_necks(builder, ground), vec![]);
+    let (mut count, mut islands) = (0, vec![]);
     let mut seen = vec![false; grid.cells.len()];
     for start in 0..grid.cells.len() {
         if seen[start] || grid.cells[start] != Cell::Open {
@@ -132,62 +128,11 @@ impl Grid {
         Some(grid)
     }
 
-    /// Paves the necks near pavements and gives their number.
-    fn pave_necks(&mut self, builder: &mut MeshBuilder, ground: &GroundIndex) -> usize {
-        let necks = self.necks();
-        let mut elsewhere = vec![true; self.cells.len()];
-        necks.iter().for_each(|cell| elsewhere[*cell] = false);
-        let mut paved = vec![];
-        for start in necks {
-            if !elsewhere[start] {
-                let (neck, border, _) = self.component(start, &mut elsewhere);
-                let heights = border.iter().filter_map(|cell| self.paved_m(*cell));
-                let Some(height_m) = heights.reduce(f64::max) else { continue };
-                self.add_quads(builder, ground, [&neck, &border]);
-                paved.push((neck, height_m));
-            }
-        }
-        let count = paved.len();
-        for (neck, height_m) in paved {
-            neck.iter().for_each(|cell| self.cells[*cell] = Cell::Paved(height_m));
-        }
-        count
-    }
-
     fn paved_m(&self, cell: usize) -> Option<f64> {
         match self.cells[cell] {
             Cell::Paved(height_m) => Some(height_m),
             Cell::Other | Cell::Open => None,
         }
-    }
-
-    /// The open cells between two carriageways that are close to each other on opposite sides of the cell.
-    fn necks(&self) -> Vec<usize> {
-        let reach = (NECK_M / CELL_M) as i64;
-        let road_after = |cell: usize, (x, y): (i64, i64)| {
-            let (column, row) = ((cell % self.columns) as i64, (cell / self.columns) as i64);
-            (1..=reach).find_map(|step| {
-                let (column, row) = (column + step * x, row + step * y);
-                let is_within = column >= 0 && row >= 0 && column < self.columns as i64 && row < self.rows as i64;
-                let found = is_within.then(|| self.cells[row as usize * self.columns + column as usize]);
-                match found {
-                    Some(Cell::Open) => None,
-                    Some(Cell::Paved(_)) => Some(Some(step)),
-                    Some(Cell::Other) | None => Some(None),
-                }
-            })?
-        };
-        let width_m = |cell: usize, (x, y): (i64, i64)| {
-            let steps = road_after(cell, (x, y))? + road_after(cell, (-x, -y))? - 1;
-            Some(steps as f64 * CELL_M * f64::hypot(x as f64, y as f64))
-        };
-        let directions = [(1, 0), (0, 1), (1, 1), (1, -1)];
-        let is_neck = |cell: &usize| {
-            self.cells[*cell] == Cell::Open
-                && directions.iter().filter_map(|it| width_m(*cell, *it)).any(|width_m| width_m <= NECK_M)
-                && self.is_near_pavement(*cell, NECK_REACH)
-        };
-        (0..self.cells.len()).filter(is_neck).collect()
     }
 
     fn middle(&self, cell: usize) -> DVec2 {
@@ -302,7 +247,7 @@ mod tests {
         let (count, _) = pave(&mut builder, &ground, &area, &[]);
         let ground = GroundIndex::of_surfaces(&builder.finish(), |_| true);
         let middle = ground.ground_below(DVec3::new(0.1, 0.1, 5.0), 0.0);
-        assert!(middle.is_none_or(|it| (it.height_m - 1.98).abs() < 1e-9), "{middle:?}");
+        assert!(middle.is_none_or(|it| (it.height_m - 2.0 + BELOW_M).abs() < 1e-9), "{middle:?}");
         (count, middle.map(|it| it.label))
     }
 

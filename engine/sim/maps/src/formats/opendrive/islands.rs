@@ -74,7 +74,7 @@ struct Site<'a> {
 impl Site<'_> {
     /// What bounds an island at a place; `None` for grass and holes.
     fn closed(&self, at: DVec2, height_m: f64) -> Option<Closed> {
-        let near = self.ground.ground_near(at.extend(height_m)).filter(|it| (it.height_m - height_m).abs() <= LEVEL_M);
+        let near = self.ground.ground_seen(at.extend(height_m), LEVEL_M);
         if let Some(near) = near.filter(|near| near.label != SemanticLabel::Terrain) {
             return Some(Closed { height_m: near.height_m, is_road: near.label == SemanticLabel::Roads });
         }
@@ -99,8 +99,7 @@ impl Site<'_> {
                 if cells.contains_key(&beside) || self.closed(middle(beside), height_m).is_some() {
                     continue;
                 }
-                let own = self.ground.ground_near(middle(beside).extend(height_m));
-                let own = own.filter(|own| (own.height_m - height_m).abs() <= LEVEL_M);
+                let own = self.ground.ground_seen(middle(beside).extend(height_m), LEVEL_M);
                 cells.insert(beside, own.map_or(height_m, |own| own.height_m));
                 next.push(beside);
             }

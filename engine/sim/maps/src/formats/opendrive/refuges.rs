@@ -61,9 +61,8 @@ impl Walkway {
         let [right, left] = self.beside_m;
         let height_m = |share: f64| {
             let place = at_m * self.across + (right + share * (left - right)) * self.across.perp();
-            let near = ground.ground_near(place.extend(self.height_m))?;
-            let is_road = near.label == SemanticLabel::Roads && (near.height_m - self.height_m).abs() <= LEVEL_M;
-            is_road.then_some(near.height_m)
+            let seen = ground.ground_seen(place.extend(self.height_m), LEVEL_M);
+            seen.filter(|seen| seen.label == SemanticLabel::Roads).map(|seen| seen.height_m)
         };
         let [a, b, c] = PLACES.map(height_m);
         Row { road_m: a.zip(b).zip(c).map(|((a, _), c)| [a, c]) }

@@ -11,15 +11,15 @@ use cosfly_frames::{DVec2, DVec3};
 const PIECE_M: f64 = 0.5;
 const MOST_PIECES: f64 = 1000.0;
 /// Distances beyond an edge: a slit begins at the first and ends before one of the others, metres.
-const OPEN_M: f64 = 0.015;
-const PAVED_M: [f64; 4] = [0.06, 0.15, 0.25, 0.4];
+const OPEN_M: f64 = 0.005;
+const PAVED_M: [f64; 5] = [0.03, 0.07, 0.15, 0.25, 0.4];
 /// Largest difference of heights over a slit, metres.
 const LEVEL_M: f64 = 0.3;
-/// Asphalt in slits reaches this far below its neighbours, and lies this much lower, metres.
+/// Asphalt in slits reaches this far over its neighbours, and lies this much higher, so that it covers grass, metres.
 const OVERLAP_M: f64 = 0.05;
-const BELOW_M: f64 = 0.015;
+const ABOVE_M: f64 = 0.003;
 
-/// A piece of the edge of a carriageway beyond which its road has no more lanes, in the world.
+/// A piece of the edge of a carriageway beyond which its road has no more lanes of any kind, in the world.
 pub(super) struct Edge {
     ends: [DVec3; 2],
     /// Unit vector away from the carriageway.
@@ -40,8 +40,11 @@ pub(super) fn edges(lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFro
     };
     for (side, own) in lanes.iter().enumerate() {
         let at = |row: &CrossSection, lane: usize, edge: usize| row.points[side][lane][edge];
+        // Lanes without a kind may shrink to slits.
+        let outermost = own.iter().rposition(|lane| lane.kind != LaneKind::None);
+        let last = outermost.filter(|last| is_paved(&own[*last]));
         for pair in rows.windows(2) {
-            if let Some(last) = own.len().checked_sub(1).filter(|last| is_paved(&own[*last])) {
+            if let Some(last) = last {
                 add([0, 1].map(|row: usize| at(&pair[row], last, 1)), at(&pair[0], last, 0));
             }
             if lanes[1 - side].is_empty() && own.first().is_some_and(is_paved) {
@@ -75,7 +78,7 @@ impl Edge {
             let Some(width_m) = widths.into_iter().flatten().reduce(f64::max) else { continue };
             let corner = |place: DVec3, across_m: f64| {
                 let plan = place.truncate() + across_m * self.outward;
-                (plan.extend(place.z - BELOW_M), plan)
+                (plan.extend(place.z + ABOVE_M), plan)
             };
             let (begin, end, far_m) = (at(begin), at(end), width_m + OVERLAP_M);
             let corners =
@@ -89,8 +92,8 @@ impl Edge {
     /// Width of the slit beyond a place on the edge; `None` without one.
     fn width_m(&self, ground: &GroundIndex, place: DVec3) -> Option<f64> {
         let is_paved = |away_m: f64| {
-            let near = ground.ground_near((place.truncate() + away_m * self.outward).extend(place.z));
-            near.is_some_and(|it| it.label != SemanticLabel::Terrain && (it.height_m - place.z).abs() <= LEVEL_M)
+            let seen = ground.ground_seen((place.truncate() + away_m * self.outward).extend(place.z), LEVEL_M);
+            seen.is_some_and(|it| it.label != SemanticLabel::Terrain)
         };
         if is_paved(OPEN_M) {
             return None;
