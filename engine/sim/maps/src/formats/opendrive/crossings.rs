@@ -346,7 +346,7 @@ mod tests {
         // Six stripes of 0.5 m by 3 m, the last from 2.25 m to 2.75 m.
         assert!((painted_m2(3.0) - 9.0).abs() < 1e-9);
         assert!((painted_m2(2.76) - 9.0).abs() < 1e-9, "{}", painted_m2(2.76));
-        assert!((painted_m2(2.64) - 7.5).abs() < 1e-9, "{}", painted_m2(2.64));
+        assert!((painted_m2(2.55) - 7.5).abs() < 1e-9, "{}", painted_m2(2.55));
     }
 
     #[test]

@@ -14,8 +14,10 @@ const CELL_M: f64 = 0.4;
 const LARGEST_M2: f64 = 40.0;
 /// Least share of a gap's border that is carriageway.
 const PAVED_SHARE: f64 = 0.8;
-/// Beside a pavement, as at junction corners between the gutter and the lanes, larger gaps are paved, square metres.
+/// Beside a pavement, as at junction corners between the gutter and the lanes, larger gaps are paved, square metres, and the
+/// pavement itself may be a part of the border.
 const LARGEST_BESIDE_PAVEMENT_M2: f64 = 300.0;
+const PAVED_SHARE_BESIDE_PAVEMENT: f64 = 0.5;
 /// Least share of a border whose carriageway is that of a pavement, and the reach of pavements, cells.
 const PAVEMENT_SHARE: f64 = 0.2;
 const PAVEMENT_REACH: usize = 3;
@@ -85,7 +87,8 @@ pub(super) fn pave(
         let is_corner = share(border.iter().filter(|cell| is_beside_pavement(cell)).count()) >= PAVEMENT_SHARE;
         let is_empty = !gap.iter().any(|cell| with_things[*cell]);
         let is_gap = is_corner && area_m2 <= LARGEST_BESIDE_PAVEMENT_M2 || is_empty && area_m2 <= LARGEST_M2;
-        if is_enclosed && is_gap && paved >= PAVED_SHARE {
+        let least_share = if is_corner { PAVED_SHARE_BESIDE_PAVEMENT } else { PAVED_SHARE };
+        if is_enclosed && is_gap && paved >= least_share {
             grid.add_quads(builder, ground, [&gap, &border]);
             count += 1;
         } else if is_in_town && area_m2 >= SMALLEST_ISLAND_M2 {

@@ -26,7 +26,7 @@ pub(super) struct Edge {
     outward: DVec2,
 }
 
-/// The edges of a section's outermost lanes where they are carriageway, and those of all carriageways at both ends of the section.
+/// The edges of a section's outermost and innermost lanes where they are carriageway, and those of all carriageways at both ends of the section.
 pub(super) fn edges(lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) -> Vec<Edge> {
     let mut edges = vec![];
     let is_paved = |lane: &Lane| matches!(lane.kind, LaneKind::Carriageway | LaneKind::Shoulder);
@@ -47,8 +47,10 @@ pub(super) fn edges(lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFro
             if let Some(last) = last {
                 add([0, 1].map(|row: usize| at(&pair[row], last, 1)), at(&pair[0], last, 0));
             }
-            if lanes[1 - side].is_empty() && own.first().is_some_and(is_paved) {
-                add([0, 1].map(|row: usize| at(&pair[row], 0, 0)), at(&pair[0], 0, 1));
+            let innermost = own.iter().position(|lane| lane.kind != LaneKind::None);
+            let has_open_side = innermost.is_some_and(|first| first > 0) || lanes[1 - side].is_empty();
+            if let Some(first) = innermost.filter(|first| has_open_side && is_paved(&own[*first])) {
+                add([0, 1].map(|row: usize| at(&pair[row], first, 0)), at(&pair[0], first, 1));
             }
         }
         let [.., before, last] = rows else { continue };
