@@ -204,8 +204,12 @@ impl Grid {
         };
         let height_m = |at: DVec2| {
             let even_m = even_m(at);
-            let own = ground.ground_below(at.extend(even_m), 0.5).filter(|own| own.label == SemanticLabel::Terrain);
-            own.map_or(even_m, |own| even_m.max(own.height_m + ABOVE_GRASS_M))
+            match ground.ground_seen(at.extend(even_m), 0.5) {
+                // Below the carriageway, whose lines stay on top.
+                Some(own) if own.label == SemanticLabel::Roads => own.height_m - BELOW_M,
+                Some(own) if own.label == SemanticLabel::Terrain => even_m.max(own.height_m + ABOVE_GRASS_M),
+                _ => even_m,
+            }
         };
         for cell in gap.iter().chain(border) {
             let middle = self.middle(*cell);
@@ -259,5 +263,29 @@ mod tests {
         assert_eq!(around_an_opening(3.0, SemanticLabel::Roads), (1, Some(SemanticLabel::Roads)));
         assert_eq!(around_an_opening(9.0, SemanticLabel::Roads), (0, None));
         assert_eq!(around_an_opening(3.0, SemanticLabel::SideWalks), (0, None));
+    }
+
+    #[test]
+    fn the_corner_between_lanes_and_a_gutter_is_paved_and_an_island_of_its_size_is_not() {
+        let pave_beside = |beyond_gutter: SemanticLabel| {
+            let mut builder = MeshBuilder::default();
+            let mut add = |label, [x0, y0, x1, y1]: [f64; 4], height_m| {
+                square(&mut builder, label, DVec2::new(x0, y0), DVec2::new(x1, y1), height_m);
+            };
+            // Lanes on the left and below, a gutter of 0.8 m on the right and above.
+            add(SemanticLabel::Roads, [-4.0, -4.0, 0.0, 14.0], 0.0);
+            add(SemanticLabel::Roads, [0.0, -4.0, 14.0, 0.0], 0.0);
+            add(SemanticLabel::Roads, [9.0, 0.0, 9.8, 9.8], 0.0);
+            add(SemanticLabel::Roads, [0.0, 9.0, 9.0, 9.8], 0.0);
+            add(beyond_gutter, [9.8, 0.0, 14.0, 14.0], 0.0);
+            add(beyond_gutter, [0.0, 9.8, 9.8, 14.0], 0.0);
+            let mut area = JunctionArea::EMPTY;
+            area.add(DVec3::new(-4.0, -4.0, 0.0));
+            area.add(DVec3::new(14.0, 14.0, 0.15));
+            let ground = GroundIndex::of_surfaces(&builder.finish(), |_| true);
+            pave(&mut MeshBuilder::default(), &ground, &area, &[]).0
+        };
+        assert_eq!(pave_beside(SemanticLabel::SideWalks), 1);
+        assert_eq!(pave_beside(SemanticLabel::Roads), 0);
     }
 }
