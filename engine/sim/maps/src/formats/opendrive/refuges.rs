@@ -10,8 +10,11 @@ const STEP_M: f64 = 0.2;
 const MOST_STEPS: f64 = 1000.0;
 /// Paved ground beside the crossing, metres.
 const BESIDE_M: f64 = 0.3;
-/// Pieces lie this far above the ground that they cover, metres.
+/// Pieces lie this far above the grass that they cover and below the road that they meet, metres.
 const ABOVE_M: f64 = 0.01;
+const BELOW_ROAD_M: f64 = 0.004;
+/// Side of the quads, metres.
+const QUAD_M: f64 = 0.5;
 /// Largest difference of heights between a crossing and its road, metres.
 const LEVEL_M: f64 = 0.8;
 /// Places beside each other at which the ground is looked at, as shares of a crossing's width.
@@ -49,7 +52,7 @@ impl Walkway {
             if let (true, Some(from), Some(to)) =
                 (end > step, rows[step - 1].road_m, rows.get(end).and_then(|row| row.road_m))
             {
-                self.add(builder, [at(step - 1), at(end)], [from, to]);
+                self.add(builder, ground, [at(step - 1), at(end)], [from, to]);
                 count += 1;
             }
             step = end + 1;
@@ -68,19 +71,36 @@ impl Walkway {
         Row { road_m: a.zip(b).zip(c).map(|((a, _), c)| [a, c]) }
     }
 
-    /// A piece between two places, in quads a metre or two long.
-    fn add(&self, builder: &mut MeshBuilder, [from, to]: [f64; 2], heights_m: [[f64; 2]; 2]) {
+    /// A piece between two places, in quads of half a metre, less those that are road already.
+    fn add(&self, builder: &mut MeshBuilder, ground: &GroundIndex, [from, to]: [f64; 2], heights_m: [[f64; 2]; 2]) {
         let [right, left] = [self.beside_m[0] - BESIDE_M, self.beside_m[1] + BESIDE_M];
-        let pieces = (to - from).ceil().max(1.0) as usize;
-        let corner = |piece: usize, side: usize| {
-            let share = piece as f64 / pieces as f64;
-            let place = (from + share * (to - from)) * self.across + [right, left][side] * self.across.perp();
-            let height_m = heights_m[0][side] + share * (heights_m[1][side] - heights_m[0][side]);
-            (place.extend(height_m + ABOVE_M), place)
+        let [pieces, strips] =
+            [to - from, left - right].map(|side_m| (side_m / QUAD_M).ceil().clamp(1.0, MOST_STEPS) as usize);
+        let even = |along: f64, beside: f64| {
+            let place =
+                (from + along * (to - from)) * self.across + (right + beside * (left - right)) * self.across.perp();
+            let [begin_m, end_m] = heights_m.map(|[right_m, left_m]| right_m + beside * (left_m - right_m));
+            place.extend(begin_m + along * (end_m - begin_m))
         };
+        let road_m = |place: DVec3| {
+            let seen = ground.ground_seen(place, LEVEL_M);
+            seen.filter(|seen| seen.label == SemanticLabel::Roads).map(|seen| seen.height_m)
+        };
+        let at = |piece: usize, strip: usize| even(piece as f64 / pieces as f64, strip as f64 / strips as f64);
         for piece in 0..pieces {
-            let corners = [corner(piece, 0), corner(piece + 1, 0), corner(piece + 1, 1), corner(piece, 1)];
-            builder.quad(SemanticLabel::Roads, true, corners);
+            for strip in 0..strips {
+                let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(x, y)| at(piece + x, strip + y));
+                let roads_m = corners.map(road_m);
+                if roads_m.iter().all(Option::is_some) && road_m(0.5 * (corners[0] + corners[2])).is_some() {
+                    continue;
+                }
+                // Below the road, whose lines stay on top.
+                let corner = |k: usize| {
+                    let height_m = roads_m[k].map_or(corners[k].z + ABOVE_M, |road_m| road_m - BELOW_ROAD_M);
+                    (corners[k].truncate().extend(height_m), corners[k].truncate())
+                };
+                builder.quad(SemanticLabel::Roads, true, [0, 1, 2, 3].map(corner));
+            }
         }
     }
 }

@@ -76,32 +76,45 @@ impl Edge {
         for piece in 0..pieces {
             let (begin, end) = (piece as f64, piece as f64 + 1.0);
             let places = [begin + 0.1, begin + 0.5, end - 0.1].map(at);
-            let widths = places.map(|place| self.width_m(ground, place));
-            let Some(width_m) = widths.into_iter().flatten().reduce(f64::max) else { continue };
-            let corner = |place: DVec3, across_m: f64| {
+            let widest = |a: Far, b: Far| if a.away_m >= b.away_m { a } else { b };
+            let found = places.into_iter().filter_map(|place| self.far_side(ground, place));
+            let Some(far) = found.reduce(widest) else { continue };
+            let corner = |place: DVec3, across_m: f64, rise_m: f64| {
                 let plan = place.truncate() + across_m * self.outward;
-                (plan.extend(place.z + ABOVE_M), plan)
+                (plan.extend(place.z + rise_m + ABOVE_M), plan)
             };
-            let (begin, end, far_m) = (at(begin), at(end), width_m + OVERLAP_M);
-            let corners =
-                [corner(begin, -OVERLAP_M), corner(end, -OVERLAP_M), corner(end, far_m), corner(begin, far_m)];
+            let (begin, end, far_m) = (at(begin), at(end), far.away_m + OVERLAP_M);
+            let near = [corner(begin, -OVERLAP_M, 0.0), corner(end, -OVERLAP_M, 0.0)];
+            let corners = [near[0], near[1], corner(end, far_m, far.rise_m), corner(begin, far_m, far.rise_m)];
             builder.quad(SemanticLabel::Roads, true, corners);
             count += 1;
         }
         count
     }
 
-    /// Width of the slit beyond a place on the edge; `None` without one.
-    fn width_m(&self, ground: &GroundIndex, place: DVec3) -> Option<f64> {
-        let is_paved = |away_m: f64| {
+    /// The far side of the slit beyond a place on the edge; `None` without a slit.
+    fn far_side(&self, ground: &GroundIndex, place: DVec3) -> Option<Far> {
+        let paved_m = |away_m: f64| {
             let seen = ground.ground_seen((place.truncate() + away_m * self.outward).extend(place.z), LEVEL_M);
-            seen.is_some_and(|it| it.label != SemanticLabel::Terrain)
+            seen.filter(|it| it.label != SemanticLabel::Terrain)
         };
-        if is_paved(OPEN_M) {
+        if paved_m(OPEN_M).is_some() {
             return None;
         }
-        PAVED_M.into_iter().find(|away_m| is_paved(*away_m))
+        PAVED_M.into_iter().find_map(|away_m| {
+            let far = paved_m(away_m)?;
+            // Asphalt ends at the foot of a kerb.
+            let rise_m = if far.label == SemanticLabel::Roads { far.height_m - place.z } else { 0.0 };
+            Some(Far { away_m, rise_m })
+        })
     }
+}
+
+/// The far side of a slit: its distance from the edge and its height above it, metres.
+#[derive(Clone, Copy)]
+struct Far {
+    away_m: f64,
+    rise_m: f64,
 }
 
 #[cfg(test)]
