@@ -67,7 +67,7 @@ fn build(
     };
     let world = parts.world;
     parts.crosswalks = network.roads.iter().flat_map(|road| crosswalks(road, &world)).collect();
-    parts.painter.free = LineFree::around(&parts.crosswalks);
+    parts.painter.free = LineFree::within(parts.crosswalks.iter().map(Crosswalk::line_free_outline).collect());
     for road in &network.roads {
         parts.add_lanes(road, options).map_err(|error| match error.place {
             Some(_) => error,

@@ -60,8 +60,8 @@ enum Cell {
     Open,
 }
 
-/// Paves the gaps of a junction and returns their number, and a place in each other piece of grass of a town, which may be an island; `ground` is all ground
-/// so far, `things` are places where something stands.
+/// Paves the gaps of a junction and returns their number, and a place in each other piece of grass of a town, which may
+/// be an island; `ground` is all ground so far, `things` are places where something stands.
 pub(super) fn pave(
     builder: &mut MeshBuilder,
     ground: &GroundIndex,

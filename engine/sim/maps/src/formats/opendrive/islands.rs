@@ -31,7 +31,8 @@ const BELOW_ROAD_M: f64 = 0.05;
 /// Most corners of an outline.
 const MOST_CORNERS: usize = 400;
 
-/// Raises the islands around some places; `ground` is all ground so far, `walkways` are the crossings, which stay level. Gives their number.
+/// Raises the islands around some places and gives their number; `ground` is all ground so far, `walkways` are the
+/// crossings, which stay level.
 pub(super) fn raise(
     builder: &mut MeshBuilder,
     ground: &GroundIndex,

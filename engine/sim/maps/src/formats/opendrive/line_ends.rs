@@ -1,6 +1,5 @@
 //! [`LineFree`]: ground around crossings where no lane line is painted.
 
-use super::crossings::Crosswalk;
 use crate::polygons::PolygonIndex;
 use cosfly_frames::DVec2;
 
@@ -19,13 +18,13 @@ pub(super) struct LineFree {
 
 impl Default for LineFree {
     fn default() -> Self {
-        Self::around(&[])
+        Self::within(vec![])
     }
 }
 
 impl LineFree {
-    pub(super) fn around(crosswalks: &[Crosswalk]) -> Self {
-        Self { outlines: PolygonIndex::new(crosswalks.iter().map(Crosswalk::line_free_outline).collect()) }
+    pub(super) fn within(outlines: Vec<Vec<DVec2>>) -> Self {
+        Self { outlines: PolygonIndex::new(outlines) }
     }
 
     /// The pieces of a painted stretch that are free; `at` gives the place in plan of a station.
@@ -70,7 +69,7 @@ mod tests {
     #[test]
     fn a_line_ends_before_a_crossing_and_goes_on_behind_it() {
         let outline = [[10.0, -3.0], [14.0, -3.0], [14.0, 3.0], [10.0, 3.0]].map(DVec2::from).to_vec();
-        let free = LineFree { outlines: PolygonIndex::new(vec![outline]) };
+        let free = LineFree::within(vec![outline]);
         let pieces = |from: f64, to: f64, y: f64| free.pieces([from, to], |s_m| DVec2::new(s_m, y));
         let [before, behind] = pieces(2.0, 20.0, 1.0)[..] else { panic!("two pieces") };
         assert!(before[0] == 2.0 && (before[1] - 10.0).abs() < 0.02, "{before:?}");

@@ -26,7 +26,8 @@ pub(super) struct Edge {
     outward: DVec2,
 }
 
-/// The edges of a section's outermost and innermost lanes where they are carriageway, and those of all carriageways at both ends of the section.
+/// The edges of a section's outermost and innermost lanes where they are carriageway, and those of all carriageways at
+/// both ends of the section.
 pub(super) fn edges(lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) -> Vec<Edge> {
     let mut edges = vec![];
     let is_paved = |lane: &Lane| matches!(lane.kind, LaneKind::Carriageway | LaneKind::Shoulder);
