@@ -156,6 +156,23 @@ impl GroundIndex {
         best
     }
 
+    /// The highest ground at the point's (x, y) at most `level_m` above or below its z, as it is seen from above: of coplanar layers,
+    /// grass lies below all others.
+    pub fn ground_seen(&self, point_in_world: DVec3, level_m: f64) -> Option<GroundPoint> {
+        const COPLANAR_M: f64 = 1e-3;
+        let mut best: Option<GroundPoint> = None;
+        self.visit_at(point_in_world.x, point_in_world.y, |ground| {
+            let is_over = |best: &GroundPoint| match ground.height_m - best.height_m {
+                above_m if above_m.abs() <= COPLANAR_M => best.label == SemanticLabel::Terrain,
+                above_m => above_m > 0.0,
+            };
+            if (ground.height_m - point_in_world.z).abs() <= level_m && best.as_ref().is_none_or(is_over) {
+                best = Some(ground);
+            }
+        });
+        best
+    }
+
     /// The highest ground at the point's (x, y) that is at most `reach_m` above its z.
     pub fn ground_below(&self, point_in_world: DVec3, reach_m: f64) -> Option<GroundPoint> {
         let mut best: Option<GroundPoint> = None;
@@ -257,6 +274,20 @@ mod tests {
         let under = index.ground_near(DVec3::new(45.0, 30.0, 5.0)).unwrap();
         assert_eq!((under.label, (under.height_m * 10.0).round()), (SemanticLabel::Roads, 45.0));
         assert_eq!(index.ground_below(DVec3::new(45.0, 30.0, 19.0), 0.5).unwrap().label, SemanticLabel::Roads);
+    }
+
+    #[test]
+    fn a_road_is_seen_over_coplanar_grass() {
+        let square = |label, height_m: f64| {
+            let corners = [[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]];
+            mesh(label, &corners.map(|[x, y]| [x, y, height_m]), &[[0, 1, 2], [0, 2, 3]])
+        };
+        for order in [[1.0, 1.0 + 1e-9], [1.0 + 1e-9, 1.0]] {
+            let layers = [square(SemanticLabel::Terrain, order[0]), square(SemanticLabel::Roads, order[1])];
+            let index = GroundIndex::of_surfaces(&layers, |_| true);
+            let label = |z: f64| index.ground_seen(DVec3::new(3.0, 4.0, z), 0.5).map(|seen| seen.label);
+            assert_eq!((label(1.2), label(2.0)), (Some(SemanticLabel::Roads), None));
+        }
     }
 
     #[test]

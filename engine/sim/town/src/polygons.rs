@@ -49,7 +49,12 @@ const MOST_CORNERS: usize = 100;
 /// Triangles over the corners of a simple polygon of at most 100 corners, by cutting ears; empty for degenerate or crossed outlines
 /// that leave no ear.
 pub fn triangulated(outline: &[DVec2]) -> Vec<[u32; 3]> {
-    if outline.len() > MOST_CORNERS {
+    triangulated_up_to(outline, MOST_CORNERS)
+}
+
+/// [`triangulated`] with another bound of corners; the time grows with their third power.
+pub fn triangulated_up_to(outline: &[DVec2], most_corners: usize) -> Vec<[u32; 3]> {
+    if outline.len() > most_corners {
         return Vec::new();
     }
     let mut left: Vec<usize> = (0..outline.len()).collect();

@@ -5,14 +5,20 @@ use super::crossings::{Crosswalk, crosswalks, unmarked_crossings};
 use super::document::with_source;
 use super::gaps::{self, JunctionArea};
 use super::inner_lanes::{self, InnerStrip};
+use super::islands;
 use super::joining::joining_strips;
+use super::kerb_stones::{self, Kerb};
 use super::lanes::lanes_of;
+use super::line_ends::LineFree;
 use super::network::{LaneKind, Road, RoadNetwork};
 use super::objects::{MOST_OBSTACLES, ObstacleBuilder, ROOF_PITCH_DEG};
 use super::options::Roofs;
 use super::parse_road;
+use super::refuges::Walkway;
+use super::road_ends::{self, LaneEnd};
 use super::road_marks::{LinePainter, MOST_STROKES};
 use super::signals;
+use super::slits::{self, Edge};
 use super::stations::{StationBudget, cross_sections};
 use super::surfaces::{self, DEFAULT_KERB_M};
 use super::verges;
@@ -23,7 +29,7 @@ use crate::terrain;
 use crate::text::Lines;
 use crate::world::WorldFromMap;
 use crate::{GroundIndex, Lane, MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolygon};
-use cosfly_frames::DVec2;
+use cosfly_frames::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
 /// Reads a file into a town without planning boxes and bounds.
@@ -59,6 +65,9 @@ fn build(
         shoulders_as_sidewalks: options.shoulders_as_sidewalks || assumes_shoulders,
         ..options.clone()
     };
+    let world = parts.world;
+    parts.crosswalks = network.roads.iter().flat_map(|road| crosswalks(road, &world)).collect();
+    parts.painter.free = LineFree::within(parts.crosswalks.iter().map(Crosswalk::line_free_outline).collect());
     for road in &network.roads {
         parts.add_lanes(road, options).map_err(|error| match error.place {
             Some(_) => error,
@@ -80,8 +89,12 @@ fn build(
     if options.signals {
         parts.add_signals(&network);
     }
-    parts.pave_gaps();
-    parts.add_crossings(&network, options);
+    if options.unmarked_crossings {
+        let arms = |road| unmarked_crossings(road, &parts.crosswalks, options.shoulders_as_sidewalks, &world);
+        parts.arms = network.roads.iter().flat_map(arms).collect();
+    }
+    parts.pave_between_lanes();
+    parts.add_crossings(options);
     terrain::add_terrain(&mut parts.meshes, &parts.obstacles.obstacles, terrain::USUAL_MARGIN_M)?;
     parts.finish(network)
 }
@@ -91,6 +104,11 @@ fn build(
 struct Parts {
     world: WorldFromMap,
     meshes: MeshBuilder,
+    crosswalks: Vec<Crosswalk>,
+    /// Crossings at junction arms that the file does not mark.
+    arms: Vec<WalkablePolygon>,
+    /// Places on medians.
+    medians: Vec<DVec3>,
     painter: LinePainter,
     walkable: Vec<WalkablePolygon>,
     lanes: Vec<Lane>,
@@ -98,6 +116,9 @@ struct Parts {
     budget: StationBudget,
     junctions: BTreeMap<String, JunctionArea>,
     inner_strips: Vec<InnerStrip>,
+    edges: Vec<Edge>,
+    lane_ends: Vec<LaneEnd>,
+    kerbs: Vec<Kerb>,
     notes: Vec<String>,
     warnings: Vec<String>,
 }
@@ -118,7 +139,12 @@ impl Parts {
                 let lanes = section.sides().map(|(_, lanes)| lanes);
                 self.inner_strips.extend(inner_lanes::strips(lanes, &rows, &world));
             }
-            surfaces::add_section(&mut self.meshes, section.sides().map(|(_, lanes)| lanes), &rows, &world);
+            let lanes = section.sides().map(|(_, lanes)| lanes);
+            self.edges.extend(slits::edges(lanes, &rows, &world));
+            self.kerbs.extend(kerb_stones::kerbs(section, &rows, &world));
+            self.lane_ends.extend(road_ends::ends(lanes, &rows, &world));
+            self.medians.extend(islands::places_on_medians(section, &rows, &world));
+            surfaces::add_section(&mut self.meshes, lanes, &rows, &world);
             if options.road_marks {
                 self.painter.paint_section(&mut self.meshes, road, section, &rows, &world);
             }
@@ -132,9 +158,7 @@ impl Parts {
 
     /// Pavements beside the carriageways of a file without ground for pedestrians.
     fn add_verges(&mut self, network: &RoadNetwork) -> Result<(), MapError> {
-        let surfaces = core::mem::take(&mut self.meshes).finish();
-        let ground = GroundIndex::of_surfaces(&surfaces, |_| true);
-        self.meshes = MeshBuilder::from_meshes(surfaces);
+        let ground = self.ground();
         let (invented, length_m) = verges::verges(network, &ground, &self.world, &mut self.budget, &mut self.meshes)?;
         if !invented.is_empty() {
             self.notes.push(format!(
@@ -147,32 +171,61 @@ impl Parts {
         Ok(())
     }
 
-    /// Paves the gaps between the ways through junctions.
-    fn pave_gaps(&mut self) {
-        let surfaces = core::mem::take(&mut self.meshes).finish();
-        let ground = GroundIndex::of_surfaces(&surfaces, |_| true);
-        self.meshes = MeshBuilder::from_meshes(surfaces);
-        let gaps: usize = self.junctions.values().map(|area| gaps::pave(&mut self.meshes, &ground, area)).sum();
+    /// Paves what lies between the lanes where crossings and junctions are, and raises medians and islands.
+    fn pave_between_lanes(&mut self) {
+        let arms = self.arms.iter().map(|arm| {
+            let [first, second] = [0, 1].map(|corner| arm.outline_in_world[corner].truncate());
+            Walkway::new(&arm.outline_in_world, (second - first).normalize_or(DVec2::X))
+        });
+        let walkways: Vec<Walkway> = self.crosswalks.iter().map(Crosswalk::walkway).chain(arms).collect();
+        let outlines = self.crosswalks.iter().map(Crosswalk::plan).chain(self.arms.iter().map(WalkablePolygon::plan));
+        let outlines = PolygonIndex::new(outlines.collect());
+        let ground = self.ground();
+        let refuges: usize = walkways.iter().map(|walkway| walkway.pave(&mut self.meshes, &ground)).sum();
+        slits::close(&mut self.meshes, &ground, &self.edges);
+        road_ends::join(&mut self.meshes, &ground, &self.lane_ends);
+        let ground = self.ground();
+        let things = self.obstacles.obstacles.iter().map(|thing| thing.shape.center_in_world.truncate());
+        let things: Vec<DVec2> = things.collect();
+        let (mut gaps, mut islands) = (0, core::mem::take(&mut self.medians));
+        for area in self.junctions.values() {
+            let (count, places) = gaps::pave(&mut self.meshes, &ground, area, &things);
+            gaps += count;
+            islands.extend(places);
+        }
         let strips = inner_lanes::pave(&mut self.meshes, &ground, &self.inner_strips);
-        for (count, what) in
-            [(gaps, "gaps between the lanes"), (strips, "pieces of lanes without a kind between carriageways")]
-        {
+        let ground = self.ground();
+        let islands = islands::raise(&mut self.meshes, &ground, &outlines, &islands);
+        let ground = self.ground();
+        let kerbs_m = kerb_stones::lay(&mut self.meshes, &ground, &self.kerbs);
+        for (count, what) in [
+            (kerbs_m as usize, "m of kerbs without a pavement behind them".to_owned()),
+            (refuges, "pieces of medians on crossings are paved".to_owned()),
+            (gaps, "gaps between the lanes of junctions are paved".to_owned()),
+            (strips, "pieces of lanes without a kind between carriageways of junctions are paved".to_owned()),
+            (islands, format!("islands and medians are raised by {DEFAULT_KERB_M} m, with kerbs")),
+        ] {
             if count > 0 {
-                self.notes.push(format!("{count} {what} of junctions are paved"));
+                self.notes.push(format!("{count} {what}"));
             }
         }
     }
 
-    /// Marked crossings with their paint and joints; then what pedestrians need to get across where the file has none.
-    fn add_crossings(&mut self, network: &RoadNetwork, options: &OpenDriveOptions) {
-        let world = self.world;
-        let marked: Vec<Crosswalk> = network.roads.iter().flat_map(|road| crosswalks(road, &world)).collect();
-        let outlines = self.walkable.iter().map(WalkablePolygon::plan).collect();
-        let heights_m: Vec<f64> = self.walkable.iter().map(WalkablePolygon::mean_height_m).collect();
-        let pavements = PolygonIndex::new(outlines);
+    /// All ground so far.
+    fn ground(&mut self) -> GroundIndex {
         let surfaces = core::mem::take(&mut self.meshes).finish();
         let ground = GroundIndex::of_surfaces(&surfaces, |_| true);
         self.meshes = MeshBuilder::from_meshes(surfaces);
+        ground
+    }
+
+    /// Marked crossings with their paint and joints; then what pedestrians need to get across where the file has none.
+    fn add_crossings(&mut self, options: &OpenDriveOptions) {
+        let marked = core::mem::take(&mut self.crosswalks);
+        let outlines = self.walkable.iter().map(WalkablePolygon::plan).collect();
+        let heights_m: Vec<f64> = self.walkable.iter().map(WalkablePolygon::mean_height_m).collect();
+        let pavements = PolygonIndex::new(outlines);
+        let ground = self.ground();
         for crosswalk in &marked {
             if options.road_marks {
                 crosswalk.paint(&mut self.meshes, &ground);
@@ -181,20 +234,12 @@ impl Parts {
             self.walkable.extend(crosswalk.joints(&pavements, &heights_m));
         }
         if options.unmarked_crossings {
-            self.add_unmarked_crossings(network, &marked, options.shoulders_as_sidewalks, &ground);
+            self.add_unmarked_crossings(&ground);
         }
     }
 
-    fn add_unmarked_crossings(
-        &mut self,
-        network: &RoadNetwork,
-        marked: &[Crosswalk],
-        shoulders: bool,
-        ground: &GroundIndex,
-    ) {
-        let world = self.world;
-        let arms: Vec<WalkablePolygon> =
-            network.roads.iter().flat_map(|road| unmarked_crossings(road, marked, shoulders, &world)).collect();
+    fn add_unmarked_crossings(&mut self, ground: &GroundIndex) {
+        let arms = core::mem::take(&mut self.arms);
         if !arms.is_empty() {
             let count = arms.len();
             self.notes.push(format!("{count} unmarked crossings at junction arms without a crosswalk in the file"));

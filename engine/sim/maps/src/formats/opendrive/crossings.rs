@@ -3,11 +3,12 @@
 use super::network::{LaneKind, LaneSection, Road, RoadObject};
 use super::object_kind::{ObjectKind, kind_of};
 use super::objects::outline_in_map;
+use super::refuges::Walkway;
 use super::road_geometry::LaneSpan;
 use super::road_marks::PAINT_ABOVE_M;
 use super::walkable::without_repeats;
 use crate::mesh::MeshBuilder;
-use crate::polygons::{PolygonIndex, clipped_to_band, triangulated};
+use crate::polygons::{PolygonIndex, clipped_to_band, triangulated, twice_area_m2};
 use crate::world::WorldFromMap;
 use crate::{GroundIndex, SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, real};
@@ -20,8 +21,15 @@ const MOST_STRIPES: f64 = 200.0;
 const STRIPS: u32 = 4;
 const CELL_M: f64 = 0.25;
 const MOST_CELLS: f64 = 400.0;
+/// Stripes with less than this share of a whole one's area on road are left out.
+const LEAST_SHARE: f64 = 0.7;
 /// A crossing that ends this close to a pavement is joined to it, metres.
 const JOINT_REACH_M: f64 = 4.0;
+/// Lane lines end this far before a crossing and beyond its ends at the kerbs, metres.
+const LINES_END_BEFORE_M: f64 = 1.0;
+const LINES_END_BESIDE_M: f64 = 0.5;
+/// Between a crossing and a junction this close there are no lane lines, metres.
+const JUNCTION_WITHIN_M: f64 = 10.0;
 /// Width of an unmarked crossing, metres.
 const UNMARKED_WIDTH_M: f64 = 3.0;
 /// A junction arm with a marked crossing within this distance gets no unmarked one, metres.
@@ -33,6 +41,9 @@ pub(super) struct Crosswalk {
     pub(super) outline_in_world: Vec<DVec3>,
     /// Unit vector in which pedestrians cross, in plan.
     across: DVec2,
+    /// Unit vector of the road, and the distances to the junctions against and along it, as far as they are near, metres.
+    along_road: DVec2,
+    to_junctions_m: [Option<f64>; 2],
 }
 
 /// The crosswalk objects of a road.
@@ -58,7 +69,13 @@ fn crosswalk(road: &Road, object: &RoadObject, world: &WorldFromMap) -> Option<C
         axes[1]
     };
     let (sin, cos) = real::sin_cos(across_rad);
-    (outline_in_world.len() >= 3).then(|| Crosswalk { outline_in_world, across: DVec2::new(cos, sin) })
+    let (road_sin, road_cos) = real::sin_cos(road_yaw_rad);
+    let to_ends_m = [object.at.s_m, road.length_m - object.at.s_m];
+    let to_junctions_m = core::array::from_fn(|end| {
+        (road.meets_junction[end] && to_ends_m[end] <= JUNCTION_WITHIN_M).then_some(to_ends_m[end])
+    });
+    let (across, along_road) = (DVec2::new(cos, sin), DVec2::new(road_cos, road_sin));
+    (outline_in_world.len() >= 3).then_some(Crosswalk { outline_in_world, across, along_road, to_junctions_m })
 }
 
 /// A crosswalk without an outline, from its length and width.
@@ -73,7 +90,7 @@ fn rectangle(road: &Road, object: &RoadObject, heading_rad: f64) -> Option<Vec<D
 }
 
 impl Crosswalk {
-    fn plan(&self) -> Vec<DVec2> {
+    pub(super) fn plan(&self) -> Vec<DVec2> {
         self.outline_in_world.iter().map(|corner| corner.truncate()).collect()
     }
 
@@ -90,6 +107,25 @@ impl Crosswalk {
         }
     }
 
+    /// The ground without lane lines: that of the crossing, some before it, and up to a near junction.
+    pub(super) fn line_free_outline(&self) -> Vec<DVec2> {
+        let (plan, along) = (self.plan(), self.across.perp());
+        let ([left, right], [mut low, mut high]) = (span(&plan, self.across), span(&plan, along));
+        (low, high) = (low - LINES_END_BEFORE_M, high + LINES_END_BEFORE_M);
+        let middle = self.center().truncate();
+        for (to_junction_m, sign) in self.to_junctions_m.into_iter().zip([-1.0, 1.0]) {
+            let Some(end_m) = to_junction_m.map(|m| (middle + sign * m * self.along_road).dot(along)) else { continue };
+            (low, high) = (low.min(end_m), high.max(end_m));
+        }
+        let (left, right) = (left - LINES_END_BESIDE_M, right + LINES_END_BESIDE_M);
+        [[left, low], [right, low], [right, high], [left, high]].map(|[u, v]| u * self.across + v * along).to_vec()
+    }
+
+    /// The ground to walk on and its direction.
+    pub(super) fn walkway(&self) -> Walkway {
+        Walkway::new(&self.outline_in_world, self.across)
+    }
+
     /// Stripes across the walking direction, just above the road, as far as there is road.
     pub(super) fn paint(&self, builder: &mut MeshBuilder, ground: &GroundIndex) {
         let plan = self.plan();
@@ -97,16 +133,26 @@ impl Crosswalk {
         let z_m = self.center().z;
         let below = |corner: DVec2| ground.ground_below(corner.extend(z_m), 0.4);
         let is_road = |corner: DVec2| {
-            below(corner).is_none_or(|ground| {
+            below(corner).is_some_and(|ground| {
                 matches!(ground.label, SemanticLabel::Roads | SemanticLabel::RoadLine | SemanticLabel::Bridge)
             })
         };
         let stripes = ((high - low) / (2.0 * STRIPE_M)).round().clamp(1.0, MOST_STRIPES) as usize;
         let period_m = (high - low) / stripes as f64;
-        for stripe in 0..stripes {
+        let area = |outline: &[DVec2]| twice_area_m2(outline).abs();
+        let bands = (0..stripes).map(|stripe| {
             let from = low + (stripe as f64 + 0.25) * period_m;
-            let outline = clipped_to_band(&plan, self.across, from, from + 0.5 * period_m);
-            for outline in self.on_road(outline, [from, from + 0.5 * period_m], is_road) {
+            [from, from + 0.5 * period_m]
+        });
+        let stripes: Vec<_> =
+            bands.map(|[from, to]| ([from, to], clipped_to_band(&plan, self.across, from, to))).collect();
+        let whole = stripes.iter().map(|(_, outline)| area(outline)).fold(0.0, f64::max);
+        for (band, outline) in stripes {
+            let pieces = self.on_road(outline, band, is_road);
+            if pieces.iter().map(|piece| area(piece)).sum::<f64>() < LEAST_SHARE * whole {
+                continue;
+            }
+            for outline in pieces {
                 let vertex = |corner: &DVec2| {
                     let height_m = below(*corner).map_or(z_m, |ground| ground.height_m);
                     let place = DVec2::new(corner.dot(self.across.perp()), corner.dot(self.across));
@@ -264,12 +310,43 @@ fn far_pavement_edge(road: &Road, section: &LaneSection, side: usize, s_m: f64, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::polygons::twice_area_m2;
+    use crate::SurfaceMesh;
 
     /// A crossing of 6 m by 3 m over a road 4 m wide along y.
     fn crosswalk() -> Crosswalk {
         let corners = [[-3.0, 0.0], [3.0, 0.0], [3.0, 3.0], [-3.0, 3.0]];
-        Crosswalk { outline_in_world: corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(), across: DVec2::X }
+        let outline_in_world = corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
+        Crosswalk { outline_in_world, across: DVec2::X, along_road: DVec2::Y, to_junctions_m: [None, Some(6.0)] }
+    }
+
+    #[test]
+    fn no_lane_line_is_on_a_crossing_or_between_it_and_a_near_junction() {
+        let outline = crosswalk().line_free_outline();
+        let spans = [DVec2::X, DVec2::Y].map(|along| span(&outline, along));
+        assert_eq!(spans, [[-3.5, 3.5], [-1.0, 7.5]]);
+    }
+
+    #[test]
+    fn a_stripe_of_which_the_kerb_covers_most_is_left_out() {
+        let painted_m2 = |half_road_m: f64| {
+            let corners = [[-half_road_m, -9.0], [half_road_m, -9.0], [half_road_m, 9.0], [-half_road_m, 9.0]];
+            let mut builder = MeshBuilder::default();
+            let at = corners.map(|[x, y]| (DVec3::new(x, y, 0.0), DVec2::ZERO));
+            builder.quad(SemanticLabel::Roads, false, at);
+            let side = corners.map(|[x, y]| (DVec3::new(x + 2.0 * half_road_m, y, 0.15), DVec2::ZERO));
+            builder.quad(SemanticLabel::SideWalks, false, side);
+            let ground = GroundIndex::of_surfaces(&builder.finish(), |_| true);
+            let mut builder = MeshBuilder::default();
+            crosswalk().paint(&mut builder, &ground);
+            let corner = |mesh: &SurfaceMesh, k: u32| mesh.vertices_in_world[k as usize].truncate();
+            let meshes = builder.finish();
+            let areas = meshes.iter().flat_map(|mesh| mesh.triangles.iter().map(|it| it.map(|k| corner(mesh, k))));
+            areas.map(|it| 0.5 * twice_area_m2(&it).abs()).sum::<f64>()
+        };
+        // Six stripes of 0.5 m by 3 m, the outer ones from 2.25 m to 2.75 m.
+        assert!((painted_m2(3.0) - 9.0).abs() < 1e-9);
+        assert!((painted_m2(2.76) - 9.0).abs() < 1e-9, "{}", painted_m2(2.76));
+        assert!((painted_m2(2.55) - 6.0).abs() < 1e-9, "{}", painted_m2(2.55));
     }
 
     #[test]

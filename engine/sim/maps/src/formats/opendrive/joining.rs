@@ -21,6 +21,9 @@ const TOUCHING_M: [f64; 2] = [0.05, 0.6];
 const FINE_M: f64 = 0.6;
 /// Distance between the points at which strips may begin, metres.
 const SPACING_M: f64 = 1.0;
+/// Depth of a strip's surface and of the lower edges of its faces, metres.
+const SUNK_M: f64 = 0.01;
+const FACE_M: f64 = 0.3;
 /// Steepest strip, rise over run.
 const STEEPEST: f64 = 0.15;
 
@@ -217,8 +220,9 @@ fn strip(
     let along = (to - from).truncate().normalize_or(DVec2::X);
     let across = 0.5 * WIDTH_M * along.perp();
     let steps = (length_m / 0.5).ceil().max(1.0) as usize;
-    let (mut on_road, mut off_lanes) = (false, false);
-    for step in 0..=steps {
+    let mut on_road = false;
+    let mut off_lanes = vec![false; steps + 1];
+    for (step, is_off) in off_lanes.iter_mut().enumerate() {
         let point = from.lerp(to, step as f64 / steps as f64);
         let plan = point.truncate();
         if [plan, plan + across, plan - across].iter().any(|place| blocked.at(*place).next().is_some()) {
@@ -227,25 +231,41 @@ fn strip(
         match ground.ground_near(point) {
             Some(near) if (near.height_m - point.z).abs() > 0.8 => return None,
             Some(near) => on_road |= near.label == SemanticLabel::Roads,
-            None => off_lanes = true,
+            None => *is_off = true,
         }
     }
     let reach = OVERLAP_M * along;
     let corner = |end: DVec3, side: DVec2, reach: DVec2| (end.truncate() + side + reach).extend(end.z);
-    let outline_in_world = vec![
-        corner(from, across, -reach),
-        corner(to, across, reach),
-        corner(to, -across, reach),
-        corner(from, -across, -reach),
-    ];
-    if off_lanes {
-        let corners = [outline_in_world[0], outline_in_world[1], outline_in_world[2], outline_in_world[3]];
-        // Just below the pavements that it meets, so that the two do not fight for the same pixels.
-        let sunk = corners.map(|corner| (corner - 0.01 * DVec3::Z, DVec2::new(corner.x, corner.y)));
-        meshes.quad(SemanticLabel::SideWalks, true, sunk);
+    let outline = |from: DVec3, to: DVec3, reaches: [DVec2; 2]| {
+        let [before, after] = reaches;
+        [
+            corner(from, across, -before),
+            corner(to, across, after),
+            corner(to, -across, after),
+            corner(from, -across, -before),
+        ]
+    };
+    let at = |step: usize| from.lerp(to, step as f64 / steps as f64);
+    for run in (0..=steps).collect::<Vec<_>>().chunk_by(|a, b| off_lanes[*a] == off_lanes[*b]) {
+        let (first, last) = (run[0].saturating_sub(1), (run[run.len() - 1] + 1).min(steps));
+        if off_lanes[run[0]] {
+            let reaches = [(first, 0), (last, steps)].map(|(end, edge)| if end == edge { reach } else { DVec2::ZERO });
+            add_slab(meshes, outline(at(first), at(last), reaches));
+        }
     }
+    let outline_in_world = outline(from, to, [reach, reach]).to_vec();
     let kind = if on_road { WalkableKind::Road } else { WalkableKind::Sidewalk };
     Some(WalkablePolygon { kind, outline_in_world, synthetic: true })
+}
+
+/// A piece of pavement with faces around it, just below the pavements that it meets, so that the two do not fight for the same pixels.
+fn add_slab(meshes: &mut MeshBuilder, corners: [DVec3; 4]) {
+    let at = |corner: usize, below_m: f64| (corners[corner % 4] - below_m * DVec3::Z, corners[corner % 4].truncate());
+    meshes.quad(SemanticLabel::SideWalks, true, [0, 1, 2, 3].map(|corner| at(corner, SUNK_M)));
+    for side in 0..4 {
+        let face = [at(side, SUNK_M), at(side + 1, SUNK_M), at(side + 1, FACE_M), at(side, FACE_M)];
+        meshes.quad(SemanticLabel::SideWalks, true, face);
+    }
 }
 
 #[cfg(test)]

@@ -164,6 +164,8 @@ pub struct RoadMark {
     pub s_m: f64,
     /// Paint of the line; `None` for kinds without paint.
     pub paint: Option<Paint>,
+    /// Whether the line is a kerb.
+    pub is_kerb: bool,
 }
 
 /// Paint on a lane edge.

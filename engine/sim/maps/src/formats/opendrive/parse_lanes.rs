@@ -171,7 +171,7 @@ fn marks<'d>(source: &Source<'d>, lane: Node<'d, 'd>, section_s_m: f64) -> Resul
     let mut out = children(lane, "roadMark")
         .map(|node| {
             let s_m = section_s_m + source.optional_number(node, "sOffset", STATION)?.unwrap_or(0.0);
-            Ok(RoadMark { s_m, paint: paint(source, node)? })
+            Ok(RoadMark { s_m, paint: paint(source, node)?, is_kerb: node.attribute("type") == Some("curb") })
         })
         .collect::<Result<Vec<_>, MapError>>()?;
     out.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));

@@ -1,5 +1,6 @@
 //! Painted lane lines as thin strips just above the road.
 
+use super::line_ends::LineFree;
 use super::network::{Lane, LaneSection, Paint, Road, RoadMark};
 use super::stations::CrossSection;
 use crate::SemanticLabel;
@@ -16,6 +17,8 @@ pub(super) const MOST_STROKES: usize = 400_000;
 #[derive(Debug, Default)]
 pub(super) struct LinePainter {
     pub(super) strokes: usize,
+    /// Ground without lines.
+    pub(super) free: LineFree,
 }
 
 impl LinePainter {
@@ -54,13 +57,17 @@ impl LinePainter {
         world: &WorldFromMap,
     ) {
         for (i, mark) in marks.iter().enumerate() {
-            if self.strokes >= MOST_STROKES {
+            if self.strokes >= MOST_STROKES || rows.len() < 2 {
                 return;
             }
             let Some(paint) = mark.paint else { continue };
             let from_s_m = mark.s_m.max(section.start_s_m);
             let to_s_m = marks.get(i + 1).map_or(section.end_s_m, |next| next.s_m).min(section.end_s_m);
-            for (low_s_m, high_s_m) in painted_parts(&paint, from_s_m, to_s_m) {
+            let at = |s_m: f64| world.point(on_edge(rows, edge, s_m)).truncate();
+            let stretches = painted_parts(&paint, from_s_m, to_s_m);
+            let free: Vec<[f64; 2]> =
+                stretches.into_iter().flat_map(|(low, high)| self.free.pieces([low, high], at)).collect();
+            for [low_s_m, high_s_m] in free {
                 if self.strokes >= MOST_STROKES {
                     return;
                 }
@@ -117,6 +124,14 @@ impl LinePainter {
             self.strokes += 1;
         }
     }
+}
+
+/// The place of an edge at a station, linear between rows.
+fn on_edge(rows: &[CrossSection], edge: &dyn Fn(&CrossSection) -> (DVec3, f64), s_m: f64) -> DVec3 {
+    let next = rows.partition_point(|row| row.s_m <= s_m).clamp(1, rows.len() - 1);
+    let (low, high) = (&rows[next - 1], &rows[next]);
+    let share = ((s_m - low.s_m) / (high.s_m - low.s_m)).clamp(0.0, 1.0);
+    edge(low).0.lerp(edge(high).0, share)
 }
 
 /// The painted stretches of a line between two stations. Dashes keep step from the start of the line.
