@@ -6,7 +6,7 @@
 
 use super::bands::crown_of;
 use super::geometry::View;
-use super::pattern::{NoiseTexture, Noises, hash, unit};
+use super::pattern::{NoiseTexture, Noises, hash, share, unit};
 use super::setting::{Seen, Setting};
 use crate::frame::FrameImages;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
@@ -19,6 +19,8 @@ const REACH_M: f32 = 0.6;
 const REACH_SHARE: f32 = 0.28;
 /// And no farther than this, pixels.
 const MOST_PX: f32 = 20.0;
+/// How fast leaves become a gap as noise grows: edges of leaves are soft, so that no pixel pops.
+const STEEPNESS: f32 = 8.0;
 /// Pixels whose leaves are looked at together.
 const TOGETHER: usize = 256;
 
@@ -57,7 +59,8 @@ struct Waiting {
     at: [u32; TOGETHER],
     behind: [u32; TOGETHER],
     place: Places,
-    is_gap: [u32; TOGETHER],
+    /// Share of the pixel without leaves.
+    gap: [f32; TOGETHER],
 }
 
 /// Where they are, and how thin leaves must be.
@@ -70,7 +73,7 @@ struct Places {
     pixel_m: [f32; TOGETHER],
     /// Where the pattern of the tree begins.
     shift: [f32; TOGETHER],
-    /// Pixels with more of a gap than this have one.
+    /// Pixels with more of a gap than this have some of one.
     least: [f32; TOGETHER],
 }
 
@@ -123,12 +126,16 @@ impl Picture<'_> {
         edge(Edge { first: start + length - 1, inward: -1, most: length, beyond: width - from - length });
         let (down, instance) = (width as isize, &self.images.instance);
         if row > 0 {
-            for (at, _) in instance[start - width..][..length].iter().enumerate().filter(|(_, id)| **id != span.instance) {
+            for (at, _) in
+                instance[start - width..][..length].iter().enumerate().filter(|(_, id)| **id != span.instance)
+            {
                 edge(Edge { first: start + at, inward: down, most: height - row, beyond: row });
             }
         }
         if row + 1 < height {
-            for (at, _) in instance[start + width..][..length].iter().enumerate().filter(|(_, id)| **id != span.instance) {
+            for (at, _) in
+                instance[start + width..][..length].iter().enumerate().filter(|(_, id)| **id != span.instance)
+            {
                 edge(Edge { first: start + at, inward: -down, most: row + 1, beyond: height - row - 1 });
             }
         }
@@ -173,7 +180,7 @@ impl Picture<'_> {
             depth_m[at] = depth;
             waiting.place.pixel_m[at] = pixel_m;
             waiting.place.shift[at] = shift;
-            waiting.place.least[at] = 1.02 + 0.78 * inside;
+            waiting.place.least[at] = 0.96 + 0.78 * inside;
             waiting.count += 1;
             if waiting.count == TOGETHER {
                 look(waiting);
@@ -195,26 +202,29 @@ impl Waiting {
             shift: [0.0; TOGETHER],
             least: [0.0; TOGETHER],
         },
-        is_gap: [0; TOGETHER],
+        gap: [0.0; TOGETHER],
     };
 
-    /// Tells which pixels that wait are gaps, and notes their colours.
+    /// Tells how much of the pixels that wait is gap, and notes their colours.
     fn look(&mut self, setting: &Setting, noise: &NoiseTexture, images: &FrameImages, changes: &mut Vec<Change>) {
-        gaps(setting.level, &self.place, &setting.view, noise, &mut self.is_gap);
+        gaps(setting.level, &self.place, &setting.view, noise, &mut self.gap);
         for at in 0..core::mem::take(&mut self.count) {
-            let behind = 3 * self.behind[at] as usize;
-            if self.is_gap[at] != 0
-                && let Some(colour) = images.rgb.get(behind..).and_then(|rest| rest.first_chunk::<3>())
+            let colour = |pixel: u32| images.rgb.get(3 * pixel as usize..).and_then(|rest| rest.first_chunk::<3>());
+            if self.gap[at] > 0.0
+                && let (Some(own), Some(behind)) = (colour(self.at[at]), colour(self.behind[at]))
             {
-                changes.push(Change { at: self.at[at], colour: *colour });
+                let part = (self.gap[at] * 256.0) as i32;
+                let mixed =
+                    |k: usize| i32::from(own[k]) + (part.wrapping_mul(i32::from(behind[k]) - i32::from(own[k])) >> 8);
+                changes.push(Change { at: self.at[at], colour: [0, 1, 2].map(|k| mixed(k) as u8) });
             }
         }
     }
 }
 
 simd_kernel! {
-    /// 1 for pixels without leaves. Noise of leaves and of branches stays where it is in the world while the camera moves little.
-    fn gaps(places: &Places, view: &View, noise: &NoiseTexture, is_gap: &mut [u32; TOGETHER]) {
+    /// Share of pixels without leaves. Noise of leaves and of branches stays where it is in the world while the camera moves little.
+    fn gaps(places: &Places, view: &View, noise: &NoiseTexture, gap: &mut [f32; TOGETHER]) {
         let view = *view;
         for k in 0..TOGETHER {
             let place = view.position + view.ray(places.u[k], places.v[k]) * places.depth_m[k];
@@ -224,7 +234,7 @@ simd_kernel! {
             let (pixel_m, shift) = (places.pixel_m[k], places.shift[k]);
             let leaves = noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0);
             let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0);
-            is_gap[k] = u32::from(1.7 * branches + 0.75 * leaves >= places.least[k]);
+            gap[k] = share((1.7 * branches + 0.75 * leaves - places.least[k]) * STEEPNESS);
         }
     }
 }

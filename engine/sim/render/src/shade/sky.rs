@@ -56,13 +56,20 @@ pub fn rain(light: &Light, seed: u32, images: &mut FrameImages) {
         let strength = 0.08 + 0.20 * near;
         let (u, v) = (unit(hash(h, 2)) * width as f32, unit(hash(h, 3)) * height as f32 * 1.1 - 0.05 * height as f32);
         for step in 0..length as i32 {
-            let (x, y) = (u + slant * step as f32, v + step as f32);
-            if x < 0.0 || y < 0.0 || x as usize >= width || y as usize >= height {
+            let (x, y) = (u + slant * step as f32 - 0.5, v + step as f32);
+            if x < 0.0 || y < 0.0 || x as usize + 1 >= width || y as usize >= height {
                 continue;
             }
+            // A drop on its way: faint where it came and went, between two columns.
+            let along = (step as f32 + 0.5) / length;
+            let strength = strength * 5.0 * along * (1.0 - along);
+            let aside = x - x.floor();
             let at = 3 * (y as usize * width + x as usize);
-            for (byte, bright) in images.rgb[at..at + 3].iter_mut().zip(white) {
-                *byte = (f32::from(*byte) + (bright - f32::from(*byte)) * strength).clamp(0.0, 255.0) as u8;
+            for (column, part) in [1.0 - aside, aside].into_iter().enumerate() {
+                for (byte, bright) in images.rgb[at + 3 * column..][..3].iter_mut().zip(white) {
+                    *byte =
+                        (f32::from(*byte) + (bright - f32::from(*byte)) * (strength * part)).clamp(0.0, 255.0) as u8;
+                }
             }
         }
     }
