@@ -266,11 +266,18 @@ fn least(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// `best = min(best, offers + price)`, azimuth by azimuth.
+/// Azimuths that are priced side by side.
+const WIDE: usize = 16;
+
+/// The least of a row and of the rows beside it with their prices, azimuth by azimuth: rows from starts in `costs`, none beside it
+/// where a price is not below [`FORBIDDEN`]. Written to a place of its own: in place, compilers make masked stores of it, which
+/// are slow on many processors.
 #[inline(always)]
-fn offer(best: &mut [f32], offers: &[f32], price: f32) {
-    for (best, offer) in best.iter_mut().zip(offers) {
-        *best = least(offer + price, *best);
+fn offered(to: &mut [f32], costs: &[f32], row: usize, beside: [(usize, f32); 2]) {
+    let rows = beside.map(|(start, price)| if price < FORBIDDEN { (start, price) } else { (row, f32::INFINITY) });
+    let [(lower, fall), (upper, rise)] = rows.map(|(start, price)| (&costs[start..], price));
+    for (((to, here), lower), upper) in to.iter_mut().zip(&costs[row..]).zip(lower).zip(upper) {
+        *to = least(upper + rise, least(lower + fall, *here));
     }
 }
 
@@ -287,35 +294,42 @@ simd_kernel! {
             }
         }
         for (ring, (best, prices)) in climbed.chunks_exact_mut(count).zip(&ground.prices.climb).enumerate() {
-            best.copy_from_slice(&here[ring * count..(ring + 1) * count]);
-            if prices[0] < FORBIDDEN {
-                offer(best, &here[(ring - radii) * count..], prices[0]);
-            }
-            if prices[1] < FORBIDDEN {
-                offer(best, &here[(ring + radii) * count..], prices[1]);
-            }
+            let start = |ring: usize| ring.wrapping_mul(count);
+            let beside = [(start(ring.wrapping_sub(radii)), prices[0]), (start(ring.wrapping_add(radii)), prices[1])];
+            offered(best, here, start(ring), beside);
         }
         for (ring, to) in here.chunks_exact_mut(count).enumerate() {
-            let middle = &mut turned[steps..steps + count];
-            middle.copy_from_slice(&climbed[ring * count..(ring + 1) * count]);
+            let start = |ring: usize| ring.wrapping_mul(count);
             let prices = ground.prices.reach[ring];
-            if prices[0] < FORBIDDEN {
-                offer(middle, &climbed[(ring - 1) * count..], prices[0]);
-            }
-            if prices[1] < FORBIDDEN {
-                offer(middle, &climbed[(ring + 1) * count..], prices[1]);
-            }
+            let beside = [(start(ring.wrapping_sub(1)), prices[0]), (start(ring.wrapping_add(1)), prices[1])];
+            offered(&mut turned[steps..steps + count], climbed, start(ring), beside);
             turned.copy_within(count..count + steps, 0);
             turned.copy_within(steps..2 * steps, count + steps);
-            to.copy_from_slice(&turned[steps..steps + count]);
-            for (k, price) in ground.prices.turn[ring].iter().enumerate() {
-                let (left, right) = (&turned[steps - k - 1..], &turned[steps + k + 1..]);
-                for ((best, left), right) in to.iter_mut().zip(left).zip(right) {
-                    *best = least(least(*left, *right) + price, *best);
-                }
+            let (wide, rest) = to.as_chunks_mut::<WIDE>();
+            let first = steps.wrapping_add(wide.len().wrapping_mul(WIDE));
+            for (to, middle) in wide.iter_mut().zip((steps..).step_by(WIDE)) {
+                turn(to, turned, middle, &ground.prices.turn[ring]);
+            }
+            for (to, middle) in rest.iter_mut().zip(first..) {
+                turn(core::array::from_mut(to), turned, middle, &ground.prices.turn[ring]);
             }
         }
     }
+}
+
+/// The cheapest turns to neighbouring azimuths, from `middle` on among `turned`.
+#[inline(always)]
+fn turn<const N: usize>(to: &mut [f32; N], turned: &[f32], middle: usize, prices: &[f32]) {
+    let from = |at: usize| turned.get(at..).and_then(|rest| rest.first_chunk::<N>());
+    let Some(mut best) = from(middle).copied() else { return };
+    for (k, price) in (1..).zip(prices) {
+        if let (Some(left), Some(right)) = (from(middle.wrapping_sub(k)), from(middle.wrapping_add(k))) {
+            for lane in 0..N {
+                best[lane] = least(least(left[lane], right[lane]) + price, best[lane]);
+            }
+        }
+    }
+    *to = best;
 }
 
 simd_kernel! {
