@@ -139,8 +139,8 @@ fn uptown_is_as_in_large_pictures() {
 fn sloped_towns_are_as_in_large_pictures() {
     for name in ["carla_xodr/Town07.xodr", "xodr_city/Ingolstadt_CityHall.xodr"] {
         if let Some(path) = shared::shared_input(name) {
-            // One camera looks along a kerb, which is a thousandth of a pixel wide then.
-            agrees_with_large(&towns::of_file(&path), 8, 20, 1000);
+            // One camera looks along a kerb and along the end of a line beside it, which are a thousandth of a pixel wide then.
+            agrees_with_large(&towns::of_file(&path), 8, 20, 800);
         }
     }
 }
