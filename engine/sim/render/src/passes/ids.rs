@@ -15,7 +15,7 @@ const ONE_BAND_PIXELS: usize = 1 << 16;
 
 /// Rows of the bands of an image: they follow from its size alone, as kernels work out shadows of pixels together.
 fn band_rows(width: usize, pixels: usize) -> usize {
-    if pixels <= ONE_BAND_PIXELS { (pixels / width).max(1) } else { BAND_ROWS }
+    if pixels <= ONE_BAND_PIXELS { (pixels / width.max(1)).max(1) } else { BAND_ROWS }
 }
 
 /// Neighbouring pixels of one face in a row.
