@@ -374,10 +374,10 @@ impl Facade {
             let mut suns = [[0.0f32; WIDE]; 2];
             let (mut fine, mut coarse) = ([0.0f32; WIDE], [0.0f32; WIDE]);
             let (mut any_fine, mut any_coarse) = (0u32, 0u32);
-            for k in 0..WIDE {
-                (fine[k], coarse[k]) = (fade(shared.footprint_m[k], FINE_M), fade(shared.footprint_m[k], COARSE_M));
-                any_fine |= u32::from(fine[k] > 0.0);
-                any_coarse |= u32::from(coarse[k] > 0.0);
+            for ((fine, coarse), pixel_m) in fine.iter_mut().zip(&mut coarse).zip(shared.footprint_m) {
+                (*fine, *coarse) = (fade(pixel_m, FINE_M), fade(pixel_m, COARSE_M));
+                any_fine |= u32::from(*fine > 0.0);
+                any_coarse |= u32::from(*coarse > 0.0);
             }
             let mut dirt = [1.0f32; WIDE];
             for (k, dirt) in dirt.iter_mut().enumerate() {
@@ -414,10 +414,10 @@ impl Facade {
                     is_lit |= u32::from(lit > 0.0);
                 }
                 if opens & is_lit & any_fine != 0 && sunny {
-                    for k in 0..WIDE {
+                    for (k, fine) in fine.iter().enumerate() {
                         let point = block.point(shared, k);
                         let at = [place.along_m(&point), point.world.z - place.foot_m];
-                        let opening = fine[k] * block.openness[k];
+                        let opening = fine * block.openness[k];
                         block.sunlight[k] *= self.lit(&point, opening, at, [slant(&views, k), slant(&suns, k)]);
                     }
                 }
@@ -449,13 +449,13 @@ impl Facade {
                     if any == 0 {
                         continue;
                     }
-                    for k in 0..WIDE {
+                    for (k, coarse) in coarse.iter().enumerate() {
                         let point = block.point(shared, k);
                         let at = [place.along_m(&point), point.world.z - place.foot_m];
                         let bare = block.look(k);
                         let (look, lit) = self.balcony(&bare, &point, at, [slant(&views, k), slant(&suns, k)]);
-                        block.put(k, &bare.lerp(&look, coarse[k]));
-                        block.sunlight[k] *= lerp(1.0, lit, coarse[k]);
+                        block.put(k, &bare.lerp(&look, *coarse));
+                        block.sunlight[k] *= lerp(1.0, lit, *coarse);
                     }
                 }
             }

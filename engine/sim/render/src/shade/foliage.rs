@@ -226,7 +226,7 @@ simd_kernel! {
     /// Share of pixels without leaves. Noise of leaves and of branches stays where it is in the world while the camera moves little.
     fn gaps(places: &Places, view: &View, noise: &NoiseTexture, gap: &mut [f32; TOGETHER]) {
         let view = *view;
-        for k in 0..TOGETHER {
+        for (k, gap) in gap.iter_mut().enumerate() {
             let place = view.position + view.ray(places.u[k], places.v[k]) * places.depth_m[k];
             // No face of a box is seen edge-on in these two directions.
             let x = 0.8 * place.x + 0.45 * place.y + 0.3 * place.z;
@@ -234,7 +234,7 @@ simd_kernel! {
             let (pixel_m, shift) = (places.pixel_m[k], places.shift[k]);
             let leaves = noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0);
             let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0);
-            gap[k] = share((1.7 * branches + 0.75 * leaves - places.least[k]) * STEEPNESS);
+            *gap = share((1.7 * branches + 0.75 * leaves - places.least[k]) * STEEPNESS);
         }
     }
 }
