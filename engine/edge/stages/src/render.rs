@@ -72,7 +72,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 18,
+            version: 19,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -139,7 +139,8 @@ impl Stage for RenderStage {
         // Buildings look the same in every flight through the town.
         let scene = self.scene.get(town_digest, || -> Result<_> {
             let models = props::read_models(&self.config, &context.sources)?;
-            Ok(Scene::with_models(&world.town, Seed(town_digest.0), &models))
+            let scene = Scene::with_models(&world.town, Seed(town_digest.0), &models);
+            Ok(self.config.season.into_iter().fold(scene, Scene::in_season))
         })?;
         let target = traffic::followed(inputs, artifact)?;
         let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), &context.id.item)?;

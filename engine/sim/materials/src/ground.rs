@@ -72,6 +72,7 @@ simd_kernel! {
         blocks: &mut [Block],
         label: SemanticLabel,
         grid: (&GridTables, &GridFrame),
+        lawn: [Vec3; 2],
         noise: &NoiseTexture,
     ) {
         let (tables, frame) = (grid.0, *grid.1);
@@ -95,7 +96,7 @@ simd_kernel! {
                 blocks.iter_mut().for_each(|block| block.mirror = [0.9; WIDE]);
             }
             _ => {
-                paint_patches!(shared, blocks, middle => dryness(&middle, noise), point, dry => grass(&point, dry, noise));
+                paint_patches!(shared, blocks, middle => dryness(&middle, noise), point, dry => grass(&point, dry, lawn, noise));
                 repaint_some!(shared, blocks, middle => frame.place(middle.world.x, middle.world.y).wall_m(tables)
                     < 3.4 + 2.0 * middle.footprint_m, point, albedo => {
                     let wall_m = frame.place(point.world.x, point.world.y).wall_m(tables);
@@ -205,11 +206,9 @@ fn dryness(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
 }
 
 #[inline(always)]
-fn grass(point: &SurfacePoint, dry: f32, noise: &NoiseTexture) -> Vec3 {
+fn grass(point: &SurfacePoint, dry: f32, [fresh, straw]: [Vec3; 2], noise: &NoiseTexture) -> Vec3 {
     let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
     let blades = noise.rough(x * 16.0, y * 16.0, size * 16.0);
-    let fresh = Vec3::new(0.084, 0.146, 0.040);
-    let straw = Vec3::new(0.200, 0.195, 0.080);
     fresh.lerp(straw, 0.65 * dry) * lerp(0.45, 1.55, blades)
 }
 
@@ -218,6 +217,7 @@ mod tests {
     use super::super::grid::LightGrid;
     use super::super::lanes::FOUR;
     use super::super::pattern::noise_texture;
+    use super::super::season::Season;
     use super::*;
     use cosfly_frames::simd::Level;
 
@@ -232,7 +232,15 @@ mod tests {
         for block in &mut four {
             (block.world, block.normal) = (shared.middle, shared.normal);
         }
-        ground(Level::PLAIN, &[shared], &mut four, SemanticLabel::Roads, (grid.tables(), &grid.frame()), noise);
+        ground(
+            Level::PLAIN,
+            &[shared],
+            &mut four,
+            SemanticLabel::Roads,
+            (grid.tables(), &grid.frame()),
+            Season::Summer.lawn(),
+            noise,
+        );
         core::array::from_fn(|k| get(&four[0].albedo, k))
     }
 

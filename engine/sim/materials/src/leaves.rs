@@ -5,7 +5,8 @@
 use super::lanes::{
     Block, EMPTY_ROW, FOUR, Shared, Stage, StageRow, WIDE, get, groups, set, three_of, write_row, write_three,
 };
-use super::pattern::{NoiseTexture, Noises, draw, least, most, share, smoothstep, unit};
+use super::pattern::{NoiseTexture, Noises, draw, least, lerp, most, share, smoothstep, unit};
+use super::season::Season;
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use crate::parts::SceneBox;
@@ -41,11 +42,17 @@ const AUTUMN: [[f32; 3]; 10] = [
 ];
 /// Size of the round crown as a share of half the size of the box around the whole crown.
 const ROUND: f32 = 1.118_034;
-/// Share of towns that are seen in autumn.
-const AUTUMN_SHARE: f32 = 0.2;
+/// Species whose leaves stay green: olives.
+const EVERGREEN: usize = 7;
+/// Share of bushes that are evergreen.
+const EVERGREEN_BUSHES: f32 = 0.6;
 
-fn is_autumn(town: u32) -> bool {
-    draw(town, 9) < AUTUMN_SHARE
+/// How far leaves of a clump are aside of where it is, for shadows, metres.
+const ASIDE_M: f32 = 1.2;
+
+/// Twigs of a bare crown, linear RGB.
+fn twigs(seed: u32) -> Vec3 {
+    Vec3::new(0.108, 0.096, 0.074).lerp(Vec3::new(0.096, 0.093, 0.082), draw(seed, 10))
 }
 
 /// A crown.
@@ -56,13 +63,15 @@ pub struct Leaves {
     half: Vec3,
     shrink: Vec3,
     tint: Vec3,
+    /// Light that shines through its leaves, as a share of that of green ones.
+    through: f32,
     /// Where its patterns begin.
     shift: f32,
 }
 
 impl Leaves {
-    /// The crown that a box belongs to, if there are leaves in it.
-    pub fn of(b: &SceneBox) -> Option<Self> {
+    /// The crown that a box belongs to, if there are leaves or twigs in it.
+    pub fn of(b: &SceneBox, season: Season) -> Option<Self> {
         if !matches!(b.kind, ObstacleKind::TreeCrown | ObstacleKind::Bush) {
             return None;
         }
@@ -71,14 +80,29 @@ impl Leaves {
         // The last species is rare.
         let species = if draw(seed, 8) < 0.03 { common } else { (draw(seed, 7) * common as f32) as usize % common };
         let [green, late] = [SPECIES, AUTUMN].map(|leaves| leaves[species]).map(|[r, g, b]| Vec3::new(r, g, b));
-        // Trees of a town turn one after the other.
-        let turned = if is_autumn(b.town) { share(1.4 * draw(seed, 9) - 0.1) } else { 0.0 };
-        let tint = green.lerp(late, turned) * (0.8 + 0.45 * draw(seed, 1));
-        Some(Self { middle, half, shrink: half.map(|half| 1.0 / half.max(0.1)), tint, shift: 37.0 * unit(seed) })
+        let is_evergreen = species == EVERGREEN || (b.kind == ObstacleKind::Bush && draw(seed, 11) < EVERGREEN_BUSHES);
+        let is_bare = season == Season::Winter && !is_evergreen;
+        let leaves = match season {
+            // Trees of a town turn one after the other.
+            Season::Autumn => green.lerp(late, share(1.4 * draw(seed, 9) - 0.1)),
+            Season::Winter if is_bare => twigs(seed),
+            Season::Summer | Season::Winter => green,
+        };
+        Some(Self {
+            middle,
+            half,
+            shrink: half.map(|half| 1.0 / half.max(0.1)),
+            tint: leaves * (0.8 + 0.45 * draw(seed, 1)),
+            through: if is_bare { 0.0 } else { 1.0 },
+            shift: 37.0 * unit(seed),
+        })
     }
-}
 
-impl Leaves {
+    /// Whether the crown has twigs and no leaves.
+    pub fn is_bare(&self) -> bool {
+        self.through == 0.0
+    }
+
     /// Half the lesser width of the crown, metres.
     pub fn half_width_m(&self) -> f32 {
         least(self.half.x, self.half.y)
@@ -91,6 +115,7 @@ pub struct Crowns {
     half: [StageRow; 3],
     shrink: [StageRow; 3],
     tint: [StageRow; 3],
+    through: StageRow,
     shift: StageRow,
 }
 
@@ -101,6 +126,7 @@ impl Crowns {
         half: [EMPTY_ROW; 3],
         shrink: [EMPTY_ROW; 3],
         tint: [EMPTY_ROW; 3],
+        through: EMPTY_ROW,
         shift: EMPTY_ROW,
     };
 
@@ -120,6 +146,7 @@ simd_kernel! {
             write_three(&mut crowns.half, at, look.half);
             write_three(&mut crowns.shrink, at, look.shrink);
             write_three(&mut crowns.tint, at, look.tint);
+            write_row(&mut crowns.through, at, look.through);
             write_row(&mut crowns.shift, at, look.shift);
         }
     }
@@ -178,29 +205,26 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// Moves places by a vector: the light of a crown is that of its surroundings, no box of its own shades another.
-    pub fn shift(blocks: &mut [Block], by: Vec3) {
-        for block in blocks.iter_mut() {
-            for k in 0..WIDE {
-                let place = get(&block.world, k);
-                set(&mut block.world, k, place + by);
-            }
-        }
-    }
-}
-
-simd_kernel! {
-    /// The look of leaves.
-    pub fn leaves(shared: &[Shared], blocks: &mut [Block], crowns: &Crowns, noise: &NoiseTexture) {
+    /// The look of leaves. Places move by `off_crown`, to where the light on them is that of the crown's surroundings: no box of
+    /// its own shades another. Leaves of a clump move aside with it, so that shadows on crowns are ragged.
+    pub fn leaves(
+        shared: &[Shared],
+        blocks: &mut [Block],
+        crowns: &Crowns,
+        off_crown: Vec3,
+        noise: &NoiseTexture,
+    ) {
         for (group, (shared, four)) in groups(shared, blocks).enumerate() {
-            let shifts = Stage::lane(&crowns.shift, group);
+            let [shifts, throughs] = [&crowns.shift, &crowns.through].map(|row| Stage::lane(row, group));
             for block in four {
-                for (k, shift) in shifts.iter().enumerate() {
+                for k in 0..WIDE {
                     let [middle, half, shrink, tint] = [&crowns.middle, &crowns.half, &crowns.shrink, &crowns.tint]
                         .map(|rows| three_of(rows, group, k));
-                    let crown = OnMap { middle, half, shrink, tint, shift: *shift };
-                    let look = look(&block.point(shared, k), &crown, noise);
+                    let crown = OnMap { middle, half, shrink, tint, through: throughs[k], shift: shifts[k] };
+                    let point = block.point(shared, k);
+                    let (look, aside) = look(&point, &crown, noise);
                     block.put_bent(k, &look);
+                    set(&mut block.world, k, point.world + off_crown + aside * ASIDE_M);
                 }
             }
         }
@@ -225,23 +249,29 @@ simd_kernel! {
 }
 
 /// The look of a place on a round crown. Patterns lie on a map that keeps shapes (stereographic) of its upper half, and on the
-/// mirrored one of its lower half: there are no seams.
+/// mirrored one of its lower half: there are no seams. Also the way that its clump is turned.
 #[inline(always)]
-fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> Look {
+fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec3) {
     let out = point.normal;
     let size = point.footprint_m;
     let (u, v, scale) = crown.place(point.world);
     let clumps = |offset: f32| noise.clumps(u + offset, v - offset, size * scale) - 0.5;
     let (big, aside, upward) = (clumps(crown.shift), clumps(crown.shift + 91.0), clumps(crown.shift + 173.0));
-    let small = noise.grain(u * 0.55, v * 0.55, size * scale * 0.55) - 0.5;
+    let fine = lerp(0.85, 0.55, crown.through);
+    let small = noise.grain(u * fine, v * fine, size * scale * fine) - 0.5;
+    // Twigs are lines: level sets of the same noise.
+    let small = lerp(0.26 - 2.2 * small.abs(), small, crown.through);
     // Every clump of leaves faces its own way.
-    let bent = out + Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big) * 1.5;
+    let turn = Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big);
+    let bent = out + turn * 1.5;
     let deep = smoothstep(-0.42, 0.42, 0.9 * big + 1.5 * small);
     // Light shines through leaves at the rim of a clump: they are yellower there.
-    let tint = crown.tint.lerp(crown.tint * 0.6 + Vec3::new(0.11, 0.115, 0.02), 0.5 * (small + 0.5) * deep);
+    let through = Vec3::new(0.11, 0.115, 0.02) * crown.through;
+    let tint = crown.tint.lerp(crown.tint * 0.6 + through, 0.5 * (small + 0.5) * deep);
     // Darker below, where the crown shades itself.
     let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z);
-    Look { openness: (0.55 + 0.55 * deep) * shade, ..Look::matt(tint * (0.50 + 0.95 * deep), bent.unit()) }
+    let openness = (0.55 + 0.55 * deep) * shade;
+    (Look { openness, ..Look::matt(tint * (0.50 + 0.95 * deep), bent.unit()) }, turn)
 }
 
 /// A crown as its patterns know it.
@@ -250,6 +280,7 @@ struct OnMap {
     half: Vec3,
     shrink: Vec3,
     tint: Vec3,
+    through: f32,
     shift: f32,
 }
 
@@ -260,16 +291,5 @@ impl OnMap {
         let out = ((world - self.middle) * self.shrink).unit();
         let scale = 42.0 / (1.0 + out.z.abs());
         (out.x * self.half.x * scale, out.y * self.half.y * scale, scale)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn one_town_in_five_is_seen_in_autumn() {
-        let share = (0..5000u32).filter(|town| is_autumn(town.wrapping_mul(0x9e37_79b1))).count() as f32 / 5000.0;
-        assert!((share - AUTUMN_SHARE).abs() < 0.02, "{share}");
     }
 }

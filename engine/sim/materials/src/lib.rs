@@ -4,7 +4,7 @@
 //! [`parts`] are the boxes and ground of a town that carry materials; [`roof_steps`] and [`roof_edges`] say which of their
 //! faces make one roof. [`facade`], [`ground`], [`kerbs`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`]
 //! and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
-//! the lamps each place of a town sees.
+//! the lamps each place of a town sees. [`season`] turns leaves and lawns.
 
 pub mod facade;
 pub mod grid;
@@ -18,6 +18,7 @@ pub mod pattern;
 pub mod presets;
 pub mod roof_edges;
 pub mod roof_steps;
+pub mod season;
 pub mod surface;
 pub mod things;
 pub mod vector;

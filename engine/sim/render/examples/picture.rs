@@ -1,5 +1,5 @@
-//! Renders a town to PNG files: `picture OUT_DIR [TOWN.xodr] [PEOPLE] [PRESET...]`; without a map file, a small invented
-//! town; PEOPLE is how many stand and walk around, none by default.
+//! Renders a town to PNG files: `picture OUT_DIR [TOWN.xodr] [SEASON] [PEOPLE] [PRESET...]`; without a map file, a small
+//! invented town; SEASON is `summer`, `autumn` or `winter`, the town's own by default; PEOPLE is how many stand and walk around, none by default.
 
 #[path = "../tests/crowd/mod.rs"]
 mod crowd;
@@ -8,14 +8,21 @@ mod small_town;
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::{BodyShape, FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Weather, preview};
+use cosfly_render::{BodyShape, FrameSetup, RenderConfig, Renderer, Scene, Season, TargetSetup, Weather, preview};
 use std::fs::File;
 use std::path::Path;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1).peekable();
-    let out = arguments.next().ok_or("usage: picture OUT_DIR [TOWN.xodr] [PRESET...]")?;
+    let out = arguments.next().ok_or("usage: picture OUT_DIR [TOWN.xodr] [SEASON] [PEOPLE] [PRESET...]")?;
     let map = arguments.next_if(|argument| argument.ends_with(".xodr"));
+    let season = match arguments.peek().map(String::as_str) {
+        Some("summer") => Some(Season::Summer),
+        Some("autumn") => Some(Season::Autumn),
+        Some("winter") => Some(Season::Winter),
+        _ => None,
+    };
+    arguments.next_if(|_| season.is_some());
     let people = arguments.next_if(|argument| argument.parse::<u32>().is_ok()).and_then(|count| count.parse().ok());
     let mut presets: Vec<String> = arguments.collect();
     if presets.is_empty() {
@@ -30,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 .0
         }
     };
-    let scene = Scene::new(&town, Seed([1; 32]));
+    let scene = season.into_iter().fold(Scene::new(&town, Seed([1; 32])), Scene::in_season);
     let camera = RenderConfig::default().camera();
     let mut renderer = Renderer::new(camera);
     let feet = if map.is_some() { pavement_near_the_middle(&town) } else { DVec3::new(-8.0, 13.5, 0.14) };

@@ -1,9 +1,10 @@
-//! The book's pictures: one town at noon, sunset, in rain, fog, at night and in dust: `postcards OUT_DIR TOWN.xodr`.
+//! The book's pictures: one town at noon, sunset, in rain, fog, at night, in dust and in winter: `postcards OUT_DIR TOWN.xodr`.
 
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::{MapConfig, Town, WalkableKind};
 use cosfly_render::{
-    BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, TargetSetup, Walker, Weather, gait_phase_rad,
+    BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, Season, TargetSetup, Walker, Weather,
+    gait_phase_rad,
 };
 use std::fs::File;
 use std::path::Path;
@@ -11,7 +12,7 @@ use std::path::Path;
 /// A picture's name, its preset, what is changed of it, and where the camera is: back, aside and up from the target, metres.
 type Postcard = (&'static str, &'static str, fn(&mut Weather), [f64; 3]);
 
-const POSTCARDS: [Postcard; 6] = [
+const POSTCARDS: [Postcard; 7] = [
     ("noon", "ClearNoon", |it| it.sun_azimuth_angle = 330.0, [-23.0, 11.0, 15.0]),
     ("sunset", "ClearSunset", |it| it.sun_azimuth_angle = 160.0, [-26.0, 9.0, 17.0]),
     ("rain", "HardRainNoon", |it| it.sun_azimuth_angle = 215.0, [-15.0, 8.0, 8.0]),
@@ -26,7 +27,10 @@ const POSTCARDS: [Postcard; 6] = [
     ),
     ("night", "ClearNight", |it| it.sun_azimuth_angle = 215.0, [-21.0, 11.0, 12.0]),
     ("dust", "DustStorm", |it| it.sun_azimuth_angle = 215.0, [-20.0, 10.0, 11.0]),
+    (WINTER, "ClearSunset", |it| (it.sun_altitude_angle, it.sun_azimuth_angle) = (26.0, 160.0), [-23.0, 11.0, 14.0]),
 ];
+/// Name of the picture in winter; the others are in the town's own season.
+const WINTER: &str = "winter";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -36,7 +40,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bytes = std::fs::read(&map)?;
     let (town, _) = cosfly_maps::read_town(&bytes, &MapConfig::default(), Seed([5; 32]))
         .map_err(|error| format!("{map}: {error}"))?;
-    let scene = Scene::new(&town, Seed([1; 32]));
+    let scene = || Scene::new(&town, Seed([1; 32]));
+    let (in_season, in_winter) = (scene(), scene().in_season(Season::Winter));
     let mut renderer = Renderer::new(RenderConfig::default().camera());
     std::fs::create_dir_all(&out)?;
     let (feet, heading_rad) = corner_of_a_pavement(&town);
@@ -63,7 +68,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             target: Some(target),
             others: &others,
         };
-        let frame = renderer.render(&scene, &setup);
+        let scene = if name == WINTER { &in_winter } else { &in_season };
+        let frame = renderer.render(scene, &setup);
         let file = File::create(Path::new(&out).join(format!("{name}.png")))?;
         let mut encoder = png::Encoder::new(file, frame.images.width, frame.images.height);
         encoder.set_color(png::ColorType::Rgb);

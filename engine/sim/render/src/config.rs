@@ -6,6 +6,7 @@ use crate::effects::{Effects, Lens, MotionBlur, Noise, RollingShutter};
 use crate::look::PictureLook;
 use crate::weather::{Weather, WeatherRanges};
 use cosfly_frames::Seed;
+use cosfly_materials::season::Season;
 use cosfly_models::ModelConfig;
 use cosfly_optics::Optics;
 use schemars::JsonSchema;
@@ -63,6 +64,9 @@ pub struct RenderConfig {
     pub paired_weathers: bool,
     /// Ranges to draw single weather numbers from, on top of the preset.
     pub weather: WeatherRanges,
+    /// Season of trees and lawns; left out: each town's own, summer in seven towns of ten, autumn in two, winter in one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub season: Option<Season>,
     /// Models from glTF files, drawn instead of the boxes of the town's things; labels and ids stay those of the things.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub models: Vec<ModelConfig>,
@@ -89,6 +93,7 @@ impl Default for RenderConfig {
             weathers: weathers.map(str::to_owned).to_vec(),
             paired_weathers: false,
             weather: WeatherRanges::default(),
+            season: None,
             models: vec![],
         }
     }

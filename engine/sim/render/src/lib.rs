@@ -42,6 +42,7 @@ pub use cosfly_figures::{BodyShape, Bystander, Clothes, Colour, Dye, Livery, Out
 pub use cosfly_figures::{clothes, figure};
 pub use cosfly_figures::{clothes_seed_of_target, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
 pub use cosfly_materials::presets;
+pub use cosfly_materials::season::Season;
 pub use cosfly_materials::weather::{self, Weather, WeatherRanges};
 pub use cosfly_models::{Model, ModelConfig, ModelFit, ModelKind};
 pub use cosfly_optics::Optics;

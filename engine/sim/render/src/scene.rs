@@ -16,6 +16,7 @@ use crate::shade::vector::Vec3;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_maps::{ObstacleKind, Town};
 use cosfly_materials::kerbs::{KerbLine, tone_of_town};
+use cosfly_materials::season::Season;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -27,6 +28,8 @@ pub struct Scene {
     pub(crate) boxes: Vec<SceneBox>,
     /// Stone of its kerbs.
     pub(crate) kerb_tone: Vec3,
+    /// Season of its trees and lawns.
+    pub(crate) season: Season,
     /// Colours of boxes in the simple look.
     pub(crate) colours: Vec<Vec3>,
     /// Crowns of the boxes that have leaves.
@@ -73,7 +76,8 @@ impl Scene {
         let clusters = clusters_of(town);
         let noise = noise_texture(look_seed);
         let grid = LightGrid::new(&boxes, &clusters);
-        let outskirts = Outskirts::of(&grid);
+        let season = Season::of_town(look_seed);
+        let outskirts = Outskirts::of(&grid, season);
         let props = Props::new(town, models, look_seed);
         props.replace(&mut boxes);
         static SCENES: AtomicU64 = AtomicU64::new(0);
@@ -84,10 +88,11 @@ impl Scene {
         });
         let face_ends = ends.collect();
         let colours = boxes.iter().map(colour_of).collect();
-        let crowns = boxes.iter().map(Leaves::of).collect();
+        let crowns = boxes.iter().map(|b| Leaves::of(b, season)).collect();
         Self {
             boxes,
             kerb_tone: tone_of_town(look_seed),
+            season,
             colours,
             crowns,
             clusters,
@@ -99,6 +104,14 @@ impl Scene {
             sun_maps: SunMaps::default(),
             identity,
         }
+    }
+
+    /// The same town in a season of one's choice.
+    pub fn in_season(mut self, season: Season) -> Self {
+        self.season = season;
+        self.outskirts = Outskirts::of(&self.grid, season);
+        self.crowns = self.boxes.iter().map(|b| Leaves::of(b, season)).collect();
+        self
     }
 
     /// Whether a face of a box is the wall of a building, not its roof.

@@ -4,7 +4,10 @@ mod small_town;
 
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_render::{BodyShape, Camera, FrameImages, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Weather};
+use cosfly_maps::SemanticLabel;
+use cosfly_render::{
+    BodyShape, Camera, FrameImages, FrameSetup, PictureLook, Renderer, Scene, Season, TargetSetup, Weather,
+};
 
 const CAMERA: Camera = Camera { width: 333, height: 187, horizontal_fov_rad: 1.4 };
 
@@ -37,6 +40,29 @@ fn all_vector_instructions_give_the_same_bytes() {
                 renderer.set_level(level);
                 assert!(draw(&mut renderer, &scene, weather) == plain, "{weather} {look:?} with {}", level.name());
             }
+        }
+    }
+}
+
+#[test]
+fn seasons_change_colours_only_on_every_processor() {
+    let scene = |season| Scene::new(&small_town::small_town(4, 5), Seed([1; 32])).in_season(season);
+    let mut renderer = Renderer::new(CAMERA);
+    let summer = draw(&mut renderer, &scene(Season::Summer), "ClearNoon");
+    for season in [Season::Autumn, Season::Winter] {
+        let scene = scene(season);
+        renderer.set_level(Level::best());
+        let drawn = draw(&mut renderer, &scene, "ClearNoon");
+        assert_eq!((&drawn.depth_m, &drawn.semantic), (&summer.depth_m, &summer.semantic), "{season:?}");
+        assert_eq!(drawn.instance, summer.instance, "{season:?}");
+        let is_crown = |at: usize| summer.semantic[at] == SemanticLabel::Vegetation.id();
+        let pixels = drawn.rgb.chunks_exact(3).zip(summer.rgb.chunks_exact(3)).enumerate();
+        let crowns: Vec<_> = pixels.filter(|(at, _)| is_crown(*at)).map(|(_, (a, b))| a != b).collect();
+        let changed = crowns.iter().filter(|changed| **changed).count();
+        assert!(3 * changed > crowns.len() && !crowns.is_empty(), "{season:?}: {changed} of {}", crowns.len());
+        for level in Level::available() {
+            renderer.set_level(level);
+            assert!(draw(&mut renderer, &scene, "ClearNoon") == drawn, "{season:?} with {}", level.name());
         }
     }
 }

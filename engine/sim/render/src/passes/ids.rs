@@ -41,6 +41,8 @@ pub(crate) struct CrownSpan {
     pub instance: u32,
     /// Broken edges reach this far into the crown, metres.
     pub reach_m: f32,
+    /// Twigs without leaves.
+    pub is_bare: bool,
 }
 
 /// The runs of faces seen, by band.

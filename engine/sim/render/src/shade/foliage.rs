@@ -6,7 +6,7 @@
 
 use super::bands::crown_of;
 use super::geometry::View;
-use super::pattern::{NoiseTexture, Noises, hash, share, unit};
+use super::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
 use super::setting::{Seen, Setting};
 use crate::frame::FrameImages;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
@@ -19,6 +19,14 @@ const REACH_M: f32 = 0.6;
 const REACH_SHARE: f32 = 0.28;
 /// And no farther than this, pixels.
 const MOST_PX: f32 = 20.0;
+/// The same for crowns without leaves.
+const BARE_REACH_M: f32 = 1.2;
+const BARE_REACH_SHARE: f32 = 0.5;
+const MOST_BARE_PX: f32 = 32.0;
+/// How thin leaves must be for a gap: at the edge, and that much more at the end of its reach.
+const THIN: [f32; 2] = [0.96, 0.78];
+/// How far from the middle of a twig a gap begins, likewise.
+const BARE_THIN: [f32; 2] = [0.10, 0.40];
 /// How fast leaves become a gap as noise grows: edges of leaves are soft, so that no pixel pops.
 const STEEPNESS: f32 = 8.0;
 /// Pixels whose leaves are looked at together.
@@ -35,8 +43,10 @@ pub(super) fn note(seen: &Seen<'_>, run: &Run, width: usize, crowns: &mut Vec<Cr
         last.length += run.length;
         return;
     }
-    let reach_m = REACH_M.min(REACH_SHARE * leaves.half_width_m());
-    crowns.push(CrownSpan { start: run.start, length: run.length, instance: face.instance, reach_m });
+    let is_bare = leaves.is_bare();
+    let (reach_m, reach_share) = if is_bare { (BARE_REACH_M, BARE_REACH_SHARE) } else { (REACH_M, REACH_SHARE) };
+    let reach_m = reach_m.min(reach_share * leaves.half_width_m());
+    crowns.push(CrownSpan { start: run.start, length: run.length, instance: face.instance, reach_m, is_bare });
 }
 
 /// Buffers of the pass.
@@ -75,6 +85,8 @@ struct Places {
     shift: [f32; TOGETHER],
     /// Pixels with more of a gap than this have some of one.
     least: [f32; TOGETHER],
+    /// One where there are twigs and no leaves.
+    bare: [f32; TOGETHER],
 }
 
 /// An edge of a crown: from the first pixel inside, by steps of `inward` pixels.
@@ -155,7 +167,8 @@ impl Picture<'_> {
             return;
         }
         let pixel_m = self.view.pixel() * depth;
-        let reach = (span.reach_m / pixel_m).min(MOST_PX);
+        let (most_px, thin) = if span.is_bare { (MOST_BARE_PX, BARE_THIN) } else { (MOST_PX, THIN) };
+        let reach = (span.reach_m / pixel_m).min(most_px);
         let count = (reach as usize).min(most).min(beyond);
         let shift = 97.0 * unit(hash(span.instance, 12));
         for k in 0..count {
@@ -180,7 +193,8 @@ impl Picture<'_> {
             depth_m[at] = depth;
             waiting.place.pixel_m[at] = pixel_m;
             waiting.place.shift[at] = shift;
-            waiting.place.least[at] = 0.96 + 0.78 * inside;
+            waiting.place.bare[at] = f32::from(u8::from(span.is_bare));
+            waiting.place.least[at] = thin[0] + thin[1] * inside;
             waiting.count += 1;
             if waiting.count == TOGETHER {
                 look(waiting);
@@ -201,6 +215,7 @@ impl Waiting {
             pixel_m: [1.0; TOGETHER],
             shift: [0.0; TOGETHER],
             least: [0.0; TOGETHER],
+            bare: [0.0; TOGETHER],
         },
         gap: [0.0; TOGETHER],
     };
@@ -234,7 +249,9 @@ simd_kernel! {
             let (pixel_m, shift) = (places.pixel_m[k], places.shift[k]);
             let leaves = noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0);
             let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0);
-            *gap = share((1.7 * branches + 0.75 * leaves - places.least[k]) * STEEPNESS);
+            let twigs = 1.6 * (branches - 0.5).abs() + 0.8 * (leaves - 0.5).abs();
+            let thin = lerp(1.7 * branches + 0.75 * leaves, twigs, places.bare[k]);
+            *gap = share((thin - places.least[k]) * STEEPNESS);
         }
     }
 }

@@ -7,7 +7,7 @@ use super::ground::ground;
 use super::headlights::shine;
 use super::kerbs::{Kerbs, stones};
 use super::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
-use super::leaves::{Crowns, even_leaves, leaves, shift, swell};
+use super::leaves::{Crowns, even_leaves, leaves, swell};
 use super::lighting;
 use super::material::{Material, coach};
 use super::pattern::{most, share};
@@ -76,21 +76,16 @@ pub(super) fn run_kernels(
     if material.faces_away(stage, light) {
         blocks.iter_mut().for_each(|block| block.sunlight = [0.0; WIDE]);
     } else {
-        let is_leaves = matches!(material, Material::Leaves);
-        let off_crown = light.to_sun * if is_leaves { OFF_CROWN_M } else { 0.0 };
-        if is_leaves {
-            shift(level, blocks, off_crown);
+        if let Material::Leaves = material {
+            leaves(level, shared, blocks, crowns, light.to_sun * OFF_CROWN_M, noise);
         }
         setting.shadows.sunlight(level, blocks, !is_bent, noise, near);
-        if is_leaves {
-            shift(level, blocks, off_crown * -1.0);
-        }
     }
     match material {
-        // The sky is done; even surfaces are of the simple look.
-        Material::Sky | Material::Even => {}
+        // The sky and leaves are done; even surfaces are of the simple look.
+        Material::Sky | Material::Leaves | Material::Even => {}
         Material::Ground(label) => {
-            ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), noise);
+            ground(level, shared, blocks, *label, (grid.tables(), &grid.frame()), seen.scene.season.lawn(), noise);
             if *label == SemanticLabel::SideWalks {
                 stones(level, shared, blocks, kerbs, seen.scene.kerb_tone, noise);
             }
@@ -100,7 +95,6 @@ pub(super) fn run_kernels(
         Material::Tiles(slope) => tiles(level, shared, blocks, slope, noise),
         Material::Thing(thing) => things(level, shared, blocks, thing, noise),
         Material::Cloth => cloth(level, shared, blocks, cloths, noise),
-        Material::Leaves => leaves(level, shared, blocks, crowns, noise),
         Material::Coach(look) => coach(level, blocks, look),
         Material::Skin(look) => painted(shared, blocks, look, &seen.scene.props.textures),
     }

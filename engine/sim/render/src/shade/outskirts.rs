@@ -10,6 +10,7 @@ use super::pattern::{
     NoiseTexture, Noises, floor_int, hash, least, lerp, most, one_if, share, smoothstep, stripes, unit,
 };
 use super::vector::Vec3;
+use cosfly_materials::season::Season;
 
 /// Rays that rise faster than this (sine of the angle) pass above all rings.
 pub const HIGHEST: f32 = 0.13;
@@ -30,6 +31,11 @@ pub struct Outskirts {
     /// Factors of x and y that make a circle of that ellipse.
     round: [f32; 2],
     ground_m: f32,
+    /// Colours of lawns: fresh and dry.
+    lawn: [Vec3; 2],
+    /// Colours of woods on the plain, and of the hills.
+    wood: Vec3,
+    hills: Vec3,
 }
 
 /// A ring of houses around the town.
@@ -69,10 +75,11 @@ pub struct Sight {
 
 impl Outskirts {
     /// The land around the town of a grid.
-    pub fn of(grid: &LightGrid) -> Self {
+    pub fn of(grid: &LightGrid, season: Season) -> Self {
         let [low, high] = grid.bounds_m();
         let half_m = [0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])];
         let longer_m = most(half_m[0], half_m[1]);
+        let [wood, hills] = season.woods();
         Self {
             center: [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])],
             half_m,
@@ -80,6 +87,9 @@ impl Outskirts {
             // Rings around a long town are not rounder than this: far from its ends they would be thin.
             round: half_m.map(|half| least(longer_m / most(half, 1.0), 4.0)),
             ground_m: grid.border_m(),
+            lawn: season.lawn(),
+            wood,
+            hills,
         }
     }
 
@@ -101,7 +111,7 @@ impl Outskirts {
         let height = 20.0 + 130.0 * smoothstep(0.35, 0.85, line);
         let cover = share((height - (ray.above_m + far * ray.slope)) / (far * sight.pixel) + 0.5);
         let rough = noise.clumps(place * 900.0, 20.0 + ray.slope * 900.0, 2.0);
-        let wood = Vec3::new(0.060, 0.080, 0.045) * (0.6 + 0.8 * rough);
+        let wood = self.hills * (0.6 + 0.8 * rough);
         sky.lerp(hazy(wood * arriving, far, light, sight), cover)
     }
 
@@ -118,14 +128,14 @@ impl Outskirts {
         let dry = noise.clumps(x * 0.12 + 9.0, y * 0.12 + 77.0, size * 0.12);
         let field = Vec3::new(0.10, 0.15, 0.045).lerp(Vec3::new(0.22, 0.20, 0.10), smoothstep(0.45, 0.7, dry));
         let built = Vec3::new(0.24, 0.21, 0.19).lerp(Vec3::new(0.30, 0.15, 0.10), one_if(dry > 0.5));
-        let plain = field.lerp(built, 0.75 * roofs).lerp(Vec3::new(0.055, 0.085, 0.035), 0.8 * woods);
+        let plain = field.lerp(built, 0.75 * roofs).lerp(self.wood, 0.8 * woods);
         let plain = plain * (0.55 + 0.9 * noise.rough(x * 3.0, y * 3.0, size * 3.0));
         // The lawns at the border go on into the fields, in bays.
         let [aside, along] = [(x - self.center[0], self.half_m[0]), (y - self.center[1], self.half_m[1])]
             .map(|(from, half)| most(from.abs() - half, 0.0));
         let bays = 0.5 + noise.clumps(x * 0.55, y * 0.55 + 31.0, size * 0.55);
         let wild = smoothstep(0.04, 1.0, (aside * aside + along * along).sqrt() * bays * (1.0 / BELT_M));
-        let plain = lawn(x, y, size, noise).lerp(plain, wild);
+        let plain = lawn(x, y, size, self.lawn, noise).lerp(plain, wild);
         let on_plain = light.ambient(UP) * (1.0 - 0.15 * wild) + light.sun * most(light.to_sun.z, 0.0);
         let below = one_if((ray.slope < 0.0) & (ray.above_m > 0.0));
         let lit = plain * on_plain;
@@ -232,10 +242,10 @@ impl Level {
 
 /// Lawn as the terrain of towns has it.
 #[inline(always)]
-fn lawn(x: f32, y: f32, size: f32, noise: &NoiseTexture) -> Vec3 {
+fn lawn(x: f32, y: f32, size: f32, [fresh, straw]: [Vec3; 2], noise: &NoiseTexture) -> Vec3 {
     let dry = smoothstep(0.42, 0.75, noise.clumps(x * 1.43, y * 1.43, size * 1.43));
     let blades = noise.rough(x * 16.0, y * 16.0, size * 16.0);
-    Vec3::new(0.084, 0.146, 0.040).lerp(Vec3::new(0.200, 0.195, 0.080), 0.65 * dry) * lerp(0.45, 1.55, blades)
+    fresh.lerp(straw, 0.65 * dry) * lerp(0.45, 1.55, blades)
 }
 
 /// A colour as the air shows it from afar.

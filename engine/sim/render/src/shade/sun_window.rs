@@ -11,6 +11,7 @@ use crate::shade::pattern::fixed_size;
 use crate::visibility::{Screen, Visibility};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_materials::season::Season;
 use std::sync::Arc;
 
 /// Where the windows of the coarser texels have their middle, along the camera's axis, metres.
@@ -147,7 +148,7 @@ impl Window {
                 painter.get_or_insert_with(Painter::new).draw(level, (scene, sun), wanted, &mut take);
             }
         }
-        places(&parts)
+        places(&parts, scene.season)
     }
 }
 
@@ -196,7 +197,7 @@ fn put_summary(slot: usize, of_tile: Option<&[u32]>, summary: &mut SummaryMap) {
 
 /// Places of the windows' parts for the kernels: coordinates of the finest texels from near the view, and from them those of
 /// each size, counted from a corner that is a whole number of windows from the lattice's.
-fn places(parts: &[Part; GRAINS]) -> Places {
+fn places(parts: &[Part; GRAINS], season: Season) -> Places {
     let side = f64::from(WINDOW_TILES) * TILE as f64;
     let finest = parts[0].lattice;
     let seen = parts.iter().find(|part| part.first[0] < part.end[0]).unwrap_or(&parts[0]);
@@ -223,6 +224,7 @@ fn places(parts: &[Part; GRAINS]) -> Places {
         texel_m: TEXEL_M as f32,
         corner_m: (frame.corner * frame.texels_m).as_vec2().to_array(),
         grains,
+        gaps: season.gaps(),
         used,
     }
 }

@@ -40,6 +40,8 @@ pub(super) struct Places {
     /// The corner over the sheared ground, metres.
     pub(super) corner_m: [f32; 2],
     pub(super) grains: [Grain; GRAINS],
+    /// Gaps in crowns, see [`Season::gaps`].
+    pub(super) gaps: [f32; 3],
     /// Sizes of texels that this frame reads, from the finest.
     pub(super) used: usize,
 }
@@ -319,12 +321,13 @@ fn lit_through_leaves(
         flecks |= u32::from(under_leaves[k] > 0.0);
     }
     if flecks != 0 {
+        let [from, to, light] = places.gaps;
         // Sun flecks: gaps between the leaves.
         for (k, under) in under_leaves.iter().enumerate() {
             let u = spots.finest[0][k] * places.texel_m + places.corner_m[0];
             let v = spots.finest[1][k] * places.texel_m + places.corner_m[1];
-            let gap = smoothstep(0.52, 0.70, noise.clumps(u * 18.0, v * 18.0, 1.5));
-            sunlight[k] += under * (0.75 * gap);
+            let gap = smoothstep(from, to, noise.clumps(u * 18.0, v * 18.0, 1.5));
+            sunlight[k] += under * (light * gap);
         }
     }
     flecks != 0
