@@ -156,7 +156,7 @@ impl Picture<'_> {
     /// Lists the pixels of an edge that may be gaps.
     fn edge(&self, span: &CrownSpan, edge: &Edge, waiting: &mut Waiting, look: &mut impl FnMut(&mut Waiting)) {
         let Edge { first, inward, most, beyond } = *edge;
-        let FrameImages { depth_m, instance, width, .. } = self.images;
+        let FrameImages { depth_m, semantic, instance, width, .. } = self.images;
         let depth = depth_m[first];
         if beyond == 0 {
             return;
@@ -181,8 +181,9 @@ impl Picture<'_> {
             if depth_m[behind] < depth + 0.3 {
                 continue;
             }
-            // One thing only: what stands beyond the edge has no image within the crown.
-            let behind = if instance[behind] == instance[outside] { behind } else { outside };
+            // One surface only: what stands beyond the edge, and lines on the ground, have no image within the crown.
+            let is_same = instance[behind] == instance[outside] && semantic[behind] == semantic[outside];
+            let behind = if is_same { behind } else { outside };
             // Fewer gaps farther inside: dents between branches, ragged by leaves.
             let inside = (k as f32 + 0.5) / reach;
             let at = waiting.count;
