@@ -3,6 +3,7 @@
 use super::outcome::{Outcome, print};
 use clap::Args;
 use cosfly_lab::look::{LookReport, of_folder, of_town};
+use cosfly_lab::render::views::Ground;
 use cosfly_render::RenderConfig;
 use std::path::PathBuf;
 
@@ -14,7 +15,8 @@ pub const EXAMPLES: &str = "\
 Examples:
   cosfly-lab look                            the recipes' town at noon, sunset, in rain, at night and in dust
   cosfly-lab look --pictures stanford-drone  beside a folder of JPEG or PNG pictures (repeatable)
-  cosfly-lab look --town my.xodr --views 40  another town";
+  cosfly-lab look --town my.xodr --views 40  another town
+  cosfly-lab look --down 60 --fov 45         straight down from 60 m, as surveys and the Stanford drone look";
 
 /// Arguments of `look`.
 #[derive(Args, Debug)]
@@ -31,6 +33,12 @@ pub struct LookArguments {
     /// Number of viewpoints
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = super::outcome::counts())]
     pub views: usize,
+    /// Horizontal field of view, degrees; 90 by default
+    #[arg(long, value_name = "DEGREES", value_parser = clap::value_parser!(u8).range(5..=150))]
+    pub fov: Option<u8>,
+    /// Look straight down from this height over the target, metres
+    #[arg(long, value_name = "METRES", value_parser = clap::value_parser!(u16).range(2..=1000))]
+    pub down: Option<u16>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -38,8 +46,10 @@ pub struct LookArguments {
 
 /// Measures and prints.
 pub fn look(arguments: &LookArguments) -> Outcome {
-    let camera = RenderConfig::default().camera();
+    let mut camera = RenderConfig::default().camera();
+    camera.horizontal_fov_rad = arguments.fov.map_or(camera.horizontal_fov_rad, |fov| f64::from(fov).to_radians());
     let ground = super::ground::of_town(arguments.town.as_deref(), camera, arguments.views)?;
+    let ground = arguments.down.map(f64::from).into_iter().fold(ground, Ground::from_above);
     let names: Vec<&str> = match arguments.weathers.is_empty() {
         true => WEATHERS.to_vec(),
         false => arguments.weathers.iter().map(String::as_str).collect(),

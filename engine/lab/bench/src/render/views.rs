@@ -89,6 +89,16 @@ impl Ground {
         Self { name, town, scene, camera, views }
     }
 
+    /// The same places seen from straight above, so many metres over the target, turned every way.
+    pub fn from_above(mut self, height_m: f64) -> Self {
+        for (index, view) in self.views.iter_mut().enumerate() {
+            let position_in_world = view.target.state.feet_in_world + height_m * DVec3::Z;
+            let yaw_rad = 0.7 * index as f64;
+            view.pose = Pose { position_in_world, yaw_rad, pitch_rad: -0.5 * real::PI, roll_rad: 0.0 };
+        }
+        self
+    }
+
     /// Frame `frame` of a flight from view to view, a few steps around each.
     pub fn walked(&self, frame: usize, dt_s: f64) -> View {
         self.followed(frame / STRETCH_FRAMES, frame % STRETCH_FRAMES, dt_s)
@@ -270,5 +280,10 @@ mod tests {
             assert!(!tree.blocked(eye, feet + DVec3::Z), "{eye}");
         }
         assert_eq!(ground.exported().boxes.len(), 2000);
+        for view in &ground.from_above(60.0).views {
+            let ahead = view.pose.world_from_body() * DVec3::X;
+            let feet = view.pose.position_in_world + 60.0 * ahead;
+            assert!((feet - view.target.state.feet_in_world).length() < 1e-9, "{feet}");
+        }
     }
 }
