@@ -103,9 +103,33 @@ impl Leaves {
         self.through == 0.0
     }
 
+    /// The round crown.
+    pub fn outline(&self) -> Outline {
+        Outline { middle: self.middle, shrink: self.shrink }
+    }
+
     /// Half the lesser width of the crown, metres.
     pub fn half_width_m(&self) -> f32 {
         least(self.half.x, self.half.y)
+    }
+}
+
+/// The round crown that leaves are drawn on; corners of boxes stand out of it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Outline {
+    /// Middle, metres.
+    pub middle: Vec3,
+    /// One divided by half the size of the whole crown, 1/m.
+    pub shrink: Vec3,
+}
+
+impl Outline {
+    /// How far a ray from the eye passes the round crown by, as a share of half the crown's size; 0 where the ray meets it.
+    #[inline(always)]
+    pub fn passed_by(&self, eye: Vec3, along: Vec3) -> f32 {
+        let (from, along) = ((eye - self.middle) * self.shrink, along * self.shrink);
+        let nearest = from - along * (along.dot(from) / along.dot(along));
+        most(nearest.dot(nearest).sqrt() - ROUND, 0.0)
     }
 }
 
@@ -260,7 +284,7 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
     let fine = lerp(0.85, 0.55, crown.through);
     let small = noise.grain(u * fine, v * fine, size * scale * fine) - 0.5;
     // Twigs are lines: level sets of the same noise.
-    let small = lerp(0.26 - 2.2 * small.abs(), small, crown.through);
+    let small = lerp(0.20 - 1.5 * small.abs(), small, crown.through);
     // Every clump of leaves faces its own way.
     let turn = Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big);
     let bent = out + turn * 1.5;

@@ -2,6 +2,7 @@
 
 use crate::faces::{DrawnFace, FaceSource};
 use crate::frame::FrameImages;
+use crate::shade::leaves::Outline;
 use crate::visibility::NO_FACE;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
@@ -43,6 +44,7 @@ pub(crate) struct CrownSpan {
     pub reach_m: f32,
     /// Twigs without leaves.
     pub is_bare: bool,
+    pub outline: Outline,
 }
 
 /// The runs of faces seen, by band.

@@ -6,8 +6,10 @@
 
 use super::bands::crown_of;
 use super::geometry::View;
+use super::leaves::Outline;
 use super::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
 use super::setting::{Seen, Setting};
+use super::vector::Vec3;
 use crate::frame::FrameImages;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
@@ -26,9 +28,11 @@ const MOST_BARE_PX: f32 = 32.0;
 /// How thin leaves must be for a gap: at the edge, and that much more at the end of its reach.
 const THIN: [f32; 2] = [0.96, 0.78];
 /// How far from the middle of a twig a gap begins, likewise.
-const BARE_THIN: [f32; 2] = [0.10, 0.40];
+const BARE_THIN: [f32; 2] = [0.05, 0.20];
 /// How fast leaves become a gap as noise grows: edges of leaves are soft, so that no pixel pops.
 const STEEPNESS: f32 = 8.0;
+/// How fast leaves get thin in corners of boxes that stand out of the round crown.
+const CORNER: f32 = 8.0;
 /// Pixels whose leaves are looked at together.
 const TOGETHER: usize = 256;
 
@@ -46,7 +50,14 @@ pub(super) fn note(seen: &Seen<'_>, run: &Run, width: usize, crowns: &mut Vec<Cr
     let is_bare = leaves.is_bare();
     let (reach_m, reach_share) = if is_bare { (BARE_REACH_M, BARE_REACH_SHARE) } else { (REACH_M, REACH_SHARE) };
     let reach_m = reach_m.min(reach_share * leaves.half_width_m());
-    crowns.push(CrownSpan { start: run.start, length: run.length, instance: face.instance, reach_m, is_bare });
+    crowns.push(CrownSpan {
+        start: run.start,
+        length: run.length,
+        instance: face.instance,
+        reach_m,
+        is_bare,
+        outline: leaves.outline(),
+    });
 }
 
 /// Buffers of the pass.
@@ -87,6 +98,9 @@ struct Places {
     least: [f32; TOGETHER],
     /// One where there are twigs and no leaves.
     bare: [f32; TOGETHER],
+    /// Middles of round crowns, metres, and one divided by half their size.
+    middle: [[f32; TOGETHER]; 3],
+    shrink: [[f32; TOGETHER]; 3],
 }
 
 /// An edge of a crown: from the first pixel inside, by steps of `inward` pixels.
@@ -156,6 +170,7 @@ impl Picture<'_> {
     /// Lists the pixels of an edge that may be gaps.
     fn edge(&self, span: &CrownSpan, edge: &Edge, waiting: &mut Waiting, look: &mut impl FnMut(&mut Waiting)) {
         let Edge { first, inward, most, beyond } = *edge;
+        let outline = span.outline;
         let FrameImages { depth_m, semantic, instance, width, .. } = self.images;
         let depth = depth_m[first];
         if beyond == 0 {
@@ -194,6 +209,10 @@ impl Picture<'_> {
             depth_m[at] = depth;
             waiting.place.pixel_m[at] = pixel_m;
             waiting.place.shift[at] = shift;
+            for (rows, v) in [(&mut waiting.place.middle, outline.middle), (&mut waiting.place.shrink, outline.shrink)]
+            {
+                (rows[0][at], rows[1][at], rows[2][at]) = (v.x, v.y, v.z);
+            }
             waiting.place.bare[at] = f32::from(u8::from(span.is_bare));
             waiting.place.least[at] = thin[0] + thin[1] * inside;
             waiting.count += 1;
@@ -217,6 +236,8 @@ impl Waiting {
             shift: [0.0; TOGETHER],
             least: [0.0; TOGETHER],
             bare: [0.0; TOGETHER],
+            middle: [[0.0; TOGETHER]; 3],
+            shrink: [[1.0; TOGETHER]; 3],
         },
         gap: [0.0; TOGETHER],
     };
@@ -243,16 +264,20 @@ simd_kernel! {
     fn gaps(places: &Places, view: &View, noise: &NoiseTexture, gap: &mut [f32; TOGETHER]) {
         let view = *view;
         for (k, gap) in gap.iter_mut().enumerate() {
-            let place = view.position + view.ray(places.u[k], places.v[k]) * places.depth_m[k];
+            let ray = view.ray(places.u[k], places.v[k]);
+            let [middle, shrink] = [&places.middle, &places.shrink].map(|rows| Vec3::new(rows[0][k], rows[1][k], rows[2][k]));
+            let outline = Outline { middle, shrink };
+            let place = view.position + ray * places.depth_m[k];
+            let corner = outline.passed_by(view.position, ray);
             // No face of a box is seen edge-on in these two directions.
             let x = 0.8 * place.x + 0.45 * place.y + 0.3 * place.z;
             let y = 0.35 * place.x - 0.7 * place.y + 0.85 * place.z;
             let (pixel_m, shift) = (places.pixel_m[k], places.shift[k]);
             let leaves = noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0);
             let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0);
-            let twigs = 1.6 * (branches - 0.5).abs() + 0.8 * (leaves - 0.5).abs();
+            let twigs = 1.0 * (branches - 0.5).abs() + 0.3 * (leaves - 0.5).abs();
             let thin = lerp(1.7 * branches + 0.75 * leaves, twigs, places.bare[k]);
-            *gap = share((thin - places.least[k]) * STEEPNESS);
+            *gap = share((thin + CORNER * corner - places.least[k]) * STEEPNESS);
         }
     }
 }

@@ -405,7 +405,7 @@ fn figure_darkness(map: &FigureMap, limit: f32, u: f32, v: f32, height_m: f32) -
     if inside { dark } else { 0.0 }
 }
 
-/// The share of four texels above the height at a place between them, and 1 when leaves are at the first.
+/// The share of four texels above the height at a place between them, and 1 when leaves are at one of them: no dark line around the flecks.
 #[inline(always)]
 fn between(upper: u32, lower: u32, [fx, fy]: [f32; 2], height_m: f32) -> (f32, f32) {
     let steps = height_m * STEPS_PER_M;
@@ -415,5 +415,6 @@ fn between(upper: u32, lower: u32, [fx, fy]: [f32; 2], height_m: f32) -> (f32, f
         lerp(above(lower & 0xffff), above(lower >> 16), fx),
         fy,
     );
-    (dark, (upper & 1) as i32 as f32)
+    let either = upper | lower;
+    (dark, ((either | (either >> 16)) & 1) as i32 as f32)
 }
