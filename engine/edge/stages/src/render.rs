@@ -67,8 +67,8 @@ impl StageKind for Render {
             false => ItemRule::PerInput("trajectories"),
         };
         let sources = props::take_sources(&mut config);
-        // Models change no body around a flight.
-        let bare = RenderConfig { models: vec![], ..config.clone() };
+        // Models and leaves change no body around a flight.
+        let bare = RenderConfig { models: vec![], season: None, ..config.clone() };
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),

@@ -1,5 +1,6 @@
 //! Renders a town to PNG files: `picture OUT_DIR [TOWN.xodr] [SEASON] [PEOPLE] [PRESET...]`; without a map file, a small
-//! invented town; SEASON is `summer`, `autumn` or `winter`, the town's own by default; PEOPLE is how many stand and walk around, none by default.
+//! invented town; SEASON is `summer`, `autumn` or `winter`, the town's own by default; PEOPLE is how many stand and walk
+//! around, none by default.
 
 #[path = "../tests/crowd/mod.rs"]
 mod crowd;
