@@ -1,7 +1,7 @@
 //! Cameras and weathers through the real binary: paired renderings, drawn optics, and rejected recipes.
 
 use crate::street::{RECIPE, Street, map};
-use crate::support::cosfly;
+use crate::support::{column, cosfly};
 
 /// The street with `lines` added to its render stage.
 fn street(lines: &str) -> Street {
@@ -35,6 +35,18 @@ fn paired_weathers_show_every_flight_in_each_and_another_one_renders_no_old_one_
     assert_eq!(ran(&street, &three, "frames"), 6, "only the new weather");
     let why = cosfly(&["why", "recipe.toml", "frames/expert-p00001-HardRainNoon"]).within(street.path()).run_ok();
     assert!(why.stdout.contains("cached") || why.stdout.contains("nothing changed"), "{}", why.stdout);
+}
+
+#[test]
+fn a_season_is_drawn_and_stated_in_the_table() {
+    let street = street("season = \"winter\"");
+    assert_eq!(ran(&street, &[], "frames"), 6);
+    let dataset = street.dataset();
+    cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+    assert_eq!(column(&dataset, "trajectories", "season"), vec!["\"winter\""; 6]);
+    let summer = ["--set", "stages.frames.season=\"summer\""];
+    assert_eq!(ran(&street, &summer, "frames"), 6);
+    assert_eq!(column(&dataset, "trajectories", "season"), vec!["\"summer\""; 6]);
 }
 
 #[test]
@@ -79,6 +91,7 @@ fn impossible_cameras_and_backends_are_refused_with_their_place() {
         ("rolling_shutter = { strips = 1 }", "strips", "at least `2`"),
         ("weather = { cloudiness = [0.0, 180.0] }", "cloudiness", "0 to 100"),
         ("weather = { clouds = [0.0, 80.0] }", "clouds", "cloudiness"),
+        ("season = \"spring\"", "season", "winter"),
         ("backend = \"gpu\"", "backend", "--features gpu"),
         ("backend = \"carla\"", "backend", "carla-job"),
         ("backend = \"vulkan\"", "backend", "cpu"),

@@ -1,8 +1,7 @@
 //! Plugins through the real binary: every recipe with one, caching after a change, errors, failures, commands.
 
-use crate::support::{cosfly, repository_root};
+use crate::support::{column, cosfly, repository_root};
 use arrow_stream::Values;
-use parquet::file::reader::{FileReader, SerializedFileReader};
 use std::path::{Path, PathBuf};
 
 #[path = "../plugins/sdk/src/arrow_stream.rs"]
@@ -123,20 +122,6 @@ fn every_recipe_with_a_plugin_makes_a_sound_dataset() {
         cosfly(&["run", &recipe, "--quiet", "--store", &at("store"), "--out", &at(name)]).run_ok();
         cosfly(&["verify", &at(name)]).run_ok();
     }
-}
-
-/// A column of a table as text, row by row.
-fn column(dataset: &Path, table: &str, column: &str) -> Vec<String> {
-    let mut rows = vec![];
-    for file in std::fs::read_dir(dataset.join("data").join(table)).expect("a table") {
-        let file = std::fs::File::open(file.expect("an entry").path()).expect("readable");
-        let reader = SerializedFileReader::new(file).expect("Parquet");
-        for row in reader.get_row_iter(None).expect("rows").map(|row| row.expect("readable")) {
-            let cell = row.get_column_iter().find(|(name, _)| *name == column);
-            rows.push(cell.expect("the column is there").1.to_string());
-        }
-    }
-    rows
 }
 
 #[test]

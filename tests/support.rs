@@ -1,5 +1,6 @@
 //! Calls of the real binary, and scratch folders for it.
 
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -113,4 +114,18 @@ pub fn tree_digests(dir: &Path) -> Vec<(String, String)> {
     walk(dir, dir, &mut found);
     found.sort();
     found
+}
+
+/// A column of a table as text, row by row.
+pub fn column(dataset: &Path, table: &str, column: &str) -> Vec<String> {
+    let mut rows = vec![];
+    for file in std::fs::read_dir(dataset.join("data").join(table)).expect("a table") {
+        let file = std::fs::File::open(file.expect("an entry").path()).expect("readable");
+        let reader = SerializedFileReader::new(file).expect("Parquet");
+        for row in reader.get_row_iter(None).expect("rows").map(|row| row.expect("readable")) {
+            let cell = row.get_column_iter().find(|(name, _)| *name == column);
+            rows.push(cell.expect("the column is there").1.to_string());
+        }
+    }
+    rows
 }

@@ -5,7 +5,9 @@ use cosfly_frames::{Pose, TargetState};
 use cosfly_maps::{MapOrigin, Synthetic, Town};
 use cosfly_planner::Trajectory;
 use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{Camera, Lens, MotionBlur, Mount, Noise, Outfit, PersonView, RollingShutter, TargetView, Weather};
+use cosfly_render::{
+    Camera, Lens, MotionBlur, Mount, Noise, Outfit, PersonView, RollingShutter, Season, TargetView, Weather,
+};
 use cosfly_world::{Around, BodyKind, Followed};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
@@ -123,6 +125,8 @@ pub struct RenderedTrajectory {
     pub noise: Noise,
     /// Weather of all frames.
     pub weather: Weather,
+    /// Season of trees and lawns in the pictures.
+    pub season: Season,
     /// First eight bytes of the item's seed as a number.
     pub seed: u64,
     /// View of the target in the image, per frame.
@@ -363,7 +367,7 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
     decode("captions", CAPTIONS_MAGIC, bytes)
 }
 
-const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x05";
+const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x06";
 const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x02";
 
 /// Encodes eight bytes of kind and version, then postcard.

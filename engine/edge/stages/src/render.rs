@@ -171,6 +171,7 @@ impl Stage for RenderStage {
             rolling_shutter: self.config.rolling_shutter,
             noise: self.config.noise,
             weather: shooting.weather,
+            season: scene.season(),
             seed: Seed(context.seed).as_u64(),
             views: seen.views,
             visible_by_dense_rays: seen.by_dense_rays,

@@ -17,7 +17,7 @@ use cosfly_render::channels::{ALL, SeenPoint};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::{
     Camera, ChannelImage, ChannelSet, Clothes, FrameImages, Lens, MotionBlur, Mount, Noise, Outfit, PersonView,
-    PixelBox, RollingShutter, TargetView, Weather,
+    PixelBox, RollingShutter, Season, TargetView, Weather,
 };
 use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
@@ -175,6 +175,7 @@ pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
         rolling_shutter: RollingShutter::default(),
         noise: Noise::default(),
         weather: weather(),
+        season: Season::Summer,
         seed: 0x0123_4567_89ab_cdef,
         visible_by_dense_rays: views.iter().map(|view| view.in_view.then_some(view.visible_by_pixels)).collect(),
         views,

@@ -31,6 +31,15 @@ impl Season {
         }
     }
 
+    /// The name in recipes and tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Summer => "summer",
+            Self::Autumn => "autumn",
+            Self::Winter => "winter",
+        }
+    }
+
     /// Colours of lawns, linear RGB: where they are fresh, and where they are dry.
     pub fn lawn(self) -> [Vec3; 2] {
         match self {

@@ -106,6 +106,11 @@ impl Scene {
         }
     }
 
+    /// Season of its trees and lawns.
+    pub fn season(&self) -> Season {
+        self.season
+    }
+
     /// The same town in a season of one's choice.
     pub fn in_season(mut self, season: Season) -> Self {
         self.season = season;

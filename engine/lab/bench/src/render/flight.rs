@@ -18,6 +18,7 @@ pub fn flight(ground: &Ground, weather: &Weather, shown: &[View], views: Vec<Tar
     record.town = TownInfo::of(&ground.town, "0".repeat(64));
     record.camera = ground.camera;
     record.weather = weather.clone();
+    record.season = ground.scene.season();
     record.views = views;
     record.visible_by_dense_rays = vec![None; shown.len()];
     (record.others, record.sightings) = (vec![], vec![]);

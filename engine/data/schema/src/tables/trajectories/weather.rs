@@ -1,4 +1,4 @@
-//! The weather of a trajectory: the preset, and CARLA's fourteen numbers.
+//! The weather of a trajectory: the preset, the season, and CARLA's fourteen numbers.
 
 use super::columns::Trajectories;
 use crate::tables::column::columns;
@@ -8,6 +8,8 @@ use cosfly_render::Weather;
 columns! { Trajectories::WEATHER of DatasetItem;
     /// CARLA's preset on which the numbers are based.
     weather_preset: String = |item, _| item.record.weather.name.clone();
+    /// Season of trees and lawns in the pictures: `summer`, `autumn` or `winter`.
+    season: String = |item, _| item.record.season.name().into();
 }
 
 /// One of CARLA's weather numbers, as in tables, logs and cards.
