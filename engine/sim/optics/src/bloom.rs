@@ -7,16 +7,23 @@ use cosfly_frames::simd_kernel;
 const CELL: usize = 8;
 /// Codes above this glow.
 const BRIGHT: u8 = 200;
+/// Glow that shows, codes.
+const LEAST: f32 = 0.3;
 /// Passes of the mean over three neighbours, both ways.
 const PASSES: usize = 4;
 
-/// Cells of bright light.
+/// Codes of a cell's row.
+const CODES: usize = 3 * CELL;
+
+/// Cells of bright light: red, green and blue of one after the other.
 #[derive(Default)]
 pub struct Bloom {
-    cells: Vec<[f32; 3]>,
-    other: Vec<[f32; 3]>,
+    cells: Vec<f32>,
+    other: Vec<f32>,
+    /// Highest codes of the rows of a row of cells.
+    highest: Vec<u8>,
     /// Glow at the middles of cells in the height of a row.
-    row: Vec<[f32; 3]>,
+    row: Vec<f32>,
 }
 
 impl Bloom {
@@ -27,31 +34,32 @@ impl Bloom {
             return;
         }
         let (columns, rows) = (width.div_ceil(CELL), (rgb.len() / bytes).div_ceil(CELL));
+        let floats = 3 * columns;
         self.cells.clear();
-        self.cells.resize(columns * rows, [0.0; 3]);
-        for (y, line) in rgb.chunks_exact(bytes).enumerate() {
-            gather(level, line, &mut self.cells[y / CELL * columns..][..columns]);
+        self.cells.resize(floats * rows, 0.0);
+        for (lines, cells) in rgb.chunks(CELL * bytes).zip(self.cells.chunks_exact_mut(floats)) {
+            self.highest.clear();
+            self.highest.resize(bytes, 0);
+            lines.chunks_exact(bytes).for_each(|line| raise(level, line, &mut self.highest));
+            gather(lines, &self.highest, cells);
         }
-        if self.cells.iter().all(|cell| *cell == [0.0; 3]) {
+        if self.cells.iter().all(|light| *light == 0.0) {
             return;
         }
-        self.other.resize(self.cells.len(), [0.0; 3]);
+        self.other.resize(self.cells.len(), 0.0);
         for _ in 0..PASSES {
-            mean(&self.cells, &mut self.other, columns, 1);
-            mean(&self.other, &mut self.cells, columns, columns);
+            mean_along(level, &self.cells, &mut self.other, floats);
+            mean_across(level, &self.other, &mut self.cells, floats);
         }
         let scale = strength * 2.2 / (CELL * CELL) as f32;
+        self.row.resize(floats, 0.0);
         for (y, line) in rgb.chunks_exact_mut(bytes).enumerate() {
             let v = ((y as f32 + 0.5) / CELL as f32 - 0.5).max(0.0);
             let upper = v as usize;
             let lower = (upper + 1).min(rows - 1);
             let t = v - upper as f32;
-            self.row.clear();
-            let (above, below) = (&self.cells[upper * columns..][..columns], &self.cells[lower * columns..][..columns]);
-            self.row.extend(above.iter().zip(below).map(|(above, below)| {
-                core::array::from_fn::<f32, 3, _>(|k| scale * (above[k] * (1.0 - t) + below[k] * t))
-            }));
-            if self.row.iter().any(|cell| cell.iter().any(|glow| *glow > 0.3)) {
+            let (above, below) = (&self.cells[upper * floats..][..floats], &self.cells[lower * floats..][..floats]);
+            if blend(level, above, below, t, scale, &mut self.row) > LEAST {
                 screen(level, &self.row, line);
             }
         }
@@ -59,19 +67,24 @@ impl Bloom {
 }
 
 simd_kernel! {
-    /// Adds the light of a row's pixels beyond the limit to their cells.
-    fn gather(line: &[u8], cells: &mut [[f32; 3]]) {
-        for (part, cell) in line.chunks(3 * CELL).zip(cells) {
-            let mut brightest = 0;
-            for byte in part {
-                brightest = brightest.max(*byte);
-            }
-            if brightest <= BRIGHT {
-                continue;
-            }
-            for pixel in part.as_chunks::<3>().0 {
-                for (sum, byte) in cell.iter_mut().zip(pixel) {
-                    *sum += f32::from(byte.saturating_sub(BRIGHT));
+    /// The higher codes of two rows.
+    fn raise(line: &[u8], highest: &mut [u8]) {
+        for (highest, code) in highest.iter_mut().zip(line) {
+            *highest = (*highest).max(*code);
+        }
+    }
+}
+
+/// Adds the light of a row of cells' pixels beyond the limit to them.
+fn gather(lines: &[u8], highest: &[u8], cells: &mut [f32]) {
+    for (at, (part, cell)) in highest.chunks(CODES).zip(cells.as_chunks_mut::<3>().0).enumerate() {
+        if part.iter().all(|code| *code <= BRIGHT) {
+            continue;
+        }
+        for line in lines.chunks_exact(highest.len()) {
+            for pixel in line[at * CODES..][..part.len()].as_chunks::<3>().0 {
+                for (sum, code) in cell.iter_mut().zip(pixel) {
+                    *sum += f32::from(code.saturating_sub(BRIGHT));
                 }
             }
         }
@@ -79,48 +92,125 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// Adds glow to codes, less where they are bright: blended between the middles of cells.
-    fn screen(cells: &[[f32; 3]], line: &mut [u8]) {
-        const HALF: usize = 3 * CELL / 2;
-        let last = cells.len().wrapping_sub(1);
-        for (half, bytes) in line.chunks_mut(HALF).enumerate() {
-            // The left or the right half of a cell.
-            let at = half / 2;
-            let is_left = half % 2 == 0;
-            let other = if is_left { at.saturating_sub(1) } else { at.wrapping_add(1).min(last) };
-            let (Some(own), Some(other)) = (cells.get(at), cells.get(other)) else { return };
-            let mut brightest = 0.0f32;
-            for light in own.iter().chain(other) {
-                brightest = if *light > brightest { *light } else { brightest };
+    /// Means of each cell and its neighbours on the left and right, for rows of `floats` numbers.
+    fn mean_along(from: &[f32], to: &mut [f32], floats: usize) {
+        for (from, to) in from.chunks_exact(floats).zip(to.chunks_exact_mut(floats)) {
+            let end = floats.wrapping_sub(3);
+            let at = |start: usize, end: usize| from.get(start..end).unwrap_or(&[]);
+            let inner = to.get_mut(3..end).unwrap_or(&mut []);
+            for (((to, left), right), own) in
+                inner.iter_mut().zip(at(0, end.wrapping_sub(3))).zip(at(6, floats)).zip(at(3, end))
+            {
+                *to = 0.25 * (left + right) + 0.5 * own;
             }
-            if brightest < 0.3 {
-                continue;
-            }
-            let mut glow = [0.0f32; HALF];
-            for (k, glow) in glow.iter_mut().enumerate() {
-                let place = ((k / 3) as i32 as f32 + 0.5) / CELL as f32;
-                let away = if is_left { 0.5 - place } else { place };
-                *glow = own[k % 3] + (other[k % 3] - own[k % 3]) * away;
-            }
-            for (byte, glow) in bytes.iter_mut().zip(&glow) {
-                let code = f32::from(*byte);
-                let glow = if *glow < 255.0 { *glow } else { 255.0 };
-                *byte = (code + glow * (1.0 - code * (1.0 / 255.0)) + 0.5) as i32 as u8;
+            // The border's neighbour is itself.
+            for k in [0, 1, 2, end, end.wrapping_add(1), end.wrapping_add(2)] {
+                let left = if k < 3 { k } else { k.wrapping_sub(3) };
+                let right = if k >= end { k } else { k.wrapping_add(3) };
+                to[k] = 0.25 * (from[left] + from[right]) + 0.5 * from[k];
             }
         }
     }
 }
 
-/// Means of each cell and its neighbours `step` away.
-fn mean(from: &[[f32; 3]], to: &mut [[f32; 3]], columns: usize, step: usize) {
-    let last = from.len() - 1;
-    for (at, out) in to.iter_mut().enumerate() {
-        let (left, right) = match step {
-            1 => (if at % columns == 0 { at } else { at - 1 }, if at % columns + 1 == columns { at } else { at + 1 }),
-            _ => (if at < step { at } else { at - step }, if at + step > last { at } else { at + step }),
-        };
-        *out = core::array::from_fn(|k| 0.25 * (from[left][k] + from[right][k]) + 0.5 * from[at][k]);
+simd_kernel! {
+    /// Means of each cell and its neighbours above and below, for rows of `floats` numbers.
+    fn mean_across(from: &[f32], to: &mut [f32], floats: usize) {
+        let last = from.len().wrapping_sub(floats);
+        for (at, to) in to.chunks_exact_mut(floats).enumerate() {
+            let own = at.wrapping_mul(floats);
+            let row = |start: usize| from.get(start..start.wrapping_add(floats)).unwrap_or(&[]);
+            let (above, below) = (row(own.saturating_sub(floats)), row(own.wrapping_add(floats).min(last)));
+            for (((to, above), below), own) in to.iter_mut().zip(above).zip(below).zip(row(own)) {
+                *to = 0.25 * (above + below) + 0.5 * own;
+            }
+        }
     }
+}
+
+simd_kernel! {
+    /// Blends two rows of cells at `t` from the upper to the lower one, times a factor; the brightest.
+    fn blend(above: &[f32], below: &[f32], t: f32, scale: f32, row: &mut [f32]) -> f32 {
+        for ((light, above), below) in row.iter_mut().zip(above).zip(below) {
+            *light = scale * (above * (1.0 - t) + below * t);
+        }
+        let mut brightest = [0.0f32; 16];
+        let (chunks, rest) = row.as_chunks::<16>();
+        for chunk in chunks {
+            for (brightest, light) in brightest.iter_mut().zip(chunk) {
+                *brightest = if *light > *brightest { *light } else { *brightest };
+            }
+        }
+        brightest.iter().chain(rest).fold(0.0, |most, light| if *light > most { *light } else { most })
+    }
+}
+
+/// Shares of the other cell between the middles of two neighbours, seen from the nearer one.
+const SHARES: [f32; CODES] = {
+    let mut shares = [0.0; CODES];
+    let mut k = 0;
+    while k < CODES {
+        let pixel = k / 3;
+        let away = if pixel < CELL / 2 { pixel } else { CELL - 1 - pixel };
+        shares[k] = (away as f32 + 0.5) / CELL as f32;
+        k += 1;
+    }
+    shares
+};
+
+simd_kernel! {
+    /// Adds glow to codes, less where they are bright: blended between the middles of cells.
+    fn screen(row: &[f32], line: &mut [u8]) {
+        let cells = row.as_chunks::<3>().0;
+        let (Some(first), Some(last)) = (cells.first(), cells.last()) else { return };
+        let (edge, rest) = line.split_at_mut(line.len().min(CODES / 2));
+        brighten(first, first, edge, CODES / 2);
+        for (codes, [left, right]) in rest.chunks_mut(CODES).zip(cells.array_windows()) {
+            brighten(left, right, codes, 0);
+        }
+        // Half a cell is left beyond the middle of the last one.
+        let between = cells.len().wrapping_sub(1).wrapping_mul(CODES);
+        brighten(last, last, rest.get_mut(between..).unwrap_or(&mut []), 0);
+    }
+}
+
+/// Adds glow to codes between the middles of two cells, from the code `skipped` on.
+#[inline(always)]
+fn brighten(left: &[f32; 3], right: &[f32; 3], codes: &mut [u8], skipped: usize) {
+    let mut brightest = 0.0f32;
+    for light in left.iter().chain(right) {
+        brightest = if *light > brightest { *light } else { brightest };
+    }
+    if brightest < LEAST {
+        return;
+    }
+    let mut glow = [0.0f32; CODES];
+    for (k, glow) in glow.iter_mut().enumerate() {
+        let (own, other) = if k < CODES / 2 { (left, right) } else { (right, left) };
+        let light = own[k % 3] + (other[k % 3] - own[k % 3]) * SHARES[k];
+        *glow = if light < 255.0 { light } else { 255.0 };
+    }
+    if let Ok(codes) = <&mut [u8; CODES]>::try_from(&mut *codes) {
+        for (code, glow) in codes.iter_mut().zip(glow) {
+            *code = screened(*code, glow);
+        }
+        return;
+    }
+    for (code, glow) in codes.iter_mut().zip(glow.iter().skip(skipped)) {
+        *code = screened(*code, *glow);
+    }
+}
+
+/// A code of a surface with glow before it.
+#[inline(always)]
+fn screened(code: u8, glow: f32) -> u8 {
+    let code = f32::from(code);
+    let sum = code + glow * (1.0 - code * (1.0 / 255.0)) + 0.5;
+    // The whole number below: with this added, the low bits are the nearest one. A cast that saturates is slow.
+    const WHOLE: f32 = 12_582_912.0;
+    let nearest = (sum + WHOLE) - WHOLE;
+    let below = if nearest > sum { nearest - 1.0 } else { nearest };
+    (below + WHOLE).to_bits() as u8
 }
 
 #[cfg(test)]
