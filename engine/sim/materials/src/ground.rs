@@ -2,7 +2,9 @@
 
 use super::grid::{GridFrame, GridTables};
 use super::lanes::{Block, Shared, WIDE, get, groups, set};
-use super::pattern::{NoiseTexture, Noises, band, floor_int, hash, lerp, most, smoothstep, stripes, unit};
+use super::pattern::{
+    NoiseLevel, NoiseLevels, NoiseTexture, Noises, band, floor_int, hash, lerp, most, smoothstep, stripes, unit,
+};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
@@ -11,10 +13,12 @@ use cosfly_maps::SemanticLabel;
 /// Dull surfaces whose colour follows from the place. Not a function: closures are not always inlined, and only what is
 /// inlined becomes vector code.
 macro_rules! paint_all {
-    ($shared:ident, $blocks:ident, $point:ident => $albedo:expr) => {
+    ($shared:ident, $blocks:ident, $point:ident $(, $noise:ident at $per_m:literal)* => $albedo:expr) => {
         for (shared, four) in groups($shared, $blocks) {
+            $(let $noise = NoiseLevels::of(&shared.footprint_m, $per_m);)*
             for block in four {
                 for k in 0..WIDE {
+                    $(let $noise = $noise.at(k);)*
                     let $point = block.point(shared, k);
                     let look = Look::matt($albedo, $point.normal);
                     block.put(k, &look);
@@ -26,8 +30,10 @@ macro_rules! paint_all {
 
 /// The same where a pattern of wide patches is told once for the pixels of a four.
 macro_rules! paint_patches {
-    ($shared:ident, $blocks:ident, $middle:ident => $patches:expr, $point:ident, $patch:ident => $albedo:expr) => {
+    ($shared:ident, $blocks:ident, $middle:ident => $patches:expr,
+     $point:ident, $patch:ident, $noise:ident at $per_m:literal => $albedo:expr) => {
         for (shared, four) in groups($shared, $blocks) {
+            let $noise = NoiseLevels::of(&shared.footprint_m, $per_m);
             let mut patches = [0.0f32; WIDE];
             for k in 0..WIDE {
                 let $middle = shared.point(k);
@@ -35,7 +41,7 @@ macro_rules! paint_patches {
             }
             for block in four {
                 for k in 0..WIDE {
-                    let ($point, $patch) = (block.point(shared, k), patches[k]);
+                    let ($point, $patch, $noise) = (block.point(shared, k), patches[k], $noise.at(k));
                     let look = Look::matt($albedo, $point.normal);
                     block.put(k, &look);
                 }
@@ -78,25 +84,33 @@ simd_kernel! {
         let (tables, frame) = (grid.0, *grid.1);
         match label {
             SemanticLabel::Roads | SemanticLabel::Bridge => {
-                paint_all!(shared, blocks, point => asphalt(&point, noise));
+                paint_all!(shared, blocks, point, fine at 19.0, wide at 1.05 => {
+                    asphalt(&point, [fine, wide], noise)
+                });
                 repaint_some!(shared, blocks, middle => to_manhole(middle.world.x, middle.world.y)
                     < 0.5 + 4.0 * middle.footprint_m, point, albedo => {
                     lid(&point, to_manhole(point.world.x, point.world.y), albedo)
                 });
             }
             SemanticLabel::SideWalks => {
-                paint_patches!(shared, blocks, middle => wear(&middle, noise), point, worn => slabs(&point, worn, noise));
+                paint_patches!(shared, blocks, middle => wear(&middle, noise), point, worn, fine at 15.0 => {
+                    slabs(&point, worn, fine, noise)
+                });
             }
-            SemanticLabel::RoadLine => paint_all!(shared, blocks, point => paint(&point, noise)),
+            SemanticLabel::RoadLine => paint_all!(shared, blocks, point, worn at 9.0 => paint(&point, worn, noise)),
             SemanticLabel::Ground | SemanticLabel::Static | SemanticLabel::Other => {
-                paint_patches!(shared, blocks, middle => stains(&middle, noise), point, stain => gravel(&point, stain, noise));
+                paint_patches!(shared, blocks, middle => stains(&middle, noise), point, stain, fine at 12.0 => {
+                    gravel(&point, stain, fine, noise)
+                });
             }
             SemanticLabel::Water => {
                 paint_all!(shared, blocks, point => Vec3::new(0.02, 0.05, 0.06));
                 blocks.iter_mut().for_each(|block| block.mirror = [0.9; WIDE]);
             }
             _ => {
-                paint_patches!(shared, blocks, middle => dryness(&middle, noise), point, dry => grass(&point, dry, lawn, noise));
+                paint_patches!(shared, blocks, middle => dryness(&middle, noise), point, dry, fine at 16.0 => {
+                    grass(&point, dry, lawn, fine, noise)
+                });
                 repaint_some!(shared, blocks, middle => frame.place(middle.world.x, middle.world.y).wall_m(tables)
                     < 3.4 + 2.0 * middle.footprint_m, point, albedo => {
                     let wall_m = frame.place(point.world.x, point.world.y).wall_m(tables);
@@ -108,10 +122,10 @@ simd_kernel! {
 }
 
 #[inline(always)]
-fn asphalt(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
+fn asphalt(point: &SurfacePoint, [fine, wide]: [NoiseLevel; 2], noise: &NoiseTexture) -> Vec3 {
     let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
-    let rough = noise.rough(x * 19.0, y * 19.0, size * 19.0);
-    let wide = noise.clumps(x * 1.05 + 50.0, y * 1.05, size * 1.05);
+    let rough = noise.rough_at(x * 19.0, y * 19.0, fine);
+    let wide = noise.clumps_at(x * 1.05 + 50.0, y * 1.05, wide);
     // Mended pieces and cracks: level sets of wide noise.
     let mended = 0.16 * smoothstep(0.63, 0.64 + 0.03 * size, wide) - 0.07 * smoothstep(0.40, 0.39 - 0.03 * size, wide);
     // Cracks fade where a pixel is long: lines thinner than a row of pixels would flicker.
@@ -167,7 +181,7 @@ fn wear(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
 }
 
 #[inline(always)]
-fn slabs(point: &SurfacePoint, worn: f32, noise: &NoiseTexture) -> Vec3 {
+fn slabs(point: &SurfacePoint, worn: f32, fine: NoiseLevel, noise: &NoiseTexture) -> Vec3 {
     let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
     let footprints = point.footprints_m;
     const PER_M: f32 = 1.0 / 0.75;
@@ -176,15 +190,15 @@ fn slabs(point: &SurfacePoint, worn: f32, noise: &NoiseTexture) -> Vec3 {
     let joint = most(stripes(u, 0.0, 0.04, wu), stripes(v, 0.0, 0.04, wv));
     let near = 1.0 - smoothstep(0.25, 0.8, size * PER_M);
     let slab = unit(hash(super::pattern::floor_int(u) as u32, super::pattern::floor_int(v) as u32)) - 0.5;
-    let rough = noise.rough(x * 15.0, y * 15.0, size * 15.0) - 0.5;
+    let rough = noise.rough_at(x * 15.0, y * 15.0, fine) - 0.5;
     let tone = 0.34 * (1.0 + 0.18 * slab * near + 0.42 * rough + 0.28 * worn) * (1.0 - 0.4 * joint);
     Vec3::new(tone, tone * 0.97, tone * 0.925)
 }
 
 #[inline(always)]
-fn paint(point: &SurfacePoint, noise: &NoiseTexture) -> Vec3 {
-    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
-    let worn = smoothstep(0.62, 0.86, noise.clumps(x * 9.0, y * 9.0, size * 9.0));
+fn paint(point: &SurfacePoint, worn: NoiseLevel, noise: &NoiseTexture) -> Vec3 {
+    let (x, y) = (point.world.x, point.world.y);
+    let worn = smoothstep(0.62, 0.86, noise.clumps_at(x * 9.0, y * 9.0, worn));
     Vec3::splat(0.70).lerp(Vec3::splat(0.15), 0.75 * worn)
 }
 
@@ -194,9 +208,9 @@ fn stains(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
 }
 
 #[inline(always)]
-fn gravel(point: &SurfacePoint, stain: f32, noise: &NoiseTexture) -> Vec3 {
-    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
-    let rough = noise.rough(x * 12.0, y * 12.0, size * 12.0);
+fn gravel(point: &SurfacePoint, stain: f32, fine: NoiseLevel, noise: &NoiseTexture) -> Vec3 {
+    let (x, y) = (point.world.x, point.world.y);
+    let rough = noise.rough_at(x * 12.0, y * 12.0, fine);
     Vec3::new(0.25, 0.23, 0.20) * (0.45 + 0.7 * rough + 0.5 * (stain - 0.3))
 }
 
@@ -206,9 +220,9 @@ fn dryness(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
 }
 
 #[inline(always)]
-fn grass(point: &SurfacePoint, dry: f32, [fresh, straw]: [Vec3; 2], noise: &NoiseTexture) -> Vec3 {
-    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
-    let blades = noise.rough(x * 16.0, y * 16.0, size * 16.0);
+fn grass(point: &SurfacePoint, dry: f32, [fresh, straw]: [Vec3; 2], fine: NoiseLevel, noise: &NoiseTexture) -> Vec3 {
+    let (x, y) = (point.world.x, point.world.y);
+    let blades = noise.rough_at(x * 16.0, y * 16.0, fine);
     fresh.lerp(straw, 0.65 * dry) * lerp(0.45, 1.55, blades)
 }
 

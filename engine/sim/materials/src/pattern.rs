@@ -1,5 +1,7 @@
 //! Patterns without files: integer hashes, a seeded noise texture with coarser levels, and box-filtered stripes.
 
+use super::lanes::{Lane, WIDE};
+
 /// Side of the noise texture's finest level, texels.
 const SIDE: usize = 256;
 const LEVELS: usize = 9;
@@ -113,22 +115,36 @@ pub trait Noises {
     fn clumps(&self, x: f32, y: f32, footprint: f32) -> f32;
     /// Grain over clumps in [0, 1] at texel coordinates, averaged over about `footprint` texels.
     fn rough(&self, x: f32, y: f32, footprint: f32) -> f32;
+    /// Noise of many sizes from a level.
+    fn clumps_at(&self, x: f32, y: f32, level: NoiseLevel) -> f32;
+    /// Grain over clumps from a level.
+    fn rough_at(&self, x: f32, y: f32, level: NoiseLevel) -> f32;
 }
 
 impl Noises for NoiseTexture {
     #[inline(always)]
     fn grain(&self, x: f32, y: f32, footprint: f32) -> f32 {
-        sample(self, 0, x, y, footprint)
+        sample(self, 0, x, y, NoiseLevel::of(footprint))
     }
 
     #[inline(always)]
     fn clumps(&self, x: f32, y: f32, footprint: f32) -> f32 {
-        sample(self, 1, x, y, footprint)
+        sample(self, 1, x, y, NoiseLevel::of(footprint))
     }
 
     #[inline(always)]
     fn rough(&self, x: f32, y: f32, footprint: f32) -> f32 {
-        sample(self, 2, x, y, footprint)
+        sample(self, 2, x, y, NoiseLevel::of(footprint))
+    }
+
+    #[inline(always)]
+    fn clumps_at(&self, x: f32, y: f32, level: NoiseLevel) -> f32 {
+        sample(self, 1, x, y, level)
+    }
+
+    #[inline(always)]
+    fn rough_at(&self, x: f32, y: f32, level: NoiseLevel) -> f32 {
+        sample(self, 2, x, y, level)
     }
 }
 
@@ -149,21 +165,71 @@ pub fn noise_texture(seed: u32) -> Box<NoiseTexture> {
     fixed_size(all)
 }
 
+/// A level of the noise texture: how its texels are found.
+#[derive(Clone, Copy)]
+pub struct NoiseLevel {
+    /// Texels of the level per texel of the finest one.
+    scale: f32,
+    /// Its side less one, texels.
+    mask: u32,
+    /// Its first texel.
+    start: u32,
+    /// Binary digits of its side.
+    digits: u32,
+}
+
+impl NoiseLevel {
+    /// The level whose texels are at least about as large as `footprint` texels of the finest.
+    #[inline(always)]
+    pub fn of(footprint: f32) -> Self {
+        let exponent = ((footprint * 1.4).to_bits() >> 23) as i32;
+        let level = exponent.wrapping_sub(127).clamp(0, LEVELS as i32 - 1) as u32;
+        Self {
+            // 2^-level from its exponent.
+            scale: f32::from_bits(127u32.wrapping_sub(level) << 23),
+            mask: (SIDE as u32).wrapping_shr(level).wrapping_sub(1),
+            // Texels of all finer levels: 4^8 + 4^7 + ... = (4^9 - 4^(9 - level)) / 3.
+            start: ALL_TEXELS.wrapping_sub(ALL_TEXELS.wrapping_shr(level << 1)),
+            digits: 8u32.wrapping_sub(level),
+        }
+    }
+}
+
+/// Levels of the noise texture for sixteen fours, worked out once for all of their pixels.
+pub struct NoiseLevels {
+    scale: Lane,
+    mask: [u32; WIDE],
+    start: [u32; WIDE],
+    digits: [u32; WIDE],
+}
+
+impl NoiseLevels {
+    /// Levels for pixels of these sizes where the finest texel is `1 / texels_per_m` wide.
+    #[inline(always)]
+    pub fn of(footprint_m: &Lane, texels_per_m: f32) -> Self {
+        let mut levels = Self { scale: [0.0; WIDE], mask: [0; WIDE], start: [0; WIDE], digits: [0; WIDE] };
+        for (k, footprint_m) in footprint_m.iter().enumerate() {
+            let level = NoiseLevel::of(footprint_m * texels_per_m);
+            (levels.scale[k], levels.mask[k]) = (level.scale, level.mask);
+            (levels.start[k], levels.digits[k]) = (level.start, level.digits);
+        }
+        levels
+    }
+
+    /// The level of four `k`.
+    #[inline(always)]
+    pub fn at(&self, k: usize) -> NoiseLevel {
+        NoiseLevel { scale: self.scale[k], mask: self.mask[k], start: self.start[k], digits: self.digits[k] }
+    }
+}
+
 #[inline(always)]
-fn sample(texels: &NoiseTexture, kind: usize, x: f32, y: f32, footprint: f32) -> f32 {
-    // The exponent of the footprint: level with texels at least about as large.
-    let exponent = ((footprint * 1.4).to_bits() >> 23) as i32;
-    let level = exponent.wrapping_sub(127).clamp(0, LEVELS as i32 - 1) as u32;
-    // 2^-level from its exponent.
-    let scale = f32::from_bits(127u32.wrapping_sub(level) << 23);
-    let (x, y) = (x * scale - 0.5, y * scale - 0.5);
+fn sample(texels: &NoiseTexture, kind: usize, x: f32, y: f32, level: NoiseLevel) -> f32 {
+    let (x, y) = (x * level.scale - 0.5, y * level.scale - 0.5);
     let (column, row) = (floor_int(x), floor_int(y));
     let (fx, fy) = (x - column as f32, y - row as f32);
-    let mask = (SIDE as u32).wrapping_shr(level).wrapping_sub(1);
-    // Texels of all finer levels: 4^8 + 4^7 + ... = (4^9 - 4^(9 - level)) / 3.
-    let start = ALL_TEXELS.wrapping_sub(ALL_TEXELS.wrapping_shr(level << 1));
-    let in_row = (row as u32 & mask).wrapping_shl(8u32.wrapping_sub(level));
-    let at = start.wrapping_add(in_row).wrapping_add(column as u32 & mask);
+    let in_row = (row as u32 & level.mask).wrapping_shl(level.digits);
+    let at = level.start.wrapping_add(in_row).wrapping_add(column as u32 & level.mask);
     let four = texels[kind * TEXELS + (at as usize & (TEXELS - 1))];
     blend(four, fx, fy) * (1.0 / 255.0)
 }

@@ -8,10 +8,11 @@ mod tiles;
 pub use roof::{Roof, roofs};
 pub use tiles::{Tiles, lift, tiles};
 
-use super::lanes::{Block, Lane, Shared, WIDE, get, groups};
+use super::lanes::{Block, Lane, Shared, WIDE, get, groups, set};
 use super::light::Light;
 use super::pattern::{
-    NoiseTexture, Noises, band, draw, floor_int, hash, least, lerp, most, one_if, share, smoothstep, stripes, unit,
+    NoiseLevel, NoiseLevels, NoiseTexture, Noises, band, draw, floor_int, hash, least, lerp, most, one_if, share,
+    smoothstep, stripes, unit,
 };
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
@@ -37,6 +38,12 @@ const BALCONY_M: f32 = 1.1;
 const RAIL_M: f32 = 1.0;
 /// Awnings stand out by this much, metres.
 const AWNING_M: f32 = 1.0;
+
+/// Texels of the plaster's grain per metre.
+const GRAIN_PER_M: f32 = 14.0;
+/// Height of the darker foot of a wall, and of its cornice, metres.
+const FOOT_M: f32 = 2.2;
+const CORNICE_M: f32 = 0.45;
 
 /// Shadows within windows fade until pixels are as large as this, metres.
 const FINE_M: f32 = 0.2;
@@ -149,16 +156,9 @@ impl Facade {
 
     /// The wall at `along_m` from one edge and `up_m` above the building's foot, and how much of the place is opening.
     #[inline(always)]
-    fn wall_and_opening(
-        &self,
-        point: &SurfacePoint,
-        [along_m, up_m]: [f32; 2],
-        dirt: f32,
-        noise: &NoiseTexture,
-    ) -> (Look, f32) {
+    fn wall_and_opening(&self, point: &SurfacePoint, [along_m, up_m]: [f32; 2], wall: Vec3) -> (Look, f32) {
         let (bay, floor) = (along_m * self.bays_per_m, up_m * self.floors_per_m);
         let (du, dv) = (point.footprints_m[0] * self.bays_per_m, point.footprints_m[1] * self.floors_per_m);
-        let wall = self.wall_at(point, along_m, up_m, dirt, noise);
         // A ledge between storeys, or the joint between panels.
         let ledge = stripes(floor, 0.0, self.course, dv);
         let wall = wall.lerp(self.trim, self.ledge * ledge) * (1.0 - self.joint * ledge);
@@ -214,20 +214,42 @@ impl Facade {
         1.0 - self.age * 0.5 * smoothstep(0.42, 0.80, streak)
     }
 
+    /// Grain of the plaster.
+    #[inline(always)]
+    fn grain(&self, along_m: f32, up_m: f32, fine: NoiseLevel, noise: &NoiseTexture) -> f32 {
+        noise.rough_at(along_m * GRAIN_PER_M + self.shift, up_m * GRAIN_PER_M, fine)
+    }
+
+    /// Joints between courses of bricks.
+    #[inline(always)]
+    fn courses(&self, point: &SurfacePoint, up_m: f32) -> f32 {
+        let course = stripes(up_m / 0.08, 0.0, 0.17, point.footprints_m[1] / 0.08);
+        1.0 - self.brick * one_if(point.footprint_m < 0.1) * 0.25 * course
+    }
+
+    /// The bare wall away from its ends: plaster or brick.
+    #[inline(always)]
+    fn plaster(&self, grain: f32, dirt: f32, courses: f32) -> Vec3 {
+        self.wall * ((0.78 + 0.44 * grain) * dirt * courses)
+    }
+
     /// The bare wall: plaster or brick, a base of darker stone and a cornice.
     #[inline(always)]
-    fn wall_at(&self, point: &SurfacePoint, along_m: f32, up_m: f32, dirt: f32, noise: &NoiseTexture) -> Vec3 {
-        let size = point.footprint_m;
-        let rough = noise.rough(along_m * 14.0 + self.shift, up_m * 14.0, size * 14.0);
-        let foot = 1.0 - (0.15 + 0.2 * self.age) * (1.0 - smoothstep(0.0, 2.2, up_m));
-        let course = stripes(up_m / 0.08, 0.0, 0.17, point.footprints_m[1] / 0.08);
-        let brick = self.brick * one_if(size < 0.1) * 0.25;
-        let wall = self.wall * ((0.78 + 0.44 * rough) * foot * dirt * (1.0 - brick * course));
+    fn wall_at(&self, point: &SurfacePoint, up_m: f32, grain: f32, dirt: f32, courses: f32) -> Vec3 {
+        let foot = 1.0 - (0.15 + 0.2 * self.age) * (1.0 - smoothstep(0.0, FOOT_M, up_m));
+        let wall = self.wall * ((0.78 + 0.44 * grain) * foot * dirt * courses);
         let dv = point.footprints_m[1];
         let base = band(up_m, -1.0, 0.55, dv);
-        let wall = wall.lerp(Vec3::splat(0.20) * (0.6 + 0.6 * rough), 0.7 * base);
-        let crown = band(up_m, self.height_m - 0.45, self.height_m + 1.0, dv);
+        let wall = wall.lerp(Vec3::splat(0.20) * (0.6 + 0.6 * grain), 0.7 * base);
+        let crown = band(up_m, self.height_m - CORNICE_M, self.height_m + 1.0, dv);
         wall.lerp(self.trim * 0.9, crown)
+    }
+
+    /// Whether a wall is bare of base and cornice at a place.
+    #[inline(always)]
+    fn is_middle(&self, point: &SurfacePoint, up_m: f32) -> bool {
+        let dv = point.footprints_m[1];
+        (up_m - dv > FOOT_M) & (up_m + dv < self.height_m - CORNICE_M)
     }
 
     /// Puts glass of a window over a share of the pixel; `mean` 1 where windows are too small to tell apart.
@@ -257,11 +279,12 @@ impl Facade {
         up_m: f32,
         view: Slant,
         night: Option<f32>,
-        noise: &NoiseTexture,
+        (fine, noise): (NoiseLevel, &NoiseTexture),
     ) -> Look {
         let bay = along_m * self.bays_per_m;
         let (du, dv) = (point.footprints_m[0] * self.bays_per_m, point.footprints_m[1]);
-        let wall = self.wall_at(point, along_m, up_m, 1.0, noise);
+        let grain = self.grain(along_m, up_m, fine, noise);
+        let wall = self.wall_at(point, up_m, grain, 1.0, self.courses(point, up_m));
         let top = self.floor_m;
         let third = bay * (1.0 / 3.0);
         let unit_number = floor_int(third);
@@ -379,6 +402,7 @@ impl Facade {
                 any_fine |= u32::from(*fine > 0.0);
                 any_coarse |= u32::from(*coarse > 0.0);
             }
+            let fine_grain = NoiseLevels::of(&shared.footprint_m, GRAIN_PER_M);
             let mut dirt = [1.0f32; WIDE];
             for (k, dirt) in dirt.iter_mut().enumerate() {
                 let middle = shared.point(k);
@@ -390,14 +414,39 @@ impl Facade {
                 (suns[0][k], suns[1][k]) = (to_sun.dot(place.along) * out, to_sun.z * out);
             }
             for block in four {
-                let (mut in_street, mut opens) = (0u32, 0u32);
-                for (k, dirt) in dirt.iter().enumerate() {
+                let (mut in_street, mut opens, mut at_ends) = (0u32, 0u32, 0u32);
+                let mut grain = [0.0f32; WIDE];
+                for (k, grain) in grain.iter_mut().enumerate() {
+                    let point = block.point(shared, k);
+                    let up_m = point.world.z - place.foot_m;
+                    *grain = self.grain(place.along_m(&point), up_m, fine_grain.at(k), noise);
+                    in_street |= u32::from(up_m < self.floor_m);
+                    at_ends |= u32::from(!self.is_middle(&point, up_m));
+                }
+                let mut courses = [1.0f32; WIDE];
+                if self.brick > 0.0 {
+                    for (k, courses) in courses.iter_mut().enumerate() {
+                        let point = block.point(shared, k);
+                        *courses = self.courses(&point, point.world.z - place.foot_m);
+                    }
+                }
+                if at_ends != 0 {
+                    for k in 0..WIDE {
+                        let point = block.point(shared, k);
+                        let up_m = point.world.z - place.foot_m;
+                        set(&mut block.albedo, k, self.wall_at(&point, up_m, grain[k], dirt[k], courses[k]));
+                    }
+                } else {
+                    for k in 0..WIDE {
+                        set(&mut block.albedo, k, self.plaster(grain[k], dirt[k], courses[k]));
+                    }
+                }
+                for k in 0..WIDE {
                     let point = block.point(shared, k);
                     let at = [place.along_m(&point), point.world.z - place.foot_m];
-                    let (look, opening) = self.wall_and_opening(&point, at, *dirt, noise);
+                    let (look, opening) = self.wall_and_opening(&point, at, get(&block.albedo, k));
                     block.put(k, &look);
                     block.openness[k] = opening;
-                    in_street |= u32::from(at[1] < self.floor_m);
                     opens |= u32::from(opening > 0.0);
                 }
                 // Between two rows of windows there are none.
@@ -425,7 +474,8 @@ impl Facade {
                     for k in 0..WIDE {
                         let point = block.point(shared, k);
                         let up_m = point.world.z - place.foot_m;
-                        let shop = self.shop(&point, place.along_m(&point), up_m, slant(&views, k), night, noise);
+                        let grain = (fine_grain.at(k), noise);
+                        let shop = self.shop(&point, place.along_m(&point), up_m, slant(&views, k), night, grain);
                         let look = block.look(k).lerp(&shop, one_if(up_m < self.floor_m));
                         block.put(k, &look);
                     }
