@@ -279,12 +279,11 @@ impl Facade {
         up_m: f32,
         view: Slant,
         night: Option<f32>,
-        (fine, noise): (NoiseLevel, &NoiseTexture),
+        [grain, courses]: [f32; 2],
     ) -> Look {
         let bay = along_m * self.bays_per_m;
         let (du, dv) = (point.footprints_m[0] * self.bays_per_m, point.footprints_m[1]);
-        let grain = self.grain(along_m, up_m, fine, noise);
-        let wall = self.wall_at(point, up_m, grain, 1.0, self.courses(point, up_m));
+        let wall = self.wall_at(point, up_m, grain, 1.0, courses);
         let top = self.floor_m;
         let third = bay * (1.0 / 3.0);
         let unit_number = floor_int(third);
@@ -474,8 +473,8 @@ impl Facade {
                     for k in 0..WIDE {
                         let point = block.point(shared, k);
                         let up_m = point.world.z - place.foot_m;
-                        let grain = (fine_grain.at(k), noise);
-                        let shop = self.shop(&point, place.along_m(&point), up_m, slant(&views, k), night, grain);
+                        let wall = [grain[k], courses[k]];
+                        let shop = self.shop(&point, place.along_m(&point), up_m, slant(&views, k), night, wall);
                         let look = block.look(k).lerp(&shop, one_if(up_m < self.floor_m));
                         block.put(k, &look);
                     }

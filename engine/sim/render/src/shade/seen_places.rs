@@ -7,15 +7,18 @@ use crate::visibility::{Screen, Visibility};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3, simd_kernel};
 
-/// Pixels of a row that are measured together.
-const WIDE: usize = 8;
-/// Larger pictures have blocks of twice the side.
+/// Sides of the blocks of a large picture and of a small one, pixels.
+const SIDES: [usize; 2] = [16, 8];
+/// A picture of no more pixels is small.
 const SMALL_PIXELS: usize = 1 << 16;
 
 /// Least and greatest inverse depth of what is drawn in square blocks of pixels.
 #[derive(Default)]
 pub(super) struct SeenPlaces {
     blocks: Vec<[f32; 2]>,
+    /// The same of the columns of a row of blocks.
+    least: Vec<f32>,
+    greatest: Vec<f32>,
 }
 
 impl SeenPlaces {
@@ -30,15 +33,23 @@ impl SeenPlaces {
         mut visit: impl FnMut(DVec2, DVec2),
     ) {
         let (width, height) = drawn.size();
-        let scale = if width * height <= SMALL_PIXELS { 1 } else { 2 };
-        let side = WIDE * scale;
-        let columns = width.div_ceil(side);
-        self.blocks.clear();
-        self.blocks.resize(columns * height.div_ceil(side), [f32::INFINITY, 0.0]);
         if width == 0 {
             return;
         }
-        measure(level, &drawn.inverse_depth, width, scale, &mut self.blocks);
+        let side = SIDES[usize::from(width * height <= SMALL_PIXELS)];
+        let columns = width.div_ceil(side);
+        self.blocks.clear();
+        self.least.resize(width, 0.0);
+        self.greatest.resize(width, 0.0);
+        for rows in drawn.inverse_depth.chunks(width * side) {
+            measure_columns(level, rows, &mut self.least, &mut self.greatest);
+            let columns = self.least.chunks(side).zip(self.greatest.chunks(side));
+            self.blocks.extend(columns.map(|(least, greatest)| {
+                let least =
+                    least.iter().fold(f32::INFINITY, |least, value| if *value < least { *value } else { least });
+                [least, greatest.iter().fold(0.0, |most, value| if *value > most { *value } else { most })]
+            }));
+        }
         let apex = lattice.sheared(eye.position_in_world);
         let ray = |y: f64, z: f64, x: f64| lattice.turned(eye.world_from_body * DVec3::new(x, y, z));
         let corner = ray(-screen.center_u / screen.focal_px, screen.center_v / screen.focal_px, 1.0);
@@ -65,38 +76,15 @@ impl SeenPlaces {
 }
 
 simd_kernel! {
-    /// Measures blocks of `scale` times eight pixels a side.
-    fn measure(inverse_depth: &[f32], width: usize, scale: usize, blocks: &mut [[f32; 2]]) {
-        let side = scale.wrapping_mul(WIDE);
-        let columns = width.div_ceil(side);
-        for (band, blocks) in inverse_depth.chunks(width.wrapping_mul(side)).zip(blocks.chunks_exact_mut(columns)) {
-            for row in band.chunks_exact(width) {
-                for (at, eight) in row.chunks(WIDE).enumerate() {
-                    let Some([least, greatest]) = blocks.get_mut(at / scale) else { continue };
-                    let mut lows = [f32::INFINITY; WIDE];
-                    let mut highs = [0.0f32; WIDE];
-                    if let Some(eight) = eight.first_chunk::<WIDE>() {
-                        for k in 0..WIDE {
-                            lows[k] = if eight[k] > 0.0 { eight[k] } else { f32::INFINITY };
-                            highs[k] = eight[k];
-                        }
-                    } else {
-                        for (k, value) in eight.iter().enumerate() {
-                            lows[k] = if *value > 0.0 { *value } else { f32::INFINITY };
-                            highs[k] = *value;
-                        }
-                    }
-                    let mut count = WIDE / 2;
-                    while count > 0 {
-                        for k in 0..count {
-                            lows[k] = if lows[k + count] < lows[k] { lows[k + count] } else { lows[k] };
-                            highs[k] = if highs[k + count] > highs[k] { highs[k + count] } else { highs[k] };
-                        }
-                        count /= 2;
-                    }
-                    *least = if lows[0] < *least { lows[0] } else { *least };
-                    *greatest = if highs[0] > *greatest { highs[0] } else { *greatest };
-                }
+    /// Least and greatest inverse depth of each column of some rows; infinite and 0 where nothing is drawn.
+    fn measure_columns(rows: &[f32], least: &mut [f32], greatest: &mut [f32]) {
+        least.fill(f32::INFINITY);
+        greatest.fill(0.0);
+        for row in rows.chunks_exact(least.len()) {
+            for ((value, least), greatest) in row.iter().zip(least.iter_mut()).zip(greatest.iter_mut()) {
+                let drawn = if *value > 0.0 { *value } else { f32::INFINITY };
+                // Choices in place would become masked stores, which are slow on many processors.
+                (*least, *greatest) = (least.min(drawn), greatest.max(*value));
             }
         }
     }
