@@ -139,8 +139,7 @@ impl Stage for RenderStage {
         // Buildings look the same in every flight through the town.
         let scene = self.scene.get(town_digest, || -> Result<_> {
             let models = props::read_models(&self.config, &context.sources)?;
-            let scene = Scene::with_models(&world.town, Seed(town_digest.0), &models);
-            Ok(self.config.season.into_iter().fold(scene, Scene::in_season))
+            Ok(Scene::with_models(&world.town, Seed(town_digest.0), &models).in_season(self.config.season))
         })?;
         let target = traffic::followed(inputs, artifact)?;
         let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), &context.id.item)?;

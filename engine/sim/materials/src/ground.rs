@@ -13,7 +13,7 @@ use cosfly_maps::SemanticLabel;
 /// Dull surfaces whose colour follows from the place. Not a function: closures are not always inlined, and only what is
 /// inlined becomes vector code.
 macro_rules! paint_all {
-    ($shared:ident, $blocks:ident, $point:ident $(, $noise:ident at $per_m:literal)* => $albedo:expr) => {
+    ($shared:ident, $blocks:ident, $point:ident $(, $noise:ident at $per_m:expr)* => $albedo:expr) => {
         for (shared, four) in groups($shared, $blocks) {
             $(let $noise = NoiseLevels::of(&shared.footprint_m, $per_m);)*
             for block in four {
@@ -31,7 +31,7 @@ macro_rules! paint_all {
 /// The same where a pattern of wide patches is told once for the pixels of a four.
 macro_rules! paint_patches {
     ($shared:ident, $blocks:ident, $middle:ident => $patches:expr,
-     $point:ident, $patch:ident, $noise:ident at $per_m:literal => $albedo:expr) => {
+     $point:ident, $patch:ident, $noise:ident at $per_m:expr => $albedo:expr) => {
         for (shared, four) in groups($shared, $blocks) {
             let $noise = NoiseLevels::of(&shared.footprint_m, $per_m);
             let mut patches = [0.0f32; WIDE];
@@ -108,9 +108,9 @@ simd_kernel! {
                 blocks.iter_mut().for_each(|block| block.mirror = [0.9; WIDE]);
             }
             _ => {
-                paint_patches!(shared, blocks, middle => dryness(&middle, noise), point, dry, fine at 16.0 => {
-                    grass(&point, dry, lawn, fine, noise)
-                });
+                paint_patches!(shared, blocks, middle => {
+                    dryness([middle.world.x, middle.world.y], middle.footprint_m, noise)
+                }, point, dry, fine at BLADES_PER_M => grass([point.world.x, point.world.y], dry, lawn, fine, noise));
                 repaint_some!(shared, blocks, middle => frame.place(middle.world.x, middle.world.y).wall_m(tables)
                     < 3.4 + 2.0 * middle.footprint_m, point, albedo => {
                     let wall_m = frame.place(point.world.x, point.world.y).wall_m(tables);
@@ -154,6 +154,9 @@ fn lid(point: &SurfacePoint, away_m: f32, asphalt: Vec3) -> Vec3 {
     let ribs = stripes(x * 12.0, 0.0, 0.5, size * 12.0) * stripes(y * 12.0, 0.0, 0.5, size * 12.0);
     asphalt.lerp(Vec3::splat(0.075) * (0.7 + 0.7 * ribs), inside).lerp(Vec3::splat(0.16), rim)
 }
+
+/// Texels of a lawn's blades per metre.
+const BLADES_PER_M: f32 = 16.0;
 
 /// Side of the squares of ground that have at most one manhole, metres.
 const MANHOLE_M: f32 = 13.0;
@@ -214,15 +217,21 @@ fn gravel(point: &SurfacePoint, stain: f32, fine: NoiseLevel, noise: &NoiseTextu
     Vec3::new(0.25, 0.23, 0.20) * (0.45 + 0.7 * rough + 0.5 * (stain - 0.3))
 }
 
+/// Lawn of a season's two colours at a place of the world where pixels are `size` metres wide.
 #[inline(always)]
-fn dryness(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
-    smoothstep(0.42, 0.75, noise.clumps(point.world.x * 1.43, point.world.y * 1.43, point.footprint_m * 1.43))
+pub fn lawn(place: [f32; 2], size: f32, colours: [Vec3; 2], noise: &NoiseTexture) -> Vec3 {
+    grass(place, dryness(place, size, noise), colours, NoiseLevel::of(size * BLADES_PER_M), noise)
+}
+
+/// Share of dry grass, in wide patches.
+#[inline(always)]
+fn dryness([x, y]: [f32; 2], size: f32, noise: &NoiseTexture) -> f32 {
+    smoothstep(0.42, 0.75, noise.clumps(x * 1.43, y * 1.43, size * 1.43))
 }
 
 #[inline(always)]
-fn grass(point: &SurfacePoint, dry: f32, [fresh, straw]: [Vec3; 2], fine: NoiseLevel, noise: &NoiseTexture) -> Vec3 {
-    let (x, y) = (point.world.x, point.world.y);
-    let blades = noise.rough_at(x * 16.0, y * 16.0, fine);
+fn grass([x, y]: [f32; 2], dry: f32, [fresh, straw]: [Vec3; 2], fine: NoiseLevel, noise: &NoiseTexture) -> Vec3 {
+    let blades = noise.rough_at(x * BLADES_PER_M, y * BLADES_PER_M, fine);
     fresh.lerp(straw, 0.65 * dry) * lerp(0.45, 1.55, blades)
 }
 

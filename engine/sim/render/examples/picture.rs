@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 .0
         }
     };
-    let scene = season.into_iter().fold(Scene::new(&town, Seed([1; 32])), Scene::in_season);
+    let scene = Scene::new(&town, Seed([1; 32])).in_season(season);
     let camera = RenderConfig::default().camera();
     let mut renderer = Renderer::new(camera);
     let feet = if map.is_some() { pavement_near_the_middle(&town) } else { DVec3::new(-8.0, 13.5, 0.14) };

@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (town, _) = cosfly_maps::read_town(&bytes, &MapConfig::default(), Seed([5; 32]))
         .map_err(|error| format!("{map}: {error}"))?;
     let scene = || Scene::new(&town, Seed([1; 32]));
-    let (in_season, in_winter) = (scene(), scene().in_season(Season::Winter));
+    let (in_season, in_winter) = (scene(), scene().in_season(Some(Season::Winter)));
     let mut renderer = Renderer::new(RenderConfig::default().camera());
     std::fs::create_dir_all(&out)?;
     let (feet, heading_rad) = corner_of_a_pavement(&town);

@@ -111,8 +111,9 @@ impl Scene {
         self.season
     }
 
-    /// The same town in a season of one's choice.
-    pub fn in_season(mut self, season: Season) -> Self {
+    /// The same town in a season of one's choice; without one, in its own.
+    pub fn in_season(mut self, season: Option<Season>) -> Self {
+        let Some(season) = season else { return self };
         self.season = season;
         self.outskirts = Outskirts::of(&self.grid, season);
         self.crowns = self.boxes.iter().map(|b| Leaves::of(b, season)).collect();

@@ -46,7 +46,7 @@ fn all_vector_instructions_give_the_same_bytes() {
 
 #[test]
 fn seasons_change_colours_only_on_every_processor() {
-    let scene = |season| Scene::new(&small_town::small_town(4, 5), Seed([1; 32])).in_season(season);
+    let scene = |season| Scene::new(&small_town::small_town(4, 5), Seed([1; 32])).in_season(Some(season));
     let mut renderer = Renderer::new(CAMERA);
     let summer = draw(&mut renderer, &scene(Season::Summer), "ClearNoon");
     for season in [Season::Autumn, Season::Winter] {

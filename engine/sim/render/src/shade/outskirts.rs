@@ -5,6 +5,7 @@
 
 use super::geometry::fast_exp;
 use super::grid::LightGrid;
+use super::ground::lawn;
 use super::light::Light;
 use super::pattern::{
     NoiseTexture, Noises, floor_int, hash, least, lerp, most, one_if, share, smoothstep, stripes, unit,
@@ -135,7 +136,7 @@ impl Outskirts {
             .map(|(from, half)| most(from.abs() - half, 0.0));
         let bays = 0.5 + noise.clumps(x * 0.55, y * 0.55 + 31.0, size * 0.55);
         let wild = smoothstep(0.04, 1.0, (aside * aside + along * along).sqrt() * bays * (1.0 / BELT_M));
-        let plain = lawn(x, y, size, self.lawn, noise).lerp(plain, wild);
+        let plain = lawn([x, y], size, self.lawn, noise).lerp(plain, wild);
         let on_plain = light.ambient(UP) * (1.0 - 0.15 * wild) + light.sun * most(light.to_sun.z, 0.0);
         let below = one_if((ray.slope < 0.0) & (ray.above_m > 0.0));
         let lit = plain * on_plain;
@@ -238,14 +239,6 @@ impl Level {
         let facing = Vec3::new(-self.flat[0], -self.flat[1], 0.0);
         light.ambient(facing) * 0.9 + light.sun * (0.85 * most(facing.dot(light.to_sun), 0.0))
     }
-}
-
-/// Lawn as the terrain of towns has it.
-#[inline(always)]
-fn lawn(x: f32, y: f32, size: f32, [fresh, straw]: [Vec3; 2], noise: &NoiseTexture) -> Vec3 {
-    let dry = smoothstep(0.42, 0.75, noise.clumps(x * 1.43, y * 1.43, size * 1.43));
-    let blades = noise.rough(x * 16.0, y * 16.0, size * 16.0);
-    fresh.lerp(straw, 0.65 * dry) * lerp(0.45, 1.55, blades)
 }
 
 /// A colour as the air shows it from afar.
