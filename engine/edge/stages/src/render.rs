@@ -72,7 +72,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 19,
+            version: 20,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],

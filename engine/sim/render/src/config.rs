@@ -64,7 +64,7 @@ pub struct RenderConfig {
     pub paired_weathers: bool,
     /// Ranges to draw single weather numbers from, on top of the preset.
     pub weather: WeatherRanges,
-    /// Season of trees and lawns; left out: each town's own, summer in seven towns of ten, autumn in two, winter in one.
+    /// Season of trees and lawns; left out: each town's own, summer in four towns of five, else autumn; winter only where it is named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub season: Option<Season>,
     /// Models from glTF files, drawn instead of the boxes of the town's things; labels and ids stay those of the things.
