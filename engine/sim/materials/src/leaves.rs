@@ -51,7 +51,7 @@ const EVERGREEN_BUSHES: f32 = 0.6;
 const ASIDE_M: f32 = 1.2;
 
 /// Ground below bare crowns, linear RGB.
-const BELOW: Vec3 = Vec3::new(0.20, 0.195, 0.165);
+const BELOW: Vec3 = Vec3::new(0.155, 0.15, 0.127);
 
 /// Twigs of a bare crown, linear RGB.
 fn twigs(seed: u32) -> Vec3 {
@@ -286,21 +286,22 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
     let (big, aside, upward) = (clumps(crown.shift), clumps(crown.shift + 91.0), clumps(crown.shift + 173.0));
     let fine = lerp(0.85, 0.55, crown.through);
     let small = noise.grain(u * fine, v * fine, size * scale * fine) - 0.5;
-    // Twigs are lines, level sets of the same noise, with what lies below the crown between them.
+    // Twigs are lines, level sets of the same noise, with what lies below the crown between them; they fade where a
+    // pixel is as large as a texel.
     let bare = 1.0 - crown.through;
-    let open = bare * smoothstep(0.03, 0.13, small.abs());
+    let open = bare * share((small.abs() - 0.01) / (0.10 + 0.40 * least(size * scale * fine, 1.0)));
     let small = small * crown.through;
     // Every clump of leaves faces its own way.
     let turn = Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big);
-    let bent = (out + turn * 1.5).lerp(Vec3::new(0.0, 0.0, 1.0), open);
+    let bent = (out + turn * 1.5).lerp(Vec3::new(0.0, 0.0, 1.0), 0.3 * bare);
     let deep = smoothstep(-0.42, 0.42, 0.9 * big + 1.5 * small);
     // Light shines through leaves at the rim of a clump: they are yellower there.
     let through = Vec3::new(0.11, 0.115, 0.02) * crown.through;
     let tint = crown.tint.lerp(crown.tint * 0.6 + through, 0.5 * (small + 0.5) * deep);
-    let tint = (tint * (0.50 + 0.95 * deep)).lerp(BELOW, open * (0.5 + 0.35 * deep));
+    let tint = (tint * (0.50 + 0.95 * deep)).lerp(BELOW, open * (0.5 + 0.25 * deep));
     // Darker below, where the crown shades itself.
     let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z + bare);
-    let openness = lerp((0.55 + 0.55 * deep) * shade, 0.9, 0.7 * open);
+    let openness = lerp((0.55 + 0.55 * deep) * shade, 0.85, 0.5 * open);
     (Look { openness, ..Look::matt(tint, bent.unit()) }, turn)
 }
 

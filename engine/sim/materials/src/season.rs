@@ -26,6 +26,11 @@ impl Season {
         if draw(town, 9) < AUTUMN_SHARE { Self::Autumn } else { Self::Summer }
     }
 
+    /// The season of a name, if there is one.
+    pub fn named(name: &str) -> Option<Self> {
+        [Self::Summer, Self::Autumn, Self::Winter].into_iter().find(|season| season.name() == name)
+    }
+
     /// The name in recipes and tables.
     pub fn name(self) -> &'static str {
         match self {

@@ -17,12 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1).peekable();
     let out = arguments.next().ok_or("usage: picture OUT_DIR [TOWN.xodr] [SEASON] [PEOPLE] [PRESET...]")?;
     let map = arguments.next_if(|argument| argument.ends_with(".xodr"));
-    let season = match arguments.peek().map(String::as_str) {
-        Some("summer") => Some(Season::Summer),
-        Some("autumn") => Some(Season::Autumn),
-        Some("winter") => Some(Season::Winter),
-        _ => None,
-    };
+    let season = arguments.peek().and_then(|name| Season::named(name));
     arguments.next_if(|_| season.is_some());
     let people = arguments.next_if(|argument| argument.parse::<u32>().is_ok()).and_then(|count| count.parse().ok());
     let mut presets: Vec<String> = arguments.collect();

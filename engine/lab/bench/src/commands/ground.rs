@@ -3,7 +3,7 @@
 use super::outcome::Refusals;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_lab::render::views::Ground;
-use cosfly_render::{Camera, Weather};
+use cosfly_render::{Camera, Season, Weather};
 use std::path::Path;
 
 /// A map file with viewpoints, or the town printed by `cosfly town`.
@@ -27,4 +27,9 @@ pub fn weather(name: &str) -> Result<Weather, Refusals> {
         let hint = format!("the presets are {}", Weather::PRESETS.join(", "));
         vec![Diagnostic::new("bench-weather", Fault::Recipe, message).hint(hint)]
     })
+}
+
+/// The season of a name.
+pub fn season(name: &str) -> Result<Season, &'static str> {
+    Season::named(name).ok_or("the seasons are summer, autumn, winter")
 }

@@ -4,7 +4,7 @@ use super::outcome::{Outcome, print};
 use clap::Args;
 use cosfly_lab::look::{LookReport, of_folder, of_town};
 use cosfly_lab::render::views::Ground;
-use cosfly_render::RenderConfig;
+use cosfly_render::{RenderConfig, Season};
 use std::path::PathBuf;
 
 /// Default weathers.
@@ -16,7 +16,8 @@ Examples:
   cosfly-lab look                            the recipes' town at noon, sunset, in rain, at night and in dust
   cosfly-lab look --pictures stanford-drone  beside a folder of JPEG or PNG pictures (repeatable)
   cosfly-lab look --town my.xodr --views 40  another town
-  cosfly-lab look --down 60 --fov 45         straight down from 60 m, as surveys and the Stanford drone look";
+  cosfly-lab look --down 60 --fov 45         straight down from 60 m, as surveys and the Stanford drone look
+  cosfly-lab look --season winter            bare trees and pale lawns";
 
 /// Arguments of `look`.
 #[derive(Args, Debug)]
@@ -27,6 +28,9 @@ pub struct LookArguments {
     /// Weather presets (repeatable)
     #[arg(long = "weather", value_name = "PRESET")]
     pub weathers: Vec<String>,
+    /// Season of trees and lawns: `summer`, `autumn` or `winter`; the town's own by default
+    #[arg(long, value_name = "SEASON", value_parser = super::ground::season)]
+    pub season: Option<Season>,
     /// Folders of pictures to compare with (repeatable)
     #[arg(long = "pictures", value_name = "FOLDER")]
     pub pictures: Vec<PathBuf>,
@@ -49,7 +53,8 @@ pub fn look(arguments: &LookArguments) -> Outcome {
     let mut camera = RenderConfig::default().camera();
     camera.horizontal_fov_rad = arguments.fov.map_or(camera.horizontal_fov_rad, |fov| f64::from(fov).to_radians());
     let ground = super::ground::of_town(arguments.town.as_deref(), camera, arguments.views)?;
-    let ground = arguments.down.map(f64::from).into_iter().fold(ground, Ground::from_above);
+    let mut ground = arguments.down.map(f64::from).into_iter().fold(ground, Ground::from_above);
+    ground.scene = ground.scene.in_season(arguments.season);
     let names: Vec<&str> = match arguments.weathers.is_empty() {
         true => WEATHERS.to_vec(),
         false => arguments.weathers.iter().map(String::as_str).collect(),

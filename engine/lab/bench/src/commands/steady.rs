@@ -4,7 +4,7 @@ use super::outcome::{Outcome, print};
 use clap::Args;
 use cosfly_frames::Pose;
 use cosfly_lab::look::{SteadyReport, of_clips};
-use cosfly_render::{Camera, PictureLook};
+use cosfly_render::{Camera, PictureLook, Season};
 use std::path::PathBuf;
 
 /// Default weathers: without rain, whose drops fall anew in each frame.
@@ -15,7 +15,8 @@ pub const EXAMPLES: &str = "\
 Examples:
   cosfly-lab steady                             the recipes' town at noon, sunset and night
   cosfly-lab steady --step-m 0.4 --frames 100   a quicker and longer clip
-  cosfly-lab steady --town my.xodr --views 6    another town, more clips";
+  cosfly-lab steady --town my.xodr --views 6    another town, more clips
+  cosfly-lab steady --season winter             bare trees";
 
 /// Arguments of `steady`.
 #[derive(Args, Debug)]
@@ -26,6 +27,9 @@ pub struct SteadyArguments {
     /// Weather presets (repeatable)
     #[arg(long = "weather", value_name = "PRESET")]
     pub weathers: Vec<String>,
+    /// Season of trees and lawns: `summer`, `autumn` or `winter`; the town's own by default
+    #[arg(long, value_name = "SEASON", value_parser = super::ground::season)]
+    pub season: Option<Season>,
     /// Number of clips
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = super::outcome::counts())]
     pub views: usize,
@@ -43,7 +47,8 @@ pub struct SteadyArguments {
 /// Measures and prints.
 pub fn steady(arguments: &SteadyArguments) -> Outcome {
     let camera = Camera { width: 1280, height: 720, horizontal_fov_rad: 90f64.to_radians() };
-    let ground = super::ground::of_town(arguments.town.as_deref(), camera, arguments.views)?;
+    let mut ground = super::ground::of_town(arguments.town.as_deref(), camera, arguments.views)?;
+    ground.scene = ground.scene.in_season(arguments.season);
     let starts: Vec<Pose> = ground.views.iter().map(|view| view.pose).collect();
     let names: Vec<&str> = match arguments.weathers.is_empty() {
         true => WEATHERS.to_vec(),
