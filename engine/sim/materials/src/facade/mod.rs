@@ -227,17 +227,17 @@ impl Facade {
         1.0 - self.brick * one_if(point.footprint_m < 0.1) * 0.25 * course
     }
 
-    /// The bare wall away from its ends: plaster or brick.
+    /// Plaster or brick, with the share of light that the foot of the wall leaves.
     #[inline(always)]
-    fn plaster(&self, grain: f32, dirt: f32, courses: f32) -> Vec3 {
-        self.wall * ((0.78 + 0.44 * grain) * dirt * courses)
+    fn plaster(&self, grain: f32, foot: f32, dirt: f32, courses: f32) -> Vec3 {
+        self.wall * ((0.78 + 0.44 * grain) * foot * dirt * courses)
     }
 
     /// The bare wall: plaster or brick, a base of darker stone and a cornice.
     #[inline(always)]
     fn wall_at(&self, point: &SurfacePoint, up_m: f32, grain: f32, dirt: f32, courses: f32) -> Vec3 {
         let foot = 1.0 - (0.15 + 0.2 * self.age) * (1.0 - smoothstep(0.0, FOOT_M, up_m));
-        let wall = self.wall * ((0.78 + 0.44 * grain) * foot * dirt * courses);
+        let wall = self.plaster(grain, foot, dirt, courses);
         let dv = point.footprints_m[1];
         let base = band(up_m, -1.0, 0.55, dv);
         let wall = wall.lerp(Vec3::splat(0.20) * (0.6 + 0.6 * grain), 0.7 * base);
@@ -437,7 +437,7 @@ impl Facade {
                     }
                 } else {
                     for k in 0..WIDE {
-                        set(&mut block.albedo, k, self.plaster(grain[k], dirt[k], courses[k]));
+                        set(&mut block.albedo, k, self.plaster(grain[k], 1.0, dirt[k], courses[k]));
                     }
                 }
                 for k in 0..WIDE {
