@@ -5,16 +5,19 @@
 //! * [`ParameterError`]: an invalid parameter whose place in a file is not known yet.
 //! * [`visible_text`]: foreign text, made harmless for a terminal.
 //! * [`nearest_name`]: the known name most similar to a mistyped one.
+//! * [`plausible`]: the rule for numbers from outside.
 
 mod diagnostic;
 mod excerpt;
 mod nearest;
 mod parameter;
+mod plausible;
 mod print;
 mod visible;
 
 pub use diagnostic::{Diagnostic, Fault, Label, Result};
 pub use nearest::nearest_name;
 pub use parameter::ParameterError;
+pub use plausible::{Implausible, LARGEST_MAGNITUDE, plausible};
 pub use print::{render, render_all};
 pub use visible::visible_text;
