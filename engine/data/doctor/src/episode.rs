@@ -15,8 +15,13 @@ pub struct Episode {
     pub group: String,
     /// Town; episodes with the same name share a place.
     pub place: String,
+    /// Name of the town; empty where it is unknown.
+    pub town: String,
     /// Whether the flight is perturbed on purpose: limits of motion do not apply.
     pub is_perturbed: bool,
+    /// Longest displacement of the drone from its way in a single frame, metres: stated of twins of kind `jumps`, 0 of flights that a
+    /// drone could fly; none where nothing is stated.
+    pub displaced_m: Option<f64>,
     /// Camera of all frames; none where it is unknown or its lens is bent.
     pub camera: Option<Camera>,
     /// Height of the target's body, metres.

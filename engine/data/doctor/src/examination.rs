@@ -122,8 +122,10 @@ pub fn examine_texts(
         return Err(Diagnostic::new("doctor-texts", Fault::Input, message));
     }
     // Damage of the tables has its flag.
-    let figures = || shortcuts::figures(&PublishedDataset::open(folder).ok()?).ok();
-    let shortcuts = if layout == Layout::Cosfly { figures() } else { None };
+    let dataset = if layout == Layout::Cosfly { PublishedDataset::open(folder).ok() } else { None };
+    let shortcuts = dataset.as_ref().and_then(|dataset| shortcuts::figures(dataset).ok());
+    let things = dataset.and_then(|dataset| dataset.object_places().ok()).unwrap_or_default();
+    let flags = [flags, checks::extent(&tally.traces, things)].concat();
     Ok(Examination { shortcuts, ..tally.summed(layout, flags, notes) })
 }
 

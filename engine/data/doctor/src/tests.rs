@@ -89,6 +89,39 @@ fn poses_that_freeze_are_named() {
 }
 
 #[test]
+fn displaced_twins_are_sound_at_any_rate_and_a_jump_beyond_their_displacement_is_named() {
+    for dt_s in [0.5, 0.1, 0.01] {
+        let displaced = |more_m: f64| {
+            let folder = tempfile::tempdir().expect("a folder");
+            write(folder.path(), &|flight| {
+                let trajectory = &mut flight.record.trajectory;
+                trajectory.track.dt_s = dt_s;
+                let Some(twin) = &mut trajectory.perturbation else { return };
+                // Up and down by 3 m, as the paper's twins, and further in the poses alone.
+                for (frame, pose) in trajectory.poses_in_world.iter_mut().enumerate() {
+                    let up_m = if frame % 2 == 0 { 3.0 } else { -3.0 };
+                    pose.position_in_world.z += up_m + if frame == 2 { more_m } else { 0.0 };
+                    twin.frames[frame].drone_offset_in_world = cosfly_frames::DVec3::Z * up_m;
+                }
+            });
+            names(folder.path()).contains("pose-jump")
+        };
+        assert!(!displaced(0.0), "{dt_s} s");
+        assert!(displaced(45.0 * dt_s + 1.0), "{dt_s} s");
+    }
+}
+
+#[test]
+fn a_town_whose_walks_are_kilometres_from_its_objects_is_named() {
+    check_planted("town-apart", &|flight| {
+        let far = cosfly_frames::DVec3::new(393_706.0, 0.0, 0.0);
+        let trajectory = &mut flight.record.trajectory;
+        trajectory.poses_in_world.iter_mut().for_each(|pose| pose.position_in_world += far);
+        trajectory.track.states.iter_mut().for_each(|state| state.feet_in_world += far);
+    });
+}
+
+#[test]
 fn an_instruction_that_is_not_true_is_named() {
     check_planted("caption-mismatch", &|flight| {
         flight.captions = sample::flights()[0].captions.clone();

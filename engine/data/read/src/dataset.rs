@@ -6,7 +6,7 @@ use super::rows::read;
 use super::trajectory::{PublishedFlight, Shared};
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_schema::Split;
-use cosfly_schema::tables::{People, Rejected};
+use cosfly_schema::tables::{Pairs, People, Rejected};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
@@ -101,6 +101,25 @@ impl PublishedDataset {
             read(&path, &mut |rows| {
                 for row in 0..rows.len() {
                     found.insert(rows.get(Rejected::trajectory_id, row)?, rows.get(Rejected::reason, row)?);
+                }
+                Ok(())
+            })?;
+        }
+        Ok(found)
+    }
+
+    /// Longest displacement of each perturbed trajectory in a single frame, metres: of kind `jumps`; 0 of kinds that could be flown.
+    ///
+    /// # Errors
+    /// Damage of table `pairs`.
+    pub fn displacements(&self) -> Result<BTreeMap<String, f64>> {
+        let mut found = BTreeMap::new();
+        for (_, path) in self.files("pairs")? {
+            read(&path, &mut |rows| {
+                for row in 0..rows.len() {
+                    let jumps = rows.get(Pairs::position_probability, row)?.is_some();
+                    let displaced_m = if jumps { rows.get(Pairs::max_offset_m, row)? } else { 0.0 };
+                    found.insert(rows.get(Pairs::perturbed_id, row)?, displaced_m);
                 }
                 Ok(())
             })?;

@@ -5,6 +5,7 @@ use super::rows::read;
 use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
 use cosfly_schema::tables::Objects;
+use std::collections::BTreeMap;
 
 /// A box of an object.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,24 @@ pub struct PublishedObject {
 pub type BoxInWorld = (DVec3, DVec3, f64);
 
 impl PublishedDataset {
+    /// Places of all objects by town: x and y of their middles, metres.
+    ///
+    /// # Errors
+    /// Damage of the table.
+    pub fn object_places(&self) -> Result<BTreeMap<String, Vec<[f64; 2]>>> {
+        let mut found: BTreeMap<String, Vec<[f64; 2]>> = BTreeMap::new();
+        for (_, path) in self.files("objects")? {
+            read(&path, &mut |rows| {
+                for row in 0..rows.len() {
+                    let [x, y, _] = rows.get(Objects::center_in_world_m, row)?;
+                    found.entry(rows.get(Objects::town, row)?).or_default().push([x, y]);
+                }
+                Ok(())
+            })?;
+        }
+        Ok(found)
+    }
+
     /// Boxes of all objects of these kinds, in the order of the table.
     ///
     /// # Errors

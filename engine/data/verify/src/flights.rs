@@ -1,7 +1,7 @@
 //! All flights, side by side: table `frames` with the tables beside it, and the log of each flight.
 
 use super::files::{CheckedFiles, State};
-use super::frames::{check_frames, check_occluders, check_pair};
+use super::frames::{check_frames, check_occluders, check_pair, check_town};
 use super::log::{self, Known};
 use super::options::Wanted;
 use super::people::{PeopleIndex, PersonRow};
@@ -240,6 +240,7 @@ impl<'a> Flights<'a> {
         people::check(rows.people_file, flight, frames, others, objects, report);
         check_occluders(file, objects, others, frames, report);
         check_pair(&self.tables.pairs, flight, frames, report);
+        check_town(file, self.tables.extents.get(&flight.town), flight, frames, report);
         if let Some(expert) = rows.expert {
             twins::check(file, flight, frames, expert, report);
         }

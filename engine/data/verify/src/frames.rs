@@ -4,7 +4,9 @@ use super::boxes::box_problem;
 use super::people::PersonRow;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
-use super::tables::{PairRow, digest};
+use super::tables::{Extent, PairRow, digest};
+use cosfly_frames::DVec3;
+use cosfly_metrics::spread::APART_M;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Numbers that were computed from others in 64-bit floats may differ by this much (metres or degrees).
@@ -61,6 +63,31 @@ pub fn check_frames(file: &str, flight: &PlacedFlight, frames: &[PlacedFrame], r
         }
     }
     report.boxes += frames.iter().filter(|frame| frame.full_box_px.is_some()).count() as u64;
+}
+
+/// Drone and target are in the town whose objects table `objects` lists, not kilometres from it.
+pub fn check_town(
+    file: &str,
+    extent: Option<&Extent>,
+    flight: &PlacedFlight,
+    frames: &[PlacedFrame],
+    report: &mut VerifyReport,
+) {
+    let Some([low, high]) = extent else { return };
+    let away_m = |place: DVec3| {
+        [(place.x, 0), (place.y, 1)]
+            .map(|(value, axis)| (low[axis] - value).max(value - high[axis]))
+            .into_iter()
+            .fold(0.0, f64::max)
+    };
+    let worst = frames
+        .iter()
+        .map(|frame| (frame, away_m(frame.pose.position_in_world).max(away_m(frame.target.feet_in_world))));
+    if let Some((frame, far_m)) = worst.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, far_m)| *far_m > APART_M) {
+        let place = format!("row {}, `{}` frame {}", frame.row, flight.trajectory_id, frame.frame);
+        let message = format!("it is {:.0} km from the nearest object of its town `{}`", far_m / 1000.0, flight.town);
+        report.find(file, place, "verify-town", message);
+    }
 }
 
 /// The occluder of the target is in table `objects`, or a person who is seen in the same frame.

@@ -7,6 +7,7 @@ use super::report::VerifyReport;
 use super::rows::{self, PlacedFlight, ReadResult};
 use super::sums;
 use cosfly_diagnose::Result;
+use cosfly_metrics::spread::{APART_M, widest_gap_m};
 use cosfly_read::{Rows, Shared};
 use cosfly_schema::tables::{self, Objects, Pairs, Rejected};
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,7 +24,12 @@ pub struct SmallTables {
     pub captions: CaptionList,
     /// Instance ids by town.
     pub instances: BTreeMap<String, BTreeSet<u32>>,
+    /// Extents of the objects by town: least and largest x and y, metres.
+    pub extents: BTreeMap<String, Extent>,
 }
+
+/// Least and largest x and y, metres.
+pub type Extent = [[f64; 2]; 2];
 
 /// A row of table `pairs`.
 pub struct PairRow {
@@ -53,7 +59,8 @@ pub fn digest(frames: impl Iterator<Item = i64>) -> blake3::Hash {
 pub fn read(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> SmallTables {
     let flights = read_flights(folder, files, report);
     let captions = CaptionList::read(folder, files, &flights, report);
-    let mut small = SmallTables { flights, pairs: BTreeMap::new(), captions, instances: BTreeMap::new() };
+    let mut small =
+        SmallTables { flights, pairs: BTreeMap::new(), captions, instances: BTreeMap::new(), extents: BTreeMap::new() };
     let rejected = read_rejected(folder, files, report);
     for flight in small.flights.iter().filter(|flight| rejected.contains(&flight.trajectory_id)) {
         report.find(
@@ -117,15 +124,29 @@ fn read_rejected(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport)
 }
 
 fn read_objects(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, report: &mut VerifyReport) {
+    let mut places: BTreeMap<String, Vec<[f64; 2]>> = BTreeMap::new();
     for file in files.sound_below("data/objects/") {
         let outcome = rows::read(&folder.join(file), &tables::of_objects(), &mut |rows| {
             for row in 0..rows.len() {
-                let ids = small.instances.entry(rows.get(Objects::town, row)?).or_default();
-                ids.insert(rows.get(Objects::instance, row)?);
+                let town = rows.get(Objects::town, row)?;
+                let [x, y, _] = rows.get(Objects::center_in_world_m, row)?;
+                places.entry(town.clone()).or_default().push([x, y]);
+                small.instances.entry(town).or_default().insert(rows.get(Objects::instance, row)?);
             }
             Ok(())
         });
         note(report, file, outcome);
+    }
+    for (town, places) in places {
+        let extent = places.iter().fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], place| {
+            [[0, 1].map(|axis| low[axis].min(place[axis])), [0, 1].map(|axis| high[axis].max(place[axis]))]
+        });
+        small.extents.insert(town.clone(), extent);
+        let gap_m = widest_gap_m(&places);
+        if gap_m > APART_M {
+            let message = format!("its things are {:.0} km apart", gap_m / 1000.0);
+            report.find("data/objects", format!("town `{town}`"), "verify-town", message);
+        }
     }
 }
 

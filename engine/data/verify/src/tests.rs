@@ -56,6 +56,16 @@ fn shares_by_rays_and_pixels_that_differ_are_listed_with_a_reason_and_are_no_pro
 }
 
 #[test]
+fn a_flight_kilometres_from_the_objects_of_its_town_is_found() {
+    let mut flights = sample::flights();
+    let far = cosfly_frames::DVec3::new(0.0, -5_815_132.0, 0.0);
+    let trajectory = &mut flights[0].record.trajectory;
+    trajectory.poses_in_world.iter_mut().for_each(|pose| pose.position_in_world += far);
+    trajectory.track.states.iter_mut().for_each(|state| state.feet_in_world += far);
+    assert!(rules_of(&published(flights)).contains(&"verify-town"));
+}
+
+#[test]
 fn a_flipped_byte_is_found_wherever_it_is() {
     for name in ["README.md", "croissant.json", "files.parquet", "SHA256SUMS", "schemas/cosfly.proto"] {
         let folder = published(sample::flights());

@@ -11,6 +11,7 @@
 //! * [`bootstrap`]: intervals by resampling whole trajectories.
 //! * [`difficulty`]: easy, medium and hard windows.
 //! * [`shortcuts`]: signs that give the target away.
+//! * [`spread`]: towns that fall apart.
 //! * [`baselines`]: predictions that a model must beat.
 
 pub mod baselines;
@@ -24,6 +25,7 @@ pub mod run_lengths;
 pub mod scores;
 pub mod segmentation;
 pub mod shortcuts;
+pub mod spread;
 pub mod waypoint;
 pub mod windows;
 

@@ -19,6 +19,8 @@ pub struct Trace {
     split: Option<String>,
     group: String,
     place: String,
+    /// Name of the town; empty where it is unknown.
+    town: String,
     /// Some points of the target's walk, metres.
     way: Vec<[f32; 3]>,
 }
@@ -31,8 +33,19 @@ impl Trace {
             split: episode.split.clone(),
             group: episode.group.clone(),
             place: episode.place.clone(),
+            town: episode.town.clone(),
             way: way(episode).into_iter().map(|point| point.as_vec3().to_array()).collect(),
         }
+    }
+
+    /// Name of the town; empty where it is unknown.
+    pub fn town(&self) -> &str {
+        &self.town
+    }
+
+    /// Some places of the target's walk: x and y, metres.
+    pub fn places(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.way.iter().map(|[x, y, _]| [f64::from(*x), f64::from(*y)])
     }
 
     /// Name of the episode.

@@ -2,6 +2,7 @@
 
 mod bearing;
 mod depth;
+mod extent;
 mod leaks;
 mod median;
 mod motion;
@@ -12,6 +13,7 @@ mod surroundings;
 mod time;
 pub(crate) mod words;
 
+pub use extent::of_towns as extent;
 pub use leaks::{Trace, of_all as leaks};
 
 use crate::{Episode, Flag};

@@ -9,6 +9,12 @@ const ACTION_TOLERANCE: f64 = 1e-3;
 const FROZEN_S: f64 = 3.0;
 /// Largest plausible speed of a drone, m/s.
 const ABSURD_MPS: f64 = 45.0;
+/// Distance between two displaced poses of a perturbed flight that states no displacement, metres: twice the paper's 3 m.
+const DISPLACED_APART_M: f64 = 6.0;
+/// The same, as a multiple of the upper quartile of the flight's steps: displacements of most frames are no jumps of one.
+const USUAL_STEPS: f64 = 3.0;
+/// Way of a target, metres, from which a target and a drone in one place are a repeated frame; shorter ones may be rounding.
+const NOTICEABLE_M: f64 = 0.05;
 /// Tolerance of limits, for rounding.
 const LIMIT_TOLERANCE: f64 = 1e-3;
 
@@ -35,7 +41,8 @@ fn frozen(episode: &Episode) -> Option<Flag> {
     let walked_m = walked.map_or(0.0, |(from, to)| from.distance(to));
     let seconds = steps as f64 * episode.dt_s;
     // A repeated frame repeats the target, too; a hovering drone does not.
-    let target_stands_still = walked_m == 0.0 && moments[start].heading_and_speed.is_some_and(|it| it.1 > 0.3);
+    let target_stands_still = walked_m == 0.0
+        && moments[start].heading_and_speed.is_some_and(|(_, mps)| mps > 0.3 && mps * seconds > NOTICEABLE_M);
     if seconds >= FROZEN_S && (target_stands_still || walked_m > 2.0) || (steps >= 2 && target_stands_still) {
         let message = format!(
             "frames {start} to {} have the same pose, {seconds:.1} s long, while the target walks",
@@ -121,14 +128,36 @@ pub fn extremes(places: &[DVec3], dt_s: f64) -> [f64; 3] {
     [speed, acceleration, jerk].map(|values| values.iter().map(|it| it.length()).fold(0.0, f64::max))
 }
 
+/// Finds a step that is neither flown nor a displacement: its limit is in metres, for any rate of frames.
+fn jump(episode: &Episode, places: &[DVec3]) -> Option<Flag> {
+    let mut steps_m: Vec<f64> = places.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
+    let (frame, longest_m) = steps_m.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let displaced_m = match episode.displaced_m {
+        Some(displaced_m) => 2.0 * displaced_m,
+        None if episode.is_perturbed => {
+            let place = 3 * steps_m.len() / 4;
+            let (_, upper_quartile_m, _) = steps_m.select_nth_unstable_by(place, f64::total_cmp);
+            DISPLACED_APART_M.max(USUAL_STEPS * *upper_quartile_m)
+        }
+        None => 0.0,
+    };
+    let flown_m = ABSURD_MPS * episode.dt_s;
+    if longest_m <= flown_m + displaced_m {
+        return None;
+    }
+    let of_twin = if displaced_m > 0.0 { format!(" and {displaced_m:.1} m of displacement") } else { String::new() };
+    let message = format!(
+        "the drone jumps: {longest_m:.1} m from frame {frame} to the next, {:.3} s later; more than {ABSURD_MPS} m/s{of_twin}",
+        episode.dt_s
+    );
+    Some(Flag::damage("pose-jump", &episode.id, message))
+}
+
 fn limits(episode: &Episode) -> Vec<Flag> {
     let places: Vec<DVec3> = episode.moments.iter().map(|it| it.drone.position_in_world).collect();
     let found = extremes(&places, episode.dt_s);
     let mut flags = vec![];
-    if found[0] > ABSURD_MPS {
-        let message = format!("the drone jumps: {:.1} m/s between two frames", found[0]);
-        flags.push(Flag::damage("pose-jump", &episode.id, message));
-    }
+    flags.extend(jump(episode, &places));
     let names = [("speed", "m/s"), ("acceleration", "m/s²"), ("jerk", "m/s³")];
     for ((value, limit), (name, unit)) in found.into_iter().zip(&episode.limits[1..]).zip(names) {
         if let Some(limit) = limit.filter(|limit| value > limit + LIMIT_TOLERANCE && !episode.is_perturbed) {

@@ -4,6 +4,8 @@ use crate::{Episode, Flag};
 
 /// Largest difference of a step from the usual one, as a share.
 const TOLERANCE: f64 = 0.02;
+/// Largest difference by rounding, seconds: times are often written in whole milliseconds.
+const ROUNDING_S: f64 = 1.001e-3;
 
 /// Checks the steps between frames.
 pub fn check(episode: &Episode) -> Vec<Flag> {
@@ -12,7 +14,8 @@ pub fn check(episode: &Episode) -> Vec<Flag> {
     if let Some((frame, step)) = steps().find(|(_, step)| step.is_nan() || *step <= 0.0) {
         return flag(format!("time does not increase after frame {frame}: the step is {step:.3} s"));
     }
-    let is_odd = |step: f64| (step - episode.dt_s).abs() > TOLERANCE * episode.dt_s;
+    let tolerance_s = (TOLERANCE * episode.dt_s).max(ROUNDING_S.min(0.25 * episode.dt_s));
+    let is_odd = |step: f64| (step - episode.dt_s).abs() > tolerance_s;
     match steps().find(|(_, step)| is_odd(*step)) {
         Some((frame, step)) => {
             let odd = steps().filter(|(_, step)| is_odd(*step)).count();

@@ -95,7 +95,12 @@ fn read(dataset: &PublishedDataset, progress: &mut dyn FnMut(u64, u64), visit: &
             _ => walls.entry(object.town).or_default().entry(object.instance).or_default().push(object.shape),
         }
     }
+    let displaced = dataset.displacements()?;
     let logged = |(mut episode, flight, rows): Read| {
+        episode.displaced_m = match &flight.expert_id {
+            Some(_) => displaced.get(&flight.trajectory_id).copied(),
+            None => Some(0.0),
+        };
         episode.vehicles = vehicles.get(&flight.town).cloned().unwrap_or_default();
         let walls = walls.get(&flight.town).filter(|_| episode.camera.is_some());
         episode.looks = looks(dataset, &flight, &rows, walls).unwrap_or_default();
@@ -132,6 +137,7 @@ fn named(flight: &PublishedFlight) -> Episode {
         split: Some(flight.split.clone()),
         group: flight.pedestrian_id.clone(),
         place: if flight.town_geometry.is_empty() { flight.town.clone() } else { flight.town_geometry.clone() },
+        town: flight.town.clone(),
         is_perturbed: flight.expert_id.is_some(),
         ..Episode::default()
     }

@@ -3,6 +3,7 @@
 use crate::{Episode, Moment};
 use cosfly_captions::Wear;
 use cosfly_frames::{DVec3, action};
+use cosfly_planner::Perturbation;
 use cosfly_render::{PixelBox, TargetView};
 use cosfly_schema::{RenderedTrajectory, Role};
 
@@ -23,7 +24,9 @@ pub fn episode(record: &RenderedTrajectory) -> Episode {
         id: record.trajectory_id.clone(),
         group: record.pedestrian_id.clone(),
         place: record.town.geometry_digest.clone(),
+        town: record.town.name.clone(),
         is_perturbed: record.role == Role::Perturbed,
+        displaced_m: Some(trajectory.perturbation.as_ref().map_or(0.0, displaced_m)),
         camera: is_plain.then_some(record.camera),
         target_height_m: trajectory.track.height_m,
         wear: record.outfit.as_ref().map(Wear::from),
@@ -33,6 +36,12 @@ pub fn episode(record: &RenderedTrajectory) -> Episode {
         moments: (0..record.len()).map(|frame| moment(record, frame)).collect(),
         ..Episode::default()
     }
+}
+
+/// Longest displacement of kind `jumps`, metres; the other kinds could be flown.
+fn displaced_m(perturbation: &Perturbation) -> f64 {
+    let jumps = perturbation.frames.iter().filter(|_| !perturbation.kind.is_flyable());
+    jumps.map(|frame| frame.drone_offset_in_world.length()).fold(0.0, f64::max)
 }
 
 fn moment(record: &RenderedTrajectory, frame: usize) -> Moment {

@@ -117,6 +117,7 @@ fn episode(id: &str, document: &Value) -> Result<Episode, String> {
         id: id.to_owned(),
         split: own["split"].as_str().map(str::to_owned),
         group: format!("{}/{}/{}", source["path_index"], source["scenario_id"], source["scenario_name"]),
+        town: town.to_owned(),
         place: town.trim_end_matches("_Opt").to_owned(),
         is_perturbed: !id.ends_with("/ORI"),
         camera: camera(&document["camera"]),
