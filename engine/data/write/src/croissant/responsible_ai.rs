@@ -28,15 +28,14 @@ fn default_value(term: &str, config: &DatasetConfig, summary: &Summary) -> Value
             summary.rejected
         )),
         "dataBiases" => json!([
-            "Towns, pedestrians, weather and camera motion are those of a simulator: street layouts of a few towns, \
-             one body shape, walking pedestrians only, presets of weather.",
+            "Pedestrians, vehicles, weather and camera motion are those of a simulator: street layouts of a few towns, \
+             few shapes of bodies, people who walk or stand, presets of weather.",
             "Expert flights weigh distance, view, smoothness and safety as the weights of their planner say. With \
              the default weights nothing keeps them behind the pedestrian, who is seen from any side; \
              mean_rear_angle_deg and mean_distance_m of table trajectories say how each one flew.",
         ]),
         "dataLimitations" => json!([
-            "Images are rendered with simple materials and no traffic; networks trained on them alone will meet a gap \
-             to real cameras.",
+            "Images are rendered with procedural materials; networks trained on them alone will meet a gap to real cameras.",
             "Flights are checked against the geometry and against limits of speed, acceleration and jerk, not against \
              the dynamics of a particular drone.",
         ]),
@@ -66,7 +65,9 @@ fn text(term: &str) -> &'static str {
              flight behind each of them; a perturbed twin departs from it at random and returns; a renderer makes the \
              images of every frame."
         }
-        "dataCollectionRawData" => "Map files of towns, or towns made by a seeded generator.",
+        "dataCollectionRawData" => {
+            "Map files of towns, or towns made by a seeded generator; recorded walks where the recipe reads them."
+        }
         "dataImputationProtocol" => "None: no value is imputed.",
         "dataManipulationProtocol" => {
             "Depth may be rounded to a grid of 2^-10 m and colour images may be JPEG compressed; the logs say which."
@@ -81,10 +82,14 @@ fn text(term: &str) -> &'static str {
         }
         "dataSocialImpact" => {
             "Tracking of persons from the air helps in search and rescue, filming and escorting, and can be abused \
-             for surveillance. The data hold no real person."
+             for surveillance. No picture shows a real person."
         }
         "machineAnnotationTools" => "cosfly",
-        "personalSensitiveInformation" => "None: all pedestrians are simulated.",
+        "personalSensitiveInformation" => {
+            "No picture shows a real person: all people are drawn figures. Their walks are simulated; where the recipe reads \
+             recorded walks, they are tracks of real people without names. A town from a map of a real place can be \
+             recognised."
+        }
         _ => "",
     }
 }
