@@ -22,6 +22,7 @@ mod plan_from;
 mod plugins;
 mod preview;
 mod processors;
+mod promises;
 mod repository;
 mod several_towns;
 mod shared;

@@ -172,6 +172,25 @@ fn every_link_and_page_of_the_book_exists() {
     }
 }
 
+#[test]
+fn the_summary_lists_every_page_of_the_book_once() {
+    let book = repository_root().join("book/src");
+    let listed = links(&std::fs::read_to_string(book.join("SUMMARY.md")).expect("the book has a summary"));
+    let once: BTreeSet<&String> = listed.iter().collect();
+    assert_eq!(once.len(), listed.len(), "SUMMARY.md lists a page twice, which mdBook refuses");
+    let mut folders = vec![book.clone()];
+    while let Some(folder) = folders.pop() {
+        for path in std::fs::read_dir(folder).expect("readable").map(|entry| entry.expect("entry").path()) {
+            let name = path.strip_prefix(&book).expect("below the book").display().to_string();
+            if path.is_dir() {
+                folders.push(path);
+            } else if name.ends_with(".md") && name != "SUMMARY.md" {
+                assert!(once.contains(&name), "SUMMARY.md does not list {name}");
+            }
+        }
+    }
+}
+
 /// Relative targets of links and pictures in a Markdown text.
 fn links(text: &str) -> Vec<String> {
     text.split("](")
