@@ -28,7 +28,14 @@ fn a_dataset_has_pictures_of_its_flights_that_are_the_same_twice() {
         preview(&street, &["out/street", "--trajectory", "perturbed-p00001", "--frames", "0,3..9:3", "--out", "few"]);
     assert!(other.stdout.contains("contact sheet of 3 frames"), "{}{}", other.stdout, other.stderr);
     let expected = ["clip.gif", "plan.png", "sheet.png"].map(|name| format!("perturbed-p00001-{name}"));
-    assert_eq!(names(&street.path().join("few")), expected);
+    assert_eq!(names(&street.path().join("few")), [&expected[..], &["preview.json".to_owned()]].concat());
+    assert!(!other.stderr.contains("another dataset"), "{}", other.stderr);
+    let source = street.path().join("few/preview.json");
+    std::fs::write(&source, "{ \"dataset\": \"0123456789abcdef\" }").expect("writable");
+    let said = preview(&street, &["out/street", "--out", "few"]).stderr;
+    assert!(said.contains("earlier pictures in `few` are of another dataset, 0123456789ab"), "{said}");
+    let said = preview(&street, &["out/street", "--out", "few"]).stderr;
+    assert!(!said.contains("another dataset"), "{said}");
     for (name, arguments) in [
         ("preview_unknown", &["out/street", "--trajectory", "expert-p0002"][..]),
         ("preview_beyond_the_end", &["out/street", "--frames", "0..40:10"]),

@@ -189,6 +189,7 @@ fn a_copy_of_a_town_under_another_name_goes_to_its_split() {
 fn towns_that_cannot_be_told_apart_or_are_not_there_are_refused() {
     let renamed = two_towns(BOTH, &far_map());
     let said = refusal(&renamed, &["stages.far_town.name=street"]);
+    assert!(!renamed.path().join(".cosfly").exists(), "two towns of one name are refused before any work");
     assert!(
         said.contains("towns-same-name") && said.contains("`name = \"street_2\"` in `[stages.far_town]`"),
         "{said}"

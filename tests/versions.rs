@@ -34,12 +34,27 @@ fn versions_are_named_compared_with_reasons_and_written_out_again() {
     }
     assert!(difference.contains("because walkers: `count` is 2 in `v1` and 3 in `v2`"), "{difference}");
 
+    // What changed beside the number of walkers is no cause of an added flight.
+    let larger = ["--set", "stages.walkers.count=3", "--set", "stages.dataset.version=1.1.0"];
+    said(&street, &[&["run", "recipe.toml", "--quiet"][..], &larger].concat(), 0);
+    let noted = said(&street, &[&["dataset", "tag", "v2b", "recipe.toml"][..], &larger].concat(), 0);
+    assert!(!noted.contains("against `v1`"), "{noted}");
+    let difference = said(&street, &["dataset", "diff", "v1", "v2b"], 0);
+    let causes: Vec<&str> = difference.lines().filter(|line| line.starts_with("  because")).collect();
+    assert_eq!(causes, ["  because walkers: `count` is 2 in `v1` and 3 in `v2b`"], "{difference}");
+    assert!(difference.contains("`version` changed from"), "{difference}");
+
+    // A value that the recipe leaves out is told as it is in force.
+    let limit = "stages.expert.limits.pitch_rate_deg_s=7.5";
+    let why = said(&street, &["why", "recipe.toml", "expert/p00000", "--set", limit], 0);
+    assert!(why.contains("`limits.pitch_rate_deg_s` changed from `60.0` to `7.5`") && !why.contains("null"), "{why}");
+
     let changed = run("stages.perturbed.position_probability=0.9");
     said(&street, &["dataset", "tag", "v3", "recipe.toml", "--set", &changed], 0);
     let difference = said(&street, &["dataset", "diff", "v1", "v3"], 0);
     assert!(difference.contains("a major change") && difference.contains("because perturbed: `"), "{difference}");
     assert!(said(&street, &["dataset", "diff", "v1", "v4"], 3).contains("has no version `v4`"));
-    assert_eq!(said(&street, &["dataset", "list"], 0).lines().count(), 3);
+    assert_eq!(said(&street, &["dataset", "list"], 0).lines().count(), 4);
 
     said(&street, &["dataset", "checkout", "v1", "--out", "old"], 0);
     let after: Vec<_> =

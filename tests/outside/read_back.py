@@ -81,7 +81,9 @@ def check_datasets(folder, counts, cache):
     datasets.disable_progress_bars()
     for config in [*TABLES, "files"]:
         if counts.get(config) == 0:
-            said(f"datasets {config}", "no rows, not in the card")
+            streamed = datasets.load_dataset(str(folder), config, streaming=True, cache_dir=cache)
+            require(streamed and all(list(part) == [] for part in streamed.values()), f"{config} has rows in its stream")
+            said(f"datasets {config}", "no rows, a config on the card, an empty stream")
             continue
         loaded = datasets.load_dataset(str(folder), config, cache_dir=cache)
         rows = {split: part.num_rows for split, part in loaded.items()}

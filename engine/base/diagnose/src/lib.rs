@@ -6,6 +6,7 @@
 //! * [`visible_text`]: foreign text, made harmless for a terminal.
 //! * [`nearest_name`]: the known name most similar to a mistyped one.
 //! * [`plausible`]: the rule for numbers from outside.
+//! * [`Stop`]: the flag by which the user ends long work.
 
 mod diagnostic;
 mod excerpt;
@@ -13,6 +14,7 @@ mod nearest;
 mod parameter;
 mod plausible;
 mod print;
+mod stop;
 mod visible;
 
 pub use diagnostic::{Diagnostic, Fault, Label, Result};
@@ -20,4 +22,5 @@ pub use nearest::nearest_name;
 pub use parameter::ParameterError;
 pub use plausible::{Implausible, LARGEST_MAGNITUDE, plausible};
 pub use print::{render, render_all};
+pub use stop::{Stop, StoppableReader};
 pub use visible::visible_text;

@@ -85,6 +85,9 @@ pub struct Look {
     /// Walls in the depth image, seen from the pose of the frame at each offset in [`OFFSETS`]: distance of the
     /// middle point from its wall, metres.
     pub walls_m: Vec<Option<f64>>,
+    /// Distance of the camera, as the file of the pictures states it, from the nearest pose of the flight in the tables, metres,
+    /// where they are apart; 0 where the camera is in its place and the file states other pixels of the target.
+    pub elsewhere_m: Option<f64>,
 }
 
 /// Offsets of the frames whose boxes and poses a depth image is compared with; the own frame first.

@@ -4,9 +4,9 @@ use crate::checks::Trace;
 use crate::sources::{lerobot, ours, v7};
 use crate::texts::{GivenTexts, Judged, TextFigures, TextTally};
 use crate::{Episode, Flag, Severity, checks, shortcuts};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_metrics::shortcuts::ShortcutFigures;
-use cosfly_read::PublishedDataset;
+use cosfly_read::{Identity, PublishedDataset};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -40,6 +40,8 @@ pub struct Quota {
 pub struct Examination {
     /// Layout of the folder.
     pub layout: Layout,
+    /// Digest that tells the dataset from others; datasets of cosfly only.
+    pub dataset: Option<String>,
     /// Number of episodes.
     pub episodes: usize,
     /// Number of frames.
@@ -83,18 +85,18 @@ impl Examination {
 /// # Errors
 /// `doctor-layout` for an unknown layout; refusals of the machine. Faults of the data are flags.
 pub fn examine(folder: &Path, quotas: &[Quota], progress: &mut dyn FnMut(u64, u64)) -> Result<Examination> {
-    examine_texts(folder, quotas, None, progress)
+    examine_texts(folder, quotas, None, (&Stop::default(), progress))
 }
 
-/// Like [`examine`], with `texts` in the place of the data's own instructions.
+/// Like [`examine`], with `texts` in the place of the data's own instructions. The flag ends the work within a second.
 ///
 /// # Errors
-/// Those of [`examine`]; `doctor-texts` for texts about an episode that is not there.
+/// Those of [`examine`]; `doctor-texts` for texts about an episode that is not there; the user stopped the work.
 pub fn examine_texts(
     folder: &Path,
     quotas: &[Quota],
     texts: Option<&GivenTexts>,
-    progress: &mut dyn FnMut(u64, u64),
+    (stop, progress): (&Stop, &mut dyn FnMut(u64, u64)),
 ) -> Result<Examination> {
     let mut tally = Tally::new(quotas);
     tally.texts.judged = texts.map(|_| Judged::default());
@@ -105,8 +107,9 @@ pub fn examine_texts(
         tally.add(&episode);
     };
     let (layout, flags, notes) = if ours::recognises(folder) {
-        let mut flags = ours::files(folder)?;
-        ours::episodes(folder, &mut flags, &mut add, progress)?;
+        let mut flags = ours::files(folder, stop)?;
+        stop.check("doctor")?;
+        ours::episodes(folder, &mut flags, &mut add, (stop, progress))?;
         (Layout::Cosfly, flags, vec![])
     } else if let Some(root) = v7::root(folder) {
         (Layout::V7, v7::episodes(&root, &mut add, progress)?, vec![])
@@ -117,16 +120,18 @@ pub fn examine_texts(
     } else {
         return Err(unknown(folder));
     };
+    stop.check("doctor")?;
     if let Some(stranger) = texts.and_then(|texts| texts.stranger(tally.traces.iter().map(Trace::id))) {
         let message = format!("there are texts about `{stranger}`, which is no episode of `{}`", folder.display());
         return Err(Diagnostic::new("doctor-texts", Fault::Input, message));
     }
     // Damage of the tables has its flag.
-    let dataset = if layout == Layout::Cosfly { PublishedDataset::open(folder).ok() } else { None };
-    let shortcuts = dataset.as_ref().and_then(|dataset| shortcuts::figures(dataset).ok());
-    let things = dataset.and_then(|dataset| dataset.object_places().ok()).unwrap_or_default();
+    let published = if layout == Layout::Cosfly { PublishedDataset::open(folder).ok() } else { None };
+    let shortcuts = published.as_ref().and_then(|published| shortcuts::figures(published).ok());
+    let things = published.and_then(|published| published.object_places().ok()).unwrap_or_default();
     let flags = [flags, checks::extent(&tally.traces, things)].concat();
-    Ok(Examination { shortcuts, ..tally.summed(layout, flags, notes) })
+    let dataset = (layout == Layout::Cosfly).then(|| Identity::of(folder).digest().to_owned());
+    Ok(Examination { shortcuts, dataset, ..tally.summed(layout, flags, notes) })
 }
 
 /// What is kept of the episodes: each is checked when it is read, and gone before the next.
@@ -232,6 +237,7 @@ impl<'a> Tally<'a> {
         let share = |count: usize| count as f64 / ids.len().max(1) as f64;
         Examination {
             layout,
+            dataset: None,
             episodes: ids.len(),
             frames: self.frames,
             kept,

@@ -156,6 +156,28 @@ fn a_flipped_byte_in_a_log_is_named() {
 }
 
 #[test]
+fn pictures_and_tables_of_two_versions_are_named() {
+    let folders = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    let moved = |flight: &mut SampleFlight| {
+        flight.record.trajectory.poses_in_world.iter_mut().for_each(|pose| pose.position_in_world.y += 0.4);
+    };
+    let fewer_pixels = |flight: &mut SampleFlight| {
+        flight.record.views.iter_mut().for_each(|view| view.pixels = view.pixels.saturating_sub(1));
+    };
+    write(folders[0].path(), &|_| {});
+    for other in [&moved as &dyn Fn(&mut SampleFlight), &fewer_pixels] {
+        write(folders[1].path(), other);
+        for part in ["expert-p00000.mcap", "perturbed-p00001.mcap"] {
+            std::fs::copy(file(folders[1].path(), part), file(folders[0].path(), part)).expect("a copy");
+        }
+        let found = examined(folders[0].path());
+        let flagged: Vec<_> = found.flags.iter().filter(|flag| flag.name == "mixed-versions").collect();
+        assert_eq!(flagged.len(), 2, "{:?}", found.flags);
+        assert!(flagged[0].place == "expert-p00000" && flagged[0].message.contains("one run"), "{}", flagged[0]);
+    }
+}
+
+#[test]
 fn a_flight_in_two_splits_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     write(folder.path(), &|_| {});
@@ -163,6 +185,17 @@ fn a_flight_in_two_splits_is_named() {
     let split = if table.to_string_lossy().contains("test-") { "val" } else { "test" };
     std::fs::copy(&table, table.with_file_name(format!("{split}-00000-of-00009.parquet"))).expect("a copy");
     assert!(names(folder.path()).contains("split-leak"));
+}
+
+#[test]
+fn an_examination_that_is_stopped_ends_between_frames() {
+    use std::sync::Arc;
+    use std::sync::atomic::AtomicBool;
+    let folder = tempfile::tempdir().expect("a folder");
+    write(folder.path(), &|_| {});
+    let stop = cosfly_diagnose::Stop::of(Arc::new(AtomicBool::new(true)));
+    let refusal = crate::examine_texts(folder.path(), &[], None, (&stop, &mut |_, _| {})).expect_err("stopped");
+    assert_eq!(refusal.fault, cosfly_diagnose::Fault::Stopped);
 }
 
 #[test]

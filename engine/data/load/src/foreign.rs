@@ -4,6 +4,7 @@ use crate::tables::{self, Part};
 use crate::{Flight, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_doctor::{Episode, Flag, Severity};
+use cosfly_fingerprint::Digest;
 use cosfly_read::StoredImage;
 use cosfly_read::columns::TableData;
 use cosfly_render::channels::Channel;
@@ -36,13 +37,47 @@ pub struct Foreign<P> {
     pub episodes: Vec<Episode>,
     /// Whether the poses of the drone are stated.
     pub has_poses: bool,
+    /// Digest of flights, motions and sizes of picture files.
+    pub identity: String,
     /// Pictures.
     pub pictures: P,
+}
+
+/// Digest of a dataset of a foreign layout, which names itself nowhere: flights, motions, and sizes of some files of pictures.
+pub fn identity(flights: &[Flight], episodes: &[Episode], pictures: &[PathBuf]) -> String {
+    let mut known: Vec<u8> = vec![];
+    let mut text = |text: &str| {
+        known.extend((text.len() as u64).to_le_bytes());
+        known.extend(text.as_bytes());
+    };
+    for (flight, episode) in flights.iter().zip(episodes) {
+        text(&flight.id);
+        text(&flight.split);
+        for moment in &episode.moments {
+            let drone = &moment.drone;
+            let target = moment.target_in_world.unwrap_or_default().to_array();
+            let angles = [drone.pitch_rad, drone.yaw_rad, drone.roll_rad];
+            let numbers = drone.position_in_world.to_array().into_iter().chain(angles).chain(target);
+            text(&numbers.map(|number| format!("{:016x}", number.to_bits())).collect::<String>());
+        }
+    }
+    for path in pictures {
+        text(&std::fs::metadata(path).map_or(0, |found| found.len()).to_string());
+    }
+    Digest::of(&known).to_string()
 }
 
 impl<P: Pictures> Source for Foreign<P> {
     fn flights(&self) -> &[Flight] {
         &self.flights
+    }
+
+    fn identity(&self) -> &str {
+        &self.identity
+    }
+
+    fn check(&self) -> Result<()> {
+        Ok(())
     }
 
     fn channels(&self, _flight: usize) -> Result<Vec<&'static str>> {

@@ -1,6 +1,6 @@
 //! LeRobot's layout: pictures inside of tables, or as files that tables name.
 
-use crate::foreign::{Foreign, Pictures, damaged, sound};
+use crate::foreign::{Foreign, Pictures, damaged, identity, sound};
 use crate::{Flight, tasks};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_doctor::sources::lerobot::{self, features::Features};
@@ -62,7 +62,13 @@ pub fn open(folder: &Path, roots: &[PathBuf]) -> Result<Foreign<Tables>> {
         let message = format!("{} frames have {} rows of pictures", flight.frames, rows.len());
         sound(folder, &[Flag::damage("index-mismatch", &flight.id, message)])?;
     }
-    Ok(Foreign { layout: "LeRobot", folder: folder.to_owned(), flights, episodes, has_poses, pictures })
+    let mut tables = vec![];
+    for root in roots {
+        tables.extend(data_tables(root)?);
+    }
+    let identity = identity(&flights, &episodes, &tables);
+    let (layout, folder) = ("LeRobot", folder.to_owned());
+    Ok(Foreign { layout, folder, flights, episodes, has_poses, identity, pictures })
 }
 
 /// Language and text of the instructions of each episode, in the order of their numbers.

@@ -58,6 +58,14 @@ impl Source for Ours {
         &self.flights
     }
 
+    fn identity(&self) -> &str {
+        self.dataset.identity().digest()
+    }
+
+    fn check(&self) -> Result<()> {
+        self.dataset.identity().check()
+    }
+
     fn channels(&self, flight: usize) -> Result<Vec<&'static str>> {
         Ok(self.log(flight)?.channels().collect())
     }
@@ -74,6 +82,11 @@ impl Source for Ours {
                 .hint("the tables are the folders in `data`"));
         }
         let is_wanted = |of: &str| split.is_none_or(|split| split == of || !matches!(of, "train" | "val" | "test"));
-        Ok(TableData::Files(files.into_iter().filter(|(of, _)| is_wanted(of)).map(|(_, path)| path).collect()))
+        let (wanted, others): (Vec<_>, Vec<_>) = files.into_iter().partition(|(of, _)| is_wanted(of));
+        match (&wanted[..], &others[..]) {
+            // No flight is in that split: the columns are those of the other splits.
+            ([], [(_, other), ..]) => TableData::without_rows(other),
+            _ => Ok(TableData::Files(wanted.into_iter().map(|(_, path)| path).collect())),
+        }
     }
 }

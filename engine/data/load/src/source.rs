@@ -27,6 +27,15 @@ pub trait Source: Send + Sync {
     /// All flights; their numbers are places in this list.
     fn flights(&self) -> &[Flight];
 
+    /// Digest that tells this dataset from others: hex digits.
+    fn identity(&self) -> &str;
+
+    /// Refuses to go on where the folder holds another dataset by now.
+    ///
+    /// # Errors
+    /// `dataset-changed`.
+    fn check(&self) -> Result<()>;
+
     /// Names of the channels of a flight.
     ///
     /// # Errors

@@ -117,3 +117,37 @@ fn damaged_folders_are_refused() {
     assert_eq!(open(&v7).err().unwrap().code, "dataset-damaged");
     assert_eq!(open(&lerobot).err().unwrap().code, "dataset-damaged");
 }
+
+#[test]
+fn datasets_of_all_layouts_are_told_apart_and_known_again_in_a_copy() {
+    let (_home, folders) = published();
+    let (_home_of_copy, copies) = published();
+    let identities = folders.each_ref().map(|folder| open(folder).unwrap().identity().to_owned());
+    let again = copies.each_ref().map(|folder| open(folder).unwrap().identity().to_owned());
+    assert_eq!(identities, again);
+    assert!(identities[0] != identities[1] && identities[1] != identities[2]);
+    // Another dataset in the folder of the open one.
+    let ours = open(&folders[0]).unwrap();
+    let other = DatasetConfig { title: "another one".into(), ..DatasetConfig::default() };
+    sample::write_to_folder(&folders[0], &other, EncodingConfig::default()).unwrap();
+    let refusals =
+        [ours.check().err(), ours.table("frames", None).err(), ours.image(0, &channels::rgb::CHANNEL, 0).err()];
+    assert!(refusals.iter().all(|it| it.as_ref().is_some_and(|it| it.code == "dataset-changed")), "{refusals:?}");
+}
+
+#[test]
+fn splits_and_tables_without_rows_have_their_columns_and_types() {
+    let experts = sample::flights().into_iter().filter(|flight| flight.record.pair.is_none()).collect();
+    let home = tempfile::tempdir().unwrap();
+    sample::write_flights(home.path(), &DatasetConfig::default(), EncodingConfig::default(), experts).unwrap();
+    let source = open(home.path()).unwrap();
+    // No flight is perturbed.
+    let pairs = source.table("pairs", None).unwrap();
+    assert_eq!(pairs.rows().unwrap(), 0);
+    assert!(matches!(pairs.column("expert_id").unwrap(), Column::Texts(texts) if texts.is_empty()));
+    let used: Vec<&str> = source.flights().iter().map(|flight| flight.split.as_str()).collect();
+    let unused = ["train", "val", "test"].into_iter().find(|split| !used.contains(split)).expect("two flights");
+    let (none, all) = (source.table("frames", Some(unused)).unwrap(), source.table("frames", None).unwrap());
+    assert_eq!((none.rows().unwrap(), none.columns().unwrap()), (0, all.columns().unwrap()));
+    assert!(matches!(none.column("trajectory_id").unwrap(), Column::Texts(texts) if texts.is_empty()));
+}

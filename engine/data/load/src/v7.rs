@@ -1,7 +1,7 @@
 //! The published v7 layout: a folder per frame with `rgb.png`, `depth.npy` and `instance.png`.
 
 use crate::Flight;
-use crate::foreign::{Foreign, Pictures, damaged, sound};
+use crate::foreign::{Foreign, Pictures, damaged, identity, sound};
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_doctor::sources::v7;
 use cosfly_images::read::{self, Picture};
@@ -28,9 +28,11 @@ pub fn open(root: &Path) -> Result<Foreign<Frames>> {
             size: stated.map_or_else(|| first_size(trace), Ok)?,
         })
     };
-    let flights = episodes.iter().zip(&traces).map(flight).collect::<Result<_>>()?;
+    let flights = episodes.iter().zip(&traces).map(flight).collect::<Result<Vec<_>>>()?;
+    let first: Vec<PathBuf> = traces.iter().map(|trace| v7::frame_folder(trace, 0).join("rgb.png")).collect();
+    let identity = identity(&flights, &episodes, &first);
     let folder = root.to_owned();
-    Ok(Foreign { layout: "v7", folder, flights, episodes, has_poses: true, pictures: Frames { traces } })
+    Ok(Foreign { layout: "v7", folder, flights, episodes, has_poses: true, identity, pictures: Frames { traces } })
 }
 
 /// Folders of the traces.

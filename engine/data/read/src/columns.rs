@@ -51,6 +51,14 @@ impl TableData {
         }
     }
 
+    /// A table without rows, with the columns of the file at `path`.
+    ///
+    /// # Errors
+    /// The file cannot be opened or is not Parquet.
+    pub fn without_rows(path: &Path) -> Result<Self> {
+        Ok(Self::Rows(RecordBatch::new_empty(SchemaRef::clone(builder(path)?.schema()))))
+    }
+
     /// Names of the columns.
     ///
     /// # Errors
@@ -125,16 +133,22 @@ pub fn row_count(path: &Path) -> Result<usize> {
 /// A file is not Parquet, lacks the column, or the column has a type without a plain form.
 pub fn column(paths: &[PathBuf], name: &str) -> Result<Column> {
     let mut arrays = vec![];
+    let mut empty = None;
     for path in paths {
         let builder = builder(path)?;
         let at = builder.schema().index_of(name);
         let at = at.map_err(|_| damaged(path, "a column is missing", format!("`{name}`")))?;
+        empty.get_or_insert_with(|| arrow_array::new_empty_array(builder.schema().field(at).data_type()));
         let mask = ProjectionMask::roots(builder.parquet_schema(), [at]);
         let reader = builder.with_projection(mask).build();
         for batch in reader.map_err(|error| damaged(path, "it cannot be read", error))? {
             let batch = batch.map_err(|error| damaged(path, "it cannot be read", error))?;
             arrays.extend(batch.columns().first().cloned());
         }
+    }
+    if arrays.is_empty() {
+        // A column without rows has its type, too.
+        arrays.extend(empty);
     }
     plain(&arrays).ok_or_else(|| {
         let path = paths.first().map_or(Path::new(""), PathBuf::as_path);

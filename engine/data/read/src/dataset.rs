@@ -1,5 +1,6 @@
 //! A published dataset: its trajectories, tables and logs.
 
+use super::identity::Identity;
 use super::image_log::ImageLog;
 use super::log::LogReader;
 use super::rows::read;
@@ -22,15 +23,19 @@ pub struct PublishedDataset {
     flights: Arc<Vec<PublishedFlight>>,
     /// Places of the flights in the order of their ids.
     by_id: Arc<Vec<u32>>,
+    /// The dataset that was opened.
+    identity: Arc<Identity>,
 }
 
 impl PublishedDataset {
-    /// Opens the dataset in `folder`; its trajectories are in the order of its splits and tables.
+    /// Opens the dataset in `folder`; its trajectories are in the order of its splits and tables. Tables and logs that are
+    /// listed or opened later are of the same dataset, or refused (`dataset-changed`).
     ///
     /// # Errors
     /// `dataset-none` where there is no dataset, otherwise damage of its files.
     pub fn open(folder: &Path) -> Result<Self> {
-        let mut dataset = Self { folder: folder.to_owned(), flights: Arc::default(), by_id: Arc::default() };
+        let identity = Arc::new(Identity::of(folder));
+        let mut dataset = Self { folder: folder.to_owned(), flights: Arc::default(), by_id: Arc::default(), identity };
         let (mut flights, mut shared): (Vec<PublishedFlight>, _) = (vec![], Shared::default());
         for (split, path) in dataset.files("trajectories")? {
             read(&path, &mut |rows| {
@@ -49,7 +54,13 @@ impl PublishedDataset {
         by_id.sort_by(|a, b| flights[*a as usize].trajectory_id.cmp(&flights[*b as usize].trajectory_id));
         flights.shrink_to_fit();
         (dataset.flights, dataset.by_id) = (Arc::new(flights), Arc::new(by_id));
+        dataset.identity.check()?;
         Ok(dataset)
+    }
+
+    /// Which dataset was opened.
+    pub fn identity(&self) -> &Identity {
+        &self.identity
     }
 
     /// Folder of the dataset.
@@ -71,13 +82,13 @@ impl PublishedDataset {
     /// has no such table.
     ///
     /// # Errors
-    /// The folder of the table cannot be read.
+    /// The folder of the table cannot be read; `dataset-changed`.
     pub fn files(&self, table: &str) -> Result<Vec<(String, PathBuf)>> {
         let folder = self.folder.join("data").join(table);
         let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", folder.display()), &error);
         let mut files = vec![];
         if !folder.is_dir() {
-            return Ok(vec![]);
+            return self.identity.check().map(|()| vec![]);
         }
         for entry in std::fs::read_dir(&folder).map_err(refused)? {
             let path = entry.map_err(refused)?.path();
@@ -88,6 +99,7 @@ impl PublishedDataset {
             }
         }
         files.sort();
+        self.identity.check()?;
         Ok(files.into_iter().map(|(_, split, path)| (split, path)).collect())
     }
 
@@ -187,12 +199,16 @@ impl PublishedDataset {
 
     /// Opens the log of `flight`.
     pub fn log(&self, flight: &PublishedFlight) -> Result<LogReader> {
-        LogReader::open(&self.log_path(flight)?, flight.dt_s)
+        let log = LogReader::open(&self.log_path(flight)?, flight.dt_s);
+        self.identity.check()?;
+        log
     }
 
     /// Opens the log of `flight` for random access to its images.
     pub fn image_log(&self, flight: &PublishedFlight) -> Result<ImageLog> {
-        ImageLog::open(&self.log_path(flight)?, flight.dt_s)
+        let log = ImageLog::open(&self.log_path(flight)?, flight.dt_s);
+        self.identity.check()?;
+        log
     }
 
     /// Path of a log, inside the dataset.

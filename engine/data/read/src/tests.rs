@@ -165,3 +165,32 @@ fn instance_ids_come_back_when_asked_for() {
     assert!(log.frame(2).unwrap().instance.is_empty());
     assert_eq!(log.frame_with_instances(2).unwrap().instance, given.images[2].instance);
 }
+
+#[test]
+fn a_folder_that_was_made_anew_is_refused_and_one_with_the_same_bytes_is_not() {
+    let (folder, dataset) = published();
+    let write = |config: &DatasetConfig| {
+        sample::write_to_folder(folder.path(), config, EncodingConfig::default()).unwrap();
+    };
+    write(&DatasetConfig::default());
+    assert!(dataset.log(&dataset.flights()[0]).is_ok() && dataset.files("frames").is_ok());
+    write(&DatasetConfig { title: "another one".into(), ..DatasetConfig::default() });
+    let now = PublishedDataset::open(folder.path()).unwrap();
+    assert_ne!(now.identity().digest(), dataset.identity().digest());
+    let flight = &dataset.flights()[0];
+    for refusal in [dataset.log(flight).err(), dataset.image_log(flight).err(), dataset.files("frames").err()] {
+        let refusal = refusal.unwrap();
+        assert_eq!(refusal.code, "dataset-changed");
+        for named in [dataset.identity(), now.identity()] {
+            assert!(refusal.message.contains(&named.digest()[..12]), "{refusal}");
+        }
+        assert!(refusal.hints[0].contains("open the folder again"), "{refusal}");
+    }
+    // Without its sums a dataset is known by its tables.
+    std::fs::remove_file(folder.path().join("SHA256SUMS")).unwrap();
+    let bare = PublishedDataset::open(folder.path()).unwrap();
+    assert!(bare.files("frames").is_ok());
+    let table = bare.files("trajectories").unwrap().remove(0).1;
+    std::fs::remove_file(table).unwrap();
+    assert_eq!(bare.files("frames").unwrap_err().code, "dataset-changed");
+}

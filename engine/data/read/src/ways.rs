@@ -9,13 +9,13 @@ use cosfly_schema::tables::Waypoints;
 use std::path::Path;
 
 /// Callback for a trajectory's id, the drone's poses and the target's feet; world frame, metres, radians.
-type Visit<'a> = &'a mut dyn FnMut(&str, &[Pose], &[DVec3]);
+type Visit<'a> = &'a mut dyn FnMut(&str, &[Pose], &[DVec3]) -> Result<()>;
 
 impl PublishedDataset {
     /// Calls `visit` with every trajectory of table `waypoints`; one is in memory at a time.
     ///
     /// # Errors
-    /// Damage of the table.
+    /// Damage of the table, or an error of `visit`.
     pub fn ways(&self, visit: Visit<'_>) -> Result<()> {
         for (_, path) in self.files("waypoints")? {
             let mut way = Way::default();
@@ -25,7 +25,7 @@ impl PublishedDataset {
                 }
                 Ok(())
             })?;
-            way.finish(visit);
+            way.finish(visit)?;
         }
         Ok(())
     }
@@ -44,7 +44,7 @@ impl Way {
         let ids = rows.values(Waypoints::trajectory_id)?;
         let id = ids.text(row);
         if id != self.id {
-            self.finish(visit);
+            self.finish(visit)?;
             self.id = id.to_owned();
         }
         let step = rows.get(Waypoints::step, row)? as usize;
@@ -63,11 +63,12 @@ impl Way {
         Ok(())
     }
 
-    fn finish(&mut self, visit: Visit<'_>) {
+    fn finish(&mut self, visit: Visit<'_>) -> Result<()> {
         if !self.poses.is_empty() {
-            visit(&self.id, &self.poses, &self.feet);
+            visit(&self.id, &self.poses, &self.feet)?;
         }
         self.poses.clear();
         self.feet.clear();
+        Ok(())
     }
 }

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-pub use crate::split_config::{AreaCut, CutAxis, SplitBy, SplitShares};
+pub use crate::split_config::{AreaCut, CutAxis, OverlapDirection, SplitBy, SplitShares};
 
 /// Parameters of the `dataset` stage.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -18,6 +18,17 @@ pub enum SplitBy {
     Area,
 }
 
+/// Directions in which one walk repeats another one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OverlapDirection {
+    /// The same ground in the same direction: the way back is another walk.
+    #[default]
+    Same,
+    /// The same ground in the same or in the opposite direction: there and back are one walk.
+    Either,
+}
+
 /// Axis across which a town's map is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -75,10 +86,14 @@ pub struct SplitShares {
     #[serde(skip_serializing_if = "is_one")]
     #[schemars(range(min = 0, max = 1))]
     pub max_share_error: f64,
-    /// Largest share of a walk that another one in another split may repeat: the same ground within 4 m in the same
-    /// direction. Walks with a larger overlap stay together; publishing fails where splits violate it.
+    /// Largest share of a walk that another one in another split may repeat: the same ground within 4 m in the directions of
+    /// `overlap_direction`. Walks with a larger overlap stay together; publishing fails where splits violate it.
     #[schemars(range(min = 0, max = 1))]
     pub max_route_overlap: f64,
+    /// Directions in which a walk repeats another one: `same`, or `either` for the opposite one, too. With `same`, the way back
+    /// along a street may be in another split; `cosfly dataset lint` counts such pairs.
+    #[serde(skip_serializing_if = "is_same_direction")]
+    pub overlap_direction: OverlapDirection,
     /// Splits that towns go to as a whole, by the town's name: `{ uptown = "test" }` keeps `uptown` unseen. Towns with
     /// the same ground plan go to the same split.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -90,6 +105,10 @@ const GUARD_M: f64 = 20.0;
 
 fn is_default_guard(guard_m: &f64) -> bool {
     *guard_m == GUARD_M
+}
+
+fn is_same_direction(direction: &OverlapDirection) -> bool {
+    *direction == OverlapDirection::Same
 }
 
 fn is_one(share: &f64) -> bool {
@@ -151,6 +170,7 @@ impl Default for SplitShares {
             areas: BTreeMap::new(),
             max_share_error: 1.0,
             max_route_overlap: 0.5,
+            overlap_direction: OverlapDirection::Same,
             towns: BTreeMap::new(),
         }
     }

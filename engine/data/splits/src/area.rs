@@ -229,7 +229,7 @@ mod tests {
         for ((it, split), group) in kept.iter_mut().zip(&assignment.splits).zip(&assignment.groups) {
             (it.split, it.group) = (split.name().to_owned(), group.clone());
         }
-        let strict = LintRules { max_route_overlap: 0.0, by_town: false };
+        let strict = LintRules { max_route_overlap: 0.0, ..LintRules::of_shares(&shares) };
         assert_eq!(lint(&kept, &strict).found, 0);
         assert_eq!(broken(&kept, &shares).count(), 0);
         kept[0].split = if kept[0].split == "train" { "test".into() } else { "train".into() };

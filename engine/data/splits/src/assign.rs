@@ -8,7 +8,7 @@ use super::places::Places;
 use super::route;
 use cosfly_frames::Seed;
 use cosfly_schema::Split;
-use cosfly_schema::config::{SplitBy, SplitShares};
+use cosfly_schema::config::{OverlapDirection, SplitBy, SplitShares};
 use std::collections::BTreeMap;
 
 /// Assignment of each flight, in the order of the facts.
@@ -32,7 +32,7 @@ pub fn assign(facts: &[FlightFacts], shares: &SplitShares) -> Assignment {
     if shares.by == SplitBy::Area {
         return of_areas(facts, shares, &places);
     }
-    let representatives = representatives(facts, &places, shares.max_route_overlap);
+    let representatives = representatives(facts, &places, (shares.max_route_overlap, shares.overlap_direction));
     let drawn = |id: &str| shares.split_of(draw(shares.seed, "split", id));
     let assigned = |(at, it): (usize, &FlightFacts)| {
         let place = &places.all[places.of_flight[at]];
@@ -68,7 +68,7 @@ fn of_areas(facts: &[FlightFacts], shares: &SplitShares, places: &Places) -> Ass
 }
 
 /// Representative of each flight's group: the first pedestrian of the group in that place.
-fn representatives(facts: &[FlightFacts], places: &Places, max_overlap: f64) -> Vec<String> {
+fn representatives(facts: &[FlightFacts], places: &Places, rule: (f64, OverlapDirection)) -> Vec<String> {
     let mut walkers: BTreeMap<(usize, &str), usize> = BTreeMap::new();
     for (it, place) in facts.iter().zip(&places.of_flight) {
         walkers.entry((*place, &it.pedestrian_id)).or_default();
@@ -80,7 +80,7 @@ fn representatives(facts: &[FlightFacts], places: &Places, max_overlap: f64) -> 
     let routes = distinct_routes(facts, places);
     let given: Vec<(usize, &route::Route)> = routes.iter().map(|((place, _), route)| (*place, *route)).collect();
     let owners: Vec<usize> = routes.iter().map(|(walker, _)| walkers[walker]).collect();
-    join_overlapping(&given, &owners, max_overlap, &mut sets);
+    join_overlapping(&given, &owners, rule, &mut sets);
     let walker = |(it, place): (&FlightFacts, &usize)| walkers[&(*place, it.pedestrian_id.as_str())];
     facts.iter().zip(&places.of_flight).map(|it| ids[sets.smallest(walker(it))].to_owned()).collect()
 }
@@ -126,6 +126,20 @@ mod tests {
         assert!(alone.splits.chunks(2).any(|pair| pair[0] != pair[1]));
         let of_town = assign(&facts, &SplitShares { by: SplitBy::Town, ..SplitShares::default() });
         assert!(of_town.splits.iter().all(|split| *split == of_town.splits[0]));
+    }
+
+    #[test]
+    fn there_and_back_go_to_the_same_split_where_the_recipe_says_so() {
+        let way = |id: usize| {
+            let feet = (0..50).map(|k| if id.is_multiple_of(2) { k } else { 49 - k });
+            let feet: Vec<DVec3> = feet.map(|k| DVec3::new(f64::from(k), 40.0 * (id / 2) as f64, 0.0)).collect();
+            behind(id, &feet)
+        };
+        let facts: Vec<FlightFacts> = (0..400).map(way).collect();
+        let either = SplitShares { overlap_direction: OverlapDirection::Either, ..SplitShares::default() };
+        assert!(assign(&facts, &either).splits.chunks(2).all(|pair| pair[0] == pair[1]));
+        let same = assign(&facts, &SplitShares::default());
+        assert!(same.splits.chunks(2).any(|pair| pair[0] != pair[1]));
     }
 
     fn in_town(town: &str, digest: &str, mut facts: Vec<FlightFacts>) -> Vec<FlightFacts> {

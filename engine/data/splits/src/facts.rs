@@ -1,7 +1,7 @@
 //! Input of the linter for each flight: pedestrian, town, route, split.
 
 use super::route::Route;
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Result, Stop};
 use cosfly_frames::{DVec3, Pose};
 use cosfly_read::{PublishedDataset, PublishedFlight};
 use cosfly_schema::RenderedTrajectory;
@@ -89,14 +89,15 @@ pub(crate) fn published_windows(flight: &PublishedFlight, poses: &[Pose], feet: 
 /// where `window` is 0: [`Leaks::of_windows`](super::leaks::Leaks::of_windows) compares those of large datasets.
 ///
 /// # Errors
-/// Damage of the tables `trajectories` and `waypoints`.
-pub fn facts_of_dataset(folder: &Path, dataset: usize, window: usize) -> Result<Vec<FlightFacts>> {
+/// Damage of the tables `trajectories` and `waypoints`; the user stopped the work.
+pub fn facts_of_dataset(folder: &Path, dataset: usize, window: usize, stop: &Stop) -> Result<Vec<FlightFacts>> {
     let published = PublishedDataset::open(folder)?;
     let mut facts = vec![];
     published.ways(&mut |id, poses, feet| {
         if let Some(place) = published.place(id) {
             facts.push(FlightFacts::of_published(dataset, &published.flights()[place], poses, feet, window));
         }
+        stop.check("splits")
     })?;
     Ok(facts)
 }

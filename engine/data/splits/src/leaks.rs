@@ -2,11 +2,11 @@
 
 use super::area;
 use super::facts::{FlightFacts, published_windows};
-use super::overlap::overlaps;
+use super::overlap::{Overlaps, overlaps};
 use super::route;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_read::PublishedDataset;
-use cosfly_schema::config::{DatasetConfig, SplitBy, SplitShares};
+use cosfly_schema::config::{DatasetConfig, OverlapDirection, SplitBy, SplitShares};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::Path;
@@ -19,6 +19,8 @@ const KEPT: usize = 200;
 pub struct LintRules {
     /// Largest share of a walk that another one in another split may repeat, 0..=1.
     pub max_route_overlap: f64,
+    /// Directions in which a walk repeats another one.
+    pub overlap_direction: OverlapDirection,
     /// Whether a place must be in one split only, whatever its name.
     pub by_town: bool,
 }
@@ -26,8 +28,13 @@ pub struct LintRules {
 impl LintRules {
     /// Rules that follow from a recipe's parameters.
     pub fn of(config: &DatasetConfig) -> Self {
-        let by_town = config.splits.by == SplitBy::Town;
-        Self { max_route_overlap: config.splits.max_route_overlap, by_town }
+        Self::of_shares(&config.splits)
+    }
+
+    /// Rules that follow from the shares of a recipe or of `splits.json`.
+    pub fn of_shares(shares: &SplitShares) -> Self {
+        let SplitShares { max_route_overlap, overlap_direction, by, .. } = *shares;
+        Self { max_route_overlap, overlap_direction, by_town: by == SplitBy::Town }
     }
 }
 
@@ -96,7 +103,7 @@ pub fn refusal(leaks: &Leaks) -> Option<Box<Diagnostic>> {
     let refusal = Diagnostic::new("dataset-leak", Fault::Recipe, format!("the splits leak: {pairs} across them"));
     let refusal = leaks.kept.iter().take(8).fold(refusal, |refusal, leak| refusal.because(leak));
     Some(refusal.hint(
-        "lower `splits.max_route_overlap` so that such walks stay together, give towns with the same ground plan the \
+        "lower `splits.max_route_overlap` or set `splits.overlap_direction = \"either\"` so that such walks stay together, give towns with the same ground plan the \
              same split in `splits.towns`, or put everything into one split",
     ))
 }
@@ -178,8 +185,8 @@ impl Leaks {
     /// read several times, each time for a part of the hashes.
     ///
     /// # Errors
-    /// Damage of the datasets.
-    pub fn of_windows(&mut self, facts: &[FlightFacts], folders: &[&Path], size: usize) -> Result<()> {
+    /// Damage of the datasets; the user stopped the work.
+    pub fn of_windows(&mut self, facts: &[FlightFacts], folders: &[&Path], size: usize, stop: &Stop) -> Result<()> {
         let places: BTreeMap<(usize, &str), u32> =
             facts.iter().zip(0..).map(|(it, place)| ((it.dataset, it.trajectory_id.as_str()), place)).collect();
         let datasets: Vec<PublishedDataset> =
@@ -192,11 +199,13 @@ impl Leaks {
             for (number, dataset) in datasets.iter().enumerate() {
                 dataset.ways(&mut |id, poses, feet| {
                     let flight = dataset.place(id).map(|place| &dataset.flights()[place]);
-                    let Some((flight, place)) = flight.zip(places.get(&(number, id))) else { return };
+                    stop.check("splits")?;
+                    let Some((flight, place)) = flight.zip(places.get(&(number, id))) else { return Ok(()) };
                     let hashes = published_windows(flight, poses, feet, size).into_iter().zip(0..);
                     all.extend(
                         hashes.filter(|(hash, _)| hash % passes == pass).map(|(hash, frame)| (hash, *place, frame)),
                     );
+                    Ok(())
                 })?;
             }
             compare(&mut all, facts, &mut pairs);
@@ -258,33 +267,11 @@ fn compare(all: &mut [(u64, u32, u32)], facts: &[FlightFacts], pairs: &mut Pairs
 
 /// Finds walks that repeat one another.
 fn routes(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
-    let mut places: Vec<&FlightFacts> = vec![];
-    let mut place_of: BTreeMap<&str, usize> = BTreeMap::new();
-    for it in facts {
-        if !place_of.contains_key(it.layout.digest.as_str()) {
-            let same = places.iter().position(|place| place.layout.is_same_place(&it.layout));
-            place_of.insert(&it.layout.digest, same.unwrap_or(places.len()));
-            places.extend(same.is_none().then_some(it));
-        }
-    }
-    // One flight for each walk of each split.
-    let mut walks: Vec<&FlightFacts> = vec![];
-    let mut seen: BTreeSet<(usize, &str, &str)> = BTreeSet::new();
-    for it in facts {
-        if seen.insert((it.dataset, &it.pedestrian_id, &it.split)) {
-            walks.push(it);
-        }
-    }
-    let given: Vec<(usize, &route::Route)> =
-        walks.iter().map(|it| (place_of[it.layout.digest.as_str()], &it.route)).collect();
-    let splits: BTreeSet<&str> = walks.iter().map(|it| it.split.as_str()).collect();
-    let splits: BTreeMap<&str, u32> = splits.into_iter().zip(0..).collect();
-    let colours: Vec<u32> = walks.iter().map(|it| splits[it.split.as_str()]).collect();
-    let is_judged = |a: usize, b: usize| !is_one_walk(walks[a], walks[b]);
-    let found = overlaps(&given, &colours, rules.max_route_overlap, &is_judged, KEPT);
+    let walks = Walks::of(facts);
+    let found = walks.repeated(rules.max_route_overlap, rules.overlap_direction);
     leaks.found += found.found - found.kept.len();
     for (a, b, share) in found.kept {
-        let (a, b) = (walks[a], walks[b]);
+        let (a, b) = (walks.flights[a], walks.flights[b]);
         let message = format!(
             "{} % of a walk is repeated in another split: {} and {}",
             (100.0 * share).round(),
@@ -292,6 +279,73 @@ fn routes(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
             named(b)
         );
         leaks.add("split-route", b, message);
+    }
+}
+
+/// Pairs of walks in two splits that lead over the same ground in opposite directions, which the rules do not forbid: more than
+/// `rules.max_route_overlap` of one of them is repeated there or back. None where the rules forbid them.
+pub fn ways_back(facts: &[FlightFacts], rules: &LintRules) -> Leaks {
+    let mut notes = Leaks::default();
+    if rules.overlap_direction == OverlapDirection::Either {
+        return notes;
+    }
+    let walks = Walks::of(facts);
+    let [same, either] = [OverlapDirection::Same, OverlapDirection::Either]
+        .map(|counted| walks.repeated_at_most(rules.max_route_overlap, counted, usize::MAX));
+    let known: BTreeSet<(usize, usize)> = same.kept.iter().map(|(a, b, _)| (*a, *b)).collect();
+    for (a, b, share) in either.kept.into_iter().filter(|(a, b, _)| !known.contains(&(*a, *b))) {
+        let (a, b) = (walks.flights[a], walks.flights[b]);
+        let share = (100.0 * share).round();
+        let message =
+            format!("{share} % of a walk is walked the other way in another split: {} and {}", named(a), named(b));
+        notes.add("split-way-back", b, message);
+    }
+    notes
+}
+
+/// One flight for each walk of each split.
+struct Walks<'a> {
+    flights: Vec<&'a FlightFacts>,
+    /// Number of the place of each, and the number of its split.
+    places: Vec<usize>,
+    colours: Vec<u32>,
+}
+
+impl<'a> Walks<'a> {
+    fn of(facts: &'a [FlightFacts]) -> Self {
+        let mut places: Vec<&FlightFacts> = vec![];
+        let mut place_of: BTreeMap<&str, usize> = BTreeMap::new();
+        for it in facts {
+            if !place_of.contains_key(it.layout.digest.as_str()) {
+                let same = places.iter().position(|place| place.layout.is_same_place(&it.layout));
+                place_of.insert(&it.layout.digest, same.unwrap_or(places.len()));
+                places.extend(same.is_none().then_some(it));
+            }
+        }
+        let mut flights: Vec<&FlightFacts> = vec![];
+        let mut seen: BTreeSet<(usize, &str, &str)> = BTreeSet::new();
+        for it in facts {
+            if seen.insert((it.dataset, &it.pedestrian_id, &it.split)) {
+                flights.push(it);
+            }
+        }
+        let splits: BTreeSet<&str> = flights.iter().map(|it| it.split.as_str()).collect();
+        let splits: BTreeMap<&str, u32> = splits.into_iter().zip(0..).collect();
+        let places = flights.iter().map(|it| place_of[it.layout.digest.as_str()]).collect();
+        let colours = flights.iter().map(|it| splits[it.split.as_str()]).collect();
+        Self { flights, places, colours }
+    }
+
+    /// Pairs in two splits that repeat more than `least` of each other; the first ones are kept.
+    fn repeated(&self, least: f64, counted: OverlapDirection) -> Overlaps {
+        self.repeated_at_most(least, counted, KEPT)
+    }
+
+    fn repeated_at_most(&self, least: f64, counted: OverlapDirection, limit: usize) -> Overlaps {
+        let given: Vec<(usize, &route::Route)> =
+            self.places.iter().copied().zip(self.flights.iter().map(|it| &it.route)).collect();
+        let is_judged = |a: usize, b: usize| !is_one_walk(self.flights[a], self.flights[b]);
+        overlaps(&given, &self.colours, (least, counted), &is_judged, limit)
     }
 }
 
@@ -319,13 +373,34 @@ mod tests {
         }
     }
 
-    const RULES: LintRules = LintRules { max_route_overlap: 0.5, by_town: false };
+    const RULES: LintRules =
+        LintRules { max_route_overlap: 0.5, overlap_direction: OverlapDirection::Same, by_town: false };
 
     #[test]
     fn sound_splits_have_no_leak() {
         let facts = [flight("a", "train", 0.0), flight("b", "test", 40.0), flight("c", "train", 80.0)];
         assert_eq!(lint(&facts, &RULES), Leaks::default());
         assert!(refusal(&Leaks::default()).is_none());
+    }
+
+    #[test]
+    fn the_way_back_in_another_split_is_counted_and_a_leak_where_the_rules_forbid_it() {
+        let (there, beside) = (flight("a", "train", 0.0), flight("c", "test", 80.0));
+        let feet: Vec<DVec3> = (0..50).rev().map(|k| DVec3::new(f64::from(k), 1.0, 0.0)).collect();
+        let back = FlightFacts { route: Route::of(&feet), ..flight("b", "test", 1.0) };
+        let facts = [there, back.clone(), beside];
+        assert_eq!(lint(&facts, &RULES).found, 0);
+        let notes = ways_back(&facts, &RULES);
+        assert_eq!((notes.found, notes.kept[0].rule), (1, "split-way-back"));
+        assert!(notes.kept[0].message.contains("100 % of a walk is walked the other way"), "{}", notes.kept[0]);
+        let forbidden = LintRules { overlap_direction: OverlapDirection::Either, ..RULES };
+        let found = lint(&facts, &forbidden);
+        assert_eq!(found.kept.iter().map(|leak| leak.rule).collect::<Vec<_>>(), ["split-route"]);
+        assert_eq!(ways_back(&facts, &forbidden), Leaks::default());
+        // In one split it is no leak.
+        let together = [flight("a", "test", 0.0), back];
+        assert_eq!((lint(&together, &forbidden).found, ways_back(&together, &RULES).found), (0, 0));
+        assert!(refusal(&found).unwrap().hints[0].contains("overlap_direction"));
     }
 
     #[test]

@@ -22,5 +22,5 @@ pub mod route;
 pub use assign::{Assignment, assign};
 pub use balance::Balance;
 pub use facts::{FlightFacts, facts_of_dataset};
-pub use leaks::{Leak, Leaks, LintRules, lint, refusal};
+pub use leaks::{Leak, Leaks, LintRules, lint, refusal, ways_back};
 pub use policy::split_policy;

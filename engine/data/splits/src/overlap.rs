@@ -1,10 +1,12 @@
 //! Walks that repeat each other, found through an index of the cells that walks enter.
 //!
-//! A walk repeats another one in a cell when it enters the cell, or one beside it, in about the same direction. The share
+//! A walk repeats another one in a cell when it enters the cell, or one beside it, in about the same direction, or in the
+//! opposite one where that counts. The share
 //! of a walk's cells that another one repeats is their overlap. Memory is linear in the number of entered cells.
 
 use super::disjoint_sets::DisjointSets;
-use super::route::{Route, near};
+use super::route::{Route, back, near};
+use cosfly_schema::config::OverlapDirection;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -22,16 +24,16 @@ pub struct Overlaps {
     pub found: usize,
 }
 
-/// Pairs of routes of the same place with different colours that overlap by more than `least`. Keeps the first `limit`
-/// pairs of those that `is_judged` accepts.
+/// Pairs of routes of the same place with different colours that overlap by more than `least` in the directions `counted`.
+/// Keeps the first `limit` pairs of those that `is_judged` accepts.
 pub fn overlaps(
     routes: &[(usize, &Route)],
     colours: &[u32],
-    least: f64,
+    (least, counted): (f64, OverlapDirection),
     is_judged: &(dyn Fn(usize, usize) -> bool + Sync),
     limit: usize,
 ) -> Overlaps {
-    let mut index = CellIndex::of(routes);
+    let mut index = CellIndex::of(routes, counted);
     index.sort(colours);
     let mut kept: BTreeMap<(usize, usize), f64> = BTreeMap::new();
     let mut found = 0;
@@ -71,12 +73,17 @@ pub fn overlaps(
     Overlaps { kept: kept.into_iter().map(|((a, b), share)| (a, b, share)).collect(), found }
 }
 
-/// Joins the owners of all routes of the same place that overlap by more than `least`.
+/// Joins the owners of all routes of the same place that overlap by more than `least` in the directions `counted`.
 ///
 /// Most walks of a dense town are soon in one set, and walks of the same set are not compared any more: the index keeps
 /// the members of a set side by side and skips them.
-pub fn join_overlapping(routes: &[(usize, &Route)], owners: &[usize], least: f64, sets: &mut DisjointSets) {
-    let mut index = CellIndex::of(routes);
+pub fn join_overlapping(
+    routes: &[(usize, &Route)],
+    owners: &[usize],
+    (least, counted): (f64, OverlapDirection),
+    sets: &mut DisjointSets,
+) {
+    let mut index = CellIndex::of(routes, counted);
     let (mut first, mut size) = (0, FIRST_BLOCK);
     while first < routes.len() {
         let colours: Vec<u32> = owners.iter().map(|owner| sets.smallest(*owner) as u32).collect();
@@ -113,7 +120,7 @@ struct CellIndex {
 }
 
 impl CellIndex {
-    fn of(routes: &[(usize, &Route)]) -> Self {
+    fn of(routes: &[(usize, &Route)], counted: OverlapDirection) -> Self {
         let mut cells: Vec<(usize, u64)> =
             routes.iter().flat_map(|(place, route)| route.cells().iter().map(move |cell| (*place, *cell))).collect();
         cells.par_sort_unstable();
@@ -135,7 +142,9 @@ impl CellIndex {
             index.route_offsets.push(index.of_route.len());
         }
         for (place, cell) in &cells {
-            let entered = near(*cell).filter_map(|it| cells.binary_search(&(*place, it)).ok());
+            let opposite = (counted == OverlapDirection::Either).then(|| near(back(*cell)));
+            let all = near(*cell).chain(opposite.into_iter().flatten());
+            let entered = all.filter_map(|it| cells.binary_search(&(*place, it)).ok());
             index.near.extend(entered.map(|number| number as u32));
             index.near_offsets.push(index.near.len());
         }
@@ -268,15 +277,19 @@ mod tests {
         Route::of(&feet)
     }
 
-    fn all(routes: &[(usize, &Route)], least: f64) -> Overlaps {
+    const SAME: OverlapDirection = OverlapDirection::Same;
+    const EITHER: OverlapDirection = OverlapDirection::Either;
+
+    fn all(routes: &[(usize, &Route)], least: f64, counted: OverlapDirection) -> Overlaps {
         let colours: Vec<u32> = (0..routes.len() as u32).collect();
-        overlaps(routes, &colours, least, &|_, _| true, usize::MAX)
+        overlaps(routes, &colours, (least, counted), &|_, _| true, usize::MAX)
     }
 
     /// All pairs, compared cell by cell.
-    fn by_force(routes: &[(usize, &Route)], least: f64) -> Vec<(usize, usize, f64)> {
+    fn by_force(routes: &[(usize, &Route)], least: f64, counted: OverlapDirection) -> Vec<(usize, usize, f64)> {
         let share = |a: usize, b: usize| {
-            let is_repeated = |cell: &&u64| near(**cell).any(|it| routes[b].1.cells().contains(&it));
+            let enters = |cell: u64| near(cell).any(|it| routes[b].1.cells().contains(&it));
+            let is_repeated = |cell: &&u64| enters(**cell) || counted == EITHER && enters(back(**cell));
             let cells = routes[a].1.cells();
             cells.iter().filter(is_repeated).count() as f64 / cells.len().max(1) as f64
         };
@@ -295,43 +308,51 @@ mod tests {
     #[test]
     fn the_same_way_overlaps_and_the_way_back_or_another_street_does_not() {
         let there = walk((0.0, 0.0), (100.0, 0.0));
-        for (other, expected) in [
-            (walk((0.0, 1.5), (100.0, 1.5)), 1.0),
-            (walk((60.0, 0.0), (160.0, 0.0)), 0.4),
-            (walk((100.0, 0.0), (0.0, 0.0)), 0.0),
-            (walk((0.0, 40.0), (100.0, 40.0)), 0.0),
+        for (other, expected, there_or_back) in [
+            (walk((0.0, 1.5), (100.0, 1.5)), 1.0, 1.0),
+            (walk((60.0, 0.0), (160.0, 0.0)), 0.4, 0.4),
+            (walk((100.0, 0.0), (0.0, 0.0)), 0.0, 1.0),
+            (walk((160.0, 1.0), (60.0, 1.0)), 0.0, 0.4),
+            (walk((50.0, -50.0), (50.0, 50.0)), 0.0, 0.0),
+            (walk((0.0, 40.0), (100.0, 40.0)), 0.0, 0.0),
         ] {
-            let found = all(&[(0, &there), (0, &other)], 0.0).kept.first().map_or(0.0, |pair| pair.2);
-            assert!((found - expected).abs() < 0.1, "{found} {expected}");
+            for (counted, expected) in [(SAME, expected), (EITHER, there_or_back)] {
+                let pairs = all(&[(0, &there), (0, &other)], 0.0, counted).kept;
+                let found = pairs.first().map_or(0.0, |pair| pair.2);
+                assert!((found - expected).abs() < 0.1, "{found} {expected} {counted:?}");
+            }
         }
-        assert!(all(&[(0, &there), (1, &there)], 0.0).kept.is_empty(), "other towns are other places");
+        assert!(all(&[(0, &there), (1, &there)], 0.0, EITHER).kept.is_empty(), "other towns are other places");
     }
 
     #[test]
     fn pairs_are_those_of_a_comparison_of_all_with_all() {
-        for (seed, count, least) in [(1, 90, 0.5), (2, 120, 0.2), (3, 60, 0.0), (4, 200, 0.8)] {
+        for (seed, count, least, counted) in
+            [(1, 90, 0.5, SAME), (2, 120, 0.2, EITHER), (3, 60, 0.0, SAME), (4, 200, 0.8, EITHER)]
+        {
             let walks = drawn(seed, count);
             let routes: Vec<(usize, &Route)> = walks.iter().map(|(place, route)| (*place, route)).collect();
-            let expected = by_force(&routes, least);
-            let found = all(&routes, least);
+            let expected = by_force(&routes, least, counted);
+            let found = all(&routes, least, counted);
             assert!(!expected.is_empty() && found.kept == expected && found.found == expected.len(), "{seed}");
-            let few = overlaps(&routes, &(0..count as u32).collect::<Vec<_>>(), least, &|_, _| true, 3);
+            let rule = (least, counted);
+            let few = overlaps(&routes, &(0..count as u32).collect::<Vec<_>>(), rule, &|_, _| true, 3);
             assert_eq!((&few.kept[..], few.found), (&expected[..3.min(expected.len())], expected.len()));
             let halves: Vec<u32> = (0..count as u32).map(|at| at % 2).collect();
             let apart: Vec<_> = expected.iter().copied().filter(|(a, b, _)| a % 2 != b % 2).collect();
-            assert_eq!(overlaps(&routes, &halves, least, &|_, _| true, usize::MAX).kept, apart);
+            assert_eq!(overlaps(&routes, &halves, rule, &|_, _| true, usize::MAX).kept, apart);
         }
     }
 
     #[test]
     fn sets_are_those_of_all_pairs_whoever_owns_the_walks() {
-        for (seed, count, least) in [(5, 400, 0.5), (6, 40, 0.3), (7, 300, 0.9)] {
+        for (seed, count, least, counted) in [(5, 400, 0.5, SAME), (6, 40, 0.3, SAME), (7, 300, 0.9, EITHER)] {
             let walks = drawn(seed, count);
             let routes: Vec<(usize, &Route)> = walks.iter().map(|(place, route)| (*place, route)).collect();
             let owners: Vec<usize> = (0..count).map(|at| at / 2).collect();
             let (mut expected, mut found) = (DisjointSets::new(count), DisjointSets::new(count));
-            by_force(&routes, least).iter().for_each(|(a, b, _)| expected.join(owners[*a], owners[*b]));
-            join_overlapping(&routes, &owners, least, &mut found);
+            by_force(&routes, least, counted).iter().for_each(|(a, b, _)| expected.join(owners[*a], owners[*b]));
+            join_overlapping(&routes, &owners, (least, counted), &mut found);
             assert!((0..count).all(|at| expected.smallest(at) == found.smallest(at)), "{seed}");
         }
     }

@@ -1,7 +1,7 @@
 //! `splits.json`: the split policy of a dataset, for readers and for the linter.
 
 use super::leaks::LintRules;
-use cosfly_schema::config::{DatasetConfig, SplitBy, SplitShares, WindowConfig};
+use cosfly_schema::config::{DatasetConfig, SplitShares, WindowConfig};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -43,7 +43,7 @@ impl SplitPolicy {
 
     /// Rules of the linter that follow from the policy.
     pub fn rules(&self) -> LintRules {
-        LintRules { max_route_overlap: self.splits.max_route_overlap, by_town: self.splits.by == SplitBy::Town }
+        LintRules::of_shares(&self.splits)
     }
 }
 

@@ -62,6 +62,12 @@ pub fn near(cell: u64) -> impl Iterator<Item = u64> {
     })
 }
 
+/// The cell in the opposite direction.
+pub fn back(cell: u64) -> u64 {
+    let (i, j, sector) = unpacked(cell);
+    packed(i, j, sector + SECTORS / 2)
+}
+
 fn packed(i: i64, j: i64, sector: i64) -> u64 {
     let coordinate = |value: i64| (value.clamp(-(1 << 27), 1 << 27) + (1 << 28)) as u64;
     coordinate(i) << 34 | coordinate(j) << 4 | sector.rem_euclid(SECTORS) as u64

@@ -2,7 +2,7 @@
 
 use super::report::VerifyReport;
 use super::rows;
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::{Diagnostic, Result, Stop};
 use cosfly_fingerprint::sha256::sha256_of_reader;
 use cosfly_schema::tables::FileRecord;
 use rayon::prelude::*;
@@ -25,6 +25,8 @@ pub enum State {
 /// The dataset's files. Logs are read with their flights, all others at once.
 pub struct CheckedFiles {
     files: BTreeMap<String, Known>,
+    /// Ends the check.
+    pub stop: Stop,
 }
 
 /// A file that is listed in `files.parquet`, or named by `SHA256SUMS`.
@@ -67,7 +69,8 @@ impl CheckedFiles {
     pub fn check_log(&self, folder: &Path, path: &str, report: &mut VerifyReport) -> Result<State> {
         match self.listed(path) {
             Some((bytes, sha256)) => {
-                check_file(folder, &Expected { path, bytes: Some(bytes), sha256: Some(sha256) }, report)
+                let expected = Expected { path, bytes: Some(bytes), sha256: Some(sha256) };
+                check_file(folder, &expected, &self.stop, report)
             }
             None => Ok(State::Unread),
         }
@@ -96,12 +99,12 @@ const SUMMED: [&str; 2] = ["files.parquet", "croissant.json"];
 const SUMS_LIMIT: u64 = 64 << 10;
 
 /// Checks `SHA256SUMS`, then every file that `files.parquet` lists but for logs, then looks for others.
-pub fn check(folder: &Path, report: &mut VerifyReport) -> Result<CheckedFiles> {
-    let mut files = CheckedFiles { files: BTreeMap::new() };
+pub fn check(folder: &Path, stop: &Stop, report: &mut VerifyReport) -> Result<CheckedFiles> {
+    let mut files = CheckedFiles { files: BTreeMap::new(), stop: stop.clone() };
     let sums = sums(folder, report)?;
     for path in SUMMED {
         let sha256 = sums.get(path).map(String::as_str);
-        let state = check_file(folder, &Expected { path, bytes: None, sha256 }, report)?;
+        let state = check_file(folder, &Expected { path, bytes: None, sha256 }, stop, report)?;
         files.files.insert(path.to_owned(), Known { listed: None, state });
     }
     if files.state("files.parquet") == State::Sound {
@@ -123,6 +126,7 @@ pub fn check(folder: &Path, report: &mut VerifyReport) -> Result<CheckedFiles> {
 
 /// Checks all listed files but logs, side by side.
 fn check_listed(folder: &Path, files: &mut CheckedFiles, report: &mut VerifyReport) -> Result<()> {
+    let stop = files.stop.clone();
     let mut entries: Vec<(&String, &mut Known)> =
         files.files.iter_mut().filter(|(path, known)| known.listed.is_some() && !path.starts_with(LOGS)).collect();
     for together in entries.chunks_mut(TOGETHER) {
@@ -132,7 +136,7 @@ fn check_listed(folder: &Path, files: &mut CheckedFiles, report: &mut VerifyRepo
                 let mut report = VerifyReport::default();
                 if let Some((bytes, sha256)) = &known.listed {
                     let expected = Expected { path, bytes: Some(*bytes), sha256: Some(sha256) };
-                    known.state = known.state.max(check_file(folder, &expected, &mut report)?);
+                    known.state = known.state.max(check_file(folder, &expected, &stop, &mut report)?);
                 }
                 Ok(report)
             })
@@ -193,7 +197,7 @@ struct Expected<'a> {
     sha256: Option<&'a str>,
 }
 
-fn check_file(folder: &Path, file: &Expected<'_>, report: &mut VerifyReport) -> Result<State> {
+fn check_file(folder: &Path, file: &Expected<'_>, stop: &Stop, report: &mut VerifyReport) -> Result<State> {
     let path = file.path;
     if !is_inside(path) {
         report.find(path, "", "verify-path", "the path leads out of the dataset's folder");
@@ -205,7 +209,7 @@ fn check_file(folder: &Path, file: &Expected<'_>, report: &mut VerifyReport) -> 
         return Ok(State::Regular);
     }
     let (bytes, sha256) = File::open(folder.join(path))
-        .and_then(|input| sha256_of_reader(&mut input.take(size)))
+        .and_then(|input| sha256_of_reader(&mut stop.reading(input.take(size))))
         .map_err(|error| Diagnostic::io(format!("read `{path}`"), &error))?;
     report.files += 1;
     report.bytes += bytes;

@@ -212,6 +212,7 @@ impl<'a> Flights<'a> {
 
     /// Checks the rows and the log of a flight.
     fn check_flight(&self, number: usize, rows: &Rows<'_>) -> Result<Checked> {
+        self.files.stop.check("verify")?;
         let (file, frames, others) = (rows.file, rows.frames, rows.people);
         let flight = self.tables.flights.at(number);
         let id = &flight.trajectory_id;
@@ -246,7 +247,13 @@ impl<'a> Flights<'a> {
         }
         if self.files.check_log(self.folder, &flight.mcap_path, report)? >= State::Regular {
             let captions = self.tables.captions.of(number);
-            log::check(self.folder, flight, frames, &Known { captions, objects, others }, report);
+            log::check(
+                self.folder,
+                flight,
+                frames,
+                &Known { captions, objects, others, stop: &self.files.stop },
+                report,
+            );
         }
         report.flights += 1;
         report.frames += frames.len() as u64;

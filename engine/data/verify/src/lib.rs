@@ -44,7 +44,7 @@ use std::sync::mpsc;
 use tables::SmallTables;
 
 /// Checks the dataset in `folder`. `progress` hears how many of all flights are done. An error means that the
-/// folder could not be read or holds no dataset; everything else is a finding.
+/// folder could not be read or holds no dataset, or that the check was stopped; everything else is a finding.
 pub fn verify(folder: &Path, options: &Options, progress: &mut dyn FnMut(u64, u64)) -> Result<VerifyReport> {
     if let Some(problem) = folder_problem(folder) {
         let message = format!("`{}` {problem}", folder.display());
@@ -58,8 +58,13 @@ pub fn verify(folder: &Path, options: &Options, progress: &mut dyn FnMut(u64, u6
     std::thread::scope(|scope| {
         let work = scope.spawn(move || {
             pool.install(|| {
-                let done = |done, all| sender.send((done, all)).expect("it is heard to the end");
-                check(folder, options, &done)
+                // Nobody hears it any more where `progress` gave up.
+                let done = |done, all| {
+                    let _ = sender.send((done, all));
+                };
+                let report = check(folder, options, &done);
+                options.stop.check("verify")?;
+                report
             })
         });
         let mut most = 0;
@@ -73,10 +78,10 @@ pub fn verify(folder: &Path, options: &Options, progress: &mut dyn FnMut(u64, u6
 
 fn check(folder: &Path, options: &Options, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<VerifyReport> {
     let mut report = VerifyReport::default();
-    let files = files::check(folder, &mut report)?;
+    let files = files::check(folder, &options.stop, &mut report)?;
     // The lint of the splits runs on one thread; the other threads do everything else meanwhile.
     let (leaks, rest) = rayon::join(
-        || splits::lint(folder),
+        || splits::lint(folder, &options.stop),
         || -> Result<_> {
             let tables = tables::read(folder, &files, &mut report);
             let mut of_flights = VerifyReport::default();

@@ -6,6 +6,7 @@ use super::people::PersonRow;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
 use ::mcap::records::Record;
+use cosfly_diagnose::Stop;
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_maps::SemanticLabel;
 use cosfly_read::read_records;
@@ -32,6 +33,8 @@ pub struct Known<'a> {
     pub objects: Option<&'a BTreeSet<u32>>,
     /// People seen beside the target, by frame.
     pub others: &'a [PersonRow],
+    /// Ends the check.
+    pub stop: &'a Stop,
 }
 
 /// Checks the log of `flight`.
@@ -56,7 +59,8 @@ pub fn check(
         depth: None,
         is_ours: false,
     };
-    if let Err(message) = read_records(&mut BufReader::new(input), &mut |record| log.record(record)) {
+    let mut input = known.stop.reading(BufReader::new(input));
+    if let Err(message) = read_records(&mut input, &mut |record| log.record(record)) {
         log.report.find(file, "", "verify-crc", message);
         return;
     }

@@ -1,6 +1,7 @@
 //! What is checked, and how.
 
 use super::flight_list::FlightList;
+use cosfly_diagnose::Stop;
 use std::path::PathBuf;
 
 /// Options of a check.
@@ -12,6 +13,8 @@ pub struct Options {
     pub sample: Option<usize>,
     /// File that notes the flights found sound, so that an interrupted check goes on where it ended.
     pub resume: Option<PathBuf>,
+    /// Ends the check, within a second.
+    pub stop: Stop,
 }
 
 /// The flights that are checked in full.

@@ -2,6 +2,7 @@
 
 use super::report::VerifyReport;
 use super::tables::SmallTables;
+use cosfly_diagnose::Stop;
 use cosfly_splits as splits;
 use cosfly_splits::{facts_of_dataset, policy};
 use std::path::Path;
@@ -16,12 +17,12 @@ pub struct Leaky {
 }
 
 /// Lints the splits by what `splits.json` promises.
-pub fn lint(folder: &Path) -> Linted {
+pub fn lint(folder: &Path, stop: &Stop) -> Linted {
     let policy = policy::SplitPolicy::of_dataset(folder)?;
     // Tables that cannot be read are found elsewhere.
-    let Ok(facts) = facts_of_dataset(folder, 0, 0) else { return Ok(None) };
+    let Ok(facts) = facts_of_dataset(folder, 0, 0, stop) else { return Ok(None) };
     let mut leaks = splits::lint(&facts, &policy.rules());
-    if leaks.of_windows(&facts, &[folder], policy.windows.shape().size()).is_err() {
+    if leaks.of_windows(&facts, &[folder], policy.windows.shape().size(), stop).is_err() {
         return Ok(None);
     }
     leaks.of_areas(&facts, &policy.splits);

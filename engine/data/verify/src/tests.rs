@@ -250,7 +250,7 @@ fn a_missing_language_is_found() {
 fn an_action_that_does_not_lead_to_the_next_pose_is_found() {
     let folder = published(sample::flights());
     let mut report = VerifyReport::default();
-    let files = files::check(folder.path(), &mut report).unwrap();
+    let files = files::check(folder.path(), &Default::default(), &mut report).unwrap();
     let tables = tables::read(folder.path(), &files, &mut report);
     let file = files.sound_below("data/frames/").next().unwrap();
     let mut groups = vec![];
@@ -328,4 +328,50 @@ fn an_interrupted_check_goes_on_and_reads_changed_logs_again() {
     assert!(third.resumed == 3 && third.findings.iter().any(|it| it.rule == "verify-hash"));
     let other = published(sample::flights().into_iter().take(2).collect());
     assert_eq!(verify(other.path(), &options, &mut |_, _| {}).unwrap_err().code, "verify-resume");
+}
+
+#[test]
+fn files_of_another_version_are_found_in_logs_and_in_tables() {
+    let other = {
+        let mut flights = sample::flights();
+        for flight in &mut flights {
+            flight.record.trajectory.poses_in_world.iter_mut().for_each(|pose| pose.position_in_world.y += 0.4);
+        }
+        published(flights)
+    };
+    for below in ["mcap/plain/000", "data/windows", "data/waypoints", "data/frames"] {
+        let folder = published(sample::flights());
+        let mut mixed = 0;
+        for entry in std::fs::read_dir(other.path().join(below)).unwrap() {
+            let entry = entry.unwrap();
+            std::fs::copy(entry.path(), folder.path().join(below).join(entry.file_name())).unwrap();
+            mixed += 1;
+        }
+        let report = verify(folder.path(), &Options::default(), &mut |_, _| {}).unwrap();
+        let of_files = report.findings.iter().filter(|it| it.file.starts_with(below));
+        let rules: Vec<&str> = of_files.map(|finding| finding.rule).collect();
+        let hashes = rules.iter().filter(|rule| ["verify-hash", "verify-size"].contains(*rule)).count();
+        assert_eq!(hashes, mixed, "{below}: {:#?}", report.findings);
+    }
+    // Everything of the other version but for the logs: their messages are held against the tables, whatever the hashes.
+    let folder = published(sample::flights());
+    for entry in std::fs::read_dir(folder.path().join("mcap/plain/000")).unwrap() {
+        let entry = entry.unwrap();
+        std::fs::copy(entry.path(), other.path().join("mcap/plain/000").join(entry.file_name())).unwrap();
+    }
+    let report = verify(other.path(), &Options::default(), &mut |_, _| {}).unwrap();
+    assert!(
+        report.findings.iter().any(|it| it.file.ends_with(".mcap") && it.rule == "verify-log"),
+        "{:#?}",
+        report.findings
+    );
+}
+
+#[test]
+fn a_check_that_is_stopped_says_so() {
+    let folder = published(sample::flights());
+    let stop = cosfly_diagnose::Stop::of(std::sync::Arc::new(true.into()));
+    let stopped = Options { stop, ..Options::default() };
+    let refusal = verify(folder.path(), &stopped, &mut |_, _| {}).unwrap_err();
+    assert_eq!(refusal.fault, cosfly_diagnose::Fault::Stopped);
 }

@@ -68,6 +68,7 @@ impl Windows<'_> {
         let mut findings: Vec<(usize, String, &'static str, String)> = vec![];
         let mut first = 0;
         let outcome = rows::read(&self.flights.folder.join(file), &rows::table("windows"), &mut |rows| {
+            self.flights.files.stop.check("verify")?;
             let (ids, window_ids) =
                 (rows.values(tables::Windows::trajectory_id)?, rows.values(tables::Windows::window_id)?);
             let list = &self.flights.tables.flights;
@@ -391,7 +392,7 @@ mod tests {
         let config = DatasetConfig { windows, ..DatasetConfig::default() };
         sample::write_to_folder(folder.path(), &config, EncodingConfig::default()).unwrap();
         let mut report = VerifyReport::default();
-        let files = files::check(folder.path(), &mut report).unwrap();
+        let files = files::check(folder.path(), &Default::default(), &mut report).unwrap();
         let small = tables::read(folder.path(), &files, &mut report);
         let wanted = Wanted::of(&small.flights, None);
         let flights = Flights::new(folder.path(), &files, &small, &wanted, None, &mut report);

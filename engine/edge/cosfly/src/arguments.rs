@@ -28,6 +28,12 @@ impl RecipeArguments {
     /// # Errors
     /// All errors of the recipe.
     pub fn load(&self, console: &dyn Console) -> Result<Recipe, Refusals> {
+        let recipe = self.read(console)?;
+        crate::town_names::check(&recipe)?;
+        Ok(recipe)
+    }
+
+    fn read(&self, console: &dyn Console) -> Result<Recipe, Refusals> {
         let registry = cosfly_stages::registry();
         if self.recipe != Path::new("-") {
             let path = if self.recipe.is_dir() { self.recipe.join("recipe.toml") } else { self.recipe.clone() };

@@ -4,7 +4,7 @@ use crate::output;
 use crate::progress::Bar;
 use crate::reporter::Reporter;
 use crate::{interrupt, reporter};
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Result, Stop};
 use cosfly_stage::RunEvent;
 use std::io::BufRead;
 use std::sync::Arc;
@@ -31,6 +31,9 @@ pub trait Console: Sync {
 
     /// The flag that stops a command; finished items are kept.
     fn cancelled(&self) -> Arc<AtomicBool>;
+
+    /// The flag that stops a command that has nothing to keep, within a second. A terminal ends the process instead.
+    fn stop(&self) -> Stop;
 
     /// Whether messages have colours.
     fn colour(&self) -> bool;
@@ -60,6 +63,10 @@ impl Console for Terminal {
 
     fn cancelled(&self) -> Arc<AtomicBool> {
         interrupt::flag()
+    }
+
+    fn stop(&self) -> Stop {
+        Stop::default()
     }
 
     fn colour(&self) -> bool {

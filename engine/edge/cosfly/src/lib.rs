@@ -12,6 +12,7 @@ mod output;
 mod progress;
 mod reporter;
 mod text;
+mod town_names;
 
 use console::{Console, Terminal};
 use cosfly_diagnose::Diagnostic;

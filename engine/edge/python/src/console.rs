@@ -1,7 +1,7 @@
 //! Surroundings of a command within Python: output is collected, progress is polled, Ctrl-C stops the work.
 
 use cosfly::console::{Console, Progress, RunProgress};
-use cosfly_diagnose::{Diagnostic, Result, render};
+use cosfly_diagnose::{Diagnostic, Result, Stop, render};
 use cosfly_stage::{RunEvent, StageName};
 use std::collections::BTreeMap;
 use std::io::{BufRead, Cursor};
@@ -75,6 +75,10 @@ impl Console for Embedded {
 
     fn cancelled(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.cancelled)
+    }
+
+    fn stop(&self) -> Stop {
+        Stop::of(Arc::clone(&self.cancelled))
     }
 
     fn colour(&self) -> bool {

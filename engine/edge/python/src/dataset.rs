@@ -10,16 +10,28 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Reader of one dataset, of any layout.
 #[pyclass(frozen, module = "cosfly._cosfly")]
-pub struct Reader(Box<dyn Source>);
+pub struct Reader(Arc<dyn Source>);
 
 #[pymethods]
 impl Reader {
     #[new]
     fn new(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
-        Ok(Self(raised(py, py.detach(|| cosfly_load::open(&folder)))?))
+        Ok(Self(Arc::from(raised(py, py.detach(|| cosfly_load::open(&folder)))?)))
+    }
+
+    /// Digest that tells the dataset from others.
+    #[getter]
+    fn identity(&self) -> &str {
+        self.0.identity()
+    }
+
+    /// Refuses where the folder holds another dataset by now.
+    fn check(&self, py: Python<'_>) -> PyResult<()> {
+        raised(py, self.0.check())
     }
 
     /// Ids of the trajectories; their numbers are places in this list.
@@ -49,7 +61,8 @@ impl Reader {
     /// A table, of one split or of all.
     #[pyo3(signature = (name, split = None))]
     fn table(&self, py: Python<'_>, name: &str, split: Option<&str>) -> PyResult<Table> {
-        Ok(Table(raised(py, py.detach(|| self.0.table(name, split)))?))
+        let data = raised(py, py.detach(|| self.0.table(name, split)))?;
+        Ok(Table { data, dataset: Arc::clone(&self.0) })
     }
 
     /// Names of the channels of a trajectory.

@@ -4,6 +4,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Label, render_all};
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use std::path::PathBuf;
 
 /// The exception for some diagnostics; the first one decides its code.
 pub fn exception(py: Python<'_>, refusals: &[Box<Diagnostic>]) -> PyErr {
@@ -42,6 +43,44 @@ pub fn damaged_pack(py: Python<'_>, path: &str, cause: &str) -> Py<PyBaseExcepti
     let refusal = Diagnostic::new("dataset-damaged", Fault::Input, format!("`{path}` is damaged"))
         .because(cause)
         .hint("`cosfly.pack` makes a new pack");
+    exception(py, &[refusal]).into_value(py)
+}
+
+/// The refusal for a folder whose dataset is another one than before: both by their digests.
+#[pyfunction]
+pub fn changed_dataset(py: Python<'_>, folder: PathBuf, before: &str, now: &str) -> Py<PyBaseException> {
+    exception(py, &[cosfly_read::changed(&folder, before, now)]).into_value(py)
+}
+
+/// The refusal for a pack that was made anew since it was opened.
+#[pyfunction]
+pub fn changed_pack(py: Python<'_>, pack: &str) -> Py<PyBaseException> {
+    let message = format!("the pack `{pack}` was made anew since it was opened");
+    let refusal = Diagnostic::new("pack-changed", Fault::Input, message)
+        .hint("pictures of one dataset do not belong to labels of another: open the pack again");
+    exception(py, &[refusal]).into_value(py)
+}
+
+/// The refusal for a pack that was made of another dataset: the pack, the dataset, and the digests of what the pack was made
+/// of and of the dataset.
+#[pyfunction]
+pub fn pack_of_other(
+    py: Python<'_>,
+    pack: &str,
+    dataset: &str,
+    source: (String, String),
+    digest: &str,
+) -> Py<PyBaseException> {
+    let short = |digest: &str| digest.get(..12).unwrap_or(digest).to_owned();
+    let message = format!(
+        "the pack `{pack}` holds pictures of dataset {} (it was made of `{}`); `{dataset}` is dataset {}",
+        short(&source.1),
+        source.0,
+        short(digest)
+    );
+    let refusal = Diagnostic::new("pack-of-other", Fault::Input, message)
+        .hint("give the dataset that the pack was made of, or a copy of it")
+        .hint(format!("`cosfly.pack({dataset:?}, ...)` makes a pack of this one"));
     exception(py, &[refusal]).into_value(py)
 }
 

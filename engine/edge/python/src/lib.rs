@@ -23,6 +23,9 @@ fn _cosfly(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(images::shown, module)?)?;
     module.add_function(wrap_pyfunction!(errors::damaged_pack, module)?)?;
     module.add_function(wrap_pyfunction!(errors::refused_by_machine, module)?)?;
+    module.add_function(wrap_pyfunction!(errors::changed_dataset, module)?)?;
+    module.add_function(wrap_pyfunction!(errors::changed_pack, module)?)?;
+    module.add_function(wrap_pyfunction!(errors::pack_of_other, module)?)?;
     module.add_class::<dataset::Reader>()?;
     module.add_class::<flock::PyFlock>()?;
     module.add_class::<table::Table>()

@@ -1,34 +1,54 @@
 //! A table of a dataset: columns as numpy arrays, the whole as an Arrow stream.
 
 use crate::errors::raised;
+use cosfly_diagnose::Result;
+use cosfly_load::Source;
 use cosfly_read::columns::{Column, TableData};
 use numpy::{PyArray1, PyArrayMethods, ToPyArray};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyList};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A table of a dataset. `table["column"]` is a numpy array, or a list for texts and files; pyarrow, pandas and polars
 /// take the whole table through Arrow's PyCapsule interface.
 #[pyclass(frozen, module = "cosfly")]
-pub struct Table(pub TableData);
+pub struct Table {
+    /// The rows.
+    pub data: TableData,
+    /// The dataset that they are of.
+    pub dataset: Arc<dyn Source>,
+}
+
+impl Table {
+    /// What was read of the table, unless its folder holds another dataset by now.
+    fn read<T: Send>(&self, py: Python<'_>, read: impl FnOnce(&TableData) -> Result<T> + Send) -> PyResult<T> {
+        let found = py.detach(|| {
+            let found = read(&self.data);
+            self.dataset.check()?;
+            found
+        });
+        raised(py, found)
+    }
+}
 
 #[pymethods]
 impl Table {
     /// Names of the columns.
     #[getter]
     fn columns(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        raised(py, self.0.columns())
+        self.read(py, TableData::columns)
     }
 
     /// Parquet files of the table, in the order of their rows; none for tables that are made from other layouts.
     #[getter]
     fn files(&self) -> Vec<PathBuf> {
-        self.0.files().to_vec()
+        self.data.files().to_vec()
     }
 
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
-        raised(py, self.0.rows())
+        self.read(py, TableData::rows)
     }
 
     fn __getitem__(&self, py: Python<'_>, name: &str) -> PyResult<Py<PyAny>> {
@@ -36,7 +56,7 @@ impl Table {
         if !known.iter().any(|column| column == name) {
             return Err(PyKeyError::new_err(format!("no column `{name}`; the columns are {}", known.join(", "))));
         }
-        let column = raised(py, py.detach(|| self.0.column(name)))?;
+        let column = self.read(py, |data| data.column(name))?;
         values(py, column)
     }
 
@@ -47,7 +67,7 @@ impl Table {
         requested_schema: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyCapsule>> {
         let _ = requested_schema; // Consumers convert types themselves.
-        PyCapsule::new_with_value(py, raised(py, self.0.stream())?, c"arrow_array_stream")
+        PyCapsule::new_with_value(py, self.read(py, TableData::stream)?, c"arrow_array_stream")
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {

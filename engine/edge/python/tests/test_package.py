@@ -94,6 +94,24 @@ def test_ctrl_c_stops_and_keeps_finished_items():
     assert time.time() - began < 60 and not Path("long").exists()
 
 
+@pytest.mark.parametrize("work", ["verify", "doctor"])
+def test_ctrl_c_acts_in_the_middle_of_a_flight(work):
+    """The dataset is checked again and again until a signal hits it at work; each call must end soon after its signal."""
+    call = {"verify": lambda: cosfly.verify("data", jobs=1, progress=False), "doctor": lambda: cosfly.doctor("data", progress=False)}[work]
+    interrupted = []
+    for delay in (0.05, 0.2, 0.4):
+        sent = []
+        timer = threading.Timer(delay, lambda: (sent.append(time.time()), signal.raise_signal(signal.SIGINT)))
+        timer.start()
+        try:
+            while True:
+                call()
+        except KeyboardInterrupt:
+            interrupted.append(time.time() - sent[0])
+        timer.join()
+    assert max(interrupted) < 1.0, interrupted
+
+
 def test_tables_are_those_of_pyarrow():
     dataset = cosfly.Dataset("data")
     for name in ("trajectories", "frames", "windows", "captions"):

@@ -113,10 +113,10 @@ impl Expert {
         settings.iter().map(|(parameter, setting)| source(parameter, role(parameter), setting)).collect()
     }
 
-    /// Parameters with all defaults filled in, for keys. Those that the objective does not read are left out, and so are the
+    /// Parameters with the values in force, for keys and for reasons of changes. Those that the objective does not read are left out, and so are the
     /// numbers of flights and drones, on which no single flight depends.
     pub fn canonical(&self) -> serde_json::Value {
-        let mut all = parameters::canonical(&self.config);
+        let mut all = parameters::canonical(&self.config.in_force());
         let plugins = parameters::canonical(&self.plugins.canonical());
         let defaults = parameters::canonical(&ExpertPlugins::default());
         for (key, value) in
@@ -297,9 +297,9 @@ mod tests {
         let read = Expert::read(given).unwrap();
         let again = Expert::read(read.canonical()).unwrap();
         assert_eq!((again.objective.patrol.corners, again.objective.patrol.count), (5, 1));
-        assert_eq!((again.config, again.objective.objective), (read.config, Objective::Patrol));
+        assert_eq!((again.config, again.objective.objective), (read.config.in_force(), Objective::Patrol));
         let track = Expert::read(serde_json::json!({ "objective": "track" })).unwrap().canonical();
-        let mut defaults = parameters::canonical(&MucoConfig::default());
+        let mut defaults = parameters::canonical(&MucoConfig::default().in_force());
         for key in ["foresight", "causal", "drones"] {
             defaults.as_object_mut().unwrap().remove(key);
         }

@@ -181,15 +181,22 @@ fn refused_name(name: &str) -> ParameterError {
     refusal
 }
 
-/// The file's name without extensions, other characters replaced.
+/// The file's name without extensions, other characters replaced. A name with letters beyond ASCII, and one that is too long, ends
+/// in a digest, so that files of two names stay two towns.
 fn plain_stem(source: &std::path::Path) -> String {
     let stem = source.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     // `krems.osm.gz`, `delft.city.json`
     let stem = [".osm", ".city"].iter().find_map(|kind| stem.strip_suffix(kind)).unwrap_or(&stem).to_owned();
-    let plain: String =
-        stem.chars().map(|letter| if is_plain(&format!("a{letter}")) { letter } else { '_' }).take(80).collect();
-    let plain = plain.trim_start_matches(['.', '-']);
-    if plain.is_empty() { "town".into() } else { plain.into() }
+    let plain = |letter: char| if is_plain(&format!("a{letter}")) { letter } else { '_' };
+    let is_whole = stem.is_ascii() && stem.len() <= 80;
+    let kept: String = stem.chars().map(plain).take(if is_whole { 80 } else { 70 }).collect();
+    let kept = kept.trim_start_matches(['.', '-']);
+    let kept = if is_whole { kept } else { kept.trim_matches('_') };
+    let kept = if kept.is_empty() { "town" } else { kept };
+    if is_whole {
+        return kept.into();
+    }
+    format!("{kept}-{}", &cosfly_fingerprint::Digest::of(stem.as_bytes()).to_string()[..8])
 }
 
 /// A map that was read.
@@ -282,6 +289,23 @@ mod tests {
     fn keys_of(parameters: Value) -> Value {
         let parts = Map.build(parameters).unwrap_or_else(|error| panic!("{error:?}"));
         parts[0].stage.properties().parameters.clone()
+    }
+
+    #[test]
+    fn towns_are_called_like_their_files_and_files_of_two_names_are_two_towns() {
+        let name = |path: &str| plain_stem(std::path::Path::new(path));
+        assert_eq!(
+            ["a/Town01.xodr", "krems.osm.gz", "my town.osm", "---"].map(name),
+            ["Town01", "krems", "my_town", "town"]
+        );
+        let long = "x".repeat(90);
+        let names =
+            ["東京.osm", "大阪.osm", "Київ.osm", "münchen.osm", "mänchen.osm", &long, &format!("{long}y")].map(name);
+        let distinct: BTreeSet<&String> = names.iter().collect();
+        assert_eq!(distinct.len(), names.len(), "{names:?}");
+        assert!(names.iter().all(|name| is_plain(name)), "{names:?}");
+        assert!(names[0].starts_with("town-") && names[3].starts_with("m_nchen-"), "{names:?}");
+        assert_eq!(name("here/東京.osm"), name("there/東京.osm.gz"));
     }
 
     #[test]

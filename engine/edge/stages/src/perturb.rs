@@ -11,7 +11,9 @@ use cosfly_frames::Seed;
 use cosfly_pilot::perturb::{PerturbConfig, perturb};
 use cosfly_planner::PlanOutcome;
 use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
+use cosfly_stage::{
+    InputPort, Inputs, ItemId, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
+};
 
 /// Stage kind `perturb`.
 pub struct Perturb;
@@ -38,7 +40,7 @@ impl StageKind for Perturb {
         config.validate().map_err(|(path, message)| parameters::refused_at(&path, message))?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 5,
+            version: 6,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs: self.ports(),
@@ -56,6 +58,19 @@ impl StageKind for Perturb {
 struct PerturbStage {
     config: PerturbConfig,
     properties: StageProperties,
+}
+
+impl PerturbStage {
+    /// The parameters with the kind of one item. Items that count take turns (rejected experts, too, so that no item depends on
+    /// another one); each drone of a formation takes turns of its own.
+    fn config_of(&self, id: &ItemId) -> PerturbConfig {
+        let mut config = self.config.clone();
+        if let Some(number) = id.item.number() {
+            let order = Seed::of_item(0, id.stage.recipe_name(), id.item.variant().unwrap_or_default());
+            config.mixture = config.mixture.of_flight(number, &order);
+        }
+        config
+    }
 }
 
 impl Stage for PerturbStage {
@@ -76,7 +91,7 @@ impl Stage for PerturbStage {
                 let drones = Formation::of(inputs, artifact)?.join(&mut movers);
                 let clearance_m = self.config.clearance_m;
                 let map = ExactMap { drones, clearance_m, ..ExactMap::among(&world.exact, &movers) };
-                perturb(&expert, &expert_id, map, &self.config, Seed(context.seed))
+                perturb(&expert, &expert_id, map, &self.config_of(&context.id), Seed(context.seed))
             }
             PlanOutcome::Rejected { track, reason } => {
                 PlanOutcome::Rejected { track, reason: format!("its expert was rejected: {reason}") }

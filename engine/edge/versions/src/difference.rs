@@ -3,6 +3,7 @@
 use crate::task_name::TaskName;
 use crate::version::Version;
 use cosfly_runner::{Change, definition_difference};
+use cosfly_stage::StageName;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -143,35 +144,71 @@ fn appearance(without: &Version, with: &Version, id: &str, task: &TaskName) -> V
         why.extend(causes(without, with, task, task).into_iter().filter(|_| without.tasks.contains_key(task)));
         return why;
     }
-    // The number of items depends on settings that no item's own key contains, such as a number of walkers.
-    let mut open = vec![task];
-    let mut seen: BTreeSet<&TaskName> = BTreeSet::from([task]);
-    let mut why = vec![];
-    let mut told: BTreeSet<&str> = BTreeSet::new();
-    while let Some(task) = open.pop() {
-        let recipe_name = task.stage.recipe_name();
-        if told.insert(recipe_name) {
-            match (without.recipe.settings.get(recipe_name), with.recipe.settings.get(recipe_name)) {
-                (None, Some(_)) => why.push(format!("stage `{recipe_name}` is only in `{}`", with.name)),
-                (Some(a), Some(b)) => {
-                    let named = |version: &Version, value: &Option<Value>| {
-                        let value = value.as_ref().map_or("its default".to_owned(), Value::to_string);
-                        format!("{value} in `{}`", version.name)
-                    };
-                    why.extend(setting_changes(a, b).into_iter().map(|(path, a, b)| {
-                        format!("{recipe_name}: `{path}` is {} and {}", named(without, &a), named(with, &b))
-                    }));
-                }
-                _ => {}
+    let mut why: Vec<String> = vec![];
+    for stage in origins(without, with, task) {
+        for cause in origin_changes(without, with, stage) {
+            if !why.contains(&cause) {
+                why.push(cause);
             }
         }
-        let reads = with.tasks.get(task).map_or(&[][..], |task| &task.reads);
-        open.extend(reads.iter().filter(|read| seen.insert(*read)));
     }
     if why.is_empty() {
         why.push(format!("neither `{}` nor `{}` records the cause", without.name, with.name));
     }
     why
+}
+
+/// Stages where the item of a task begins to be there in `with` alone: everything that their tasks read is in both.
+fn origins<'a>(without: &Version, with: &'a Version, task: &'a TaskName) -> BTreeSet<&'a StageName> {
+    let mut open = vec![task];
+    let mut seen: BTreeSet<&TaskName> = BTreeSet::from([task]);
+    let mut found = BTreeSet::new();
+    while let Some(task) = open.pop() {
+        let reads = with.tasks.get(task).map_or(&[][..], |task| &task.reads);
+        let mut new = reads.iter().filter(|read| !without.tasks.contains_key(*read)).peekable();
+        if new.peek().is_none() {
+            found.insert(&task.stage);
+        }
+        open.extend(new.filter(|read| seen.insert(*read)));
+    }
+    found
+}
+
+/// Changes of a stage that give it other items. Their number depends on settings that no item's own key contains, such as a
+/// number of walkers: where one of these changed, the others are no cause.
+fn origin_changes(without: &Version, with: &Version, stage: &StageName) -> Vec<String> {
+    let recipe_name = stage.recipe_name();
+    let (a, b) = match (without.recipe.settings.get(recipe_name), with.recipe.settings.get(recipe_name)) {
+        (None, Some(_)) => return vec![format!("stage `{recipe_name}` is only in `{}`", with.name)],
+        (Some(a), Some(b)) => (a, b),
+        _ => return vec![],
+    };
+    let in_key = |path: &str| [without, with].iter().any(|version| in_force(version, stage, path).is_some());
+    let (of_items, of_number): (Vec<_>, Vec<_>) = setting_changes(a, b).into_iter().partition(|it| in_key(&it.0));
+    let changes = if of_number.is_empty() { of_items } else { of_number };
+    let named = |version: &Version, path: &str, value: &Option<Value>| {
+        let value = value.as_ref().or_else(|| in_force(version, stage, path));
+        let value = value.map_or("its default".to_owned(), Value::to_string);
+        format!("{value} in `{}`", version.name)
+    };
+    let told: Vec<String> = changes
+        .iter()
+        .map(|(path, a, b)| {
+            format!("{recipe_name}: `{path}` is {} and {}", named(without, path, a), named(with, path, b))
+        })
+        .collect();
+    if told.is_empty() { stage_changes(without, with, stage.as_str()) } else { told }
+}
+
+/// Value of a parameter of a stage as its definition has it, defaults filled in.
+fn in_force<'a>(version: &'a Version, stage: &StageName, path: &str) -> Option<&'a Value> {
+    let definition =
+        [stage.as_str(), stage.recipe_name()].into_iter().find_map(|name| version.definitions.get(name))?;
+    let value = path.split('.').try_fold(&definition["parameters"], |value, key| match value {
+        Value::Array(values) => values.get(key.parse::<usize>().ok()?),
+        value => value.get(key),
+    })?;
+    Some(value).filter(|value| !value.is_null())
 }
 
 /// Paths at which two trees of settings differ, with both values.
@@ -239,7 +276,7 @@ mod tests {
     use super::*;
     use crate::version::{Flight, RecipeText, SCHEMA, Task};
     use cosfly_fingerprint::Digest;
-    use cosfly_stage::{Blobs, StageName};
+    use cosfly_stage::Blobs;
     use serde_json::json;
 
     fn version(name: &str, walkers: u32, weight: f64) -> Version {
@@ -281,6 +318,45 @@ mod tests {
         assert_eq!((found.same, found.bump()), (2, Bump::Minor));
         let (fate, why) = &found.flights["p2"];
         assert_eq!((*fate, why[0].as_str()), (Fate::Added, "walkers: `count` is 2 in `a` and 3 in `b`"));
+    }
+
+    #[test]
+    fn what_changed_beside_the_number_is_no_cause_of_an_added_flight() {
+        let (old, mut new) = (version("a", 2, 1.0), version("b", 3, 5.0));
+        new.recipe.settings.insert("dataset".into(), json!({"version": "1.1.0"}));
+        new.recipe.settings.insert("expert".into(), json!({"weights": {"visibility": 5.0}}));
+        new.recipe.settings.get_mut("walkers").unwrap()["speed_mps"] = json!(2.0);
+        let mut old = old;
+        for version in [&mut old, &mut new] {
+            version.recipe.settings.entry("dataset".into()).or_insert(json!({}));
+            version
+                .definitions
+                .insert("walkers".into(), json!({"kind": "pedestrians", "parameters": {"speed_mps": 1.3}}));
+        }
+        for (from, to) in [(&old, &new), (&new, &old)] {
+            let (_, why) = &difference(from, to).flights["p2"];
+            assert_eq!(why.len(), 1, "{why:?}");
+            assert!(why[0].contains("walkers: `count` is") && !why[0].contains("version"), "{why:?}");
+        }
+    }
+
+    #[test]
+    fn values_that_a_recipe_leaves_out_are_told_as_they_are_in_force() {
+        let (mut old, mut new) = (version("a", 2, 1.0), version("b", 3, 1.0));
+        old.recipe.settings.insert("walkers".into(), json!({}));
+        for (version, count) in [(&mut old, 2), (&mut new, 3)] {
+            version.definitions.insert("walkers".into(), json!({"kind": "tracks", "parameters": {"count": count}}));
+        }
+        assert_eq!(difference(&old, &new).flights["p2"].1, ["walkers: `count` is 2 in `a` and 3 in `b`"]);
+        old.definitions.get_mut("expert").unwrap()["parameters"] = json!({"limits": {"yaw_rate_deg_s": null}});
+        new.definitions.get_mut("expert").unwrap()["parameters"] = json!({"limits": {"yaw_rate_deg_s": 7.5}});
+        new.flights.get_mut("p0").unwrap().log = Digest::of(b"other");
+        let task = TaskName { stage: StageName::read("expert"), item: "p0".into() };
+        new.tasks.get_mut(&task).unwrap().key = Digest::of(b"other");
+        let logs = TaskName { stage: StageName::read("dataset.logs"), item: "p0".into() };
+        new.tasks.get_mut(&logs).unwrap().key = Digest::of(b"other log");
+        let why = difference(&old, &new).flights["p0"].1.join("; ");
+        assert!(why.contains("from its default to `7.5`") && !why.contains("null"), "{why}");
     }
 
     #[test]

@@ -94,7 +94,11 @@ pub enum Change {
 
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let value = |value: &Option<Value>| value.as_ref().map_or("(absent)".to_owned(), |value| format!("`{value}`"));
+        // A parameter that is left to the stage is null or left out.
+        let value = |value: &Option<Value>| match value {
+            None | Some(Value::Null) => "its default".to_owned(),
+            Some(value) => format!("`{value}`"),
+        };
         let digest = |digest: &Option<Digest>| digest.map_or("(none)".to_owned(), |d| format!("`{}`", d.short()));
         match self {
             Self::FirstRun => write!(f, "this recipe has not run here before"),

@@ -37,7 +37,8 @@ pub struct Materialised {
 /// Makes `folder` hold exactly `blobs`, by name. Files are hard links into the store where the file system supports
 /// them (they are read-only), copies elsewhere. A reader of `folder` sees the old version or the new one, never a
 /// mixture. Where the folder holds this version already, every file whose size or times changed since its last
-/// verification is read and compared; a wrong file makes the folder be built again.
+/// verification is read and compared; a wrong file makes the folder be built again. A link to a folder stays, and the folder
+/// behind it is written.
 ///
 /// # Errors
 /// [`Fault::Lost`] when a blob is missing or damaged, `out-not-ours` when `folder` holds other files, `out-in-store`
@@ -49,6 +50,7 @@ pub fn materialise(store: &Store, blobs: &Blobs, folder: &Path) -> Result<Materi
     let bytes = blobs.values().fold(0_u64, |sum, blob| sum.saturating_add(blob.bytes));
     let result = |changed| Materialised { version, files: blobs.len() as u64, bytes, changed };
     let folder = std::path::absolute(folder).map_err(|error| refused(folder, &error))?;
+    let folder = behind_link(folder)?;
     let _turn = take_turn(store, &folder)?;
     let marker = fs::read(folder.join(VERSION_FILE)).ok();
     let marker = marker.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
@@ -184,6 +186,20 @@ fn take_turn(store: &Store, folder: &Path) -> Result<File> {
     locked.map_err(|error| Diagnostic::io(format!("lock `{}`", path.display()), &error))
 }
 
+/// The folder that a link leads to; `folder` itself where it is no link.
+fn behind_link(folder: PathBuf) -> Result<PathBuf> {
+    if !fs::symlink_metadata(&folder).is_ok_and(|metadata| metadata.is_symlink()) {
+        return Ok(folder);
+    }
+    fs::canonicalize(&folder).map_err(|error| {
+        let target = fs::read_link(&folder).unwrap_or_default();
+        let message = format!("`{}` is a link to `{}`, which leads nowhere", folder.display(), target.display());
+        Diagnostic::new("out-not-ours", Fault::Recipe, message)
+            .because(error)
+            .hint("make the folder that the link names, remove the link, or choose another folder with `--out`")
+    })
+}
+
 /// Rejects a folder with anything in it that a run did not write.
 fn check_ours(folder: &Path, marker: Option<&str>, before: Option<&Delivered>) -> Result<()> {
     let not_ours = |message: String| {
@@ -310,6 +326,36 @@ mod tests {
             let read = ["a", "b"].map(|name| store.is_checked(&second[name].digest));
             assert_eq!(read, [true, false]);
             assert_eq!(fs::read_to_string(out.join("b")).unwrap(), "same");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_a_folder_stays_and_the_folder_behind_it_is_written() {
+        let (root, store, _) = open();
+        let (link, target) = (root.path().join("link"), root.path().join("far/data"));
+        std::os::unix::fs::symlink(&target, &link).unwrap();
+        let first = artifact(&store, &[("a.txt", "one")]);
+        let refusal = materialise(&store, &first, &link).unwrap_err();
+        assert!(refusal.code == "out-not-ours" && refusal.message.contains("far/data"), "{refusal}");
+        fs::create_dir_all(&target).unwrap();
+        for (text, changed) in [("one", true), ("one", false), ("two", true), ("three", true)] {
+            let made = materialise(&store, &artifact(&store, &[("a.txt", text)]), &link).unwrap();
+            assert_eq!(made.changed, changed, "{text}");
+            assert_eq!(fs::read_to_string(target.join("a.txt")).unwrap(), text);
+            assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        }
+        // The folder is known by its own name, too.
+        let same = artifact(&store, &[("a.txt", "three")]);
+        assert!(!materialise(&store, &same, &target).unwrap().changed);
+        // A link to a file, and one to somebody's folder.
+        fs::write(root.path().join("file"), "mine").unwrap();
+        fs::create_dir(root.path().join("mine")).unwrap();
+        fs::write(root.path().join("mine/thesis.tex"), "x").unwrap();
+        for name in ["file", "mine"] {
+            let link = root.path().join(format!("to-{name}"));
+            std::os::unix::fs::symlink(root.path().join(name), &link).unwrap();
+            assert_eq!(materialise(&store, &same, &link).unwrap_err().code, "out-not-ours", "{name}");
         }
     }
 

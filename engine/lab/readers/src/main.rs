@@ -76,7 +76,7 @@ fn measure(arguments: &Arguments) -> Result<usize> {
     let quiet = &mut |_, _| {};
     match arguments.reader {
         Reader::Verify => {
-            let options = Options { jobs: arguments.jobs, sample: arguments.sample, resume: None };
+            let options = Options { jobs: arguments.jobs, sample: arguments.sample, ..Options::default() };
             let report = cosfly_verify::verify(dir, &options, quiet)?;
             report.findings.iter().take(5).for_each(|finding| println!("{finding}"));
             return Ok(report.flights as usize);
@@ -103,11 +103,11 @@ fn measure(arguments: &Arguments) -> Result<usize> {
 
 /// Facts, groups and leaks of all flights.
 fn splits(dir: &Path) -> Result<usize> {
-    let facts = cosfly_splits::facts_of_dataset(dir, 0, 0)?;
+    let facts = cosfly_splits::facts_of_dataset(dir, 0, 0, &Default::default())?;
     let policy = cosfly_splits::policy::SplitPolicy::of_dataset(dir).unwrap_or_else(|reason| panic!("{reason}"));
     let assignment = cosfly_splits::assign(&facts, &policy.splits);
     let mut leaks = cosfly_splits::lint(&facts, &policy.rules());
-    leaks.of_windows(&facts, &[dir], policy.windows.shape().size())?;
+    leaks.of_windows(&facts, &[dir], policy.windows.shape().size(), &Default::default())?;
     println!("{} leaks, {} groups of flights", leaks.found, assignment.groups.len());
     Ok(facts.len())
 }

@@ -75,6 +75,12 @@ macro_rules! cost_terms {
             }
         }
 
+        impl From<Weights> for WeightOverrides {
+            fn from(weights: Weights) -> Self {
+                Self { $($name: Some(weights.$name)),* }
+            }
+        }
+
         /// The built-in terms with their weights, in the order of the list.
         pub fn built_in_terms(weights: &Weights) -> Vec<WeightedTerm> {
             vec![$(WeightedTerm { term: Box::new($term), weight: weights.$name }),*]

@@ -11,6 +11,7 @@ mod projection;
 mod surface;
 mod surroundings;
 mod time;
+mod versions;
 pub(crate) mod words;
 
 pub use extent::of_towns as extent;
@@ -20,7 +21,7 @@ use crate::{Episode, Flag};
 
 /// All checks of one episode.
 pub fn of_episode(episode: &Episode) -> Vec<Flag> {
-    let checks: [fn(&Episode) -> Vec<Flag>; 9] = [
+    let checks: [fn(&Episode) -> Vec<Flag>; 10] = [
         time::check,
         motion::check,
         projection::check,
@@ -29,6 +30,7 @@ pub fn of_episode(episode: &Episode) -> Vec<Flag> {
         surface::check,
         pictures::check,
         surroundings::check,
+        versions::check,
         words::check,
     ];
     checks.iter().flat_map(|check| check(episode)).collect()

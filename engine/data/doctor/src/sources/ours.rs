@@ -5,11 +5,11 @@ use crate::episode::{OFFSETS, depth_in_box};
 use crate::walls::{self, Walls};
 use crate::{Episode, Flag, Look, Moment};
 use cosfly_captions::Wear;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
 use cosfly_read::{
-    BoxInWorld, CaptionReader, FrameRow, PublishedDataset, PublishedFlight, log_problem, parquet_problem,
+    BoxInWorld, CaptionReader, FrameRow, LoggedFrame, PublishedDataset, PublishedFlight, log_problem, parquet_problem,
 };
 use cosfly_render::Colour;
 use cosfly_render::frame::TARGET_INSTANCE;
@@ -19,6 +19,9 @@ use std::path::{Path, PathBuf};
 
 /// Flights whose logs are read side by side.
 const TOGETHER: usize = 32;
+
+/// Distance within which a camera is where a row says, metres: poses in logs are those of the tables to rounding.
+const IN_PLACE_M: f64 = 0.01;
 
 /// An episode without its looks, its flight, and the frames of the flight.
 type Read = (Episode, PublishedFlight, Vec<FrameRow>);
@@ -32,13 +35,13 @@ pub fn recognises(folder: &Path) -> bool {
 ///
 /// # Errors
 /// Refusals of the machine where the folder cannot be listed.
-pub fn files(folder: &Path) -> Result<Vec<Flag>> {
+pub fn files(folder: &Path, stop: &Stop) -> Result<Vec<Flag>> {
     let fault = |path: &PathBuf| {
         let name = path.strip_prefix(folder).unwrap_or(path).display().to_string();
         if name.ends_with(".parquet") {
-            Some(Flag::damage("parquet-damaged", name, parquet_problem(path)?))
+            Some(Flag::damage("parquet-damaged", name, parquet_problem(path, stop)?))
         } else if name.ends_with(".mcap") {
-            Some(Flag::damage("log-damaged", name, log_problem(path)?))
+            Some(Flag::damage("log-damaged", name, log_problem(path, stop)?))
         } else {
             None
         }
@@ -55,7 +58,7 @@ pub fn episodes(
     folder: &Path,
     flags: &mut Vec<Flag>,
     visit: &mut dyn FnMut(Episode),
-    progress: &mut dyn FnMut(u64, u64),
+    (stop, progress): (&Stop, &mut dyn FnMut(u64, u64)),
 ) -> Result<()> {
     let mut damaged = |refusal: Box<Diagnostic>| match refusal.fault {
         Fault::Machine => Err(refusal),
@@ -70,7 +73,7 @@ pub fn episodes(
         Err(refusal) => return damaged(refusal),
     };
     let mut read_ones: BTreeSet<(String, String)> = BTreeSet::new();
-    let outcome = read(&dataset, progress, &mut |episode| {
+    let outcome = read(&dataset, (stop, progress), &mut |episode| {
         read_ones.insert((episode.id.clone(), episode.split.clone().unwrap_or_default()));
         visit(episode);
     });
@@ -85,7 +88,11 @@ pub fn episodes(
 }
 
 /// Gives all flights with their frames to `visit`.
-fn read(dataset: &PublishedDataset, progress: &mut dyn FnMut(u64, u64), visit: &mut dyn FnMut(Episode)) -> Result<()> {
+fn read(
+    dataset: &PublishedDataset,
+    (stop, progress): (&Stop, &mut dyn FnMut(u64, u64)),
+    visit: &mut dyn FnMut(Episode),
+) -> Result<()> {
     let mut captions = CaptionReader::of(dataset)?;
     let mut vehicles: BTreeMap<String, Vec<BoxInWorld>> = BTreeMap::new();
     let mut walls: BTreeMap<String, Walls> = BTreeMap::new();
@@ -103,7 +110,7 @@ fn read(dataset: &PublishedDataset, progress: &mut dyn FnMut(u64, u64), visit: &
         };
         episode.vehicles = vehicles.get(&flight.town).cloned().unwrap_or_default();
         let walls = walls.get(&flight.town).filter(|_| episode.camera.is_some());
-        episode.looks = looks(dataset, &flight, &rows, walls).unwrap_or_default();
+        episode.looks = looks(dataset, &flight, &rows, walls, stop).unwrap_or_default();
         episode
     };
     let (mut done, all) = (0, dataset.flights().len() as u64);
@@ -121,6 +128,7 @@ fn read(dataset: &PublishedDataset, progress: &mut dyn FnMut(u64, u64), visit: &
         let place = dataset.place(&flight.trajectory_id).unwrap_or_default();
         episode.captions =
             captions.at(dataset, place)?.iter().map(|it| (it.language.clone(), it.text.clone())).collect();
+        stop.check("doctor")?;
         together.push((episode, flight.clone(), rows));
         if together.len() == TOGETHER {
             visit_all(&mut together);
@@ -190,10 +198,12 @@ fn looks(
     flight: &PublishedFlight,
     rows: &[FrameRow],
     walls: Option<&Walls>,
+    stop: &Stop,
 ) -> Result<Vec<Look>> {
     let mut log = dataset.log(flight)?;
     let mut looks = vec![];
     for frame in stretch(rows.len()) {
+        stop.check("doctor")?;
         let logged = log.frame_with_instances(frame)?;
         // Others may stand in the target's box.
         let is_target = |instance: &u32| *instance == TARGET_INSTANCE;
@@ -207,7 +217,9 @@ fn looks(
             in_box(&of_target).or_else(|| in_box(&logged.depth_m))
         };
         let digest = Digest::of(&logged.rgb_file).to_string();
-        let mut look = Look { frame, digest, depth_m: OFFSETS.iter().map(depth).collect(), walls_m: vec![] };
+        let elsewhere_m = elsewhere_m(&logged, frame, rows);
+        let depth_m = OFFSETS.iter().map(depth).collect();
+        let mut look = Look { frame, digest, depth_m, walls_m: vec![], elsewhere_m };
         if let Some(walls) = walls {
             let points = walls::points(&flight.camera, &logged.depth_m, &logged.instance, walls);
             let gap = |offset: &i64| {
@@ -219,4 +231,19 @@ fn looks(
         looks.push(look);
     }
     Ok(looks)
+}
+
+/// How far the log's camera is from all rows of its flight, where it is apart from them; 0 where it is in its place and the log
+/// states other visible pixels of the target.
+fn elsewhere_m(logged: &LoggedFrame, frame: usize, rows: &[FrameRow]) -> Option<f64> {
+    // `map` is right-handed: y changes its sign.
+    let camera_in_world = logged.camera_in_map * DVec3::new(1.0, -1.0, 1.0);
+    let away_m = |row: &FrameRow| row.camera_pose.position_in_world.distance(camera_in_world);
+    let own = rows.get(frame)?;
+    if away_m(own) <= IN_PLACE_M {
+        return (logged.target.visible_pixels != own.visible_pixels).then_some(0.0);
+    }
+    // Poses of other frames are a shift, which has a flag of its own.
+    let nearest_m = rows.iter().map(away_m).fold(f64::INFINITY, f64::min);
+    (nearest_m > IN_PLACE_M).then_some(nearest_m)
 }

@@ -17,7 +17,8 @@ pub struct FileRecord {
 
 /// Definition of the table.
 pub fn table() -> Table<FileRecord> {
-    let doc = "Every file with its size and SHA-256, except for this one, `croissant.json` and `SHA256SUMS`.";
+    let doc = "Every file with its size and SHA-256, except for this one, `croissant.json`, `SHA256SUMS`, and `.cosfly-version`, \
+               by which `cosfly run` knows a folder that it may replace.";
     Table::new("files", doc, &["path"], |_: &FileRecord| 1, Files::COLUMNS)
 }
 

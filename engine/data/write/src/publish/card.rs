@@ -108,13 +108,16 @@ fn table_names() -> Vec<&'static str> {
     tables::of_trajectories().iter().map(|table| table.name).chain(others).collect()
 }
 
-/// The Hugging Face config of a table; splits without rows are left out, because its loader refuses them.
+/// The Hugging Face config of a table.
 fn config_entry(table: &str, summary: &Summary) -> String {
     summary.rows.get(table).map_or_else(String::new, |rows| config_of(table, rows))
 }
 
+/// Splits without rows are left out, because they keep the loader from reading the others. A table without any row keeps its
+/// config, with all its files: its names and types are known, and its stream has no rows.
 fn config_of(table: &str, rows: &BTreeMap<String, u64>) -> String {
-    let splits = rows.iter().filter(|(_, rows)| **rows > 0);
+    let is_empty = rows.values().all(|rows| *rows == 0);
+    let splits = rows.iter().filter(|(_, rows)| is_empty || **rows > 0);
     let files: String =
         splits.map(|(split, _)| format!("  - split: {split}\n    path: data/{table}/{split}-*.parquet\n")).collect();
     if files.is_empty() {
@@ -144,7 +147,11 @@ fn figures(config: &DatasetConfig, summary: &Summary) -> String {
         let frames = config.windows.size;
         row("training windows", format!("none: no flight has the {frames} frames of one"));
     }
-    row("languages of the captions", summary.languages.iter().cloned().collect::<Vec<_>>().join(", "));
+    let languages: Vec<String> = summary.languages.iter().cloned().collect();
+    row(
+        "languages of the captions",
+        if languages.is_empty() { "none: no captions".into() } else { languages.join(", ") },
+    );
     for (town, figures) in &summary.towns {
         row(&format!("town `{town}`"), format!("{} flights", figures.flights));
     }
@@ -167,6 +174,7 @@ fn loading(config: &DatasetConfig, summary: &Summary) -> String {
     let mut text = String::from("## How to load\n\nIn this folder:\n\n```python\n");
     text.push_str(&LOADING.replace("SPLIT", used("frames").unwrap_or("train")).replace("OTHERS", &others.join(", ")));
     text.push_str("```\n\n");
+    text.push_str(&without_rows(summary));
     if let Some(split) = used("windows").filter(|split| rows("captions", split) > 0) {
         text.push_str("Training windows with their instructions and pictures:\n\n```python\n");
         text.push_str(&JOINING.replace("SPLIT", split).replace("HISTORY", &config.windows.history.to_string()));
@@ -175,13 +183,31 @@ fn loading(config: &DatasetConfig, summary: &Summary) -> String {
     let _ = write!(
         text,
         "{}\n\n`sha256sum -c SHA256SUMS` checks `files.parquet` and `croissant.json`; `files.parquet` holds the hash of every \
-         other file; `cosfly verify .` checks everything.\n\nVersion {} of {}, published {}.\n\n",
+         other file; `cosfly verify .` checks everything. In a folder that `cosfly run` wrote, `.cosfly-version` is no part of \
+         the dataset and in no list: by it `cosfly run` knows a folder that it may replace; leave it out of uploads.\n\nVersion {} of {}, published {}.\n\n",
         viewers::USE,
         config.version,
         config.name,
         config.date_published
     );
     text
+}
+
+/// How tables without rows load, where there are some.
+fn without_rows(summary: &Summary) -> String {
+    let is_empty = |rows: &BTreeMap<String, u64>| !rows.is_empty() && rows.values().all(|rows| *rows == 0);
+    let own = table_names().into_iter().filter(|name| summary.rows.get(*name).is_some_and(is_empty));
+    let given = summary.extras.iter().filter(|kept| is_empty(&kept.rows)).map(|kept| kept.source.name.as_str());
+    let names: Vec<String> = own.chain(given).map(|name| format!("`{name}`")).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    format!(
+        "Tables without rows in this dataset: {}. Their files have all columns, so pyarrow, DuckDB, polars and \
+         `load_dataset(FOLDER, NAME, streaming=True)` read 0 rows; without `streaming=True`, `datasets` refuses a table \
+         without rows (\"corresponds to no data\").\n\n",
+        names.join(", ")
+    )
 }
 
 const LOADING: &str = "\

@@ -78,12 +78,26 @@ fn the_sums_are_right_and_croissant_names_the_hash_of_the_file_table() {
 }
 
 #[test]
-fn the_card_lists_only_tables_with_rows() {
+fn the_card_keeps_the_configs_of_tables_without_rows_and_says_which_they_are() {
     let experts = sample::flights().into_iter().filter(|flight| flight.record.pair.is_none()).collect();
     let folder = tempfile::tempdir().unwrap();
     sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), experts).unwrap();
     let card = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
     assert!(card.contains("# tables: frames, trajectories, waypoints, captions, people, phrases, goals\n"), "{card}");
+    // A loader that was written for a dataset with pairs finds the config in this one, too.
+    let configs: Vec<&str> = card.lines().filter_map(|line| line.strip_prefix("- config_name: ")).collect();
+    let all = cosfly_schema::tables::of_trajectories();
+    for table in all.iter().map(|table| table.name).chain(["objects", "rejected", "files"]) {
+        assert!(configs.contains(&table), "{table}: {configs:?}");
+    }
+    assert!(card.contains("Tables without rows in this dataset: `pairs`"), "{card}");
+    assert!(card.contains("    path: data/pairs/"), "{card}");
+    // Parquet files without a row group: loaders take the size of the first one for a batch.
+    for entry in std::fs::read_dir(folder.path().join("data/pairs")).unwrap() {
+        let file = std::fs::File::open(entry.unwrap().path()).unwrap();
+        let read = parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder::try_new(file).unwrap();
+        assert_eq!(read.metadata().num_row_groups(), 0);
+    }
 }
 
 #[test]

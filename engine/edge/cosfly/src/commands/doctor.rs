@@ -52,7 +52,8 @@ impl Command for Arguments {
         let progress = console.progress("doctor", "episodes");
         let examination = {
             let texts = self.texts.as_deref().map(GivenTexts::read).transpose()?;
-            examine_texts(&self.dir, &self.quotas, texts.as_ref(), &mut |done, all| progress(done, all))?
+            let (stop, mut told) = (console.stop(), |done, all| progress(done, all));
+            examine_texts(&self.dir, &self.quotas, texts.as_ref(), (&stop, &mut told))?
         };
         drop(progress);
         let json = || serde_json::to_string_pretty(&examination).unwrap_or_default();

@@ -5,7 +5,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::{bytes, count};
 use clap::Parser;
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::{Diagnostic, Result, visible_text};
 use cosfly_preview::{FrameList, Pictures};
 use cosfly_read::{PublishedDataset, PublishedFlight};
 use std::fmt::Write;
@@ -56,7 +56,13 @@ impl Command for Arguments {
         drop(progress);
         let out = self.out.clone().unwrap_or_else(|| beside(&self.dir));
         let written = write(&out, flight, &pictures)?;
-        let text = if self.json { json(flight, &written) } else { report(&dataset, flight, &pictures, &written) };
+        if let Some(note) = note_source(&out, &dataset)? {
+            console.tell(&note);
+        }
+        let text = match self.json {
+            true => json(&dataset, flight, &written),
+            false => report(&dataset, flight, &pictures, &written),
+        };
         console.print(&text)?;
         Ok(exit::SUCCESS)
     }
@@ -89,10 +95,30 @@ fn write(out: &Path, flight: &PublishedFlight, pictures: &Pictures) -> Result<Ve
     Ok(written)
 }
 
+/// File beside the pictures that says which dataset they are of.
+const SOURCE: &str = "preview.json";
+
+/// Writes down of which dataset the pictures are; a note where earlier pictures in the folder are of another one.
+fn note_source(out: &Path, dataset: &PublishedDataset) -> Result<Option<String>> {
+    let (path, digest) = (out.join(SOURCE), dataset.identity().digest());
+    let before: Option<serde_json::Value> =
+        std::fs::read(&path).ok().and_then(|text| serde_json::from_slice(&text).ok());
+    let other = before.as_ref().and_then(|before| before["dataset"].as_str()).filter(|before| *before != digest);
+    let note = other.map(|other| {
+        let other: String = other.chars().take(12).collect();
+        format!("note: earlier pictures in `{}` are of another dataset, {}", out.display(), visible_text(&other))
+    });
+    let source = serde_json::json!({ "dataset": digest });
+    std::fs::write(&path, format!("{source:#}\n"))
+        .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))?;
+    Ok(note)
+}
+
 /// The pictures for programs.
-fn json(flight: &PublishedFlight, written: &[(PathBuf, u64)]) -> String {
+fn json(dataset: &PublishedDataset, flight: &PublishedFlight, written: &[(PathBuf, u64)]) -> String {
     let paths: Vec<String> = written.iter().map(|(path, _)| path.display().to_string()).collect();
-    format!("{:#}\n", serde_json::json!({ "trajectory": flight.trajectory_id, "files": paths }))
+    let digest = dataset.identity().digest();
+    format!("{:#}\n", serde_json::json!({ "dataset": digest, "trajectory": flight.trajectory_id, "files": paths }))
 }
 
 fn report(

@@ -149,6 +149,8 @@ class Check:
     """Frames in which they differ by more than 5 points."""
     regenerated: Optional[str]
     regenerated_wrong: int
+    dataset: str = ""
+    """Identity of the dataset that was checked, as :attr:`cosfly.Dataset.identity`."""
 
     def __bool__(self) -> bool:
         return self.sound

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import difflib
+import operator
 import os
+import warnings
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
+from . import _cosfly
 from ._calls import PathLike
 from ._cosfly import Reader, Table
 from ._show import Frame, Town, Trajectory
@@ -50,9 +53,15 @@ class Dataset:
     ``size`` all channels are bit for bit what the files hold. The object is map-style: ``torch.utils.data.DataLoader``
     takes it as it is, workers included (each process opens its own files).
 
+    The object keeps the ``identity`` of the dataset that was opened. Where the folder is made anew meanwhile, pictures and
+    tables that are asked for later raise :class:`cosfly.Error` (``dataset-changed``), in worker processes, too: open it again.
+
     ``split`` is ``train``, ``val``, ``test`` or None for all; ``role`` is ``expert``, ``perturbed`` or None for both;
     ``size`` is (width, height); ``threads`` decode the pictures of one call.
     """
+
+    identity: str = ""
+    """Digest that tells this dataset from others: of cosfly's own, the hash of ``files.parquet``."""
 
     def __init__(
         self,
@@ -69,16 +78,19 @@ class Dataset:
     ):
         self.path = Path(path)
         self.split, self.windows, self.role = split, windows, role
-        self.channels, self.size, self.threads = tuple(channels), size, threads
+        self.channels, self.size = tuple(channels), size
         self._opened: Tuple[int, Optional[Reader]] = (-1, None)
+        self.threads = _whole("threads", threads, 1)
         if split not in (None, "train", "val", "test"):
             raise ValueError(f"the split is {split!r}; splits are 'train', 'val' and 'test'")
         if role not in (None, *ROLES):
             raise ValueError(f"the role is {role!r}; roles are 'expert' and 'perturbed'")
+        self.identity = self._reader.identity
         ids = self._reader.trajectory_ids
         if split and not any(self._reader.splits):
             raise ValueError(f"the data in {self.path} state no splits; leave out `split`")
         self._number = {name: number for number, name in enumerate(ids)}
+        self._counts = self._reader.frames
         self.trajectory_ids: List[str] = [name for name, of in zip(ids, self._reader.splits) if split in (None, of)]
         """Ids of the trajectories of the split."""
         self._columns: Dict[str, Any] = {}
@@ -101,7 +113,7 @@ class Dataset:
 
     def trajectory(self, trajectory_id: str) -> Trajectory:
         """One flight: its frames by number; notebooks show its contact sheet, plan and clip."""
-        return Trajectory(self, trajectory_id, self._reader.frames[self._number_of(trajectory_id)])
+        return Trajectory(self, trajectory_id, self._counts[self._number_of(trajectory_id)])
 
     def town(self, name: Optional[str] = None) -> Town:
         """A town of a dataset of cosfly, the first by default; notebooks show its plan."""
@@ -110,7 +122,7 @@ class Dataset:
             raise ValueError(f"the data in {self.path} state no town that could be drawn")
         for of, trajectory_id in zip(table["town"], table["trajectory_id"]):
             if name in (None, of):
-                return Town(self.path, of, trajectory_id)
+                return Town(self, of, trajectory_id)
         raise ValueError(f"there is no town {name!r}; the towns are {', '.join(sorted(set(table['town'])))}")
 
     def size_of(self, trajectory_id: str) -> Tuple[int, int]:
@@ -121,17 +133,17 @@ class Dataset:
         """Names of the channels that the log of a trajectory has."""
         return self._reader.channels(self._number_of(trajectory_id))
 
+    def check(self) -> None:
+        """Raise :class:`cosfly.Error` (``dataset-changed``) where the folder holds another dataset by now."""
+        self._reader.check()
+
     # Samples
 
     def __len__(self) -> int:
         return len(self._index)
 
     def __getitem__(self, index: Union[int, np.integer]) -> Sample:
-        number = int(index)
-        if number < 0:
-            number += len(self)
-        if not 0 <= number < len(self):
-            raise IndexError(f"sample {index} of {len(self)}")
+        number = numbered("sample", index, len(self))
         return self._window(number) if self.windows else self._frame(number)
 
     def __iter__(self) -> Iterator[Sample]:
@@ -143,9 +155,7 @@ class Dataset:
         The order depends on seed, epoch and the number of samples alone, so ``order(...)[done:]`` goes on where a
         training run stopped. Shards have equal lengths: the last samples are left out where they do not divide.
         """
-        first, count = shard
-        if not 0 <= first < count:
-            raise ValueError(f"the shard is {shard}; it must be (k, n) with 0 <= k < n")
+        first, count = _shard(shard)
         order = np.random.Generator(np.random.PCG64([seed, epoch])).permutation(len(self))
         return order[: len(self) // count * count][first::count]
 
@@ -160,6 +170,8 @@ class Dataset:
         process, reader = self._opened
         if reader is None or process != os.getpid():  # a fork opens its own files
             reader = Reader(os.fspath(self.path))
+            if self.identity not in ("", reader.identity):
+                raise _cosfly.changed_dataset(os.fspath(self.path), self.identity, reader.identity)
             self._opened = (os.getpid(), reader)
         return reader
 
@@ -169,8 +181,17 @@ class Dataset:
     def _images(
         self, frames: Sequence[Tuple[str, int]], channels: Sequence[str], size: Optional[Tuple[int, int]]
     ) -> Dict[str, List[np.ndarray]]:
-        wanted = [(self._number_of(name), int(frame)) for name, frame in frames]
-        return self._reader.images(wanted, list(channels), size, self.threads)
+        return self._reader.images(self._places(frames), list(channels), size, self.threads)
+
+    def _places(self, frames: Sequence[Tuple[str, int]]) -> List[Tuple[int, int]]:
+        """Numbers of trajectories and frames, which exist."""
+        places = []
+        for name, frame in frames:
+            number, asked = self._number_of(name), operator.index(frame)
+            if not 0 <= asked < self._counts[number]:
+                raise IndexError(f"frame {asked} of {name!r}, which has the frames 0 to {self._counts[number] - 1}")
+            places.append((number, asked))
+        return places
 
     def _number_of(self, trajectory_id: str) -> int:
         number = self._number.get(trajectory_id)
@@ -191,10 +212,9 @@ class Dataset:
         return [(names[row], int(starts[row])) for row in kept]
 
     def _frames_index(self, columns: Sequence[str]) -> List[Tuple[str, int]]:
-        reader = self._reader
         roles = dict(zip(self.table("trajectories")["trajectory_id"], self.table("trajectories")["role"]))
         names = [name for name in self.trajectory_ids if self.role in (None, ROLES[int(roles[name])])]
-        frames = dict(zip(reader.trajectory_ids, reader.frames))
+        frames = dict(zip(self._number, self._counts))
         if columns:
             table = self.table("frames")
             place = {key: row for row, key in enumerate(zip(table["trajectory_id"], table["frame"].tolist()))}
@@ -209,7 +229,7 @@ class Dataset:
         for name, of, text in rows:
             if of == language:
                 found.setdefault(name, text)
-        if not found:
+        if not found and self.trajectory_ids:
             languages = ", ".join(sorted({str(of) for of in table["language"]}))
             raise ValueError(f"no caption is in {language!r}; the languages are {languages or 'not stated: there are no captions'}")
         return found
@@ -267,10 +287,9 @@ class Loader:
         self, dataset: Dataset, batch_size: int = 1, *, seed: int = 0, shuffle: bool = True,
         shard: Tuple[int, int] = (0, 1), drop_last: bool = False,
     ):  # fmt: skip
-        if batch_size < 1:
-            raise ValueError(f"the batch size is {batch_size}; it must be at least 1")
-        self.dataset, self.batch_size, self.seed, self.shuffle = dataset, batch_size, seed, shuffle
-        self.shard, self.drop_last = shard, drop_last
+        self.dataset, self.batch_size = dataset, _whole("batch_size", batch_size, 1)
+        self.seed, self.shuffle = _whole("seed", seed, 0), shuffle
+        self.shard, self.drop_last = _shard(shard), drop_last
         self.epoch, self.batch = 0, 0
 
     def _order(self) -> np.ndarray:
@@ -292,17 +311,61 @@ class Loader:
             yield collated(samples)
         self.epoch, self.batch = self.epoch + 1, 0
 
-    def state_dict(self) -> Dict[str, int]:
-        """Place in the data: the next batch of the current epoch."""
-        return {"epoch": self.epoch, "batch": self.batch, "seed": self.seed, "samples": len(self.dataset)}
+    def state_dict(self) -> Dict[str, Any]:
+        """Place in the data: the next batch of the current epoch, and what its numbers mean."""
+        return {"epoch": self.epoch, "batch": self.batch, "seed": self.seed, **self._meaning()}
 
-    def load_state_dict(self, state: Dict[str, int]) -> None:
-        """Go on where ``state_dict()`` was taken; the dataset must have the same number of samples."""
-        if state["samples"] != len(self.dataset):
-            raise ValueError(
-                f"the state is of a dataset of {state['samples']} samples; this one has {len(self.dataset)}"
-            )
-        self.epoch, self.batch, self.seed = state["epoch"], state["batch"], state["seed"]
+    def _meaning(self) -> Dict[str, Any]:
+        """What the number of a batch means: which samples, in which order, how many at a time."""
+        of = self.dataset
+        return {
+            "samples": len(of), "dataset": of.identity, "split": of.split, "windows": of.windows, "role": of.role,
+            "batch_size": self.batch_size, "shuffle": self.shuffle, "shards": self.shard[1],
+        }  # fmt: skip
+
+    def load_state_dict(self, state: Dict[str, Any]) -> None:
+        """Go on where ``state_dict()`` was taken; dataset, batch size and number of shards must be the same."""
+        mine = self._meaning()
+        other = [name for name in mine if name in state and state[name] != mine[name]]
+        if other:
+            told = ", ".join(f"{name} {state[name]!r}, here {mine[name]!r}" for name in other)
+            raise ValueError(f"the state is of other batches: {told}; make the loader as it was, or begin anew")
+        if "dataset" not in state:
+            warnings.warn("the state was taken by an older cosfly and does not say of which dataset it is", stacklevel=2)
+        epoch, batch, seed = (_whole(name, state[name], 0) for name in ("epoch", "batch", "seed"))
+        if batch > len(self):
+            raise ValueError(f"the state is at batch {batch}; an epoch has {len(self)} batches")
+        self.epoch, self.batch, self.seed = epoch, batch, seed
+
+
+def numbered(what: str, index: Any, count: int) -> int:
+    """Place of an item by its number, as lists have it: whole numbers, from the end where negative."""
+    try:
+        number = operator.index(index)
+    except TypeError:
+        raise TypeError(f"a {what} is chosen by a whole number, not by {index!r} ({type(index).__name__})") from None
+    if not -count <= number < count:
+        raise IndexError(f"{what} {number} of {count}")
+    return number % count
+
+
+def _shard(shard: Tuple[int, int]) -> Tuple[int, int]:
+    """Number of a shard and of all shards."""
+    first, count = (_whole("shard", part, 0) for part in shard)
+    if not first < count:
+        raise ValueError(f"the shard is {shard}; it must be (k, n) with 0 <= k < n")
+    return first, count
+
+
+def _whole(name: str, value: Any, least: int) -> int:
+    """A whole number that is at least ``least``."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"`{name}` is {value!r}; it must be a whole number") from None
+    if number < least:
+        raise ValueError(f"`{name}` is {number}; it must be at least {least}")
+    return number
 
 
 def collated(samples: Sequence[Sample]) -> Sample:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import shutil
@@ -17,6 +18,7 @@ from ._calls import PathLike, Progress
 from ._dataset import Dataset
 from ._show import Bars
 
+FORMAT = "cosfly-pack-2"
 TYPES = {"rgb": np.uint8, "depth": np.float16, "semantic": np.uint8, "instance": np.uint32, "normals": np.uint8}
 CHUNK = 64
 
@@ -34,10 +36,11 @@ def pack(
 
     ``rgb.npy`` is uint8 (frames, height, width, 3), ``depth.npy`` float16 metres (infinite for the sky; error at most 1
     in 2,048), ``semantic.npy`` uint8, ``instance.npy`` uint32. ``pack.json`` lists the trajectories with their first
-    frame. The folder appears when it is whole.
+    frame, and the identity of the dataset: :class:`cosfly.Pack` refuses labels of another one. The folder appears when it
+    is whole.
     """
     out, frames = Path(out), Dataset(dataset, channels=channels, size=size, threads=threads or os.cpu_count() or 1)
-    if out.exists():
+    if os.path.lexists(out):
         raise FileExistsError(f"{out} is there already; choose another folder")
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
@@ -47,6 +50,7 @@ def pack(
     try:
         with Bars("pack", bool(progress)) as bars:
             _write(frames, scratch, progress if callable(progress) else bars.show if bars.visible else None)
+        frames.check()  # a dataset that was made anew meanwhile gave pictures of two
         os.chmod(scratch, 0o755)
         os.rename(scratch, out)
     except OSError as error:
@@ -77,11 +81,11 @@ def _write(frames: Dataset, folder: Path, progress: Any) -> None:
         for file in files.values():
             file.close()
     first, places = 0, {}
-    counts = dict(zip(frames._reader.trajectory_ids, frames._reader.frames))
     for name in frames.trajectory_ids:
-        places[name], first = first, first + counts[name]
+        places[name], first = first, first + frames._counts[frames._number_of(name)]
     about = {
-        "format": "cosfly-pack-1", "size": [width, height], "channels": list(frames.channels), "first_frame": places,
+        "format": FORMAT, "dataset": {"identity": frames.identity, "path": os.fspath(frames.path)},
+        "size": [width, height], "channels": list(frames.channels), "first_frame": places,
     }  # fmt: skip
     (folder / "pack.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
 
@@ -94,18 +98,15 @@ class Pack(Dataset):
 
     def __init__(self, path: PathLike, dataset: PathLike, **options: Any):
         self.pack_path = Path(path)
-        try:
-            about = json.loads((self.pack_path / "pack.json").read_text(encoding="utf-8"))
-        except FileNotFoundError:
-            raise FileNotFoundError(f"{path} is no training pack: it has no pack.json; `cosfly.pack` writes one") from None
-        except ValueError:
-            raise _cosfly.damaged_pack(os.fspath(self.pack_path / "pack.json"), "it is not JSON") from None
-        if about.get("format") != "cosfly-pack-1":
-            raise ValueError(f"{path} has the format {about.get('format')!r}; this version reads 'cosfly-pack-1'")
+        about, self._seal = _about(self.pack_path)
         self._first: Dict[str, int] = about["first_frame"]
         self._frames: Dict[str, Frames] = {}
         options.setdefault("channels", tuple(about["channels"]))
         super().__init__(dataset, size=tuple(about["size"]), **options)
+        source = about["dataset"]
+        if source["identity"] != self.identity:
+            given = str(source["path"]), str(source["identity"])
+            raise _cosfly.pack_of_other(os.fspath(self.pack_path), os.fspath(self.path), given, self.identity)
         for name in self.channels:
             self._frames_of(name)
 
@@ -114,14 +115,21 @@ class Pack(Dataset):
             path = self.pack_path / f"{channel}.npy"
             if not path.exists():
                 raise ValueError(f"{self.pack_path} has no channel {channel!r}")
-            self._frames[channel] = Frames(path)
+            self._frames[channel] = Frames(path, self._seal)
+            width, height = self.size or (0, 0)
+            expected = (sum(self._counts), height, width)
+            if (self._frames[channel].count, *self._frames[channel].shape[:2]) != expected:
+                raise _cosfly.damaged_pack(os.fspath(path), f"its frames, height and width are not {expected}, as pack.json has them")
         return self._frames[channel]
 
     def _images(self, frames: Any, channels: Sequence[str], size: Any) -> Dict[str, Any]:
-        return {channel: self._stacked(frames, channel) for channel in channels}
+        if size is not None and tuple(size) != self.size:
+            raise ValueError(f"the pack {self.pack_path} has pictures of {self.size}; another size takes another pack")
+        self._places(frames)
+        places = [self._first[name] + int(frame) for name, frame in frames]
+        return {channel: self._stacked(places, channel) for channel in channels}
 
-    def _stacked(self, frames: Any, channel: str) -> Any:
-        places: List[int] = [self._first[name] + int(frame) for name, frame in frames]
+    def _stacked(self, places: List[int], channel: str) -> Any:
         first, count = places[0], len(places)
         if places == list(range(first, first + count)):  # frames of a window lie side by side
             return self._frames_of(channel).read(first, count)
@@ -134,8 +142,8 @@ class Frames:
     They are read, not mapped: a file that is cut while it is mapped ends the process with a signal, a read is an error.
     """
 
-    def __init__(self, path: Path):
-        self.path, self._opened = path, (-1, -1)
+    def __init__(self, path: Path, seal: str):
+        self.path, self._seal, self._opened = path, seal, (-1, -1)
         self._lock = threading.Lock()
         with open(path, "rb") as file:
             try:
@@ -182,8 +190,13 @@ class Frames:
     def _file(self) -> int:
         process, file = self._opened
         if process != os.getpid():  # a fork opens its own file
-            file = os.open(self.path, os.O_RDONLY | getattr(os, "O_BINARY", 0))
+            try:
+                file = os.open(self.path, os.O_RDONLY | getattr(os, "O_BINARY", 0))
+            except OSError as error:
+                raise _refused(f"open `{self.path}`", error) from None
             self._opened = (os.getpid(), file)
+            if _about(self.path.parent)[1] != self._seal:
+                raise _cosfly.changed_pack(os.fspath(self.path.parent))
         return file
 
     def __del__(self) -> None:
@@ -199,6 +212,30 @@ class Frames:
     def __setstate__(self, state: Dict[str, Any]) -> None:
         self.__dict__.update(state)
         self._lock = threading.Lock()
+
+
+def _about(pack: Path) -> Tuple[Dict[str, Any], str]:
+    """What ``pack.json`` says, and a digest of it."""
+    path = pack / "pack.json"
+    try:
+        text = path.read_bytes()
+        about = json.loads(text.decode())
+    except FileNotFoundError:
+        raise FileNotFoundError(f"{pack} is no training pack: it has no pack.json; `cosfly.pack` writes one") from None
+    except OSError as error:
+        raise _refused(f"read `{path}`", error) from None
+    except ValueError:
+        raise _cosfly.damaged_pack(os.fspath(path), "it is not JSON") from None
+    form = about.get("format") if isinstance(about, dict) else None
+    if form == "cosfly-pack-1":
+        raise ValueError(f"{pack} was made by an older cosfly and does not say of which dataset; `cosfly.pack` makes a new pack")
+    if form != FORMAT:
+        raise ValueError(f"{pack} has the format {form!r}; this version reads {FORMAT!r}")
+    kinds = {"dataset": dict, "size": list, "channels": list, "first_frame": dict}
+    wrong = [name for name, kind in kinds.items() if not isinstance(about.get(name), kind)]
+    if wrong or not {"identity", "path"} <= about["dataset"].keys():
+        raise _cosfly.damaged_pack(os.fspath(path), f"it has no {' and no '.join(wrong) or 'identity of its dataset'}")
+    return about, hashlib.sha256(text).hexdigest()
 
 
 def _refused(action: str, error: OSError) -> Exception:

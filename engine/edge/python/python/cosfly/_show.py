@@ -66,6 +66,7 @@ def dataset_html(dataset: Any, pictures: int = 4) -> str:
         middle = len(dataset.trajectory(name)) // 2
         frame = dataset.frame(name, middle, channels=("rgb",), size=_thumbnail(dataset, name))
         parts.append(_figure(frame.png("rgb"), f"{name}, frame {middle}"))
+    dataset.check()
     report = dataset.path / "report" / "index.html"
     if report.is_file() and report.stat().st_size <= LARGEST_REPORT:
         page = html.escape(report.read_text(encoding="utf-8"), quote=True)
@@ -96,9 +97,9 @@ class Trajectory:
         return self._frames
 
     def __getitem__(self, frame: int) -> Frame:
-        if not -len(self) <= frame < len(self):
-            raise IndexError(f"frame {frame} of {len(self)}")
-        return self.dataset.frame(self.trajectory_id, frame % len(self))
+        from ._dataset import numbered
+
+        return self.dataset.frame(self.trajectory_id, numbered("frame", frame, len(self)))
 
     def __repr__(self) -> str:
         return f"<cosfly trajectory {self.trajectory_id} of {self.dataset.path}: {len(self)} frames>"
@@ -106,7 +107,7 @@ class Trajectory:
     def _repr_html_(self) -> str:
         text = f"<p>{html.escape(repr(self))}</p>"
         if (self.dataset.path / "data" / "trajectories").is_dir():
-            return text + pictures_html(self.dataset.path, self.trajectory_id)
+            return text + pictures_html(self.dataset, self.trajectory_id)
         size = _thumbnail(self.dataset, self.trajectory_id)
         for frame in range(0, len(self), max(1, len(self) // 6)):
             images = self.dataset.frame(self.trajectory_id, frame, channels=("rgb",), size=size)
@@ -117,8 +118,8 @@ class Trajectory:
 class Town:
     """A town of a dataset, by the name that table ``trajectories`` has. Notebooks show its plan with the flights of a pedestrian."""
 
-    def __init__(self, path: Any, name: str, trajectory_id: str):
-        self.path, self.name, self.trajectory_id = path, name, trajectory_id
+    def __init__(self, dataset: Any, name: str, trajectory_id: str):
+        self.dataset, self.path, self.name, self.trajectory_id = dataset, dataset.path, name, trajectory_id
 
     def __repr__(self) -> str:
         return f"<cosfly town {self.name} of {self.path}>"
@@ -126,19 +127,23 @@ class Town:
     def _repr_png_(self) -> bytes:
         from ._calls import preview
 
+        self.dataset.check()
         with tempfile.TemporaryDirectory() as scratch:
             return preview(self.path, self.trajectory_id, frames="0", out=scratch, progress=False).plan.read_bytes()
 
 
-def pictures_html(path: Any, trajectory_id: str) -> str:
+def pictures_html(dataset: Any, trajectory_id: str) -> str:
     """Contact sheet, plan and clip of a flight, which leave no files."""
     from ._calls import preview
 
+    dataset.check()
     with tempfile.TemporaryDirectory() as scratch:
-        return preview(path, trajectory_id, out=scratch, progress=False)._repr_html_()
+        return preview(dataset.path, trajectory_id, out=scratch, progress=False)._repr_html_()
 
 
 def _thumbnail(dataset: Any, trajectory_id: str) -> Tuple[int, int]:
+    if hasattr(dataset, "pack_path"):
+        return dataset.size
     width, height = dataset.size_of(trajectory_id)
     return (320, max(1, 320 * height // width)) if width > 320 else (width, height)
 

@@ -5,7 +5,7 @@ use super::outcome::Refusals;
 use crate::commands::process::{peak_mb, read_mb};
 use clap::ValueEnum;
 use cosfly::console::{Console, Progress, RunProgress};
-use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_diagnose::{Diagnostic, Fault, Stop};
 use cosfly_lab::clock::{process_cpu_s, wall_s};
 use cosfly_runner::{Delivery, RunOptions, RunOutcome, deliver};
 use cosfly_store::Store;
@@ -257,6 +257,10 @@ impl Console for Quiet {
 
     fn input(&self) -> Box<dyn BufRead + '_> {
         Box::new(std::io::empty())
+    }
+
+    fn stop(&self) -> Stop {
+        Stop::default()
     }
 
     fn cancelled(&self) -> Arc<AtomicBool> {

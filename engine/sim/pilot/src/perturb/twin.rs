@@ -17,7 +17,9 @@ use cosfly_random::{RandomStream, Seed};
 /// Steepest pitch of a turned view, radians (89.9 degrees): at 90 a pose has no unique yaw.
 const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
 
-/// The perturbed twin of `expert`, of the kind that the seed draws from the mixture.
+/// The perturbed twin of `expert`, of the kind that the seed draws from the mixture; [`Mixture::of_flight`] leaves one kind.
+///
+/// [`Mixture::of_flight`]: super::mixture::Mixture::of_flight
 ///
 /// Twins of all kinds but `jumps` could be flown: the certificate states their limits of speed and acceleration; a
 /// displacement that would break them, or that comes too near to an obstacle, still or moving, is made smaller, smoothly in time.

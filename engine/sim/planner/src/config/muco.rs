@@ -78,6 +78,19 @@ impl MucoConfig {
         Weights::resolve(self.preset, &self.weights)
     }
 
+    /// The parameters with the values in force in the place of those that are left to the preset: equal parameters plan alike.
+    pub fn in_force(&self) -> Self {
+        let Limits { yaw_rate_deg_s, pitch_rate_deg_s, .. } = self.stated_limits();
+        // No limit has no number.
+        let [yaw_rate_deg_s, pitch_rate_deg_s] =
+            [yaw_rate_deg_s, pitch_rate_deg_s].map(|rate| Some(rate).filter(|rate| rate.is_finite()));
+        Self {
+            weights: self.resolved_weights().into(),
+            limits: LimitsConfig { yaw_rate_deg_s, pitch_rate_deg_s, ..self.limits.clone() },
+            ..self.clone()
+        }
+    }
+
     /// The limits that a certificate states.
     pub fn stated_limits(&self) -> Limits {
         // The paper bounds no rates of view, and its flights do not keep them.
@@ -144,6 +157,21 @@ mod tests {
         check_refused(|c| c.search.radii = 13, "search.radii");
         check_refused(|c| c.drones.separation_m = 0.0, "drones.separation_m");
         check_refused(|c| c.causal.horizon_s = f64::NAN, "causal.horizon_s");
+    }
+
+    #[test]
+    fn the_parameters_in_force_have_no_gaps_and_plan_alike() {
+        for preset in [Preset::Cosfly, Preset::Paper] {
+            let config = MucoConfig { preset, ..MucoConfig::default() };
+            let in_force = config.in_force();
+            let stated = (config.resolved_weights(), config.stated_limits());
+            assert_eq!((in_force.resolved_weights(), in_force.stated_limits()), stated);
+            assert_eq!(in_force.limits.yaw_rate_deg_s, (preset == Preset::Cosfly).then_some(VIEW_RATE_DEG_S));
+            assert!(in_force.weights.visibility.is_some() && in_force == in_force.in_force());
+            // What a recipe writes down as it is already is no change.
+            let written = MucoConfig { weights: in_force.weights.clone(), ..config };
+            assert_eq!(written.in_force(), in_force);
+        }
     }
 
     #[test]

@@ -12,7 +12,7 @@ use super::stretch;
 use crate::files::files_below;
 use crate::{Episode, Flag, Look, Moment};
 use actions::Recording;
-use cosfly_diagnose::{Fault, Result};
+use cosfly_diagnose::{Fault, Result, Stop};
 use cosfly_frames::{DVec3, Pose};
 use cosfly_read::{ForeignRows, foreign_rows, parquet_problem};
 use features::{Features, pose};
@@ -62,7 +62,7 @@ fn read(folder: &Path, with_pictures: bool, progress: &mut dyn FnMut(u64, u64)) 
     let (mut flags, mut notes) = (vec![], vec![]);
     let mut files: Vec<PathBuf> = vec![];
     for path in tables(folder)? {
-        match with_pictures.then(|| parquet_problem(&path)).flatten() {
+        match with_pictures.then(|| parquet_problem(&path, &Stop::default())).flatten() {
             Some(problem) => flags.push(Flag::damage("parquet-damaged", shown(folder, &path), problem)),
             None => files.push(path),
         }

@@ -6,11 +6,15 @@ use crate::exit;
 use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_schema::config::OverlapDirection;
 use cosfly_splits::policy::SplitPolicy;
-use cosfly_splits::{Balance, FlightFacts, LintRules, facts_of_dataset, lint};
+use cosfly_splits::{Balance, FlightFacts, LintRules, facts_of_dataset, lint, ways_back};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+
+/// Pairs of opposite walks that are named.
+const NAMED: usize = 8;
 
 /// Look for leaks between the splits of one or several datasets, and name the pairs
 #[derive(Debug, Parser)]
@@ -22,7 +26,10 @@ Examples:
   cosfly dataset lint out/Town01 out/Town02_Opt --by-town   no place may be in two splits, whatever it is called
 
 A leak is a town with the same ground plan under two names, a pedestrian or a pair of twins in two splits, a walk that repeats
-another one, or two equal windows. Each finding names both flights and both splits. Exits with 1 when there is a leak."
+another one, or two equal windows. Each finding names both flights and both splits. Exits with 1 when there is a leak.
+
+Walks over the same ground in opposite directions are counted; they are leaks with --either-direction, or where the recipe has
+`splits.overlap_direction = \"either\"`."
 )]
 pub struct Arguments {
     /// Folders of finished datasets, judged as one dataset
@@ -34,6 +41,9 @@ pub struct Arguments {
     /// Share of a walk that a walk of another split may repeat [default: the rule of the first dataset]
     #[arg(long, value_name = "SHARE")]
     max_route_overlap: Option<f64>,
+    /// Count the way back as a repeated walk, too [default: the rule of the first dataset]
+    #[arg(long)]
+    either_direction: bool,
 }
 
 impl Command for Arguments {
@@ -45,15 +55,21 @@ impl Command for Arguments {
                 Some(share) => return Err(out_of_range(share).into()),
                 None => policies.first().map_or(0.5, |policy| policy.splits.max_route_overlap),
             },
+            overlap_direction: match policies.first() {
+                Some(policy) if !self.either_direction => policy.splits.overlap_direction,
+                _ => OverlapDirection::Either,
+            },
             by_town: self.by_town || policies.iter().all(|policy| policy.rules().by_town),
         };
         let window = policies.first().map_or(10, |policy| policy.windows.shape().size());
+        let stop = console.stop();
         let mut facts = vec![];
         for (number, dir) in self.dirs.iter().enumerate() {
-            facts.extend(facts_of_dataset(dir, number, 0)?);
+            facts.extend(facts_of_dataset(dir, number, 0, &stop)?);
         }
         let mut leaks = lint(&facts, &rules);
-        leaks.of_windows(&facts, &self.dirs.iter().map(PathBuf::as_path).collect::<Vec<_>>(), window)?;
+        let dirs: Vec<&Path> = self.dirs.iter().map(PathBuf::as_path).collect();
+        leaks.of_windows(&facts, &dirs, window, &stop)?;
         if let [policy] = &policies[..] {
             leaks.of_areas(&facts, &policy.splits);
         }
@@ -65,6 +81,7 @@ impl Command for Arguments {
             let _ = writeln!(text, "... and {} more", leaks.found - leaks.kept.len());
         }
         text += &compared(&facts, &rules);
+        text += &opposite(&facts, &rules);
         // The shares are those of one dataset.
         if let [policy] = &policies[..] {
             let balance = Balance::of(&facts, &policy.splits, 0);
@@ -95,6 +112,27 @@ fn out_of_range(share: f64) -> Box<Diagnostic> {
     Diagnostic::new("dataset-lint-share", Fault::Recipe, message)
 }
 
+/// Pairs of walks over the same ground in opposite directions, which the rules allow.
+fn opposite(facts: &[FlightFacts], rules: &LintRules) -> String {
+    let notes = ways_back(facts, rules);
+    let mut text = String::new();
+    for note in notes.kept.iter().take(NAMED) {
+        let _ = writeln!(text, "note: {note}");
+    }
+    if notes.found > NAMED {
+        let _ = writeln!(text, "note: ... and {} more", notes.found - NAMED);
+    }
+    if rules.overlap_direction == OverlapDirection::Same {
+        let pairs = count(notes.found as u64, "pair");
+        let _ = writeln!(
+            text,
+            "{pairs} of walks in two splits lead over the same ground in opposite directions{}",
+            if notes.found == 0 { "" } else { "; `splits.overlap_direction = \"either\"` keeps them together" }
+        );
+    }
+    text
+}
+
 /// Numbers of flights by town and split.
 fn compared(facts: &[FlightFacts], rules: &LintRules) -> String {
     let mut text = String::new();
@@ -108,7 +146,14 @@ fn compared(facts: &[FlightFacts], rules: &LintRules) -> String {
         let _ = writeln!(text, "town `{town}` (ground plan {layout}): {}", splits.join(", "));
     }
     let places = if rules.by_town { "one split per town" } else { "towns may be in all splits" };
-    let _ =
-        writeln!(text, "rules: walks repeat at most {:.0} % of each other; {places}", 100.0 * rules.max_route_overlap);
+    let way = match rules.overlap_direction {
+        OverlapDirection::Same => " in the same direction",
+        OverlapDirection::Either => ", there or back",
+    };
+    let _ = writeln!(
+        text,
+        "rules: walks repeat at most {:.0} % of each other{way}; {places}",
+        100.0 * rules.max_route_overlap
+    );
     text
 }

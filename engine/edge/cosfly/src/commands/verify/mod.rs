@@ -8,12 +8,13 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::{bytes, count};
 use clap::Parser;
+use cosfly_read::Identity;
 use cosfly_recipe::Recipe;
 use cosfly_verify::{Options, VerifyReport};
 use regenerate::{recipe_of_version, regenerated};
 use serde_json::json;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Check a finished dataset: hashes, counts, CRCs, schemas, reprojection, action and pose
 #[derive(Debug, Parser)]
@@ -64,6 +65,7 @@ impl Command for Arguments {
             jobs: self.jobs.map(usize::from),
             sample: self.sample.map(|sample| sample as usize),
             resume: self.resume.clone(),
+            stop: console.stop(),
         };
         let report = cosfly_verify::verify(&self.dir, &options, &mut |done, all| progress(done, all))?;
         drop(progress);
@@ -75,7 +77,7 @@ impl Command for Arguments {
             wrong = found;
             regenerated_flights = Some(more);
         }
-        console.print(&if self.json { json(&report, regenerated_flights, wrong) } else { text })?;
+        console.print(&if self.json { json(&self.dir, &report, regenerated_flights, wrong) } else { text })?;
         Ok(if report.is_sound() && wrong == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
     }
 }
@@ -91,9 +93,10 @@ impl Arguments {
 }
 
 /// The report for programs.
-fn json(report: &VerifyReport, regenerated: Option<String>, wrong: usize) -> String {
+fn json(dir: &Path, report: &VerifyReport, regenerated: Option<String>, wrong: usize) -> String {
     let findings: Vec<String> = report.findings.iter().map(ToString::to_string).collect();
     let whole = json!({
+        "dataset": Identity::of(dir).digest(),
         "sound": report.is_sound() && wrong == 0,
         "found": report.found, "findings": findings,
         "sample": report.sample, "flights_of_dataset": report.flights_of_dataset, "resumed": report.resumed,
