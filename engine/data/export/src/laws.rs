@@ -80,6 +80,39 @@ fn every_export_has_a_card_a_licence_and_the_same_bytes_twice() {
 }
 
 #[test]
+fn a_copy_of_a_dataset_gives_the_same_bytes_and_no_export_names_a_folder() {
+    let (home, dataset) = published();
+    let copy = home.path().join("a copy (2)");
+    for (path, bytes) in files(dataset.folder()) {
+        std::fs::create_dir_all(copy.join(&path).parent().unwrap()).unwrap();
+        std::fs::write(copy.join(path), bytes).unwrap();
+    }
+    let copied = PublishedDataset::open(&copy).unwrap();
+    let host = std::env::var("HOSTNAME").unwrap_or_default();
+    let folders =
+        [home.path().display().to_string(), "a copy (2)".to_owned(), host, env!("CARGO_MANIFEST_DIR").to_owned()];
+    for format in FORMATS {
+        let [first, second] = ["first", "second"].map(|name| home.path().join(format!("{}-{name}", format.name)));
+        export(&dataset, format.name, &first).unwrap();
+        export(&copied, format.name, &second).unwrap();
+        let (first, second) = (files(&first), files(&second));
+        let differing = first.iter().find(|(path, bytes)| second.get(*path) != Some(*bytes));
+        assert!(
+            first.len() == second.len() && differing.is_none(),
+            "`{}`: {:?}",
+            format.name,
+            differing.map(|it| it.0)
+        );
+        for (path, bytes) in &second {
+            for folder in folders.iter().filter(|it| it.len() > 3) {
+                let is_named = bytes.windows(folder.len()).any(|part| part == folder.as_bytes());
+                assert!(!is_named, "`{}` of `{}` names `{folder}`", path.display(), format.name);
+            }
+        }
+    }
+}
+
+#[test]
 fn the_list_is_sorted_and_an_option_of_several_formats_is_the_same_in_all() {
     assert!(FORMATS.is_sorted_by_key(|format| format.name));
     for (option, formats) in joined_options() {
