@@ -3,6 +3,7 @@
 use super::citation::citation;
 use super::summary::Summary;
 use super::viewers;
+use cosfly_diagnose::visible_text;
 use cosfly_plot::text::{markdown, markdown_code, markdown_words, quoted};
 use cosfly_schema::config::{DatasetConfig, OWN_LICENSE};
 use cosfly_schema::extras::{self, ExtraShape, ExtraSummary};
@@ -42,7 +43,7 @@ pub fn license_text(config: &DatasetConfig) -> String {
 /// The text of `README.md`.
 pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
     let mut text = front_matter(config, summary);
-    let _ = write!(text, "\n# {}\n\n{}\n\n", markdown(&config.title), config.description);
+    let _ = write!(text, "\n# {}\n\n{}\n\n", markdown(&config.title), visible_text(&config.description));
     text.push_str(&figures(config, summary));
     text.push_str(&loading(config, summary));
     text.push_str(CONVENTIONS);
