@@ -77,6 +77,69 @@ fn malformed_rows_are_counted_and_named() {
 }
 
 #[test]
+fn an_absurd_number_is_a_malformed_row_and_writes_small_reports() {
+    let street = street();
+    let answer = "{\\\"waypoint_deltas\\\": [[1e24], [0], [0], [0], [0]]}";
+    let text = [
+        row("perturbed-p00000", "[1e23]"),
+        format!("{{\"trajectory_id\": \"perturbed-p00001\", \"frame\": 0, \"text\": \"{answer}\"}}\n"),
+        row("perturbed-p00001", "[0.1]"),
+        row("perturbed-p00002", "[9e8]"),
+    ];
+    std::fs::write(street.path().join("huge.jsonl"), text.concat()).expect("writable");
+    let printed = eval(&street, &["huge.jsonl"]);
+    assert_eq!(printed.code, Some(1), "{}", printed.stderr);
+    assert!(printed.stdout.contains("**Partial: 1 of 3 windows have no prediction."), "{}", printed.stdout);
+    assert!(
+        printed.stdout.contains("line 1: `dx` of waypoint 1 is larger than 1e9 in magnitude: 1e23"),
+        "{}",
+        printed.stdout
+    );
+    let folder = street.path().join("huge-evaluation");
+    assert_eq!(report(&folder)["rows"]["kinds"], serde_json::json!({"implausible": 2}));
+    for name in ["errors.svg", "report.md", "report.json"] {
+        let size = std::fs::metadata(folder.join(name)).expect("written").len();
+        assert!(size < 500_000, "{name} has {size} bytes");
+    }
+}
+
+#[test]
+fn a_part_of_the_windows_is_no_score_of_the_dataset() {
+    let street = street();
+    std::fs::write(street.path().join("one.jsonl"), row("perturbed-p00000", "[0]")).expect("writable");
+    let splits = ["--split", "train", "--split", "val"];
+    let printed = eval(&street, &[&["one.jsonl"][..], &splits].concat());
+    assert_eq!(printed.code, Some(1), "{}", printed.stderr);
+    assert!(printed.stdout.contains("**Partial: 2 of 3 windows have no prediction."), "{}", printed.stdout);
+    assert_eq!(report(&street.path().join("one-evaluation"))["is_partial"], true);
+    let filled = eval(&street, &[&["one.jsonl", "--missing-as-zero"][..], &splits].concat());
+    assert_eq!(filled.code, Some(0), "{}", filled.stderr);
+    assert!(!filled.stdout.contains("Partial"), "{}", filled.stdout);
+}
+
+#[test]
+fn an_empty_list_of_detections_scores_zero_and_says_so() {
+    let street = street();
+    cosfly(&["export", "out/street", "--format", "coco", "--out", "coco"]).within(street.path()).run_ok();
+    let images = ["--images", "coco/annotations/instances_train.json"];
+    std::fs::write(street.path().join("none.json"), "[]").expect("writable");
+    for arguments in [&["none.json"][..], &[&["none.json"][..], &images].concat()] {
+        let printed = eval(&street, arguments);
+        assert_eq!(printed.code, Some(1), "{}", printed.stderr);
+        assert!(printed.stdout.contains("**Empty: there is no detection."), "{}", printed.stdout);
+        assert_eq!(report(&street.path().join("none-evaluation"))["scores"]["ap"]["value"], 0.0);
+    }
+    let found =
+        |score: &str| format!("{{\"image_id\": 1, \"category_id\": 12, \"bbox\": [1, 2, 3, 4], \"score\": {score}}}");
+    std::fs::write(street.path().join("nan.json"), format!("[{}, {}]", found("NaN"), found("0.5"))).expect("writable");
+    let printed = eval(&street, &[&["nan.json"][..], &images].concat());
+    assert_eq!(printed.code, Some(1), "{}", printed.stderr);
+    let files = report(&street.path().join("nan-evaluation"))["files"].clone();
+    assert_eq!((&files["scored"], &files["kinds"]), (&1.into(), &serde_json::json!({"not-finite": 1})));
+    assert!(files["problems"][0]["reason"].as_str().expect("words").contains("`score` is not finite"), "{files}");
+}
+
+#[test]
 fn what_cannot_be_scored_is_refused_with_a_way_out() {
     let street = street();
     std::fs::write(street.path().join("strangers.jsonl"), row("nobody", "[1]")).expect("writable");

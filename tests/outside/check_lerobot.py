@@ -113,8 +113,52 @@ def check(split):
             assert np.abs(np.array(stats[name][key]) - want).max() < 1e-6, (name, key)
     for key in ("min", "max", "mean", "std", *QUANTILES):
         assert np.array(stats["observation.images.rgb"][key]).shape == (3, 1, 1)
+    check_episodes(root, info, rows, stats)
     print(f"lerobot, {split}, file by file: {len(rows)} frames of {len(episodes)} episodes, {len(tasks)} tasks")
     return info, tasks
+
+
+def check_episodes(root, info, rows, stats):
+    """Statistics of each episode: those of its rows, and together those of the dataset, as LeRobot puts them together."""
+    table = pd.concat(pd.read_parquet(path) for path in sorted(glob.glob(str(root / "meta/episodes/*/*.parquet"))))
+    keys = ["min", "max", "mean", "std", *QUANTILES, "count"]
+    wanted = {f"stats/{name}/{key}" for name in info["features"] for key in keys}
+    assert {name for name in table.columns if name.startswith("stats/")} == wanted
+    numbers = np.array(rows["episode_index"])
+    of_episodes = []
+    for _, episode in table.iterrows():
+        own = {name: {key: nested(episode[f"stats/{name}/{key}"]) for key in keys} for name in info["features"]}
+        of_episodes.append(own)
+        for name in ("observation.state", "action", "privileged.box", "timestamp", "index"):
+            values = np.array(rows[name])[numbers == episode["episode_index"]]
+            values = values.reshape(len(values), -1)
+            want = {"mean": values.mean(0), "std": values.std(0), "min": values.min(0), "max": values.max(0)}
+            want |= {key: np.quantile(values, share, axis=0) for key, share in QUANTILES.items()}
+            assert own[name]["count"].tolist() == [len(values)]
+            for key, it in want.items():
+                assert np.abs(own[name][key] - it).max() < 1e-5, (name, key)
+    for name in info["features"]:
+        shape = (3, 1, 1) if name.startswith("observation.images") else tuple(info["features"][name]["shape"])
+        parts = [own[name] for own in of_episodes]
+        assert all(part[key].shape == shape for part in parts for key in keys[:-1]), name
+        counts = np.array([part["count"][0] for part in parts], float)
+        weights = counts.reshape(-1, *[1] * len(shape)) / counts.sum()
+        means = np.stack([part["mean"] for part in parts])
+        mean = (means * weights).sum(0)
+        variances = np.stack([part["std"] ** 2 for part in parts]) + (means - mean) ** 2
+        whole = {key: np.array(value) for key, value in stats[name].items()}
+        assert whole["count"].tolist() == [counts.sum()], name
+        together = {
+            "mean": mean, "std": np.sqrt((variances * weights).sum(0)),
+            "min": np.stack([part["min"] for part in parts]).min(0), "max": np.stack([part["max"] for part in parts]).max(0),
+        }
+        for key, it in together.items():
+            assert np.abs(whole[key] - it).max() < 1e-5 * max(1, np.abs(it).max()), (name, key)
+
+
+def nested(value):
+    """A cell of lists of lists as one array."""
+    return np.array(value.tolist() if value.dtype != object else [nested(it) for it in value])
 
 
 def load(split, info, tasks):
@@ -131,6 +175,14 @@ def load(split, info, tasks):
     assert tuple(item["action"].shape) == (30,) and str(item["action"].dtype) == "torch.float32"
     assert item["task"] in tasks.index, item["task"]
     assert {"q01", "q99"} <= set(loaded.meta.stats["action"])
+    # LeRobot's own tool writes a part of the dataset, with true statistics.
+    if loaded.num_episodes > 1:
+        from lerobot.datasets.dataset_tools import delete_episodes
+
+        part = delete_episodes(loaded, [0], output_dir=Path(cache) / f"lerobot-part-{split}", repo_id=f"cosfly/{split}-part")
+        assert set(part.meta.stats) == set(info["features"]), set(part.meta.stats)
+        left = part.num_frames
+        assert left < info["total_frames"] and part.meta.stats["action"]["count"].tolist() == [left]
     print(f"lerobot, {split}, with the package: windows of {tuple(item['observation.images.rgb'].shape)}, task {item['task']!r}")
 
 

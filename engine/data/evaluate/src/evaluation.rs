@@ -37,8 +37,8 @@ pub fn evaluate(
     let read = given.len() + given.problems.len();
     joined.problems.append(&mut given.problems);
     joined.problems.sort_by_key(|problem| problem.line);
-    if file.is_some() && joined.predicted == 0 {
-        return Err(nothing_to_score(flights, &windows, &joined));
+    if let Some(file) = file.filter(|_| joined.predicted == 0) {
+        return Err(nothing_to_score(file, flights, &windows, &joined));
     }
     let everything = file.is_none() || settings.missing_as_zero;
     let wanted = |window: usize| everything || joined.row(window).is_some();
@@ -91,6 +91,7 @@ pub fn evaluate(
         methods: reports,
         other_anchor: beside,
         notes,
+        is_partial: file.is_some() && scored < windows.len,
     })
 }
 
@@ -99,7 +100,6 @@ fn splits(flights: &Flights, predictions: Option<&Predictions>, settings: &Setti
     if let Some(refusal) = unknown_split(flights, &settings.splits) {
         return Err(refusal);
     }
-    let there: BTreeSet<String> = flights.rows.iter().map(|row| row.split.clone()).collect();
     if !settings.splits.is_empty() {
         return Ok(settings.splits.iter().cloned().collect());
     }
@@ -111,9 +111,16 @@ fn splits(flights: &Flights, predictions: Option<&Predictions>, settings: &Setti
             let places = named.iter().filter_map(|id| flights.place(id));
             places.map(|place| flights.rows[place].split.clone()).collect()
         }
-        None => there.iter().filter(|split| *split != "train").cloned().collect(),
+        None => return Ok(unseen_splits(flights)),
     };
-    Ok(if chosen.is_empty() { there } else { chosen })
+    Ok(if chosen.is_empty() { flights.rows.iter().map(|row| row.split.clone()).collect() } else { chosen })
+}
+
+/// All splits but train; all where there is no other.
+pub(crate) fn unseen_splits(flights: &Flights) -> BTreeSet<String> {
+    let there: BTreeSet<String> = flights.rows.iter().map(|row| row.split.clone()).collect();
+    let unseen: BTreeSet<String> = there.iter().filter(|split| *split != "train").cloned().collect();
+    if unseen.is_empty() { there } else { unseen }
 }
 
 /// The refusal of a name in `wanted` that is not a split of the dataset.
@@ -143,14 +150,14 @@ fn no_windows(flights: &Flights, splits: &BTreeSet<String>, settings: &Settings)
         InputRole::Perturbed if WindowSet::new(flights, &experts, splits).len > 0 => {
             refusal.hint("with `--input expert` windows are cut from experts' flights")
         }
-        _ => refusal,
+        _ => refusal.hint("a shorter `--history` or `--horizon` needs fewer frames; `--split` chooses others"),
     }
 }
 
-fn nothing_to_score(flights: &Flights, windows: &WindowSet, joined: &Joined) -> Box<Diagnostic> {
+fn nothing_to_score(file: &str, flights: &Flights, windows: &WindowSet, joined: &Joined) -> Box<Diagnostic> {
     let message = match joined.problems.len() as u64 + joined.elsewhere {
-        0 => "there is no prediction in the file".to_owned(),
-        rows => format!("none of {rows} predictions fits a window of `{}`", flights.folder),
+        0 => format!("there is no prediction in `{file}`"),
+        rows => format!("none of {rows} predictions in `{file}` fits a window of `{}`", flights.folder),
     };
     let mut refusal = Diagnostic::new("evaluation-no-overlap", Fault::Input, message);
     for problem in joined.problems.iter().take(3) {

@@ -17,7 +17,7 @@ const FRAMES_AT_ONCE: usize = 250_000;
 /// A dataset's flights, with the tracks of all or some of them.
 #[derive(Clone, Debug)]
 pub struct Flights {
-    /// Name of the dataset's folder.
+    /// Name of the dataset, which is the same in every copy.
     pub name: String,
     /// The folder as it was given.
     pub folder: String,
@@ -67,11 +67,9 @@ impl Flights {
         }
         let dotted = rows.iter().enumerate().filter(|(_, row)| row.trajectory_id.contains('.'));
         let by_key = dotted.rev().map(|(place, row)| (row.trajectory_id.replace('.', "_"), place)).collect();
-        let folder = dataset.folder();
-        let name = folder.file_name().map_or_else(|| ".".to_owned(), |name| name.to_string_lossy().into_owned());
         let mut flights = Self {
-            name,
-            folder: folder.display().to_string(),
+            name: dataset.name(),
+            folder: dataset.folder().display().to_string(),
             rows,
             expert: Arc::new(expert),
             by_key: Arc::new(by_key),

@@ -3,6 +3,7 @@
 use crate::folder::OutFolder;
 use crate::source::Source;
 use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_plot::text::{markdown, markdown_code};
 use cosfly_read::foreign_rows;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -29,14 +30,15 @@ impl Card {
         for line in kept_lines(&original) {
             let _ = writeln!(text, "{line}");
         }
-        let _ = write!(text, "{}---\n\n# {name} in the format {}\n\n", self.front_matter, self.format);
+        let _ = write!(text, "{}---\n\n# {} in the format {}\n\n", self.front_matter, markdown(&name), self.format);
         let flights: Vec<_> = source.flights().collect();
         let frames: usize = flights.iter().map(|flight| flight.frames).sum();
         let _ = writeln!(
             text,
-            "Written by `cosfly export` {} from {} flights with {frames} frames of the dataset `{name}`.\n",
+            "Written by `cosfly export` {} from {} flights with {frames} frames of the dataset {}.\n",
             env!("CARGO_PKG_VERSION"),
-            flights.len()
+            flights.len(),
+            markdown_code(&name)
         );
         text.push_str(&self.body);
         text.push_str(&optics(source)?);
@@ -73,7 +75,8 @@ fn optics(source: &Source<'_>) -> Result<String> {
         let fov_deg = flight.camera.horizontal_fov_rad.to_degrees();
         sizes.insert(format!("{} x {} pixels, {fov_deg:.1}° wide", flight.camera.width, flight.camera.height));
     }
-    let weathers: Vec<String> = weathers.iter().map(|(name, count)| format!("`{name}` ({count})")).collect();
+    let weathers: Vec<String> =
+        weathers.iter().map(|(name, count)| format!("{} ({count})", markdown_code(name))).collect();
     let mut text = format!("\n## Camera and weather\n\n* Weather, with flights: {}.\n", weathers.join(", "));
     let _ = writeln!(text, "* Picture: {}.", sizes.into_iter().collect::<Vec<_>>().join("; "));
     let bends: BTreeSet<String> =

@@ -3,7 +3,7 @@
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// Name of the file that marks an unfinished folder.
 const MARK: &str = ".cosfly-unfinished";
@@ -76,7 +76,15 @@ impl OutFolder {
     }
 
     /// Begins a file, and the folders that it is in.
+    ///
+    /// # Errors
+    /// `export-name` for a name that leads out of the folder: ids come from the dataset, which may be of anybody.
     pub fn create(&self, name: &str) -> Result<BufWriter<File>> {
+        if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
+            let message = format!("`{name}` is no name of a file inside of an export");
+            return Err(Diagnostic::new("export-name", Fault::Input, message)
+                .hint("it is made of ids of the dataset; `cosfly verify` says what else is wrong with them"));
+        }
         let path = self.path(name);
         let folder = path.parent().unwrap_or(&self.staging);
         let file = std::fs::create_dir_all(folder).and_then(|()| File::create(&path));
@@ -144,6 +152,10 @@ mod tests {
         assert_eq!(OutFolder::begin(&target, &dataset).unwrap_err().code, "export-exists");
         assert_eq!(OutFolder::begin(&dataset.join("x"), &dataset).unwrap_err().code, "export-inside");
         assert_eq!(std::fs::read_dir(home.path().join("new")).unwrap().count(), 1);
+        let out = OutFolder::begin(&home.path().join("other"), &dataset).unwrap();
+        for name in ["../dataset/x", "a/../../x", "/tmp/x"] {
+            assert_eq!(out.put(name, b"").unwrap_err().code, "export-name", "{name}");
+        }
     }
 
     #[test]

@@ -93,7 +93,8 @@ impl Prepared {
     ) -> Result<(Written, Vec<String>)> {
         let source = Source::new(dataset, choice, progress)?;
         let folder = OutFolder::begin(out, dataset.folder())?;
-        let remarks = (self.write)(&source, &folder)?;
+        let mut remarks = (self.write)(&source, &folder)?;
+        remarks.extend(source.remarks());
         Ok((folder.finish()?, remarks))
     }
 }

@@ -80,6 +80,71 @@ fn every_export_has_a_card_a_licence_and_the_same_bytes_twice() {
 }
 
 #[test]
+fn a_copy_of_a_dataset_gives_the_same_bytes_and_no_export_names_a_folder() {
+    let (home, dataset) = published();
+    let copy = home.path().join("a copy (2)");
+    for (path, bytes) in files(dataset.folder()) {
+        std::fs::create_dir_all(copy.join(&path).parent().unwrap()).unwrap();
+        std::fs::write(copy.join(path), bytes).unwrap();
+    }
+    let copied = PublishedDataset::open(&copy).unwrap();
+    let host = std::env::var("HOSTNAME").unwrap_or_default();
+    let folders =
+        [home.path().display().to_string(), "a copy (2)".to_owned(), host, env!("CARGO_MANIFEST_DIR").to_owned()];
+    for format in FORMATS {
+        let [first, second] = ["first", "second"].map(|name| home.path().join(format!("{}-{name}", format.name)));
+        export(&dataset, format.name, &first).unwrap();
+        export(&copied, format.name, &second).unwrap();
+        let (first, second) = (files(&first), files(&second));
+        let differing = first.iter().find(|(path, bytes)| second.get(*path) != Some(*bytes));
+        assert!(
+            first.len() == second.len() && differing.is_none(),
+            "`{}`: {:?}",
+            format.name,
+            differing.map(|it| it.0)
+        );
+        for (path, bytes) in &second {
+            for folder in folders.iter().filter(|it| it.len() > 3) {
+                let is_named = bytes.windows(folder.len()).any(|part| part == folder.as_bytes());
+                assert!(!is_named, "`{}` of `{}` names `{folder}`", path.display(), format.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_episode_of_lerobot_has_its_own_statistics() {
+    let (home, dataset) = published();
+    let out = home.path().join("lerobot");
+    export(&dataset, "lerobot", &out).unwrap();
+    let splits: Vec<PathBuf> =
+        std::fs::read_dir(&out).unwrap().map(|it| it.unwrap().path()).filter(|it| it.is_dir()).collect();
+    assert!(!splits.is_empty());
+    for split in splits {
+        let json = |name: &str| -> Value { serde_json::from_slice(&std::fs::read(split.join(name)).unwrap()).unwrap() };
+        let (info, whole) = (json("meta/info.json"), json("meta/stats.json"));
+        let path = split.join("meta/episodes/chunk-000/file-000.parquet");
+        let names = cosfly_read::columns::column_names(&path).unwrap();
+        let rows = cosfly_read::foreign_rows(&path, false).unwrap();
+        for feature in info["features"].as_object().unwrap().keys() {
+            for figure in ["min", "max", "mean", "std", "q01", "q10", "q50", "q90", "q99", "count"] {
+                assert!(names.contains(&format!("stats/{feature}/{figure}")), "{feature} {figure}: {names:?}");
+                assert_eq!(whole[feature].as_object().unwrap().len(), 10, "{feature}");
+            }
+            let counts = &rows.numbers[&format!("stats/{feature}/count")];
+            let frames: f64 = counts.iter().map(|count| count[0]).sum();
+            assert_eq!(whole[feature]["count"][0].as_f64(), Some(frames), "{feature}");
+            // Pictures have nested lists, which this reader passes over.
+            let Some(means) = rows.numbers.get(&format!("stats/{feature}/mean")) else { continue };
+            for (at, mean) in whole[feature]["mean"].as_array().unwrap().iter().enumerate() {
+                let sum: f64 = means.iter().zip(counts).map(|(mean, count)| mean[at] * count[0]).sum();
+                assert!((sum / frames - mean.as_f64().unwrap()).abs() < 1e-9, "{feature} {at}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_list_is_sorted_and_an_option_of_several_formats_is_the_same_in_all() {
     assert!(FORMATS.is_sorted_by_key(|format| format.name));
     for (option, formats) in joined_options() {

@@ -35,6 +35,8 @@ pub struct Source<'a> {
     progress: &'a dyn Fn(u64, u64),
     done: Cell<u64>,
     all: Cell<u64>,
+    /// Flights whose instruction is not in the wanted language: in another one, and a plain one without any caption.
+    fallen_back: RefCell<[BTreeSet<String>; 2]>,
 }
 
 /// A flight with its frames.
@@ -83,14 +85,13 @@ impl<'a> Source<'a> {
             progress,
             done: Cell::new(0),
             all: Cell::new(all),
+            fallen_back: RefCell::default(),
         })
     }
 
-    /// Name of the dataset's folder.
+    /// Name of the dataset, which is the same in every copy.
     pub fn name(&self) -> String {
-        let folder = self.dataset.folder();
-        let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-        folder.file_name().map_or_else(|| "dataset".into(), |name| name.to_string_lossy().into_owned())
+        self.dataset.name()
     }
 
     /// The chosen flights, in the dataset's order.
@@ -103,6 +104,21 @@ impl<'a> Source<'a> {
         let mut splits: Vec<&str> = self.flights().map(|flight| &*flight.split).collect();
         splits.dedup();
         splits
+    }
+
+    /// Remarks about instructions that are not what was asked for.
+    pub fn remarks(&self) -> Vec<String> {
+        let [other, plain] = &*self.fallen_back.borrow();
+        let flights = |ids: &BTreeSet<String>| cosfly_schema::card_text::counted(ids.len() as u64, "flight");
+        let remarks = [
+            (other, "without a caption in the language asked for: the instruction is in another one"),
+            (plain, "without a caption: the instruction is the same plain sentence for all, and singles nobody out"),
+        ];
+        remarks
+            .into_iter()
+            .filter(|(ids, _)| !ids.is_empty())
+            .map(|(ids, words)| format!("{} {words}", flights(ids)))
+            .collect()
     }
 
     /// The channels on request of the chosen flights' logs, all of them together.
@@ -238,7 +254,13 @@ impl Episode<'_> {
 
     /// The instruction in `language`, else in any language, else a plain one.
     pub fn instruction(&self, language: Language) -> &str {
-        let own = self.captions.iter().find(|caption| caption.language == language.code());
-        own.or(self.captions.first()).map_or("Follow the pedestrian and keep them in view.", |caption| &caption.text)
+        if let Some(own) = self.captions.iter().find(|caption| caption.language == language.code()) {
+            return &own.text;
+        }
+        let first = self.captions.first();
+        let [other, plain] = &mut *self.source.fallen_back.borrow_mut();
+        let list = if first.is_some() { other } else { plain };
+        list.insert(self.flight.trajectory_id.clone());
+        first.map_or("Follow the pedestrian and keep them in view.", |caption| &caption.text)
     }
 }

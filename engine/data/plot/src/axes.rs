@@ -62,9 +62,23 @@ impl Axes {
     }
 }
 
-/// Round values of a range, about `wanted` of them.
+/// Round values of a range, about `wanted` of them: few, whatever the range is.
 pub fn ticks((low, high): (f64, f64), wanted: f64) -> Vec<f64> {
     let step = statistics::round_step((high - low) / wanted);
     let inside = statistics::edges(low, high, wanted as usize).into_iter();
     inside.map(|it| (it / step).round() * step).filter(|it| *it >= low - 1e-9 && *it <= high + 1e-9).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_few_whatever_the_range_is() {
+        for range in [(0.0, 1e24), (-1e300, 1e300), (5.0, 5.0), (0.0, 1e-12), (1e12, 1e12), (0.0, f64::INFINITY)] {
+            assert!(ticks(range, 6.0).len() <= 9, "{range:?}");
+        }
+        assert!(ticks((f64::NAN, f64::NAN), 6.0).len() <= 9);
+        assert_eq!(ticks((0.0, 1.0), 4.0), [0.0, 0.5, 1.0]);
+    }
 }

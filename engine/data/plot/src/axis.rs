@@ -6,6 +6,10 @@ use crate::statistics::round_step;
 const LEAST_STEP: f64 = 0.01;
 /// Marks of an axis at most, without the first.
 const MOST_MARKS: f64 = 6.0;
+/// Largest number that an axis is made for: beyond any measurement.
+const LARGEST: f64 = 1e300;
+/// Marks above this are written with an exponent.
+const LONG_MARK: f64 = 1e7;
 /// Largest end of an axis, in medians of its values, so that one large value does not flatten all others.
 const MOST_MEDIANS: f64 = 2.5;
 
@@ -23,6 +27,7 @@ pub struct Axis {
 impl Axis {
     /// The axis that reaches `highest`.
     pub fn to(highest: f64) -> Self {
+        let highest = if highest.is_nan() { 0.0 } else { highest.clamp(0.0, LARGEST) };
         let step = round_step((highest / MOST_MARKS).max(LEAST_STEP));
         Self { step, end: step * (highest / step).ceil().max(1.0), is_cut: false }
     }
@@ -33,27 +38,32 @@ impl Axis {
         Self { is_cut, ..Self::to(highest) }
     }
 
-    /// Share of the axis at a value, at most 1.
+    /// Share of the axis at a value, 0 to 1; 0 for what is not a number.
     pub fn share(&self, value: f64) -> f64 {
-        (value / self.end).min(1.0)
+        if value.is_nan() { 0.0 } else { (value / self.end).clamp(0.0, 1.0) }
     }
 
-    /// Values of the marks.
+    /// Values of the marks: eight at most.
     pub fn marks(self) -> impl Iterator<Item = f64> {
-        (0..=(self.end / self.step).round() as u32).map(move |number| f64::from(number) * self.step)
+        let last = (self.end / self.step).round().min(MOST_MARKS + 1.0) as u32;
+        (0..=last).map(move |number| f64::from(number) * self.step)
     }
 }
 
 /// The number of a mark as text.
 pub fn label(mark: f64) -> String {
+    if mark.abs() >= LONG_MARK {
+        return format!("{mark:.1e}").replace(".0e", "e");
+    }
     let text = format!("{mark:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn end(values: &[f64]) -> (f64, bool) {
-    let mut sorted = values.to_vec();
+    let known: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
+    let mut sorted = known.clone();
     sorted.sort_by(f64::total_cmp);
-    let (Some(longest), Some(first)) = (sorted.last(), values.first()) else { return (0.0, false) };
+    let (Some(longest), Some(first)) = (sorted.last(), known.first()) else { return (0.0, false) };
     let most = (MOST_MEDIANS * sorted[sorted.len() / 2]).max(*first);
     // A cut that hides little is not worth it.
     if *longest <= 1.5 * most { (*longest, false) } else { (most, true) }
@@ -71,8 +81,17 @@ mod tests {
             let axis = Axis::to(highest);
             assert!((axis.step - step).abs() < 1e-9 && (axis.end - end).abs() < 1e-9, "{highest} {axis:?}");
         }
-        assert!(Axis::to(1e30).end.is_finite());
-        assert_eq!([2.0, 0.5, 0.02, 10.0].map(label), ["2", "0.5", "0.02", "10"]);
+        assert_eq!([2.0, 0.5, 0.02, 10.0, 1.5e7, 2e23].map(label), ["2", "0.5", "0.02", "10", "1.5e7", "2e23"]);
+    }
+
+    #[test]
+    fn axes_of_absurd_numbers_have_few_marks_too() {
+        for highest in [-1.0, 1e9, 1e16, 1e24, 1e30, 1e300, f64::MAX, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            let axis = Axis::of(&[1.0, highest, 2.0]);
+            assert!(axis.end.is_finite() && (2..=8).contains(&axis.marks().count()), "{highest}: {axis:?}");
+            assert!((0.0..=1.0).contains(&axis.share(highest)), "{highest}");
+            assert!(axis.marks().all(|mark| label(mark).len() < 12), "{highest}");
+        }
     }
 
     #[test]

@@ -46,6 +46,11 @@ pub struct Bars {
 }
 
 impl Bars {
+    /// A value as text; with an exponent where it would be long.
+    fn number(&self, value: f64) -> String {
+        if value.abs() < 1e7 { format!("{value:.0$}", self.decimals) } else { format!("{value:.0$e}", self.decimals) }
+    }
+
     /// Draws the bars one below the other.
     pub fn draw(&self, document: &mut Document, axis: Axis, bars: &[Bar<'_>]) {
         let x = |value: f64| self.left + self.width * axis.share(value);
@@ -66,7 +71,7 @@ impl Bars {
                 }
             }
             let arrow = if bar.end() > axis.end { "\u{2192} " } else { "" };
-            let words = format!("{arrow}{:.1$}", bar.value, self.decimals);
+            let words = format!("{arrow}{}", self.number(bar.value));
             document.words((x(bar.end()) + 6.0, y + 13.0), &words, Anchor::Start, INK);
         }
     }
@@ -86,5 +91,16 @@ mod tests {
         Bars { left: 100.0, top: 20.0, width: 200.0, height: 100.0, decimals: 2 }.draw(&mut document, axis, &bars);
         let svg = document.finish();
         assert!(svg.contains("\u{2192} 80.00") && svg.contains(">4.00<") && svg.contains("a&lt;b"), "{svg}");
+    }
+
+    #[test]
+    fn absurd_values_make_a_small_picture_without_what_is_no_number() {
+        let bars =
+            [1e24, f64::INFINITY, 3.0, -2.0].map(|value| Bar { name: "a", value, interval: None, colour: "#123456" });
+        let mut document = Document::new("errors", 400.0, 200.0);
+        let axis = Axis::of(&bars.map(|bar| bar.end()));
+        Bars { left: 100.0, top: 20.0, width: 200.0, height: 100.0, decimals: 2 }.draw(&mut document, axis, &bars);
+        let svg = document.finish();
+        assert!(svg.len() < 5_000 && svg.contains("1.00e24") && !svg.contains("NaN") && !svg.contains("=\"-"), "{svg}");
     }
 }

@@ -135,7 +135,8 @@ impl Canvas {
         let range = |axis: usize, limit: usize| {
             let low = points.iter().map(|point| point[axis]).fold(f64::INFINITY, f64::min) - reach;
             let high = points.iter().map(|point| point[axis]).fold(f64::NEG_INFINITY, f64::max) + reach;
-            low.max(0.0) as i64..(high.max(0.0) as i64 + 1).min(limit as i64)
+            let limit = limit as f64;
+            low.clamp(0.0, limit) as i64..((high + 1.0).clamp(0.0, limit)) as i64
         };
         let columns = range(0, self.width);
         for y in range(1, self.height) {

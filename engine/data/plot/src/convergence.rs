@@ -9,11 +9,12 @@ use std::fmt::Write;
 /// HTML: the chart and its caption.
 pub fn convergence(curves: &[&[f64]], stops: Option<&[&str]>) -> String {
     let longest = curves.iter().map(|curve| curve.len()).max().unwrap_or(0);
-    let relative: Vec<Vec<f64>> =
-        curves.iter().map(|curve| curve.iter().map(|cost| (cost / curve[0]).clamp(1e-3, 1e3)).collect()).collect();
+    let share = |share: f64| if share.is_nan() { 1.0 } else { share.clamp(1e-3, 1e3) };
+    let of_first = |curve: &&[f64]| curve.iter().map(|cost| share(cost / curve[0])).collect();
+    let relative: Vec<Vec<f64>> = curves.iter().map(of_first).collect();
     let logs: Vec<f64> = relative.iter().flatten().map(|share| cosfly_frames::real::ln(*share)).collect();
     let (low, high) = logs.iter().fold((0.0_f64, 0.0_f64), |(low, high), it| (low.min(*it), high.max(*it)));
-    let axes = Axes { x: (0.0, (longest - 1) as f64), y: (low - 0.05, high + 0.05) };
+    let axes = Axes { x: (0.0, longest.saturating_sub(1) as f64), y: (low - 0.05, high + 0.05) };
     let last: Vec<f64> = sorted(relative.iter().filter_map(|curve| curve.last().copied()));
     let summary = format!(
         "{} flight{}; the published cost is {} of the first in the median",

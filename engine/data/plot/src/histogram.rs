@@ -31,7 +31,7 @@ impl Histogram<'_> {
             return String::new();
         }
         let (low, high) = self.range.unwrap_or_else(|| (all.quantile(0.0), all.quantile(0.995)));
-        let wanted = ((high - low) / self.least_step.max(1e-9) + 1.0).min(16.0);
+        let wanted = ((high - low) / self.least_step.max(1e-9) + 1.0).clamp(1.0, 16.0);
         let edges = statistics::edges(low, high, wanted as usize);
         let series = [("expert", self.experts), ("perturbed", self.perturbed)];
         let series: Vec<(&str, Vec<f64>)> = series

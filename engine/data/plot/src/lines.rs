@@ -6,6 +6,10 @@ use crate::document::{Anchor, Document};
 const GREY: &str = "#555";
 const GRID: &str = "#dddddd";
 
+/// Steps with a number below them at most, and how far outside of the panel a line is drawn, in heights of it.
+const MOST_NUMBERS: usize = 25;
+const OUTSIDE: f64 = 100.0;
+
 /// A line.
 #[derive(Clone, Copy, Debug)]
 pub struct Line<'a> {
@@ -35,19 +39,20 @@ impl Lines<'_> {
     pub fn draw(&self, document: &mut Document, axis: Axis, lines: &[Line<'_>]) {
         let steps = lines.iter().map(|line| line.values.len()).max().unwrap_or(0);
         let (right, bottom) = (self.left + self.width, self.top + self.height);
-        let y = |value: f64| self.top + self.height * (1.0 - value / axis.end);
+        let y = |value: f64| self.top + self.height * (1.0 - value / axis.end).clamp(-OUTSIDE, OUTSIDE);
         let x = |at: usize| self.left + self.width * at as f64 / (steps.max(2) - 1) as f64;
         for mark in axis.marks() {
             document.line(&[(self.left, y(mark)), (right, y(mark))], GRID, 1.0, "");
             document.words((self.left - 8.0, y(mark) + 4.0), &label(mark), Anchor::End, GREY);
         }
-        for at in 0..steps {
+        for at in (0..steps).step_by(steps.div_ceil(MOST_NUMBERS).max(1)) {
             document.words((x(at), bottom + 18.0), &(at + 1).to_string(), Anchor::Middle, GREY);
         }
         document.words((self.left + self.width / 2.0, bottom + 38.0), self.caption, Anchor::Middle, GREY);
         document.begin_clip("lines", (self.left - 6.0, self.top - 4.0), (self.width + 12.0, self.height + 8.0));
         for (place, line) in lines.iter().enumerate().rev() {
-            let places: Vec<_> = line.values.iter().enumerate().map(|(at, value)| (x(at), y(*value))).collect();
+            let known = line.values.iter().enumerate().filter(|(_, value)| !value.is_nan());
+            let places: Vec<_> = known.map(|(at, value)| (x(at), y(*value))).collect();
             places.iter().for_each(|place| document.disc(*place, 3.0, line.colour));
             document.line(&places, line.colour, if place == 0 { 2.5 } else { 1.5 }, "");
         }

@@ -68,6 +68,17 @@ impl PublishedDataset {
         &self.folder
     }
 
+    /// Name that the dataset has itself, in `croissant.json`, whatever its folder is called; `dataset` where it has none.
+    pub fn name(&self) -> String {
+        #[derive(serde::Deserialize)]
+        struct Description {
+            name: String,
+        }
+        let file = std::fs::read(self.folder.join("croissant.json")).unwrap_or_default();
+        let name = serde_json::from_slice(&file).map_or_else(|_| String::new(), |it: Description| it.name);
+        if name.trim().is_empty() { "dataset".to_owned() } else { name }
+    }
+
     /// All trajectories.
     pub fn flights(&self) -> &[PublishedFlight] {
         &self.flights

@@ -1,7 +1,7 @@
 //! A row of table `trajectories`.
 
 use super::rows::Rows;
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::DVec3;
 use cosfly_render::{Camera, Lens, Mount};
 use cosfly_schema::TownLayout;
@@ -80,8 +80,15 @@ impl PublishedFlight {
                 weather_numbers.insert(number.name.to_owned(), rows.get(number.column, row)?);
             }
         }
+        let trajectory_id = rows.get(Trajectories::trajectory_id, row)?;
+        if !is_file_name(&trajectory_id) {
+            let message =
+                format!("the id `{trajectory_id}` of a trajectory (row {row}, split {split}) can be no name of a file");
+            return Err(Diagnostic::new("dataset-damaged", Fault::Input, message)
+                .hint("ids are letters, digits, `.`, `_` and `-`; somebody has changed table `trajectories`"));
+        }
         Ok(Self {
-            trajectory_id: rows.get(Trajectories::trajectory_id, row)?,
+            trajectory_id,
             flight_id: rows.get_or(Trajectories::flight_id, row, String::new())?,
             expert_id: rows.get(Trajectories::expert_id, row)?.filter(|id| !id.is_empty()),
             pedestrian_id: rows.get(Trajectories::pedestrian_id, row)?,
@@ -128,6 +135,12 @@ impl PublishedFlight {
     }
 }
 
+/// Whether an id can be part of a path inside of a folder: exports and previews name files after it.
+fn is_file_name(id: &str) -> bool {
+    let is_letter = |letter: char| !letter.is_control() && !matches!(letter, '/' | '\\');
+    (1..=200).contains(&id.len()) && !id.starts_with('.') && id.chars().all(is_letter)
+}
+
 /// Contents that many flights have, each kept once.
 #[derive(Debug, Default)]
 pub struct Shared {
@@ -166,4 +179,19 @@ fn layout(rows: &Rows<'_>, row: usize) -> Result<TownLayout> {
         digest: rows.get_or(Trajectories::town_layout_blake3, row, known)?,
         sketch: rows.get_or(Trajectories::town_layout_sketch, row, vec![])?,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_file_name;
+
+    #[test]
+    fn ids_that_lead_out_of_a_folder_are_none() {
+        for id in ["perturbed-p00000", "perturbed-p00000.windy", "走"] {
+            assert!(is_file_name(id), "{id}");
+        }
+        for id in ["", "..", "../x", "/tmp/x", "a/b", "a\\b", ".hidden", "a\nb"] {
+            assert!(!is_file_name(id), "{id}");
+        }
+    }
 }

@@ -85,8 +85,8 @@ fn foot(report: &Report) -> String {
 mod tests {
     use super::*;
     use crate::figures::Figures;
-    use crate::model::{BoxSketch, RejectionSketch, TownSketch};
-    use crate::sketch::FlightSketch;
+    use crate::model::{BoxSketch, PlannerRow, RejectionSketch, TownSketch};
+    use crate::sketch::{FlightSketch, TextSketch};
     use cosfly_metrics::shortcuts::{Looks, Seen, ShortcutFigures, Shortcuts};
     use std::convert::Infallible;
 
@@ -171,6 +171,71 @@ mod tests {
             assert_eq!(opened, html.matches(&format!("</{name}>")).count(), "{name}");
         }
         assert!(html.contains("A &lt;dataset&gt;") && !html.contains("flight-0<"));
+    }
+
+    #[test]
+    fn text_of_others_is_text_and_absurd_numbers_make_a_small_page() {
+        let foreign = "<script>alert(1)</script>\" onload=\"x\">&\u{1b}[31m\u{202e}|`#\n- y";
+        let text = || foreign.to_owned();
+        for value in [1e9, -3e38, f32::INFINITY, f32::NAN, 1e-30] {
+            let absurd = |number: u64| FlightSketch {
+                number,
+                id: text(),
+                pedestrian: text(),
+                town: text(),
+                weather: text(),
+                split: text(),
+                drone_m: vec![[value; 3]; 20],
+                clearance_m: vec![value; 20],
+                visible: vec![value; 20],
+                box_px: vec![Some([value; 4]); 20],
+                holds: false,
+                violations: vec![text()],
+                max_jerk_mps3: f64::from(value),
+                convergence: vec![f64::MAX, 1e-300, f64::from(value).abs()],
+                term_costs: vec![(text(), f64::from(value)), ("jerk".into(), f64::MAX)],
+                texts: vec![TextSketch {
+                    language: "en".into(),
+                    kind: text(),
+                    text: text(),
+                    subjects: vec![text()],
+                    ..TextSketch::default()
+                }],
+                ..flight(0, number % 2 == 1)
+            };
+            let mut figures = figures();
+            (10..14).for_each(|number| figures.add(absurd(number)));
+            let shape = BoxSketch {
+                instance: 3,
+                kind: text(),
+                center_m: [f64::from(value); 2],
+                half_m: [4.0, 2.0],
+                yaw_rad: 0.3,
+            };
+            let planner = PlannerRow {
+                planner: text(),
+                asked: 2,
+                costs: vec![(text(), 1.0)],
+                refusal: Some(text()),
+                ..PlannerRow::default()
+            };
+            let html = written(&Report {
+                title: text(),
+                description: text(),
+                creator: text(),
+                license: text(),
+                languages: vec![text()],
+                towns: vec![TownSketch { name: text(), boxes: vec![shape] }],
+                rejections: vec![RejectionSketch { id: text(), stage: text(), reason: text() }],
+                planners: vec![planner],
+                figures,
+                ..report()
+            });
+            for harm in ["<script", "\" onload", "\u{1b}", "\u{202e}"] {
+                assert!(!html.contains(harm), "{value}: {harm:?}");
+            }
+            assert!(html.len() < 400_000, "{value}: {} bytes", html.len());
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Writes tables as Parquet files: the same rows give the same bytes, and one row group is in memory at a time.
 
 use arrow_array::RecordBatch;
+use arrow_schema::SchemaRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_schema::tables::{AnyColumn, Table, hugging_face_features, schema};
 use parquet::arrow::ArrowWriter;
@@ -71,6 +72,30 @@ impl<'t, S: 'static, W: Write + Send> TableWriter<'t, S, W> {
     pub fn finish(self) -> Result<u64> {
         self.writer.close().map_err(|error| write_error(self.table.name, error))?;
         Ok(self.rows)
+    }
+}
+
+/// Writes one Parquet file of columns whose names are known at run time alone.
+pub struct BatchWriter<W: Write + Send> {
+    name: &'static str,
+    writer: ArrowWriter<W>,
+}
+
+impl<W: Write + Send> BatchWriter<W> {
+    /// Begins a file of table `name`.
+    pub fn new(name: &'static str, schema: SchemaRef, rows_per_group: usize, output: W) -> Result<Self> {
+        let writer = ArrowWriter::try_new(output, schema, Some(writer_properties(rows_per_group, None)));
+        Ok(Self { name, writer: writer.map_err(|error| write_error(name, error))? })
+    }
+
+    /// Appends rows.
+    pub fn append(&mut self, rows: &RecordBatch) -> Result<()> {
+        self.writer.write(rows).map_err(|error| write_error(self.name, error))
+    }
+
+    /// Ends the file.
+    pub fn finish(self) -> Result<()> {
+        self.writer.close().map(|_| ()).map_err(|error| write_error(self.name, error))
     }
 }
 

@@ -1,7 +1,8 @@
 //! Standard output.
 
-use cosfly_diagnose::{Diagnostic, Fault, Result};
-use std::io::{ErrorKind, Write};
+use cosfly_diagnose::{Diagnostic, Fault, Result, visible_text};
+use std::borrow::Cow;
+use std::io::{ErrorKind, IsTerminal, Write};
 
 /// Prints to standard output; false when its reader went away (`| head`).
 ///
@@ -9,6 +10,8 @@ use std::io::{ErrorKind, Write};
 /// `machine-io`, such as for a full disk.
 pub fn print(text: &str) -> Result<bool> {
     let mut out = std::io::stdout().lock();
+    // Names and texts of others must not control a terminal; files and pipes get them as they are.
+    let text = if out.is_terminal() { Cow::Owned(visible_text(text)) } else { Cow::Borrowed(text) };
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => Ok(true),
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(false),

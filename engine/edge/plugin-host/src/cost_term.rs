@@ -5,6 +5,7 @@ use crate::interface_0_1::{RunContext, TermShape};
 use crate::plugin::Plugin;
 use crate::term_border::TermBorder;
 use crate::town::TownView;
+use cosfly_diagnose::{LARGEST_MAGNITUDE, plausible};
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{CostTerm, TermContext, body_points};
@@ -139,21 +140,21 @@ impl Running {
     }
 }
 
-/// Checks that all costs and gradients are finite and complete; otherwise the fault.
+/// Checks that all costs and gradients are plausible numbers and complete; otherwise the fault.
 fn check(costs: &[f64], gradients: Option<&[f64]>, waypoints: &[DVec3]) -> Result<(), String> {
-    let is_cost = |cost: &f64| *cost >= 0.0 && *cost < f64::INFINITY;
+    let is_cost = |cost: &f64| *cost >= 0.0 && plausible(*cost).is_ok();
     if let Some(frame) = first_wrong(costs, 0, is_cost) {
         let message = format!("cost {frame} is {} at waypoint {}", costs[frame], waypoints[frame]);
-        return Err(format!("{message}; costs are finite and at least 0"));
+        return Err(format!("{message}; costs are numbers from 0 to {LARGEST_MAGNITUDE:e}"));
     }
     let Some(gradients) = gradients else { return Ok(()) };
     if gradients.len() != 3 * waypoints.len() {
         let message = format!("it returned {} numbers of gradients for {} waypoints", gradients.len(), waypoints.len());
         return Err(format!("{message}; there must be 3 per waypoint"));
     }
-    if let Some(at) = first_wrong(gradients, SIGN, |slope| slope.is_finite()) {
+    if let Some(at) = first_wrong(gradients, SIGN, |slope| plausible(*slope).is_ok()) {
         let message = format!("number {at} of the gradients is {} at waypoint {}", gradients[at], waypoints[at / 3]);
-        return Err(format!("{message}; gradients are finite"));
+        return Err(format!("{message}; gradients are numbers up to {LARGEST_MAGNITUDE:e} in magnitude"));
     }
     Ok(())
 }
@@ -161,13 +162,13 @@ fn check(costs: &[f64], gradients: Option<&[f64]>, waypoints: &[DVec3]) -> Resul
 /// The bit of a number's sign.
 const SIGN: u64 = 1 << 63;
 
-/// The first number that is not `right`. Finite positive ones are seen to be right by their bits, some at a time and without the
-/// bits of `mask`; only when there are others is every one looked at.
+/// The first number that is not `right`. Plausible positive ones are seen to be right by their bits, some at a time and without
+/// the bits of `mask`; only when there are others is every one looked at.
 fn first_wrong(numbers: &[f64], mask: u64, right: impl Fn(&f64) -> bool) -> Option<usize> {
-    let last_finite = f64::INFINITY.to_bits() - 1;
+    let last = LARGEST_MAGNITUDE.to_bits();
     let strange = |number: &f64| {
         let bits = number.to_bits() & !mask;
-        bits | last_finite.wrapping_sub(bits)
+        bits | last.wrapping_sub(bits)
     };
     let any = numbers.iter().fold(0, |any, number| any | strange(number));
     if any & SIGN == 0 { None } else { numbers.iter().position(|number| !right(number)) }

@@ -6,7 +6,7 @@ use crate::plugin::Plugin;
 use crate::sandbox::Said;
 use crate::session::Session;
 use crate::town::TownView;
-use cosfly_diagnose::visible_text;
+use cosfly_diagnose::{plausible, visible_text};
 use std::sync::Arc;
 use wasmtime::component::TypedFunc;
 
@@ -67,8 +67,8 @@ fn check(plan: &Plan, max_steps: usize) -> Result<(), String> {
     }
     for (name, numbers, width) in [("watched", &plan.watched, 3), ("places", &plan.places, 3), ("pull", &plan.pull, 1)]
     {
-        if let Some(at) = numbers.iter().position(|number| !number.is_finite()) {
-            return Err(format!("`{name}` is {} at step {}; it must be finite", numbers[at], at / width));
+        if let Some((at, fault)) = numbers.iter().zip(0..).find_map(|(it, at)| Some((at, plausible(*it).err()?))) {
+            return Err(format!("`{name}` at step {} {fault}: {:e}", at / width, numbers[at]));
         }
     }
     if let Some(step) = plan.pull.iter().position(|pull| !(0.0..=1.0).contains(pull)) {

@@ -3,7 +3,7 @@
 use super::stretch;
 use crate::episode::{OFFSETS, depth_in_box};
 use crate::{Episode, Flag, Look, Moment};
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_render::Camera;
@@ -100,12 +100,12 @@ fn document(trace: &Path) -> Result<Value, String> {
 fn episode(id: &str, document: &Value) -> Result<Episode, String> {
     let points = document["points"].as_array().filter(|points| !points.is_empty()).ok_or("it has no points")?;
     let own = &document["cosfly"];
-    let target_height_m = own["target"]["height_m"].as_f64().unwrap_or(BODY_M);
+    let target_height_m = number(&own["target"]["height_m"]).unwrap_or(BODY_M);
     let moments = points
         .iter()
         .enumerate()
         .map(|(index, point)| {
-            moment(point).ok_or_else(|| format!("point {index} has a pose or a time that is not a number"))
+            moment(point).ok_or_else(|| format!("point {index} has a pose or a time that is no number up to 1e9"))
         })
         .collect::<Result<Vec<Moment>, String>>()?;
     let mut steps: Vec<f64> = moments.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).collect();
@@ -141,13 +141,18 @@ fn camera(camera: &Value) -> Option<Camera> {
     })
 }
 
+/// A number that a measurement can have.
+fn number(value: &Value) -> Option<f64> {
+    value.as_f64().filter(|number| plausible(*number).is_ok())
+}
+
 fn place(value: &Value) -> Option<DVec3> {
-    Some(DVec3::new(value["x"].as_f64()?, value["y"].as_f64()?, value["z"].as_f64()?))
+    Some(DVec3::new(number(&value["x"])?, number(&value["y"])?, number(&value["z"])?))
 }
 
 fn pose(value: &Value) -> Option<Pose> {
-    let angle = |key: &str| value[key].as_f64().unwrap_or_default().to_radians();
-    value["yaw"].as_f64()?;
+    let angle = |key: &str| number(&value[key]).unwrap_or_default().to_radians();
+    number(&value["yaw"])?;
     Some(Pose {
         position_in_world: place(value)?,
         pitch_rad: angle("pitch"),
@@ -160,32 +165,31 @@ fn moment(point: &Value) -> Option<Moment> {
     let (target, own) = (&point["target"], &point["cosfly"]);
     let drone = pose(&point["drone_pose"])?;
     let edges = |value: &Value| {
-        let edge = |key: &str| value[key].as_f64();
+        let edge = |key: &str| number(&value[key]);
         Some([edge("xmin")?, edge("ymin")?, edge("xmax")?, edge("ymax")?])
     };
     let visible_box = edges(&target["bbox_2d"]);
     let shown = edges(&own["full_bbox_2d"]).or(visible_box);
-    let uv = target["image_uv"][0].as_f64().zip(target["image_uv"][1].as_f64());
+    let uv = number(&target["image_uv"][0]).zip(number(&target["image_uv"][1]));
     let flag = |value: &Value| value.as_bool().map(|seen| f64::from(u8::from(seen)));
     Some(Moment {
-        time_s: point["timing"]["trace_timestamp"].as_f64()?,
+        time_s: number(&point["timing"]["trace_timestamp"])?,
         drone,
         camera: pose(&own["camera_pose"]).unwrap_or(drone),
         next_in_world: place(&point["nav_waypoint"]["t1_world"]),
         turn_deg: None,
         target_in_world: place(&target["world_location"]),
-        heading_and_speed: own["target_heading_deg"]
-            .as_f64()
+        heading_and_speed: number(&own["target_heading_deg"])
             .map(f64::to_radians)
-            .zip(own["target_speed_mps"].as_f64()),
+            .zip(number(&own["target_speed_mps"])),
         in_image: match (shown, uv) {
             (Some([left, top, right, bottom]), _) => Some((0.5 * (left + right), 0.5 * (top + bottom), bottom - top)),
             (None, Some((u, v))) => Some((u, v, 0.0)),
             _ => None,
         },
         visible_box,
-        visible: own["visible_by_pixels"].as_f64().or(flag(&target["visible"])),
-        clearance_m: own["clearance_m"].as_f64(),
+        visible: number(&own["visible_by_pixels"]).or(flag(&target["visible"])),
+        clearance_m: number(&own["clearance_m"]),
     })
 }
 

@@ -1,6 +1,7 @@
 //! Errors of predicted depth by how far away things truly are.
 
 use super::report::DistanceReport;
+use cosfly_diagnose::plausible;
 
 /// Borders of the ranges of true depth, metres; the last one ends at the largest depth that counts.
 const DISTANCES_M: [f64; 6] = [0.0, 10.0, 20.0, 40.0, 80.0, 160.0];
@@ -13,6 +14,8 @@ pub struct Ratio {
     pub predicted_m: f64,
     /// See `predicted_m`.
     pub true_m: f64,
+    /// Pixels whose predicted depth is none: not a number, below 0, or finite and implausibly large.
+    pub nonsense: u64,
 }
 
 impl Ratio {
@@ -24,8 +27,10 @@ impl Ratio {
             if !(truth.is_finite() && truth > 0.0 && truth <= most_m) {
                 continue;
             }
+            let is_depth = predicted >= 0.0 && (predicted.is_infinite() || plausible(predicted).is_ok());
+            sum.nonsense += u64::from(!is_depth);
             // Before it is clamped: it shows a wrong unit.
-            if predicted.is_finite() {
+            if is_depth && predicted.is_finite() {
                 (sum.predicted_m, sum.true_m) = (sum.predicted_m + predicted, sum.true_m + truth);
             }
             let clamped = if predicted.is_nan() { most_m } else { predicted.clamp(0.001, most_m.max(0.001)) };
@@ -43,6 +48,7 @@ impl Ratio {
         }
         self.predicted_m += other.predicted_m;
         self.true_m += other.true_m;
+        self.nonsense += other.nonsense;
     }
 
     /// By range; those without a pixel are left out.
@@ -58,5 +64,18 @@ impl Ratio {
                 abs_rel: sum / pixels as f64,
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depths_that_are_none_are_counted_where_they_count() {
+        let predicted = [f32::NAN, -1.0, 1e23, f32::INFINITY, 20.0, f32::NAN];
+        let truth = [10.0, 10.0, 10.0, 10.0, 10.0, f32::INFINITY];
+        let found = Ratio::of(&predicted, &truth, 80.0);
+        assert_eq!((found.nonsense, found.predicted_m, found.true_m), (3, 20.0, 10.0));
     }
 }

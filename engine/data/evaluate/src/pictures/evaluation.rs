@@ -8,13 +8,13 @@ use super::given::{FrameKey, Given, detections_by_frame, nothing_to_score};
 use super::kinds::FrameKinds;
 use super::labels::{LabelTallies, nothing};
 use super::raster::{self, Refusal};
-use super::report::{ClassReport, FileFacts, FileProblem, FrameFacts, PictureEvaluation, ranges};
+use super::report::{ClassReport, FileFacts, FileProblem, FrameFacts, Nonsense, PictureEvaluation, ranges};
 use super::settings::{PictureKind, PictureSettings};
 use super::tallies::{Counted, FrameCounts, reports};
 use crate::report::result::DatasetFacts;
 use crate::scoring::groups_of_flights;
 use crate::windows::Flights;
-use cosfly_diagnose::Result;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_maps::SemanticLabel;
 use cosfly_metrics::depth::{DepthScores, depth_scores};
 use cosfly_metrics::segmentation::Confusion;
@@ -30,7 +30,8 @@ const BATCH: usize = 16;
 /// Counts of one frame.
 enum Found {
     Depth(Option<(DepthScores, Ratio)>),
-    Labels(Confusion),
+    /// With the number of pixels whose label CARLA does not have.
+    Labels(Confusion, u64),
     Things(Vec<FrameDetections>),
 }
 
@@ -71,7 +72,25 @@ pub fn evaluate(
     }
     let mut count = Count::new(flights, settings.kind, &expected);
     count.frames(dataset, flights, &given, &present, settings)?;
+    if count.scored == 0 {
+        return Err(nothing_scored(&count, path, settings));
+    }
     Ok(count.finished(flights, &mut given, (&expected, &present), splits, path, settings))
+}
+
+/// The refusal of predictions none of which could be compared with anything.
+fn nothing_scored(count: &Count, path: &Path, settings: &PictureSettings) -> Box<Diagnostic> {
+    let message = format!("none of the predictions in `{}` can be scored", path.display());
+    let refusal = Diagnostic::new("evaluation-no-overlap", Fault::Input, message);
+    let place = |problem: &FileProblem| format!("{}: {}", inner(&problem.place, path), problem.reason);
+    let refusal = count.problems.iter().take(3).map(place).fold(refusal, Diagnostic::because);
+    match count.without_truth {
+        0 => refusal.hint("pictures must have the size of the frames that they are of"),
+        frames => {
+            let most_m = settings.max_depth_m;
+            refusal.because(format!("{frames} frames show nothing nearer than {most_m} m")).hint("raise `--max-depth`")
+        }
+    }
 }
 
 /// The splits to score.
@@ -81,6 +100,12 @@ fn splits(flights: &Flights, given: &Given, settings: &PictureSettings) -> Resul
     }
     if !settings.splits.is_empty() {
         return Ok(settings.splits.iter().cloned().collect());
+    }
+    if let Given::Rows { listed: None, facts, .. } = given
+        && facts.read == 0
+    {
+        // An empty list names no split.
+        return Ok(crate::evaluation::unseen_splits(flights));
     }
     let keys: BTreeSet<usize> = match given {
         Given::Files(files) => files.files.keys().map(|(flight, _)| *flight).collect(),
@@ -106,6 +131,7 @@ struct Count {
     ratio: Ratio,
     scored: usize,
     without_truth: usize,
+    nonsense: Nonsense,
     problems: Vec<FileProblem>,
 }
 
@@ -134,6 +160,7 @@ impl Count {
             ratio: Ratio::default(),
             scored: 0,
             without_truth: 0,
+            nonsense: Nonsense::default(),
             problems: vec![],
         }
     }
@@ -174,17 +201,27 @@ impl Count {
     }
 
     fn take(&mut self, flights: &Flights, key: FrameKey, found: std::result::Result<Found, Refusal>, given: &Given) {
+        let path = || match given {
+            Given::Files(files) => files.files.get(&key).map(|path| path.display().to_string()),
+            Given::Rows { .. } => None,
+        };
         let found = match found {
             Ok(found) => found,
             Err((kind, reason)) => {
-                let path = match given {
-                    Given::Files(files) => files.files.get(&key).map(|path| path.display().to_string()),
-                    Given::Rows { .. } => None,
-                };
-                self.problems.push(FileProblem::new(path.unwrap_or_default(), kind, reason));
+                self.problems.push(FileProblem::new(path().unwrap_or_default(), kind, reason));
                 return;
             }
         };
+        let nonsense = match &found {
+            Found::Depth(scores) => scores.as_ref().map_or(0, |(_, ratio)| ratio.nonsense),
+            Found::Labels(_, pixels) => *pixels,
+            Found::Things(_) => 0,
+        };
+        if nonsense > 0 {
+            self.nonsense.pixels += nonsense;
+            self.nonsense.frames += 1;
+            self.nonsense.first = self.nonsense.first.take().or_else(path);
+        }
         let kinds = self.kinds.of(flights, key.0, key.1);
         let group = self.groups[key.0];
         match (&mut self.tallies, found) {
@@ -196,7 +233,7 @@ impl Count {
                 tallies.add(&kinds, group, &scores);
                 self.ratio.add(&ratio);
             }
-            (Tallies::Labels(tallies), Found::Labels(image)) => tallies.add(&kinds, group, &image),
+            (Tallies::Labels(tallies), Found::Labels(image, _)) => tallies.add(&kinds, group, &image),
             (Tallies::Things(tallies), Found::Things(things)) => tallies.add(&kinds, group, &things),
             _ => {}
         }
@@ -225,8 +262,12 @@ impl Count {
             }
         };
         let is_depth = settings.kind == PictureKind::Depth;
-        let notes = notes(&self.ratio, self.without_truth, is_depth, given, settings);
+        let first = self.nonsense.first.as_deref().map(|it| inner(it, path));
+        let nonsense = Nonsense { first, ..self.nonsense };
+        let mut notes = notes(&self.ratio, self.without_truth, is_depth, given, settings);
+        notes.extend(nonsense_note(&nonsense, is_depth, settings));
         let (missing, without_prediction) = missing(flights, given, expected, present);
+        let is_empty = matches!(given, Given::Rows { facts, .. } if facts.read == 0);
         let mut chosen: Vec<usize> = expected.iter().map(|(flight, _)| *flight).collect();
         chosen.dedup();
         PictureEvaluation {
@@ -240,7 +281,7 @@ impl Count {
                 clusters: self.group_count,
             },
             files: file_facts(given, self.problems, self.scored, present, path),
-            frames: FrameFacts { expected: expected.len(), scored: self.scored, missing, without_prediction },
+            frames: FrameFacts { expected: expected.len(), scored: self.scored, missing, without_prediction, nonsense },
             metrics: metrics.to_vec(),
             scores,
             kinds: names.clone(),
@@ -248,8 +289,14 @@ impl Count {
             classes,
             distances: if is_depth { self.ratio.reports(settings.max_depth_m) } else { vec![] },
             notes,
+            is_partial: is_empty || without_prediction > 0,
         }
     }
+}
+
+/// A path from the folder that was handed in.
+fn inner(place: &str, folder: &Path) -> String {
+    Path::new(place).strip_prefix(folder).map_or(place.to_owned(), |it| it.display().to_string())
 }
 
 fn compared(
@@ -265,8 +312,10 @@ fn compared(
             let path = files.files.get(&key).ok_or_else(|| ("missing", "it is not there".to_owned()))?;
             if settings.kind == PictureKind::Semantic {
                 let mut image = nothing();
-                image.add(&raster::labels(path, size)?, &logged.semantic);
-                return Ok(Found::Labels(image));
+                let labels = raster::labels(path, size)?;
+                image.add(&labels, &logged.semantic);
+                let unknown = labels.iter().filter(|label| usize::from(**label) >= SemanticLabel::ALL.len());
+                return Ok(Found::Labels(image, unknown.count() as u64));
             }
             let predicted = raster::depth_m(path, size, settings.depth_per_metre)?;
             let scores = depth_scores(&predicted, &logged.depth_m, settings.max_depth_m);
@@ -309,7 +358,10 @@ fn notes(
             settings.max_depth_m
         ));
     }
-    if let Given::Rows { listed, .. } = given {
+    if let Given::Rows { listed, facts, .. } = given {
+        if facts.read == 0 {
+            notes.push("the list is empty: there is no detection at all, and everything is missed".to_owned());
+        }
         notes.push(match listed {
             Some(_) => "scored are the images of the list; an image without a detection has missed all that is in it".to_owned(),
             None => format!(
@@ -319,6 +371,20 @@ fn notes(
         });
     }
     notes
+}
+
+/// What is said of predicted pixels that are neither depths nor labels.
+fn nonsense_note(nonsense: &Nonsense, is_depth: bool, settings: &PictureSettings) -> Option<String> {
+    let Nonsense { pixels, frames, first } = nonsense;
+    let first = first.as_ref().map_or(String::new(), |path| format!("; the first is in `{path}`"));
+    let most_m = settings.max_depth_m;
+    let what = match is_depth {
+        true => format!(
+            "a depth that is not a number or above 1e9 m, which counts as {most_m} m, or below 0, which counts as 0.001 m"
+        ),
+        false => "a label that CARLA does not have (0 to 28): each is a miss".to_owned(),
+    };
+    (*pixels > 0).then(|| format!("{pixels} scored pixels of {frames} frames have {what}{first}"))
 }
 
 /// Expected frames that have no prediction, by trajectory; for detections no frame is missing.
@@ -371,9 +437,7 @@ fn file_facts(
             facts
         }
     };
-    let inner =
-        |place: &str| Path::new(place).strip_prefix(path).map_or(place.to_owned(), |it| it.display().to_string());
-    facts.problems.extend(problems.into_iter().map(|it| FileProblem { place: inner(&it.place), ..it }));
+    facts.problems.extend(problems.into_iter().map(|it| FileProblem { place: inner(&it.place, path), ..it }));
     if matches!(given, Given::Files(_)) {
         facts.problems.sort();
     }

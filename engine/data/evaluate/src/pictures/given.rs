@@ -43,7 +43,9 @@ pub fn nothing_to_score(
     };
     let none = match given {
         Given::Files(_) => present.is_empty(),
-        Given::Rows { of_frame, .. } => present.is_empty() || !present.iter().any(|key| of_frame.contains_key(key)),
+        // An empty list is a result: everything is missed.
+        Given::Rows { facts, .. } if facts.read == 0 => present.is_empty(),
+        Given::Rows { of_frame, .. } => !present.iter().any(|key| of_frame.contains_key(key)),
     };
     if !none {
         return None;

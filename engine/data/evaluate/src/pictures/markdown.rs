@@ -4,6 +4,7 @@ use super::report::PictureEvaluation;
 use super::settings::PictureKind;
 use crate::report::table::{number, score, table, title};
 use cosfly_metrics::scores::OF_DETECTIONS;
+use cosfly_plot::text::{markdown, markdown_code, markdown_words};
 use std::fmt::Write;
 
 /// Malformed files or rows, and flights with missing frames, that are shown; the JSON report has all.
@@ -19,8 +20,9 @@ impl PictureEvaluation {
 /// The whole page.
 fn report(evaluation: &PictureEvaluation) -> String {
     let (settings, dataset) = (&evaluation.settings, &evaluation.dataset);
-    let mut text =
-        format!("# Evaluation of {} in `{}` on `{}`\n\n", settings.kind.name(), evaluation.files.name, dataset.name);
+    let (name, of) = (markdown_code(&evaluation.files.name), markdown_code(&dataset.name));
+    let mut text = format!("# Evaluation of {} in {name} on {of}\n\n", settings.kind.name());
+    text.push_str(&partial(evaluation));
     text.push_str(&facts(evaluation));
     text.push_str("\n## All frames and kinds of frames\n\n");
     text.push_str(&strata(evaluation));
@@ -29,9 +31,22 @@ fn report(evaluation: &PictureEvaluation) -> String {
     text.push_str(&problems(evaluation));
     if !evaluation.notes.is_empty() {
         text.push_str("\n## Notes\n\n");
-        evaluation.notes.iter().for_each(|note| text.push_str(&format!("- {note}\n")));
+        evaluation.notes.iter().for_each(|note| text.push_str(&format!("- {}\n", markdown_words(note))));
     }
     text
+}
+
+/// The line above all others where the scores are not those of the whole.
+fn partial(evaluation: &PictureEvaluation) -> String {
+    let (missing, all) = (evaluation.frames.without_prediction, evaluation.frames.expected);
+    match (evaluation.is_partial, missing) {
+        (false, _) => String::new(),
+        (true, 0) => "**Empty: there is no detection. Everything counts as missed.**\n\n".to_owned(),
+        (true, _) => format!(
+            "**Partial: {missing} of {all} frames have no prediction. The scores are of the others alone, and no scores of this \
+             dataset.**\n\n"
+        ),
+    }
 }
 
 fn facts(evaluation: &PictureEvaluation) -> String {
@@ -43,7 +58,7 @@ fn facts(evaluation: &PictureEvaluation) -> String {
         frames.scored,
         frames.expected,
         dataset.flights,
-        dataset.splits.join(" and "),
+        markdown(&dataset.splits.join(" and ")),
         if frames.without_prediction > 0 {
             format!(", {} frames have no prediction and are left out", frames.without_prediction)
         } else {
@@ -76,7 +91,7 @@ fn strata(evaluation: &PictureEvaluation) -> String {
     let mut rows = vec![all.into_iter().chain(cells).collect::<Vec<_>>()];
     for (name, stratum) in evaluation.strata_in_order() {
         let cells = metrics.iter().map(|metric| score(metric, stratum.scores.get(metric.key), true));
-        let first = [name, stratum.frames.to_string(), stratum.clusters.to_string()];
+        let first = [markdown(&name), stratum.frames.to_string(), stratum.clusters.to_string()];
         rows.push(first.into_iter().chain(cells).collect());
     }
     table(&head, &rows)
@@ -131,14 +146,14 @@ fn problems(evaluation: &PictureEvaluation) -> String {
         let kinds: Vec<String> = files.kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         let _ = write!(text, "\n## Malformed\n\n{} of {}: {}.\n\n", files.malformed, files.read, kinds.join(", "));
         for problem in files.problems.iter().take(SHOWN) {
-            let _ = writeln!(text, "- {}: {}", problem.place, problem.reason);
+            let _ = writeln!(text, "- {}: {}", markdown(&problem.place), markdown_words(&problem.reason));
         }
         more(&mut text, files.problems.len());
     }
     if frames.without_prediction > 0 {
         let _ = write!(text, "\n## Frames without a prediction\n\n");
         for (id, frames) in frames.missing.iter().take(SHOWN) {
-            let _ = writeln!(text, "- `{id}`: {frames}");
+            let _ = writeln!(text, "- {}: {frames}", markdown_code(id));
         }
         more(&mut text, frames.missing.len());
         text.push_str("\nIf only some frames were meant to be predicted, say so with `--every N`.\n");

@@ -7,8 +7,8 @@ use std::path::Path;
 /// Kind and words of what is wrong with a file.
 pub type Refusal = (&'static str, String);
 
-/// Largest side of a picture, pixels.
-const LONGEST_SIDE: u64 = 1 << 15;
+/// Pixels at most of a picture whose size is not known: more than any camera has.
+const MOST_PIXELS: u64 = 1 << 25;
 
 /// Numbers of a picture, row-major.
 enum Raster {
@@ -28,7 +28,7 @@ pub enum Content {
 
 /// Content of the picture at `path`; `None` when it cannot be told.
 pub fn content(path: &Path) -> Option<Content> {
-    match read(path).ok()?.0 {
+    match read(path, None).ok()? {
         Raster::Depth16(_) | Raster::Floats(_) => Some(Content::Depth),
         Raster::Bytes(_) => Some(Content::Labels),
     }
@@ -64,46 +64,61 @@ pub fn labels(path: &Path, size: [u32; 2]) -> Result<Vec<u8>, Refusal> {
     }
 }
 
-fn sized(path: &Path, [width, height]: [u32; 2]) -> Result<Raster, Refusal> {
-    let (raster, [columns, rows]) = read(path)?;
-    if [columns, rows] == [u64::from(width), u64::from(height)] {
-        Ok(raster)
-    } else {
-        Err(("size", format!("it has {columns} x {rows} pixels; the frame has {width} x {height}")))
+fn sized(path: &Path, size: [u32; 2]) -> Result<Raster, Refusal> {
+    read(path, Some(size.map(u64::from)))
+}
+
+/// Checks the size that a file says it has, before memory is asked for.
+fn check(size: [u64; 2], expected: Option<[u64; 2]>) -> Result<(), Refusal> {
+    let [columns, rows] = size;
+    match expected {
+        Some([width, height]) if size != [width, height] => {
+            Err(("size", format!("it has {columns} x {rows} pixels; the frame has {width} x {height}")))
+        }
+        None if columns.saturating_mul(rows) > MOST_PIXELS => {
+            Err(("size", format!("it has {columns} x {rows} pixels")))
+        }
+        _ => Ok(()),
     }
 }
 
-fn read(path: &Path) -> Result<(Raster, [u64; 2]), Refusal> {
+/// Reads a picture of the size `expected`, or of any.
+fn read(path: &Path, expected: Option<[u64; 2]>) -> Result<Raster, Refusal> {
     let unreadable = |error: &dyn std::fmt::Display| ("unreadable", format!("it cannot be read: {error}"));
     let file = File::open(path).map_err(|error| unreadable(&error))?;
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npy")) {
-        return numpy(BufReader::new(file)).map_err(|why| unreadable(&why));
+        return numpy(BufReader::new(file), expected);
     }
     let mut reader = png::Decoder::new(BufReader::new(file)).read_info().map_err(|error| unreadable(&error))?;
     let (info_size, colour, depth) = {
         let info = reader.info();
         ([u64::from(info.width), u64::from(info.height)], info.color_type, info.bit_depth)
     };
-    if info_size.iter().any(|side| *side > LONGEST_SIDE) {
-        return Err(("size", format!("it has {} x {} pixels", info_size[0], info_size[1])));
-    }
+    check(info_size, expected)?;
     if !matches!(colour, png::ColorType::Grayscale | png::ColorType::Indexed) {
         return Err(("format", "it is a colour picture; one channel was expected".into()));
     }
     let mut bytes = vec![0; reader.output_buffer_size().ok_or_else(|| unreadable(&"it is too large"))?];
     reader.next_frame(&mut bytes).map_err(|error| unreadable(&error))?;
-    let raster = match depth {
+    match depth {
         png::BitDepth::Sixteen => {
-            Raster::Depth16(bytes.as_chunks::<2>().0.iter().map(|pair| u16::from_be_bytes(*pair)).collect())
+            Ok(Raster::Depth16(bytes.as_chunks::<2>().0.iter().map(|pair| u16::from_be_bytes(*pair)).collect()))
         }
-        png::BitDepth::Eight => Raster::Bytes(bytes),
-        other => return Err(("format", format!("it has {} bits a pixel; 8 or 16 were expected", other as u8))),
-    };
-    Ok((raster, info_size))
+        png::BitDepth::Eight => Ok(Raster::Bytes(bytes)),
+        other => Err(("format", format!("it has {} bits a pixel; 8 or 16 were expected", other as u8))),
+    }
 }
 
 /// A NumPy array of two dimensions, or more of which the others are 1.
-fn numpy(mut file: impl Read) -> Result<(Raster, [u64; 2]), String> {
+fn numpy(mut file: impl Read, expected: Option<[u64; 2]>) -> Result<Raster, Refusal> {
+    let unreadable = |why: String| ("unreadable", format!("it cannot be read: {why}"));
+    let (kind, size) = header(&mut file).map_err(unreadable)?;
+    check(size, expected)?;
+    numbers(file, &kind, (size[0] * size[1]) as usize).map_err(unreadable)
+}
+
+/// Type of the numbers of a NumPy array, and its width and height.
+fn header(file: &mut impl Read) -> Result<(String, [u64; 2]), String> {
     let mut start = [0; 10];
     file.read_exact(&mut start).map_err(|error| error.to_string())?;
     if !start.starts_with(b"\x93NUMPY") {
@@ -135,10 +150,7 @@ fn numpy(mut file: impl Read) -> Result<(Raster, [u64; 2]), String> {
         long = sides;
     }
     let [rows, columns] = long[..] else { return Err(format!("its shape is ({shape}), not height and width")) };
-    if rows > LONGEST_SIDE || columns > LONGEST_SIDE {
-        return Err(format!("its shape is ({shape})"));
-    }
-    Ok((numbers(file, kind, (rows * columns) as usize)?, [columns, rows]))
+    Ok((kind.to_owned(), [columns, rows]))
 }
 
 fn numbers(file: impl Read, kind: &str, count: usize) -> Result<Raster, String> {
@@ -149,7 +161,7 @@ fn numbers(file: impl Read, kind: &str, count: usize) -> Result<Raster, String> 
         "<f8" => 8,
         other => return Err(format!("its numbers are `{other}`; f2, f4, f8 (depth), u1 and u2 are read")),
     };
-    let mut bytes = Vec::with_capacity(width * count);
+    let mut bytes = vec![];
     file.take((width * count) as u64 + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
     if bytes.len() != width * count {
         return Err(format!("it has {} bytes of numbers; {} were expected", bytes.len(), width * count));
@@ -159,8 +171,13 @@ fn numbers(file: impl Read, kind: &str, count: usize) -> Result<Raster, String> 
         "<u2" => Raster::Depth16(bytes.as_chunks::<2>().0.iter().map(|it| u16::from_le_bytes(*it)).collect()),
         "<f2" => Raster::Floats(bytes.as_chunks::<2>().0.iter().map(|it| half(u16::from_le_bytes(*it))).collect()),
         "<f4" => Raster::Floats(bytes.as_chunks::<4>().0.iter().map(|it| f32::from_le_bytes(*it)).collect()),
-        _ => Raster::Floats(bytes.as_chunks::<8>().0.iter().map(|it| f64::from_le_bytes(*it) as f32).collect()),
+        _ => Raster::Floats(bytes.as_chunks::<8>().0.iter().map(|it| narrowed(f64::from_le_bytes(*it))).collect()),
     })
+}
+
+/// The nearest number of 32 bits; what is finite stays finite, because infinity is the sky.
+fn narrowed(value: f64) -> f32 {
+    if value.is_finite() { value.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32 } else { value as f32 }
 }
 
 /// A number of 16 bits: sign, five bits of exponent, ten of fraction.
@@ -187,20 +204,21 @@ mod tests {
     fn arrays_of_one_channel_are_read_and_others_refused_in_words() {
         let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2, 3), }";
         let bytes: Vec<u8> = (0..6).flat_map(|number| (number as f32).to_le_bytes()).collect();
-        let (raster, size) = numpy(&array(header, &bytes)[..]).unwrap();
-        assert!(matches!(raster, Raster::Floats(values) if values == [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]) && size == [3, 2]);
+        let raster = numpy(&array(header, &bytes)[..], Some([3, 2])).unwrap();
+        assert!(matches!(raster, Raster::Floats(values) if values == [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]));
+        assert_eq!(numpy(&array(header, &bytes)[..], Some([2, 3])).err().unwrap().0, "size");
         for (header, bytes, expected) in [
             (header, &bytes[..20], "20 bytes"),
             ("{'descr': '<i8', 'fortran_order': False, 'shape': (2, 3), }", &bytes[..], "`<i8`"),
             ("{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3), }", &bytes[..], "Fortran"),
             ("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3, 4), }", &bytes[..], "(2, 3, 4)"),
-            ("{'descr': '<f4', 'fortran_order': False, 'shape': (99999999999, 3), }", &bytes[..], "shape"),
+            ("{'descr': '<f4', 'fortran_order': False, 'shape': (99999999999, 3), }", &bytes[..], "3 x 99999999999"),
             ("{}", &bytes[..], "descr"),
         ] {
-            let why = numpy(&array(header, bytes)[..]).err().unwrap();
+            let (_, why) = numpy(&array(header, bytes)[..], None).err().unwrap();
             assert!(why.contains(expected), "{why}");
         }
-        assert!(numpy(&b"PK"[..]).is_err());
+        assert!(numpy(&b"PK"[..], None).is_err());
     }
 
     #[test]

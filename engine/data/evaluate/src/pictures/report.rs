@@ -37,6 +37,8 @@ pub struct PictureEvaluation {
     pub distances: Vec<DistanceReport>,
     /// Remarks for the reader.
     pub notes: Vec<String>,
+    /// Whether the scores are of less than was expected: frames without a prediction, or no detection at all.
+    pub is_partial: bool,
 }
 
 /// Files of predictions, or rows of a file: read, scored, left out.
@@ -89,6 +91,20 @@ pub struct FrameFacts {
     pub missing: BTreeMap<String, String>,
     /// How many these are.
     pub without_prediction: usize,
+    /// What was predicted in them and is neither a depth nor a label.
+    pub nonsense: Nonsense,
+}
+
+/// Pixels whose predicted depth is not a number, below 0 or implausibly large, or whose label CARLA does not have. They
+/// count as wrong.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Nonsense {
+    /// Pixels among those that are scored.
+    pub pixels: u64,
+    /// Frames with such pixels.
+    pub frames: usize,
+    /// Path of the first of them, from the folder that was handed in.
+    pub first: Option<String>,
 }
 
 /// Scores of a kind of frames.
@@ -129,6 +145,11 @@ pub struct DistanceReport {
 }
 
 impl PictureEvaluation {
+    /// Whether something that was handed in, or was not, keeps the scores from being those of the whole.
+    pub fn has_problems(&self) -> bool {
+        self.is_partial || self.files.malformed > 0 || self.frames.nonsense.pixels > 0
+    }
+
     /// Kinds of frames that there are, as they are called in tables, in order.
     pub fn strata_in_order(&self) -> impl Iterator<Item = (String, &KindReport)> {
         let report = |(kind, name): &(&'static str, String)| {

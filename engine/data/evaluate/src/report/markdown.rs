@@ -6,6 +6,7 @@ use super::table::{score, table, title};
 use crate::strata::STRATA;
 use cosfly_metrics::baselines::Anchor;
 use cosfly_metrics::{METRICS, Metric};
+use cosfly_plot::text::{markdown, markdown_code, markdown_words};
 use std::fmt::Write;
 
 /// Malformed rows that are shown; the JSON report has all.
@@ -24,8 +25,16 @@ impl Evaluation {
 fn report(evaluation: &Evaluation) -> String {
     let mut text = String::new();
     let first = evaluation.methods.first();
-    let of_what = evaluation.rows.as_ref().map_or("baselines".to_owned(), |rows| format!("`{}`", rows.file));
-    let _ = writeln!(text, "# Evaluation of {of_what} on `{}`\n", evaluation.dataset.name);
+    let of_what = evaluation.rows.as_ref().map_or("baselines".to_owned(), |rows| markdown_code(&rows.file));
+    let _ = writeln!(text, "# Evaluation of {of_what} on {}\n", markdown_code(&evaluation.dataset.name));
+    if evaluation.is_partial {
+        let (missing, all) = (evaluation.windows.without_prediction, evaluation.windows.expected);
+        let _ = writeln!(
+            text,
+            "**Partial: {missing} of {all} windows have no prediction. The scores are of the others alone, and no scores of \
+             this dataset.** `--missing-as-zero` counts them as standing still.\n"
+        );
+    }
     text.push_str(&facts(evaluation));
     let _ = writeln!(text, "\n## All windows\n");
     let methods = evaluation.methods.iter().map(|method| (method.name.as_str(), &method.scores));
@@ -65,7 +74,7 @@ fn facts(evaluation: &Evaluation) -> String {
         windows.scored,
         windows.expected,
         dataset.flights,
-        dataset.splits.join(" and "),
+        markdown(&dataset.splits.join(" and ")),
         shape.history,
         shape.horizon,
         shape.stride
@@ -153,7 +162,7 @@ fn malformed(rows: &RowFacts) -> String {
     let mut text =
         format!("\n## Malformed rows\n\n{} of {} rows: {}.\n\n", rows.malformed, rows.read, kinds.join(", "));
     for problem in rows.problems.iter().take(SHOWN) {
-        let _ = writeln!(text, "- line {}: {}", problem.line, problem.reason);
+        let _ = writeln!(text, "- line {}: {}", problem.line, markdown_words(&problem.reason));
     }
     if rows.problems.len() > SHOWN {
         let _ = writeln!(text, "- and {} more, all in the JSON report", rows.problems.len() - SHOWN);

@@ -31,12 +31,14 @@ pub struct Evaluation {
     pub other_anchor: AnchorReport,
     /// Remarks for the reader, such as baselines that are left out.
     pub notes: Vec<String>,
+    /// Whether windows without a prediction are left out of the scores.
+    pub is_partial: bool,
 }
 
 /// Dataset and splits that were scored.
 #[derive(Clone, Debug, Serialize)]
 pub struct DatasetFacts {
-    /// Name of the dataset's folder.
+    /// Name of the dataset.
     pub name: String,
     /// Names of the scored splits.
     pub splits: Vec<String>,
@@ -119,6 +121,11 @@ pub struct StratumReport {
 }
 
 impl Evaluation {
+    /// Whether something that was handed in, or was not, keeps the scores from being those of the whole.
+    pub fn has_problems(&self) -> bool {
+        self.is_partial || self.rows.as_ref().is_some_and(|rows| rows.malformed > 0)
+    }
+
     /// The JSON report.
     pub fn to_json(&self) -> String {
         let mut text = serde_json::to_string_pretty(self).unwrap_or_default();

@@ -1,12 +1,13 @@
 //! Detections in COCO's format of results (a JSON array) or as JSON lines of the same objects, row by row.
 
-use super::rows::RowProblem;
+use super::json_array::{Places, bare_word, each_element};
+use super::rows::{Refusal, RowProblem, number_of};
+use super::{json_lines, not_an_array};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::run_lengths::Runs;
 use serde::Deserialize;
-use serde::de::{Deserializer, SeqAccess, Visitor};
 use serde_json::Value;
-use std::fmt;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Image of a detection.
@@ -53,81 +54,80 @@ pub struct Detections {
     pub problems: Vec<RowProblem>,
 }
 
+/// Names of fields that rows of waypoints have, and detections have not.
+const OF_WAYPOINTS: [&str; 3] = ["\"waypoint_deltas\"", "\"text\"", "\"prediction\""];
+
 /// Whether the start of a file looks like a file of detections: `Some(true)` for masks, `Some(false)` for boxes.
 pub fn recognise(start: &[u8]) -> Option<bool> {
     let text = String::from_utf8_lossy(start);
     let text = text.trim_start();
-    let first = text.strip_prefix('[').unwrap_or(text).trim_start();
-    let first = first.split_once('\n').map_or(first, |(line, _)| if text.starts_with('[') { first } else { line });
-    if text.starts_with('[') || first.contains("\"score\"") || first.contains("\"bbox\"") {
-        return Some(first.contains("\"counts\""));
-    }
-    None
+    let is_array = text.starts_with('[');
+    let first = match is_array {
+        true => text,
+        false => text.split_once('\n').map_or(text, |(line, _)| line),
+    };
+    let has = |names: &[&str]| names.iter().any(|name| first.contains(name));
+    let is_of_detections = has(&["\"score\"", "\"bbox\"", "\"category_id\""]) || is_array && !has(&OF_WAYPOINTS);
+    (is_of_detections && !has(&OF_WAYPOINTS[..1])).then(|| first.contains("\"counts\""))
 }
 
 /// Reads the file at `path`.
 ///
 /// # Errors
-/// The file cannot be read, or is an array that is not JSON. Invalid rows are no error, see [`Detections::problems`].
+/// The file cannot be read, is empty, or is an array that is cut off. Invalid rows are no error, see [`Detections::problems`].
 pub fn read(path: &Path) -> Result<Detections> {
     let refused = |error: std::io::Error| Diagnostic::io(format!("read `{}`", path.display()), &error);
     let bytes = std::fs::read(path).map_err(refused)?;
     let mut found = Detections::default();
+    if bytes.trim_ascii().is_empty() {
+        let message = format!("`{}` is empty", path.display());
+        return Err(Diagnostic::new("predictions-damaged", Fault::Input, message)
+            .hint("a detector that found nothing writes an empty list: `[]`"));
+    }
     if bytes.trim_ascii_start().starts_with(b"[") {
-        let array: Array = serde_json::from_slice(&bytes).map_err(|error| {
-            let message = format!("`{}` is not a JSON array of detections", path.display());
-            Diagnostic::new("predictions-damaged", Fault::Input, message).because(error)
-        })?;
-        return Ok(array.0);
+        let mut places = Places::default();
+        let end = each_element(&bytes, &mut |number, range| {
+            let at = |place: usize| places.of(&bytes, range.start + place);
+            let row = parsed(&bytes[range.clone()], at);
+            found.take(row, number);
+        });
+        return end.map_or_else(|fault| Err(not_an_array(path, &bytes, &fault)), |()| Ok(found));
     }
     for (line, number) in bytes.split(|byte| *byte == b'\n').zip(1..) {
         let text = line.trim_ascii();
         if !text.is_empty() {
-            match serde_json::from_slice::<Value>(text) {
-                Ok(value) => found.take(&value, number),
-                Err(error) => found.problems.push(RowProblem::new(number, "json", format!("not JSON: {error}"))),
-            }
+            let row = serde_json::from_slice(text).map_err(|error| json_lines::refusal(text, &error));
+            found.take(row, number);
         }
     }
     Ok(found)
 }
 
+/// An element of an array; `place` is the line and column of a byte of it.
+fn parsed(element: &[u8], place: impl FnOnce(usize) -> (usize, usize)) -> std::result::Result<Value, Refusal> {
+    serde_json::from_slice(element).map_err(|error| {
+        let word = bare_word(element).filter(|_| error.is_syntax());
+        let before = element.len() - element.trim_ascii_start().len();
+        let (line, column) = place(word.as_ref().map_or(before, |(at, _)| *at));
+        let here = format!("line {line}, column {column} of the file");
+        match word {
+            Some((_, name)) => ("not-finite", format!("{name} is not finite, which JSON cannot hold: {here}")),
+            None if error.to_string().starts_with("number out of range") => {
+                ("not-finite", format!("a number of the row at {here} is not finite"))
+            }
+            None => ("json", format!("not JSON: {error}, in the row at {here}")),
+        }
+    })
+}
+
 impl Detections {
-    fn take(&mut self, row: &Value, line: u64) {
-        match detection(row, line) {
+    fn take(&mut self, row: std::result::Result<Value, Refusal>, line: u64) {
+        match row.and_then(|row| detection(&row, line)) {
             Ok(row) => self.rows.push(row),
             Err((kind, reason)) => self.problems.push(RowProblem::new(line, kind, reason)),
         }
     }
 }
-
-/// A JSON array whose elements are parsed one at a time.
-struct Array(Detections);
-
-impl<'de> Deserialize<'de> for Array {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
-        struct Elements;
-        impl<'de> Visitor<'de> for Elements {
-            type Value = Array;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("an array of detections")
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut rows: A) -> std::result::Result<Array, A::Error> {
-                let (mut found, mut number) = (Detections::default(), 0);
-                while let Some(row) = rows.next_element::<Value>()? {
-                    number += 1;
-                    found.take(&row, number);
-                }
-                Ok(Array(found))
-            }
-        }
-        deserializer.deserialize_seq(Elements)
-    }
-}
-
-type Refusal = (&'static str, String);
 
 fn detection(row: &Value, line: u64) -> std::result::Result<Detection, Refusal> {
     let missing = |field: &str| ("field-missing", format!("the row has no `{field}`"));
@@ -144,6 +144,7 @@ fn detection(row: &Value, line: u64) -> std::result::Result<Detection, Refusal> 
     };
     let category = row.get("category_id").and_then(whole).ok_or_else(|| missing("category_id"))?;
     let score = row.get("score").and_then(Value::as_f64).ok_or_else(|| missing("score"))?;
+    number_of(score, || "`score`".to_owned())?;
     // Polygons, which pycocotools adds to boxes, are not read as masks; a row with a box is a detection without a mask.
     let mask = row.get("segmentation").filter(|it| it.is_object()).map(mask).transpose()?;
     let edges = row.get("bbox").filter(|it| !it.is_null()).map(edges).transpose()?;
@@ -165,6 +166,9 @@ fn edges(value: &Value) -> std::result::Result<[f64; 4], Refusal> {
     let numbers: Option<Vec<f64>> = value.as_array().and_then(|list| list.iter().map(Value::as_f64).collect());
     match numbers.as_deref() {
         Some([left, top, width, height]) if *width >= 0.0 && *height >= 0.0 => {
+            for (value, name) in [left, top, width, height].into_iter().zip(["left", "top", "width", "height"]) {
+                number_of(*value, || format!("the {name} of `bbox`"))?;
+            }
             Ok([*left, *top, left + width, top + height])
         }
         _ => Err(("field-type", "`bbox` is not left, top, width and height with sizes from 0".to_owned())),
@@ -214,7 +218,7 @@ pub struct ListedImage {
 /// Images of the annotations file at `path`.
 ///
 /// # Errors
-/// The file cannot be read, or its images have no trajectory and frame.
+/// The file cannot be read, its images have no trajectory and frame, or two of them have one number.
 pub fn read_images(path: &Path) -> Result<Vec<ListedImage>> {
     #[derive(Deserialize)]
     struct Annotations {
@@ -228,6 +232,16 @@ pub fn read_images(path: &Path) -> Result<Vec<ListedImage>> {
             .because(error)
             .hint("it must be `annotations/instances_<split>.json` of `cosfly export --format coco`")
     })?;
+    let mut frames: BTreeMap<i64, &ListedImage> = BTreeMap::new();
+    for image in &annotations.images {
+        if let Some(first) = frames.insert(image.id, image).filter(|first| *first != image) {
+            let (id, place) = (image.id, |it: &ListedImage| format!("frame {} of `{}`", it.frame, it.trajectory_id));
+            let message = format!("two images of `{}` have the number {id}", path.display());
+            return Err(Diagnostic::new("predictions-images", Fault::Input, message)
+                .because(format!("it is {} and {}", place(first), place(image)))
+                .hint("it must be `annotations/instances_<split>.json` of `cosfly export --format coco`, unchanged"));
+        }
+    }
     Ok(annotations.images)
 }
 
@@ -251,6 +265,48 @@ mod tests {
             (recognise(row.as_bytes()), recognise(b"[]"), recognise(b"{\"frame\":1}")),
             (Some(false), Some(false), None)
         );
+        assert_eq!(recognise(b"[{\"trajectory_id\": \"a\", \"waypoint_deltas\": []}]"), None);
+        assert_eq!(recognise(b"[{\"segmentation\": {\"counts\": \"0\"}, \"score\": 1}]"), Some(true));
+    }
+
+    #[test]
+    fn a_number_that_json_cannot_hold_is_a_fault_of_its_row_alone() {
+        let row = |score: &str, width: &str| {
+            format!("{{\"image_id\": 3, \"category_id\": 12, \"bbox\": [1, 2, {width}, 4], \"score\": {score}}}")
+        };
+        let rows = [row("NaN", "3"), row("0.5", "3"), row("0.5", "Infinity"), row("1e999", "3"), row("1e23", "3")];
+        let rows = [&rows[..], &[row("0.5", "1e10"), row("0.5", "3"), "{\"a\": 1,}".to_owned()]].concat();
+        let found = of(&format!("[\n{}]", rows.join(",\n")));
+        let kinds: Vec<_> = found.problems.iter().map(|it| (it.line, it.kind)).collect();
+        let expected = [
+            (1, "not-finite"),
+            (3, "not-finite"),
+            (4, "not-finite"),
+            (5, "implausible"),
+            (6, "implausible"),
+            (8, "json"),
+        ];
+        assert_eq!((kinds.as_slice(), found.rows.len()), (&expected[..], 2));
+        let said = |problem: usize, words: &str| {
+            let reason = &found.problems[problem].reason;
+            assert!(reason.contains(words), "{reason}");
+        };
+        said(0, "`score` is not finite, which JSON cannot hold: line 2, column 67");
+        said(1, "`bbox` is not finite");
+        said(3, "`score` is larger than 1e9 in magnitude: 1e23");
+        said(4, "the width of `bbox`");
+        assert_eq!(of("[]"), Detections::default());
+    }
+
+    #[test]
+    fn an_empty_file_and_an_array_that_is_cut_off_are_refused() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), "[{\"image_id\": 3},\n {\"image_id\":").unwrap();
+        let refusal = read(file.path()).unwrap_err();
+        assert_eq!(refusal.code, "predictions-damaged");
+        std::fs::write(file.path(), "\n").unwrap();
+        assert!(read(file.path()).unwrap_err().message.ends_with("is empty"));
+        assert!(refusal.causes[0].contains("line 1, column 18: the file ends within row 2"), "{:?}", refusal.causes);
     }
 
     impl Detections {

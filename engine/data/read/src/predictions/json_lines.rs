@@ -1,5 +1,6 @@
 //! Predictions as JSON lines, read on all cores.
 
+use super::json_array::{ArrayFault, bare_word, each_element};
 use super::model_text;
 use super::rows::{Block, Predictions, Refusal, RowProblem};
 use super::waypoint::Waypoint;
@@ -96,6 +97,20 @@ fn part_of(text: &[u8]) -> Part {
     part
 }
 
+/// Reads the rows of a JSON array.
+pub fn read_array(text: &[u8]) -> Result<Predictions, ArrayFault> {
+    let (mut block, mut problems) = (Block::default(), vec![]);
+    each_element(text, &mut |row, range| {
+        if let Err((kind, reason)) = take_row(text[range].trim_ascii(), row, &mut block) {
+            problems.push(RowProblem::new(row, kind, reason));
+        }
+    })?;
+    block.shrink();
+    let mut all = Predictions::of(&[], problems);
+    all.append(block);
+    Ok(all)
+}
+
 fn take_row(text: &[u8], line: u64, block: &mut Block) -> Result<(), Refusal> {
     if text.len() > LONGEST_LINE {
         return Err(("too-long", format!("the line has {} bytes; at most {LONGEST_LINE} are read", text.len())));
@@ -119,12 +134,16 @@ fn take_row(text: &[u8], line: u64, block: &mut Block) -> Result<(), Refusal> {
 }
 
 /// Kind and reason of an invalid line.
-fn refusal(text: &[u8], error: &serde_json::Error) -> Refusal {
-    let has = |word: &[u8]| text.windows(word.len()).any(|part| part == word);
+pub(super) fn refusal(text: &[u8], error: &serde_json::Error) -> Refusal {
     let words = error.to_string();
     // Every line is a separate document.
     let words = words.replace(" at line 1 column ", " at column ");
-    if error.is_syntax() && (has(b"NaN") || has(b"Infinity")) || words.starts_with("number out of range") {
+    if error.is_syntax()
+        && let Some((at, name)) = bare_word(text)
+    {
+        return ("not-finite", format!("{name} is not finite, which JSON cannot hold: at column {}", at + 1));
+    }
+    if words.starts_with("number out of range") {
         return ("not-finite", format!("a number is not finite, which JSON cannot hold: {words}"));
     }
     match error.classify() {

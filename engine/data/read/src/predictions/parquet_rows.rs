@@ -18,7 +18,9 @@ const ROWS_AT_ONCE: usize = 8192;
 pub fn read(path: &Path, file: File) -> Result<Predictions> {
     let unreadable = |error: &dyn std::fmt::Display| {
         let message = format!("`{}` cannot be read as Parquet", path.display());
-        Diagnostic::new("predictions-damaged", Fault::Input, message).because(error)
+        Diagnostic::new("predictions-damaged", Fault::Input, message)
+            .because(error)
+            .hint("write the file anew; `cosfly eval --help` has its columns")
     };
     let builder = parquet_metadata::builder(file).map_err(|e| unreadable(&e))?;
     let mut found = Predictions::default();

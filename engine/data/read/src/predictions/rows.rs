@@ -1,5 +1,7 @@
 //! Predictions in memory, and rows that cannot be scored.
 
+use super::waypoint::DIMENSIONS;
+use cosfly_diagnose::{Implausible, plausible};
 use serde::Serialize;
 
 /// A valid prediction.
@@ -173,19 +175,27 @@ impl Block {
         deltas: &[[f64; 6]],
         boxes: &[Option<[f64; 4]>],
     ) -> Result<(), Refusal> {
-        for (number, delta) in deltas.iter().enumerate() {
-            if !delta.iter().all(|value| value.is_finite()) {
-                return Err(("not-finite", format!("waypoint {number} has a number that is not finite")));
+        for (delta, number) in deltas.iter().zip(1..) {
+            for (value, name) in delta.iter().zip(DIMENSIONS) {
+                number_of(*value, || format!("`{name}` of waypoint {number}"))?;
             }
         }
-        for (number, edges) in boxes.iter().flatten().enumerate() {
-            if !edges.iter().all(|edge| edge.is_finite()) {
-                return Err(("not-finite", format!("box {number} has a number that is not finite")));
+        for (edges, number) in boxes.iter().zip(1..) {
+            for (value, name) in edges.iter().flatten().zip(["left", "top", "right", "bottom"]) {
+                number_of(*value, || format!("the {name} edge of box {number}"))?;
             }
         }
         self.push(line, id, frame, deltas, boxes);
         Ok(())
     }
+}
+
+/// A number that a measurement can have, or the refusal of what `name` says it is.
+pub(super) fn number_of(value: f64, name: impl FnOnce() -> String) -> Result<f64, Refusal> {
+    plausible(value).map_err(|fault| match fault {
+        Implausible::TooLarge => ("implausible", format!("{} {fault}: {value:e}", name())),
+        Implausible::NotANumber | Implausible::Infinite => ("not-finite", format!("{} {fault}", name())),
+    })
 }
 
 /// Kind and reason of a problem.

@@ -42,6 +42,21 @@ fn every_bad_line_is_named_with_its_reason() {
         (r#"{"trajectory_id": "a", "frame": -1, "waypoint_deltas": []}"#, "frame", "whole number"),
         (r#"{"trajectory_id": "a", "frame": 0, "waypoint_deltas": [[NaN]]}"#, "not-finite", "not finite"),
         (r#"{"trajectory_id": "a", "frame": 0, "waypoint_deltas": [[1e999]]}"#, "not-finite", "not finite"),
+        (
+            r#"{"trajectory_id": "a", "frame": 0, "waypoint_deltas": [[0], [0, 1e23]]}"#,
+            "implausible",
+            "`dy` of waypoint 2",
+        ),
+        (
+            r#"{"trajectory_id": "a", "frame": 0, "text": "{\"waypoint_deltas\": [[-1e24]]}"}"#,
+            "implausible",
+            "`dx` of waypoint 1 is larger than 1e9 in magnitude: -1e24",
+        ),
+        (
+            r#"{"trajectory_id": "a", "frame": 0, "waypoint_deltas": [[0]], "boxes": [null, [0, 1e12, 2, 3]]}"#,
+            "implausible",
+            "the top edge of box 2",
+        ),
         (r#"{"trajectory_id": "a", "frame": 0, "waypoint_deltas": [["a"]]}"#, "field-type", "invalid type"),
         (r#"{"trajectory_id": "a", "frame": 0, "waypoint_deltas": [null]}"#, "field-type", "a waypoint"),
         (r#"{"trajectory_id": "a", "frame": 0, "text": "no idea"}"#, "model-text", "no `\"waypoint_deltas\"`"),
@@ -52,6 +67,18 @@ fn every_bad_line_is_named_with_its_reason() {
         let problem = &found.problems[0];
         assert!((problem.line, problem.kind) == (1, kind) && problem.reason.contains(words), "{line}: {problem:?}");
     }
+}
+
+#[test]
+fn an_array_of_rows_is_read_like_lines() {
+    let row = r#"{"trajectory_id": "a", "frame": 3, "waypoint_deltas": [[1, 2]]}"#;
+    let found = of_text(&format!("[{row},\n{{\"frame\": NaN}}, {row}]"));
+    assert_eq!(found.rows().map(|row| row.line).collect::<Vec<_>>(), [1, 3]);
+    assert_eq!((found.problems[0].line, found.problems[0].kind), (2, "not-finite"));
+    let file = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(file.path(), format!("[{row}, {row}")).unwrap();
+    let refusal = read(file.path()).unwrap_err();
+    assert!(refusal.code == "predictions-damaged" && refusal.causes[0].contains("within row 2"), "{refusal:?}");
 }
 
 #[test]

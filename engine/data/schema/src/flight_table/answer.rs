@@ -7,6 +7,7 @@ use arrow_array::{Array, RecordBatch};
 use arrow_ipc::reader::StreamReader;
 use arrow_ipc::{MessageHeader, root_as_message};
 use arrow_schema::DataType;
+use cosfly_diagnose::plausible;
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 use std::panic::AssertUnwindSafe;
@@ -191,8 +192,9 @@ fn values(array: &dyn Array, column: &DeclaredColumn) -> Result<Values, String> 
     Ok(match column.kind {
         ColumnKind::Real => {
             let values = array.as_primitive::<Float64Type>().values();
-            if let Some(row) = values.iter().position(|value| !value.is_finite()) {
-                return Err(format!("its column `{name}` is {} at row {row}; it must be finite", values[row]));
+            if let Some((row, fault)) = values.iter().zip(0..).find_map(|(it, row)| Some((row, plausible(*it).err()?)))
+            {
+                return Err(format!("its column `{name}` at row {row} {fault}: {:e}", values[row]));
             }
             Values::Reals(values.to_vec())
         }

@@ -8,6 +8,7 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type, Int64Type};
 use arrow_array::{Array, ArrayRef};
 use arrow_schema::{DataType, Field, Fields};
+use cosfly_diagnose::plausible;
 use std::sync::Arc;
 
 /// Type of a column's values, apart from nullability.
@@ -132,7 +133,12 @@ impl<T: Value> Value for Option<T> {
     }
 }
 
-/// Violated rule where a float is not finite.
+/// Violated rule where a number is none that a measurement can have: places, times, angles, pixels.
+fn measured(values: impl IntoIterator<Item = f64>) -> Option<String> {
+    values.into_iter().find_map(|value| plausible(value).err().map(|fault| format!("`{value:e}` {fault}")))
+}
+
+/// Violated rule where a float is not finite: of lists, such as costs, which have no unit.
 fn finite(values: impl IntoIterator<Item = f64>) -> Option<String> {
     let wrong = values.into_iter().find(|value| !value.is_finite())?;
     Some(format!("`{wrong}` is not a finite number"))
@@ -177,9 +183,9 @@ plain_value!(
     Kind::Real,
     Float64Builder,
     |value| value,
-    |array, row| Some(array.as_primitive_opt::<Float64Type>()?.value(row)).filter(|value| value.is_finite()),
+    |array, row| plausible(array.as_primitive_opt::<Float64Type>()?.value(row)).ok(),
     fn problem(&self) -> Option<String> {
-        finite([*self])
+        measured([*self])
     }
 );
 
@@ -235,7 +241,7 @@ impl<const N: usize> Value for [f64; N] {
     const KIND: Kind = Kind::Reals(N);
 
     fn problem(&self) -> Option<String> {
-        finite(*self)
+        measured(*self)
     }
 
     fn array_of(values: impl Iterator<Item = Option<Self>>) -> ArrayRef {
@@ -278,7 +284,7 @@ impl Value for Edges {
     fn read(array: &dyn Array, row: usize) -> Option<Self> {
         let items = array.as_fixed_size_list_opt().filter(|_| array.is_valid(row))?.value(row);
         let edges = Self::try_from(&items.as_primitive_opt::<Float32Type>()?.values()[..]).ok()?;
-        edges.iter().all(|edge| edge.is_finite()).then_some(edges)
+        edges.iter().all(|edge| plausible(f64::from(*edge)).is_ok()).then_some(edges)
     }
 }
 

@@ -3,6 +3,8 @@
 use super::citation::citation;
 use super::summary::Summary;
 use super::viewers;
+use cosfly_diagnose::visible_text;
+use cosfly_plot::text::{markdown, markdown_code, markdown_words, quoted};
 use cosfly_schema::config::{DatasetConfig, OWN_LICENSE};
 use cosfly_schema::extras::{self, ExtraShape, ExtraSummary};
 use cosfly_schema::flight_table::ColumnKind;
@@ -41,7 +43,7 @@ pub fn license_text(config: &DatasetConfig) -> String {
 /// The text of `README.md`.
 pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
     let mut text = front_matter(config, summary);
-    let _ = write!(text, "\n# {}\n\n{}\n\n", config.title, config.description);
+    let _ = write!(text, "\n# {}\n\n{}\n\n", markdown(&config.title), visible_text(&config.description));
     text.push_str(&figures(config, summary));
     text.push_str(&loading(config, summary));
     text.push_str(CONVENTIONS);
@@ -62,16 +64,11 @@ pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
         "## Responsible use\n\n{}\n\n## Licence\n\nThe data: {} ({}), see `LICENSE`. The software that made them: MIT OR \
          Apache-2.0.\n\n## Citation\n\n```bibtex\n{}\n```\n",
         config.license.responsible_use.trim(),
-        config.license.name,
-        config.license.url,
+        markdown(&config.license.name),
+        markdown(&config.license.url),
         citation(config)
     );
     text
-}
-
-/// A JSON string is a YAML string, too.
-fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
 }
 
 fn front_matter(config: &DatasetConfig, summary: &Summary) -> String {
@@ -142,7 +139,7 @@ fn figures(config: &DatasetConfig, summary: &Summary) -> String {
     row("flights whose certificate does not hold", summary.uncertified.to_string());
     row("items without a flight", format!("{}, each with its reason in `rejected`", summary.rejected));
     row("logs", format!("{:.1} MB", summary.mcap_bytes as f64 / 1e6));
-    row("weather", summary.weathers.iter().cloned().collect::<Vec<_>>().join(", "));
+    row("weather", markdown(&summary.weathers.iter().cloned().collect::<Vec<_>>().join(", ")));
     if summary.rows.get("windows").is_none_or(|rows| rows.values().all(|&rows| rows == 0)) {
         let frames = config.windows.size;
         row("training windows", format!("none: no flight has the {frames} frames of one"));
@@ -153,7 +150,7 @@ fn figures(config: &DatasetConfig, summary: &Summary) -> String {
         if languages.is_empty() { "none: no captions".into() } else { languages.join(", ") },
     );
     for (town, figures) in &summary.towns {
-        row(&format!("town `{town}`"), format!("{} flights", figures.flights));
+        row(&format!("town {}", markdown_code(town)), format!("{} flights", figures.flights));
     }
     for split in cosfly_schema::Split::ALL {
         let (flights, frames) = summary.splits.get(split.name()).copied().unwrap_or_default();
@@ -273,8 +270,11 @@ fn table_section<S>(table: &Table<S>) -> String {
 fn extra_section(kept: &ExtraSummary) -> String {
     let source = &kept.source;
     let mut text = format!(
-        "### {}\n\nGiven by the plugin `{}` {}: {}",
-        source.name, source.plugin, source.version, source.summary
+        "### {}\n\nGiven by the plugin {} {}: {}",
+        markdown(&source.name),
+        markdown_code(&source.plugin),
+        markdown(&source.version),
+        markdown(&source.summary)
     );
     if source.shape == ExtraShape::Files {
         let _ = write!(
@@ -293,7 +293,7 @@ fn extra_section(kept: &ExtraSummary) -> String {
             ColumnKind::Text => "text",
             ColumnKind::Bytes => "bytes",
         };
-        let _ = writeln!(text, "| `{}` | {kind} | {} |", column.name, column.doc.replace('|', "\\|"));
+        let _ = writeln!(text, "| {} | {kind} | {} |", markdown_code(&column.name), markdown_words(&column.doc));
     }
     text.push('\n');
     text
@@ -304,12 +304,12 @@ fn invented(summary: &Summary) -> String {
         "## What is invented\n\nAll flights, pedestrians and images are simulated. Beyond that, of the towns:\n\n",
     );
     for (town, figures) in &summary.towns {
-        let _ = writeln!(text, "* `{town}` (geometry BLAKE3 `{}`)", figures.geometry_digest);
+        let _ = writeln!(text, "* {} (geometry BLAKE3 `{}`)", markdown_code(town), figures.geometry_digest);
         if figures.synthetic_notes.is_empty() {
             text.push_str("  * nothing was added to its map file\n");
         }
         figures.synthetic_notes.iter().for_each(|note| {
-            let _ = writeln!(text, "  * {}", note.replace('\n', " "));
+            let _ = writeln!(text, "  * {}", markdown_words(note));
         });
     }
     text.push('\n');

@@ -35,6 +35,41 @@ fn the_same_dataset_has_the_same_bytes() {
 }
 
 #[test]
+fn words_of_a_recipe_are_text_in_card_page_and_manifest() {
+    let foreign = "<script>x</script>: \"a\" }{ | `b`\n---\n# c\u{1b}[31m\u{202e}";
+    let mut config = DatasetConfig { title: foreign.into(), url: foreign.into(), ..DatasetConfig::default() };
+    (config.creator.name, config.license.name, config.license.url) = (foreign.into(), foreign.into(), foreign.into());
+    let folder = tempfile::tempdir().unwrap();
+    sample::write_to_folder(folder.path(), &config, EncodingConfig::default()).unwrap();
+    let text = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let (card, page) = (text("README.md"), text("report/index.html"));
+    for (name, text) in [("card", &card), ("page", &page)] {
+        let harm = ["\u{1b}", "\u{202e}", "\n# c"].into_iter().find(|harm| text.contains(harm));
+        assert_eq!(harm, None, "{name}");
+    }
+    assert!(!page.contains("<script"));
+    let (front, body) = card.strip_prefix("---\n").unwrap().split_once("\n---\n").unwrap();
+    let keys = |line: &&str| !line.starts_with([' ', '-']);
+    let keys: Vec<&str> = front.lines().filter(keys).map(|line| line.split(':').next().unwrap()).collect();
+    let known = [
+        "pretty_name",
+        "license",
+        "license_name",
+        "license_link",
+        "size_categories",
+        "language",
+        "task_categories",
+        "tags",
+        "configs",
+    ];
+    assert_eq!(keys, known);
+    let citation = body.split("```bibtex\n").nth(1).unwrap().split("\n```").next().unwrap();
+    assert_eq!(citation.matches('{').count(), citation.matches('}').count(), "{citation}");
+    let manifest: serde_json::Value = serde_json::from_str(&text("croissant.json")).unwrap();
+    assert_eq!(manifest["creator"]["name"], foreign);
+}
+
+#[test]
 fn the_layout_is_the_documented_one() {
     let files = publish();
     let names: Vec<&str> = files.keys().map(String::as_str).filter(|name| !name.starts_with("data/")).collect();

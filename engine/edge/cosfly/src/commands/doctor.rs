@@ -5,7 +5,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::count;
 use clap::Parser;
-use cosfly_diagnose::Diagnostic;
+use cosfly_diagnose::{Diagnostic, plausible};
 use cosfly_doctor::{Examination, GivenTexts, Layout, Probe, Severity, ShortcutFigures, TextFigures, examine_texts};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -73,7 +73,7 @@ impl Command for Arguments {
 /// A quota such as `20:2-4`.
 fn quota(text: &str) -> Result<cosfly_doctor::Quota, String> {
     let parts = text.split_once(':').and_then(|(share, times)| Some((share, times.split_once('-')?)));
-    let number = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite() && *number >= 0.0);
+    let number = |text: &str| text.parse::<f64>().ok().filter(|number| plausible(*number).is_ok() && *number >= 0.0);
     let numbers = parts.and_then(|(share, (from, to))| Some((number(share)?, number(from)?, number(to)?)));
     match numbers {
         Some((percent, from, to)) if percent <= 100.0 && from <= to => {

@@ -6,6 +6,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::{bytes, count, duration};
 use clap::Parser;
+use cosfly_diagnose::plausible;
 use cosfly_recipe::Recipe;
 use cosfly_runner::{Plan, PlannedStage, Reason};
 use cosfly_stage::Asks;
@@ -41,7 +42,11 @@ pub struct Arguments {
 
 fn price(text: &str) -> Result<f64, String> {
     let price: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
-    if price.is_finite() && price >= 0.0 { Ok(price) } else { Err("it must be at least 0".to_owned()) }
+    match plausible(price) {
+        Ok(price) if price >= 0.0 => Ok(price),
+        Ok(_) => Err("it must be at least 0".to_owned()),
+        Err(fault) => Err(format!("it {fault}")),
+    }
 }
 
 impl Command for Arguments {

@@ -4,6 +4,7 @@ use super::card::Card;
 use super::metrics::{METRICS, Metric, Summary, strata, summary};
 use crate::flight::Row;
 use cosfly_env::End;
+use cosfly_plot::text::{markdown as in_markdown, markdown_code, markdown_words};
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 
@@ -61,7 +62,7 @@ pub fn worst(rows: &[Row], count: usize) -> Vec<&Row> {
 
 /// The report of one policy.
 pub fn markdown(card: &Card, rows: &[Row]) -> String {
-    let mut text = format!("# `{}` on `{}`\n\n", card.policy.name, card.suite.name);
+    let mut text = format!("# {} on {}\n\n", markdown_code(&card.policy.name), markdown_code(&card.suite.name));
     let _ = writeln!(
         text,
         "{} episodes, suite {}. Means with 95 % intervals over resampled episodes.\n",
@@ -77,7 +78,7 @@ pub fn markdown(card: &Card, rows: &[Row]) -> String {
     let groups: Vec<(&str, Vec<Summary>)> =
         groups.into_iter().filter(|_| several).map(|(name, rows)| (name, summary(&rows))).collect();
     let _ = write!(text, "| metric | all |");
-    groups.iter().for_each(|(name, _)| _ = write!(text, " {name} |"));
+    groups.iter().for_each(|(name, _)| _ = write!(text, " {} |", in_markdown(name)));
     let _ = writeln!(text, "\n| --- | --- |{}", " --- |".repeat(groups.len()));
     for (at, metric) in METRICS.iter().enumerate().filter(|(at, _)| all[*at].count > 0) {
         let _ = write!(text, "| {} | {} |", metric.title, cell(metric, &all[at]));
@@ -88,8 +89,8 @@ pub fn markdown(card: &Card, rows: &[Row]) -> String {
     if !failures.is_empty() {
         let _ = writeln!(text, "\n## Episodes that the policy ended\n");
         for row in failures.iter().take(MOST_FAILURES) {
-            let reason = row.policy_failure.as_deref().unwrap_or_default().replace('\n', " ");
-            let _ = writeln!(text, "* {}: {reason}", row.episode);
+            let reason = markdown_words(row.policy_failure.as_deref().unwrap_or_default());
+            let _ = writeln!(text, "* {}: {reason}", in_markdown(&row.episode));
         }
         if failures.len() > MOST_FAILURES {
             let _ = writeln!(text, "* ... and {} more", failures.len() - MOST_FAILURES);
@@ -97,7 +98,7 @@ pub fn markdown(card: &Card, rows: &[Row]) -> String {
     }
     let _ = writeln!(text, "\n## Episodes with the lowest tracking rate\n");
     for row in worst(rows, 5) {
-        let (name, rate) = (&row.episode, row.score.tracking_rate());
+        let (name, rate) = (in_markdown(&row.episode), row.score.tracking_rate());
         let _ = writeln!(text, "* {name}: {rate:.3}, {} (logs/{name}.jsonl)", ending(row));
     }
     let _ = writeln!(text, "\n## Metrics\n");
@@ -113,7 +114,7 @@ pub fn beside(arms: &[(&str, &[Row])]) -> String {
     for (name, rows) in arms {
         let summaries = summary(&rows.iter().collect::<Vec<_>>());
         let cells = METRICS.iter().zip(&summaries).map(|(metric, summary)| cell(metric, summary));
-        let column = [(*name).to_owned(), rows.len().to_string()].into_iter().chain(cells);
+        let column = [in_markdown(name), rows.len().to_string()].into_iter().chain(cells);
         lines.iter_mut().zip(column).for_each(|(line, cell)| line.push(cell));
     }
     let is_shown = |at: &usize| at.checked_sub(2).is_none_or(|metric| is_known(&METRICS[metric]));

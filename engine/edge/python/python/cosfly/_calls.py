@@ -178,7 +178,7 @@ class Evaluation:
     folder: Path
     """Folder with report.md, report.json and errors.svg."""
     complete: bool
-    """Whether all rows could be scored."""
+    """Whether all rows could be scored and every window, or frame, has a prediction. If not, the scores are of a part."""
 
     def _repr_markdown_(self) -> str:
         return (self.folder / "report.md").read_text(encoding="utf-8")

@@ -3,11 +3,12 @@
 use super::context::Context;
 use super::schema_words::{allowed_values, show_json};
 use crate::document::{Node, Value, list};
-use cosfly_diagnose::{Diagnostic, nearest_name};
+use cosfly_diagnose::{Diagnostic, LARGEST_MAGNITUDE, nearest_name, plausible};
 use serde_json::Value as Json;
 use std::cmp::Ordering;
 
-/// Checks `minimum`, `maximum`, their exclusive forms, and the range of the number's `format`.
+/// Checks `minimum`, `maximum`, their exclusive forms, the range of the number's `format`, and that a number with fractions is
+/// one that a measurement can have.
 pub(super) fn check_number(
     context: &Context<'_>,
     schema: &Json,
@@ -32,11 +33,18 @@ pub(super) fn check_number(
         && !(range.0..=range.1).contains(&as_f64(&node.value))
     {
         format!("at least `{}` and at most `{}`", show_number(range.0), show_number(range.1))
+    } else if is_measured(schema, &node.value) && plausible(as_f64(&node.value)).is_err() {
+        format!("at most `{}` in magnitude, as every number with a unit", show_number(LARGEST_MAGNITUDE))
     } else {
         return None;
     };
     let rest = format!("is `{}`; it must be {wanted}", context.texts.written(&node.place));
     Some(context.documented(context.problem("recipe-out-of-range", &node.place, path, rest), schema, path))
+}
+
+/// Whether a value is a number with fractions; whole numbers, such as seeds, have ranges of their own.
+fn is_measured(schema: &Json, value: &Value) -> bool {
+    matches!(value, Value::Float(_)) || schema.get("type").and_then(Json::as_str) == Some("number")
 }
 
 /// Checks `minLength` and `maxLength` (in characters) and `pattern`.

@@ -1,5 +1,6 @@
 //! Meanings of the features of a LeRobot dataset, from the names of their parts, which differ between datasets.
 
+use cosfly_diagnose::plausible;
 use cosfly_frames::{DVec3, Pose, real};
 use serde_json::Value;
 
@@ -26,10 +27,10 @@ pub struct Parts<const N: usize> {
 }
 
 impl<const N: usize> Parts<N> {
-    /// The numbers in a row of the feature; `None` where the row is shorter or a number is not finite.
+    /// The numbers in a row of the feature; `None` where the row is shorter or a number is not plausible.
     pub fn of(&self, row: &[f64]) -> Option<[f64; N]> {
         let numbers = self.at.map(|at| row.get(at).copied().unwrap_or(f64::NAN));
-        numbers.iter().all(|number| number.is_finite()).then_some(numbers)
+        numbers.iter().all(|number| plausible(*number).is_ok()).then_some(numbers)
     }
 }
 

@@ -12,7 +12,7 @@ use super::stretch;
 use crate::files::files_below;
 use crate::{Episode, Flag, Look, Moment};
 use actions::Recording;
-use cosfly_diagnose::{Fault, Result, Stop};
+use cosfly_diagnose::{Fault, Result, Stop, plausible};
 use cosfly_frames::{DVec3, Pose};
 use cosfly_read::{ForeignRows, foreign_rows, parquet_problem};
 use features::{Features, pose};
@@ -177,7 +177,7 @@ impl Frames {
     }
 
     fn number(&self, name: &str, row: usize) -> Option<f64> {
-        self.row(name, row).first().copied().filter(|number| number.is_finite())
+        self.row(name, row).first().copied().filter(|number| plausible(*number).is_ok())
     }
 
     /// Rows of each episode, by its number.

@@ -1,5 +1,6 @@
 //! LeRobot v3.0: episodes in Parquet files with pictures inside, tasks as strings, statistics of every feature.
 
+mod episodes;
 mod motion;
 mod statistics;
 mod tables;
@@ -16,6 +17,7 @@ use cosfly_frames::Pose;
 use cosfly_read::PublishedFlight;
 use cosfly_schema::tables::Table;
 use cosfly_write::table_file::TableWriter;
+use episodes::EpisodeFile;
 use serde_json::{Value, json};
 use statistics::Statistics;
 use std::collections::BTreeMap;
@@ -26,9 +28,10 @@ use tables::{DataRows, EpisodeRow, TaskRow, VECTORS};
 /// Largest number of files of a folder, and size from which a new file begins, MB.
 const CHUNK_FILES: usize = 1000;
 const FILE_MB: u64 = 100;
-/// Steps between the frames and between the pixels that count for the statistics.
+/// Steps between the frames at most, and between the pixels, that count for the statistics; frames of an episode at least.
 const SAMPLED_FRAMES: usize = 10;
 const SAMPLED_PIXELS: usize = 16;
+const LEAST_FRAMES: usize = 10;
 
 /// Episodes for robot learning.
 pub struct LeRobot;
@@ -55,8 +58,9 @@ fn write_split(language: Language, source: &Source<'_>, out: &OutFolder, split: 
     let mut data = DataFiles { out, split, table: &table, file: 0, bytes: 0, open: None };
     let mut statistics = Statistics::default();
     let mut tasks: BTreeMap<String, usize> = BTreeMap::new();
-    let (mut task_names, mut episodes) = (vec![], vec![]);
-    let mut index = 0;
+    let (mut task_names, mut count, mut index) = (vec![], 0, 0);
+    let path = |name: &str| format!("{split}/meta/{name}");
+    let mut episodes = EpisodeFile::new(out.create(&path("episodes/chunk-000/file-000.parquet"))?);
     source.each_flight_of(&|flight| flight.split == split, &mut |episode| {
         let task = episode.instruction(language).to_owned();
         let task_index = *tasks.entry(task.clone()).or_insert_with(|| {
@@ -64,30 +68,31 @@ fn write_split(language: Language, source: &Source<'_>, out: &OutFolder, split: 
             task_names.len() - 1
         });
         let expert = episode.expert_poses()?;
-        let rows = rows_of(episode, &expert, [episodes.len(), index, task_index], &mut statistics)?;
+        let mut own = Statistics::default();
+        let rows = rows_of(episode, &expert, [count, index, task_index], &mut [&mut own, &mut statistics])?;
         let length = rows.pictures.len();
         let file = data.append(&rows)?;
-        episodes.push(EpisodeRow {
+        let row = EpisodeRow {
             trajectory_id: episode.flight.trajectory_id.clone(),
             expert_id: episode.flight.expert_id.clone().unwrap_or_default(),
             split: episode.flight.split.clone(),
-            episode: episodes.len(),
+            episode: count,
             task,
             from: index,
             to: index + length,
             chunk: file / CHUNK_FILES,
             file: file % CHUNK_FILES,
-        });
-        index += length;
+        };
+        episodes.append(&row, &own)?;
+        (count, index) = (count + 1, index + length);
         Ok(())
     })?;
     data.end()?;
-    let path = |name: &str| format!("{split}/meta/{name}");
-    write_table(out, &path("episodes/chunk-000/file-000.parquet"), &tables::episodes(), &episodes, &[])?;
+    episodes.finish()?;
     let tasks: Vec<TaskRow> = task_names.into_iter().enumerate().map(|(index, task)| TaskRow { index, task }).collect();
     write_table(out, &path("tasks.parquet"), &tables::tasks(), &tasks, &[("pandas", tables::pandas_index())])?;
     out.put(&path("stats.json"), format!("{:#}\n", statistics.to_json()).as_bytes())?;
-    out.put(&path("info.json"), format!("{:#}\n", info(source, split, fps, &episodes, tasks.len())).as_bytes())
+    out.put(&path("info.json"), format!("{:#}\n", info(source, split, fps, [count, index, tasks.len()])).as_bytes())
 }
 
 /// Checks that all flights have one picture size and one whole number of frames per second; returns that number.
@@ -108,13 +113,13 @@ fn check(source: &Source<'_>) -> Result<u32> {
     Ok(fps as u32)
 }
 
-/// The rows of a flight; its pictures and numbers count in `statistics`. `numbers` are those of the episode, of its first frame and
+/// The rows of a flight; its pictures and numbers count in both `statistics`. `numbers` are those of the episode, of its first frame and
 /// of its task.
 fn rows_of(
     episode: &Episode<'_>,
     expert: &[Pose],
     numbers: [usize; 3],
-    statistics: &mut Statistics,
+    statistics: &mut [&mut Statistics; 2],
 ) -> Result<DataRows> {
     let [number, first, task] = numbers;
     let dt_s = episode.flight.dt_s;
@@ -132,23 +137,26 @@ fn rows_of(
             motion::chunk(pose, expert, frame),
         ];
         for ((name, ..), values) in VECTORS.iter().zip(&vectors) {
-            statistics.push(name, values);
+            statistics.iter_mut().for_each(|it| it.push(name, values));
         }
         let counts =
             [("frame_index", frame), ("episode_index", number), ("index", first + frame), ("task_index", task)];
-        counts.into_iter().for_each(|(name, count)| statistics.push(name, &[count as f64]));
-        statistics.push("timestamp", &[frame as f64 * dt_s]);
+        for statistics in statistics.iter_mut() {
+            counts.into_iter().for_each(|(name, count)| statistics.push(name, &[count as f64]));
+            statistics.push("timestamp", &[frame as f64 * dt_s]);
+        }
         rows.vectors.push(vectors);
     }
+    let step = (episode.frames.len() / LEAST_FRAMES).clamp(1, SAMPLED_FRAMES);
     episode.each_picture(
         &episode.all_frames(),
         |frame, logged| {
-            let sampled = if frame % SAMPLED_FRAMES == 0 { Some(rgb_of(&logged)?) } else { None };
+            let sampled = if frame % step == 0 { Some(rgb_of(&logged)?) } else { None };
             Ok((logged.rgb_file, sampled))
         },
         |_, (file, sampled)| {
             if let Some(rgb) = sampled {
-                statistics.push_picture(&rgb, SAMPLED_PIXELS);
+                statistics.iter_mut().for_each(|it| it.push_picture(&rgb, SAMPLED_PIXELS));
             }
             rows.pictures.push(file);
             Ok(())
@@ -197,7 +205,9 @@ fn write_table<S>(out: &OutFolder, name: &str, table: &Table<S>, rows: &[S], not
     writer.finish().map(|_| ())
 }
 
-fn info(source: &Source<'_>, split: &str, fps: u32, episodes: &[EpisodeRow], tasks: usize) -> Value {
+/// The content of `meta/info.json`; `totals` are the numbers of episodes, frames and tasks.
+fn info(source: &Source<'_>, split: &str, fps: u32, totals: [usize; 3]) -> Value {
+    let [episodes, frames, tasks] = totals;
     let [width, height] = source.flights().next().map_or([0; 2], |flight| [flight.camera.width, flight.camera.height]);
     let mut features = BTreeMap::from([(
         tables::PICTURE.to_owned(),
@@ -213,14 +223,14 @@ fn info(source: &Source<'_>, split: &str, fps: u32, episodes: &[EpisodeRow], tas
     json!({
         "codebase_version": "v3.0",
         "robot_type": "drone",
-        "total_episodes": episodes.len(),
-        "total_frames": episodes.last().map_or(0, |row| row.to),
+        "total_episodes": episodes,
+        "total_frames": frames,
         "total_tasks": tasks,
         "chunks_size": CHUNK_FILES,
         "data_files_size_in_mb": FILE_MB,
         "video_files_size_in_mb": 200,
         "fps": fps,
-        "splits": {split: format!("0:{}", episodes.len())},
+        "splits": {split: format!("0:{episodes}")},
         "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
         "video_path": null,
         "features": features,
@@ -247,7 +257,7 @@ LOADING
 
 Each folder is a whole dataset of LeRobot with its own statistics: train with the folder of one split, and normalise with its
 statistics. On the hub, each folder is a repository of its own, with the git tag `v3.0`. Episodes are flights; `meta/episodes` names
-them. Metres and degrees.
+them and has the statistics of each (`stats/...`), from which LeRobot makes those of parts and mixtures. Metres and degrees.
 
 * `observation.images.rgb`: the colours. `task`: the instruction.
 * `observation.state`: dx, dy, dz, dpitch, dyaw, droll since the frame before, along the axes of the body in this frame (x ahead, y

@@ -4,8 +4,10 @@ use super::tables::PICTURE;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
-/// Names and places of the quantiles, LeRobot's.
-const QUANTILES: [(&str, f64); 5] = [("q01", 0.01), ("q10", 0.1), ("q50", 0.5), ("q90", 0.9), ("q99", 0.99)];
+/// Quantiles, LeRobot's.
+const QUANTILES: [f64; 5] = [0.01, 0.1, 0.5, 0.9, 0.99];
+/// Names of all figures, in the order of [`Figures::numbers`].
+pub const FIGURES: [&str; 9] = ["min", "max", "mean", "std", "q01", "q10", "q50", "q90", "q99"];
 /// Largest number of values that quantiles are taken from; even.
 const KEPT: usize = 1 << 15;
 
@@ -15,6 +17,15 @@ pub struct Statistics {
     features: BTreeMap<String, Vec<Moments>>,
     pictures: [Histogram; 3],
     picture_count: u64,
+}
+
+/// What is known of a feature.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// [`FIGURES`] of each of its numbers.
+    pub numbers: Vec<Vec<f64>>,
+    /// Frames behind them.
+    pub count: u64,
 }
 
 /// Statistics of one number. Mean and deviation by Welford's update; quantiles from every `step`-th value.
@@ -62,7 +73,7 @@ impl Moments {
         let deviation = (self.squares / self.count.max(1) as f64).sqrt();
         let mut figures = vec![self.min, self.max, self.mean, deviation];
         let at = |rank: u64| sorted.get(rank as usize).copied().unwrap_or_default();
-        figures.extend(QUANTILES.map(|(_, share)| quantile(share, sorted.len() as u64, at)));
+        figures.extend(QUANTILES.map(|share| quantile(share, sorted.len() as u64, at)));
         figures
     }
 }
@@ -96,7 +107,7 @@ impl Histogram {
         let mean = sum(&|value| value);
         let deviation = sum(&|value| (value - mean) * (value - mean)).sqrt();
         let mut figures = vec![at(0), at(count.saturating_sub(1)), mean, deviation];
-        figures.extend(QUANTILES.map(|(_, share)| quantile(share, count, at)));
+        figures.extend(QUANTILES.map(|share| quantile(share, count, at)));
         figures
     }
 }
@@ -126,29 +137,29 @@ impl Statistics {
         }
     }
 
+    /// Figures of every feature, by its name; those of pictures are of their three colours.
+    pub fn features(&self) -> BTreeMap<&str, Figures> {
+        let vectors = self.features.iter().map(|(name, moments)| {
+            let count = moments.first().map_or(0, |it| it.count);
+            (name.as_str(), Figures { numbers: moments.iter().map(Moments::figures).collect(), count })
+        });
+        let pictures = self.pictures.iter().map(Histogram::figures).collect();
+        vectors.chain([(PICTURE, Figures { numbers: pictures, count: self.picture_count })]).collect()
+    }
+
     /// The content of `meta/stats.json`.
     pub fn to_json(&self) -> Value {
-        let mut all = Map::new();
-        for (name, moments) in &self.features {
-            let figures: Vec<Vec<f64>> = moments.iter().map(Moments::figures).collect();
-            let count = moments.first().map_or(0, |it| it.count);
-            all.insert(name.clone(), entry(&figures, |number| json!(number), count));
-        }
-        let pictures: Vec<Vec<f64>> = self.pictures.iter().map(Histogram::figures).collect();
-        all.insert(PICTURE.to_owned(), entry(&pictures, |number| json!([[number]]), self.picture_count));
-        Value::Object(all)
+        let wrap = |feature: &str, number: f64| if feature == PICTURE { json!([[number]]) } else { json!(number) };
+        let entry = |(feature, figures): (&str, Figures)| {
+            let of_figure = |(at, name): (usize, &&str)| {
+                ((*name).to_owned(), figures.numbers.iter().map(|it| wrap(feature, it[at])).collect())
+            };
+            let mut entry: Map<String, Value> = FIGURES.iter().enumerate().map(of_figure).collect();
+            entry.insert("count".into(), json!([figures.count]));
+            (feature.to_owned(), Value::Object(entry))
+        };
+        Value::Object(self.features().into_iter().map(entry).collect())
     }
-}
-
-/// The entry of a feature whose numbers have `figures`.
-fn entry(figures: &[Vec<f64>], wrap: fn(f64) -> Value, count: u64) -> Value {
-    let names = ["min", "max", "mean", "std"].into_iter().chain(QUANTILES.map(|(name, _)| name));
-    let mut entry: Map<String, Value> = names
-        .enumerate()
-        .map(|(place, name)| (name.to_owned(), figures.iter().map(|it| wrap(it[place])).collect()))
-        .collect();
-    entry.insert("count".into(), json!([count]));
-    Value::Object(entry)
 }
 
 #[cfg(test)]
@@ -177,8 +188,8 @@ mod tests {
         let mut statistics = Statistics::default();
         (0..100_000).for_each(|value| statistics.push("a", &[f64::from(value)]));
         let json = statistics.to_json();
-        for (name, share) in QUANTILES {
-            let found = json["a"][name][0].as_f64().unwrap();
+        for (name, share) in FIGURES[4..].iter().zip(QUANTILES) {
+            let found = json["a"][*name][0].as_f64().unwrap();
             assert!((found - share * 100_000.0).abs() < 10.0, "{name}: {found}");
         }
         assert!(statistics.features["a"][0].kept.len() < KEPT);

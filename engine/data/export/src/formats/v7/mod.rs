@@ -18,6 +18,7 @@ use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::source::{Episode, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_plot::text::markdown_code;
 use names::{Names, Place, TownName};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -96,7 +97,7 @@ fn card(names: &Names) -> Card {
     let mut body = String::from(BODY);
     body.push_str("\n| folder | town of the dataset |\n| --- | --- |\n");
     for (folder, town) in names.towns() {
-        let _ = writeln!(body, "| `{folder}` | `{town}` |");
+        let _ = writeln!(body, "| `{folder}` | {} |", markdown_code(town));
     }
     Card { format: "v7", front_matter: "tags:\n- drone\n- trajectory\n- synthetic\n".into(), body }
 }

@@ -12,6 +12,11 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+/// A text of the dataset as words: trainers take `<image>` for a picture wherever it stands, and count them.
+pub fn as_words(text: &str) -> String {
+    text.replace('<', "\u{2039}").replace('>', "\u{203a}")
+}
+
 /// Inputs that a question shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shown {
@@ -160,4 +165,15 @@ fn box_text(row: &FrameRow, scale: BoxScale, full: [u32; 2], size: [u32; 2]) -> 
         (scaled * f64::from(*edge) / f64::from(full[place % 2])).round_ties_even() as i64
     });
     json!(numbers.collect::<Vec<i64>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::as_words;
+
+    #[test]
+    fn placeholders_in_texts_are_words() {
+        assert_eq!(as_words("follow the <image> of <think>"), "follow the ‹image› of ‹think›");
+        assert_eq!(as_words("跟着红衣人。"), "跟着红衣人。");
+    }
 }

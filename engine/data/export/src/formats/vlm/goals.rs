@@ -1,5 +1,6 @@
 //! Goals as conversations: write the goal of pictures, judge whether pictures do what a goal says, understand a correction.
 
+use super::conversation::as_words;
 use crate::source::Episode;
 use cosfly_read::PublishedGoal;
 use serde_json::{Value, json};
@@ -70,10 +71,10 @@ fn shown(pictures: &BTreeMap<usize, String>, first: usize, end: usize) -> Vec<&S
 /// The lines of a goal: one as it is, several with their speakers.
 fn said(lines: &[String]) -> String {
     match lines {
-        [one] => one.clone(),
+        [one] => as_words(one),
         several => {
             let speaker = |at: usize| if at.is_multiple_of(2) { "User" } else { "Pilot" };
-            let lines = several.iter().enumerate().map(|(at, line)| format!("{}: {line}", speaker(at)));
+            let lines = several.iter().enumerate().map(|(at, line)| format!("{}: {}", speaker(at), as_words(line)));
             lines.collect::<Vec<_>>().join("\n")
         }
     }

@@ -12,7 +12,7 @@ use crate::media::{ending, picture_path};
 use crate::pixels::{rgb_jpeg, rgb_of, smaller_size};
 use crate::shared_options::Axes;
 use crate::source::{Episode, Source};
-use conversation::{Shown, conversation};
+use conversation::{Shown, as_words, conversation};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_images::read::averaged;
 use cosfly_read::InstructionReader;
@@ -60,7 +60,7 @@ impl Format for Vlm {
             let own = instructions.at(source.dataset, place)?;
             for start in window.starts(episode.frames.len()) {
                 let instruction = own.get(&start).map(String::as_str);
-                let instruction = instruction.unwrap_or_else(|| episode.instruction(language));
+                let instruction = &as_words(instruction.unwrap_or_else(|| episode.instruction(language)));
                 let line = |shown| conversation(episode, options, &expert, &pictures, start, instruction, shown);
                 let whole = line(Shown::ALL);
                 lines.put(split, &whole)?;

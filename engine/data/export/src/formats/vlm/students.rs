@@ -1,6 +1,6 @@
 //! Sets for students of a teacher: nested shares, windows without some inputs, texts to learn, pairs of texts.
 
-use super::conversation::{Shown, pose_text};
+use super::conversation::{Shown, as_words, pose_text};
 use super::options::Options;
 use crate::source::Episode;
 use cosfly_fingerprint::Digest;
@@ -77,7 +77,7 @@ pub fn texts(
             json!({"role": "system", "content": SYSTEM}),
             json!({"role": "user", "content": question(episode, &shown, language, &caption.style)}),
         ];
-        let answer = |text: &str| json!({"role": "assistant", "content": text});
+        let answer = |text: &str| json!({"role": "assistant", "content": as_words(text)});
         let line = |id: &str, messages: Vec<Value>| json!({"id": id, "trajectory_id": episode.flight.trajectory_id, "messages": messages, "images": images});
         lines.push(("texts", line(&id, asked.iter().cloned().chain([answer(&caption.text)]).collect())));
         for (pair, refused) in caption.refused.iter().filter(|text| !text.trim().is_empty()).enumerate() {
@@ -88,7 +88,7 @@ pub fn texts(
             ranked["chosen_writer"] = json!(caption.writer);
             lines.push(("preferences", ranked));
             let mut swift = line(&id, asked.iter().cloned().chain([answer(&caption.text)]).collect());
-            swift["rejected_response"] = json!(refused);
+            swift["rejected_response"] = json!(as_words(refused));
             lines.push(("preferences_swift", swift));
         }
     }

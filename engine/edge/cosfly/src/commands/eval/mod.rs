@@ -8,7 +8,7 @@ use crate::console::Console;
 use crate::exit;
 use choices::{AnchorChoice, FrameChoice, KindChoice, OriginChoice, RoleChoice};
 use clap::{Args, Parser};
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_evaluate::pictures::{self, PictureKind, PictureSettings};
 use cosfly_evaluate::windows::Flights;
 use cosfly_evaluate::{Evaluation, Settings, evaluate, name_of};
@@ -45,7 +45,8 @@ masks are COCO results: an array, or lines, of
   {\"image_id\": 7, \"category_id\": 12, \"bbox\": [left, top, width, height], \"score\": 0.9}
 where `trajectory_id` and `frame` may stand instead of `image_id`, and `segmentation` (run lengths) makes masks.
 
-Rows and files that cannot be scored are counted and named; the exit code is then 1, and 4 when none fits."
+Rows and files that cannot be scored are counted and named, and so are windows and frames without a prediction: the scores
+are then of a part alone, the report says so first, and the exit code is 1. It is 4 when nothing can be scored."
 )]
 pub struct Arguments {
     /// Predictions: of waypoints JSON lines or Parquet, of depth or labels a folder of pictures, of boxes or masks COCO
@@ -112,7 +113,7 @@ impl Command for Arguments {
             let text = &reports.markdown;
             console.print(&format!("{text}\nwritten to {}: report.md, report.json, errors.svg\n", folder.display()))?;
         }
-        Ok(if reports.has_malformed { exit::FOUND_PROBLEMS } else { exit::SUCCESS })
+        Ok(if reports.has_problems { exit::FOUND_PROBLEMS } else { exit::SUCCESS })
     }
 }
 
@@ -140,7 +141,11 @@ struct PictureArguments {
 /// A number above 0.
 fn positive(text: &str) -> Result<f64, String> {
     let number: f64 = text.parse().map_err(|_| format!("`{text}` is not a number"))?;
-    if number.is_finite() && number > 0.0 { Ok(number) } else { Err(format!("`{text}` is not more than 0")) }
+    match plausible(number) {
+        Ok(number) if number > 0.0 => Ok(number),
+        Ok(_) => Err(format!("`{text}` is not more than 0")),
+        Err(fault) => Err(format!("`{text}` {fault}")),
+    }
 }
 
 /// A report in three forms.
@@ -148,7 +153,7 @@ struct Reports {
     markdown: String,
     json: String,
     svg: String,
-    has_malformed: bool,
+    has_problems: bool,
 }
 
 fn reports(arguments: &Arguments) -> Result<Reports> {
@@ -156,17 +161,12 @@ fn reports(arguments: &Arguments) -> Result<Reports> {
         let dataset = PublishedDataset::open(&arguments.dataset)?;
         let flights = Flights::read(&dataset)?;
         let found = pictures::evaluate(&dataset, &flights, path, &picture_settings(kind, arguments))?;
-        let has_malformed = found.files.malformed > 0;
-        return Ok(Reports {
-            markdown: found.to_markdown(),
-            json: found.to_json(),
-            svg: found.to_svg(),
-            has_malformed,
-        });
+        let has_problems = found.has_problems();
+        return Ok(Reports { markdown: found.to_markdown(), json: found.to_json(), svg: found.to_svg(), has_problems });
     }
     let found = evaluation(arguments)?;
-    let has_malformed = found.rows.as_ref().is_some_and(|rows| rows.malformed > 0);
-    Ok(Reports { markdown: found.to_markdown(), json: found.to_json(), svg: found.to_svg(), has_malformed })
+    let has_problems = found.has_problems();
+    Ok(Reports { markdown: found.to_markdown(), json: found.to_json(), svg: found.to_svg(), has_problems })
 }
 
 /// The kind that was asked for, or that the predictions look like; none for waypoints.

@@ -1,6 +1,6 @@
 //! A drone's state beside a trajectory: read from a line of JSON, checked before anyone plans from it.
 
-use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_diagnose::{Diagnostic, Fault, LARGEST_MAGNITUDE, Result, nearest_name, plausible};
 use cosfly_frames::{DVec3, TargetTrack};
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::Value;
@@ -97,16 +97,16 @@ impl State {
             return Err(Diagnostic::new("plan-from-frame", Fault::Input, message).hint("frames count from 0"));
         };
         let (place, velocity) = (self.position, self.velocity.unwrap_or_default());
-        if !place.iter().all(|value| value.is_finite()) {
-            return state_refused(format!("the position is {place:?}; it must be three finite numbers"));
+        if let Some(fault) = place.iter().find_map(|value| plausible(*value).err()) {
+            return state_refused(format!("the position is {place:?}, of which a number {fault}"));
         }
         if !velocity.iter().all(|value| value.abs() <= FASTEST_MPS) {
             let rule = format!("it must be three finite numbers between -{FASTEST_MPS} and {FASTEST_MPS} m/s");
             return state_refused(format!("the velocity is {velocity:?}; {rule}"));
         }
-        if self.horizon_s.is_some_and(|horizon| !(horizon.is_finite() && horizon > 0.0)) {
-            let horizon = self.horizon_s.unwrap_or_default();
-            let message = format!("the horizon is {horizon:?} s; it must be finite and above 0 s");
+        if let Some(horizon) = self.horizon_s.filter(|horizon| !(plausible(*horizon).is_ok() && *horizon > 0.0)) {
+            let message =
+                format!("the horizon is {horizon:?} s; it must be above 0 s and at most {LARGEST_MAGNITUDE:e} s");
             return Err(Diagnostic::new("plan-from-horizon", Fault::Input, message));
         }
         if DVec3::from(place).distance(target.feet_in_world) > FURTHEST_M {
