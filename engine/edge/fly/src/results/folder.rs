@@ -113,10 +113,16 @@ impl Folder {
             let message = format!("`{}` is damaged", path.join(name).display());
             Diagnostic::new("fly-result", Fault::Input, message).because(error.to_string())
         };
-        let card = serde_json::from_str(&text("card.json")?).map_err(|error| damaged("card.json", error))?;
+        let card: Card = serde_json::from_str(&text("card.json")?).map_err(|error| damaged("card.json", error))?;
         let rows = text("episodes.jsonl")?;
-        let rows = rows.lines().map(serde_json::from_str).collect::<std::result::Result<_, _>>();
-        Ok((card, rows.map_err(|error| damaged("episodes.jsonl", error))?))
+        let rows = rows.lines().map(serde_json::from_str).collect::<std::result::Result<Vec<Row>, _>>();
+        let rows = rows.map_err(|error| damaged("episodes.jsonl", error))?;
+        if rows.len() as u64 != card.suite.episodes {
+            let message = format!("`{}` has {} of {} episodes", path.display(), rows.len(), card.suite.episodes);
+            return Err(Diagnostic::new("fly-result", Fault::Input, message)
+                .hint("fly it again: the same command makes the tables of all rows"));
+        }
+        Ok((card, rows))
     }
 
     /// Row of an episode, where it was flown before.

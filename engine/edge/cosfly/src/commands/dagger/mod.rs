@@ -171,6 +171,12 @@ impl Arguments {
             let message = "the version of `--onto` has another suite or environment".to_owned();
             return Err(refused(message).hint("its card.json names them; begin a version of its own without `--onto`"));
         }
+        if let Some(round) = rounds.iter().find(|round| round.made.is_none()) {
+            let message = format!("round `{}` of the version of `--onto` has not all its episodes", round.name);
+            return Err(
+                refused(message).hint("run the command that makes it once more: it goes on with what is missing")
+            );
+        }
         if rounds.iter().any(|round| round.name == name) {
             let message = format!("the version of `--onto` has a round `{name}` already");
             return Err(refused(message).hint("give the new round another name with `--round`"));
