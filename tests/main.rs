@@ -1,5 +1,6 @@
 //! End-to-end tests through the real binary: runs, resume, determinism, diagnostics, snapshots, repository rules.
 
+mod at_once;
 mod book;
 mod caching;
 mod cameras;
@@ -13,6 +14,7 @@ mod doctor;
 mod evaluation;
 mod export;
 mod fly;
+mod fly_policies;
 mod fuzzing;
 mod models;
 mod more_walkers;

@@ -1,20 +1,17 @@
 //! The folder that an export becomes: written beside its place and renamed when whole.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_whole::{Appeared, NewFolder};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
-
-/// Name of the file that marks an unfinished folder.
-const MARK: &str = ".cosfly-unfinished";
 
 /// A folder that is being written. Dropped before [`Self::finish`], it is removed; after a crash, it is left under a name
 /// that says so and is replaced by the next export.
 #[derive(Debug)]
 pub struct OutFolder {
-    staging: PathBuf,
+    draft: NewFolder,
     target: PathBuf,
-    is_whole: bool,
 }
 
 /// Size of an export.
@@ -37,14 +34,14 @@ impl OutFolder {
             Ok(mut entries) => entries.next().is_none(),
             Err(error) => error.kind() == std::io::ErrorKind::NotFound,
         };
+        // Not made for nothing; whether the place is free in the end, the folder's appearance says.
         if !is_free {
-            return Err(Diagnostic::new("export-exists", Fault::Recipe, format!("`{shown}` exists already"))
-                .hint("an export is a whole new folder; give another one with `--out`, or remove this one"));
+            return Err(exists(target));
         }
-        let name = target.file_name().map(|name| name.to_string_lossy().into_owned());
-        let name = name.ok_or_else(|| {
-            Diagnostic::new("export-exists", Fault::Recipe, format!("`{shown}` is not the name of a new folder"))
-        })?;
+        if target.file_name().is_none() {
+            let message = format!("`{shown}` is not the name of a new folder");
+            return Err(Diagnostic::new("export-exists", Fault::Recipe, message));
+        }
         let parent = target.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let refused = |error: std::io::Error| Diagnostic::io(format!("write into `{}`", parent.display()), &error);
         std::fs::create_dir_all(parent).map_err(refused)?;
@@ -54,19 +51,12 @@ impl OutFolder {
             return Err(Diagnostic::new("export-inside", Fault::Recipe, message)
                 .hint("`cosfly verify` would find files there that do not belong to it; give a folder beside it"));
         }
-        let staging = parent.join(format!(".{name}.unfinished"));
-        if staging.join(MARK).exists() {
-            std::fs::remove_dir_all(&staging).map_err(refused)?;
-        }
-        std::fs::create_dir(&staging).map_err(refused)?;
-        let this = Self { staging, target: target.to_owned(), is_whole: false };
-        this.put(MARK, b"An export that was not finished. It can be deleted.\n")?;
-        Ok(this)
+        Ok(Self { draft: NewFolder::beside(target).map_err(refused)?, target: target.to_owned() })
     }
 
     /// Path of a file until the folder is whole.
     pub fn path(&self, name: &str) -> PathBuf {
-        self.staging.join(name)
+        self.draft.path().join(name)
     }
 
     /// Writes a file, and the folders that it is in.
@@ -86,7 +76,7 @@ impl OutFolder {
                 .hint("it is made of ids of the dataset; `cosfly verify` says what else is wrong with them"));
         }
         let path = self.path(name);
-        let folder = path.parent().unwrap_or(&self.staging);
+        let folder = path.parent().unwrap_or(self.draft.path());
         let file = std::fs::create_dir_all(folder).and_then(|()| File::create(&path));
         file.map(|file| BufWriter::with_capacity(1 << 18, file)).map_err(|error| self.refusal(name, &error))
     }
@@ -97,42 +87,23 @@ impl OutFolder {
     }
 
     /// Gives the folder its name.
-    pub fn finish(mut self) -> Result<Written> {
-        let refused = |error: std::io::Error| Diagnostic::io(format!("write `{}`", self.target.display()), &error);
-        std::fs::remove_file(self.path(MARK)).map_err(refused)?;
-        let written = size_of(&self.staging).map_err(refused)?;
-        if self.target.is_dir() {
-            std::fs::remove_dir(&self.target).map_err(refused)?;
-        }
-        std::fs::rename(&self.staging, &self.target).map_err(refused)?;
-        self.is_whole = true;
-        Ok(written)
-    }
-}
-
-impl Drop for OutFolder {
-    fn drop(&mut self) {
-        if !self.is_whole {
-            let _ = std::fs::remove_dir_all(&self.staging);
+    ///
+    /// # Errors
+    /// `export-exists` where another process was first.
+    pub fn finish(self) -> Result<Written> {
+        let Self { draft, target } = self;
+        let refused = |error: std::io::Error| Diagnostic::io(format!("write `{}`", target.display()), &error);
+        let (files, bytes) = draft.size().map_err(refused)?;
+        match draft.appear().map_err(refused)? {
+            Appeared::Here => Ok(Written { files, bytes }),
+            Appeared::Taken => Err(exists(&target)),
         }
     }
 }
 
-fn size_of(folder: &Path) -> std::io::Result<Written> {
-    let mut written = Written::default();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder)? {
-            let entry = entry?;
-            let kind = entry.metadata()?;
-            if kind.is_dir() {
-                folders.push(entry.path());
-            } else {
-                written = Written { files: written.files + 1, bytes: written.bytes + kind.len() };
-            }
-        }
-    }
-    Ok(written)
+fn exists(target: &Path) -> Box<Diagnostic> {
+    Diagnostic::new("export-exists", Fault::Recipe, format!("`{}` exists already", target.display()))
+        .hint("an export is a whole new folder; give another one with `--out`, or remove this one")
 }
 
 #[cfg(test)]
@@ -159,16 +130,20 @@ mod tests {
     }
 
     #[test]
-    fn what_a_crash_left_is_replaced_and_what_was_given_up_goes() {
+    fn what_was_given_up_goes_and_a_place_that_was_taken_meanwhile_stays() {
         let home = tempfile::tempdir().unwrap();
         let (dataset, target) = (home.path().join("dataset"), home.path().join("export"));
         std::fs::create_dir(&dataset).unwrap();
         let out = OutFolder::begin(&target, &dataset).unwrap();
         out.put("half.txt", b"half").unwrap();
-        std::mem::forget(out);
-        let again = OutFolder::begin(&target, &dataset).unwrap();
-        assert!(!again.path("half.txt").exists());
-        drop(again);
+        drop(out);
         assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 1, "the dataset alone");
+        let (one, other) = (OutFolder::begin(&target, &dataset).unwrap(), OutFolder::begin(&target, &dataset).unwrap());
+        one.put("whose.txt", b"one").unwrap();
+        other.put("whose.txt", b"other").unwrap();
+        one.finish().unwrap();
+        assert_eq!(other.finish().unwrap_err().code, "export-exists");
+        assert_eq!(std::fs::read(target.join("whose.txt")).unwrap(), b"one");
+        assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 2, "the dataset and the export");
     }
 }

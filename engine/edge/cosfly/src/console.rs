@@ -54,7 +54,7 @@ impl Console for Terminal {
     }
 
     fn tell(&self, message: &str) {
-        eprintln!("{message}");
+        eprintln!("{}", cosfly_secrets::without_secrets(message));
     }
 
     fn input(&self) -> Box<dyn BufRead + '_> {

@@ -17,6 +17,7 @@ mod town_names;
 use console::{Console, Terminal};
 use cosfly_diagnose::Diagnostic;
 use cosfly_frames::simd::Level;
+use cosfly_secrets::without_secrets;
 use std::ffi::OsString;
 use std::panic::AssertUnwindSafe;
 
@@ -41,7 +42,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             Err(Refusal::Arguments(error)) => error.exit(),
             Err(Refusal::Work(refusals)) => {
                 let all = refusals.iter().map(|refusal| &**refusal);
-                eprintln!("{}", cosfly_diagnose::render_all(all, Terminal.colour()));
+                eprintln!("{}", without_secrets(&cosfly_diagnose::render_all(all, Terminal.colour())));
                 exit::code_of_all(&refusals)
             }
         }

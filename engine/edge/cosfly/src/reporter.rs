@@ -84,7 +84,7 @@ impl Reporter {
     /// Shows a failure, unless enough items of the same stage failed in the same way: a thousand items, three messages; one where
     /// all of them say the same.
     fn failed(&self, id: &ItemId, diagnostic: &Diagnostic) {
-        let text = render(diagnostic, colour());
+        let text = cosfly_secrets::without_secrets(&render(diagnostic, colour()));
         let mut failures = self.failures.lock().unwrap_or_else(PoisonError::into_inner);
         let alike = failures.entry((id.stage.clone(), diagnostic.code)).or_default();
         alike.count += 1;

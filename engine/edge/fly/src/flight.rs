@@ -1,7 +1,7 @@
 //! One episode, flown by a pilot: its [`Row`] and its log.
 
 use crate::log::Line;
-use crate::pilot::{Failure, Pilot};
+use crate::pilot::{Asked, Failure, Pilot};
 use crate::suite::Task;
 use cosfly_drone::Sensed;
 use cosfly_drone::quadrotor::Strain;
@@ -84,30 +84,41 @@ pub enum Latency {
     Measured,
 }
 
-/// Flies an episode. A policy that goes away in the middle of it begins anew, a few times.
-///
-/// # Errors
-/// The reason why the policy cannot be had, in words: the episode was not flown.
-pub fn fly(task: &Task, settings: Settings, latency: Latency, pilot: &mut dyn Pilot) -> Result<Flown, String> {
+/// What came of an episode.
+pub enum Attempt {
+    /// It was flown; the policy may have ended it by its fault.
+    Flown(Box<Flown>),
+    /// The policy failed, and has given no right answer since the command began: it is not set up, and this is no episode. Why.
+    Unanswered(String),
+    /// The policy cannot be had; why.
+    Gone(String),
+}
+
+/// Flies an episode. A policy that has answered and goes away in the middle of an episode begins anew, a few times.
+pub fn fly(task: &Task, settings: Settings, latency: Latency, pilot: &mut Asked<'_>) -> Attempt {
     let mut attempt = 1;
     loop {
+        if let Err(reason) = pilot.begin(&Environment::new(Arc::clone(&task.episode), settings), &task.knowledge) {
+            return Attempt::Gone(reason);
+        }
         match attempt_at(task, settings, latency, pilot) {
-            Ok(flown) => return Ok(flown),
-            Err(_) if attempt < ATTEMPTS => attempt += 1,
-            Err(reason) => return Err(reason),
+            Ok(flown) => {
+                return match flown.row.policy_failure {
+                    Some(reason) if !pilot.has_answered() => Attempt::Unanswered(reason),
+                    _ => Attempt::Flown(Box::new(flown)),
+                };
+            }
+            Err(_) if attempt < ATTEMPTS && pilot.has_answered() => attempt += 1,
+            Err(reason) => return Attempt::Gone(reason),
         }
     }
 }
 
-fn attempt_at(task: &Task, settings: Settings, latency: Latency, pilot: &mut dyn Pilot) -> Result<Flown, String> {
+/// Flies an episode that the policy has begun.
+fn attempt_at(task: &Task, settings: Settings, latency: Latency, pilot: &mut Asked<'_>) -> Result<Flown, String> {
     let mut environment = Environment::new(Arc::clone(&task.episode), settings);
     let mut policy_failure = None;
     let mut steps: Vec<Line> = Vec::new();
-    match pilot.begin(&environment, &task.knowledge) {
-        Ok(()) => {}
-        Err(Failure::Gone(reason)) => return Err(reason),
-        Err(Failure::Answer(reason)) => policy_failure = Some(reason),
-    }
     while environment.score().end.is_none() && policy_failure.is_none() && environment.score().planned_steps > 0 {
         let asked_at = (latency == Latency::Measured).then(Instant::now);
         let asked = environment.wants_action().then(|| pilot.act(&environment)).transpose();

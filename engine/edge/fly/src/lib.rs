@@ -4,13 +4,14 @@
 //! * [`settings`]: what a recipe says of the drone.
 //! * [`pilot`]: policies: baselines, servers behind a WebSocket ([`wire`]), functions in Python.
 //! * [`flight`]: one episode, flown: its row and its steps ([`log`]).
-//! * [`run`]: all episodes on several threads, resumed where rows are there already.
+//! * [`run`]: all episodes on several threads ([`crew`]), resumed where rows are there already.
 //! * [`vector`]: many environments stepped together, for learners.
 //! * [`experts`]: the experts of a recipe, asked again; [`dagger`]: what they say where a policy came.
 //! * [`results`]: the folder: card, rows, logs, tables with intervals; [`compare`]: two of them side by side.
 //! * [`pictures`]: logs that play in Foxglove, clips, the page.
 
 pub mod compare;
+pub mod crew;
 pub mod dagger;
 pub mod experts;
 pub mod flight;
@@ -22,5 +23,4 @@ pub mod run;
 pub mod settings;
 pub mod suite;
 pub mod vector;
-mod whole;
 pub mod wire;

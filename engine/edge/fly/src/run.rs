@@ -1,14 +1,15 @@
 //! All episodes of a suite, flown by one policy on several threads; episodes that are in the folder are kept.
 
-use crate::flight::{Flown, Latency, Row, fly};
+use crate::crew::{Shifts, Step, crew};
+use crate::flight::{Attempt, Flown, Latency, Row, fly};
 use crate::pictures::{self, Case};
-use crate::pilot::{Manners, Place, open};
+use crate::pilot::{Asked, FirstAnswer, Manners, Place};
 use crate::results::{Card, Folder, LogChoice, worst};
 use crate::suite::{Suite, Task};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_env::Settings;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock};
 
 /// A share of the episodes: those whose number leaves `index` when divided by `of`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,67 +54,40 @@ pub struct Outcome {
     pub flown: usize,
     /// Whether every episode of the suite has a row.
     pub whole: bool,
-    /// Why episodes of this call were not flown: the policy could not be had.
-    pub gone: Option<String>,
-    /// Episodes that were not flown for that reason.
-    pub missing: usize,
+    /// Why episodes of this call were not flown: the policy could not be had, or is not set up.
+    pub gone: Option<Box<Diagnostic>>,
 }
 
 /// Flies what the folder lacks. `progress` gets the numbers of finished and of all episodes. The tables are written once every
 /// episode has a row.
 ///
 /// # Errors
-/// Errors of the file system; `fly-policy-gone` where the policy could not be had for any episode.
+/// Errors of the file system; `fly-stopped`.
 pub fn run(order: &Order<'_>, card: &Card, folder: &Folder, progress: &dyn Fn(u64, u64)) -> Result<Outcome> {
     let tasks = &order.suite.tasks;
     let due: Vec<usize> = (0..tasks.len())
         .filter(|at| at % order.shard.of == order.shard.index && folder.row(&tasks[*at].episode.name).is_none())
         .collect();
-    let (next, done, stop) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
-    let failed: Mutex<Option<Box<Diagnostic>>> = Mutex::new(None);
-    let gone: Mutex<Option<String>> = Mutex::new(None);
-    let work = || {
-        let mut pilot = open(order.place, order.manners);
-        while !stop.load(Ordering::Relaxed) && !order.cancelled.load(Ordering::Relaxed) {
-            let Some(&at) = due.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-            match fly(&tasks[at], order.settings, order.latency, &mut *pilot) {
-                Ok(flown) => match keep(order, card, folder, &tasks[at], &flown) {
-                    Ok(()) => _ = done.fetch_add(1, Ordering::Relaxed),
-                    Err(error) => {
-                        stop.store(true, Ordering::Relaxed);
-                        failed.lock().unwrap_or_else(|it| it.into_inner()).get_or_insert(error);
-                    }
-                },
-                // Others would wait for the policy as long, one by one.
-                Err(reason) => {
-                    stop.store(true, Ordering::Relaxed);
-                    gone.lock().unwrap_or_else(|it| it.into_inner()).get_or_insert(reason);
-                }
+    let (first, all) = (FirstAnswer::default(), due.len());
+    let shifts = Shifts { jobs: order.jobs, cancelled: order.cancelled, first: &first };
+    let pilot = || Ok(Asked::new(order.place, order.manners, &first));
+    let crewed = crew(due, &shifts, progress, pilot, |pilot, at| {
+        Ok(match fly(&tasks[at], order.settings, order.latency, pilot) {
+            Attempt::Flown(flown) => {
+                keep(order, card, folder, &tasks[at], &flown)?;
+                Step::Kept
             }
-        }
-    };
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..order.jobs.clamp(1, due.len().max(1))).map(|_| scope.spawn(work)).collect();
-        while workers.iter().any(|worker| !worker.is_finished()) {
-            progress(done.load(Ordering::Relaxed) as u64, due.len() as u64);
-            std::thread::sleep(std::time::Duration::from_millis(5));
-        }
-    });
-    if let Some(error) = failed.into_inner().unwrap_or_else(|it| it.into_inner()) {
-        return Err(error);
-    }
-    if order.cancelled.load(Ordering::Relaxed) {
-        let message = "stopped; the episodes that were flown are kept, and the same command goes on with the others";
-        return Err(Diagnostic::new("fly-stopped", Fault::Stopped, message));
-    }
-    let flown = done.into_inner();
+            Attempt::Unanswered(reason) => Step::Unanswered(reason),
+            Attempt::Gone(reason) => Step::Gone(reason),
+        })
+    })?;
     let rows: Vec<Row> = tasks.iter().filter_map(|Task { episode, .. }| folder.row(&episode.name)).collect();
     let whole = rows.len() == tasks.len();
     if whole {
         finish(order, card, folder, &rows)?;
     }
-    let gone = gone.into_inner().unwrap_or_else(|it| it.into_inner());
-    Ok(Outcome { rows, flown, whole, gone, missing: due.len() - flown })
+    let gone = crewed.gone.map(|reason| first.refusal(&card.policy.name, &reason, all - crewed.kept));
+    Ok(Outcome { rows, flown: crewed.kept, whole, gone })
 }
 
 /// Keeps an episode with the logs that the card asks for.

@@ -77,7 +77,7 @@ impl Suite {
     /// Makes what a recipe's experts need, and reads their flights as episodes.
     ///
     /// # Errors
-    /// `fly-suite` for a recipe without experts; failures of stages; errors of the store.
+    /// `fly-suite` for a recipe without experts or without an episode; failures of stages; errors of the store.
     pub fn make(
         recipe: &Recipe,
         store: &Store,
@@ -101,7 +101,17 @@ impl Suite {
                 Diagnostic::new("fly-stopped", Fault::Stopped, "stopped before all episodes were made; they are kept")
             }));
         }
-        Reader { plan: cosfly_runner::plan(recipe, store)?, store, places: BTreeMap::new() }.read(&stages)
+        let suite =
+            Reader { plan: cosfly_runner::plan(recipe, store)?, store, places: BTreeMap::new() }.read(&stages)?;
+        if suite.tasks.is_empty() {
+            let message = format!("`{}` has no episode: the expert found no flight", recipe.path.display());
+            return Err(Diagnostic::new("fly-suite", Fault::Recipe, message)
+                .because(format!("none behind {} walks", suite.rejected))
+                .hint(
+                    "`cosfly run` on the recipe says why; more walks (`--set stages.walkers.count=...`) may have some",
+                ));
+        }
+        Ok(suite)
     }
 }
 

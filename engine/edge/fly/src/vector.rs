@@ -267,6 +267,15 @@ impl Flock {
         true
     }
 
+    /// Begins the draws of each environment that has a seed anew, without an episode.
+    pub fn seed(&mut self, seeds: &[Option<u64>]) {
+        for (bird, seed) in self.birds.iter_mut().zip(seeds) {
+            if let Some(seed) = *seed {
+                bird.stream = stream_of(seed);
+            }
+        }
+    }
+
     /// Begins an episode in each environment that `chosen` names; where there is a seed, its draws begin anew.
     pub fn reset(&mut self, seeds: &[Option<u64>], chosen: impl Fn(usize) -> bool) {
         if self.shared.is_team {

@@ -9,6 +9,8 @@ use rmpv::Value;
 pub const LARGEST_BYTES: usize = 16 << 20;
 /// Deepest nesting that is accepted.
 const DEEPEST: usize = 32;
+/// Largest number of values in a message: a value takes many times its byte once it is read.
+const MOST_VALUES: u64 = 1 << 17;
 /// Largest number of entries of an array of actions.
 const MOST_NUMBERS: usize = 1 << 16;
 
@@ -66,10 +68,59 @@ fn array(data: Vec<u8>, dtype: &str, shape: &[usize]) -> Value {
 /// # Errors
 /// The reason why the bytes are no message, in words.
 pub fn decode(bytes: &[u8]) -> Result<Value, String> {
+    check_count(bytes).map_err(|what| format!("the message {what}"))?;
     let mut rest = bytes;
     let value = rmpv::decode::read_value_with_max_depth(&mut rest, DEEPEST)
         .map_err(|error| format!("the message is not msgpack: {error}"))?;
     if rest.is_empty() { Ok(value) } else { Err(format!("{} bytes follow the message", rest.len())) }
+}
+
+/// The refusal of a message that is too long, in words.
+pub fn too_long() -> String {
+    format!("the answer is longer than {} MiB", LARGEST_BYTES >> 20)
+}
+
+/// Checks without reading a value that a message holds as many as it says, and not too many.
+fn check_count(bytes: &[u8]) -> Result<(), String> {
+    let (mut rest, mut left, mut seen) = (bytes, 1_u64, 0_u64);
+    while left > 0 {
+        (left, seen) = (left - 1, seen + 1);
+        let (marker, after) = rest.split_first().ok_or("is not msgpack: it is cut off")?;
+        // Bytes of the length that follows, bytes of the value itself, values inside.
+        let number = |width: usize| {
+            let bytes = after.get(..width)?;
+            Some(bytes.iter().fold(0_u64, |number, byte| number << 8 | u64::from(*byte)))
+        };
+        let length = |width: usize| number(width).ok_or("is not msgpack: it is cut off");
+        let (head, body, inside) = match *marker {
+            0x00..=0x7f | 0xc0..=0xc3 | 0xe0..=0xff => (0, 0, 0),
+            0x80..=0x8f => (0, 0, 2 * u64::from(marker & 0x0f)),
+            0x90..=0x9f => (0, 0, u64::from(marker & 0x0f)),
+            0xa0..=0xbf => (0, u64::from(marker & 0x1f), 0),
+            0xc4 | 0xd9 => (1, length(1)?, 0),
+            0xc5 | 0xda => (2, length(2)?, 0),
+            0xc6 | 0xdb => (4, length(4)?, 0),
+            0xc7 => (1, length(1)? + 1, 0),
+            0xc8 => (2, length(2)? + 1, 0),
+            0xc9 => (4, length(4)? + 1, 0),
+            0xca | 0xce | 0xd2 => (0, 4, 0),
+            0xcb | 0xcf | 0xd3 => (0, 8, 0),
+            0xcc | 0xd0 => (0, 1, 0),
+            0xcd | 0xd1 => (0, 2, 0),
+            0xd4..=0xd8 => (0, 1 + (1 << (marker - 0xd4)), 0),
+            0xdc => (2, 0, length(2)?),
+            0xdd => (4, 0, length(4)?),
+            0xde => (2, 0, 2 * length(2)?),
+            0xdf => (4, 0, 2 * length(4)?),
+        };
+        left += inside;
+        if seen + left > MOST_VALUES {
+            return Err(format!("holds more than {MOST_VALUES} values"));
+        }
+        let skipped = usize::try_from(head + body).ok();
+        rest = skipped.and_then(|skipped| after.get(skipped..)).ok_or("is not msgpack: it is cut off")?;
+    }
+    Ok(())
 }
 
 /// Entry of a map by its name, as text or as byte string.
@@ -113,19 +164,48 @@ fn of_numpy(value: &Value) -> Result<(Vec<f64>, Vec<usize>), String> {
             chunks.iter().map(|bytes| <$type>::$from(*bytes) as f64).collect()
         }};
     }
-    let numbers = match dtype {
-        "<f4" => read!(f32, from_le_bytes),
-        "<f8" => read!(f64, from_le_bytes),
-        ">f4" => read!(f32, from_be_bytes),
-        ">f8" => read!(f64, from_be_bytes),
-        "<i4" => read!(i32, from_le_bytes),
-        "<i8" => read!(i64, from_le_bytes),
-        "<u4" => read!(u32, from_le_bytes),
-        "|i1" => read!(i8, from_le_bytes),
-        "|u1" => read!(u8, from_le_bytes),
-        other => return Err(format!("an array of type `{other}`; `<f4`, `<f8` and whole numbers are read")),
+    // `<` and `>` say the order of the bytes; single bytes have none.
+    let is_big = dtype.starts_with('>');
+    macro_rules! of_order {
+        ($type:ty) => {
+            if is_big { read!($type, from_be_bytes) } else { read!($type, from_le_bytes) }
+        };
+    }
+    let numbers: Vec<f64> = match dtype.trim_start_matches(['<', '>', '=', '|']) {
+        "f2" => {
+            let halves: Vec<f64> = of_order!(u16);
+            halves.into_iter().map(|bits| of_half(bits as u16)).collect()
+        }
+        "f4" => of_order!(f32),
+        "f8" => of_order!(f64),
+        "i1" => read!(i8, from_le_bytes),
+        "i2" => of_order!(i16),
+        "i4" => of_order!(i32),
+        "i8" => of_order!(i64),
+        "u1" => read!(u8, from_le_bytes),
+        "u2" => of_order!(u16),
+        "u4" => of_order!(u32),
+        "u8" => of_order!(u64),
+        _ => {
+            return Err(format!(
+                "an array of type `{}`; floats of 2, 4 and 8 bytes and whole numbers are read, such as `<f4`",
+                dtype.chars().take(40).collect::<String>()
+            ));
+        }
     };
     Ok((numbers, shape))
+}
+
+/// The number of a float of two bytes.
+fn of_half(bits: u16) -> f64 {
+    let (exponent, fraction) = (i32::from(bits >> 10 & 0x1f), f64::from(bits & 0x3ff) / 1024.0);
+    let size = match exponent {
+        0 => fraction * 2_f64.powi(-14),
+        31 if fraction == 0.0 => f64::INFINITY,
+        31 => f64::NAN,
+        _ => (1.0 + fraction) * 2_f64.powi(exponent - 15),
+    };
+    if bits >> 15 == 1 { -size } else { size }
 }
 
 fn text(value: &Value) -> Option<&str> {
@@ -137,6 +217,9 @@ fn of_lists(value: &Value, depth: usize, flat: &mut Vec<f64>, shape: &mut Vec<us
         flat.push(number);
         let is_deepest = depth == shape.len();
         return if is_deepest { Ok(()) } else { Err("lists of different depths".to_owned()) };
+    }
+    if flat.len() > MOST_NUMBERS {
+        return Err(format!("more than {MOST_NUMBERS} numbers"));
     }
     let list = value.as_array().ok_or_else(|| format!("{} instead of numbers", kind(value)))?;
     match shape.get(depth) {
@@ -197,6 +280,72 @@ mod tests {
         }
         for bytes in [&b""[..], b"\xdd\xff\xff\xff\xff", b"\x93\x01", &[0x91; 500]] {
             assert!(decode(bytes).is_err(), "{bytes:?}");
+        }
+    }
+
+    #[test]
+    fn every_type_of_numbers_and_both_orders_of_bytes_are_read_right() {
+        let read = |dtype: &str, bytes: &[u8]| numbers(&array(bytes.to_vec(), dtype, &[bytes.len() / size(dtype)]));
+        let of = |dtype: &str, bytes: &[u8]| read(dtype, bytes).map(|(numbers, _)| numbers);
+        assert_eq!(
+            of("<f2", &[0x00, 0x3c, 0x00, 0xc5, 0x01, 0x00, 0xff, 0x7b]),
+            Ok(vec![1.0, -5.0, 2_f64.powi(-24), 65504.0])
+        );
+        assert_eq!(of(">f2", &[0x3c, 0x00, 0x7c, 0x00, 0x35, 0x55]), Ok(vec![1.0, f64::INFINITY, 0.333_251_953_125]));
+        assert!(of("<f2", &[0x01, 0x7c]).is_ok_and(|numbers| numbers[0].is_nan()));
+        for (dtype, le) in [
+            ("f4", &(-2.5_f32).to_le_bytes()[..]),
+            ("f8", &(-2.5_f64).to_le_bytes()),
+            ("i2", &(-300_i16).to_le_bytes()),
+            ("i4", &(-300_i32).to_le_bytes()),
+            ("i8", &(-300_i64).to_le_bytes()),
+            ("u2", &300_u16.to_le_bytes()),
+            ("u4", &300_u32.to_le_bytes()),
+            ("u8", &300_u64.to_le_bytes()),
+        ] {
+            let be: Vec<u8> = le.iter().rev().copied().collect();
+            let wanted = if dtype.starts_with('f') {
+                -2.5
+            } else if dtype.starts_with('i') {
+                -300.0
+            } else {
+                300.0
+            };
+            assert_eq!(of(&format!("<{dtype}"), le), Ok(vec![wanted]), "{dtype}");
+            assert_eq!(of(&format!(">{dtype}"), &be), Ok(vec![wanted]), "{dtype}");
+        }
+        assert_eq!(of("|i1", &[0xff]), Ok(vec![-1.0]));
+        for dtype in ["<f16", "|b1", "<U5", "<M8[ns]", "|V2", "<c16"] {
+            assert!(numbers(&array(vec![0; 16], dtype, &[1])).is_err_and(|what| what.contains(dtype)), "{dtype}");
+        }
+        fn size(dtype: &str) -> usize {
+            dtype[2..].parse().expect("a size")
+        }
+    }
+
+    #[test]
+    fn messages_of_too_many_values_are_refused_before_they_take_memory() {
+        let many = [&[0xdd, 0x00, 0xff, 0xff, 0xff][..], &vec![0xc0; 0xff_ffff]].concat();
+        assert!(decode(&many).is_err_and(|what| what.contains("more than 131072 values")));
+        let nested = [&[0xdd, 0x00, 0x01, 0x00, 0x00][..], &[0x91, 0x01].repeat(1 << 16)].concat();
+        assert!(decode(&nested).is_err_and(|what| what.contains("values")));
+        for bytes in [&[0xc6, 0xff, 0xff, 0xff, 0xff][..], &[0xdf, 0xff, 0xff, 0xff, 0xff], &[0xd9, 5, 1], &[0xcb, 0]] {
+            assert!(decode(bytes).is_err(), "{bytes:?}");
+        }
+        for value in [
+            Value::Nil,
+            Value::from(70_000),
+            Value::from("é".repeat(40)),
+            Value::Ext(3, vec![1, 2, 3]),
+            Value::F32(1.5),
+        ] {
+            let mut bytes = Vec::new();
+            rmpv::encode::write_value(
+                &mut bytes,
+                &Value::Array(vec![value.clone(), Value::Map(vec![(value, Value::from(-5))])]),
+            )
+            .unwrap();
+            assert!(decode(&bytes).is_ok(), "{bytes:?}");
         }
     }
 

@@ -1,6 +1,7 @@
 //! Diagnostics as exceptions of the class `cosfly.Error`.
 
 use cosfly_diagnose::{Diagnostic, Fault, Label, render_all};
+use cosfly_secrets::without_secrets;
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -14,12 +15,12 @@ pub fn exception(py: Python<'_>, refusals: &[Box<Diagnostic>]) -> PyErr {
         for refusal in refusals {
             let problem = PyDict::new(py);
             problem.set_item("code", refusal.code)?;
-            problem.set_item("message", refusal.to_string())?;
+            problem.set_item("message", without_secrets(&refusal.to_string()))?;
             problem.set_item("hints", &refusal.hints)?;
             problem.set_item("place", refusal.labels.first().map(place))?;
             problems.append(problem)?;
         }
-        let text = render_all(refusals.iter().map(|refusal| &**refusal), false);
+        let text = without_secrets(&render_all(refusals.iter().map(|refusal| &**refusal), false));
         Ok(PyErr::from_value(class.call1((text, problems))?))
     };
     build().unwrap_or_else(|error| error)

@@ -3,8 +3,9 @@
 use crate::calls::on_own_threads;
 use crate::errors::exception;
 use cosfly::Refusal;
-use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_diagnose::Diagnostic;
 use cosfly_env::pictures::{Channel, Format};
+use cosfly_fly::pilot::wrong_number;
 use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::{Suite, Task};
 use cosfly_fly::vector::{ACTIONS, Autoreset, Flock};
@@ -88,15 +89,24 @@ impl PyFlock {
         py.detach(|| flock.reset(&seeds, |number| mask.as_ref().is_none_or(|mask| mask.get(number) == Some(&true))));
     }
 
+    /// Begins the draws of environments anew, without an episode.
+    fn seed(&mut self, seeds: Vec<Option<u64>>) {
+        self.flock.seed(&seeds);
+    }
+
     /// One step of all environments.
-    fn step(&mut self, py: Python<'_>, actions: PyReadonlyArray2<'_, f32>) -> PyResult<()> {
+    fn step(&mut self, py: Python<'_>, actions: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
         let given = actions.as_slice().map_err(|error| PyValueError::new_err(error.to_string()))?;
+        if let Some(wrong) = wrong_number(given, ACTIONS) {
+            let message = format!("actions have {wrong}; the action space has 12 m/s and 60 degrees/s at most");
+            return Err(PyValueError::new_err(message));
+        }
         let (rows, rest) = given.as_chunks::<ACTIONS>();
         if rows.len() != self.flock.len() || !rest.is_empty() {
             let message = format!("actions must have the shape ({}, {ACTIONS})", self.flock.len());
             return Err(PyValueError::new_err(message));
         }
-        let rows = rows.to_vec();
+        let rows: Vec<[f32; ACTIONS]> = rows.iter().map(|row| row.map(|number| number as f32)).collect();
         let flock = &mut self.flock;
         py.detach(|| flock.step(&rows));
         Ok(())
@@ -208,9 +218,5 @@ fn made(recipe: &std::path::Path, overrides: &[String], store: &std::path::Path)
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
     let options = RunOptions { jobs, ..RunOptions::default() };
     let suite = Suite::make(&recipe, &store, &options, &|_| ()).map_err(one)?;
-    if suite.tasks.is_empty() {
-        let message = format!("`{}` has no episode: the expert found no flight", recipe.path.display());
-        return Err(one(Diagnostic::new("fly-suite", Fault::Recipe, message)));
-    }
     Ok((suite.tasks.into(), settings))
 }

@@ -183,3 +183,106 @@ def test_a_camera_that_sees_nothing_gives_zeros():
             dark += 1
             assert not info["tracked"]
     assert dark > 5
+
+
+@pytest.mark.parametrize("vectorization", ["sync", "vector_entry_point"])
+def test_environments_without_a_seed_differ_and_their_seeds_repeat_them(vectorization):
+    def names(envs, **given):
+        # The start tells episodes apart where an environment does not tell its name.
+        return [tuple(np.asarray(envs.reset(**(given if number == 0 else {}))[0])[:, :3].ravel().round(3)) for number in range(6)]
+
+    made = [gym.make_vec(ID, num_envs=4, vectorization_mode=vectorization, recipe="small/recipe.toml") for _ in range(3)]
+    first, second = names(made[0]), names(made[1])
+    assert first != second, "two processes or calls are no copies of each other"
+    rows = np.array(first).reshape(6, 4, 3)
+    assert any((rows[:, 0] != rows[:, number]).any() for number in range(1, 4)), "nor are environments side by side"
+    _, info = made[2].reset()
+    seeds = [int(seed) for seed in info["seed"]]
+    assert len(set(seeds)) == 4 and info["_seed"].all()
+    again = names(made[0], seed=seeds)
+    assert names(made[1], seed=seeds) == again, "seeded environments are equal"
+
+
+def test_the_seed_that_was_drawn_repeats_a_run():
+    def flown(env, seed=None):
+        starts = [env.reset(seed=seed)[0]] + [env.reset()[0] for _ in range(5)]
+        return np.array(starts)
+
+    for make in (lambda: gym.make(ID, recipe="small/recipe.toml"), lambda: make_vec(num_envs=3)):
+        env = make()
+        first = flown(env)
+        seed = env.unwrapped.np_random_seed
+        assert (flown(make(), seed) == first).all()
+        assert isinstance(seed, int) and seed >= 0
+    assert not (gym.make(ID, recipe="small/recipe.toml").action_space.sample() == gym.make(ID, recipe="small/recipe.toml").action_space.sample()).all()
+
+
+@pytest.mark.parametrize(
+    "wrong, words",
+    [
+        (np.nan, "NaN at row 1, column 2"),
+        (-np.inf, "-inf at row 1, column 2"),
+        (1e23, "at row 1, column 2; it must be a number within 1000000"),
+    ],
+)
+def test_numbers_that_no_action_has_are_refused_with_their_place(wrong, words):
+    envs = make_vec(num_envs=2)
+    before, _ = envs.reset(seed=1)
+    for dtype in (np.float32, np.float64):
+        actions = np.zeros((2, 5), dtype=dtype)
+        actions[1, 2] = wrong
+        with pytest.raises(ValueError, match=words.replace("+", ".")):
+            envs.step(actions)
+    env = gym.make(ID, recipe="small/recipe.toml").unwrapped
+    env.reset(seed=1)
+    with pytest.raises(ValueError, match="row 0, column 2"):
+        env.step([0, 0, wrong, 0, 0])
+
+
+@pytest.mark.parametrize(
+    "actions, words",
+    [
+        (np.zeros((2, 4)), "shape"),
+        (np.zeros(5), "shape"),
+        (np.zeros((2, 5), dtype=bool), "type bool"),
+        (np.zeros((2, 5), dtype=complex), "type complex"),
+        (np.full((2, 5), None), "type object"),
+        ([["a"] * 5] * 2, "type <U1"),
+        ([[0] * 5, [0]], "no array of numbers"),
+    ],
+)
+def test_actions_of_other_types_and_shapes_are_refused(actions, words):
+    envs = make_vec(num_envs=2)
+    envs.reset(seed=1)
+    with pytest.raises(ValueError, match=words):
+        envs.step(actions)
+    # Whole numbers and every size of floats are numbers.
+    for dtype in (np.float16, np.int64, np.uint8, np.longdouble, ">f8"):
+        envs.step(np.ones((2, 5), dtype=dtype))
+    envs.step(np.asfortranarray(np.ones((2, 5))))
+
+
+def test_calls_that_make_no_sense_are_refused():
+    for number in (0, -1, 1 << 40):
+        with pytest.raises(ValueError, match="num_envs"):
+            cosfly.gym.TrackVector("small/recipe.toml", number)
+    with pytest.raises(TypeError):
+        cosfly.gym.TrackVector("small/recipe.toml", 1.5)
+    with pytest.raises(ValueError, match="threads"):
+        cosfly.gym.TrackVector("small/recipe.toml", 1, threads=0)
+    with pytest.raises(ValueError, match="it is a list"):
+        cosfly.gym.TrackVector("small/recipe.toml", 1, overrides="a=b")
+    envs = cosfly.gym.TrackVector("small/recipe.toml", 3)
+    with pytest.raises(gym.error.ResetNeeded):
+        envs.step(np.zeros((3, 5)))
+    with pytest.raises(gym.error.ResetNeeded):
+        envs.reset(options={"reset_mask": np.array([True, False, False])})
+    envs.reset(seed=1)
+    for mask in ([True], [True] * 4, np.ones((3, 1), dtype=bool), [1, 0, 0], [False] * 3, "yes"):
+        with pytest.raises(ValueError, match="reset_mask"):
+            envs.reset(options={"reset_mask": mask})
+    for seed in (-1, [1, 2], [1, 2, 3.5], [1, 2, -3]):
+        with pytest.raises(ValueError, match="seed"):
+            envs.reset(seed=seed)
+    with pytest.raises(gym.error.ResetNeeded):
+        cosfly.gym.Track("small/recipe.toml").step(np.zeros(5))

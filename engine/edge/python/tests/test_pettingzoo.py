@@ -56,3 +56,38 @@ def test_drones_that_meet_leave_and_the_third_flies_on():
 def test_what_is_not_there_is_refused():
     with pytest.raises(ValueError, match="1 to 64"):
         cosfly.parallel_env(RECIPE, num_drones=0)
+
+
+def test_drones_without_a_seed_fly_other_episodes_each_time_and_the_seed_is_told():
+    flown, seeds = [], []
+    for _ in range(3):
+        env = cosfly.parallel_env(RECIPE, num_drones=2)
+        flown.append([env.reset()[1]["drone_0"]["episode"] for _ in range(8)])
+        seeds.append(env.np_random_seed)
+    assert len(set(seeds)) == 3
+    env = cosfly.parallel_env(RECIPE, num_drones=2)
+    first = env.reset(seed=seeds[0])[1]["drone_1"]
+    assert first["seed"] == seeds[0]
+    assert [first["episode"]] + [env.reset()[1]["drone_0"]["episode"] for _ in range(7)] == flown[0]
+    spaces = [cosfly.parallel_env(RECIPE, num_drones=2).action_space("drone_0").sample() for _ in range(2)]
+    assert (spaces[0] != spaces[1]).any()
+
+
+def test_actions_that_no_drone_can_fly_are_refused_by_the_drones_name():
+    env = cosfly.parallel_env(RECIPE, num_drones=2)
+    still = np.zeros(5, dtype=np.float32)
+    with pytest.raises(Exception, match="reset"):
+        env.step({"drone_0": still, "drone_1": still})
+    env.reset(seed=1)
+    for wrong, words in [
+        (np.full(5, np.nan), "NaN at row 1, column 0"),
+        (np.full(5, 1e23), "row 1, column 0"),
+        (np.zeros(4), "drone_1: actions have the shape"),
+        (None, "drone_1: actions are of type object"),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            env.step({"drone_0": still, "drone_1": wrong})
+    with pytest.raises(ValueError, match="the drones that fly"):
+        env.step({"drone_0": still})
+    with pytest.raises(ValueError, match="the drones that fly"):
+        env.step({"drone_0": still, "drone_1": still, "drone_7": still})

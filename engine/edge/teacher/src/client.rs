@@ -3,6 +3,7 @@
 use crate::config::ServerConfig;
 use crate::envelope::{Envelope, MOST_BYTES};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_secrets::Secrets;
 use std::time::Duration;
 use ureq::{Agent, Error, Timeout};
 
@@ -17,6 +18,7 @@ pub struct Client {
     url: String,
     /// Key, never shown.
     key: Option<String>,
+    secrets: Secrets,
 }
 
 /// What came of a request.
@@ -49,12 +51,13 @@ impl Client {
             .timeout_global(Some(Duration::from_secs_f64(config.timeout_s)))
             .build();
         let url = format!("{}/chat/completions", config.address.trim_end_matches('/'));
-        Ok(Self { agent: agent.into(), url, key: key_of(&config.key_variable)? })
+        let key = key_of(&config.key_variable)?;
+        Ok(Self { agent: agent.into(), url, secrets: Secrets::of(key.clone()), key })
     }
 
     /// Text without the key, should a server send it back.
     pub fn without_key(&self, text: &str) -> String {
-        self.key.as_ref().map_or_else(|| text.to_owned(), |key| text.replace(key.as_str(), "***"))
+        self.secrets.hidden(text)
     }
 
     /// Sends a request; `idempotency_key` is its name for servers that answer a repeated request with the first one's answer.

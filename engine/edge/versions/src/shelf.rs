@@ -35,13 +35,7 @@ pub fn put(store: &Path, version: &Version) -> Result<()> {
     let folder = folder(store);
     let path = folder.join(format!("{name}.json"));
     if path.exists() {
-        let old = read(&path)?;
-        if old.content == version.content {
-            return Ok(());
-        }
-        let message = format!("`{name}` is the name of another version: {} {}", old.dataset, old.dataset_version);
-        return Err(Diagnostic::new("version-taken", Fault::Recipe, message)
-            .hint("choose another name: a version never changes"));
+        return same(&path, version);
     }
     let failed = |error: std::io::Error| Diagnostic::io(format!("write `{}`", path.display()), &error);
     std::fs::create_dir_all(&folder).map_err(failed)?;
@@ -52,8 +46,22 @@ pub fn put(store: &Path, version: &Version) -> Result<()> {
     written.and_then(|()| writer.write_all(b"\n")).and_then(|()| writer.flush()).map_err(failed)?;
     drop(writer);
     file.as_file().sync_all().map_err(failed)?;
-    file.persist_noclobber(&path).map_err(|error| failed(error.error))?;
-    Ok(())
+    match file.persist_noclobber(&path) {
+        Ok(_) => Ok(()),
+        // Another process was first.
+        Err(error) if error.error.kind() == std::io::ErrorKind::AlreadyExists => same(&path, version),
+        Err(error) => Err(failed(error.error)),
+    }
+}
+
+/// Refuses a version whose name belongs to another one.
+fn same(path: &Path, version: &Version) -> Result<()> {
+    let old = read(path)?;
+    if old.content == version.content {
+        return Ok(());
+    }
+    let message = format!("`{}` is the name of another version: {} {}", version.name, old.dataset, old.dataset_version);
+    Err(Diagnostic::new("version-taken", Fault::Recipe, message).hint("choose another name: a version never changes"))
 }
 
 /// Reads the version called `name`.

@@ -2,6 +2,7 @@
 
 use crate::http_client::Connector;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_secrets::{Secrets, has_secret};
 use cosfly_store::{Remote, RemoteObject};
 use futures_util::TryStreamExt;
 use object_store::aws::{AmazonS3, AmazonS3Builder};
@@ -24,6 +25,8 @@ pub struct Bucket {
     store: AmazonS3,
     prefix: String,
     place: String,
+    /// Those of the environment: servers repeat them in refusals.
+    secrets: Secrets,
 }
 
 impl Bucket {
@@ -33,10 +36,15 @@ impl Bucket {
     /// # Errors
     /// `remote-place` where it is no such place or the environment is incomplete.
     pub fn open(place: &str) -> Result<Self> {
+        let secrets = Secrets::default().with_environment(std::env::vars_os());
         let wrong = |why: String| {
-            Diagnostic::new("remote-place", Fault::Recipe, format!("`{place}` cannot be a store: {why}"))
+            let message = secrets.hidden(&format!("`{place}` cannot be a store: {why}"));
+            Diagnostic::new("remote-place", Fault::Recipe, message)
                 .hint("write `s3://BUCKET/PREFIX`; credentials come from AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY, the server from AWS_REGION or AWS_ENDPOINT_URL")
         };
+        if has_secret(place) {
+            return Err(wrong("no name, password or key may be in it".to_owned()));
+        }
         let rest = place.strip_prefix("s3://").ok_or_else(|| wrong("it does not begin with `s3://`".to_owned()))?;
         let (bucket, prefix) = rest.split_once('/').unwrap_or((rest, ""));
         let prefix = prefix.trim_matches('/');
@@ -50,7 +58,7 @@ impl Bucket {
             .with_retry(RetryConfig { backoff, max_retries: MOST_RETRIES, retry_timeout: RETRY_TIME })
             .build()
             .map_err(|error| wrong(error.to_string()))?;
-        Ok(Self { store, prefix: prefix.to_owned(), place: format!("s3://{bucket}/{prefix}") })
+        Ok(Self { store, prefix: prefix.to_owned(), place: format!("s3://{bucket}/{prefix}"), secrets })
     }
 
     fn path(&self, name: &str) -> Path {
@@ -85,7 +93,8 @@ impl Bucket {
             Diagnostic::new("remote-refused", Fault::Machine, message)
                 .hint("check the server and the network, and run the same command again: finished items are kept")
         };
-        let cause: String = text.split_whitespace().collect::<Vec<_>>().join(" ").chars().take(400).collect();
+        let cause: String =
+            self.secrets.hidden(&text).split_whitespace().collect::<Vec<_>>().join(" ").chars().take(400).collect();
         diagnostic.because(cause)
     }
 }

@@ -8,7 +8,6 @@ use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_export::carla_job;
 use cosfly_read::{PublishedDataset, PublishedFlight};
-use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
 
@@ -54,15 +53,10 @@ fn written(arguments: &Arguments) -> Result<String> {
     let out = arguments.out.display();
     let failed = |error: std::io::Error| Diagnostic::io(format!("write `{out}`"), &error);
     // A job that was not written to its end never has the name of one.
-    let part = arguments.out.with_extension("part");
-    let mut file = BufWriter::new(File::create(&part).map_err(failed)?);
-    let outcome = carla_job::write(&dataset, &flights, &mut file);
-    if outcome.is_err() {
-        std::fs::remove_file(&part).map_err(failed)?;
-    }
-    outcome?;
-    file.into_inner().map_err(|error| failed(error.into_error()))?;
-    std::fs::rename(&part, &arguments.out).map_err(failed)?;
+    let mut file = BufWriter::new(cosfly_whole::draft(&arguments.out).map_err(failed)?);
+    carla_job::write(&dataset, &flights, &mut file)?;
+    let file = file.into_inner().map_err(|error| failed(error.into_error()))?;
+    file.persist(&arguments.out).map_err(|error| failed(error.error))?;
     let left_out = match dataset.others_seen(&flights)? {
         0 => String::new(),
         seen => format!(

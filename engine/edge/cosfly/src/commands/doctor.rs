@@ -59,7 +59,7 @@ impl Command for Arguments {
         let json = || serde_json::to_string_pretty(&examination).unwrap_or_default();
         let is_printed = self.json.as_deref() == Some(Path::new("-"));
         if let Some(path) = self.json.as_ref().filter(|_| !is_printed) {
-            std::fs::write(path, json() + "\n")
+            cosfly_whole::write_file(path, (json() + "\n").as_bytes())
                 .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))?;
         }
         let allowed = self.imperfect / 100.0;

@@ -5,6 +5,7 @@ use crate::console::Console;
 use crate::exit;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_whole::{Appeared, NewFolder};
 use std::path::{Path, PathBuf};
 
 /// A recipe that can be begun with: its name, its use, its files with their texts.
@@ -64,22 +65,20 @@ impl Command for Arguments {
         let wanted = self.from.as_deref().unwrap_or(folder_name);
         let start = STARTS.iter().find(|start| start.name == wanted).unwrap_or(&STARTS[0]);
         let shown = self.folder.display();
-        if self.folder.exists() {
+        // Not made for nothing; whether the place is free in the end, the folder's appearance says.
+        if self.folder.exists() || write(&self.folder, start)? == Appeared::Taken {
             let message = format!("`{shown}` is there already");
             return Err(Diagnostic::new("init-exists", Fault::Recipe, message).hint("choose another name").into());
         }
-        write(&self.folder, start)?;
         console.print(&format!("wrote `{shown}`: {}. Next:\n  cosfly run {shown}\n", start.doc))?;
         Ok(exit::SUCCESS)
     }
 }
 
 /// Writes the files beside the folder first, so that the folder is whole when it appears.
-fn write(folder: &Path, start: &Start) -> Result<()> {
-    let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+fn write(folder: &Path, start: &Start) -> Result<Appeared> {
     let refused = |error: std::io::Error| Diagnostic::io(format!("write `{}`", folder.display()), &error);
-    std::fs::create_dir_all(parent).map_err(refused)?;
-    let scratch = tempfile::Builder::new().prefix(".cosfly-init-").tempdir_in(parent).map_err(refused)?;
+    let draft = NewFolder::beside(folder).map_err(refused)?;
     let page = format!(
         "# {}\n\n`recipe.toml` describes {}.\n\n\
          ```sh\ncosfly plan {0}                    # what would run, and why\ncosfly run {0}                     # make the dataset\n\
@@ -96,9 +95,9 @@ fn write(folder: &Path, start: &Start) -> Result<()> {
         // The recipe names its schema and itself by their places in the repository.
         let text = text.replace("../schemas/recipe.schema.json", "recipe.schema.json");
         let text = text.replace("recipes/carla_town.toml", &folder.display().to_string());
-        let path = scratch.path().join(name);
+        let path = draft.path().join(name);
         std::fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).map_err(refused)?;
         std::fs::write(path, text).map_err(refused)?;
     }
-    std::fs::rename(scratch.keep(), folder).map_err(refused)
+    draft.appear().map_err(refused)
 }

@@ -5,6 +5,7 @@ use crate::console::Console;
 use crate::exit;
 use clap::{Parser, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_whole::{Appeared, NewFolder};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -79,13 +80,12 @@ fn new(arguments: &Arguments, console: &dyn Console) -> Outcome {
             .hint("names begin with `a-z` and go on with at most 59 of `a-z`, `0-9` and `_`")
             .into());
     }
-    if arguments.path.exists() {
+    if arguments.path.exists() || write(arguments, name)? == Appeared::Taken {
         let message = format!("`{}` is there already", arguments.path.display());
         return Err(Diagnostic::new("plugin-exists", Fault::Recipe, message)
             .hint("choose another name or folder")
             .into());
     }
-    write(arguments, name)?;
     let built = format!("target/wasm32-unknown-unknown/release/{name}.wasm");
     console.print(&format!(
         "wrote `{0}`: what it does is in `{0}/src/lib.rs`. Then:\n  cd {0}\n  cargo test\n  cargo build --release --target \
@@ -95,7 +95,8 @@ fn new(arguments: &Arguments, console: &dyn Console) -> Outcome {
     Ok(exit::SUCCESS)
 }
 
-fn write(arguments: &Arguments, name: &str) -> cosfly_diagnose::Result<()> {
+/// Writes the files beside the folder first, so that the folder is whole when it appears.
+fn write(arguments: &Arguments, name: &str) -> cosfly_diagnose::Result<Appeared> {
     let (source, words, usage) = match arguments.kind {
         PluginKind::CostTerm => (
             include_str!("../../../../../plugins/templates/cost-term.rs.txt"),
@@ -114,15 +115,17 @@ fn write(arguments: &Arguments, name: &str) -> cosfly_diagnose::Result<()> {
         ),
     };
     let named = |text: &str| text.replace("NAME", name);
-    put(&arguments.path.join("Cargo.toml"), &named(MANIFEST))?;
-    put(&arguments.path.join("src/lib.rs"), &named(source))?;
-    put(&arguments.path.join("README.md"), &named(&README.replace("KIND", words).replace("USE", usage)))?;
-    put(&arguments.path.join(".cargo/config.toml"), CARGO_CONFIG)?;
-    put(&arguments.path.join(".gitignore"), "/target\n")?;
+    let refused = |error: std::io::Error| Diagnostic::io(format!("write `{}`", arguments.path.display()), &error);
+    let draft = NewFolder::beside(&arguments.path).map_err(refused)?;
+    put(&draft.path().join("Cargo.toml"), &named(MANIFEST))?;
+    put(&draft.path().join("src/lib.rs"), &named(source))?;
+    put(&draft.path().join("README.md"), &named(&README.replace("KIND", words).replace("USE", usage)))?;
+    put(&draft.path().join(".cargo/config.toml"), CARGO_CONFIG)?;
+    put(&draft.path().join(".gitignore"), "/target\n")?;
     for (file, text) in SDK {
-        put(&arguments.path.join("sdk").join(file), text)?;
+        put(&draft.path().join("sdk").join(file), text)?;
     }
-    Ok(())
+    draft.appear().map_err(refused)
 }
 
 fn put(path: &Path, text: &str) -> cosfly_diagnose::Result<()> {

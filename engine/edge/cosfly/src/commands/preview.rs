@@ -83,13 +83,7 @@ fn write(out: &Path, flight: &PublishedFlight, pictures: &Pictures) -> Result<Ve
     let mut written = vec![];
     for (name, file) in files {
         let path = out.join(format!("{}-{name}", flight.trajectory_id));
-        // Renamed when whole: a full disk leaves no half picture.
-        let partial = path.with_extension("part");
-        let outcome = std::fs::write(&partial, file).and_then(|()| std::fs::rename(&partial, &path));
-        if outcome.is_err() {
-            let _ = std::fs::remove_file(&partial);
-        }
-        outcome.map_err(refused)?;
+        cosfly_whole::write_file(&path, file).map_err(refused)?;
         written.push((path, file.len() as u64));
     }
     Ok(written)

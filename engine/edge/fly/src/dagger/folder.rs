@@ -2,12 +2,14 @@
 
 use super::npy;
 use super::rollout::{Label, Rollout};
-use crate::results::{EnvironmentCard, PolicyCard, SuiteCard};
-use crate::whole;
+use crate::results::{EnvironmentCard, PolicyCard, SuiteCard, differences};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
+use cosfly_whole::{Appeared, NewFolder, write_file};
 use serde::{Deserialize, Serialize};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What a version holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,54 +54,96 @@ pub struct RoundMade {
     pub digest: String,
 }
 
-/// A version of the labels.
+/// A version of the labels. Its folder appears with its card and the rounds before when the first episode is kept: a policy that
+/// never flies leaves none.
 pub struct LabelFolder {
     path: PathBuf,
+    card: LabelCard,
+    onto: Option<PathBuf>,
+    /// Whether the folder with this card was there, or was made.
+    is_there: AtomicBool,
 }
 
 impl LabelFolder {
-    /// Opens the folder for a card whose last round is to be made, or makes it, with the rounds of the version `onto`.
+    /// The folder for a card whose last round is to be made, with the rounds of the version `onto`. It may be there already.
     ///
     /// # Errors
     /// `dagger-out` where something else is in the folder; errors of the file system.
     pub fn open(path: &Path, card: &LabelCard, onto: Option<&Path>) -> Result<Self> {
-        let folder = Self { path: path.to_owned() };
-        match Self::card(path) {
-            Ok(kept) if same_but_made(&kept, card) => {}
-            Ok(_) => {
-                let message = format!("`{}` holds another version of labels", path.display());
-                return Err(Diagnostic::new("dagger-out", Fault::Recipe, message).hint(
-                    "give a new folder with `--out`; a version is never changed, `--onto` begins with its rounds",
-                ));
-            }
-            Err(_) if path.read_dir().is_ok_and(|mut entries| entries.next().is_some()) => {
-                let message = format!("`{}` is a folder with other files", path.display());
-                return Err(
-                    Diagnostic::new("dagger-out", Fault::Recipe, message).hint("give another folder with `--out`")
-                );
-            }
-            // The card comes first: a folder with one is gone on with.
-            Err(_) => {
-                std::fs::create_dir_all(path).map_err(|error| failed("make", path, &error))?;
-                folder.write("card.json", pretty(card).as_bytes())?;
+        let (path, onto) = (path.to_owned(), onto.map(Path::to_owned));
+        let folder = Self { path, card: card.clone(), onto, is_there: AtomicBool::new(false) };
+        if folder.look()? {
+            folder.copy_rounds(&folder.path)?;
+        }
+        Ok(folder)
+    }
+
+    /// Whether the folder is there with this card.
+    fn look(&self) -> Result<bool> {
+        let (path, refused) = (&self.path, |message: String| Diagnostic::new("dagger-out", Fault::Recipe, message));
+        loop {
+            let is_empty = match path.read_dir() {
+                Ok(mut entries) => entries.next().is_none(),
+                Err(error) => error.kind() == ErrorKind::NotFound,
+            };
+            match Self::card(path) {
+                Ok(kept) if same_but_made(&kept, &self.card) => {
+                    self.is_there.store(true, Ordering::Relaxed);
+                    return Ok(true);
+                }
+                Ok(kept) => {
+                    let value = |card: &LabelCard| serde_json::to_value(unmade(card)).unwrap_or_default();
+                    let refusal = refused(format!("`{}` holds another version of labels", path.display()));
+                    let differ = differences("", &value(&kept), &value(&self.card));
+                    return Err(differ.into_iter().fold(refusal, Diagnostic::because).hint(
+                        "give a new folder with `--out`; a version is never changed, `--onto` begins with its rounds",
+                    ));
+                }
+                Err(_) if is_empty && !path.join("card.json").exists() => return Ok(false),
+                // Made between the two looks.
+                Err(_) if is_empty => {}
+                Err(_) => {
+                    let message = format!("`{}` is a folder with other files", path.display());
+                    return Err(refused(message).hint("give another folder with `--out`"));
+                }
             }
         }
-        for round in &card.rounds {
-            let place = path.join("rounds").join(&round.name);
+    }
+
+    /// Makes the folder with its card and the rounds before, where nobody has.
+    fn make(&self) -> Result<()> {
+        if self.is_there.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        let refused = |error: std::io::Error| failed("make", &self.path, &error);
+        let folder = NewFolder::beside(&self.path).map_err(refused)?;
+        self.copy_rounds(folder.path())?;
+        std::fs::write(folder.path().join("card.json"), pretty(&self.card)).map_err(refused)?;
+        if folder.appear().map_err(refused)? == Appeared::Taken && self.look()? {
+            self.copy_rounds(&self.path)?;
+        }
+        self.is_there.store(true, Ordering::Relaxed);
+        Ok(())
+    }
+
+    /// Copies what is missing of the rounds before into a folder.
+    fn copy_rounds(&self, folder: &Path) -> Result<()> {
+        for round in &self.card.rounds {
+            let place = folder.join("rounds").join(&round.name);
             std::fs::create_dir_all(&place).map_err(|error| failed("make", &place, &error))?;
-            let Some(onto) = onto.filter(|_| round.made.is_some()) else { continue };
+            let Some(onto) = self.onto.as_ref().filter(|_| round.made.is_some()) else { continue };
             let from = onto.join("rounds").join(&round.name);
             let entries = from.read_dir().map_err(|error| failed("read", &from, &error))?;
             for entry in entries {
                 let entry = entry.map_err(|error| failed("read", &from, &error))?;
                 let copy = place.join(entry.file_name());
                 if !copy.exists() {
-                    let copied = std::fs::read(entry.path()).and_then(|bytes| whole::write(&copy, &bytes));
+                    let copied = std::fs::read(entry.path()).and_then(|bytes| write_file(&copy, &bytes));
                     copied.map_err(|error| failed("copy", &entry.path(), &error))?;
                 }
             }
         }
-        Ok(folder)
+        Ok(())
     }
 
     /// The card of a version.
@@ -127,6 +171,7 @@ impl LabelFolder {
     /// # Errors
     /// Errors of the file system.
     pub fn keep(&self, round: &str, episode: &str, rollout: &Rollout) -> Result<()> {
+        self.make()?;
         let line = |label: &Label| serde_json::to_string(label).unwrap_or_default() + "\n";
         let text: String = rollout.labels.iter().map(line).collect();
         self.write(&format!("rounds/{round}/{episode}.jsonl"), text.as_bytes())
@@ -137,6 +182,7 @@ impl LabelFolder {
     /// # Errors
     /// Errors of the file system; `dagger-version` where a file is damaged.
     pub fn finish(&self, mut card: LabelCard, episodes: &[&str]) -> Result<LabelCard> {
+        self.make()?;
         let mut all = Vec::new();
         for round in &mut card.rounds {
             let first = all.len();
@@ -181,18 +227,20 @@ impl LabelFolder {
 
     fn write(&self, name: &str, bytes: &[u8]) -> Result<()> {
         let path = self.path.join(name);
-        whole::write(&path, bytes).map_err(|error| failed("write", &path, &error))
+        write_file(&path, bytes).map_err(|error| failed("write", &path, &error))
     }
 }
 
 /// Whether two cards ask for the same version, whatever of it is made.
 fn same_but_made(kept: &LabelCard, asked: &LabelCard) -> bool {
-    let unmade = |card: &LabelCard| {
-        let mut card = card.clone();
-        card.rounds.last_mut().into_iter().for_each(|round| round.made = None);
-        card
-    };
     unmade(kept) == unmade(asked)
+}
+
+/// A card without what is made of its last round.
+fn unmade(card: &LabelCard) -> LabelCard {
+    let mut card = card.clone();
+    card.rounds.last_mut().into_iter().for_each(|round| round.made = None);
+    card
 }
 
 fn failed(what: &str, path: &Path, error: &std::io::Error) -> Box<Diagnostic> {

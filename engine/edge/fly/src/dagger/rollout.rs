@@ -1,7 +1,7 @@
 //! One episode, flown by a mixture of policy and expert, with the expert's action in every state.
 
 use crate::experts::{KnownFlight, LOOK_AHEAD_S};
-use crate::pilot::{Failure, Pilot};
+use crate::pilot::{Asked, Failure, Pilot};
 use crate::suite::Task;
 use cosfly_diagnose::Result;
 use cosfly_env::policies::Plan;
@@ -53,28 +53,35 @@ pub struct Mixture {
     pub seed: Seed,
 }
 
+/// What came of an episode.
+pub enum Attempt {
+    /// It was flown and labelled.
+    Flown(Rollout),
+    /// The policy failed, and has given no right answer since the command began: it is not set up. Why.
+    Unanswered(String),
+    /// The policy cannot be had; why.
+    Gone(String),
+}
+
 /// Flies an episode. The mixture chooses anew at every frame of the dataset who flies until the next one.
 ///
 /// # Errors
-/// Errors of the expert; the reason why the policy cannot be had is the inner one.
+/// Errors of the expert.
 pub fn rollout(
     task: &Task,
     known: &KnownFlight,
     settings: Settings,
     mixture: &Mixture,
-    pilot: &mut dyn Pilot,
-) -> Result<std::result::Result<Rollout, String>> {
+    pilot: &mut Asked<'_>,
+) -> Result<Attempt> {
     let mut environment = Environment::new(Arc::clone(&task.episode), settings);
     let (mut rollout, mut way) = (Rollout::default(), None);
     let mut choice = mixture.seed.child(&task.episode.name, 0).stream("mixture");
     let (mut by_expert, mut next_frame) = (false, 0);
-    match pilot.begin(&environment, &task.knowledge) {
-        Ok(()) => {}
-        Err(Failure::Gone(reason)) => return Ok(Err(reason)),
-        Err(Failure::Answer(reason)) => rollout.policy_failure = Some(reason),
+    if let Err(reason) = pilot.begin(&environment, &task.knowledge) {
+        return Ok(Attempt::Gone(reason));
     }
-    while environment.score().end.is_none() && rollout.policy_failure.is_none() && environment.score().planned_steps > 0
-    {
+    while environment.score().end.is_none() && environment.score().planned_steps > 0 {
         let observation = *environment.observation();
         let frame = (observation.time_s / task.episode.target.dt_s + 1e-6) as usize;
         if frame >= next_frame {
@@ -86,7 +93,8 @@ pub fn rollout(
         let expert = way.as_ref().map(|(plan, seen)| (expert_action(&environment, plan), *seen));
         let own = match pilot.act(&environment) {
             Ok(action) => action,
-            Err(Failure::Gone(reason)) => return Ok(Err(reason)),
+            Err(Failure::Gone(reason)) => return Ok(Attempt::Gone(reason)),
+            Err(Failure::Answer(reason)) if !pilot.has_answered() => return Ok(Attempt::Unanswered(reason)),
             Err(Failure::Answer(reason)) => {
                 rollout.policy_failure = Some(format!("at step {}: {reason}", observation.step));
                 break;
@@ -106,7 +114,7 @@ pub fn rollout(
         });
         environment.step(Some(&flown));
     }
-    Ok(Ok(rollout))
+    Ok(Attempt::Flown(rollout))
 }
 
 /// The expert's way on from the present state, as `plan-from` gives it, and its mean visibility.

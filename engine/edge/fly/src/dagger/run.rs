@@ -1,16 +1,18 @@
 //! A round: all episodes of a suite, flown and labelled on several threads; episodes that are in the folder are kept.
 
 use super::folder::LabelFolder;
-use super::rollout::{Mixture, rollout};
+use super::rollout::{Attempt, Mixture, rollout};
+use crate::crew::{Shifts, Step, crew};
 use crate::experts::Experts;
-use crate::pilot::{Manners, Place, open};
+use crate::pilot::{Asked, FirstAnswer, Manners, Place};
 use crate::suite::Suite;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_env::Settings;
 use cosfly_recipe::Recipe;
 use cosfly_store::Store;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// What is flown, and how.
 pub struct Round<'a> {
@@ -30,6 +32,8 @@ pub struct Round<'a> {
     pub mixture: Mixture,
     /// Name of the round.
     pub name: &'a str,
+    /// Name of the policy.
+    pub policy: &'a str,
     /// Threads.
     pub jobs: usize,
     /// Set from anywhere to stop.
@@ -37,69 +41,54 @@ pub struct Round<'a> {
 }
 
 /// What came of it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Flown {
     /// Episodes flown by this call.
     pub episodes: usize,
     /// States from which the expert was asked for its way on.
     pub asked: u64,
+    /// Episodes of this call that the policy ended by its fault, and why in the first of them.
+    pub failures: Option<(usize, String)>,
+    /// Why episodes were not flown: the policy could not be had, or is not set up.
+    pub gone: Option<Box<Diagnostic>>,
 }
 
 /// Flies what the folder lacks of a round.
 ///
 /// # Errors
-/// Errors of the expert and of the file system; `fly-policy-gone`; `fly-stopped`.
+/// Errors of the expert and of the file system; `fly-stopped`.
 pub fn run(round: &Round<'_>, folder: &LabelFolder, progress: &dyn Fn(u64, u64)) -> Result<Flown> {
     let tasks = &round.suite.tasks;
     let due: Vec<usize> = (0..tasks.len()).filter(|at| !folder.has(round.name, &tasks[*at].episode.name)).collect();
-    let (next, done, asked, stop) =
-        (AtomicUsize::new(0), AtomicUsize::new(0), AtomicU64::new(0), AtomicBool::new(false));
-    let failed: Mutex<Option<Box<Diagnostic>>> = Mutex::new(None);
-    let one = |experts: &mut Experts<'_>, pilot: &mut dyn crate::pilot::Pilot, at: usize| -> Result<()> {
+    let (first, all, asked) = (FirstAnswer::default(), due.len(), AtomicU64::new(0));
+    let failures: Mutex<BTreeMap<usize, String>> = Mutex::default();
+    let shifts = Shifts { jobs: round.jobs, cancelled: round.cancelled, first: &first };
+    let worker = || {
+        let plan = cosfly_runner::plan(round.recipe, round.store)?;
+        Ok((Experts::new(plan, round.store), Asked::new(round.place, round.manners, &first)))
+    };
+    let crewed = crew(due, &shifts, progress, worker, |(experts, pilot), at| {
         let task = &tasks[at];
         let known = experts.flight(&task.episode.name)?;
-        match rollout(task, &known, round.settings, &round.mixture, pilot)? {
-            Ok(made) => {
+        Ok(match rollout(task, &known, round.settings, &round.mixture, pilot)? {
+            Attempt::Flown(made) => {
                 asked.fetch_add(u64::from(made.asked), Ordering::Relaxed);
-                folder.keep(round.name, &task.episode.name, &made)
+                folder.keep(round.name, &task.episode.name, &made)?;
+                if let Some(reason) = made.policy_failure {
+                    let reason = format!("{}, {reason}", task.episode.name);
+                    failures.lock().unwrap_or_else(PoisonError::into_inner).insert(at, reason);
+                }
+                Step::Kept
             }
-            Err(reason) => {
-                let message = "the policy could not be had for some of the episodes";
-                Err(Diagnostic::new("fly-policy-gone", Fault::Machine, message)
-                    .because(reason)
-                    .hint("the episodes that were flown are kept: the same command flies the others"))
-            }
-        }
-    };
-    let work = || {
-        let made = cosfly_runner::plan(round.recipe, round.store).and_then(|plan| {
-            let mut experts = Experts::new(plan, round.store);
-            let mut pilot = open(round.place, round.manners);
-            while !stop.load(Ordering::Relaxed) && !round.cancelled.load(Ordering::Relaxed) {
-                let Some(&at) = due.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-                one(&mut experts, &mut *pilot, at)?;
-                done.fetch_add(1, Ordering::Relaxed);
-            }
-            Ok(())
-        });
-        if let Err(error) = made {
-            stop.store(true, Ordering::Relaxed);
-            failed.lock().unwrap_or_else(|it| it.into_inner()).get_or_insert(error);
-        }
-    };
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..round.jobs.clamp(1, due.len().max(1))).map(|_| scope.spawn(work)).collect();
-        while workers.iter().any(|worker| !worker.is_finished()) {
-            progress(done.load(Ordering::Relaxed) as u64, due.len() as u64);
-            std::thread::sleep(std::time::Duration::from_millis(5));
-        }
-    });
-    if let Some(error) = failed.into_inner().unwrap_or_else(|it| it.into_inner()) {
-        return Err(error);
-    }
-    if round.cancelled.load(Ordering::Relaxed) {
-        let message = "stopped; the episodes that were flown are kept, and the same command goes on with the others";
-        return Err(Diagnostic::new("fly-stopped", Fault::Stopped, message));
-    }
-    Ok(Flown { episodes: done.into_inner(), asked: asked.into_inner() })
+            Attempt::Unanswered(reason) => Step::Unanswered(reason),
+            Attempt::Gone(reason) => Step::Gone(reason),
+        })
+    })?;
+    let failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
+    Ok(Flown {
+        episodes: crewed.kept,
+        asked: asked.into_inner(),
+        failures: failures.first_key_value().map(|(_, reason)| (failures.len(), reason.clone())),
+        gone: crewed.gone.map(|reason| first.refusal(round.policy, &reason, all - crewed.kept)),
+    })
 }

@@ -1,12 +1,21 @@
 //! [`Answer`]: actions that a policy gave in one message.
 
 use crate::wire;
+use cosfly_diagnose::plausible;
 use cosfly_env::{Action, Environment, policies};
 use cosfly_frames::{DVec3, Pose, action, real};
 use rmpv::Value;
 
 /// Largest absolute value of a number of an action.
 const LARGEST: f64 = 1e6;
+
+/// The first number that no action may have, with its place in rows of `columns`, as the end of a sentence. The rule of every door
+/// for actions: policies of `cosfly fly` and environments.
+pub fn wrong_number(rows: &[f64], columns: usize) -> Option<String> {
+    let place = rows.iter().position(|number| plausible(*number).is_err() || number.abs() > LARGEST)?;
+    let (row, column, number) = (place / columns, place % columns, rows[place]);
+    Some(format!("{number} at row {row}, column {column}; it must be a number within {LARGEST}"))
+}
 
 /// Kind of the actions of a policy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,9 +86,8 @@ impl Answer {
                 "`actions` has the shape {shape:?}; {name} is ({columns},) or (n, {columns}) with n of at least 1"
             ));
         }
-        if let Some(place) = rows.iter().position(|number| number.is_nan() || number.abs() > LARGEST) {
-            let (row, column, number) = (place / columns, place % columns, rows[place]);
-            return Err(format!("`actions` is {number} at row {row}, column {column}; it must be within {LARGEST}"));
+        if let Some(wrong) = wrong_number(&rows, columns) {
+            return Err(format!("`actions` is {wrong}"));
         }
         let observation = environment.observation();
         let (begins_s, frame_s) = (observation.time_s, environment.episode().target.dt_s);

@@ -18,7 +18,7 @@ impl BaselinePilot {
 }
 
 impl Pilot for BaselinePilot {
-    fn begin(&mut self, environment: &Environment, knowledge: &Knowledge) -> Result<(), Failure> {
+    fn begin(&mut self, environment: &Environment, knowledge: &Knowledge) -> Result<(), String> {
         self.policy = baseline(self.name).map(|baseline| (baseline.make)(environment, knowledge));
         Ok(())
     }

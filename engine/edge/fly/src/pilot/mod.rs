@@ -2,16 +2,22 @@
 
 mod answer;
 mod baseline;
+mod first_answer;
+mod process;
 mod python;
 mod question;
 mod socket;
+mod source;
 
-pub use answer::{ActionKind, Answer};
+pub use answer::{ActionKind, Answer, wrong_number};
+pub use first_answer::{Asked, FirstAnswer};
+pub use source::source_of;
 
-use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name, visible_text};
 use cosfly_env::pictures::Format;
 use cosfly_env::policies::{BASELINES, Knowledge};
 use cosfly_env::{Action, Environment};
+use cosfly_secrets::{Secrets, has_secret, without_secrets};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -38,6 +44,13 @@ impl Place {
     /// `fly-policy`, with what is allowed.
     pub fn read(text: &str) -> Result<Self> {
         let refused = |message: String| Diagnostic::new("fly-policy", Fault::Recipe, message);
+        // The address names folders and stands on cards and pages.
+        if has_secret(text) {
+            let message = format!("`{}` holds a name, a password or a key", without_secrets(text));
+            return Err(refused(message).hint(
+                "give the key of a server in the environment variable COSFLY_API_KEY, or with `--api-key`; it is written nowhere",
+            ));
+        }
         if text.starts_with("ws://") {
             return Ok(Self::Socket(text.to_owned()));
         }
@@ -102,6 +115,13 @@ pub struct Manners {
     pub python: PathBuf,
 }
 
+impl Manners {
+    /// A text of a policy as rows and errors show it: without secrets, and without what controls a terminal.
+    pub fn shown(&self, text: &str) -> String {
+        visible_text(&Secrets::of(self.api_key.clone()).with_environment(std::env::vars_os()).hidden(text))
+    }
+}
+
 /// Why a policy gave no action.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Failure {
@@ -111,13 +131,9 @@ pub enum Failure {
     Gone(String),
 }
 
-impl Failure {
-    /// The reason, in words.
-    pub fn words(&self) -> &str {
-        match self {
-            Self::Answer(words) | Self::Gone(words) => words,
-        }
-    }
+/// The reason for no answer in time, in words.
+fn late(within: Duration) -> String {
+    format!("no answer within {} s (`--timeout`)", within.as_secs_f64())
 }
 
 /// A policy as episodes see it.
@@ -125,8 +141,8 @@ pub trait Pilot {
     /// Begins an episode.
     ///
     /// # Errors
-    /// [`Failure::Gone`] where the policy cannot be had.
-    fn begin(&mut self, environment: &Environment, knowledge: &Knowledge) -> std::result::Result<(), Failure>;
+    /// The reason why the policy cannot be had, in words: it was waited for already.
+    fn begin(&mut self, environment: &Environment, knowledge: &Knowledge) -> std::result::Result<(), String>;
 
     /// Action for the present observation.
     ///

@@ -4,16 +4,17 @@ use super::answer::Answer;
 use super::question::Question;
 use super::{Failure, Manners, Pilot};
 use crate::wire;
-use cosfly_diagnose::visible_text;
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Action, Environment};
 use std::io::{self, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
 use tungstenite::client::IntoClientRequest;
+use tungstenite::error::ProtocolError;
+use tungstenite::handshake::client::ClientHandshake;
 use tungstenite::http::HeaderValue;
 use tungstenite::protocol::WebSocketConfig;
-use tungstenite::{Error, Message, WebSocket, client::client_with_config};
+use tungstenite::{Error, HandshakeError, Message, WebSocket, client::client_with_config};
 
 /// Time between attempts to connect.
 const AGAIN: Duration = Duration::from_millis(200);
@@ -29,6 +30,23 @@ pub struct SocketPilot {
     answer: Option<Answer>,
 }
 
+/// Why there is no server.
+struct NoServer {
+    why: String,
+    /// Whether waiting does not help.
+    is_for_good: bool,
+}
+
+impl NoServer {
+    fn for_now(why: impl ToString) -> Self {
+        Self { why: why.to_string(), is_for_good: false }
+    }
+
+    fn for_good(why: impl ToString) -> Self {
+        Self { why: why.to_string(), is_for_good: true }
+    }
+}
+
 impl SocketPilot {
     /// The server at `ws://HOST:PORT`, not yet connected.
     pub fn new(address: &str, manners: Manners) -> Self {
@@ -36,44 +54,96 @@ impl SocketPilot {
         Self { address: address.to_owned(), manners, socket: None, question, answer: None }
     }
 
-    fn connect(&self) -> Result<WebSocket<Timed>, String> {
-        let mut request = self.address.as_str().into_client_request().map_err(|error| error.to_string())?;
+    fn connect(&self) -> Result<WebSocket<Timed>, NoServer> {
+        let mut request = self.address.as_str().into_client_request().map_err(NoServer::for_good)?;
         if let Some(key) = &self.manners.api_key {
+            // The text of the error would not show the key; neither does this one.
             let value = HeaderValue::from_str(&format!("Api-Key {key}"));
-            request.headers_mut().insert("Authorization", value.map_err(|error| error.to_string())?);
+            let value = value.map_err(|_| NoServer::for_good("the key has characters that no header may have"))?;
+            request.headers_mut().insert("Authorization", value);
         }
         let host = request.uri().host().unwrap_or("localhost").trim_matches(['[', ']']).to_owned();
         let port = request.uri().port_u16().unwrap_or(80);
-        let mut addresses = (host.as_str(), port).to_socket_addrs().map_err(|error| error.to_string())?;
-        let address = addresses.next().ok_or_else(|| format!("`{host}` has no address"))?;
-        let stream = TcpStream::connect_timeout(&address, self.manners.timeout).map_err(|error| error.to_string())?;
-        stream.set_nodelay(true).map_err(|error| error.to_string())?;
+        let stream = self.stream(&host, port)?;
+        stream.set_nodelay(true).map_err(NoServer::for_now)?;
         let timed = Timed { stream, until: Instant::now() + self.manners.timeout };
         let limits = WebSocketConfig::default()
             .max_message_size(Some(wire::LARGEST_BYTES))
             .max_frame_size(Some(wire::LARGEST_BYTES));
         let connected = client_with_config(request, timed, Some(limits));
-        connected.map(|(socket, _)| socket).map_err(|error| error.to_string())
+        connected.map(|(socket, _)| socket).map_err(|error| self.refused(error))
+    }
+
+    /// A connection to the first address of a host that takes one: `localhost` has several.
+    fn stream(&self, host: &str, port: u16) -> Result<TcpStream, NoServer> {
+        let mut last = NoServer::for_now(format!("`{host}` has no address"));
+        for address in (host, port).to_socket_addrs().map_err(NoServer::for_now)? {
+            match TcpStream::connect_timeout(&address, self.manners.timeout) {
+                Ok(stream) => return Ok(stream),
+                Err(error) => last = NoServer::for_now(error),
+            }
+        }
+        Err(last)
+    }
+
+    /// Why a server does not become a WebSocket.
+    fn refused(&self, error: HandshakeError<ClientHandshake<Timed>>) -> NoServer {
+        let error = match error {
+            HandshakeError::Interrupted(_) => {
+                let timeout = self.manners.timeout.as_secs_f64();
+                return NoServer::for_now(format!("the server says nothing within {timeout} s"));
+            }
+            HandshakeError::Failure(error) => error,
+        };
+        match &error {
+            Error::Http(response) => {
+                let status = response.status();
+                let advice = match status.as_u16() {
+                    300..=399 => "; redirects are not followed: give the address where the policy is",
+                    401 | 403 => "; give its key with COSFLY_API_KEY",
+                    _ => "",
+                };
+                let why = format!("the server answers with the status {status}, not as a WebSocket{advice}");
+                if status.is_server_error() { NoServer::for_now(why) } else { NoServer::for_good(why) }
+            }
+            Error::Io(_) | Error::ConnectionClosed | Error::Protocol(ProtocolError::HandshakeIncomplete) => {
+                NoServer::for_now(error)
+            }
+            _ => NoServer::for_good(format!("the server does not speak as a WebSocket: {error}")),
+        }
     }
 
     /// Waits for the server, and for its metadata.
-    fn meet(&mut self) -> Result<(), Failure> {
+    fn meet(&mut self) -> Result<(), String> {
         let until = Instant::now() + self.manners.wait;
         loop {
-            match self.connect() {
-                Ok(socket) => {
-                    self.socket = Some(socket);
-                    break;
-                }
-                Err(error) if Instant::now() >= until => {
-                    return Err(Failure::Gone(format!("no connection to {}: {error}", self.address)));
+            let met = self.connect().and_then(|socket| {
+                self.socket = Some(socket);
+                self.metadata()
+            });
+            match met {
+                Ok(()) => return Ok(()),
+                Err(no) if no.is_for_good || Instant::now() >= until => {
+                    self.socket = None;
+                    let waited = self.manners.wait.as_secs_f64();
+                    let waited = if no.is_for_good { String::new() } else { format!(" (waited {waited} s, `--wait`)") };
+                    return Err(self.manners.shown(&format!("no policy at {}: {}{waited}", self.address, no.why)));
                 }
                 Err(_) => std::thread::sleep(AGAIN),
             }
         }
-        let metadata = self.receive()?;
-        wire::decode(&metadata).map_err(|what| Failure::Answer(format!("the metadata: {what}")))?;
-        Ok(())
+    }
+
+    fn metadata(&mut self) -> Result<(), NoServer> {
+        let metadata = self.receive().map_err(|failure| {
+            // A server that serves one episode at a time has it later.
+            let is_late = self.socket.as_ref().is_some_and(|socket| socket.get_ref().left().is_err());
+            match failure {
+                Failure::Answer(why) if !is_late => NoServer::for_good(format!("it sends no metadata first: {why}")),
+                Failure::Answer(why) | Failure::Gone(why) => NoServer::for_now(format!("it sends no metadata: {why}")),
+            }
+        })?;
+        wire::decode(&metadata).map(drop).map_err(|what| NoServer::for_good(format!("its metadata: {what}")))
     }
 
     /// The next message, within the time allowed.
@@ -85,20 +155,20 @@ impl SocketPilot {
             return match socket.read() {
                 Ok(Message::Binary(bytes)) => Ok(bytes.to_vec()),
                 Ok(Message::Text(text)) => {
-                    let text: String = visible_text(text.as_str()).chars().take(KEPT).collect();
+                    let text: String = self.manners.shown(text.as_str()).chars().take(KEPT).collect();
                     Err(Failure::Answer(format!("the policy answers with a text: {text}")))
                 }
                 Ok(Message::Ping(_) | Message::Pong(_)) => continue,
                 Ok(Message::Close(_) | Message::Frame(_)) => {
                     Err(Failure::Gone("the policy closed the connection".to_owned()))
                 }
-                Err(Error::Io(error)) if is_late(&error) => {
-                    Err(Failure::Answer(format!("no answer within {} s", timeout.as_secs_f64())))
+                Err(Error::Io(error)) if is_late(&error) => Err(Failure::Answer(super::late(timeout))),
+                Err(Error::Capacity(_)) => Err(Failure::Answer(wire::too_long())),
+                // It ended without a word of goodbye.
+                Err(Error::Protocol(ProtocolError::ResetWithoutClosingHandshake)) => {
+                    Err(Failure::Gone("the policy closed the connection".to_owned()))
                 }
-                Err(Error::Capacity(_)) => {
-                    Err(Failure::Answer(format!("the answer is longer than {} MiB", wire::LARGEST_BYTES >> 20)))
-                }
-                Err(Error::Utf8(_) | Error::Protocol(tungstenite::error::ProtocolError::InvalidOpcode(_))) => {
+                Err(Error::Utf8(_) | Error::Protocol(_)) => {
                     Err(Failure::Answer("the answer is not a WebSocket message".to_owned()))
                 }
                 Err(error) => Err(Failure::Gone(format!("the connection broke: {error}"))),
@@ -125,7 +195,7 @@ impl SocketPilot {
 }
 
 impl Pilot for SocketPilot {
-    fn begin(&mut self, _: &Environment, _: &Knowledge) -> Result<(), Failure> {
+    fn begin(&mut self, _: &Environment, _: &Knowledge) -> Result<(), String> {
         // A connection of its own for every episode: nothing of the one before is left in it.
         if let Some(mut socket) = self.socket.take() {
             socket.get_mut().until = Instant::now() + AGAIN;

@@ -60,6 +60,12 @@ pub struct PolicyCard {
     pub version: Option<String>,
     /// Kind: `baseline`, `socket`, `python`.
     pub kind: String,
+    /// Digest of the file of a module in Python.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
+    /// Time within which an answer must come, seconds; none for baselines.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub timeout_s: Option<f64>,
     /// Kind of its actions.
     pub actions: String,
     /// Steps after which it is asked again.

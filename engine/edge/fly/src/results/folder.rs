@@ -4,51 +4,96 @@ use super::card::Card;
 use super::report;
 use crate::flight::{Flown, Row};
 use crate::log::{self, Line};
-use crate::whole;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_whole::{Appeared, NewFolder, write_file};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Folders in the folder.
 const PARTS: [&str; 3] = ["rows", "logs", "clips"];
 
 /// The folder of a result: `card.json`, `rows/EPISODE.json`, `logs/EPISODE.jsonl` and `.mcap`; once whole also `episodes.jsonl`,
-/// `scores.json`, `report.md`, `report.html` and `clips/EPISODE.gif`.
+/// `scores.json`, `report.md`, `report.html` and `clips/EPISODE.gif`. It appears with its card when the first episode is kept: a
+/// policy that never flies leaves none.
 pub struct Folder {
     path: PathBuf,
+    card: String,
+    /// Whether the folder with this card was there, or was made.
+    is_there: AtomicBool,
 }
 
 impl Folder {
-    /// Opens the folder for the evaluation that `card` describes, or makes it.
+    /// The folder of the evaluation that `card` describes, which may be there already.
     ///
     /// # Errors
-    /// `fly-out` where another evaluation is in the folder; errors of the file system.
+    /// `fly-out` where something else is in the folder; errors of the file system.
     pub fn open(path: &Path, card: &Card) -> Result<Self> {
-        let folder = Self { path: path.to_owned() };
-        let text = pretty(card);
-        match std::fs::read_to_string(folder.path.join("card.json")) {
-            Ok(kept) if kept == text => {}
-            Ok(_) => {
-                let message = format!("`{}` holds the result of another evaluation", path.display());
-                return Err(Diagnostic::new("fly-out", Fault::Recipe, message)
-                    .hint("its card.json names the suite, the policy and the settings")
-                    .hint("give another folder with `--out`, or another `--name` to the policy"));
-            }
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                if path.read_dir().is_ok_and(|mut entries| entries.next().is_some()) {
-                    let message = format!("`{}` is a folder with other files", path.display());
-                    return Err(
-                        Diagnostic::new("fly-out", Fault::Recipe, message).hint("give another folder with `--out`")
-                    );
-                }
-                for part in PARTS {
-                    let made = std::fs::create_dir_all(folder.path.join(part));
-                    made.map_err(|error| Diagnostic::io(format!("make the folder {}", path.display()), &error))?;
-                }
-                folder.write("card.json", text.as_bytes())?;
-            }
-            Err(error) => return Err(Diagnostic::io(format!("read {}", path.join("card.json").display()), &error)),
-        }
+        let folder = Self { path: path.to_owned(), card: pretty(card), is_there: AtomicBool::new(false) };
+        folder.look()?;
         Ok(folder)
+    }
+
+    /// Whether the folder is there with this card.
+    fn look(&self) -> Result<bool> {
+        let card = self.path.join("card.json");
+        loop {
+            match std::fs::read_to_string(&card) {
+                Ok(kept) if kept == self.card => {
+                    self.is_there.store(true, Ordering::Relaxed);
+                    return Ok(true);
+                }
+                Ok(kept) => return Err(self.other_evaluation(&kept)),
+                Err(error) if error.kind() == ErrorKind::NotFound => {}
+                Err(error) => return Err(Diagnostic::io(format!("read {}", card.display()), &error)),
+            }
+            let is_empty = match self.path.read_dir() {
+                Ok(mut entries) => entries.next().is_none(),
+                Err(error) => error.kind() == ErrorKind::NotFound,
+            };
+            // Between the two looks another process may have made it: folder and card appear together.
+            if is_empty {
+                return Ok(false);
+            }
+            if !card.exists() {
+                let message = format!("`{}` is a folder with other files", self.path.display());
+                let refusal = Diagnostic::new("fly-out", Fault::Recipe, message);
+                return Err(refusal.hint("give another folder with `--out`"));
+            }
+        }
+    }
+
+    fn other_evaluation(&self, kept: &str) -> Box<Diagnostic> {
+        let message = format!("`{}` holds the result of another evaluation", self.path.display());
+        let refusal = Diagnostic::new("fly-out", Fault::Recipe, message);
+        let values = (serde_json::from_str(kept).ok(), serde_json::from_str(&self.card).ok());
+        let refusal = match values {
+            (Some(kept), Some(asked)) => differences("", &kept, &asked).into_iter().fold(refusal, Diagnostic::because),
+            _ => refusal.because("its card.json is damaged"),
+        };
+        refusal.hint("give another folder with `--out`, or another `--name` to the policy; or remove this one")
+    }
+
+    /// Makes the folder with its card, where nobody has.
+    fn make(&self) -> Result<()> {
+        if self.is_there.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        let refused = |error: &std::io::Error| Diagnostic::io(format!("make {}", self.path.display()), error);
+        let made = || {
+            let folder = NewFolder::beside(&self.path)?;
+            PARTS.iter().try_for_each(|part| std::fs::create_dir(folder.path().join(part)))?;
+            std::fs::write(folder.path().join("card.json"), &self.card)?;
+            folder.appear()
+        };
+        if made().map_err(|error| refused(&error))? == Appeared::Taken {
+            // Another share of the evaluation was first; what it made is looked at as any other folder.
+            self.look()?;
+        }
+        self.is_there.store(true, Ordering::Relaxed);
+        Ok(())
     }
 
     /// Card and rows of a finished result.
@@ -68,10 +113,16 @@ impl Folder {
             let message = format!("`{}` is damaged", path.join(name).display());
             Diagnostic::new("fly-result", Fault::Input, message).because(error.to_string())
         };
-        let card = serde_json::from_str(&text("card.json")?).map_err(|error| damaged("card.json", error))?;
+        let card: Card = serde_json::from_str(&text("card.json")?).map_err(|error| damaged("card.json", error))?;
         let rows = text("episodes.jsonl")?;
-        let rows = rows.lines().map(serde_json::from_str).collect::<std::result::Result<_, _>>();
-        Ok((card, rows.map_err(|error| damaged("episodes.jsonl", error))?))
+        let rows = rows.lines().map(serde_json::from_str).collect::<std::result::Result<Vec<Row>, _>>();
+        let rows = rows.map_err(|error| damaged("episodes.jsonl", error))?;
+        if rows.len() as u64 != card.suite.episodes {
+            let message = format!("`{}` has {} of {} episodes", path.display(), rows.len(), card.suite.episodes);
+            return Err(Diagnostic::new("fly-result", Fault::Input, message)
+                .hint("fly it again: the same command makes the tables of all rows"));
+        }
+        Ok((card, rows))
     }
 
     /// Row of an episode, where it was flown before.
@@ -86,6 +137,7 @@ impl Folder {
     /// Errors of the file system.
     pub fn keep(&self, flown: &Flown, mcap: Option<&[u8]>) -> Result<()> {
         let name = &flown.row.episode;
+        self.make()?;
         self.write(&format!("logs/{name}.jsonl"), log::text(&flown.steps).as_bytes())?;
         mcap.map_or(Ok(()), |bytes| self.write(&format!("logs/{name}.mcap"), bytes))?;
         self.write(&format!("rows/{name}.json"), line(&flown.row).as_bytes())
@@ -136,6 +188,7 @@ impl Folder {
     /// # Errors
     /// Errors of the file system.
     pub fn finish(&self, card: &Card, rows: &[Row], page: &str) -> Result<()> {
+        self.make()?;
         self.clean();
         self.write("episodes.jsonl", rows.iter().map(line).collect::<String>().as_bytes())?;
         self.write("scores.json", pretty(&report::scores(rows)).as_bytes())?;
@@ -151,7 +204,26 @@ impl Folder {
     /// Writes a file whole or not at all.
     fn write(&self, name: &str, bytes: &[u8]) -> Result<()> {
         let path = self.path.join(name);
-        whole::write(&path, bytes).map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error))
+        write_file(&path, bytes).map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error))
+    }
+}
+
+/// Entries in which two cards differ, in words, the kept one first.
+pub fn differences(name: &str, kept: &Value, asked: &Value) -> Vec<String> {
+    match (kept, asked) {
+        _ if kept == asked => vec![],
+        (Value::Object(ours), Value::Object(theirs)) => {
+            let names: BTreeSet<&String> = ours.keys().chain(theirs.keys()).collect();
+            let of = |key: &String| {
+                let inside = if name.is_empty() { key.clone() } else { format!("{name}.{key}") };
+                differences(&inside, ours.get(key).unwrap_or(&Value::Null), theirs.get(key).unwrap_or(&Value::Null))
+            };
+            names.into_iter().flat_map(of).collect()
+        }
+        _ => {
+            let shown = |value: &Value| if value.is_null() { "nothing".to_owned() } else { value.to_string() };
+            vec![format!("`{name}` was {} and is {} now", shown(kept), shown(asked))]
+        }
     }
 }
 

@@ -6,6 +6,6 @@ mod metrics;
 mod report;
 
 pub use card::{Card, EnvironmentCard, KeptCard, LogChoice, PicturesCard, PolicyCard, SuiteCard};
-pub use folder::Folder;
+pub use folder::{Folder, differences};
 pub use metrics::{METRICS, Metric, Summary, mean_of, strata, summary};
 pub use report::{beside, cell, ending, markdown, scores, worst};

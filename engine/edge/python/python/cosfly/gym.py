@@ -1,6 +1,7 @@
 """Environments for gymnasium: `gym.make_vec("cosfly/Track-v0", num_envs=64, recipe="recipes/suites/street.toml")`.
 
-An environment flies the episodes of a recipe, as `cosfly fly` does; each draws its episodes from a seed of its own.
+An environment flies the episodes of a recipe, as `cosfly fly` does; each draws its episodes from a seed of its own: the one that is
+given, else one of the system's entropy, which `info["seed"]` and `np_random_seed` tell so that a run can be repeated.
 Observations are 16 numbers (`obs=("state",)`), pictures (`depth`, `mask`, `semantic`, `instance`, `rgb`), or several of them as a
 dictionary. Actions are five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's page "Flying in
 closed loop" defines them, and the terms of the reward, which `info` has as `reward_...`.
@@ -8,28 +9,81 @@ closed loop" defines them, and the terms of the reward, which `info` has as `rew
 
 from __future__ import annotations
 
+import operator
 import os
-from copy import deepcopy
+import secrets
 from dataclasses import dataclass
 from typing import Any, Callable, Sequence
 
 import gymnasium
 import numpy as np
 from gymnasium import spaces
+from gymnasium.error import ResetNeeded
+from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from ._cosfly import Flock
 from ._gym import register
 
-_LARGEST = np.array([12, 12, 12, 60, 60], dtype=np.float32)
-ACTIONS = spaces.Box(-_LARGEST, _LARGEST, dtype=np.float32)
+_LARGEST = (12, 12, 12, 60, 60)
 _MODES = {
     AutoresetMode.NEXT_STEP: "next_step",
     AutoresetMode.SAME_STEP: "same_step",
     AutoresetMode.DISABLED: "disabled",
 }
 _LARGEST_SIZE = 2048
+_MOST_ENVIRONMENTS = 65536
+
+
+def action_space() -> spaces.Box:
+    """Velocities (m/s) and rates (degrees/s), in a space of its own: copies of a space draw the same samples."""
+    largest = np.array(_LARGEST, dtype=np.float32)
+    return spaces.Box(-largest, largest, dtype=np.float32)
+
+
+def _rows(actions: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """Actions as numbers of a shape; everything else is refused. The flock looks at the numbers themselves."""
+    try:
+        rows = np.asarray(actions)
+    except Exception as error:
+        raise ValueError(f"actions are no array of numbers: {error}") from error
+    if rows.dtype.kind not in "fiu":
+        raise ValueError(f"actions are of type {rows.dtype}; they are numbers, such as float32")
+    if rows.shape != shape:
+        raise ValueError(f"actions have the shape {rows.shape}; it is {shape}")
+    return np.ascontiguousarray(rows, dtype=np.float64)
+
+
+def _seed(seed: Any) -> int | None:
+    """A seed of an environment; None where none is given."""
+    if seed is None:
+        return None
+    if isinstance(seed, (bool, np.bool_)) or not isinstance(seed, (int, np.integer)) or seed < 0:
+        raise ValueError(f"a seed is {seed!r}; it is a whole number from 0 on")
+    return int(seed) % 2**64
+
+
+class _Streams:
+    """Seeds of the streams that environments draw their episodes from."""
+
+    def __init__(self, count: int) -> None:
+        self.seeds: list[int | None] = [None] * count
+        self.drawn: int | None = None
+        """The seed that was drawn last; environment number n has n more."""
+
+    def begin(self, given: Sequence[int | None], chosen: Sequence[bool], entropy: int | None = None) -> list[int | None]:
+        """Seeds with which the streams of the chosen environments begin anew; None for those that go on. An environment that has
+        never had a seed gets one from `entropy`, or from the system."""
+        begun: list[int | None] = [None] * len(self.seeds)
+        is_new = [on and seed is None and known is None for on, seed, known in zip(chosen, given, self.seeds)]
+        if any(is_new):
+            self.drawn = secrets.randbits(62) if entropy is None else entropy
+        for number, on in enumerate(chosen):
+            seed = (self.drawn + number) % 2**64 if is_new[number] and self.drawn is not None else given[number]
+            if on and seed is not None:
+                begun[number] = self.seeds[number] = seed
+        return begun
 
 
 @dataclass
@@ -95,6 +149,10 @@ def _flock(
     expert_action: bool,
     is_team: bool = False,
 ) -> tuple[Flock, _Observations]:
+    if isinstance(overrides, str):
+        raise ValueError(f"overrides is {overrides!r}; it is a list, such as ['stages.walkers.count=8']")
+    if threads is not None and not 1 <= operator.index(threads) <= 1024:
+        raise ValueError(f"threads is {threads}; it is 1 to 1024")
     width, height = (size, size) if isinstance(size, (int, np.integer)) else size
     observations = _Observations(tuple(obs), (int(width), int(height)), float(max_depth_m))
     if not 0.01 <= step_s <= 1.0 or not 0.0 <= (latency_s or 0.0) <= 5.0:
@@ -139,36 +197,63 @@ class TrackVector(VectorEnv):
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     ) -> None:
         mode = AutoresetMode(autoreset_mode)
-        self.num_envs = num_envs
+        if isinstance(num_envs, bool) or not 1 <= operator.index(num_envs) <= _MOST_ENVIRONMENTS:
+            raise ValueError(f"num_envs is {num_envs}; it is 1 to {_MOST_ENVIRONMENTS}")
+        self.num_envs = num_envs = int(num_envs)
         self.metadata = {**type(self).metadata, "autoreset_mode": mode}
         self._mode = mode
         self._flock, self._observations = _flock(
             recipe, num_envs, mode, overrides=overrides, store=store, obs=obs, size=size, max_depth_m=max_depth_m,
             weather=weather, look=look, threads=threads, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
         )  # fmt: skip
-        self.single_observation_space, self.single_action_space = self._observations.space(), deepcopy(ACTIONS)
+        self.single_observation_space, self.single_action_space = self._observations.space(), action_space()
         self.observation_space = batch_space(self.single_observation_space, num_envs)
-        self.action_space = batch_space(ACTIONS, num_envs)
+        self.action_space = batch_space(action_space(), num_envs)
+        self._streams, self._is_reset = _Streams(num_envs), False
 
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
+        chosen = self._chosen((options or {}).get("reset_mask"))
         seeds: list[int | None]
         if seed is None:
             seeds = [None] * self.num_envs
         elif isinstance(seed, (int, np.integer)):
-            seeds = [int(seed) + number for number in range(self.num_envs)]
+            first = _seed(seed)
+            seeds = [_seed(int(seed) + number) for number in range(self.num_envs)]
+            self._np_random, self._np_random_seed = seeding.np_random(first)
         else:
-            seeds = list(seed)
+            seeds = [_seed(one) for one in seed]
         if len(seeds) != self.num_envs:
             raise ValueError(f"{len(seeds)} seeds for {self.num_envs} environments")
-        mask = (options or {}).get("reset_mask")
-        self._flock.reset(seeds, None if mask is None else [bool(chosen) for chosen in mask])
+        if not self._is_reset and not all(chosen):
+            raise ResetNeeded("the first reset is of all environments: leave reset_mask out")
+        drawn = self._streams.drawn
+        begun = self._streams.begin(seeds, chosen)
+        if self._streams.drawn != drawn:
+            self._np_random, self._np_random_seed = seeding.np_random(self._streams.drawn)
+        self._flock.reset(begun, chosen)
+        self._is_reset = True
         told = self._flock.outputs()
-        return self._observations.of(told), self._info(told)
+        info = self._info(told)
+        info["seed"], info["_seed"] = np.array(self._streams.seeds, dtype=np.uint64), np.ones(self.num_envs, dtype=bool)
+        return self._observations.of(told), info
+
+    def _chosen(self, mask: Any) -> list[bool]:
+        if mask is None:
+            return [True] * self.num_envs
+        chosen = np.asarray(mask)
+        if chosen.dtype != np.bool_ or chosen.shape != (self.num_envs,) or not chosen.any():
+            raise ValueError(
+                f"reset_mask is {chosen.dtype} of shape {chosen.shape}; it has a truth value for each of the {self.num_envs} "
+                "environments, and one at least is true"
+            )
+        return [bool(one) for one in chosen]
 
     def step(self, actions: np.ndarray) -> tuple[Any, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
-        self._flock.step(np.ascontiguousarray(actions, dtype=np.float32))
+        if not self._is_reset:
+            raise ResetNeeded("reset() begins the episodes before the first step()")
+        self._flock.step(_rows(actions, (self.num_envs, len(_LARGEST))))
         told = self._flock.outputs()
         info = self._info(told)
         ended = told["terminated"] | told["truncated"]
@@ -215,20 +300,35 @@ class Track(gymnasium.Env):
             recipe, 1, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, size=size,
             max_depth_m=max_depth_m, weather=weather, look=look, threads=1, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
         )  # fmt: skip
-        self.observation_space, self.action_space = self._observations.space(), deepcopy(ACTIONS)
+        self.observation_space, self.action_space = self._observations.space(), action_space()
+        self._streams, self._is_reset = _Streams(1), False
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         super().reset(seed=seed)
+        # `np_random` that was used before has drawn a seed already.
+        known = self._np_random_seed
+        entropy = None if known is None or known < 0 else _seed(known)
+        begun = self._streams.begin([_seed(seed)], [True], entropy)
+        if self._np_random_seed is None:
+            self._np_random, self._np_random_seed = seeding.np_random(self._streams.drawn)
         episode = (options or {}).get("episode")
         if episode is None:
-            self._flock.reset([seed], None)
+            self._flock.reset(begun, [True])
         else:
+            self._flock.seed(begun)
             self._flock.begin_episode(0, episode)
+        self._is_reset = True
         told = self._flock.outputs()
-        return self._observations.of(told, number=0), self._info(told)
+        info = self._info(told)
+        known = self._streams.seeds[0]
+        if known is not None and known < 2**63:  # what arrays of infos hold
+            info["seed"] = known
+        return self._observations.of(told, number=0), info
 
     def step(self, action: np.ndarray) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        self._flock.step(np.asarray(action, dtype=np.float32).reshape(1, -1))
+        if not self._is_reset:
+            raise ResetNeeded("reset() begins an episode before the first step()")
+        self._flock.step(_rows(action, (len(_LARGEST),)).reshape(1, -1))
         told = self._flock.outputs()
         ended = bool(told["terminated"][0]), bool(told["truncated"][0])
         return self._observations.of(told, number=0), float(told["rewards"][0]), *ended, self._info(told)

@@ -15,7 +15,7 @@ import gymnasium
 import numpy as np
 
 from ._outcome import Outcome
-from .gym import ACTIONS, Track
+from .gym import Track, action_space
 
 ID = "cosfly/LeRobotTrack-v0"
 PROMPT = "Follow the person and keep them in view."
@@ -35,7 +35,7 @@ class LeRobotTrack(gymnasium.Env):
         space = self._track.observation_space
         names = {"agent_pos": space["state"], "pixels": space["rgb"]} if size else {"agent_pos": space}
         self.observation_space = gymnasium.spaces.Dict(names)
-        self.action_space = ACTIONS
+        self.action_space = action_space()
         self._outcome = Outcome(1, step_s)
 
     @property

@@ -8,16 +8,18 @@ is over leaves; the others fly on.
 
 from __future__ import annotations
 
+import operator
 import os
 from copy import deepcopy
 from typing import Any, Sequence
 
 import numpy as np
 from gymnasium import spaces
+from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode
 from pettingzoo import ParallelEnv
 
-from .gym import ACTIONS, _flock, _is_info
+from .gym import _flock, _is_info, _rows, _seed, _Streams, action_space
 
 _OTHER = 7
 
@@ -43,7 +45,7 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
         step_s: float = 0.1,
         latency_s: float | None = None,
     ) -> None:
-        if not 1 <= num_drones <= 64:
+        if isinstance(num_drones, bool) or not 1 <= operator.index(num_drones) <= 64:
             raise ValueError(f"num_drones is {num_drones}; it is 1 to 64")
         self._flock, self._observations = _flock(
             recipe, num_drones, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, size=size,
@@ -57,7 +59,8 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
         state = spaces.Box(-np.inf, np.inf, (16 + _OTHER * (num_drones - 1),), np.float32)
         # Spaces draw samples from seeds of their own: none is shared.
         self.observation_spaces = {agent: self._observations.space(deepcopy(state)) for agent in self.possible_agents}
-        self.action_spaces = {agent: deepcopy(ACTIONS) for agent in self.possible_agents}
+        self.action_spaces = {agent: action_space() for agent in self.possible_agents}
+        self._streams, self._is_reset = _Streams(1), False
 
     def observation_space(self, agent: str) -> spaces.Space[Any]:
         return self.observation_spaces[agent]
@@ -68,24 +71,41 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
-        """Begins an episode with all drones: one that the seed draws, or `options={"episode": NAME}`."""
+        """Begins an episode with all drones: one that the seed draws, or `options={"episode": NAME}`. Without a seed, one of the
+        system's entropy draws; `np_random_seed` and the infos tell it."""
         episode = (options or {}).get("episode")
+        begun = self._streams.begin([_seed(seed)], [True]) + [None] * (len(self.possible_agents) - 1)
         if episode is None:
-            self._flock.reset([None if seed is None else int(seed)] + [None] * (len(self.possible_agents) - 1), None)
+            self._flock.reset(begun, None)
         else:
+            self._flock.seed(begun)
             self._flock.begin_episode(0, episode)
+        self._is_reset = True
         self.agents = list(self.possible_agents)
         told = self._told()
         observations = {agent: self._observations.of(told, number=self._numbers[agent]) for agent in self.agents}
-        return observations, {agent: self._info(told, agent) for agent in self.agents}
+        return observations, {agent: {**self._info(told, agent), "seed": self.np_random_seed} for agent in self.agents}
+
+    @property
+    def np_random_seed(self) -> int | None:
+        """The seed that draws the episodes, given or drawn; None before the first reset."""
+        return self._streams.seeds[0]
 
     def step(
         self, actions: dict[str, Any]
     ) -> tuple[dict[str, Any], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]]:
+        if not self._is_reset:
+            raise ResetNeeded("reset() begins an episode before the first step()")
         flying = list(self.agents)
-        rows = np.zeros((len(self.possible_agents), 5), dtype=np.float32)
+        missing, unknown = [it for it in flying if it not in actions], [it for it in actions if it not in self._numbers]
+        if missing or unknown:
+            raise ValueError(f"actions are of {sorted(map(str, actions))}; they are of the drones that fly: {flying}")
+        rows = np.zeros((len(self.possible_agents), 5), dtype=np.float64)
         for agent in flying:
-            rows[self._numbers[agent]] = actions[agent]
+            try:
+                rows[self._numbers[agent]] = _rows(actions[agent], (5,))
+            except ValueError as error:
+                raise ValueError(f"{agent}: {error}") from None
         self._flock.step(rows)
         told = self._told()
         number = self._numbers

@@ -38,7 +38,8 @@ Examples:
 
 A version is a folder: card.json, rounds/ROUND/EPISODE.jsonl with a line per step, and arrays of numpy over all rounds:
 states.npy (n, 16), expert_actions.npy (n, 5), actions.npy (n, 5), expert_visibility.npy (n, 1), by_expert.npy (n,).
-States without a way on for the expert are left out of the arrays. The same command goes on with what a folder lacks."
+States without a way on for the expert are left out of the arrays. The same command goes on with what a folder lacks. Exits
+with 1 when the policy has given no right answer (then nothing is kept) or went away before all episodes were flown."
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -119,12 +120,21 @@ impl Command for Arguments {
         let folder = LabelFolder::open(out, &card, self.onto.as_deref())?;
         let mixture = Mixture { by_expert: self.expert, seed: Seed::of_item(recipe.seed, "dagger", name) };
         let (cancelled, manners) = (console.cancelled(), self.asked.manners());
+        let policy = self.name.clone().unwrap_or_else(|| place.name());
         let (recipe, store, suite, place, manners) = (&recipe, &store, &suite, &place, &manners);
-        let round =
-            Round { recipe, store, suite, place, manners, settings, mixture, name, jobs, cancelled: &cancelled };
+        let (policy, cancelled) = (policy.as_str(), &*cancelled);
+        let round = Round { recipe, store, suite, place, manners, settings, mixture, name, policy, jobs, cancelled };
         let progress = console.progress("dagger", "episodes");
         let flown = run(&round, &folder, &*progress)?;
         drop(progress);
+        if let Some(problem) = &flown.gone {
+            console.tell(&cosfly_diagnose::render(problem, console.colour()));
+            return Ok(exit::FOUND_PROBLEMS);
+        }
+        if let Some((count, first)) = &flown.failures {
+            let count = if *count == 1 { "1 episode".to_owned() } else { format!("{count} episodes") };
+            console.tell(&format!("the policy ended {count} by its fault, whose labels end there; {first}"));
+        }
         let names: Vec<&str> = suite.tasks.iter().map(|task| task.episode.name.as_str()).collect();
         let card = folder.finish(card, &names)?;
         if self.json {
@@ -160,6 +170,12 @@ impl Arguments {
         if onto.is_some_and(|onto| onto.suite != suite || onto.environment != environment) {
             let message = "the version of `--onto` has another suite or environment".to_owned();
             return Err(refused(message).hint("its card.json names them; begin a version of its own without `--onto`"));
+        }
+        if let Some(round) = rounds.iter().find(|round| round.made.is_none()) {
+            let message = format!("round `{}` of the version of `--onto` has not all its episodes", round.name);
+            return Err(
+                refused(message).hint("run the command that makes it once more: it goes on with what is missing")
+            );
         }
         if rounds.iter().any(|round| round.name == name) {
             let message = format!("the version of `--onto` has a round `{name}` already");

@@ -239,7 +239,7 @@ fn write(folder: &Path, reports: &Reports) -> Result<()> {
     for (name, text) in [("report.md", &reports.markdown), ("report.json", &reports.json), ("errors.svg", &reports.svg)]
     {
         let path = folder.join(name);
-        std::fs::write(&path, text).map_err(|error| refused(&path, &error))?;
+        cosfly_whole::write_file(&path, text.as_bytes()).map_err(|error| refused(&path, &error))?;
     }
     Ok(())
 }

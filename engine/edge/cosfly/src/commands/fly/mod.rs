@@ -39,7 +39,8 @@ Examples:
 A policy is a server that speaks openpi's wire, a function in Python, or a baseline: causal, constant-velocity, expert,
 follow, hold, random. It gets a map with `state` (16 numbers), `prompt`, `episode`, `step` and `time_s`, and answers with a
 map whose `actions` are rows of numbers. The result is a folder: card.json, report.html with clips of the worst
-episodes, report.md, scores.json, episodes.jsonl, rows and logs. The same command goes on with what a folder lacks. Exits with 1 when a policy could not be had for some episodes."
+episodes, report.md, scores.json, episodes.jsonl, rows and logs. The same command goes on with what a folder lacks. Exits with 1 when a policy
+has given no right answer (then nothing is an episode, and nothing is kept) or went away before all episodes were flown."
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -205,11 +206,8 @@ impl Command for Arguments {
             let progress = console.progress("fly", "episodes");
             let outcome = run(&order, &card, &folder, &*progress)?;
             drop(progress);
-            if let Some(reason) = &outcome.gone {
-                let message = format!("`{name}` could not be had for {} of the episodes", outcome.missing);
-                let problem = Diagnostic::new("fly-policy-gone", Fault::Machine, message).because(reason.clone());
-                let problem = problem.hint("the episodes that were flown are kept: the same command flies the others");
-                console.tell(&cosfly_diagnose::render(&problem, console.colour()));
+            if let Some(problem) = &outcome.gone {
+                console.tell(&cosfly_diagnose::render(problem, console.colour()));
                 code = exit::FOUND_PROBLEMS;
             }
             if !self.quiet && !self.json {
@@ -218,9 +216,13 @@ impl Command for Arguments {
                 let path = folder.path().display();
                 console.print(&format!("{path}: {} flown, {kept} kept{state}\n", outcome.flown))?;
             }
-            arms.push((name, outcome.rows));
+            if !outcome.rows.is_empty() {
+                arms.push((name, outcome.rows));
+            }
         }
-        self.tell(&arms, console)?;
+        if self.json || !arms.is_empty() {
+            self.tell(&arms, console)?;
+        }
         Ok(code)
     }
 }

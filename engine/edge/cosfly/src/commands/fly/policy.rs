@@ -3,7 +3,7 @@
 use crate::arguments::count;
 use clap::{Args, ValueEnum};
 use cosfly_env::pictures::{Channel, Format};
-use cosfly_fly::pilot::{ActionKind, Manners, Place};
+use cosfly_fly::pilot::{ActionKind, Manners, Place, source_of};
 use cosfly_fly::results::{PicturesCard, PolicyCard};
 use cosfly_render::PictureLook;
 use std::path::PathBuf;
@@ -37,13 +37,14 @@ pub struct PolicyArguments {
     /// Text of the task in observations
     #[arg(long, value_name = "TEXT", default_value = "Follow the person and keep them in view.")]
     prompt: String,
-    /// Time within which an answer must come, seconds; an episode without one ends
+    /// Time within which an answer must come, seconds; an episode without one ends, and one before the first answer is not scored
     #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds)]
     timeout: f64,
-    /// Time for which a policy that is absent is waited for, seconds
+    /// Time for which a policy that is absent, or a module that is being loaded, is waited for, seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
     wait: f64,
-    /// Key that a server gets as `Authorization: Api-Key KEY`
+    /// Key that a server gets as `Authorization: Api-Key KEY`; other users of the machine see it in the list of processes unless it comes
+    /// from the environment
     #[arg(long, value_name = "KEY", env = "COSFLY_API_KEY", hide_env_values = true)]
     api_key: Option<String>,
     /// Command of Python, for policies in Python
@@ -122,10 +123,13 @@ impl PolicyArguments {
             Place::Python { .. } => "python",
         };
         let manners = self.manners();
+        let is_baseline = matches!(place, Place::Baseline(_));
         PolicyCard {
             name: name.to_owned(),
             version: self.version.clone(),
             kind: kind.to_owned(),
+            source: source_of(place, &manners),
+            timeout_s: (!is_baseline).then_some(self.timeout),
             actions: manners.actions.name().to_owned(),
             every: manners.every,
             prompt: manners.prompt,

@@ -48,7 +48,7 @@ impl Command for Arguments {
         if let Some(path) = &plan {
             let title = format!("{} ({})", map.town.name, map.format);
             let picture = cosfly_preview::town_plan(&map.town, &title).png()?;
-            std::fs::write(path, picture)
+            cosfly_whole::write_file(path, &picture)
                 .map_err(|error| Diagnostic::io(format!("write the plan `{}`", path.display()), &error))?;
         }
         let figures = figures(&map);

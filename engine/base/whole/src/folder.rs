@@ -1,0 +1,213 @@
+//! [`NewFolder`]: a folder that is made beside its place and gets its name when it is whole.
+
+use std::fs::{self, File};
+use std::io::{Error, ErrorKind, Result};
+use std::path::{Path, PathBuf};
+
+/// Name of the file that marks an unfinished folder. Its maker holds a lock on it: an unlocked one is a leftover.
+const MARK: &str = ".cosfly-unfinished";
+
+/// A folder in the making. Dropped before [`Self::appear`], it is removed; what a killed process left is removed by the next one
+/// that makes a folder at the same place.
+#[derive(Debug)]
+pub struct NewFolder {
+    draft: PathBuf,
+    target: PathBuf,
+    /// Locked while this process makes the folder.
+    mark: Option<File>,
+}
+
+/// What came of a folder that was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Appeared {
+    /// It is at its place.
+    Here,
+    /// Something else was there by then and stays; the folder is removed.
+    Taken,
+}
+
+impl NewFolder {
+    /// Begins the folder that will be at `target`, in the folder around it, which is made where there is none. A link to a folder
+    /// is followed.
+    ///
+    /// # Errors
+    /// Failures of the disk; [`ErrorKind::InvalidInput`] where `target` is no name of a folder.
+    pub fn beside(target: &Path) -> Result<Self> {
+        let target = fs::canonicalize(target).or_else(|_| std::path::absolute(target))?;
+        let (Some(parent), Some(name)) = (target.parent(), target.file_name()) else {
+            return Err(Error::new(ErrorKind::InvalidInput, "it is not the name of a new folder"));
+        };
+        fs::create_dir_all(parent)?;
+        let prefix = format!(".{}.unfinished", name.to_string_lossy());
+        remove_leftovers(parent, &prefix);
+        let mut number = 0;
+        let draft = loop {
+            let draft = parent.join(format!("{prefix}-{}-{number}", std::process::id()));
+            match fs::create_dir(&draft) {
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
+                made => break made.map(|()| draft)?,
+            }
+        };
+        let mut this = Self { draft, target, mark: None };
+        // Locked before it has its name: nobody sees it without its lock.
+        let nameless = this.draft.join(".cosfly-lock");
+        let mark = File::create_new(&nameless)?;
+        // A file system without locks has no leftovers that are told from living drafts.
+        if mark.lock().is_ok() {
+            fs::rename(&nameless, this.draft.join(MARK))?;
+        } else {
+            fs::remove_file(&nameless)?;
+        }
+        this.mark = Some(mark);
+        Ok(this)
+    }
+
+    /// Path of the folder until it is whole.
+    pub fn path(&self) -> &Path {
+        &self.draft
+    }
+
+    /// Number of its files, and their bytes.
+    ///
+    /// # Errors
+    /// Failures of the disk.
+    pub fn size(&self) -> Result<(u64, u64)> {
+        let (mut files, mut bytes, mut folders) = (0, 0, vec![self.draft.clone()]);
+        while let Some(folder) = folders.pop() {
+            for entry in fs::read_dir(folder)? {
+                let entry = entry?;
+                let kind = entry.metadata()?;
+                if kind.is_dir() {
+                    folders.push(entry.path());
+                } else if entry.file_name() != MARK {
+                    (files, bytes) = (files + 1, bytes + kind.len());
+                }
+            }
+        }
+        Ok((files, bytes))
+    }
+
+    /// Gives the folder its name, if nothing but an empty folder is there.
+    ///
+    /// # Errors
+    /// Failures of the disk.
+    pub fn appear(mut self) -> Result<Appeared> {
+        match fs::remove_file(self.draft.join(MARK)) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+            _ => self.mark = None,
+        }
+        let renamed = fs::rename(&self.draft, &self.target).or_else(|error| {
+            // Some systems do not replace an empty folder.
+            fs::remove_dir(&self.target).map_err(|_| error).and_then(|()| fs::rename(&self.draft, &self.target))
+        });
+        match renamed {
+            Ok(()) => Ok(Appeared::Here),
+            Err(_) if fs::symlink_metadata(&self.target).is_ok() => Ok(Appeared::Taken),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+impl Drop for NewFolder {
+    fn drop(&mut self) {
+        // After `appear` there is none.
+        let _ = fs::remove_dir_all(&self.draft);
+    }
+}
+
+/// Removes drafts of the same folder whose makers are dead.
+fn remove_leftovers(parent: &Path, prefix: &str) {
+    for entry in fs::read_dir(parent).into_iter().flatten().flatten() {
+        if !entry.file_name().to_string_lossy().starts_with(prefix) {
+            continue;
+        }
+        let Ok(mark) = File::open(entry.path().join(MARK)) else { continue };
+        if mark.try_lock().is_ok() {
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).expect("a folder").flatten();
+        let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn of_many_makers_at_once_one_is_first_and_the_others_learn_of_it() {
+        let home = tempfile::tempdir().expect("scratch");
+        for round in 0..20 {
+            let target = home.path().join(format!("new/deep/{round}"));
+            let make = |maker: usize| {
+                let folder = NewFolder::beside(&target).expect("a draft");
+                for file in 0..5 {
+                    fs::write(folder.path().join(file.to_string()), maker.to_string()).expect("written");
+                }
+                folder.appear().expect("an outcome")
+            };
+            let outcomes: Vec<Appeared> = std::thread::scope(|scope| {
+                let makers: Vec<_> = (0..6).map(|maker| scope.spawn(move || make(maker))).collect();
+                makers.into_iter().map(|maker| maker.join().expect("no panic")).collect()
+            });
+            assert_eq!(outcomes.iter().filter(|it| **it == Appeared::Here).count(), 1);
+            let texts: Vec<String> =
+                (0..5).map(|file| fs::read_to_string(target.join(file.to_string())).expect("a file")).collect();
+            assert!(texts.iter().all(|text| *text == texts[0]), "one maker's files: {texts:?}");
+        }
+        assert_eq!(names(&home.path().join("new/deep")).len(), 20, "no draft is left");
+    }
+
+    #[test]
+    fn empty_folders_are_filled_and_others_stay() {
+        let home = tempfile::tempdir().expect("scratch");
+        let (empty, full, file) = (home.path().join("empty"), home.path().join("full"), home.path().join("file"));
+        fs::create_dir(&empty).expect("made");
+        fs::create_dir_all(full.join("mine")).expect("made");
+        fs::write(&file, "text").expect("written");
+        let made = |target: &Path| NewFolder::beside(target).expect("a draft").appear().expect("an outcome");
+        assert_eq!(
+            [&empty, &full, &file].map(|target| made(target)),
+            [Appeared::Here, Appeared::Taken, Appeared::Taken]
+        );
+        assert_eq!(names(home.path()), ["empty", "file", "full"]);
+        assert_eq!(names(&full), ["mine"]);
+    }
+
+    #[test]
+    fn leftovers_of_the_dead_go_and_drafts_of_the_living_stay() {
+        let home = tempfile::tempdir().expect("scratch");
+        let target = home.path().join("new");
+        let dead = home.path().join(".new.unfinished-1-0");
+        fs::create_dir(&dead).expect("made");
+        fs::write(dead.join(MARK), "").expect("written");
+        let foreign = home.path().join(".new.unfinished-notes");
+        fs::create_dir(&foreign).expect("made");
+        let living = NewFolder::beside(&target).expect("a draft");
+        let other = NewFolder::beside(&target).expect("a draft");
+        assert!(!dead.exists() && foreign.exists() && living.path().exists());
+        drop(other);
+        assert_eq!(living.appear().expect("an outcome"), Appeared::Here);
+        assert_eq!(names(home.path()), [".new.unfinished-notes", "new"]);
+        assert!(names(&target).is_empty(), "the mark is gone");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_an_empty_folder_stays_a_link() {
+        let home = tempfile::tempdir().expect("scratch");
+        let disk = home.path().join("disk");
+        fs::create_dir(&disk).expect("made");
+        let link = home.path().join("link");
+        std::os::unix::fs::symlink(&disk, &link).expect("a link");
+        let folder = NewFolder::beside(&link).expect("a draft");
+        fs::write(folder.path().join("file"), "text").expect("written");
+        assert_eq!(folder.appear().expect("an outcome"), Appeared::Here);
+        assert!(link.is_symlink() && disk.join("file").is_file());
+    }
+}
