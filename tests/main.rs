@@ -19,6 +19,7 @@ mod fuzzing;
 mod models;
 mod more_walkers;
 mod people;
+mod places;
 mod plan_from;
 #[cfg(feature = "plugins")]
 mod plugins;

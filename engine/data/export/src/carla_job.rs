@@ -13,17 +13,22 @@ use std::io::Write;
 const VERSION: u32 = 1;
 
 /// Writes a job over `flights` of `dataset` to `out`, one flight at a time. Lengths in metres, angles in degrees, all in the
-/// frame of CARLA's own world.
+/// frame of CARLA's own world. `ignored_m` is the `<offset>` of the map's header, map frame: a server does not add it.
 ///
 /// # Errors
 /// `carla-lens` for a flight with a lens that CARLA lacks, before anything is written; damage of the dataset; a full disk.
-pub fn write(dataset: &PublishedDataset, flights: &[&PublishedFlight], out: &mut dyn Write) -> Result<()> {
+pub fn write(
+    dataset: &PublishedDataset,
+    flights: &[&PublishedFlight],
+    ignored_m: DVec3,
+    out: &mut dyn Write,
+) -> Result<()> {
     flights.iter().try_for_each(|flight| check_lens(flight))?;
     let failed = |error: std::io::Error| Diagnostic::io("write the job", &error);
     let index = dataset.row_index("frames")?;
     write!(out, "{{\"format\":\"cosfly-carla-job\",\"version\":{VERSION},\"flights\":[").map_err(failed)?;
     for (number, flight) in flights.iter().enumerate() {
-        let flight = JobFlight::new(flight, &dataset.frames(&index, flight)?);
+        let flight = JobFlight::new(flight, ignored_m, &dataset.frames(&index, flight)?);
         let text = serde_json::to_string(&flight).expect("a job is plain JSON");
         let comma = if number > 0 { "," } else { "" };
         write!(out, "{comma}{text}").map_err(failed)?;
@@ -82,8 +87,9 @@ struct JobFrame {
 }
 
 impl JobFlight {
-    fn new(flight: &PublishedFlight, frames: &[FrameRow]) -> Self {
-        let (camera, offset) = (&flight.camera, flight.town_offset_m);
+    fn new(flight: &PublishedFlight, ignored_m: DVec3, frames: &[FrameRow]) -> Self {
+        let ignored_m = DVec3::new(ignored_m.x, -ignored_m.y, ignored_m.z);
+        let (camera, offset) = (&flight.camera, flight.town_offset_m - ignored_m);
         let walker = Digest::of(flight.pedestrian_id.as_bytes()).0;
         Self {
             trajectory_id: flight.trajectory_id.clone(),
@@ -138,7 +144,7 @@ mod tests {
         let (_folder, dataset) = published();
         let flights: Vec<_> = dataset.flights().iter().collect();
         let mut text = vec![];
-        write(&dataset, &flights, &mut text).unwrap();
+        write(&dataset, &flights, DVec3::ZERO, &mut text).unwrap();
         let job: serde_json::Value = serde_json::from_slice(&text).unwrap();
         assert_eq!((job["format"].as_str(), job["version"].as_u64()), (Some("cosfly-carla-job"), Some(1)));
         let flights = job["flights"].as_array().unwrap();
@@ -149,12 +155,23 @@ mod tests {
         assert_eq!(first["frames"].as_array().unwrap().len(), given.len());
         let pose = &given.trajectory.poses_in_world[3];
         let bent = PublishedFlight { lens: Lens { k1: 0.1, k2: 0.0 }, ..dataset.flights()[0].clone() };
-        assert_eq!(write(&dataset, &[&bent], &mut vec![]).unwrap_err().code, "carla-lens");
+        assert_eq!(write(&dataset, &[&bent], DVec3::ZERO, &mut vec![]).unwrap_err().code, "carla-lens");
         let camera = &first["frames"][3]["camera"];
         assert_eq!(camera[1].as_f64(), Some(pose.position_in_world.y));
         assert!((camera[4].as_f64().unwrap() - pose.yaw_rad.to_degrees()).abs() < 1e-9);
         let twins: Vec<_> = flights.iter().filter(|it| it["log"].as_str().unwrap().contains("p00000")).collect();
         assert!(twins.len() == 2 && twins[0]["target"] == twins[1]["target"]);
+    }
+
+    #[test]
+    fn an_offset_of_the_header_that_a_server_ignores_is_left_out() {
+        let (_folder, dataset) = published();
+        let flight = &dataset.flights()[0];
+        let frames = dataset.frames(&dataset.row_index("frames").unwrap(), flight).unwrap();
+        let camera = |ignored_m: DVec3| JobFlight::new(flight, ignored_m, &frames).frames[0].camera;
+        let (with, without) = (camera(DVec3::ZERO), camera(DVec3::new(300.0, 500.0, 7.0)));
+        let moved = [0, 1, 2].map(|axis| (without[axis] - with[axis]).round());
+        assert_eq!(moved, [-300.0, 500.0, -7.0]);
     }
 
     #[test]

@@ -4,9 +4,10 @@ use crate::ports::TOWN;
 use crate::world::TOWN_BLOB;
 use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
-use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result, plausible};
 use cosfly_frames::Seed;
-use cosfly_maps::{FORMATS, Format, FormatOptions, MapConfig, MapError, Town, read_town_of, recognise};
+use cosfly_maps::advice::advice;
+use cosfly_maps::{Bounds, FORMATS, Format, FormatOptions, MapConfig, MapError, Town, read_town_of, recognise};
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Source, SourceCheck, Stage, StageKind, StagePart, StageProperties,
     TaskContext,
@@ -41,7 +42,7 @@ impl StageKind for Map {
         let (config, files) = checked(given)?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 12,
+            version: 13,
             parameters: canonical(&config)?,
             sources: sources(files),
             inputs: self.ports(),
@@ -68,6 +69,15 @@ fn checked(mut given: Value) -> Result<(MapConfig, Vec<PathBuf>), ParameterError
         if high < low {
             let message = format!("`{path}` is `{high}`; it must be at least the smallest one, `{low}`");
             return Err(parameters::refused_at(path, message));
+        }
+    }
+    if let Some(Err(rule)) = config.bounds_m.map(Bounds::new) {
+        return Err(parameters::refused_at("bounds_m", rule));
+    }
+    for (index, further) in config.more.iter().enumerate() {
+        if let Some(fault) = further.shift_m.iter().flatten().find_map(|number| plausible(*number).err()) {
+            let path = format!("more.{index}.shift_m");
+            return Err(parameters::refused_at(&path, format!("a number of `shift_m` {fault}")));
         }
     }
     let source = PathBuf::from(&config.source);
@@ -207,6 +217,8 @@ pub struct ReadMap {
     pub town: Town,
     /// Warnings of the reader.
     pub warnings: Vec<String>,
+    /// What the town lacks, and the options that help.
+    pub advice: Vec<String>,
 }
 
 /// Reads `files` with checked `parameters` of a stage `map`, for a look at the town without a run.
@@ -223,11 +235,15 @@ fn read_files(files: &[PathBuf], config: &MapConfig, seed: Seed) -> Result<ReadM
     let read = |path: &PathBuf| std::fs::read(path).map_err(|error| unreadable(path, &error));
     let contents: Vec<Vec<u8>> = files.iter().map(read).collect::<Result<_>>()?;
     let slices: Vec<&[u8]> = contents.iter().map(Vec::as_slice).collect();
-    let refused = |(at, error): (usize, MapError)| refusal(error, files[at].clone(), &contents[at]);
+    let refused = |(at, error): (usize, MapError)| {
+        let refusal = refusal(error, files[at].clone(), &contents[at]);
+        if at > 0 { refusal.because(format!("beside the first file, `{}`", files[0].display())) } else { refusal }
+    };
     let (town, warnings) = read_town_of(&slices, config, seed).map_err(refused)?;
     let head = &contents[0][..contents[0].len().min(Format::HEAD_BYTES)];
     let format = recognise(head).map_err(|error| refused((0, error)))?.name();
-    Ok(ReadMap { format, town, warnings })
+    let advice = advice(&town, config);
+    Ok(ReadMap { format, town, warnings, advice })
 }
 
 struct MapStage {
@@ -241,7 +257,7 @@ impl Stage for MapStage {
     }
 
     fn run(&self, _inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let ReadMap { town, warnings, .. } = read_files(&context.sources, &self.config, Seed(context.seed))?;
+        let ReadMap { town, warnings, advice, .. } = read_files(&context.sources, &self.config, Seed(context.seed))?;
         outputs.put(TOWN_BLOB, &codec::encode(TOWN, &town)?)?;
         let report = &town.simplification;
         let mut notes = std::collections::BTreeMap::from([
@@ -262,6 +278,9 @@ impl Stage for MapStage {
         ]);
         if !town.synthetic.notes.is_empty() {
             notes.insert("synthetic".to_owned(), town.synthetic.notes.join("; "));
+        }
+        if !advice.is_empty() {
+            notes.insert("advice".to_owned(), advice.join("; "));
         }
         Ok(Produced { notes, warnings, rejected: None })
     }

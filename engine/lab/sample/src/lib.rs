@@ -104,7 +104,7 @@ pub fn town() -> Town {
     };
     Town {
         name: "plain".into(),
-        origin: MapOrigin { offset_m: DVec3::ZERO, geo_reference: None },
+        origin: MapOrigin::default(),
         obstacles: vec![wall],
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),

@@ -70,7 +70,7 @@ pub(super) fn code(text: &str) -> Option<u32> {
         return code_of_element(plan);
     }
     // A compound system lists the plan first.
-    let first = text.split(',').next()?;
+    let first = text.split([',', '&']).next()?;
     first.trim().rsplit(['/', ':']).next()?.trim().parse().ok()
 }
 
@@ -113,6 +113,7 @@ mod tests {
             ("https://www.opengis.net/def/crs/EPSG/0/7415", Some(7415)),
             ("urn:ogc:def:crs:EPSG::28992", Some(28992)),
             ("EPSG:25832,EPSG:7837", Some(25832)),
+            ("https://x.org/crs-compound?1=https://x.org/EPSG/0/28992&2=https://x.org/EPSG/0/5709", Some(28992)),
             (
                 r#"COMPD_CS["x",PROJCS["y",GEOGCS["z",AUTHORITY["EPSG","4171"]],UNIT["m",1,AUTHORITY["EPSG","9001"]],AUTHORITY["EPSG","2154"]],VERT_CS["h",AUTHORITY["EPSG","5720"]],AUTHORITY["EPSG","5698"]]"#,
                 Some(2154),

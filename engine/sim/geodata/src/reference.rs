@@ -4,6 +4,7 @@ use crate::conformal::{Conformal, Sphere};
 use crate::datum::Datum;
 use crate::epsg;
 use crate::projection::TransverseMercator;
+use cosfly_diagnose::plausible;
 use cosfly_frames::DVec2;
 
 /// A projection with scale, false origin and datum, as UTM and national grids are.
@@ -29,34 +30,82 @@ const MOST_STEPS: usize = 12;
 const NEAR_ENOUGH_M: f64 = 1e-7;
 const DIFFERENCE_DEG: f64 = 1e-6;
 
+/// Keys of a PROJ text that are read, or that change no position in plan.
+const READ: [&str; 24] = [
+    "proj",
+    "init",
+    "zone",
+    "north",
+    "south",
+    "k",
+    "k_0",
+    "lon_0",
+    "lat_0",
+    "x_0",
+    "y_0",
+    "lat_1",
+    "lat_2",
+    "ellps",
+    "datum",
+    "towgs84",
+    "no_defs",
+    "type",
+    "wktext",
+    "over",
+    "title",
+    "approx",
+    "geoidgrids",
+    "geoid_crs",
+];
+/// Keys of which only some values are read.
+const USUAL: [(&str, &[&str]); 7] = [
+    ("units", &["m"]),
+    ("to_meter", &["1", "1.0"]),
+    ("axis", &["enu"]),
+    ("pm", &["greenwich", "0"]),
+    ("nadgrids", &["@null"]),
+    ("vunits", &["m"]),
+    ("vto_meter", &["1", "1.0"]),
+];
+/// Keys that say what a file's numbers are.
+const OF_NUMBERS: [&str; 3] = ["units", "to_meter", "axis"];
+
 /// Words and values of a PROJ text.
+#[derive(Clone, Copy)]
 struct Words<'a>(&'a str);
 
 impl<'a> Words<'a> {
-    fn text(&self, key: &str) -> Option<&'a str> {
-        self.0.split_whitespace().find_map(|word| word.strip_prefix('+')?.strip_prefix(key)?.strip_prefix('='))
+    /// Whether a text is one of PROJ.
+    fn of(text: &'a str) -> Option<Self> {
+        let words = Self(text);
+        (words.text("proj").is_some() || words.text("init").is_some()).then_some(words)
     }
 
-    fn has(&self, word: &str) -> bool {
-        self.0.split_whitespace().any(|known| known == word)
+    /// Keys and values; flags have an empty value.
+    fn all(&self) -> impl Iterator<Item = (&'a str, &'a str)> + use<'a> {
+        let words = self.0.split_whitespace().map(|word| word.strip_prefix('+').unwrap_or(word));
+        words.map(|word| word.split_once('=').unwrap_or((word, "")))
+    }
+
+    fn text(&self, key: &str) -> Option<&'a str> {
+        self.all().find(|(own, _)| *own == key).map(|(_, value)| value)
     }
 
     /// A number; `otherwise` where the text has none, none where it is no number.
     fn number(&self, key: &str, otherwise: f64) -> Option<f64> {
         match self.text(key) {
-            Some(text) => text.parse().ok().filter(|value: &f64| value.is_finite()),
+            Some(text) => text.parse().ok().filter(|value: &f64| plausible(*value).is_ok()),
             None => Some(otherwise),
         }
     }
 
-    /// Units, axes, meridians and tables that are not read.
-    fn is_unusual(&self) -> bool {
-        let is_other = |key: &str, usual: &[&str]| self.text(key).is_some_and(|value| !usual.contains(&value));
-        is_other("units", &["m"])
-            || is_other("axis", &["enu"])
-            || is_other("pm", &["greenwich", "0"])
-            || is_other("nadgrids", &["@null"])
-            || self.number("to_meter", 1.0) != Some(1.0)
+    /// The first word that is not read, or that contradicts one before it.
+    fn unread(&self) -> Option<(&'a str, &'a str)> {
+        let is_read = |key: &str, value: &str| match USUAL.iter().find(|(own, _)| *own == key) {
+            Some((_, values)) => values.contains(&value),
+            None => READ.contains(&key),
+        };
+        self.all().find(|(key, value)| !is_read(key, value) || self.text(key) != Some(value))
     }
 
     fn datum(&self) -> Option<Datum> {
@@ -74,21 +123,57 @@ impl<'a> Words<'a> {
     }
 }
 
+/// Words of a PROJ text by which coordinates are no metres to the east and to the north; none in other texts.
+pub fn unusual_words(text: &str) -> Option<String> {
+    let words = Words::of(text)?;
+    let is_usual = |key: &str, value: &str| USUAL.iter().any(|(own, values)| *own == key && values.contains(&value));
+    let odd = words.all().filter(|(key, value)| OF_NUMBERS.contains(key) && !is_usual(key, value));
+    let odd: Vec<String> = odd.map(|(key, value)| format!("+{key}={value}")).collect();
+    (!odd.is_empty()).then(|| odd.join(" "))
+}
+
 impl GeoReference {
     /// The projection that a PROJ text, an EPSG code, a URL of one or well-known text with one names; none for other kinds.
     /// Datums within a metre of WGS84 (ETRS89, NAD83) count as WGS84.
     pub fn parse(text: &str) -> Option<Self> {
-        match text.contains("+proj=") {
-            true => Self::of_proj(text),
-            false => Self::of_proj(&epsg::proj_text(epsg::code(text)?)?),
+        match Words::of(text) {
+            Some(words) if words.unread().is_some() => None,
+            Some(words) => match words.text("init") {
+                Some(code) => Self::of_code(code),
+                None => Self::of_proj(words),
+            },
+            None => Self::of_code(text),
         }
     }
 
-    fn of_proj(text: &str) -> Option<Self> {
-        let words = Words(text);
-        let datum = words.datum().filter(|_| !words.is_unusual())?;
-        if words.has("+proj=utm") {
-            return Self::utm(datum, words.text("zone")?.parse().ok()?, words.has("+south"));
+    /// Why [`Self::parse`] knows no projection of a text, as the end of a sentence.
+    pub fn why_unknown(text: &str) -> String {
+        let shown = |text: &str| text.trim().chars().take(80).collect::<String>();
+        match Words::of(text) {
+            Some(words) => match (words.unread(), words.text("proj")) {
+                (Some((key, value)), _) if words.text(key) != Some(value) => {
+                    format!("`+{}` has two values", shown(key))
+                }
+                (Some((key, "")), _) => format!("`+{}` is not read", shown(key)),
+                (Some((key, value)), _) => format!("`+{}` is not read", shown(&format!("{key}={value}"))),
+                (None, Some(name)) => format!("`+proj={}` with these numbers is not read", shown(name)),
+                (None, None) => format!("the code of `{}` is not in the list of known grids", shown(text)),
+            },
+            None => match epsg::code(text) {
+                Some(code) => format!("the code {code} is not in the list of known grids"),
+                None => "it has no code of EPSG".to_owned(),
+            },
+        }
+    }
+
+    fn of_code(text: &str) -> Option<Self> {
+        Self::of_proj(Words(&epsg::proj_text(epsg::code(text)?)?))
+    }
+
+    fn of_proj(words: Words<'_>) -> Option<Self> {
+        let datum = words.datum()?;
+        if words.text("proj") == Some("utm") {
+            return Self::utm(datum, words.text("zone")?.parse().ok()?, words.text("south").is_some());
         }
         let scale = words.number(if words.text("k").is_some() { "k" } else { "k_0" }, 1.0)?;
         let origin_deg = [words.number("lon_0", 0.0)?, words.number("lat_0", 0.0)?];
@@ -242,8 +327,28 @@ mod tests {
             "+proj=tmerc +k=0",
             "+proj=tmerc +units=us-ft",
             "+proj=utm +zone=32.5",
+            "+proj=utm +zone=32 +a=6377397 +rf=299",
+            "+proj=tmerc +lon_0=9 +lon_0=12",
+            "+proj=tmerc +x_0=1e23",
         ] {
             assert_eq!(GeoReference::parse(text), None, "{text}");
+        }
+        for (text, why) in [
+            ("+proj=tmerc +units=us-ft", "`+units=us-ft` is not read"),
+            ("+proj=tmerc +lon_0=9 +lon_0=12", "`+lon_0` has two values"),
+            ("+proj=laea +lat_0=52", "`+proj=laea`"),
+            ("EPSG:3857", "3857 is not in the list"),
+            ("Lambert", "no code"),
+        ] {
+            assert!(GeoReference::why_unknown(text).contains(why), "{text}: {}", GeoReference::why_unknown(text));
+        }
+        assert_eq!(
+            unusual_words("+proj=utm +zone=33 +units=us-ft +axis=neu").as_deref(),
+            Some("+units=us-ft +axis=neu")
+        );
+        assert_eq!(unusual_words("+proj=utm +zone=33 +units=m +vunits=m +geoidgrids=egm96_15.gtx"), None);
+        for same in ["+init=epsg:25833", "proj=utm zone=33 ellps=GRS80", "+proj=utm +zone=33 +units=m +geoidgrids=x"] {
+            assert_eq!(GeoReference::parse(same), GeoReference::parse("EPSG:25833"), "{same}");
         }
         let local = GeoReference::parse("+proj=tmerc +lat_0=48 +lon_0=11 +k=1 +x_0=0 +y_0=0").unwrap();
         assert_eq!(local.unproject(DVec2::splat(f64::NAN)), None);

@@ -93,6 +93,13 @@ fn feet_become_metres() {
     let (town, _) = read(&text).unwrap();
     let heights = heights_m(&town, ObstacleKind::Building);
     assert!((heights[0].1 - heights[0].0 - 11.0 * 1200.0 / 3937.0).abs() < 1e-6, "{heights:?}");
+    // A plan in feet with heights in metres: the two parts of the system have units of their own.
+    let compound =
+        "crs-compound?1=https://www.opengis.net/def/crs/EPSG/0/2263&2=https://www.opengis.net/def/crs/EPSG/0/5703";
+    let (town, warnings) = read(&with("EPSG/0/7415", compound)).unwrap();
+    let heights = heights_m(&town, ObstacleKind::Building);
+    assert!((heights[0].1 - heights[0].0 - 11.0).abs() < 1e-6, "{heights:?}");
+    assert!(warnings.iter().any(|warning| warning.contains("divide those of the map by 0.3048")), "{warnings:?}");
     let degrees = with("EPSG/0/7415", "EPSG/0/4979")
         .replace("[85000, 447500, 1]", "[8, 47, 1]")
         .replace("0.01, 0.01, 0.01", "1e-6, 1e-6, 0.01");
@@ -108,6 +115,18 @@ fn sequences_are_read_feature_by_feature() {
     assert!(town.synthetic.notes.iter().any(|note| note.contains("plazas")), "{:?}", town.synthetic.notes);
     assert!(town.synthetic.notes.iter().any(|note| note.contains("storeys")), "{:?}", town.synthetic.notes);
     let lines: Vec<&str> = SEQUENCE.lines().collect();
+    for (member, name) in [
+        (r#""transform":{"scale":[1,1,1],"translate":[0,0,0]},"#, "transform"),
+        (r#""metadata":{"referenceSystem":"EPSG:25832"},"#, "metadata.referenceSystem"),
+    ] {
+        let other = SEQUENCE.replacen("\"CityJSONFeature\",\"id\":\"b\",", &format!("\"CityJSONFeature\",{member}"), 1);
+        let error = read(&other).unwrap_err();
+        assert!(error.message.contains(&format!("feature 2 has another `{name}`")), "{error}");
+    }
+    for transform in ["[0.001,0,0.001]", "[1e23,1,1]"] {
+        let error = read(&SEQUENCE.replacen("[0.001,0.001,0.001]", transform, 1)).unwrap_err();
+        assert!(error.message.contains("`transform` has the scale"), "{error}");
+    }
     let error = read(lines[1]).unwrap_err();
     assert!(error.message.contains("must be `CityJSON`"), "{error}");
 }

@@ -1,5 +1,6 @@
 //! Several map files in one town: streets from one, houses or plants from another.
 
+use crate::bounds::Bounds;
 use crate::{FormatOptions, GroundIndex, MapError, MapOrigin, Obstacle, ObstacleKind, Town, recognise};
 use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_geodata::reference::GeoReference;
@@ -69,53 +70,80 @@ fn yes() -> bool {
     true
 }
 
-/// Adds the file with these bytes to a town; warnings of its reader are returned.
+/// Things of a further file whose nearest one is farther from the town are those of another place, metres.
+const ANOTHER_PLACE_M: f64 = 2_000.0;
+/// No thing of a further file may be farther from the town, metres.
+const FARTHEST_M: f64 = 10_000.0;
+/// A further file none of whose things is nearer is a warning, metres.
+const BESIDE_M: f64 = 100.0;
+
+/// Adds the file with these bytes to a town, as far as it lies in some bounds; warnings are returned.
 ///
 /// # Errors
-/// Files that their reader refuses; files whose places cannot be told from their projections.
-pub fn add_source(town: &mut Town, further: &FurtherSource, bytes: &[u8]) -> Result<Vec<String>, MapError> {
+/// Files that their reader refuses; files whose places cannot be told from their projections, or are kilometres away.
+pub(crate) fn add_source(
+    town: &mut Town,
+    further: &FurtherSource,
+    bytes: &[u8],
+    bounds: Option<&Bounds>,
+) -> Result<Vec<String>, MapError> {
     let options = FormatOptions::from(further.options.clone());
-    let (other, warnings) = recognise(bytes)?.read(bytes, &options)?;
+    let (other, mut warnings) = recognise(bytes)?.read(bytes, &options)?;
     let place = Placement::of(town, &other, further)?;
+    let mut taken = taken(other, further, &place).ok_or_else(|| far(further, &place))?;
+    if let Some(bounds) = bounds {
+        bounds.cut(&mut taken);
+    }
+    warnings.extend(place.check_distance(town, &taken, further)?);
     let takes = |part: Part| further.take.contains(&part);
     if further.replace {
         town.obstacles.retain(|obstacle| !takes(part_of(obstacle.kind)));
-    }
-    let first_id = town.obstacles.iter().map(|obstacle| obstacle.object_id).max().map_or(0, |id| id + 1);
-    let taken = other.obstacles.into_iter().filter(|obstacle| takes(part_of(obstacle.kind)));
-    let mut things: Vec<Obstacle> =
-        taken.map(|obstacle| place.obstacle(obstacle)).collect::<Option<_>>().ok_or_else(|| far(further))?;
-    things.iter_mut().for_each(|thing| thing.object_id = thing.object_id.saturating_add(first_id));
-    if takes(Part::Ground) {
-        if further.replace {
+        if takes(Part::Ground) {
             town.walkable.clear();
             town.surfaces.clear();
             town.lanes.clear();
         }
-        for mut polygon in other.walkable {
-            place.points(&mut polygon.outline_in_world).ok_or_else(|| far(further))?;
-            town.walkable.push(polygon);
-        }
-        for mut mesh in other.surfaces {
-            place.points(&mut mesh.vertices_in_world).ok_or_else(|| far(further))?;
-            town.surfaces.push(mesh);
-        }
-        for mut lane in other.lanes {
-            place.points(&mut lane.middle_in_world).ok_or_else(|| far(further))?;
-            town.lanes.push(lane);
-        }
     }
+    let first_id = town.obstacles.iter().map(|obstacle| obstacle.object_id).max().map_or(0, |id| id + 1);
+    taken.obstacles.iter_mut().for_each(|thing| thing.object_id = thing.object_id.saturating_add(first_id));
+    town.walkable.append(&mut taken.walkable);
+    town.surfaces.append(&mut taken.surfaces);
+    town.lanes.append(&mut taken.lanes);
     if further.heights == Heights::Ground {
-        stand_on_ground(&mut things, town);
+        stand_on_ground(&mut taken.obstacles, town);
     }
-    town.obstacles.append(&mut things);
-    town.synthetic.notes.extend(other.synthetic.notes.into_iter().map(|note| format!("{}: {note}", further.source)));
+    town.obstacles.append(&mut taken.obstacles);
+    town.synthetic.notes.extend(taken.synthetic.notes.into_iter().map(|note| format!("{}: {note}", further.source)));
     Ok(warnings)
 }
 
-fn far(further: &FurtherSource) -> MapError {
-    MapError::new(format!("`{}` lies too far from the first map for its projection", further.source))
-        .hint("check that both files are of the same place, or give `shift_m`")
+/// The parts of another town that are taken, at their places in this one; none where a projection knows no place.
+fn taken(mut other: Town, further: &FurtherSource, place: &Placement) -> Option<Town> {
+    let takes = |part: Part| further.take.contains(&part);
+    let things = other.obstacles.into_iter().filter(|obstacle| takes(part_of(obstacle.kind)));
+    other.obstacles = things.map(|obstacle| place.obstacle(obstacle)).collect::<Option<_>>()?;
+    if !takes(Part::Ground) {
+        (other.walkable, other.surfaces, other.lanes) = (vec![], vec![], vec![]);
+    }
+    let walkable = other.walkable.iter_mut().map(|polygon| &mut polygon.outline_in_world);
+    let surfaces = other.surfaces.iter_mut().map(|mesh| &mut mesh.vertices_in_world);
+    let lanes = other.lanes.iter_mut().map(|lane| &mut lane.middle_in_world);
+    walkable.chain(surfaces).chain(lanes).try_for_each(|points| place.points(points))?;
+    Some(other)
+}
+
+fn far(further: &FurtherSource, place: &Placement) -> MapError {
+    let message = format!("`{}` lies too far from the first map for its projection", further.source);
+    place.advised(MapError::new(message))
+}
+
+/// Places in plan of all that the file of a town has; invented land reaches farther.
+fn places(town: &Town) -> impl Iterator<Item = DVec2> + '_ {
+    let things = town.obstacles.iter().map(|one| one.shape.center_in_world);
+    let walkable = town.walkable.iter().flat_map(|polygon| polygon.outline_in_world.iter().copied());
+    let surfaces = town.surfaces.iter().filter(|mesh| !mesh.synthetic);
+    let surfaces = surfaces.flat_map(|mesh| mesh.vertices_in_world.iter().copied());
+    things.chain(walkable).chain(surfaces).map(DVec3::truncate)
 }
 
 /// Moves things up or down, each as a whole.
@@ -177,16 +205,64 @@ impl Placement {
                 let parsed = |text: &Option<String>| text.as_deref().and_then(GeoReference::parse);
                 match (parsed(own), parsed(first)) {
                     (Some(own), Some(first)) => Between::Projections(own, first),
-                    _ => return Err(unplaced(further, own.as_deref(), first.as_deref())),
+                    _ => {
+                        let message = format!(
+                            "the place of `{}` in the town is not known from the projections of the files",
+                            further.source
+                        );
+                        return Err(advised(MapError::new(message), &from, &to));
+                    }
                 }
             }
         };
         Ok(Self { from, to, between })
     }
 
+    /// The error with the ways out for things at a wrong place.
+    fn advised(&self, error: MapError) -> MapError {
+        match self.between {
+            Between::Given { .. } => error.hint(
+                "check `shift_m`, the place of this file's origin in the coordinates of the first file, and `turn_deg`",
+            ),
+            _ => advised(error, &self.from, &self.to),
+        }
+    }
+
+    /// Says so where nothing of the taken things is beside the town.
+    ///
+    /// # Errors
+    /// Things that are kilometres away from it.
+    fn check_distance(&self, town: &Town, taken: &Town, further: &FurtherSource) -> Result<Option<String>, MapError> {
+        let Some(own) = Bounds::around(places(town)) else { return Ok(None) };
+        let mut distances = places(taken).map(|at| own.distance_m(at));
+        let Some(first_m) = distances.next() else {
+            return Ok(Some(
+                "the file has none of the parts that `take` names, or none of them within the bounds".into(),
+            ));
+        };
+        let (nearest_m, farthest_m) = distances.fold((first_m, first_m), |(low, high), it| (low.min(it), high.max(it)));
+        let (file, name) = (&further.source, &town.name);
+        if nearest_m > ANOTHER_PLACE_M {
+            let message = format!("`{file}` is {:.1} km away from the town `{name}`", 1e-3 * nearest_m);
+            return Err(self.advised(MapError::new(message)));
+        }
+        if farthest_m > FARTHEST_M {
+            let bounds = own.grown(ANOTHER_PLACE_M).written();
+            let message = format!("things of `{file}` are {:.1} km away from the town `{name}`", 1e-3 * farthest_m);
+            return Err(MapError::new(message).hint(format!("`{bounds}` of the stage keeps the town and what is near")));
+        }
+        Ok((nearest_m > BESIDE_M)
+            .then(|| format!("nothing of the file is in the town: the nearest is {nearest_m:.0} m away")))
+    }
+
     /// A point of the other town's world in this one's.
     fn point(&self, point: DVec3) -> Option<DVec3> {
-        let shifted = point + self.from.offset_m;
+        // A shift is between the coordinates that the files themselves have.
+        let [from_m, to_m] = [&self.from, &self.to].map(|origin| match self.between {
+            Between::Given { .. } => origin.offset_m - origin.added_by_file_m,
+            _ => origin.offset_m,
+        });
+        let shifted = point + from_m;
         let in_map = DVec3::new(shifted.x, -shifted.y, shifted.z);
         let in_map = match &self.between {
             Between::Nothing => in_map,
@@ -196,7 +272,7 @@ impl Placement {
                 DVec3::new(cos * in_map.x - sin * in_map.y, sin * in_map.x + cos * in_map.y, in_map.z) + *shift_m
             }
         };
-        Some(DVec3::new(in_map.x, -in_map.y, in_map.z) - self.to.offset_m)
+        Some(DVec3::new(in_map.x, -in_map.y, in_map.z) - to_m)
     }
 
     fn points(&self, points: &mut [DVec3]) -> Option<()> {
@@ -217,9 +293,21 @@ impl Placement {
     }
 }
 
-fn unplaced(further: &FurtherSource, own: Option<&str>, first: Option<&str>) -> MapError {
-    let words = |text: Option<&str>| text.map_or("none".to_owned(), |text| format!("`{}`", text.trim()));
-    MapError::new(format!("the place of `{}` in the town is not known from the projections of the files", further.source))
-        .hint(format!("projection of the first file: {}; of this file: {}", words(first), words(own)))
-        .hint("cosfly compares UTM, transverse Mercator, Lambert's conic and the grids of several countries (PROJ texts, EPSG codes, well-known text with a code); give `shift_m = [x, y, z]`, and `turn_deg` where the file is turned")
+/// The error with the projections of both files and what can be done about them.
+fn advised(error: MapError, from: &MapOrigin, to: &MapOrigin) -> MapError {
+    let words = |text: &Option<String>| match text.as_deref().map(str::trim) {
+        None => "none".to_owned(),
+        Some(text) if GeoReference::parse(text).is_some() => format!("`{text}`"),
+        Some(text) => format!("`{text}`, of which {}", GeoReference::why_unknown(text)),
+    };
+    error
+        .hint(format!("projection of the first file: {}; of this file: {}", words(&to.geo_reference), words(&from.geo_reference)))
+        .hint(
+            "check that both files are of the same place, or give `shift_m = [x, y, z]`, the place of this file's origin in the \
+             coordinates of the first file, and `turn_deg` where it is turned",
+        )
+        .hint(
+            "cosfly compares UTM, transverse Mercator, Lambert's conic and the grids of several countries (PROJ texts, EPSG \
+             codes, well-known text with a code)",
+        )
 }

@@ -18,6 +18,10 @@ pub struct MapConfig {
     /// Further map files, such as one with the houses beside these streets.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub more: Vec<FurtherSource>,
+    /// The part of the town that is kept: smallest x, smallest y, largest x, largest y, metres, in the frame of the town, which
+    /// `cosfly map inspect` shows. Houses that reach over its edge stay whole. Default: everything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds_m: Option<[f64; 4]>,
     /// Things to invent beside the streets of a town whose file has nothing there. None by default.
     pub fill: FillConfig,
     /// Merge, crop and prune of the boxes that the planner sees.

@@ -1,6 +1,9 @@
 //! Map files of any known format to a [`Town`], streets from numbers, things to stand beside them. Types of the town
 //! come from the room `town` and are found here, too.
 
+pub mod advice;
+mod apart;
+pub mod bounds;
 pub mod combine;
 pub mod config;
 pub mod fill;
@@ -8,8 +11,11 @@ pub mod formats;
 pub mod generate;
 mod paving;
 pub mod read;
+mod recognise;
 
+pub use bounds::Bounds;
 pub use config::MapConfig;
 pub use cosfly_town::*;
 pub use formats::FORMATS;
-pub use read::{read_town, read_town_of, recognise};
+pub use read::{read_town, read_town_of};
+pub use recognise::recognise;

@@ -83,6 +83,15 @@ pub enum PedestrianError {
         /// Asked number of people.
         count: u32,
     },
+    /// The ground spans more than walks are planned over.
+    TooWide {
+        /// Extent of the ground, square metres.
+        extent_m2: f64,
+        /// Extent allowed, square metres.
+        limit_m2: f64,
+        /// The parameter `bounds_m` of the part with the most ground.
+        part: String,
+    },
     /// The grid would not fit into memory.
     TooLarge {
         /// Cells it would take.
@@ -102,7 +111,7 @@ impl PedestrianError {
             Self::BrokenPolygon { .. } | Self::BrokenObstacle { .. } => {
                 "the map has a value there that is not a number; repair the map file".into()
             }
-            Self::NoGround => "choose a map with pavements or streets".into(),
+            Self::NoGround => "choose a map with pavements or streets; check `bounds_m` and `more` of the stage `map`".into(),
             Self::NothingFree { .. } => {
                 "make `grid_m` or `radius.max_m` smaller, or fill in fewer buildings and trees in the `map` stage"
                     .into()
@@ -116,8 +125,11 @@ impl PedestrianError {
             Self::TooCrowded { placed, .. } => {
                 format!("set `count` to {} or less, or choose a map with more walkable ground", placed * 4 / 5)
             }
+            Self::TooWide { part, .. } => {
+                format!("cut the town in the stage `map`: `{part}` keeps the part with the most ground")
+            }
             Self::TooLarge { .. } => {
-                "make `grid_m` larger, or cut the map to the part you need in the `map` stage".into()
+                "make `grid_m` larger, at most 2, or cut the town to the part you need with `bounds_m` of the stage `map`".into()
             }
         }
     }
@@ -145,6 +157,12 @@ impl fmt::Display for PedestrianError {
             Self::TooCrowded { placed, count } => {
                 write!(f, "only {placed} of {count} people find a place to begin at on the walkable ground")
             }
+            Self::TooWide { extent_m2, limit_m2, .. } => write!(
+                f,
+                "the walkable ground spans {:.0} square kilometres; walks need one of at most {:.0}",
+                1e-6 * extent_m2,
+                1e-6 * limit_m2
+            ),
             Self::TooLarge { cells, limit, grid_m } => write!(
                 f,
                 "the walkable ground needs {cells:.0} cells at `grid_m` of {grid_m} m; at most {limit} are supported"

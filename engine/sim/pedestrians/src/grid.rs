@@ -5,6 +5,7 @@ use crate::obstruction::Obstruction;
 use crate::polygon::Cut;
 use crate::{PedestrianConfig, PedestrianError};
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_maps::advice::{WIDEST_WALKS_M2, busiest_part};
 use cosfly_maps::{Town, WalkableKind};
 use tiles::{Numbering, Tiles};
 
@@ -15,8 +16,6 @@ mod tiles;
 
 /// Ground that takes more cells than this is refused (two kilometres square of it at the default cell size, several times over).
 const MAX_CELLS: usize = 32_000_000;
-/// Ground that is spread over more than this is refused, square metres: the indices of places take room.
-const MAX_EXTENT_M2: f64 = 4e8;
 
 /// Largest step up or down between neighbouring cells, metres: a kerb, not a wall.
 const MAX_RISE_M: f64 = 0.4;
@@ -81,10 +80,13 @@ impl WalkableGrid {
         // One cell of margin all round, so that neighbours never leave the array.
         let cells = (size.x + 4.0) * (size.y + 4.0);
         let too_large = |cells: f64, limit| PedestrianError::TooLarge { cells, limit, grid_m: config.grid_m };
-        let most_cells = MAX_EXTENT_M2 / (config.grid_m * config.grid_m);
+        let extent_m2 = cells * config.grid_m * config.grid_m;
+        if extent_m2 > WIDEST_WALKS_M2 {
+            let part = busiest_part(town).map_or_else(String::new, |part| part.written());
+            return Err(PedestrianError::TooWide { extent_m2, limit_m2: WIDEST_WALKS_M2, part });
+        }
         let (columns, rows) = (size.x as usize + 3, size.y as usize + 3);
-        let numbering = Numbering::new(columns, rows).filter(|_| cells <= most_cells);
-        let Some(numbering) = numbering else { return Err(too_large(cells, most_cells as usize)) };
+        let numbering = Numbering::new(columns, rows).ok_or_else(|| too_large(cells, u32::MAX as usize))?;
         ground.index();
         let corner = ground.min.truncate() - config.grid_m;
         let obstruction =

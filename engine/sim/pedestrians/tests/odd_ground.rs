@@ -43,7 +43,7 @@ fn odd_town(stream: &mut RandomStream) -> Town {
         .collect();
     Town {
         name: "odd".into(),
-        origin: MapOrigin { offset_m: DVec3::ZERO, geo_reference: None },
+        origin: MapOrigin::default(),
         obstacles,
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),

@@ -65,7 +65,7 @@ fn frames_need_a_rate_and_the_recording_can_be_turned_and_moved() {
 fn degrees_are_projected_by_the_town() {
     let mut town = field(500.0, 0.0);
     let geo_reference = Some("+proj=tmerc +lat_0=48 +lon_0=11 +k=1 +x_0=0 +y_0=0".to_owned());
-    town.origin = MapOrigin { offset_m: DVec3::ZERO, geo_reference };
+    town.origin = MapOrigin { geo_reference, ..MapOrigin::default() };
     let gpx = r#"<?xml version="1.0"?><gpx xmlns="http://www.topografix.com/GPX/1/1"><trk><name>Ada</name><trkseg>
 <trkpt lat="48.0" lon="11.0"><time>2024-05-01T10:00:00Z</time></trkpt>
 <trkpt lat="48.0001" lon="11.0"><time>2024-05-01T10:00:05Z</time></trkpt>
@@ -134,6 +134,41 @@ fn broken_files_are_refused_with_their_line() {
     }
     let error = Recording::read(b"0,1,0,0\n\xff\xfe", &RecordedConfig::default()).unwrap_err();
     assert_eq!(error.to_string(), "the file is not UTF-8 text (line 2)");
+}
+
+#[test]
+fn what_is_there_twice_is_refused_or_said() {
+    let read = |text: &str| Recording::read(text.as_bytes(), &RecordedConfig::default());
+    let gpx = r#"<gpx><wpt lat="1" lon="2"/><trk><name>Ada</name>
+<trkpt lat="48.0" lon="11.0"><time>2024-05-01T10:00:00Z</time></trkpt><trkseg>
+<trkpt lat="48.0" lon="11.0"><time>2024-05-01T10:00:00Z</time><extensions><time>never</time></extensions></trkpt>
+<trkpt lat="48.0001" lon="11.0"><time>2024-05-01T10:00:05Z</time></trkpt></trkseg></trk></gpx>"#;
+    assert_eq!(
+        read(gpx).unwrap().warnings,
+        ["1 points outside of a `<trkseg>` are left out", "1 way points and routes are left out: they say no times"]
+    );
+    let time = "<time>2024-05-01T10:00:05Z</time>";
+    for (from, to, name, line) in [
+        (time, &*format!("{time}{time}"), "time", 4),
+        ("</name>", "</name><name>Bob</name>", "name", 1),
+        ("<trkseg>", "<trk></trk><trkseg>", "trk", 2),
+    ] {
+        let error = read(&gpx.replace(from, to)).unwrap_err();
+        assert_eq!((error.message, error.line), (format!("a second `<{name}>` where one may be"), Some(line)));
+    }
+    let track = "<trk><name>Ada</name><trkseg><trkpt lat=\"48\" lon=\"11\"><time>2024-05-01T10:00:00Z</time></trkpt>\
+                 <trkpt lat=\"48\" lon=\"11.00001\"><time>2024-05-01T10:00:05Z</time></trkpt></trkseg></trk>";
+    let warnings = read(&format!("<gpx>{track}{track}</gpx>")).unwrap().warnings;
+    assert!(warnings[0].contains("2 tracks are called `Ada`"), "{warnings:?}");
+    let error = read("t,id,x,y,x_m\n0,1,0,0,0\n").unwrap_err();
+    assert!(error.message.contains("two columns for `x`: `x` and `x_m`"), "{error}");
+    let error = read("1e23,1,0,0\n").unwrap_err();
+    assert!(error.message.contains("is no time or number"), "{error}");
+    let crs =
+        r#"{"type":"FeatureCollection","crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::25832"}},"features":[]}"#;
+    assert!(read(crs).unwrap_err().message.contains("`crs` is `urn:ogc:def:crs:EPSG::25832`"));
+    let degrees = read(&crs.replace("EPSG::25832", "OGC:1.3:CRS84")).unwrap_err();
+    assert_eq!(degrees.message, "the file has no track with time");
 }
 
 #[test]

@@ -1,11 +1,15 @@
 //! `OBJ`: meshes of Wavefront OBJ files, by objects and groups.
 
+use crate::cloud::table::not_applied;
 use crate::mesh::{MeshOptions, PartBuilder, town_of};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::polygons::triangulated;
+use cosfly_town::remarks::speaks_of_a_place;
 use cosfly_town::text::decoded;
 use cosfly_town::{MapError, MapFormat, Town};
 
+/// Most remarks about the place of the coordinates that are repeated as warnings.
+const MOST_REMARKS: usize = 5;
 /// Most corners of a polygon.
 const MOST_CORNERS: usize = 10_000;
 
@@ -38,7 +42,7 @@ impl MapFormat for Obj {
         let text = decoded(bytes)?;
         let mut reader =
             Reader { options, vertices: Vec::new(), object: String::new(), groups: vec![Group::default()] };
-        let mut whole = String::new();
+        let (mut whole, mut remarks) = (String::new(), vec![]);
         for (at, line) in text.lines().enumerate() {
             if let Some(begun) = line.strip_suffix('\\') {
                 whole.push_str(begun);
@@ -46,6 +50,9 @@ impl MapFormat for Obj {
             }
             whole.push_str(line);
             let line = std::mem::take(&mut whole);
+            if line.starts_with('#') && remarks.len() < MOST_REMARKS && speaks_of_a_place(&line) {
+                remarks.push(not_applied(&line));
+            }
             reader.line(&line).map_err(|rule| {
                 let shown: String = line.chars().take(60).collect();
                 MapError::new(format!("line {} is `{shown}`; {rule}", at + 1))
@@ -53,7 +60,8 @@ impl MapFormat for Obj {
             })?;
         }
         let parts = reader.parts()?;
-        let warnings = parts.warnings();
+        let mut warnings = parts.warnings();
+        warnings.append(&mut remarks);
         town_of(parts.parts, options, warnings)
     }
 }

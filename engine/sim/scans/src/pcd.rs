@@ -2,9 +2,12 @@
 
 use crate::bytes::Bytes;
 use crate::cloud::table::Columns;
+use crate::cloud::table::not_applied;
 use crate::cloud::{CloudBuilder, CloudOptions, town_of};
 use crate::scalar::Scalar;
+use cosfly_town::remarks::speaks_of_a_place;
 use cosfly_town::{MapError, MapFormat, Town};
+use std::collections::BTreeMap;
 
 /// Longest head, bytes.
 const LONGEST_HEAD: usize = 64 << 10;
@@ -48,8 +51,36 @@ impl MapFormat for Pcd {
                 )));
             }
         }
-        town_of(columns.finish(cloud, options.unit_m)?, options)
+        let mut cloud = columns.finish(cloud, options.unit_m)?;
+        cloud.warnings.extend(remarks(&bytes[..bytes.len() - data.len()])?);
+        town_of(cloud, options)
     }
+}
+
+/// What a head says of the points' place, which is not applied.
+///
+/// # Errors
+/// A keyword that stands there twice.
+fn remarks(head: &[u8]) -> Result<Vec<String>, MapError> {
+    const ALONE: [&str; 9] = ["VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS"];
+    let text = String::from_utf8_lossy(head);
+    let (mut warnings, mut lines) = (vec![], BTreeMap::new());
+    for (number, line) in (1..).zip(text.lines()) {
+        let keyword = line.split_whitespace().next().unwrap_or_default();
+        if ALONE.contains(&keyword)
+            && let Some(first) = lines.insert(keyword, number)
+        {
+            let message = format!("line {number} of the head is a second `{keyword}`, beside the one in line {first}");
+            return Err(MapError::new(message).hint("remove one of the two"));
+        }
+        let numbers = || line.split_whitespace().skip(1).map(|word| word.parse::<f64>().unwrap_or(f64::NAN));
+        let is_moved =
+            keyword == "VIEWPOINT" && numbers().zip([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]).any(|(a, b)| a != b);
+        if is_moved || line.starts_with('#') && speaks_of_a_place(line) {
+            warnings.push(not_applied(line));
+        }
+    }
+    Ok(warnings)
 }
 
 #[derive(Debug)]

@@ -1,9 +1,10 @@
 //! `PLY`: vertices of a PLY file as a point cloud; text, little-endian or big-endian.
 
 use crate::cloud::survey::spacing_m;
-use crate::cloud::table::Columns;
+use crate::cloud::table::{Columns, not_applied};
 use crate::cloud::{CloudBuilder, CloudOptions, town_of};
 use crate::scalar::Scalar;
+use cosfly_town::remarks::speaks_of_a_place;
 use cosfly_town::{MapError, MapFormat, Town};
 
 /// Longest head, bytes.
@@ -28,8 +29,8 @@ impl MapFormat for Ply {
     }
 
     fn read(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
-        let (head, data) = split(bytes)?;
-        let head = Head::read(&head)?;
+        let (text, data) = split(bytes)?;
+        let head = Head::read(&text)?;
         let columns = Columns::find(head.properties.iter().map(|(name, _)| name.as_str()))?;
         let unit_m = options.unit_m.unwrap_or(1.0);
         let mut cloud = CloudBuilder::default();
@@ -37,7 +38,9 @@ impl MapFormat for Ply {
             Encoding::Text => head.add_lines(data, &columns, unit_m, &mut cloud)?,
             Encoding::Binary { is_big_endian } => head.add_rows(data, &columns, unit_m, is_big_endian, &mut cloud)?,
         }
-        let cloud = columns.finish(cloud, options.unit_m)?;
+        let mut cloud = columns.finish(cloud, options.unit_m)?;
+        let remarks = text.lines().filter(|line| ["comment ", "obj_info "].iter().any(|word| line.starts_with(word)));
+        cloud.warnings.extend(remarks.filter(|line| speaks_of_a_place(line)).map(not_applied));
         let spacing_m = spacing_m(&cloud);
         if head.has_faces && spacing_m > WIDEST_SPACING_M {
             let message = format!("the file is a mesh: its vertices, {spacing_m:.1} m apart, are no cloud of points");
@@ -99,6 +102,10 @@ impl Head {
         for (at, line) in text.lines().enumerate().skip(1) {
             let words: Vec<&str> = line.split_whitespace().collect();
             match words[..] {
+                ["format", ..] if encoding.is_some() => return Err(refusal(at, line, "it is the second `format`")),
+                ["element", "vertex", _] if elements.iter().any(|one: &Element| one.name == "vertex") => {
+                    return Err(refusal(at, line, "it is the second element `vertex`"));
+                }
                 ["format", name, _] => {
                     encoding = Some(match name {
                         "ascii" => Encoding::Text,

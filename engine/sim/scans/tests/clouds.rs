@@ -183,3 +183,30 @@ fn degrees_and_corners_of_drawings_are_no_clouds() {
                 property list uchar int vertex_indices\nend_header\n0 0 0\n40 0 0\n40 40 0\n0 40 9\n4 0 1 2 3\n";
     assert!(read::<Ply>(mesh.as_bytes(), &options).unwrap_err().message.contains("mesh"));
 }
+
+#[test]
+fn what_a_head_says_of_a_place_is_a_warning_and_nothing_is_said_twice() {
+    let options = CloudOptions { unit_m: Some(1.0), ..CloudOptions::default() };
+    let ply_with = |line: &str| {
+        String::from_utf8(ply(&scene(), "ascii")).unwrap().replacen("element", &format!("{line}\nelement"), 1)
+    };
+    let pcd_with =
+        |line: &str| String::from_utf8(pcd(&scene(), "ascii")).unwrap().replacen("WIDTH", &format!("{line}\nWIDTH"), 1);
+    let of_ply = |line: &str| Ply::read(ply_with(line).as_bytes(), &options).map(|(_, warnings)| warnings);
+    let of_pcd = |line: &str| Pcd::read(pcd_with(line).as_bytes(), &options).map(|(_, warnings)| warnings);
+    let is_said =
+        |warnings: Vec<String>, line: &str| warnings.iter().any(|it| it.contains(line) && it.contains("not applied"));
+    for line in ["comment global shift -393706 -5815132 0", "obj_info epsg 25833"] {
+        assert!(is_said(of_ply(line).unwrap(), line), "{line}");
+    }
+    assert!(!is_said(of_ply("comment made by a program 2").unwrap(), "comment"));
+    for line in ["# offset 393706 5815132 0", "#VERSION 7, EPSG:25833"] {
+        assert!(is_said(of_pcd(line).unwrap(), line), "{line}");
+    }
+    let moved = String::from_utf8(pcd(&scene(), "ascii")).unwrap();
+    assert!(moved.contains("VIEWPOINT 0 0 0 1 0 0 0"));
+    let moved = moved.replace("VIEWPOINT 0 0 0", "VIEWPOINT 9 0 0");
+    assert!(is_said(Pcd::read(moved.as_bytes(), &options).unwrap().1, "VIEWPOINT 9 0 0"));
+    assert!(of_pcd("SIZE 4 4 4 4").unwrap_err().message.contains("is a second `SIZE`"));
+    assert!(of_ply("format ascii 1.0").unwrap_err().message.contains("second `format`"));
+}

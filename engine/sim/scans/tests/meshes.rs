@@ -228,3 +228,24 @@ fn drawings_of_other_programs_are_the_same_house() {
         assert_eq!(solid(&text), expected, "{name}");
     }
 }
+
+#[test]
+fn places_on_the_earth_that_are_not_applied_are_said_or_refused() {
+    let options = MeshOptions::default();
+    let remark = "# Global shift: -393706 -5815132 0\n";
+    let text = format!("{remark}{}", String::from_utf8(obj(&scene())).unwrap());
+    let (_, warnings) = Obj::read(text.as_bytes(), &options).unwrap();
+    assert!(warnings.iter().any(|it| it.contains(remark.trim()) && it.contains("not applied")), "{warnings:?}");
+    let json = |center: &str| {
+        let extensions = format!("{{\"CESIUM_RTC\":{{\"center\":{center}}}}}");
+        glb_of(&format!("{{\"asset\":{{\"version\":\"2.0\"}},\"meshes\":[],\"extensions\":{extensions}}}"), &[])
+    };
+    let error = read::<GlTf>(&json("[3783000, 898000, 5035000]"), &options).unwrap_err();
+    assert!(error.message.contains("`CESIUM_RTC`") && error.hints[0].contains("axes of a plan"), "{error}");
+    assert!(read::<GlTf>(&json("[0, 0, 0]"), &options).unwrap_err().message.contains("no triangles"));
+    // A scene whose corners count from the Earth's centre.
+    let mut meshes = scene();
+    meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices).for_each(|vertex| vertex[1] += 5_035_000.0);
+    let error = read::<Obj>(&obj(&meshes), &options).unwrap_err();
+    assert!(error.message.contains("centre of the Earth"), "{error}");
+}

@@ -13,6 +13,7 @@ pub mod open_ground;
 pub mod options;
 pub mod polygons;
 pub mod regions;
+pub mod remarks;
 pub mod semantics;
 pub mod simplify;
 pub mod solids;

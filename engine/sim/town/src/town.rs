@@ -38,10 +38,26 @@ pub struct Town {
 /// (OpenDRIVE and other map files are right-handed, so y changes sign).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MapOrigin {
-    /// Offset after the sign change; zero for files near their own origin, whole metres otherwise.
+    /// Offset after the sign change: whole metres for files far from their own origin, and what the file adds to its
+    /// own coordinates before the projection.
     pub offset_m: DVec3,
     /// The file's projection text, if it has one.
     pub geo_reference: Option<String>,
+    /// The part of `offset_m` that the file adds to its own coordinates (`<offset>` of OpenDRIVE). Known while maps are
+    /// read only.
+    #[serde(skip)]
+    pub added_by_file_m: DVec3,
+}
+
+impl MapOrigin {
+    /// The same where the file adds a vector, map frame, to its coordinates.
+    #[must_use]
+    pub fn beyond(mut self, added_in_map_m: DVec3) -> Self {
+        let added_m = DVec3::new(added_in_map_m.x, -added_in_map_m.y, added_in_map_m.z);
+        self.offset_m += added_m;
+        self.added_by_file_m += added_m;
+        self
+    }
 }
 
 /// One solid box of the town. A tree, a lamp or a building of several wings is several boxes with one `object_id`.

@@ -9,8 +9,30 @@ const SURVEY_FOOT_M: f64 = 1200.0 / 3937.0;
 pub fn epsg_code(reference_system: &str) -> Option<u32> {
     let (_, behind) = reference_system.split_once("EPSG")?;
     // A compound system lists the plan first.
-    let first = behind.split(',').next()?;
+    let first = behind.split([',', '&']).next()?;
     first.split([':', '/']).filter_map(|part| part.trim().parse().ok()).next_back()
+}
+
+/// The code of the heights that a compound system lists behind that of the plan.
+pub fn height_code(reference_system: &str) -> Option<u32> {
+    let (_, behind) = reference_system.split_once("EPSG")?;
+    epsg_code(behind.split_once([',', '&'])?.1)
+}
+
+/// Length of the unit of a system of heights, metres; 1 for all codes but those in feet.
+pub fn height_unit_m(code: u32) -> f64 {
+    match code {
+        5702 | 6358 | 6360 | 8052 => SURVEY_FOOT_M,
+        8050 | 8228 => FOOT_M,
+        _ => 1.0,
+    }
+}
+
+/// What to know of a map whose file counts in another unit than metres.
+pub fn unit_warning(unit_m: f64, projection: Option<&str>) -> Option<String> {
+    let name = projection.filter(|_| unit_m != 1.0)?;
+    let name: String = name.chars().take(60).collect();
+    Some(format!("coordinates are changed to metres: for the projection `{name}` divide those of the map by {unit_m}"))
 }
 
 /// Length of the unit, metres; 1 for codes in neither table.
@@ -104,11 +126,25 @@ mod tests {
             ("urn:ogc:def:crs:EPSG::28992", Some(28992), 1.0),
             ("urn:ogc:def:crs,crs:EPSG::2263,crs:EPSG::6360", Some(2263), SURVEY_FOOT_M),
             ("EPSG:2222", Some(2222), FOOT_M),
+            (
+                "https://x.org/def/crs-compound?1=https://x.org/def/crs/EPSG/0/28992&2=https://x.org/def/crs/EPSG/0/5709",
+                Some(28992),
+                1.0,
+            ),
             ("urn:ogc:def:crs:EPSG:9.9:6539", Some(6539), SURVEY_FOOT_M),
             ("local", None, 1.0),
         ] {
             assert_eq!(epsg_code(text), code, "{text}");
             assert_eq!(code.map_or(1.0, unit_m), unit, "{text}");
         }
+        for (text, code) in [
+            ("urn:ogc:def:crs,crs:EPSG::2263,crs:EPSG::6360", Some(6360)),
+            ("https://x.org/crs-compound?1=https://x.org/EPSG/0/28992&2=https://x.org/EPSG/0/5709", Some(5709)),
+            ("EPSG:25832,EPSG:7837", Some(7837)),
+            ("EPSG:7415", None),
+        ] {
+            assert_eq!(height_code(text), code, "{text}");
+        }
+        assert_eq!([6360, 8228, 5703].map(height_unit_m), [SURVEY_FOOT_M, FOOT_M, 1.0]);
     }
 }

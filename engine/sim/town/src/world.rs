@@ -41,6 +41,6 @@ impl WorldFromMap {
 
     /// The shift for [`crate::Town::origin`], with the map's projection text.
     pub fn origin(&self, geo_reference: Option<String>) -> MapOrigin {
-        MapOrigin { offset_m: self.offset_m, geo_reference }
+        MapOrigin { offset_m: self.offset_m, geo_reference, ..MapOrigin::default() }
     }
 }

@@ -100,6 +100,11 @@ fn what_cannot_be_used_is_refused_at_its_line() {
         (String::new(), "the file is empty (line 1)"),
         (format!("<fcd-export>\n{good}<timestep time=\"1\"></vehicle>"), "broken XML"),
         (file(""), "nobody is in the file between 0 s and 2 s"),
+        (
+            format!("<fcd-export>\n<timestep time=\"0\">\n{good}</timestep></fcd-export>"),
+            "a `<timestep>` within another one (line 3)",
+        ),
+        (file(&good.replace("x=", "y=\"3\" x=")), "broken XML"),
     ] {
         let found = refusal(&text);
         assert!(found.starts_with(expected), "{found}\nexpected {expected}");
@@ -107,6 +112,51 @@ fn what_cannot_be_used_is_refused_at_its_line() {
     assert!(
         refusal(&format!("<fcd-export><timestep time=\"0\"><vehicle id=\"{}\"", "x".repeat(3 << 20))).contains("1 MiB")
     );
+}
+
+#[test]
+fn degrees_are_told_from_metres_by_the_file_and_by_its_speeds() {
+    let refusal = |text: &str, geo: bool| {
+        let mut town = town();
+        town.origin.geo_reference = Some("+proj=utm +zone=33 +datum=WGS84".into());
+        let net = NetLocation { offset_m: DVec2::ZERO, projection: Some("+proj=utm +zone=33 +datum=WGS84".into()) };
+        let config = FcdConfig { geo, ..config() };
+        let place = Place::new(&town, &net, geo).unwrap();
+        read(text.as_bytes(), &place, &config, Clock::new(21, 1.0, 1.0), Seed([1; 32])).unwrap_err()
+    };
+    let option = "<!-- generated\n<fcd-output.geo value=\"true\"/>\n-->";
+    let good = file(&step(0.0, &vehicle("a", 13.4, 52.4, 0.0)));
+    let error = refusal(&good.replace("<!-- generated -->", option), false);
+    assert!(error.to_string().starts_with("the positions of the file are degrees, but `geo` is false"), "{error}");
+    assert!(error.hint.unwrap().contains("`geo = true`"));
+    // A car that drives 5 m/s for 20 s moves by a thousandth of a degree.
+    let steps: String =
+        (0..21).map(|at| step(f64::from(at), &vehicle("a", 13.4 + 5e-5 * f64::from(at), 52.4, 90.0))).collect();
+    let error = refusal(&file(&steps), false);
+    assert!(error.to_string().contains("bodies move by 0.0"), "{error}");
+    let error = refusal(&file(&step(0.0, &vehicle("a", 393806.0, 5815232.0, 0.0))), true);
+    assert!(error.to_string().contains("is no longitude and latitude"), "{error}");
+}
+
+#[test]
+fn elements_of_other_names_are_counted_and_nets_say_their_place_once() {
+    let text = file(&step(0.0, &(vehicle("a", 100.0, 50.0, 0.0) + "<vehicel id=\"b\"/>")));
+    let recorded = read_with(&text, &config(), Clock::new(1, 1.0, 1.0)).unwrap();
+    assert!(recorded.notes().iter().any(|note| note.contains("1 elements of other names are left out: `<vehicel>`")));
+    let location = "<location netOffset='1,2' projParameter='+proj=utm +zone=33'/>\n";
+    let net = NetLocation::of_net(format!("<net>\n{location}").as_bytes()).unwrap();
+    assert_eq!((net.offset_m, net.projection.as_deref()), (DVec2::new(1.0, 2.0), Some("+proj=utm +zone=33")));
+    let twice = NetLocation::of_net(format!("<net>\n{location}{location}").as_bytes()).unwrap_err();
+    assert!(twice.to_string().contains("a second `<location>`") && twice.line == Some(3), "{twice}");
+    // A projection of SUMO's own cannot be compared with that of a map.
+    let net = NetLocation { offset_m: DVec2::ZERO, projection: Some("-".into()) };
+    assert!(Place::new(&town(), &net, false).is_ok());
+    let mut placed = town();
+    placed.origin.geo_reference = Some("+proj=utm +zone=33 +units=us-ft".into());
+    let error = Place::new(&placed, &net, false).err().unwrap();
+    assert!(error.to_string().contains("projection `-` of the net"), "{error}");
+    let error = Place::new(&placed, &net, true).err().unwrap();
+    assert!(error.to_string().contains("`+units=us-ft` is not read"), "{error}");
 }
 
 /// A file that never ends: cars that drive on a line.

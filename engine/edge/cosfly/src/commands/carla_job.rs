@@ -5,8 +5,9 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::count;
 use clap::Parser;
-use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_export::carla_job;
+use cosfly_frames::DVec3;
 use cosfly_read::{PublishedDataset, PublishedFlight};
 use std::io::BufWriter;
 use std::path::PathBuf;
@@ -34,6 +35,21 @@ pub struct Arguments {
     /// Flights, such as expert-p00000 (repeatable) [default: all]
     #[arg(long = "trajectory", value_name = "ID")]
     trajectories: Vec<String>,
+    /// The `<offset>` in the header of the town's OpenDRIVE file, metres: a server does not add it [default: 0,0,0]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_delimiter = ',',
+        num_args = 3,
+        allow_hyphen_values = true,
+        value_parser = metres
+    )]
+    ignore_offset: Option<Vec<f64>>,
+}
+
+fn metres(text: &str) -> std::result::Result<f64, String> {
+    let number: f64 = text.trim().parse().map_err(|_| "it is not a number".to_owned())?;
+    plausible(number).map_err(|fault| format!("it {fault}"))
 }
 
 impl Command for Arguments {
@@ -53,8 +69,9 @@ fn written(arguments: &Arguments) -> Result<String> {
     let out = arguments.out.display();
     let failed = |error: std::io::Error| Diagnostic::io(format!("write `{out}`"), &error);
     // A job that was not written to its end never has the name of one.
+    let ignored_m = arguments.ignore_offset.as_deref().map_or(DVec3::ZERO, DVec3::from_slice);
     let mut file = BufWriter::new(cosfly_whole::draft(&arguments.out).map_err(failed)?);
-    carla_job::write(&dataset, &flights, &mut file)?;
+    carla_job::write(&dataset, &flights, ignored_m, &mut file)?;
     let file = file.into_inner().map_err(|error| failed(error.into_error()))?;
     file.persist(&arguments.out).map_err(|error| failed(error.error))?;
     let left_out = match dataset.others_seen(&flights)? {

@@ -208,7 +208,7 @@ fn box_town(boxes: usize) -> Town {
     };
     Town {
         name: "boxes".into(),
-        origin: MapOrigin { offset_m: DVec3::ZERO, geo_reference: None },
+        origin: MapOrigin::default(),
         obstacles,
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),

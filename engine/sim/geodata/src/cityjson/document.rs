@@ -24,7 +24,7 @@ pub(super) struct Document {
 }
 
 /// From the whole numbers of `vertices` to coordinates.
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub(super) struct Transform {
     pub(super) scale: [f64; 3],
     pub(super) translate: [f64; 3],
@@ -119,10 +119,29 @@ pub(super) fn documents(bytes: &[u8]) -> Result<Vec<Document>, MapError> {
         return Err(MapError::new(format!("`type` of a line is `{shown}`; it must be `CityJSONFeature`")));
     }
     head.check_version()?;
+    head.check_features(&documents[1..])?;
     Ok(documents)
 }
 
 impl Document {
+    /// All features of a sequence have the transform and the reference system of its head.
+    fn check_features(&self, features: &[Self]) -> Result<(), MapError> {
+        for (number, feature) in (1..).zip(features) {
+            let name = match () {
+                () if feature.transform.is_some() && feature.transform != self.transform => "transform",
+                () if feature.reference_system().is_some() && feature.reference_system() != self.reference_system() => {
+                    "metadata.referenceSystem"
+                }
+                () => continue,
+            };
+            let message = format!("feature {number} has another `{name}` than the head of the sequence");
+            return Err(
+                MapError::new(message).hint("write the sequence again: its features share those of the first line")
+            );
+        }
+        Ok(())
+    }
+
     fn check_version(&self) -> Result<(), MapError> {
         let version = self.version.as_deref().unwrap_or_default();
         if version.starts_with("1.") || version.starts_with("2.") {

@@ -2,9 +2,10 @@
 
 use super::document::{CityObject, Document, Geometry, Templates, Transform};
 use super::faces::Face;
+use cosfly_diagnose::plausible;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::MapError;
-use cosfly_town::units::{epsg_code, unit_m};
+use cosfly_town::units::{epsg_code, height_code, height_unit_m, unit_m};
 use cosfly_town::world::WorldFromMap;
 
 /// Farthest coordinate, metres.
@@ -19,7 +20,8 @@ pub(super) const MOST_FACES: usize = 500_000;
 /// What the vertices of all documents share.
 pub(super) struct Space {
     transform: Transform,
-    unit_m: f64,
+    /// Length of the units of plan and height, metres.
+    pub(super) units_m: [f64; 2],
     templates: Option<Templates>,
     pub(super) world: WorldFromMap,
     pub(super) reference_system: Option<String>,
@@ -38,6 +40,18 @@ pub(super) struct Shape {
     pub(super) points: Vec<DVec3>,
 }
 
+impl Transform {
+    fn check(&self) -> Result<(), MapError> {
+        let is_broken = |number: &f64| plausible(*number).is_err();
+        if self.scale.iter().any(|scale| is_broken(scale) || *scale == 0.0) || self.translate.iter().any(is_broken) {
+            let message =
+                format!("`transform` has the scale {:?} and the translation {:?}", self.scale, self.translate);
+            return Err(MapError::new(message).hint("each must be a number within 1e9, and no scale 0"));
+        }
+        Ok(())
+    }
+}
+
 impl Space {
     /// The head's transform and unit, and the shift that the first vertices of all documents ask for.
     pub(super) fn of(documents: &mut [Document]) -> Result<Self, MapError> {
@@ -46,9 +60,12 @@ impl Space {
         let transform = head.transform.unwrap_or(plain);
         let reference_system = head.reference_system().map(str::to_owned);
         let code = reference_system.as_deref().and_then(epsg_code);
-        let unit_m = code.map_or(1.0, unit_m);
+        let plan_m = code.map_or(1.0, unit_m);
+        let height_m = reference_system.as_deref().and_then(height_code).map_or(plan_m, height_unit_m);
+        transform.check()?;
         let templates = head.templates.take();
-        let mut space = Self { transform, unit_m, templates, world: WorldFromMap::default(), reference_system };
+        let units_m = [plan_m, height_m];
+        let mut space = Self { transform, units_m, templates, world: WorldFromMap::default(), reference_system };
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for vertex in documents.iter().flat_map(used_vertices) {
             let point = space.in_map(vertex);
@@ -82,12 +99,17 @@ impl Space {
 
     fn in_map(&self, vertex: [f64; 3]) -> DVec3 {
         let scaled = DVec3::from_array(vertex) * DVec3::from_array(self.transform.scale);
-        self.unit_m * (scaled + DVec3::from_array(self.transform.translate))
+        self.in_metres(scaled + DVec3::from_array(self.transform.translate))
     }
 
-    /// A length of the file's attributes, metres.
+    fn in_metres(&self, point: DVec3) -> DVec3 {
+        let [plan_m, height_m] = self.units_m;
+        point * DVec3::new(plan_m, plan_m, height_m)
+    }
+
+    /// A height of the file's attributes, metres.
     pub(super) fn length_m(&self, length: f64) -> f64 {
-        self.unit_m * length
+        self.units_m[1] * length
     }
 
     /// Faces of an object's geometries at the highest level of detail that has any.
@@ -136,7 +158,7 @@ impl Space {
         };
         shape.add(geometry, usize::MAX, &|vertex| {
             let point = DVec3::from_array(*templates.vertices.get(vertex)?);
-            Some(self.world.point(place + self.unit_m * turned(point)))
+            Some(self.world.point(place + self.in_metres(turned(point))))
         });
     }
 }

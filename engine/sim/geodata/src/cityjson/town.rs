@@ -9,6 +9,7 @@ use super::shapes::{Shape, Space};
 use super::words::{Part, ground_of_surface, is_indoors, part_of};
 use crate::open_ground::add_open_ground;
 use cosfly_geometry::OrientedBox;
+use cosfly_town::units::unit_warning;
 use cosfly_town::{MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkableKind, terrain};
 use std::collections::BTreeMap;
 
@@ -230,7 +231,8 @@ impl Parts {
         if !walkable.iter().any(|polygon| polygon.kind != WalkableKind::Road) {
             notes.push(add_open_ground(&mut walkable, &self.obstacles, &surfaces));
         }
-        let warnings = self.tally.warnings();
+        let mut warnings = self.tally.warnings();
+        warnings.extend(unit_warning(self.space.units_m[0], self.space.reference_system.as_deref()));
         if walkable.is_empty() {
             let error = MapError::new("the map has neither ground for people to walk on nor buildings to walk around");
             let error = error.hint("use a file with objects of type `Building` or `Road` that have shapes");

@@ -3,6 +3,7 @@
 //! `elements` is what a file holds, read by `pbf` or `xml`; `frame` is its place in the world; `rings` makes areas of ways
 //! and relations; `buildings`, `passages`, `roads`, `pavements`, `paths`, `land` and `things` make a town of them.
 
+mod bare_streets;
 mod buildings;
 mod elements;
 mod frame;

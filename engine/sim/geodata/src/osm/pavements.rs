@@ -41,6 +41,16 @@ fn stated_sides(tags: &Tags) -> Option<[bool; 2]> {
     (left.is_some() || right.is_some()).then(|| [left.unwrap_or(false), right.unwrap_or(false)])
 }
 
+/// Whether a way is a street that usually has pavements.
+pub fn is_street(tags: &Tags) -> bool {
+    tags.is("highway", &["primary", "secondary", "tertiary", "residential", "unclassified", "living_street"])
+}
+
+/// Whether [`lines`] invents pavements of a street when it is asked to.
+pub fn may_be_assumed(tags: &Tags) -> bool {
+    is_street(tags) && stated_sides(tags).is_none()
+}
+
 /// One side of a piece of street, directed so that the pavement is on its left.
 struct Side {
     points: Vec<DVec2>,
@@ -66,10 +76,8 @@ fn sides(roads: &[Road<'_>], assume: bool) -> Vec<Side> {
     let mut sides = Vec::new();
     for road in roads {
         let tags = &road.way.tags;
-        let is_street =
-            tags.is("highway", &["primary", "secondary", "tertiary", "residential", "unclassified", "living_street"]);
         let stated = stated_sides(tags);
-        let [left, right] = stated.unwrap_or([assume && is_street; 2]);
+        let [left, right] = stated.unwrap_or([assume && is_street(tags); 2]);
         let offset_m = road.half_width_m + 0.5 * PAVEMENT_M;
         for piece in &road.pieces {
             let points = thinned(piece);

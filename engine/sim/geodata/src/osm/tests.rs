@@ -430,3 +430,40 @@ fn streets_have_lanes_on_the_right_that_turn_at_junctions() {
         assert_eq!(ways.map(|lane| lane.successors.len()).collect::<Vec<_>>(), [1; 4]);
     }
 }
+
+#[test]
+fn bare_streets_are_said_and_the_option_that_is_named_helps() {
+    // A street of 220 m, and a park path elsewhere that is ground enough.
+    let nodes = [(1, -10, 0), (2, 10, 0), (3, -15, 15), (4, 15, 15)];
+    let rest = |sidewalk: &str| {
+        way(10, &[1, 2], &[("highway", "residential"), ("sidewalk", sidewalk)])
+            + &way(11, &[3, 4], &[("highway", "footway"), ("width", "4")])
+    };
+    let said = |sidewalk: &str, assume_pavements: bool| {
+        let options = OsmOptions { assume_pavements, ..OsmOptions::default() };
+        let text = osm(&nodes, &rest(sidewalk).replace("<tag k=\"sidewalk\" v=\"\"/>", ""));
+        let (town, warnings) = OpenStreetMap::read(text.as_bytes(), &options).unwrap();
+        let pavements = town.walkable.iter().filter(|polygon| polygon.synthetic).count();
+        (warnings.into_iter().find(|warning| warning.contains("assume_pavements = true")), pavements)
+    };
+    let (warning, before) = said("", false);
+    assert!(warning.as_ref().is_some_and(|it| it.starts_with("0.2 of 0.2 km of streets")), "{warning:?}");
+    let (warning, after) = said("", true);
+    assert!(warning.is_none() && before == 0 && after > 0, "{warning:?} {after}");
+    // Where the option would not help, nothing is said.
+    assert_eq!(said("no", false).0, None);
+    assert_eq!(said("both", false).0, None);
+}
+
+#[test]
+fn maps_of_lanelet2_are_told_from_extracts() {
+    let nodes = [(1, 0, 0), (2, 10, 0), (3, 0, 1), (4, 10, 1)];
+    let rest = way(10, &[1, 2], &[("type", "line_thin")])
+        + &way(11, &[3, 4], &[("type", "line_thin")])
+        + "<relation id=\"1\"><member type=\"way\" ref=\"10\" role=\"left\"/><member type=\"way\" ref=\"11\" role=\"right\"/>\
+           <tag k=\"type\" v=\"lanelet\"/><tag k=\"subtype\" v=\"road\"/></relation>";
+    let error = read(osm(&nodes, &rest).as_bytes()).unwrap_err();
+    assert!(error.message.contains("Lanelet2 map of 1 lanelets") && error.hints[0].contains("OpenDRIVE"), "{error}");
+    let street = rest + &way(12, &[1, 4], &[("highway", "residential")]);
+    assert!(read(osm(&nodes, &street).as_bytes()).is_ok());
+}

@@ -7,7 +7,7 @@ use super::passages::Passages;
 use super::rings::{Problems, areas};
 use super::tags::Tags;
 use super::things::Things;
-use super::{buildings, land, lanes, paths, roads, sea, things};
+use super::{bare_streets, buildings, land, lanes, paths, roads, sea, things};
 use crate::open_ground::add_open_ground;
 use crate::slabs::trapezoids;
 use cosfly_frames::DVec2;
@@ -60,6 +60,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
         notes.push("the whole ground is for people: the file has neither paths nor streets".to_owned());
         paths.walkable.push(whole_extract(&frame));
     }
+    let bare_streets = bare_streets::warning(&roads, &paths.walkable, options);
     let town = Town {
         name: "town".to_owned(),
         origin: MapOrigin { geo_reference: Some(frame.projection.proj_text()), ..MapOrigin::default() },
@@ -70,7 +71,9 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
         synthetic: Synthetic { notes, ..Synthetic::default() },
         ..Town::default()
     };
-    Ok((town, warnings(elements, &problems, &buildings)))
+    let mut warnings = warnings(elements, &problems, &buildings);
+    warnings.extend(bare_streets);
+    Ok((town, warnings))
 }
 
 /// Adds water, the sea, and asphalt that is no street.

@@ -41,7 +41,7 @@ pub fn read(bytes: &[u8]) -> Result<Elements, MapError> {
                 }
                 reading.is_complete |= depth == 0;
             }
-            Event::Eof if reading.is_complete => return Ok(reading.elements),
+            Event::Eof if reading.is_complete => return reading.finished(),
             Event::Eof => {
                 return Err(broken("the file ends before `</osm>`".to_owned(), at));
             }
@@ -63,6 +63,8 @@ struct Reading {
     elements: Elements,
     open: Option<Open>,
     is_complete: bool,
+    /// Relations of Lanelet2, which has the same container.
+    lanelets: usize,
 }
 
 /// The element that is open.
@@ -127,8 +129,20 @@ impl Reading {
         };
         if let (Some(key), Some(value)) = (attribute(tag, "k")?, attribute(tag, "v")?) {
             tags.add(&key, &value);
+            self.lanelets += usize::from(key == "type" && value == "lanelet");
         }
         Ok(())
+    }
+
+    fn finished(self) -> Result<Elements, MapError> {
+        if self.lanelets > 0 && !self.elements.ways.iter().any(|way| way.tags.has("highway")) {
+            let message =
+                format!("the file is a Lanelet2 map of {} lanelets, no extract of OpenStreetMap", self.lanelets);
+            return Err(MapError::new(message).hint(
+                "take the OpenDRIVE file that the map was made of, or an extract of OpenStreetMap of the same place",
+            ));
+        }
+        Ok(self.elements)
     }
 
     fn member(&mut self, tag: &BytesStart<'_>) -> Result<(), MapError> {

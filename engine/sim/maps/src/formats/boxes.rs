@@ -220,7 +220,8 @@ impl Document {
             [("boxes", self.boxes.len(), MOST_BOXES), ("walkable", self.walkable.len(), MOST_POLYGONS)]
         {
             if count > most {
-                return Err(MapError::new(format!("`{name}` has {count} entries; at most {most} are read")));
+                let error = MapError::new(format!("`{name}` has {count} entries; at most {most} are read"));
+                return Err(error.hint("write the part of the town that flights need"));
             }
         }
         if self.walkable.is_empty() {
@@ -232,7 +233,10 @@ impl Document {
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)));
         let across_m = (high - low).max_element();
         if across_m > WIDEST_M {
-            return Err(MapError::new(format!("the map is {across_m} m across; at most {WIDEST_M} m are read")));
+            let error = MapError::new(format!("the map is {across_m} m across; at most {WIDEST_M} m are read"));
+            return Err(
+                error.hint("check that all coordinates are metres; write the part of the town that flights need")
+            );
         }
         Ok(())
     }

@@ -27,7 +27,7 @@ pub(crate) fn pillar(center: (f64, f64), half_m: f64, height_m: f64) -> Obstacle
 pub(crate) fn town(walkable: Vec<WalkablePolygon>, obstacles: Vec<Obstacle>) -> Town {
     Town {
         name: "test".into(),
-        origin: MapOrigin { offset_m: DVec3::ZERO, geo_reference: None },
+        origin: MapOrigin::default(),
         obstacles,
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),

@@ -95,5 +95,7 @@ fn ground_that_nobody_can_walk_on_is_refused_with_what_helps() {
     thing.shape.half_extents_m.x = f64::INFINITY;
     check(town(vec![pavement], vec![thing]), "obstacle 0", "repair");
     let vast = rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (60_000.0, 60_000.0), 0.0);
-    check(town(vec![vast], vec![]), "cells at `grid_m` of 0.5 m", "larger");
+    check(town(vec![vast], vec![]), "spans 3600 square kilometres", "`bounds_m = [");
+    let dense = rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (4_000.0, 4_000.0), 0.0);
+    check(town(vec![dense], vec![]), "cells at `grid_m` of 0.5 m", "larger");
 }

@@ -1,14 +1,15 @@
 //! Tracks in columns: ETH/UCY `obsmat` and CSV.
 
 use super::{RecordedConfig, RecordedError, RecordedPoint, RecordedTrack, Recording};
+use cosfly_diagnose::plausible;
 use cosfly_frames::DVec2;
 use std::collections::BTreeMap;
 
 /// Frames in a second of the videos of ETH and UCY.
 const OBSMAT_RATE_HZ: f64 = 25.0;
 
-/// Largest coordinate of a place, metres.
-const FARTHEST_M: f64 = 1e9;
+/// Largest time, by any clock: nanoseconds since 1970 are 2e18.
+const LATEST: f64 = 1e19;
 
 /// Columns of `obsmat`: frame, id, x, z (height), y, velocities.
 const OBSMAT_COLUMNS: usize = 8;
@@ -51,8 +52,11 @@ fn number(text: &str, column: &str, line: u32) -> Result<f64, RecordedError> {
             _ => "leave out the rows in which a person has no place",
         })
     })?;
-    if matches!(column, "x" | "y") && value.abs() > FARTHEST_M {
+    if matches!(column, "x" | "y") && plausible(value).is_err() {
         return Err(refused("is no place in metres: it must be between -1e9 and 1e9").hint("leave out broken rows"));
+    }
+    if value.abs() > LATEST {
+        return Err(refused("is no time or number: it must be between -1e19 and 1e19").hint("leave out broken rows"));
     }
     Ok(value)
 }
@@ -157,6 +161,11 @@ fn header(row: &str, separator: Option<char>) -> Result<[usize; 4], RecordedErro
     };
     let mut columns = [0; 4];
     for (column, names) in columns.iter_mut().zip(NAMES) {
+        let mut found = cells.iter().filter(|cell| names.contains(&cell.as_str()));
+        if let (Some(first), Some(second)) = (found.next(), found.next()) {
+            let message = format!("the header has two columns for `{}`: `{first}` and `{second}`", names[0]);
+            return Err(RecordedError::new(message).hint("rename the one that is not to be read"));
+        }
         let place = cells.iter().position(|cell| names.contains(&cell.as_str()));
         *column =
             place.ok_or_else(|| RecordedError::new(format!("the header has no column `{}`", names[0])).hint(hint))?;

@@ -16,6 +16,7 @@ pub(super) fn read(text: &str) -> Result<Recording, RecordedError> {
             .at(error.line() as u32)
             .hint("the file may be cut off, and JSON knows no NaN: export the tracks as GeoJSON again")
     })?;
+    check_reference(&root)?;
     let features: &[Value] = match root["type"].as_str() {
         Some("FeatureCollection") => root["features"].as_array().map(Vec::as_slice).unwrap_or_default(),
         Some("Feature") => std::slice::from_ref(&root),
@@ -72,6 +73,19 @@ pub(super) fn read(text: &str) -> Result<Recording, RecordedError> {
         recording.warnings.push(format!("{other} features that are neither points nor lines are left out"));
     }
     Ok(recording)
+}
+
+/// Refuses a file that states (as an older edition of the format allows) another system than longitude and latitude.
+fn check_reference(root: &Value) -> Result<(), RecordedError> {
+    let crs = &root["crs"];
+    let name = crs["properties"]["name"].as_str().unwrap_or_default();
+    let is_degrees = ["CRS84", "4326", "4979"].iter().any(|code| name.ends_with(code));
+    if crs.is_null() || is_degrees {
+        return Ok(());
+    }
+    let shown = if name.is_empty() { crs.to_string() } else { name.to_owned() };
+    let message = format!("`crs` is `{}`; places must be longitudes and latitudes of WGS84", shortened(&shown));
+    Err(RecordedError::new(message).hint("`ogr2ogr -t_srs EPSG:4326 NEW FILE` changes them"))
 }
 
 fn id_of(feature: &Value) -> Option<String> {

@@ -50,6 +50,9 @@ struct Reading {
     depth: usize,
     is_complete: bool,
     track: Option<Track>,
+    /// Depth of the open track and of the open point.
+    track_depth: usize,
+    point_depth: usize,
     /// Place of the open point.
     point: Option<DVec2>,
     time_s: Option<f64>,
@@ -57,6 +60,10 @@ struct Reading {
     text: Option<String>,
     track_count: usize,
     untimed: usize,
+    /// Points outside of a `trkseg`.
+    astray: usize,
+    /// Way points and routes.
+    others: usize,
 }
 
 /// The open track.
@@ -75,22 +82,39 @@ impl Reading {
             let hint = "recorded people are read from GPX, GeoJSON, `obsmat` and CSV";
             return Err(RecordedError::new(message).at(line).hint(hint));
         }
+        let is_below = |depth: usize| self.depth == depth + 1;
         match name.as_ref() {
+            b"trk" if self.track.is_some() => return Err(second("trk", line)),
             b"trk" => {
                 self.track_count += 1;
                 self.track = Some(Track { name: None, segments: vec![] });
+                self.track_depth = self.depth;
             }
             b"trkseg" => {
                 if let Some(track) = &mut self.track {
                     track.segments.push(vec![]);
                 }
             }
+            b"trkpt" if self.point.is_some() => return Err(second("trkpt", line)),
             b"trkpt" => {
                 self.point = Some(DVec2::new(degrees(tag, "lon", 180.0, line)?, degrees(tag, "lat", 90.0, line)?));
+                self.point_depth = self.depth;
                 self.time_s = None;
             }
-            b"time" if self.point.is_some() => self.text = Some(String::new()),
-            b"name" if self.track.is_some() && self.point.is_none() => self.text = Some(String::new()),
+            // Extensions may have elements of the same names.
+            b"time" if self.point.is_some() && is_below(self.point_depth) => {
+                if self.time_s.is_some() {
+                    return Err(second("time", line));
+                }
+                self.text = Some(String::new());
+            }
+            b"name" if self.point.is_none() && is_below(self.track_depth) => {
+                if self.track.as_ref().is_some_and(|track| track.name.is_some()) {
+                    return Err(second("name", line));
+                }
+                self.text = self.track.is_some().then(String::new);
+            }
+            b"wpt" | b"rte" => self.others += 1,
             _ => {}
         }
         Ok(())
@@ -119,7 +143,8 @@ impl Reading {
                 match (self.point.take(), self.time_s.take(), segment) {
                     (Some(at), Some(time_s), Some(segment)) => segment.push(RecordedPoint { time_s, at, line }),
                     (Some(_), None, Some(_)) => self.untimed += 1,
-                    _ => {}
+                    (Some(_), _, None) => self.astray += 1,
+                    (None, ..) => {}
                 }
             }
             b"trk" => self.close_track(),
@@ -139,11 +164,24 @@ impl Reading {
 
     fn finished(self) -> Recording {
         let mut recording = Recording { tracks: self.tracks, is_geographic: true, warnings: vec![] };
-        if self.untimed > 0 {
-            recording.warnings.push(format!("{} points without a time are left out", self.untimed));
+        for (count, what) in [
+            (self.untimed, "points without a time are left out"),
+            (self.astray, "points outside of a `<trkseg>` are left out"),
+            (self.others, "way points and routes are left out: they say no times"),
+        ] {
+            if count > 0 {
+                recording.warnings.push(format!("{count} {what}"));
+            }
         }
         recording
     }
+}
+
+/// An element that its parent has already, or that is within itself.
+fn second(name: &str, line: u32) -> RecordedError {
+    RecordedError::new(format!("a second `<{name}>` where one may be"))
+        .at(line)
+        .hint("leave one of the two out, or export the tracks as GPX again")
 }
 
 fn degrees(tag: &BytesStart<'_>, key: &str, most: f64, line: u32) -> Result<f64, RecordedError> {

@@ -108,8 +108,9 @@ impl Placing {
             return Err(RecordedError::new(message).hint(hint));
         };
         GeoReference::parse(text).ok_or_else(|| {
+            let why = GeoReference::why_unknown(text);
             let text: String = text.trim().chars().take(80).collect();
-            let message = format!("the projection `{text}` of the town `{}` is not supported", town.name);
+            let message = format!("the projection `{text}` of the town `{}` is not supported: {why}", town.name);
             RecordedError::new(message).hint(hint)
         })
     }

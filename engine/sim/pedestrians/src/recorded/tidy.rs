@@ -2,6 +2,7 @@
 
 use super::{RecordedConfig, RecordedError, RecordedPoint, RecordedTrack, Recording};
 use cosfly_frames::{DVec2, real};
+use std::collections::BTreeMap;
 
 /// Mean radius of the Earth, metres: good enough to tell a jump.
 const EARTH_M: f64 = 6_371_000.0;
@@ -13,15 +14,30 @@ const EARTH_M: f64 = 6_371_000.0;
 pub(super) fn tidy(recording: &mut Recording, config: &RecordedConfig) -> Result<(), RecordedError> {
     let mut counts = Counts::default();
     let mut tracks = vec![];
+    let is_untimed = |warning: &String| warning.contains("without a time") || warning.contains("without times");
+    let all_are_timed = !recording.warnings.iter().any(is_untimed);
+    recording.warnings.extend(shared_name(&recording.tracks));
     for track in std::mem::take(&mut recording.tracks) {
         part(track, recording.is_geographic, config, &mut counts, &mut tracks)?;
     }
     if tracks.is_empty() {
-        return Err(counts.nothing_left(config, recording.warnings.is_empty()));
+        return Err(counts.nothing_left(config, all_are_timed));
     }
     recording.tracks = tracks;
     recording.warnings.extend(counts.warnings(config));
     Ok(())
+}
+
+/// Says so where several tracks have one name: each is a person of its own.
+fn shared_name(tracks: &[RecordedTrack]) -> Option<String> {
+    let mut names: BTreeMap<&str, usize> = BTreeMap::new();
+    tracks.iter().for_each(|track| *names.entry(&track.id).or_default() += 1);
+    let shared: Vec<(&str, usize)> = names.into_iter().filter(|(_, count)| *count > 1).collect();
+    let (name, count) = shared.first()?;
+    let more = if shared.len() > 1 { format!("; {} more names are shared", shared.len() - 1) } else { String::new() };
+    Some(format!(
+        "{count} tracks are called `{name}`: each is another person, and `follow.named` means the first{more}"
+    ))
 }
 
 #[derive(Default)]

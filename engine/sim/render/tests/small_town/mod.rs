@@ -32,7 +32,7 @@ pub fn small_town(blocks: i32, seed: u64) -> Town {
 pub fn empty_town() -> Town {
     Town {
         name: "small".into(),
-        origin: MapOrigin { offset_m: DVec3::ZERO, geo_reference: None },
+        origin: MapOrigin::default(),
         obstacles: vec![],
         planning_boxes: vec![],
         simplification: SimplificationReport::default(),

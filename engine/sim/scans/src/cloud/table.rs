@@ -77,6 +77,12 @@ impl Columns {
     }
 }
 
+/// Warning of a line of a file about the place of its coordinates.
+pub fn not_applied(line: &str) -> String {
+    let shown: String = line.trim().chars().take(80).collect();
+    format!("`{shown}` is not applied: the coordinates are taken as they stand (`more` has `shift_m`)")
+}
+
 /// Class of a label of CARLA 0.9.14 and later.
 fn class_of_carla(label: f64) -> u8 {
     match label as i64 {

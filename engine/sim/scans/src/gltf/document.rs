@@ -2,6 +2,7 @@
 
 use super::accessors::{Accessor, Instances, View};
 use crate::bytes::Bytes;
+use crate::mesh::options::IN_A_PLAN;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use cosfly_frames::DVec3;
@@ -34,9 +35,24 @@ pub struct Document {
     textures: Vec<Texture>,
     images: Vec<Image>,
     extensions_required: Vec<String>,
+    extensions: DocumentExtensions,
     /// Bytes of the buffers.
     #[serde(skip)]
     pub(super) data: Vec<Vec<u8>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct DocumentExtensions {
+    #[serde(rename = "CESIUM_RTC")]
+    centre: Option<Centre>,
+}
+
+/// A place on the Earth from which all corners count.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Centre {
+    center: [f64; 3],
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -177,6 +193,12 @@ impl Document {
         if let Some(packing) = document.extensions_required.iter().find(|name| PACKINGS.contains(&name.as_str())) {
             let error = MapError::new(format!("the meshes are compressed by `{packing}`, which is not read"));
             return Err(error.hint("export the file without compression of meshes"));
+        }
+        if let Some(Centre { center }) = &document.extensions.centre
+            && center.iter().any(|number| *number != 0.0)
+        {
+            let error = MapError::new(format!("the corners count from `CESIUM_RTC`, {center:?}, which is not read"));
+            return Err(error.hint(IN_A_PLAN));
         }
         let buffers = std::mem::take(&mut document.buffers);
         let data = buffers.into_iter().enumerate().map(|(index, buffer)| buffer.bytes(index, blob));

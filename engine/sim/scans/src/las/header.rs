@@ -38,6 +38,12 @@ struct VariableRecord<'a> {
     data: &'a [u8],
 }
 
+impl VariableRecord<'_> {
+    fn is(&self, user: &str, number: u16) -> bool {
+        self.number == number && self.user.split(|byte| *byte == 0).next() == Some(user.as_bytes())
+    }
+}
+
 impl<'a> Header<'a> {
     /// Reads the head; sizes are checked against the bytes that are there.
     ///
@@ -119,12 +125,23 @@ impl<'a> Header<'a> {
         Ok(())
     }
 
+    /// [`Self::record`] where all records of the user and number say the same.
+    ///
+    /// # Errors
+    /// Two that say different things.
+    pub fn only_record(&self, user: &str, number: u16) -> Result<Option<&'a [u8]>, MapError> {
+        let first = self.record(user, number);
+        let others = self.records.iter().filter(|record| record.is(user, number));
+        if others.clone().any(|record| Some(record.data) != first) {
+            let message = format!("the file has {} different records {number} of `{user}`", others.count());
+            return Err(MapError::new(message).hint("write the file again with one of them"));
+        }
+        Ok(first)
+    }
+
     /// Data of the record of a user and number.
     pub fn record(&self, user: &str, number: u16) -> Option<&'a [u8]> {
-        let is_it = |record: &&VariableRecord<'_>| {
-            record.number == number && record.user.split(|byte| *byte == 0).next() == Some(user.as_bytes())
-        };
-        self.records.iter().find(is_it).map(|record| record.data)
+        self.records.iter().find(|record| record.is(user, number)).map(|record| record.data)
     }
 
     /// Whether the point format is one of the longer ones of LAS 1.4.

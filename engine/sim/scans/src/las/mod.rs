@@ -32,7 +32,7 @@ impl MapFormat for Las {
         let header = Header::read(bytes)?;
         let projection = Projection::read(&header)?;
         let mut warnings = Vec::new();
-        let units_m = projection.units_m(options.unit_m, &mut warnings);
+        let units_m = projection.units_m(options.unit_m, &mut warnings)?;
         let mut points = Points { header: &header, units_m, cloud: CloudBuilder::default(), left_out: 0 };
         match header.record(compressed::USER, compressed::RECORD) {
             Some(record) if header.is_compressed => compressed::read(&header, record, &mut points)?,

@@ -48,6 +48,11 @@ pub fn units(text: &str) -> Units {
     found
 }
 
+/// Whether coordinates are counted from the centre of the Earth.
+pub fn is_centric(text: &str) -> bool {
+    text.trim_start().starts_with("GEOCCS") || text.starts_with("GEODCRS") && text.contains("CS[Cartesian,3]")
+}
+
 /// The number after the name of a unit.
 fn length_m(after: &str) -> Option<f64> {
     let number = after.splitn(3, '"').nth(2)?.trim_start().strip_prefix(',')?;

@@ -18,11 +18,14 @@ use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
 use cosfly_town::world::WorldFromMap;
 use cosfly_town::{MapError, Obstacle, Synthetic, Town};
 use names::Thing;
+use options::IN_A_PLAN;
 
 /// Side of the cells in which shapes become boxes, metres.
 const USUAL_VOXEL_M: f64 = 0.5;
 /// Widest scene, metres.
 const WIDEST_M: f64 = 20_000.0;
+/// Largest height, metres.
+const HIGHEST_M: f64 = 1e5;
 /// Most boxes of a scene.
 const MOST_BOXES: usize = 500_000;
 
@@ -49,7 +52,16 @@ pub fn town_of(
             "the scene is {:.0} m across; at most {WIDEST_M} m are read",
             (high - low).max_element()
         ));
-        return Err(error.hint("give the length of the file's unit with `unit_m`: 0.01 for centimetres"));
+        return Err(error.hint(
+            "give the length of the file's unit with `unit_m`: 0.01 for centimetres; else export a part of the scene",
+        ));
+    }
+    if low.z.abs().max(high.z.abs()) > HIGHEST_M {
+        let error = MapError::new(format!(
+            "the scene lies {:.0} km above its origin: its coordinates seem to count from the centre of the Earth",
+            1e-3 * high.z
+        ));
+        return Err(error.hint(IN_A_PLAN));
     }
     let size = high - low;
     if size.z > size.truncate().min_element() {

@@ -1,6 +1,7 @@
 //! [`Place`]: from the coordinates of a SUMO file to the world frame of a town.
 
 use super::FcdError;
+use cosfly_diagnose::plausible;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_geodata::reference::GeoReference;
 use cosfly_maps::{GroundIndex, Town};
@@ -10,7 +11,7 @@ use cosfly_maps::{GroundIndex, Town};
 pub struct NetLocation {
     /// `netOffset`: what was added to the projected coordinates, metres.
     pub offset_m: DVec2,
-    /// `projParameter`, where it is one.
+    /// `projParameter`, where there is one.
     pub projection: Option<String>,
 }
 
@@ -23,20 +24,29 @@ impl NetLocation {
         let text = String::from_utf8_lossy(head);
         let refusal =
             |message: &str| FcdError::new(message).hint("give the `.net.xml` that the traffic was simulated on");
-        let start = text.find("<location").ok_or_else(|| refusal("the net has no `<location>`"))?;
-        let line = text[..start].matches('\n').count() as u64 + 1;
+        let mut found = text.match_indices("<location");
+        let (start, _) = found.next().ok_or_else(|| refusal("the net has no `<location>`"))?;
+        let line_of = |at: usize| text[..at].matches('\n').count() as u64 + 1;
+        let line = line_of(start);
+        if let Some((second, _)) = found.next() {
+            return Err(refusal(&format!("the net has a second `<location>`, beside the one in line {line}"))
+                .at(line_of(second)));
+        }
         let element = text[start..].split_once('>').map_or(&text[start..], |(element, _)| element);
         let attribute = |name: &str| {
-            let (_, rest) = element.split_once(&format!(" {name}=\""))?;
-            rest.split_once('"').map(|(value, _)| value)
+            let (_, rest) = element.split_once(&format!(" {name}="))?;
+            let quote = rest.chars().next().filter(|sign| ['"', '\''].contains(sign))?;
+            rest[1..].split_once(quote).map(|(value, _)| value)
         };
         let offset = attribute("netOffset").and_then(|value| {
             let (x, y) = value.split_once(',')?;
-            let offset = DVec2::new(x.trim().parse().ok()?, y.trim().parse().ok()?);
-            offset.is_finite().then_some(offset)
+            let offset: [f64; 2] = [x.trim().parse().ok()?, y.trim().parse().ok()?];
+            offset.iter().all(|number| plausible(*number).is_ok()).then(|| DVec2::from_array(offset))
         });
-        let offset_m = offset.ok_or_else(|| refusal("`netOffset` of the net is not two numbers").at(line))?;
-        let projection = attribute("projParameter").filter(|text| text.starts_with('+')).map(str::to_owned);
+        let offset_m =
+            offset.ok_or_else(|| refusal("`netOffset` of the net is not two numbers within 1e9").at(line))?;
+        // `!` is no projection.
+        let projection = attribute("projParameter").filter(|text| !matches!(text.trim(), "" | "!")).map(str::to_owned);
         Ok(Self { offset_m, projection })
     }
 }
@@ -76,17 +86,31 @@ impl Place {
         };
         let between = match (is_geo, &net.projection) {
             (true, _) => {
-                let own = parsed(own).ok_or_else(|| unknown("the town's map has no projection for degrees"))?;
+                let own = parsed(own).ok_or_else(|| match own {
+                    None => unknown("the town's map has no projection for degrees"),
+                    Some(text) => {
+                        unknown(&format!("projection of the town's map: {}", GeoReference::why_unknown(text)))
+                    }
+                })?;
                 Between::Degrees(own)
             }
             // Nets of maps without a projection, and of the same one.
             (false, None) => Between::Nothing,
             (false, Some(text)) if own.is_some_and(|own| own.trim() == text.trim()) => Between::Nothing,
+            // A word of SUMO for a projection of its own; a map of the same net has none.
+            (false, Some(text)) if own.is_none() && GeoReference::parse(text).is_none() && !text.contains("proj=") => {
+                Between::Nothing
+            }
             (false, Some(text)) => {
-                let net =
-                    GeoReference::parse(text).ok_or_else(|| unknown(&format!("projection `{text}` of the net")))?;
-                let own =
-                    parsed(own).ok_or_else(|| unknown("the town's map has no projection, but the net has one"))?;
+                let net = GeoReference::parse(text).ok_or_else(|| {
+                    unknown(&format!("projection `{text}` of the net: {}", GeoReference::why_unknown(text)))
+                })?;
+                let own = parsed(own).ok_or_else(|| match own {
+                    None => unknown("the town's map has no projection, but the net has one"),
+                    Some(text) => {
+                        unknown(&format!("projection of the town's map: {}", GeoReference::why_unknown(text)))
+                    }
+                })?;
                 Between::Projections(net, own)
             }
         };

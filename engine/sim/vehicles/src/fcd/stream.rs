@@ -22,7 +22,10 @@ const MOST_STATES: usize = 20_000_000;
 const LONGEST_NAME: usize = 200;
 /// A body that moves faster than this between two steps was moved by SUMO (a teleport), m/s.
 const JUMP_MPS: f64 = 70.0;
-/// Names of unknown types that are kept for the note.
+/// From this way on, in metres, that speeds tell, bodies that move less than a share of it have positions of another unit.
+const LEAST_TOLD_M: f64 = 50.0;
+const LEAST_MOVED_SHARE: f64 = 0.01;
+/// Names of unknown types and elements that are kept for the note.
 const NAMED_TYPES: usize = 5;
 
 /// How a file of SUMO's floating-car data is read.
@@ -51,6 +54,11 @@ pub struct FcdError {
 impl FcdError {
     pub(super) fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), line: None, hint: None }
+    }
+
+    fn because(mut self, cause: String) -> Self {
+        self.message = format!("{}: {cause}", self.message);
+        self
     }
 
     pub(super) fn at(mut self, line: u64) -> Self {
@@ -108,11 +116,16 @@ pub fn read(
                 continue;
             }
             Event::Eof => break,
+            Event::Comment(remark) if !config.geo && says_degrees(&remark) => return Err(degrees(line)),
             _ => continue,
         };
         match element.name().as_ref() {
             b"fcd-export" => is_fcd = true,
+            b"timestep" if step.is_some() => {
+                return Err(FcdError::new("a `<timestep>` within another one").at(line).hint(WRITE_AGAIN));
+            }
             b"timestep" => {
+                check_attributes(&element, line)?;
                 let time_s = number(&element, "time", line)?;
                 let new = Step { time_s, samples: vec![] };
                 match is_empty {
@@ -135,7 +148,7 @@ pub fn read(
                 let error = FcdError::new("the file is no floating-car data: its root is not `<fcd-export>`");
                 return Err(error.at(line).hint("write it with `sumo --fcd-output FILE`"));
             }
-            _ => {}
+            name => frames.note_unknown(name),
         }
         if frames.is_done() {
             break;
@@ -146,6 +159,21 @@ pub fn read(
 
 fn broken(error: &quick_xml::Error, line: u64) -> FcdError {
     FcdError::new(format!("broken XML: {error}")).at(line).hint("write the file again; it may be cut off")
+}
+
+/// Whether a remark has the options of a run that wrote degrees, as SUMO puts them at the head of its files.
+fn says_degrees(remark: &[u8]) -> bool {
+    let remark = String::from_utf8_lossy(remark);
+    remark.split("<fcd-output.geo").nth(1).is_some_and(|rest| {
+        let option = rest.split('>').next().unwrap_or_default();
+        ["true", "1", "yes", "on", "t", "x"].iter().any(|word| option.contains(&format!("value=\"{word}\"")))
+    })
+}
+
+fn degrees(line: u64) -> FcdError {
+    FcdError::new("the positions of the file are degrees, but `geo` is false")
+        .at(line)
+        .hint("set `geo = true`: the file was written with `--fcd-output.geo`")
 }
 
 /// What to do with a file that SUMO does not write.
@@ -173,6 +201,10 @@ struct Frames<'a> {
     jumps: usize,
     /// The first types of vehicles of which no kind is known.
     unknown_types: BTreeSet<String>,
+    /// Elements of other names: how many, and the first names.
+    unknown_elements: (usize, BTreeSet<String>),
+    /// Metres that bodies move between steps, and those that their speeds tell.
+    moved_m: [f64; 2],
 }
 
 impl<'a> Frames<'a> {
@@ -190,6 +222,16 @@ impl<'a> Frames<'a> {
             outside: 0,
             jumps: 0,
             unknown_types: BTreeSet::new(),
+            unknown_elements: Default::default(),
+            moved_m: [0.0; 2],
+        }
+    }
+
+    fn note_unknown(&mut self, name: &[u8]) {
+        let (count, names) = &mut self.unknown_elements;
+        *count += 1;
+        if names.len() < NAMED_TYPES {
+            names.insert(String::from_utf8_lossy(name).chars().take(40).collect());
         }
     }
 
@@ -209,6 +251,7 @@ impl<'a> Frames<'a> {
 
     /// The body of an element; `None` for those far outside of the town.
     fn sample(&mut self, element: &BytesStart<'_>, is_person: bool, line: u64) -> Result<Option<Sample>, FcdError> {
+        check_attributes(element, line)?;
         let id = text(element, "id", line)?.ok_or_else(|| FcdError::new("a body has no `id`").at(line))?;
         let type_name = text(element, "type", line)?.unwrap_or_default();
         let known = kind_of(&type_name, is_person, &self.config.types);
@@ -218,6 +261,11 @@ impl<'a> Frames<'a> {
             return Err(FcdError::new(message).at(line));
         }
         let point = DVec2::new(number(element, "x", line)?, number(element, "y", line)?);
+        if self.place.is_geo() && !(point.x.abs() <= 180.0 && point.y.abs() <= 90.0) {
+            let message =
+                format!("the position `{}, {}` is no longitude and latitude, but `geo` is true", point.x, point.y);
+            return Err(FcdError::new(message).at(line).hint("leave out `geo`: it is for files of `--fcd-output.geo`"));
+        }
         let angle_deg = number(element, "angle", line)?;
         let speed_mps = number(element, "speed", line)?.max(0.0);
         let mut sample = Sample { id, kind, size_m, middle: DVec2::ZERO, heading_rad: 0.0, speed_mps };
@@ -272,6 +320,8 @@ impl<'a> Frames<'a> {
             }
             let Some(next) = others.peek().filter(|other| other.id == sample.id) else { continue };
             let goes_m = (next.middle - sample.middle).length();
+            self.moved_m[0] += goes_m;
+            self.moved_m[1] += span_s * 0.5 * (sample.speed_mps + next.speed_mps);
             if goes_m > JUMP_MPS * span_s.max(1e-3) && span_s > 0.0 {
                 self.jumps += 1;
                 self.numbers.remove(&sample.id);
@@ -328,7 +378,17 @@ impl<'a> Frames<'a> {
             };
             return Err(error);
         }
+        let [moved_m, told_m] = self.moved_m;
+        if !self.config.geo && told_m > LEAST_TOLD_M && moved_m < LEAST_MOVED_SHARE * told_m {
+            return Err(degrees(line)
+                .because(format!("bodies move by {moved_m:.3} m in all, where their speeds tell {told_m:.0} m")));
+        }
         let mut notes = vec![];
+        let (count, names) = &self.unknown_elements;
+        if *count > 0 {
+            let names: Vec<String> = names.iter().map(|name| format!("`<{name}>`")).collect();
+            notes.push(format!("{count} elements of other names are left out: {}", names.join(", ")));
+        }
         if self.next_frame < self.clock.frames {
             notes.push(format!("the file ends after {} of {} frames", self.next_frame, self.clock.frames));
         }
@@ -349,6 +409,12 @@ impl<'a> Frames<'a> {
         }
         Ok(Prescribed::new(self.bodies, self.clock.dt_s, notes))
     }
+}
+
+/// Refuses an element that has an attribute twice.
+fn check_attributes(element: &BytesStart<'_>, line: u64) -> Result<(), FcdError> {
+    let refused = |error| FcdError::new(format!("broken XML: {error}")).at(line).hint(WRITE_AGAIN);
+    element.attributes().try_for_each(|attribute| attribute.map(drop).map_err(refused))
 }
 
 /// The text of an attribute.

@@ -5,6 +5,7 @@ use crate::console::Console;
 use crate::exit;
 use clap::Parser;
 use cosfly_diagnose::Diagnostic;
+use cosfly_maps::advice::why_not_compared;
 use cosfly_stages::map::{ReadMap, read_map};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -19,6 +20,7 @@ Examples:
   cosfly map inspect monaco.osm.pbf                        figures, and the plan monaco-plan.png
   cosfly map inspect Town01.xodr --set fill.buildings=true --plan out/town01.png
   cosfly map inspect tile.laz --set voxel_m=0.5 --json
+  cosfly map inspect region.osm.pbf --set 'bounds_m=[-500, -500, 500, 500]'   a part of the town
 
 `--set` takes the parameters of the stage `map`; see the page \"Recipe\" of the book."
 )]
@@ -73,7 +75,7 @@ impl Arguments {
 
 /// Figures of the town for programs.
 fn figures(map: &ReadMap) -> Value {
-    let ReadMap { town, format, warnings } = map;
+    let ReadMap { town, format, warnings, advice } = map;
     let census = town.census();
     let kinds = census.kinds.iter().map(|(kind, it)| {
         let figures = json!({
@@ -104,7 +106,7 @@ fn figures(map: &ReadMap) -> Value {
             "tolerance_m": report.tolerance_m, "added_volume_share": report.added_volume_share,
             "lost_volume_share": report.lost_volume_share, "cropped": report.cropped,
         },
-        "synthetic_notes": town.synthetic.notes, "warnings": warnings,
+        "synthetic_notes": town.synthetic.notes, "warnings": warnings, "advice": advice,
     })
 }
 
@@ -147,12 +149,18 @@ fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
     let _ = writeln!(text, "origin: x_map = x + {}, y_map = -(y + {}), z_map = z + {}", offset.x, offset.y, offset.z);
     if let Some(projection) = figures["geo_reference"].as_str() {
         let _ = writeln!(text, "projection: {}", projection.trim());
+        if let Some(why) = why_not_compared(town) {
+            let _ = writeln!(text, "            not compared with those of other files: {why}");
+        }
     }
     for note in &town.synthetic.notes {
         let _ = writeln!(text, "note: {note}");
     }
     for warning in &map.warnings {
         let _ = writeln!(text, "warning: {warning}");
+    }
+    for advice in &map.advice {
+        let _ = writeln!(text, "advice: {advice}");
     }
     if let Some(path) = plan {
         let _ = writeln!(text, "\nplan: {}", path.display());

@@ -1,5 +1,6 @@
 //! Numbers and names out of XML attributes; each refusal says its line, column, element and rule.
 
+use super::polynomial::{Cubic, CubicProfile};
 use crate::error::{MapError, Place};
 use crate::text::Lines;
 use core::cell::{Cell, RefCell};
@@ -135,6 +136,38 @@ impl<'d> Source<'d> {
             *value = self.optional_number(node, &format!("{letter}{suffix}"), COEFFICIENT)?.unwrap_or(0.0);
         }
         Ok(out)
+    }
+
+    /// The element child with this name, where there is one.
+    ///
+    /// # Errors
+    /// A second one: none of the two may win in silence.
+    pub(super) fn only_child(&self, node: Node<'d, 'd>, name: &'static str) -> Result<Option<Node<'d, 'd>>, MapError> {
+        let mut found = children(node, name);
+        let first = found.next();
+        if let (Some(first), Some(second)) = (first, found.next()) {
+            let line = self.line(first);
+            let message = format!("a second `<{name}>` in `<{}>`; it may have one", node.tag_name().name());
+            return Err(self.refuse(second, message).hint(format!("remove this one, or the first one in line {line}")));
+        }
+        Ok(first)
+    }
+
+    /// The profile of records; a second record at the same place that says something else is a warning.
+    pub(super) fn profile(&self, mut records: Vec<(Node, Cubic)>) -> CubicProfile {
+        records.sort_by(|a, b| a.1.start_s_m.total_cmp(&b.1.start_s_m));
+        for pair in records.windows(2).filter(|pair| pair[0].1.start_s_m == pair[1].1.start_s_m) {
+            if pair[0].1 != pair[1].1 {
+                let name = pair[1].0.tag_name().name();
+                self.warn(pair[1].0, &format!("a second `<{name}>` at the same place; this one counts"));
+            }
+        }
+        CubicProfile::new(records.into_iter().map(|(_, cubic)| cubic).collect())
+    }
+
+    /// Line of an element, from 1.
+    pub(super) fn line(&self, node: Node) -> u32 {
+        self.place(node, node.range()).line
     }
 
     /// A text attribute that must be there.

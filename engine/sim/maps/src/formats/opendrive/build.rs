@@ -299,7 +299,7 @@ impl Parts {
         settle(&mut obstacles, &GroundIndex::of_surfaces(&surfaces, |_| true));
         let town = Town {
             name: network.name.unwrap_or_else(|| "town".to_owned()),
-            origin: self.world.origin(network.geo_reference),
+            origin: self.world.origin(network.geo_reference).beyond(network.offset_m),
             obstacles,
             walkable: self.walkable,
             lanes: self.lanes,

@@ -3,7 +3,7 @@
 use super::plan_view::PlanElement;
 use super::polynomial::CubicProfile;
 use core::ops::Range;
-use cosfly_frames::DVec2;
+use cosfly_frames::{DVec2, DVec3, real};
 
 /// Everything the reader takes from an OpenDRIVE file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,6 +12,8 @@ pub struct RoadNetwork {
     pub name: Option<String>,
     /// Projection text of the header.
     pub geo_reference: Option<String>,
+    /// `<offset>` of the header: the projection's coordinates are those of the file and this, metres.
+    pub offset_m: DVec3,
     /// Roads in file order.
     pub roads: Vec<Road>,
 }
@@ -21,6 +23,19 @@ impl RoadNetwork {
     pub fn lanes(&self) -> impl Iterator<Item = &Lane> {
         let sections = self.roads.iter().flat_map(|road| &road.sections);
         sections.flat_map(|section| section.left.iter().chain(&section.right))
+    }
+
+    /// Turns all roads about the origin of the file, counter-clockwise.
+    pub(super) fn turn(&mut self, turn_rad: f64) {
+        if turn_rad == 0.0 {
+            return;
+        }
+        let (sin, cos) = real::sin_cos(turn_rad);
+        for element in self.roads.iter_mut().flat_map(|road| &mut road.plan) {
+            let DVec2 { x, y } = element.start.position_in_map;
+            element.start.position_in_map = DVec2::new(cos * x - sin * y, sin * x + cos * y);
+            element.start.heading_rad += turn_rad;
+        }
     }
 
     /// First points of all pieces of all reference lines, map frame, metres.

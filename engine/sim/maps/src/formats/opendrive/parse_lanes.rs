@@ -20,6 +20,10 @@ pub(super) fn lane_sections<'d>(
         if start_s_m < last_s_m {
             source.warn(node, "`s` is smaller than that of the section before it; the sections are sorted");
         }
+        let is_single_side = node.attribute("singleSide") == Some("true");
+        if start_s_m == last_s_m && !is_single_side {
+            source.warn(node, "a second lane section at the same `s`; the one before it has no length");
+        }
         last_s_m = start_s_m;
         if start_s_m > road_length_m {
             source
@@ -33,9 +37,7 @@ pub(super) fn lane_sections<'d>(
             center_marks: center_marks(source, node, start_s_m)?,
             right: side(source, node, "right", start_s_m)?,
         };
-        if node.attribute("singleSide") == Some("true")
-            && let Some(before) = sections.last()
-        {
+        if is_single_side && let Some(before) = sections.last() {
             // Stations of lane records are along the road, so the other side simply goes on.
             if child(node, "left").is_none() {
                 section.left = before.left.clone();
@@ -62,7 +64,7 @@ fn side<'d>(
     name: &'static str,
     section_s_m: f64,
 ) -> Result<Vec<Lane>, MapError> {
-    let nodes = child(section, name).into_iter().flat_map(|side| children(side, "lane"));
+    let nodes = source.only_child(section, name)?.into_iter().flat_map(|side| children(side, "lane"));
     let mut lanes = nodes.map(|node| lane(source, node, section_s_m)).collect::<Result<Vec<_>, _>>()?;
     lanes.sort_by_key(|lane| lane.id.unsigned_abs());
     let wanted_sign = if name == "left" { 1 } else { -1 };
@@ -71,6 +73,10 @@ fn side<'d>(
     lanes.dedup_by_key(|lane| lane.id);
     if lanes.len() != before {
         source.warn(section, &format!("lanes on the {name} with a wrong sign or a repeated id are left out"));
+    }
+    if let Some((wanted, lane)) = (1..).zip(&lanes).find(|(wanted, lane)| lane.id.unsigned_abs() != *wanted) {
+        let missing = wanted as i32 * wanted_sign;
+        source.warn(section, &format!("lane `{missing}` is missing; lane `{}` takes its place", lane.id));
     }
     Ok(lanes)
 }
@@ -118,12 +124,13 @@ fn edge_records<'d>(
     let mut records = Vec::new();
     for node in children(lane, name) {
         source.number(node, "a", limits)?;
-        records.push(Cubic {
+        let cubic = Cubic {
             start_s_m: section_s_m + source.number(node, "sOffset", STATION)?,
             coefficients: source.coefficients(node, "")?,
-        });
+        };
+        records.push((node, cubic));
     }
-    Ok(CubicProfile::new(records))
+    Ok(source.profile(records))
 }
 
 /// Vehicles that drive in one direction on a lane of a type. Lanes for both directions have none.
@@ -163,7 +170,8 @@ fn kind(type_name: Option<&str>) -> LaneKind {
 }
 
 fn center_marks<'d>(source: &Source<'d>, section: Node<'d, 'd>, section_s_m: f64) -> Result<Vec<RoadMark>, MapError> {
-    let lane = child(section, "center").and_then(|center| child(center, "lane"));
+    let Some(center) = source.only_child(section, "center")? else { return Ok(Vec::new()) };
+    let lane = source.only_child(center, "lane")?;
     lane.map_or(Ok(Vec::new()), |lane| marks(source, lane, section_s_m))
 }
 

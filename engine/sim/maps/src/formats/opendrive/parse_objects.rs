@@ -1,6 +1,6 @@
 //! `<object>` and `<signal>` into the model.
 
-use super::attributes::{ANGLE, LENGTH, LOOSE_SIZE, OFFSET, STATION, Source, child, children};
+use super::attributes::{ANGLE, LENGTH, LOOSE_SIZE, OFFSET, STATION, Source, children};
 use super::network::{Corner, Crown, ObjectSize, Outline, Repeat, RoadObject, RoadPosition, RoadSignal};
 use crate::error::MapError;
 use roxmltree::Node;
@@ -11,7 +11,7 @@ pub(super) fn objects<'d>(
     road: Node<'d, 'd>,
     road_length_m: f64,
 ) -> Result<Vec<RoadObject>, MapError> {
-    let nodes = child(road, "objects").into_iter().flat_map(|objects| children(objects, "object"));
+    let nodes = children(road, "objects").flat_map(|objects| children(objects, "object"));
     nodes.map(|node| object(source, node, road_length_m)).collect()
 }
 
@@ -27,7 +27,7 @@ fn object<'d>(source: &Source<'d>, node: Node<'d, 'd>, road_length_m: f64) -> Re
     let lower = |name| node.attribute(name).unwrap_or_default().to_ascii_lowercase();
     let repeats =
         children(node, "repeat").map(|repeat| self::repeat(source, repeat, &at, &size)).collect::<Result<_, _>>()?;
-    let nested = child(node, "outlines").into_iter().flat_map(|outlines| children(outlines, "outline"));
+    let nested = children(node, "outlines").flat_map(|outlines| children(outlines, "outline"));
     let outlines = children(node, "outline")
         .chain(nested)
         .map(|outline| self::outline(source, outline, size.height_m, road_length_m))
@@ -129,7 +129,7 @@ pub(super) fn signals<'d>(
     road: Node<'d, 'd>,
     road_length_m: f64,
 ) -> Result<Vec<RoadSignal>, MapError> {
-    let nodes = child(road, "signals").into_iter().flat_map(|signals| children(signals, "signal"));
+    let nodes = children(road, "signals").flat_map(|signals| children(signals, "signal"));
     nodes.map(|node| signal(source, node, road_length_m)).collect()
 }
 

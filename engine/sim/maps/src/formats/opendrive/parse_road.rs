@@ -1,28 +1,39 @@
 //! `<header>`, `<road>`, `<planView>`, `<elevationProfile>` and `<lateralProfile>` into the model.
 
 use super::attributes::{ANGLE, COEFFICIENT, COORDINATE, CURVATURE, LENGTH, STATION, Source, child, children};
+use super::header;
 use super::network::{Road, RoadNetwork, ShapeSection};
 use super::parse_lanes::{lane_sections, speed_limit_mps};
 use super::parse_objects::{objects, signals};
 use super::plan_view::{Curve, PlanElement, PlanPoint};
 use super::polynomial::{Cubic, CubicProfile};
+use super::unread;
 use crate::error::MapError;
 use cosfly_frames::DVec2;
 use roxmltree::Node;
+use std::collections::BTreeMap;
 
 /// The whole file.
 pub(super) fn network(source: &Source<'_>) -> Result<RoadNetwork, MapError> {
     let root = source.document.root_element();
-    let header = child(root, "header");
-    let text = |value: &str| (!value.trim().is_empty()).then(|| value.trim().to_owned());
-    let name = header.and_then(|header| header.attribute("name")).and_then(text);
-    let geo_reference =
-        header.and_then(|header| child(header, "geoReference")).and_then(|node| node.text()).and_then(text);
-    let roads = children(root, "road").map(|node| road(source, node)).collect::<Result<Vec<_>, _>>()?;
-    if roads.is_empty() {
-        return Err(source.refuse(root, "the file has no road"));
+    let header = header::read(source, root)?;
+    unread::warn(source, root);
+    let mut lines: BTreeMap<&str, u32> = BTreeMap::new();
+    let mut roads = Vec::new();
+    for node in children(root, "road") {
+        let road = road(source, node)?;
+        if let Some(first) = node.attribute("id").and_then(|id| lines.insert(id, source.line(node))) {
+            source.warn(node, &format!("the road of line {first} has the same `id`; both are read"));
+        }
+        roads.push(road);
     }
-    Ok(RoadNetwork { name, geo_reference, roads })
+    if roads.is_empty() {
+        return Err(source.refuse(root, "the file has no road").hint("give a file with elements `<road>`"));
+    }
+    let mut network =
+        RoadNetwork { name: header.name, geo_reference: header.geo_reference, offset_m: header.offset_m, roads };
+    network.turn(header.turn_rad);
+    Ok(network)
 }
 
 fn road<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Road, MapError> {
@@ -37,8 +48,9 @@ fn road<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Road, MapError> {
         source.warn(node, "the road has no length");
     }
     let junction = node.attribute("junction").filter(|id| !id.is_empty() && *id != "-1").map(str::to_owned);
-    let lateral = child(node, "lateralProfile");
-    let lanes = child(node, "lanes").ok_or_else(|| source.refuse(node, "the road has no `<lanes>`"))?;
+    let lateral = source.only_child(node, "lateralProfile")?;
+    let elevation = source.only_child(node, "elevationProfile")?;
+    let lanes = source.only_child(node, "lanes")?.ok_or_else(|| source.refuse(node, "the road has no `<lanes>`"))?;
     Ok(Road {
         id: source.text(node, "id")?.to_owned(),
         junction,
@@ -46,12 +58,11 @@ fn road<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Road, MapError> {
         speed_limits: speed_limits(source, node)?,
         length_m,
         meets_junction: ["predecessor", "successor"].map(|end| {
-            child(node, "link")
-                .and_then(|link| child(link, end))
-                .is_some_and(|end| end.attribute("elementType") == Some("junction"))
+            let mut ends = children(node, "link").flat_map(|link| children(link, end));
+            ends.any(|end| end.attribute("elementType") == Some("junction"))
         }),
         plan,
-        elevation: profile(source, child(node, "elevationProfile"), "elevation", &|_| true)?,
+        elevation: profile(source, elevation, "elevation", &|_| true)?,
         superelevation: profile(source, lateral, "superelevation", &|_| true)?,
         crossfall: crossfall(source, lateral)?,
         shapes: shapes(source, lateral)?,
@@ -76,11 +87,17 @@ fn speed_limits<'d>(source: &Source<'d>, road: Node<'d, 'd>) -> Result<Vec<(f64,
 }
 
 fn plan_view<'d>(source: &Source<'d>, road: Node<'d, 'd>) -> Result<Vec<PlanElement>, MapError> {
-    let view = child(road, "planView").ok_or_else(|| source.refuse(road, "the road has no `<planView>`"))?;
+    let view = source.only_child(road, "planView")?;
+    let view = view.ok_or_else(|| source.refuse(road, "the road has no `<planView>`"))?;
+    let station = |node: Node<'d, 'd>| Ok::<_, MapError>((source.number(node, "s", STATION)?, node));
+    let mut nodes = children(view, "geometry").map(station).collect::<Result<Vec<_>, _>>()?;
+    if let Some(pair) = nodes.windows(2).find(|pair| pair[1].0 < pair[0].0) {
+        source.warn(pair[1].1, "`s` is smaller than that of the geometry before it; the geometries are sorted");
+        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
     let mut plan = Vec::new();
     let mut expected_s_m = 0.0_f64;
-    for node in children(view, "geometry") {
-        let start_s_m = source.number(node, "s", STATION)?;
+    for (start_s_m, node) in nodes {
         let length_m = source.number(node, "length", LENGTH)?;
         if (start_s_m - expected_s_m).abs() > 0.01 {
             source.warn(node, &format!("`s` is {start_s_m} m, but the geometry before it ends at {expected_s_m} m"));
@@ -90,7 +107,6 @@ fn plan_view<'d>(source: &Source<'d>, road: Node<'d, 'd>) -> Result<Vec<PlanElem
         let start = PlanPoint { position_in_map, heading_rad: source.number(node, "hdg", ANGLE)? };
         plan.push(PlanElement { start_s_m, length_m, start, curve: curve(source, node, length_m)? });
     }
-    plan.sort_by(|a, b| a.start_s_m.total_cmp(&b.start_s_m));
     if plan.is_empty() {
         return Err(source.refuse(view, "the plan view has no `<geometry>`"));
     }
@@ -98,9 +114,14 @@ fn plan_view<'d>(source: &Source<'d>, road: Node<'d, 'd>) -> Result<Vec<PlanElem
 }
 
 fn curve<'d>(source: &Source<'d>, geometry: Node<'d, 'd>, length_m: f64) -> Result<Curve, MapError> {
-    let Some(node) = geometry.children().find(|node| node.is_element() && node.tag_name().name() != "userData") else {
+    let is_shape = |node: &Node| node.is_element() && !unread::ANYWHERE.contains(&node.tag_name().name());
+    let mut shapes = geometry.children().filter(is_shape);
+    let Some(node) = shapes.next() else {
         return Err(source.refuse(geometry, "the geometry has no shape").hint(SHAPES));
     };
+    if let Some(second) = shapes.next() {
+        return Err(source.refuse(second, "a second shape of one geometry").hint("keep one of the two"));
+    }
     match node.tag_name().name() {
         "line" => Ok(Curve::Line),
         "arc" => {
@@ -168,9 +189,11 @@ fn profile<'d>(
 ) -> Result<CubicProfile, MapError> {
     let nodes = parent.into_iter().flat_map(|parent| children(parent, name)).filter(|node| keep(*node));
     let records = nodes.map(|node| {
-        Ok(Cubic { start_s_m: source.number(node, "s", STATION)?, coefficients: source.coefficients(node, "")? })
+        let cubic =
+            Cubic { start_s_m: source.number(node, "s", STATION)?, coefficients: source.coefficients(node, "")? };
+        Ok((node, cubic))
     });
-    Ok(CubicProfile::new(records.collect::<Result<_, MapError>>()?))
+    Ok(source.profile(records.collect::<Result<_, MapError>>()?))
 }
 
 fn crossfall<'d>(source: &Source<'d>, lateral: Option<Node<'d, 'd>>) -> Result<[CubicProfile; 2], MapError> {
