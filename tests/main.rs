@@ -14,6 +14,7 @@ mod evaluation;
 mod export;
 mod fly;
 mod fuzzing;
+mod hostile_maps;
 mod models;
 mod more_walkers;
 mod people;
