@@ -80,6 +80,8 @@ pub struct Look {
     /// Walls in the depth image, seen from the pose of the frame at each offset in [`OFFSETS`]: distance of the
     /// middle point from its wall, metres.
     pub walls_m: Vec<Option<f64>>,
+    /// Height of the drawn ground around the target's feet over them, metres.
+    pub rise_m: Option<f64>,
 }
 
 /// Offsets of the frames whose boxes and poses a depth image is compared with; the own frame first.

@@ -5,6 +5,7 @@ use super::rows::read;
 use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
 use cosfly_schema::tables::Objects;
+use std::collections::BTreeMap;
 
 /// A box of an object.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,28 @@ pub struct PublishedObject {
 pub type BoxInWorld = (DVec3, DVec3, f64);
 
 impl PublishedDataset {
+    /// The largest instance id of an object in each town.
+    ///
+    /// # Errors
+    /// Damage of the table.
+    pub fn largest_objects(&self) -> Result<BTreeMap<String, u32>> {
+        let mut largest: BTreeMap<String, u32> = BTreeMap::new();
+        for (_, path) in self.files("objects")? {
+            read(&path, &mut |rows| {
+                let towns = rows.values(Objects::town)?;
+                for row in 0..rows.len() {
+                    let id = rows.get(Objects::instance, row)?;
+                    match largest.get_mut(towns.text(row)) {
+                        Some(known) => *known = id.max(*known),
+                        None => drop(largest.insert(towns.text(row).to_owned(), id)),
+                    }
+                }
+                Ok(())
+            })?;
+        }
+        Ok(largest)
+    }
+
     /// Boxes of all objects of these kinds, in the order of the table.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 mod bearing;
 mod depth;
+mod ground;
 mod leaks;
 mod median;
 mod motion;
@@ -18,13 +19,14 @@ use crate::{Episode, Flag};
 
 /// All checks of one episode.
 pub fn of_episode(episode: &Episode) -> Vec<Flag> {
-    let checks: [fn(&Episode) -> Vec<Flag>; 9] = [
+    let checks: [fn(&Episode) -> Vec<Flag>; 10] = [
         time::check,
         motion::check,
         projection::check,
         bearing::check,
         depth::check,
         surface::check,
+        ground::check,
         pictures::check,
         surroundings::check,
         words::check,
