@@ -16,6 +16,7 @@ mod export;
 mod fly;
 mod fly_policies;
 mod fuzzing;
+mod hostile_maps;
 mod models;
 mod more_walkers;
 mod people;

@@ -82,6 +82,13 @@ def flip_yaw(rows):
     return rows
 
 
+def sunk(rows):
+    """Feet half a metre below the drawn ground."""
+    for row in rows:
+        row["target_z_m"] -= 0.5
+    return rows
+
+
 def wrong_actions(rows):
     """The action of the frame before in every frame."""
     actions = [row["action_in_world"] for row in rows]
@@ -137,6 +144,11 @@ def v7_yaw(points):
     for point in points:
         for pose in (point["drone_pose"], point.get("cosfly", {}).get("camera_pose", {})):
             pose["yaw"] = -pose.get("yaw", 0.0)
+
+
+def v7_sunk(points):
+    for point in points:
+        point["target"]["world_location"]["z"] -= 0.5
 
 
 def v7_stop(points):
@@ -285,6 +297,7 @@ with tempfile.TemporaryDirectory() as place:
     planted("image-shift", dataset, work, lambda folder: tables(folder, "frames", shift_all))
     planted("yaw-sign", dataset, work, lambda folder: tables(folder, "frames", flip_yaw))
     planted("action-mismatch", dataset, work, lambda folder: tables(folder, "frames", wrong_actions))
+    planted("below-ground", dataset, work, lambda folder: tables(folder, "frames", sunk))
     planted("timestamps", dataset, work, lambda folder: tables(folder, "frames", late))
     planted("caption-mismatch", dataset, work, lambda folder: tables(folder, "captions", lying))
     planted("parquet-damaged", dataset, work, truncate)
@@ -292,6 +305,7 @@ with tempfile.TemporaryDirectory() as place:
     planted("split-leak", dataset, work, leak)
     planted(None, v7, work, lambda folder: None)
     planted("yaw-sign", v7, work, lambda folder: documents(folder, v7_yaw))
+    planted("below-ground", v7, work, lambda folder: documents(folder, v7_sunk))
     planted("timestamps", v7, work, lambda folder: documents(folder, v7_stop))
     planted("action-mismatch", v7, work, lambda folder: documents(folder, v7_waypoints))
     planted("depth-unit", v7, work, millimetres)

@@ -88,6 +88,8 @@ pub struct Look {
     /// Distance of the camera, as the file of the pictures states it, from the nearest pose of the flight in the tables, metres,
     /// where they are apart; 0 where the camera is in its place and the file states other pixels of the target.
     pub elsewhere_m: Option<f64>,
+    /// Height of the drawn ground around the target's feet over them, metres.
+    pub rise_m: Option<f64>,
 }
 
 /// Offsets of the frames whose boxes and poses a depth image is compared with; the own frame first.

@@ -73,6 +73,11 @@ fn depth_in_millimetres_is_named() {
 }
 
 #[test]
+fn a_target_below_drawn_ground_is_named() {
+    check_planted("below-ground", &|flight| sample::raise_ground(flight, 0.3));
+}
+
+#[test]
 fn pictures_that_repeat_are_named() {
     check_planted("duplicate-frames", &|flight| flight.images[2] = flight.images[1].clone());
 }

@@ -151,11 +151,6 @@ pub fn file_on_request(image: &ChannelImage, [width, height]: [u32; 2]) -> Resul
     Ok(file)
 }
 
-/// An id in 16 bits: 0 (ground and sky) and 1 (the target) stay, ids from 65,536 on share those of others.
-pub fn id_in_16_bits(id: u32) -> u16 {
-    u16::try_from(id).unwrap_or_else(|_| (2 + (id - 2) % 65_534) as u16)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -178,11 +173,5 @@ mod tests {
     #[test]
     fn depths_are_centimetres_and_the_sky_is_the_largest_number() {
         assert_eq!([0.0, 1.234, 655.34, 900.0, f32::INFINITY].map(centimetres), [0, 123, 65_534, 65_534, 65_535]);
-    }
-
-    #[test]
-    fn ids_beyond_16_bits_never_look_like_the_target_or_the_ground() {
-        assert_eq!([0, 1, 2, 65_535, 65_536].map(id_in_16_bits), [0, 1, 2, 65_535, 2]);
-        assert!((65_536..400_000).step_by(7).all(|id| id_in_16_bits(id) > 1));
     }
 }

@@ -193,7 +193,27 @@ impl Episode<'_> {
         &self,
         frames: &[usize],
         make: impl Fn(usize, LoggedFrame) -> Result<T> + Sync,
+        take: impl FnMut(usize, T) -> Result<()>,
+    ) -> Result<()> {
+        self.pictures(frames, make, take, &|frames| self.source.set_done(self.source.done.get() + frames as u64))
+    }
+
+    /// [`Self::each_picture`] that no progress is shown of: a look ahead.
+    pub fn each_picture_silently<T: Send>(
+        &self,
+        frames: &[usize],
+        make: impl Fn(usize, LoggedFrame) -> Result<T> + Sync,
+        take: impl FnMut(usize, T) -> Result<()>,
+    ) -> Result<()> {
+        self.pictures(frames, make, take, &|_| {})
+    }
+
+    fn pictures<T: Send>(
+        &self,
+        frames: &[usize],
+        make: impl Fn(usize, LoggedFrame) -> Result<T> + Sync,
         mut take: impl FnMut(usize, T) -> Result<()>,
+        done: &dyn Fn(usize),
     ) -> Result<()> {
         let (dataset, flight, logs) = (self.source.dataset, self.flight, &self.logs);
         let made_of = |frame: &usize| {
@@ -209,7 +229,7 @@ impl Episode<'_> {
             for (frame, made) in batch.iter().zip(made) {
                 take(*frame, made)?;
             }
-            self.source.set_done(self.source.done.get() + batch.len() as u64);
+            done(batch.len());
         }
         Ok(())
     }

@@ -9,6 +9,8 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 /// Longest side of a picture that is read, pixels.
 const LONGEST: usize = 16_384;
+/// Most pixels of a picture that is read: a small file may claim any number.
+const MOST_PIXELS: usize = 1 << 26;
 
 /// A picture in colours.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,10 +68,23 @@ fn jpeg(file: &[u8]) -> Result<Picture, String> {
         .set_max_height(LONGEST)
         .set_strict_mode(true);
     let mut decoder = JpegDecoder::new_with_options(Cursor::new(file), options);
+    decoder.decode_headers().map_err(|error| error.to_string())?;
+    let (width, height) = decoder.dimensions().ok_or("the picture has no size")?;
+    check_size([width, height])?;
     let rgb = decoder.decode().map_err(|error| error.to_string())?;
     let info = decoder.info().ok_or("the picture has no size")?;
     let size = [usize::from(info.width), usize::from(info.height)];
     if rgb.len() == 3 * size[0] * size[1] { Ok(Picture { size, rgb }) } else { Err("it is not in colours".to_owned()) }
+}
+
+fn check_size(size: [usize; 2]) -> Result<(), String> {
+    if size.iter().any(|side| *side > LONGEST) || size[0] * size[1] > MOST_PIXELS {
+        return Err(format!(
+            "it is {} x {} pixels; {LONGEST} a side and {MOST_PIXELS} in all are read",
+            size[0], size[1]
+        ));
+    }
+    Ok(())
 }
 
 fn png(file: &[u8]) -> Result<Picture, String> {
@@ -77,9 +92,7 @@ fn png(file: &[u8]) -> Result<Picture, String> {
     decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::STRIP_16);
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
     let size = [reader.info().width as usize, reader.info().height as usize];
-    if size.iter().any(|side| *side > LONGEST) {
-        return Err(format!("it is {} x {} pixels, more than {LONGEST}", size[0], size[1]));
-    }
+    check_size(size)?;
     let mut rgb = vec![0; reader.output_buffer_size().ok_or("it is too large")?];
     let frame = reader.next_frame(&mut rgb).map_err(|error| error.to_string())?;
     rgb.truncate(frame.buffer_size());

@@ -7,11 +7,11 @@ use cosfly_doctor::sources::lerobot::{self, features::Features};
 use cosfly_doctor::{Episode, Flag};
 use cosfly_read::StoredImage;
 use cosfly_read::columns::{Column, column};
-use cosfly_read::{PictureColumn, PictureFile};
+use cosfly_read::{PictureColumn, PictureFile, inner_path};
 use cosfly_render::channels::Channel;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// The LeRobot datasets in `folder`: itself, or those of its splits, as `cosfly export` writes them.
 pub fn roots(folder: &Path) -> Vec<PathBuf> {
@@ -166,11 +166,11 @@ impl Pictures for Tables {
 
 /// A picture file of the dataset.
 fn named(root: &Path, name: &str) -> Result<prost::bytes::Bytes> {
-    let path = root.join(name);
-    if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
+    let outside = || {
         let message = format!("the picture `{name}` is outside the dataset");
-        return Err(Diagnostic::new("dataset-damaged", Fault::Input, message));
-    }
+        Diagnostic::new("dataset-damaged", Fault::Input, message)
+    };
+    let path = inner_path(root, name).ok_or_else(outside)?;
     let bytes = std::fs::read(&path);
     Ok(bytes.map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?.into())
 }

@@ -2,6 +2,7 @@
 
 use super::identity::Identity;
 use super::image_log::ImageLog;
+use super::inner_path::inner_path;
 use super::log::LogReader;
 use super::rows::read;
 use super::trajectory::{PublishedFlight, Shared};
@@ -9,7 +10,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_schema::Split;
 use cosfly_schema::tables::{Pairs, People, Rejected};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Most ids listed in an error.
@@ -224,12 +225,10 @@ impl PublishedDataset {
 
     /// Path of a log, inside the dataset.
     fn log_path(&self, flight: &PublishedFlight) -> Result<PathBuf> {
-        let inside = Path::new(&flight.mcap_path).components().all(|part| matches!(part, Component::Normal(_)));
-        if !inside {
+        inner_path(&self.folder, &flight.mcap_path).ok_or_else(|| {
             let message = format!("the log `{}` is outside the dataset", flight.mcap_path);
-            return Err(Diagnostic::new("dataset-damaged", Fault::Input, message));
-        }
-        Ok(self.folder.join(&flight.mcap_path))
+            Diagnostic::new("dataset-damaged", Fault::Input, message)
+        })
     }
 }
 

@@ -42,6 +42,28 @@ impl PublishedDataset {
         Ok(found)
     }
 
+    /// The largest instance id of an object in each town.
+    ///
+    /// # Errors
+    /// Damage of the table.
+    pub fn largest_objects(&self) -> Result<BTreeMap<String, u32>> {
+        let mut largest: BTreeMap<String, u32> = BTreeMap::new();
+        for (_, path) in self.files("objects")? {
+            read(&path, &mut |rows| {
+                let towns = rows.values(Objects::town)?;
+                for row in 0..rows.len() {
+                    let id = rows.get(Objects::instance, row)?;
+                    match largest.get_mut(towns.text(row)) {
+                        Some(known) => *known = id.max(*known),
+                        None => drop(largest.insert(towns.text(row).to_owned(), id)),
+                    }
+                }
+                Ok(())
+            })?;
+        }
+        Ok(largest)
+    }
+
     /// Boxes of all objects of these kinds, in the order of the table.
     ///
     /// # Errors

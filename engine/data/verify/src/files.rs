@@ -4,6 +4,7 @@ use super::report::VerifyReport;
 use super::rows;
 use cosfly_diagnose::{Diagnostic, Result, Stop};
 use cosfly_fingerprint::sha256::sha256_of_reader;
+use cosfly_read::inner_path;
 use cosfly_schema::tables::FileRecord;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -244,7 +245,7 @@ fn regular_size(folder: &Path, path: &str, report: &mut VerifyReport) -> Result<
 
 /// Whether a listed path is relative and goes only down.
 fn is_inside(path: &str) -> bool {
-    Path::new(path).components().all(|part| matches!(part, std::path::Component::Normal(_))) && !path.is_empty()
+    inner_path(Path::new(""), path).is_some()
 }
 
 /// All files below the folder, folder by folder in the order of names, hidden ones left out. Links to folders are not

@@ -17,6 +17,7 @@ mod files;
 mod flight_list;
 mod flights;
 mod frames;
+mod ground;
 mod labels;
 mod log;
 mod options;

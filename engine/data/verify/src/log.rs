@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::captions::Caption;
+use super::ground::BodiesOnGround;
 use super::people::PersonRow;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
@@ -37,6 +38,15 @@ pub struct Known<'a> {
     pub stop: &'a Stop,
 }
 
+impl<'a> Known<'a> {
+    /// The people of a frame.
+    fn others_in(&self, frame: u32) -> &'a [PersonRow] {
+        let first = self.others.partition_point(|person| person.frame < frame);
+        let end = self.others.partition_point(|person| person.frame <= frame);
+        self.others.get(first..end).unwrap_or_default()
+    }
+}
+
 /// Checks the log of `flight`.
 pub fn check(
     folder: &Path,
@@ -57,6 +67,8 @@ pub fn check(
         counts: BTreeMap::new(),
         messages: 0,
         depth: None,
+        labels: None,
+        on_ground: BodiesOnGround::default(),
         is_ours: false,
     };
     let mut input = known.stop.reading(BufReader::new(input));
@@ -84,6 +96,9 @@ struct LogCheck<'a> {
     messages: u64,
     /// The last depth image and its frame, kept until the ids of the same frame say which pixels are the target's.
     depth: Option<(usize, messages::RawImage)>,
+    /// The last label image and its frame, likewise.
+    labels: Option<(usize, messages::RawImage)>,
+    on_ground: BodiesOnGround,
     is_ours: bool,
 }
 
@@ -159,11 +174,19 @@ impl LogCheck<'_> {
                 if let Some(message) = problem {
                     self.find(place, "verify-log", message);
                 }
+                let labels = self.labels.take().filter(|(of, _)| *of == frame);
                 if let Some((_, depth)) = self.depth.take().filter(|(of, _)| *of == frame) {
                     self.check_depth(&depth, &of_target, row);
+                    if let Some((_, labels)) = labels {
+                        let pixels = [&depth.data[..], &labels.data[..]];
+                        self.on_ground.add(self.flight, row, self.known.others_in(row.frame), pixels);
+                    }
                 }
             }
-            Source::Labels => self.check_labels(&image, row, place),
+            Source::Labels => {
+                self.check_labels(&image, row, place);
+                self.labels = Some((frame, image));
+            }
             Source::Depth => self.depth = Some((frame, image)),
             Source::Number(_) | Source::Bytes(_) => {
                 let mut pixels = image.data.chunks_exact(channel.bytes_on_request());
@@ -205,9 +228,7 @@ impl LogCheck<'_> {
         }
         let of_target = pixels.remove(&TARGET_INSTANCE).unwrap_or_default();
         let (count, found) = (of_target.len() as u32, edges(&of_target, width));
-        let others = self.known.others;
-        let first = others.partition_point(|person| person.frame < row.frame);
-        for person in others[first..].iter().take_while(|person| person.frame == row.frame) {
+        for person in self.known.others_in(row.frame) {
             let seen = pixels.remove(&person.instance).unwrap_or_default();
             let (count, found) = (seen.len() as u32, edges(&seen, width));
             if (count, found) != (person.pixels, Some(person.visible_box)) {
@@ -283,6 +304,9 @@ impl LogCheck<'_> {
     }
 
     fn finish(mut self) {
+        for (place, message) in self.on_ground.problems().collect::<Vec<_>>() {
+            self.find(place, "verify-ground", message);
+        }
         if !self.is_ours {
             self.find(String::new(), "verify-log", format!("it is not the log of `{}`", self.flight.trajectory_id));
         }

@@ -31,6 +31,12 @@ pub struct PersonRow {
 }
 
 impl PersonRow {
+    /// Point between the feet in the world, and height, metres.
+    pub fn feet_and_height(&self) -> (DVec3, f64) {
+        let [x, y, z, height_m, _] = self.body;
+        (DVec3::new(x, y, z), height_m)
+    }
+
     fn body(&self) -> Body {
         let [x, y, z, height_m, radius_m] = self.body;
         Body { feet: DVec3::new(x, y, z), height_m, radius_m, has_umbrella: self.has_umbrella }

@@ -165,6 +165,17 @@ fn depths_outside_of_the_target_s_body_are_found() {
 }
 
 #[test]
+fn bodies_below_drawn_ground_are_found() {
+    let mut flights = sample::flights();
+    sample::raise_ground(&mut flights[0], 0.3);
+    let report = verify(published(flights).path(), &Options::default(), &mut |_, _| {}).unwrap();
+    let found: Vec<String> =
+        report.findings.iter().filter(|it| it.rule == "verify-ground").map(ToString::to_string).collect();
+    assert!(found.iter().any(|it| it.contains("the target stands below drawn ground")), "{:#?}", report.findings);
+    assert!(found.iter().all(|it| it.contains("expert-p00000")), "{found:#?}");
+}
+
+#[test]
 fn a_flipped_yaw_is_found() {
     let mut flights = sample::flights();
     flights[1].record.trajectory.poses_in_world[3].yaw_rad *= -1.0;

@@ -3,7 +3,7 @@
 use crate::record::{dataset_stage, logs_of, reads};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_read::PublishedDataset;
+use cosfly_read::{PublishedDataset, inner_path};
 use cosfly_recipe::Recipe;
 use cosfly_runner::{RunOptions, plan, run_tasks};
 use cosfly_stage::Registry;
@@ -90,7 +90,10 @@ fn made(
 fn compared(folder: &Path, path: &str, made: Option<Digest>) -> Result<Option<String>> {
     let Some(made) = made else { return Ok(Some("made anew, it is rejected".to_owned())) };
     let refused = |error: std::io::Error| Diagnostic::io(format!("read `{path}`"), &error);
-    let published = File::open(folder.join(path)).and_then(|mut file| digest_of_file(&mut file)).map_err(refused)?;
+    let outside =
+        || Diagnostic::new("dataset-damaged", Fault::Input, format!("the log `{path}` is outside the dataset"));
+    let place = inner_path(folder, path).ok_or_else(outside)?;
+    let published = File::open(place).and_then(|mut file| digest_of_file(&mut file)).map_err(refused)?;
     let differs = || format!("made anew, its BLAKE3 is {made}; {published} is published");
     Ok((published != made).then(differs))
 }

@@ -76,6 +76,17 @@ impl SampleFlight {
     }
 }
 
+/// Draws the ground of a flight's pictures higher than people stand, as if they walked below it.
+pub fn raise_ground(flight: &mut SampleFlight, rise_m: f64) {
+    for (images, pose) in flight.images.iter_mut().zip(&flight.record.trajectory.poses_in_world) {
+        let height_m = pose.position_in_world.z;
+        let is_ground = images.semantic.iter().map(|label| *label == SemanticLabel::Ground.id());
+        for (depth_m, _) in images.depth_m.iter_mut().zip(is_ground).filter(|(_, is_ground)| *is_ground) {
+            *depth_m *= ((height_m - rise_m) / height_m) as f32;
+        }
+    }
+}
+
 /// Point of the surface at a pixel, assumed level.
 fn point(images: &FrameImages, camera: &Camera, pose: &Pose, at: usize) -> SeenPoint {
     let (column, row) = (at as u32 % images.width, at as u32 / images.width);

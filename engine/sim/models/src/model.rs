@@ -50,7 +50,7 @@ impl Model {
             return Err(MapError::new("the file is no glTF file").hint("export the model as GLB"));
         }
         let document = Document::read(bytes)?;
-        let mut reader = Reader { document: &document, pictures: BTreeMap::new(), triangles: vec![], textures: vec![] };
+        let mut reader = Reader::new(&document);
         for_each_shape(&document, &mut |_, matrix, shape| {
             // glTF: y up, z forward, right-handed; things: x forward, y right, z up.
             let in_thing = |point: DVec3| {
@@ -71,16 +71,31 @@ impl Model {
     }
 }
 
+/// Most corners and indices that are read, triangles or not.
+const MOST_ELEMENTS: usize = 20_000_000;
+
 struct Reader<'a> {
     document: &'a Document,
+    /// Corners and indices, and pixels, that may still be read.
+    left: [usize; 2],
     /// Numbers of textures by those of pictures.
     pictures: BTreeMap<usize, u32>,
     triangles: Vec<ModelTriangle>,
     textures: Vec<Texture>,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    fn new(document: &'a Document) -> Self {
+        let left = [MOST_ELEMENTS, pictures::MOST_PIXELS];
+        Self { document, left, pictures: BTreeMap::new(), triangles: vec![], textures: vec![] }
+    }
+
     fn add(&mut self, shape: &Primitive, in_thing: &dyn Fn(DVec3) -> DVec3) -> Result<(), MapError> {
+        let elements = self.document.elements_of_shape(shape);
+        self.left[0] = self.left[0].checked_sub(elements).ok_or_else(|| {
+            let error = MapError::new(format!("the model has more than {MOST_ELEMENTS} corners"));
+            error.hint("export it with less detail: a few thousand triangles suffice")
+        })?;
         let Some((points, corners)) = triangles(self.document, shape) else {
             // Points and lines have nothing to draw; a surface that cannot be read must not be missing unnoticed.
             if !(4..=6).contains(&shape.mode.unwrap_or(4)) {
@@ -128,6 +143,11 @@ impl Reader<'_> {
             return Ok((Some(*known), places));
         }
         let read = pictures::read(&document.picture(picture)?, picture)?;
+        self.left[1] = self.left[1].checked_sub(read.width * read.height).ok_or_else(|| {
+            let error =
+                MapError::new(format!("the pictures of the model have more than {} pixels", pictures::MOST_PIXELS));
+            error.hint("export it with smaller pictures: 1,024 pixels a side are kept")
+        })?;
         let number = self.textures.len() as u32;
         self.textures.push(Texture::new(&read));
         self.pictures.insert(picture, number);

@@ -9,6 +9,9 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 /// Largest width and height, pixels.
 const LARGEST_SIDE: usize = 8192;
 
+/// Most pixels of all pictures of a model.
+pub const MOST_PIXELS: usize = LARGEST_SIDE * LARGEST_SIDE;
+
 /// A picture: width, height, and sRGB bytes.
 pub struct Picture {
     /// Pixels in a row.
@@ -64,9 +67,10 @@ fn read_jpeg(bytes: &[u8]) -> Result<Picture, String> {
         .set_max_width(LARGEST_SIDE)
         .set_max_height(LARGEST_SIDE);
     let mut decoder = JpegDecoder::new_with_options(Cursor::new(bytes), options);
-    let samples = decoder.decode().map_err(|error| error.to_string())?;
+    decoder.decode_headers().map_err(|error| error.to_string())?;
     let (width, height) = decoder.dimensions().ok_or("it has no size")?;
     check_size(width, height)?;
+    let samples = decoder.decode().map_err(|error| error.to_string())?;
     let rgb: Vec<[u8; 3]> = samples.as_chunks::<3>().0.to_vec();
     if rgb.len() == width * height { Ok(Picture { width, height, rgb }) } else { Err("it is cut off".into()) }
 }

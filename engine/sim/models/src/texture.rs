@@ -28,8 +28,14 @@ impl Texture {
             let value = code as f64 / 255.0;
             (if value <= 0.04045 { value / 12.92 } else { real::powf((value + 0.055) / 1.055, 2.4) }) as f32
         });
-        let texels = picture.rgb.iter().map(|pixel| pixel.map(|code| light[usize::from(code)])).collect();
-        let mut level = Level { width: picture.width, height: picture.height, texels };
+        let texel = |at: usize| picture.rgb[at].map(|code| light[usize::from(code)]);
+        let (width, height) = (picture.width, picture.height);
+        // Large pictures are never in memory as numbers at their full size.
+        let mut level = if width.max(height) > LARGEST_KEPT {
+            halved(width, height, &texel)
+        } else {
+            Level { width, height, texels: (0..width * height).map(texel).collect() }
+        };
         while level.width.max(level.height) > LARGEST_KEPT {
             level = level.halved();
         }
@@ -59,21 +65,25 @@ impl Texture {
     }
 }
 
-impl Level {
-    /// Means of two by two texels; of one at an odd edge.
-    fn halved(&self) -> Self {
-        let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
-        let mut texels = Vec::with_capacity(width * height);
-        for row in 0..height {
-            for column in 0..width {
-                let (left, top) = (2 * column, 2 * row);
-                let (right, below) = ((left + 1).min(self.width - 1), (top + 1).min(self.height - 1));
-                let four = [(left, top), (right, top), (left, below), (right, below)];
-                let four = four.map(|(x, y)| self.texels[y * self.width + x]);
-                texels.push([0, 1, 2].map(|k| 0.25 * four.iter().map(|texel| texel[k]).sum::<f32>()));
-            }
+/// Means of two by two texels; of one at an odd edge.
+fn halved(width: usize, height: usize, texel: &dyn Fn(usize) -> [f32; 3]) -> Level {
+    let (half_width, half_height) = (width.div_ceil(2), height.div_ceil(2));
+    let mut texels = Vec::with_capacity(half_width * half_height);
+    for row in 0..half_height {
+        for column in 0..half_width {
+            let (left, top) = (2 * column, 2 * row);
+            let (right, below) = ((left + 1).min(width - 1), (top + 1).min(height - 1));
+            let four = [(left, top), (right, top), (left, below), (right, below)];
+            let four = four.map(|(x, y)| texel(y * width + x));
+            texels.push([0, 1, 2].map(|k| 0.25 * four.iter().map(|texel| texel[k]).sum::<f32>()));
         }
-        Self { width, height, texels }
+    }
+    Level { width: half_width, height: half_height, texels }
+}
+
+impl Level {
+    fn halved(&self) -> Self {
+        halved(self.width, self.height, &|at| self.texels[at])
     }
 
     /// Between the four texels around a place.

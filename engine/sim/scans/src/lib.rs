@@ -14,4 +14,5 @@ pub mod ply;
 pub mod relief;
 pub mod scalar;
 pub mod solid_cells;
+pub mod way_out;
 pub mod window_cover;

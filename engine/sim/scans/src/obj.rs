@@ -2,6 +2,7 @@
 
 use crate::cloud::table::not_applied;
 use crate::mesh::{MeshOptions, PartBuilder, town_of};
+use crate::way_out::or_advice;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::polygons::triangulated;
 use cosfly_town::remarks::speaks_of_a_place;
@@ -10,8 +11,13 @@ use cosfly_town::{MapError, MapFormat, Town};
 
 /// Most remarks about the place of the coordinates that are repeated as warnings.
 const MOST_REMARKS: usize = 5;
+/// Groups of an object that are searched for one that is entered again.
+const MOST_SEARCHED: usize = 1000;
 /// Most corners of a polygon.
 const MOST_CORNERS: usize = 10_000;
+
+/// The way out of a damaged file.
+const WAY_OUT: &str = "the file seems to be damaged: export the scene again as OBJ";
 
 /// The format `OBJ`.
 #[derive(Clone, Copy, Debug)]
@@ -39,37 +45,43 @@ impl MapFormat for Obj {
     }
 
     fn read(bytes: &[u8], options: &MeshOptions) -> Result<(Town, Vec<String>), MapError> {
-        let text = decoded(bytes)?;
-        let mut reader =
-            Reader { options, vertices: Vec::new(), object: String::new(), groups: vec![Group::default()] };
-        let (mut whole, mut remarks) = (String::new(), vec![]);
-        for (at, line) in text.lines().enumerate() {
-            if let Some(begun) = line.strip_suffix('\\') {
-                whole.push_str(begun);
-                continue;
-            }
-            whole.push_str(line);
-            let line = std::mem::take(&mut whole);
-            if line.starts_with('#') && remarks.len() < MOST_REMARKS && speaks_of_a_place(&line) {
-                remarks.push(not_applied(&line));
-            }
-            reader.line(&line).map_err(|rule| {
-                let shown: String = line.chars().take(60).collect();
-                MapError::new(format!("line {} is `{shown}`; {rule}", at + 1))
-                    .hint("the file seems to be damaged: export it again")
-            })?;
-        }
-        let parts = reader.parts()?;
-        let mut warnings = parts.warnings();
-        warnings.append(&mut remarks);
-        town_of(parts.parts, options, warnings)
+        or_advice(town(bytes, options), WAY_OUT)
     }
+}
+
+fn town(bytes: &[u8], options: &MeshOptions) -> Result<(Town, Vec<String>), MapError> {
+    let text = decoded(bytes)?;
+    let mut reader =
+        Reader { options, vertices: Vec::new(), object: (String::new(), 0), groups: vec![Group::default()], open: 0 };
+    let (mut whole, mut remarks) = (String::new(), vec![]);
+    for (at, line) in text.lines().enumerate() {
+        if let Some(begun) = line.strip_suffix('\\') {
+            whole.push_str(begun);
+            continue;
+        }
+        whole.push_str(line);
+        let line = std::mem::take(&mut whole);
+        if line.starts_with('#') && remarks.len() < MOST_REMARKS && speaks_of_a_place(&line) {
+            remarks.push(not_applied(&line));
+        }
+        reader.line(&line).map_err(|rule| {
+            let shown: String = line.chars().take(60).collect();
+            MapError::new(format!("line {} is `{shown}`; {rule}", at + 1))
+                .hint("the file seems to be damaged: export it again")
+        })?;
+    }
+    let parts = reader.parts(bytes.len())?;
+    let mut warnings = parts.warnings();
+    warnings.append(&mut remarks);
+    town_of(parts.parts, options, warnings)
 }
 
 /// Polygons under one name; corners are numbers of corners of the whole file, from 0.
 #[derive(Default)]
 struct Group {
     name: String,
+    /// Number of its object; groups without one have numbers of their own.
+    owner: u32,
     corners: Vec<u32>,
     /// Ends of the polygons in `corners`.
     ends: Vec<usize>,
@@ -86,9 +98,11 @@ struct Reader<'a> {
     options: &'a MeshOptions,
     /// All corners so far, map frame, metres.
     vertices: Vec<DVec3>,
-    /// Name of the object that groups belong to.
-    object: String,
+    /// Name and number of the object that groups belong to.
+    object: (String, u32),
     groups: Vec<Group>,
+    /// The group that faces belong to.
+    open: usize,
 }
 
 impl Reader<'_> {
@@ -98,16 +112,28 @@ impl Reader<'_> {
             "v" => self.vertices.push(self.options.in_map(vertex(rest)?)),
             "f" => self.face(rest)?,
             "o" => {
-                self.object = rest.trim().to_owned();
-                self.groups.push(Group { name: self.object.clone(), ..Group::default() });
+                self.object = (rest.trim().to_owned(), self.groups.len() as u32);
+                self.begin(self.object.0.clone());
             }
             "g" => {
-                let name = format!("{} {}", self.object, rest.trim()).trim().to_owned();
-                self.groups.push(Group { name, ..Group::default() });
+                let name = format!("{} {}", self.object.0, rest.trim()).trim().to_owned();
+                // A group may be left and entered again.
+                let is_it = |group: &&Group| group.owner == self.object.1 && group.name == name;
+                let known = self.groups[self.object.1 as usize..].iter().take(MOST_SEARCHED).position(|it| is_it(&it));
+                match known.filter(|_| !self.object.0.is_empty()) {
+                    Some(at) => self.open = self.object.1 as usize + at,
+                    None => self.begin(name),
+                }
             }
             _ => {}
         }
         Ok(())
+    }
+
+    fn begin(&mut self, name: String) {
+        self.open = self.groups.len();
+        let owner = if self.object.0.is_empty() { self.open as u32 } else { self.object.1 };
+        self.groups.push(Group { name, owner, ..Group::default() });
     }
 
     /// A polygon. Its corners may follow later in the file.
@@ -122,7 +148,7 @@ impl Reader<'_> {
                 .and_then(|index| u32::try_from(index).ok())
                 .ok_or_else(|| "a corner is no number of a corner".to_owned())
         };
-        let group = self.groups.last_mut().ok_or("there is no group")?;
+        let group = self.groups.get_mut(self.open).ok_or("there is no group")?;
         let start = group.corners.len();
         for word in rest.split_whitespace() {
             group.corners.push(number(word)?);
@@ -135,8 +161,8 @@ impl Reader<'_> {
     }
 
     /// The groups as parts, each with the corners that it uses.
-    fn parts(&self) -> Result<PartBuilder, MapError> {
-        let mut parts = PartBuilder::default();
+    fn parts(&self, bytes: usize) -> Result<PartBuilder, MapError> {
+        let mut parts = PartBuilder::of_file(bytes);
         for group in &self.groups {
             let mut used: Vec<u32> = group.corners.clone();
             used.sort_unstable();
@@ -161,7 +187,8 @@ impl Reader<'_> {
                     in_triangles(&corners, &vertices)
                 })
                 .collect();
-            parts.add(&group.name, vertices, triangles.into_iter())?;
+            parts.count(vertices.len() + triangles.len())?;
+            parts.add(&group.name, group.owner, vertices, triangles.into_iter());
         }
         Ok(parts)
     }

@@ -5,16 +5,24 @@ use crate::cloud::table::Columns;
 use crate::cloud::table::not_applied;
 use crate::cloud::{CloudBuilder, CloudOptions, town_of};
 use crate::scalar::Scalar;
+use crate::way_out::or_advice;
 use cosfly_town::remarks::speaks_of_a_place;
 use cosfly_town::{MapError, MapFormat, Town};
 use std::collections::BTreeMap;
 
+/// First words of the lines of the head.
+const KEYWORDS: [&str; 10] =
+    ["VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"];
 /// Longest head, bytes.
 const LONGEST_HEAD: usize = 64 << 10;
 /// Largest number that a field may have of itself.
 const MOST_OF_A_FIELD: usize = 10_000;
-/// Most unpacked bytes for each packed one: what the packing can reach.
-const MOST_UNPACKED: usize = 264;
+/// Most unpacked bytes for each packed one, and of any file: clouds reach a fifth of this.
+const MOST_UNPACKED: usize = 16;
+const UNPACKED_OF_ANY_FILE: usize = 1 << 20;
+
+/// The way out of a damaged file.
+const WAY_OUT: &str = "the file seems to be damaged: fetch it again, or write it with PCL, Open3D or CloudCompare";
 
 /// The format `PCD`.
 #[derive(Clone, Copy, Debug)]
@@ -36,25 +44,29 @@ impl MapFormat for Pcd {
     }
 
     fn read(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
-        let (head, data) = Head::read(bytes)?;
-        let columns = Columns::find(head.fields.iter().map(|field| field.name.as_str()))?;
-        let unit_m = options.unit_m.unwrap_or(1.0);
-        let mut cloud = CloudBuilder::default();
-        match head.packing.as_str() {
-            "ascii" => head.add_lines(data, &columns, unit_m, &mut cloud)?,
-            "binary" => head.add_rows(data, &columns, unit_m, &mut cloud)?,
-            "binary_compressed" => head.add_columns(&head.unpacked(data)?, &columns, unit_m, &mut cloud),
-            other => {
-                let shown: String = other.chars().take(40).collect();
-                return Err(MapError::new(format!(
-                    "`DATA` is `{shown}`; `ascii`, `binary` and `binary_compressed` are read"
-                )));
-            }
-        }
-        let mut cloud = columns.finish(cloud, options.unit_m)?;
-        cloud.warnings.extend(remarks(&bytes[..bytes.len() - data.len()])?);
-        town_of(cloud, options)
+        or_advice(town(bytes, options), WAY_OUT)
     }
+}
+
+fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
+    let (head, data) = Head::read(bytes)?;
+    let columns = Columns::find(head.fields.iter().map(|field| field.name.as_str()))?;
+    let unit_m = options.unit_m.unwrap_or(1.0);
+    let mut cloud = CloudBuilder::default();
+    match head.packing.as_str() {
+        "ascii" => head.add_lines(data, &columns, unit_m, &mut cloud)?,
+        "binary" => head.add_rows(data, &columns, unit_m, &mut cloud)?,
+        "binary_compressed" => head.add_columns(&head.unpacked(data)?, &columns, unit_m, &mut cloud),
+        other => {
+            let shown: String = other.chars().take(40).collect();
+            return Err(MapError::new(format!(
+                "`DATA` is `{shown}`; `ascii`, `binary` and `binary_compressed` are read"
+            )));
+        }
+    }
+    let mut cloud = columns.finish(cloud, options.unit_m)?;
+    cloud.warnings.extend(remarks(&bytes[..bytes.len() - data.len()])?);
+    town_of(cloud, options)
 }
 
 /// What a head says of the points' place, which is not applied.
@@ -107,40 +119,55 @@ struct Head {
 impl Head {
     /// The head, and the bytes behind it.
     fn read(bytes: &[u8]) -> Result<(Self, &[u8]), MapError> {
-        let (mut names, mut sizes, mut kinds, mut counts) = (vec![], vec![], vec![], vec![]);
-        let (mut size, mut points, mut at) = ([None, None], None, 0);
-        loop {
+        let mut lines: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        let mut at = 0;
+        for number in 1.. {
             let rest = &bytes[at..];
-            let Some(end) = rest.iter().take(LONGEST_HEAD).position(|byte| *byte == b'\n') else {
+            let Some(end) =
+                rest.iter().take(LONGEST_HEAD).position(|byte| *byte == b'\n').filter(|_| at < LONGEST_HEAD)
+            else {
                 let error = MapError::new("the head of the file does not end with a line `DATA`");
                 return Err(error.hint("the file seems to be cut off: fetch or export it again"));
             };
             let line = String::from_utf8_lossy(&rest[..end]).into_owned();
             at += end + 1;
             let mut words = line.split_whitespace().map(str::to_owned);
-            let keyword = words.next().unwrap_or_default();
-            let number = line.split_whitespace().nth(1).and_then(|word| word.parse::<usize>().ok());
-            match keyword.as_str() {
-                "FIELDS" => names = words.collect(),
-                "SIZE" => sizes = words.collect(),
-                "TYPE" => kinds = words.collect(),
-                "COUNT" => counts = words.collect(),
-                "WIDTH" => size[0] = number,
-                "HEIGHT" => size[1] = number,
-                "POINTS" => points = number,
-                "DATA" => {
-                    let packing = words.next().unwrap_or_default();
-                    let grid = || size[0]?.checked_mul(size[1]?);
-                    let points = points
-                        .or_else(grid)
-                        .ok_or_else(|| MapError::new("the head does not state the number of `POINTS`"))?;
-                    let fields = fields(&names, &sizes, &kinds, &counts)?;
-                    return Ok((Self { fields, points, packing }, &bytes[at..]));
-                }
-                _ if at > LONGEST_HEAD => return Err(MapError::new("the head of the file has no line `DATA`")),
-                _ => {}
+            let Some(keyword) = words.next().filter(|keyword| !keyword.starts_with('#')) else { continue };
+            let refused = |rule: &str| {
+                let shown: String = line.chars().take(60).collect();
+                let error = MapError::new(format!("line {number} of the head is `{shown}`; {rule}"));
+                error.hint("write the file again with PCL, Open3D or CloudCompare")
+            };
+            if !KEYWORDS.contains(&keyword.as_str()) {
+                return Err(refused(&format!("known are {}", KEYWORDS.join(", "))));
+            }
+            let is_last = keyword == "DATA";
+            if lines.insert(keyword, words.collect()).is_some() {
+                return Err(refused("there is such a line before"));
+            }
+            if is_last {
+                break;
             }
         }
+        let words = |keyword: &str| lines.get(keyword).map_or(&[][..], Vec::as_slice);
+        let number = |keyword: &str| -> Result<Option<usize>, MapError> {
+            let Some(word) = words(keyword).first() else { return Ok(None) };
+            let shown: String = word.chars().take(40).collect();
+            let refused = |_| MapError::new(format!("`{keyword}` is `{shown}`; it must be a whole number from 0"));
+            word.parse().map(Some).map_err(refused)
+        };
+        let (width, height) = (number("WIDTH")?, number("HEIGHT")?);
+        let grid = width.zip(height).and_then(|(width, height)| width.checked_mul(height));
+        let points = number("POINTS")?;
+        if let Some((points, grid)) = points.zip(grid).filter(|(points, grid)| points != grid) {
+            let message = format!("the head states {points} `POINTS`, but `WIDTH` times `HEIGHT` is {grid}");
+            return Err(MapError::new(message).hint("write the file again with PCL, Open3D or CloudCompare"));
+        }
+        let missing = || MapError::new("the head does not state the number of `POINTS`");
+        let points = points.or(grid).ok_or_else(missing)?;
+        let fields = fields(words("FIELDS"), words("SIZE"), words("TYPE"), words("COUNT"))?;
+        let packing = words("DATA").first().cloned().unwrap_or_default();
+        Ok((Self { fields, points, packing }, &bytes[at..]))
     }
 
     fn cut_off(&self) -> MapError {
@@ -220,7 +247,8 @@ impl Head {
         let packed = sizes.u32(0, "the size of the compressed points")?;
         let length = sizes.u32(4, "the size of the points")? as usize;
         let packed = sizes.slice(8, packed.into(), "the compressed points")?;
-        if length != self.all_bytes()? || length > packed.len().saturating_mul(MOST_UNPACKED) {
+        if length != self.all_bytes()? || length > UNPACKED_OF_ANY_FILE.max(packed.len().saturating_mul(MOST_UNPACKED))
+        {
             let message = format!(
                 "the points unpack to {length} bytes of {}, but {} points have {}",
                 packed.len(),
@@ -236,6 +264,12 @@ impl Head {
 }
 
 fn fields(names: &[String], sizes: &[String], kinds: &[String], counts: &[String]) -> Result<Vec<Field>, MapError> {
+    for (keyword, words) in [("SIZE", sizes), ("TYPE", kinds), ("COUNT", counts)] {
+        if words.len() != names.len() && !(keyword == "COUNT" && words.is_empty()) {
+            let message = format!("`{keyword}` has {} values for {} `FIELDS`", words.len(), names.len());
+            return Err(MapError::new(message).hint("write the file again with PCL, Open3D or CloudCompare"));
+        }
+    }
     let field = |(at, name): (usize, &String)| {
         let bytes: Option<u8> =
             sizes.get(at).and_then(|size| size.parse().ok()).filter(|size| [1, 2, 4, 8].contains(size));
@@ -245,8 +279,10 @@ fn fields(names: &[String], sizes: &[String], kinds: &[String], counts: &[String
             (Some("F"), Some(bytes @ (4 | 8))) => Some(Scalar::Real(bytes)),
             _ => None,
         };
-        let count =
-            counts.get(at).map_or(Some(1), |count| count.parse().ok()).filter(|count| *count <= MOST_OF_A_FIELD);
+        let count = counts
+            .get(at)
+            .map_or(Some(1), |count| count.parse().ok())
+            .filter(|count| (1..=MOST_OF_A_FIELD).contains(count));
         let shown: String = name.chars().take(40).collect();
         let refused = || MapError::new(format!("the field `{shown}` has no known `SIZE`, `TYPE` and `COUNT`"));
         Ok(Field { name: name.clone(), scalar: scalar.ok_or_else(refused)?, count: count.ok_or_else(refused)? })

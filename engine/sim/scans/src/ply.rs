@@ -4,6 +4,7 @@ use crate::cloud::survey::spacing_m;
 use crate::cloud::table::{Columns, not_applied};
 use crate::cloud::{CloudBuilder, CloudOptions, town_of};
 use crate::scalar::Scalar;
+use crate::way_out::or_advice;
 use cosfly_town::remarks::speaks_of_a_place;
 use cosfly_town::{MapError, MapFormat, Town};
 
@@ -12,6 +13,10 @@ const LONGEST_HEAD: usize = 64 << 10;
 /// Vertices of faces farther apart than this are corners of a drawing, not a scan, metres.
 const WIDEST_SPACING_M: f64 = 1.0;
 const END: &[u8] = b"end_header";
+
+/// The way out of a damaged file.
+const WAY_OUT: &str =
+    "the file seems to be damaged: fetch it again, or export the cloud as PLY with CloudCompare or Open3D";
 
 /// The format `PLY`.
 #[derive(Clone, Copy, Debug)]
@@ -29,35 +34,41 @@ impl MapFormat for Ply {
     }
 
     fn read(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
-        let (text, data) = split(bytes)?;
-        let head = Head::read(&text)?;
-        let columns = Columns::find(head.properties.iter().map(|(name, _)| name.as_str()))?;
-        let unit_m = options.unit_m.unwrap_or(1.0);
-        let mut cloud = CloudBuilder::default();
-        match head.encoding {
-            Encoding::Text => head.add_lines(data, &columns, unit_m, &mut cloud)?,
-            Encoding::Binary { is_big_endian } => head.add_rows(data, &columns, unit_m, is_big_endian, &mut cloud)?,
-        }
-        let mut cloud = columns.finish(cloud, options.unit_m)?;
-        let remarks = text.lines().filter(|line| ["comment ", "obj_info "].iter().any(|word| line.starts_with(word)));
-        cloud.warnings.extend(remarks.filter(|line| speaks_of_a_place(line)).map(not_applied));
-        let spacing_m = spacing_m(&cloud);
-        if head.has_faces && spacing_m > WIDEST_SPACING_M {
-            let message = format!("the file is a mesh: its vertices, {spacing_m:.1} m apart, are no cloud of points");
-            return Err(MapError::new(message).hint("export the mesh as GLB or OBJ"));
-        }
-        let (town, mut warnings) = town_of(cloud, options)?;
-        if head.has_faces {
-            warnings.push("the file has faces: only its vertices are read, as points".to_owned());
-        }
-        Ok((town, warnings))
+        or_advice(town(bytes, options), WAY_OUT)
     }
+}
+
+fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
+    let (text, data) = split(bytes)?;
+    let head = Head::read(&text)?;
+    let columns = Columns::find(head.properties.iter().map(|(name, _)| name.as_str()))?;
+    let unit_m = options.unit_m.unwrap_or(1.0);
+    let mut cloud = CloudBuilder::default();
+    match head.encoding {
+        Encoding::Text => head.add_lines(data, &columns, unit_m, &mut cloud)?,
+        Encoding::Binary { is_big_endian } => head.add_rows(data, &columns, unit_m, is_big_endian, &mut cloud)?,
+    }
+    let mut cloud = columns.finish(cloud, options.unit_m)?;
+    let remarks = text.lines().filter(|line| ["comment ", "obj_info "].iter().any(|word| line.starts_with(word)));
+    cloud.warnings.extend(remarks.filter(|line| speaks_of_a_place(line)).map(not_applied));
+    let spacing_m = spacing_m(&cloud);
+    if head.has_faces && spacing_m > WIDEST_SPACING_M {
+        let message = format!("the file is a mesh: its vertices, {spacing_m:.1} m apart, are no cloud of points");
+        return Err(MapError::new(message).hint("export the mesh as GLB or OBJ"));
+    }
+    let (town, mut warnings) = town_of(cloud, options)?;
+    if head.has_faces {
+        warnings.push("the file has faces: only its vertices are read, as points".to_owned());
+    }
+    Ok((town, warnings))
 }
 
 /// The head as text and the bytes behind it.
 fn split(bytes: &[u8]) -> Result<(String, &[u8]), MapError> {
     let within = &bytes[..bytes.len().min(LONGEST_HEAD)];
-    let at = within.windows(END.len()).position(|window| window == END);
+    // A comment may hold the word, too: it must begin a line.
+    let begins = |at: &usize| within[*at..].starts_with(END) && (*at == 0 || within[*at - 1] == b'\n');
+    let at = (0..within.len()).find(begins);
     let line_end = at.and_then(|at| Some((at, at + within[at..].iter().position(|byte| *byte == b'\n')?)));
     let Some((at, line_end)) = line_end else {
         let error = MapError::new("the head of the file does not end with `end_header`");
@@ -76,8 +87,15 @@ enum Encoding {
 struct Element {
     name: String,
     count: usize,
-    /// Names and kinds of its numbers; none for lists.
-    properties: Vec<(String, Option<Scalar>)>,
+    properties: Vec<(String, Property)>,
+}
+
+/// What a row holds under a name.
+#[derive(Clone, Copy, Debug)]
+enum Property {
+    Number(Scalar),
+    /// A number of items, and the items.
+    List(Scalar, Scalar),
 }
 
 #[derive(Debug)]
@@ -86,71 +104,87 @@ struct Head {
     /// Numbers of a vertex.
     properties: Vec<(String, Scalar)>,
     vertices: usize,
-    /// Rows and bytes of the elements before the vertices.
-    before: Vec<(usize, usize)>,
+    /// Rows of the elements before the vertices, and what each holds.
+    before: Vec<(usize, Vec<Property>)>,
     has_faces: bool,
+}
+
+/// Encoding and elements of a head, in their order.
+fn elements(text: &str) -> Result<(Option<Encoding>, Vec<Element>), MapError> {
+    let refusal = |at: usize, line: &str, rule: &str| {
+        let shown: String = line.chars().take(60).collect();
+        MapError::new(format!("line {} of the head is `{shown}`; {rule}", at + 1))
+    };
+    let mut encoding = None;
+    let mut elements: Vec<Element> = Vec::new();
+    for (at, line) in text.lines().enumerate().skip(1) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            ["format", ..] if encoding.is_some() => {
+                return Err(refusal(at, line, "there is a line `format` before"));
+            }
+            ["format", name, _] => {
+                encoding = Some(match name {
+                    "ascii" => Encoding::Text,
+                    "binary_little_endian" => Encoding::Binary { is_big_endian: false },
+                    "binary_big_endian" => Encoding::Binary { is_big_endian: true },
+                    _ => {
+                        return Err(refusal(
+                            at,
+                            line,
+                            "known are `ascii`, `binary_little_endian`, `binary_big_endian`",
+                        ));
+                    }
+                });
+            }
+            ["element", name, _] if elements.iter().any(|element| element.name == name) => {
+                return Err(refusal(at, line, "there is an element of that name before"));
+            }
+            ["element", name, count] => {
+                let count = count.parse().map_err(|_| refusal(at, line, "the count must be a whole number"))?;
+                elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
+            }
+            ["property", ref kind @ .., name] => {
+                let known =
+                    |kind: &str| scalar(kind).ok_or_else(|| refusal(at, line, "the type of the number is unknown"));
+                let property = match kind {
+                    [kind] => Property::Number(known(kind)?),
+                    ["list", count, item] => Property::List(known(count)?, known(item)?),
+                    _ => return Err(refusal(at, line, "a property has a type and a name, or is a `list`")),
+                };
+                let element = elements.last_mut().ok_or_else(|| refusal(at, line, "no `element` comes before it"))?;
+                element.properties.push((name.to_owned(), property));
+            }
+            [] | ["comment" | "obj_info", ..] => {}
+            _ => return Err(refusal(at, line, "known are `format`, `element`, `property` and `comment`")),
+        }
+    }
+    Ok((encoding, elements))
 }
 
 impl Head {
     fn read(text: &str) -> Result<Self, MapError> {
-        let refusal = |at: usize, line: &str, rule: &str| {
-            let shown: String = line.chars().take(60).collect();
-            MapError::new(format!("line {} of the head is `{shown}`; {rule}", at + 1))
-        };
-        let mut encoding = None;
-        let mut elements: Vec<Element> = Vec::new();
-        for (at, line) in text.lines().enumerate().skip(1) {
-            let words: Vec<&str> = line.split_whitespace().collect();
-            match words[..] {
-                ["format", ..] if encoding.is_some() => return Err(refusal(at, line, "it is the second `format`")),
-                ["element", "vertex", _] if elements.iter().any(|one: &Element| one.name == "vertex") => {
-                    return Err(refusal(at, line, "it is the second element `vertex`"));
-                }
-                ["format", name, _] => {
-                    encoding = Some(match name {
-                        "ascii" => Encoding::Text,
-                        "binary_little_endian" => Encoding::Binary { is_big_endian: false },
-                        "binary_big_endian" => Encoding::Binary { is_big_endian: true },
-                        _ => {
-                            return Err(refusal(
-                                at,
-                                line,
-                                "known are `ascii`, `binary_little_endian`, `binary_big_endian`",
-                            ));
-                        }
-                    });
-                }
-                ["element", name, count] => {
-                    let count = count.parse().map_err(|_| refusal(at, line, "the count must be a whole number"))?;
-                    elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
-                }
-                ["property", ref kind @ .., name] => {
-                    let scalar = match kind {
-                        [kind] => {
-                            Some(scalar(kind).ok_or_else(|| refusal(at, line, "the type of the number is unknown"))?)
-                        }
-                        _ => None,
-                    };
-                    let element =
-                        elements.last_mut().ok_or_else(|| refusal(at, line, "no `element` comes before it"))?;
-                    element.properties.push((name.to_owned(), scalar));
-                }
-                _ => {}
-            }
-        }
+        let (encoding, elements) = elements(text)?;
         let encoding = encoding.ok_or_else(|| MapError::new("the head has no line `format`"))?;
         let at = elements.iter().position(|element| element.name == "vertex");
         let at = at.ok_or_else(|| MapError::new("the file has no element `vertex`"))?;
         let has_faces = elements.iter().any(|element| element.name == "face" && element.count > 0);
-        let plain = |Element { name, count, properties }: Element| {
-            let plain: Option<Vec<(String, Scalar)>> =
-                properties.into_iter().map(|(name, scalar)| Some((name, scalar?))).collect();
-            let refused = || MapError::new(format!("`{name}` has a list; lists are read in no element up to `vertex`"));
-            plain.ok_or_else(refused).map(|properties| (count, properties))
+        let mut elements = elements.into_iter();
+        let before = elements
+            .by_ref()
+            .take(at)
+            .map(|element| (element.count, element.properties.into_iter().map(|(_, property)| property).collect()));
+        let before: Vec<(usize, Vec<Property>)> = before.collect();
+        let Element { count: vertices, properties, .. } =
+            elements.next().ok_or_else(|| MapError::new("the file has no element `vertex`"))?;
+        let number = |(name, property): (String, Property)| match property {
+            Property::Number(scalar) => Ok((name, scalar)),
+            Property::List(..) => {
+                let error = MapError::new(format!("`{name}` of `vertex` is a list; a corner has numbers only"));
+                Err(error.hint("export the cloud without lists at its vertices"))
+            }
         };
-        let mut rows = elements.into_iter().take(at + 1).map(plain).collect::<Result<Vec<_>, _>>()?;
-        let (vertices, properties) = rows.pop().unwrap_or_default();
-        let before = rows.into_iter().map(|(count, properties)| (count, row_bytes(&properties))).collect();
+        let properties = properties.into_iter().map(number).collect::<Result<Vec<_>, _>>()?;
         Ok(Self { encoding, properties, vertices, before, has_faces })
     }
 
@@ -167,9 +201,8 @@ impl Head {
         is_big_endian: bool,
         cloud: &mut CloudBuilder,
     ) -> Result<(), MapError> {
-        for (count, bytes) in &self.before {
-            let length = count.checked_mul(*bytes).ok_or_else(|| self.cut_off())?;
-            data = data.get(length..).ok_or_else(|| self.cut_off())?;
+        for (count, properties) in &self.before {
+            data = without_rows(data, *count, properties, is_big_endian).ok_or_else(|| self.cut_off())?;
         }
         let row_bytes = row_bytes(&self.properties);
         let length = self.vertices.checked_mul(row_bytes).ok_or_else(|| self.cut_off())?;
@@ -211,6 +244,33 @@ impl Head {
         }
         Ok(())
     }
+}
+
+/// Bytes behind some rows; none where there are fewer.
+fn without_rows<'d>(
+    mut data: &'d [u8],
+    count: usize,
+    properties: &[Property],
+    is_big_endian: bool,
+) -> Option<&'d [u8]> {
+    let numbers = properties.iter().map(|property| match property {
+        Property::Number(scalar) => Some(scalar.bytes()),
+        Property::List(..) => None,
+    });
+    if let Some(bytes) = numbers.sum::<Option<usize>>() {
+        return data.get(count.checked_mul(bytes)?..);
+    }
+    for property in (0..count).flat_map(|_| properties) {
+        let length = match property {
+            Property::Number(scalar) => scalar.bytes(),
+            Property::List(count, item) => {
+                let items = count.read(data, is_big_endian)?;
+                count.bytes().checked_add(item.bytes().checked_mul(items as usize)?)?
+            }
+        };
+        data = data.get(length..)?;
+    }
+    Some(data)
 }
 
 fn row_bytes(properties: &[(String, Scalar)]) -> usize {

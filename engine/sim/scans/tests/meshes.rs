@@ -75,7 +75,7 @@ fn turned(outline: &[[f64; 2]], cap: &[[u32; 3]], height_m: f64, yaw_rad: f64) -
     let vertices: Vec<DVec3> = mesh.vertices.iter().map(turn).collect();
     let theirs = vertices.iter().map(|at| Vector::new(at.x, at.y, at.z)).collect();
     let solid = TriMesh::with_flags(theirs, mesh.triangles.clone(), TriMeshFlags::ORIENTED).expect("a closed mesh");
-    (Part { name: "solid".into(), vertices, triangles: mesh.triangles }, solid)
+    (Part { name: "solid".into(), owner: 0, vertices, triangles: mesh.triangles }, solid)
 }
 
 fn check_cover(name: &str, outline: &[[f64; 2]], cap: &[[u32; 3]], stream: &mut RandomStream) {

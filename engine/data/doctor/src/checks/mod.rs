@@ -3,6 +3,7 @@
 mod bearing;
 mod depth;
 mod extent;
+mod ground;
 mod leaks;
 mod median;
 mod motion;
@@ -28,6 +29,7 @@ pub fn of_episode(episode: &Episode) -> Vec<Flag> {
         bearing::check,
         depth::check,
         surface::check,
+        ground::check,
         pictures::check,
         surroundings::check,
         versions::check,

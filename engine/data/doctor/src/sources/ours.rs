@@ -8,6 +8,7 @@ use cosfly_captions::Wear;
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
+use cosfly_read::drawn_ground::SeenGround;
 use cosfly_read::{
     BoxInWorld, CaptionReader, FrameRow, LoggedFrame, PublishedDataset, PublishedFlight, log_problem, parquet_problem,
 };
@@ -219,7 +220,18 @@ fn looks(
         let digest = Digest::of(&logged.rgb_file).to_string();
         let elsewhere_m = elsewhere_m(&logged, frame, rows);
         let depth_m = OFFSETS.iter().map(depth).collect();
-        let mut look = Look { frame, digest, depth_m, walls_m: vec![], elsewhere_m };
+        let mut look = Look { frame, digest, depth_m, elsewhere_m, ..Look::default() };
+        // Lenses that bend and rows that are taken one after the other show places elsewhere.
+        if flight.lens.is_none() && flight.readout_s == 0.0 {
+            let row = &rows[frame];
+            let ground = SeenGround {
+                camera: &flight.camera,
+                pose: &row.camera_pose,
+                depth_m: &|at| logged.depth_m.get(at).map(|depth| f64::from(*depth)),
+                label: &|at| logged.semantic.get(at).copied(),
+            };
+            look.rise_m = ground.rise_m(row.target.feet_in_world, flight.target_height_m);
+        }
         if let Some(walls) = walls {
             let points = walls::points(&flight.camera, &logged.depth_m, &logged.instance, walls);
             let gap = |offset: &i64| {

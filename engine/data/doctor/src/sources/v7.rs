@@ -6,6 +6,8 @@ use crate::{Episode, Flag, Look, Moment};
 use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Pose};
+use cosfly_images::read::decoded;
+use cosfly_read::drawn_ground::SeenGround;
 use cosfly_render::Camera;
 use serde_json::Value;
 use std::fs;
@@ -209,6 +211,7 @@ fn looks(trace: &Path, episode: &mut Episode, flags: &mut Vec<Flag>) {
                     depth_in_box(&depth, width, moment.visible_box?)
                 };
                 look.depth_m = OFFSETS.iter().map(at).collect();
+                look.rise_m = rise_m(episode, frame, &depth, &folder);
             }
             Err(problem) => {
                 flags.push(Flag::damage(
@@ -220,6 +223,22 @@ fn looks(trace: &Path, episode: &mut Episode, flags: &mut Vec<Flag>) {
         }
         episode.looks.push(look);
     }
+}
+
+/// Height of the drawn ground around the target's feet over them, where the frame has labels.
+fn rise_m(episode: &Episode, frame: usize, depth_m: &[f32], folder: &Path) -> Option<f64> {
+    let (camera, moment) = (episode.camera.as_ref()?, episode.moments.get(frame)?);
+    let labels = decoded(&fs::read(folder.join("instance.png")).ok()?, "png").ok()?;
+    let is_whole = labels.size == [camera.width, camera.height].map(|side| side as usize)
+        && depth_m.len() == labels.size[0] * labels.size[1];
+    let ground = SeenGround {
+        camera,
+        pose: &moment.camera,
+        depth_m: &|at| depth_m.get(at).map(|depth| f64::from(*depth)),
+        label: &|at| labels.rgb.get(3 * at).copied(),
+    };
+    let feet = moment.target_in_world? - DVec3::Z * (0.5 * episode.target_height_m);
+    if is_whole { ground.rise_m(feet, episode.target_height_m) } else { None }
 }
 
 /// Folder of a frame of a trace.

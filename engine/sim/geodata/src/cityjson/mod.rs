@@ -11,6 +11,7 @@ mod layers;
 mod plants;
 mod shapes;
 mod town;
+mod undersides;
 mod words;
 
 use cosfly_town::{MapError, MapFormat, Town};

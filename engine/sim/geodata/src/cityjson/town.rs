@@ -6,6 +6,7 @@ use super::ground::Ground;
 use super::layers::{BUILDING, Steps, layered, pieces};
 use super::plants;
 use super::shapes::{Shape, Space};
+use super::undersides::undersides;
 use super::words::{Part, ground_of_surface, is_indoors, part_of};
 use crate::open_ground::add_open_ground;
 use cosfly_geometry::OrientedBox;
@@ -56,6 +57,7 @@ struct Tally {
     unknown: Count,
     storeys: usize,
     bare_trees: usize,
+    stands: usize,
 }
 
 #[derive(Default)]
@@ -104,7 +106,9 @@ impl Parts {
                 Part::Tree => self.add_tree(object, &shape, object_id),
                 Part::Plants => self.add_plants(&shape, object_id)?,
                 Part::Ground(label, kind) => {
-                    for (face, source) in shape.faces.iter().zip(&shape.sources) {
+                    let is_underside = undersides(&shape.faces);
+                    let upper = shape.faces.iter().zip(&shape.sources).zip(is_underside).filter(|(_, is)| !is);
+                    for ((face, source), _) in upper {
                         let (label, kind) = match surface(object, *source) {
                             Some((name, attributes)) => ground_of_surface(name, attributes, (label, kind)),
                             None => (label, kind),
@@ -208,7 +212,9 @@ impl Parts {
         for face in shape.faces.iter().filter(|face| face.highest_m() <= low.z + plants::GROUND_RISE_M) {
             self.ground.add(face, cosfly_town::SemanticLabel::Terrain, None)?;
         }
-        for (kind, shape) in plants::stand(&shape.faces, low.z) {
+        let stand = plants::stand(&shape.faces, low.z);
+        self.tally.stands += usize::from(!stand.is_empty());
+        for (kind, shape) in stand {
             self.push(kind, object_id, [shape]);
         }
         Ok(())
@@ -216,7 +222,7 @@ impl Parts {
 
     fn finish(mut self) -> Result<(Town, Vec<String>), MapError> {
         let mut notes = Vec::new();
-        let Tally { storeys, bare_trees, .. } = self.tally;
+        let Tally { storeys, bare_trees, stands, .. } = self.tally;
         if storeys > 0 {
             notes.push(format!(
                 "{storeys} buildings are as high as their storeys, {STOREY_M} m each: the file gives no height"
@@ -224,6 +230,12 @@ impl Parts {
         }
         if bare_trees > 0 {
             notes.push(format!("{bare_trees} trees have an assumed size: the file gives their place only"));
+        }
+        if stands > 0 {
+            notes.push(format!(
+                "{stands} stands of plants (`PlantCover`) are plain dark boxes from 2 m up: the file does not say where their trees stand; \
+                 single trees need `SolitaryVegetationObject`"
+            ));
         }
         terrain::add_terrain(&mut self.ground.meshes, &self.obstacles, terrain::USUAL_MARGIN_M)?;
         let surfaces = self.ground.meshes.finish();

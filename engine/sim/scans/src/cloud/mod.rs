@@ -39,9 +39,11 @@ pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<St
     let voxel_m = survey::voxel_m(&cloud, spacing_m, options.voxel_m, &mut warnings);
     let grid = survey::grid_of(&cloud, voxel_m);
     let sorted = Sorted::new(&mut cloud, grid);
-    if !ground::is_classified(&cloud) {
+    let is_classified = ground::is_classified(&cloud);
+    if !is_classified {
         notes.push(ground::estimate(&mut cloud, &sorted));
     }
+    warnings.extend(survey::unevenness(&cloud, &sorted, is_classified));
     let relief = ground::relief(&cloud, &sorted);
     if let Some(unknown) = Unknown::of(&cloud) {
         notes.push(classify::estimate(&mut cloud, &sorted, &relief, unknown));

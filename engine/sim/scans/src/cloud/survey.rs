@@ -25,6 +25,11 @@ const REACH_IN_SPACINGS: f64 = 2.0;
 /// Widest gap that is closed on each side, metres.
 const WIDEST_REACH_M: f64 = 4.0;
 
+/// A cloud is of one scan where the mean number of points in a square is this many times that of the middle square.
+const UNEVEN: f64 = 4.0;
+/// Fewest squares for a verdict.
+const FEWEST_SQUARES: usize = 50;
+
 /// Points whose cells are marked at once.
 const POINTS_AT_ONCE: usize = 1 << 20;
 
@@ -108,6 +113,26 @@ pub fn spacing_m(cloud: &Cloud) -> f64 {
         });
     let covered = has_points.iter().filter(|has| **has).count() as f64;
     grid.cell_m * (covered / cloud.len().max(1) as f64).sqrt()
+}
+
+/// Says so where most points are near a few places, as in a single scan: things far away are fragments.
+pub fn unevenness(cloud: &Cloud, sorted: &Sorted, is_classified: bool) -> Option<String> {
+    let grid = grid_of(cloud, coarse_enough(cloud, DENSITY_CELL_M));
+    let mut counts = sorted.gathered(cloud, &grid, 0_usize, |count, _, _| *count += 1);
+    counts.retain(|count| *count > 0);
+    counts.sort_unstable();
+    let middle = *counts.get(counts.len() / 2)?;
+    let mean = cloud.len() as f64 / counts.len() as f64;
+    let is_uneven = counts.len() >= FEWEST_SQUARES && mean > UNEVEN * middle as f64;
+    is_uneven.then(|| {
+        let lack = if is_classified { "" } else { ", and no point has the class of ground" };
+        format!(
+            "the points crowd near a few places, as in a single scan or drive: half of the squares of {:.0} m have {middle} or fewer, the \
+             mean is {mean:.0}{lack}; what is far from the scanner becomes fragments and bushes. Join all scans of the place, or take a \
+             survey from the air",
+            grid.cell_m
+        )
+    })
 }
 
 /// The cell size, or a larger one that gives the cloud no more cells than it may have.

@@ -27,6 +27,10 @@ impl Columns {
         let column =
             |wanted: &[&str]| names.clone().position(|name| wanted.iter().any(|one| name.eq_ignore_ascii_case(one)));
         let coordinate = |name: &str| {
+            if names.clone().filter(|own| own.eq_ignore_ascii_case(name)).count() > 1 {
+                let error = MapError::new(format!("the points have several numbers called `{name}`"));
+                return Err(error.hint("export the cloud with one of each coordinate"));
+            }
             column(&[name]).ok_or_else(|| MapError::new(format!("the points have no number called `{name}`")))
         };
         Ok(Self {

@@ -1,6 +1,6 @@
 //! Accessors of a glTF file: numbers in its buffers, plain, packed or sparse. Every index and every range is checked.
 
-use super::document::{Document, Node};
+use super::document::{Document, Node, Primitive};
 use crate::scalar::Scalar;
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
@@ -57,7 +57,17 @@ pub(super) struct Instances {
     attributes: BTreeMap<String, usize>,
 }
 
+/// Most places of one mesh that stands in many.
+const MOST_PLACES: usize = 1_000_000;
+
 impl Document {
+    /// Corners and indices that a shape says it has, no more than there are bytes: what reading it costs, whether it can be read or not.
+    pub fn elements_of_shape(&self, shape: &Primitive) -> usize {
+        let bytes: usize = self.data.iter().map(Vec::len).sum();
+        let count = |accessor: &usize| self.accessors.get(*accessor).map_or(0, |accessor| accessor.count.min(bytes));
+        1 + shape.attributes.get("POSITION").map_or(0, count) + shape.indices.as_ref().map_or(0, count)
+    }
+
     /// Bytes of a view.
     pub(super) fn viewed(&self, view: &View) -> Option<&[u8]> {
         self.data.get(view.buffer)?.get(view.byte_offset..)?.get(..view.byte_length)
@@ -127,6 +137,11 @@ impl Document {
     pub fn places(&self, node: &Node) -> Result<Vec<DMat4>, MapError> {
         let Some(Instances { attributes }) = &node.extensions.instances else { return Ok(vec![DMat4::IDENTITY]) };
         let missing = || MapError::new("the places of a mesh that stands in many are not all in the file");
+        let is_many = |at: &usize| self.accessors.get(*at).is_some_and(|accessor| accessor.count > MOST_PLACES);
+        if attributes.values().any(is_many) {
+            let error = MapError::new(format!("a mesh stands in more than {MOST_PLACES} places"));
+            return Err(error.hint("cut the scene into pieces"));
+        }
         let shifts = attributes.get("TRANSLATION").map(|at| self.vectors::<3>(*at, "VEC3").ok_or_else(missing));
         let turns = attributes.get("ROTATION").map(|at| self.vectors::<4>(*at, "VEC4").ok_or_else(missing));
         let scales = attributes.get("SCALE").map(|at| self.vectors::<3>(*at, "VEC3").ok_or_else(missing));

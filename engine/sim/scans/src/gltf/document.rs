@@ -267,10 +267,17 @@ impl Document {
 impl Buffer {
     fn bytes(self, index: usize, blob: Option<&[u8]>) -> Result<Vec<u8>, MapError> {
         let data = match self.uri {
-            None => blob.map(<[u8]>::to_vec),
+            // The data of a binary file are those of its first buffer.
+            None => blob.filter(|_| index == 0).map(<[u8]>::to_vec),
             Some(uri) => embedded(&uri)?,
         };
-        data.filter(|data| data.len() >= self.byte_length).ok_or_else(|| {
+        let Some(data) = data else {
+            let error = MapError::new(format!(
+                "buffer {index} has no data: of a binary file, the first one alone may name none"
+            ));
+            return Err(error.hint("export one file: GLB, or glTF with embedded data"));
+        };
+        Some(data).filter(|data| data.len() >= self.byte_length).ok_or_else(|| {
             let error = MapError::new(format!(
                 "buffer {index} has less data than the {} bytes that it states",
                 self.byte_length
@@ -283,8 +290,10 @@ impl Buffer {
 /// Data that an address holds; none where they are damaged.
 fn embedded(uri: &str) -> Result<Option<Vec<u8>>, MapError> {
     let Some((_, data)) = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")) else {
+        // A file names no other file that is opened, wherever it lies.
         let shown: String = uri.chars().take(60).collect();
-        let error = MapError::new(format!("the file keeps its data in another one, `{shown}`"));
+        let error =
+            MapError::new(format!("the file keeps its data in another one, `{shown}`, and no other file is opened"));
         return Err(error.hint("export one file: GLB, or glTF with embedded data"));
     };
     Ok(STANDARD.decode(data).ok())

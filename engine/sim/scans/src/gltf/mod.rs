@@ -4,6 +4,7 @@ mod accessors;
 pub mod document;
 
 use crate::mesh::{MeshOptions, PartBuilder, town_of};
+use crate::way_out::or_advice;
 use cosfly_frames::DVec3;
 use cosfly_town::{MapError, MapFormat, Town};
 use document::{Document, Primitive};
@@ -13,6 +14,9 @@ use glam::DMat4;
 const DEEPEST: usize = 200;
 /// Most nodes that are visited.
 const MOST_NODES: usize = 1_000_000;
+
+/// The way out of a damaged file.
+const WAY_OUT: &str = "the file seems to be damaged: export the scene again as GLB";
 
 /// The format `glTF`.
 #[derive(Clone, Copy, Debug)]
@@ -37,18 +41,29 @@ impl MapFormat for GlTf {
     }
 
     fn read(bytes: &[u8], options: &MeshOptions) -> Result<(Town, Vec<String>), MapError> {
-        let document = Document::read(bytes)?;
-        let mut reader = Reader { options, document: &document, parts: PartBuilder::default(), skipped: 0 };
-        for_each_shape(&document, &mut |name, matrix, shape| reader.add(name, matrix, shape))?;
-        let mut warnings = reader.parts.warnings();
-        if reader.skipped > 0 {
-            warnings.push(format!(
-                "{} meshes were left out: points or lines, compressed data, or data beyond the end of the file",
-                reader.skipped
-            ));
-        }
-        town_of(reader.parts.parts, options, warnings)
+        or_advice(town(bytes, options), WAY_OUT)
     }
+}
+
+fn town(bytes: &[u8], options: &MeshOptions) -> Result<(Town, Vec<String>), MapError> {
+    let document = Document::read(bytes)?;
+    let mut reader = Reader {
+        options,
+        document: &document,
+        parts: PartBuilder::of_file(bytes.len()),
+        skipped: 0,
+        node: None,
+        nodes: 0,
+    };
+    for_each_shape(&document, &mut |name, matrix, shape| reader.add(name, matrix, shape))?;
+    let mut warnings = reader.parts.warnings();
+    if reader.skipped > 0 {
+        warnings.push(format!(
+            "{} meshes were left out: points or lines, compressed data, or data beyond the end of the file",
+            reader.skipped
+        ));
+    }
+    town_of(reader.parts.parts, options, warnings)
 }
 
 struct Reader<'a> {
@@ -56,20 +71,28 @@ struct Reader<'a> {
     document: &'a Document,
     parts: PartBuilder,
     skipped: usize,
+    /// Name and place of the node whose shapes come now.
+    node: Option<(String, DMat4)>,
+    /// Number of nodes and of places of repeated ones so far.
+    nodes: u32,
 }
 
 impl Reader<'_> {
     fn add(&mut self, name: &str, matrix: &DMat4, primitive: &Primitive) -> Result<(), MapError> {
+        self.parts.count(self.document.elements_of_shape(primitive))?;
         match triangles(self.document, primitive) {
             Some((positions, triangles)) => {
+                let node = (name.to_owned(), *matrix);
+                if self.node.as_ref() != Some(&node) {
+                    self.node = Some(node);
+                    self.nodes += 1;
+                }
                 let in_map = |point| self.options.in_map(matrix.transform_point3(point));
-                self.parts.add(name, positions.into_iter().map(in_map).collect(), triangles.into_iter())
+                self.parts.add(name, self.nodes, positions.into_iter().map(in_map).collect(), triangles.into_iter());
             }
-            None => {
-                self.skipped += 1;
-                Ok(())
-            }
+            None => self.skipped += 1,
         }
+        Ok(())
     }
 }
 
@@ -119,6 +142,7 @@ fn shapes_below(
 
 /// Corners and triangles of a shape, where its data are plain and there.
 pub fn triangles(document: &Document, shape: &Primitive) -> Option<(Vec<DVec3>, Vec<[u32; 3]>)> {
+    in_threes(shape.mode, &[0; 3])?;
     let positions = document.positions(*shape.attributes.get("POSITION")?)?;
     let corners = match shape.indices {
         Some(accessor) => document.indices(accessor)?,

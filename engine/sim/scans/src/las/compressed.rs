@@ -19,8 +19,10 @@ pub const RECORD: u16 = 22204;
 const WITHOUT_CHUNKS: u16 = 1;
 /// Bytes before the first chunk: the place of the table of chunks.
 const TABLE_PLACE_BYTES: u64 = 8;
-/// Most points for each compressed byte; surveys have fewer than one.
+/// Most points for each compressed byte of a chunk, and of a file beside those that any file may have; surveys have fewer than one.
 const MOST_POINTS_PER_BYTE: u64 = 8;
+const MOST_POINTS_PER_BYTE_OF_FILE: u64 = 2;
+const POINTS_OF_ANY_FILE: u64 = 1_000_000;
 /// Chunks that are unpacked before their points are taken.
 const CHUNKS_AT_ONCE: usize = 32;
 
@@ -38,7 +40,8 @@ pub(super) fn read(header: &Header<'_>, record: &[u8], points: &mut Points<'_>) 
     let vlr = LazVlr::from_buffer(record).map_err(|error| damaged(&error.to_string()))?;
     check_items(header, vlr.items())?;
     let data = header.bytes.0.len() as u64 - header.points_start.min(header.bytes.0.len() as u64);
-    if header.points > MOST_POINTS_PER_BYTE.saturating_mul(data) {
+    let most = MOST_POINTS_PER_BYTE_OF_FILE.saturating_mul(data).saturating_add(POINTS_OF_ANY_FILE);
+    if header.points > most.min(MOST_POINTS_PER_BYTE.saturating_mul(data)) {
         let message =
             format!("the file says that it has {} points, but there are only {data} bytes of them", header.points);
         return Err(MapError::new(message).hint("the file seems to be cut off or damaged: fetch it again"));

@@ -1,11 +1,10 @@
 //! [`Header`]: the head of a LAS file and its records of variable length.
 
 use crate::bytes::Bytes;
+use cosfly_diagnose::plausible;
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 
-/// Most records of variable length that are looked at.
-const MOST_RECORDS: u64 = 10_000;
 /// Bytes of the head of a record of variable length, and of an extended one.
 const RECORD_HEAD_BYTES: [u64; 2] = [54, 60];
 
@@ -71,9 +70,10 @@ impl<'a> Header<'a> {
             Ok(DVec3::new(bytes.f64(start, what)?, bytes.f64(start + 8, what)?, bytes.f64(start + 16, what)?))
         };
         let (scale, offset) = (vector(131, "the scale")?, vector(155, "the offset")?);
-        if !(scale.is_finite() && scale.min_element() > 0.0 && offset.is_finite()) {
+        let are_plausible = |it: DVec3| it.to_array().into_iter().all(|number| plausible(number).is_ok());
+        if !(are_plausible(scale) && scale.min_element() > 0.0 && are_plausible(offset)) {
             return Err(MapError::new(format!(
-                "the scale is {scale} and the offset {offset}; they must be finite and the scale above 0"
+                "the scale is {scale} and the offset {offset}; they must be numbers up to 1e9, and the scale above 0"
             )));
         }
         let old_count = bytes.u32(107, "the number of points")?.into();
@@ -110,7 +110,8 @@ impl<'a> Header<'a> {
     /// Reads the records from `start` on; extended ones have a longer head.
     fn add_records(&mut self, mut start: u64, count: u64, extended: usize) -> Result<(), MapError> {
         const WHAT: &str = "a record of variable length";
-        for _ in 0..count.min(MOST_RECORDS) {
+        // Each has a head of its own: as many as the file has room for.
+        for _ in 0..count {
             let length = match extended {
                 0 => self.bytes.u16(start + 20, WHAT)?.into(),
                 _ => self.bytes.u64(start.saturating_add(20), WHAT)?,

@@ -3,6 +3,7 @@
 use super::names::Thing;
 use super::parts::Part;
 use super::solid::height_at;
+use super::uncovered::{Uncovered, uncovered};
 use crate::grid::Grid;
 use crate::relief::Relief;
 use cosfly_frames::{DVec2, DVec3};
@@ -27,22 +28,25 @@ pub fn add_surface(meshes: &mut MeshBuilder, label: SemanticLabel, part: &Part) 
     meshes.polygon(label, false, &vertices, &part.triangles);
 }
 
+/// Whether one can stand on a triangle.
+pub fn is_level([a, b, c]: &[DVec3; 3]) -> bool {
+    let normal = (*b - *a).cross(*c - *a);
+    normal.z.abs() > STEEPEST * normal.length() && 0.5 * normal.z.abs() > SMALLEST_M2
+}
+
 /// Triangles of the ground that one can stand on.
-fn level_triangles(things: &[(Thing, Part)], keep: impl Fn(&Thing) -> bool) -> impl Iterator<Item = [DVec3; 3]> {
-    let ground = things.iter().filter(move |(thing, _)| keep(thing));
-    ground.flat_map(|(_, part)| part.triangles.iter().map(|triangle| part.corners(*triangle))).filter(|[a, b, c]| {
-        let normal = (*b - *a).cross(*c - *a);
-        normal.z.abs() > STEEPEST * normal.length() && 0.5 * normal.z.abs() > SMALLEST_M2
-    })
+fn level_triangles(things: &[Thing]) -> impl Iterator<Item = [DVec3; 3]> {
+    let ground = things.iter().filter(|thing| thing.kind.is_ground()).flat_map(|thing| &thing.parts);
+    ground.flat_map(|part| part.triangles.iter().map(|triangle| part.corners(*triangle))).filter(is_level)
 }
 
 /// Height of the highest ground on a grid; a level square at the lowest point where the scene has no ground.
-pub fn relief(things: &[(Thing, Part)], low: DVec3, high: DVec3, notes: &mut Vec<String>) -> Relief {
+pub fn relief(things: &[Thing], low: DVec3, high: DVec3, notes: &mut Vec<String>) -> Relief {
     let size = (high - low).truncate() + 2.0 * MARGIN_M;
     let cell_m = CELL_M.max((size.element_product() / MOST_CELLS).sqrt());
     let grid = Grid::around([low.truncate() - MARGIN_M, high.truncate() + MARGIN_M].into_iter(), cell_m, 0.0);
     let mut heights_m = vec![f32::NAN; grid.cells()];
-    for triangle in level_triangles(things, |thing| matches!(thing, Thing::Ground(..))) {
+    for triangle in level_triangles(things) {
         let plan = triangle.map(|corner| grid.in_cells(corner.truncate()));
         let from = plan.iter().copied().fold(DVec2::INFINITY, DVec2::min).floor().max(DVec2::ZERO);
         let to = plan.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
@@ -62,14 +66,26 @@ pub fn relief(things: &[(Thing, Part)], low: DVec3, high: DVec3, notes: &mut Vec
     Relief::new(grid, heights_m)
 }
 
-/// Pavements as walkable triangles.
-pub fn walkable(things: &[(Thing, Part)]) -> Vec<WalkablePolygon> {
-    level_triangles(things, |thing| matches!(thing, Thing::Ground(_, true)))
-        .take(MOST_POLYGONS)
-        .map(|corners| WalkablePolygon {
-            kind: WalkableKind::Sidewalk,
-            outline_in_world: corners.to_vec(),
-            synthetic: false,
-        })
-        .collect()
+/// Pavements as walkable polygons, seen from above: what lies under other ground is left out.
+pub fn walkable(things: &[Thing], notes: &mut Vec<String>) -> Vec<WalkablePolygon> {
+    let Uncovered { outlines, lost_m2, unchecked } = uncovered(things);
+    if lost_m2 > 1.0 {
+        notes.push(format!(
+            "{lost_m2:.0} m2 of pavements lie under other ground, or without headroom below it: nobody walks there"
+        ));
+    }
+    if unchecked > 0 {
+        notes.push(format!(
+            "{unchecked} faces of pavements may lie under others: there are too many to compare; simplify their meshes"
+        ));
+    }
+    if outlines.len() > MOST_POLYGONS {
+        notes.push(format!(
+            "of {} faces to walk on, {MOST_POLYGONS} are read: simplify the meshes of the pavements",
+            outlines.len()
+        ));
+    }
+    let polygon =
+        |outline_in_world| WalkablePolygon { kind: WalkableKind::Sidewalk, outline_in_world, synthetic: false };
+    outlines.into_iter().take(MOST_POLYGONS).map(polygon).collect()
 }

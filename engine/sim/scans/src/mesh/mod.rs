@@ -1,13 +1,18 @@
 //! From triangles with names to a town: ground as surfaces, everything else as boxes.
 //!
 //! [`parts`] holds the triangles, [`names`] tells things by their names, [`solid`] covers them with boxes, [`ground`]
-//! makes the relief, the surfaces and the walkable ground.
+//! makes the relief, the surfaces and the walkable ground; [`slabs`] and [`uncovered`] tell tops from undersides, [`whole`] which pieces
+//! are one thing.
 
 pub mod ground;
 pub mod names;
 pub mod options;
 pub mod parts;
+pub mod plan_index;
+pub mod slabs;
 pub mod solid;
+pub mod uncovered;
+pub mod whole;
 
 pub use options::{MeshOptions, UpAxis};
 pub use parts::{Part, PartBuilder};
@@ -18,6 +23,7 @@ use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
 use cosfly_town::world::WorldFromMap;
 use cosfly_town::{MapError, Obstacle, Synthetic, Town};
 use names::Thing;
+use names::{Kind, Thing};
 use options::IN_A_PLAN;
 
 /// Side of the cells in which shapes become boxes, metres.
@@ -72,30 +78,14 @@ pub fn town_of(
         ));
     }
     let mut notes = Vec::new();
-    let things = names::things(parts, &mut notes);
+    let mut things = names::things(parts, &mut notes);
+    let ground = things.iter_mut().filter(|thing| thing.kind.is_ground());
+    let mut work = slabs::MOST_WORK;
+    ground.flat_map(|thing| &mut thing.parts).for_each(|part| slabs::drop_undersides(part, &mut work));
     let mut meshes = MeshBuilder::default();
-    let mut obstacles = Vec::new();
-    let mut unnamed = 0;
-    for (object, (thing, part)) in things.iter().enumerate() {
-        match thing {
-            Thing::Ground(label, _) => ground::add_surface(&mut meshes, *label, part),
-            Thing::Solid { kind, is_named } => {
-                let shapes = solid::boxes(part, options.voxel_m.unwrap_or(USUAL_VOXEL_M));
-                let obstacle = |shape| Obstacle { shape, kind: *kind, object_id: object as u32 + 1, synthetic: false };
-                obstacles.extend(shapes.into_iter().map(obstacle));
-                unnamed += usize::from(!is_named);
-                if obstacles.len() > MOST_BOXES {
-                    let error = MapError::new(format!("the meshes need more than {MOST_BOXES} boxes"));
-                    return Err(error.hint("give a larger `voxel_m`, or cut the scene into pieces"));
-                }
-            }
-        }
-    }
-    if unnamed > 0 {
-        notes.push(format!("{unnamed} things are told by their size: their names say nothing"));
-    }
+    let obstacles = solids_and_surfaces(&things, options, &mut meshes, [&mut warnings, &mut notes])?;
     let relief = ground::relief(&things, low, high, &mut notes);
-    let mut walkable = ground::walkable(&things);
+    let mut walkable = ground::walkable(&things, &mut notes);
     if walkable.is_empty() {
         walkable = open_ground(&obstacles, &relief);
         notes
@@ -116,4 +106,36 @@ pub fn town_of(
         ..Town::default()
     };
     Ok((town, warnings))
+}
+
+/// Boxes of solid things; ground goes to the meshes.
+fn solids_and_surfaces(
+    things: &[Thing],
+    options: &MeshOptions,
+    meshes: &mut MeshBuilder,
+    [warnings, notes]: [&mut Vec<String>; 2],
+) -> Result<Vec<Obstacle>, MapError> {
+    let mut obstacles = Vec::new();
+    let mut cells = solid::CellBudget::new(options.voxel_m.unwrap_or(USUAL_VOXEL_M));
+    let mut unnamed = 0;
+    for (object, thing) in things.iter().enumerate() {
+        match thing.kind {
+            Kind::Ground(label, _) => thing.parts.iter().for_each(|part| ground::add_surface(meshes, label, part)),
+            Kind::Solid { kind, is_named } => {
+                let shapes = thing.parts.iter().flat_map(|part| cells.boxes(part));
+                let obstacle = |shape| Obstacle { shape, kind, object_id: object as u32 + 1, synthetic: false };
+                obstacles.extend(shapes.map(obstacle));
+                unnamed += usize::from(!is_named);
+                if obstacles.len() > MOST_BOXES {
+                    let error = MapError::new(format!("the meshes need more than {MOST_BOXES} boxes"));
+                    return Err(error.hint("give a larger `voxel_m`, or cut the scene into pieces"));
+                }
+            }
+        }
+    }
+    warnings.extend(cells.warning());
+    if unnamed > 0 {
+        notes.push(format!("{unnamed} things are told by their size: their names say nothing"));
+    }
+    Ok(obstacles)
 }

@@ -5,8 +5,11 @@ use cosfly_town::MapError;
 
 /// Largest coordinate, metres.
 const FARTHEST_M: f64 = 1e8;
-/// Most corners and triangles of a file, instances of one mesh counted each.
+/// Most corners and triangles of a file, instances of one mesh counted each: a bound, a number for every file, and one for each of its
+/// bytes. Memory follows the size of the file.
 const MOST_ELEMENTS: usize = 40_000_000;
+const ELEMENTS_OF_ANY_FILE: usize = 4_000_000;
+const BYTES_OF_ELEMENT: usize = 8;
 /// Corners closer than this are one, metres.
 const SAME_M: f64 = 1e-3;
 
@@ -15,6 +18,8 @@ const SAME_M: f64 = 1e-3;
 pub struct Part {
     /// Name in the file.
     pub name: String,
+    /// Number of the object or node that it belongs to.
+    pub owner: u32,
     /// Corners.
     pub vertices: Vec<DVec3>,
     /// Numbers of corners.
@@ -27,17 +32,21 @@ impl Part {
         triangle.map(|corner| self.vertices[corner as usize])
     }
 
-    /// The parts that hang together by their corners, in the order of their first triangles.
-    pub fn connected(&self) -> Vec<Self> {
+    /// For each corner the first one at the same place.
+    pub fn merged_corners(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.vertices.len()).collect();
         let key = |at: &usize| (self.vertices[*at] / SAME_M).round().as_i64vec3().to_array();
         order.sort_by_key(key);
-        let mut root: Vec<usize> = (0..self.vertices.len()).collect();
-        for pair in order.windows(2) {
-            if key(&pair[0]) == key(&pair[1]) {
-                join(&mut root, pair[0], pair[1]);
-            }
+        let mut first: Vec<usize> = (0..self.vertices.len()).collect();
+        for same in order.chunk_by(|a, b| key(a) == key(b)) {
+            same.iter().for_each(|at| first[*at] = same[0]);
         }
+        first
+    }
+
+    /// The parts that hang together by their corners, in the order of their first triangles.
+    pub fn connected(&self) -> Vec<Self> {
+        let mut root = self.merged_corners();
         for [a, b, c] in self.triangles.iter().map(|triangle| triangle.map(|corner| corner as usize)) {
             join(&mut root, a, b);
             join(&mut root, b, c);
@@ -49,7 +58,7 @@ impl Part {
             let top = find(&mut root, triangle[0] as usize);
             if number[top] == usize::MAX {
                 number[top] = parts.len();
-                parts.push(Self { name: self.name.clone(), ..Self::default() });
+                parts.push(Self { name: self.name.clone(), owner: self.owner, ..Self::default() });
             }
             let part = &mut parts[number[top]];
             let own = triangle.map(|corner| {
@@ -66,7 +75,7 @@ impl Part {
     }
 }
 
-fn find(root: &mut [usize], mut at: usize) -> usize {
+pub(super) fn find(root: &mut [usize], mut at: usize) -> usize {
     while root[at] != at {
         root[at] = root[root[at]];
         at = root[at];
@@ -74,7 +83,7 @@ fn find(root: &mut [usize], mut at: usize) -> usize {
     at
 }
 
-fn join(root: &mut [usize], a: usize, b: usize) {
+pub(super) fn join(root: &mut [usize], a: usize, b: usize) {
     let (a, b) = (find(root, a), find(root, b));
     root[a.max(b)] = a.min(b);
 }
@@ -85,43 +94,47 @@ pub fn bounds<'v>(vertices: impl Iterator<Item = &'v DVec3>) -> (DVec3, DVec3) {
 }
 
 /// Takes triangles; those with corners that are nowhere are counted.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct PartBuilder {
     /// Parts so far.
     pub parts: Vec<Part>,
-    elements: usize,
+    /// Corners and triangles that may follow.
+    left: usize,
     broken: usize,
 }
 
 impl PartBuilder {
-    /// Adds a part: corners in the map frame, metres, and triangles over them.
+    /// Of a file with some bytes.
+    pub fn of_file(bytes: usize) -> Self {
+        let most = (ELEMENTS_OF_ANY_FILE + bytes / BYTES_OF_ELEMENT).min(MOST_ELEMENTS);
+        Self { parts: Vec::new(), left: most, broken: 0 }
+    }
+
+    /// Counts corners and triangles before they are read.
     ///
     /// # Errors
-    /// More triangles than a file may have.
-    pub fn add(
-        &mut self,
-        name: &str,
-        vertices: Vec<DVec3>,
-        triangles: impl Iterator<Item = [u32; 3]>,
-    ) -> Result<(), MapError> {
+    /// More of them than a file of its size may have.
+    pub fn count(&mut self, elements: usize) -> Result<(), MapError> {
+        self.left = self.left.checked_sub(elements).ok_or_else(|| {
+            let message =
+                "the file has too many corners and triangles for its size, with each place of a repeated mesh counted";
+            MapError::new(message).hint("cut the scene into pieces, or leave out what flights do not meet")
+        })?;
+        Ok(())
+    }
+
+    /// Adds a part of an object or node: corners in the map frame, metres, and triangles over them. They were counted before.
+    pub fn add(&mut self, name: &str, owner: u32, vertices: Vec<DVec3>, triangles: impl Iterator<Item = [u32; 3]>) {
         let is_somewhere = |corner: u32| {
             vertices
                 .get(corner as usize)
                 .is_some_and(|vertex| vertex.abs().max_element() <= FARTHEST_M && vertex.is_finite())
         };
-        self.elements += vertices.len();
         let mut kept = Vec::new();
         for triangle in triangles {
-            self.elements += 1;
             if triangle.into_iter().all(is_somewhere) { kept.push(triangle) } else { self.broken += 1 }
         }
-        if self.elements > MOST_ELEMENTS {
-            let error = MapError::new(format!(
-                "the file has more than {MOST_ELEMENTS} corners and triangles, instances counted"
-            ));
-            return Err(error.hint("cut the scene into pieces, or leave out what flights do not meet"));
-        }
-        let part = Part { name: name.to_owned(), vertices, triangles: kept };
+        let part = Part { name: name.to_owned(), owner, vertices, triangles: kept };
         // Corners that no kept triangle uses may be anywhere.
         self.parts.extend(part.connected().into_iter().reduce(|mut all, more| {
             let first = all.vertices.len() as u32;
@@ -129,12 +142,14 @@ impl PartBuilder {
             all.triangles.extend(more.triangles.iter().map(|triangle| triangle.map(|corner| first + corner)));
             all
         }));
-        Ok(())
     }
 
     /// A warning about what was left out.
     pub fn warnings(&self) -> Vec<String> {
-        let broken = format!("{} triangles without finite corners were left out", self.broken);
+        let broken = format!(
+            "{} triangles with a corner that is no number, or beyond {FARTHEST_M:.0} m, were left out",
+            self.broken
+        );
         if self.broken > 0 { vec![broken] } else { Vec::new() }
     }
 }

@@ -9,18 +9,68 @@ use cosfly_geometry::OrientedBox;
 
 /// Most cells that the triangles of one part may touch; larger parts get larger cells.
 const MOST_TOUCHED: f64 = 4e6;
+/// Most of all parts together, and the number that each may have when these are used up.
+const MOST_TOUCHED_OF_ALL: f64 = 3e8;
+const FEWEST_TOUCHED: f64 = 400.0;
 /// Pieces of one column that are closer are one, metres.
 const SAME_PIECE_M: f64 = 0.05;
 /// Crossings of a vertical line closer than this are one surface, metres.
 const SAME_CROSSING_M: f64 = 1e-6;
+/// Thinnest box, metres.
+const THINNEST_M: f64 = 0.02;
+/// A corner this near to a side of a block is on it, metres; a side is whole from this share of its area on.
+const ON_SIDE_M: f64 = 1e-3;
+const WHOLE_SHARE: f64 = 0.99;
 /// Where a vertical line through a cell is shot, in cells: off the middle, so that it meets no edge of a regular mesh.
 const SHOT: [f64; 2] = [0.5137, 0.4871];
 
+/// Makes boxes of one part after the other, in cells of which there is a bound for all parts together.
+pub struct CellBudget {
+    voxel_m: f64,
+    left: f64,
+    wider: usize,
+    widest_m: f64,
+}
+
+impl CellBudget {
+    /// Cells of a size as long as there are not too many.
+    pub fn new(voxel_m: f64) -> Self {
+        Self { voxel_m, left: MOST_TOUCHED_OF_ALL, wider: 0, widest_m: voxel_m }
+    }
+
+    /// [`boxes`] of the next part.
+    pub fn boxes(&mut self, part: &Part) -> Vec<OrientedBox> {
+        let (boxes, cells, cell_m) = boxes_within(part, self.voxel_m, self.left.clamp(FEWEST_TOUCHED, MOST_TOUCHED));
+        self.left -= cells;
+        if cell_m > self.voxel_m {
+            self.wider += 1;
+            self.widest_m = self.widest_m.max(cell_m);
+        }
+        boxes
+    }
+
+    /// What the user should know: parts whose boxes are coarser than asked for.
+    pub fn warning(&self) -> Option<String> {
+        let Self { voxel_m, wider, widest_m, .. } = self;
+        (*wider > 0).then(|| {
+            format!("{wider} meshes are too large for cells of {voxel_m:.2} m: theirs are up to {widest_m:.1} m wide; cut them into pieces")
+        })
+    }
+}
+
 /// Boxes that hold every point of the part's surface and of the space that it encloses, each within its smallest turned rectangle.
 pub fn boxes(part: &Part, voxel_m: f64) -> Vec<OrientedBox> {
+    boxes_within(part, voxel_m, MOST_TOUCHED).0
+}
+
+/// [`boxes`], the number of cells that they were made of, and their size.
+fn boxes_within(part: &Part, voxel_m: f64, most_cells: f64) -> (Vec<OrientedBox>, f64, f64) {
     let plan: Vec<DVec2> = part.vertices.iter().map(|vertex| vertex.truncate()).collect();
     let yaw_rad = smallest_rectangle_rad(&convex_hull(plan.clone()));
-    let grid = grid_of(part, &plan, voxel_m, yaw_rad);
+    if let Some(block) = block(part, yaw_rad) {
+        return (vec![block], 1.0, voxel_m);
+    }
+    let grid = grid_of(part, &plan, voxel_m, (most_cells, yaw_rad));
     let mut cells = Cells { pieces: vec![Vec::new(); grid.cells()], crossings: vec![Vec::new(); grid.cells()] };
     for triangle in &part.triangles {
         cells.add(&grid, part.corners(*triangle));
@@ -35,12 +85,61 @@ pub fn boxes(part: &Part, voxel_m: f64) -> Vec<OrientedBox> {
         out.extend(boxes_of(&grid, &own, grid.cell_m, Bases::Lowest, |_| false).shapes);
     }
     for one in &mut out {
-        clip(one, low, high, [bottom.z, top.z]);
+        clip(one, low.extend(bottom.z), high.extend(top.z));
     }
-    out
+    (without_slivers(out), grid.cells() as f64, grid.cell_m)
 }
 
-fn grid_of(part: &Part, plan: &[DVec2], voxel_m: f64, yaw_rad: f64) -> Grid {
+/// A part that is a block, alone on its feet or not: the block itself.
+fn block(part: &Part, yaw_rad: f64) -> Option<OrientedBox> {
+    let axis = DVec2::new(real::cos(yaw_rad), real::sin(yaw_rad));
+    let turned: Vec<DVec3> = part.vertices.iter().map(|at| in_turned(*at, axis)).collect();
+    let (low, high) = bounds(turned.iter());
+    let size = high - low;
+    if size.min_element() < THINNEST_M {
+        return None;
+    }
+    // Area of the triangles on each side: low and high in x, y and z.
+    let mut areas_m2 = [[0.0; 2]; 3];
+    for corners in part.triangles.iter().map(|triangle| triangle.map(|corner| turned[corner as usize])) {
+        let [a, b, c] = corners;
+        let area_m2 = 0.5 * (b - a).cross(c - a).length();
+        let is_on = |axis: usize, end: DVec3| corners.iter().all(|at| (at[axis] - end[axis]).abs() < ON_SIDE_M);
+        let side = (0..6).find(|side| is_on(side / 2, [low, high][side % 2]));
+        match side {
+            Some(side) => areas_m2[side / 2][side % 2] += area_m2,
+            None if area_m2 < 1e-9 => {}
+            None => return None,
+        }
+    }
+    let whole_m2 = [size.y * size.z, size.x * size.z, size.x * size.y];
+    let is_whole = |axis: usize, end: usize| areas_m2[axis][end] >= WHOLE_SHARE * whole_m2[axis];
+    // Houses may have no floor.
+    let is_block = (0..6).all(|side| side == 4 || is_whole(side / 2, side % 2));
+    is_block.then(|| {
+        let middle = 0.5 * (low + high);
+        let plan = middle.x * axis + middle.y * axis.perp();
+        OrientedBox { center_in_world: plan.extend(middle.z), half_extents_m: 0.5 * size, yaw_rad }
+    })
+}
+
+fn in_turned(at: DVec3, axis: DVec2) -> DVec3 {
+    DVec3::new(at.truncate().dot(axis), at.truncate().dot(axis.perp()), at.z)
+}
+
+/// The boxes without those that are thin and within another one: what a wall along a border of cells leaves beyond it.
+fn without_slivers(boxes: Vec<OrientedBox>) -> Vec<OrientedBox> {
+    let is_thin = |one: &OrientedBox| one.half_extents_m.truncate().min_element() < THINNEST_M;
+    let whole: Vec<OrientedBox> = boxes.iter().filter(|one| !is_thin(one)).copied().collect();
+    let is_within = |one: &OrientedBox, other: &OrientedBox| {
+        let axis = DVec2::new(real::cos(other.yaw_rad), real::sin(other.yaw_rad));
+        let away = in_turned(one.center_in_world, axis) - in_turned(other.center_in_world, axis);
+        (away.abs() + one.half_extents_m).cmple(other.half_extents_m + 1e-6).all()
+    };
+    boxes.into_iter().filter(|one| !is_thin(one) || !whole.iter().any(|other| is_within(one, other))).collect()
+}
+
+fn grid_of(part: &Part, plan: &[DVec2], voxel_m: f64, (most_cells, yaw_rad): (f64, f64)) -> Grid {
     let area_m2 = |triangle: &[u32; 3]| {
         let (low, high) = bounds(part.corners(*triangle).iter());
         (high - low).truncate()
@@ -50,7 +149,7 @@ fn grid_of(part: &Part, plan: &[DVec2], voxel_m: f64, yaw_rad: f64) -> Grid {
     };
     let (low, high) = bounds_in(plan, yaw_rad);
     let mut cell_m = voxel_m;
-    let most = MOST_TOUCHED.max(5.0 * part.triangles.len() as f64);
+    let most = most_cells.max(5.0 * part.triangles.len() as f64);
     while touched(cell_m).max(((high - low) / cell_m + 3.0).element_product()) > most && cell_m < 1e5 {
         cell_m *= 1.5;
     }
@@ -66,15 +165,18 @@ fn bounds_in(plan: &[DVec2], yaw_rad: f64) -> (DVec2, DVec2) {
     })
 }
 
-/// Cuts off what a box has outside of the bounds of its part.
-fn clip(one: &mut OrientedBox, low: DVec2, high: DVec2, [bottom_m, top_m]: [f64; 2]) {
+/// Cuts off what a box has outside of the bounds of its part, in the turned frame.
+fn clip(one: &mut OrientedBox, low: DVec3, high: DVec3) {
     let axis = DVec2::new(real::cos(one.yaw_rad), real::sin(one.yaw_rad));
-    let center = one.center_in_world;
-    let middle = DVec2::new(center.truncate().dot(axis), center.truncate().dot(axis.perp())).extend(center.z);
+    let middle = in_turned(one.center_in_world, axis);
     // Thin parts keep a little thickness.
-    let spare = DVec2::splat(0.01);
-    let from = (middle - one.half_extents_m).max((low - spare).extend(bottom_m - 0.01));
-    let to = (middle + one.half_extents_m).min((high + spare).extend(top_m + 0.01)).max(from);
+    let spare =
+        DVec3::select((high - low).cmplt(DVec3::splat(THINNEST_M)), DVec3::splat(0.5 * THINNEST_M), DVec3::ZERO);
+    let (low, high) = (low - spare, high + spare);
+    let (mut from, mut to) = ((middle - one.half_extents_m).max(low), (middle + one.half_extents_m).min(high));
+    // So do boxes of walls along a border of cells, inwards.
+    to = to.max(from + THINNEST_M).min(high);
+    from = from.min(to - THINNEST_M).max(low);
     let middle = 0.5 * (from + to);
     let plan = middle.x * axis + middle.y * axis.perp();
     one.center_in_world = plan.extend(middle.z);

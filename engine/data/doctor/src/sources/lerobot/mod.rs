@@ -14,7 +14,7 @@ use crate::{Episode, Flag, Look, Moment};
 use actions::Recording;
 use cosfly_diagnose::{Fault, Result, Stop, plausible};
 use cosfly_frames::{DVec3, Pose};
-use cosfly_read::{ForeignRows, foreign_rows, parquet_problem};
+use cosfly_read::{ForeignRows, foreign_rows, inner_path, parquet_problem};
 use features::{Features, pose};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -385,22 +385,28 @@ impl Listed {
     fn check_videos(&self, folder: &Path, info: &Value, features: &Features, flags: &mut Vec<Flag>) {
         let Some(pattern) = info["video_path"].as_str() else { return };
         let fps = info["fps"].as_f64().filter(|fps| *fps > 0.0).unwrap_or(1.0);
-        let mut lengths: BTreeMap<PathBuf, Option<f64>> = BTreeMap::new();
+        let mut lengths: BTreeMap<String, Option<f64>> = BTreeMap::new();
         let mut problems = vec![];
         for (episode, numbers) in &self.rows {
             for key in &features.videos {
                 let Some(path) = video_path(pattern, key, *episode, numbers, info) else { continue };
+                let Some(file) = inner_path(folder, &path) else {
+                    let outside = "it leads out of the dataset and is not opened".to_owned();
+                    if lengths.insert(path.clone(), None).is_none() {
+                        problems.push((path, outside));
+                    }
+                    continue;
+                };
                 let length = lengths.entry(path.clone()).or_insert_with(|| {
-                    let file = folder.join(&path);
                     let found = if file.is_file() { video::seconds(&file) } else { Err("it is not there".into()) };
-                    found.map_err(|problem| problems.push((path.display().to_string(), problem))).ok()
+                    found.map_err(|problem| problems.push((path.clone(), problem))).ok()
                 });
                 let stated = numbers.get(&format!("videos/{key}/to_timestamp"));
                 let stated = stated.copied().or(numbers.get("length").map(|frames| frames / fps));
                 if let (Some(length), Some(stated)) = (*length, stated)
                     && stated > length + 1.5 / fps
                 {
-                    let message = format!("its video `{}` has {length:.2} s; {stated:.2} are stated", path.display());
+                    let message = format!("its video `{path}` has {length:.2} s; {stated:.2} are stated");
                     flags.push(Flag::damage("video-length", self.name(*episode), message));
                 }
             }
@@ -413,14 +419,8 @@ impl Listed {
 }
 
 /// A path of Python's format, such as `videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4`; `None` when it
-/// needs an unknown number, or leads out of the dataset.
-fn video_path(
-    pattern: &str,
-    key: &str,
-    episode: i64,
-    numbers: &BTreeMap<String, f64>,
-    info: &Value,
-) -> Option<PathBuf> {
+/// needs an unknown number.
+fn video_path(pattern: &str, key: &str, episode: i64, numbers: &BTreeMap<String, f64>, info: &Value) -> Option<String> {
     let mut text = String::new();
     let mut rest = pattern;
     while let Some((before, after)) = rest.split_once('{') {
@@ -442,6 +442,5 @@ fn video_path(
         rest = behind;
     }
     text.push_str(rest);
-    let path = PathBuf::from(text);
-    path.components().all(|part| matches!(part, std::path::Component::Normal(_))).then_some(path)
+    Some(text)
 }

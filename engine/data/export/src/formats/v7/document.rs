@@ -1,6 +1,7 @@
 //! `trajectory.json` and `perturbation_report.json` of a trace.
 
 use super::names::{PART_FRAMES, Place};
+use super::short_ids::ShortIds;
 use crate::source::Episode;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_read::{FrameRow, PublishedFlight};
@@ -16,7 +17,7 @@ pub const SCHEMA_VERSION: &str = "7.0.0";
 pub const FRAMES_DIR: &str = "frames_playback";
 
 /// The whole `trajectory.json`. World: CARLA's own, left-handed, z up, metres and degrees.
-pub fn trajectory(episode: &Episode<'_>, place: &Place) -> Value {
+pub fn trajectory(episode: &Episode<'_>, place: &Place, ids: &ShortIds) -> Value {
     let flight = episode.flight;
     let points: Vec<Value> = (0..episode.frames.len()).map(|index| point(episode, index)).collect();
     let waypoints: Vec<Value> = (0..episode.frames.len()).map(|index| waypoint(episode, index)).collect();
@@ -40,19 +41,19 @@ pub fn trajectory(episode: &Episode<'_>, place: &Place) -> Value {
         },
         "points": points,
         "waypoints": waypoints,
-        "cosfly": own_part(episode, place),
+        "cosfly": own_part(episode, place, ids),
     })
 }
 
 /// Facts for which the release has no place.
-fn own_part(episode: &Episode<'_>, place: &Place) -> Value {
+fn own_part(episode: &Episode<'_>, place: &Place, ids: &ShortIds) -> Value {
     let flight = episode.flight;
     let captions: Vec<Value> = episode
         .captions
         .iter()
         .map(|it| json!({"language": it.language, "style": it.style, "text": it.text}))
         .collect();
-    json!({
+    let mut own = json!({
         "trajectory_id": flight.trajectory_id,
         "expert_id": flight.expert_id,
         "pedestrian_id": flight.pedestrian_id,
@@ -68,7 +69,12 @@ fn own_part(episode: &Episode<'_>, place: &Place) -> Value {
         "weather": {"preset": flight.weather, "numbers": *flight.weather_numbers},
         "target": {"height_m": flight.target_height_m, "radius_m": flight.target_radius_m},
         "captions": captions,
-    })
+    });
+    let instances: Vec<[u32; 2]> = ids.changed().collect();
+    if !instances.is_empty() {
+        own["instances"] = json!(instances);
+    }
+    own
 }
 
 /// The camera without the distortion of its lens.

@@ -6,12 +6,14 @@
 //! * [`names`]: towns, pairs and traces as folders.
 //! * [`document`]: `trajectory.json` and `perturbation_report.json`.
 //! * [`pictures`]: the files of a frame.
+//! * [`short_ids`]: instance ids of 16 bits.
 //! * [`reader`]: a strict reader, which every export must pass before it gets its name.
 
 pub mod document;
 pub mod names;
 pub mod pictures;
 pub mod reader;
+pub mod short_ids;
 
 use crate::card::Card;
 use crate::folder::OutFolder;
@@ -22,6 +24,7 @@ use cosfly_plot::text::markdown_code;
 use names::{Names, Place, TownName};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use short_ids::ShortIds;
 use std::fmt::Write;
 
 /// Folder below which the towns lie.
@@ -50,15 +53,22 @@ impl Format for V7 {
 
     fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         let names = Names::of(source, &options.town)?;
+        let largest = source.dataset.largest_objects()?;
+        let mut changed = 0;
         let is_placed = |flight: &cosfly_read::PublishedFlight| names.place(&flight.trajectory_id).is_some();
         source.each_flight_of(&is_placed, &mut |episode| match names.place(&episode.flight.trajectory_id) {
-            Some(place) => write_trace(episode, place, !options.no_debug, out),
+            Some(place) => {
+                let largest = largest.get(&episode.flight.town).copied().unwrap_or_default();
+                let ids = ShortIds::of_frames(episode, &episode.all_frames(), largest)?;
+                changed += usize::from(ids.changed().next().is_some());
+                write_trace(episode, place, &ids, !options.no_debug, out)
+            }
             None => Ok(()),
         })?;
         card(&names).write(source, out)?;
         let reading = reader::read(&out.path(ROOT))?;
         match reading.problems.first() {
-            None => Ok(names.remarks()),
+            None => Ok([names.remarks(), remarks(changed)].concat()),
             Some(problem) => {
                 Err(Diagnostic::new("export-check", Fault::Bug, "the export breaks a rule of v7").because(problem))
             }
@@ -66,28 +76,42 @@ impl Format for V7 {
     }
 }
 
-fn write_trace(episode: &Episode<'_>, place: &Place, with_debug: bool, out: &OutFolder) -> Result<()> {
+fn remarks(changed: usize) -> Vec<String> {
+    let remark = format!(
+        "{changed} flights show things with ids beyond 65,535: `instance.png` has other numbers for these, listed in \
+         `trajectory.json` under `cosfly.instances`"
+    );
+    if changed > 0 { vec![remark] } else { Vec::new() }
+}
+
+fn write_trace(episode: &Episode<'_>, place: &Place, ids: &ShortIds, with_debug: bool, out: &OutFolder) -> Result<()> {
     let frames = episode.all_frames();
     let parts = place.ids.len();
     frames.chunks(names::PART_FRAMES).take(parts).enumerate().try_for_each(|(part, frames)| {
         let range = frames[0]..frames[0] + frames.len();
-        write_part(&episode.part(range), &place.of_part(part), frames, with_debug, out)
+        write_part(&episode.part(range), &place.of_part(part), (frames, ids), with_debug, out)
     })
 }
 
 /// A trace of some frames of a flight; `frames` are their numbers in the flight.
-fn write_part(episode: &Episode<'_>, place: &Place, frames: &[usize], with_debug: bool, out: &OutFolder) -> Result<()> {
+fn write_part(
+    episode: &Episode<'_>,
+    place: &Place,
+    (frames, ids): (&[usize], &ShortIds),
+    with_debug: bool,
+    out: &OutFolder,
+) -> Result<()> {
     let first = frames[0];
     let folder = format!("{ROOT}/{}", place.folder());
     let json =
         |name: &str, value: &serde_json::Value| out.put(&format!("{folder}/{name}"), format!("{value}\n").as_bytes());
-    json("trajectory.json", &document::trajectory(episode, place))?;
+    json("trajectory.json", &document::trajectory(episode, place, ids))?;
     json("perturbation_report.json", &document::perturbation_report(episode, place))?;
     episode.each_picture(
         frames,
         |frame, logged| {
             let folder = format!("{folder}/{}/frame_{:05}", document::FRAMES_DIR, frame - first);
-            pictures::write(&logged, with_debug, &mut |name, bytes| out.put(&format!("{folder}/{name}"), bytes))
+            pictures::write(&logged, ids, with_debug, &mut |name, bytes| out.put(&format!("{folder}/{name}"), bytes))
         },
         |_, ()| Ok(()),
     )
@@ -137,7 +161,8 @@ release (`drone_nav_traj_v7`, `7.0.0`) rely on. Its full description is not publ
 * `target.world_location` is the middle of the body; `image_uv` and `depth` (along the optical axis) are its projection.
 * `target.visible`: at least one pixel shows the target. `bbox_2d`: the edges around those pixels.
 * `depth.npy`: 32-bit floats, rows x columns, metres along the optical axis, at most 1,000, which is also the sky, as in CARLA.
-* `instance.png`: red is CARLA's label, green + 256 blue the instance id: 0 ground and sky, 1 the target.
+* `instance.png`: red is CARLA's label, green + 256 blue the instance id: 0 ground and sky, 1 the target. Ids beyond 65,535 have
+  free numbers; `cosfly.instances` lists these, each with its id in the dataset's tables.
 * `debug.png`: the colours with the target's box, yellow without obstacles, green of what can be seen; absent from exports with
   `--no-debug`.
 

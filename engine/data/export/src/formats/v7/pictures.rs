@@ -1,7 +1,8 @@
 //! The files of a frame: `rgb.png`, `depth.npy`, `instance.png`, `debug.png`.
 
-use crate::pixels::{id_in_16_bits, npy, rgb_of, rgb_png};
-use cosfly_diagnose::Result;
+use super::short_ids::ShortIds;
+use crate::pixels::{npy, rgb_of, rgb_png};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_read::LoggedFrame;
 
 /// Depth of the sky in CARLA's depth camera, metres.
@@ -10,7 +11,12 @@ pub const FAR_M: f32 = 1000.0;
 const COLOURS: [[u8; 3]; 2] = [[255, 220, 40], [60, 255, 90]];
 
 /// Calls `put` with names and bytes of the files; `debug.png` is one of them if `with_debug`.
-pub fn write(logged: &LoggedFrame, with_debug: bool, put: &mut dyn FnMut(&str, &[u8]) -> Result<()>) -> Result<()> {
+pub fn write(
+    logged: &LoggedFrame,
+    ids: &ShortIds,
+    with_debug: bool,
+    put: &mut dyn FnMut(&str, &[u8]) -> Result<()>,
+) -> Result<()> {
     let (width, height) = (logged.width, logged.height);
     let mut rgb = rgb_of(logged)?;
     let mut file = vec![];
@@ -18,7 +24,7 @@ pub fn write(logged: &LoggedFrame, with_debug: bool, put: &mut dyn FnMut(&str, &
     put("rgb.png", &file)?;
     let depth_m: Vec<f32> = logged.depth_m.iter().map(|depth| depth.min(FAR_M)).collect();
     put("depth.npy", &npy(&depth_m, [width, height]))?;
-    rgb_png(&instance_bytes(logged), width, height, &mut file)?;
+    rgb_png(&instance_bytes(logged, ids)?, width, height, &mut file)?;
     put("instance.png", &file)?;
     if !with_debug {
         return Ok(());
@@ -33,14 +39,18 @@ pub fn write(logged: &LoggedFrame, with_debug: bool, put: &mut dyn FnMut(&str, &
 }
 
 /// Bytes of CARLA's instance camera: label, low byte of the id, high byte.
-fn instance_bytes(logged: &LoggedFrame) -> Vec<u8> {
-    let pixels = logged.semantic.iter().zip(&logged.instance);
-    pixels
-        .flat_map(|(label, id)| {
-            let [low, high] = id_in_16_bits(*id).to_le_bytes();
-            [*label, low, high]
-        })
-        .collect()
+fn instance_bytes(logged: &LoggedFrame, ids: &ShortIds) -> Result<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(3 * logged.instance.len());
+    for (label, id) in logged.semantic.iter().zip(&logged.instance) {
+        let number = ids.number(*id).map_err(|id| {
+            let message = format!("the id {id} in frame {} has no number of 16 bits", logged.target.frame);
+            Diagnostic::new("export-image", Fault::Input, message)
+                .hint("export the dataset as `webdataset` or `coco`, which keep ids of 32 bits")
+        })?;
+        let [low, high] = number.to_le_bytes();
+        bytes.extend([*label, low, high]);
+    }
+    Ok(bytes)
 }
 
 /// Colours the pixels on the edges of a box.
