@@ -65,34 +65,23 @@ fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), Map
         }
     }
     let mut cloud = columns.finish(cloud, options.unit_m)?;
-    cloud.warnings.extend(remarks(&bytes[..bytes.len() - data.len()])?);
+    cloud.warnings.extend(remarks(&bytes[..bytes.len() - data.len()]));
     town_of(cloud, options)
 }
 
-/// What a head says of the points' place, which is not applied.
-///
-/// # Errors
-/// A keyword that stands there twice.
-fn remarks(head: &[u8]) -> Result<Vec<String>, MapError> {
-    const ALONE: [&str; 9] = ["VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS"];
+/// Statements of a head about the points' place, which are not applied.
+fn remarks(head: &[u8]) -> Vec<String> {
     let text = String::from_utf8_lossy(head);
-    let (mut warnings, mut lines) = (vec![], BTreeMap::new());
-    for (number, line) in (1..).zip(text.lines()) {
-        let keyword = line.split_whitespace().next().unwrap_or_default();
-        if ALONE.contains(&keyword)
-            && let Some(first) = lines.insert(keyword, number)
-        {
-            let message = format!("line {number} of the head is a second `{keyword}`, beside the one in line {first}");
-            return Err(MapError::new(message).hint("remove one of the two"));
-        }
-        let numbers = || line.split_whitespace().skip(1).map(|word| word.parse::<f64>().unwrap_or(f64::NAN));
-        let is_moved =
-            keyword == "VIEWPOINT" && numbers().zip([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]).any(|(a, b)| a != b);
-        if is_moved || line.starts_with('#') && speaks_of_a_place(line) {
-            warnings.push(not_applied(line));
-        }
-    }
-    Ok(warnings)
+    let is_moved = |line: &str| {
+        let mut words = line.split_whitespace();
+        let numbers = |words: std::str::SplitWhitespace<'_>| {
+            words.map(|word| word.parse::<f64>().unwrap_or(f64::NAN)).collect::<Vec<_>>()
+        };
+        words.next() == Some("VIEWPOINT")
+            && numbers(words).iter().zip([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]).any(|(number, usual)| *number != usual)
+    };
+    let speaks = |line: &&str| is_moved(line) || line.starts_with('#') && speaks_of_a_place(line);
+    text.lines().filter(speaks).map(not_applied).collect()
 }
 
 #[derive(Debug)]
@@ -143,7 +132,7 @@ impl Head {
             }
             let is_last = keyword == "DATA";
             if lines.insert(keyword, words.collect()).is_some() {
-                return Err(refused("there is such a line before"));
+                return Err(refused("there is such a line before: remove one of the two"));
             }
             if is_last {
                 break;

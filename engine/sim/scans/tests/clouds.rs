@@ -207,6 +207,6 @@ fn what_a_head_says_of_a_place_is_a_warning_and_nothing_is_said_twice() {
     assert!(moved.contains("VIEWPOINT 0 0 0 1 0 0 0"));
     let moved = moved.replace("VIEWPOINT 0 0 0", "VIEWPOINT 9 0 0");
     assert!(is_said(Pcd::read(moved.as_bytes(), &options).unwrap().1, "VIEWPOINT 9 0 0"));
-    assert!(of_pcd("SIZE 4 4 4 4").unwrap_err().message.contains("is a second `SIZE`"));
-    assert!(of_ply("format ascii 1.0").unwrap_err().message.contains("second `format`"));
+    assert!(of_pcd("SIZE 4 4 4 4").unwrap_err().message.contains("there is such a line before"));
+    assert!(of_ply("format ascii 1.0").unwrap_err().message.contains("there is a line `format` before"));
 }
