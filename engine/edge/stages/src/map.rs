@@ -41,7 +41,7 @@ impl StageKind for Map {
         let (config, files) = checked(given)?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 12,
+            version: 13,
             parameters: canonical(&config)?,
             sources: sources(files),
             inputs: self.ports(),
