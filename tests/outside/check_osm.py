@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy
 import osmium
 from pyproj import Proj
-from shapely import Point, Polygon, STRtree, transform, wkb
+from shapely import Point, Polygon, STRtree, distance, get_coordinates, points, transform, wkb
 from shapely.affinity import rotate
 from shapely.ops import unary_union
 
@@ -160,12 +160,27 @@ class Town:
         covered = [union_of(shapes, index, shape).intersection(shape).area / shape.area for _, _, shape in parts]
         assert not courts or statistics.median(courts) <= 0.05, f"{self.name}: courts are built up: {sorted(courts)[-5:]}"
         assert not covered or statistics.median(covered) >= 0.95, f"{self.name}: parts are not covered: {sorted(covered)[:5]}"
+        far, farthest = self.overhang(shapes)
+        assert far <= 0.002 * len(shapes) and farthest <= 1.0, f"{self.name}: {far} boxes stand over their outlines, one by {farthest:.2f} m"
         self.check_points()
         share = self.check_paths()
         print(f"{self.name}: {objects} buildings ({len(parts)} parts), overlap {statistics.median(v for v, _ in overlaps) if overlaps else math.nan:.3f} "
               f"over {len(overlaps)}, {len(heights)} heights, {len(wrong)} wrong, {share:.3f} of the footpaths walkable")
         if courts or covered:
             print(f"  {len(courts)} courts, built up {statistics.median(courts) if courts else math.nan:.3f} in the median; parts covered {statistics.median(covered) if covered else math.nan:.3f}")
+
+    def overhang(self, shapes):
+        """How many boxes reach farther beyond all outlines than half a metre, and the farthest reach."""
+        areas = [shape for *_, shape in self.areas]
+        tree, far, farthest = STRtree(areas), 0, 0.0
+        for box in shapes:
+            near = unary_union([areas[at] for at in tree.query(box, predicate="intersects")])
+            beyond = box.difference(near)
+            if near.is_empty or beyond.is_empty:
+                continue
+            reach = float(distance(points(get_coordinates(beyond)), near).max())
+            far, farthest = far + (reach > 0.51), max(farthest, reach)
+        return far, farthest
 
     def courts(self, areas, shapes, index):
         """Share of each court that boxes of buildings cover, 0.5 m and more from its walls and from houses in it."""

@@ -1,4 +1,4 @@
-//! An RGB picture to draw on: rectangles, lines, convex areas and text with smooth edges.
+//! An RGB picture to draw on: rectangles, lines, areas and text with smooth edges.
 
 use crate::font;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -13,6 +13,9 @@ pub const INK: Colour = [24, 26, 30];
 
 /// A point of a picture: right, down, pixels.
 pub type Point = [f64; 2];
+
+/// Levels of a row of pixels at which an area is cut.
+const LEVELS: u32 = 4;
 
 /// A picture, 3 bytes a pixel, row by row.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,19 +89,25 @@ impl Canvas {
         self.line(middle, middle, 2.0 * radius, colour, 1.0);
     }
 
-    /// Fills a convex area.
+    /// Fills an area of any shape by the even-odd rule: convex or not, crossed, with bridges to its holes.
     pub fn area(&mut self, corners: &[Point], colour: Colour, share: f64) {
-        let turn: f64 = edges(corners).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum();
-        let side = if turn < 0.0 { -1.0 } else { 1.0 };
-        self.for_pixels(corners, 1.0, |canvas, x, y, middle| {
-            let inside = edges(corners).map(|(a, b)| {
-                let edge = [b[0] - a[0], b[1] - a[1]];
-                let length = length_of(edge).max(1e-9);
-                side * (edge[0] * (middle[1] - a[1]) - edge[1] * (middle[0] - a[0])) / length
-            });
-            let nearest = inside.fold(f64::INFINITY, f64::min);
-            canvas.blend(x, y, colour, share * (nearest + 0.5).clamp(0.0, 1.0));
-        });
+        let columns = pixels_of(corners, 0, self.width);
+        let mut covered = vec![0.0; columns.len()];
+        let mut crossings: Vec<f64> = Vec::new();
+        for y in pixels_of(corners, 1, self.height) {
+            covered.fill(0.0);
+            for part in 0..LEVELS {
+                let level = y as f64 + (f64::from(part) + 0.5) / f64::from(LEVELS);
+                let across = edges(corners).filter(|(a, b)| (a[1] > level) != (b[1] > level));
+                crossings.clear();
+                crossings.extend(across.map(|(a, b)| a[0] + (b[0] - a[0]) * (level - a[1]) / (b[1] - a[1])));
+                crossings.sort_by(f64::total_cmp);
+                crossings.chunks_exact(2).for_each(|run| add_run(&mut covered, columns.start, run[0], run[1]));
+            }
+            for (x, covered) in columns.clone().zip(&covered) {
+                self.blend(x as i64, y as i64, colour, share * covered / f64::from(LEVELS));
+            }
+        }
     }
 
     /// The outline of an area.
@@ -168,6 +177,21 @@ pub fn text_width(text: &str, scale: usize) -> i64 {
     (text.chars().count() * font::ADVANCE * scale) as i64
 }
 
+/// Pixels along an axis that some points reach over, as far as the picture has them.
+fn pixels_of(points: &[Point], axis: usize, limit: usize) -> std::ops::Range<usize> {
+    let low = points.iter().map(|point| point[axis]).fold(f64::INFINITY, f64::min);
+    let high = points.iter().map(|point| point[axis]).fold(f64::NEG_INFINITY, f64::max);
+    let end = (high.ceil().max(0.0) as usize).min(limit);
+    (low.max(0.0) as usize).min(end)..end
+}
+
+/// Adds a run along a row to how much of each pixel is covered; the first pixel is number `first`.
+fn add_run(covered: &mut [f64], first: usize, from: f64, to: f64) {
+    let (from, to) = ((from - first as f64).max(0.0), (to - first as f64).min(covered.len() as f64));
+    let cells = covered.iter_mut().enumerate().skip(from as usize).take_while(|(cell, _)| (*cell as f64) < to);
+    cells.for_each(|(cell, covered)| *covered += (to.min(cell as f64 + 1.0) - from.max(cell as f64)).max(0.0));
+}
+
 fn edges(corners: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| (*a, *b))
 }
@@ -192,6 +216,52 @@ mod tests {
         assert_eq!((canvas.pixel(0, 8), canvas.pixel(19, 8)), (INK, INK));
         canvas.disc([500.0, -20.0], 3.0, INK);
         assert_eq!(canvas.rgb.len(), 600);
+    }
+
+    #[test]
+    fn areas_of_any_shape_are_filled_and_nothing_else_is() {
+        let darkness = |corners: &[Point]| {
+            let mut canvas = Canvas::new(40, 40, WHITE);
+            canvas.area(corners, [0, 0, 0], 1.0);
+            let sum: f64 = canvas.rgb.chunks(3).map(|pixel| 1.0 - f64::from(pixel[0]) / 255.0).sum();
+            (canvas, sum)
+        };
+        let bend =
+            [[0.0, 0.0], [40.0, 0.0], [40.0, 4.0], [20.0, 4.0], [10.0, 6.0], [6.0, 10.0], [4.0, 40.0], [0.0, 40.0]];
+        let (canvas, sum) = darkness(&bend);
+        for (x, y) in [(38, 2), (20, 3), (2, 2), (2, 38), (7, 7)] {
+            assert_eq!(canvas.pixel(x, y), [0, 0, 0], "{x} {y}");
+        }
+        assert_eq!(canvas.pixel(20, 20), WHITE);
+        let area: f64 = 0.5 * edges(&bend).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>();
+        assert!((sum - area).abs() < 1.0, "{sum} {area}");
+        // A bridge leads to the hole and back.
+        let ring = [
+            [2.0, 2.0],
+            [38.0, 2.0],
+            [38.0, 38.0],
+            [2.0, 38.0],
+            [2.0, 2.0],
+            [10.0, 10.0],
+            [10.0, 30.0],
+            [30.0, 30.0],
+            [30.0, 10.0],
+            [10.0, 10.0],
+        ];
+        let (canvas, sum) = darkness(&ring);
+        assert_eq!((canvas.pixel(20, 20), canvas.pixel(6, 6), canvas.pixel(5, 20)), (WHITE, [0; 3], [0; 3]));
+        assert!((sum - (36.0 * 36.0 - 400.0)).abs() < 1e-6, "{sum}");
+        // Crossed, beyond all edges, empty, not a number.
+        let (canvas, _) = darkness(&[[-90.0, -90.0], [130.0, 130.0], [130.0, -90.0], [-90.0, 130.0]]);
+        assert_eq!((canvas.pixel(2, 20), canvas.pixel(20, 5)), ([0; 3], WHITE));
+        for corners in [
+            &[][..],
+            &[[5.0, 5.0]],
+            &[[f64::NAN, 3.0], [9.0, f64::NAN], [4.0, 9.0]],
+            &[[1e300, 0.0], [-1e300, 9.0], [0.0, 1e300]],
+        ] {
+            assert_eq!(darkness(corners).0.rgb.len(), 4800);
+        }
     }
 
     #[test]

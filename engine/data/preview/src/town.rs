@@ -168,3 +168,29 @@ fn draw_frame(view: &View, canvas: &mut Canvas, title: &str) {
     canvas.line([end - length_m * view.scale, y as f64 + 3.0], [end - 4.0, y as f64 + 3.0], 2.0, INK, 1.0);
     canvas.text(end as i64, y, 1, INK, &words);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_maps::WalkablePolygon;
+
+    #[test]
+    fn pavements_that_bend_are_filled_along_both_arms_and_not_between_them() {
+        let bend = [(0.0, 0.0), (40.0, 0.0), (40.0, 4.0), (10.0, 6.0), (6.0, 10.0), (4.0, 40.0), (0.0, 40.0)];
+        let outline_in_world = bend.map(|(x, y)| DVec3::new(x, y, 0.15)).to_vec();
+        let walkable = vec![WalkablePolygon { kind: WalkableKind::Sidewalk, outline_in_world, synthetic: false }];
+        let (min_in_world, max_in_world) = (DVec3::ZERO, DVec3::new(40.0, 40.0, 1.0));
+        let town = Town { walkable, min_in_world, max_in_world, ..Town::default() };
+        let (plan, view) = (town_plan(&town, "bend"), View::of(&town));
+        let at = |x: f64, y: f64| {
+            let [x, y] = view.place(DVec2::new(x, y));
+            plan.pixel(x as usize, y as usize)
+        };
+        let filled = at(1.5, 1.5);
+        assert_ne!(filled, EMPTY);
+        for (x, y) in [(38.0, 2.0), (25.0, 2.0), (2.0, 25.0), (2.0, 38.0), (7.0, 7.0)] {
+            assert_eq!(at(x, y), filled, "{x} {y}");
+        }
+        assert_eq!(at(25.0, 25.0), EMPTY);
+    }
+}

@@ -218,3 +218,38 @@ fn a_ring_of_a_million_corners_takes_bounded_time() {
     let count = town.obstacles.len();
     assert!((1..=64).contains(&count), "{count} boxes");
 }
+
+#[test]
+fn names_that_are_there_twice_are_refused_or_counted() {
+    let twice = with("\"CityObjects\": {", "\"CityObjects\": { \"shed\": { \"type\": \"Road\" },");
+    let error = read(&twice).unwrap_err();
+    assert!(error.message.contains("`CityObjects` has `shed` twice") && error.place.is_some(), "{error}");
+    let lines: Vec<&str> = SEQUENCE.lines().collect();
+    let (town, warnings) = read(&[lines.clone(), vec![lines[1]]].concat().join("\n")).unwrap();
+    assert_eq!(heights_m(&town, ObstacleKind::Building), [(0.0, 5.0), (0.0, 9.0)]);
+    assert!(warnings[0].contains("again under the same name"), "{warnings:?}");
+}
+
+#[test]
+fn transforms_are_those_of_their_document() {
+    let (town, _) = read(SEQUENCE).unwrap();
+    let lines: Vec<&str> = SEQUENCE.lines().collect();
+    let transform = "\"transform\":{\"scale\":[2.0,2.0,2.0],\"translate\":[0.0,0.0,0.0]},";
+    let own =
+        lines[1].replacen("\"type\":\"CityJSONFeature\",", &format!("\"type\":\"CityJSONFeature\",{transform}"), 1);
+    assert_ne!(own, lines[1]);
+    let (twice, _) = read(&[&[lines[0], &own], &lines[2..]].concat().join("\n")).unwrap();
+    assert_ne!(heights_m(&twice, ObstacleKind::Building), heights_m(&town, ObstacleKind::Building));
+    for scale in ["[0, 0.01, 0.01]", "[0.01, -0.01, 0.01]", "[0.01, 0.01, 1e23]"] {
+        let error = read(&with("[0.01, 0.01, 0.01]", scale)).unwrap_err();
+        assert!(error.message.contains("`transform.scale` has"), "{scale}: {error}");
+    }
+}
+
+#[test]
+fn heights_that_no_building_has_are_left_out_with_a_word() {
+    for height in ["1e4", "1e23", "-3", "0"] {
+        let (_, warnings) = read(&with("\"measuredHeight\": 3.5", &format!("\"measuredHeight\": {height}"))).unwrap();
+        assert!(warnings[0].contains("believable"), "{height}: {warnings:?}");
+    }
+}

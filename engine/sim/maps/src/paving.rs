@@ -58,8 +58,14 @@ pub(crate) fn pave_quarters(town: &mut Town) {
     town.surfaces.append(&mut bare_meshes);
     if cells.bare_cells > 0 {
         let bare_m2 = cells.bare_cells as f64 * cells.cell_m * cells.cell_m;
+        let is_coarse = cells.cell_m > CELL_M;
+        let cells = if is_coarse {
+            format!(" (seen in cells of {:.2} m: the town is wide)", cells.cell_m)
+        } else {
+            String::new()
+        };
         town.synthetic.notes.push(format!(
-            "{bare_m2:.0} m2 of courts, yards and slits between close houses are taken for bare ground, not lawn"
+            "{bare_m2:.0} m2 of courts, yards and slits between close houses are taken for bare ground, not lawn{cells}"
         ));
     }
 }

@@ -222,7 +222,7 @@ mod tests {
 
     fn house(roof: Roof) -> Vec<OrientedBox> {
         let outer = [(0.0, 0.0), (16.0, 0.0), (16.0, 8.0), (0.0, 8.0)].map(|(x, y)| DVec2::new(x, y)).to_vec();
-        building_boxes(&Footprint { outer, holes: Vec::new() }, 0.0, 6.0, roof)
+        building_boxes(&Footprint { outer, holes: Vec::new() }, 0.0, 6.0, roof).boxes
     }
 
     #[test]

@@ -1,19 +1,23 @@
 //! Solid boxes of things that a map gives by their outline and heights.
 
 use crate::cover::{
-    COVER_TOLERANCE_M, LOOSE_TOLERANCE_M, MOST, Plan, Row, Rows, Span, TurnedRectangle, cover_rings, strips,
+    COVER_TOLERANCE_M, Coarse, Cover, LOOSE_TOLERANCE_M, MOST, Plan, Row, Rows, Span, TurnedRectangle, cover_rings,
+    strips,
 };
 use crate::polygons::{contains, twice_area_m2};
 use crate::regions::Region;
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
 
-/// Highest step of a roof that is made of boxes, metres, up to [`MOST_STEPS`].
+/// Highest step of a roof that is made of boxes, metres; higher only where the roof has more than [`MOST_STEPS`].
 pub const ROOF_STEP_M: f64 = 0.75;
-/// Most steps of a roof.
-const MOST_STEPS: f64 = 24.0;
-/// Rows of a roof's plan that are looked at.
+/// Most steps of a roof: 72 m.
+const MOST_STEPS: f64 = 96.0;
+/// Rows of a roof's plan that are looked at are so many, or so high, metres; the bound goes before.
 const ROOF_ROWS: f64 = 40.0;
+const ROOF_ROWS_M: [f64; 2] = [0.2, 0.25];
+/// Most sides times rows of a roof; a roof of more is filled.
+const MOST_ROOF_WORK: f64 = 400_000.0;
 /// A footprint that fills less of its bounding rectangle has wings: its roof rises from every wall.
 const WITHOUT_WINGS: f64 = 0.8;
 
@@ -68,40 +72,101 @@ impl Footprint {
     }
 }
 
+/// Boxes of a thing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Solid {
+    /// The boxes.
+    pub boxes: Vec<OrientedBox>,
+    /// Where they stand over the outline by more than covers do.
+    pub coarse: Option<Coarse>,
+    /// Whether steps of its roof are higher than they should be, or reach out to the walls.
+    pub is_roof_coarse: bool,
+}
+
+/// Things whose boxes are coarser than they should be, counted for the user.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CoarseThings {
+    covers: usize,
+    gained_m2: f64,
+    roofs: usize,
+}
+
+impl CoarseThings {
+    /// Counts a thing, if it is coarse.
+    pub fn add(&mut self, thing: &Solid) {
+        self.add_cover(thing.coarse);
+        self.roofs += usize::from(thing.is_roof_coarse);
+    }
+
+    /// Counts a cover, if it is coarse.
+    pub fn add_cover(&mut self, coarse: Option<Coarse>) {
+        if let Some(Coarse { gained_m2 }) = coarse {
+            self.covers += 1;
+            self.gained_m2 += gained_m2;
+        }
+    }
+
+    /// What there is to say.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut lines = Vec::new();
+        if self.covers > 0 {
+            lines.push(format!(
+                "{} outlines of too many corners are covered coarsely: their boxes stand over them by more than \
+                 {LOOSE_TOLERANCE_M} m and gain about {:.0} square metres of ground",
+                self.covers, self.gained_m2
+            ));
+        }
+        if self.roofs > 0 {
+            lines.push(format!(
+                "the roofs of {} things are too crooked or too high for fine steps: some of their steps are higher or reach \
+                 out to the walls",
+                self.roofs
+            ));
+        }
+        lines
+    }
+}
+
 /// Boxes whose union covers a building from `base_m` to its roof, heights in the world frame, metres; none when a
 /// number is not finite. Overhang in plan as in [`crate::cover`]; a roof's boxes contain it and stand over it by less than one step.
-pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Roof) -> Vec<OrientedBox> {
+pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Roof) -> Solid {
     let rise_m = match roof {
         Roof::Flat => 0.0,
         Roof::Gabled { rise_m, .. } | Roof::Hipped { rise_m } => rise_m.max(0.0),
     };
     if !(base_m.is_finite() && eaves_m.is_finite() && rise_m.is_finite()) {
-        return Vec::new();
+        return Solid::default();
     }
-    let Some(plan) = Plan::of(&[&footprint.outer], &footprint.yards()) else { return Vec::new() };
+    let Some(plan) = Plan::of(&[&footprint.outer], &footprint.yards()) else { return Solid::default() };
     let step_count = (rise_m / ROOF_STEP_M).ceil().clamp(1.0, MOST_STEPS);
     let level_m = |step: f64| eaves_m.max(base_m) + rise_m * step / step_count;
-    let mut boxes: Vec<OrientedBox> =
-        plan.cover(COVER_TOLERANCE_M, MOST).into_iter().map(|one| upright(one, base_m, level_m(1.0))).collect();
+    let foot = plan.cover(COVER_TOLERANCE_M, MOST);
+    let mut boxes: Vec<OrientedBox> = foot.rectangles.iter().map(|one| upright(*one, base_m, level_m(1.0))).collect();
     let plan = if step_count > 1.0 { RoofPlan::of(plan, roof) } else { None };
-    let Some(plan) = plan else {
-        // Too low or too thin for steps.
+    let is_absurd = plan.as_ref().is_some_and(|plan| !plan.takes_little_work());
+    let Some(plan) = plan.filter(|_| !is_absurd) else {
+        // Too low or too thin for steps, or far too large.
         boxes.iter_mut().for_each(|one| *one = reaching(*one, level_m(step_count)));
-        return boxes;
+        return Solid { boxes, coarse: foot.coarse, is_roof_coarse: is_absurd };
     };
+    let mut is_roof_coarse = rise_m > MOST_STEPS * ROOF_STEP_M;
     let mut step = 1.0;
     while step < step_count {
         let section = plan.section(step / step_count);
+        is_roof_coarse |= section.is_none();
+        let section = section.unwrap_or_else(|| foot.rectangles.clone());
         boxes.extend(section.into_iter().map(|one| upright(one, level_m(step), level_m(step + 1.0))));
         step += 1.0;
     }
-    boxes
+    Solid { boxes, coarse: foot.coarse, is_roof_coarse }
 }
 
 /// Boxes whose union covers a region between two heights, world, metres; overhang in plan as in [`crate::cover`].
-pub fn layer_boxes(region: &Region, base_m: f64, top_m: f64) -> Vec<OrientedBox> {
+pub fn layer_boxes(region: &Region, base_m: f64, top_m: f64) -> Solid {
     let (outer, holes) = region.rings();
-    cover_rings(&outer, &holes).into_iter().map(|one| upright(one, base_m, top_m)).collect()
+    let Cover { rectangles, coarse } = cover_rings(&outer, &holes);
+    let boxes = rectangles.into_iter().map(|one| upright(one, base_m, top_m)).collect();
+    Solid { boxes, coarse, is_roof_coarse: false }
 }
 
 fn upright(rectangle: TurnedRectangle, low_m: f64, high_m: f64) -> OrientedBox {
@@ -153,8 +218,18 @@ impl RoofPlan {
         ((high - low).min_element() > 0.1).then_some(roof_plan)
     }
 
-    /// Rectangles over all of the roof that is higher than a share of its rise.
-    fn section(&self, share: f64) -> Vec<TurnedRectangle> {
+    fn row_m(&self) -> f64 {
+        let [least_m, most_m] = ROOF_ROWS_M;
+        ((self.high.y - self.low.y) / ROOF_ROWS).clamp(least_m, most_m)
+    }
+
+    fn takes_little_work(&self) -> bool {
+        let rows = (self.high.y - self.low.y) / self.row_m();
+        rows * self.rows.sides().count() as f64 <= MOST_ROOF_WORK
+    }
+
+    /// Rectangles over all of the roof that is higher than a share of its rise; `None` where very many would be needed.
+    fn section(&self, share: f64) -> Option<Vec<TurnedRectangle>> {
         let rows = match self.depth_m {
             Some(depth_m) => self.eroded(share * depth_m),
             None => {
@@ -164,19 +239,14 @@ impl RoofPlan {
                 })
             }
         };
-        let mut tolerance_m = LOOSE_TOLERANCE_M;
-        loop {
-            let joined = strips(rows.clone(), tolerance_m);
-            let count: usize = joined.iter().map(|row| row.spans.len()).sum();
-            if count <= MOST / 4 || tolerance_m > self.high.y - self.low.y {
-                return self.plan.rectangles(joined, self.yaw_rad);
-            }
-            tolerance_m *= 1.5;
-        }
+        let joined = strips(rows, LOOSE_TOLERANCE_M);
+        let count: usize = joined.iter().map(|row| row.spans.len()).sum();
+        (count <= MOST).then(|| self.plan.rectangles(joined, self.yaw_rad))
     }
 
+    /// Rows that stand over slanted walls by no more than half of what strips may.
     fn sampled(&self, from: f64, to: f64, spans: impl Fn(f64, f64) -> Vec<Span>) -> Vec<Row> {
-        let count = ((to - from) / ((self.high.y - self.low.y) / ROOF_ROWS).max(0.2)).ceil().max(1.0);
+        let count = ((to - from) / self.row_m()).ceil().max(1.0);
         let level = |i: f64| from + (to - from) * i / count;
         (0..count as usize)
             .map(|i| (level(i as f64), level(i as f64 + 1.0)))

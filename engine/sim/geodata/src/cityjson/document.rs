@@ -1,9 +1,11 @@
 //! A file as it stands: CityJSON 1.0 to 2.0, and the lines of CityJSONSeq.
 
 use super::boundaries::{Boundaries, FlatNumbers};
+use core::fmt;
 use cosfly_town::MapError;
 use cosfly_town::text::{decoded, refused_json};
-use serde::Deserialize;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -15,12 +17,36 @@ pub(super) struct Document {
     version: Option<String>,
     pub(super) transform: Option<Transform>,
     metadata: Option<Metadata>,
-    #[serde(rename = "CityObjects", default)]
+    #[serde(rename = "CityObjects", default, deserialize_with = "objects")]
     pub(super) objects: BTreeMap<String, CityObject>,
     #[serde(default)]
     pub(super) vertices: Vec<[f64; 3]>,
     #[serde(rename = "geometry-templates")]
     pub(super) templates: Option<Templates>,
+}
+
+/// Objects by their names; a name that is there twice is refused: nobody knows which object is meant.
+fn objects<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<String, CityObject>, D::Error> {
+    struct Objects;
+    impl<'de> Visitor<'de> for Objects {
+        type Value = BTreeMap<String, CityObject>;
+
+        fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+            out.write_str("an object for each city object")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let mut objects = BTreeMap::new();
+            while let Some((id, object)) = map.next_entry::<String, CityObject>()? {
+                let shown: String = id.chars().take(60).collect();
+                if objects.insert(id, object).is_some() {
+                    return Err(A::Error::custom(format!("`CityObjects` has `{shown}` twice; names must differ")));
+                }
+            }
+            Ok(objects)
+        }
+    }
+    deserializer.deserialize_map(Objects)
 }
 
 /// From the whole numbers of `vertices` to coordinates.
@@ -150,6 +176,11 @@ impl Document {
         let shown: String = version.chars().take(20).collect();
         let error = MapError::new(format!("the file is CityJSON `{shown}`; versions 1.0 to 2.0 are read"));
         Err(error.hint("`cjio FILE upgrade save NEW` brings older files to the latest version"))
+    }
+
+    /// Whether the version asks for a `transform` and there is none.
+    pub(super) fn lacks_transform(&self) -> bool {
+        self.transform.is_none() && !self.version.as_deref().unwrap_or_default().starts_with("1.0")
     }
 
     /// The text of `metadata.referenceSystem`.

@@ -36,6 +36,10 @@ impl Face {
         self.corners().map(|corner| corner.z).fold(f64::NEG_INFINITY, f64::max)
     }
 
+    pub(super) fn lowest_m(&self) -> f64 {
+        self.corners().map(|corner| corner.z).fold(f64::INFINITY, f64::min)
+    }
+
     /// Rings in plan of the part above a height. Two faces that share a side get the same corners on it.
     pub(super) fn plan_above(&self, height_m: f64) -> Vec<Vec<DVec2>> {
         self.rings.iter().map(|ring| plan_above(ring, height_m)).collect()

@@ -3,7 +3,8 @@
 use super::faces::{Face, plan_of};
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
-use cosfly_town::cover::{COVER_TOLERANCE_M, LOOSE_TOLERANCE_M, MOST, Plan, TurnedRectangle};
+use cosfly_town::cover::{COVER_TOLERANCE_M, Coarse, Cover, LOOSE_TOLERANCE_M, MOST, Plan, TurnedRectangle};
+use cosfly_town::solids::Solid;
 use std::collections::BTreeMap;
 
 /// How finely a solid becomes boxes.
@@ -11,9 +12,9 @@ use std::collections::BTreeMap;
 pub(super) struct Steps {
     /// Highest layer where the upper side slopes, metres.
     pub(super) height_m: f64,
-    /// Most boxes of the lowest layer.
+    /// Boxes of the lowest layer that are not yet many: with more it may stand over its faces by up to half a metre.
     pub(super) most_of_foot: usize,
-    /// Most boxes of each other layer.
+    /// The same of each other layer.
     pub(super) most_of_layer: usize,
 }
 
@@ -28,9 +29,9 @@ const MOST_WORK: usize = 400_000;
 
 /// Boxes of everything between `base_m`, or the lowest corner, and the upper faces. `ground` faces give the plan up to the lowest corner of the
 /// upper ones; without them the upper faces do.
-pub(super) fn layered(ground: &[Face], upper: &[Face], base_m: f64, steps: Steps) -> Vec<OrientedBox> {
-    let mut levels_m = levels(upper, steps.height_m);
-    let Some(&eaves_m) = levels_m.first() else { return Vec::new() };
+pub(super) fn layered(ground: &[Face], upper: &[Face], base_m: f64, steps: Steps) -> Solid {
+    let Levels { mut levels_m, is_coarse } = levels(upper, steps.height_m);
+    let Some(&eaves_m) = levels_m.first() else { return Solid::default() };
     let whole = |faces: &[Face]| -> Vec<Vec<Vec<DVec2>>> {
         faces.iter().map(|face| face.plan_above(f64::NEG_INFINITY)).collect()
     };
@@ -39,12 +40,13 @@ pub(super) fn layered(ground: &[Face], upper: &[Face], base_m: f64, steps: Steps
         Plan::of(&outer, &holes)
     };
     let foot = if ground.is_empty() { whole(upper) } else { whole(ground) };
-    let Some(foot) = plan_of_rings(&foot) else { return Vec::new() };
+    let Some(foot) = plan_of_rings(&foot) else { return Solid::default() };
     let angles: Vec<f64> = foot.angles_rad().iter().copied().take(2).collect();
     levels_m.insert(0, base_m.min(eaves_m));
     let mut layers: Vec<Layer> = Vec::new();
+    let mut coarsest: Option<Coarse> = None;
     for (index, pair) in levels_m.windows(2).enumerate() {
-        let rectangles = if index == 0 {
+        let Cover { rectangles, coarse } = if index == 0 {
             foot.cover(COVER_TOLERANCE_M, steps.most_of_foot)
         } else {
             let reach_above = upper.iter().filter(|face| face.highest_m() > pair[0] + 1e-3);
@@ -53,12 +55,14 @@ pub(super) fn layered(ground: &[Face], upper: &[Face], base_m: f64, steps: Steps
                 .map(|plan| plan.along(&angles).cover(LOOSE_TOLERANCE_M, steps.most_of_layer))
                 .unwrap_or_default()
         };
+        let gained_m2 = |coarse: &Option<Coarse>| coarse.map_or(-1.0, |coarse| coarse.gained_m2);
+        coarsest = if gained_m2(&coarse) > gained_m2(&coarsest) { coarse } else { coarsest };
         match layers.last_mut().filter(|below| below.is_alike(&rectangles)) {
             Some(below) => below.top_m = pair[1],
             None => layers.push(Layer { foot_m: pair[0], top_m: pair[1], rectangles }),
         }
     }
-    layers.iter().flat_map(Layer::boxes).collect()
+    Solid { boxes: layers.iter().flat_map(Layer::boxes).collect(), coarse: coarsest, is_roof_coarse: is_coarse }
 }
 
 /// Faces by the squares of a grid that their middles lie in: long and bent things become boxes piece by piece, each
@@ -104,13 +108,24 @@ impl Layer {
     }
 }
 
-/// Heights at which layers end: those of the faces' corners, and steps between them.
-fn levels(faces: &[Face], step_m: f64) -> Vec<f64> {
+/// Heights at which layers end.
+#[derive(Default)]
+struct Levels {
+    levels_m: Vec<f64>,
+    /// Whether there are fewer than the slopes ask for.
+    is_coarse: bool,
+}
+
+/// Levels at the faces' corners, and steps between them.
+fn levels(faces: &[Face], step_m: f64) -> Levels {
     let mut corners_m: Vec<f64> = faces.iter().flat_map(Face::corners).map(|corner| corner.z).collect();
     corners_m.sort_by(f64::total_cmp);
-    let (Some(&low_m), Some(&high_m)) = (corners_m.first(), corners_m.last()) else { return Vec::new() };
+    let (Some(&low_m), Some(&high_m)) = (corners_m.first(), corners_m.last()) else { return Levels::default() };
     let most = MOST_LAYERS.min(MOST_WORK / corners_m.len()).max(2);
-    let step_m = step_m.max((high_m - low_m) / most as f64);
+    let (wanted_m, step_m) = (step_m, step_m.max((high_m - low_m) / most as f64));
+    // Level roofs far apart need no steps between them.
+    let is_steep = |face: &Face| !face.is_wall() && face.highest_m() - face.lowest_m() > 1.5 * wanted_m;
+    let is_coarse = step_m > 1.5 * wanted_m && faces.iter().any(is_steep);
     let mut levels_m = vec![low_m];
     for (i, corner_m) in corners_m.iter().copied().enumerate() {
         let is_last_of_close = corners_m.get(i + 1).is_none_or(|next| next - corner_m > CLOSE_M);
@@ -132,9 +147,10 @@ fn levels(faces: &[Face], step_m: f64) -> Vec<f64> {
     }
     if levels_m.len() > 2 * most {
         let count = most as f64;
-        return (0..=most).map(|i| low_m + (high_m - low_m) * i as f64 / count).collect();
+        levels_m = (0..=most).map(|i| low_m + (high_m - low_m) * i as f64 / count).collect();
+        return Levels { levels_m, is_coarse: true };
     }
-    levels_m
+    Levels { levels_m, is_coarse }
 }
 
 #[cfg(test)]
@@ -156,7 +172,7 @@ mod tests {
     #[test]
     fn a_level_roof_is_one_box_up_to_the_roof() {
         let roof = face(&[[0.0, 0.0, 6.0], [12.0, 0.0, 6.1], [12.0, 8.0, 6.1], [0.0, 8.0, 6.0]]);
-        let boxes = layered(&[], &[roof], 1.0, BUILDING);
+        let boxes = layered(&[], &[roof], 1.0, BUILDING).boxes;
         assert_eq!(boxes.len(), 1, "{boxes:?}");
         let top_m = boxes[0].center_in_world.z + boxes[0].half_extents_m.z;
         assert!((top_m - 6.1).abs() < 1e-9 && (top_m - 2.0 * boxes[0].half_extents_m.z - 1.0).abs() < 1e-9);
@@ -164,7 +180,7 @@ mod tests {
 
     #[test]
     fn gables_shrink_towards_the_ridge() {
-        let boxes = layered(&[], &gable(), 0.0, BUILDING);
+        let boxes = layered(&[], &gable(), 0.0, BUILDING).boxes;
         assert_eq!(boxes.len(), 3, "{boxes:?}");
         for (shape, (foot_m, top_m, width_m)) in
             boxes.iter().zip([(0.0, 7.0, 8.0), (7.0, 8.0, 16.0 / 3.0), (8.0, 9.0, 8.0 / 3.0)])
@@ -182,8 +198,9 @@ mod tests {
             .map(f64::from)
             .map(|i| face(&[[i, 0.0, 0.01 * i], [i + 0.5, 0.0, i], [i, 1.0, 3.0 * i]]))
             .collect();
-        assert!(layered(&[], &spikes, 0.0, BUILDING).len() <= 64 * 2 * MOST_LAYERS);
-        assert!(layered(&[], &[face(&[[0.0; 3]; 3])], 0.0, BUILDING).len() <= 1);
-        assert!(layered(&[], &[], 0.0, BUILDING).is_empty());
+        let solid = layered(&[], &spikes, 0.0, BUILDING);
+        assert!(solid.boxes.len() <= 64 * 2 * MOST_LAYERS && solid.is_roof_coarse, "{}", solid.boxes.len());
+        assert!(layered(&[], &[face(&[[0.0; 3]; 3])], 0.0, BUILDING).boxes.len() <= 1);
+        assert_eq!(layered(&[], &[], 0.0, BUILDING), Solid::default());
     }
 }

@@ -8,6 +8,7 @@ use cosfly_frames::DVec3;
 use cosfly_geometry::OrientedBox;
 use cosfly_town::ObstacleKind;
 use cosfly_town::crown::crown_boxes;
+use cosfly_town::solids::Solid;
 
 /// Of stands of plants.
 const STAND: Steps = Steps { height_m: 3.0, most_of_foot: 4, most_of_layer: 3 };
@@ -52,14 +53,14 @@ pub(super) fn tree(
     Some((boxes, is_assumed))
 }
 
-/// Boxes of the plants under faces that rise from the ground.
-pub(super) fn stand(faces: &[Face], base_m: f64) -> Vec<(ObstacleKind, OrientedBox)> {
+/// Boxes under faces that rise from the ground; [`of_height`] makes plants of them.
+pub(super) fn stand(faces: &[Face], base_m: f64) -> Vec<Solid> {
     let upper: Vec<Face> = faces.iter().filter(|face| face.highest_m() > base_m + GROUND_RISE_M).cloned().collect();
-    let boxes = pieces(&upper, PIECE_M).into_iter().flat_map(|piece| layered(&[], &piece, base_m, STAND));
-    boxes.filter_map(|shape| of_height(shape, base_m)).collect()
+    pieces(&upper, PIECE_M).into_iter().map(|piece| layered(&[], &piece, base_m, STAND)).collect()
 }
 
-fn of_height(shape: OrientedBox, base_m: f64) -> Option<(ObstacleKind, OrientedBox)> {
+/// A bush, or the part of a box above the lowest branches; `None` where next to nothing is left of it.
+pub(super) fn of_height(shape: OrientedBox, base_m: f64) -> Option<(ObstacleKind, OrientedBox)> {
     let (foot_m, top_m) =
         (shape.center_in_world.z - shape.half_extents_m.z, shape.center_in_world.z + shape.half_extents_m.z);
     let is_bush = top_m <= base_m + BUSH_M;

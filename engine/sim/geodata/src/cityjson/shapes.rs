@@ -22,6 +22,8 @@ pub(super) struct Space {
     transform: Transform,
     /// Length of the units of plan and height, metres.
     pub(super) units_m: [f64; 2],
+    /// Whether the file has no `transform`, although its version asks for one.
+    pub(super) lacks_transform: bool,
     templates: Option<Templates>,
     pub(super) world: WorldFromMap,
     pub(super) reference_system: Option<String>,
@@ -55,28 +57,32 @@ impl Transform {
 impl Space {
     /// The head's transform and unit, and the shift that the first vertices of all documents ask for.
     pub(super) fn of(documents: &mut [Document]) -> Result<Self, MapError> {
+        check_transforms(documents)?;
+        documents.iter().filter_map(|document| document.transform).try_for_each(|transform| transform.check())?;
         let head = &mut documents[0];
         let plain = Transform { scale: [1.0; 3], translate: [0.0; 3] };
         let transform = head.transform.unwrap_or(plain);
+        let lacks_transform = head.lacks_transform();
         let reference_system = head.reference_system().map(str::to_owned);
         let code = reference_system.as_deref().and_then(epsg_code);
         let plan_m = code.map_or(1.0, unit_m);
         let height_m = reference_system.as_deref().and_then(height_code).map_or(plan_m, height_unit_m);
-        transform.check()?;
         let templates = head.templates.take();
-        let units_m = [plan_m, height_m];
-        let mut space = Self { transform, units_m, templates, world: WorldFromMap::default(), reference_system };
+        let (units_m, world) = ([plan_m, height_m], WorldFromMap::default());
+        let mut space = Self { transform, lacks_transform, units_m, templates, world, reference_system };
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for vertex in documents.iter().flat_map(used_vertices) {
-            let point = space.in_map(vertex);
-            (low, high) = (low.min(point), high.max(point));
+        for document in documents.iter() {
+            let own = space.of_document(document);
+            for point in used_vertices(document).map(|vertex| own.in_map(vertex)) {
+                (low, high) = (low.min(point), high.max(point));
+            }
         }
         if !low.is_finite() {
             return Err(MapError::new("no object of the file has a shape"));
         }
         let across_m = (high - low).max_element();
         if low.abs().max(high.abs()).max_element() > FARTHEST_M || across_m > WIDEST_M {
-            let error = MapError::new(format!("the map is {across_m} m across; at most {WIDEST_M} m are read"));
+            let error = MapError::new(format!("the map is {across_m:.3e} m across; at most {WIDEST_M} m are read"));
             return Err(error.hint("check `transform` and `vertices`, or cut the map into smaller pieces"));
         }
         let is_geographic = code.is_some_and(|code| (4000..5000).contains(&code));
@@ -97,9 +103,9 @@ impl Space {
         Ok(space)
     }
 
-    fn in_map(&self, vertex: [f64; 3]) -> DVec3 {
-        let scaled = DVec3::from_array(vertex) * DVec3::from_array(self.transform.scale);
-        self.in_metres(scaled + DVec3::from_array(self.transform.translate))
+    /// From the vertices of one document, which may have a transform of its own.
+    fn of_document(&self, document: &Document) -> Vertices {
+        Vertices { transform: document.transform.unwrap_or(self.transform), units_m: self.units_m }
     }
 
     fn in_metres(&self, point: DVec3) -> DVec3 {
@@ -113,7 +119,8 @@ impl Space {
     }
 
     /// Faces of an object's geometries at the highest level of detail that has any.
-    pub(super) fn shape(&self, object: &CityObject, vertices: &[[f64; 3]]) -> Shape {
+    pub(super) fn shape(&self, object: &CityObject, document: &Document) -> Shape {
+        let (own, vertices) = (self.of_document(document), &document.vertices);
         let geometries = object.geometry.as_deref().unwrap_or_default();
         let lods = geometries.iter().filter(|geometry| self.corner_count(geometry) > 0).map(Geometry::lod);
         let Some(lod) = lods.max_by(f64::total_cmp) else { return Shape::default() };
@@ -121,10 +128,12 @@ impl Space {
         for (index, geometry) in geometries.iter().enumerate().filter(|(_, geometry)| geometry.lod() == lod) {
             match (geometry.template, &self.templates) {
                 (Some(template), Some(templates)) => {
-                    self.add_instance(&mut shape, geometry, template, templates, vertices)
+                    let place = geometry.boundaries.corners().first().and_then(|vertex| vertices.get(*vertex as usize));
+                    let place = place.map(|place| own.in_map(*place));
+                    self.add_instance(&mut shape, geometry, place, templates.templates.get(template), templates)
                 }
                 _ => shape
-                    .add(geometry, index, &|vertex| vertices.get(vertex).map(|it| self.world.point(self.in_map(*it)))),
+                    .add(geometry, index, &|vertex| vertices.get(vertex).map(|it| self.world.point(own.in_map(*it)))),
             }
         }
         shape
@@ -139,16 +148,14 @@ impl Space {
         &self,
         shape: &mut Shape,
         instance: &Geometry,
-        template: usize,
+        place: Option<DVec3>,
+        template: Option<&Geometry>,
         templates: &Templates,
-        vertices: &[[f64; 3]],
     ) {
-        let place = instance.boundaries.corners().first().and_then(|vertex| vertices.get(*vertex as usize));
-        let (Some(place), Some(geometry)) = (place, templates.templates.get(template)) else {
+        let (Some(place), Some(geometry)) = (place, template) else {
             shape.broken += 1;
             return;
         };
-        let place = self.in_map(*place);
         let rows = instance.matrix.as_deref().filter(|matrix| matrix.len() == 16);
         let turned = |point: DVec3| match rows {
             Some(m) => DVec3::from_array(
@@ -160,6 +167,31 @@ impl Space {
             let point = DVec3::from_array(*templates.vertices.get(vertex)?);
             Some(self.world.point(place + self.in_metres(turned(point))))
         });
+    }
+}
+
+/// From the numbers of a document's vertices to coordinates of the map, metres.
+struct Vertices {
+    transform: Transform,
+    units_m: [f64; 2],
+}
+
+impl Vertices {
+    fn in_map(&self, vertex: [f64; 3]) -> DVec3 {
+        let scaled = DVec3::from_array(vertex) * DVec3::from_array(self.transform.scale);
+        let [plan_m, height_m] = self.units_m;
+        DVec3::new(plan_m, plan_m, height_m) * (scaled + DVec3::from_array(self.transform.translate))
+    }
+}
+
+/// # Errors
+/// A scale that flattens or mirrors the map.
+fn check_transforms(documents: &[Document]) -> Result<(), MapError> {
+    let scales = documents.iter().filter_map(|document| document.transform).flat_map(|transform| transform.scale);
+    match scales.into_iter().find(|scale| !(1e-9..=1e9).contains(scale)) {
+        Some(scale) => Err(MapError::new(format!("`transform.scale` has {scale:e}; it must be 1e-9 to 1e9"))
+            .hint("write the file again with the program that made it, or `cjio FILE upgrade save NEW`")),
+        None => Ok(()),
     }
 }
 

@@ -10,9 +10,10 @@ use super::undersides::undersides;
 use super::words::{Part, ground_of_surface, is_indoors, part_of};
 use crate::open_ground::add_open_ground;
 use cosfly_geometry::OrientedBox;
+use cosfly_town::solids::{CoarseThings, Solid};
 use cosfly_town::units::unit_warning;
 use cosfly_town::{MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkableKind, terrain};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Most boxes of one file.
 const MOST_OBSTACLES: usize = 500_000;
@@ -31,8 +32,14 @@ const MOST_GENERATIONS: usize = 16;
 pub(super) fn town(bytes: &[u8]) -> Result<(Town, Vec<String>), MapError> {
     let mut documents = documents(bytes)?;
     let space = Space::of(&mut documents)?;
-    let mut parts =
-        Parts { space, ground: Ground::default(), obstacles: Vec::new(), next_id: 1, tally: Tally::default() };
+    let mut parts = Parts {
+        space,
+        ground: Ground::default(),
+        obstacles: Vec::new(),
+        next_id: 1,
+        known: BTreeSet::new(),
+        tally: Tally::default(),
+    };
     for document in documents {
         parts.add_document(&document)?;
     }
@@ -45,6 +52,8 @@ struct Parts {
     ground: Ground,
     obstacles: Vec<Obstacle>,
     next_id: u32,
+    /// Names of the objects so far.
+    known: BTreeSet<String>,
     tally: Tally,
 }
 
@@ -55,9 +64,11 @@ struct Tally {
     without_height: Count,
     without_shape: Count,
     unknown: Count,
+    repeated: Count,
     storeys: usize,
     bare_trees: usize,
     stands: usize,
+    coarse: CoarseThings,
 }
 
 #[derive(Default)]
@@ -78,18 +89,24 @@ impl Count {
 impl Parts {
     fn add_document(&mut self, document: &Document) -> Result<(), MapError> {
         let finest = finest_parts(document);
+        let known = &mut self.known;
+        let again: BTreeSet<&String> = document.objects.keys().filter(|id| !known.insert((*id).clone())).collect();
         let mut ids: BTreeMap<&str, u32> = BTreeMap::new();
         for (id, object) in &document.objects {
             let object_id = *ids.entry(root(document, id)).or_insert_with(|| {
                 self.next_id += 1;
                 self.next_id - 1
             });
+            if again.contains(id) {
+                self.tally.repeated.note(1, id);
+                continue;
+            }
             let part = part_of(&object.kind, object.attributes.as_ref());
             if part == Part::Nothing {
                 self.tally.unknown.note(1, id);
                 continue;
             }
-            let shape = self.space.shape(object, &document.vertices);
+            let shape = self.space.shape(object, document);
             self.tally.broken_faces.note(shape.broken, id);
             // A building whose parts are finer is their sum.
             if finest.get(id.as_str()).is_some_and(|lod| *lod > shape.lod) {
@@ -131,6 +148,11 @@ impl Parts {
         self.obstacles.extend(boxes.into_iter().filter(|shape| shape.half_extents_m.is_finite()).map(one));
     }
 
+    fn push_solid(&mut self, kind: ObstacleKind, object_id: u32, solid: Solid) {
+        self.tally.coarse.add(&solid);
+        self.push(kind, object_id, solid.boxes);
+    }
+
     fn add_building(&mut self, id: &str, object: &CityObject, shape: Shape, object_id: u32) {
         let Some((low, high)) = shape.bounds() else { return };
         let name = |source: (usize, usize)| surface(object, source).map(|(name, _)| name);
@@ -140,7 +162,7 @@ impl Parts {
             let faces: Vec<Face> = outside.map(|(face, _)| face).collect();
             let Some(height_m) = self.stated_height_m(object) else { return self.tally.without_height.note(1, id) };
             let roof: Vec<Face> = faces.iter().map(|face| raised(face, low.z + height_m)).collect();
-            return self.push(ObstacleKind::Building, object_id, layered(&faces, &roof, low.z, BUILDING));
+            return self.push_solid(ObstacleKind::Building, object_id, layered(&faces, &roof, low.z, BUILDING));
         }
         let (mut ground, mut upper, mut walls) = (Vec::new(), Vec::new(), Vec::new());
         let mut says_ground = false;
@@ -163,27 +185,27 @@ impl Parts {
                 upper.push(face);
             }
         }
-        let mut boxes = layered(&ground, &upper, low.z, BUILDING);
-        if boxes.is_empty() {
+        let mut solid = layered(&ground, &upper, low.z, BUILDING);
+        if solid.boxes.is_empty() {
             // No roof: as high as the walls, over the ground or over the walls alone.
             let plan = if ground.is_empty() { &walls } else { &ground };
             let roof: Vec<Face> = plan.iter().map(|face| raised(face, high.z)).collect();
-            boxes = layered(plan, &roof, low.z, BUILDING);
+            solid = layered(plan, &roof, low.z, BUILDING);
         }
-        if boxes.is_empty() {
+        if solid.boxes.is_empty() {
             self.tally.without_shape.note(1, id);
         }
-        self.push(ObstacleKind::Building, object_id, boxes);
+        self.push_solid(ObstacleKind::Building, object_id, solid);
     }
 
     fn stated_height_m(&mut self, object: &CityObject) -> Option<f64> {
         let attributes = object.attributes.as_ref()?;
-        if let Some(height) = attributes.height() {
-            return Some(self.space.length_m(height).clamp(1.0, 1500.0));
+        if let Some(height_m) = attributes.height().map(|height| self.space.length_m(height)).filter(is_believed) {
+            return Some(height_m);
         }
-        let storeys = attributes.storeys()?;
+        let height_m = attributes.storeys().map(|storeys| STOREY_M * storeys).filter(is_believed)?;
         self.tally.storeys += 1;
-        Some((STOREY_M * storeys).clamp(STOREY_M, 1500.0))
+        Some(height_m)
     }
 
     fn add_solid(&mut self, kind: ObstacleKind, shape: &Shape, object_id: u32) {
@@ -193,7 +215,7 @@ impl Parts {
         let roof = || shape.faces.iter().map(|face| raised(face, high.z)).collect();
         let upper: Vec<Face> = if upper.is_empty() { roof() } else { upper };
         for piece in pieces(&upper, PIECE_M) {
-            self.push(kind, object_id, layered(&[], &piece, low.z, OTHER));
+            self.push_solid(kind, object_id, layered(&[], &piece, low.z, OTHER));
         }
     }
 
@@ -214,8 +236,11 @@ impl Parts {
         }
         let stand = plants::stand(&shape.faces, low.z);
         self.tally.stands += usize::from(!stand.is_empty());
-        for (kind, shape) in stand {
-            self.push(kind, object_id, [shape]);
+        for solid in stand {
+            self.tally.coarse.add(&solid);
+            for (kind, shape) in solid.boxes.into_iter().filter_map(|shape| plants::of_height(shape, low.z)) {
+                self.push(kind, object_id, [shape]);
+            }
         }
         Ok(())
     }
@@ -245,6 +270,10 @@ impl Parts {
         }
         let mut warnings = self.tally.warnings();
         warnings.extend(unit_warning(self.space.units_m[0], self.space.reference_system.as_deref()));
+        if self.space.lacks_transform {
+            warnings
+                .push("the file has no `transform`, which its version asks for: vertices count as metres".to_owned());
+        }
         if walkable.is_empty() {
             let error = MapError::new("the map has neither ground for people to walk on nor buildings to walk around");
             let error = error.hint("use a file with objects of type `Building` or `Road` that have shapes");
@@ -268,14 +297,19 @@ impl Tally {
         let all = [
             (
                 &self.broken_faces,
-                "faces with fewer than three corners or with corners that the file does not have are left out",
+                "faces with fewer than three corners, with corners that the file does not have, or beyond the 500000 of one object are left out",
             ),
-            (&self.without_height, "flat buildings without `measuredHeight` or `storeysAboveGround` are left out"),
+            (
+                &self.without_height,
+                "flat buildings without a believable `measuredHeight` or `storeysAboveGround` are left out",
+            ),
             (&self.without_shape, "objects without a usable shape are left out"),
             (&self.unknown, "objects of kinds that are not read are left out"),
+            (&self.repeated, "objects are in the file again under the same name and are left out"),
         ];
         let counted = all.into_iter().filter(|(count, _)| count.count > 0);
-        counted.map(|(count, text)| format!("{} {text}, the first one of `{}`", count.count, count.first)).collect()
+        let lines = counted.map(|(count, text)| format!("{} {text}, the first one of `{}`", count.count, count.first));
+        lines.chain(self.coarse.warnings()).collect()
     }
 }
 
@@ -283,6 +317,11 @@ impl Tally {
 fn surface(object: &CityObject, (geometry, face): (usize, usize)) -> Option<(&str, &Attributes)> {
     let surface = object.geometry.as_ref()?.get(geometry)?.surface_of_face(face)?;
     Some((&surface.kind, &surface.attributes))
+}
+
+/// Whether a building can be so high.
+fn is_believed(height_m: &f64) -> bool {
+    (0.5..=1500.0).contains(height_m)
 }
 
 fn raised(face: &Face, height_m: f64) -> Face {

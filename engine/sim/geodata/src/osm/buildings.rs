@@ -1,19 +1,19 @@
 //! Buildings and their parts as boxes.
 
-use super::elements::{Elements, Relation, Role};
+use super::elements::{Elements, Relation, Role, Way};
 use super::frame::Frame;
 use super::heights::{heights, rectangle_around};
 use super::options::OsmOptions;
 use super::passages::Passages;
-use super::rings::{Area, Problems, Source, areas};
+use super::rings::{Area, Problems, Source, areas, closes};
 use super::tags::Tags;
 use super::tally::Tally;
 use crate::slabs::inner_point;
 use cosfly_frames::DVec2;
 use cosfly_town::polygons::PolygonIndex;
-use cosfly_town::solids::{Footprint, building_boxes, layer_boxes};
+use cosfly_town::solids::{CoarseThings, Footprint, building_boxes, layer_boxes};
 use cosfly_town::{MapError, Obstacle, ObstacleKind};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Buildings farther outside the stated bounds are left out, metres.
 const MARGIN_M: f64 = 1000.0;
@@ -39,8 +39,14 @@ pub struct Buildings {
     pub of_default_height: usize,
     /// Buildings and parts whose roof's rise is a guess.
     pub of_guessed_rise: usize,
+    /// Buildings and parts whose stated height none can have, or is in words.
+    pub of_unreadable_height: Tally,
+    /// Lines with the tags of a building that do not close.
+    pub open: Tally,
     /// Left out because they lie under the ground.
     pub hidden: usize,
+    /// Those whose boxes are coarser than they should be.
+    pub coarse: CoarseThings,
     /// Left out because they lie far outside the bounds.
     pub far: Tally,
 }
@@ -96,6 +102,17 @@ pub fn read(
         out.add(part, id, options, passages)?;
     }
     out.parts = parts.len();
+    let members: BTreeSet<i64> = elements
+        .relations
+        .iter()
+        .flat_map(|relation| &relation.members)
+        .filter(|member| member.is_way)
+        .map(|member| member.id)
+        .collect();
+    let is_open = |way: &&Way| {
+        (is_outline(&way.tags) || is_part(&way.tags)) && !members.contains(&way.id) && !closes(elements, frame, way)
+    };
+    elements.ways.iter().filter(is_open).for_each(|way| out.open.add(Source::Way(way.id)));
     Ok(out)
 }
 
@@ -109,8 +126,7 @@ impl Buildings {
     fn kept<'e>(&mut self, areas: Vec<Area<'e>>, frame: &Frame) -> Vec<Area<'e>> {
         let mut kept = Vec::with_capacity(areas.len());
         for area in areas {
-            let below = |key| area.tags.number(key).is_some_and(|number| number < 0.0);
-            if area.tags.is("location", &["underground"]) || below("layer") || below("level") {
+            if area.tags.is("location", &["underground"]) || area.tags.is_below() {
                 self.hidden += 1;
             } else if area.outer.iter().any(|corner| frame.holds(*corner, MARGIN_M)) {
                 kept.push(area);
@@ -132,15 +148,19 @@ impl Buildings {
         let heights = heights(area.tags, sides_m, longer_yaw_rad, options);
         self.of_default_height += usize::from(heights.is_default);
         self.of_guessed_rise += usize::from(heights.is_rise_guessed);
+        if heights.is_unreadable {
+            self.of_unreadable_height.add(area.source);
+        }
         let footprint = Footprint { outer: area.outer.clone(), holes: area.holes.clone() };
         let mut base_m = heights.base_m;
-        let mut boxes = Vec::new();
+        let mut solids = Vec::new();
         for layer in passages.layers(area, heights.base_m, heights.eaves_m) {
-            boxes.extend(layer.regions.iter().flat_map(|region| layer_boxes(region, layer.base_m, layer.top_m)));
+            solids.extend(layer.regions.iter().map(|region| layer_boxes(region, layer.base_m, layer.top_m)));
             base_m = layer.top_m;
         }
-        boxes.extend(building_boxes(&footprint, base_m, heights.eaves_m, heights.roof));
-        self.obstacles.extend(boxes.into_iter().map(|shape| Obstacle {
+        solids.push(building_boxes(&footprint, base_m, heights.eaves_m, heights.roof));
+        solids.iter().for_each(|solid| self.coarse.add(solid));
+        self.obstacles.extend(solids.into_iter().flat_map(|solid| solid.boxes).map(|shape| Obstacle {
             shape,
             kind: ObstacleKind::Building,
             object_id,

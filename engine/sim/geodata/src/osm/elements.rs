@@ -1,29 +1,58 @@
 //! [`Elements`]: nodes, ways and relations of a file, whatever its container.
 
 use super::tags::Tags;
+use super::tally::Tally;
 use cosfly_town::MapError;
+use std::collections::BTreeMap;
 
 /// Most nodes, ways, relations and references between them in one file; a city of millions has fewer.
 const MOST_PARTS: usize = 40_000_000;
+/// The same of a small file, and for each byte of it: packed files have one for each four bytes or so.
+const MOST_PARTS_OF_ANY: usize = 2_000_000;
+const MOST_PARTS_OF_A_BYTE: usize = 2;
 /// Units of a coordinate in one degree.
 pub const UNITS_PER_DEGREE: f64 = 1e7;
 
 /// Everything that a file states.
 #[derive(Debug, Default)]
 pub struct Elements {
-    /// Area that the file was cut to.
-    pub bounds: Option<Bounds>,
+    /// Areas that the file was cut to; several where it was fetched in pieces.
+    pub bounds: Vec<Bounds>,
     /// Nodes, sorted by id.
     pub nodes: Vec<Node>,
     /// Tags of those nodes that have any, sorted by id.
     pub node_tags: Vec<(i64, Tags)>,
+    /// For each of them, which of several nodes of one id it is of.
+    tag_ranks: Vec<Rank>,
     /// Ways, sorted by id.
     pub ways: Vec<Way>,
     /// Relations, sorted by id.
     pub relations: Vec<Relation>,
     /// Nodes without a usable place.
     pub without_place: usize,
+    /// Elements that are in the file again, with other content.
+    pub repeated: Tally,
+    /// Elements that are gone as of a version.
+    gone: Vec<(Kind, i64, Rank)>,
     parts: usize,
+    most_parts: usize,
+    taken: u32,
+}
+
+/// Which of several elements of one kind and id counts: the highest version, of one version the first in the file. Larger
+/// ranks go before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Rank(u64);
+
+/// What an element is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// A point.
+    Node,
+    /// A line or the rim of an area.
+    Way,
+    /// A group.
+    Relation,
 }
 
 /// A point, in ten-millionths of a degree as the map's own database has them.
@@ -35,6 +64,7 @@ pub struct Node {
     pub lon: i32,
     /// Latitude.
     pub lat: i32,
+    rank: Rank,
 }
 
 /// An area in degrees.
@@ -55,6 +85,8 @@ pub struct Way {
     pub tags: Tags,
     /// Its nodes in order; first and last are equal where it is closed.
     pub nodes: Vec<i64>,
+    /// See [`Elements::rank`].
+    pub rank: Rank,
 }
 
 /// A group of elements.
@@ -66,6 +98,8 @@ pub struct Relation {
     pub tags: Tags,
     /// Its members in order.
     pub members: Vec<Member>,
+    /// See [`Elements::rank`].
+    pub rank: Rank,
 }
 
 /// A member of a relation; nodes are left out.
@@ -108,8 +142,20 @@ impl Role {
 }
 
 impl Elements {
+    /// Of a file of a size.
+    pub fn of_file(bytes: usize) -> Self {
+        let most_parts = (MOST_PARTS_OF_ANY + MOST_PARTS_OF_A_BYTE * bytes).min(MOST_PARTS);
+        Self { most_parts, ..Self::default() }
+    }
+
+    /// The rank of the next element of the file; versions that are not stated are 0.
+    pub fn rank(&mut self, version: u32) -> Rank {
+        self.taken = self.taken.saturating_add(1);
+        Rank(u64::from(version) << 32 | u64::from(u32::MAX - self.taken))
+    }
+
     /// Takes a node whose place is given in nanodegrees.
-    pub fn add_node(&mut self, id: i64, [lon, lat]: [i64; 2], tags: Tags) -> Result<(), MapError> {
+    pub fn add_node(&mut self, id: i64, [lon, lat]: [i64; 2], tags: Tags, rank: Rank) -> Result<(), MapError> {
         self.count(1)?;
         let is_place = lon.unsigned_abs() <= 180_000_000_000 && lat.unsigned_abs() <= 90_000_000_000;
         if !is_place {
@@ -117,10 +163,18 @@ impl Elements {
             return Ok(());
         }
         let unit = |nano: i64| (nano + 50).div_euclid(100) as i32;
-        self.nodes.push(Node { id, lon: unit(lon), lat: unit(lat) });
+        self.nodes.push(Node { id, lon: unit(lon), lat: unit(lat), rank });
         if !tags.is_empty() {
             self.node_tags.push((id, tags));
+            self.tag_ranks.push(rank);
         }
+        Ok(())
+    }
+
+    /// Takes note that an element is gone: deleted as of its version.
+    pub fn add_gone(&mut self, kind: Kind, id: i64, rank: Rank) -> Result<(), MapError> {
+        self.count(1)?;
+        self.gone.push((kind, id, rank));
         Ok(())
     }
 
@@ -140,19 +194,40 @@ impl Elements {
 
     fn count(&mut self, more: usize) -> Result<(), MapError> {
         self.parts += more;
-        if self.parts <= MOST_PARTS {
+        if self.parts <= self.most_parts {
             return Ok(());
         }
-        Err(MapError::new(format!("the file has more than {MOST_PARTS} nodes, ways, members and references"))
+        let most = self.most_parts;
+        let why = if most < MOST_PARTS { ", more than a file of its size can have" } else { "" };
+        Err(MapError::new(format!("the file has more than {most} nodes, ways, members and references{why}"))
             .hint("cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH`"))
     }
 
-    /// Sorts by id, so that the order of the file does not matter; of several elements with one id the first stays.
+    /// Sorts by id, so that the order of the file does not matter. Of several elements with one id the one of the highest
+    /// version stays, of one version the first; none where a later version is gone.
     pub fn sort(&mut self) {
-        sort_by_id(&mut self.nodes, |node| node.id);
-        sort_by_id(&mut self.node_tags, |(id, _)| *id);
-        sort_by_id(&mut self.ways, |way| way.id);
-        sort_by_id(&mut self.relations, |relation| relation.id);
+        let gone = core::mem::take(&mut self.gone);
+        let gone_as_of = |kind: Kind| -> BTreeMap<i64, Rank> {
+            let mut of_kind: Vec<(i64, Rank)> =
+                gone.iter().filter(|(own, ..)| *own == kind).map(|(_, id, rank)| (*id, *rank)).collect();
+            of_kind.sort_unstable();
+            of_kind.into_iter().collect() // the last of several has the highest rank
+        };
+        let mut settle = Settle { repeated: &mut self.repeated };
+        let same_place = |a: &Node, b: &Node| (a.lon, a.lat) == (b.lon, b.lat);
+        settle.one_of_each(&mut self.nodes, &gone_as_of(Kind::Node), |node| (node.id, node.rank), same_place, "node");
+        let same_way = |a: &Way, b: &Way| (&a.nodes, &a.tags) == (&b.nodes, &b.tags);
+        settle.one_of_each(&mut self.ways, &gone_as_of(Kind::Way), |way| (way.id, way.rank), same_way, "way");
+        let same_relation = |a: &Relation, b: &Relation| (&a.members, &a.tags) == (&b.members, &b.tags);
+        let gone_relations = gone_as_of(Kind::Relation);
+        settle.one_of_each(&mut self.relations, &gone_relations, |it| (it.id, it.rank), same_relation, "relation");
+        // Tags go with the node that stays.
+        let ranks = core::mem::take(&mut self.tag_ranks);
+        let mut tagged: Vec<((i64, Tags), Rank)> =
+            core::mem::take(&mut self.node_tags).into_iter().zip(ranks).collect();
+        tagged.retain(|((id, _), rank)| self.node(*id).is_some_and(|node| node.rank == *rank));
+        tagged.sort_by_key(|((id, _), _)| *id);
+        self.node_tags = tagged.into_iter().map(|(tags, _)| tags).collect();
     }
 
     /// The node with a number.
@@ -171,9 +246,37 @@ impl Elements {
     }
 }
 
-fn sort_by_id<T>(elements: &mut Vec<T>, id: impl Fn(&T) -> i64) {
-    elements.sort_by_key(&id);
-    elements.dedup_by(|later, first| id(later) == id(first));
+/// Settles which of several elements of one id counts.
+struct Settle<'t> {
+    repeated: &'t mut Tally,
+}
+
+impl Settle<'_> {
+    fn one_of_each<T>(
+        &mut self,
+        elements: &mut Vec<T>,
+        gone: &BTreeMap<i64, Rank>,
+        key: impl Fn(&T) -> (i64, Rank),
+        is_same: impl Fn(&T, &T) -> bool,
+        name: &str,
+    ) {
+        // The highest rank of each id comes first.
+        elements.sort_by(|a, b| {
+            let ((a, own), (b, other)) = (key(a), key(b));
+            a.cmp(&b).then(other.cmp(&own))
+        });
+        elements.dedup_by(|later, first| {
+            let is_again = key(later).0 == key(first).0;
+            if is_again && !is_same(later, first) {
+                self.repeated.add(format_args!("{name} {}", key(first).0));
+            }
+            is_again
+        });
+        elements.retain(|one| {
+            let (id, rank) = key(one);
+            gone.get(&id).is_none_or(|gone| *gone < rank)
+        });
+    }
 }
 
 impl Way {

@@ -31,9 +31,7 @@ impl Frame {
     /// # Errors
     /// An extract without nodes, or a very wide one.
     pub fn new(elements: &Elements) -> Result<Self, MapError> {
-        let has_nodes =
-            |bounds: &Bounds| elements.nodes.is_empty() || elements.nodes.iter().any(|node| bounds.holds(node));
-        let stated = elements.bounds.filter(|bounds| bounds.is_an_area() && has_nodes(bounds));
+        let stated = stated_bounds(elements);
         let Some(bounds) = stated.or_else(|| most_nodes(&elements.nodes)) else {
             return Err(MapError::new("the file has no nodes with a place")
                 .hint("export an area with its nodes, ways and relations"));
@@ -56,8 +54,18 @@ impl Frame {
         if span_deg > FARTHEST_DEG || across_m > WIDEST_M {
             let message =
                 format!("the extract is {span_deg:.2} degrees across; at most {} km are read", WIDEST_M / 1000.0);
-            return Err(MapError::new(message)
-                .hint("cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH`"));
+            let error = MapError::new(message);
+            let error = if elements.bounds.len() < 2 {
+                error
+            } else {
+                error.hint(format!(
+                    "the file states {} areas; leave out those that are far from the others",
+                    elements.bounds.len()
+                ))
+            };
+            return Err(
+                error.hint("cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH`")
+            );
         }
         frame.positions = elements.nodes.iter().map(|node| frame.position_of_node(node)).collect();
         Ok(frame)
@@ -124,10 +132,29 @@ impl Bounds {
         is_place(low) && is_place(high) && low[0] < high[0] && low[1] < high[1]
     }
 
+    /// The least area that holds both.
+    fn and(self, other: Self) -> Self {
+        let pick = |pick: fn(f64, f64) -> f64, a: [f64; 2], b: [f64; 2]| [pick(a[0], b[0]), pick(a[1], b[1])];
+        Self { low: pick(f64::min, self.low, other.low), high: pick(f64::max, self.high, other.high) }
+    }
+
+    fn touches(&self, other: &Self) -> bool {
+        (0..2).all(|axis| self.low[axis] <= other.high[axis] && self.high[axis] >= other.low[axis])
+    }
+
     fn holds(&self, node: &Node) -> bool {
         let at = [node.lon, node.lat].map(|value| f64::from(value) / UNITS_PER_DEGREE);
         (0..2).all(|axis| (self.low[axis]..=self.high[axis]).contains(&at[axis]))
     }
+}
+
+/// The least area that holds every area that the file states. Areas of another place, which hold no node and touch none that
+/// does, are not believed.
+fn stated_bounds(elements: &Elements) -> Option<Bounds> {
+    let has_nodes = |bounds: &Bounds| elements.nodes.is_empty() || elements.nodes.iter().any(|node| bounds.holds(node));
+    let areas = || elements.bounds.iter().filter(|bounds| bounds.is_an_area());
+    let whole = areas().filter(|bounds| has_nodes(bounds)).copied().reduce(Bounds::and)?;
+    Some(areas().filter(|bounds| bounds.touches(&whole)).copied().fold(whole, Bounds::and))
 }
 
 /// The area of nearly all nodes.

@@ -1,12 +1,10 @@
 //! [`Heights`] of a building or a part of one, from its tags.
 
 use super::options::OsmOptions;
-use super::tags::Tags;
+use super::tags::{HIGHEST_M, Tags};
 use cosfly_frames::{DVec2, real};
 use cosfly_town::solids::Roof;
 
-/// Highest that is believed, metres.
-const HIGHEST_M: f64 = 1000.0;
 /// Lowest building, metres.
 const LOWEST_M: f64 = 0.5;
 /// Height of small things whose tags state none, metres.
@@ -42,6 +40,8 @@ pub struct Heights {
     pub is_default: bool,
     /// Whether the rise of the roof is a guess.
     pub is_rise_guessed: bool,
+    /// Whether a height is stated that no building has, or in words.
+    pub is_unreadable: bool,
 }
 
 /// Heights from tags. `sides_m` are the longer and the shorter side of the rectangle around the outline, `longer_yaw_rad`
@@ -49,7 +49,9 @@ pub struct Heights {
 pub fn heights(tags: &Tags, sides_m: [f64; 2], longer_yaw_rad: f64, options: &OsmOptions) -> Heights {
     let kind = tags.get("building").or(tags.get("building:part")).unwrap_or_default();
     let within = |height: &f64| (LOWEST_M..=HIGHEST_M).contains(height);
-    let stated_m = tags.length_m(&["height", "building:height", "est_height"]).filter(within);
+    const HEIGHTS: [&str; 3] = ["height", "building:height", "est_height"];
+    let stated_m = tags.length_m(&HEIGHTS).filter(within);
+    let is_unreadable = stated_m.is_none() && HEIGHTS.iter().any(|key| tags.get(key).is_some());
     let storeys = tags.storeys("building:levels").filter(|levels| (0.0..=200.0).contains(levels));
     let shape = RoofShape::of(tags.get("roof:shape").unwrap_or_default());
     let stated_rise_m = stated_rise_m(tags, sides_m, options).filter(|rise| (0.0..=HIGHEST_M).contains(rise));
@@ -66,10 +68,7 @@ pub fn heights(tags: &Tags, sides_m: [f64; 2], longer_yaw_rad: f64, options: &Os
     let is_default = top_m.is_none();
     let top_m = top_m.unwrap_or_else(default_m);
 
-    let lowest_storey = tags.number("building:min_level").filter(|level| (0.0..=200.0).contains(level));
-    let stated_base_m = tags
-        .length_m(&["min_height", "building:min_height"])
-        .or(lowest_storey.map(|level| level * options.storey_height_m));
+    let stated_base_m = tags.base_m(options.storey_height_m);
     let canopy_m = (kind == "roof").then_some(top_m - CANOPY_M);
     let base_m = stated_base_m.or(canopy_m).filter(|base| (0.0..=top_m - 0.1).contains(base)).unwrap_or(0.0);
     // A guess leaves most of the height to the walls.
@@ -83,7 +82,8 @@ pub fn heights(tags: &Tags, sides_m: [f64; 2], longer_yaw_rad: f64, options: &Os
         }
         RoofShape::Hipped => (top_m - rise_m, Roof::Hipped { rise_m }),
     };
-    Heights { base_m, eaves_m, roof, is_default, is_rise_guessed: is_rise_guessed && roof != Roof::Flat }
+    let is_rise_guessed = is_rise_guessed && roof != Roof::Flat;
+    Heights { base_m, eaves_m, roof, is_default, is_rise_guessed, is_unreadable }
 }
 
 /// Shapes of roofs as far as boxes tell them apart. Roofs that bulge beyond planes (domes, mansards) and slanted ones count
@@ -196,7 +196,22 @@ mod tests {
     fn parts_begin_at_their_lower_edge() {
         check(&[("building:part", "yes"), ("height", "60"), ("min_height", "12,5")], 12.5, 60.0, Roof::Flat);
         check(&[("building:levels", "6"), ("building:min_level", "2")], 6.0, 18.0, Roof::Flat);
+        check(&[("building:part", "yes"), ("building:levels", "6"), ("min_level", "2")], 6.0, 18.0, Roof::Flat);
         check(&[("height", "10"), ("min_height", "30")], 0.0, 10.0, Roof::Flat);
+    }
+
+    #[test]
+    fn heights_that_no_building_has_count_as_unreadable() {
+        for value in ["1e23", "99999999999999999999", "-12", "0", "tall", "12 parsecs", "NaN"] {
+            let found = of(&[("building", "yes"), ("height", value)]);
+            assert!(found.is_unreadable && found.is_default && found.eaves_m == 8.0, "{value}: {found:?}");
+            let found = of(&[("building", "yes"), ("height", "9"), ("min_height", value)]);
+            assert!(!found.is_unreadable && found.base_m == 0.0, "{value}: {found:?}");
+        }
+        for (value, metres) in [("12 ft", 3.6576), ("5'6\"", 1.6764), ("1234 cm", 12.34)] {
+            let found = of(&[("building", "yes"), ("height", value)]);
+            assert!(!found.is_unreadable && (found.eaves_m - metres).abs() < 1e-9, "{value}: {found:?}");
+        }
     }
 
     #[test]

@@ -33,12 +33,12 @@ const MOST_WORK: usize = 1_000_000_000;
 
 /// Whether an area is a wood.
 fn is_wood(tags: &Tags) -> bool {
-    (tags.is("natural", &["wood"]) || tags.is("landuse", &["forest", "orchard"])) && !tags.is_hidden()
+    (tags.is("natural", &["wood"]) || tags.is("landuse", &["forest", "orchard"])) && tags.is_on_the_ground()
 }
 
 /// Whether an area is full of bushes.
 fn is_scrub(tags: &Tags) -> bool {
-    tags.is("natural", &["scrub", "shrubbery"]) && !tags.is_hidden()
+    tags.is("natural", &["scrub", "shrubbery"]) && tags.is_on_the_ground()
 }
 
 fn is_grass(tags: &Tags) -> bool {
@@ -47,7 +47,7 @@ fn is_grass(tags: &Tags) -> bool {
         || tags.is("leisure", &["park", "garden", "golf_course"])
         || tags.is("natural", &["grassland", "heath", "scrub", "shrubbery"])
         || tags.is("leisure", &["pitch"]) && tags.is("surface", &["grass"]);
-    (is_lawn || is_wood(tags)) && !tags.is_hidden() && !tags.has("building")
+    (is_lawn || is_wood(tags)) && tags.is_on_the_ground() && !tags.has("building")
 }
 
 fn is_bare(tags: &Tags) -> bool {
@@ -55,16 +55,16 @@ fn is_bare(tags: &Tags) -> bool {
         || tags.is("natural", &["sand", "beach", "shingle", "bare_rock", "scree", "mud"])
         || tags.is("leisure", &["playground"])
         || tags.is("leisure", &["pitch", "track"]) && !tags.is("surface", &["grass"]);
-    is_earth && !tags.is_hidden() && !tags.has("building")
+    is_earth && tags.is_on_the_ground() && !tags.has("building")
 }
 
 /// Adds the surfaces of land.
 pub fn add_surfaces(elements: &Elements, frame: &Frame, meshes: &mut MeshBuilder, problems: &mut Problems) {
     for area in areas(elements, frame, is_grass, problems) {
-        add_ground(meshes, SemanticLabel::Terrain, &area, frame, GRASS_HEIGHT_M);
+        add_ground(meshes, SemanticLabel::Terrain, (&area, GRASS_HEIGHT_M), frame, problems);
     }
     for area in areas(elements, frame, is_bare, problems) {
-        add_ground(meshes, SemanticLabel::Ground, &area, frame, BARE_HEIGHT_M);
+        add_ground(meshes, SemanticLabel::Ground, (&area, BARE_HEIGHT_M), frame, problems);
     }
 }
 

@@ -27,6 +27,8 @@ mod unpacked;
 mod xml;
 
 #[cfg(test)]
+mod input_tests;
+#[cfg(test)]
 mod passage_tests;
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 use super::elements::{Elements, Way};
 use super::frame::Frame;
 use super::options::OsmOptions;
-use super::pavements::{self, PAVEMENT_M, runs};
+use super::pavements::{self, LONGEST_CROSSING_M, PAVEMENT_M, runs};
 use super::rings::{Area, Problems, areas};
 use super::roads::{LINE_MARGIN_M, Road, RoadIndex, is_shared_street, lines};
 use super::strip::{add_surface, strips, walkable};
@@ -13,7 +13,7 @@ use cosfly_frames::DVec2;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::polygons::twice_area_m2;
 use cosfly_town::{MapError, SemanticLabel, WalkableKind, WalkablePolygon};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Height of pavements and paths, and of crossings, metres.
 const PAVEMENT_HEIGHT_M: f64 = 0.12;
@@ -37,9 +37,19 @@ pub struct Paths {
     pub notes: Vec<String>,
 }
 
+/// A piece of a path.
+struct Path<'l> {
+    line: &'l [DVec2],
+    kind: WalkableKind,
+    width_m: f64,
+    is_marked: bool,
+    /// Whether it begins, and ends, where no other path goes on.
+    ends_alone: [bool; 2],
+}
+
 /// Kind and usual width in metres of the ground along a way; none where people do not walk.
 fn usual(tags: &Tags) -> Option<(WalkableKind, f64)> {
-    if tags.is("foot", &["no"]) || tags.is_hidden() {
+    if tags.is("foot", &["no"]) || !tags.is_on_the_ground() {
         return None;
     }
     let for_people = tags.is("foot", &["yes", "designated", "permissive"]);
@@ -69,7 +79,7 @@ pub fn usual_width_m(tags: &Tags) -> Option<f64> {
 
 /// Kind of the ground of an area; none where it is not for people.
 fn kind_of_area(tags: &Tags) -> Option<WalkableKind> {
-    if tags.is_hidden() || tags.is("foot", &["no"]) {
+    if !tags.is_on_the_ground() || tags.is("foot", &["no"]) {
         return None;
     }
     match tags.get("area:highway") {
@@ -103,15 +113,19 @@ pub fn read(
     let index = RoadIndex::new(roads);
     let mut out = Paths::default();
     let mut length_m = 0.0;
-    for way in &elements.ways {
-        if kind_of_area(&way.tags).is_some() && way.is_closed() {
-            continue;
-        }
+    let arms = arms(elements);
+    for way in elements.ways.iter().filter(|way| is_path(way)) {
         let Some((kind, usual_m)) = usual(&way.tags) else { continue };
         let width_m = stated_width_m(&way.tags).unwrap_or(usual_m);
         out.nodes.extend(&way.nodes);
+        let ends = [way.nodes.first(), way.nodes.last()].map(|id| {
+            let alone = id.filter(|id| arms.get(*id) == Some(&1) && !is_crossing_node(elements, **id));
+            alone.and_then(|id| frame.position(elements, *id))
+        });
         for piece in lines(elements, frame, way, &mut length_m)? {
-            out.add_path(&piece, kind, width_m, is_marked(&way.tags), &index, meshes);
+            let ends_alone = [piece.first(), piece.last()].map(|end| end.is_some() && ends.contains(&end.copied()));
+            let path = Path { line: &piece, kind, width_m, is_marked: is_marked(&way.tags), ends_alone };
+            out.add_path(&path, &index, meshes);
         }
     }
     for road in roads {
@@ -123,7 +137,7 @@ pub fn read(
         }
     }
     for area in areas(elements, frame, |tags| kind_of_area(tags).is_some(), problems) {
-        out.add_area(&area, frame, meshes);
+        out.add_area(&area, frame, meshes, problems);
     }
     out.add_crossing_nodes(elements, frame, roads, meshes);
     let area_m2: f64 = out.walkable.iter().map(|polygon| 0.5 * twice_area_m2(&polygon.plan()).abs()).sum();
@@ -134,28 +148,51 @@ pub fn read(
     Ok(out)
 }
 
+/// Whether a way is a line for people, and not the rim of an area.
+fn is_path(way: &Way) -> bool {
+    usual(&way.tags).is_some() && !(kind_of_area(&way.tags).is_some() && way.is_closed())
+}
+
+/// How many stretches of paths leave each node.
+fn arms(elements: &Elements) -> BTreeMap<i64, usize> {
+    let mut arms: BTreeMap<i64, usize> = BTreeMap::new();
+    for way in elements.ways.iter().filter(|way| is_path(way)) {
+        let last = way.nodes.len().saturating_sub(1);
+        for (place, id) in way.nodes.iter().enumerate() {
+            *arms.entry(*id).or_default() += if place == 0 || place == last { 1 } else { 2 };
+        }
+    }
+    arms
+}
+
+fn is_crossing_node(elements: &Elements, id: i64) -> bool {
+    elements.tags_of_node(id).is_some_and(|tags| tags.is("highway", &["crossing"]))
+}
+
 fn is_marked(tags: &Tags) -> bool {
     let unmarked = tags.is("crossing", &["unmarked", "no"]) || tags.is("crossing:markings", &["no"]);
     !unmarked && (tags.get("crossing").is_some() || tags.has("crossing:markings"))
 }
 
 impl Paths {
-    /// A path; where it leads over a carriageway it is a crossing.
-    fn add_path(
-        &mut self,
-        line: &[DVec2],
-        kind: WalkableKind,
-        width_m: f64,
-        is_marked: bool,
-        index: &RoadIndex,
-        meshes: &mut MeshBuilder,
-    ) {
-        for (is_road, points) in runs(line, |point| index.is_road(point, |_| true)) {
-            let is_crossing = is_road && kind != WalkableKind::Plaza || kind == WalkableKind::Crossing;
-            let kind = if is_crossing { WalkableKind::Crossing } else { kind };
-            self.add_strips(&points, kind, width_m, false, meshes);
-            if is_road && is_marked {
-                add_stripes(meshes, &points, width_m);
+    /// A path; where it leads over a carriageway it is a crossing. One that ends on a carriageway where no other path goes on
+    /// ends at the kerb. A pedestrian street that goes along a carriageway is one all the way.
+    fn add_path(&mut self, path: &Path<'_>, index: &RoadIndex, meshes: &mut MeshBuilder) {
+        let runs = runs(path.line, |point| index.is_road(point, |_| true));
+        let last = runs.len().saturating_sub(1);
+        for (number, (is_road, points)) in runs.into_iter().enumerate() {
+            let [begins, ends] = path.ends_alone;
+            let is_whole = number == 0 && number == last;
+            if is_road && !is_whole && (number == 0 && begins || number == last && ends) {
+                continue;
+            }
+            let length_m: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+            let is_along = path.kind == WalkableKind::Plaza && length_m > LONGEST_CROSSING_M;
+            let is_crossing = is_road && !is_along || path.kind == WalkableKind::Crossing;
+            let kind = if is_crossing { WalkableKind::Crossing } else { path.kind };
+            self.add_strips(&points, kind, path.width_m, false, meshes);
+            if is_road && path.is_marked {
+                add_stripes(meshes, &points, path.width_m);
             }
         }
     }
@@ -174,9 +211,9 @@ impl Paths {
         }
     }
 
-    fn add_area(&mut self, area: &Area<'_>, frame: &Frame, meshes: &mut MeshBuilder) {
+    fn add_area(&mut self, area: &Area<'_>, frame: &Frame, meshes: &mut MeshBuilder, problems: &mut Problems) {
         let Some(kind) = kind_of_area(area.tags) else { return };
-        if !add_ground(meshes, label(kind), area, frame, height_m(kind)) {
+        if !add_ground(meshes, label(kind), (area, height_m(kind)), frame, problems) {
             return;
         }
         // One outline with bridges to the holes, which run the other way round.
@@ -204,23 +241,16 @@ impl Paths {
 
     /// Crossings that are a point of a street and not a line of their own.
     fn add_crossing_nodes(&mut self, elements: &Elements, frame: &Frame, roads: &[Road<'_>], meshes: &mut MeshBuilder) {
-        let on_paths: BTreeSet<i64> = elements
-            .ways
-            .iter()
-            .filter(|way| usual(&way.tags).is_some())
-            .flat_map(|way: &Way| way.nodes.iter().copied())
-            .collect();
+        // A path that ends there leads to the crossing, and is not it.
+        let arms = arms(elements);
         for road in roads {
             for (place, id) in road.way.nodes.iter().enumerate() {
-                let Some(tags) = elements.tags_of_node(*id).filter(|tags| tags.is("highway", &["crossing"])) else {
+                if !is_crossing_node(elements, *id) || arms.get(id).is_some_and(|count| *count > 1) {
                     continue;
-                };
+                }
                 let Some(at) = frame.position(elements, *id).filter(|at| frame.holds(*at, LINE_MARGIN_M)) else {
                     continue;
                 };
-                if on_paths.contains(id) {
-                    continue;
-                }
                 let beside = |place: Option<usize>| {
                     place.and_then(|place| road.way.nodes.get(place)).and_then(|id| frame.position(elements, *id))
                 };
@@ -229,7 +259,7 @@ impl Paths {
                 let aside = (road.half_width_m + CROSSING_REACH_M) * along.perp();
                 let line = [at - aside, at + aside];
                 self.add_strips(&line, WalkableKind::Crossing, CROSSING_M, false, meshes);
-                if is_marked(tags) {
+                if elements.tags_of_node(*id).is_some_and(is_marked) {
                     let aside = road.half_width_m * along.perp();
                     add_stripes(meshes, &[at - aside, at + aside], CROSSING_M);
                 }
@@ -275,9 +305,9 @@ fn add_stripes(meshes: &mut MeshBuilder, line: &[DVec2], width_m: f64) {
 pub fn add_ground(
     meshes: &mut MeshBuilder,
     label: SemanticLabel,
-    area: &Area<'_>,
+    (area, height_m): (&Area<'_>, f64),
     frame: &Frame,
-    height_m: f64,
+    problems: &mut Problems,
 ) -> bool {
     let clipped: Vec<Vec<DVec2>> = area
         .rings()
@@ -286,7 +316,10 @@ pub fn add_ground(
         .filter(|ring| ring.len() >= 3)
         .collect();
     let rings: Vec<&[DVec2]> = clipped.iter().map(Vec::as_slice).collect();
-    let pieces = trapezoids(&rings).unwrap_or_default();
+    let Some(pieces) = trapezoids(&rings) else {
+        problems.too_crooked.add(area.source);
+        return false;
+    };
     for piece in &pieces {
         add_trapezoid(meshes, label, piece, height_m);
     }

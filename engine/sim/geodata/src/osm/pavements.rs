@@ -15,7 +15,11 @@ const STEP_M: f64 = 1.0;
 /// Streets that are looked at where one ends.
 const MOST_ARMS: usize = 64;
 /// Longest way over a carriageway, metres.
-const LONGEST_CROSSING_M: f64 = 30.0;
+pub const LONGEST_CROSSING_M: f64 = 30.0;
+/// One-way carriageways side by side have no invented pavement between them where they are at most so far apart, metres.
+const MEDIAN_M: f64 = 12.0;
+/// Share of a street's side that must lie at such a median.
+const MEDIAN_SHARE: f64 = 0.5;
 
 /// A middle line of a pavement, or of its way across a side street.
 #[derive(Debug)]
@@ -48,7 +52,12 @@ pub fn is_street(tags: &Tags) -> bool {
 
 /// Whether [`lines`] invents pavements of a street when it is asked to.
 pub fn may_be_assumed(tags: &Tags) -> bool {
-    is_street(tags) && stated_sides(tags).is_none()
+    is_street(tags) && is_for_people(tags) && stated_sides(tags).is_none()
+}
+
+/// Whether people may walk along a street.
+fn is_for_people(tags: &Tags) -> bool {
+    !tags.is("foot", &["no", "use_sidepath"]) && !tags.is("motorroad", &["yes"])
 }
 
 /// One side of a piece of street, directed so that the pavement is on its left.
@@ -61,7 +70,7 @@ struct Side {
 
 /// Middle lines of all pavements; with `assume`, streets that state nothing get some, too.
 pub fn lines(roads: &[Road<'_>], index: &RoadIndex, assume: bool) -> Vec<Line> {
-    let sides = sides(roads, assume);
+    let sides = sides(roads, index, assume);
     let mut out = Vec::new();
     for chain in chains(&sides) {
         let ways: BTreeSet<i64> = chain.iter().map(|side| sides[*side].way).collect();
@@ -72,12 +81,12 @@ pub fn lines(roads: &[Road<'_>], index: &RoadIndex, assume: bool) -> Vec<Line> {
     out
 }
 
-fn sides(roads: &[Road<'_>], assume: bool) -> Vec<Side> {
+fn sides(roads: &[Road<'_>], index: &RoadIndex, assume: bool) -> Vec<Side> {
     let mut sides = Vec::new();
     for road in roads {
         let tags = &road.way.tags;
         let stated = stated_sides(tags);
-        let [left, right] = stated.unwrap_or([assume && is_street(tags); 2]);
+        let assumed = assume && may_be_assumed(tags);
         let offset_m = road.half_width_m + 0.5 * PAVEMENT_M;
         for piece in &road.pieces {
             let points = thinned(piece);
@@ -85,9 +94,11 @@ fn sides(roads: &[Road<'_>], assume: bool) -> Vec<Side> {
                 continue;
             }
             let is_invented = stated.is_none();
+            let back: Vec<DVec2> = points.iter().rev().copied().collect();
+            let is_kerb = |line: &[DVec2]| assumed && !(road.is_oneway && is_at_median(line, road, index));
+            let [left, right] = stated.unwrap_or_else(|| [is_kerb(&points), is_kerb(&back)]);
             if right {
-                let points = points.iter().rev().copied().collect();
-                sides.push(Side { points, offset_m, way: road.way.id, is_invented });
+                sides.push(Side { points: back, offset_m, way: road.way.id, is_invented });
             }
             if left {
                 sides.push(Side { points, offset_m, way: road.way.id, is_invented });
@@ -95,6 +106,24 @@ fn sides(roads: &[Road<'_>], assume: bool) -> Vec<Side> {
         }
     }
     sides
+}
+
+/// Whether another one-way carriageway runs close on the left of a line along a one-way road.
+fn is_at_median(line: &[DVec2], road: &Road<'_>, index: &RoadIndex) -> bool {
+    let (mut all_m, mut at_median_m) = (0.0, 0.0);
+    for pair in line.windows(2) {
+        let along = (pair[1] - pair[0]).normalize_or_zero();
+        let left = DVec2::new(along.y, -along.x);
+        let middle = 0.5 * (pair[0] + pair[1]);
+        let steps = (MEDIAN_M / STEP_M) as usize;
+        let beside = (1..=steps).map(|step| middle + (road.half_width_m + STEP_M * step as f64) * left);
+        let length_m = pair[0].distance(pair[1]);
+        all_m += length_m;
+        if beside.into_iter().any(|point| index.is_parallel_oneway(point, road.way.id, along)) {
+            at_median_m += length_m;
+        }
+    }
+    at_median_m > MEDIAN_SHARE * all_m
 }
 
 /// Chains of sides that go on into each other.

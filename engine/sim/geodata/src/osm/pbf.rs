@@ -3,18 +3,20 @@
 //! The messages are the subset of the published `fileformat.proto` and `osmformat.proto` that is read here; prost decodes
 //! them, skips what is not listed and never panics.
 
-use super::elements::{Bounds, Elements, Member, Relation, Role, Way};
+use super::elements::{Bounds, Elements, Kind, Member, Rank, Relation, Role, Way};
 use super::tags::Tags;
+use super::unpacked::most_unpacked;
 use cosfly_town::MapError;
 use flate2::read::ZlibDecoder;
 use prost::Message;
+use prost::encoding::WireType;
 use std::io::Read;
 
 /// Limits of the format: header of a blob, blob after unpacking, bytes.
 const LARGEST_HEADER: usize = 64 << 10;
 const LARGEST_BLOB: usize = 32 << 20;
-/// Most bytes of all blobs after unpacking.
-const MOST_BYTES: usize = 8 << 30;
+/// Most strings, groups, nodes, ways and relations that one block lists by themselves; usual ones have 8000 elements.
+const MOST_ENTRIES: usize = 1_000_000;
 /// Features of files that this reader knows.
 const KNOWN_FEATURES: &[&str] = &["OsmSchema-V0.6", "DenseNodes", "HistoricalInformation"];
 
@@ -87,6 +89,24 @@ pub(super) struct PrimitiveGroup {
     pub relations: Vec<PackedRelation>,
 }
 
+/// What is known of an element's history.
+#[derive(Clone, Copy, PartialEq, Message)]
+pub(super) struct Info {
+    #[prost(int32, optional, tag = "1")]
+    pub version: Option<i32>,
+    #[prost(bool, optional, tag = "6")]
+    pub visible: Option<bool>,
+}
+
+/// The same of dense nodes, by column.
+#[derive(Clone, PartialEq, Message)]
+pub(super) struct DenseInfo {
+    #[prost(int32, repeated, tag = "1")]
+    pub versions: Vec<i32>,
+    #[prost(bool, repeated, tag = "6")]
+    pub visibles: Vec<bool>,
+}
+
 #[derive(Clone, PartialEq, Message)]
 pub(super) struct PlainNode {
     #[prost(sint64, tag = "1")]
@@ -95,6 +115,8 @@ pub(super) struct PlainNode {
     pub keys: Vec<u32>,
     #[prost(uint32, repeated, tag = "3")]
     pub values: Vec<u32>,
+    #[prost(message, optional, tag = "4")]
+    pub info: Option<Info>,
     #[prost(sint64, tag = "8")]
     pub lat: i64,
     #[prost(sint64, tag = "9")]
@@ -106,6 +128,8 @@ pub(super) struct PlainNode {
 pub(super) struct DenseNodes {
     #[prost(sint64, repeated, tag = "1")]
     pub ids: Vec<i64>,
+    #[prost(message, optional, tag = "5")]
+    pub info: Option<DenseInfo>,
     #[prost(sint64, repeated, tag = "8")]
     pub lats: Vec<i64>,
     #[prost(sint64, repeated, tag = "9")]
@@ -123,6 +147,8 @@ pub(super) struct PackedWay {
     pub keys: Vec<u32>,
     #[prost(uint32, repeated, tag = "3")]
     pub values: Vec<u32>,
+    #[prost(message, optional, tag = "4")]
+    pub info: Option<Info>,
     /// Differences.
     #[prost(sint64, repeated, tag = "8")]
     pub nodes: Vec<i64>,
@@ -136,6 +162,8 @@ pub(super) struct PackedRelation {
     pub keys: Vec<u32>,
     #[prost(uint32, repeated, tag = "3")]
     pub values: Vec<u32>,
+    #[prost(message, optional, tag = "4")]
+    pub info: Option<Info>,
     #[prost(int32, repeated, tag = "8")]
     pub roles: Vec<i32>,
     /// Differences.
@@ -156,9 +184,9 @@ pub fn recognises(head: &[u8]) -> bool {
 /// # Errors
 /// A file that is cut inside a blob or breaks the format's limits, and features or compressions that are not read.
 pub fn read(bytes: &[u8]) -> Result<Elements, MapError> {
-    let mut elements = Elements::default();
+    let mut elements = Elements::of_file(bytes.len());
     let mut rest = bytes;
-    let mut unpacked = 0;
+    let mut left = most_unpacked(bytes.len());
     while !rest.is_empty() {
         let at = bytes.len() - rest.len();
         let broken = |message: String| {
@@ -174,25 +202,28 @@ pub fn read(bytes: &[u8]) -> Result<Elements, MapError> {
         let header = BlobHeader::decode(header).map_err(|error| broken(format!("has no readable header: {error}")))?;
         let size = usize::try_from(header.size).unwrap_or(usize::MAX);
         let blob = take(&mut rest, size).ok_or_else(|| broken(format!("has {size} bytes, but the file ends")))?;
+        // The format asks to skip what is unknown.
+        if !["OSMHeader", "OSMData"].contains(&header.kind.as_str()) {
+            continue;
+        }
         let blob = Blob::decode(blob).map_err(|error| broken(format!("is not readable: {error}")))?;
         let content = content(blob).map_err(broken)?;
-        unpacked += content.len();
-        if unpacked > MOST_BYTES {
-            return Err(broken(format!("is too much: the file unpacks to more than {} GiB", MOST_BYTES >> 30)));
-        }
+        let most = || format!("is too much: the file unpacks to more than {} MiB", most_unpacked(bytes.len()) >> 20);
+        left = left.checked_sub(content.len() as u64).ok_or_else(|| broken(most()))?;
         match header.kind.as_str() {
             "OSMHeader" => {
                 let block =
                     HeaderBlock::decode(&*content).map_err(|error| broken(format!("is not readable: {error}")))?;
                 elements.take_header(&block)?;
             }
-            "OSMData" => {
+            _ => {
+                if !has_few_entries(&content) {
+                    return Err(broken(format!("lists more than {MOST_ENTRIES} strings and elements")));
+                }
                 let block =
                     PrimitiveBlock::decode(&*content).map_err(|error| broken(format!("is not readable: {error}")))?;
                 elements.take_block(&block)?;
             }
-            // The format asks to skip what is unknown.
-            _ => {}
         }
     }
     Ok(elements)
@@ -231,10 +262,10 @@ impl Elements {
             return Err(MapError::new(message).hint("`osmium cat FILE -o NEW.osm.pbf` writes it in the usual form"));
         }
         let degrees = |nano: i64| nano as f64 * 1e-9;
-        self.bounds = block.bounds.map(|bounds| Bounds {
+        self.bounds.extend(block.bounds.map(|bounds| Bounds {
             low: [degrees(bounds.left), degrees(bounds.bottom)],
             high: [degrees(bounds.right), degrees(bounds.top)],
-        });
+        }));
         Ok(())
     }
 
@@ -256,30 +287,87 @@ impl Elements {
         let place = |lon: i64, lat: i64| [nano(block.lon_offset, lon), nano(block.lat_offset, lat)];
         for group in &block.groups {
             for node in &group.nodes {
-                self.add_node(node.id, place(node.lon, node.lat), tags(&node.keys, &node.values))?;
+                let Some(rank) = self.rank_of(Kind::Node, node.id, node.info)? else { continue };
+                self.add_node(node.id, place(node.lon, node.lat), tags(&node.keys, &node.values), rank)?;
             }
             if let Some(dense) = &group.dense {
                 let columns = sums(&dense.ids).zip(sums(&dense.lons).zip(sums(&dense.lats)));
                 let mut tagged = dense.keys_and_values.as_slice();
-                for (id, (lon, lat)) in columns {
-                    self.add_node(id, place(lon, lat), next_tags(&mut tagged, &text))?;
+                for (number, (id, (lon, lat))) in columns.enumerate() {
+                    let tags = next_tags(&mut tagged, &text);
+                    let info = dense.info.as_ref().map(|info| Info {
+                        version: info.versions.get(number).copied(),
+                        visible: info.visibles.get(number).copied(),
+                    });
+                    let Some(rank) = self.rank_of(Kind::Node, id, info)? else { continue };
+                    self.add_node(id, place(lon, lat), tags, rank)?;
                 }
             }
             for way in &group.ways {
+                let Some(rank) = self.rank_of(Kind::Way, way.id, way.info)? else { continue };
                 let nodes = sums(&way.nodes).collect();
-                self.add_way(Way { id: way.id, tags: tags(&way.keys, &way.values), nodes })?;
+                self.add_way(Way { id: way.id, tags: tags(&way.keys, &way.values), nodes, rank })?;
             }
             for relation in &group.relations {
+                let Some(rank) = self.rank_of(Kind::Relation, relation.id, relation.info)? else { continue };
                 let members = sums(&relation.members).zip(&relation.kinds).zip(&relation.roles);
                 let members = members.filter(|((_, kind), _)| [1, 2].contains(*kind)).map(|((id, kind), role)| {
                     Member { is_way: *kind == 1, id, role: Role::of(text(usize::try_from(*role).unwrap_or(0))) }
                 });
                 let members = members.collect();
-                self.add_relation(Relation { id: relation.id, tags: tags(&relation.keys, &relation.values), members })?;
+                let tags = tags(&relation.keys, &relation.values);
+                self.add_relation(Relation { id: relation.id, tags, members, rank })?;
             }
         }
         Ok(())
     }
+
+    /// The rank of an element; `None` for a version that is gone, of which note is taken.
+    fn rank_of(&mut self, kind: Kind, id: i64, info: Option<Info>) -> Result<Option<Rank>, MapError> {
+        let version = info.and_then(|info| info.version).and_then(|version| u32::try_from(version).ok());
+        let rank = self.rank(version.unwrap_or(0));
+        if info.and_then(|info| info.visible) == Some(false) {
+            self.add_gone(kind, id, rank)?;
+            return Ok(None);
+        }
+        Ok(Some(rank))
+    }
+}
+
+/// Whether a block lists no more than [`MOST_ENTRIES`] strings, groups and elements: empty ones take two bytes of the file and
+/// a hundred of memory. A block that is not readable counts as one with few; decoding it tells what is wrong.
+fn has_few_entries(block: &[u8]) -> bool {
+    let mut count = 0;
+    let mut stack = vec![(block, 0)];
+    while let Some((mut message, depth)) = stack.pop() {
+        while let Some((field, content)) = next_field(&mut message) {
+            count += 1;
+            if count > MOST_ENTRIES {
+                return false;
+            }
+            // 1 the strings, 2 a group.
+            if depth == 0 && [1, 2].contains(&field) {
+                stack.push((content, 1));
+            }
+        }
+    }
+    true
+}
+
+/// The next field of a message with its content, empty for numbers; `None` at its end or where it is broken.
+fn next_field<'b>(message: &mut &'b [u8]) -> Option<(u32, &'b [u8])> {
+    let (field, kind) = prost::encoding::decode_key(message).ok()?;
+    let size = match kind {
+        WireType::Varint => {
+            prost::encoding::decode_varint(message).ok()?;
+            0
+        }
+        WireType::SixtyFourBit => 8,
+        WireType::ThirtyTwoBit => 4,
+        WireType::LengthDelimited => usize::try_from(prost::encoding::decode_varint(message).ok()?).ok()?,
+        WireType::StartGroup | WireType::EndGroup => return None,
+    };
+    take(message, size).map(|content| (field, content))
 }
 
 /// Tags of the next node of a dense group.

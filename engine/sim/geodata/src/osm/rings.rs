@@ -1,6 +1,6 @@
 //! [`Area`]s of an extract: closed ways, and multipolygon relations with their holes.
 
-use super::elements::{Elements, Relation, Role};
+use super::elements::{Elements, Relation, Role, Way};
 use super::frame::Frame;
 use super::tags::Tags;
 use super::tally::Tally;
@@ -70,8 +70,12 @@ pub struct Problems {
     pub crossed: Tally,
     /// Rings of too many corners.
     pub too_long: Tally,
+    /// Areas whose ground is too crooked to be filled.
+    pub too_crooked: Tally,
     /// Ends of the coast that were led on to the edge of the extract.
     pub coast_ends: usize,
+    /// The sea has too many corners.
+    pub is_sea_too_crooked: bool,
     /// The sea cannot be told from the land.
     pub is_coast_open: bool,
 }
@@ -97,7 +101,7 @@ pub fn areas<'e>(
     }
     let mut of_ways = Vec::new();
     for (place, way) in elements.ways.iter().enumerate() {
-        if !way.is_closed() || !is_wanted(&way.tags) || rims.contains(&place) {
+        if rims.contains(&place) || !is_wanted(&way.tags) || !closes(elements, frame, way) {
             continue;
         }
         let source = Source::Way(way.id);
@@ -107,6 +111,13 @@ pub fn areas<'e>(
     }
     of_ways.append(&mut areas);
     of_ways
+}
+
+/// Whether a way ends where it begins: at the same node, or at another one in the same place.
+pub fn closes(elements: &Elements, frame: &Frame, way: &Way) -> bool {
+    let end = |id: Option<&i64>| id.and_then(|id| frame.position(elements, *id));
+    way.is_closed()
+        || way.nodes.len() >= 4 && end(way.nodes.first()).is_some_and(|at| Some(at) == end(way.nodes.last()))
 }
 
 /// Places of the ways on the outer rim that are in the file.
@@ -131,11 +142,15 @@ fn add_multipolygon<'e>(
 ) {
     let source = Source::Relation(relation.id);
     let mut is_complete = true;
+    let mut known = BTreeSet::new();
     let mut rings_of = |is_inner: bool| {
         let mut lines = Vec::new();
         let mut is_whole = true;
-        for member in relation.members.iter().filter(|member| member.is_way && (member.role == Role::Inner) == is_inner)
-        {
+        let of_rings = relation.members.iter().filter(|member| member.is_way);
+        for member in of_rings.filter(|member| (member.role == Role::Inner) == is_inner) {
+            if !known.insert(member.id) {
+                continue; // listed twice: its line is there once
+            }
             match elements.way_place(member.id) {
                 Some(place) => lines.push(elements.ways[place].nodes.as_slice()),
                 None => is_whole = false,

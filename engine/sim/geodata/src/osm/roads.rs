@@ -68,7 +68,7 @@ pub fn read<'e>(elements: &'e Elements, frame: &Frame) -> Result<Vec<Road<'e>>, 
     let mut length_m = 0.0;
     for way in &elements.ways {
         let Some((lanes, lane_m, has_middle_line)) = way.tags.get("highway").and_then(usual) else { continue };
-        if way.tags.is_hidden() || way.tags.is("area", &["yes"]) {
+        if !way.tags.is_on_the_ground() || way.tags.is("area", &["yes"]) {
             continue;
         }
         let is_oneway = way.tags.is("oneway", &["yes", "1", "-1"]) || way.tags.is("junction", &["roundabout"]);
@@ -188,7 +188,8 @@ fn add_dashes(meshes: &mut MeshBuilder, line: &[DVec2]) {
 pub fn add_rails(meshes: &mut MeshBuilder, elements: &Elements, frame: &Frame) -> Result<(), MapError> {
     let mut length_m = 0.0;
     for way in &elements.ways {
-        if way.tags.is("railway", &["rail", "tram", "light_rail", "narrow_gauge", "funicular"]) && !way.tags.is_hidden()
+        if way.tags.is("railway", &["rail", "tram", "light_rail", "narrow_gauge", "funicular"])
+            && way.tags.is_on_the_ground()
         {
             for piece in lines(elements, frame, way, &mut length_m)? {
                 for strip in strips(&piece, HALF_TRACK_M) {
@@ -213,6 +214,7 @@ struct Segment {
     to: DVec2,
     half_width_m: f64,
     way: i64,
+    is_oneway: bool,
 }
 
 impl RoadIndex {
@@ -221,18 +223,19 @@ impl RoadIndex {
         let mut index = Self::default();
         for road in roads {
             for pair in road.pieces.iter().flat_map(|piece| piece.windows(2)) {
-                index.add(pair[0], pair[1], road.half_width_m, road.way.id);
+                index.add(pair[0], pair[1], road);
             }
         }
         index
     }
 
     /// Adds a side in pieces no longer than a cell, so that slanted ones touch few cells.
-    fn add(&mut self, from: DVec2, to: DVec2, half_width_m: f64, way: i64) {
+    fn add(&mut self, from: DVec2, to: DVec2, road: &Road<'_>) {
+        let (half_width_m, way, is_oneway) = (road.half_width_m, road.way.id, road.is_oneway);
         let count = (from.distance(to) / CELL_M).ceil().max(1.0) as usize;
         for piece in 0..count {
             let at = |step: usize| from.lerp(to, step as f64 / count as f64);
-            let segment = Segment { from: at(piece), to: at(piece + 1), half_width_m, way };
+            let segment = Segment { from: at(piece), to: at(piece + 1), half_width_m, way, is_oneway };
             let number = self.segments.len() as u32;
             let low = cell(segment.from.min(segment.to) - half_width_m);
             let high = cell(segment.from.max(segment.to) + half_width_m);
@@ -243,6 +246,17 @@ impl RoadIndex {
             }
             self.segments.push(segment);
         }
+    }
+
+    /// Whether a point lies on the carriageway of another one-way street that runs along a direction, either way.
+    pub fn is_parallel_oneway(&self, point: DVec2, own: i64, along: DVec2) -> bool {
+        const PARALLEL_COS: f64 = 0.9;
+        let near = self.cells.get(&cell(point)).into_iter().flatten().map(|number| &self.segments[*number as usize]);
+        near.filter(|segment| segment.is_oneway && segment.way != own).any(|segment| {
+            let direction = (segment.to - segment.from).normalize_or_zero();
+            direction.dot(along).abs() > PARALLEL_COS
+                && distance_m(point, segment.from, segment.to) < segment.half_width_m
+        })
     }
 
     /// Whether a point lies on the carriageway of a way that `counts` accepts.

@@ -40,6 +40,8 @@ const KEYS: &[&str] = &[
     "maxheight",
     "maxspeed",
     "min_height",
+    "min_level",
+    "motorroad",
     "natural",
     "oneway",
     "place",
@@ -65,6 +67,8 @@ const KEYS: &[&str] = &[
     "width",
 ];
 
+/// Highest that is believed of anything, metres.
+pub const HIGHEST_M: f64 = 1000.0;
 /// Longer values say nothing that is read here, bytes.
 const LONGEST_VALUE: usize = 255;
 
@@ -120,16 +124,56 @@ impl Tags {
         numbers.reduce(|a, b| Some(a?.max(b?)))?
     }
 
-    /// Whether the thing lies under the ground, or inside a house on another storey.
+    /// Whether the thing lies under the ground or inside a house.
     pub fn is_hidden(&self) -> bool {
-        let below = |key| self.number(key).is_some_and(|number| number < 0.0);
         self.is("location", &["underground", "indoor"])
             || self.has("indoor")
             || self
                 .get("tunnel")
                 .is_some_and(|tunnel| !["no", "building_passage", "avalanche_protector"].contains(&tunnel))
-            || below("layer")
-            || below("level")
+            || self.is_below()
+    }
+
+    /// Whether all storeys or layers that are stated lie under the ground.
+    pub fn is_below(&self) -> bool {
+        ["layer", "level"].iter().any(|key| self.range(key).is_some_and(|(_, highest)| highest < 0.0))
+    }
+
+    /// Whether the thing stands or lies on a roof or an upper storey. What a bridge carries lies on the bridge.
+    pub fn is_upstairs(&self) -> bool {
+        let is_high = self.range("level").is_some_and(|(lowest, _)| lowest > 0.0);
+        self.is("location", &["roof", "rooftop"]) || is_high && !self.has("bridge")
+    }
+
+    /// Whether the thing is neither hidden nor upstairs.
+    pub fn is_on_the_ground(&self) -> bool {
+        !self.is_hidden() && !self.is_upstairs()
+    }
+
+    /// Least and greatest number of a list or a range (`0;1`, `-2--1`, `3`); `None` where one is unreadable.
+    fn range(&self, key: &str) -> Option<(f64, f64)> {
+        let mut range: Option<(f64, f64)> = None;
+        for part in self.get(key)?.split(';') {
+            let part = part.trim();
+            // A minus behind a digit is a hyphen.
+            let hyphen =
+                part.bytes().enumerate().skip(1).find(|(at, byte)| *byte == b'-' && part.as_bytes()[at - 1] != b'-');
+            let ends = hyphen.map_or((part, part), |(at, _)| (&part[..at], &part[at + 1..]));
+            let (first, last) = (number(ends.0.trim())?, number(ends.1.trim())?);
+            let (low, high) = range.unwrap_or((first, first));
+            range = Some((low.min(first).min(last), high.max(first).max(last)));
+        }
+        range
+    }
+
+    /// Lower end of a thing that does not begin at the ground, metres: stated, or by its lowest storey.
+    pub fn base_m(&self, storey_m: f64) -> Option<f64> {
+        let storey = || {
+            let levels = ["building:min_level", "min_level"].iter().find_map(|key| self.number(key));
+            Some(levels.filter(|level| (0.0..=200.0).contains(level))? * storey_m)
+        };
+        let stated_m = self.length_m(&["min_height", "building:min_height"]).or_else(storey);
+        stated_m.filter(|base_m| (0.0..=HIGHEST_M).contains(base_m))
     }
 }
 
@@ -254,10 +298,34 @@ mod tests {
             ("tunnel", "building_passage", false),
             ("layer", "-1", true),
             ("layer", "1", false),
+            ("level", "-2;-1", true),
+            ("level", "-1;0", false),
+            ("level", "-2--1", true),
+            ("level", "-1-0", false),
+            ("level", "G", false),
+            ("location", "underground", true),
         ] {
             let mut tags = Tags::default();
             tags.add(key, value);
             assert_eq!(tags.is_hidden(), hidden, "{key}={value}");
         }
+    }
+
+    #[test]
+    fn what_is_on_a_roof_or_an_upper_storey_is_upstairs_and_a_bridge_is_not() {
+        let is_upstairs = |pairs: &[(&str, &str)]| {
+            let mut tags = Tags::default();
+            pairs.iter().for_each(|(key, value)| tags.add(key, value));
+            tags.is_upstairs()
+        };
+        for value in ["1", "2;3", "1-4", "12"] {
+            assert!(is_upstairs(&[("level", value)]), "{value}");
+            assert!(!is_upstairs(&[("level", value), ("bridge", "yes")]), "{value}");
+        }
+        for value in ["0", "0;1", "-1;3", "0-5", "first", ""] {
+            assert!(!is_upstairs(&[("level", value)]), "{value}");
+        }
+        assert!(is_upstairs(&[("location", "roof")]) && is_upstairs(&[("location", "rooftop")]));
+        assert!(!is_upstairs(&[("layer", "1")]) && !is_upstairs(&[("location", "outdoor")]));
     }
 }

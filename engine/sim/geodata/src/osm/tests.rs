@@ -91,7 +91,8 @@ fn example_as_pbf(pack: impl Fn(&[u8]) -> Blob) -> Vec<u8> {
             "way" => {
                 let nodes: Vec<i64> =
                     children(element, "nd").iter().map(|nd| id(document.get_node(*nd).unwrap(), "ref")).collect();
-                group.ways.push(PackedWay { id: id(element, "id"), keys, values, nodes: differences(&nodes) });
+                let nodes = differences(&nodes);
+                group.ways.push(PackedWay { id: id(element, "id"), keys, values, nodes, ..PackedWay::default() });
             }
             _ => {
                 let members: Vec<_> =
@@ -100,7 +101,9 @@ fn example_as_pbf(pack: impl Fn(&[u8]) -> Blob) -> Vec<u8> {
                 let roles = members.iter().map(|member| number(member.attribute("role").unwrap()) as i32).collect();
                 let kinds = members.iter().map(|_| 1).collect();
                 let id = id(element, "id");
-                group.relations.push(PackedRelation { id, keys, values, roles, members: differences(&ids), kinds });
+                let members = differences(&ids);
+                let relation = PackedRelation { id, keys, values, roles, members, kinds, ..PackedRelation::default() };
+                group.relations.push(relation);
             }
         }
     }
@@ -111,23 +114,23 @@ fn example_as_pbf(pack: impl Fn(&[u8]) -> Blob) -> Vec<u8> {
     [blob("OSMHeader", &pack(&header.encode_to_vec())), blob("OSMData", &pack(&block.encode_to_vec()))].concat()
 }
 
-fn blob(kind: &str, blob: &Blob) -> Vec<u8> {
+pub(super) fn blob(kind: &str, blob: &Blob) -> Vec<u8> {
     let content = blob.encode_to_vec();
     let header = BlobHeader { kind: kind.into(), size: content.len() as i32 }.encode_to_vec();
     [&(header.len() as u32).to_be_bytes()[..], &header, &content].concat()
 }
 
-fn raw(content: &[u8]) -> Blob {
+pub(super) fn raw(content: &[u8]) -> Blob {
     Blob { raw: Some(content.to_vec()), zlib: None }
 }
 
-fn zlib(content: &[u8]) -> Blob {
+pub(super) fn zlib(content: &[u8]) -> Blob {
     let mut packer = ZlibEncoder::new(Vec::new(), Compression::best());
     packer.write_all(content).unwrap();
     Blob { raw: None, zlib: Some(packer.finish().unwrap()) }
 }
 
-fn gzip(content: &[u8]) -> Vec<u8> {
+pub(super) fn gzip(content: &[u8]) -> Vec<u8> {
     let mut packer = GzEncoder::new(Vec::new(), Compression::best());
     packer.write_all(content).unwrap();
     packer.finish().unwrap()
@@ -334,8 +337,10 @@ fn absurd_numbers_in_a_pbf_file_do_not_panic() {
         lats: vec![i64::MIN, i64::MAX, 3],
         lons: vec![i64::MAX, 1, 2],
         keys_and_values: vec![-5, 7, 0, 9],
+        ..DenseNodes::default()
     };
-    let way = PackedWay { id: -1, keys: vec![u32::MAX], values: vec![3], nodes: vec![i64::MAX, i64::MAX] };
+    let (keys, nodes) = (vec![u32::MAX], vec![i64::MAX, i64::MAX]);
+    let way = PackedWay { id: -1, keys, values: vec![3], nodes, ..PackedWay::default() };
     let relation =
         PackedRelation { id: 1, roles: vec![i32::MIN], members: vec![1], kinds: vec![77], ..PackedRelation::default() };
     let group = PrimitiveGroup { dense: Some(dense), ways: vec![way], relations: vec![relation], nodes: vec![] };

@@ -5,6 +5,8 @@ use super::elements::{Elements, Way};
 use super::frame::Frame;
 use super::roads::lines;
 use super::tags::Tags;
+use super::tally::Tally;
+use core::fmt::Display;
 use cosfly_frames::{DVec2, Seed, real};
 use cosfly_geometry::OrientedBox;
 use cosfly_town::crown::crown_boxes;
@@ -31,6 +33,11 @@ pub struct Things<'i> {
     pub trees_of_assumed_height: usize,
     /// Trees of rows, whose places along the row are assumed.
     pub trees_of_rows: usize,
+    /// Things that stand on something of unknown height, which are left out.
+    pub upstairs: Tally,
+    /// Barriers with more openings than are made.
+    pub closed: Tally,
+    storey_m: f64,
     next_id: &'i mut u32,
 }
 
@@ -65,7 +72,8 @@ fn along(tags: &Tags) -> Option<(ObstacleKind, f64, f64)> {
     })
 }
 
-/// Reads all things. `passages` are nodes of paths and roads: barriers are open there, as they are at their gates.
+/// Reads all things. `passages` are nodes of paths and roads: barriers are open there, as they are at their gates. `storey_m` is the
+/// height of a storey.
 ///
 /// # Errors
 /// More boxes than any town has.
@@ -73,31 +81,48 @@ pub fn read<'i>(
     elements: &Elements,
     frame: &Frame,
     passages: &BTreeSet<i64>,
+    storey_m: f64,
     next_id: &'i mut u32,
 ) -> Result<Things<'i>, MapError> {
-    let mut out = Things { obstacles: Vec::new(), trees: 0, trees_of_assumed_height: 0, trees_of_rows: 0, next_id };
-    for (id, tags) in &elements.node_tags {
+    let mut out = Things {
+        obstacles: Vec::new(),
+        trees: 0,
+        trees_of_assumed_height: 0,
+        trees_of_rows: 0,
+        upstairs: Tally::default(),
+        closed: Tally::default(),
+        storey_m,
+        next_id,
+    };
+    for (id, tags) in elements.node_tags.iter().filter(|(_, tags)| !tags.is_hidden()) {
         let Some(at) = frame.position(elements, *id).filter(|at| frame.holds(*at, MARGIN_M)) else { continue };
         if tags.is("natural", &["tree"]) {
-            out.add_tree(*id as u64, at, tags);
-        } else if let Some((kind, width_m, height_m)) = upright(tags).filter(|_| !tags.is_hidden()) {
-            let height_m = stated_height_m(tags).unwrap_or(height_m);
+            if let Some(base_m) = out.base_m(tags, format_args!("node {id}")) {
+                out.add_tree(*id as u64, at, base_m, tags);
+            }
+        } else if let Some((kind, width_m, height_m)) = upright(tags)
+            && let Some(span_m) = out.span_m(tags, height_m, format_args!("node {id}"))
+        {
             let id = out.next();
-            out.add_box(kind, id, at, DVec2::splat(0.5 * width_m), 0.0, [0.0, height_m]);
+            out.add_box(kind, id, at, DVec2::splat(0.5 * width_m), 0.0, span_m);
         }
     }
     let mut length_m = 0.0;
     for way in elements.ways.iter().filter(|way| !way.tags.is_hidden()) {
         if way.tags.is("natural", &["tree_row"]) {
+            let Some(base_m) = out.base_m(&way.tags, format_args!("way {}", way.id)) else { continue };
             for piece in lines(elements, frame, way, &mut length_m)? {
-                out.add_tree_row(way, &piece);
+                out.add_tree_row(way, &piece, base_m);
             }
         } else if let Some((kind, thickness_m, height_m)) = along(&way.tags) {
-            let height_m = stated_height_m(&way.tags).unwrap_or(height_m);
+            let Some(span_m) = out.span_m(&way.tags, height_m, format_args!("way {}", way.id)) else { continue };
             let openings = openings(elements, frame, way, passages);
+            if openings.len() == MOST_OPENINGS {
+                out.closed.add(format_args!("way {}", way.id));
+            }
             let id = out.next();
             for piece in lines(elements, frame, way, &mut length_m)? {
-                out.add_barrier(kind, id, &piece, [0.5 * thickness_m, height_m], &openings);
+                out.add_barrier(kind, id, &piece, (0.5 * thickness_m, span_m), &openings);
             }
         }
         if out.obstacles.len() > MOST_BOXES {
@@ -126,6 +151,25 @@ fn openings(elements: &Elements, frame: &Frame, way: &Way, passages: &BTreeSet<i
 }
 
 impl Things<'_> {
+    /// Height above the ground at which a thing begins, metres; `None`, counted, for one on a roof or an upper storey that
+    /// does not say how high that is.
+    fn base_m(&mut self, tags: &Tags, name: impl Display) -> Option<f64> {
+        let base_m = tags.base_m(self.storey_m);
+        if base_m.is_none() && tags.is_upstairs() {
+            self.upstairs.add(name);
+            return None;
+        }
+        Some(base_m.unwrap_or(0.0))
+    }
+
+    /// Lower and upper end of a thing of a usual height, metres. Stated heights are those of the upper end above the ground;
+    /// one that is below the lower end is not believed.
+    fn span_m(&mut self, tags: &Tags, usual_m: f64, name: impl Display) -> Option<[f64; 2]> {
+        let base_m = self.base_m(tags, name)?;
+        let top_m = stated_height_m(tags).filter(|top_m| *top_m > base_m);
+        Some([base_m, top_m.unwrap_or(base_m + usual_m)])
+    }
+
     fn next(&mut self) -> u32 {
         *self.next_id += 1;
         *self.next_id
@@ -152,7 +196,7 @@ impl Things<'_> {
     /// A tree that the file does not state, flagged as synthetic.
     pub fn add_assumed_tree(&mut self, number: u64, at: DVec2) {
         let (first, trees, unknown) = (self.obstacles.len(), self.trees, self.trees_of_assumed_height);
-        self.add_tree(number, at, &Tags::default());
+        self.add_tree(number, at, 0.0, &Tags::default());
         (self.trees, self.trees_of_assumed_height) = (trees, unknown);
         self.obstacles[first..].iter_mut().for_each(|one| one.synthetic = true);
     }
@@ -165,9 +209,9 @@ impl Things<'_> {
     }
 
     /// A trunk and a crown. `number` draws what the tags do not state.
-    fn add_tree(&mut self, number: u64, at: DVec2, tags: &Tags) {
+    fn add_tree(&mut self, number: u64, at: DVec2, base_m: f64, tags: &Tags) {
         self.trees += 1;
-        let stated_m = stated_height_m(tags).filter(|height| (1.0..=80.0).contains(height));
+        let stated_m = stated_height_m(tags).map(|top_m| top_m - base_m).filter(|height| (1.0..=80.0).contains(height));
         self.trees_of_assumed_height += usize::from(stated_m.is_none());
         let mut stream = Seed([0; 32]).child("tree", number).stream("height");
         let height_m = stated_m.unwrap_or_else(|| stream.uniform(6.0, 10.0));
@@ -175,10 +219,10 @@ impl Things<'_> {
         let crown_m = stated_crown_m.map_or((0.2 * height_m).clamp(1.0, 4.5), |width| 0.5 * width);
         let (trunk_m, crown_foot_m) = ((0.015 * height_m).clamp(0.08, 0.4), 0.35 * height_m);
         let id = self.next();
-        self.add_box(ObstacleKind::TreeTrunk, id, at, DVec2::splat(trunk_m), 0.0, [0.0, crown_foot_m]);
+        self.add_box(ObstacleKind::TreeTrunk, id, at, DVec2::splat(trunk_m), 0.0, [base_m, base_m + crown_foot_m]);
         let half_height_m = 0.5 * (height_m - crown_foot_m);
         let space = OrientedBox {
-            center_in_world: at.extend(crown_foot_m + half_height_m),
+            center_in_world: at.extend(base_m + crown_foot_m + half_height_m),
             half_extents_m: DVec2::splat(crown_m).extend(half_height_m),
             yaw_rad: 0.0,
         };
@@ -186,7 +230,7 @@ impl Things<'_> {
         self.obstacles.extend(crown_boxes(&space, id).map(one));
     }
 
-    fn add_tree_row(&mut self, way: &Way, line: &[DVec2]) {
+    fn add_tree_row(&mut self, way: &Way, line: &[DVec2], base_m: f64) {
         let mut left_m = 0.0;
         for pair in line.windows(2) {
             let length_m = pair[0].distance(pair[1]);
@@ -196,6 +240,7 @@ impl Things<'_> {
                 self.add_tree(
                     way.id as u64 ^ (self.trees_of_rows as u64) << 40,
                     pair[0].lerp(pair[1], at_m / length_m.max(1e-9)),
+                    base_m,
                     &way.tags,
                 );
                 at_m += TREE_SPACING_M;
@@ -210,7 +255,7 @@ impl Things<'_> {
         kind: ObstacleKind,
         object_id: u32,
         line: &[DVec2],
-        [half_thickness_m, height_m]: [f64; 2],
+        (half_thickness_m, span_m): (f64, [f64; 2]),
         openings: &[DVec2],
     ) {
         for pair in line.windows(2) {
@@ -229,7 +274,7 @@ impl Things<'_> {
                 if begin_m - from_m > 0.1 {
                     let middle = pair[0] + 0.5 * (from_m + begin_m) * along;
                     let half_m = DVec2::new(0.5 * (begin_m - from_m), half_thickness_m);
-                    self.add_box(kind, object_id, middle, half_m, real::atan2(along.y, along.x), [0.0, height_m]);
+                    self.add_box(kind, object_id, middle, half_m, real::atan2(along.y, along.x), span_m);
                 }
                 from_m = from_m.max(end_m);
             }

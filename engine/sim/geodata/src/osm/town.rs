@@ -33,7 +33,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     let mut passages = Passages::read(elements, &frame, &roads);
     let mut buildings = buildings::read(elements, &frame, options, &mut passages, &mut next_id, &mut problems)?;
     let mut paths = paths::read(elements, &frame, &roads, options, &mut meshes, &mut problems)?;
-    let mut things = things::read(elements, &frame, &paths.nodes, &mut next_id)?;
+    let mut things = things::read(elements, &frame, &paths.nodes, options.storey_height_m, &mut next_id)?;
     let around = (roads.as_slice(), &paths, buildings.obstacles.as_slice());
     let plants = land::add_plants(elements, &frame, &mut things, around);
     land::add_surfaces(elements, &frame, &mut meshes, &mut problems);
@@ -45,6 +45,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
             .hint("export an area with its nodes, ways and relations, not one layer of it"));
     }
     let mut notes = notes(&buildings, &things, options);
+    let of_things = [std::mem::take(&mut things.upstairs), std::mem::take(&mut things.closed)];
     let mut obstacles: Vec<Obstacle> = std::mem::take(&mut buildings.obstacles);
     obstacles.extend(things.obstacles);
     notes.extend(plants);
@@ -71,7 +72,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
         synthetic: Synthetic { notes, ..Synthetic::default() },
         ..Town::default()
     };
-    let mut warnings = warnings(elements, &problems, &buildings);
+    let mut warnings = warnings(elements, &problems, &buildings, &of_things);
     warnings.extend(bare_streets);
     Ok((town, warnings))
 }
@@ -81,7 +82,7 @@ fn add_ground(elements: &Elements, frame: &Frame, meshes: &mut MeshBuilder, prob
     let is_water = |tags: &Tags| {
         let is_pool = tags.is("leisure", &["swimming_pool"]);
         let is_open = tags.is("natural", &["water"]) || tags.is("waterway", &["riverbank", "dock"]) || is_pool;
-        (is_open || tags.is("landuse", &["reservoir", "basin"])) && !tags.is_hidden() && !tags.has("building")
+        (is_open || tags.is("landuse", &["reservoir", "basin"])) && tags.is_on_the_ground() && !tags.has("building")
     };
     let is_parking = |tags: &Tags| {
         let is_open =
@@ -96,23 +97,25 @@ fn add_ground(elements: &Elements, frame: &Frame, meshes: &mut MeshBuilder, prob
             "living_street",
             "emergency",
         ];
-        (is_open || tags.is("area:highway", &on_streets)) && !tags.is_hidden()
+        (is_open || tags.is("area:highway", &on_streets)) && tags.is_on_the_ground()
     };
     for area in areas(elements, frame, is_water, problems) {
-        paths::add_ground(meshes, SemanticLabel::Water, &area, frame, WATER_HEIGHT_M);
+        paths::add_ground(meshes, SemanticLabel::Water, (&area, WATER_HEIGHT_M), frame, problems);
     }
     match sea::sea(elements, frame) {
         Some(sea::Sea { rings, led_on }) => {
             problems.coast_ends = led_on;
             let rings: Vec<&[DVec2]> = rings.iter().map(Vec::as_slice).collect();
-            for piece in trapezoids(&rings).unwrap_or_default() {
+            let pieces = trapezoids(&rings);
+            problems.is_sea_too_crooked = pieces.is_none();
+            for piece in pieces.unwrap_or_default() {
                 paths::add_trapezoid(meshes, SemanticLabel::Water, &piece, WATER_HEIGHT_M);
             }
         }
         None => problems.is_coast_open = true,
     }
     for area in areas(elements, frame, is_parking, problems) {
-        paths::add_ground(meshes, SemanticLabel::Roads, &area, frame, PARKING_HEIGHT_M);
+        paths::add_ground(meshes, SemanticLabel::Roads, (&area, PARKING_HEIGHT_M), frame, problems);
     }
 }
 
@@ -132,10 +135,10 @@ fn one_level(elements: &Elements) -> String {
     };
     let is_bridge = |tags: &Tags| tags.has("bridge") && !tags.is_hidden();
     format!(
-        "everything stands on one level: the file has no heights of the ground; {} ways on bridges lie on it, {} in tunnels \
-         or below it are left out",
+        "everything stands on one level: the file has no heights of the ground; {} ways on bridges lie on it, {} in tunnels, \
+         below it or on upper storeys are left out",
         count(&is_bridge),
-        count(&Tags::is_hidden)
+        count(&|tags| !tags.is_on_the_ground())
     )
 }
 
@@ -174,7 +177,12 @@ fn notes(buildings: &buildings::Buildings, things: &Things<'_>, options: &OsmOpt
     notes
 }
 
-fn warnings(elements: &Elements, problems: &Problems, buildings: &buildings::Buildings) -> Vec<String> {
+fn warnings(
+    elements: &Elements,
+    problems: &Problems,
+    buildings: &buildings::Buildings,
+    [upstairs, closed]: &[super::tally::Tally; 2],
+) -> Vec<String> {
     let lacks = |way: &&super::elements::Way| way.nodes.iter().any(|id| elements.node(*id).is_none());
     let mut missing = super::tally::Tally::default();
     elements.ways.iter().filter(lacks).for_each(|way| missing.add(format_args!("way {}", way.id)));
@@ -183,20 +191,30 @@ fn warnings(elements: &Elements, problems: &Problems, buildings: &buildings::Bui
     let lost = elements.without_place;
     let without_place = (lost > 0).then(|| format!("{lost} nodes have no usable place and are left out"));
     [
+        elements.repeated.line("elements are in the file more than once; of each the highest version counts"),
         missing.line("ways lack nodes in the file; their whole pieces are kept"),
         without_place,
         problems.incomplete.line("areas lack nodes or ways in the file; their whole rings are kept"),
         problems.empty.line("areas have no extent and are left out"),
         problems.crossed.line("rings cross themselves; they are filled by the even-odd rule"),
         problems.too_long.line("rings have too many corners and are left out"),
+        buildings.open.line("buildings do not close and are left out"),
+        buildings
+            .of_unreadable_height
+            .line("buildings state a height that none can have, or in words; it counts as missing"),
         buildings.far.line("buildings lie far outside the bounds of the file and are left out"),
         hidden,
         (problems.coast_ends > 0).then(|| {
             format!("{} ends of the coastline are led straight on to the edge of the extract", problems.coast_ends)
         }),
+        problems.too_crooked.line("areas have too many corners for their ground to be filled, which is left out"),
+        problems.is_sea_too_crooked.then(|| "the coastline has too many corners: the sea is left out".to_owned()),
+        upstairs.line("things stand on roofs or upper storeys of a height that is not stated and are left out"),
+        closed.line("barriers have more gates and paths through them than are opened"),
         problems.is_coast_open.then(|| "the coastline ends within the extract: the sea is left out".to_owned()),
     ]
     .into_iter()
     .flatten()
+    .chain(buildings.coarse.warnings())
     .collect()
 }

@@ -1,6 +1,6 @@
 //! Elements from OSM XML (`.osm`, `.osm.gz`), read as a stream.
 
-use super::elements::{Bounds, Elements, Member, Relation, Role, Way};
+use super::elements::{Bounds, Elements, Kind, Member, Rank, Relation, Role, Way};
 use super::tags::Tags;
 use super::unpacked::Unpacked;
 use cosfly_town::MapError;
@@ -11,11 +11,11 @@ use quick_xml::reader::Reader;
 /// The elements of a file.
 ///
 /// # Errors
-/// Text that is no XML, is cut off, or has an element without its number.
+/// Text that is no XML, is cut off, unpacks to far more than such files do, or has an element without its number.
 pub fn read(bytes: &[u8]) -> Result<Elements, MapError> {
     let mut xml = Reader::from_reader(Unpacked::new(bytes));
     let mut buffer = Vec::new();
-    let mut reading = Reading::default();
+    let mut reading = Reading { elements: Elements::of_file(bytes.len()), open: None, is_complete: false };
     let mut depth = 0_usize;
     loop {
         buffer.clear();
@@ -25,14 +25,15 @@ pub fn read(bytes: &[u8]) -> Result<Elements, MapError> {
             .map_err(|error| broken(format!("the file is not readable as OSM XML: {error}"), at))?;
         match &event {
             Event::Start(tag) => {
-                reading.open(tag, depth).map_err(|error| broken(error.message, at))?;
+                reading.open(tag, depth).map_err(|error| located(error, at))?;
                 depth += 1;
             }
             Event::Empty(tag) => {
-                reading.open(tag, depth).map_err(|error| broken(error.message, at))?;
+                reading.open(tag, depth).map_err(|error| located(error, at))?;
                 if depth <= 1 {
                     reading.close()?;
                 }
+                reading.is_complete |= depth == 0;
             }
             Event::End(_) => {
                 depth = depth.saturating_sub(1);
@@ -53,12 +54,20 @@ pub fn read(bytes: &[u8]) -> Result<Elements, MapError> {
 }
 
 fn broken(message: String, at: u64) -> MapError {
-    MapError::new(format!("{message} (byte {at} of the text)"))
-        .hint("if the file is cut off or damaged, fetch or export it again")
+    located(MapError::new(message), at)
+}
+
+/// The same at a place; with the usual advice where it has none of its own.
+fn located(mut error: MapError, at: u64) -> MapError {
+    error.message = format!("{} (byte {at} of the text)", error.message);
+    if error.hints.is_empty() {
+        error.hint("if the file is cut off or damaged, fetch or export it again")
+    } else {
+        error
+    }
 }
 
 /// The file so far.
-#[derive(Default)]
 struct Reading {
     elements: Elements,
     open: Option<Open>,
@@ -69,7 +78,7 @@ struct Reading {
 
 /// The element that is open.
 enum Open {
-    Node { id: i64, place: [i64; 2], tags: Tags },
+    Node { id: i64, place: [i64; 2], tags: Tags, rank: Rank },
     Way(Way),
     Relation(Relation),
 }
@@ -79,13 +88,18 @@ impl Reading {
     fn open(&mut self, tag: &BytesStart<'_>, depth: usize) -> Result<(), MapError> {
         match (depth, tag.name().as_ref()) {
             (0, b"osm") if !self.is_complete => Ok(()),
+            (0, b"osm") => Err(MapError::new("a second `<osm>` follows the first one")
+                .hint("`osmium merge FILE FILE -o NEW.osm.pbf` makes one file of several")),
             (0, _) => Err(MapError::new("the outermost element is not one `<osm>`")),
             (1, b"bounds") => self.bounds(tag),
+            (1, b"bound") => self.bound(tag),
             (1, name @ (b"node" | b"way" | b"relation")) => self.element(tag, name),
             (2, b"tag") => self.tag(tag),
             (2, b"nd") => {
-                if let (Some(Open::Way(way)), Some(node)) = (&mut self.open, number(tag, "ref")?) {
-                    way.nodes.push(node);
+                if let Some(Open::Way(way)) = &mut self.open {
+                    let node = number(tag, "ref")?;
+                    way.nodes
+                        .push(node.ok_or_else(|| MapError::new(format!("a `<nd>` of way {} has no `ref`", way.id)))?);
                 }
                 Ok(())
             }
@@ -99,7 +113,17 @@ impl Reading {
         if let (Some(west), Some(south), Some(east), Some(north)) =
             (degrees("minlon")?, degrees("minlat")?, degrees("maxlon")?, degrees("maxlat")?)
         {
-            self.elements.bounds = Some(Bounds { low: [west, south], high: [east, north] });
+            self.elements.bounds.push(Bounds { low: [west, south], high: [east, north] });
+        }
+        Ok(())
+    }
+
+    /// As osmosis writes it: south, west, north, east.
+    fn bound(&mut self, tag: &BytesStart<'_>) -> Result<(), MapError> {
+        let text = attribute(tag, "box")?.unwrap_or_default();
+        let sides: Vec<f64> = text.split(',').filter_map(|side| side.trim().parse().ok()).collect();
+        if let [south, west, north, east] = sides[..] {
+            self.elements.bounds.push(Bounds { low: [west, south], high: [east, north] });
         }
         Ok(())
     }
@@ -107,16 +131,25 @@ impl Reading {
     fn element(&mut self, tag: &BytesStart<'_>, name: &[u8]) -> Result<(), MapError> {
         let kind = String::from_utf8_lossy(name).into_owned();
         let id = number(tag, "id")?.ok_or_else(|| MapError::new(format!("a `<{kind}>` has no `id`")))?;
-        let is_gone = attribute(tag, "action")?.as_deref() == Some("delete")
-            || attribute(tag, "visible")?.as_deref() == Some("false");
-        self.open = match name {
-            _ if is_gone => None,
-            b"node" => {
-                Some(Open::Node { id, place: [degrees(tag, "lon")?, degrees(tag, "lat")?], tags: Tags::default() })
-            }
-            b"way" => Some(Open::Way(Way { id, tags: Tags::default(), nodes: Vec::new() })),
-            _ => Some(Open::Relation(Relation { id, tags: Tags::default(), members: Vec::new() })),
-        };
+        let version: u32 = attribute(tag, "version")?.and_then(|text| text.trim().parse().ok()).unwrap_or(0);
+        // Editors mark what will be deleted: the next version is gone.
+        let is_to_go = attribute(tag, "action")?.as_deref() == Some("delete");
+        let rank = self.elements.rank(version.saturating_add(u32::from(is_to_go)));
+        let tags = Tags::default();
+        if is_to_go || attribute(tag, "visible")?.as_deref() == Some("false") {
+            let kind = match name {
+                b"node" => Kind::Node,
+                b"way" => Kind::Way,
+                _ => Kind::Relation,
+            };
+            self.open = None;
+            return self.elements.add_gone(kind, id, rank);
+        }
+        self.open = Some(match name {
+            b"node" => Open::Node { id, place: [degrees(tag, "lon")?, degrees(tag, "lat")?], tags, rank },
+            b"way" => Open::Way(Way { id, tags, nodes: Vec::new(), rank }),
+            _ => Open::Relation(Relation { id, tags, members: Vec::new(), rank }),
+        });
         Ok(())
     }
 
@@ -157,7 +190,7 @@ impl Reading {
 
     fn close(&mut self) -> Result<(), MapError> {
         match self.open.take() {
-            Some(Open::Node { id, place, tags }) => self.elements.add_node(id, place, tags),
+            Some(Open::Node { id, place, tags, rank }) => self.elements.add_node(id, place, tags, rank),
             Some(Open::Way(way)) => self.elements.add_way(way),
             Some(Open::Relation(relation)) => self.elements.add_relation(relation),
             None => Ok(()),

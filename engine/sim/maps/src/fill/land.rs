@@ -118,6 +118,11 @@ impl Land {
             })
     }
 
+    /// Whether the cells are larger than wanted.
+    pub fn is_coarse(&self) -> bool {
+        self.cell_m > CELL_M
+    }
+
     /// Side of a cell, metres.
     pub fn cell_m(&self) -> f64 {
         self.cell_m

@@ -38,7 +38,14 @@ pub fn fill(town: &mut Town, config: &FillConfig, seed: Seed) -> Vec<String> {
             counts[0] += buildings::put_up_buildings(&mut site, &mut land, fronts, config, seed.stream(purpose));
         }
     }
-    note_what_was_made(site.town, config, seed, counts)
+    let warnings = note_what_was_made(site.town, config, seed, counts);
+    if land.is_coarse() {
+        site.town
+            .synthetic
+            .notes
+            .push(format!("open land for `fill` is looked for in cells of {:.2} m: the town is wide", land.cell_m()));
+    }
+    warnings
 }
 
 fn note_what_was_made(town: &mut Town, config: &FillConfig, seed: Seed, counts: [usize; 3]) -> Vec<String> {

@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 const MOST_PIECES: f64 = 256.0;
 /// Most crossings of sides with rows that are worked on exactly, and with rows that are cut for slanted sides.
 const MOST_CROSSINGS: usize = 60_000;
+/// Most pairs of sides that are looked at for crossings.
+const MOST_PAIRS: usize = 4_000_000;
 /// Rows of rings whose sides are too many.
 const COARSE_ROWS: f64 = 64.0;
 /// Share of the tolerance that joining rows may use up, so that an overhang along and one across stay within it.
@@ -167,6 +169,34 @@ impl Rows {
             rows.extend((0..count).map(|i| Row::new(level(i), level(i + 1), spans(&active, level(i), level(i + 1)))));
         }
         rows
+    }
+
+    /// The same with levels where sides cross, so that [`Self::trapezoids`] are exact there, too; `None` where there are
+    /// too many sides to look at all pairs.
+    pub(super) fn with_levels_at_crossings(mut self) -> Option<Self> {
+        let mut pairs = 0;
+        for (number, one) in self.sides.iter().enumerate() {
+            for other in self.sides[number + 1..].iter().take_while(|other| other.a.y < one.b.y) {
+                pairs += 1;
+                if pairs > MOST_PAIRS {
+                    return None;
+                }
+                let (along, other_along, between) = (one.b - one.a, other.b - other.a, other.a - one.a);
+                let turn = along.perp_dot(other_along);
+                let (share, other_share) = (between.perp_dot(other_along) / turn, between.perp_dot(along) / turn);
+                if [share, other_share].iter().all(|share| (0.0..=1.0).contains(share)) {
+                    self.levels.push(one.a.y + share * along.y);
+                }
+            }
+        }
+        self.levels.sort_by(f64::total_cmp);
+        self.levels.dedup();
+        Some(self)
+    }
+
+    /// The sides, each from its lower to its upper end; those that two rings share are left out.
+    pub(crate) fn sides(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
+        self.sides.iter().map(|side| [side.a, side.b])
     }
 
     /// Spans that hold everything inside between two levels, whatever corners lie between them.

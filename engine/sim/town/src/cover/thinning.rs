@@ -5,7 +5,10 @@ use cosfly_frames::DVec2;
 /// Most corners that are left as they are: in all rings, or on average where there are many rings.
 const MOST_CORNERS: usize = 256;
 const MOST_OF_A_RING: usize = 8;
-/// Most corners of a ring that the exact thinning (quadratic at worst) works on.
+/// The same after the first thinning, which moves next to nothing.
+const MOST_FINE_CORNERS: usize = 1024;
+const MOST_FINE_OF_A_RING: usize = 16;
+/// Most corners of a ring that the exact thinning (quadratic at worst) works on at a time.
 const MOST_FOR_EXACT: usize = 4096;
 /// First distance that is tried, metres.
 const FIRST_M: f64 = 0.02;
@@ -13,16 +16,28 @@ const FIRST_M: f64 = 0.02;
 /// Drops corners until few are left. Every point of a ring lies within the returned distance of the new ring, metres.
 pub(super) fn thin_out(rings: &mut Vec<Vec<DVec2>>) -> f64 {
     let corners = |rings: &[Vec<DVec2>]| rings.iter().map(Vec::len).sum::<usize>();
-    let mut moved_m = 0.0;
-    let mut step_m = FIRST_M;
     let longest = |rings: &[Vec<DVec2>]| rings.iter().map(Vec::len).max().unwrap_or(0);
-    while longest(rings) > MOST_FOR_EXACT {
+    if corners(rings) <= MOST_CORNERS.max(MOST_OF_A_RING * rings.len()) {
+        return 0.0;
+    }
+    let mut moved_m = FIRST_M;
+    let is_long = longest(rings) > MOST_FOR_EXACT;
+    for ring in rings.iter_mut() {
+        *ring = if ring.len() > MOST_FOR_EXACT {
+            ring.chunks(MOST_FOR_EXACT).flat_map(|line| line_without_small_bends(line, FIRST_M)).collect()
+        } else {
+            without_small_bends(ring, FIRST_M)
+        };
+    }
+    drop_lines(rings);
+    let mut step_m = FIRST_M;
+    while is_long && longest(rings) > MOST_FOR_EXACT {
         drop_close(rings, step_m);
         moved_m += step_m;
         step_m *= 2.0;
     }
-    let mut step_m = FIRST_M;
-    while corners(rings) > MOST_CORNERS.max(MOST_OF_A_RING * rings.len()) {
+    let mut step_m = 2.0 * FIRST_M;
+    while corners(rings) > MOST_FINE_CORNERS.max(MOST_FINE_OF_A_RING * rings.len()) {
         for ring in rings.iter_mut() {
             *ring = without_small_bends(ring, step_m);
         }
@@ -58,19 +73,30 @@ fn drop_lines(rings: &mut Vec<Vec<DVec2>>) {
 fn without_small_bends(ring: &[DVec2], step_m: f64) -> Vec<DVec2> {
     let Some(first) = ring.first() else { return Vec::new() };
     let far = (0..ring.len()).max_by(|a, b| first.distance(ring[*a]).total_cmp(&first.distance(ring[*b]))).unwrap_or(0);
-    let mut keeps = vec![false; ring.len() + 1];
-    (keeps[0], keeps[far]) = (true, true);
-    let corner = |i: usize| ring[i % ring.len()];
-    let mut stack = vec![(0, far), (far, ring.len())];
+    let back: Vec<DVec2> = ring[far..].iter().chain([first]).copied().collect();
+    let mut kept = Vec::new();
+    for line in [&ring[..=far], &back] {
+        kept.extend(line_without_small_bends(line, step_m));
+        kept.pop();
+    }
+    kept
+}
+
+/// The same of a line, whose ends stay.
+fn line_without_small_bends(line: &[DVec2], step_m: f64) -> Vec<DVec2> {
+    let mut keeps = vec![false; line.len()];
+    let mut stack = vec![(0, line.len().saturating_sub(1))];
+    keeps.iter_mut().take(1).for_each(|first| *first = true);
+    keeps.iter_mut().rev().take(1).for_each(|last| *last = true);
     while let Some((from, to)) = stack.pop() {
-        let bend_m = |i: usize| distance_m(corner(i), corner(from), corner(to));
+        let bend_m = |i: usize| distance_m(line[i], line[from], line[to]);
         let widest = (from + 1..to).max_by(|a, b| bend_m(*a).total_cmp(&bend_m(*b)));
         if let Some(at) = widest.filter(|at| bend_m(*at) > step_m) {
             keeps[at] = true;
             stack.extend([(from, at), (at, to)]);
         }
     }
-    (0..ring.len()).filter(|i| keeps[*i]).map(corner).collect()
+    line.iter().zip(&keeps).filter(|(_, keep)| **keep).map(|(corner, _)| *corner).collect()
 }
 
 fn distance_m(point: DVec2, a: DVec2, b: DVec2) -> f64 {

@@ -277,6 +277,7 @@ impl Parts {
             let count = self.obstacles.without_size;
             self.warnings.push(format!("{count} objects without a usable size or height are left out"));
         }
+        self.warnings.extend(self.obstacles.coarse.warnings());
         if self.painter.strokes >= MOST_STROKES {
             self.warnings.push(format!("only the first {MOST_STROKES} painted line pieces are kept"));
         }

@@ -3,7 +3,7 @@
 use super::network::{Corner, Outline, Repeat, Road, RoadObject};
 use super::object_kind::{ObjectKind, kind_of};
 use crate::crown::crown_boxes;
-use crate::solids::{Footprint, Roof, building_boxes};
+use crate::solids::{CoarseThings, Footprint, Roof, building_boxes};
 use crate::world::WorldFromMap;
 use crate::{Obstacle, ObstacleKind};
 use cosfly_frames::{DVec2, DVec3, real};
@@ -35,6 +35,8 @@ pub(super) struct ObstacleBuilder {
     pub(super) guess_roofs: bool,
     /// Buildings that got one.
     pub(super) guessed_roofs: usize,
+    /// Things whose boxes are coarser than they should be.
+    pub(super) coarse: CoarseThings,
     /// Trees whose crown is our assumption.
     pub(super) assumed_crowns: usize,
     /// Signs whose plate and pole are our assumption.
@@ -311,7 +313,9 @@ impl ObstacleBuilder {
         let guessed = self.guess_roofs && kind == ObstacleKind::Building;
         let roof = if guessed { guessed_roof(footprint, top_m - bottom_m) } else { Roof::Flat };
         self.guessed_roofs += usize::from(roof != Roof::Flat);
-        for shape in building_boxes(footprint, bottom_m, top_m, roof) {
+        let solid = building_boxes(footprint, bottom_m, top_m, roof);
+        self.coarse.add(&solid);
+        for shape in solid.boxes {
             self.push_shape(kind, shape);
         }
     }

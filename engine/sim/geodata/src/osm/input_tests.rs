@@ -1,0 +1,297 @@
+//! Files with repeated, deleted, missing and out-of-order elements, several stated areas, and packed bombs.
+
+use super::pbf::{DenseInfo, DenseNodes, PrimitiveBlock, PrimitiveGroup, StringTable};
+use super::tests::{RING, blob, gzip, osm, raw, read, way, zlib};
+use cosfly_frames::DVec2;
+use cosfly_town::polygons::contains;
+use cosfly_town::{ObstacleKind, Town, WalkableKind};
+use prost::Message;
+
+const SQUARE: [(i64, i32, i32); 4] = [(1, 0, 0), (2, 2, 0), (3, 2, 2), (4, 0, 2)];
+
+/// Heights of the tops of all boxes of buildings, metres.
+fn tops_m(town: &Town) -> Vec<f64> {
+    let own = town.obstacles.iter().filter(|one| one.kind == ObstacleKind::Building);
+    own.map(|one| one.shape.bounds_in_world().1.z).collect()
+}
+
+fn house(id: i64, height: &str) -> String {
+    way(id, &RING, &[("building", "yes"), ("height", height)])
+}
+
+const BOUNDS: &str = "<bounds minlat=\"-0.002\" minlon=\"-0.002\" maxlat=\"0.002\" maxlon=\"0.002\"/>";
+
+#[test]
+fn areas_of_several_downloads_count_together() {
+    let nodes = [&SQUARE[..], &[(11, -19, -9), (12, 19, -9)]].concat();
+    let street = [("highway", "residential"), ("sidewalk", "both")];
+    let text = osm(&nodes, &(house(8, "5") + &way(9, &[11, 12], &street)));
+    let one = read(text.as_bytes()).unwrap().0;
+    let half = |from: &str, to: &str| {
+        format!("<bounds minlat=\"-0.002\" minlon=\"{from}\" maxlat=\"0.002\" maxlon=\"{to}\" origin=\"x\"/>")
+    };
+    for areas in [
+        half("-0.002", "0.0001") + &half("0.0001", "0.002"),
+        half("0.0001", "0.002") + &half("-0.002", "0.0001"),
+        half("-0.002", "-0.0015") + &half("0.0015", "0.002") + &half("-0.0015", "0.0015"),
+        // A part in which there is nothing, and an area of another place.
+        half("-0.0018", "0.002")
+            + &half("-0.002", "-0.0018")
+            + "<bounds minlat=\"50\" minlon=\"8\" maxlat=\"50.1\" maxlon=\"8.1\"/>",
+        "<bound box=\"-0.002,-0.002,0.002,0.002\" origin=\"osmosis\"/>".to_owned(),
+    ] {
+        let (town, warnings) = read(text.replace(BOUNDS, &areas).as_bytes()).unwrap();
+        assert_eq!(town, one, "{areas}");
+        assert_eq!(warnings, Vec::<String>::new());
+    }
+    // Two downloads with a gap between them: both keep their things, and so does the gap.
+    let apart = half("-0.002", "-0.001") + &half("0.001", "0.002");
+    assert_eq!(read(text.replace(BOUNDS, &apart).as_bytes()).unwrap().0, one);
+    let far =
+        text.replace("lon=\"0.0019\"", "lon=\"7\"").replace(BOUNDS, &(half("-0.002", "0.002") + &half("6.9", "7.1")));
+    let error = read(far.as_bytes()).unwrap_err();
+    assert!(error.message.contains("degrees across") && error.hints[0].contains("states 2 areas"), "{error:?}");
+}
+
+#[test]
+fn of_elements_that_are_there_again_the_highest_version_counts() {
+    let versioned = |text: String, version: &str| text.replacen("<way ", &format!("<way version=\"{version}\" "), 1);
+    let (first, second) = (versioned(house(8, "5"), "1"), versioned(house(8, "12"), "2"));
+    for rest in [first.clone() + &second, second.clone() + &first, first.clone() + &first + &second + &second] {
+        let (town, warnings) = read(osm(&SQUARE, &rest).as_bytes()).unwrap();
+        assert_eq!(tops_m(&town), [12.0]);
+        assert!(warnings[0].contains("more than once") && warnings[0].contains("way 8"), "{warnings:?}");
+    }
+    // The same again is nothing to speak of; without versions the first one counts.
+    let (town, warnings) = read(osm(&SQUARE, &(second.clone() + &second)).as_bytes()).unwrap();
+    assert_eq!((tops_m(&town), warnings), (vec![12.0], Vec::new()));
+    let (town, warnings) = read(osm(&SQUARE, &(house(8, "7") + &house(8, "9"))).as_bytes()).unwrap();
+    assert_eq!((tops_m(&town), warnings.len()), (vec![7.0], 1));
+    // A node that moved takes its tags along.
+    let tree = |version: u8, lon: &str, tag: &str| {
+        format!("<node id=\"20\" version=\"{version}\" lat=\"0.0015\" lon=\"{lon}\">{tag}</node>")
+    };
+    let (old, new) = (tree(1, "0.001", "<tag k=\"natural\" v=\"tree\"/>"), tree(2, "-0.001", ""));
+    for rest in [old.clone() + &new, new + &old] {
+        let (town, _) = read(osm(&SQUARE, &(house(8, "5") + &rest)).as_bytes()).unwrap();
+        assert!(town.obstacles.iter().all(|one| one.kind == ObstacleKind::Building));
+    }
+}
+
+#[test]
+fn what_is_deleted_is_gone_in_whatever_order() {
+    let other = way(9, &[1, 3], &[("highway", "footway")]);
+    let of_version =
+        |version: u8, more: &str| house(8, "5").replacen("<way ", &format!("<way version=\"{version}\" {more} "), 1);
+    let gone = ["visible=\"false\"", "visible=\"true\" action=\"delete\""];
+    for gone in gone {
+        let (alive, dead, back) = (of_version(1, ""), of_version(2, gone), of_version(4, "visible=\"true\""));
+        for (rest, count) in [
+            (alive.clone() + &dead, 0),
+            (dead.clone() + &alive, 0),
+            (dead.clone(), 0),
+            (dead.clone() + &back + &alive, 1),
+            (back + &dead, 1),
+        ] {
+            let (town, _) = read(osm(&SQUARE, &(rest + &other)).as_bytes()).unwrap();
+            assert_eq!(town.obstacles.len(), count, "{gone}");
+        }
+    }
+    // The same of packed nodes: node 3 was deleted, so that the path lacks it.
+    let dense = DenseNodes {
+        ids: vec![1, 1, 1, 0],
+        info: Some(DenseInfo { versions: vec![1, 1, 1, 2], visibles: vec![true, true, true, false] }),
+        lats: vec![0, 0, 4000, 0],
+        lons: vec![0, 8000, 0, 0],
+        keys_and_values: vec![],
+    };
+    let strings = ["", "highway", "footway"].map(|text| text.as_bytes().to_vec()).to_vec();
+    let path =
+        super::pbf::PackedWay { id: 7, keys: vec![1], values: vec![2], nodes: vec![1, 1, 1], ..Default::default() };
+    let group = PrimitiveGroup { dense: Some(dense), ways: vec![path], ..PrimitiveGroup::default() };
+    let block = PrimitiveBlock { strings: Some(StringTable { strings }), groups: vec![group], ..Default::default() };
+    let file = [blob("OSMHeader", &raw(&[])), blob("OSMData", &raw(&block.encode_to_vec()))].concat();
+    let (town, warnings) = read(&file).unwrap();
+    assert_eq!(town.walkable.len(), 1);
+    assert!(warnings.iter().any(|line| line.contains("1 ways lack nodes")), "{warnings:?}");
+}
+
+#[test]
+fn ways_may_come_before_their_nodes() {
+    let text = osm(&SQUARE, &house(8, "5"));
+    let turned = text.replace(&house(8, "5"), "").replace(BOUNDS, &(house(8, "5") + BOUNDS));
+    assert_eq!(read(turned.as_bytes()).unwrap(), read(text.as_bytes()).unwrap());
+}
+
+#[test]
+fn a_member_that_is_listed_twice_counts_once() {
+    let member = |id: i64, role: &str| format!("<member type=\"way\" ref=\"{id}\" role=\"{role}\"/>");
+    let relation = |members: &[String]| {
+        format!(
+            "<relation id=\"20\">{}<tag k=\"type\" v=\"multipolygon\"/><tag k=\"building\" v=\"yes\"/></relation>",
+            members.concat()
+        )
+    };
+    let ways = way(10, &[1, 2, 3], &[]) + &way(11, &[3, 4, 1], &[]);
+    let once = read(osm(&SQUARE, &(ways.clone() + &relation(&[member(10, "outer"), member(11, "outer")]))).as_bytes())
+        .unwrap();
+    assert_eq!(once.0.obstacles.len(), 1);
+    let twice = relation(&[member(10, "outer"), member(10, "outer"), member(11, "outer"), member(11, "outer")]);
+    assert_eq!(read(osm(&SQUARE, &(ways + &twice)).as_bytes()).unwrap(), once);
+}
+
+#[test]
+fn a_building_that_does_not_close_is_told_of_and_one_that_ends_at_a_twin_of_its_node_closes() {
+    let nodes = [&SQUARE[..], &[(5, 0, 0)]].concat();
+    let line = |nodes: &[i64]| way(8, nodes, &[("building", "yes"), ("height", "6")]);
+    let (town, warnings) = read(osm(&nodes, &line(&[1, 2, 3, 4, 5])).as_bytes()).unwrap();
+    assert_eq!((tops_m(&town), warnings), (vec![6.0], Vec::new()));
+    let (town, warnings) =
+        read(osm(&nodes, &(line(&[1, 2, 3, 4]) + &way(9, &[1, 3], &[("highway", "footway")]))).as_bytes()).unwrap();
+    assert!(town.obstacles.is_empty());
+    assert!(warnings[0].starts_with("1 buildings do not close") && warnings[0].contains("way 8"), "{warnings:?}");
+    let error = read(osm(&SQUARE, "<way id=\"4\"><nd/></way>").as_bytes()).unwrap_err();
+    assert!(error.message.contains("`<nd>` of way 4 has no `ref`"), "{error}");
+}
+
+#[test]
+fn barriers_begin_where_they_are_said_to_and_nothing_from_a_roof_stands_on_the_ground() {
+    let fence = |tags: &[(&str, &str)]| {
+        let tags = [&[("barrier", "fence")], tags].concat();
+        let nodes = [&SQUARE[..], &[(11, -9, -9), (12, 9, -9)]].concat();
+        let rest = way(8, &[1, 2], &tags) + &way(9, &[11, 12], &[("highway", "footway")]);
+        let (town, warnings) = read(osm(&nodes, &rest).as_bytes()).unwrap();
+        let spans: Vec<(f64, f64)> = town
+            .obstacles
+            .iter()
+            .map(|one| one.shape.bounds_in_world())
+            .map(|(low, high)| ((low.z * 1e6).round() / 1e6, (high.z * 1e6).round() / 1e6))
+            .collect();
+        (spans, warnings)
+    };
+    for (tags, span) in [
+        (&[("height", "35"), ("min_height", "34")][..], (34.0, 35.0)),
+        (&[("min_height", "34")], (34.0, 35.5)),
+        (&[("height", "1.2"), ("min_height", "34")], (34.0, 35.5)),
+        (&[("height", "2")], (0.0, 2.0)),
+        (&[("min_level", "3"), ("height", "12")], (9.0, 12.0)),
+        (&[("building:min_level", "3")], (9.0, 10.5)),
+        (&[("level", "4"), ("min_height", "12")], (12.0, 13.5)),
+        (&[("layer", "1")], (0.0, 1.5)),
+        (&[("level", "0;1")], (0.0, 1.5)),
+        (&[("height", "1e23"), ("min_height", "-3")], (0.0, 1.5)),
+    ] {
+        assert_eq!(fence(tags), (vec![span], Vec::new()), "{tags:?}");
+    }
+    for tags in [("location", "roof"), ("location", "rooftop"), ("level", "2"), ("level", "3-5")] {
+        let (spans, warnings) = fence(&[tags]);
+        assert!(spans.is_empty(), "{tags:?}");
+        assert!(warnings[0].starts_with("1 things stand on roofs") && warnings[0].contains("way 8"), "{warnings:?}");
+    }
+    for tags in [("location", "underground"), ("level", "-1"), ("layer", "-2"), ("indoor", "yes")] {
+        assert_eq!(fence(&[tags]), (Vec::new(), Vec::new()), "{tags:?}");
+    }
+}
+
+/// Kinds of the ground at a place of the file, ten-thousandths of a degree east and north.
+fn ground_at(town: &Town, (x, y): (f64, f64)) -> Vec<WalkableKind> {
+    let at = DVec2::new(11.132 * x, -11.0574 * y);
+    town.walkable.iter().filter(|area| contains(&area.plan(), at)).map(|area| area.kind).collect()
+}
+
+#[test]
+fn paths_cross_streets_or_end_at_their_kerbs() {
+    // A street from west to east, 10 m wide: half a unit of the file is 5.5 m.
+    let nodes = [
+        (11, -18, 0),
+        (12, 18, 0),
+        (20, -10, 0),
+        (21, -10, 9),
+        (30, 0, 0),
+        (31, 0, 9),
+        (32, 0, -9),
+        (40, 10, 0),
+        (41, 10, 9),
+        (42, 10, -9),
+    ];
+    let street = way(1, &[11, 20, 30, 40, 12], &[("highway", "residential"), ("width", "10")]);
+    let ends = way(2, &[21, 20], &[("highway", "footway")]);
+    let leads_over = way(3, &[31, 30, 32], &[("highway", "pedestrian")]);
+    let in_two = way(4, &[41, 40], &[("highway", "footway")]) + &way(5, &[40, 42], &[("highway", "footway")]);
+    let (town, _) = read(osm(&nodes, &(street.clone() + &ends + &leads_over + &in_two)).as_bytes()).unwrap();
+    assert_eq!(ground_at(&town, (-10.0, 0.2)), [], "the path ends at the kerb");
+    assert_eq!(ground_at(&town, (-10.0, 0.6)), [WalkableKind::Sidewalk]);
+    assert_eq!(ground_at(&town, (-10.0, -0.6)), []);
+    assert_eq!(ground_at(&town, (0.0, 0.1)), [WalkableKind::Crossing], "the street is not cut");
+    assert_eq!(ground_at(&town, (0.0, 0.7)), [WalkableKind::Plaza]);
+    assert_eq!(ground_at(&town, (10.0, 0.1)), [WalkableKind::Crossing], "two paths that meet on the street");
+    assert_eq!(ground_at(&town, (10.0, -0.1)), [WalkableKind::Crossing]);
+    // A crossing that the file states leads to the other side.
+    let stated = osm(&nodes, &(street + &ends)).replace(
+        "<node id=\"20\" lon=\"-0.0010\" lat=\"0.0000\"/>",
+        "<node id=\"20\" lon=\"-0.0010\" lat=\"0.0000\"><tag k=\"highway\" v=\"crossing\"/></node>",
+    );
+    let (town, _) = read(stated.as_bytes()).unwrap();
+    for y in [0.3, -0.3, -0.5] {
+        assert!(ground_at(&town, (-10.0, y)).contains(&WalkableKind::Crossing), "{y}");
+    }
+}
+
+#[test]
+fn streets_that_forbid_walking_and_the_sides_between_carriageways_get_no_invented_pavement() {
+    let nodes = [(11, -18, 0), (12, 18, 0), (21, -18, 1), (22, 18, 1), (31, -18, 9), (32, 18, 9)];
+    let one = [("highway", "secondary"), ("oneway", "yes"), ("width", "6")];
+    let pair = way(1, &[11, 12], &one) + &way(2, &[22, 21], &one);
+    let (town, _) = read(osm(&nodes, &pair).as_bytes()).unwrap();
+    let pavements = town.walkable.iter().filter(|area| area.kind == WalkableKind::Sidewalk).count();
+    assert_eq!(pavements, 2, "on the outer sides");
+    assert_eq!(ground_at(&town, (0.0, 0.5)), []);
+    let forbidden = way(3, &[31, 32], &[("highway", "secondary"), ("foot", "no")]);
+    let (town, _) = read(osm(&nodes, &(pair + &forbidden)).as_bytes()).unwrap();
+    assert_eq!(town.walkable.iter().filter(|area| area.kind == WalkableKind::Sidewalk).count(), pavements);
+    // An alley of two one-way streets far apart has both.
+    let lone = way(1, &[11, 12], &one) + &way(2, &[32, 31], &one);
+    let (town, _) = read(osm(&nodes, &lone).as_bytes()).unwrap();
+    assert_eq!(town.walkable.iter().filter(|area| area.kind == WalkableKind::Sidewalk).count(), 4);
+}
+
+fn refused(bytes: &[u8], expected: &str) {
+    let error = read(bytes).unwrap_err().to_string();
+    assert!(error.contains(expected), "{error}");
+}
+
+#[test]
+fn packed_files_that_unpack_to_far_more_than_maps_do_are_refused() {
+    let header = blob("OSMHeader", &raw(&[]));
+    let data = |content: &[u8]| [&header[..], &blob("OSMData", &zlib(content))].concat();
+    // Empty groups, and empty ways in one group: two bytes each in the file.
+    refused(&data(&[0x12, 0].repeat(8_000_000)), "lists more than");
+    let group = [0x1a, 0].repeat(2_000_000);
+    let mut block = vec![0x12];
+    prost::encoding::encode_varint(group.len() as u64, &mut block);
+    refused(&data(&[block, group].concat()), "lists more than");
+    let dense = DenseNodes {
+        ids: vec![1; 5_000_000],
+        lats: vec![0; 5_000_000],
+        lons: vec![0; 5_000_000],
+        ..DenseNodes::default()
+    };
+    let group = PrimitiveGroup { dense: Some(dense), ..PrimitiveGroup::default() };
+    let block = PrimitiveBlock { groups: vec![group], ..PrimitiveBlock::default() };
+    refused(&data(&block.encode_to_vec()), "more than a file of its size can have");
+    let many = blob("OSMData", &zlib(&vec![0x80; 30 << 20]));
+    assert!(read(&[&header[..], &many.repeat(12)].concat()).is_err());
+    // Text: the same element again and again, and elements that nobody knows.
+    let nodes = b"<node id=\"1\" lat=\"1\" lon=\"1\"/>".repeat(4_000_000);
+    refused(&gzip(&[b"<osm>", &nodes[..], b"</osm>"].concat()), "more than a file of its size can have");
+    let unknown = gzip(&b"<x y=\"zzzzzzzzzzzzzzzzzzzzzzzzzzzzzzzzzzzzzzzz\"/>".repeat(500_000));
+    refused(&[gzip(b"<osm>"), unknown.repeat(16)].concat(), "unpacks to more than");
+}
+
+#[test]
+fn entities_of_a_file_are_not_expanded() {
+    let bomb = "<!DOCTYPE osm [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\">]>";
+    let text = osm(&SQUARE, &way(8, &RING, &[("building", "&b;")]));
+    refused((bomb.to_owned() + &text).as_bytes(), "attribute `v` is not readable");
+    refused("<osm/><osm/>".as_bytes(), "a second `<osm>`");
+}
