@@ -38,7 +38,7 @@ impl StageKind for Perturb {
         config.validate().map_err(|(path, message)| parameters::refused_at(&path, message))?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 5,
+            version: 6,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs: self.ports(),
