@@ -14,6 +14,7 @@ mod evaluation;
 mod export;
 mod fly;
 mod fuzzing;
+mod long_walks;
 mod models;
 mod more_walkers;
 mod people;
