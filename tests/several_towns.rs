@@ -103,7 +103,7 @@ fn the_recipe_of_the_papers_size_has_its_counts_and_runs_in_small() {
         "for_each.town.others=3",
         "for_each.town.files=towns/track/town0[18].json",
         "stages.walkers.steps=24",
-        "stages.crowd.steps=24",
+        "stages.crowd.frames=24",
         "stages.frames.width=96",
         "stages.frames.height=54",
     ];

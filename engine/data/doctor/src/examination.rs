@@ -54,8 +54,8 @@ pub struct Examination {
     pub imperfect: usize,
     /// Number of episodes with damage.
     pub damaged: usize,
-    /// Lower end of each class of visibility, and its number of frames.
-    pub visibility: Vec<(f64, usize)>,
+    /// Lower end of each class of visibility, and its numbers of frames: of unperturbed and of perturbed episodes.
+    pub visibility: Vec<(f64, [usize; 2])>,
     /// Quotas, each with the share in the data.
     pub quotas: Vec<(Quota, f64)>,
     /// Signs that give targets away; datasets of cosfly only.
@@ -140,7 +140,7 @@ struct Tally<'a> {
     flags: Vec<Flag>,
     traces: Vec<Trace>,
     frames: usize,
-    visibility: [usize; SHARES.len()],
+    visibility: [[usize; 2]; SHARES.len()],
     /// Episodes that meet each quota.
     kept_quotas: Vec<usize>,
     texts: TextTally,
@@ -165,7 +165,7 @@ impl<'a> Tally<'a> {
             flags: vec![],
             traces: vec![],
             frames: 0,
-            visibility: [0; SHARES.len()],
+            visibility: [[0; 2]; SHARES.len()],
             kept_quotas: vec![0; quotas.len()],
             texts: TextTally::default(),
             stated: Stated::default(),
@@ -182,7 +182,7 @@ impl<'a> Tally<'a> {
         self.frames += episode.moments.len();
         for share in episode.moments.iter().filter_map(|it| it.visible) {
             if let Some(class) = SHARES.iter().rposition(|least| share >= *least) {
-                self.visibility[class] += 1;
+                self.visibility[class][usize::from(episode.is_perturbed)] += 1;
             }
         }
         let losses_s = episode.losses_s();

@@ -54,8 +54,8 @@ pub struct Group {
     pub flights: [u64; 2],
     /// Number of frames.
     pub frames: u64,
-    /// Sum of the mean visibilities of the flights.
-    pub visible: f64,
+    /// Sums of the mean visibilities of expert and of perturbed flights.
+    pub visible: [f64; 2],
 }
 
 /// A quantity whose distribution is drawn.
@@ -113,7 +113,7 @@ impl Figures {
             let group = groups.entry(name.clone()).or_default();
             group.flights[kind] += 1;
             group.frames += flight.len() as u64;
-            group.visible += visible;
+            group.visible[kind] += visible;
         }
         for (name, cost) in &flight.term_costs {
             *self.term_costs.entry(name.clone()).or_default() += cost;
@@ -147,10 +147,7 @@ impl Figures {
         self.walks.extend(other.walks);
         for (groups, others) in self.groups.iter_mut().zip(other.groups) {
             for (name, more) in others {
-                let group = groups.entry(name).or_default();
-                group.flights = [group.flights[0] + more.flights[0], group.flights[1] + more.flights[1]];
-                group.frames += more.frames;
-                group.visible += more.visible;
+                groups.entry(name).or_default().merge(&more);
             }
         }
         for (name, cost) in other.term_costs {
@@ -176,10 +173,34 @@ impl Figures {
         self.flights.iter().sum()
     }
 
+    /// Mean visibility of the expert and of the perturbed flights; `None` where there are none.
+    pub fn mean_visible(&self) -> [Option<f64>; 2] {
+        let mut all = Group::default();
+        for group in self.groups[0].values() {
+            all.merge(group);
+        }
+        all.mean_visible()
+    }
+
     /// Distributions of a quantity over experts and over perturbed flights.
     pub fn numbers(&self, quantity: Quantity) -> [&Distribution; 2] {
         static NONE: Distribution = Distribution::EMPTY;
         self.numbers.get(&quantity).map_or([&NONE; 2], |numbers| [&numbers[0].0, &numbers[1].0])
+    }
+}
+
+impl Group {
+    fn merge(&mut self, other: &Self) {
+        for kind in 0..2 {
+            self.flights[kind] += other.flights[kind];
+            self.visible[kind] += other.visible[kind];
+        }
+        self.frames += other.frames;
+    }
+
+    /// Mean visibility of the expert and of the perturbed flights; `None` where there are none.
+    pub fn mean_visible(&self) -> [Option<f64>; 2] {
+        [0, 1].map(|kind| (self.flights[kind] > 0).then(|| self.visible[kind] / self.flights[kind] as f64))
     }
 }
 

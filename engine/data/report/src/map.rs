@@ -22,7 +22,7 @@ const MOST_BOXES: usize = 6_000;
 /// A figure of `town` with some of its `all` flights, experts' where there are some; empty without flights.
 pub fn draw(town: &TownSketch, flights: &[&FlightSketch], all: u64) -> String {
     let experts: Vec<&FlightSketch> = flights.iter().filter(|it| !it.is_perturbed).copied().collect();
-    let drawn = if experts.is_empty() { flights.to_vec() } else { experts };
+    let (drawn, role) = if experts.is_empty() { (flights.to_vec(), "perturbed") } else { (experts, "expert") };
     let chosen: Vec<&FlightSketch> =
         moments::spread(drawn.len(), MOST_FLIGHTS).into_iter().map(|at| drawn[at]).collect();
     let Some(sheet) = Sheet::around(&chosen) else { return String::new() };
@@ -42,9 +42,9 @@ pub fn draw(town: &TownSketch, flights: &[&FlightSketch], all: u64) -> String {
     sheet.scale_bar(&mut svg);
     svg.push_str("</svg>");
     let shown = match (chosen.len() as u64, all.max(chosen.len() as u64)) {
-        (some, all) if some < all => format!("{some} of {all} expert flights"),
-        (1, _) => "1 flight".to_owned(),
-        (all, _) => format!("{all} flights"),
+        (some, all) if some < all => format!("{some} of {all} {role} flights"),
+        (1, _) => format!("1 {role} flight"),
+        (all, _) => format!("{all} {role} flights"),
     };
     let mean = chosen.iter().map(|flight| flight.mean_visible()).sum::<f64>() / chosen.len() as f64;
     format!(

@@ -43,10 +43,12 @@ fn heading<E>(report: &Report, pictures: Source<'_, E>) -> Result<String, E> {
     let visible = &report.figures.visible_by_expert;
     if !visible.is_empty() {
         let sum: f64 = visible.values().map(|(value, count)| value * count as f64).sum();
+        let twins = report.figures.mean_visible()[1];
+        let twins = twins.map_or_else(String::new, |mean| format!(", {:.1} % over perturbed flights", 100.0 * mean));
         let _ = write!(
             html,
-            "<p class=\"headline\"><b>{:.1} %</b> of the target is visible on average over expert flights; {:.1} % in the \
-             median flight.</p>",
+            "<p class=\"headline\"><b>{:.1} %</b> of the target is visible on average over expert flights{twins}; {:.1} % in the \
+             median expert flight.</p>",
             100.0 * sum / visible.len() as f64,
             100.0 * visible.quantile(0.5)
         );

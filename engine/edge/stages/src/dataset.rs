@@ -128,7 +128,7 @@ impl Stage for DatasetStage {
             ("flights".to_owned(), format!("{} expert, {} perturbed", summary.experts, summary.perturbed)),
             ("frames".to_owned(), summary.frames.to_string()),
             ("rejected".to_owned(), summary.rejected.to_string()),
-            ("mean visibility".to_owned(), format!("{:.3}", summary.mean_visibility())),
+            ("mean visibility".to_owned(), summary.mean_visibility()),
         ]);
         Ok(Produced { notes, warnings: summary.warnings, ..Produced::default() })
     }

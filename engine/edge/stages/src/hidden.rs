@@ -3,11 +3,11 @@
 use crate::body_rays::BodyRays;
 use crate::shooting::Shooting;
 use crate::walks::Person;
-use cosfly_frames::{DVec3, Seed};
+use cosfly_frames::Seed;
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::Trajectory;
 use cosfly_render::{Bystander, TargetSetup, Walker};
-use cosfly_world::{Around, Body, BodyKind, BodyPlan, Followed};
+use cosfly_world::{Around, Followed};
 
 /// Where more of the eight points of the certificate is seen, the figure is in sight.
 const MOST_SEEN: f64 = 0.25;
@@ -16,8 +16,7 @@ const MOST_SEEN: f64 = 0.25;
 /// around the target.
 pub fn hidden(flight: &Trajectory, boxes: &BoxBvh, around: &Around, followed: Option<&Followed>) -> Vec<bool> {
     let track = &flight.track;
-    let plan = followed.map_or_else(|| pedestrian(track.radius_m, track.height_m), |it| it.plan.clone());
-    let target = Person::of(&Body { plan, first_frame: 0, states: track.states.clone() }, track.dt_s);
+    let target = Person::target(track, followed);
     let others: Vec<Person> = around.bodies().map(|(_, body)| Person::of(body, around.traffic.dt_s)).collect();
     let camera = Shooting::plain(Seed([0; 32])).camera;
     let mut rays = BodyRays::default();
@@ -30,11 +29,6 @@ pub fn hidden(flight: &Trajectory, boxes: &BoxBvh, around: &Around, followed: Op
         seen.is_none_or(|share| share == 0.0)
     };
     (0..track.states.len()).map(|frame| flight.visibility[frame] <= MOST_SEEN && is_hidden(frame)).collect()
-}
-
-fn pedestrian(radius_m: f64, height_m: f64) -> BodyPlan {
-    let size_m = DVec3::new(2.0 * radius_m, 2.0 * radius_m, height_m);
-    BodyPlan { source: String::new(), kind: BodyKind::Pedestrian, size_m, looks: Seed([0; 32]), group: None }
 }
 
 fn setup(walker: Walker) -> TargetSetup {

@@ -55,7 +55,7 @@ impl StageKind for Muco {
         }
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 5,
+            version: 6,
             parameters,
             sources: expert.sources(),
             inputs,

@@ -5,12 +5,12 @@ use crate::memo::Memo;
 use crate::ports::{self, NEARBY, TRAJECTORY, WALK};
 use crate::shooting::Shooting;
 use crate::traffic::{BODIES, followed, traffic_of};
-use crate::walks::Person;
+use crate::walks::{Person, touch};
 use crate::world::{TOWN_BLOB, World, check_same_town, world};
 use crate::{body_rays, codec};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_frames::Pose;
+use cosfly_frames::{Pose, TargetState};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::pose_at;
@@ -19,7 +19,7 @@ use cosfly_render::{Buildings, Camera, Outlook, RenderConfig, Walker};
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::{Around, Followed, Traffic};
+use cosfly_world::{Around, Body, Followed, Traffic};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -51,7 +51,7 @@ pub struct NearbyBodies {
 pub fn part(config: &RenderConfig, parameters: serde_json::Value, items: ItemRule) -> StagePart {
     let properties = StageProperties {
         kind: "render".into(),
-        version: 3,
+        version: 4,
         parameters,
         sources: vec![],
         inputs: vec![ports::town(), trajectories(), others()],
@@ -126,14 +126,17 @@ impl Stage for NearbyStage {
             return Ok(Produced::default());
         };
         let world = world(inputs)?;
-        let (candidates, left_out) = candidates(inputs, &world, &trajectory)?;
+        let target = followed(inputs, inputs.one("trajectories")?)?;
+        let (candidates, meet_target) = candidates(inputs, &world, &trajectory, target.as_ref())?;
         let about = candidates.len();
         let buildings = self
             .buildings
             .get(inputs.one("town")?.blobs[TOWN_BLOB].digest, || -> Result<_> { Ok(Buildings::of(&world.town)) })?;
         let scenery = Scenery { buildings: &buildings, lowest_m: world.town.min_in_world.z };
-        let target = followed(inputs, inputs.one("trajectories")?)?;
-        let mut near = self.near(context, &scenery, &trajectory, target.as_ref(), candidates)?;
+        let near = self.near(context, &scenery, &trajectory, target.as_ref(), candidates)?;
+        let all = near.len();
+        let mut near = apart(near, &trajectory, target.as_ref());
+        let left_out = meet_target + all - near.len();
         near.sort_by_key(|candidate| candidate.instance);
         let mut people = vec![];
         let mut bodies: Vec<NearbyBodies> = vec![];
@@ -151,7 +154,10 @@ impl Stage for NearbyStage {
         if !bodies.is_empty() {
             outputs.put(BODIES, &codec::encode(NEARBY, &bodies)?)?;
         }
-        let words = format!("{} of {about} near, {left_out} left out: they would walk through the target", near.len());
+        let words = format!(
+            "{} of {about} near, {left_out} left out: they would walk through the target or somebody else",
+            near.len()
+        );
         Ok(Produced { notes: BTreeMap::from([("others".to_owned(), words)]), ..Produced::default() })
     }
 }
@@ -166,6 +172,8 @@ struct Scenery<'a> {
 /// A person who may be near.
 struct Candidate<'a> {
     instance: u32,
+    /// Place among the candidates: that of the stage at the port, then that of the item.
+    place: usize,
     origin: Origin<'a>,
     person: Person,
 }
@@ -194,15 +202,15 @@ impl NearbyBodies {
     }
 }
 
-/// All people at port `others` except the target and those whose path crosses the target's body; and the number of the latter.
+/// All people at port `others` except the target and those whose own walk crosses the target's body; and the number of the latter.
 fn candidates<'a>(
     inputs: &'a Inputs<'_>,
     world: &World,
     trajectory: &Trajectory,
+    target: Option<&Followed>,
 ) -> Result<(Vec<Candidate<'a>>, usize)> {
     let largest_object = largest_object(world);
     let (mut candidates, mut left_out) = (vec![], 0);
-    let target = followed(inputs, inputs.one("trajectories")?)?;
     for (stage, artifacts) in inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).enumerate() {
         let instance_of = |item: usize, named: &Artifact| {
             let instance = instance_of(stage, item).and_then(|number| largest_object.checked_add(number));
@@ -210,13 +218,11 @@ fn candidates<'a>(
         };
         if let Some(traffic) = artifacts.first().map_or(Ok(None), |artifact| traffic_of(inputs, artifact))? {
             for (number, body) in (0..).zip(&traffic.bodies).filter(|(_, body)| !body.states.is_empty()) {
-                let is_target = target.as_ref().is_some_and(|target| {
-                    target.number == number && body.plan == target.plan && trajectory.track.states == body.states
-                });
+                let is_target = is_of(target, number, body, trajectory);
                 if !is_target {
                     let instance = instance_of(number as usize, &artifacts[0])?;
                     let (origin, person) = (Origin::Body(Arc::clone(&traffic), number), Person::of(body, traffic.dt_s));
-                    candidates.push(Candidate { instance, origin, person });
+                    candidates.push(Candidate { instance, place: candidates.len(), origin, person });
                 }
             }
             continue;
@@ -236,11 +242,58 @@ fn candidates<'a>(
             if person.meets(&trajectory.track) {
                 left_out += 1;
             } else {
-                candidates.push(Candidate { instance, origin: Origin::Walk(artifact), person });
+                let origin = Origin::Walk(artifact);
+                candidates.push(Candidate { instance, place: candidates.len(), origin, person });
             }
         }
     }
     Ok((candidates, left_out))
+}
+
+/// Whether a body of traffic is the target of a flight.
+fn is_of(target: Option<&Followed>, number: u32, body: &Body, trajectory: &Trajectory) -> bool {
+    target.is_some_and(|it| it.number == number && it.plan == body.plan && trajectory.track.states == body.states)
+}
+
+impl Origin<'_> {
+    /// Whether two people were moved together, each around the other.
+    fn is_with(&self, other: &Origin<'_>) -> bool {
+        match (self, other) {
+            (Origin::Body(one, _), Origin::Body(other, _)) => Arc::ptr_eq(one, other),
+            _ => false,
+        }
+    }
+
+    /// Whether a person was moved together with the target of a flight.
+    fn is_with_target(&self, target: Option<&Followed>, trajectory: &Trajectory) -> bool {
+        let Origin::Body(traffic, _) = self else { return false };
+        let body = target.and_then(|it| Some((it.number, traffic.bodies.get(it.number as usize)?)));
+        body.is_some_and(|(number, body)| is_of(target, number, body, trajectory))
+    }
+}
+
+/// Leaves out everybody who would walk through the target or through somebody before them: those whose tracks were made apart
+/// from each other do not know of each other. More people change nothing for those before them.
+fn apart<'a>(mut near: Vec<Candidate<'a>>, trajectory: &Trajectory, target: Option<&Followed>) -> Vec<Candidate<'a>> {
+    let track = &trajectory.track;
+    let flown_at = Person::target(track, target);
+    let target_states = flown_at.states(track);
+    near.sort_by_key(|candidate| candidate.place);
+    let mut kept: Vec<(Candidate<'a>, Vec<Option<TargetState>>)> = vec![];
+    for candidate in near {
+        let states = candidate.person.states(track);
+        let (origin, own) = (&candidate.origin, (candidate.person.plan(), &states[..]));
+        let meets_target = track.radius_m > 0.0
+            && !origin.is_with_target(target, trajectory)
+            && touch((flown_at.plan(), &target_states), own);
+        let meets = |(other, others): &(Candidate<'a>, Vec<_>)| {
+            !origin.is_with(&other.origin) && touch((other.person.plan(), others), own)
+        };
+        if !meets_target && !kept.iter().any(meets) {
+            kept.push((candidate, states));
+        }
+    }
+    kept.into_iter().map(|(candidate, _)| candidate).collect()
 }
 
 /// Largest id of an object in instance images.

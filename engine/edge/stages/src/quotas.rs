@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Version of the trials, which is theirs and not that of the flights.
-pub const TRIALS_VERSION: u32 = 8;
+pub const TRIALS_VERSION: u32 = 9;
 /// Part with the trial of every flight.
 pub const TRIALS: &str = "trials";
 /// Part with the orders of all flights.

@@ -1,8 +1,9 @@
 //! Results of stages, read back by other tools.
 
 use crate::flight::Companion;
+use crate::nearby::NearbyBodies;
 use crate::other_drones::Formation;
-use crate::ports::{AROUND, FORMATION, TOWN, TRAJECTORY, WALK};
+use crate::ports::{AROUND, FORMATION, NEARBY, TOWN, TRAJECTORY, WALK};
 use crate::walks::walk_seed;
 use crate::{codec, companions};
 use cosfly_diagnose::Result;
@@ -49,6 +50,19 @@ pub const AROUND_BLOB: &str = crate::traffic::AROUND_BLOB;
 /// As [`town`].
 pub fn around(bytes: &[u8]) -> Result<Around> {
     codec::decode(AROUND, bytes)
+}
+
+/// Name of the blob of an item of part `nearby` of a `render` stage that holds the bodies of traffic near a film; its blobs
+/// `walk-...` hold the walks near it.
+pub const NEARBY_BODIES_BLOB: &str = crate::traffic::BODIES;
+
+/// Bodies in a blob named [`NEARBY_BODIES_BLOB`], by traffic.
+///
+/// # Errors
+/// As [`town`].
+pub fn bodies_near(bytes: &[u8]) -> Result<Vec<Around>> {
+    let near: Vec<NearbyBodies> = codec::decode(NEARBY, bytes)?;
+    Ok(near.into_iter().map(|bodies| bodies.around).collect())
 }
 
 /// Name of the blob of a flight through traffic that holds the body it follows.

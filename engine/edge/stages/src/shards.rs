@@ -37,7 +37,7 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
     inputs.extend([ports::group(logs::port()), group_splits::port()]);
     let properties = StageProperties {
         kind: "dataset".into(),
-        version: 7,
+        version: 8,
         parameters: serde_json::json!({
             "windows": canonical["windows"],
             "frames_per_file": canonical["frames_per_file"],

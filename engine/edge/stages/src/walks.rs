@@ -4,13 +4,13 @@ use crate::codec;
 use crate::shooting::Shooting;
 use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
-use cosfly_frames::{Seed, TargetState, TargetTrack};
+use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::effects::target_state_at;
 use cosfly_render::{BodyShape, Outfit, Walker, gait_phase_rad};
-use cosfly_world::Body;
+use cosfly_world::{Body, BodyKind, BodyPlan, Followed};
 
-/// Distance between the axes of two bodies below which one would walk through the other, metres.
+/// Distance between the axes of a target and somebody who walks on their own below which one would walk through the other, metres.
 const APART_M: f64 = 0.6;
 
 /// A person or vehicle on a track that has at least one state.
@@ -21,22 +21,28 @@ pub struct Person {
     /// Whether the body is absent before and after its track; otherwise it stands at the ends.
     comes_and_goes: bool,
     walked_m: Vec<f64>,
-    seed: Seed,
+    plan: BodyPlan,
     body: BodyShape,
 }
 
 impl Person {
     /// The person on `walk`.
     pub fn on(walk: &PedestrianPath) -> Result<Self> {
-        let (track, seed) = (walk.track.clone(), walk_seed(&walk.track)?);
+        let (track, looks) = (walk.track.clone(), walk_seed(&walk.track)?);
         Ok(Self {
             walked_m: walked_m(&track.states),
+            plan: pedestrian(&track, looks),
             track,
             first_s: 0.0,
             comes_and_goes: false,
-            seed,
             body: BodyShape::default(),
         })
+    }
+
+    /// The target of a flight; `followed` where it is a body of traffic.
+    pub fn target(track: &TargetTrack, followed: Option<&Followed>) -> Self {
+        let plan = followed.map_or_else(|| pedestrian(track, Seed([0; 32])), |it| it.plan.clone());
+        Self::of(&Body { plan, first_frame: 0, states: track.states.clone() }, track.dt_s)
     }
 
     /// A body of traffic whose frames are `dt_s` apart.
@@ -44,13 +50,18 @@ impl Person {
         let (height_m, radius_m) = (body.plan.size_m.z, body.plan.radius_m());
         let track = TargetTrack { dt_s, height_m, radius_m, states: body.states.clone() };
         let first_s = f64::from(body.first_frame) * dt_s;
-        let (seed, shape) = (body.plan.looks, BodyShape::of(body.plan.kind, body.plan.size_m));
-        Self { walked_m: walked_m(&track.states), track, first_s, comes_and_goes: true, seed, body: shape }
+        let (plan, shape) = (body.plan.clone(), BodyShape::of(body.plan.kind, body.plan.size_m));
+        Self { walked_m: walked_m(&track.states), track, first_s, comes_and_goes: true, plan, body: shape }
+    }
+
+    /// What does not change of the person.
+    pub fn plan(&self) -> &BodyPlan {
+        &self.plan
     }
 
     /// Dresses the person for the weather of a flight.
     pub fn dress_for(&mut self, shooting: &Shooting) {
-        self.body = shooting.dressed(self.body, &self.seed);
+        self.body = shooting.dressed(self.body, &self.plan.looks);
     }
 
     /// Body height and radius seen from above, metres.
@@ -60,7 +71,7 @@ impl Person {
 
     /// Clothes of the person or rider, paint of another vehicle.
     pub fn outfit(&self) -> Outfit {
-        Outfit::of(self.body, &self.seed)
+        Outfit::of(self.body, &self.plan.looks)
     }
 
     /// State at a time, seconds from the flight's first frame; `None` where the person is absent. At the end of a walk the
@@ -83,7 +94,7 @@ impl Person {
             state: self.state(time_s)?,
             height_m: track.height_m,
             radius_m: track.radius_m,
-            clothes_seed: self.seed,
+            clothes_seed: self.plan.looks,
             gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
             body: self.body,
         })
@@ -98,6 +109,11 @@ impl Person {
         target.radius_m > 0.0 && target.states.iter().enumerate().any(near)
     }
 
+    /// States in the frames of a flight; `None` where the person is absent.
+    pub fn states(&self, flight: &TargetTrack) -> Vec<Option<TargetState>> {
+        (0..flight.len()).map(|frame| self.state(frame as f64 * flight.dt_s)).collect()
+    }
+
     /// Place in the track at a time, frames; `None` where the body is absent. A body that comes and goes stays for half a frame
     /// beyond its first and last state, so that pictures with an exposure or a rolling shutter show it whole.
     fn step(&self, time_s: f64) -> Option<f64> {
@@ -106,6 +122,27 @@ impl Person {
         let is_there = !self.comes_and_goes || (step > -0.5 && step < last + 0.5);
         is_there.then(|| step.clamp(0.0, last))
     }
+}
+
+/// What does not change of somebody on a track.
+fn pedestrian(track: &TargetTrack, looks: Seed) -> BodyPlan {
+    let size_m = DVec3::new(2.0 * track.radius_m, 2.0 * track.radius_m, track.height_m);
+    BodyPlan { source: String::new(), kind: BodyKind::Pedestrian, size_m, looks, group: None }
+}
+
+/// Whether two bodies touch in a frame, one beside the other and at the same height.
+pub fn touch(
+    (plan, states): (&BodyPlan, &[Option<TargetState>]),
+    (other, others): (&BodyPlan, &[Option<TargetState>]),
+) -> bool {
+    let reach_m = plan.radius_m() + other.radius_m();
+    let overlap = |pair: (&Option<TargetState>, &Option<TargetState>)| {
+        let (Some(one), Some(two)) = pair else { return false };
+        let away = two.feet_in_world - one.feet_in_world;
+        let is_level = away.z < plan.size_m.z && -away.z < other.size_m.z;
+        is_level && away.truncate().length_squared() < reach_m * reach_m && plan.gap_m(one, other, two) < 0.0
+    };
+    states.iter().zip(others).any(overlap)
 }
 
 /// Seed of a walker's looks, and of the camera and weather of flights behind them.

@@ -24,17 +24,17 @@ pub fn section(report: &Report) -> String {
 fn table(title: &str, heading: &str, groups: &BTreeMap<String, Group>) -> String {
     let mut text = format!(
         "<section class=\"card\"><h3>{title}</h3><table><thead><tr><th scope=\"col\">{heading}</th><th scope=\"col\">flights\
-         </th><th scope=\"col\">frames</th><th scope=\"col\">visible</th></tr></thead><tbody>"
+         </th><th scope=\"col\">frames</th><th scope=\"col\">visible, expert</th><th scope=\"col\">visible, perturbed</th></tr></thead><tbody>"
     );
-    for (name, Group { flights, frames, visible }) in groups {
-        let flights: u64 = flights.iter().sum();
+    for (name, group) in groups {
+        let flights: u64 = group.flights.iter().sum();
+        let [expert, perturbed] = group.mean_visible().map(|mean| mean.map_or_else(String::new, percent));
         let _ = write!(
             text,
-            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>",
+            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{expert}</td><td>{perturbed}</td></tr>",
             escaped(name),
             grouped(flights),
-            grouped(*frames),
-            percent(visible / flights.max(1) as f64)
+            grouped(group.frames)
         );
     }
     text.push_str("</tbody></table></section>");

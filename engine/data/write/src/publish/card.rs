@@ -135,7 +135,7 @@ fn figures(config: &DatasetConfig, summary: &Summary) -> String {
     row("frames", summary.frames.to_string());
     row("time flown", format!("{:.1} min", summary.duration_s / 60.0));
     row("image size", sizes.join(", "));
-    row("mean visibility of the target (by rays)", format!("{:.3}", summary.mean_visibility()));
+    row("mean visibility of the target (by rays)", summary.mean_visibility());
     row("flights whose certificate does not hold", summary.uncertified.to_string());
     row("items without a flight", format!("{}, each with its reason in `rejected`", summary.rejected));
     row("logs", format!("{:.1} MB", summary.mcap_bytes as f64 / 1e6));

@@ -40,8 +40,8 @@ pub struct Summary {
     pub weathers: BTreeSet<String>,
     /// Image sizes that occur: width, height.
     pub image_sizes: BTreeSet<(u32, u32)>,
-    /// Mean visibility by rays over all flights, summed (divide by the flights).
-    pub visibility_sum: f64,
+    /// Mean visibility by rays of each flight, summed over expert and over perturbed flights.
+    pub visibility_sums: [f64; 2],
     /// Flights and frames by split name.
     pub splits: BTreeMap<String, (u64, u64)>,
     /// Rows by table name and split name; tables over something else than flights are a split of their own name.
@@ -80,7 +80,7 @@ impl Summary {
         self.pedestrians.insert((record.town.name.clone(), record.pedestrian_id.clone()));
         self.duration_s += record.trajectory.track.duration_s();
         self.uncertified += u64::from(!record.trajectory.certificate.holds);
-        self.visibility_sum += record.trajectory.certificate.mean_visibility;
+        self.visibility_sums[record.role as usize] += record.trajectory.certificate.mean_visibility;
         self.weathers.insert(record.weather.name.clone());
         self.image_sizes.insert((record.camera.width, record.camera.height));
         self.languages.extend(item.captions.iter().map(|caption| caption.language.clone()));
@@ -133,7 +133,7 @@ impl Summary {
         self.languages.extend(other.languages);
         self.weathers.extend(other.weathers);
         self.image_sizes.extend(other.image_sizes);
-        self.visibility_sum += other.visibility_sum;
+        self.visibility_sums.iter_mut().zip(other.visibility_sums).for_each(|(sum, more)| *sum += more);
         for (split, (flights, frames)) in other.splits {
             let sums = self.splits.entry(split).or_default();
             *sums = (sums.0 + flights, sums.1 + frames);
@@ -169,8 +169,13 @@ impl Summary {
         ])
     }
 
-    /// Mean visibility by rays over all flights; 0 without any.
-    pub fn mean_visibility(&self) -> f64 {
-        self.visibility_sum / (self.flights().max(1)) as f64
+    /// Mean visibility by rays, of expert and of perturbed flights each, in words: twins are perturbed to lose sight of the target, so
+    /// one figure for both would describe neither.
+    pub fn mean_visibility(&self) -> String {
+        let roles = [("expert", self.experts), ("perturbed", self.perturbed)];
+        let means = roles.iter().zip(self.visibility_sums).filter(|((_, flights), _)| *flights > 0);
+        let words: Vec<String> =
+            means.map(|((role, flights), sum)| format!("{:.3} {role}", sum / *flights as f64)).collect();
+        words.join(", ")
     }
 }

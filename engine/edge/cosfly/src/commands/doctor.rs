@@ -83,6 +83,21 @@ fn quota(text: &str) -> Result<cosfly_doctor::Quota, String> {
     }
 }
 
+/// Frames by visible share of the target: a line for each role, since twins are perturbed to lose sight of it.
+fn visibility(examination: &Examination) -> String {
+    let told = [0, 1].map(|role| examination.visibility.iter().map(|it| it.1[role]).sum::<usize>());
+    let line = |role: usize| {
+        let classes = ["under 50 %", "50 to 80 %", "80 to 95 %", "95 % and more"];
+        let share = |frames: &[usize; 2]| 100.0 * frames[role] as f64 / told[role] as f64;
+        let classes = classes.iter().zip(&examination.visibility);
+        let shares: Vec<String> =
+            classes.map(|(name, (_, frames))| format!("{name}: {:.1} %", share(frames))).collect();
+        let whose = if told[1] == 0 { "" } else { [" of experts", " of perturbed flights"][role] };
+        format!("frames{whose} by visible share of the target: {}\n", shares.join(", "))
+    };
+    [0, 1].into_iter().filter(|role| told[*role] > 0).map(line).collect()
+}
+
 fn text(examination: &Examination, allowed: f64) -> String {
     let mut text = String::new();
     for (severity, heading) in [(Severity::Damage, "damage"), (Severity::Imperfect, "imperfect")] {
@@ -101,13 +116,7 @@ fn text(examination: &Examination, allowed: f64) -> String {
     };
     let (episodes, frames) = (examination.episodes as u64, examination.frames as u64);
     let _ = writeln!(text, "examined {layout}: {} with {}", count(episodes, "episode"), count(frames, "frame"));
-    let told: usize = examination.visibility.iter().map(|it| it.1).sum();
-    if told > 0 {
-        let classes = ["under 50 %", "50 to 80 %", "80 to 95 %", "95 % and more"];
-        let shares = classes.iter().zip(&examination.visibility);
-        let shares = shares.map(|(name, (_, frames))| format!("{name}: {:.1} %", 100.0 * *frames as f64 / told as f64));
-        let _ = writeln!(text, "frames by visible share of the target: {}", shares.collect::<Vec<_>>().join(", "));
-    }
+    text.push_str(&visibility(examination));
     text.push_str(&examination.shortcuts.as_ref().map_or_else(String::new, shortcuts));
     examination.texts.iter().for_each(|figures| text.push_str(&language(figures)));
     for gap in &examination.unchecked {

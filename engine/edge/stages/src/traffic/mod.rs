@@ -1,13 +1,15 @@
 //! `traffic`: people and vehicles who move together through the town, and the walks of those who are followed.
 
+mod avoided;
 mod config;
 mod population;
 
 use crate::memo::Memo;
 use crate::other_drones::DRONES_BLOB;
 use crate::ports::{self, TRAFFIC, WALK};
-use crate::world::{TOWN_BLOB, link_town, world};
+use crate::world::{TOWN_BLOB, check_same_town, link_town, world};
 use crate::{codec, parameters};
+use avoided::Avoided;
 use config::TrafficConfig;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
@@ -48,7 +50,7 @@ impl StageKind for TrafficKind {
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        vec![ports::town()]
+        vec![ports::town(), avoided::port()]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
@@ -147,12 +149,16 @@ impl Stage for BodiesStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        check_same_town(inputs, avoided::PORT)?;
         let world = world(inputs)?;
         let clock = self.config.clock();
         let by = (clock, Seed(context.seed));
-        let mut populations = population::all(&self.config, &world.town, by, &context.sources)?;
+        let avoided = Avoided::read(inputs)?;
+        let count = avoided.len();
+        let mut populations = population::all(&self.config, &world.town, by, &context.sources, avoided)?;
         let simulated = simulate(&mut populations.all, clock, |_| context.check_cancelled())?;
         let mut traffic = Traffic { name: context.id.stage.recipe_name().to_owned(), ..simulated };
+        let left_out = avoided::take_out(&mut traffic, count);
         // Followed people matter here to those who are dressed like them; walks refuse names that nobody has.
         let mut followed = self.config.follow.eligible(&traffic).unwrap_or_default();
         followed.truncate(self.config.follow.count as usize);
@@ -171,6 +177,10 @@ impl Stage for BodiesStage {
         let mut notes = BTreeMap::from([("bodies".to_owned(), traffic.bodies.len().to_string())]);
         if !about.is_empty() {
             notes.insert("traffic".to_owned(), about);
+        }
+        if count > 0 {
+            let words = format!("{count}; {left_out} bodies left out, through whom one of them walks");
+            notes.insert("avoided".to_owned(), words);
         }
         Ok(Produced { notes, warnings, ..Produced::default() })
     }

@@ -1,5 +1,6 @@
 //! The populations of a stage `traffic`: one function per kind.
 
+use super::avoided::Avoided;
 use super::config::{RecordedSource, SumoSource, TrafficConfig};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::{DVec2, Seed};
@@ -25,12 +26,13 @@ pub struct Populations {
     pub notes: Vec<String>,
 }
 
-/// All populations. `files` are those of [`TrafficConfig::sources`].
+/// All populations; the last one is `avoided`, if there is anybody. `files` are those of [`TrafficConfig::sources`].
 pub fn all(
     config: &TrafficConfig,
     town: &Town,
     (clock, seed): (Clock, Seed),
     files: &[PathBuf],
+    avoided: Avoided,
 ) -> Result<Populations> {
     let mut populations = Populations::default();
     let mut grid: Option<Arc<WalkableGrid>> = None;
@@ -57,6 +59,9 @@ pub fn all(
     }
     if let Some(sumo) = &config.sumo {
         populations.all.push(self::sumo(sumo, &files[config.recorded.len()..], town, clock, seed.child("sumo", 0))?);
+    }
+    if avoided.len() > 0 {
+        populations.all.push(Box::new(avoided));
     }
     // People are numbered first, and begin beside everybody else.
     if let Some(grid) = grid.filter(|_| config.people.count > 0) {

@@ -5,7 +5,6 @@ use super::config::{FlyableConfig, PerturbConfig};
 use super::{motion, search};
 use crate::aim::{AimConfig, aimed, reached};
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_planner::certificate::Kinematics;
 use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_planner::trajectory::Kind;
 use cosfly_planner::trajectory::{FramePerturbation, Trajectory};
@@ -18,8 +17,11 @@ const ROUNDING_M: f64 = 1e-6;
 const REDUCED_S: f64 = 5.0;
 /// Halvings of the displacement before it is left out altogether.
 const HALVINGS: usize = 12;
-/// Reductions of the whole displacement by a fifth before it is left out altogether.
+/// Reductions of the displacement around a place that nothing could fly, each by [`REDUCTION`] and felt so long on both sides,
+/// before it is left out there.
 const REDUCTIONS: usize = 14;
+const REDUCTION: f64 = 0.2;
+const GENTLY_S: f64 = 20.0;
 /// Displacements and turns smaller than this are none, metres and radians.
 const NOTHING: f64 = 1e-6;
 
@@ -118,41 +120,34 @@ struct Way<'a> {
 }
 
 impl Way<'_> {
-    /// The largest displacements of the form of `wanted` that keep clearance, height, speed and acceleration; none where
-    /// nothing else does.
+    /// Displacements of the form of `wanted` that keep clearance, height, speed and acceleration: made smaller, smoothly in time, around
+    /// each place where they would not, and there alone, so that a long flight is displaced as a short one is.
     fn flown(&self, mut wanted: Vec<DVec3>) -> Vec<DVec3> {
-        for _ in 0..REDUCTIONS {
-            if wanted.iter().all(|offset| *offset == DVec3::ZERO) {
-                break;
-            }
+        // Beyond the reductions every round leaves at least one more frame without a displacement.
+        for round in 0..REDUCTIONS + wanted.len() {
             let free = self.kept_free(wanted.clone());
-            if self.is_flyable(&free) && self.blocked(&free).is_empty() {
+            let failing = [self.too_fast(&free), self.blocked(&free)].concat();
+            if failing.is_empty() {
                 return free;
             }
-            wanted.iter_mut().for_each(|offset| *offset *= 0.8);
+            let removed = if round < REDUCTIONS { REDUCTION } else { 1.0 };
+            reduce(&mut wanted, &failing, removed, self.frames(GENTLY_S));
         }
         vec![DVec3::ZERO; wanted.len()]
     }
 
+    fn frames(&self, time_s: f64) -> usize {
+        (time_s / self.expert.track.dt_s).ceil().max(1.0) as usize
+    }
+
     /// Displacements that are reduced, smoothly in time, wherever they lead too near to an obstacle or too low.
     fn kept_free(&self, mut offsets: Vec<DVec3>) -> Vec<DVec3> {
-        let reach = (REDUCED_S / self.expert.track.dt_s).ceil().max(1.0) as usize;
         for halving in 0..=HALVINGS {
             let blocked = self.blocked(&offsets);
             if blocked.is_empty() {
                 break;
             }
-            let removed = if halving == HALVINGS { 1.0 } else { 0.5 };
-            let mut kept = vec![1.0_f64; offsets.len()];
-            for frame in blocked {
-                let near = frame.saturating_sub(reach)..(frame + reach + 2).min(kept.len());
-                for (at, kept) in near.clone().zip(&mut kept[near]) {
-                    let apart = at.abs_diff(frame).min(at.abs_diff(frame + 1)) as f64 / reach as f64;
-                    let bump = 0.5 * (1.0 + real::cos(real::PI * apart.min(1.0)));
-                    *kept = kept.min(1.0 - removed * bump);
-                }
-            }
-            offsets.iter_mut().zip(kept).for_each(|(offset, kept)| *offset *= kept);
+            reduce(&mut offsets, &blocked, if halving == HALVINGS { 1.0 } else { 0.5 }, self.frames(REDUCED_S));
         }
         offsets
     }
@@ -171,10 +166,39 @@ impl Way<'_> {
         (0..offsets.len()).filter(is_blocked).collect()
     }
 
-    fn is_flyable(&self, offsets: &[DVec3]) -> bool {
+    /// Frames of displaced places from which on the way is too fast, or bends too much, where the expert's own is not.
+    fn too_fast(&self, offsets: &[DVec3]) -> Vec<usize> {
         let places: Vec<DVec3> = self.places.iter().zip(offsets).map(|(place, offset)| *place + *offset).collect();
-        let reached = Kinematics::of(&self.expert.track, &places, 0);
-        let limits = &self.config.flyable;
-        reached.speed_mps <= limits.max_speed_mps && reached.acceleration_mps2 <= limits.max_acceleration_mps2
+        let (limits, dt_s) = (&self.config.flyable, self.expert.track.dt_s);
+        let is_too_fast = |frame: &usize| {
+            let near = *frame..(*frame + 3).min(places.len());
+            if offsets[near.clone()].iter().all(|offset| offset.length() <= NOTHING) {
+                return false;
+            }
+            match places[near] {
+                [from, at, to] => {
+                    let speed_mps = from.distance(at).max(at.distance(to)) / dt_s;
+                    let acceleration_mps2 = (to - 2.0 * at + from).length() / (dt_s * dt_s);
+                    speed_mps > limits.max_speed_mps || acceleration_mps2 > limits.max_acceleration_mps2
+                }
+                [from, to] => from.distance(to) / dt_s > limits.max_speed_mps,
+                _ => false,
+            }
+        };
+        (0..places.len()).filter(is_too_fast).collect()
     }
+}
+
+/// Takes a share off the displacements around frames and those after them, less and less up to `reach` frames away.
+fn reduce(offsets: &mut [DVec3], frames: &[usize], removed: f64, reach: usize) {
+    let mut kept = vec![1.0_f64; offsets.len()];
+    for &frame in frames {
+        let near = frame.saturating_sub(reach)..(frame + reach + 2).min(kept.len());
+        for (at, kept) in near.clone().zip(&mut kept[near]) {
+            let apart = at.abs_diff(frame).min(at.abs_diff(frame + 1)) as f64 / reach as f64;
+            let bump = 0.5 * (1.0 + real::cos(real::PI * apart.min(1.0)));
+            *kept = kept.min(1.0 - removed * bump);
+        }
+    }
+    offsets.iter_mut().zip(kept).for_each(|(offset, kept)| *offset *= kept);
 }

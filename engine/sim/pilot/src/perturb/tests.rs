@@ -295,6 +295,26 @@ fn a_tight_limit_of_acceleration_makes_displacements_smaller() {
 }
 
 #[test]
+fn a_bend_at_the_limit_makes_displacements_smaller_there_and_nowhere_else() {
+    let (straight, exact) = (expert(2000), BoxBvh::build(vec![]));
+    let mut bent = straight.clone();
+    // One metre aside from one frame to the next: 4 m/s^2, which leaves nothing for a gust.
+    bent.poses_in_world[1000..].iter_mut().for_each(|pose| pose.position_in_world.y += 1.0);
+    let mut reduced = 0;
+    for kind in [Kind::Drift, Kind::Gusts, Kind::Timing] {
+        let mut config = only(kind);
+        config.flyable.max_acceleration_mps2 = 4.001;
+        let [free, kept] = [&straight, &bent].map(|expert| twin_of(expert, &exact, &config, seed()));
+        assert!(kept.certificate.max_acceleration_mps2 <= 4.001, "{kind:?}");
+        let offset = |twin: &Trajectory, frame: usize| frames(twin)[frame].drone_offset_in_world;
+        let is_same = |frame: usize| offset(&free, frame).distance(offset(&kept, frame)) < 1e-9;
+        assert!((0..900).chain(1100..2000).all(is_same), "{kind:?}");
+        reduced += (960..1040).filter(|at| offset(&kept, *at).length() < 0.9 * offset(&free, *at).length()).count();
+    }
+    assert!(reduced > 0);
+}
+
+#[test]
 fn twins_keep_clear_of_boxes_that_move() {
     let (expert, exact) = (expert(300), BoxBvh::build(vec![]));
     // Something flies along, a frame behind, as near as the clearance allows.

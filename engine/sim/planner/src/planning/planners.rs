@@ -1,7 +1,7 @@
 //! The neutral dispatcher: hands a problem to the planner that the recipe names, and judges what it returns.
 
 use super::causal::fly;
-use super::stretches::{STRETCH_FRAMES, plan_stretches};
+use super::stretches::{LONG, SHORT, plan_stretches};
 use crate::baselines::{baseline::Baseline, input::BaselineInput, plan::plan_baseline};
 use crate::config::foresight::Foresight;
 use crate::config::muco::MucoConfig;
@@ -59,10 +59,21 @@ pub(super) fn solve(
         };
     }
     // The paper's pipeline needs little memory and no stretches; baselines refuse what is too much for them.
-    if request.track.len() <= STRETCH_FRAMES || solver != Solver::Muco {
-        one(request, head)
+    if solver != Solver::Muco {
+        return one(request, head);
+    }
+    // One hard place is no reason to do without a long flight: shorter stretches leave it to one of them.
+    let at_once_or_not = |request: &PlanRequest<'_>, head: &[DVec3]| {
+        let planned = one(request, head);
+        if planned.is_ok() || request.track.len() <= SHORT[0].frames {
+            return planned;
+        }
+        plan_stretches(request, head, &SHORT, &one)
+    };
+    if request.track.len() <= LONG[0].frames {
+        at_once_or_not(request, head)
     } else {
-        plan_stretches(request, head, &one)
+        plan_stretches(request, head, &LONG, &at_once_or_not)
     }
 }
 

@@ -1,0 +1,103 @@
+//! People whom traffic moves around: other stages made their walks, and they make way for nobody.
+
+use crate::nearby;
+use crate::ports::{self, WALK};
+use crate::walks::Person;
+use cosfly_diagnose::Result;
+use cosfly_frames::TargetState;
+use cosfly_stage::{InputPort, Inputs};
+use cosfly_world::{BodyPlan, Population, Snapshot, Traffic, contacts};
+use std::collections::BTreeSet;
+
+/// Name of the port.
+pub const PORT: &str = "avoid";
+
+/// Port of the walks of those who are avoided.
+pub fn port() -> InputPort {
+    let doc = "Walks that are made before: everybody moves around these people. They are no part of this traffic.";
+    InputPort { optional: true, ..ports::gather(PORT, WALK, true, doc) }
+}
+
+/// People who walk as their own stages made them, and stand where their walks end.
+#[derive(Default)]
+pub struct Avoided {
+    people: Vec<Person>,
+    now_s: f64,
+}
+
+impl Avoided {
+    /// Those at the port; all bodies of a traffic that one of them was taken out of.
+    pub fn read(inputs: &Inputs<'_>) -> Result<Self> {
+        let mut people = vec![];
+        for artifacts in inputs.all(PORT).chunk_by(|a, b| a.id.stage == b.id.stage) {
+            if let Some(traffic) = artifacts.first().map_or(Ok(None), |artifact| super::traffic_of(inputs, artifact))? {
+                let bodies = traffic.bodies.iter().filter(|body| !body.states.is_empty());
+                people.extend(bodies.map(|body| Person::of(body, traffic.dt_s)));
+                continue;
+            }
+            for artifact in artifacts {
+                let walk = nearby::walk(inputs, artifact, "walk")?;
+                if !walk.track.is_empty() {
+                    people.push(Person::on(&walk)?);
+                }
+            }
+        }
+        Ok(Self { people, now_s: 0.0 })
+    }
+
+    /// Number of people.
+    pub fn len(&self) -> usize {
+        self.people.len()
+    }
+}
+
+impl Population for Avoided {
+    fn plans(&self) -> Vec<BodyPlan> {
+        self.people.iter().map(|person| person.plan().clone()).collect()
+    }
+
+    fn state(&self, body: usize) -> Option<TargetState> {
+        self.people.get(body)?.state(self.now_s)
+    }
+
+    fn step(&mut self, time_s: f64, step_s: f64, _: &Snapshot) {
+        self.now_s = time_s + step_s;
+    }
+}
+
+/// Takes the last `count` bodies out of a traffic, who were avoided. Bodies that one of them walks through all the same, such as
+/// somebody in an alley too narrow for two, are left without a place; gives the number of those.
+pub fn take_out(traffic: &mut Traffic, count: usize) -> usize {
+    let own = traffic.bodies.len() - count;
+    if count == 0 {
+        return 0;
+    }
+    let is_own = |number: &u32| (*number as usize) < own;
+    let touched = contacts(traffic, 0.0).into_iter().map(|contact| contact.bodies);
+    let touched: BTreeSet<u32> = touched.filter(|[one, other]| is_own(one) && !is_own(other)).map(|it| it[0]).collect();
+    traffic.bodies.truncate(own);
+    touched.iter().for_each(|number| traffic.bodies[*number as usize].states.clear());
+    touched.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_frames::{DVec3, Seed};
+    use cosfly_world::{Body, BodyKind};
+
+    #[test]
+    fn who_is_avoided_is_taken_out_with_those_whom_they_walk_through() {
+        let size_m = DVec3::new(0.5, 0.5, 1.8);
+        let plan =
+            BodyPlan { source: String::new(), kind: BodyKind::Pedestrian, size_m, looks: Seed([0; 32]), group: None };
+        let state = |x: f64| TargetState { feet_in_world: DVec3::X * x, heading_rad: 0.0, speed_mps: 1.0 };
+        let body = |x: f64| Body { plan: plan.clone(), first_frame: 0, states: vec![state(x), state(x + 1.0)] };
+        let bodies = vec![body(0.0), body(5.0), body(5.2), body(0.4), body(0.3)];
+        let mut traffic = Traffic { dt_s: 0.5, frames: 2, bodies, ..Traffic::default() };
+        assert_eq!(take_out(&mut traffic, 2), 1);
+        let present: Vec<usize> = traffic.bodies.iter().map(|body| body.states.len()).collect();
+        assert_eq!(present, [0, 2, 2]);
+        assert_eq!(take_out(&mut traffic, 0), 0);
+    }
+}
