@@ -49,7 +49,7 @@ impl StageKind for Dataset {
         parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
         let whole = StageProperties {
             kind: self.name().into(),
-            version: 13,
+            version: 14,
             parameters,
             sources: vec![],
             inputs: vec![
