@@ -93,6 +93,7 @@ pub(crate) mod tests {
             (0..14).map(|i| (Some(if i % 2 == 0 { 90.0 } else { 0.0 }), 12)).collect();
         let mut with_stops = many.clone();
         with_stops.insert(5, (None, 7));
+        let slow_bend: Vec<(Option<f64>, usize)> = (0..60).map(|i| (Some(3.0 * f64::from(i)), 2)).collect();
         [
             vec![(Some(0.0), 200)],
             vec![(Some(-45.0), 60), (None, 6), (Some(-45.0), 60)],
@@ -102,6 +103,11 @@ pub(crate) mod tests {
             with_stops,
             vec![(None, 40)],
             vec![(Some(-90.0), 30), (Some(0.0), 30), (Some(-90.0), 30), (Some(180.0), 30), (Some(-90.0), 30)],
+            slow_bend,
+            // Soon, late, and neither a turn to a side nor around.
+            vec![(Some(0.0), 8), (Some(90.0), 60)],
+            vec![(Some(0.0), 50), (None, 20), (Some(-90.0), 20)],
+            vec![(Some(0.0), 40), (Some(135.0), 40)],
         ]
         .iter()
         .map(|legs| facts(&flight(legs)))
@@ -121,7 +127,58 @@ pub(crate) mod tests {
                 }
             }
         }
-        assert_eq!(count, 9 * 25 * 2 * 2 * 6);
+        assert_eq!(count, 13 * 25 * 2 * 2 * 6);
+    }
+
+    #[test]
+    fn both_languages_say_when_the_first_turn_comes_and_only_where_it_is_so() {
+        let config = CaptionConfig { styles: vec![Style::Description], ..CaptionConfig::default() };
+        for (legs, soon, late) in [
+            (vec![(Some(0.0), 8), (Some(90.0), 60)], true, false),
+            (vec![(Some(0.0), 50), (Some(-90.0), 20)], false, true),
+            (vec![(Some(0.0), 30), (Some(-90.0), 60)], false, false),
+        ] {
+            let known = facts(&flight(&legs));
+            for caption in (0..20).flat_map(|seed| captions(&known, &config, Seed::of_item(seed, "captions", "a"))) {
+                let has = |phrases: &[&str]| phrases.iter().any(|phrase| caption.text.contains(phrase));
+                let said =
+                    (has(&["soon", "before long", "Before long", "不久"]), has(&["later", "good while", "好一阵"]));
+                assert_eq!(said, (soon, late), "{}", caption.text);
+            }
+        }
+    }
+
+    #[test]
+    fn length_time_and_pace_agree_as_they_are_read() {
+        let config =
+            CaptionConfig { styles: vec![Style::Description], variants_per_style: 6, ..CaptionConfig::default() };
+        let stop = |frames| vec![(Some(0.0), 20), (None, frames), (Some(0.0), 14)];
+        for legs in (4..30).map(stop).chain((3..60).map(|frames| vec![(Some(0.0), frames)])) {
+            let known = facts(&flight(&legs));
+            for caption in captions(&known, &config, Seed::of_item(1, "captions", "a")) {
+                let claims = read_numbers(&caption.text, caption.language);
+                let [Some(way), Some(time), Some(pace)] = claims else { continue };
+                let is_said =
+                    ["while walking", "while they walk", "走动时", "行走时"].iter().any(|it| caption.text.contains(it));
+                let time = if is_said { time - known.standing_s().round() } else { time };
+                assert!((way / time / pace - 1.0).abs() <= 0.101, "{}", caption.text);
+            }
+        }
+    }
+
+    /// Way, duration and pace of a text.
+    fn read_numbers(text: &str, language: Language) -> [Option<f64>; 3] {
+        use cosfly_claims::Claim;
+        let claims = match language {
+            Language::Zh => cosfly_claims::chinese::read(text),
+            Language::En => cosfly_claims::english::read(text),
+        };
+        let find = |of: &dyn Fn(&Claim) -> Option<f64>| claims.iter().find_map(of);
+        [
+            find(&|it| if let Claim::Way(value) = it { Some(*value) } else { None }),
+            find(&|it| if let Claim::Duration(value) = it { Some(*value) } else { None }),
+            find(&|it| if let Claim::Speed(value) = it { Some(*value) } else { None }),
+        ]
     }
 
     #[test]

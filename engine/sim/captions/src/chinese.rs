@@ -1,10 +1,12 @@
 //! Chinese wordings of the facts.
 
 use crate::chinese_frames::{CALLS, INSTRUCTIONS, KEEPS, LOOKS_DOWN, LOOKS_UP};
-use crate::facts::{Facts, Wear};
-use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
+use crate::facts::{Facts, FirstTurn, Wear};
+use crate::precision::{
+    DISTANCE_STEP_M, PITCH_STEP_DEG, Pace, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, pace, way_step_m,
+};
 use crate::turns::Turn;
-use crate::wording::{one_of, rounded};
+use crate::wording::{one_of, rounded, without};
 use cosfly_claims::TurnKind;
 use cosfly_random::RandomStream;
 use cosfly_render::Colour;
@@ -20,7 +22,10 @@ pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStre
         (false, None) => "站立不动的",
     };
     let who = format!("{standing}{}", who(facts.wear.as_ref(), words));
-    let mut text = INSTRUCTIONS[template % INSTRUCTIONS.len()].to_owned();
+    // Nobody says of who stands where they go.
+    let walking: &[&str] = &["走", "路"];
+    let frames = without(INSTRUCTIONS, Some(walking).filter(|_| !facts.walks));
+    let mut text = frames[template % frames.len()].to_owned();
     for (key, list) in [("[c]", CALLS), ("[k]", KEEPS), ("[k0]", &KEEPS[..1]), ("[l]", looks(facts))] {
         text = text.replace(key, one_of(words, list));
     }
@@ -98,25 +103,25 @@ pub(crate) fn colour(colour: Colour) -> &'static str {
 
 /// The way: what a picture can show of it, without directions of the compass.
 fn route(facts: &Facts, words: &mut RandomStream) -> String {
-    let ending = one_of(
-        words,
-        &["随后继续前行", "之后一路向前", "接着往前走", "然后继续走", "又继续往前走", "再往前走", "此后一直往前"],
-    );
+    if !facts.doubtful_turns.is_empty() {
+        return one_of(words, &["一路步行。", "步行前行。"]).to_owned();
+    }
+    let ending = one_of(words, &["随后继续前行", "接着往前走", "然后继续走", "又继续往前走", "再往前走"]);
     match facts.turns.len() {
-        0 if facts.start_direction == facts.end_direction => {
+        0 if !facts.bends => {
             one_of(words, &["一路直行。", "笔直前行。", "沿直线往前走。", "从头到尾直走。", "径直往前走。"]).to_owned()
         }
-        0 => one_of(words, &["一路前行，没有急转弯。", "往前走，路上没有急转弯。", "缓缓前行，始终没有急转弯。"])
+        0 => one_of(words, &["一路前行，没有急转弯。", "往前走，路上没有急转弯。", "往前走，始终没有急转弯。"])
             .to_owned(),
         listed if listed <= LISTED_TURNS => {
-            let turns = listed_turns(facts);
-            match words.index(5) {
-                0 => format!("出发后{turns}，{ending}。"),
-                1 => format!("走出一段后{turns}，{ending}。"),
-                2 => format!("起步往前，途中{turns}，{ending}。"),
-                3 => format!("先往前走，再{turns}，{ending}。"),
-                _ => format!("动身后不久{turns}，{ending}。"),
-            }
+            let patterns: &[&str] = match facts.first_turn() {
+                Some(FirstTurn::Soon) => &["动身后不久{t}，{e}。", "出发后不久{t}，{e}。", "起步后不久就{t}，{e}。"],
+                Some(FirstTurn::Late) => {
+                    &["走了好一阵才{t}，{e}。", "往前走了好一阵，再{t}，{e}。", "出发后过了好一阵才{t}，{e}。"]
+                }
+                None => &["出发后{t}，{e}。", "起步往前，途中{t}，{e}。", "先往前走，再{t}，{e}。"],
+            };
+            one_of(words, patterns).replace("{t}", &listed_turns(facts)).replace("{e}", ending)
         }
         count => {
             let counts: Vec<String> = [TurnKind::Left, TurnKind::Right, TurnKind::Around]
@@ -157,6 +162,8 @@ fn side(kind: TurnKind) -> &'static str {
 
 fn stops(facts: &Facts, words: &mut RandomStream) -> String {
     let standing = rounded(facts.standing_s(), STOP_STEP_S);
+    // Who stands at the start or at the end stops on no way.
+    let on_the_way: Option<&[&str]> = (!facts.stops_on_the_way()).then_some(&["途中", "路"]);
     match facts.stops.len() {
         0 => one_of(
             words,
@@ -164,7 +171,7 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
                 "途中没有停留。",
                 "途中未作停留。",
                 "一路没停。",
-                "中间不曾停下。",
+                "路上不曾停下。",
                 "脚步没有停过。",
                 "全程没有驻足。",
                 "一刻不停。",
@@ -178,33 +185,35 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
         .into(),
         1 => one_of(
             words,
-            &[
-                "途中停留一次，约{}秒。",
-                "途中停下一次，停了约{}秒。",
-                "半路停了一次，约{}秒。",
-                "中间驻足一次，约{}秒。",
-                "路上停下一回，停了约{}秒。",
-                "走到一半停了一次，约{}秒。",
-                "中间停过一次，停了约{}秒才接着走。",
-                "停下过一次，约{}秒。",
-                "途中有一次停留，约{}秒。",
-                "只停了一次，约{}秒。",
-            ],
+            &without(
+                &[
+                    "途中停留一次，约{}秒。",
+                    "途中停下一次，停了约{}秒。",
+                    "路上停下一回，停了约{}秒。",
+                    "途中停过一次，停了约{}秒。",
+                    "停下过一次，约{}秒。",
+                    "途中有一次停留，约{}秒。",
+                    "只停了一次，约{}秒。",
+                ],
+                on_the_way,
+            ),
         )
         .replace("{}", &standing),
         count => one_of(
             words,
-            &[
-                "途中停留#次，共约{}秒。",
-                "途中停下#次，共停了约{}秒。",
-                "一路停了#次，合计约{}秒。",
-                "中间停下#回，总共停了约{}秒。",
-                "前后停了#次，加起来约{}秒。",
-                "走走停停，停了#次，合计约{}秒。",
-                "途中有#次停留，总共约{}秒。",
-                "停过#次，累计约{}秒。",
-                "先后停下#次，一共约{}秒。",
-            ],
+            &without(
+                &[
+                    "途中停留#次，共约{}秒。",
+                    "途中停下#次，共停了约{}秒。",
+                    "一路停了#次，合计约{}秒。",
+                    "路上停下#回，总共停了约{}秒。",
+                    "前后停了#次，加起来约{}秒。",
+                    "途中有#次停留，总共约{}秒。",
+                    "停过#次，累计约{}秒。",
+                    "先后停下#次，一共约{}秒。",
+                ],
+                on_the_way,
+            ),
         )
         .replace('#', &numeral(count))
         .replace("{}", &standing),
@@ -215,9 +224,8 @@ fn length(facts: &Facts, words: &mut RandomStream) -> String {
     let way = rounded(facts.way_m, way_step_m(facts.way_m));
     let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
     let speed = rounded(facts.walking_speed_mps, SPEED_STEP_MPS);
-    let pattern = one_of(
-        words,
-        &[
+    let patterns: &[&str] = match pace(facts) {
+        Pace::Whole => &[
             "全程约{w}米，用时约{t}秒，步速约{s}米/秒。",
             "路程约{w}米，历时约{t}秒，行走速度约{s}米/秒。",
             "一共走了约{w}米，花了约{t}秒，平均每秒约{s}米。",
@@ -233,7 +241,23 @@ fn length(facts: &Facts, words: &mut RandomStream) -> String {
             "全长约{w}米，走了约{t}秒，每秒约{s}米。",
             "用约{t}秒走完约{w}米，步速约{s}米/秒。",
         ],
-    );
+        Pace::WhileWalking => &[
+            "全程约{w}米，用时约{t}秒，走动时步速约{s}米/秒。",
+            "约{t}秒走完约{w}米的路程，走动时速度约{s}米/秒。",
+            "总长约{w}米，耗时约{t}秒，走动时每秒约{s}米。",
+            "路程约{w}米，历时约{t}秒，行走时速度约{s}米/秒。",
+            "一共走了约{w}米，花了约{t}秒，行走时步速约{s}米/秒。",
+        ],
+        Pace::Unsaid => &[
+            "全程约{w}米，用时约{t}秒。",
+            "路程约{w}米，历时约{t}秒。",
+            "一共走了约{w}米，花了约{t}秒。",
+            "约{t}秒走完约{w}米的路程。",
+            "总长约{w}米，耗时约{t}秒。",
+            "走完这段路用了约{t}秒，路程约{w}米。",
+        ],
+    };
+    let pattern = one_of(words, patterns);
     pattern.replace("{w}", &way).replace("{t}", &duration).replace("{s}", &speed)
 }
 

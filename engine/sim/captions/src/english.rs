@@ -1,10 +1,12 @@
 //! English wordings of the facts.
 
 use crate::english_frames::{CALLS, FROM, INSTRUCTIONS, KEEPS, LOOKS, WITH};
-use crate::facts::{Facts, Wear};
-use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
+use crate::facts::{Facts, FirstTurn, Wear};
+use crate::precision::{
+    DISTANCE_STEP_M, PITCH_STEP_DEG, Pace, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, pace, way_step_m,
+};
 use crate::turns::Turn;
-use crate::wording::{one_of, rounded};
+use crate::wording::{one_of, rounded, without};
 use cosfly_claims::TurnKind;
 use cosfly_random::RandomStream;
 
@@ -15,7 +17,10 @@ const LISTED_TURNS: usize = 4;
 pub(crate) fn instruction(facts: &Facts, template: usize, words: &mut RandomStream) -> String {
     let standing = if facts.walks { "" } else { " who stands still" };
     let who = format!("{}{standing}", who(facts.wear.as_ref(), words));
-    let mut text = INSTRUCTIONS[template % INSTRUCTIONS.len()].to_owned();
+    // Nobody says of who stands where they go.
+    let walking: &[&str] = &["lead", "goes", "after", "all the way", "Go with"];
+    let frames = without(INSTRUCTIONS, Some(walking).filter(|_| !facts.walks));
+    let mut text = frames[template % frames.len()].to_owned();
     for (key, list) in [("c", CALLS), ("k", KEEPS), ("f", FROM), ("l", LOOKS), ("w", WITH)] {
         let chosen = one_of(words, list);
         text = text.replace(&format!("[{key}]"), chosen);
@@ -69,7 +74,7 @@ fn capitalised(text: &str) -> String {
 
 /// The target with clothes: `pedestrian in a red top and blue trousers`.
 pub(crate) fn who(wear: Option<&Wear>, words: &mut RandomStream) -> String {
-    let who = one_of(words, &["pedestrian", "person", "walker"]);
+    let who = one_of(words, &["pedestrian", "person"]);
     let Some(wear) = wear else { return who.to_owned() };
     let (top, trousers) = (wear.top.name(), wear.trousers.name());
     let article = article(top);
@@ -99,9 +104,12 @@ pub(crate) fn article(word: &str) -> &'static str {
 
 /// The way: what a picture can show of it, without directions of the compass.
 fn route(facts: &Facts, words: &mut RandomStream) -> String {
-    let ending = one_of(words, &["walks on", "goes on", "carries on", "keeps walking", "continues ahead"]);
+    if !facts.doubtful_turns.is_empty() {
+        return one_of(words, &["walks along.", "goes on foot.", "is out on foot."]).to_owned();
+    }
+    let ending = one_of(words, &["walks on", "goes on", "carries on", "keeps walking"]);
     match facts.turns.len() {
-        0 if facts.start_direction == facts.end_direction => one_of(
+        0 if !facts.bends => one_of(
             words,
             &[
                 "walks straight on.",
@@ -118,19 +126,32 @@ fn route(facts: &Facts, words: &mut RandomStream) -> String {
                 "walks on without a sharp turn.",
                 "goes along with no sharp turn.",
                 "makes no sharp turn.",
-                "bends gently and never turns sharply.",
+                "walks along and makes no sharp turn.",
             ],
         )
         .to_owned(),
         listed if listed <= LISTED_TURNS => {
-            let turns = listed_turns(facts);
-            match words.index(5) {
-                0 => format!("sets off, turns {turns}, and {ending}."),
-                1 => format!("starts walking, turns {turns}, and then {ending}."),
-                2 => format!("turns {turns} and {ending}."),
-                3 => format!("moves off, later turns {turns}, and {ending}."),
-                _ => format!("walks straight on at first, turns {turns}, and {ending}."),
-            }
+            let patterns: &[&str] = match facts.first_turn() {
+                Some(FirstTurn::Soon) => &[
+                    "sets off, soon turns {t}, and {e}.",
+                    "starts walking, soon turns {t}, and then {e}.",
+                    "before long turns {t} and {e}.",
+                    "moves off, before long turns {t}, and {e}.",
+                ],
+                Some(FirstTurn::Late) => &[
+                    "sets off, only later turns {t}, and {e}.",
+                    "starts walking, only later turns {t}, and then {e}.",
+                    "walks for a good while, then turns {t}, and {e}.",
+                    "moves off, after a good while turns {t}, and {e}.",
+                ],
+                None => &[
+                    "sets off, turns {t}, and {e}.",
+                    "starts walking, turns {t}, and then {e}.",
+                    "turns {t} and {e}.",
+                    "moves off, turns {t}, and {e}.",
+                ],
+            };
+            one_of(words, patterns).replace("{t}", &listed_turns(facts)).replace("{e}", ending)
         }
         count => {
             let counts: Vec<String> = [TurnKind::Left, TurnKind::Right, TurnKind::Around]
@@ -139,10 +160,7 @@ fn route(facts: &Facts, words: &mut RandomStream) -> String {
                 .filter(|(count, _)| *count > 0)
                 .map(|(count, side)| format!("{count} {side}"))
                 .collect();
-            let opening = one_of(
-                words,
-                &["sets off, makes", "weaves along and makes", "takes", "zigzags through", "moves off and makes"],
-            );
+            let opening = one_of(words, &["sets off, makes", "walks along, makes", "takes", "moves off and makes"]);
             format!("{opening} {count} turns ({}) and {ending}.", counts.join(", "))
         }
     }
@@ -172,6 +190,8 @@ fn side(kind: TurnKind) -> &'static str {
 
 fn stops(facts: &Facts, words: &mut RandomStream) -> String {
     let standing = rounded(facts.standing_s(), STOP_STEP_S);
+    // Who stands at the start or at the end stops on no way.
+    let on_the_way: Option<&[&str]> = (!facts.stops_on_the_way()).then_some(&["way", "walk"]);
     match facts.stops.len() {
         0 => one_of(
             words,
@@ -194,33 +214,39 @@ fn stops(facts: &Facts, words: &mut RandomStream) -> String {
         .into(),
         1 => one_of(
             words,
-            &[
-                "They pause once for about {} seconds.",
-                "On the way they stop once for about {} seconds.",
-                "There is one stop of about {} seconds.",
-                "There is one pause, about {} seconds long.",
-                "They halt once and wait about {} seconds.",
-                "A single stop lasts about {} seconds.",
-                "They stop just once, for about {} seconds.",
-                "One stop of about {} seconds breaks up the walk.",
-                "They come to a halt once, for about {} seconds.",
-                "There is a single pause of about {} seconds.",
-                "Once they stop and wait for about {} seconds.",
-            ],
+            &without(
+                &[
+                    "They pause once for about {} seconds.",
+                    "On the way they stop once for about {} seconds.",
+                    "There is one stop of about {} seconds.",
+                    "There is one pause, about {} seconds long.",
+                    "They halt once and wait about {} seconds.",
+                    "A single stop lasts about {} seconds.",
+                    "They stop just once, for about {} seconds.",
+                    "One stop of about {} seconds breaks up the walk.",
+                    "They come to a halt once, for about {} seconds.",
+                    "There is a single pause of about {} seconds.",
+                    "Once they stop and wait for about {} seconds.",
+                ],
+                on_the_way,
+            ),
         )
         .replace("{} seconds", &in_seconds(&standing)),
         count => one_of(
             words,
-            &[
-                "They stop # for about {} seconds in all.",
-                "They pause # for about {} seconds together.",
-                "They halt # and stand about {} seconds altogether.",
-                "They come to a stop #, for about {} seconds all told.",
-                "They stop #, about {} seconds in all.",
-                "They stop and wait #, for about {} seconds altogether.",
-                "They stop # on the way, about {} seconds in total.",
-                "They pause #, which adds up to about {} seconds.",
-            ],
+            &without(
+                &[
+                    "They stop # for about {} seconds in all.",
+                    "They pause # for about {} seconds together.",
+                    "They halt # and stand about {} seconds altogether.",
+                    "They come to a stop #, for about {} seconds all told.",
+                    "They stop #, about {} seconds in all.",
+                    "They stop and wait #, for about {} seconds altogether.",
+                    "They stop # on the way, about {} seconds in total.",
+                    "They pause #, which adds up to about {} seconds.",
+                ],
+                on_the_way,
+            ),
         )
         .replace('#', &times(count))
         .replace("{} seconds", &in_seconds(&standing)),
@@ -235,9 +261,8 @@ fn length(facts: &Facts, words: &mut RandomStream) -> String {
     let way = rounded(facts.way_m, way_step_m(facts.way_m));
     let duration = rounded(facts.duration_s, duration_step_s(facts.duration_s));
     let speed = rounded(facts.walking_speed_mps, SPEED_STEP_MPS);
-    let pattern = one_of(
-        words,
-        &[
+    let patterns: &[&str] = match pace(facts) {
+        Pace::Whole => &[
             "The walk covers about {w} m in about {t} seconds, at about {s} m/s.",
             "The route is about {w} m long and takes about {t} seconds; the pace is about {s} m/s.",
             "They walk about {w} m in about {t} seconds, at about {s} m/s.",
@@ -253,7 +278,24 @@ fn length(facts: &Facts, words: &mut RandomStream) -> String {
             "Their route of about {w} m takes them about {t} seconds, at about {s} m/s.",
             "They need about {t} seconds for the route of about {w} m and walk at about {s} m/s.",
         ],
-    );
+        Pace::WhileWalking => &[
+            "They cover about {w} m in about {t} seconds; while walking, they go at about {s} m/s.",
+            "The route of about {w} m takes about {t} seconds; while walking, the pace is about {s} m/s.",
+            "In about {t} seconds they cover about {w} m; while they walk, their pace is about {s} m/s.",
+            "The walk of about {w} m takes about {t} seconds, at about {s} m/s while walking.",
+            "It takes them about {t} seconds to cover about {w} m; their pace while walking is about {s} m/s.",
+            "The route is about {w} m long and takes about {t} seconds; while they walk, they do about {s} m/s.",
+        ],
+        Pace::Unsaid => &[
+            "The walk covers about {w} m in about {t} seconds.",
+            "They cover about {w} m in about {t} seconds.",
+            "In about {t} seconds they cover about {w} m.",
+            "The route is about {w} m long and takes about {t} seconds.",
+            "The whole walk of about {w} m takes about {t} seconds.",
+            "It is a walk of about {w} m; it takes about {t} seconds.",
+        ],
+    };
+    let pattern = one_of(words, patterns);
     pattern.replace("{w}", &way).replace("{t}", &duration).replace("{s}", &speed)
 }
 

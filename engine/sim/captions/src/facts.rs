@@ -1,6 +1,6 @@
 //! Facts of a trajectory: directions, turns, stops, distances, angles.
 
-use crate::turns::{Turn, directions, turns};
+use crate::turns::{Path, Turn};
 use cosfly_claims::Compass;
 use cosfly_claims::TurnKind;
 use cosfly_frames::DVec2;
@@ -14,8 +14,13 @@ const STANDING_MPS: f64 = 0.05;
 const LEAST_STOP_S: f64 = 1.0;
 /// A target that moves less than this in all stands, metres.
 const LEAST_WALK_M: f64 = 1.0;
-/// Entries of the direction series that make a start and an end.
-const END_FRAMES: usize = 4;
+/// Way at the start and at the end of a walk that gives their directions, metres.
+const END_M: f64 = 3.0;
+/// The first turn comes soon in the first fifth of the time and the first seconds; late in the second half, after some seconds.
+pub(crate) const SOON_SHARE: f64 = 0.2;
+pub(crate) const SOON_S: f64 = 6.0;
+pub(crate) const LATE_SHARE: f64 = 0.5;
+pub(crate) const LATE_S: f64 = 10.0;
 
 /// A pause of the target.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,8 +57,17 @@ pub struct Facts {
     pub start_direction: Compass,
     /// Walking direction at the end.
     pub end_direction: Compass,
-    /// Turns of at least 60 degrees, in order; what bends more slowly or less is none.
+    /// Turns that everybody sees, in order: bends of 60 to 125 degrees within some metres, and turns around.
     pub turns: Vec<Turn>,
+    /// Bends of which nobody can say whether they are turns, in order; one bend may stand here with two sides.
+    #[serde(default)]
+    pub doubtful_turns: Vec<Turn>,
+    /// Whether the way is not straight from its start to its end.
+    #[serde(default)]
+    pub bends: bool,
+    /// Time between frames, seconds; 0 where it is unknown.
+    #[serde(default)]
+    pub dt_s: f64,
     /// Pauses of at least a second, in order.
     pub stops: Vec<Stop>,
     /// Time from the first to the last frame, seconds.
@@ -89,6 +103,31 @@ impl Facts {
     pub fn turns_of(&self, kind: TurnKind) -> usize {
         self.turns.iter().filter(|turn| turn.kind == kind).count()
     }
+
+    /// Whether the target walks before and after each of its stops.
+    pub fn stops_on_the_way(&self) -> bool {
+        let end_s = |stop: &Stop| f64::from(stop.frame) * self.dt_s + stop.duration_s;
+        self.stops.iter().all(|stop| stop.frame > 0 && end_s(stop) < self.duration_s)
+    }
+
+    /// When the first turn comes; `None` where it comes neither soon nor late.
+    pub fn first_turn(&self) -> Option<FirstTurn> {
+        let time_s = f64::from(self.turns.first()?.frame) * self.dt_s;
+        match time_s {
+            soon if soon <= SOON_S.min(SOON_SHARE * self.duration_s) => Some(FirstTurn::Soon),
+            late if late >= LATE_S.max(LATE_SHARE * self.duration_s) => Some(FirstTurn::Late),
+            _ => None,
+        }
+    }
+}
+
+/// When the first turn of a walk comes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FirstTurn {
+    /// In the first fifth of the time and the first 6 seconds.
+    Soon,
+    /// In the second half of the time, after 10 seconds at least.
+    Late,
 }
 
 /// Reads the facts off a trajectory. An empty one gives zeros.
@@ -98,20 +137,22 @@ pub fn facts(trajectory: &Trajectory) -> Facts {
     let moving: Vec<bool> = track.states.iter().map(|state| state.speed_mps >= STANDING_MPS).collect();
     let way_m = track.length_m();
     let walks = way_m >= LEAST_WALK_M;
-    let directions = if walks { directions(&feet, &moving) } else { vec![] };
+    let path = if walks { Path::of(&feet, &moving, track.dt_s) } else { Path::of(&[], &[], track.dt_s) };
     let facing = track.states.first().map_or(0.0, |state| state.heading_rad);
-    let mean_yaw = |part: &[(usize, f64)]| {
-        if part.is_empty() { facing } else { part.iter().map(|(_, yaw)| yaw).sum::<f64>() / part.len() as f64 }
-    };
+    let direction = |from_m: f64| Compass::of_yaw_rad(path.direction_rad(from_m, from_m + END_M).unwrap_or(facing));
+    let turns = path.turns();
     let steps = moving.len().saturating_sub(1).max(1) as f64;
     let walking_s = track.duration_s() * (moving.iter().skip(1).filter(|moves| **moves).count() as f64 / steps);
     let pairs = || trajectory.poses_in_world.iter().zip(&track.states);
     let count = pairs().count().max(1) as f64;
     Facts {
         walks,
-        start_direction: Compass::of_yaw_rad(mean_yaw(&directions[..directions.len().min(END_FRAMES)])),
-        end_direction: Compass::of_yaw_rad(mean_yaw(&directions[directions.len().saturating_sub(END_FRAMES)..])),
-        turns: turns(&directions),
+        start_direction: direction(0.0),
+        end_direction: direction((path.length_m() - END_M).max(0.0)),
+        turns: turns.sure,
+        doubtful_turns: turns.doubtful,
+        bends: !path.is_straight(),
+        dt_s: track.dt_s,
         stops: if walks { stops(&moving, track.dt_s) } else { vec![] },
         duration_s: track.duration_s(),
         way_m,

@@ -3,6 +3,8 @@
 //! [`facts`] reads a trajectory, [`captions`] puts the facts into words, [`check`] reads any text back and compares
 //! it with the facts. The reader (`cosfly-claims`) shares no code with the templates, so it can judge other people's texts as well.
 //!
+//! [`part`] says what is the left, the middle and the right of a picture.
+//!
 //! [`refer`] names the target by properties that nobody else in a picture has.
 //!
 //! [`teaching`] puts the facts into questions to a language model, and judges what it writes; [`diversity`] and [`coverage`] measure texts.
@@ -22,6 +24,7 @@ mod english;
 mod english_frames;
 pub mod facts;
 pub mod goals;
+pub mod part;
 pub mod precision;
 pub mod refer;
 pub mod sight;
@@ -35,5 +38,5 @@ pub use config::{CaptionConfig, Style, Writer};
 pub use cosfly_claims::{Compass, Language, TurnKind};
 pub use coverage::{Coverage, coverage};
 pub use diversity::{Diversity, diversity};
-pub use facts::{Facts, Stop, Wear, facts};
+pub use facts::{Facts, FirstTurn, Stop, Wear, facts};
 pub use turns::Turn;

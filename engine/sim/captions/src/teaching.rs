@@ -115,6 +115,7 @@ pub fn facts_in_words(facts: &Facts, language: Language, style: Style) -> String
         (Language::Zh, TurnKind::Around) => "掉头",
     };
     let turns: Vec<&str> = facts.turns.iter().map(|turn| side(turn.kind)).collect();
+    let is_doubtful = !facts.doubtful_turns.is_empty();
     match language {
         Language::En => {
             lines.push(match &facts.wear {
@@ -134,6 +135,8 @@ pub fn facts_in_words(facts: &Facts, language: Language, style: Style) -> String
             if style == Style::Description {
                 if facts.walks {
                     lines.push(match turns.len() {
+                        _ if is_doubtful => "whether the person turns is not clear: do not write of turns".to_owned(),
+                        0 if facts.bends => "no sharp turn, and not straight".to_owned(),
                         0 => "no turns".to_owned(),
                         count => format!("{count} turns, in order: {}", turns.join(", ")),
                     });
@@ -141,7 +144,7 @@ pub fn facts_in_words(facts: &Facts, language: Language, style: Style) -> String
                         0 => "no stops".to_owned(),
                         count => format!("{count} stops, about {standing} seconds in all"),
                     });
-                    lines.push(format!("the way is about {way} m, walked at about {speed} m/s"));
+                    lines.push(format!("the way is about {way} m; while walking, the speed is about {speed} m/s"));
                 }
                 lines.push(format!("the flight takes about {duration} seconds"));
                 if facts.altitude_m >= 0.5 {
@@ -165,6 +168,8 @@ pub fn facts_in_words(facts: &Facts, language: Language, style: Style) -> String
             if style == Style::Description {
                 if facts.walks {
                     lines.push(match turns.len() {
+                        _ if is_doubtful => "是否转弯看不清：不要写转弯".to_owned(),
+                        0 if facts.bends => "没有急转弯，也不是直线".to_owned(),
                         0 => "没有转弯".to_owned(),
                         count => format!("转弯{count}次，依次为：{}", turns.join("、")),
                     });
@@ -172,7 +177,7 @@ pub fn facts_in_words(facts: &Facts, language: Language, style: Style) -> String
                         0 => "途中没有停留".to_owned(),
                         count => format!("停留{count}次，共约{standing}秒"),
                     });
-                    lines.push(format!("全程约{way}米，步速约{speed}米/秒"));
+                    lines.push(format!("全程约{way}米，走动时步速约{speed}米/秒"));
                 }
                 lines.push(format!("历时约{duration}秒"));
                 if facts.altitude_m >= 0.5 {

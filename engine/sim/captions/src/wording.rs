@@ -10,6 +10,12 @@ pub(crate) fn one_of<'a>(words: &mut RandomStream, choices: &[&'a str]) -> &'a s
     choices[words.index(choices.len())]
 }
 
+/// The wordings that have none of some words; all where nobody forbids them.
+pub(crate) fn without<'a>(choices: &[&'a str], forbidden: Option<&[&str]>) -> Vec<&'a str> {
+    let is_free = |choice: &&&str| forbidden.is_none_or(|words| !words.iter().any(|word| choice.contains(word)));
+    choices.iter().filter(is_free).copied().collect()
+}
+
 /// An English text with other words for some of its `about` before numbers.
 pub(crate) fn approximately(text: &str, words: &mut RandomStream) -> String {
     let mut parts = text.split("bout ");
@@ -19,7 +25,7 @@ pub(crate) fn approximately(text: &str, words: &mut RandomStream) -> String {
         let is_number = part.starts_with(|c: char| c.is_ascii_digit());
         let chosen = match (before, is_number) {
             (Some('A'), true) => one_of(words, &["About ", "Roughly ", "Around "]),
-            (Some('a'), true) => hedge(words, written.contains(|c: char| c.is_ascii_digit())),
+            (Some('a'), true) => one_of(words, &["about ", "roughly ", "around ", "approximately ", "about "]),
             (before, _) => {
                 written.extend(before);
                 "bout "
@@ -29,14 +35,6 @@ pub(crate) fn approximately(text: &str, words: &mut RandomStream) -> String {
         written += part;
     }
     written
-}
-
-/// A word before a number; behind another number in half of the cases none, as people say it.
-fn hedge(words: &mut RandomStream, is_later: bool) -> &'static str {
-    if is_later && words.index(2) == 0 {
-        return "";
-    }
-    one_of(words, &["about ", "roughly ", "around ", "approximately ", "about "])
 }
 
 /// A Chinese text with other words for some of its `约` before numbers.
@@ -50,10 +48,7 @@ pub(crate) fn approximately_in_chinese(text: &str, words: &mut RandomStream) -> 
         // `28米左右的距离` is said, `28米左右距离` is not.
         let may_follow =
             behind.is_some_and(|end| part[end..].is_empty() || part[end..].starts_with(['，', '。', '；', '、']));
-        // Behind another number people often leave the word out.
-        let is_later = written.contains(|c: char| c.is_ascii_digit());
         match (words.index(4), behind) {
-            _ if is_later && behind.is_some() && words.index(2) == 0 => written += part,
             (0 | 1, Some(end)) if may_follow => {
                 written += &part[..end];
                 written += "左右";

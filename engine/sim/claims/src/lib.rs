@@ -9,12 +9,14 @@ pub mod english;
 mod foreign;
 mod language;
 mod lists;
+mod time_of_turn;
 mod turn;
 
 pub use compass::Compass;
 pub use foreign::foreign_things;
 pub use language::Language;
 pub use lists::without_marks;
+pub use time_of_turn::time_of_first_turn;
 pub use turn::TurnKind;
 
 pub(crate) use english::words::LUGGAGE;
@@ -91,6 +93,10 @@ pub enum Claim {
     Walks,
     /// The only stop comes before the only turn, or after it.
     StopFirst(bool),
+    /// The first turn comes soon after the start.
+    TurnsSoon,
+    /// The first turn comes only after a good while.
+    TurnsLate,
     /// A number that says nothing this reader knows.
     Unknown(String),
 }

@@ -64,7 +64,8 @@ columns! { Windows::COLUMNS of DatasetItem;
     /// Instructions of the trajectory: `captions.caption_id`.
     caption_ids: Vec<String> = |item, _| (0..item.captions.len()).map(|place| super::captions::id(item, place)).collect();
     /// Instruction in English that singles the target out in the last picture of the input: by its clothes, the people around it,
-    /// its way across the picture, a landmark that it passes. Empty for a target without a body.
+    /// its way across the picture, a landmark that it passes. Left, middle and right of the picture are those of table `phrases`.
+    /// Empty for a target without a body.
     instruction_en: String = |item, row| sight::instruction(item, current_frame(item, row), start(item, row), Language::En);
     /// The same in Chinese, in words of its own.
     instruction_zh: String = |item, row| sight::instruction(item, current_frame(item, row), start(item, row), Language::Zh);

@@ -254,7 +254,12 @@ one and its centre is at (0.5, 0.5).\n\
 * Depth: planar, along the optical axis, metres, 32-bit float, +inf for sky.\n\
 * Semantic images: CARLA's label ids (0.9.14 and later). Instance images: 0 ground and sky, 1 the target, object id + \
 2 (table `objects`), then people (table `people`).\n\
-* Boxes: left, top, right, bottom edges in pixels; right and bottom lie outside.\n";
+* Boxes: left, top, right, bottom edges in pixels; right and bottom lie outside.\n\
+* Words in texts: the left of a picture is left of 0.3 of its width, the middle from 0.4 to 0.6, the right beyond 0.7, by the \
+middle of the visible box. A turn to a side is a bend of 60 to 125 degrees within 12 m, by chords of 3 and 5 m; a turn around leads \
+back within 3 m and 6 s of walking; texts name no turns where some bend may or may not be one. Soon: the first turn comes in the \
+first fifth of the time and the first 6 s; late: in the second half and after 10 s. Distances and angles are means of the flight; \
+a pace is the length over the time, without the stops where the text says so.\n";
 
 fn table_section<S>(table: &Table<S>) -> String {
     let mut text = format!("### {}\n\n{}\n\n| column | type | meaning |\n| --- | --- | --- |\n", table.name, table.doc);

@@ -79,7 +79,7 @@ impl StageKind for Caption {
         }
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 11,
+            version: 12,
             parameters: canonical,
             sources: vec![],
             inputs,

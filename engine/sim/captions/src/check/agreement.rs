@@ -2,8 +2,10 @@
 
 use crate::facts::Facts;
 use crate::precision::{SPEED_STEP_MPS, STOP_STEP_S, is_step, way_step_m};
+use crate::turns::Turn;
 use cosfly_claims::Claim;
 use cosfly_claims::TurnKind;
+use std::collections::BTreeSet;
 
 /// Turns that the text lists, in order.
 pub(super) fn listed(claims: &[Claim]) -> Vec<TurnKind> {
@@ -14,28 +16,52 @@ pub(super) fn listed(claims: &[Claim]) -> Vec<TurnKind> {
     claims.iter().filter_map(turn).collect()
 }
 
-/// Whether the turns of a text are these: words that may be turns count where they fit, and `twice, to the right` lists two.
-pub(super) fn is_list_of(claims: &[Claim], expected: &[TurnKind]) -> bool {
+/// Turns of a flight, in order, each with whether it is a doubtful one, which a text may leave out.
+fn told(facts: &Facts) -> Vec<(TurnKind, bool)> {
+    let of = |turns: &[Turn], is_doubtful| -> Vec<(u32, TurnKind, bool)> {
+        turns.iter().map(|turn| (turn.frame, turn.kind, is_doubtful)).collect()
+    };
+    let mut all = [of(&facts.turns, false), of(&facts.doubtful_turns, true)].concat();
+    all.sort_by_key(|it| it.0);
+    all.into_iter().map(|(_, kind, is_doubtful)| (kind, is_doubtful)).collect()
+}
+
+/// Whether the turns of a text are those of the flight: words that may be turns count where they fit, and `twice, to the right`
+/// lists two.
+pub(super) fn is_list_of(claims: &[Claim], facts: &Facts) -> bool {
     let listed = listed(claims);
-    let is_counted = claims.contains(&Claim::Turns(expected.len()));
+    let is_counted = claims.contains(&Claim::Turns(facts.turns.len()));
     if let ([kind], true) = (&listed[..], is_counted)
-        && expected.iter().all(|it| it == kind)
+        && facts.turns.iter().all(|turn| turn.kind == *kind)
     {
         return true;
     }
-    // Of each beginning of the claims, how many of the expected turns it may list.
-    let mut reached = std::collections::BTreeSet::from([0]);
+    let told = told(facts);
+    let beyond_doubtful = |from: usize| {
+        let skipped = told[from..].iter().take_while(|(_, is_doubtful)| *is_doubtful).count();
+        from..=from + skipped
+    };
+    // Of each beginning of the claims, up to which of the flight's turns it may lead.
+    let mut reached: BTreeSet<usize> = beyond_doubtful(0).collect();
     for claim in claims {
-        let next = |count: &usize, kind: TurnKind| (expected.get(*count) == Some(&kind)).then_some(count + 1);
+        let listing = |kind: TurnKind| -> BTreeSet<usize> {
+            let next = reached.iter().filter(|at| told.get(**at).is_some_and(|it| it.0 == kind));
+            next.flat_map(|at| beyond_doubtful(at + 1)).collect()
+        };
         reached = match claim {
-            Claim::Turn(kind) => reached.iter().filter_map(|count| next(count, *kind)).collect(),
-            Claim::PerhapsTurn(kind) => {
-                reached.iter().flat_map(|count| [Some(*count), next(count, *kind)]).flatten().collect()
-            }
+            Claim::Turn(kind) => listing(*kind),
+            Claim::PerhapsTurn(kind) => &listing(*kind) | &reached,
             _ => reached,
         };
     }
-    reached.contains(&expected.len())
+    reached.contains(&told.len())
+}
+
+/// Whether a flight may be said to have so many turns, of a kind or of all kinds.
+pub(super) fn may_have(count: usize, kind: Option<TurnKind>, facts: &Facts) -> bool {
+    let of = |turns: &[Turn]| turns.iter().filter(|turn| kind.is_none_or(|kind| turn.kind == kind)).count();
+    let sure = of(&facts.turns);
+    (sure..=sure + of(&facts.doubtful_turns)).contains(&count)
 }
 
 /// Whether a claim says anything beside the others of its text.
@@ -48,7 +74,9 @@ pub(super) fn is_of_weight(claim: &Claim, claims: &[Claim], facts: &Facts) -> bo
     match claim {
         Claim::Straight => !claims.iter().any(is_turn),
         Claim::NoTurns => !states_the_turns(claims, facts),
-        Claim::Turns(count) => !lists_the_turns(claims, facts) || *count > facts.turns.len(),
+        Claim::Turns(count) => {
+            !lists_the_turns(claims, facts) || *count > facts.turns.len() + facts.doubtful_turns.len()
+        }
         Claim::Stops(0) => !states_the_stops(claims, facts),
         Claim::SomeStops => {
             (facts.walks || !claims.iter().any(stays)) && !claims.contains(&Claim::Stops(facts.stops.len()))
@@ -59,8 +87,8 @@ pub(super) fn is_of_weight(claim: &Claim, claims: &[Claim], facts: &Facts) -> bo
 }
 
 fn lists_the_turns(claims: &[Claim], facts: &Facts) -> bool {
-    let turns: Vec<TurnKind> = facts.turns.iter().map(|turn| turn.kind).collect();
-    !turns.is_empty() && !listed(claims).is_empty() && is_list_of(claims, &turns)
+    let has_turns = !facts.turns.is_empty() || !facts.doubtful_turns.is_empty();
+    has_turns && !listed(claims).is_empty() && is_list_of(claims, facts)
 }
 
 fn states_the_turns(claims: &[Claim], facts: &Facts) -> bool {

@@ -3,6 +3,7 @@
 use super::*;
 use crate::Language;
 use crate::caption::tests::flights;
+use crate::facts::{Facts, facts, test_flights::flight};
 use crate::{CaptionConfig, Compass, captions};
 use cosfly_random::Seed;
 
@@ -55,6 +56,12 @@ fn mutations(text: &str, language: Language) -> Vec<String> {
             ("black", "white"),
             ("without a", "with 1"),
             ("turns", "turns left, then"),
+            ("soon turns", "only later turns"),
+            ("before long turns", "only later turns"),
+            ("only later turns", "soon turns"),
+            ("good while turns", "while, soon turns"),
+            ("walks straight on", "turns left"),
+            ("follows a straight line", "turns around"),
         ],
         Language::Zh => vec![
             ("左转", "右转"),
@@ -65,6 +72,9 @@ fn mutations(text: &str, language: Language) -> Vec<String> {
             ("黑色", "白色"),
             ("连续两次", "连续三次"),
             ("连续三次", "连续两次"),
+            ("后不久", "后走了好一阵才"),
+            ("好一阵才", "几步，没走多远就"),
+            ("笔直前行", "掉头"),
         ],
     };
     let letter = |c: char| c.is_ascii_alphabetic() || "东南西北".contains(c);
@@ -125,4 +135,25 @@ fn a_mismatch_says_both_sides() {
     let text = "Follow the pedestrian walking north; keep about 28 m away and look down about 45 degrees.";
     let mismatches = check(text, Language::En, facts).unwrap_err();
     assert_eq!(mismatches[0].to_string(), "direction: the text says `north`, the trajectory `east`");
+}
+
+#[test]
+fn a_doubtful_turn_may_be_told_or_left_out_and_a_straight_way_must_be_one() {
+    let known = facts(&flight(&[(Some(0.0), 40), (Some(135.0), 40)]));
+    assert!(known.turns.is_empty() && !known.doubtful_turns.is_empty() && known.bends);
+    let rest = "keep about 28 m away and look down about 45 degrees.";
+    let holds = |way: &str| {
+        let facts = Facts { distance_m: 28.3, pitch_down_deg: 45.0, ..known.clone() };
+        check(&format!("The person {way}; {rest}"), Language::En, &facts).is_ok()
+    };
+    assert!(holds("turns right") && holds("turns around") && holds("makes no sharp turn") && holds("walks along"));
+    assert!(!holds("turns left") && !holds("turns right, then left") && !holds("walks straight on"));
+    let slow: Vec<(Option<f64>, usize)> = (0..60).map(|i| (Some(3.0 * f64::from(i)), 2)).collect();
+    let known = facts(&flight(&slow));
+    let holds = |way: &str| {
+        let facts = Facts { distance_m: 28.3, pitch_down_deg: 45.0, ..known.clone() };
+        check(&format!("The person {way}; {rest}"), Language::En, &facts).is_ok()
+    };
+    assert!(holds("makes no sharp turn"));
+    assert!(!holds("turns around") && !holds("turns right") && !holds("heads straight on throughout"));
 }

@@ -7,13 +7,13 @@ use super::script::script_mismatch;
 use super::slot::{Slot, SlotMismatch};
 use crate::facts::{Facts, Wear};
 use cosfly_claims::Language;
-use cosfly_claims::{Claim, chinese, english, without_marks};
+use cosfly_claims::{Claim, chinese, english, time_of_first_turn, without_marks};
 
 /// Compares every number, direction, turn and stop that a text claims with the facts.
 ///
 /// A text must name a distance and a pitch; whatever else it claims must be true to the step in [`crate::precision`]. Clothes
 /// are judged where the facts know them. The first direction is where the walk sets out, a second one where it ends. Listed
-/// turns must be all turns, in order. The text must be in the script of its language.
+/// turns must be all turns, in order; a doubtful one may stand among them or not. The text must be in the script of its language.
 ///
 /// # Errors
 /// All disagreements, in the order of the text; missing slots come last.
@@ -42,6 +42,8 @@ pub fn claimed(text: &str, language: Language) -> Vec<Slot> {
         | Claim::TurnsOf(..)
         | Claim::NoTurns
         | Claim::Straight
+        | Claim::TurnsSoon
+        | Claim::TurnsLate
         | Claim::StopFirst(_) => Slot::Turns,
         Claim::Top(_)
         | Claim::Trousers(_)
@@ -65,10 +67,12 @@ pub fn check_clothes(text: &str, language: Language, wear: Wear) -> Result<(), S
 
 fn claims_of(text: &str, language: Language) -> Vec<Claim> {
     let text = without_marks(text);
-    match language {
+    let mut claims = match language {
         Language::Zh => chinese::read(&text),
         Language::En => english::read(&text),
-    }
+    };
+    claims.extend(time_of_first_turn(&text, language));
+    claims
 }
 
 /// Counts of turns to a side as a list, where the text lists others: `two left turns, then a right one`.

@@ -36,10 +36,10 @@ fn predicate(said: &Said, words: &mut RandomStream) -> String {
         Claim::NoTurn => one_of(
             words,
             &[
-                "一路往前走，没有急转弯",
+                "一路走着，没有急转弯",
                 "顺着路往前走，没拐急弯",
                 "继续往前走，途中没有急转弯",
-                "顺着这条路一直走，没有急转弯",
+                "顺着这条路走，没有急转弯",
                 "往前走了一段，没有急转弯",
             ],
         )
@@ -82,8 +82,7 @@ fn surroundings(claim: &Claim, words: &mut RandomStream) -> String {
         }
         Claim::Lost { behind, seconds, found } => lost(*behind, *seconds, *found, words),
         Claim::PartlyHidden(hider) => {
-            one_of(words, &["被{}挡住大半个身子", "身影被{}遮去大半", "从{}后面走过，只露出一小半"])
-                .replace("{}", hider_words(*hider))
+            one_of(words, &["被{}挡住大半个身子", "身影被{}遮去大半"]).replace("{}", hider_words(*hider))
         }
         Claim::WalksWith(count) => {
             let others =

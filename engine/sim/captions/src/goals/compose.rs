@@ -5,7 +5,7 @@ use super::course::Course;
 use super::{chinese, english, pick, steps};
 use crate::facts::Wear;
 use crate::sight::OnSide;
-use crate::wording::one_of;
+use crate::wording::{one_of, without};
 use cosfly_claims::Language;
 use cosfly_claims::TurnKind;
 use cosfly_random::{RandomStream, Seed};
@@ -14,6 +14,10 @@ use std::ops::Range;
 
 /// A move within so many frames of the end of a crossing is `after the crossing`.
 const RIGHT_AFTER_FRAMES: usize = 10;
+
+/// Words of templates that say that somebody walks, in both languages.
+const OF_A_WALK: &[&str] =
+    &["walk", "way", "trip", "pace", "set out", "may go", "will go", "Go with", "走", "路", "途中", "陪"];
 
 /// Kind of goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -135,7 +139,8 @@ fn metres_of(said: &[Said]) -> Option<u32> {
 fn sentence(plan: &Plan, wording: &Wording, words: &mut RandomStream) -> String {
     let wear = wear_of(&plan.said);
     let templates = if wear.is_some() { wording.flights } else { wording.steps };
-    let template = one_of(words, templates);
+    let stands = plan.said.iter().any(|it| it.claim == Claim::Stands);
+    let template = one_of(words, &without(templates, Some(OF_A_WALK).filter(|_| stands)));
     let predicates = told_in_order(predicates(&plan.said, wording, words), wording, words);
     let keep = one_of(words, wording.keeps).replace("{d}", &metres_of(&plan.said).unwrap_or(0).to_string());
     let text = (wording.finished)(template, &predicates, &keep);

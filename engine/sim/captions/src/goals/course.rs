@@ -4,7 +4,7 @@ use super::claim::{Claim, Hider, Said, is_named};
 use super::{passing, people};
 use crate::facts::Wear;
 use crate::sight::Landmarks;
-use crate::turns::{Turn, directions, turns};
+use crate::turns::{Path, Turns};
 use cosfly_claims::TurnKind;
 use cosfly_frames::{DVec2, TargetState};
 use cosfly_world::BodyKind;
@@ -75,11 +75,6 @@ pub struct Flight<'a> {
     pub vehicles: Vec<(BodyKind, Vec<Sample>)>,
 }
 
-/// Change of direction that people may call a turn, degrees, and the frames with a direction before and after it.
-const SWING_DEG: f64 = 40.0;
-const SWING_BEFORE: usize = 22;
-const SWING_AFTER: usize = 15;
-
 /// What can be said of a flight.
 #[derive(Clone, Debug)]
 pub struct Course<'a> {
@@ -87,10 +82,10 @@ pub struct Course<'a> {
     pub(super) landmarks: &'a Landmarks,
     /// False when the target stays within a metre.
     pub(super) walks: bool,
-    /// The turns, in order.
-    pub(super) turns: Vec<Turn>,
-    /// Directions of the way, see [`directions`].
-    pub(super) directions: Vec<(usize, f64)>,
+    /// The turns.
+    pub(super) turns: Turns,
+    /// The way of the target.
+    path: Path,
     /// The pauses, in order.
     pub(super) stops: Vec<Range<usize>>,
     /// Frames on marked crossings, in order.
@@ -104,11 +99,11 @@ impl<'a> Course<'a> {
         let moving: Vec<bool> = flight.states.iter().map(|state| state.speed_mps >= STANDING_MPS).collect();
         let way_m: f64 = feet.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
         let walks = way_m >= LEAST_WALK_M;
-        let directions = if walks { directions(&feet, &moving) } else { vec![] };
-        let turns = turns(&directions);
+        let path = if walks { Path::of(&feet, &moving, flight.dt_s) } else { Path::of(&[], &[], flight.dt_s) };
+        let turns = path.turns();
         let stops = if walks { pauses(&moving, flight.dt_s) } else { vec![] };
         let crossings = passing::crossings(flight.states, landmarks);
-        Self { flight, landmarks, walks, turns, directions, stops, crossings }
+        Self { flight, landmarks, walks, turns, path, stops, crossings }
     }
 
     /// Number of frames.
@@ -116,15 +111,9 @@ impl<'a> Course<'a> {
         self.flight.states.len()
     }
 
-    /// Whether the way around a frame swings to a side so much that people may call it a turn, though it is none of the turns.
-    pub(super) fn swings(&self, frame: usize, to: TurnKind) -> bool {
-        let sign = if to == TurnKind::Left { -1.0 } else { 1.0 };
-        let at = self.directions.partition_point(|(before, _)| *before < frame);
-        let before = &self.directions[at.saturating_sub(SWING_BEFORE)..(at + 1).min(self.directions.len())];
-        let after = &self.directions[at..(at + SWING_AFTER).min(self.directions.len())];
-        let turned =
-            |(_, from): &(usize, f64)| after.iter().any(|(_, to)| (sign * (to - from)).to_degrees() >= SWING_DEG);
-        before.iter().any(turned)
+    /// Whether the way around a frame leads to a side so much that people may call it a turn.
+    pub(super) fn leads(&self, frame: usize, to: TurnKind) -> bool {
+        self.path.leads(frame, to)
     }
 
     pub(super) fn clothes(&self) -> Said {
@@ -141,11 +130,11 @@ impl<'a> Course<'a> {
     /// All turns and pauses that begin in the frames, in order.
     pub(super) fn moves(&self, frames: &Range<usize>) -> Vec<Said> {
         let is_in = |frame: usize| frames.contains(&frame);
-        let turns = self
-            .turns
-            .iter()
-            .filter(|turn| is_in(turn.frame as usize))
-            .map(|turn| Said { claim: Claim::Turns(turn.kind), frames: turn.frame as usize..turn.frame as usize + 1 });
+        let turns =
+            self.turns.sure.iter().filter(|turn| is_in(turn.frame as usize)).map(|turn| Said {
+                claim: Claim::Turns(turn.kind),
+                frames: turn.frame as usize..turn.frame as usize + 1,
+            });
         let stops = self.stops.iter().filter(|stop| is_in(stop.start)).map(|stop| Said {
             claim: Claim::Stops((stop.len() as f64 * self.flight.dt_s).round() as u32),
             frames: stop.clone(),
@@ -155,13 +144,14 @@ impl<'a> Course<'a> {
         moves
     }
 
-    /// That the target stands, or that it does not turn, where that is so all through the frames.
+    /// That the target stands, or that it does not turn, where that is so beyond doubt all through the frames.
     pub(super) fn quiet(&self, frames: &Range<usize>) -> Option<Said> {
         let stands = |frame: usize| self.flight.states[frame].speed_mps < STANDING_MPS;
+        let mut turns = self.turns.sure.iter().chain(&self.turns.doubtful);
         let claim = match () {
             () if frames.clone().all(stands) => Claim::Stands,
             () if frames.clone().any(stands) => return None,
-            () if self.turns.iter().all(|turn| !frames.contains(&(turn.frame as usize))) => Claim::NoTurn,
+            () if turns.all(|turn| !frames.contains(&(turn.frame as usize))) => Claim::NoTurn,
             () => return None,
         };
         Some(Said { claim, frames: frames.clone() })

@@ -111,11 +111,7 @@ fn surroundings(claim: &Claim, words: &mut RandomStream) -> String {
         Claim::PartlyHidden(hider) => {
             let pattern = one_of(
                 words,
-                &[
-                    "{be} partly hidden by {}",
-                    "{be} half covered by {} for a moment",
-                    "{be} only partly visible behind {}",
-                ],
+                &["{be} partly hidden by {}", "{be} half covered by {}", "{be} only partly visible behind {}"],
             );
             pattern.replace("{}", hider_words(*hider))
         }

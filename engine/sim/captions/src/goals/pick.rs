@@ -14,8 +14,8 @@ const DIALOGUES: usize = 2;
 const NEGATIVES: usize = 3;
 /// More turns are counted instead of told.
 const TOLD_TURNS: usize = 2;
-/// Frames between turns that nobody takes for one.
-const APART: usize = 40;
+/// Time between turns that nobody takes for one, seconds.
+const APART_S: f64 = 20.0;
 /// Draws after which there is no further goal.
 const MOST_DRAWS: usize = 40;
 
@@ -35,13 +35,17 @@ pub(super) fn flights(course: &Course<'_>, words: &mut RandomStream) -> Vec<Plan
 fn flight(course: &Course<'_>, words: &mut RandomStream) -> Plan {
     let frames = 0..course.len();
     let mut told = vec![];
-    let turns = course.turns.len();
+    let turns = course.turns.sure.len();
     let moves = course.moves(&frames);
     let is_turn = |it: &&Said| matches!(it.claim, Claim::Turns(_));
     match turns {
         0 => told.extend(course.quiet(&frames).filter(|_| course.stops.is_empty() || words.index(2) == 0)),
         few if few <= TOLD_TURNS => told.extend(moves.iter().filter(is_turn).cloned()),
-        count => told.push(Said { claim: Claim::TurnsInAll(count), frames: frames.clone() }),
+        // Nobody counts turns of which some are doubtful.
+        count if course.turns.doubtful.is_empty() => {
+            told.push(Said { claim: Claim::TurnsInAll(count), frames: frames.clone() });
+        }
+        _ => {}
     }
     let mut more: Vec<Said> = moves.into_iter().filter(|it| matches!(it.claim, Claim::Stops(_))).collect();
     more.extend(course.sights(&frames));
@@ -176,15 +180,14 @@ fn falsified(course: &Course<'_>, ground: &Plan, said: &Said, words: &mut Random
         Claim::Distance(metres) => Claim::Distance(wrong_metres(*metres, words)),
         Claim::Turns(kind) => {
             let other = mirrored(*kind)?;
-            let is_there =
-                course.turns.iter().any(|it| ground.frames.contains(&(it.frame as usize)) && it.kind == other);
+            let mut all = course.turns.sure.iter().chain(&course.turns.doubtful);
             // Of two turns in a row, people may see one, to the side of both together.
-            let is_in_a_row = course
-                .turns
-                .iter()
-                .map(|it| (it.frame as usize).abs_diff(said.frames.start))
-                .any(|away| away > 0 && away < APART);
-            if is_there || is_in_a_row || course.swings(said.frames.start, other) {
+            let is_in_a_row = |away: usize| away > 0 && (away as f64) < APART_S / course.flight.dt_s;
+            let may_be_other = all.any(|it| {
+                let is_there = ground.frames.contains(&(it.frame as usize)) && it.kind != *kind;
+                is_there || is_in_a_row((it.frame as usize).abs_diff(said.frames.start))
+            });
+            if may_be_other || course.leads(said.frames.start, other) {
                 return None;
             }
             Claim::Turns(other)

@@ -6,10 +6,11 @@ use super::course::Course;
 use cosfly_random::RandomStream;
 use std::ops::Range;
 
-/// Frames after a turn begins that belong to its stretch.
-const TURN_FRAMES: usize = 6;
-/// Shorter stretches have no goal, frames.
-const LEAST_FRAMES: usize = 6;
+/// Time behind a turn that belongs to its stretch, seconds.
+const TURN_S: f64 = 3.0;
+/// Shorter stretches have no goal, seconds and frames.
+const LEAST_S: f64 = 3.0;
+const LEAST_FRAMES: usize = 3;
 /// Longer stretches without a move are cut, seconds.
 const LONGEST_S: f64 = 20.0;
 
@@ -20,26 +21,28 @@ pub(super) fn steps(course: &Course<'_>, words: &mut RandomStream) -> Vec<Plan> 
 
 /// The stretches in order, each with the move that ends it.
 fn stretches(course: &Course<'_>) -> Vec<(Range<usize>, Option<Said>)> {
+    let in_frames = |time_s: f64| (time_s / course.flight.dt_s) as usize;
+    let (turn, least) = (in_frames(TURN_S).max(1), in_frames(LEAST_S).max(LEAST_FRAMES));
     let mut found = vec![];
     let mut start = 0;
     let moves = course.moves(&(0..course.len()));
     for (number, said) in moves.iter().enumerate() {
         let next = moves.get(number + 1).map_or(course.len(), |it| it.frames.start);
         let end = match said.claim {
-            Claim::Turns(_) => (said.frames.start + TURN_FRAMES).min(next),
+            Claim::Turns(_) => (said.frames.start + turn).min(next),
             _ => said.frames.end.min(course.len()),
         };
-        if end >= start + LEAST_FRAMES && said.frames.start >= start {
+        if end >= start + least && said.frames.start >= start {
             found.push((start..end, Some(said.clone())));
             start = end;
         }
     }
-    let longest = ((LONGEST_S / course.flight.dt_s) as usize).max(LEAST_FRAMES);
+    let longest = in_frames(LONGEST_S).max(least);
     let left = course.len().saturating_sub(start);
     let pieces = left.div_ceil(longest).max(1);
     for piece in 0..pieces {
         let frames = start + left * piece / pieces..start + left * (piece + 1) / pieces;
-        if frames.len() >= LEAST_FRAMES {
+        if frames.len() >= least {
             found.push((frames, None));
         }
     }

@@ -1,7 +1,8 @@
 //! Chinese referring phrases.
 
-use super::{Part, Phrase, Property};
+use super::{Phrase, Property};
 use crate::chinese::colour;
+use crate::part::Part;
 use cosfly_world::BodyKind;
 
 /// `画面左侧正在行走、穿红色上衣、蓝色裤子、背着背包的人`.

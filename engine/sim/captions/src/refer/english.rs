@@ -1,7 +1,8 @@
 //! English referring phrases.
 
-use super::{Part, Phrase, Property};
+use super::{Phrase, Property};
 use crate::english::article;
+use crate::part::Part;
 use cosfly_world::BodyKind;
 
 /// `the walking person in a red top and blue trousers with a backpack on the left of the picture`.

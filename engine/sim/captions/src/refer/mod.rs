@@ -3,6 +3,7 @@
 mod chinese;
 mod english;
 
+use crate::part::Part;
 use cosfly_claims::Language;
 use cosfly_render::Colour;
 use cosfly_world::BodyKind;
@@ -10,9 +11,6 @@ use cosfly_world::BodyKind;
 /// Faster than this a body moves, m/s; slower than [`STANDS_MPS`] it stands; nobody says what is between.
 const MOVES_MPS: f64 = 0.4;
 const STANDS_MPS: f64 = 0.05;
-/// Shares of the picture's width: left of the first is the left, right of the last the right, the middle between the others.
-const PARTS: [f64; 4] = [0.3, 0.4, 0.6, 0.7];
-
 /// A body in a picture, by what a phrase may say of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
@@ -66,15 +64,6 @@ impl Property {
     }
 }
 
-/// Part of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Part {
-    Left,
-    Middle,
-    Right,
-}
-
 /// The kind of a body and some of its properties.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Phrase {
@@ -96,13 +85,7 @@ impl Candidate {
 
     /// Part of the picture; `None` near a border and outside.
     pub fn part(&self) -> Option<Part> {
-        let [left, from, to, right] = PARTS;
-        match self.at? {
-            at if at < left => Some(Part::Left),
-            at if (from..=to).contains(&at) => Some(Part::Middle),
-            at if at > right => Some(Part::Right),
-            _ => None,
-        }
+        Part::at(self.at?)
     }
 
     /// Whether a phrase may name a property of the body.

@@ -1,10 +1,11 @@
 //! English wordings of what a picture shows.
 
 use super::beside::{Beside, NearLandmark, OnSide};
-use super::facts::{Across, Part, Place, Side, Sight};
+use super::facts::{Across, Place, Side, Sight};
 use super::landmarks::LandmarkKind;
 use super::wording::{Relation, relation};
 use crate::english::{article, who};
+use crate::part::Part;
 use crate::wording::one_of;
 use cosfly_random::RandomStream;
 

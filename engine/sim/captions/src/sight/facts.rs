@@ -6,6 +6,7 @@
 use super::beside::{NearLandmark, near_landmarks};
 use super::landmarks::Landmarks;
 use crate::facts::Wear;
+use crate::part::Part;
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_render::{Camera, Colour};
 
@@ -94,15 +95,6 @@ pub enum Across {
     Stands,
 }
 
-/// Part of the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Part {
-    Left,
-    Middle,
-    Right,
-}
-
 /// Side on which the target is outermost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -170,12 +162,6 @@ pub fn sight(view: &View, landmarks: &Landmarks) -> Sight {
 fn seen(view: &View, landmarks: &Landmarks) -> Seen {
     let (target, width_px) = (&view.target, f64::from(view.optics.width));
     let at = target.across(width_px);
-    let part = match at {
-        left if left < 0.42 => Some(Part::Left),
-        middle if (0.45..=0.55).contains(&middle) => Some(Part::Middle),
-        right if right > 0.58 => Some(Part::Right),
-        _ => None,
-    };
     let all_clear = target.is_clear() && view.others.iter().all(Person::is_clear);
     let others = || view.others.iter().map(|other| other.across(width_px));
     let side = match () {
@@ -190,7 +176,7 @@ fn seen(view: &View, landmarks: &Landmarks) -> Seen {
         && view.others.iter().all(|other| distance_m(other) > NEARER * distance_m(target));
     Seen {
         across: across(view).filter(|_| target.is_clear()),
-        part,
+        part: Part::at(at),
         people: all_clear.then_some(view.others.len() + 1),
         side,
         is_nearest,
@@ -333,9 +319,9 @@ pub(crate) mod test_views {
             ),
             view(still, vec![person(11.0, 5.0, 0.0, Colour::Orange)]),
             view(hidden, vec![person(11.0, 5.0, 0.0, Colour::Orange)]),
-            view(target(-4.0, 0.0), vec![faint]),
+            view(target(-5.2, 0.0), vec![faint]),
             view(target(0.0, 0.0), vec![faint]),
-            view(target(4.0, 0.0), vec![faint]),
+            view(target(5.2, 0.0), vec![faint]),
             view(target(4.5, 0.0), vec![]),
             view(target(9.5, 0.0), vec![]),
             view(target(4.5, 90.0), vec![]),
@@ -361,7 +347,7 @@ mod tests {
             [Some(Across::Away), None, Some(Across::Towards), Some(Across::ToTheRight), Some(Across::Stands),]
         );
         assert_eq!(
-            [0, 2, 3].map(|number| seen_in(number).part),
+            [0, 11, 13].map(|number| seen_in(number).part),
             [Some(Part::Middle), Some(Part::Left), Some(Part::Right)]
         );
         assert_eq!([0, 2, 3].map(|number| seen_in(number).people), [Some(1), Some(2), Some(3)]);

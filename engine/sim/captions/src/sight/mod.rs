@@ -15,6 +15,6 @@ mod wording;
 pub use beside::{Beside, NearLandmark, OnSide};
 pub use check::check_sight;
 pub use crossings::Crossing;
-pub use facts::{Across, Near, Part, Person, Place, Seen, Side, Sight, View, sight};
+pub use facts::{Across, Near, Person, Place, Seen, Side, Sight, View, sight};
 pub use landmarks::{LandmarkKind, Landmarks};
 pub use wording::instruction;

@@ -1,7 +1,8 @@
 //! Reads texts about one picture back: the claims of a text, whoever wrote it.
 
-use super::facts::{Across, Part, Place, Side};
+use super::facts::{Across, Place, Side};
 use super::landmark_reading::{LandmarkClaim, of_chinese, of_english};
+use crate::part::Part;
 use cosfly_claims::Language;
 use cosfly_claims::english::clothes as english_clothes;
 use cosfly_claims::english::numbers::number_word;

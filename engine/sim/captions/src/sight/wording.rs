@@ -1,7 +1,8 @@
 //! The instruction of a picture: whom to follow, by clothes, by the people around, by the way across the picture.
 
-use super::facts::{Near, Part, Place, Seen, Side, Sight};
+use super::facts::{Near, Place, Seen, Side, Sight};
 use super::{chinese, english};
+use crate::part::Part;
 use cosfly_claims::Language;
 use cosfly_random::Seed;
 use cosfly_render::Colour;
