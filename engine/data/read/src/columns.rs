@@ -1,7 +1,7 @@
 //! Whole columns of a table as plain values, and whole tables as Arrow streams.
 
 use super::damage::damaged;
-use super::parquet_metadata;
+use super::parquet_metadata::{self, Batches};
 use super::plain::{integers, reals, texts};
 use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -131,7 +131,7 @@ pub fn column(paths: &[PathBuf], name: &str) -> Result<Column> {
         let at = at.map_err(|_| damaged(path, "a column is missing", format!("`{name}`")))?;
         let mask = ProjectionMask::roots(builder.parquet_schema(), [at]);
         let reader = builder.with_projection(mask).build();
-        for batch in reader.map_err(|error| damaged(path, "it cannot be read", error))? {
+        for batch in Batches::of(reader.map_err(|error| damaged(path, "it cannot be read", error))?) {
             let batch = batch.map_err(|error| damaged(path, "it cannot be read", error))?;
             arrays.extend(batch.columns().first().cloned());
         }
@@ -152,7 +152,7 @@ pub fn stream(paths: &[PathBuf]) -> Result<ArrowStream> {
     for path in paths {
         let reader = builder(path)?.build().map_err(|error| damaged(path, "it cannot be read", error))?;
         schema.get_or_insert_with(|| arrow_array::RecordBatchReader::schema(&reader));
-        readers.push(reader);
+        readers.push(Batches::of(reader));
     }
     let schema = schema.unwrap_or_else(|| SchemaRef::new(arrow_schema::Schema::empty()));
     let known = SchemaRef::clone(&schema);

@@ -5,6 +5,7 @@
 
 mod captions;
 pub mod columns;
+mod contained;
 mod damage;
 mod dataset;
 mod foreign;
