@@ -1,7 +1,7 @@
 //! Whole columns of a table as plain values, and whole tables as Arrow streams.
 
 use super::damage::damaged;
-use super::parquet_metadata;
+use super::parquet_metadata::{self, Batches};
 use super::plain::{integers, reals, texts};
 use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -141,7 +141,7 @@ pub fn column(paths: &[PathBuf], name: &str) -> Result<Column> {
         empty.get_or_insert_with(|| arrow_array::new_empty_array(builder.schema().field(at).data_type()));
         let mask = ProjectionMask::roots(builder.parquet_schema(), [at]);
         let reader = builder.with_projection(mask).build();
-        for batch in reader.map_err(|error| damaged(path, "it cannot be read", error))? {
+        for batch in Batches::of(reader.map_err(|error| damaged(path, "it cannot be read", error))?) {
             let batch = batch.map_err(|error| damaged(path, "it cannot be read", error))?;
             arrays.extend(batch.columns().first().cloned());
         }
@@ -166,7 +166,7 @@ pub fn stream(paths: &[PathBuf]) -> Result<ArrowStream> {
     for path in paths {
         let reader = builder(path)?.build().map_err(|error| damaged(path, "it cannot be read", error))?;
         schema.get_or_insert_with(|| arrow_array::RecordBatchReader::schema(&reader));
-        readers.push(reader);
+        readers.push(Batches::of(reader));
     }
     let schema = schema.unwrap_or_else(|| SchemaRef::new(arrow_schema::Schema::empty()));
     let known = SchemaRef::clone(&schema);

@@ -1,6 +1,7 @@
 //! Foreign Parquet tables: columns of numbers, texts and pictures, by name.
 
 use super::damage::damaged;
+use super::parquet_metadata::Batches;
 use super::{parquet_metadata, plain};
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef};
@@ -40,7 +41,7 @@ pub fn foreign_rows(path: &Path, with_pictures: bool) -> Result<ForeignRows> {
     let mask = ProjectionMask::roots(builder.parquet_schema(), wanted.map(|(at, _)| at));
     let reader = builder.with_projection(mask).with_batch_size(BATCH).build();
     let mut all = ForeignRows::default();
-    for batch in reader.map_err(|error| damaged(path, "it cannot be read", error))? {
+    for batch in Batches::of(reader.map_err(|error| damaged(path, "it cannot be read", error))?) {
         let batch = batch.map_err(|error| damaged(path, "it cannot be read", error))?;
         for (field, column) in batch.schema_ref().fields().iter().zip(batch.columns()) {
             let name = || field.name().clone();

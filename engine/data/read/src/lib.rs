@@ -5,6 +5,7 @@
 
 mod captions;
 pub mod columns;
+mod contained;
 mod damage;
 mod dataset;
 pub mod drawn_ground;

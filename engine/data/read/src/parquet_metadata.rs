@@ -1,6 +1,12 @@
-//! Metadata of Parquet files. The library panics on negative places and lengths of columns: they are refused before.
+//! Metadata and rows of Parquet files. The library panics on negative places and lengths of columns: they are refused before.
+//! It panics on damaged pages, too: these panics are contained.
 
-use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder};
+use crate::contained::contained;
+use arrow_array::RecordBatch;
+use arrow_schema::ArrowError;
+use parquet::arrow::arrow_reader::{
+    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder,
+};
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::PageIndexPolicy;
 use std::fs::File;
@@ -10,7 +16,8 @@ use std::fs::File;
 /// # Errors
 /// The file is not Parquet, or its columns lie outside of it.
 pub fn load(file: &File) -> Result<ArrowReaderMetadata> {
-    let metadata = ArrowReaderMetadata::load(file, ArrowReaderOptions::new())?;
+    let damaged = || ParquetError::General("its metadata is damaged".to_owned());
+    let metadata = contained(|| ArrowReaderMetadata::load(file, ArrowReaderOptions::new())).ok_or_else(damaged)??;
     let end = i64::try_from(file.metadata()?.len()).unwrap_or(i64::MAX);
     for column in metadata.metadata().row_groups().iter().flat_map(|group| group.columns()) {
         let starts = [Some(column.data_page_offset()), column.dictionary_page_offset()];
@@ -32,6 +39,33 @@ pub fn load(file: &File) -> Result<ArrowReaderMetadata> {
 pub fn load_with_pages(file: &File) -> Result<ArrowReaderMetadata> {
     load(file)?;
     ArrowReaderMetadata::load(file, ArrowReaderOptions::new().with_offset_index_policy(PageIndexPolicy::Optional))
+}
+
+/// Rows of a file up to its end or the first fault.
+pub struct Batches(Option<ParquetRecordBatchReader>);
+
+impl Batches {
+    /// What `reader` reads.
+    pub fn of(reader: ParquetRecordBatchReader) -> Self {
+        Self(Some(reader))
+    }
+}
+
+impl Iterator for Batches {
+    type Item = std::result::Result<RecordBatch, ArrowError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let mut reader = self.0.take()?;
+        let read = contained(move || {
+            let batch = reader.next();
+            (reader, batch)
+        });
+        let Some((reader, batch)) = read else {
+            return Some(Err(ArrowError::ParquetError("its pages are damaged".to_owned())));
+        };
+        self.0 = matches!(batch, Some(Ok(_))).then_some(reader);
+        batch
+    }
 }
 
 /// Reader of a file.

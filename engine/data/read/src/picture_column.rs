@@ -1,6 +1,7 @@
 //! Random access to pictures in a foreign Parquet table: one row is read, and the page that holds it.
 
 use super::damage::damaged;
+use super::parquet_metadata::Batches;
 use super::{parquet_metadata, plain};
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef};
@@ -62,8 +63,8 @@ impl PictureColumn {
         let mask = ProjectionMask::roots(self.metadata.parquet_schema(), [self.column]);
         let selection = RowSelection::from(vec![RowSelector::skip(at), RowSelector::select(1)]);
         let builder = builder.with_row_groups(vec![group]).with_projection(mask).with_row_selection(selection);
-        let mut reader = builder.with_batch_size(1).build().map_err(|error| unreadable(&error))?;
-        let batch = reader.next().ok_or_else(absent)?.map_err(|error| unreadable(&error))?;
+        let reader = builder.with_batch_size(1).build().map_err(|error| unreadable(&error))?;
+        let batch = Batches::of(reader).next().ok_or_else(absent)?.map_err(|error| unreadable(&error))?;
         batch.columns().first().and_then(picture).ok_or_else(absent)
     }
 }

@@ -2,7 +2,7 @@
 //! the first request, so that no reader lists the columns that it needs.
 
 use super::damage::damaged;
-use super::parquet_metadata;
+use super::parquet_metadata::{self, Batches};
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
 use arrow_schema::DataType;
@@ -95,8 +95,7 @@ impl<'p> TableFile<'p> {
         let mask = ProjectionMask::roots(builder.parquet_schema(), columns.iter().copied());
         let rows = usize::try_from(self.metadata.metadata().row_group(group).num_rows()).unwrap_or(0);
         let reader = builder.with_row_groups(vec![group]).with_projection(mask).with_batch_size(rows.max(1)).build();
-        let batches: Vec<RecordBatch> = reader
-            .map_err(|error| unreadable(&error))?
+        let batches: Vec<RecordBatch> = Batches::of(reader.map_err(|error| unreadable(&error))?)
             .collect::<std::result::Result<_, _>>()
             .map_err(|error| unreadable(&error))?;
         match &batches[..] {

@@ -3,6 +3,7 @@
 use super::model_text;
 use super::rows::{Block, Predictions, Refusal, RowProblem};
 use super::waypoint::DIMENSIONS;
+use crate::parquet_metadata::Batches;
 use crate::{parquet_metadata, plain};
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, Int64Array, RecordBatch, StringArray};
@@ -25,7 +26,8 @@ pub fn read(path: &Path, file: File) -> Result<Predictions> {
     let builder = parquet_metadata::builder(file).map_err(|e| unreadable(&e))?;
     let mut found = Predictions::default();
     let mut line = 0;
-    for batch in builder.with_batch_size(ROWS_AT_ONCE).build().map_err(|e| unreadable(&e))? {
+    let reader = builder.with_batch_size(ROWS_AT_ONCE).build().map_err(|e| unreadable(&e))?;
+    for batch in Batches::of(reader) {
         let batch = batch.map_err(|e| unreadable(&e))?;
         let columns = Columns::of(&batch, path)?;
         let mut block = Block::default();

@@ -141,3 +141,11 @@ fn parquet_without_the_columns_is_refused_with_those_it_has() {
     std::fs::write(file.path(), &bytes[..bytes.len() / 2]).unwrap();
     assert_eq!(read(file.path()).unwrap_err().code, "predictions-damaged");
 }
+
+#[test]
+fn parquet_with_damaged_pages_is_refused_without_a_panic() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../tests/fuzz/corpus/predictions/damaged_page.parquet");
+    let refusal = read(std::path::Path::new(path)).unwrap_err();
+    assert_eq!(refusal.code, "predictions-damaged");
+    assert!(refusal.causes[0].contains("its pages are damaged") && !refusal.hints.is_empty(), "{refusal:?}");
+}
