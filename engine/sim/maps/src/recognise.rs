@@ -39,9 +39,10 @@ const RELATIVES: &[(IsIt, &str)] = &[
     ),
     (|head| head.starts_with(b"ASTM-E57"), "the file is E57: `pdal translate FILE cloud.laz` makes LAZ of it"),
     (
-        is_kitti,
-        "the file seems to be a scan as KITTI has them, four 32-bit numbers a point: put a head of PLY before its bytes, with \
-         `format binary_little_endian 1.0`, `element vertex N` (its bytes by 16) and `property float` x, y, z, intensity",
+        is_scan,
+        "the file seems to be a scan as KITTI has them, four 32-bit numbers a point, or five as in nuScenes: put a head of PLY before \
+         its bytes, with `format binary_little_endian 1.0`, `element vertex N` (its bytes by 16, or by 20) and a `property float` \
+         for each number, the first three x, y, z",
     ),
     (
         is_table_of_points,
@@ -57,19 +58,20 @@ fn holds(head: &[u8], word: &str) -> bool {
 /// Meshes of triangles as text, or as 50 bytes each whose last two are 0 behind a head of 80 bytes and a count.
 fn is_stl(head: &[u8]) -> bool {
     let is_text = head.trim_ascii_start().starts_with(b"solid") && holds(head, "facet");
-    let facets = || head.get(84..).unwrap_or_default().chunks_exact(50);
+    let count = head.get(80..84).and_then(|bytes| Some(u32::from_le_bytes(*bytes.first_chunk()?)));
+    let mut facets = head.get(84..).unwrap_or_default().chunks_exact(50);
     let is_facet = |facet: &[u8]| facet[48..] == [0, 0] && floats(&facet[..48]).all(|it| it.abs() < 1e7);
-    is_text || head.get(82..84) == Some(&[0, 0]) && facets().len() > 0 && facets().all(is_facet) && !head.is_ascii()
+    is_text || count.is_some_and(|count| (1..100_000_000).contains(&count)) && facets.len() > 0 && facets.all(is_facet)
 }
 
-/// Points of a laser scanner: metres around it, and a share of reflected light.
-fn is_kitti(head: &[u8]) -> bool {
+/// Points of a laser scanner: metres around it, a share of reflected light, and in some sets the number of the beam.
+fn is_scan(head: &[u8]) -> bool {
     let is_point = |point: &[u8]| {
-        let [x, y, z, light] = [0, 4, 8, 12].map(|at| floats(&point[at..at + 4]).next().unwrap_or(f32::NAN));
-        [x, y, z].into_iter().all(|it| it == 0.0 || (1e-6..500.0).contains(&it.abs())) && (0.0..=255.0).contains(&light)
+        let mut numbers = floats(point);
+        let is_place = numbers.by_ref().take(3).all(|it| it == 0.0 || (1e-6..500.0).contains(&it.abs()));
+        is_place && numbers.all(|it| (0.0..=255.0).contains(&it))
     };
-    let points = head.chunks_exact(16);
-    points.len() >= 4 && points.clone().all(is_point)
+    [16, 20].into_iter().any(|bytes| head.len() >= 4 * bytes && head.chunks_exact(bytes).all(is_point))
 }
 
 fn floats(bytes: &[u8]) -> impl Iterator<Item = f32> + '_ {

@@ -56,7 +56,10 @@ fn what_the_reader_copes_with_is_a_warning_with_its_line() {
         ),
         (with("<lane id=\"2\" type=\"curb\"", "<lane id=\"7\" type=\"curb\""), "lane `2` is missing"),
         (with("<lane id=\"2\" type=\"curb\"", "<lane id=\"1\" type=\"curb\""), "a repeated id"),
-        (with("<laneSection s=\"100\">", "<laneSection s=\"0\">"), "a second lane section at the same `s`"),
+        (
+            with("<laneSection s=\"100\">", "<laneSection s=\"100\"><center/></laneSection><laneSection s=\"100\">"),
+            "a second lane section at the same `s`",
+        ),
         (with("<planView>", "<planViews/><planView>"), "`<planViews>` in `<road>` is no element that is read"),
         (with("<planView>", "<include file=\"more.xml\"/><planView>"), "the file `more.xml` is not followed"),
         (with("+proj=tmerc", "+proj=tmerc +units=us-ft"), "`+units=us-ft` is not read"),

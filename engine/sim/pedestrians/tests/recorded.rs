@@ -167,6 +167,8 @@ fn what_is_there_twice_is_refused_or_said() {
     let crs =
         r#"{"type":"FeatureCollection","crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::25832"}},"features":[]}"#;
     assert!(read(crs).unwrap_err().message.contains("`crs` is `urn:ogc:def:crs:EPSG::25832`"));
+    let error = read("{\"type\":\"FeatureCollection\",\n\"features\":[],\"features\":[]}").unwrap_err();
+    assert!(error.message.contains("`features` is there twice") && error.line == Some(2), "{error}");
     let degrees = read(&crs.replace("EPSG::25832", "OGC:1.3:CRS84")).unwrap_err();
     assert_eq!(degrees.message, "the file has no track with time");
 }

@@ -245,7 +245,7 @@ fn places_on_the_earth_that_are_not_applied_are_said_or_refused() {
     assert!(read::<GlTf>(&json("[0, 0, 0]"), &options).unwrap_err().message.contains("no triangles"));
     // A scene whose corners count from the Earth's centre.
     let mut meshes = scene();
-    meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices).for_each(|vertex| vertex[1] += 5_035_000.0);
+    meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices).for_each(|vertex| vertex[2] += 5_035_000.0);
     let error = read::<Obj>(&obj(&meshes), &options).unwrap_err();
     assert!(error.message.contains("centre of the Earth"), "{error}");
 }

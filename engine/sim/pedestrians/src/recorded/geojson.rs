@@ -2,6 +2,7 @@
 //! points with `time` or `timestamp` and an id.
 
 use super::columns::shortened;
+use super::unique::Unique;
 use super::{RecordedError, RecordedPoint, RecordedTrack, Recording, instant};
 use cosfly_frames::DVec2;
 use serde_json::Value;
@@ -11,7 +12,7 @@ use std::collections::BTreeMap;
 const MILLISECONDS_FROM: f64 = 1e11;
 
 pub(super) fn read(text: &str) -> Result<Recording, RecordedError> {
-    let root: Value = serde_json::from_str(text).map_err(|error| {
+    let Unique(root) = serde_json::from_str(text).map_err(|error| {
         RecordedError::new(format!("broken JSON: {error}"))
             .at(error.line() as u32)
             .hint("the file may be cut off, and JSON knows no NaN: export the tracks as GeoJSON again")

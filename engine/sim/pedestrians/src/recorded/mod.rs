@@ -12,6 +12,7 @@ mod gpx;
 mod instant;
 mod placed;
 mod tidy;
+mod unique;
 
 pub use config::{RecordedConfig, RecordedFormat};
 use cosfly_frames::DVec2;

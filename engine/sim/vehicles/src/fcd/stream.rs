@@ -293,6 +293,9 @@ impl<'a> Frames<'a> {
             return Err(FcdError::new(message).at(line).hint(WRITE_AGAIN));
         }
         let before = self.before.take();
+        if let Some(before) = &before {
+            self.measure(before, &step);
+        }
         while !self.is_done() && self.time_s(self.next_frame) <= step.time_s + 1e-6 {
             let frame_s = self.time_s(self.next_frame);
             let at_step = (step.time_s - frame_s).abs() <= 1e-6;
@@ -310,6 +313,17 @@ impl<'a> Frames<'a> {
         Ok(())
     }
 
+    /// Adds up how far those move who are in both of two steps, and how far by their speeds.
+    fn measure(&mut self, from: &Step, to: &Step) {
+        let span_s = to.time_s - from.time_s;
+        for sample in &from.samples {
+            let Ok(place) = to.samples.binary_search_by(|other| other.id.cmp(&sample.id)) else { continue };
+            let next = &to.samples[place];
+            self.moved_m[0] += (next.middle - sample.middle).length();
+            self.moved_m[1] += span_s * 0.5 * (sample.speed_mps + next.speed_mps);
+        }
+    }
+
     /// Adds the states of a frame between two steps; those who are in both.
     fn fill(&mut self, from: &Step, to: &Step, share: f64, line: u64) -> Result<(), FcdError> {
         let span_s = to.time_s - from.time_s;
@@ -320,8 +334,6 @@ impl<'a> Frames<'a> {
             }
             let Some(next) = others.peek().filter(|other| other.id == sample.id) else { continue };
             let goes_m = (next.middle - sample.middle).length();
-            self.moved_m[0] += goes_m;
-            self.moved_m[1] += span_s * 0.5 * (sample.speed_mps + next.speed_mps);
             if goes_m > JUMP_MPS * span_s.max(1e-3) && span_s > 0.0 {
                 self.jumps += 1;
                 self.numbers.remove(&sample.id);

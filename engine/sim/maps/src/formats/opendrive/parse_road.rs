@@ -206,18 +206,18 @@ fn crossfall<'d>(source: &Source<'d>, lateral: Option<Node<'d, 'd>>) -> Result<[
 }
 
 fn shapes<'d>(source: &Source<'d>, lateral: Option<Node<'d, 'd>>) -> Result<Vec<ShapeSection>, MapError> {
-    let mut records: Vec<(f64, Cubic)> = Vec::new();
+    let mut records: Vec<(f64, (Node, Cubic))> = Vec::new();
     for node in lateral.into_iter().flat_map(|lateral| children(lateral, "shape")) {
         let t_m = source.number(node, "t", COEFFICIENT)?;
         let cubic = Cubic { start_s_m: t_m, coefficients: source.coefficients(node, "")? };
-        records.push((source.number(node, "s", STATION)?, cubic));
+        records.push((source.number(node, "s", STATION)?, (node, cubic)));
     }
     records.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(records
         .chunk_by(|a, b| a.0 == b.0)
         .map(|same| ShapeSection {
             s_m: same[0].0,
-            over_t: CubicProfile::new(same.iter().map(|(_, cubic)| *cubic).collect()),
+            over_t: source.profile(same.iter().map(|(_, record)| *record).collect()),
         })
         .collect())
 }
