@@ -15,7 +15,7 @@ use quick_xml::reader::Reader;
 pub fn read(bytes: &[u8]) -> Result<Elements, MapError> {
     let mut xml = Reader::from_reader(Unpacked::new(bytes));
     let mut buffer = Vec::new();
-    let mut reading = Reading { elements: Elements::of_file(bytes.len()), open: None, is_complete: false };
+    let mut reading = Reading { elements: Elements::of_file(bytes.len()), open: None, is_complete: false, lanelets: 0 };
     let mut depth = 0_usize;
     loop {
         buffer.clear();

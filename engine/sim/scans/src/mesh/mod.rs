@@ -22,7 +22,6 @@ use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
 use cosfly_town::world::WorldFromMap;
 use cosfly_town::{MapError, Obstacle, Synthetic, Town};
-use names::Thing;
 use names::{Kind, Thing};
 use options::IN_A_PLAN;
 
