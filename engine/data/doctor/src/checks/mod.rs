@@ -22,7 +22,7 @@ use crate::{Episode, Flag};
 
 /// All checks of one episode.
 pub fn of_episode(episode: &Episode) -> Vec<Flag> {
-    let checks: [fn(&Episode) -> Vec<Flag>; 10] = [
+    let checks: [fn(&Episode) -> Vec<Flag>; 11] = [
         time::check,
         motion::check,
         projection::check,
