@@ -4,6 +4,7 @@ use crate::support::repository_root;
 use cosfly_frames::{DVec3, TargetState};
 use cosfly_recipe::Recipe;
 use cosfly_runner::{RunOptions, RunSummary};
+use cosfly_stage::BlobSource;
 use cosfly_stages::read;
 use cosfly_store::{ActionRecord, Store};
 use std::collections::BTreeMap;

@@ -19,7 +19,7 @@ fn the_readme_counts_what_the_first_recipe_makes() {
         let value = table.lines().find_map(|line| line.strip_prefix(key)?.trim_start().strip_prefix('='))?;
         value.trim().parse::<u32>().ok()
     };
-    assert_eq!((number("walkers", "count"), number("crowd", "count")), (Some(4), Some(300)));
+    assert_eq!((number("walkers", "count"), number("crowd", "people.count")), (Some(4), Some(300)));
     assert_eq!(number("walkers", "steps"), Some(200));
     assert_eq!((number("frames", "width"), number("frames", "height")), (Some(1280), Some(720)));
     for promise in ["four targets among three hundred bystanders", "200 frames of 1280x720 per trajectory"] {

@@ -94,7 +94,7 @@ fn measure(arguments: &Arguments) -> Result<usize> {
         Reader::Export => export(&dataset)?,
         Reader::CarlaJob => {
             let flights: Vec<_> = dataset.flights().iter().collect();
-            cosfly_export::carla_job::write(&dataset, &flights, &mut std::io::sink())?;
+            cosfly_export::carla_job::write(&dataset, &flights, cosfly_frames::DVec3::ZERO, &mut std::io::sink())?;
         }
         _ => {}
     }
