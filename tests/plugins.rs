@@ -286,7 +286,7 @@ fn hostile_answers_are_refused_with_plugin_function_and_item_and_the_rest_goes_o
         (&note, arrow_stream::write(&[reals("risk", &[0.5, 0.5])]), "2 rows; one is required"),
         (&note, arrow_stream::write(&[reals("cost", &[0.5])]), "column 0 is `cost`; it declares `risk` (real)"),
         (&note, arrow_stream::write(&[texts("risk", &["high"])]), "its column `risk` holds Utf8; it declares Float64"),
-        (&note, arrow_stream::write(&[reals("risk", &[f64::NAN])]), "its column `risk` is NaN at row 0"),
+        (&note, arrow_stream::write(&[reals("risk", &[f64::NAN])]), "its column `risk` at row 0 is not a number"),
         (&rows, good[..good.len() - 40].to_vec(), "it returned no Arrow stream: it ends within message 1"),
         (&rows, b"no table".to_vec(), "it returned no Arrow stream: no message begins at byte 0"),
     ] {

@@ -97,8 +97,10 @@ impl State {
             return Err(Diagnostic::new("plan-from-frame", Fault::Input, message).hint("frames count from 0"));
         };
         let (place, velocity) = (self.position, self.velocity.unwrap_or_default());
-        if let Some(fault) = place.iter().find_map(|value| plausible(*value).err()) {
-            return state_refused(format!("the position is {place:?}, of which a number {fault}"));
+        if place.iter().any(|value| plausible(*value).is_err()) {
+            return state_refused(format!(
+                "the position is {place:?}; it must be three numbers up to {LARGEST_MAGNITUDE:e}"
+            ));
         }
         if !velocity.iter().all(|value| value.abs() <= FASTEST_MPS) {
             let rule = format!("it must be three finite numbers between -{FASTEST_MPS} and {FASTEST_MPS} m/s");
