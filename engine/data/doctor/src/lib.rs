@@ -17,6 +17,7 @@ pub mod sources;
 #[cfg(test)]
 mod tests;
 mod texts;
+mod walk;
 pub mod walls;
 
 pub use cosfly_metrics::shortcuts::{Probe, ShortcutFigures};

@@ -2,7 +2,7 @@
 //! place of a dataset's own.
 
 use crate::Episode;
-use crate::checks::words;
+use crate::walk::facts_of;
 use cosfly_captions::teaching::foreign_words;
 use cosfly_captions::{Coverage, Diversity, Facts, Language, Slot, check, claimed, coverage, diversity};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -115,7 +115,7 @@ pub(crate) struct TextTally {
 
 impl TextTally {
     pub(crate) fn add(&mut self, episode: &Episode) {
-        let Some(facts) = words::facts_of(episode) else { return };
+        let Some(facts) = facts_of(episode) else { return };
         for (code, text) in &episode.captions {
             let Some(at) = Language::ALL.iter().position(|it| it.code() == code) else { continue };
             let language = Language::ALL[at];
