@@ -1,13 +1,14 @@
-"""Reads the goals of table `goals` from their own words and judges every claim by the other tables.
+"""Reads the goals of table `goals` and the descriptions of table `captions` from their own words and judges every claim by the other tables.
 
     venv/bin/python tests/outside/check_goals.py DATASET_FOLDER [DATASET_FOLDER ...] [--texts FILE] [--least-skeletons N]
 
 Shares no code with cosfly. The words of a goal must say what its column `claims` says, no more and no less, in English and in Chinese.
 Then every claim is judged by brute force over tables `frames`, `people`, `objects` and `trajectories`: all claims of goals that fit, and all but
-those of the stated subject of goals that do not. Prints the numbers of goals, claims and skeletons (texts whose slots are blank).
+those of the stated subject of goals that do not. Turns, times, lengths and paces of descriptions are judged by `walk_words.py`. Prints the numbers of goals, claims and skeletons (texts whose slots are blank).
 """
 
 import argparse
+import re
 import sys
 from collections import Counter, defaultdict
 from pathlib import Path
@@ -16,6 +17,7 @@ import numpy as np
 import pyarrow.dataset as ds
 
 from goal_words import read, skeleton
+from walk_words import Way, when_said, wrongs
 
 REACH_M = {"building": 10.0}
 KIND_OF = {"tree": "tree_trunk", "parked_car": "car"}
@@ -72,35 +74,7 @@ class Flight:
         for rows in people.values():
             self.names.update({it["instance"]: it["kind"] for it in rows})
         self.runs = {}
-
-    def directions(self):
-        """Direction of the way around each frame in which the target walks, degrees, unwrapped."""
-        moving = np.flatnonzero(self.speed >= 0.05)
-        found = []
-        for at, frame in enumerate(moving):
-            step = self.feet[moving[min(at + 2, len(moving) - 1)], :2] - self.feet[moving[max(at - 2, 0)], :2]
-            if np.hypot(*step) >= 0.2:
-                angle = np.degrees(np.arctan2(step[1], step[0]))
-                found.append((frame, found[-1][1] + turned(angle, found[-1][1]) if found else angle))
-        return found
-
-    def turns_to(self, side, frame):
-        """Whether the way changes its direction to a side around a frame."""
-        # Frames in which the target stands have no direction: it may stand at the corner.
-        directions = self.directions()
-        at = sum(place < frame for place, _ in directions)
-        before = [angle for _, angle in directions[max(at - 22, 0) : at + 1]]
-        after = [angle for _, angle in directions[at : at + 15]]
-        sign = {"left": -1, "right": 1}.get(side)
-        changes = [a - b for a in after for b in before]
-        if side == "around":
-            return any(abs(change) > 120 for change in changes)
-        return any(48 <= sign * change <= 140 for change in changes) or any(45 <= sign * change for change in changes)
-
-    def sharpest(self, start, end):
-        angles = [angle for at, angle in self.directions() if start <= at < end]
-        changes = [abs(np.mean(angles[b : b + 4]) - np.mean(angles[a : a + 4])) for a in range(len(angles)) for b in range(a + 1, min(a + 20, len(angles) - 3))]
-        return max(changes, default=0.0)
+        self.way = Way(self.feet, self.speed >= 0.05, self.dt)
 
     def is_outside(self, frame):
         """Whether the middle of the body is outside of the picture, or within a pixel of its edge."""
@@ -199,11 +173,12 @@ class Flight:
         if name == "distance":
             return abs(self.distance[frames].mean() - int(rest[0])) <= 0.51
         if name == "turns":
-            return self.turns_to(rest[0], start)
+            return self.way.turns_to(rest[0], start)
         if name == "turns_in_all":
-            return len(self.all_turns()) == int(rest[0])
+            events = self.way.events()
+            return self.way.clear_turns() <= int(rest[0]) <= len(events)
         if name == "no_turn":
-            return self.sharpest(start, end) < 75
+            return self.way.sharpest(start, end) < 60
         if name in ("stops", "stands"):
             still = self.speed < 0.05
             if name == "stands":
@@ -233,24 +208,6 @@ class Flight:
         if name == "meets":
             return self.meets(rest[0], start, end)
         raise SystemExit(f"unknown claim {claim}")
-
-    def all_turns(self):
-        """Turns by a search of its own: changes of at least 60 degrees that begin within 20 frames."""
-        directions, found, at, base_from = self.directions(), [], 0, 0
-        angle = lambda i: np.mean([it[1] for it in directions[i : i + 3]])
-        while at < len(directions):
-            base = angle(max(base_from, at - 20))
-            if abs(directions[at][1] - base) >= 50:
-                end = at
-                while end + 4 < len(directions) and abs(directions[end + 4][1] - directions[end][1]) >= 10 and abs(directions[end][1] - base) < 180:
-                    end += 1
-                end = len(directions) - 1 if end + 4 >= len(directions) and end + 1 < len(directions) else end
-                if abs(angle(end) - base) >= 60:
-                    found.append(directions[at][0])
-                    base_from = end
-                at = end
-            at += 1
-        return found
 
 
 SUBJECTS = {"wears": "clothes", "distance": "distance", "turns": "turn", "turns_in_all": "turn", "no_turn": "turn", "stops": "stop", "stands": "stop", "passes": "landmark", "lost": "sight", "partly_hidden": "sight", "walks_with": "people", "meets": "people", "overtakes": "people", "crosses": "landmark", "meets_vehicle": "vehicles", "overtaken_by": "vehicles"}
@@ -310,10 +267,25 @@ def judge_dialogue(goal, flight, where, wrong):
                 wrong.append(f"{where}: `the other one` of {len(others) + 1} people")
     elif goal["false_subject"] == "turn":
         turns = [int(said.split(" @ ")[1].split("..")[0]) for said in goal["claims"] if said.startswith("turns")]
-        if any(flight.turns_to(pilot[0][1], frame) and not flight.turns_to("right" if pilot[0][1] == "left" else "left", frame) for frame in turns):
+        if any(flight.way.turns_to(pilot[0][1], frame) and not flight.way.turns_to("right" if pilot[0][1] == "left" else "left", frame) for frame in turns):
             wrong.append(f"{where}: the pilot is right")
     elif goal["false_subject"] == "distance" and flight.is_true(list(pilot[0]), start, end):
         wrong.append(f"{where}: the pilot is right")
+
+
+def judge_descriptions(captions, flights, wrong):
+    """Adds what is wrong with the descriptions of walks to a list; counts what they say of turns and times."""
+    said, times = Counter(), defaultdict(set)
+    for row in captions:
+        flight, text = flights[row["trajectory_id"]], row["text"]
+        if row["style"] != "description" or row["writer"] != "template" or flight.way.length < 1:
+            continue
+        standing_s = (flight.speed < 0.05).sum() * flight.dt
+        wrong += [f"{row['trajectory_id']} `{text}`: {it}" for it in wrongs(text, row["language"], flight.way, standing_s)]
+        times[row["trajectory_id"]].add(when_said(text))
+        said[(row["language"], when_said(text), re.search(r"turns [a-z, ]*around|掉头", text) is not None)] += 1
+    wrong += [f"{name}: its descriptions say that the first turn comes {found}" for name, found in times.items() if len(found) > 1]
+    print("  descriptions by language, time of the first turn, turn around:", dict(said))
 
 
 def check(folder, texts):
@@ -332,6 +304,7 @@ def check(folder, texts):
         crossings[row["trajectory_id"]].append(row)
     flights = {row["trajectory_id"]: Flight(row, frames[row["trajectory_id"]], people[row["trajectory_id"]], towns[row["town"]], crossings[row["trajectory_id"]]) for row in table("trajectories")}
     goals, wrong, counts, skeletons = table("goals"), [], Counter(), defaultdict(Counter)
+    judge_descriptions(table("captions", ["trajectory_id", "language", "style", "writer", "text"]), flights, wrong)
     for goal in goals:
         judge(goal, flights[goal["trajectory_id"]], wrong, counts)
         texts.append(goal)

@@ -195,9 +195,9 @@ def claims(text, picture):
     if has("standing still", "站着不动"):
         yield "stands", way is None
     yield from ((name, test(at)) for words, name, test in [
-        (("on the left of", "位于画面左"), "on the left", lambda it: it < 0.45),
-        (("in the middle of", "画面中央"), "in the middle", lambda it: 0.4 < it < 0.6),
-        (("on the right of", "位于画面右"), "on the right", lambda it: it > 0.55),
+        (("on the left of", "位于画面左"), "on the left", lambda it: it < 0.3),
+        (("in the middle of", "画面中央"), "in the middle", lambda it: 0.4 <= it <= 0.6),
+        (("on the right of", "位于画面右"), "on the right", lambda it: it > 0.7),
     ] if has(*words))
     if has("only person", "唯一") or "独自" in text:
         yield "alone", not people
