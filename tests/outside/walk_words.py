@@ -5,6 +5,7 @@ have an angle: the way turns there as far as both say, and somebody may call it 
 """
 
 import re
+from functools import cache
 
 import numpy as np
 
@@ -71,6 +72,7 @@ class Way:
         inside = (self.places >= self.of_frame(start)) & (self.places <= self.of_frame(end - 1))
         return float(np.abs(self.angles[inside]).max(initial=0.0))
 
+    @cache
     def events(self):
         """Turns in order of the way: place, what it may be called, whether nobody can overlook it."""
         runs, last = [], None
@@ -113,6 +115,7 @@ class Way:
     def clear_turns(self):
         return sum(clear for _, _, clear in self.events())
 
+    @cache
     def is_straight(self):
         whole = self.direction(0, self.length)
         ways = [self.direction(place, place + 3) for place in self.places]
