@@ -5,6 +5,7 @@ have an angle: the way turns there as far as both say, and somebody may call it 
 """
 
 import re
+from functools import cache
 
 import numpy as np
 
@@ -71,11 +72,12 @@ class Way:
         inside = (self.places >= self.of_frame(start)) & (self.places <= self.of_frame(end - 1))
         return float(np.abs(self.angles[inside]).max(initial=0.0))
 
+    @cache
     def events(self):
         """Turns in order of the way: place, what it may be called, whether nobody can overlook it."""
         runs, last = [], None
         for at, angles in enumerate(self.angles):
-            if np.abs(angles).max() < 35:
+            if np.abs(angles).max() < 41:
                 continue
             sign = np.sign(angles.sum())
             sharp = np.abs(angles).max() > 120
@@ -89,7 +91,7 @@ class Way:
             angles = self.angles[run]
             peak = run[int(np.abs(angles).sum(1).argmax())]
             place = self.places[peak]
-            kinds = {kind for kind, sign in (("left", -1), ("right", 1)) if (sign * angles >= 35).any()}
+            kinds = {kind for kind, sign in (("left", -1), ("right", 1)) if (sign * angles >= 41).any()}
             is_inside = min(place, self.length - place) >= 3
             back = self.leads_back(self.places[run[0]], self.places[run[-1]], 140)
             if back or np.abs(angles).max() > 120:
@@ -97,7 +99,7 @@ class Way:
             if self.leads_back(self.places[run[0]], self.places[run[-1]], 165):
                 kinds = {"around"}
             long = (run[-1] - run[0]) * STEP_M > 13
-            is_side = (np.abs(self.angles[peak]) >= (40, 58)).all() and np.abs(angles).max() <= 120
+            is_side = (np.abs(self.angles[peak]) >= (32, 49)).all() and np.abs(angles).max() <= 120
             clear = is_inside and not long and bool(is_side or kinds == {"around"})
             found += [(place, kinds, clear)] if not long else [(place, kinds, False)] * 4
         return found
@@ -113,6 +115,7 @@ class Way:
     def clear_turns(self):
         return sum(clear for _, _, clear in self.events())
 
+    @cache
     def is_straight(self):
         whole = self.direction(0, self.length)
         ways = [self.direction(place, place + 3) for place in self.places]

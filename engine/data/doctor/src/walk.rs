@@ -10,8 +10,8 @@ use cosfly_frames::{DVec2, DVec3, real};
 /// Lengths of the chords, metres.
 const CHORDS_M: [f64; 2] = [3.0, 5.0];
 /// A turn by both chords, and a hint of one by either, degrees.
-const CLEAR_DEG: [f64; 2] = [33.0, 50.0];
-const HINT_DEG: f64 = 35.0;
+const CLEAR_DEG: [f64; 2] = [30.0, 47.0];
+const HINT_DEG: f64 = 41.0;
 /// Sharper than the first is no mere turn to a side; from the second on the way may lead back, from the third it does, degrees.
 const SHARP_DEG: f64 = 125.0;
 const MAY_LEAD_BACK_DEG: f64 = 100.0;
@@ -238,10 +238,12 @@ fn sum_deg(angles: &[f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Moment;
     use TurnKind::{Around, Left, Right};
+    use cosfly_frames::Pose;
 
-    /// A walk in steps of 0.6 m through the yaws (degrees), so many metres each.
-    fn walk(legs: &[(f64, f64)]) -> Walk {
+    /// Places of a walk in steps of 0.6 m through the yaws (degrees), so many metres each.
+    fn places(legs: &[(f64, f64)]) -> Vec<DVec3> {
         let mut feet = vec![DVec3::ZERO];
         for &(yaw_deg, length_m) in legs {
             let (sin, cos) = real::sin_cos(f64::to_radians(yaw_deg));
@@ -249,7 +251,66 @@ mod tests {
                 feet.push(feet[feet.len() - 1] + 0.6 * DVec3::new(cos, sin, 0.0));
             }
         }
-        Walk::of(&feet, 0.5)
+        feet
+    }
+
+    fn walk(legs: &[(f64, f64)]) -> Walk {
+        Walk::of(&places(legs), 0.5)
+    }
+
+    /// A flight 28 m behind and above a walk, with one instruction.
+    fn episode(legs: &[(f64, f64)], text: &str) -> Episode {
+        let moment = |(frame, feet): (usize, &DVec3)| {
+            let drone = Pose::looking_at(*feet + DVec3::new(-20.0, 0.0, 20.0), *feet);
+            Moment {
+                time_s: 0.5 * frame as f64,
+                drone,
+                camera: drone,
+                next_in_world: None,
+                turn_deg: None,
+                target_in_world: Some(*feet + 0.85 * DVec3::Z),
+                heading_and_speed: Some((0.0, 1.2)),
+                in_image: None,
+                visible_box: None,
+                visible: Some(1.0),
+                clearance_m: None,
+            }
+        };
+        Episode {
+            id: "a".to_owned(),
+            dt_s: 0.5,
+            target_height_m: 1.7,
+            moments: places(legs).iter().enumerate().map(moment).collect(),
+            captions: vec![(
+                "en".to_owned(),
+                format!("The person {text}; keep about 28 m away and look down about 45 degrees."),
+            )],
+            ..Episode::default()
+        }
+    }
+
+    #[test]
+    fn true_texts_pass_and_planted_false_ones_are_flagged() {
+        let corner = vec![(0.0, 12.0), (90.0, 12.0)];
+        let curve = curve(180.0, 12.0);
+        let back = vec![(0.0, 24.0), (180.0, 24.0)];
+        for (legs, text, holds) in [
+            (&corner, "sets off, turns right, and walks on", true),
+            (&corner, "sets off, soon turns right, and walks on", false),
+            (&corner, "sets off, turns left, and walks on", false),
+            (&corner, "turns around and walks on", false),
+            (&corner, "makes no sharp turn", false),
+            (&corner, "turns right, then left, and walks on", false),
+            (&curve, "makes no sharp turn", true),
+            (&curve, "turns around and walks on", false),
+            (&curve, "turns right and walks on", false),
+            (&curve, "heads straight on throughout", false),
+            (&back, "turns around and walks on", true),
+            (&back, "makes no sharp turn", false),
+            (&back, "heads straight on throughout", false),
+        ] {
+            assert_eq!(crate::checks::words::check(&episode(legs, text)).is_empty(), holds, "{text}: {legs:?}");
+        }
     }
 
     /// A slow curve through an angle (degrees) of a radius.
