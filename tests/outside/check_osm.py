@@ -12,6 +12,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
 import numpy
@@ -23,27 +24,47 @@ from shapely.ops import unary_union
 
 STOREY_M = 3.0
 BUILDING_MARGIN_M = 1000.0
+# Widest half of a street, beyond which a path that ends at its middle line has reached the kerb.
+KERB_M = 8.0
+PATHS = ("footway", "steps", "pedestrian", "path")
+STREETS = (
+    "motorway trunk primary secondary tertiary unclassified residential road living_street service motorway_link trunk_link "
+    "primary_link secondary_link tertiary_link busway"
+).split()
 THING_MARGIN_M = 100.0
 
 
 def rows(path):
-    """Building areas, footpaths, trees and lamps of a file, in degrees."""
+    """Building areas, stretches of footpaths, trees and lamps of a file, in degrees.
+
+    Ends of a stretch where its path ends at a street, and no other path goes on there, are marked: it ends at the kerb.
+    """
     factory = osmium.geom.WKBFactory()
     areas, paths, points = [], [], []
+    streets, arms, crossings = set(), Counter(), set()
     for one in osmium.FileProcessor(str(in_order(path))).with_locations().with_areas():
         tags = dict(one.tags)
         if one.is_node() and one.location.valid():
             if tags.get("natural") == "tree" or tags.get("highway") == "street_lamp":
                 points.append((tags, one.location.lon, one.location.lat))
-        elif one.is_way() and tags.get("highway") in ("footway", "steps", "pedestrian"):
+            if tags.get("highway") == "crossing":
+                crossings.add(one.id)
+        elif one.is_way() and tags.get("highway") in STREETS:
+            streets.update(node.ref for node in one.nodes)
+        elif one.is_way() and tags.get("highway") in PATHS:
             if not is_area(tags) and not is_hidden(tags) and tags.get("foot") != "no":
-                known = [(node.lon, node.lat) if node.location.valid() else None for node in one.nodes]
+                refs = [node.ref for node in one.nodes]
+                arms.update(refs[:-1] + refs[1:])
+                if tags["highway"] not in ("footway", "steps", "pedestrian"):
+                    continue
+                known = [(node.ref, (node.lon, node.lat)) if node.location.valid() else None for node in one.nodes]
                 paths += [pair for pair in zip(known, known[1:]) if None not in pair]
         elif one.is_area() and any(tags.get(key, "no") != "no" for key in ("building", "building:part")):
             shape = wkb.loads(factory.create_multipolygon(one), hex=True)
             kind = "way" if one.from_way() else "relation"
             areas += [(f"{kind} {one.orig_id()}", tags, polygon) for polygon in shape.geoms]
-    return areas, paths, points
+    ends = {ref for ref, count in arms.items() if count == 1 and ref in streets and ref not in crossings}
+    return areas, [[(place, ref in ends) for ref, place in pair] for pair in paths], points
 
 
 def in_order(path):
@@ -116,7 +137,7 @@ class Town:
         areas, paths, points = rows(path)
         moved = lambda shape: transform(shape, lambda at: numpy.column_stack(self.plan(at[:, 0], at[:, 1])))
         self.areas = [(name, tags, moved(shape)) for name, tags, shape in areas if is_kept(tags)]
-        self.paths = [[self.plan(*end) for end in pair] for pair in paths]
+        self.paths = [[(*self.plan(*place), is_end) for place, is_end in pair] for pair in paths]
         self.points = [(tags, self.plan(lon, lat)) for tags, lon, lat in points]
         box = osmium.io.Reader(str(path)).header().box()
         corners = [self.plan(lon, lat) for lon in (box.bottom_left.lon, box.top_right.lon) for lat in (box.bottom_left.lat, box.top_right.lat)]
@@ -229,10 +250,12 @@ class Town:
         ground = [Polygon([corner[:2] for corner in one["outline_m"]]).buffer(0.01) for one in self.town["walkable"]]
         index = STRtree(ground)
         inside, walkable = 0, 0
-        for (ax, ay), (bx, by) in self.paths:
+        for (ax, ay, begins), (bx, by, ends) in self.paths:
+            length = math.hypot(bx - ax, by - ay)
             for share in (0.25, 0.5, 0.75):
                 at = (ax + share * (bx - ax), ay + share * (by - ay))
-                if self.holds(at, 0.0):
+                before_kerb = begins and share * length < KERB_M or ends and (1 - share) * length < KERB_M
+                if self.holds(at, 0.0) and not before_kerb:
                     inside += 1
                     walkable += len(index.query(Point(at), predicate="intersects")) > 0
         share = walkable / max(inside, 1)

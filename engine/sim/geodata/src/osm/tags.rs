@@ -139,10 +139,12 @@ impl Tags {
         ["layer", "level"].iter().any(|key| self.range(key).is_some_and(|(_, highest)| highest < 0.0))
     }
 
-    /// Whether the thing stands or lies on a roof or an upper storey. What a bridge carries lies on the bridge.
+    /// Whether the thing stands or lies on a roof or an upper storey. Ways that people or vehicles take lie on one level, as
+    /// bridges and what they carry do, whatever their `level`.
     pub fn is_upstairs(&self) -> bool {
         let is_high = self.range("level").is_some_and(|(lowest, _)| lowest > 0.0);
-        self.is("location", &["roof", "rooftop"]) || is_high && !self.has("bridge")
+        let is_way = ["bridge", "highway", "railway"].iter().any(|key| self.has(key));
+        self.is("location", &["roof", "rooftop"]) || is_high && !is_way
     }
 
     /// Whether the thing is neither hidden nor upstairs.
@@ -321,6 +323,7 @@ mod tests {
         for value in ["1", "2;3", "1-4", "12"] {
             assert!(is_upstairs(&[("level", value)]), "{value}");
             assert!(!is_upstairs(&[("level", value), ("bridge", "yes")]), "{value}");
+            assert!(!is_upstairs(&[("level", value), ("highway", "footway")]), "{value}");
         }
         for value in ["0", "0;1", "-1;3", "0-5", "first", ""] {
             assert!(!is_upstairs(&[("level", value)]), "{value}");

@@ -136,7 +136,7 @@ fn one_level(elements: &Elements) -> String {
     let is_bridge = |tags: &Tags| tags.has("bridge") && !tags.is_hidden();
     format!(
         "everything stands on one level: the file has no heights of the ground; {} ways on bridges lie on it, {} in tunnels, \
-         below it or on upper storeys are left out",
+         below it or on roofs are left out",
         count(&is_bridge),
         count(&|tags| !tags.is_on_the_ground())
     )
