@@ -135,7 +135,8 @@ fn is_collection(name: &str) -> bool {
     let name = name.to_lowercase();
     telling(&name).is_some_and(|(_, word)| {
         let after = name.find(word).map_or("", |at| &name[at + word.len()..]);
-        word.ends_with('s') || after.strip_prefix('e').unwrap_or(after).starts_with('s')
+        let ending = after.strip_prefix('e').unwrap_or(after).strip_prefix('s');
+        word.ends_with('s') || ending.is_some_and(|rest| !rest.starts_with(char::is_alphabetic))
     })
 }
 
@@ -183,6 +184,7 @@ mod tests {
             ("map.osm_buildings", true),
             ("Bushes", true),
             ("Tree", false),
+            ("BuildingSmall_1", false),
             ("Cubes", false),
         ] {
             assert_eq!(is_collection(name), is_many, "{name}");
