@@ -79,7 +79,7 @@ mod tests {
             ("`http://token@host/v1`", "`http://*****@host/v1`"),
             ("http://h/v1?model=a&api_key=abc&x=1", "http://h/v1?model=a&api_key=***&x=1"),
             ("https://h?X-Amz-Signature=12ab#access_token=cd", "https://h?X-Amz-Signature=****#access_token=**"),
-            ("s3://KEY:se/cr+et@bucket/prefix", "s3://**************@bucket/prefix"),
+            ("s3://KEY:se/cr+et@bucket/prefix", "s3://************@bucket/prefix"),
             ("Authorization: Bearer sk-12345678, and so on", "Authorization: Bearer ***********, and so on"),
             ("api-key 0123456789", "api-key **********"),
             ("ü://ä:ö@ü é", "ü://***@ü é"),
