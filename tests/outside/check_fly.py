@@ -172,7 +172,7 @@ server.stop()
 # Never there: no episode is judged, and the same command flies them later.
 port = server.port
 ended = fly("absent", "--policy", f"ws://127.0.0.1:{port}", "--name", "mine", "--wait", "0.5", *few, code=1)
-assert "fly-policy-gone" in ended.stderr or "could not be had" in ended.stderr, ended.stderr
+assert "fly-policy-unready" in ended.stderr and not (work / "absent").exists(), ended.stderr
 server = Server(good)
 assert fly("absent", "--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", *few) == quiet
 server.stop()
@@ -204,10 +204,18 @@ measured = fly("measured", *timed, *few)["mine"]["all"]["latency_s"]["mean"]
 assert 0 < measured < 1, measured
 server.stop()
 
-# A function that fails says why.
+# A function that fails says why: from the start it is no policy, later its episode ends.
+broken = ["--policy", "python:broken:act", "--python", sys.executable, "--name", "mine", *few]
 (work / "broken.py").write_text("def act(observation):\n    raise KeyError('no such feature')\n")
-fly("broken", "--policy", "python:broken:act", "--python", sys.executable, "--name", "mine", *few, cwd=work)
+ended = fly("broken", *broken, cwd=work, code=1)
+assert "no such feature" in ended.stderr and not (work / "broken").exists(), ended.stderr
+(work / "broken.py").write_text("def act(o):\n    return [0] * 5 if o['step'] < 3 else {}['no such feature']\n")
+fly("broken", *broken, cwd=work)
 assert all("no such feature" in row["policy_failure"] for row in rows("broken/mine"))
+# Rows of another text of the module are not kept with them.
+(work / "broken.py").write_text("def act(o):\n    return [0] * 5\n")
+ended = fly("broken", *broken, cwd=work, code=3)
+assert "policy.source" in ended.stderr, ended.stderr
 
 # Latency costs; two results compare.
 for latency in ("57", "200"):

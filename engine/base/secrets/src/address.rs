@@ -5,6 +5,8 @@ const SECRET_PARAMETERS: [&str; 9] =
     ["key", "token", "secret", "passw", "pwd", "credential", "signature", "sig", "auth"];
 /// Words of headers before a key.
 const BEFORE_KEYS: [&str; 3] = ["bearer ", "api-key ", "basic "];
+/// Longest address that is looked at, characters.
+const LONGEST_ADDRESS: usize = 4096;
 /// Shortest word after such a word that is taken for a key, bytes: the words occur in sentences too.
 const SHORTEST_KEY: usize = 8;
 
@@ -38,7 +40,9 @@ pub fn has_secret(text: &str) -> bool {
 /// Finds the secrets of the address whose name of a server begins at `from`.
 fn secrets_of_address(text: &str, from: usize, hide: &mut impl FnMut(usize, usize)) {
     let ends = |c: char| c.is_whitespace() || c.is_control() || "\"'`<>(){}|\\".contains(c);
-    let address = text[from..].split(ends).next().unwrap_or("");
+    let end = text[from..].char_indices().take(LONGEST_ADDRESS).find(|(_, c)| ends(*c)).map(|(at, _)| at);
+    let longest = text[from..].char_indices().nth(LONGEST_ADDRESS).map_or(text.len() - from, |(at, _)| at);
+    let address = &text[from..from + end.unwrap_or(longest)];
     let server = address.split(['/', '?', '#']).next().unwrap_or("");
     if let Some(at) = server.rfind('@') {
         hide(from, from + at);
@@ -75,7 +79,7 @@ mod tests {
             ("`http://token@host/v1`", "`http://*****@host/v1`"),
             ("http://h/v1?model=a&api_key=abc&x=1", "http://h/v1?model=a&api_key=***&x=1"),
             ("https://h?X-Amz-Signature=12ab#access_token=cd", "https://h?X-Amz-Signature=****#access_token=**"),
-            ("s3://KEY:se/cr+et@bucket/prefix", "s3://**************@bucket/prefix"),
+            ("s3://KEY:se/cr+et@bucket/prefix", "s3://************@bucket/prefix"),
             ("Authorization: Bearer sk-12345678, and so on", "Authorization: Bearer ***********, and so on"),
             ("api-key 0123456789", "api-key **********"),
             ("ü://ä:ö@ü é", "ü://***@ü é"),

@@ -97,6 +97,7 @@ pub fn crew<W>(
         Ok(())
     };
     let work = |number: usize| {
+        let _panics = StopsOthers(&stop);
         if let Err(error) = work(number) {
             stop.store(true, Ordering::Relaxed);
             lock(&board).failed.get_or_insert(error);
@@ -119,6 +120,17 @@ pub fn crew<W>(
         return Err(Diagnostic::new("fly-stopped", Fault::Stopped, message));
     }
     Ok(Crewed { kept: kept.into_inner(), gone: board.gone })
+}
+
+/// A thread that panics stops the others, which may wait for it.
+struct StopsOthers<'a>(&'a AtomicBool);
+
+impl Drop for StopsOthers<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.store(true, Ordering::Relaxed);
+        }
+    }
 }
 
 fn lock(board: &Mutex<Board>) -> MutexGuard<'_, Board> {

@@ -150,6 +150,9 @@ fn of_numpy(value: &Value) -> Result<(Vec<f64>, Vec<usize>), String> {
     let dtype = entry(value, "dtype").and_then(text).ok_or("an array without a `dtype`")?;
     let data = entry(value, "data").and_then(Value::as_slice).ok_or("an array without `data`")?;
     let sizes = entry(value, "shape").and_then(Value::as_array).ok_or("an array without a `shape`")?;
+    if sizes.len() > DEEPEST {
+        return Err(format!("an array of {} dimensions", sizes.len()));
+    }
     let size = |size: &Value| size.as_u64().and_then(|size| usize::try_from(size).ok());
     let shape: Vec<usize> =
         sizes.iter().map(size).collect::<Option<_>>().ok_or("a `shape` that is no list of sizes")?;

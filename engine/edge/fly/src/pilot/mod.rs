@@ -21,6 +21,9 @@ use cosfly_secrets::{Secrets, has_secret, without_secrets};
 use std::path::PathBuf;
 use std::time::Duration;
 
+/// Characters of a policy's text that are looked at.
+const LONGEST_TEXT: usize = 8192;
+
 /// Where a policy is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
@@ -116,8 +119,25 @@ pub struct Manners {
 }
 
 impl Manners {
-    /// A text of a policy as rows and errors show it: without secrets, and without what controls a terminal.
-    pub fn shown(&self, text: &str) -> String {
+    /// A text of a policy as rows and errors show it: without secrets, without what controls a terminal, cut at its end.
+    fn beginning_of(&self, text: &str, kept: usize) -> String {
+        let text: String = text.trim().chars().take(LONGEST_TEXT).collect();
+        self.shown(&text).chars().take(kept).collect()
+    }
+
+    /// The same, cut at its beginning: what tracebacks end with.
+    fn end_of(&self, text: &str, kept: usize) -> String {
+        let last = |text: &str, count: usize| {
+            let skipped = text.chars().count().saturating_sub(count);
+            (text.chars().skip(skipped).collect::<String>(), skipped > 0)
+        };
+        // Cut in two steps: no secret is cut in the middle and kept in part.
+        let (text, _) = last(text.trim(), LONGEST_TEXT);
+        let (end, is_cut) = last(&self.shown(&text), kept);
+        if is_cut { format!("... {end}") } else { end }
+    }
+
+    fn shown(&self, text: &str) -> String {
         visible_text(&Secrets::of(self.api_key.clone()).with_environment(std::env::vars_os()).hidden(text))
     }
 }

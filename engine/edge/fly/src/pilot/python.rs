@@ -54,15 +54,7 @@ impl PythonPilot {
             }
             Err(Silence::Ended) => format!("its process {}", process.last_words()),
         };
-        Err(cannot(&self.end_of(&why, KEPT_OF_LOADING)))
-    }
-
-    /// The end of a text, without secrets.
-    fn end_of(&self, text: &str, kept: usize) -> String {
-        let text = self.manners.shown(text.trim());
-        let skipped = text.chars().count().saturating_sub(kept);
-        let end: String = text.chars().skip(skipped).collect();
-        if skipped > 0 { format!("... {end}") } else { end }
+        Err(cannot(&self.manners.end_of(&why, KEPT_OF_LOADING)))
     }
 
     fn receive(&mut self, within: Duration) -> Result<Vec<u8>, Failure> {
@@ -71,13 +63,13 @@ impl PythonPilot {
             Ok(Told::Bytes(bytes)) => return Ok(bytes),
             // The process goes on.
             Ok(Told::Text(text)) => {
-                return Err(Failure::Answer(format!("the policy failed: {}", self.end_of(&text, KEPT))));
+                return Err(Failure::Answer(format!("the policy failed: {}", self.manners.end_of(&text, KEPT))));
             }
             Ok(Told::TooLong) => Failure::Answer(wire::too_long()),
             Err(Silence::Late) => Failure::Answer(super::late(within)),
             Err(Silence::Ended) => {
                 let words = process.last_words();
-                Failure::Gone(format!("the process of the policy {}", self.end_of(&words, KEPT_OF_LOADING)))
+                Failure::Gone(format!("the process of the policy {}", self.manners.end_of(&words, KEPT_OF_LOADING)))
             }
         };
         self.process = None;

@@ -127,7 +127,8 @@ impl SocketPilot {
                     self.socket = None;
                     let waited = self.manners.wait.as_secs_f64();
                     let waited = if no.is_for_good { String::new() } else { format!(" (waited {waited} s, `--wait`)") };
-                    return Err(self.manners.shown(&format!("no policy at {}: {}{waited}", self.address, no.why)));
+                    let why = self.manners.beginning_of(&no.why, 2 * KEPT);
+                    return Err(format!("no policy at {}: {why}{waited}", self.address));
                 }
                 Err(_) => std::thread::sleep(AGAIN),
             }
@@ -155,7 +156,7 @@ impl SocketPilot {
             return match socket.read() {
                 Ok(Message::Binary(bytes)) => Ok(bytes.to_vec()),
                 Ok(Message::Text(text)) => {
-                    let text: String = self.manners.shown(text.as_str()).chars().take(KEPT).collect();
+                    let text = self.manners.beginning_of(text.as_str(), KEPT);
                     Err(Failure::Answer(format!("the policy answers with a text: {text}")))
                 }
                 Ok(Message::Ping(_) | Message::Pong(_)) => continue,
