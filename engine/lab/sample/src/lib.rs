@@ -77,7 +77,7 @@ impl SampleFlight {
 }
 
 /// Draws the ground of a flight's pictures higher than people stand, as if they walked below it.
-pub fn raise_ground(flight: &mut SampleFlight, rise_m: f64) {
+pub fn raise_drawn_ground(flight: &mut SampleFlight, rise_m: f64) {
     for (images, pose) in flight.images.iter_mut().zip(&flight.record.trajectory.poses_in_world) {
         let height_m = pose.position_in_world.z;
         let is_ground = images.semantic.iter().map(|label| *label == SemanticLabel::Ground.id());
@@ -151,7 +151,11 @@ pub fn rejections() -> Vec<Rejection> {
 
 /// Flight of one role behind one pedestrian.
 pub fn flight(pedestrian: usize, role: Role) -> SampleFlight {
-    let camera = Camera { width: 64, height: 48, horizontal_fov_rad: 1.2 };
+    flight_filmed_by(Camera { width: 64, height: 48, horizontal_fov_rad: 1.2 }, pedestrian, role)
+}
+
+/// Flight of one role behind one pedestrian, in pictures of another size.
+pub fn flight_filmed_by(camera: Camera, pedestrian: usize, role: Role) -> SampleFlight {
     let track = track(pedestrian);
     let expert: Vec<Pose> = track.states.iter().enumerate().map(|(i, state)| behind(state, i, DVec3::ZERO)).collect();
     let offset = DVec3::new(0.4, -0.3, 0.2);

@@ -127,6 +127,8 @@ fn files_that_lie_about_their_size_are_refused() {
         assert!(read::<Ply>(text.as_bytes(), &options).is_err());
     }
     let text = String::from_utf8(pcd(&scene(), "ascii")).unwrap().replace("POINTS ", "POINTS 9");
+    assert!(read::<Pcd>(text.as_bytes(), &options).unwrap_err().message.contains("`POINTS`, but `WIDTH`"));
+    let text = text.replace("WIDTH ", "WIDTH 9");
     assert!(read::<Pcd>(text.as_bytes(), &options).unwrap_err().message.contains("file ends"));
     let text = String::from_utf8(ply(&scene(), "ascii")).unwrap().replace(" 8.000 ", " nan ");
     check_ply_with_gaps(text.as_bytes());

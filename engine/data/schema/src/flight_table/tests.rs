@@ -46,7 +46,7 @@ fn answers_are_read_and_wrong_ones_say_what_is_declared() {
     assert!(read_answer(&label, &gives, 1..=1).unwrap_err().contains("2 rows; one is required"));
     assert!(read_answer(&label, &gives, 0..=1).unwrap_err().contains("2 rows; at most 1"));
     let endless = stream(vec![("risk", reals(&[0.5, f64::NAN]))]);
-    assert!(labels(&endless, &gives, 2).unwrap_err().contains("NaN at row 1"));
+    assert!(labels(&endless, &gives, 2).unwrap_err().contains("at row 1 is not a number"));
     let gaps = stream(vec![("risk", Arc::new(Float64Array::from(vec![Some(1.0), None])))]);
     assert!(labels(&gaps, &gives, 2).unwrap_err().contains("1 nulls"));
 }

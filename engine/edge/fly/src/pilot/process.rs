@@ -2,6 +2,7 @@
 
 use crate::wire;
 use cosfly_diagnose::visible_text;
+use cosfly_secrets::Secrets;
 use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -186,6 +187,7 @@ struct Errors {
 impl Errors {
     fn read(&self, mut stderr: impl Read) {
         let (mut buffer, mut passed_on) = ([0; 8192], 0);
+        let secrets = Secrets::default().with_environment(std::env::vars_os());
         while let Ok(count @ 1..) = stderr.read(&mut buffer) {
             let bytes = &buffer[..count];
             let mut end = self.end.lock().unwrap_or_else(PoisonError::into_inner);
@@ -197,7 +199,7 @@ impl Errors {
                 passed_on += count;
                 let text = String::from_utf8_lossy(bytes).replace('\r', "\n");
                 let more = if passed_on < PASSED_ON { "" } else { "\n(the policy's further output is not shown)\n" };
-                _ = std::io::stderr().write_all((visible_text(&text) + more).as_bytes());
+                _ = std::io::stderr().write_all((visible_text(&secrets.hidden(&text)) + more).as_bytes());
             }
         }
         self.is_over.store(true, Ordering::Release);

@@ -150,22 +150,14 @@ pub(super) fn documents(bytes: &[u8]) -> Result<Vec<Document>, MapError> {
 }
 
 impl Document {
-    /// All features of a sequence have the transform and the reference system of its head.
+    /// All features of a sequence have the reference system of its head; their transforms may be their own.
     fn check_features(&self, features: &[Self]) -> Result<(), MapError> {
-        for (number, feature) in (1..).zip(features) {
-            let name = match () {
-                () if feature.transform.is_some() && feature.transform != self.transform => "transform",
-                () if feature.reference_system().is_some() && feature.reference_system() != self.reference_system() => {
-                    "metadata.referenceSystem"
-                }
-                () => continue,
-            };
-            let message = format!("feature {number} has another `{name}` than the head of the sequence");
-            return Err(
-                MapError::new(message).hint("write the sequence again: its features share those of the first line")
-            );
-        }
-        Ok(())
+        let is_other =
+            |feature: &Self| feature.reference_system().is_some_and(|it| Some(it) != self.reference_system());
+        let Some(number) = features.iter().position(is_other) else { return Ok(()) };
+        let number = number + 1;
+        let message = format!("feature {number} has another `metadata.referenceSystem` than the head of the sequence");
+        Err(MapError::new(message).hint("write the sequence again: its features share that of the first line"))
     }
 
     fn check_version(&self) -> Result<(), MapError> {

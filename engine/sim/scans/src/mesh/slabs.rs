@@ -6,10 +6,11 @@ use super::plan_index::PlanIndex;
 use super::solid::height_at;
 use cosfly_frames::DVec3;
 
-/// Crossings of a vertical line closer than this are one surface, metres.
+/// A face this near to where a vertical line begins is the face that it begins on, metres.
 const SAME_CROSSING_M: f64 = 1e-6;
-/// Where a vertical line meets a triangle: off its middle, so that it meets no edge of a regular mesh.
-const SHOT: [f64; 3] = [0.3137, 0.3571, 0.3292];
+/// Where vertical lines meet a triangle: off its middle, so that they meet no edge of a regular mesh. A line along an edge counts both
+/// faces of the edge; most of the lines decide.
+const SHOTS: [[f64; 3]; 3] = [[0.3137, 0.3571, 0.3292], [0.2713, 0.3169, 0.4118], [0.3967, 0.2741, 0.3292]];
 /// Most pairs of triangles that are compared in a scene; the undersides of finer ones stay.
 pub const MOST_WORK: usize = 200_000_000;
 
@@ -30,15 +31,15 @@ pub fn drop_undersides(part: &mut Part, work: &mut usize) {
 
 /// Whether a vertical line from the triangle upwards leaves the solid: it crosses an odd number of faces above.
 fn is_below_its_solid(triangle: &[DVec3; 3], faces: &[[DVec3; 3]], index: &PlanIndex, work: &mut usize) -> bool {
-    let from: DVec3 = triangle.iter().zip(SHOT).map(|(corner, share)| share * *corner).sum();
-    let over = index.over(from);
-    let Some(left) = work.checked_sub(over.len()) else { return false };
-    *work = left;
-    let above = over.iter().filter_map(|face| height_at(&faces[*face as usize], from.truncate()));
-    let mut above: Vec<f64> = above.filter(|height_m| *height_m > from.z + SAME_CROSSING_M).collect();
-    above.sort_by(f64::total_cmp);
-    above.dedup_by(|a, b| (*a - *b).abs() < SAME_CROSSING_M);
-    above.len() % 2 == 1
+    let mut crosses_odd = |shot: &[f64; 3]| {
+        let from: DVec3 = triangle.iter().zip(shot).map(|(corner, share)| *share * *corner).sum();
+        let over = index.over(from);
+        let Some(left) = work.checked_sub(over.len()) else { return false };
+        *work = left;
+        let heights_m = over.iter().filter_map(|face| height_at(&faces[*face as usize], from.truncate()));
+        heights_m.filter(|height_m| *height_m > from.z + SAME_CROSSING_M).count() % 2 == 1
+    };
+    SHOTS.iter().filter(|shot| crosses_odd(shot)).count() >= 2
 }
 
 /// Triangles of each piece that hangs together and has no open edge.
