@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 from hostile_policies import MODULES, SERVERS, Server
 
@@ -30,7 +31,7 @@ def check(name, policy):
     command = [cosfly, "fly", suite, "--store", work / "store", "--out", out, "--name", "mine", *FEW, *PATIENCE]
     command += ["--policy", policy, "--python", sys.executable]
     environment = os.environ | {"COSFLY_API_KEY": KEY, "PYTHONDONTWRITEBYTECODE": "1"}
-    with open(work / "stdout", "wb") as stdout, open(work / "stderr", "wb") as stderr:
+    with open(work / f"{name}.stdout", "wb") as stdout, open(work / f"{name}.stderr", "wb") as stderr:
         began = time.monotonic()
         process = subprocess.Popen(command, cwd=work / "modules", stdout=stdout, stderr=stderr, env=environment)
         killer = __import__("threading").Timer(60, process.kill)
@@ -39,7 +40,7 @@ def check(name, policy):
         killer.cancel()
         took_s = time.monotonic() - began
     process.returncode = code = os.waitstatus_to_exitcode(status)
-    said = (work / "stderr").read_bytes().decode("utf-8", "replace")
+    said = (work / f"{name}.stderr").read_bytes().decode("utf-8", "replace")
     wrong = []
     if code not in (0, 1):
         wrong.append(f"exit code {code}: {said[-400:]}")
@@ -67,18 +68,24 @@ def check(name, policy):
     return [f"{name}: {it}" for it in wrong]
 
 
-found, count = [], 0
-for name, text in MODULES.items():
-    if chosen in f"python_{name}":
-        (work / "modules" / f"hostile_{name}.py").write_text(text)
-        found += check(f"python_{name}", f"python:hostile_{name}:act")
-        count += 1
-for name, (stage, behave) in SERVERS.items():
-    if chosen in f"server_{name}":
-        server = Server(stage, behave)
-        found += check(f"server_{name}", f"ws://127.0.0.1:{server.port}")
+def check_module(name, text):
+    (work / "modules" / f"hostile_{name}.py").write_text(text)
+    return check(f"python_{name}", f"python:hostile_{name}:act")
+
+
+def check_server(name, stage, behave):
+    server = Server(stage, behave)
+    try:
+        return check(f"server_{name}", f"ws://127.0.0.1:{server.port}")
+    finally:
         server.stop()
-        count += 1
+
+
+# Most of them wait: four at a time.
+with ThreadPoolExecutor(4) as pool:
+    tries = [pool.submit(check_module, *it) for it in MODULES.items() if chosen in f"python_{it[0]}"]
+    tries += [pool.submit(check_server, name, *it) for name, it in SERVERS.items() if chosen in f"server_{name}"]
+    found = [complaint for one in tries for complaint in one.result()]
 print("\n".join(found))
-print(f"{count} hostile policies, {len(found)} complaints")
+print(f"{len(tries)} hostile policies, {len(found)} complaints")
 sys.exit(bool(found))
