@@ -81,7 +81,7 @@ fn a_map_shows_what_it_lacks_and_bounds_cut_it() {
     assert!((area_m2("area_m2") - area_m2("synthetic_area_m2") - 2.0 * 3.0 * 60.0).abs() < 1.0, "{cut}");
     for (bounds, expected) in [
         ("bounds_m=[0, 0, -5, 5]", "smallest x and y, then largest x and y"),
-        ("bounds_m=[0, 0, 1e23, 5]", "is larger than 1e9 in magnitude"),
+        ("bounds_m=[0, 0, 1e23, 5]", "it must be at most `1000000000` in magnitude"),
         ("bounds_m=[5000, 5000, 6000, 6000]", "nothing of the town lies within"),
     ] {
         let refusal = inspect(folder.path(), &["street.xodr", "--set", bounds]).unwrap_err();

@@ -73,22 +73,6 @@ fn depth_in_millimetres_is_named() {
 }
 
 #[test]
-fn a_target_below_drawn_ground_is_named() {
-    let camera = cosfly_render::Camera { width: 320, height: 240, horizontal_fov_rad: 1.2 };
-    let filmed = |flight: &SampleFlight| {
-        let pedestrian = usize::from(flight.record.pedestrian_id.ends_with('1'));
-        SampleFlight { captions: vec![], ..sample::flight_filmed_by(camera, pedestrian, flight.record.role) }
-    };
-    let folder = tempfile::tempdir().expect("a folder");
-    write(folder.path(), &|flight| *flight = filmed(flight));
-    assert_eq!(names(folder.path()), BTreeSet::new());
-    check_planted("below-ground", &|flight| {
-        *flight = filmed(flight);
-        sample::raise_drawn_ground(flight, 0.3);
-    });
-}
-
-#[test]
 fn pictures_that_repeat_are_named() {
     check_planted("duplicate-frames", &|flight| flight.images[2] = flight.images[1].clone());
 }

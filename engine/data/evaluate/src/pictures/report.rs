@@ -147,7 +147,7 @@ pub struct DistanceReport {
 impl PictureEvaluation {
     /// Whether something that was handed in, or was not, keeps the scores from being those of the whole.
     pub fn has_problems(&self) -> bool {
-        self.is_partial || self.files.malformed > 0 || self.frames.nonsense.pixels > 0
+        self.is_partial || self.files.malformed > 0
     }
 
     /// Kinds of frames that there are, as they are called in tables, in order.
