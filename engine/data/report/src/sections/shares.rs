@@ -23,8 +23,9 @@ pub fn section(report: &Report) -> String {
 
 fn table(title: &str, heading: &str, groups: &BTreeMap<String, Group>) -> String {
     let mut text = format!(
-        "<section class=\"card\"><h3>{title}</h3><table><thead><tr><th scope=\"col\">{heading}</th><th scope=\"col\">flights\
-         </th><th scope=\"col\">frames</th><th scope=\"col\">visible, expert</th><th scope=\"col\">visible, perturbed</th></tr></thead><tbody>"
+        "<section class=\"card\"><h3>{title}</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{title}\"><table>\
+         <thead><tr><th scope=\"col\">{heading}</th><th scope=\"col\">flights</th><th scope=\"col\">frames</th><th scope=\"col\">\
+         visible, expert</th><th scope=\"col\">visible, perturbed</th></tr></thead><tbody>"
     );
     for (name, group) in groups {
         let flights: u64 = group.flights.iter().sum();
@@ -37,7 +38,7 @@ fn table(title: &str, heading: &str, groups: &BTreeMap<String, Group>) -> String
             grouped(group.frames)
         );
     }
-    text.push_str("</tbody></table></section>");
+    text.push_str("</tbody></table></div></section>");
     text
 }
 
