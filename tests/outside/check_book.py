@@ -54,7 +54,7 @@ def main():
                 continue
             links += 1
             target = (file.parent / unquote(parts.path)).resolve()
-            if source in target.parents and target.suffix == ".md":
+            if source in target.parents and target.suffix == ".md" and target.name != "SUMMARY.md":
                 html = built / target.relative_to(source).with_suffix(".html")
                 check(name, target, "", link)
                 check(name, html, unquote(parts.fragment), link)
