@@ -388,8 +388,10 @@ def main():
         facts = flights_of_no_drone(120, given.seed)
     else:
         facts = doctor(given.cosfly, given.dataset, [])["judged"]["facts"]
-        # Where some bend may or may not be a turn, a text may say either.
-        facts = {name: it for name, it in facts.items() if not it["doubtful_turns"]}
+        # Where some bend may or may not be a turn, a text may say either. The grammars call every way without a turn straight; one that
+        # bends slowly is neither.
+        is_told = lambda it: not it["doubtful_turns"] and (it["turns"] or not it["bends"])
+        facts = {name: it for name, it in facts.items() if is_told(it)}
     flights = {name: Flight(it) for name, it in sorted(facts.items())}
     assert flights, "the dataset has no flight with facts"
     names, ok = list(flights), True
