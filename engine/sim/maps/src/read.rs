@@ -89,7 +89,10 @@ fn finished(
     town.link_lanes();
     town.update_bounds();
     warnings.extend(odd_heights(&town));
-    town.assert_well_formed().map_err(|rule| MapError::new(format!("the town is not well formed: {rule}")))?;
+    town.assert_well_formed().map_err(|rule| {
+        MapError::new(format!("the town is not well formed: {rule}"))
+            .hint("the file seems to be damaged: fetch or export it again")
+    })?;
     Ok((town, warnings))
 }
 
