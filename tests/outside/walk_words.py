@@ -122,13 +122,13 @@ class Way:
         return self.length < 3 or whole is not None and all(way is None or abs(turned(way, whole)) < 30 for way in ways)
 
     def first_turn_s(self):
-        """Times at which the first turn may be, seconds."""
-        times = []
+        """Spans of time in which the first turn may be, seconds: a metre before it to a metre behind it, with a stop at the corner."""
+        spans = []
         for place, _, clear in self.events():
-            times.append(self.frame_of(place) * self.dt)
+            spans.append([self.frame_of(at) * self.dt for at in (max(place - 1, 0), min(place + 1, self.length))])
             if clear:
                 break
-        return times
+        return spans
 
 
 TIMES = {"twice": 2, "两": 2, "三": 3, "四": 4}
@@ -191,9 +191,9 @@ def wrongs(text, language, way, standing_s):
     if re.search(r"straight|直行|笔直|沿直线|直走|径直", text) and not way.is_straight():
         yield "straight"
     when, total = when_said(text), (way.count - 1) * way.dt
-    if when == "soon" and not any(time <= min(0.2 * total, 6) + 2 for time in way.first_turn_s()):
+    if when == "soon" and not any(begin <= min(0.2 * total, 6) + 2 for begin, _ in way.first_turn_s()):
         yield f"soon; the first turn is at {way.first_turn_s()} of {total} s"
-    if when == "late" and not any(time >= max(0.5 * total, 10) - 2 for time in way.first_turn_s()):
+    if when == "late" and not any(end >= max(0.5 * total, 10) - 2 for _, end in way.first_turn_s()):
         yield f"late; the first turn is at {way.first_turn_s()} of {total} s"
     if re.search(r"gently|slowly|缓缓|慢慢", text):
         yield "a word of speed"
