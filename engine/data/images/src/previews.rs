@@ -3,12 +3,12 @@
 use super::rgb::{jpeg, palette_png, png};
 use core::ops::Range;
 use cosfly_diagnose::Result;
+use cosfly_domain::channels::{Element, Source};
+use cosfly_domain::{Channel, ChannelImage, SemanticLabel};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
-use cosfly_maps::SemanticLabel;
-use cosfly_render::channels::{Channel, Element, Source};
+use cosfly_render::FrameImages;
 use cosfly_render::preview::{depth_preview, picture_on_request};
-use cosfly_render::{ChannelImage, FrameImages};
 
 /// Largest width of a preview, pixels.
 const WIDTH: u32 = 320;

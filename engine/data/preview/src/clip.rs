@@ -3,7 +3,7 @@
 use crate::shot::{FULL_BOX, Shot, VISIBLE_BOX};
 use color_quant::NeuQuant;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_maps::SemanticLabel;
+use cosfly_domain::SemanticLabel;
 use cosfly_plot::canvas::{Canvas, Colour, INK, WHITE};
 use cosfly_render::preview::DepthScale;
 use std::borrow::Cow;

@@ -2,13 +2,13 @@
 
 #![cfg(feature = "device")]
 
+use cosfly_domain::{Camera, TargetView, Town, WalkableKind, Weather};
+use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_gpu::GpuBackend;
+use cosfly_maps::MapConfig;
 use cosfly_maps::generate::{GenerateConfig, generate_town};
-use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::{
-    Backend, BodyShape, Camera, FrameImages, FrameSetup, Renderer, Scene, TargetSetup, TargetView, Weather,
-};
+use cosfly_render::{Backend, FrameImages, FrameSetup, Renderer, Scene};
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.5 };
 
@@ -100,7 +100,7 @@ fn every_channel_agrees_off_edges() {
     let mut cpu = Renderer::new(CAMERA);
     for (number, feet) in places(&town, 4).into_iter().enumerate() {
         let preset = ["ClearNoon", "HardRainNoon", "ClearSunset", "ClearNight"][number];
-        let mut weather = Weather::preset(preset).expect("a preset");
+        let mut weather = cosfly_materials::presets::preset(preset).expect("a preset");
         weather.sun_azimuth_angle = 215.0;
         for (view, offset) in [("follow", DVec3::new(-17.0, -10.0, 20.0)), ("street", DVec3::new(9.0, -12.0, 4.0))] {
             let pose = Pose::looking_at(feet + offset, feet + DVec3::Z);
@@ -120,7 +120,7 @@ fn a_camera_inside_an_obstacle_sees_out_of_it_as_on_the_cpu() {
     let scene = Scene::new(&town, Seed([1; 32]));
     let inside = town.obstacles.iter().max_by(|a, b| a.shape.half_extents_m.z.total_cmp(&b.shape.half_extents_m.z));
     let center = inside.expect("a town has obstacles").shape.center_in_world;
-    let weather = Weather::preset("CloudyNoon").expect("a preset");
+    let weather = cosfly_materials::presets::preset("CloudyNoon").expect("a preset");
     let pose = Pose { position_in_world: center, pitch_rad: -0.2, yaw_rad: 0.7, roll_rad: 0.1 };
     let setup = FrameSetup { pose, weather: &weather, target: None, others: &[] };
     let mut cpu = Renderer::new(camera);
@@ -137,7 +137,7 @@ fn an_empty_scene_is_sky_and_an_odd_width_is_read_back_whole() {
     town.obstacles.clear();
     town.surfaces.clear();
     let scene = Scene::new(&town, Seed([1; 32]));
-    let weather = Weather::preset("ClearNoon").expect("a preset");
+    let weather = cosfly_materials::presets::preset("ClearNoon").expect("a preset");
     let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 10.0), DVec3::new(20.0, 3.0, 0.0));
     let drawn =
         gpu.render(&scene, &FrameSetup { pose, weather: &weather, target: None, others: &[] }).expect("the card draws");

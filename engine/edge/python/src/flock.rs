@@ -4,12 +4,13 @@ use crate::calls::on_own_threads;
 use crate::errors::exception;
 use cosfly::Refusal;
 use cosfly_diagnose::Diagnostic;
+use cosfly_domain::Weather;
 use cosfly_env::pictures::{Channel, Format};
 use cosfly_fly::pilot::wrong_number;
 use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::{Suite, Task};
 use cosfly_fly::vector::{ACTIONS, Autoreset, Flock};
-use cosfly_render::{PictureLook, Weather};
+use cosfly_render::PictureLook;
 use cosfly_runner::RunOptions;
 use cosfly_store::Store;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
@@ -187,8 +188,8 @@ impl PyFlock {
 
 /// The weather of a name.
 fn preset(name: &str) -> PyResult<Weather> {
-    Weather::preset(name).ok_or_else(|| {
-        let presets = Weather::PRESETS.join(", ");
+    cosfly_materials::presets::preset(name).ok_or_else(|| {
+        let presets = cosfly_materials::presets::PRESETS.join(", ");
         PyValueError::new_err(format!("weather is `{name}`; it is one of {presets}"))
     })
 }

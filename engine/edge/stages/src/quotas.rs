@@ -7,13 +7,12 @@ use crate::hidden::hidden;
 use crate::ports::{self, LOSSES, ORDERS};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
+use cosfly_domain::{Around, Body, Followed, PlanOutcome, Trajectory};
+use cosfly_figures::{BodyShape, outfit_of};
 use cosfly_frames::DVec3;
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_planner::config::OcclusionConfig;
-use cosfly_planner::{PlanOutcome, Trajectory};
-use cosfly_render::{BodyShape, Outfit};
 use cosfly_stage::{Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StagePart, StageProperties, TaskContext};
-use cosfly_world::{Around, Body, Followed};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -66,7 +65,7 @@ impl Trial {
             && flight.certificate.occlusion_reached_s >= least_s - 1e-9;
         let seen_again = seen_again(&by_points);
         let beside_look_alike = followed.zip(seen_again).is_some_and(|(followed, frame)| {
-            let looks = |seed| Outfit::of(BodyShape::default(), seed);
+            let looks = |seed| outfit_of(BodyShape::default(), seed);
             let bodies = around.bodies().map(|(_, body)| body);
             let mut alike = bodies.filter(|body| {
                 body.plan.kind == followed.plan.kind && looks(&body.plan.looks).is_like(&looks(&followed.plan.looks))

@@ -3,12 +3,12 @@
 use crate::codec;
 use crate::shooting::Shooting;
 use cosfly_diagnose::Result;
+use cosfly_domain::{Body, BodyKind, BodyPlan, Followed, Outfit};
+use cosfly_figures::{BodyShape, Walker, gait_phase_rad, outfit_of};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
+use cosfly_optics::target_state_at;
 use cosfly_pedestrians::PedestrianPath;
-use cosfly_render::effects::target_state_at;
-use cosfly_render::{BodyShape, Outfit, Walker, gait_phase_rad};
-use cosfly_world::{Body, BodyKind, BodyPlan, Followed};
 
 /// Distance between the axes of a target and somebody who walks on their own below which one would walk through the other, metres.
 const APART_M: f64 = 0.6;
@@ -71,7 +71,7 @@ impl Person {
 
     /// Clothes of the person or rider, paint of another vehicle.
     pub fn outfit(&self) -> Outfit {
-        Outfit::of(self.body, &self.plan.looks)
+        outfit_of(self.body, &self.plan.looks)
     }
 
     /// State at a time, seconds from the flight's first frame; `None` where the person is absent. At the end of a walk the
@@ -140,7 +140,9 @@ pub fn touch(
         let (Some(one), Some(two)) = pair else { return false };
         let away = two.feet_in_world - one.feet_in_world;
         let is_level = away.z < plan.size_m.z && -away.z < other.size_m.z;
-        is_level && away.truncate().length_squared() < reach_m * reach_m && plan.gap_m(one, other, two) < 0.0
+        is_level
+            && away.truncate().length_squared() < reach_m * reach_m
+            && cosfly_world::gap_m(&plan, one, other, two) < 0.0
     };
     states.iter().zip(others).any(overlap)
 }

@@ -1,8 +1,8 @@
 //! The faces drawn in a picture.
 
 use crate::eye::Linear;
-use cosfly_maps::SemanticLabel;
-use cosfly_render::outside::NO_FACE;
+use cosfly_domain::SemanticLabel;
+use cosfly_raster::visibility::NO_FACE;
 
 /// A face drawn in this picture.
 #[derive(Clone, Copy)]

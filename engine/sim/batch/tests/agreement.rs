@@ -5,14 +5,12 @@ mod shared;
 mod towns;
 
 use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
+use cosfly_domain::{BodyKind, Camera, Town, Weather, object_instance};
+use cosfly_figures::{BodyShape, TargetSetup, Walker};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_maps::{GroundIndex, Town};
-use cosfly_render::frame::object_instance;
-use cosfly_render::{
-    BodyShape, Camera, FrameParts, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Walker, Weather,
-};
-use cosfly_world::BodyKind;
+use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer, Scene};
+use cosfly_town::GroundIndex;
 use towns::Place;
 
 const FOV_RAD: f64 = 1.4;
@@ -98,7 +96,8 @@ fn setup_of(target: &Walker) -> TargetSetup {
 fn agrees_with_large(town: &Town, count: usize, people: u32, rare: usize) {
     let scene = Scene::new(town, Seed([1; 32]));
     let batch = BatchScene::without_colours(town, &GroundIndex::new(town));
-    let weather = Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") };
+    let weather =
+        Weather { sun_azimuth_angle: 200.0, ..cosfly_materials::presets::preset("ClearNoon").expect("a preset") };
     for (number, place) in with_vehicles(towns::places(town, count, people)).iter().enumerate() {
         for size in [64u32, 84, 128, 224] {
             let ours = small(&batch, place, size);

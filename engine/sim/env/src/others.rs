@@ -3,13 +3,12 @@
 //! Between frames a body goes evenly from place to place and turns the shorter way, as in films and for the planner. A body that comes
 //! or goes is there for half a frame before its first state and after its last.
 
+use cosfly_domain::{Around, Body, BodyPlan, OrientedBox};
+use cosfly_figures::{BodyShape, outfit_of};
 use cosfly_frames::{DVec3, TargetState, real};
-use cosfly_geometry::OrientedBox;
-use cosfly_planner::body_points;
-use cosfly_planner::obstacles::moving::{Encounter, hides};
-use cosfly_render::effects::target_state_at;
-use cosfly_render::{BodyShape, Outfit};
-use cosfly_world::{Around, Body, BodyPlan};
+use cosfly_optics::target_state_at;
+use cosfly_surroundings::moving::{Encounter, hides};
+use cosfly_surroundings::visibility::body_points;
 
 /// Who moves around the target.
 #[derive(Clone, Debug, Default)]
@@ -51,7 +50,7 @@ impl Others {
     pub fn new(around: &Around, followed: Option<&BodyPlan>) -> Self {
         let dt_s = around.traffic.dt_s;
         let is_sound = dt_s > 0.0 && dt_s.is_finite();
-        let outfit = |plan: &BodyPlan| Outfit::of(BodyShape::of(plan.kind, plan.size_m), &plan.looks);
+        let outfit = |plan: &BodyPlan| outfit_of(BodyShape::of(plan.kind, plan.size_m), &plan.looks);
         let own = followed.map(|plan| (plan.kind, outfit(plan)));
         let is_look_alike =
             |plan: &BodyPlan| own.as_ref().is_some_and(|(kind, worn)| *kind == plan.kind && outfit(plan).is_like(worn));

@@ -1,11 +1,12 @@
 //! Pictures of environments: as the large renderer draws them from the same place, whoever else is drawn beside them.
 
+use cosfly_domain::{Around, Body, BodyKind, BodyPlan, Camera, Town, Traffic, WalkableKind};
 use cosfly_env::pictures::{Album, Channel, Format, Pictures, bystanders, target};
 use cosfly_env::{Action, Environment, Episode, Others, Place, Settings, Start};
+use cosfly_figures::{TargetSetup, Walker};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
-use cosfly_maps::{MapConfig, Town, WalkableKind, read_town};
-use cosfly_render::{Camera, FrameParts, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Walker, Weather};
-use cosfly_world::{Around, Body, BodyKind, BodyPlan, Traffic};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -53,7 +54,7 @@ fn environments(town: &Town, count: usize) -> Vec<Environment> {
             others: Arc::new(Others::new(&around, followed.as_ref())),
             followed,
             looks: Seed([number as u8; 32]),
-            weather: (number % 2 == 1).then(|| Weather::preset("WetSunset").expect("a preset")),
+            weather: (number % 2 == 1).then(|| cosfly_materials::presets::preset("WetSunset").expect("a preset")),
             start: Start { position_in_world, velocity_in_world: DVec3::ZERO },
             seed: Seed([0; 32]),
         };
@@ -85,7 +86,7 @@ fn setup_of(walker: Walker) -> TargetSetup {
 fn pictures_are_those_of_the_large_renderer_at_the_pose_of_the_environment() {
     let town = downtown();
     let scene = Scene::new(&town, Seed([1; 32]));
-    let noon = Weather::preset("ClearNoon").expect("a preset");
+    let noon = cosfly_materials::presets::preset("ClearNoon").expect("a preset");
     let mut others_seen = 0;
     for (number, environment) in environments(&town, 8).iter().enumerate() {
         for size in [84, 128] {
@@ -123,7 +124,7 @@ fn pictures_are_those_of_the_large_renderer_at_the_pose_of_the_environment() {
 fn full_colours_are_those_of_the_large_renderer_in_the_weather_of_the_episode_or_the_format() {
     let town = downtown();
     let scene = Scene::new(&town, Seed([1; 32]));
-    let weather = |name: &str| Weather::preset(name).expect("a preset");
+    let weather = |name: &str| cosfly_materials::presets::preset(name).expect("a preset");
     for (number, environment) in environments(&town, 4).iter().enumerate() {
         for (asked, shown) in [(None, ["ClearNoon", "WetSunset"][number % 2]), (Some("HardRainNight"), "HardRainNight")]
         {

@@ -4,9 +4,8 @@ use crate::body_shape::BodyShape;
 use crate::build::{Build, Hair};
 use crate::umbrella;
 use crate::vehicles::Livery;
+use cosfly_domain::{Bag, BodyKind, Colour, Dye, Outfit, Traits};
 use cosfly_frames::{RandomStream, Seed};
-use cosfly_world::{Bag, BodyKind, Traits};
-use serde::{Deserialize, Serialize};
 
 /// Material of a part of the figure; those of vehicles follow those of people.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -83,101 +82,15 @@ pub enum Pattern {
     Checks([f32; 3]),
 }
 
-/// Clothes as people name them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Outfit {
-    /// Shirt or jacket.
-    pub top: Dye,
-    /// Trousers.
-    pub trousers: Dye,
-    /// Wears a backpack.
-    pub backpack: bool,
-    /// Holds an open umbrella.
-    pub umbrella: bool,
-    /// Bag, build and gait; `None` for vehicles and their riders.
-    pub traits: Option<Traits>,
-}
-
-impl Outfit {
-    /// What texts may say of a body: clothes of a person or rider; of another vehicle, its paint for top and trousers.
-    pub fn of(body: BodyShape, seed: &Seed) -> Self {
-        match body {
-            BodyShape::Vehicle { kind, .. } if !matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle) => {
-                let paint = Livery::draw(seed).paint;
-                Self { top: paint, trousers: paint, backpack: false, umbrella: false, traits: None }
-            }
-            BodyShape::Vehicle { .. } => Self { traits: None, ..Clothes::draw(seed).outfit },
-            BodyShape::Person { umbrella } => Self { umbrella, ..Clothes::draw(seed).outfit },
+/// What texts may say of a body: clothes of a person or rider; of another vehicle, its paint for top and trousers.
+pub fn outfit_of(body: BodyShape, seed: &Seed) -> Outfit {
+    match body {
+        BodyShape::Vehicle { kind, .. } if !matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle) => {
+            let paint = Livery::draw(seed).paint;
+            Outfit { top: paint, trousers: paint, backpack: false, umbrella: false, traits: None }
         }
-    }
-
-    /// Whether two people are dressed alike in words: colours of top and trousers, a backpack or none.
-    pub fn is_like(&self, other: &Self) -> bool {
-        let words = |it: &Self| (it.top.name, it.trousers.name, it.backpack);
-        words(self) == words(other)
-    }
-}
-
-/// Colour of a piece of clothing.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Dye {
-    /// Name of the colour.
-    pub name: Colour,
-    /// Reflected share of light, linear RGB.
-    pub linear_rgb: [f32; 3],
-}
-
-/// Names of colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Colour {
-    Black,
-    Grey,
-    White,
-    Red,
-    Orange,
-    Yellow,
-    Green,
-    Blue,
-    Purple,
-    Pink,
-    Brown,
-    Beige,
-}
-
-impl Colour {
-    /// All names.
-    pub const ALL: [Self; 12] = [
-        Self::Black,
-        Self::Grey,
-        Self::White,
-        Self::Red,
-        Self::Orange,
-        Self::Yellow,
-        Self::Green,
-        Self::Blue,
-        Self::Purple,
-        Self::Pink,
-        Self::Brown,
-        Self::Beige,
-    ];
-
-    /// The name in tables and in English texts.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Black => "black",
-            Self::Grey => "grey",
-            Self::White => "white",
-            Self::Red => "red",
-            Self::Orange => "orange",
-            Self::Yellow => "yellow",
-            Self::Green => "green",
-            Self::Blue => "blue",
-            Self::Purple => "purple",
-            Self::Pink => "pink",
-            Self::Brown => "brown",
-            Self::Beige => "beige",
-        }
+        BodyShape::Vehicle { .. } => Outfit { traits: None, ..Clothes::draw(seed).outfit },
+        BodyShape::Person { umbrella } => Outfit { umbrella, ..Clothes::draw(seed).outfit },
     }
 }
 

@@ -14,7 +14,7 @@ mod wardrobe;
 
 pub use body_shape::BodyShape;
 pub use build::Build;
-pub use clothes::{Clothes, Colour, Dye, Outfit, Pattern, clothes_seed_of_target};
+pub use clothes::{Clothes, Pattern, clothes_seed_of_target, outfit_of};
 pub use figure::{Bystander, TargetSetup, Walker, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
 pub use vehicles::Livery;
 pub use wardrobe::Wardrobe;

@@ -1,7 +1,8 @@
 //! Extracts of OpenStreetMap beside the repository. The counts are those of pyosmium (`tests/outside/check_osm.py`).
 
+use cosfly_domain::ObstacleKind;
 use cosfly_geodata::osm::{OpenStreetMap, OsmOptions};
-use cosfly_town::{Format, MapFormat, ObstacleKind};
+use cosfly_town::{Format, MapFormat};
 use std::collections::BTreeSet;
 
 #[path = "../../../../tests/shared.rs"]
@@ -25,7 +26,7 @@ fn every_extract_reads_with_all_its_buildings() {
         assert!(OpenStreetMap::recognises(&bytes[..bytes.len().min(Format::HEAD_BYTES)]), "{name}");
         let (mut town, _) = OpenStreetMap::read(&bytes, &OsmOptions::default()).unwrap();
         town.update_bounds();
-        town.assert_well_formed().unwrap();
+        cosfly_town::assert_well_formed(&town).unwrap();
         let own = town.obstacles.iter().filter(|one| one.kind == ObstacleKind::Building);
         assert_eq!(own.map(|one| one.object_id).collect::<BTreeSet<_>>().len(), buildings, "{name}");
         assert!(town.walkable.iter().any(|area| !area.synthetic), "{name}");

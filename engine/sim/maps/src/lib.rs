@@ -15,7 +15,6 @@ mod recognise;
 
 pub use bounds::Bounds;
 pub use config::MapConfig;
-pub use cosfly_town::*;
 pub use formats::FORMATS;
 pub use read::{read_town, read_town_of};
 pub use recognise::recognise;

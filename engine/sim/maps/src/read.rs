@@ -1,14 +1,15 @@
 //! [`read_town`]: bytes of any known format into a finished, checked [`Town`].
 
-use crate::apart;
 use crate::bounds::Bounds;
 use crate::combine::add_source;
 use crate::fill::fill;
 use crate::paving::pave_quarters;
 use crate::recognise::recognise;
-use crate::simplify::simplify;
-use crate::{MapConfig, MapError, ObstacleKind, Town};
+use crate::{MapConfig, apart};
+use cosfly_domain::{ObstacleKind, Town};
 use cosfly_frames::Seed;
+use cosfly_town::MapError;
+use cosfly_town::simplify::simplify;
 use std::collections::BTreeMap;
 
 /// Fewer houses may have any height.
@@ -86,10 +87,10 @@ fn finished(
     }
     pave_quarters(&mut town);
     (town.planning_boxes, town.simplification) = simplify(&town.obstacles, &town.walkable, &config.simplify);
-    town.link_lanes();
+    cosfly_town::lanes::link_lanes(&mut town);
     town.update_bounds();
     warnings.extend(odd_heights(&town));
-    town.assert_well_formed().map_err(|rule| {
+    cosfly_town::assert_well_formed(&town).map_err(|rule| {
         MapError::new(format!("the town is not well formed: {rule}"))
             .hint("the file seems to be damaged: fetch or export it again")
     })?;

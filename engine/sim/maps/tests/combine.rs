@@ -1,9 +1,11 @@
 //! Towns of several files: things stand where they are in the world, and what earlier files have is replaced.
 
+use cosfly_domain::{Obstacle, ObstacleKind, Town};
 use cosfly_frames::{DVec2, DVec3, Seed};
 use cosfly_geodata::reference::GeoReference;
 use cosfly_maps::combine::{FurtherSource, Part};
-use cosfly_maps::{MapConfig, MapError, Obstacle, ObstacleKind, Town, read_town_of};
+use cosfly_maps::{MapConfig, read_town_of};
+use cosfly_town::MapError;
 use serde_json::json;
 
 const STREET: &str = include_str!("../src/formats/opendrive/every_feature.xodr");
@@ -20,7 +22,7 @@ fn read(first: &str, further: serde_json::Value, second: &str) -> Result<Town, (
     let config = MapConfig { more: vec![further], ..MapConfig::default() };
     let files = [first.as_bytes(), second.as_bytes()];
     let (town, _) = read_town_of(&files, &config, Seed::of_item(1, "town", "town"))?;
-    town.assert_well_formed().unwrap();
+    cosfly_town::assert_well_formed(&town).unwrap();
     Ok(town)
 }
 

@@ -1,7 +1,9 @@
 //! Laws of all map formats, run over the example of each: recognition, refusals, options, determinism.
 
+use cosfly_domain::Town;
 use cosfly_frames::Seed;
-use cosfly_maps::{FORMATS, Format, FormatOptions, MapConfig, MapError, Town, read_town, recognise};
+use cosfly_maps::{FORMATS, MapConfig, read_town, recognise};
+use cosfly_town::{Format, FormatOptions, MapError};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -15,7 +17,7 @@ fn read(bytes: &[u8], options: FormatOptions) -> Result<Town, MapError> {
     let read = read_town(bytes, &config, Seed::of_item(1, "town", "town"));
     assert!(start.elapsed() < HANGS_AFTER, "{:?}", start.elapsed());
     let (town, _) = read?;
-    town.assert_well_formed().expect("a town that was read is well formed");
+    cosfly_town::assert_well_formed(&town).expect("a town that was read is well formed");
     Ok(town)
 }
 

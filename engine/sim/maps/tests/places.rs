@@ -1,8 +1,10 @@
 //! Where things are in the world: offsets of headers, further files, parts of towns, towns in two places.
 
+use cosfly_domain::{ObstacleKind, Town, WalkableKind};
 use cosfly_frames::{DVec2, Seed};
 use cosfly_geodata::reference::GeoReference;
-use cosfly_maps::{Bounds, MapConfig, MapError, ObstacleKind, Town, WalkableKind, read_town_of};
+use cosfly_maps::{Bounds, MapConfig, read_town_of};
+use cosfly_town::MapError;
 use serde_json::{Value, json};
 
 const UTM: &str = "+proj=utm +zone=33 +datum=WGS84 +units=m +no_defs";
@@ -54,7 +56,7 @@ fn read(files: &[&str], config: Value) -> Result<(Town, Vec<String>), (usize, Ma
     let config = MapConfig { name: Some("streets".into()), ..serde_json::from_value(config).unwrap() };
     let files: Vec<&[u8]> = files.iter().map(|file| file.as_bytes()).collect();
     let (town, warnings) = read_town_of(&files, &config, Seed::of_item(1, "town", "town"))?;
-    town.assert_well_formed().unwrap();
+    cosfly_town::assert_well_formed(&town).unwrap();
     Ok((town, warnings))
 }
 
@@ -234,7 +236,7 @@ fn bounds_cut_every_format_and_nothing_within_is_an_error() {
         let bounds = Bounds { low: at - 12.0, high: at + 12.0 };
         let numbers = [bounds.low.x, bounds.low.y, bounds.high.x, bounds.high.y];
         let (part, _) = read_town_of(&[format.example()], &config(Some(numbers)), seed).unwrap();
-        part.assert_well_formed().unwrap();
+        cosfly_town::assert_well_formed(&part).unwrap();
         let corners = part.walkable.iter().flat_map(|polygon| &polygon.outline_in_world);
         assert!(corners.clone().count() > 2, "{format:?}");
         assert!(corners.clone().all(|corner| bounds.distance_m(corner.truncate()) < 1e-6), "{format:?}");

@@ -1,6 +1,6 @@
 //! CARLA 0.9.16's weather presets, all 22.
 
-use crate::weather::Weather;
+use cosfly_domain::Weather;
 
 /// Name, cloudiness, precipitation, deposits, wind, sun altitude, fog density, fog distance, fog falloff, wetness, dust.
 type Row = (&'static str, [f64; 10]);
@@ -42,14 +42,12 @@ const fn names() -> [&'static str; 22] {
     names
 }
 
-impl Weather {
-    /// Names of all presets, in CARLA's order.
-    pub const PRESETS: [&'static str; 22] = names();
+/// Names of all presets, in CARLA's order.
+pub const PRESETS: [&str; 22] = names();
 
-    /// A preset by its name. Its `sun_azimuth_angle` is CARLA's -1 ("keep"); the renderer draws it.
-    pub fn preset(name: &str) -> Option<Self> {
-        ROWS.iter().find(|row| row.0 == name).map(from_row)
-    }
+/// A preset by its name. Its `sun_azimuth_angle` is CARLA's -1 ("keep"); the renderer draws it.
+pub fn preset(name: &str) -> Option<Weather> {
+    ROWS.iter().find(|row| row.0 == name).map(from_row)
 }
 
 /// The preset that is used where none is asked for.
@@ -84,18 +82,18 @@ mod tests {
 
     #[test]
     fn every_preset_is_found_by_its_own_name_only() {
-        for name in Weather::PRESETS {
-            assert_eq!(Weather::preset(name).expect("listed").name, name);
+        for name in PRESETS {
+            assert_eq!(preset(name).expect("listed").name, name);
         }
-        assert!(Weather::preset("clearnoon").is_none() && Weather::preset("MidRainNoon").is_none());
+        assert!(preset("clearnoon").is_none() && preset("MidRainNoon").is_none());
     }
 
     #[test]
     fn presets_carry_carlas_numbers() {
-        let night = Weather::preset("WetNight").expect("listed");
+        let night = preset("WetNight").expect("listed");
         let expected = (60.0, 75.0, 1.0, 50.0, -90.0);
         let read = (night.fog_density, night.fog_distance, night.fog_falloff);
         assert_eq!((read.0, read.1, read.2, night.precipitation_deposits, night.sun_altitude_angle), expected);
-        assert_eq!(Weather::preset("DustStorm").expect("listed").dust_storm, 100.0);
+        assert_eq!(preset("DustStorm").expect("listed").dust_storm, 100.0);
     }
 }

@@ -8,7 +8,6 @@ use cosfly_materials::lanes::{Block, FOUR, Shared, WIDE, get, set};
 use cosfly_materials::light::Light;
 use cosfly_materials::pattern::noise_texture;
 use cosfly_materials::vector::Vec3;
-use cosfly_materials::weather::Weather;
 
 /// A face that is seen with pixels of one size.
 #[derive(Clone, Copy)]
@@ -58,7 +57,7 @@ fn looks_of_walls_and_roofs_do_not_follow_from_the_pixels_beside() {
     let mut random = Seed([4; 32]).stream("places");
     for seed in 0..60u32 {
         let preset = if seed % 2 == 0 { "ClearNoon" } else { "ClearNight" };
-        let light = Light::new(&Weather::preset(preset).unwrap());
+        let light = Light::new(&cosfly_materials::presets::preset(preset).unwrap());
         let size_m = random.uniform(0.01, 0.4) as f32;
         let [width_m, height_m] = [random.uniform(6.0, 40.0), random.uniform(3.0, 50.0)].map(|length| length as f32);
         // A wall that looks along y, and a roof above it.

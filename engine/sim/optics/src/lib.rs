@@ -6,9 +6,7 @@ mod motion_blur;
 mod noise;
 mod optics;
 mod point_spread;
-mod rolling_shutter;
 
-pub use motion_blur::{Exposure, MotionBlur, pose_at, target_state_at};
-pub use noise::Noise;
+pub use motion_blur::{Exposure, pose_at, target_state_at};
+pub use noise::add_noise;
 pub use optics::{Glass, Optics};
-pub use rolling_shutter::RollingShutter;

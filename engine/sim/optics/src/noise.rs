@@ -1,48 +1,28 @@
 //! Sensor noise: read noise of equal strength everywhere and shot noise that grows with brightness.
 
+use cosfly_domain::Noise;
 use cosfly_frames::Seed;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-/// Noise of the sensor on colour, with deviation `sqrt(gaussian^2 + shot^2 v / 255)` at code `v`; drawn anew per frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Noise {
-    /// Standard deviation everywhere, steps of 8-bit colour; 0: none.
-    #[schemars(range(min = 0, max = 64))]
-    pub gaussian: f64,
-    /// Standard deviation at white, steps of 8-bit colour; falls with the root of brightness; 0: none.
-    #[schemars(range(min = 0, max = 64))]
-    pub shot: f64,
-}
 
 /// Standard deviation of the sum of four uniform 16-bit numbers: 65536 / sqrt(3).
 const SUM_DEVIATION: f32 = 37_837.227;
 /// Mean of their sum.
 const SUM_MEAN: i32 = 2 * 65535;
 
-impl Noise {
-    /// Whether it adds nothing.
-    pub fn is_none(&self) -> bool {
-        self.gaussian == 0.0 && self.shot == 0.0
+/// Adds noise to sRGB codes: nearly normal (sums of four uniform numbers), independent per channel and pixel.
+pub fn add_noise(noise: &Noise, rgb: &mut [u8], seed: &Seed) {
+    if noise.is_none() {
+        return;
     }
-
-    /// Adds noise to sRGB codes: nearly normal (sums of four uniform numbers), independent per channel and pixel.
-    pub fn add(&self, rgb: &mut [u8], seed: &Seed) {
-        if self.is_none() {
-            return;
-        }
-        let scales: [f32; 256] = core::array::from_fn(|code| {
-            let variance = self.gaussian * self.gaussian + self.shot * self.shot * code as f64 / 255.0;
-            variance.sqrt() as f32 / SUM_DEVIATION
-        });
-        let base = seed.stream("noise").bits();
-        for (index, code) in rgb.iter_mut().enumerate() {
-            let bits = mixed(base.wrapping_add((index as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)));
-            let sum: i32 = [0, 16, 32, 48].iter().map(|shift| ((bits >> shift) & 0xffff) as i32).sum();
-            let noisy = f32::from(*code) + scales[usize::from(*code)] * (sum - SUM_MEAN) as f32;
-            *code = (noisy + 0.5).clamp(0.0, 255.0) as u8;
-        }
+    let scales: [f32; 256] = core::array::from_fn(|code| {
+        let variance = noise.gaussian * noise.gaussian + noise.shot * noise.shot * code as f64 / 255.0;
+        variance.sqrt() as f32 / SUM_DEVIATION
+    });
+    let base = seed.stream("noise").bits();
+    for (index, code) in rgb.iter_mut().enumerate() {
+        let bits = mixed(base.wrapping_add((index as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)));
+        let sum: i32 = [0, 16, 32, 48].iter().map(|shift| ((bits >> shift) & 0xffff) as i32).sum();
+        let noisy = f32::from(*code) + scales[usize::from(*code)] * (sum - SUM_MEAN) as f32;
+        *code = (noisy + 0.5).clamp(0.0, 255.0) as u8;
     }
 }
 
@@ -59,7 +39,7 @@ mod tests {
 
     fn deviation(noise: Noise, code: u8) -> (f64, f64) {
         let mut rgb = vec![code; 90_000];
-        noise.add(&mut rgb, &Seed([3; 32]));
+        add_noise(&noise, &mut rgb, &Seed([3; 32]));
         let mean = rgb.iter().map(|code| f64::from(*code)).sum::<f64>() / rgb.len() as f64;
         let variance = rgb.iter().map(|code| (f64::from(*code) - mean).powi(2)).sum::<f64>() / rgb.len() as f64;
         (mean, variance.sqrt())
@@ -84,7 +64,7 @@ mod tests {
         let noise = Noise { gaussian: 2.0, shot: 0.0 };
         let with = |seed: u8| {
             let mut rgb = vec![128; 300];
-            noise.add(&mut rgb, &Seed([seed; 32]));
+            add_noise(&noise, &mut rgb, &Seed([seed; 32]));
             rgb
         };
         assert_eq!(with(1), with(1));

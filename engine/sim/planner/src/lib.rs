@@ -20,17 +20,12 @@ pub mod problem;
 pub mod request;
 pub mod terms;
 mod track_check;
-pub mod trajectory;
 pub mod walk;
 pub mod weights;
 
 pub use config::MucoConfig;
-pub use cosfly_surroundings as obstacles;
-pub use cosfly_surroundings::visibility;
 pub use planning::{plan, plan_request, plan_with_terms};
 pub use request::{PlanRequest, StartState};
 pub use terms::{CostTerm, TermContext, WeightedTerm};
 pub use terms::{WeightOverrides, Weights};
-pub use trajectory::{Certificate, FramePerturbation, Limits, Perturbation, PlanOutcome, TermCost, Trajectory};
-pub use visibility::{aim_point, body_points, visibility};
 pub use weights::Preset;

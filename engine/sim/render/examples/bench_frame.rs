@@ -9,11 +9,11 @@ mod small_town;
 #[path = "../tests/traffic/mod.rs"]
 mod traffic;
 
+use cosfly_domain::Town;
+use cosfly_figures::{BodyShape, Bystander, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_maps::{MapConfig, Town};
-use cosfly_render::{
-    BodyShape, Bystander, FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages, TargetSetup, Weather,
-};
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let names = Stages::NAMES.map(|name| format!("{name:>10}")).join("");
     println!("{:22}{names} total, CPU  depth + ids", "ms a frame");
     for preset in &presets {
-        let mut weather = Weather::preset(preset).ok_or_else(|| format!("no preset {preset}"))?;
+        let mut weather = cosfly_materials::presets::preset(preset).ok_or_else(|| format!("no preset {preset}"))?;
         weather.sun_azimuth_angle = 215.0;
         for (view, away) in &views {
             let mut spent: [Vec<u64>; Stages::NAMES.len()] = Default::default();

@@ -1,8 +1,10 @@
 //! Looks from the edges of a town outwards, and at its roofs: `outward OUT_DIR MAP [PRESET...]`; noon and haze by default.
 
+use cosfly_domain::{Camera, ObstacleKind, Town, Weather};
 use cosfly_frames::{DVec2, DVec3, Pose, Seed};
-use cosfly_maps::{GroundIndex, MapConfig, ObstacleKind, Town, read_town};
-use cosfly_render::{Camera, FrameSetup, Renderer, Scene, Weather};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_render::{FrameSetup, Renderer, Scene};
+use cosfly_town::GroundIndex;
 use std::fs::File;
 use std::path::Path;
 
@@ -41,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 fn weather(preset: &str) -> Result<Weather, String> {
     let is_haze = preset == "haze";
     let named = if is_haze { "CloudyNoon" } else { preset };
-    let mut weather = Weather::preset(named).ok_or_else(|| format!("no preset {preset}"))?;
+    let mut weather = cosfly_materials::presets::preset(named).ok_or_else(|| format!("no preset {preset}"))?;
     weather.sun_azimuth_angle = 215.0;
     if is_haze {
         (weather.fog_density, weather.fog_distance) = (25.0, 20.0);

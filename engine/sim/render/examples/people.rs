@@ -1,8 +1,10 @@
 //! Draws people of all builds side by side, close and from a drone's height, as PNG files: `people OUT_DIR TOWN.xodr`.
 
+use cosfly_domain::WalkableKind;
+use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_maps::{MapConfig, WalkableKind};
-use cosfly_render::{BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, Walker, Weather, gait_phase_rad};
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
 use std::fs::File;
 use std::path::Path;
 
@@ -51,7 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("drone", "CloudyNoon", [-12.0, 3.0, 9.0]),
         ("rain", "MidRainyNoon", [-6.0, 2.0, 4.0]),
     ] {
-        let weather = Weather::preset(preset).ok_or("no such preset")?;
+        let weather = cosfly_materials::presets::preset(preset).ok_or("no such preset")?;
         for Bystander { walker, .. } in &mut others {
             walker.body = walker.body.in_rain(weather.precipitation, &walker.clothes_seed);
         }

@@ -7,9 +7,11 @@ mod crowd;
 #[path = "../tests/small_town/mod.rs"]
 mod small_town;
 
+use cosfly_domain::{Season, Town, WalkableKind};
+use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::{BodyShape, FrameSetup, RenderConfig, Renderer, Scene, Season, TargetSetup, Weather, preview};
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene, preview};
 use std::fs::File;
 use std::path::Path;
 
@@ -54,7 +56,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     ];
     let others = crowd::crowd(feet, people.unwrap_or(0));
     for preset in &presets {
-        let mut weather = Weather::preset(preset).ok_or_else(|| format!("no preset {preset}"))?;
+        let mut weather = cosfly_materials::presets::preset(preset).ok_or_else(|| format!("no preset {preset}"))?;
         weather.sun_azimuth_angle = 215.0;
         for (name, pose) in &views {
             let setup = FrameSetup { pose: *pose, weather: &weather, target: Some(target), others: &others };

@@ -1,11 +1,10 @@
 //! The book's pictures: one town at noon, sunset, in rain, fog, at night, in dust and in winter: `postcards OUT_DIR TOWN.xodr`.
 
+use cosfly_domain::{Season, Town, WalkableKind, Weather};
+use cosfly_figures::{BodyShape, Bystander, TargetSetup, Walker, gait_phase_rad};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::{
-    BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, Season, TargetSetup, Walker, Weather,
-    gait_phase_rad,
-};
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
 use std::fs::File;
 use std::path::Path;
 
@@ -49,7 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let state = TargetState { feet_in_world: feet, heading_rad, speed_mps: 1.4 };
     let (sin, cos) = cosfly_frames::real::sin_cos(heading_rad);
     for (name, preset, change, [back, aside, up]) in POSTCARDS {
-        let mut weather = Weather::preset(preset).ok_or("no such preset")?;
+        let mut weather = cosfly_materials::presets::preset(preset).ok_or("no such preset")?;
         change(&mut weather);
         let target = TargetSetup {
             state,

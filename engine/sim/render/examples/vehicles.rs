@@ -1,11 +1,10 @@
 //! Draws vehicles of all kinds on a street of a town, and a drone above them, from both ends and from above, as PNG files.
 
+use cosfly_domain::{BodyKind, WalkableKind};
+use cosfly_figures::{BodyShape, Bystander, Walker, pedal_phase_rad};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_maps::{MapConfig, WalkableKind};
-use cosfly_render::{
-    BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, Walker, Weather, pedal_phase_rad,
-};
-use cosfly_world::BodyKind;
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
 use std::fs::File;
 use std::path::Path;
 
@@ -66,7 +65,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("above", "ClearNoon", [14.0, -9.0, 16.0]),
         ("night", "WetNight", [-8.0, 5.0, 5.0]),
     ] {
-        let weather = Weather::preset(preset).ok_or("no such preset")?;
+        let weather = cosfly_materials::presets::preset(preset).ok_or("no such preset")?;
         let at = |ahead: f64, aside: f64, up: f64| middle + (along * ahead + along.perp() * aside).extend(up);
         let pose = Pose::looking_at(at(back, aside, up), at(18.0, 0.0, 1.0));
         let frame = renderer.render(&scene, &FrameSetup { pose, weather: &weather, target: None, others: &others });

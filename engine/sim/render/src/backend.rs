@@ -1,10 +1,10 @@
 //! The seam between a run and what draws its pictures: one trait.
 
-use crate::camera::Camera;
 use crate::frame::RenderedFrame;
 use crate::renderer::Renderer;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
+use cosfly_domain::Camera;
 use std::fmt;
 
 /// Draws frames of a scene with one camera. A backend owns its buffers; a run keeps one per thread.

@@ -1,12 +1,10 @@
 //! Parameters of a recipe's pictures: renderer, camera, effects, weathers.
 
-use crate::camera::{Camera, Mount};
-use crate::channel_set::ChannelSet;
-use crate::effects::{Effects, Lens, MotionBlur, Noise, RollingShutter};
+use crate::effects::Effects;
 use crate::look::PictureLook;
-use crate::weather::{Weather, WeatherRanges};
+use cosfly_domain::{Camera, ChannelSet, Lens, MotionBlur, Mount, Noise, RollingShutter, Season, Weather};
 use cosfly_frames::Seed;
-use cosfly_materials::season::Season;
+use cosfly_materials::weather::WeatherRanges;
 use cosfly_models::ModelConfig;
 use cosfly_optics::Optics;
 use schemars::JsonSchema;
@@ -204,9 +202,9 @@ impl RenderConfig {
             return problem("weathers", "there is no weather to draw from".into(), "name at least one preset".into());
         }
         for (index, name) in self.weathers.iter().enumerate() {
-            if Weather::preset(name).is_none() {
+            if cosfly_materials::presets::preset(name).is_none() {
                 let path = format!("weathers[{index}]");
-                let hint = format!("the presets are {}", Weather::PRESETS.join(", "));
+                let hint = format!("the presets are {}", cosfly_materials::presets::PRESETS.join(", "));
                 return problem(&path, format!("there is no weather preset `{name}`"), hint);
             }
             if self.paired_weathers && self.weathers[..index].contains(name) {
@@ -282,7 +280,8 @@ impl RenderConfig {
 
     /// The weather `preset` over one walk: everything that is drawn is the same for all presets.
     pub fn weather_called(&self, preset: &str, walk_seed: &Seed) -> Weather {
-        let mut weather = Weather::preset(preset).unwrap_or_else(crate::presets::clear_noon);
+        let mut weather =
+            cosfly_materials::presets::preset(preset).unwrap_or_else(cosfly_materials::presets::clear_noon);
         let mut stream = walk_seed.stream("weather");
         // The first number chose the preset.
         stream.bits();
@@ -394,7 +393,7 @@ mod tests {
                 (config.draw_weather(seed), config.draw_camera(seed), config.draw_mount(seed));
             assert!((-10.0..=60.0).contains(&weather.sun_altitude_angle) && mount.pitch_rad == 0.0);
             assert!((60.0..=100.0).contains(&camera.horizontal_fov_rad.to_degrees().round()));
-            let preset = Weather::preset(&weather.name).expect("a preset");
+            let preset = cosfly_materials::presets::preset(&weather.name).expect("a preset");
             assert_eq!((weather.cloudiness, weather.wetness), (preset.cloudiness, preset.wetness));
         }
         let spread = |value: &dyn Fn(&Seed) -> f64| {

@@ -7,8 +7,6 @@
 
 pub mod backend;
 mod buildings;
-mod channel_set;
-pub mod channels;
 pub mod config;
 pub mod effects;
 mod faces;
@@ -30,26 +28,12 @@ mod shade;
 mod stages;
 mod target_view;
 
-use cosfly_materials::{parts as scene_parts, roof_edges, roof_steps};
-use cosfly_raster::{eye, nearer, visibility};
-
 pub use backend::{Backend, BackendError};
 pub use buildings::Buildings;
-pub use channel_set::ChannelSet;
-pub use channels::Channel;
 pub use config::{BackendKind, ConfigProblem, GimbalConfig, RenderConfig};
-pub use cosfly_figures::{BodyShape, Bystander, Clothes, Colour, Dye, Livery, Outfit, TargetSetup, Walker, Wardrobe};
-pub use cosfly_figures::{clothes, figure};
-pub use cosfly_figures::{clothes_seed_of_target, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
-pub use cosfly_materials::presets;
-pub use cosfly_materials::season::Season;
-pub use cosfly_materials::weather::{self, Weather, WeatherRanges};
-pub use cosfly_models::{Model, ModelConfig, ModelFit, ModelKind};
-pub use cosfly_optics::Optics;
-pub use cosfly_raster::camera::{self, Camera, Mount};
-pub use effects::{Effects, Lens, Moment, MotionBlur, Noise, RollingShutter, Shot};
+pub use effects::{Effects, Moment, Shot};
 pub use found::{BodyPart, FoundFace, FoundPicture, FoundSource};
-pub use frame::{ChannelImage, FrameImages, PersonView, PixelBox, RenderedFrame, TargetView};
+pub use frame::{FrameImages, RenderedFrame};
 pub use look::PictureLook;
 pub use outlook::Outlook;
 pub use people::LEAST_HEIGHT_PX;

@@ -1,13 +1,12 @@
 //! People who may change a picture, told without drawing it.
 
-use crate::camera::Camera;
-use crate::eye::Eye;
 use crate::people::Bounds;
-use crate::shade::light::Light;
-use crate::visibility::Screen;
-use crate::weather::Weather;
+use cosfly_domain::{Camera, Weather};
 use cosfly_figures::figure::Walker;
 use cosfly_frames::{DVec3, Pose};
+use cosfly_materials::light::Light;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::Screen;
 
 /// The view of an ideal camera at a moment.
 pub struct Outlook {
@@ -73,7 +72,7 @@ mod tests {
     #[test]
     fn people_out_of_view_do_not_show_and_those_whose_shadow_is_in_view_do() {
         let camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.0 };
-        let mut weather = Weather::preset("ClearNoon").expect("a preset");
+        let mut weather = cosfly_materials::presets::preset("ClearNoon").expect("a preset");
         (weather.sun_altitude_angle, weather.sun_azimuth_angle) = (20.0, 0.0);
         let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 10.0), DVec3::new(0.0, 30.0, 0.0));
         let outlook = Outlook::new(&camera, &weather, &pose);
@@ -88,7 +87,7 @@ mod tests {
 
     #[test]
     fn the_hull_holds_body_and_shadow_down_to_the_lowest_place() {
-        let weather = Weather::preset("ClearSunset").expect("a preset");
+        let weather = cosfly_materials::presets::preset("ClearSunset").expect("a preset");
         let camera = Camera { width: 64, height: 36, horizontal_fov_rad: 1.0 };
         let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO);
         let outlook = Outlook::new(&camera, &weather, &pose);

@@ -1,10 +1,11 @@
 //! Visible part of people in a frame, counted in pixels; of the target, against the target drawn alone.
 
-use crate::frame::{FrameImages, PersonView, PixelBox, TARGET_INSTANCE, TargetView};
-use crate::visibility::{NO_FACE, Visibility};
+use crate::frame::FrameImages;
+use cosfly_domain::{PersonView, PixelBox, TARGET_INSTANCE, TargetView};
 use cosfly_figures::figure::Bystander;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
+use cosfly_raster::visibility::{NO_FACE, Visibility};
 
 /// The view of a target that is not in the image.
 pub(crate) const NOT_IN_VIEW: TargetView = TargetView {
@@ -121,17 +122,6 @@ impl Extent {
     fn add(&mut self, u: u32, v: u32) {
         self.count += 1;
         self.pixel_box.get_or_insert(PixelBox { u_min: u, v_min: v, u_max: u, v_max: v }).add(u, v);
-    }
-}
-
-impl PixelBox {
-    fn add(&mut self, u: u32, v: u32) {
-        *self = Self {
-            u_min: self.u_min.min(u),
-            v_min: self.v_min.min(v),
-            u_max: self.u_max.max(u),
-            v_max: self.v_max.max(v),
-        };
     }
 }
 

@@ -4,8 +4,10 @@ mod crowd;
 mod small_town;
 mod traffic;
 
+use cosfly_domain::Camera;
+use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_render::{BodyShape, Camera, FrameSetup, Renderer, Scene, TargetSetup, Weather};
+use cosfly_render::{FrameSetup, Renderer, Scene};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -46,7 +48,8 @@ fn the_second_pass_over_a_flight_with_people_and_vehicles_allocates_nothing() {
     let mut others = crowd::crowd(DVec3::new(5.0, -16.0, 0.1), 30);
     let place = |number: u32| DVec3::new(5.0 * f64::from(number), -14.0, 0.1);
     others.extend((0..12).map(|number| traffic::vehicle(number, place(number), 0.4 * f64::from(number))));
-    let weathers = ["ClearNoon", "HardRainSunset", "WetNight"].map(|name| Weather::preset(name).expect("a preset"));
+    let weathers = ["ClearNoon", "HardRainSunset", "WetNight"]
+        .map(|name| cosfly_materials::presets::preset(name).expect("a preset"));
     let mut pass = || {
         let before = ALLOCATIONS.with(Cell::get);
         for frame in 0..30 {

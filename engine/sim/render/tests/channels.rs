@@ -2,13 +2,10 @@
 
 mod small_town;
 
+use cosfly_domain::channels::normals;
+use cosfly_domain::{Camera, ChannelSet, Lens, MotionBlur, Noise, RollingShutter, SemanticLabel, Weather};
 use cosfly_frames::{DVec3, Pose, Seed};
-use cosfly_maps::SemanticLabel;
-use cosfly_render::channels::normals;
-use cosfly_render::{
-    Camera, ChannelSet, Effects, FrameImages, FrameSetup, Lens, Moment, MotionBlur, Noise, Renderer, RollingShutter,
-    Scene, Shot, Weather,
-};
+use cosfly_render::{Effects, FrameImages, FrameSetup, Moment, Renderer, Scene, Shot};
 
 const CAMERA: Camera = Camera { width: 160, height: 90, horizontal_fov_rad: 1.4 };
 
@@ -17,7 +14,7 @@ fn pose() -> Pose {
 }
 
 fn noon() -> Weather {
-    Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") }
+    Weather { sun_azimuth_angle: 200.0, ..cosfly_materials::presets::preset("ClearNoon").expect("a preset") }
 }
 
 fn scene() -> Scene {

@@ -2,12 +2,10 @@
 
 mod small_town;
 
+use cosfly_domain::{Camera, Lens, MotionBlur, Noise, PixelBox, RollingShutter, TARGET_INSTANCE, TargetView, Weather};
+use cosfly_figures::{BodyShape, Bystander, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{
-    BodyShape, Bystander, Camera, Effects, FrameImages, Lens, Moment, MotionBlur, Noise, PixelBox, Renderer,
-    RollingShutter, Scene, Shot, TargetSetup, TargetView, Weather,
-};
+use cosfly_render::{Effects, FrameImages, Moment, Renderer, Scene, Shot};
 use std::cell::RefCell;
 
 const CAMERA: Camera = Camera { width: 320, height: 180, horizontal_fov_rad: 1.4 };
@@ -43,7 +41,8 @@ fn film_rolling(
 ) -> (FrameImages, TargetView) {
     let moment = |offset_s: f64| moment(later_s + offset_s);
     let scene = Scene::new(&small_town::small_town(3, 5), Seed([1; 32]));
-    let weather = Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") };
+    let weather =
+        Weather { sun_azimuth_angle: 200.0, ..cosfly_materials::presets::preset("ClearNoon").expect("a preset") };
     let mut effects = Effects::new(CAMERA, lens, blur, rolling, noise);
     let mut renderer = Renderer::new(effects.ideal_camera());
     let shot = Shot { weather: &weather, moment: &moment, others: &|_, _| {}, noise_seed: Seed([noise_seed; 32]) };
@@ -156,7 +155,7 @@ fn through_a_lens_boxes_are_those_of_the_bent_pixels_and_labels_are_never_mixed(
 #[test]
 fn a_film_looks_at_its_moments_and_at_no_other() {
     let scene = Scene::new(&small_town::empty_town(), Seed([1; 32]));
-    let weather = Weather::preset("ClearNoon").expect("a preset");
+    let weather = cosfly_materials::presets::preset("ClearNoon").expect("a preset");
     let camera = Camera { width: 16, height: 12, horizontal_fov_rad: 1.2 };
     let blur = MotionBlur { shutter_s: 0.1, samples: 3 };
     let rolling = RollingShutter { readout_s: 0.05, strips: 4 };

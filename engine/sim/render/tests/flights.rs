@@ -1,13 +1,11 @@
 //! Flights through the default town: labels by rays and by pixels, boxes, and depth carried from frame to frame.
 
+use cosfly_domain::{Camera, TARGET_INSTANCE, TargetView, Town, WalkableKind, Weather};
+use cosfly_figures::{BodyShape, TargetSetup, target_triangles};
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{
-    BodyShape, Camera, FrameImages, FrameParts, FrameSetup, Renderer, Scene, TargetSetup, TargetView, Weather,
-    target_triangles,
-};
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameImages, FrameParts, FrameSetup, Renderer, Scene};
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.2 };
 const DT_S: f64 = 0.5;
@@ -52,7 +50,7 @@ fn draw(
     pose: Pose,
     target: TargetSetup,
 ) -> (FrameImages, TargetView, Vec<u32>) {
-    let weather = Weather::preset("ClearNoon").expect("a preset");
+    let weather = cosfly_materials::presets::preset("ClearNoon").expect("a preset");
     let setup = FrameSetup { pose, weather: &weather, target: Some(target), others: &[] };
     let frame = renderer.render_parts(scene, &setup, FrameParts::Ids);
     (frame.images.clone(), frame.target_view, frame.target_pixels.to_vec())
@@ -199,7 +197,7 @@ fn colours_do_not_depend_on_what_other_cameras_of_the_town_saw_before() {
     let town = default_town();
     let scene = |_: u32| Scene::new(&town, Seed([1; 32]));
     let flown = flight(&town, &mut Seed([8; 32]).stream("shadows"), 30);
-    let mut weather = Weather::preset("ClearSunset").expect("a preset");
+    let mut weather = cosfly_materials::presets::preset("ClearSunset").expect("a preset");
     let colours = |renderer: &mut Renderer, scene: &Scene, weather: &Weather, frame: usize| {
         let (pose, target) = flown[frame];
         let setup = FrameSetup { pose, weather, target: Some(target), others: &[] };

@@ -2,11 +2,10 @@
 
 mod small_town;
 
+use cosfly_domain::{Camera, Lens, MotionBlur, Noise, RollingShutter};
+use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_render::{
-    BodyShape, Camera, Effects, Lens, Moment, MotionBlur, Noise, Renderer, RollingShutter, Scene, Shot, TargetSetup,
-    Weather,
-};
+use cosfly_render::{Effects, Moment, Renderer, Scene, Shot};
 
 /// Resident memory of this process in kB, where the system tells.
 fn resident_kb() -> Option<u64> {
@@ -27,7 +26,8 @@ fn ten_thousand_frames_take_no_more_memory_than_a_thousand() {
     let mut effects =
         Effects::new(camera, Lens { k1: -0.1, k2: 0.0 }, MotionBlur::default(), RollingShutter::default(), noise);
     let mut renderer = Renderer::new(effects.ideal_camera());
-    let weathers = ["ClearNoon", "HardRainNight"].map(|name| Weather::preset(name).expect("a preset"));
+    let weathers =
+        ["ClearNoon", "HardRainNight"].map(|name| cosfly_materials::presets::preset(name).expect("a preset"));
     let mut early_kb = 0;
     for frame in 0..10_000u32 {
         let (sin, cos) = real::sin_cos(0.01 * f64::from(frame));

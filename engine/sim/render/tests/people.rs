@@ -2,23 +2,21 @@
 
 mod small_town;
 
+use cosfly_domain::{
+    BodyKind, Camera, Lens, MotionBlur, Noise, PersonView, PixelBox, RollingShutter, SemanticLabel, SurfaceMesh,
+    TARGET_INSTANCE, TargetView, Weather,
+};
+use cosfly_figures::{BodyShape, Bystander, Clothes, TargetSetup, Walker, walker_triangles};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
-use cosfly_maps::{SemanticLabel, SurfaceMesh};
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{
-    BodyShape, Buildings, Bystander, Camera, Clothes, Effects, FrameImages, FrameSetup, Lens, Moment, MotionBlur,
-    Noise, Outlook, PersonView, PixelBox, Renderer, RollingShutter, Scene, Shot, TargetSetup, TargetView, Walker,
-    Weather, walker_triangles,
-};
-use cosfly_world::BodyKind;
+use cosfly_render::{Buildings, Effects, FrameImages, FrameSetup, Moment, Outlook, Renderer, Scene, Shot};
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.4 };
 /// Larger than all ids of the small town.
 const FIRST: u32 = 40_000;
 
 fn noon() -> Weather {
-    Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") }
+    Weather { sun_azimuth_angle: 200.0, ..cosfly_materials::presets::preset("ClearNoon").expect("a preset") }
 }
 
 fn walker(feet: DVec3, seed: u8) -> Walker {
@@ -125,7 +123,7 @@ fn vehicles_and_riders_are_where_rays_meet_them_with_the_labels_of_their_kinds()
         let (mut triangles, mut labels) = (vec![], vec![]);
         for (walker, instance) in &drawn {
             let mut figure = vec![];
-            cosfly_render::figure::figure(walker, &Clothes::draw(&walker.clothes_seed), 0, &mut figure);
+            cosfly_figures::figure::figure(walker, &Clothes::draw(&walker.clothes_seed), 0, &mut figure);
             for triangle in figure {
                 triangles.push((triangle.corners_in_world, labels.len() as u32));
                 labels.push((walker.body.label(triangle.region), *instance));
@@ -259,7 +257,8 @@ fn a_crowd_has_the_same_bytes_in_any_order_after_any_frame_on_all_processors() {
     let mut others = crowd(&mut random, feet, 60);
     let pose = Pose::looking_at(feet + DVec3::new(-12.0, 3.0, 9.0), feet);
     for preset in ["ClearSunset", "WetNight"] {
-        let weather = Weather { sun_azimuth_angle: 40.0, ..Weather::preset(preset).expect("a preset") };
+        let weather =
+            Weather { sun_azimuth_angle: 40.0, ..cosfly_materials::presets::preset(preset).expect("a preset") };
         let setup = FrameSetup { pose, weather: &weather, target: Some(target(feet)), others: &others };
         let once = draw(&mut Renderer::new(CAMERA), &scene, &setup);
         assert!(once.others.len() > 10);
@@ -305,7 +304,10 @@ fn people_whom_the_outlook_or_a_building_excludes_change_no_byte() {
     let mut random = Seed([3; 32]).stream("views");
     let (mut renderer, mut left_out, mut hidden) = (Renderer::new(CAMERA), 0, 0);
     for (round, preset) in ["ClearNoon", "ClearSunset", "WetNight", "WetSunset"].iter().cycle().take(24).enumerate() {
-        let weather = Weather { sun_azimuth_angle: 50.0 * round as f64, ..Weather::preset(preset).expect("a preset") };
+        let weather = Weather {
+            sun_azimuth_angle: 50.0 * round as f64,
+            ..cosfly_materials::presets::preset(preset).expect("a preset")
+        };
         let mut place = |height_m: f64| DVec3::new(random.uniform(-90.0, 90.0), random.uniform(-90.0, 90.0), height_m);
         let (eye, feet) = (place(3.0 + round as f64), place(0.14));
         let pose = Pose::looking_at(eye, eye + (feet - eye).normalize());
@@ -367,8 +369,8 @@ fn every_weather_has_the_same_depth_and_ids() {
     let pose = Pose::looking_at(feet + DVec3::new(-12.0, 3.0, 9.0), feet);
     let mut renderer = Renderer::new(CAMERA);
     let mut first: Option<Drawn> = None;
-    for name in Weather::PRESETS {
-        let weather = Weather::preset(name).expect("a preset");
+    for name in cosfly_materials::presets::PRESETS {
+        let weather = cosfly_materials::presets::preset(name).expect("a preset");
         let setup = FrameSetup { pose, weather: &weather, target: Some(target(feet)), others: &others };
         let drawn = draw(&mut renderer, &scene, &setup);
         let known = first.get_or_insert(Drawn { images: drawn.images.clone(), others: drawn.others.clone(), ..drawn });

@@ -2,17 +2,16 @@
 
 mod small_town;
 
+use cosfly_domain::{Camera, Season, SemanticLabel, Weather};
+use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_maps::SemanticLabel;
-use cosfly_render::{
-    BodyShape, Camera, FrameImages, FrameSetup, PictureLook, Renderer, Scene, Season, TargetSetup, Weather,
-};
+use cosfly_render::{FrameImages, FrameSetup, PictureLook, Renderer, Scene};
 
 const CAMERA: Camera = Camera { width: 333, height: 187, horizontal_fov_rad: 1.4 };
 
 fn draw(renderer: &mut Renderer, scene: &Scene, weather: &str) -> FrameImages {
-    let weather = Weather { sun_azimuth_angle: 215.0, ..Weather::preset(weather).expect("a preset") };
+    let weather = Weather { sun_azimuth_angle: 215.0, ..cosfly_materials::presets::preset(weather).expect("a preset") };
     let feet = DVec3::new(5.0, -16.0, 0.1);
     let target = TargetSetup {
         state: TargetState { feet_in_world: feet, heading_rad: 0.4, speed_mps: 1.3 },

@@ -2,17 +2,17 @@
 
 mod small_town;
 
-use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town};
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{
-    BodyShape, Camera, FrameImages, FrameSetup, Model, ModelFit, ModelKind, PixelBox, Renderer, Scene, SceneModel,
-    TargetSetup, TargetView, Weather, target_triangles,
+use cosfly_domain::{
+    Camera, Obstacle, ObstacleKind, OrientedBox, PixelBox, SemanticLabel, SurfaceMesh, TARGET_INSTANCE, TargetView,
+    Town, Weather,
 };
+use cosfly_figures::{BodyShape, TargetSetup, target_triangles};
+use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState};
+use cosfly_models::{Model, ModelFit, ModelKind};
+use cosfly_render::{FrameImages, FrameSetup, Renderer, Scene, SceneModel};
 
 fn noon() -> Weather {
-    Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") }
+    Weather { sun_azimuth_angle: 200.0, ..cosfly_materials::presets::preset("ClearNoon").expect("a preset") }
 }
 
 fn camera(width: u32, height: u32) -> Camera {
@@ -257,7 +257,8 @@ fn the_target_stands_where_the_camera_projects_it() {
 #[test]
 fn the_same_frame_has_the_same_bytes_after_any_other_frame_and_on_any_thread() {
     let scene = Scene::new(&small_town::small_town(3, 5), Seed([1; 32]));
-    let rain = Weather { sun_azimuth_angle: 40.0, ..Weather::preset("HardRainSunset").expect("a preset") };
+    let rain =
+        Weather { sun_azimuth_angle: 40.0, ..cosfly_materials::presets::preset("HardRainSunset").expect("a preset") };
     let feet = DVec3::new(5.0, -16.0, 0.1);
     let pose = Pose::looking_at(feet + DVec3::new(-12.0, 3.0, 15.0), feet);
     let setup = FrameSetup { pose, weather: &rain, target: Some(walker(feet)), others: &[] };

@@ -1,10 +1,11 @@
 //! Pavements that are solids: people stand on their tops, and nowhere without headroom.
 
+use cosfly_domain::{ObstacleKind, SemanticLabel, Town};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_scans::mesh::MeshOptions;
 use cosfly_scans::obj::Obj;
+use cosfly_town::MapFormat;
 use cosfly_town::polygons::twice_area_m2;
-use cosfly_town::{MapFormat, ObstacleKind, SemanticLabel, Town};
 use std::fmt::Write;
 
 /// Text of an OBJ file: one box for each name, from corner to corner (x, y up, z).
@@ -74,7 +75,7 @@ fn people_stand_on_top_of_slabs_whatever_their_height_and_winding() {
             let town = read(&text);
             assert!((area_m2(&town) - 960.0).abs() < 1e-6, "{height_m}: {}", area_m2(&town));
             assert_eq!(heights_m(&town), [height_m; 2]);
-            let pavement = town.census().ground["SideWalks"].area_m2;
+            let pavement = cosfly_town::census::census(&town).ground["SideWalks"].area_m2;
             assert!((pavement - 960.0).abs() < 1e-6, "{height_m}: {pavement} m2 are drawn");
         }
     }

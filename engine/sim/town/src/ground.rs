@@ -1,6 +1,6 @@
 //! [`GroundIndex`]: height of the ground under a point, from the town's surfaces.
 
-use crate::{SemanticLabel, SurfaceMesh, Town};
+use cosfly_domain::{SemanticLabel, SurfaceMesh, Town};
 use cosfly_frames::{DVec2, DVec3};
 
 /// Cells along one side of the index at most.
@@ -186,11 +186,9 @@ impl GroundIndex {
     }
 }
 
-impl Town {
-    /// Height of the highest ground at (x, y). Slow: builds an index; for many questions keep a [`GroundIndex`].
-    pub fn ground_height_m(&self, x_m: f64, y_m: f64) -> Option<f64> {
-        GroundIndex::new(self).ground_height_m(x_m, y_m)
-    }
+/// Height of the highest ground of a town at (x, y). Slow: builds an index; for many questions keep a [`GroundIndex`].
+pub fn ground_height_m(town: &Town, x_m: f64, y_m: f64) -> Option<f64> {
+    GroundIndex::new(town).ground_height_m(x_m, y_m)
 }
 
 /// About how many cells of a side the triangles touch, over all triangles.

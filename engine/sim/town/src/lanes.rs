@@ -1,9 +1,8 @@
-//! [`Lane`]s: where vehicles drive, which lane follows which, and where people cross.
+//! Lanes of a town: which follows which, and where people cross.
 
 use crate::polygons::PolygonIndex;
-use crate::{Town, WalkableKind, WalkablePolygon};
+use cosfly_domain::{Lane, Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A lane follows another one when it begins within this distance of the other's end, in plan and in height, metres.
@@ -13,93 +12,20 @@ const MEETING_COS: f64 = 0.6;
 /// Distance between the points of a lane that are looked up in crossings, metres.
 const SPACING_M: f64 = 0.5;
 
-/// A lane for vehicles; they drive from its first point to its last.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Lane {
-    /// Use of the lane.
-    pub kind: LaneKind,
-    /// Its middle line, at least two points, in the direction of driving.
-    pub middle_in_world: Vec<DVec3>,
-    /// Width at its narrowest place, metres.
-    pub width_m: f64,
-    /// Speed limit, m/s.
-    pub speed_limit_mps: f64,
-    /// Whether it is a way through a junction.
-    pub in_junction: bool,
-    /// Lanes that follow: indices in [`Town::lanes`], ascending.
-    pub successors: Vec<u32>,
-    /// Crossings and other ground where people cross it: indices in [`Town::walkable`], ascending.
-    pub crossings: Vec<u32>,
+/// Place and direction of the first or the last point.
+fn end_of(lane: &Lane, last: bool) -> (DVec3, DVec2) {
+    let line = &lane.middle_in_world;
+    let [from, to] = if last { [line.len() - 2, line.len() - 1] } else { [0, 1] };
+    let along = (line[to] - line[from]).truncate().normalize_or_zero();
+    (line[if last { to } else { 0 }], along)
 }
 
-/// Use of a lane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LaneKind {
-    /// Motor vehicles, and bicycles where there is no lane for them.
-    Driving,
-    /// Bicycles.
-    Biking,
-}
-
-impl Lane {
-    /// A lane whose followers and crossings are not known yet, see [`Town::link_lanes`]; `None` for one without extent.
-    /// Points that nearly coincide become one.
-    pub fn new(kind: LaneKind, points: impl IntoIterator<Item = DVec3>, width_m: f64, limit_mps: f64) -> Option<Self> {
-        let mut middle_in_world: Vec<DVec3> = points.into_iter().collect();
-        middle_in_world.dedup_by(|next, before| (*next - *before).truncate().length() < 0.05);
-        (middle_in_world.len() >= 2 && width_m > 0.0).then_some(Self {
-            kind,
-            middle_in_world,
-            width_m,
-            speed_limit_mps: limit_mps,
-            in_junction: false,
-            successors: vec![],
-            crossings: vec![],
-        })
-    }
-
-    /// Length in plan, metres.
-    pub fn length_m(&self) -> f64 {
-        self.middle_in_world.windows(2).map(|pair| (pair[1] - pair[0]).truncate().length()).sum()
-    }
-
-    /// Place and direction of the first or the last point.
-    fn end(&self, last: bool) -> (DVec3, DVec2) {
-        let line = &self.middle_in_world;
-        let [from, to] = if last { [line.len() - 2, line.len() - 1] } else { [0, 1] };
-        let along = (line[to] - line[from]).truncate().normalize_or_zero();
-        (line[if last { to } else { 0 }], along)
-    }
-}
-
-impl Town {
-    /// Finds which lane follows which, from the places of their ends, and which crossings each lane passes.
-    pub fn link_lanes(&mut self) {
-        let mut lanes = std::mem::take(&mut self.lanes);
-        find_successors(&mut lanes);
-        find_crossings(&mut lanes, &self.walkable);
-        self.lanes = lanes;
-    }
-
-    /// Checks the lanes; see [`Town::assert_well_formed`].
-    pub(crate) fn check_lanes(&self, is_near: impl Fn(DVec3) -> bool) -> Result<(), String> {
-        for (i, lane) in self.lanes.iter().enumerate() {
-            let line = &lane.middle_in_world;
-            if line.len() < 2 || !line.iter().all(|point| is_near(*point)) {
-                return Err(format!("lane {i} has {} points or one that is far away", line.len()));
-            }
-            let sizes = [lane.width_m, lane.speed_limit_mps];
-            if !sizes.iter().all(|size| size.is_finite() && *size > 0.0) {
-                return Err(format!("lane {i} has the width and speed limit {sizes:?}"));
-            }
-            let has = |list: &[u32], count: usize| list.iter().all(|index| (*index as usize) < count);
-            if !has(&lane.successors, self.lanes.len()) || !has(&lane.crossings, self.walkable.len()) {
-                return Err(format!("lane {i} has a follower or a crossing that does not exist"));
-            }
-        }
-        Ok(())
-    }
+/// Finds which lane follows which, from the places of their ends, and which crossings each lane passes.
+pub fn link_lanes(town: &mut Town) {
+    let mut lanes = std::mem::take(&mut town.lanes);
+    find_successors(&mut lanes);
+    find_crossings(&mut lanes, &town.walkable);
+    town.lanes = lanes;
 }
 
 fn find_successors(lanes: &mut [Lane]) {
@@ -107,16 +33,16 @@ fn find_successors(lanes: &mut [Lane]) {
     let cell = |point: DVec3| [point.x, point.y].map(|at| (at / near_m).floor() as i64);
     let mut starts: BTreeMap<[i64; 2], Vec<u32>> = BTreeMap::new();
     for (number, lane) in (0u32..).zip(&*lanes) {
-        starts.entry(cell(lane.end(false).0)).or_default().push(number);
+        starts.entry(cell(end_of(lane, false).0)).or_default().push(number);
     }
     for number in 0..lanes.len() {
-        let (end, along) = lanes[number].end(true);
-        let begin = lanes[number].end(false).0;
+        let (end, along) = end_of(&lanes[number], true);
+        let begin = end_of(&lanes[number], false).0;
         let [column, row] = cell(end);
         let around = (-1..=1).flat_map(|right| (-1..=1).map(move |down| [column + right, row + down]));
         let follows = |other: &u32| {
             let lane = &lanes[*other as usize];
-            let (start, onward) = lane.end(false);
+            let (start, onward) = end_of(lane, false);
             let away = start - end;
             *other as usize != number
                 && lane.kind == lanes[number].kind
@@ -158,6 +84,7 @@ fn find_crossings(lanes: &mut [Lane], walkable: &[WalkablePolygon]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_domain::LaneKind;
 
     fn lane(points: &[(f64, f64)]) -> Lane {
         let points = points.iter().map(|(x, y)| DVec3::new(*x, *y, 0.0));
@@ -181,13 +108,13 @@ mod tests {
             walkable: vec![polygon(WalkableKind::Sidewalk), polygon(WalkableKind::Crossing)],
             ..Town::default()
         };
-        town.link_lanes();
+        link_lanes(&mut town);
         assert_eq!(town.lanes[0].successors, [1, 2]);
         assert_eq!(town.lanes[0].crossings, [1]);
         assert!(town.lanes[1..].iter().all(|lane| lane.successors.is_empty()));
         let short = |from: f64| lane(&[(from, 0.0), (from + 0.1, 0.0)]);
         town.lanes = vec![short(0.0), short(0.1), short(0.2)];
-        town.link_lanes();
+        link_lanes(&mut town);
         assert_eq!(town.lanes.iter().map(|lane| &lane.successors[..]).collect::<Vec<_>>(), [&[1, 2][..], &[2], &[]]);
         assert!(Lane::new(LaneKind::Driving, [DVec3::ONE; 4], 3.0, 10.0).is_none());
     }

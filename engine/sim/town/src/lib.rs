@@ -1,4 +1,4 @@
-//! The [`Town`] model (obstacles, walkable ground, lanes, surfaces, labels), the seam of map formats, and what their readers
+//! The [`cosfly_domain::Town`] model (obstacles, walkable ground, lanes, surfaces, labels), the seam of map formats, and what their readers
 //! share: the world frame, text with places, covers of footprints, ground meshes, land around them, planning boxes.
 
 pub mod census;
@@ -14,22 +14,16 @@ pub mod options;
 pub mod polygons;
 pub mod regions;
 pub mod remarks;
-pub mod semantics;
+pub mod rules;
 pub mod simplify;
 pub mod solids;
 pub mod terrain;
 pub mod text;
-pub mod town;
 pub mod units;
 pub mod world;
 
 pub use error::{MapError, Place};
 pub use format::{Format, MapFormat};
 pub use ground::{GroundIndex, GroundPoint};
-pub use lanes::{Lane, LaneKind};
 pub use options::FormatOptions;
-pub use semantics::SemanticLabel;
-pub use town::{
-    MapOrigin, Obstacle, ObstacleKind, SimplificationReport, SurfaceMesh, Synthetic, Town, WalkableKind,
-    WalkablePolygon,
-};
+pub use rules::assert_well_formed;

@@ -1,10 +1,10 @@
 //! Outlines seen from above: nearest points of bodies, overlaps of bodies that are about to move, solid things on lanes.
 
 use crate::network::{Drive, Network};
+use cosfly_domain::{BodyPlan, ObstacleKind, OrientedBox, Town};
 use cosfly_frames::{DVec2, DVec3, TargetState, real};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_maps::{ObstacleKind, Town};
-use cosfly_world::{BodyPlan, Present};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_world::Present;
 
 /// Bodies whose feet differ by more do not meet: one is on a bridge, metres.
 pub(crate) const LEVEL_M: f64 = 2.5;
@@ -28,7 +28,7 @@ pub(crate) fn meet(plan: &BodyPlan, state: &TargetState, other: &BodyPlan, at: &
     let reach_m = plan.radius_m() + other.radius_m() + apart_m;
     away.z.abs() < LEVEL_M
         && away.truncate().length_squared() < reach_m * reach_m
-        && plan.gap_m(state, other, at) < apart_m
+        && cosfly_world::gap_m(&plan, state, other, at) < apart_m
 }
 
 /// Size of what must fit on a lane: length of a piece, width and height, metres.

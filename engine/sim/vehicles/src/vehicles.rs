@@ -9,9 +9,9 @@ use crate::network::Network;
 use crate::outlines::{blocked_lanes, meet};
 use crate::route::Route;
 use crate::{parked, start};
+use cosfly_domain::{BodyKind, BodyPlan, Town};
 use cosfly_frames::{RandomStream, Seed, TargetState};
-use cosfly_maps::Town;
-use cosfly_world::{BodyKind, BodyPlan, Clock, Population, Present, Snapshot};
+use cosfly_world::{Clock, Population, Present, Snapshot};
 
 /// Vehicles keep this distance from each other when they move, metres.
 const APART_M: f64 = 0.05;
@@ -187,8 +187,8 @@ impl Vehicles {
             !meet(plan, state, &other.plan, &other.state, APART_M)
                 // Those that touch already may part.
                 || meet(plan, &self.vehicles[number].state, &other.plan, &other.state, APART_M)
-                    && plan.gap_m(state, &other.plan, &other.state)
-                        > plan.gap_m(&self.vehicles[number].state, &other.plan, &other.state)
+                    && cosfly_world::gap_m(&plan, state, &other.plan, &other.state)
+                        > cosfly_world::gap_m(&plan, &self.vehicles[number].state, &other.plan, &other.state)
                     && !meet(plan, state, &other.plan, &other.state, 0.0)
         });
         if !is_clear {

@@ -1,6 +1,8 @@
 //! Bodies that overlap, found by comparing all pairs that are near: the judge of simulated traffic.
 
-use crate::traffic::Traffic;
+use crate::gap::gap_m;
+use crate::snapshot::Snapshot;
+use cosfly_domain::Traffic;
 
 /// Two bodies that overlap in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +19,7 @@ pub struct Contact {
 pub fn contacts(traffic: &Traffic, deeper_than_m: f64) -> Vec<Contact> {
     let mut found = vec![];
     for frame in 0..traffic.frames {
-        let snapshot = traffic.snapshot(frame);
+        let snapshot = Snapshot::at_frame(traffic, frame);
         let first = found.len();
         for body in snapshot.all() {
             snapshot.near(body.state.feet_in_world.truncate(), body.radius_m, |other| {
@@ -27,7 +29,7 @@ pub fn contacts(traffic: &Traffic, deeper_than_m: f64) -> Vec<Contact> {
                     return;
                 }
                 let [plan, other_plan] = [body, other].map(|it| &traffic.bodies[it.number as usize].plan);
-                let depth_m = -plan.gap_m(&body.state, other_plan, &other.state);
+                let depth_m = -gap_m(plan, &body.state, other_plan, &other.state);
                 if depth_m > deeper_than_m {
                     found.push(Contact { frame, bodies: [body.number, other.number], depth_m });
                 }
@@ -41,7 +43,7 @@ pub fn contacts(traffic: &Traffic, deeper_than_m: f64) -> Vec<Contact> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Body, BodyKind, BodyPlan};
+    use cosfly_domain::{Body, BodyKind, BodyPlan};
     use cosfly_frames::{DVec3, Seed, TargetState};
 
     #[test]

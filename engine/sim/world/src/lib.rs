@@ -1,25 +1,21 @@
 //! Who is where at time t: people and vehicles as bodies with tracks.
 //!
-//! [`Traffic`] holds all tracks of one town; planner, renderer, captions and tables read it. A [`Population`] is a group of
+//! [`cosfly_domain::Traffic`] holds all tracks of one town; planner, renderer, captions and tables read it. A [`Population`] is a group of
 //! bodies that move by one rule (a crowd, vehicles on lanes, recorded tracks); [`simulate`] steps several of them together:
 //! all see the same [`Snapshot`] of the moment before, so results depend neither on their order nor on threads.
 
-mod around;
-mod body;
 mod contacts;
+mod gap;
 mod look_alikes;
 mod looks;
 mod population;
 mod prescribed;
 mod snapshot;
-mod traffic;
 
-pub use around::{Around, Followed};
-pub use body::{Body, BodyKind, BodyPlan};
 pub use contacts::{Contact, contacts};
+pub use gap::gap_m;
 pub use look_alikes::{LookAlikeConfig, Wardrobe, dress};
-pub use looks::{Bag, BagShares, BodyBuild, BuildShares, Gait, GaitShares, LooksConfig, Traits, give_looks};
+pub use looks::{BagShares, BuildShares, GaitShares, LooksConfig, give_looks};
 pub use population::{Clock, Population, simulate};
 pub use prescribed::Prescribed;
 pub use snapshot::{Present, Snapshot};
-pub use traffic::Traffic;

@@ -1,88 +1,12 @@
 //! Looks by order: shares of the people by bag, build and gait.
 
-use crate::traffic::Traffic;
+use cosfly_domain::{Traffic, Traits};
 use cosfly_frames::Seed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Fresh draws of looks for somebody who is to look as ordered.
 const DRAWS: u64 = 5_000;
-
-/// Bag of a person.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Bag {
-    None,
-    Backpack,
-    Shoulder,
-}
-
-/// Build of a person.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum BodyBuild {
-    Slim,
-    Medium,
-    Stout,
-}
-
-/// Steps of a person: how far the legs swing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Gait {
-    Short,
-    Medium,
-    Long,
-}
-
-/// Properties of a person's looks beside the clothes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Traits {
-    /// Bag.
-    pub bag: Bag,
-    /// Build.
-    pub build: BodyBuild,
-    /// Gait.
-    pub gait: Gait,
-}
-
-impl Traits {
-    /// No bag, medium build and gait.
-    pub const PLAIN: Self = Self { bag: Bag::None, build: BodyBuild::Medium, gait: Gait::Medium };
-}
-
-impl Bag {
-    /// Name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Backpack => "backpack",
-            Self::Shoulder => "shoulder_bag",
-        }
-    }
-}
-
-impl BodyBuild {
-    /// Name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Slim => "slim",
-            Self::Medium => "medium",
-            Self::Stout => "stout",
-        }
-    }
-}
-
-impl Gait {
-    /// Name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Short => "short",
-            Self::Medium => "medium",
-            Self::Long => "long",
-        }
-    }
-}
 
 /// Shares of the people by bag, build and gait, followed people among them. What has no shares is left to chance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -230,7 +154,8 @@ pub fn give_looks(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Body, BodyKind, BodyPlan};
+    use cosfly_domain::{Bag, BodyBuild, Gait};
+    use cosfly_domain::{Body, BodyKind, BodyPlan};
     use cosfly_frames::DVec3;
 
     fn traits(looks: &Seed) -> Traits {

@@ -1,6 +1,6 @@
 //! [`Snapshot`]: everybody at one moment, with a grid to find neighbours.
 
-use crate::body::{BodyKind, BodyPlan};
+use cosfly_domain::{Body, BodyKind, BodyPlan, Traffic};
 use cosfly_frames::{DVec2, DVec3, TargetState, real};
 
 /// Side of a cell of the grid, metres.
@@ -48,6 +48,14 @@ impl Snapshot {
         let velocity_mps = DVec2::new(cos, sin) * state.speed_mps;
         let (kind, size_m, radius_m) = (plan.kind, plan.size_m, plan.radius_m());
         Present { number, kind, size_m, radius_m, state, velocity_mps }
+    }
+
+    /// Bodies of traffic that are present in a frame.
+    pub fn at_frame(traffic: &Traffic, frame: u32) -> Self {
+        let present = |(number, body): (usize, &Body)| {
+            body.state(frame).map(|state| Self::present(number as u32, &body.plan, *state))
+        };
+        Self::new(traffic.bodies.iter().enumerate().filter_map(present).collect())
     }
 
     /// Bodies with rising numbers. Bodies at places that are not finite cannot be found by [`Self::near`].

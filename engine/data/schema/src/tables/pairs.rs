@@ -2,8 +2,7 @@
 
 use super::column::columns;
 use super::{DatasetItem, Table};
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::{FramePerturbation, Perturbation};
+use cosfly_domain::{FramePerturbation, Perturbation, PerturbationKind};
 
 /// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
@@ -28,7 +27,7 @@ columns! { Pairs::COLUMNS of DatasetItem;
     split: String = |item, _| item.membership.split.name().to_owned();
     /// Number of frames of the perturbed trajectory.
     frames: u32 = |item, _| item.record.len() as u32;
-    /// Kind of the perturbation, such as `jumps` (the paper's) or `drift`.
+    /// PerturbationKind of the perturbation, such as `jumps` (the paper's) or `drift`.
     perturbation: Option<String> = |item, _| perturbation(item).map(|it| it.kind.name().to_owned());
     /// Probability of the position event per frame; null for kinds of perturbation but `jumps`.
     position_probability: Option<f64> = |item, _| jumps(item).map(|it| it.position_probability);
@@ -49,7 +48,7 @@ fn perturbation(item: &DatasetItem) -> Option<&Perturbation> {
 }
 
 fn jumps(item: &DatasetItem) -> Option<&Perturbation> {
-    perturbation(item).filter(|it| it.kind == Kind::Jumps)
+    perturbation(item).filter(|it| it.kind == PerturbationKind::Jumps)
 }
 
 fn events(item: &DatasetItem) -> impl Iterator<Item = &FramePerturbation> {

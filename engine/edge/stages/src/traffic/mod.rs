@@ -13,13 +13,14 @@ use avoided::Avoided;
 use config::TrafficConfig;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_domain::{Around, Body, Followed, Traffic, Traits};
+use cosfly_figures::{BodyShape, outfit_of};
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
-use cosfly_render::{BodyShape, Outfit};
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::{Around, Body, Followed, Traffic, Traits, Wardrobe, dress, give_looks, simulate};
+use cosfly_world::{Wardrobe, dress, give_looks, simulate};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -162,7 +163,7 @@ impl Stage for BodiesStage {
         // Followed people matter here to those who are dressed like them; walks refuse names that nobody has.
         let mut followed = self.config.follow.eligible(&traffic).unwrap_or_default();
         followed.truncate(self.config.follow.count as usize);
-        let outfit = |looks: &Seed| Outfit::of(BodyShape::default(), looks);
+        let outfit = |looks: &Seed| outfit_of(BodyShape::default(), looks);
         let traits = |looks: &Seed| outfit(looks).traits.unwrap_or(Traits::PLAIN);
         let alike = |a: &Seed, b: &Seed| outfit(a).is_like(&outfit(b));
         let seed = |name: &str| Seed(context.seed).child(name, 0);

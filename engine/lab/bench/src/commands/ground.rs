@@ -2,8 +2,8 @@
 
 use super::outcome::Refusals;
 use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_domain::{Camera, Season, Weather};
 use cosfly_lab::render::views::Ground;
-use cosfly_render::{Camera, Season, Weather};
 use std::path::Path;
 
 /// A map file with viewpoints, or the town printed by `cosfly town`.
@@ -22,9 +22,9 @@ pub fn of_town(town: Option<&Path>, camera: Camera, views: usize) -> Result<Grou
 
 /// The weather of a preset.
 pub fn weather(name: &str) -> Result<Weather, Refusals> {
-    Weather::preset(name).ok_or_else(|| {
+    cosfly_materials::presets::preset(name).ok_or_else(|| {
         let message = format!("there is no weather `{name}`");
-        let hint = format!("the presets are {}", Weather::PRESETS.join(", "));
+        let hint = format!("the presets are {}", cosfly_materials::presets::PRESETS.join(", "));
         vec![Diagnostic::new("bench-weather", Fault::Recipe, message).hint(hint)]
     })
 }

@@ -9,8 +9,9 @@ pub use steady::{SteadyReport, SteadyRow, of_clips};
 
 use crate::render::views::Ground;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::Weather;
 use cosfly_images::read::picture;
-use cosfly_render::{FrameSetup, Renderer, Weather};
+use cosfly_render::{FrameSetup, Renderer};
 use serde::Serialize;
 use std::fmt;
 use std::path::Path;
@@ -116,12 +117,12 @@ impl fmt::Display for LookReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_render::Camera;
+    use cosfly_domain::Camera;
 
     #[test]
     fn sets_have_ordered_quartiles_and_empty_folders_are_refused() {
         let camera = Camera { width: 160, height: 128, horizontal_fov_rad: 1.2 };
-        let row = of_town(&Ground::of_boxes(60, camera, 3), &Weather::preset("ClearNoon").unwrap());
+        let row = of_town(&Ground::of_boxes(60, camera, 3), &cosfly_materials::presets::preset("ClearNoon").unwrap());
         let [low, middle, high] = row.quartiles;
         assert!(low.spectral_slope <= middle.spectral_slope && middle.flat_share <= high.flat_share);
         assert!(LookReport { rows: vec![row] }.to_string().contains("60 boxes, ClearNoon"));

@@ -4,9 +4,9 @@
 //! Where the same thing is seen there with all its neighbours, the pixel's brightness must lie between the least and the
 //! greatest of the nine pixels around that place, give or take [`TOLERANCE_CODES`]: what lies outside popped.
 
+use cosfly_domain::{Camera, SemanticLabel, Weather};
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_maps::SemanticLabel;
-use cosfly_render::{Camera, FrameImages, FrameSetup, PictureLook, Renderer, Scene, Weather};
+use cosfly_render::{FrameImages, FrameSetup, PictureLook, Renderer, Scene};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -211,7 +211,7 @@ mod tests {
     fn a_clip_is_compared_along_its_motion_and_a_changed_picture_pops() {
         let camera = Camera { width: 160, height: 120, horizontal_fov_rad: 1.4 };
         let ground = crate::render::views::Ground::of_boxes(60, camera, 1);
-        let weather = Weather::preset("CloudyNoon").unwrap();
+        let weather = cosfly_materials::presets::preset("CloudyNoon").unwrap();
         let start = ground.views[0].pose;
         let clip = (camera, PictureLook::Full);
         let rows = of_clips("boxes", &ground.scene, clip, &weather, &[start], (4, 0.05));

@@ -12,7 +12,8 @@ pub mod throughput;
 pub mod views;
 
 use cosfly_diagnose::Result;
-use cosfly_render::{PictureLook, Weather};
+use cosfly_domain::Weather;
+use cosfly_render::PictureLook;
 use cosfly_schema::EncodingConfig;
 use machine::Machine;
 use serde::Serialize;
@@ -116,7 +117,7 @@ fn row(ground: &Ground, weather: &Weather, look: PictureLook, options: &RenderOp
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_render::Camera;
+    use cosfly_domain::Camera;
 
     #[test]
     fn a_tiny_measurement_has_every_figure() {
@@ -124,7 +125,7 @@ mod tests {
         let scratch = tempfile::tempdir().unwrap();
         let report = measure(&RenderOptions {
             grounds: vec![Ground::of_boxes(20, camera, 2)],
-            weathers: vec![Weather::preset("HardRainNoon").unwrap()],
+            weathers: vec![cosfly_materials::presets::preset("HardRainNoon").unwrap()],
             rounds: 1,
             encoding: EncodingConfig::default(),
             threads: 2,

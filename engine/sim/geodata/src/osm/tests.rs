@@ -5,9 +5,10 @@ use super::pbf::{
 };
 use super::pbf::{PrimitiveGroup, StringTable};
 use super::{OpenStreetMap, OsmOptions};
+use cosfly_domain::{ObstacleKind, SemanticLabel, Town, WalkableKind};
 use cosfly_frames::{DVec2, Seed};
 use cosfly_town::polygons::contains;
-use cosfly_town::{MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind};
+use cosfly_town::{MapError, MapFormat};
 use flate2::Compression;
 use flate2::write::{GzEncoder, ZlibEncoder};
 use prost::Message;
@@ -17,7 +18,7 @@ use std::io::Write;
 pub(super) fn read(bytes: &[u8]) -> Result<(Town, Vec<String>), MapError> {
     let (mut town, warnings) = OpenStreetMap::read(bytes, &OsmOptions::default())?;
     town.update_bounds();
-    town.assert_well_formed().expect("a town that was read is well formed");
+    cosfly_town::assert_well_formed(&town).expect("a town that was read is well formed");
     Ok((town, warnings))
 }
 
@@ -414,9 +415,9 @@ fn streets_have_lanes_on_the_right_that_turn_at_junctions() {
     for left_hand_traffic in [false, true] {
         let options = OsmOptions { left_hand_traffic, ..OsmOptions::default() };
         let (mut town, _) = OpenStreetMap::read(osm(&nodes, &rest).as_bytes(), &options).unwrap();
-        town.link_lanes();
+        cosfly_town::lanes::link_lanes(&mut town);
         town.update_bounds();
-        town.assert_well_formed().unwrap();
+        cosfly_town::assert_well_formed(&town).unwrap();
         let streets: Vec<_> = town.lanes.iter().filter(|lane| !lane.in_junction).collect();
         assert_eq!(streets.len(), 5, "two pieces both ways, and one way north");
         for lane in &streets {

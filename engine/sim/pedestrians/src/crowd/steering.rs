@@ -119,7 +119,7 @@ fn free_way_m(neighbours: &[Neighbour], velocity_mps: DVec2, pace_mps: f64) -> f
         if beyond <= 0.0 {
             // Already nearer than people like: only the direct way towards the other is closed.
             if along > 0.7 * other.distance_m * closing.length() {
-                return (other.gap_m()).max(0.0);
+                return other.gap_m().max(0.0);
             }
             continue;
         }

@@ -4,12 +4,11 @@
 use super::config::{FlyableConfig, PerturbConfig};
 use super::{motion, search};
 use crate::aim::{AimConfig, aimed, reached};
+use cosfly_domain::{FramePerturbation, PerturbationKind, Trajectory};
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::trajectory::{FramePerturbation, Trajectory};
-use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::visibility::aim_point;
 
 /// Kept beyond the asked clearance, so that rounding cannot take it away again, metres.
 const ROUNDING_M: f64 = 1e-6;
@@ -28,7 +27,7 @@ const NOTHING: f64 = 1e-6;
 /// Poses and recorded departures of a twin of `expert`.
 pub(super) fn twin(
     expert: &Trajectory,
-    kind: Kind,
+    kind: PerturbationKind,
     map: ExactMap<'_>,
     config: &PerturbConfig,
     seed: &Seed,
@@ -38,9 +37,9 @@ pub(super) fn twin(
     // Every twin drifts: where its own way were the expert's, poses alone would tell a model the answer.
     let mut wanted = motion::drift(places.len(), dt_s, flyable, seed);
     let more = match kind {
-        Kind::Gusts => motion::gusts(places.len(), dt_s, flyable, seed),
-        Kind::Timing => motion::timing(&places, dt_s, flyable, seed),
-        Kind::Drift | Kind::Jumps | Kind::Aim | Kind::Search => vec![],
+        PerturbationKind::Gusts => motion::gusts(places.len(), dt_s, flyable, seed),
+        PerturbationKind::Timing => motion::timing(&places, dt_s, flyable, seed),
+        PerturbationKind::Drift | PerturbationKind::Jumps | PerturbationKind::Aim | PerturbationKind::Search => vec![],
     };
     wanted.iter_mut().zip(more).for_each(|(drift, more)| *drift += more);
     let way = Way { expert, places: &places, map, config };
@@ -48,11 +47,11 @@ pub(super) fn twin(
     offsets.iter_mut().filter(|offset| offset.length() <= NOTHING).for_each(|offset| *offset = DVec3::ZERO);
     let straight = views(expert, &offsets);
     let poses = match kind {
-        Kind::Aim => {
+        PerturbationKind::Aim => {
             let places: Vec<DVec3> = places.iter().zip(&offsets).map(|(place, offset)| *place + *offset).collect();
             aimed(&places, &expert.track, 0, None, &coarse_aim(flyable), seed.child("aim", 0))
         }
-        Kind::Search => search::views(&straight, dt_s, flyable, seed),
+        PerturbationKind::Search => search::views(&straight, dt_s, flyable, seed),
         _ => straight.clone(),
     };
     let poses = turned_in_time(&poses, flyable.max_rate_deg_s.to_radians() * dt_s);

@@ -1,6 +1,6 @@
 //! The mixture of kinds of perturbation, and the kind of each flight.
 
-use cosfly_planner::trajectory::Kind;
+use cosfly_domain::PerturbationKind;
 use cosfly_random::Seed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -42,7 +42,7 @@ impl Default for Mixture {
 }
 
 impl Mixture {
-    /// The shares in the order of [`Kind::ALL`].
+    /// The shares in the order of [`PerturbationKind::ALL`].
     pub fn shares(&self) -> [f64; 6] {
         [self.jumps, self.drift, self.gusts, self.timing, self.aim, self.search]
     }
@@ -56,7 +56,7 @@ impl Mixture {
     pub fn of_flight(&self, number: u64, order: &Seed) -> Self {
         let shares = self.shares();
         let sum: f64 = shares.iter().sum();
-        let kinds: Vec<(Kind, f64)> = Kind::ALL
+        let kinds: Vec<(PerturbationKind, f64)> = PerturbationKind::ALL
             .into_iter()
             .zip(shares)
             .filter(|it| it.1 > 0.0)
@@ -83,22 +83,23 @@ impl Mixture {
     }
 
     /// The mixture of one kind.
-    fn only(kind: Kind) -> Self {
-        let [jumps, drift, gusts, timing, aim, search] = Kind::ALL.map(|it| f64::from(u8::from(it == kind)));
+    fn only(kind: PerturbationKind) -> Self {
+        let [jumps, drift, gusts, timing, aim, search] =
+            PerturbationKind::ALL.map(|it| f64::from(u8::from(it == kind)));
         Self { jumps, drift, gusts, timing, aim, search }
     }
 
     /// The kind of the flight with a seed: of a mixture of several kinds, one by chance.
-    pub fn draw(&self, seed: &Seed) -> Kind {
+    pub fn draw(&self, seed: &Seed) -> PerturbationKind {
         let shares = self.shares();
         let mut left = seed.stream("kind").uniform(0.0, shares.iter().sum());
-        for (kind, share) in Kind::ALL.into_iter().zip(shares) {
+        for (kind, share) in PerturbationKind::ALL.into_iter().zip(shares) {
             if left < share {
                 return kind;
             }
             left -= share;
         }
-        Kind::Jumps
+        PerturbationKind::Jumps
     }
 }
 
@@ -109,17 +110,22 @@ mod tests {
     #[test]
     fn flights_have_the_shares_that_the_mixture_states() {
         let mixture = Mixture { jumps: 2.0, drift: 1.0, search: 1.0, ..Mixture::default() };
-        let drawn: Vec<Kind> =
+        let drawn: Vec<PerturbationKind> =
             (0..4000).map(|number| mixture.draw(&Seed::of_item(1, "perturbed", &format!("p{number}")))).collect();
-        for (kind, share) in [(Kind::Jumps, 0.5), (Kind::Drift, 0.25), (Kind::Search, 0.25), (Kind::Gusts, 0.0)] {
+        for (kind, share) in [
+            (PerturbationKind::Jumps, 0.5),
+            (PerturbationKind::Drift, 0.25),
+            (PerturbationKind::Search, 0.25),
+            (PerturbationKind::Gusts, 0.0),
+        ] {
             let found = drawn.iter().filter(|it| **it == kind).count() as f64 / 4000.0;
             assert!((found - share).abs() < 0.03, "{kind:?} {found}");
         }
-        assert_eq!(Mixture::default().draw(&Seed([3; 32])), Kind::Jumps);
+        assert_eq!(Mixture::default().draw(&Seed([3; 32])), PerturbationKind::Jumps);
     }
 
     /// Kinds of the first flights.
-    fn first(mixture: &Mixture, count: u64, order: &str) -> Vec<Kind> {
+    fn first(mixture: &Mixture, count: u64, order: &str) -> Vec<PerturbationKind> {
         let order = Seed::of_item(0, "mixture", order);
         (0..count).map(|number| mixture.of_flight(number, &order).draw(&Seed([number as u8; 32]))).collect()
     }
@@ -135,7 +141,7 @@ mod tests {
             let mixture = Mixture { jumps: jumps + 0.25, drift, gusts, timing, aim, search };
             let kinds = first(&mixture, 120, &round.to_string());
             let sum: f64 = mixture.shares().iter().sum();
-            for (kind, share) in Kind::ALL.into_iter().zip(mixture.shares()) {
+            for (kind, share) in PerturbationKind::ALL.into_iter().zip(mixture.shares()) {
                 let mut found = 0.0;
                 for (at, one) in kinds.iter().enumerate() {
                     found += f64::from(u8::from(*one == kind));
@@ -152,13 +158,13 @@ mod tests {
         let mixture = Mixture { jumps: 2.0, drift: 1.0, gusts: 1.0, timing: 1.0, aim: 1.0, search: 1.0 };
         for order in ["perturbed", "perturbed_uptown", "twins"] {
             let kinds = first(&mixture, 14, order);
-            for kind in Kind::ALL {
-                let expected = if kind == Kind::Jumps { 2 } else { 1 };
+            for kind in PerturbationKind::ALL {
+                let expected = if kind == PerturbationKind::Jumps { 2 } else { 1 };
                 assert_eq!(kinds[..7].iter().filter(|it| **it == kind).count(), expected, "{order} {kind:?}");
             }
             assert_eq!(first(&mixture, 8, order), kinds[..8]);
         }
         assert_ne!(first(&mixture, 14, "perturbed"), first(&mixture, 14, "twins"));
-        assert_eq!(first(&Mixture::default(), 3, "perturbed"), [Kind::Jumps; 3]);
+        assert_eq!(first(&Mixture::default(), 3, "perturbed"), [PerturbationKind::Jumps; 3]);
     }
 }

@@ -3,15 +3,16 @@
 use super::config::{FlyableConfig, PerturbConfig};
 use super::mixture::Mixture;
 use super::twin::{measured, perturb};
+use cosfly_domain::{
+    Certificate, FramePerturbation, OrientedBox, Perturbation, PerturbationKind, PlanOutcome, Trajectory,
+};
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_planner::config::muco::MucoConfig;
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes};
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::trajectory::{Certificate, FramePerturbation, Perturbation, PlanOutcome, Trajectory};
-use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::moving::{OtherDrones, drone_boxes};
+use cosfly_surroundings::visibility::aim_point;
 
 /// An expert 20 m behind and 20 m above a target that walks along x at 1 m/s.
 fn expert(count: usize) -> Trajectory {
@@ -26,7 +27,7 @@ fn expert(count: usize) -> Trajectory {
         .collect();
     let no_twin = Perturbation {
         expert_item: String::new(),
-        kind: Kind::Jumps,
+        kind: PerturbationKind::Jumps,
         position_probability: 0.0,
         rotation_probability: 0.0,
         frames: vec![],
@@ -216,13 +217,19 @@ fn uneven_and_touching_experts_are_rejected_and_empty_ones_have_empty_twins() {
 }
 
 /// Parameters that give every flight one kind.
-fn only(kind: Kind) -> PerturbConfig {
-    let share = |of: Kind| if of == kind { 1.0 } else { 0.0 };
-    let [jumps, drift, gusts, timing, aim, search] = Kind::ALL.map(share);
+fn only(kind: PerturbationKind) -> PerturbConfig {
+    let share = |of: PerturbationKind| if of == kind { 1.0 } else { 0.0 };
+    let [jumps, drift, gusts, timing, aim, search] = PerturbationKind::ALL.map(share);
     PerturbConfig { mixture: Mixture { jumps, drift, gusts, timing, aim, search }, ..PerturbConfig::default() }
 }
 
-const FLYABLE: [Kind; 5] = [Kind::Drift, Kind::Gusts, Kind::Timing, Kind::Aim, Kind::Search];
+const FLYABLE: [PerturbationKind; 5] = [
+    PerturbationKind::Drift,
+    PerturbationKind::Gusts,
+    PerturbationKind::Timing,
+    PerturbationKind::Aim,
+    PerturbationKind::Search,
+];
 
 /// Largest rate of yaw or pitch, degrees/s.
 fn largest_rate_deg_s(twin: &Trajectory) -> f64 {
@@ -247,7 +254,10 @@ fn flyable_twins_keep_their_limits_in_the_open_and_in_a_tunnel() {
             let displaced = frames(&twin).iter().map(|it| it.drone_offset_in_world.length()).fold(0.0, f64::max);
             let turned = frames(&twin).iter().filter(|it| it.rotation).count();
             assert!(displaced > if is_open { 2.0 } else { 0.05 }, "{kind:?} {displaced}");
-            assert!(turned > 50 || !matches!(kind, Kind::Aim | Kind::Search), "{kind:?} {turned}");
+            assert!(
+                turned > 50 || !matches!(kind, PerturbationKind::Aim | PerturbationKind::Search),
+                "{kind:?} {turned}"
+            );
         }
     }
 }
@@ -271,7 +281,7 @@ fn flyable_twins_record_what_was_flown_and_depend_on_their_seed_alone() {
 #[test]
 fn without_drift_the_camera_alone_departs() {
     let (expert, exact) = (expert(300), BoxBvh::build(vec![]));
-    for kind in [Kind::Aim, Kind::Search] {
+    for kind in [PerturbationKind::Aim, PerturbationKind::Search] {
         let mut config = only(kind);
         config.flyable.drift_m = 0.0;
         let twin = twin_of(&expert, &exact, &config, seed());
@@ -282,7 +292,7 @@ fn without_drift_the_camera_alone_departs() {
 #[test]
 fn a_tight_limit_of_acceleration_makes_displacements_smaller() {
     let (expert, exact) = (expert(400), BoxBvh::build(vec![]));
-    let mut config = only(Kind::Gusts);
+    let mut config = only(PerturbationKind::Gusts);
     let largest = |config: &PerturbConfig| {
         let twin = twin_of(&expert, &exact, config, seed());
         assert!(twin.certificate.max_acceleration_mps2 <= config.flyable.max_acceleration_mps2);
@@ -301,7 +311,7 @@ fn a_bend_at_the_limit_makes_displacements_smaller_there_and_nowhere_else() {
     // One metre aside from one frame to the next: 4 m/s^2, which leaves nothing for a gust.
     bent.poses_in_world[1000..].iter_mut().for_each(|pose| pose.position_in_world.y += 1.0);
     let mut reduced = 0;
-    for kind in [Kind::Drift, Kind::Gusts, Kind::Timing] {
+    for kind in [PerturbationKind::Drift, PerturbationKind::Gusts, PerturbationKind::Timing] {
         let mut config = only(kind);
         config.flyable.max_acceleration_mps2 = 4.001;
         let [free, kept] = [&straight, &bent].map(|expert| twin_of(expert, &exact, &config, seed()));
@@ -325,12 +335,15 @@ fn twins_keep_clear_of_boxes_that_move() {
     };
     let movers = [(0..300).map(at).collect::<Vec<_>>()];
     let map = ExactMap::among(&exact, &movers);
-    for kind in Kind::ALL {
+    for kind in PerturbationKind::ALL {
         let config = only(kind);
         let PlanOutcome::Planned(twin) = perturb(&expert, "p3", map, &config, seed()) else { panic!("{kind:?}") };
         assert!(twin.certificate.min_clearance_m >= config.clearance_m - 1e-9, "{kind:?}");
         let offsets = frames(&twin).iter().map(|frame| frame.drone_offset_in_world.length());
-        assert!(kind == Kind::Aim || kind == Kind::Search || offsets.fold(0.0, f64::max) > 0.1, "{kind:?}");
+        assert!(
+            kind == PerturbationKind::Aim || kind == PerturbationKind::Search || offsets.fold(0.0, f64::max) > 0.1,
+            "{kind:?}"
+        );
     }
 }
 
@@ -341,7 +354,7 @@ fn twins_keep_the_separation_from_other_drones() {
     let place = |pose: &Pose| pose.position_in_world + DVec3::new(0.0, SEPARATION_M + 0.4, 0.0);
     let other: Vec<DVec3> = expert.poses_in_world.iter().map(place).collect();
     let movers = [drone_boxes(&other)];
-    for kind in Kind::ALL {
+    for kind in PerturbationKind::ALL {
         let config = only(kind);
         let drones = OtherDrones { count: 1, separation_m: SEPARATION_M };
         let map = ExactMap { drones, clearance_m: config.clearance_m, ..ExactMap::among(&exact, &movers) };

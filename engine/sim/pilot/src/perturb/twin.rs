@@ -4,15 +4,14 @@
 use super::config::PerturbConfig;
 use super::displacement::{Corridor, free_offset, horizontal_offset};
 use super::flyable;
+use cosfly_domain::{FramePerturbation, Perturbation, PerturbationKind, PlanOutcome, Trajectory};
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_planner::certificate::{certify, view_rates_deg_s};
 use cosfly_planner::config::limits::LimitsConfig;
 use cosfly_planner::config::muco::MucoConfig;
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::trajectory::{FramePerturbation, Perturbation, PlanOutcome, Trajectory};
-use cosfly_planner::visibility::aim_point;
 use cosfly_random::{RandomStream, Seed};
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::visibility::aim_point;
 
 /// Steepest pitch of a turned view, radians (89.9 degrees): at 90 a pose has no unique yaw.
 const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
@@ -24,7 +23,7 @@ const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
 /// Twins of all kinds but `jumps` could be flown: the certificate states their limits of speed and acceleration; a
 /// displacement that would break them, or that comes too near to an obstacle, still or moving, is made smaller, smoothly in time.
 ///
-/// Kind `jumps`: with probability `position_probability` the drone is displaced and aims at a displaced point; independently,
+/// PerturbationKind `jumps`: with probability `position_probability` the drone is displaced and aims at a displaced point; independently,
 /// with probability `rotation_probability`, its view is turned. A displacement that would come nearer to an obstacle than
 /// `clearance_m`, there or on the way from the frame before or to the expert's next position, is drawn again, then
 /// shortened, at last zero; the event stays recorded with the displacement that was flown. So the swept path of the
@@ -52,10 +51,10 @@ pub fn perturb(
     }
     let kind = config.mixture.draw(&seed);
     let (poses, frames) = match kind {
-        Kind::Jumps => jumps(expert, map, config, &seed),
+        PerturbationKind::Jumps => jumps(expert, map, config, &seed),
         _ => flyable::twin(expert, kind, map, config, &seed),
     };
-    let probability = |probability| if kind == Kind::Jumps { probability } else { 0.0 };
+    let probability = |probability| if kind == PerturbationKind::Jumps { probability } else { 0.0 };
     let perturbation = Perturbation {
         expert_item: expert_item.to_owned(),
         kind,

@@ -8,20 +8,16 @@
 
 mod lens;
 
-pub use cosfly_optics::{MotionBlur, Noise, RollingShutter, pose_at, target_state_at};
-pub use lens::Lens;
-
 use crate::backend::{Backend, BackendError};
-use crate::camera::Camera;
-use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame};
+use crate::frame::{FrameImages, RenderedFrame};
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use crate::target_view;
-use crate::weather::Weather;
+use cosfly_domain::{Camera, ChannelImage, Lens, MotionBlur, Noise, PersonView, RollingShutter, Weather};
 use cosfly_figures::figure::{Bystander, TargetSetup};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{Pose, Seed};
-use cosfly_optics::Exposure;
+use cosfly_optics::{Exposure, add_noise};
 use lens::LensMap;
 use std::ops::Range;
 
@@ -143,7 +139,7 @@ impl Effects {
                 lens.bend_pixels(rolled_target, &mut self.mask, &mut self.covered);
             }
         }
-        self.noise.add(&mut self.images.rgb, &shot.noise_seed);
+        add_noise(&self.noise, &mut self.images.rgb, &shot.noise_seed);
         let mut view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
         view.visible_by_rays = (shot.moment)(0.0).target.map_or(0.0, |target| target.visible_by_rays);
         target_view::measure_people(Level::best(), &self.images, bystanders, &mut self.seen);

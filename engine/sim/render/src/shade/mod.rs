@@ -28,7 +28,3 @@ pub(crate) mod sun_map;
 mod sun_window;
 mod sunlight;
 pub mod tone;
-
-pub(crate) use cosfly_materials::{
-    facade, grid, ground, kerbs, lanes, leaves, light, pattern, surface, things, vector,
-};

@@ -4,14 +4,14 @@
 //! world: rings around the town's middle at fixed distances, and a plain at the height of the town's border.
 
 use super::geometry::fast_exp;
-use super::grid::LightGrid;
-use super::ground::lawn;
-use super::light::Light;
-use super::pattern::{
+use cosfly_domain::Season;
+use cosfly_materials::grid::LightGrid;
+use cosfly_materials::ground::lawn;
+use cosfly_materials::light::Light;
+use cosfly_materials::pattern::{
     NoiseTexture, Noises, floor_int, hash, least, lerp, most, one_if, share, smoothstep, stripes, unit,
 };
-use super::vector::Vec3;
-use cosfly_materials::season::Season;
+use cosfly_materials::vector::Vec3;
 
 /// Rays that rise faster than this (sine of the angle) pass above all rings.
 pub const HIGHEST: f32 = 0.13;
@@ -80,7 +80,7 @@ impl Outskirts {
         let [low, high] = grid.bounds_m();
         let half_m = [0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])];
         let longer_m = most(half_m[0], half_m[1]);
-        let [wood, hills] = season.woods();
+        let [wood, hills] = cosfly_materials::season::woods(season);
         Self {
             center: [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])],
             half_m,
@@ -88,7 +88,7 @@ impl Outskirts {
             // Rings around a long town are not rounder than this: far from its ends they would be thin.
             round: half_m.map(|half| least(longer_m / most(half, 1.0), 4.0)),
             ground_m: grid.border_m(),
-            lawn: season.lawn(),
+            lawn: cosfly_materials::season::lawn(season),
             wood,
             hills,
         }

@@ -4,8 +4,7 @@ use super::columns::Trajectories;
 use crate::flight_labels;
 use crate::tables::DatasetItem;
 use crate::tables::column::columns;
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::{Certificate, Perturbation};
+use cosfly_domain::{Certificate, Perturbation, PerturbationKind};
 
 columns! { Trajectories::CERTIFICATE of DatasetItem;
     /// Whether all limits hold, checked against the unsimplified map.
@@ -84,7 +83,7 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
     /// Total cost against the planning boxes before and after refinement (preset `paper`: after each iteration of
     /// descent) and of the published trajectory; empty for baselines and perturbed trajectories.
     convergence: Vec<f64> = |item, _| item.record.trajectory.convergence.clone();
-    /// Kind of the perturbation, such as `jumps` (the paper's) or `drift`; null for experts.
+    /// PerturbationKind of the perturbation, such as `jumps` (the paper's) or `drift`; null for experts.
     perturbation: Option<String> = |item, _| perturbation(item).map(|it| it.kind.name().to_owned());
     /// Probability of the position event per frame; null for experts and for kinds of perturbation but `jumps`.
     position_probability: Option<f64> = |item, _| jumps(item).map(|it| it.position_probability);
@@ -106,5 +105,5 @@ fn perturbation(item: &DatasetItem) -> Option<&Perturbation> {
 }
 
 fn jumps(item: &DatasetItem) -> Option<&Perturbation> {
-    perturbation(item).filter(|it| it.kind == Kind::Jumps)
+    perturbation(item).filter(|it| it.kind == PerturbationKind::Jumps)
 }

@@ -2,13 +2,17 @@
 //! through the list [`ALL`].
 
 mod channel;
+mod channel_set;
 pub mod depth;
+mod image;
 pub mod instance;
 pub mod normals;
 pub mod rgb;
 pub mod semantic;
 
 pub use channel::{Channel, Element, SeenPoint, Source};
+pub use channel_set::ChannelSet;
+pub use image::ChannelImage;
 
 /// All channels.
 pub static ALL: &[&Channel] = &[

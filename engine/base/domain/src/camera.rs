@@ -21,6 +21,11 @@ impl Camera {
         f64::from(self.width) / (2.0 * real::tan(0.5 * self.horizontal_fov_rad))
     }
 
+    /// Middle of the image (u, v) and focal length, pixels.
+    pub fn centre_and_focal_px(&self) -> (f64, f64, f64) {
+        (0.5 * f64::from(self.width), 0.5 * f64::from(self.height), self.focal_px())
+    }
+
     /// Pixel coordinates (u right, v down) and planar depth (metres along the optical axis) of a world point;
     /// `None` when it is not in front of the camera.
     pub fn project(&self, pose: &Pose, point_in_world: DVec3) -> Option<(f64, f64, f64)> {

@@ -1,9 +1,7 @@
 //! [`Around`]: the bodies near one track, cut out of the traffic of a whole town.
 
-use crate::body::{Body, BodyPlan};
-use crate::traffic::Traffic;
+use crate::{Body, BodyPlan, OrientedBox, Traffic};
 use cosfly_frames::TargetTrack;
-use cosfly_geometry::OrientedBox;
 use serde::{Deserialize, Serialize};
 
 /// The body that a walk is the track of.

@@ -126,7 +126,7 @@ pub struct Certificate {
 /// Kind of departure from an expert.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum PerturbationKind {
     /// Independent displacements and turns, frame by frame (the paper's).
     Jumps,
     /// A correlated drift of the drone, which the kinds below have, too.
@@ -141,7 +141,7 @@ pub enum Kind {
     Search,
 }
 
-impl Kind {
+impl PerturbationKind {
     /// All kinds, in the order of mixtures.
     pub const ALL: [Self; 6] = [Self::Jumps, Self::Drift, Self::Gusts, Self::Timing, Self::Aim, Self::Search];
 
@@ -169,7 +169,7 @@ pub struct Perturbation {
     /// Item id of the expert in its stage.
     pub expert_item: String,
     /// Kind of the departure.
-    pub kind: Kind,
+    pub kind: PerturbationKind,
     /// Probability of the position event per frame; 0 for all kinds but `jumps`.
     pub position_probability: f64,
     /// Probability of the rotation event per frame; 0 for all kinds but `jumps`.

@@ -1,8 +1,7 @@
 //! The town every stage works in: solid obstacles, ground surfaces, walkable polygons, all in one local world frame.
 
-use crate::{Lane, SemanticLabel};
+use crate::{Lane, OrientedBox, SemanticLabel};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_geometry::OrientedBox;
 use serde::{Deserialize, Serialize};
 
 /// A town. World frame: CARLA's (left-handed, x forward, y right, z up, metres), shifted by [`MapOrigin`].
@@ -213,9 +212,6 @@ impl WalkablePolygon {
     }
 }
 
-/// Largest coordinate of a town, metres.
-const FARTHEST_M: f64 = 1e7;
-
 impl Town {
     /// Sets `min_in_world` and `max_in_world` from obstacles, walkable ground and surfaces.
     pub fn update_bounds(&mut self) {
@@ -236,50 +232,4 @@ impl Town {
             (self.min_in_world, self.max_in_world) = (low, high);
         }
     }
-
-    /// Checks every rule of the type: finite numbers, indices in range, sizes not negative, polygons with at
-    /// least three corners, everything within the bounds. The error names the broken rule and the place.
-    pub fn assert_well_formed(&self) -> Result<(), String> {
-        let near = |point: DVec3| point.is_finite() && point.abs().max_element() <= FARTHEST_M;
-        for (i, obstacle) in self.obstacles.iter().enumerate() {
-            check_box(&obstacle.shape).map_err(|rule| format!("obstacle {i}: {rule}"))?;
-        }
-        for (i, shape) in self.planning_boxes.iter().enumerate() {
-            check_box(shape).map_err(|rule| format!("planning box {i}: {rule}"))?;
-        }
-        for (i, polygon) in self.walkable.iter().enumerate() {
-            let outline = &polygon.outline_in_world;
-            if outline.len() < 3 || !outline.iter().all(|point| near(*point)) {
-                return Err(format!("walkable polygon {i} has {} corners or one that is far away", outline.len()));
-            }
-        }
-        self.check_lanes(near)?;
-        for (i, mesh) in self.surfaces.iter().enumerate() {
-            let count = mesh.vertices_in_world.len();
-            if mesh.along_across_m.len() != count || !mesh.along_across_m.iter().all(|uv| uv.is_finite()) {
-                return Err(format!("surface {i} lacks finite along/across values for its {count} vertices"));
-            }
-            if !mesh.vertices_in_world.iter().all(|point| near(*point)) {
-                return Err(format!("surface {i} has a vertex that is far away"));
-            }
-            if mesh.triangles.iter().flatten().any(|corner| *corner as usize >= count) {
-                return Err(format!("surface {i} has a triangle beyond its {count} vertices"));
-            }
-        }
-        if !(near(self.min_in_world) && near(self.max_in_world) && self.min_in_world.cmple(self.max_in_world).all()) {
-            return Err(format!("the bounds {} to {} are not an ordered box", self.min_in_world, self.max_in_world));
-        }
-        Ok(())
-    }
-}
-
-fn check_box(shape: &OrientedBox) -> Result<(), String> {
-    let half = shape.half_extents_m;
-    if !(shape.center_in_world.is_finite() && half.is_finite() && shape.yaw_rad.is_finite()) {
-        return Err("its numbers are not finite".to_owned());
-    }
-    if half.min_element() < 0.0 || shape.center_in_world.abs().max_element() + half.length() > FARTHEST_M {
-        return Err(format!("its half extents are {half} at {}", shape.center_in_world));
-    }
-    Ok(())
 }

@@ -1,9 +1,7 @@
 //! [`Traffic`]: all bodies of a town over a stretch of time.
 
-use crate::body::Body;
-use crate::snapshot::Snapshot;
+use crate::{Body, OrientedBox};
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::OrientedBox;
 use serde::{Deserialize, Serialize};
 
 /// An absent body lies this far below its nearest state, metres: away from every ray and every flight.
@@ -28,14 +26,6 @@ impl Traffic {
     /// Name of a body among those of all traffics of a dataset, such as `street-b00012`.
     pub fn body_id(traffic: &str, number: u32) -> String {
         format!("{traffic}-b{number:05}")
-    }
-
-    /// Bodies present in a frame.
-    pub fn snapshot(&self, frame: u32) -> Snapshot {
-        let present = |(number, body): (usize, &Body)| {
-            body.state(frame).map(|state| Snapshot::present(number as u32, &body.plan, *state))
-        };
-        Snapshot::new(self.bodies.iter().enumerate().filter_map(present).collect())
     }
 
     /// Track of a body that is present in all frames; `None` otherwise. Vehicles have the radius of the circle around their outline.
@@ -97,6 +87,5 @@ mod tests {
         let own = traffic.track(1).unwrap();
         assert_eq!(traffic.near(&own, Some(1), 3.8), [0]);
         assert!(traffic.near(&own, Some(1), 3.7).is_empty());
-        assert_eq!([0, 1, 3].map(|frame| traffic.snapshot(frame).all().len()), [1, 2, 1]);
     }
 }

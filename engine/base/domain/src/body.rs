@@ -1,7 +1,7 @@
 //! [`Body`]: one person or vehicle and its track.
 
-use cosfly_frames::{DVec2, DVec3, Seed, TargetState, real};
-use cosfly_geometry::OrientedBox;
+use crate::OrientedBox;
+use cosfly_frames::{DVec3, Seed, TargetState};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -96,40 +96,6 @@ impl BodyPlan {
             yaw_rad: state.heading_rad,
         }
     }
-
-    /// Distance between two bodies seen from above, metres; negative where they overlap. Exact for two cylinders and for a
-    /// cylinder beside a box; for two boxes the largest gap along one of their axes, which is negative exactly where they overlap.
-    pub fn gap_m(&self, state: &TargetState, other: &Self, other_state: &TargetState) -> f64 {
-        let between = (other_state.feet_in_world - state.feet_in_world).truncate();
-        match (self.kind.is_person(), other.kind.is_person()) {
-            (true, true) => between.length() - self.radius_m() - other.radius_m(),
-            (false, true) => self.plan_distance_m(state, between) - other.radius_m(),
-            (true, false) => other.plan_distance_m(other_state, -between) - self.radius_m(),
-            (false, false) => {
-                let axes = [self.axes(state), other.axes(other_state)];
-                let gap = |axis: DVec2| {
-                    let reach = |plan: &Self, [along, across]: [DVec2; 2]| {
-                        0.5 * (plan.size_m.x * axis.dot(along).abs() + plan.size_m.y * axis.dot(across).abs())
-                    };
-                    axis.dot(between).abs() - reach(self, axes[0]) - reach(other, axes[1])
-                };
-                axes.into_iter().flatten().map(gap).fold(f64::NEG_INFINITY, f64::max)
-            }
-        }
-    }
-
-    /// Unit vectors along and across the body seen from above.
-    fn axes(&self, state: &TargetState) -> [DVec2; 2] {
-        let (sin, cos) = real::sin_cos(state.heading_rad);
-        [DVec2::new(cos, sin), DVec2::new(-sin, cos)]
-    }
-
-    /// Signed distance from the outline of a box to a point that lies `offset` from its middle.
-    fn plan_distance_m(&self, state: &TargetState, offset: DVec2) -> f64 {
-        let [along, across] = self.axes(state);
-        let excess = DVec2::new(offset.dot(along), offset.dot(across)).abs() - 0.5 * self.size_m.truncate();
-        excess.max(DVec2::ZERO).length() + excess.max_element().min(0.0)
-    }
 }
 
 impl Body {
@@ -146,32 +112,5 @@ impl Body {
     /// Distance covered, metres.
     pub fn length_m(&self) -> f64 {
         self.states.windows(2).map(|pair| (pair[1].feet_in_world - pair[0].feet_in_world).length()).sum()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn plan(kind: BodyKind, length_m: f64, width_m: f64) -> BodyPlan {
-        let size_m = DVec3::new(length_m, width_m, 1.5);
-        BodyPlan { source: String::new(), kind, size_m, looks: Seed([0; 32]), group: None }
-    }
-
-    fn at(x: f64, y: f64, heading_rad: f64) -> TargetState {
-        TargetState { feet_in_world: DVec3::new(x, y, 0.0), heading_rad, speed_mps: 0.0 }
-    }
-
-    #[test]
-    fn gaps_are_those_of_circles_and_boxes() {
-        let (person, car) = (plan(BodyKind::Pedestrian, 0.5, 0.5), plan(BodyKind::Car, 4.0, 2.0));
-        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} {b}");
-        close(person.gap_m(&at(0.0, 0.0, 0.0), &person, &at(0.3, 0.4, 1.0)), 0.0);
-        close(car.gap_m(&at(0.0, 0.0, 0.0), &person, &at(5.0, 5.0, 0.0)), 5.0 - 0.25);
-        close(person.gap_m(&at(0.0, 2.0, 0.0), &car, &at(0.0, 0.0, real::FRAC_PI_2)), 2.0 - 2.0 - 0.25);
-        close(car.gap_m(&at(0.0, 0.0, 0.0), &person, &at(0.5, 0.0, 0.0)), -1.0 - 0.25);
-        close(car.gap_m(&at(0.0, 0.0, 0.0), &car, &at(5.0, 0.0, 0.0)), 1.0);
-        close(car.gap_m(&at(0.0, 0.0, 0.0), &car, &at(0.0, 3.5, real::FRAC_PI_2)), 0.5);
-        assert!(car.gap_m(&at(0.0, 0.0, 0.0), &car, &at(3.0, 1.5, 0.7)) < 0.0);
     }
 }

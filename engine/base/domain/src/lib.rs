@@ -1,0 +1,48 @@
+//! The nouns of the field as plain data: no algorithm, no file, no clock. Everybody imports them from here.
+//!
+//! World frame: CARLA's (left-handed, x forward, y right, z up), metres; angles in radians. See `cosfly-frames`.
+
+mod around;
+mod body;
+mod camera;
+pub mod channels;
+mod instance;
+mod lane;
+mod lens;
+mod looks;
+mod motion_blur;
+mod noise;
+mod oriented_box;
+mod rolling_shutter;
+mod season;
+mod semantics;
+mod town;
+mod traffic;
+mod trajectory;
+mod view;
+mod weather;
+
+pub use around::{Around, Followed};
+pub use body::{Body, BodyKind, BodyPlan};
+pub use camera::{Camera, Mount};
+pub use channels::{Channel, ChannelImage, ChannelSet};
+pub use instance::{TARGET_INSTANCE, object_instance};
+pub use lane::{Lane, LaneKind};
+pub use lens::Lens;
+pub use looks::{Bag, BodyBuild, Colour, Dye, Gait, Outfit, Traits};
+pub use motion_blur::MotionBlur;
+pub use noise::Noise;
+pub use oriented_box::OrientedBox;
+pub use rolling_shutter::RollingShutter;
+pub use season::Season;
+pub use semantics::SemanticLabel;
+pub use town::{
+    MapOrigin, Obstacle, ObstacleKind, SimplificationReport, SurfaceMesh, Synthetic, Town, WalkableKind,
+    WalkablePolygon,
+};
+pub use traffic::Traffic;
+pub use trajectory::{
+    Certificate, FramePerturbation, Limits, Perturbation, PerturbationKind, PlanOutcome, TermCost, Trajectory,
+};
+pub use view::{PersonView, PixelBox, TargetView};
+pub use weather::Weather;
