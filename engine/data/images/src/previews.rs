@@ -1,14 +1,13 @@
 //! Previews of a frame, for viewers and for the `frames` table.
 
 use super::rgb::{jpeg, palette_png, png};
+use crate::false_colours::{depth_preview, picture_on_request};
 use core::ops::Range;
 use cosfly_diagnose::Result;
 use cosfly_domain::channels::{Element, Source};
-use cosfly_domain::{Channel, ChannelImage, SemanticLabel};
+use cosfly_domain::{Channel, ChannelImage, FrameImages, SemanticLabel};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
-use cosfly_render::FrameImages;
-use cosfly_render::preview::{depth_preview, picture_on_request};
 
 /// Largest width of a preview, pixels.
 const WIDTH: u32 = 320;

@@ -4,20 +4,23 @@ use cosfly_metrics::WindowShape;
 use cosfly_read::TableFile;
 use cosfly_sample as sample;
 use cosfly_schema::tables::{
-    DatasetItem, Derived, Edges, Frames, ImageFile, Kind, Landmarks, Membership, Table, Trajectories, Windows,
-    of_files, of_objects, of_rejections, of_trajectories,
+    DatasetItem, Edges, Frames, ImageFile, Kind, Membership, Table, Trajectories, Windows, of_files, of_objects,
+    of_rejections, of_trajectories,
 };
 use cosfly_schema::{LogRecord, PreviewStrip, Role, Split, TownLayout};
+use cosfly_write::derive::derive;
 use cosfly_write::table_file::TableWriter;
 use std::fs::File;
 use std::sync::Arc;
+
+const WINDOWS: WindowShape = WindowShape { history: 2, horizon: 2, stride: 1 };
 
 fn items() -> Vec<DatasetItem> {
     let expert = |record: &cosfly_schema::RenderedTrajectory| {
         record.pair.as_ref().map(|_| Box::new(sample::flight(0, Role::Expert).record))
     };
     let item = |flight: sample::SampleFlight| DatasetItem {
-        derived: Derived::of(&flight.record, &Landmarks::default()),
+        derived: derive(&flight.record, &Default::default(), &WINDOWS),
         expert: expert(&flight.record),
         captions: flight.captions,
         previews: PreviewStrip { jpegs: vec![vec![1, 2, 3]; flight.record.len()] },
@@ -39,8 +42,7 @@ fn items() -> Vec<DatasetItem> {
             subset_rank: 0.5,
         },
         layout: Arc::new(TownLayout::of(&sample::town())),
-        landmarks: Arc::default(),
-        windows: WindowShape { history: 2, horizon: 2, stride: 1 },
+        windows: WINDOWS,
         record: flight.record,
     };
     sample::flights().into_iter().map(item).collect()

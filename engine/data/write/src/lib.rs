@@ -3,9 +3,11 @@
 //! * [`frame_pack`]: the images of one trajectory between rendering and publishing.
 //! * [`log`]: one MCAP file per trajectory.
 //! * [`table_file`]: Parquet files.
+//! * [`derive`]: rows that are worked out once for a flight, texts among them.
 //! * [`croissant`] and [`publish`]: metadata, card, hashes, and the dataset as a whole.
 
 pub mod croissant;
+pub mod derive;
 pub mod frame_pack;
 mod gathered_extras;
 pub mod log;

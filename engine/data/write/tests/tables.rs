@@ -2,16 +2,16 @@
 
 use arrow_array::types::Float64Type;
 use arrow_array::{Array, FixedSizeListArray, Float64Array, StringArray};
-use cosfly_metrics::Difficulty;
-use cosfly_metrics::WindowShape;
+use cosfly_metrics::{Difficulty, WindowShape};
 use cosfly_sample as sample;
-use cosfly_schema::tables::{
-    Column, DatasetItem, Derived, Landmarks, Membership, Table, Trajectories, Windows, of_trajectories,
-};
+use cosfly_schema::tables::{Column, DatasetItem, Membership, Table, Trajectories, Windows, of_trajectories};
 use cosfly_schema::{LogRecord, PreviewStrip, Role, Split, TownLayout};
+use cosfly_write::derive::derive;
 use cosfly_write::table_file::TableWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::sync::Arc;
+
+const WINDOWS: WindowShape = WindowShape { history: 2, horizon: 2, stride: 1 };
 
 fn item(role: Role) -> DatasetItem {
     let flight = sample::flight(0, role);
@@ -26,7 +26,7 @@ fn item(role: Role) -> DatasetItem {
         sha256: "00".into(),
     };
     DatasetItem {
-        derived: Derived::of(&flight.record, &Landmarks::default()),
+        derived: derive(&flight.record, &Default::default(), &WINDOWS),
         record: flight.record,
         captions: flight.captions,
         previews: PreviewStrip { jpegs: vec![vec![1, 2]; 5] },
@@ -40,8 +40,7 @@ fn item(role: Role) -> DatasetItem {
             subset_rank: 0.5,
         },
         layout: Arc::new(TownLayout::of(&sample::town())),
-        landmarks: Arc::default(),
-        windows: WindowShape { history: 2, horizon: 2, stride: 1 },
+        windows: WINDOWS,
     }
 }
 

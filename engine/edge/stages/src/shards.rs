@@ -6,11 +6,11 @@ use crate::rejections::rejection;
 use crate::world::TOWN_BLOB;
 use crate::{codec, group_notes, group_splits, logs, parameters};
 use cosfly_blobs::OutputSink;
+use cosfly_captions::sight::Landmarks;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::Town;
 use cosfly_fingerprint::Digest;
 use cosfly_schema::extras::Extra;
-use cosfly_schema::tables::Landmarks;
 use cosfly_schema::{CaptionRecord, DatasetConfig, LogRecord, PreviewStrip, Rejection, RenderedTrajectory};
 use cosfly_stage::{
     Artifact, Blobs, Fan, InputPort, Inputs, ItemName, Produced, Stage, StagePart, StageProperties, TaskContext,

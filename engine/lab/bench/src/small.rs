@@ -4,11 +4,10 @@
 use crate::clock::timed;
 use crate::render::views::Ground;
 use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
-use cosfly_domain::Camera;
+use cosfly_domain::{Camera, FrameImages};
 use cosfly_figures::{Bystander, Walker};
 use cosfly_frames::{DVec3, TargetState};
 use cosfly_random::Seed;
-use cosfly_render::frame::FrameImages;
 use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer};
 use cosfly_town::GroundIndex;
 use serde::Serialize;

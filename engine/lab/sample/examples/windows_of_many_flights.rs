@@ -1,11 +1,13 @@
 //! Writes the training windows of 12,000 synthetic flights of 200 frames (2.4 million time steps) into the Parquet file
 //! given as the first argument; prints time and peak memory.
 
+use cosfly_captions::sight::Landmarks;
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_metrics::WindowShape;
 use cosfly_sample as sample;
-use cosfly_schema::tables::{self, DatasetItem, Derived, Landmarks, Membership};
+use cosfly_schema::tables::{self, DatasetItem, Membership};
 use cosfly_schema::{LogRecord, PreviewStrip, RenderedTrajectory, Role, Split, TownLayout};
+use cosfly_write::derive::derive;
 use cosfly_write::table_file::TableWriter;
 use std::fs::File;
 use std::io::BufWriter;
@@ -22,14 +24,14 @@ fn main() {
     let output = BufWriter::new(File::create(path).expect("the file can be written"));
     let mut writer = TableWriter::new(&table, output).expect("a new file can be written");
     let layout = Arc::new(TownLayout::of(&sample::town()));
-    let landmarks = Arc::new(Landmarks::of(&sample::town()));
+    let landmarks = Landmarks::of(&sample::town());
     let patterns = [Role::Expert, Role::Perturbed].map(|role| sample::flight(0, role));
     for pair in 0..PAIRS {
         let expert = long_flight(&patterns[0].record, pair, 0.0);
         let twin = long_flight(&patterns[1].record, pair, 2.0);
         for (pattern, record) in patterns.iter().zip([expert.clone(), twin]) {
             let item = DatasetItem {
-                derived: Derived::of(&record, &landmarks),
+                derived: derive(&record, &landmarks, &WindowShape::default()),
                 captions: pattern.captions.clone(),
                 previews: PreviewStrip::default(),
                 log: log_of(&record),
@@ -42,7 +44,6 @@ fn main() {
                     subset_rank: 0.5,
                 },
                 layout: Arc::clone(&layout),
-                landmarks: Arc::clone(&landmarks),
                 windows: WindowShape::default(),
                 record,
             };

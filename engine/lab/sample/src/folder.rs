@@ -2,10 +2,11 @@
 
 use super::{SampleFlight, flights, rejections, town};
 use cosfly_blobs::{BlobRef, OutputSink, SeekWrite};
+use cosfly_captions::sight::Landmarks;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_domain::ChannelSet;
 use cosfly_fingerprint::Digest;
-use cosfly_schema::tables::{Landmarks, ObjectRecord};
+use cosfly_schema::tables::ObjectRecord;
 use cosfly_schema::{
     CaptionRecord, DatasetConfig, EncodingConfig, LogRecord, PreviewStrip, RenderedTrajectory, TownLayout,
 };

@@ -7,6 +7,7 @@ mod many;
 pub use folder::{write_flights, write_to_folder};
 pub use many::{ManyFlights, write_many};
 
+use cosfly_domain::FrameImages;
 use cosfly_domain::channels::{ALL, SeenPoint};
 use cosfly_domain::{
     Around, BodyKind, Camera, Certificate, ChannelImage, ChannelSet, FramePerturbation, Lens, Limits, MapOrigin,
@@ -17,7 +18,6 @@ use cosfly_domain::{
 use cosfly_figures::Clothes;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
 use cosfly_planner::certificate::view_rates_deg_s;
-use cosfly_render::FrameImages;
 use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
 };

@@ -3,9 +3,10 @@
 use super::folder::{blob_of, put};
 use super::{SampleFlight, flights, town};
 use cosfly_blobs::{BlobRef, OutputSink, SeekWrite};
+use cosfly_captions::sight::Landmarks;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_frames::DVec3;
-use cosfly_schema::tables::{Landmarks, ObjectRecord};
+use cosfly_schema::tables::ObjectRecord;
 use cosfly_schema::{CaptionRecord, DatasetConfig, EncodingConfig, PreviewStrip, RenderedTrajectory, TownLayout};
 use cosfly_write::publish::{
     DatasetSource, FlightNote, GroupFlights, GroupName, GroupSource, PublishedLog, Shards, Summary, plan_groups,

@@ -11,7 +11,7 @@ use cosfly_domain::{Season, Town, WalkableKind};
 use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::MapConfig;
-use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene, preview};
+use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
 use std::fs::File;
 use std::path::Path;
 
@@ -64,12 +64,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let (width, height) = (frame.images.width, frame.images.height);
             write_png(&Path::new(&out).join(format!("{name}_{preset}.png")), width, height, &frame.images.rgb)?;
             println!("{name} {preset}: {:?}", frame.target_view);
-            if preset == &presets[0] {
-                let labels = preview::palette_image(&frame.images.semantic);
-                write_png(&Path::new(&out).join(format!("{name}_labels.png")), width, height, &labels)?;
-                let depth = preview::depth_preview(&frame.images.depth_m);
-                write_png(&Path::new(&out).join(format!("{name}_depth.png")), width, height, &depth)?;
-            }
         }
     }
     Ok(())

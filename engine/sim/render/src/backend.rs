@@ -9,7 +9,7 @@ use std::fmt;
 
 /// Draws frames of a scene with one camera. A backend owns its buffers; a run keeps one per thread.
 ///
-/// Every channel follows the conventions of [`crate::FrameImages`]: sampled at pixel centres, agreeing pixel by pixel,
+/// Every channel follows the conventions of [`cosfly_domain::FrameImages`]: sampled at pixel centres, agreeing pixel by pixel,
 /// planar depth in metres with infinity for the sky. [`RenderedFrame::target_pixels`] and
 /// [`crate::measure_target`] give the target's view.
 pub trait Backend: Send {

@@ -4,7 +4,7 @@ mod colours;
 mod ground;
 
 use crate::faces::{DrawnFace, FaceSource, box_lift};
-use crate::frame::{FrameImages, RenderedFrame};
+use crate::frame::RenderedFrame;
 use crate::look::PictureLook;
 use crate::outlook::FarLight;
 use crate::outside::Found;
@@ -18,7 +18,9 @@ use crate::shade::shader::Shader;
 use crate::shade::smooth;
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
-use cosfly_domain::{Camera, ChannelImage, ChannelSet, PersonView, SemanticLabel, TARGET_INSTANCE, TargetView};
+use cosfly_domain::{
+    Camera, ChannelImage, ChannelSet, FrameImages, PersonView, SemanticLabel, TARGET_INSTANCE, TargetView,
+};
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 use cosfly_materials::parts::BOX_FACES;

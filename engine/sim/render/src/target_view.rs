@@ -1,7 +1,6 @@
 //! Visible part of people in a frame, counted in pixels; of the target, against the target drawn alone.
 
-use crate::frame::FrameImages;
-use cosfly_domain::{PersonView, PixelBox, TARGET_INSTANCE, TargetView};
+use cosfly_domain::{FrameImages, PersonView, PixelBox, TARGET_INSTANCE, TargetView};
 use cosfly_figures::figure::Bystander;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;

@@ -2,10 +2,12 @@
 
 mod small_town;
 
-use cosfly_domain::{Camera, Lens, MotionBlur, Noise, PixelBox, RollingShutter, TARGET_INSTANCE, TargetView, Weather};
+use cosfly_domain::{
+    Camera, FrameImages, Lens, MotionBlur, Noise, PixelBox, RollingShutter, TARGET_INSTANCE, TargetView, Weather,
+};
 use cosfly_figures::{BodyShape, Bystander, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_render::{Effects, FrameImages, Moment, Renderer, Scene, Shot};
+use cosfly_render::{Effects, Moment, Renderer, Scene, Shot};
 use std::cell::RefCell;
 
 const CAMERA: Camera = Camera { width: 320, height: 180, horizontal_fov_rad: 1.4 };

@@ -2,10 +2,10 @@
 
 mod small_town;
 
-use cosfly_domain::{Camera, ObstacleKind, Town, object_instance};
+use cosfly_domain::{Camera, FrameImages, ObstacleKind, Town, object_instance};
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_models::{Model, ModelFit, ModelKind};
-use cosfly_render::{FrameImages, FrameSetup, PictureLook, Renderer, Scene, SceneModel};
+use cosfly_render::{FrameSetup, PictureLook, Renderer, Scene, SceneModel};
 
 fn example(fit: ModelFit) -> SceneModel {
     let model = Model::read(Model::EXAMPLE).expect("a model");

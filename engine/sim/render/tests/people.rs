@@ -2,6 +2,7 @@
 
 mod small_town;
 
+use cosfly_domain::FrameImages;
 use cosfly_domain::{
     BodyKind, Camera, Lens, MotionBlur, Noise, PersonView, PixelBox, RollingShutter, SemanticLabel, SurfaceMesh,
     TARGET_INSTANCE, TargetView, Weather,
@@ -9,7 +10,7 @@ use cosfly_domain::{
 use cosfly_figures::{BodyShape, Bystander, Clothes, TargetSetup, Walker, walker_triangles};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
-use cosfly_render::{Buildings, Effects, FrameImages, FrameSetup, Moment, Outlook, Renderer, Scene, Shot};
+use cosfly_render::{Buildings, Effects, FrameSetup, Moment, Outlook, Renderer, Scene, Shot};
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.4 };
 /// Larger than all ids of the small town.

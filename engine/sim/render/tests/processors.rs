@@ -2,11 +2,11 @@
 
 mod small_town;
 
-use cosfly_domain::{Camera, Season, SemanticLabel, Weather};
+use cosfly_domain::{Camera, FrameImages, Season, SemanticLabel, Weather};
 use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_render::{FrameImages, FrameSetup, PictureLook, Renderer, Scene};
+use cosfly_render::{FrameSetup, PictureLook, Renderer, Scene};
 
 const CAMERA: Camera = Camera { width: 333, height: 187, horizontal_fov_rad: 1.4 };
 

@@ -2,6 +2,7 @@
 
 mod small_town;
 
+use cosfly_domain::FrameImages;
 use cosfly_domain::{
     Camera, Obstacle, ObstacleKind, OrientedBox, PixelBox, SemanticLabel, SurfaceMesh, TARGET_INSTANCE, TargetView,
     Town, Weather,
@@ -9,7 +10,7 @@ use cosfly_domain::{
 use cosfly_figures::{BodyShape, TargetSetup, target_triangles};
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState};
 use cosfly_models::{Model, ModelFit, ModelKind};
-use cosfly_render::{FrameImages, FrameSetup, Renderer, Scene, SceneModel};
+use cosfly_render::{FrameSetup, Renderer, Scene, SceneModel};
 
 fn noon() -> Weather {
     Weather { sun_azimuth_angle: 200.0, ..cosfly_materials::presets::preset("ClearNoon").expect("a preset") }

@@ -1,8 +1,7 @@
 //! Table `crossings`: the marked crossings of streets around each flight.
 
 use super::column::columns;
-use super::{DatasetItem, Table};
-use cosfly_captions::sight::Crossing;
+use super::{CrossingRow, DatasetItem, Table};
 use cosfly_frames::DVec3;
 
 /// Definition of the table.
@@ -30,7 +29,7 @@ columns! { Crossings::COLUMNS of DatasetItem;
     outline_z_m: Vec<f64> = |item, i| corners(item, i, |corner| corner.z);
 }
 
-fn crossing(item: &DatasetItem, i: usize) -> &Crossing {
+fn crossing(item: &DatasetItem, i: usize) -> &CrossingRow {
     &item.derived.crossings[i]
 }
 

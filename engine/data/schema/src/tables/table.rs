@@ -2,13 +2,11 @@
 
 use super::column::AnyColumn;
 use crate::losses::Loss;
-use crate::phrases::Given;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
-use cosfly_captions::goals::Goal;
-use cosfly_captions::sight::{Crossing, Landmarks};
 use cosfly_frames::DVec3;
 use cosfly_metrics::WindowShape;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// One trajectory with everything that tables contain about it.
@@ -32,39 +30,72 @@ pub struct DatasetItem {
     pub membership: Membership,
     /// Ground plan of the trajectory's town.
     pub layout: Arc<TownLayout>,
-    /// Trees, lamps and buildings of the trajectory's town.
-    pub landmarks: Arc<Landmarks>,
     /// Shape of training windows.
     pub windows: WindowShape,
 }
 
-/// A crossing whose box is this near to the target's way is around it, metres.
-const AROUND_M: f64 = 20.0;
-
 /// Rows of tables that are worked out once for a trajectory.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Derived {
     /// Intervals without sight of the target.
     pub losses: Vec<Loss>,
     /// Referring phrases.
-    pub phrases: Vec<Given>,
+    pub phrases: Vec<PhraseRow>,
     /// Goals at several grains.
-    pub goals: Vec<Goal>,
+    pub goals: Vec<GoalRow>,
     /// Marked crossings around the target's way.
-    pub crossings: Vec<Crossing>,
+    pub crossings: Vec<CrossingRow>,
     /// Present bodies around the target, frame by frame: frame number and place among the bodies.
     pub bodies: Vec<(u32, u32)>,
+    /// Instructions of the windows, in English and in Chinese.
+    pub instructions: Vec<[String; 2]>,
 }
 
-impl Derived {
-    /// Of a trajectory in a town.
-    pub fn of(record: &RenderedTrajectory, landmarks: &Landmarks) -> Self {
-        let losses = Loss::all(record);
-        let goals = crate::goals::of(record, &losses, landmarks);
-        let feet: Vec<DVec3> = record.trajectory.track.states.iter().map(|state| state.feet_in_world).collect();
-        let crossings = landmarks.crossings_near(&feet, AROUND_M).into_iter().cloned().collect();
-        Self { losses, phrases: Given::all(record), goals, crossings, bodies: record.around.present() }
-    }
+/// A goal for the pilot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GoalRow {
+    /// Kind of goal: `flight`, `step`, `dialogue` or `negative`.
+    pub grain: String,
+    /// Language: `zh` or `en`.
+    pub language: String,
+    /// Frames that the goal is about.
+    pub frames: Range<usize>,
+    /// Lines: the user's first, then by turns the pilot's and the user's.
+    pub lines: Vec<String>,
+    /// Whether the flight does what the goal says.
+    pub fits: bool,
+    /// Subject of the false claim, where there is one.
+    pub false_subject: Option<String>,
+    /// Claims of the user in the end, each with its frames.
+    pub claims: Vec<String>,
+    /// Subjects of the claims, sorted, each once.
+    pub subjects: Vec<String>,
+}
+
+/// A phrase that singles the target out, and the bodies that the phrase fits in all frames.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhraseRow {
+    /// Frame in which the phrase is given.
+    pub frame: usize,
+    /// The phrase in English.
+    pub text_en: String,
+    /// The phrase in Chinese.
+    pub text_zh: String,
+    /// Names of the named properties.
+    pub properties: Vec<String>,
+    /// Number of visible bodies, with the target, that the phrase may fit, by frame.
+    pub candidates: Vec<u32>,
+    /// Whether the target is visible and the phrase may fit it, by frame.
+    pub fits_target: Vec<bool>,
+}
+
+/// A marked crossing of a street.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CrossingRow {
+    /// Number among the crossings of its town, from 0.
+    pub number: u32,
+    /// Corners in order.
+    pub outline_in_world: Vec<DVec3>,
 }
 
 /// Split, split group and subset of a trajectory.

@@ -2,10 +2,9 @@
 
 use super::column::columns;
 use super::value::class_value;
-use super::{DatasetItem, Need, Table, sight};
+use super::{DatasetItem, Need, Table};
 use crate::Role;
 use crate::log::messages::edges_px;
-use cosfly_captions::Language;
 use cosfly_domain::TargetView;
 use cosfly_frames::{Pose, action};
 use cosfly_metrics::difficulty::WindowFrames;
@@ -65,9 +64,9 @@ columns! { Windows::COLUMNS of DatasetItem;
     /// Instruction in English that singles the target out in the last picture of the input: by its clothes, the people around it,
     /// its way across the picture, a landmark that it passes. Left, middle and right of the picture are those of table `phrases`.
     /// Empty for a target without a body.
-    instruction_en: String = |item, row| sight::instruction(item, current_frame(item, row), start(item, row), Language::En);
+    instruction_en: String = |item, row| item.derived.instructions[row][0].clone();
     /// The same in Chinese, in words of its own.
-    instruction_zh: String = |item, row| sight::instruction(item, current_frame(item, row), start(item, row), Language::Zh);
+    instruction_zh: String = |item, row| item.derived.instructions[row][1].clone();
     /// Rank in nested subsets, 0..1, the same for all trajectories behind a pedestrian: windows below 0.25 are a
     /// quarter of all.
     subset_rank: f64 = |item, _| item.membership.subset_rank;

@@ -3,9 +3,8 @@
 use super::*;
 use cosfly_diagnose::Result;
 use cosfly_domain::channels::{ALL, depth, instance, semantic};
-use cosfly_domain::{ChannelImage, ChannelSet};
+use cosfly_domain::{ChannelImage, ChannelSet, FrameImages};
 use cosfly_images::depth::GRID_M;
-use cosfly_render::FrameImages;
 use cosfly_schema::EncodingConfig;
 use std::io::Cursor;
 

@@ -2,12 +2,12 @@
 
 use super::plan::GroupPlan;
 use super::source::{GroupSource, PublishedLog};
+use crate::derive::derive;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::WindowShape;
-use cosfly_schema::RenderedTrajectory;
-use cosfly_schema::TownLayout;
 use cosfly_schema::config::DatasetConfig;
-use cosfly_schema::tables::{DatasetItem, Derived};
+use cosfly_schema::tables::DatasetItem;
+use cosfly_schema::{RenderedTrajectory, TownLayout};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -73,7 +73,7 @@ impl<'a> GroupFlights<'a> {
         };
         let landmarks = self.source.landmarks(index)?;
         Ok(DatasetItem {
-            derived: Derived::of(&record, &landmarks),
+            derived: derive(&record, &landmarks, &self.windows),
             captions: self.source.captions(index)?,
             previews: self.source.previews(index)?,
             log: log.clone(),
@@ -81,7 +81,6 @@ impl<'a> GroupFlights<'a> {
             expert: self.expert_of(&record)?,
             membership: planned.membership.clone(),
             layout: Arc::clone(layout),
-            landmarks,
             windows: self.windows,
             record,
         })

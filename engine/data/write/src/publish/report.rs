@@ -107,12 +107,9 @@ fn texts(item: &DatasetItem) -> Vec<TextSketch> {
         ..text(&it.language, &it.style, it.text.clone(), it.verdicts.clone())
     });
     let goals = item.derived.goals.iter().map(|it| {
-        let mut subjects: Vec<String> = it.said.iter().map(|said| said.claim.subject().name().to_owned()).collect();
-        subjects.sort();
-        subjects.dedup();
-        let sketch = text(it.language.code(), it.grain.name(), it.lines.join(" "), subjects);
+        let sketch = text(&it.language, &it.grain, it.lines.join(" "), it.subjects.clone());
         // A goal with false clothes singles nobody out.
-        TextSketch { singles_out: sketch.singles_out && it.grain.name() != "negative", ..sketch }
+        TextSketch { singles_out: sketch.singles_out && it.fits, ..sketch }
     });
     captions.chain(goals).collect()
 }

@@ -1,11 +1,12 @@
 //! Where a dataset comes from: the flights of one group at a time, and what belongs to all of them.
 
 use cosfly_blobs::BlobRef;
+use cosfly_captions::sight::Landmarks;
 use cosfly_diagnose::Result;
 use cosfly_domain::ChannelSet;
 use cosfly_report::PlannerRow;
 use cosfly_schema::extras::Extra;
-use cosfly_schema::tables::{Landmarks, ObjectRecord};
+use cosfly_schema::tables::ObjectRecord;
 use cosfly_schema::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory};
 use std::sync::Arc;
 

@@ -1,7 +1,6 @@
 //! Pictures through a lens: each pixel of the finished picture from a wider ideal one.
 
-use crate::frame::FrameImages;
-use cosfly_domain::{Camera, ChannelImage, Lens};
+use cosfly_domain::{Camera, ChannelImage, FrameImages, Lens};
 use cosfly_frames::real;
 
 /// Place in the ideal picture of each pixel of the finished one.

@@ -9,11 +9,11 @@
 mod lens;
 
 use crate::backend::{Backend, BackendError};
-use crate::frame::{FrameImages, RenderedFrame};
+use crate::frame::RenderedFrame;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use crate::target_view;
-use cosfly_domain::{Camera, ChannelImage, Lens, MotionBlur, Noise, PersonView, RollingShutter, Weather};
+use cosfly_domain::{Camera, ChannelImage, FrameImages, Lens, MotionBlur, Noise, PersonView, RollingShutter, Weather};
 use cosfly_figures::figure::{Bystander, TargetSetup};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{Pose, Seed};

@@ -1,8 +1,7 @@
 //! Planar depth, semantic and instance ids in bands of rows, from the faces seen in them.
 
 use crate::faces::{DrawnFace, FaceSource};
-use crate::frame::FrameImages;
-use cosfly_domain::SemanticLabel;
+use cosfly_domain::{FrameImages, SemanticLabel};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::leaves::Outline;

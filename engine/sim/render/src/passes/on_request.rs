@@ -1,7 +1,7 @@
 //! Channels that a recipe asks for, pixel by pixel from the faces seen and their depths.
 
 use crate::faces::DrawnFace;
-use crate::frame::FrameImages;
+use cosfly_domain::FrameImages;
 use cosfly_domain::channels::SeenPoint;
 use cosfly_frames::DVec3;
 use cosfly_raster::eye::Eye;

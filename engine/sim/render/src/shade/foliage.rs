@@ -7,9 +7,9 @@
 use super::bands::crown_of;
 use super::geometry::View;
 use super::setting::{Seen, Setting};
-use crate::frame::FrameImages;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
+use cosfly_domain::FrameImages;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::leaves::Outline;
 use cosfly_materials::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};

@@ -1,6 +1,6 @@
 //! The sky behind everything, and the rain in front of it.
 
-use crate::frame::FrameImages;
+use cosfly_domain::FrameImages;
 use cosfly_materials::light::Light;
 use cosfly_materials::pattern::{NoiseTexture, Noises, hash, most, share, smoothstep, unit};
 use cosfly_materials::vector::Vec3;

@@ -1,10 +1,12 @@
 //! Referring phrases of a flight: given where they single the target out, followed to its end.
 
-use crate::RenderedTrajectory;
-use crate::log::messages::edges_px;
+use cosfly_captions::Language;
 use cosfly_captions::refer::{Candidate, Phrase};
 use cosfly_domain::{Bag, BodyKind, Outfit, PixelBox};
 use cosfly_frames::TargetState;
+use cosfly_schema::RenderedTrajectory;
+use cosfly_schema::log::messages::edges_px;
+use cosfly_schema::tables::PhraseRow;
 
 /// A phrase is given once in this time, seconds.
 const EVERY_S: f64 = 10.0;
@@ -39,6 +41,19 @@ impl Given {
             })
         };
         firsts.filter_map(given).map(|(frame, phrase)| Self::followed(record, kind, outfit, frame, phrase)).collect()
+    }
+
+    /// The row of a phrase.
+    pub fn row(&self) -> PhraseRow {
+        let property = |it: &cosfly_captions::refer::Property| it.name().to_owned();
+        PhraseRow {
+            frame: self.frame,
+            text_en: self.phrase.text(Language::En),
+            text_zh: self.phrase.text(Language::Zh),
+            properties: self.phrase.properties.iter().map(property).collect(),
+            candidates: self.candidates.clone(),
+            fits_target: self.fits_target.clone(),
+        }
     }
 
     fn followed(record: &RenderedTrajectory, kind: BodyKind, outfit: &Outfit, frame: usize, phrase: Phrase) -> Self {

@@ -1,13 +1,14 @@
 //! Goals of a flight: what a recorded flight shows, as the room of captions takes it.
 
-use crate::losses::Loss;
-use crate::phrases::is_clear;
-use crate::{OtherPerson, RenderedTrajectory, Sighting};
+use super::phrases::is_clear;
 use cosfly_captions::Wear;
-use cosfly_captions::goals::{Course, Flight, Goal, Hidden, Hider, Neighbour, Sample, goals};
+use cosfly_captions::goals::{Course, Flight, Goal, Grain, Hidden, Hider, Neighbour, Sample, goals};
 use cosfly_captions::sight::Landmarks;
 use cosfly_domain::{BodyKind, Outfit, TARGET_INSTANCE, object_instance};
 use cosfly_frames::{DVec3, Seed};
+use cosfly_schema::losses::Loss;
+use cosfly_schema::tables::GoalRow;
+use cosfly_schema::{OtherPerson, RenderedTrajectory, Sighting};
 use std::ops::Range;
 
 /// A target is partly hidden where less than this share of its pixels is visible.
@@ -22,6 +23,23 @@ pub fn of(record: &RenderedTrajectory, losses: &[Loss], landmarks: &Landmarks) -
     let flight = flight(record, outfit, losses, landmarks);
     let seed = Seed::of_item(record.seed, "goals", &record.trajectory_id);
     goals(&Course::of(&flight, landmarks), &seed)
+}
+
+/// The row of a goal.
+pub fn row(goal: &Goal) -> GoalRow {
+    let mut subjects: Vec<String> = goal.said.iter().map(|said| said.claim.subject().name().to_owned()).collect();
+    subjects.sort();
+    subjects.dedup();
+    GoalRow {
+        grain: goal.grain.name().to_owned(),
+        language: goal.language.code().to_owned(),
+        frames: goal.frames.clone(),
+        lines: goal.lines.clone(),
+        fits: goal.grain != Grain::Negative,
+        false_subject: goal.wrong.map(|subject| subject.name().to_owned()),
+        claims: goal.said.iter().map(ToString::to_string).collect(),
+        subjects,
+    }
 }
 
 fn flight<'a>(record: &'a RenderedTrajectory, outfit: &Outfit, losses: &[Loss], landmarks: &Landmarks) -> Flight<'a> {

@@ -1,24 +1,27 @@
 //! Instructions of windows: what the last picture of the input shows of the target.
 
-use super::DatasetItem;
-use crate::log::messages::edges_px;
-use crate::{OtherPerson, Sighting};
-use cosfly_captions::sight::{self, Person, View};
+use cosfly_captions::sight::{self, Landmarks, Person, View};
 use cosfly_captions::{Language, Wear};
 use cosfly_domain::{BodyKind, Colour, PixelBox};
 use cosfly_frames::{Seed, TargetState};
+use cosfly_schema::log::messages::edges_px;
+use cosfly_schema::{OtherPerson, RenderedTrajectory, Sighting};
 
 /// The instruction of frame `frame`, of a window that begins at frame `start`; empty for a target that is no person.
-pub fn instruction(item: &DatasetItem, frame: usize, start: usize, language: Language) -> String {
-    let Some(view) = view(item, frame, start) else { return String::new() };
-    let record = &item.record;
+pub fn instruction(
+    record: &RenderedTrajectory,
+    landmarks: &Landmarks,
+    frame: usize,
+    start: usize,
+    language: Language,
+) -> String {
+    let Some(view) = view(record, frame, start) else { return String::new() };
     let seed = Seed::of_item(record.seed, "windows", &record.trajectory_id).child("window", start as u64);
-    sight::instruction(&sight::sight(&view, &item.landmarks), language, seed)
+    sight::instruction(&sight::sight(&view, landmarks), language, seed)
 }
 
 /// The picture of frame `frame`; `None` for a target that is no person.
-fn view(item: &DatasetItem, frame: usize, start: usize) -> Option<View> {
-    let record = &item.record;
+fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<View> {
     let outfit = record.outfit.as_ref().filter(|_| record.target_kind() == Some(BodyKind::Pedestrian))?;
     let states = &record.trajectory.track.states;
     let seen = &record.views[frame];
