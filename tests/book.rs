@@ -12,9 +12,10 @@ const OTHERS: [&str; 5] = ["camera_optical", "drone_nav_traj_v7", "drone_pose", 
 /// Pictures and texts of the samples of the Python package.
 const OF_SAMPLES: [&str; 5] = ["caption", "depth", "instance", "rgb", "semantic"];
 /// Pages whose examples index other things than rows of tables.
-const NOT_OF_TABLES: [&str; 6] = [
+const NOT_OF_TABLES: [&str; 7] = [
     "guide/closed-loop.md",
     "guide/dagger.md",
+    "guide/environments.md",
     "frameworks/jax.md",
     "frameworks/lerobot.md",
     "frameworks/llama-factory.md",

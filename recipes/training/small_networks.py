@@ -13,7 +13,7 @@ mirror image. Tested is whether pose history is the decisive input, whether boxe
 perturbed flights (denoising) beats learning from experts' flights alone on yaw.
 
 `--predictions` writes the windows' predictions by the first network (poses and boxes, denoising) as a file for
-`cosfly eval`. The book's page "Scoring a model" has the figures of a dataset of a hundred walkers.
+`cosfly eval`. The book's page "Benchmarks" has the figures of a dataset of a hundred walkers.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-//! Resources of the built-in stages, for engines on other machines; measured, see the book's page on large datasets.
+//! Resources of the built-in stages, for engines on other machines; measured, see "Costs of a task" in the book's benchmarks.
 
 use cosfly_cluster::Request;
 

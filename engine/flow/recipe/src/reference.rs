@@ -37,6 +37,7 @@ count = 4
 | `seed` | a whole number, at least `0` | `0` | Root of all randomness. |
 | `intermediates` | `\"keep\"` or `\"remove\"` | `\"keep\"` | Whether packed pictures and other intermediate files are removed from the store as soon as everything that reads them is finished. |
 | `for_each.LIST` | a list, or a pattern of files | | Values that stages are made for; see [Many towns](../guide/many-towns.md). |
+| `tool.fly` | a table | | Drone, air and latency of `cosfly fly`; see [Flying in closed loop](../guide/closed-loop.md#suites-and-episodes). Runs do not read it. |
 | `stages.NAME` | a table | at least one | A stage; names are `a-z`, `0-9`, `_` and begin with a letter. |
 | `stages.NAME.use` | a string | required | Kind of the stage: one of those below. |
 | `stages.NAME.for_each` | the name of a list, or a list of names | | The stage is made for each value, as `NAME_VALUE`; `{LIST}` or `{LIST.FIELD}` in a parameter is the value. |

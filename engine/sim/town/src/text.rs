@@ -46,7 +46,7 @@ pub fn refused_json(error: &serde_json::Error, text: &str) -> MapError {
     let hint = if error.is_eof() {
         "the file seems to be cut off: fetch or export it again"
     } else {
-        "the book's chapter `Real towns` describes the format"
+        "the book's pages on maps describe the format"
     };
     MapError::new(message).at(lines.place(at..(at + 1).min(text.len()).max(at), String::new())).hint(hint)
 }

@@ -3,8 +3,8 @@
 An environment flies the episodes of a recipe, as `cosfly fly` does; each draws its episodes from a seed of its own: the one that is
 given, else one of the system's entropy, which `info["seed"]` and `np_random_seed` tell so that a run can be repeated.
 Observations are 16 numbers (`obs=("state",)`), pictures (`depth`, `mask`, `semantic`, `instance`, `rgb`), or several of them as a
-dictionary. Actions are five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's page "Flying in
-closed loop" defines them, and the terms of the reward, which `info` has as `reward_...`.
+dictionary. Actions are five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's page "Policies of
+fly" defines them, its page "Results of fly" the terms of the reward, which `info` has as `reward_...`.
 """
 
 from __future__ import annotations

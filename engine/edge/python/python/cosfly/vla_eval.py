@@ -2,7 +2,7 @@
 
 Each episode of the recipe is a task. Observations have `state` (16 numbers), `task_description` and, on
 request (`pictures: [depth, mask]`), `images`; an action has `actions`:
-velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's page "Flying in closed loop" defines them.
+velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's page "Policies of fly" defines them.
 """
 
 from __future__ import annotations

@@ -299,7 +299,7 @@ impl Document {
                 (None, Some(label)) => label.part(),
                 _ => {
                     let message = format!("`boxes[{index}]` must have either `kind` or `label`");
-                    return Err(MapError::new(message).hint("the book's chapter `Real towns` describes the format"));
+                    return Err(MapError::new(message).hint("the book's pages on maps describe the format"));
                 }
             };
             let shape = OrientedBox {

@@ -83,7 +83,7 @@ impl Place {
         let own = town.origin.geo_reference.as_ref();
         let unknown = |what: &str| {
             FcdError::new(format!("the place of the traffic in the town is not known: {what}"))
-                .hint("cosfly compares the projections in the table of the page \"Real towns\" (PROJ texts, EPSG codes): UTM, transverse Mercator, national grids")
+                .hint("cosfly compares the projections in the table of the page \"Several files in one town\" (PROJ texts, EPSG codes): UTM, transverse Mercator, national grids")
         };
         let between = match (is_geo, &net.projection) {
             (true, _) => {

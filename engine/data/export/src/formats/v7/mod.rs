@@ -1,7 +1,7 @@
 //! The layout of the published CosFly-Track release, `drone_nav_traj_v7`: a folder per town, pair, trace and frame.
 //!
 //! The published parts of the format are followed to the letter; the other parts are our own design and sit under keys called
-//! `cosfly` or is listed in the card, and the book's page "Exports" says which is which.
+//! `cosfly` or is listed in the card, and the book's page "Export formats" says which is which.
 //!
 //! * [`names`]: towns, pairs and traces as folders.
 //! * [`document`]: `trajectory.json` and `perturbation_report.json`.
