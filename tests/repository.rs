@@ -68,7 +68,6 @@ fn heavy_crates_stay_in_their_one_room() {
         ("roxmltree", &["cosfly-maps"][..]),
         ("obvhs", &["cosfly-lab"][..]),
         ("wasmtime", &["cosfly-plugin-host"][..]),
-        ("wgpu", &["cosfly-gpu"][..]),
         ("parry3d", &["cosfly-lab"][..]),
         ("pyo3", &["cosfly-python"][..]),
         ("numpy", &["cosfly-python"][..]),

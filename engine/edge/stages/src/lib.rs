@@ -2,7 +2,6 @@
 //!
 //! Adding a stage: one new file here, its `mod` line, and its line in [`registry`].
 
-mod backends;
 mod body_rays;
 mod caption;
 pub mod codec;

@@ -9,7 +9,7 @@ use crate::rejections::reject;
 use crate::shooting::{Shooting, preset};
 use crate::walks::walked_m;
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
-use crate::{backends, codec, nearby, parameters, props, traffic};
+use crate::{codec, nearby, parameters, props, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::{Pose, Seed};
@@ -18,7 +18,7 @@ use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::effects::{pose_at, target_state_at};
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_render::{
-    Backend, Bystander, Camera, Effects, Moment, Outfit, RenderConfig, Scene, Shot, TargetSetup, TargetView,
+    Bystander, Camera, Effects, Moment, Outfit, RenderConfig, Renderer, Scene, Shot, TargetSetup, TargetView,
     gait_phase_rad,
 };
 use cosfly_schema::tables::kind_name;
@@ -56,10 +56,6 @@ impl StageKind for Render {
         config.validate().map_err(|problem| ParameterError {
             hint: Some(problem.hint),
             ..parameters::refused_at(&problem.path, problem.message)
-        })?;
-        backends::check(config.backend).map_err(|error| ParameterError {
-            hint: Some(error.hint),
-            ..parameters::refused_at("backend", error.message)
         })?;
         let pixels = u64::from(config.width) * u64::from(config.height);
         let items = match config.paired_weathers {
@@ -229,11 +225,11 @@ struct Place<'a> {
     crowd: &'a Crowd,
 }
 
-/// A camera with its effects and backend.
+/// A camera with its effects and renderer.
 struct Rig {
     camera: Camera,
     effects: Effects,
-    backend: Box<dyn Backend>,
+    renderer: Renderer,
 }
 
 impl RenderStage {
@@ -248,7 +244,7 @@ impl RenderStage {
         shooting: &Shooting,
     ) -> Result<SeenPeople> {
         let Place { scene, world, crowd } = *place;
-        let mut rig = self.take_rig(shooting.camera)?;
+        let mut rig = self.take_rig(shooting.camera);
         let Camera { width, height, .. } = shooting.camera;
         let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
         let largest_instance = objects.max().unwrap_or(TARGET_INSTANCE).max(crowd.largest_instance());
@@ -284,10 +280,7 @@ impl RenderStage {
                 let time_s = frame as f64 * track.dt_s;
                 let others = |offset_s: f64, list: &mut Vec<Bystander>| crowd.at(time_s + offset_s, list);
                 let shot = Shot { weather: &shooting.weather, moment: &moment, others: &others, noise_seed };
-                let rendered = rig
-                    .effects
-                    .film(&mut *rig.backend, scene, &shot)
-                    .map_err(|error| backends::failure(self.config.backend, &error))?;
+                let rendered = rig.effects.film(&mut rig.renderer, scene, &shot);
                 pack.frame(rendered.images)?;
                 let Moment { pose, target } = moment(0.0);
                 let target = target.filter(|_| rendered.target_view.in_view);
@@ -305,18 +298,20 @@ impl RenderStage {
         Ok(seen)
     }
 
-    fn take_rig(&self, camera: Camera) -> Result<Rig> {
+    fn take_rig(&self, camera: Camera) -> Rig {
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(position) = idle.iter().position(|rig| rig.camera == camera) {
-            return Ok(idle.swap_remove(position));
+            return idle.swap_remove(position);
         }
         // Another camera: its buffers replace those of one that is not in use.
         idle.pop();
         drop(idle);
         let effects = self.config.effects(camera);
-        let backend = backends::open(&self.config, effects.ideal_camera())
-            .map_err(|error| backends::failure(self.config.backend, &error))?;
-        Ok(Rig { camera, effects, backend })
+        let mut renderer = Renderer::new(effects.ideal_camera());
+        renderer.set_look(self.config.look);
+        renderer.set_optics(self.config.optics);
+        renderer.set_channels(&self.config.channels);
+        Rig { camera, effects, renderer }
     }
 }
 

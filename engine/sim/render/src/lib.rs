@@ -5,7 +5,6 @@
 //! face), `shade` (light, materials, weather) and [`target_view`] (how much of people is seen). Every channel comes
 //! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
-pub mod backend;
 mod buildings;
 mod channel_set;
 pub mod channels;
@@ -33,11 +32,10 @@ mod target_view;
 use cosfly_materials::{parts as scene_parts, roof_edges, roof_steps};
 use cosfly_raster::{eye, nearer, visibility};
 
-pub use backend::{Backend, BackendError};
 pub use buildings::Buildings;
 pub use channel_set::ChannelSet;
 pub use channels::Channel;
-pub use config::{BackendKind, ConfigProblem, GimbalConfig, RenderConfig};
+pub use config::{ConfigProblem, GimbalConfig, RenderConfig};
 pub use cosfly_figures::{BodyShape, Bystander, Clothes, Colour, Dye, Livery, Outfit, TargetSetup, Walker, Wardrobe};
 pub use cosfly_figures::{clothes, figure};
 pub use cosfly_figures::{clothes_seed_of_target, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
