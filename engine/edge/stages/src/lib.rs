@@ -32,6 +32,8 @@ mod ports;
 mod props;
 mod published_towns;
 mod quotas;
+#[cfg(test)]
+mod rare_keys;
 pub mod read;
 mod rejections;
 mod render;
