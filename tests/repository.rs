@@ -115,6 +115,15 @@ fn the_program_its_tests_and_the_wheel_are_one_build() {
     }
 }
 
+#[test]
+fn the_tests_of_the_readme_are_those_of_ci() {
+    let readme = std::fs::read_to_string(repository_root().join("README.md")).expect("a README");
+    let run = std::fs::read_to_string(repository_root().join(".ci/run")).expect("the checks");
+    let after = readme.split("## Test it\n\n```sh\n").nth(1).expect("a command");
+    let command = after.lines().next().expect("a line");
+    assert!(run.contains(&format!("tests() {{ {command}; }}")), "`.ci/run tests` is not `{command}`");
+}
+
 /// Appends the Rust files below a folder.
 pub fn rust_files(dir: &Path, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(dir).expect("readable").map(|entry| entry.expect("entry").path()) {
