@@ -68,7 +68,6 @@ fn heavy_crates_stay_in_their_one_room() {
         ("roxmltree", &["cosfly-maps"][..]),
         ("obvhs", &["cosfly-lab"][..]),
         ("wasmtime", &["cosfly-plugin-host"][..]),
-        ("wgpu", &["cosfly-gpu"][..]),
         ("parry3d", &["cosfly-lab"][..]),
         ("pyo3", &["cosfly-python"][..]),
         ("numpy", &["cosfly-python"][..]),
@@ -114,6 +113,15 @@ fn the_program_its_tests_and_the_wheel_are_one_build() {
              stand on them twice: name the missing features in engine/edge/one-build/Cargo.toml: {built_twice:#?}"
         );
     }
+}
+
+#[test]
+fn the_tests_of_the_readme_are_those_of_ci() {
+    let readme = std::fs::read_to_string(repository_root().join("README.md")).expect("a README");
+    let run = std::fs::read_to_string(repository_root().join(".ci/run")).expect("the checks");
+    let after = readme.split("## Test it\n\n```sh\n").nth(1).expect("a command");
+    let command = after.lines().next().expect("a line");
+    assert!(run.contains(&format!("tests() {{ {command}; }}")), "`.ci/run tests` is not `{command}`");
 }
 
 /// Appends the Rust files below a folder.

@@ -1,7 +1,7 @@
 """Compares our metrics with evo, trajnetplusplustools, pycocotools, scikit-learn and scipy on random data.
 
-    cargo build --release -p cosfly-metrics --example metrics_of_stdin
-    venv/bin/python tests/outside/check_metrics.py target/release/examples/metrics_of_stdin [--seed N]
+    cargo build --profile ci -p cosfly-metrics --example metrics_of_stdin
+    venv/bin/python tests/outside/check_metrics.py target/ci/examples/metrics_of_stdin [--seed N]
 
 Each check prints one line. Exit code 0: everything agrees to 1e-9.
 """

@@ -171,7 +171,7 @@ impl Sandbox {
             Trap::Interrupt => failed(format!("it did not finish within {} ms", self.limits.call_ms))
                 .hint("raise `limits.call_ms` if that is what it needs"),
             Trap::OutOfFuel => failed(format!("it used more than {} instructions", self.limits.fuel))
-                .hint("`cosfly plugin bench` shows what it uses; raise `limits.fuel` if that is what it needs"),
+                .hint("`cosfly plugin check` shows what it uses; raise `limits.fuel` if that is what it needs"),
             Trap::StackOverflow => failed("its stack is full; often that is endless recursion".to_owned()),
             Trap::MemoryOutOfBounds => {
                 failed("it read or wrote outside its memory; often that is endless recursion".to_owned())

@@ -9,15 +9,15 @@ use crate::rejections::reject;
 use crate::shooting::{Shooting, preset};
 use crate::walks::walked_m;
 use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
-use crate::{backends, codec, nearby, parameters, props, traffic};
+use crate::{codec, nearby, parameters, props, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
-use cosfly_domain::{Around, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, object_instance};
+use cosfly_domain::{Around, Camera, Outfit, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, object_instance};
 use cosfly_figures::{Bystander, TargetSetup, gait_phase_rad, outfit_of};
 use cosfly_frames::{Pose, Seed};
 use cosfly_geometry::SpatialQuery;
 use cosfly_optics::{pose_at, target_state_at};
-use cosfly_render::{Backend, Effects, Moment, RenderConfig, Scene, Shot};
+use cosfly_render::{Effects, Moment, RenderConfig, Renderer, Scene, Shot};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
 use cosfly_stage::{
@@ -52,10 +52,6 @@ impl StageKind for Render {
         config.validate().map_err(|problem| ParameterError {
             hint: Some(problem.hint),
             ..parameters::refused_at(&problem.path, problem.message)
-        })?;
-        backends::check(config.backend).map_err(|error| ParameterError {
-            hint: Some(error.hint),
-            ..parameters::refused_at("backend", error.message)
         })?;
         let pixels = u64::from(config.width) * u64::from(config.height);
         let items = match config.paired_weathers {
@@ -225,11 +221,11 @@ struct Place<'a> {
     crowd: &'a Crowd,
 }
 
-/// A camera with its effects and backend.
+/// A camera with its effects and renderer.
 struct Rig {
     camera: Camera,
     effects: Effects,
-    backend: Box<dyn Backend>,
+    renderer: Renderer,
 }
 
 impl RenderStage {
@@ -244,7 +240,7 @@ impl RenderStage {
         shooting: &Shooting,
     ) -> Result<SeenPeople> {
         let Place { scene, world, crowd } = *place;
-        let mut rig = self.take_rig(shooting.camera)?;
+        let mut rig = self.take_rig(shooting.camera);
         let Camera { width, height, .. } = shooting.camera;
         let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
         let largest_instance = objects.max().unwrap_or(TARGET_INSTANCE).max(crowd.largest_instance());
@@ -280,10 +276,7 @@ impl RenderStage {
                 let time_s = frame as f64 * track.dt_s;
                 let others = |offset_s: f64, list: &mut Vec<Bystander>| crowd.at(time_s + offset_s, list);
                 let shot = Shot { weather: &shooting.weather, moment: &moment, others: &others, noise_seed };
-                let rendered = rig
-                    .effects
-                    .film(&mut *rig.backend, scene, &shot)
-                    .map_err(|error| backends::failure(self.config.backend, &error))?;
+                let rendered = rig.effects.film(&mut rig.renderer, scene, &shot);
                 pack.frame(rendered.images)?;
                 let Moment { pose, target } = moment(0.0);
                 let target = target.filter(|_| rendered.target_view.in_view);
@@ -301,18 +294,20 @@ impl RenderStage {
         Ok(seen)
     }
 
-    fn take_rig(&self, camera: Camera) -> Result<Rig> {
+    fn take_rig(&self, camera: Camera) -> Rig {
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(position) = idle.iter().position(|rig| rig.camera == camera) {
-            return Ok(idle.swap_remove(position));
+            return idle.swap_remove(position);
         }
         // Another camera: its buffers replace those of one that is not in use.
         idle.pop();
         drop(idle);
         let effects = self.config.effects(camera);
-        let backend = backends::open(&self.config, effects.ideal_camera())
-            .map_err(|error| backends::failure(self.config.backend, &error))?;
-        Ok(Rig { camera, effects, backend })
+        let mut renderer = Renderer::new(effects.ideal_camera());
+        renderer.set_look(self.config.look);
+        renderer.set_optics(self.config.optics);
+        renderer.set_channels(&self.config.channels);
+        Rig { camera, effects, renderer }
     }
 }
 

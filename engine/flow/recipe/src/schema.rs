@@ -117,7 +117,8 @@ fn add_definitions(kind: &dyn StageKind, definitions: &mut Map<String, Value>) {
     let mut own = kind.schema();
     rename_references(&mut own, name);
     let Value::Object(mut own) = own else { return };
-    for key in ["$schema", "title"] {
+    // Keys that are gone are for the messages of a run; editors know none of them.
+    for key in ["$schema", "title", "x-gone"] {
         own.remove(key);
     }
     for key in ["$defs", "definitions"] {

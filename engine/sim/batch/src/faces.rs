@@ -10,7 +10,7 @@ pub struct DrawnFace {
     /// Inverse depth, exact.
     pub plane: Linear,
     pub instance: u32,
-    /// Its number in [`cosfly_render::Scene::faces`]; for bodies, [`BODY`] more than the number of their part in this picture;
+    /// Its number in [`cosfly_render::Scene::faces_of`]; for bodies, [`BODY`] more than the number of their part in this picture;
     /// [`NO_FACE`] for what else moves and for the sky.
     pub number: u32,
     pub label: u8,

@@ -154,17 +154,6 @@ impl Visibility {
         (from < to && !beside).then_some((from, to))
     }
 
-    /// Sets pixels of a row to a face that was found elsewhere.
-    pub fn adopt_run(&mut self, row: usize, pixels: std::ops::Range<usize>, plane: &PlaneOnScreen, face: u32) {
-        self.dirty_rows = (self.dirty_rows.0.min(row), self.dirty_rows.1.max(row + 1));
-        let start = plane.constant + plane.down * (row as f64 + 0.5) + plane.across * (pixels.start as f64 + 0.5);
-        let span = row * self.width + pixels.start..row * self.width + pixels.end;
-        for (k, depth) in self.inverse_depth[span.clone()].iter_mut().enumerate() {
-            *depth = (start + plane.across * k as f64) as f32;
-        }
-        self.face[span].fill(face);
-    }
-
     /// Takes over a whole picture that was found elsewhere: face numbers, and inverse depths in 1/m.
     ///
     /// # Panics

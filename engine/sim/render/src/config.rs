@@ -11,13 +11,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
+/// Hint at the key that chose between two renderers.
+const BACKEND_IS_GONE: &str = "leave `backend` out: there is one renderer, on the processor, which was faster than the one \
+     on graphics cards; a CARLA server draws a finished dataset anew, see `cosfly carla-job`";
+
 /// Camera and weather of rendered trajectories.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-gone" = { "backend": BACKEND_IS_GONE }))]
 pub struct RenderConfig {
-    /// Renderer of the pictures: `cpu` (cosfly's own, the same bytes on every machine) or `gpu` (a graphics card; needs a
-    /// cosfly built with the feature `gpu`); a CARLA server draws a finished dataset anew, see `cosfly carla-job`.
-    pub backend: BackendKind,
     /// Look of colours: `full` (shadows, textures, weather, smooth edges) or `simple` (plain colours and windows in the
     /// light of sun, sky and haze, in about a third of the time). Depth, labels and ids are the same in both.
     pub look: PictureLook,
@@ -74,7 +76,6 @@ impl Default for RenderConfig {
     fn default() -> Self {
         let weathers = ["ClearNoon", "CloudyNoon", "WetNoon", "ClearSunset", "SoftRainNoon", "CloudySunset"];
         Self {
-            backend: BackendKind::Cpu,
             look: PictureLook::Full,
             channels: ChannelSet::default(),
             width: 1280,
@@ -93,26 +94,6 @@ impl Default for RenderConfig {
             weather: WeatherRanges::default(),
             season: None,
             models: vec![],
-        }
-    }
-}
-
-/// Renderer of the pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum BackendKind {
-    /// cosfly's own renderer: exact, the same bytes on every machine.
-    Cpu,
-    /// A graphics card through wgpu; needs a cosfly built with the feature `gpu`.
-    Gpu,
-}
-
-impl BackendKind {
-    /// The name in recipes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Cpu => "cpu",
-            Self::Gpu => "gpu",
         }
     }
 }

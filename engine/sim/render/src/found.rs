@@ -37,7 +37,7 @@ pub struct FoundFace {
 /// What a face belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FoundSource {
-    /// A face of the town, by its number in [`Scene::faces`].
+    /// A face of the town, by its number in [`Scene::faces_of`].
     Town(u32),
     /// A part of a body, by its number in the picture.
     Body(u32),

@@ -5,7 +5,6 @@
 //! face), `shade` (light, materials, weather) and [`target_view`] (how much of people is seen). Every channel comes
 //! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
-pub mod backend;
 mod buildings;
 pub mod config;
 pub mod effects;
@@ -27,9 +26,8 @@ mod shade;
 mod stages;
 mod target_view;
 
-pub use backend::{Backend, BackendError};
 pub use buildings::Buildings;
-pub use config::{BackendKind, ConfigProblem, GimbalConfig, RenderConfig};
+pub use config::{ConfigProblem, GimbalConfig, RenderConfig};
 pub use effects::{Effects, Moment, Shot};
 pub use found::{BodyPart, FoundFace, FoundPicture, FoundSource};
 pub use frame::RenderedFrame;

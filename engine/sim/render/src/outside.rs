@@ -1,14 +1,13 @@
-//! Frames whose nearest static faces were found elsewhere, such as on a graphics card: everything after visibility is ours.
+//! The static faces of a town, for renderers that find elsewhere which one is nearest at each pixel.
 
-use crate::faces::{DrawnFace, FaceSource, box_lift, ground_lift};
+use crate::faces::{box_lift, ground_lift};
 use crate::scene::{Scene, clusters_of};
-use cosfly_domain::Town;
 use cosfly_frames::DVec3;
 use cosfly_materials::parts::{BOX_FACES, Cluster, SceneBox, boxes_of};
 use cosfly_raster::eye::Eye;
 use cosfly_raster::visibility::{NO_FACE, PlaneOnScreen, Screen, Visibility};
 
-/// A static face: numbered by its place in [`Scene::faces`].
+/// A static face: numbered by its place in [`Scene::faces_of`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneFace {
     /// A flat convex polygon, metres. Neighbours share corners exactly.
@@ -28,17 +27,7 @@ pub struct SceneFace {
 }
 
 impl Scene {
-    /// Tells the scenes of one process apart.
-    pub fn identity(&self) -> u64 {
-        self.identity
-    }
-
-    /// All faces but the target's: six of each box, then the ground's.
-    pub fn faces(&self) -> Vec<SceneFace> {
-        faces(&self.boxes, &self.clusters)
-    }
-
-    /// The faces of a town's scene, without the scene: what light and looks need is not prepared.
+    /// Faces of a town's scene, without people: six of each box, then the ground's. Light and looks are not prepared.
     pub fn faces_of(town: &Town) -> Vec<SceneFace> {
         // Looks alone depend on a seed.
         faces(&boxes_of(town, 0), &clusters_of(town))
@@ -74,64 +63,4 @@ fn faces(boxes: &[SceneBox], clusters: &[Cluster]) -> Vec<SceneFace> {
         }));
     }
     faces
-}
-
-/// A scene seen by a camera, whose faces are noted as if they had been drawn here.
-pub(crate) struct Found<'a> {
-    pub scene: &'a Scene,
-    pub eye: &'a Eye,
-    pub screen: &'a Screen,
-}
-
-impl Found<'_> {
-    /// Puts the faces that are `nearest` at each pixel, numbered as in [`Scene::faces`], into an empty frame.
-    pub fn adopt(&self, nearest: &[u32], frame: &mut Visibility, faces: &mut Vec<DrawnFace>) {
-        let scene = self.scene;
-        let mut count = BOX_FACES.len() * scene.boxes.len();
-        let mut ends = Vec::with_capacity(scene.clusters.len());
-        for cluster in &scene.clusters {
-            count += cluster.polygons.len();
-            ends.push(count);
-        }
-        let mut numbers = vec![NO_FACE; count];
-        let (width, height) = (self.screen.width, self.screen.height);
-        for (row, line) in nearest.chunks_exact(width).take(height).enumerate() {
-            let mut start = 0;
-            for run in line.chunk_by(|a, b| a == b) {
-                let pixels = start..start + run.len();
-                start = pixels.end;
-                let found = run[0] as usize;
-                let Some(number) = numbers.get_mut(found) else { continue };
-                if *number == NO_FACE {
-                    let Some(face) = self.face(found, &ends) else { continue };
-                    *number = faces.len() as u32;
-                    faces.push(face);
-                }
-                let plane = faces[*number as usize].plane;
-                frame.adopt_run(row, pixels, &plane, *number);
-            }
-        }
-    }
-
-    /// A face by its number; `ends` are the numbers at which the faces of each cluster end.
-    fn face(&self, found: usize, ends: &[usize]) -> Option<DrawnFace> {
-        let Self { scene, eye, screen } = self;
-        let plane = |normal, point| PlaneOnScreen::new(screen, eye.turn(normal), eye.see(point));
-        if let Some(b) = scene.boxes.get(found / BOX_FACES.len()) {
-            let (index, face) = ((found / BOX_FACES.len()) as u32, found % BOX_FACES.len());
-            let normal = b.normal_in_world(face);
-            let plane = plane(normal, b.corners_in_world[BOX_FACES[face].2[0]])?;
-            let source = FaceSource::of_box(scene, index, face as u8);
-            let normal = normal.as_vec3().to_array();
-            return Some(DrawnFace { plane, normal, source, label: b.label, instance: b.instance });
-        }
-        let index = ends.partition_point(|end| *end <= found);
-        let cluster = scene.clusters.get(index)?;
-        let number = found - (ends[index] - cluster.polygons.len());
-        let polygon = &cluster.polygons[number];
-        let plane = plane(polygon.normal_in_world, polygon.middle_in_world)?;
-        let source = FaceSource::Ground { cluster: index as u32, polygon: number as u16 };
-        let normal = polygon.normal_in_world.as_vec3().to_array();
-        Some(DrawnFace { plane, normal, source, label: polygon.label.id(), instance: 0 })
-    }
 }

@@ -7,7 +7,6 @@ use crate::faces::{DrawnFace, FaceSource, box_lift};
 use crate::frame::RenderedFrame;
 use crate::look::PictureLook;
 use crate::outlook::FarLight;
-use crate::outside::Found;
 use crate::passes::ids::{SeenRuns, for_each_band};
 use crate::passes::on_request;
 use crate::people::{PartLook, People};
@@ -155,7 +154,7 @@ impl Renderer {
 
     /// Draws a frame up to a stage; channels of later stages keep what they held. For measuring.
     pub fn render_parts(&mut self, scene: &Scene, setup: &FrameSetup<'_>, parts: FrameParts) -> RenderedFrame<'_> {
-        self.draw(scene, setup, parts, None, &mut Stopwatch::new(None));
+        self.draw(scene, setup, parts, &mut Stopwatch::new(None));
         self.finished()
     }
 
@@ -167,16 +166,8 @@ impl Renderer {
         now: &dyn Fn() -> u64,
     ) -> (RenderedFrame<'_>, Stages) {
         let mut watch = Stopwatch::new(Some(now));
-        self.draw(scene, setup, FrameParts::All, None, &mut watch);
+        self.draw(scene, setup, FrameParts::All, &mut watch);
         (self.finished(), watch.stages())
-    }
-
-    /// Draws all channels of one frame, given which of [`Scene::faces`] is nearest at each pixel centre
-    /// ([`crate::outside::NO_FACE`] for none), without people, who are drawn here. Numbers beyond the last face
-    /// count as none.
-    pub fn render_found(&mut self, scene: &Scene, setup: &FrameSetup<'_>, nearest: &[u32]) -> RenderedFrame<'_> {
-        self.draw(scene, setup, FrameParts::All, Some(nearest), &mut Stopwatch::new(None));
-        self.finished()
     }
 
     fn finished(&self) -> RenderedFrame<'_> {
@@ -188,33 +179,18 @@ impl Renderer {
         }
     }
 
-    fn draw(
-        &mut self,
-        scene: &Scene,
-        setup: &FrameSetup<'_>,
-        parts: FrameParts,
-        found: Option<&[u32]>,
-        watch: &mut Stopwatch<'_>,
-    ) {
+    fn draw(&mut self, scene: &Scene, setup: &FrameSetup<'_>, parts: FrameParts, watch: &mut Stopwatch<'_>) {
         let eye = Eye::new(&setup.pose);
         self.nearest.clear();
         self.alone.clear();
         self.faces.clear();
         self.covered.clear();
         self.others.clear();
-        match found {
-            Some(nearest) => {
-                let found = Found { scene, eye: &eye, screen: &self.screen };
-                found.adopt(nearest, &mut self.nearest, &mut self.faces);
-            }
-            None => self.draw_boxes(scene, &eye),
-        }
+        self.draw_boxes(scene, &eye);
         self.draw_props(scene, &eye);
         self.draw_people(&eye, setup);
         watch.lap(0);
-        if found.is_none() {
-            self.draw_ground(scene, &eye);
-        }
+        self.draw_ground(scene, &eye);
         watch.lap(1);
         if parts == FrameParts::All {
             self.shader.prepare(scene, setup, &eye, &self.people, &self.nearest);

@@ -2,10 +2,9 @@
 
 mod small_town;
 
-use cosfly_domain::FrameImages;
 use cosfly_domain::{
-    BodyKind, Camera, Lens, MotionBlur, Noise, PersonView, PixelBox, RollingShutter, SemanticLabel, SurfaceMesh,
-    TARGET_INSTANCE, TargetView, Weather,
+    BodyKind, Camera, FrameImages, Lens, MotionBlur, Noise, PersonView, PixelBox, RollingShutter, SemanticLabel,
+    SurfaceMesh, TARGET_INSTANCE, TargetView, Weather,
 };
 use cosfly_figures::{BodyShape, Bystander, Clothes, TargetSetup, Walker, walker_triangles};
 use cosfly_frames::simd::Level;
@@ -349,7 +348,7 @@ fn through_a_lens_and_blurred_people_move_and_keep_their_ids() {
         let mut renderer = Renderer::new(effects.ideal_camera());
         let weather = noon();
         let shot = Shot { weather: &weather, moment: &moment, others: &others(speed_mps), noise_seed: Seed([1; 32]) };
-        let frame = effects.film(&mut renderer, &scene, &shot).expect("the CPU renderer never fails");
+        let frame = effects.film(&mut renderer, &scene, &shot);
         Drawn { images: frame.images.clone(), view: frame.target_view, others: frame.others.to_vec() }
     };
     for lens in [Lens::default(), Lens { k1: -0.1, k2: 0.0 }] {

@@ -20,7 +20,6 @@ mod plan_from;
 #[cfg(feature = "plugins")]
 mod plugin;
 #[cfg(feature = "plugins")]
-mod plugin_bench;
 #[cfg(feature = "plugins")]
 mod plugin_check;
 #[cfg(feature = "plugins")]

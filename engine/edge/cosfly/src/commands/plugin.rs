@@ -1,14 +1,10 @@
-//! `cosfly plugin`: begin, check and measure plugins; one file per command.
+//! `cosfly plugin`: begin and check plugins; one file per command.
 
-use super::{plugin_bench, plugin_check, plugin_new};
+use super::{plugin_check, plugin_new};
 use crate::command::{Entry, dispatch, with_commands};
 
 /// The commands, sorted by name.
-const COMMANDS: &[Entry] = &[
-    Entry::of::<plugin_bench::Arguments>(),
-    Entry::of::<plugin_check::Arguments>(),
-    Entry::of::<plugin_new::Arguments>(),
-];
+const COMMANDS: &[Entry] = &[Entry::of::<plugin_check::Arguments>(), Entry::of::<plugin_new::Arguments>()];
 
 /// The group.
 pub const PLUGIN: Entry = Entry { command: group, run: |matches, console| dispatch(COMMANDS, matches, console) };

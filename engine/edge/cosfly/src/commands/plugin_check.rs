@@ -7,7 +7,7 @@ use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_plugin_host::laws::{self, Finding};
 use cosfly_plugin_host::{
-    Declaration, Effect, Kind, NoTown, Plugin, PluginError, PluginTerm, check_schema, with_defaults,
+    Declaration, Effect, Effort, Kind, NoTown, Plugin, PluginError, PluginTerm, check_schema, with_defaults,
 };
 use cosfly_schema::flight_table::{self, FlightColumns};
 use cosfly_stages::plugins::config::Makes;
@@ -32,13 +32,13 @@ Exits with 1 when a law is broken."
 pub struct Arguments {
     /// The plugin
     #[arg(value_name = "FILE")]
-    pub file: PathBuf,
+    file: PathBuf,
     /// Its parameters as a JSON object [default: its defaults]
     #[arg(long, value_name = "JSON")]
-    pub params: Option<String>,
+    params: Option<String>,
     /// Run it in strict mode with this many instructions per call
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
-    pub fuel: u64,
+    fuel: u64,
 }
 
 impl Command for Arguments {
@@ -65,11 +65,15 @@ fn check(arguments: &Arguments, console: &dyn Console) -> Outcome {
         let _ = writeln!(text, "{} {law}: {words}", if *holds { "holds " } else { "BROKEN" });
     }
     if plugin.kind == Kind::CostTerm {
+        let us = call_us(&plugin, &params).map_err(one)?;
+        let strict = load_within(arguments, MOST_FUEL)?;
+        let effort = effort(&strict, &params).map_err(one)?;
         let _ = writeln!(
             text,
-            "speed: {:.2} us per call of {} waypoints",
-            call_us(&plugin, &params).map_err(one)?,
-            laws::FRAMES
+            "speed: {us:.2} us per call of {} waypoints; {} instructions per waypoint; {} KiB of memory",
+            laws::FRAMES,
+            effort.fuel / laws::FRAMES as u64,
+            effort.memory_bytes >> 10
         );
     }
     let broken = findings.iter().filter(|finding| !finding.holds).count();
@@ -81,15 +85,23 @@ fn check(arguments: &Arguments, console: &dyn Console) -> Outcome {
     Ok(if broken == 0 { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
 }
 
+/// Instructions of a call that is only counted.
+const MOST_FUEL: u64 = 1_000_000_000_000;
+
 /// The plugin of a command line.
-pub fn load(arguments: &Arguments) -> Result<Plugin, Refusals> {
+fn load(arguments: &Arguments) -> Result<Plugin, Refusals> {
+    load_within(arguments, arguments.fuel)
+}
+
+/// The plugin of a command line with `fuel` instructions per call; 0: without strict mode.
+fn load_within(arguments: &Arguments, fuel: u64) -> Result<Plugin, Refusals> {
     let shown = arguments.file.display().to_string();
-    let limits = cosfly_plugin_host::PluginLimits { fuel: arguments.fuel, ..Default::default() };
+    let limits = cosfly_plugin_host::PluginLimits { fuel, ..Default::default() };
     host().load(&arguments.file, &shown, None, limits).map_err(|error| error.diagnostic(None).into())
 }
 
 /// Its parameters as JSON text with defaults, and their schema.
-pub fn params(arguments: &Arguments, plugin: &Plugin) -> Result<(String, Value), Refusals> {
+fn params(arguments: &Arguments, plugin: &Plugin) -> Result<(String, Value), Refusals> {
     let refused = |message: String| Diagnostic::new("plugin-params", Fault::Recipe, message);
     let schema = check_schema(&plugin.metadata.params_schema).map_err(refused)?;
     let given: Map<String, Value> = match &arguments.params {
@@ -156,7 +168,7 @@ fn read_answer(declared: &Declaration, answer: &[u8]) -> Result<String, String> 
 }
 
 /// Time of an evaluation, microseconds: the best of some rounds.
-pub fn call_us(plugin: &Plugin, params: &str) -> Result<f64, PluginError> {
+fn call_us(plugin: &Plugin, params: &str) -> Result<f64, PluginError> {
     use cosfly_planner::CostTerm;
     let term = PluginTerm::open(plugin, Arc::new(NoTown), "timed", params, 1)?;
     laws::with_context(laws::FRAMES, |context| {
@@ -170,5 +182,18 @@ pub fn call_us(plugin: &Plugin, params: &str) -> Result<f64, PluginError> {
             best = best.min(started.elapsed().as_secs_f64() / 50.0);
         }
         term.began().failure().map_or(Ok(1e6 * best), Err)
+    })
+}
+
+/// Instructions and memory of one evaluation in strict mode.
+fn effort(strict: &Plugin, params: &str) -> Result<Effort, PluginError> {
+    use cosfly_planner::CostTerm;
+    let term = PluginTerm::open(strict, Arc::new(NoTown), "counted", params, 1)?;
+    laws::with_context(laws::FRAMES, |context| {
+        let mut stream = cosfly_frames::Seed::of_item(1, "plugin", "time").stream("flight");
+        let flight = laws::random_flight(&mut stream, context.track);
+        let mut costs = vec![0.0; flight.len()];
+        term.cost(&flight, context, &mut costs);
+        term.began().failure().map_or(Ok(term.began().effort()), Err)
     })
 }

@@ -124,7 +124,7 @@ impl Context<'_> {
                 self.check(rule, &entry.node, path, problems);
             } else if !is_open(schema) {
                 path.pop();
-                problems.push(self.unknown_key(known, key, &entry.key, path));
+                problems.push(self.unknown_key(schema, key, &entry.key, path));
                 continue;
             } else if let Some(rule) = schema.get("additionalProperties") {
                 self.check(rule, &entry.node, path, problems);
@@ -144,18 +144,17 @@ impl Context<'_> {
         }
     }
 
-    fn unknown_key(
-        &self,
-        known: Option<&serde_json::Map<String, Json>>,
-        key: &str,
-        place: &Place,
-        path: &[String],
-    ) -> Box<Diagnostic> {
+    fn unknown_key(&self, schema: &Json, key: &str, place: &Place, path: &[String]) -> Box<Diagnostic> {
         let Subject { stage, kind, ports, .. } = self.subject;
+        let known = schema.get("properties").and_then(Json::as_object);
         let names = || known.into_iter().flatten().map(|(name, _)| name.as_str());
         let owner = if path.is_empty() { format!("`{kind}`") } else { format!("`{}` of `{kind}`", path.join(".")) };
         let mut problem =
             self.texts.problem("recipe-unknown-key", place, format!("`{key}` is not a parameter of {owner}"));
+        // Keys that were there once, each with the way out.
+        if let Some(hint) = schema.get("x-gone").and_then(|gone| gone.get(key)).and_then(Json::as_str) {
+            return problem.hint(hint);
+        }
         if let Some(near) = nearest_name(key, names()) {
             problem = problem.hint(format!("did you mean `{near}`?"));
         } else if path.is_empty() && ports.contains(&key) {

@@ -13,6 +13,7 @@ mod look;
 mod outcome;
 mod people;
 mod planner;
+mod plugins;
 mod process;
 mod render;
 mod simplify;
@@ -59,6 +60,8 @@ enum Command {
     /// Planners compared on the same paths: visibility, distance, length, time, nodes, clearance, limits
     #[command(after_help = planner::EXAMPLES)]
     Planner(planner::PlannerArguments),
+    /// Plugins against the same cost terms in native code: calls, strict mode, whole flights, start
+    Plugins,
     /// The renderer: CPU time of a frame by stage, frames per second as finished logs, comparison with memory bandwidth
     #[command(after_help = render::EXAMPLES)]
     Render(render::RenderArguments),
@@ -92,6 +95,7 @@ impl Arguments {
             Command::Look(arguments) => look::look(arguments),
             Command::People(arguments) => people::people(arguments),
             Command::Planner(arguments) => planner::planner(arguments),
+            Command::Plugins => plugins::plugins(),
             Command::Render(arguments) => render::render(arguments),
             Command::Simplify(arguments) => simplify::simplify(arguments),
             Command::Small(arguments) => small::small(arguments),

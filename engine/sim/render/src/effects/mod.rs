@@ -8,8 +8,8 @@
 
 mod lens;
 
-use crate::backend::{Backend, BackendError};
 use crate::frame::RenderedFrame;
+use crate::renderer::Renderer;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use crate::target_view;
@@ -42,7 +42,7 @@ pub struct Shot<'a> {
     pub noise_seed: Seed,
 }
 
-/// The effects of one camera with their buffers; keep one per thread beside its backend.
+/// The effects of one camera with their buffers; keep one per thread beside its renderer.
 pub struct Effects {
     camera: Camera,
     blur: MotionBlur,
@@ -84,7 +84,7 @@ impl Effects {
         }
     }
 
-    /// The ideal camera that the backend has to draw with: wider than the finished picture where the lens needs it.
+    /// The ideal camera that the renderer has to draw with: wider than the finished picture where the lens needs it.
     pub fn ideal_camera(&self) -> Camera {
         self.lens.as_ref().map_or(self.camera, LensMap::ideal_camera)
     }
@@ -96,18 +96,10 @@ impl Effects {
         moments.collect()
     }
 
-    /// Takes a picture with `backend`, which draws with [`Self::ideal_camera`].
-    ///
-    /// # Errors
-    /// Failure of the backend.
-    pub fn film<'a>(
-        &'a mut self,
-        backend: &'a mut dyn Backend,
-        scene: &Scene,
-        shot: &Shot<'_>,
-    ) -> Result<RenderedFrame<'a>, BackendError> {
+    /// Takes a picture with `renderer`, which draws with [`Self::ideal_camera`].
+    pub fn film<'a>(&'a mut self, renderer: &'a mut Renderer, scene: &Scene, shot: &Shot<'_>) -> RenderedFrame<'a> {
         if self.lens.is_none() && self.blur.is_none() && self.rolling.is_none() && self.noise.is_none() {
-            return backend.render(scene, &setup(shot, 0.0, &mut self.bystanders));
+            return renderer.render(scene, &setup(shot, 0.0, &mut self.bystanders));
         }
         let strips = self.rolling.strips(self.ideal_camera().height as usize);
         let Self { blur, exposure, rolled, rolled_target, bystanders, .. } = self;
@@ -116,10 +108,10 @@ impl Effects {
             exposure.open();
             for offset_s in blur.offsets_s() {
                 let setup = setup(shot, moment_s + offset_s, bystanders);
-                exposure.add(&backend.render(scene, &setup)?.images.rgb);
+                exposure.add(&renderer.render(scene, &setup).images.rgb);
             }
             // The middle comes last: its depth and ids are what stays.
-            let frame = backend.render(scene, &setup(shot, moment_s, bystanders))?;
+            let frame = renderer.render(scene, &setup(shot, moment_s, bystanders));
             if !blur.is_none() {
                 exposure.add(&frame.images.rgb);
             }
@@ -143,7 +135,7 @@ impl Effects {
         let mut view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
         view.visible_by_rays = (shot.moment)(0.0).target.map_or(0.0, |target| target.visible_by_rays);
         target_view::measure_people(Level::best(), &self.images, bystanders, &mut self.seen);
-        Ok(RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered, others: &self.seen })
+        RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered, others: &self.seen }
     }
 }
 

@@ -1,28 +1,22 @@
-//! `cosfly plugin bench`: what the border costs, against the same terms in native code, side by side in one run.
+//! `plugins`: the cost of the border of plugins, against the same terms in native code, side by side in one run.
 
-use super::plugin_check;
-use crate::command::{Command, Outcome, Refusals};
-use crate::console::Console;
-use crate::exit;
-use clap::Parser;
-use cosfly_diagnose::{Diagnostic, Fault};
+use super::outcome::{Outcome, print};
 use cosfly_domain::PlanOutcome;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::BoxBvh;
+use cosfly_lab::clock::thread_cpu_s;
 use cosfly_planner::{CostTerm, MucoConfig, TermContext, WeightedTerm, plan_with_terms};
 use cosfly_plugin_host::{Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm, laws};
 use cosfly_scenes::{Scene, SceneKind};
-use rustix::time::{ClockId, clock_gettime};
 use std::fmt::Write;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-#[path = "../../../../../plugins/twin/src/kernels.rs"]
+#[path = "../../twin/src/kernels.rs"]
 mod kernels;
 
 /// The plugin whose terms are native, too.
-const TWIN: &[u8] = include_bytes!("../../../../../plugins/twin/twin.wasm");
+const TWIN: &[u8] = include_bytes!("../../twin/twin.wasm");
 /// Rounds, and calls per round.
 const ROUNDS: usize = 31;
 const CALLS: usize = 200;
@@ -53,33 +47,9 @@ impl CostTerm for Native {
     }
 }
 
-/// Measure what the border costs: plugins against the same terms in native code, and a cost term of your own
-#[derive(Debug, Parser)]
-#[command(
-    name = "bench",
-    after_help = "\
-Examples:
-  cosfly plugin bench
-  cosfly plugin bench recipes/plugins/wind.wasm"
-)]
-pub struct Arguments {
-    /// A cost term of your own, measured beside the others
-    #[arg(value_name = "FILE")]
-    file: Option<PathBuf>,
-    /// Its parameters as a JSON object [default: its defaults]
-    #[arg(long, value_name = "JSON")]
-    params: Option<String>,
-}
-
-impl Command for Arguments {
-    fn run(&self, console: &dyn Console) -> Outcome {
-        bench(self, console)
-    }
-}
-
 /// Prints a table of ratios.
-fn bench(arguments: &Arguments, console: &dyn Console) -> Outcome {
-    let one = |error: PluginError| error.diagnostic(None);
+pub fn plugins() -> Outcome {
+    let one = |error: PluginError| vec![error.diagnostic(None)];
     let host = Host::new(None);
     let limits = PluginLimits::default();
     let twin = host.load_bytes(TWIN, "twin.wasm", Some(Kind::CostTerm), limits).map_err(one)?;
@@ -106,17 +76,7 @@ fn bench(arguments: &Arguments, console: &dyn Console) -> Outcome {
     let _ = writeln!(text, "{what:<40} {native:>6.1} ms  {plugin:>6.1} ms   {:>5.2}   {words}", plugin / native);
     let start = start_ms().map_err(one)?;
     let _ = writeln!(text, "start from the compile cache              {start:.2} ms");
-    if let Some(file) = &arguments.file {
-        text.push_str(&own(file, arguments)?);
-    }
-    console.print(&text)?;
-    Ok(exit::SUCCESS)
-}
-
-/// CPU time of this thread so far, seconds.
-fn thread_cpu_s() -> f64 {
-    let now = clock_gettime(ClockId::ThreadCPUTime);
-    now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
+    print(&text)
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -201,34 +161,4 @@ fn start_ms() -> Result<f64, PluginError> {
     };
     open()?;
     Ok(median((0..9).map(|_| open()).collect::<Result<_, _>>()?))
-}
-
-/// A term of the user's, beside the others.
-fn own(file: &std::path::Path, arguments: &Arguments) -> Result<String, Refusals> {
-    let one = |error: PluginError| error.diagnostic(None);
-    let given = |fuel: u64| plugin_check::Arguments { file: file.to_owned(), params: arguments.params.clone(), fuel };
-    let plugin = plugin_check::load(&given(0))?;
-    if plugin.kind != Kind::CostTerm {
-        let message = format!("`{}` is {}; cost terms are measured", file.display(), plugin.kind.words());
-        return Err(Diagnostic::new("plugin-kind", Fault::Recipe, message).into());
-    }
-    let (params, _) = plugin_check::params(&given(0), &plugin)?;
-    let us = plugin_check::call_us(&plugin, &params).map_err(one)?;
-    let strict = plugin_check::load(&given(1_000_000_000_000))?;
-    let term = PluginTerm::open(&strict, Arc::new(NoTown), "own", &params, 1).map_err(one)?;
-    let effort = laws::with_context(laws::FRAMES, |context| {
-        let mut stream = Seed::of_item(1, "plugin", "bench").stream("flight");
-        let flight = laws::random_flight(&mut stream, context.track);
-        let mut costs = vec![0.0; flight.len()];
-        term.cost(&flight, context, &mut costs);
-        term.began().failure().map_or(Ok(term.began().effort()), Err)
-    });
-    let effort = effort.map_err(one)?;
-    Ok(format!(
-        "\n`{}`, {}: {us:.2} us per call; {} instructions per waypoint; {} KiB of memory\n",
-        plugin.metadata.name,
-        file.display(),
-        effort.fuel / laws::FRAMES as u64,
-        effort.memory_bytes >> 10
-    ))
 }

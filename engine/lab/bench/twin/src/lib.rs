@@ -1,4 +1,4 @@
-//! `twin`: a plugin that exists natively, too, for `cosfly plugin bench`.
+//! `twin`: a plugin that exists natively, too, for `cosfly-lab plugins`.
 
 use cosfly_plugin::{CostTerm, Metadata, Point, Run, params, per_waypoint};
 
