@@ -10,8 +10,7 @@ const RARE: &[(&str, &str, &str)] = &[
     ("dataset", "date_published", r#""2026-02-03""#),
     ("dataset", "frames_per_file", "5000"),
     ("dataset", "license/responsible_use", r#""For nothing but this test.""#),
-    ("dataset", "responsible_ai", r#"{"collection":"made"}"#),
-    ("dataset", "walks_per_file", "50"),
+    ("dataset", "responsible_ai", r#"{"dataCollection":"made"}"#),
     ("map", "fill/lamp_spacing_m", "40.0"),
     ("map", "fill/max_setback_m", "6.0"),
     ("map", "fill/min_setback_m", "2.0"),
@@ -25,7 +24,6 @@ const RARE: &[(&str, &str, &str)] = &[
     ("map", "unmarked_crossings", "false"),
     ("muco", "descent/max_move_m", "0.3"),
     ("muco", "descent/min_rate", "0.01"),
-    ("muco", "inspect/max_duration_s", "90.0"),
     ("muco", "paper/farthest_share", "1.5"),
     ("muco", "paper/hidden_run_frames", "7"),
     ("muco", "paper/keyframe_frames", "4"),
@@ -112,6 +110,18 @@ fn each_is_accepted_and_changes_the_key() {
         }
     }
     assert!(faults.is_empty(), "{faults:#?}");
+}
+
+#[test]
+fn the_longest_inspection_is_accepted_and_changes_the_key() {
+    let keys =
+        |inspect: Value| keys_of("muco", json!({ "objective": "inspect", "inspect": inspect })).expect("accepted");
+    assert_ne!(keys(json!({ "max_duration_s": 90.0 })), keys(json!({})));
+}
+
+#[test]
+fn the_number_of_walks_per_file_sizes_items_and_is_in_no_key() {
+    assert_eq!(keys_of("dataset", json!({ "walks_per_file": 50 })), keys_of("dataset", json!({})));
 }
 
 #[test]
