@@ -12,8 +12,8 @@ pub use livery::Livery;
 
 use crate::clothes::Clothes;
 use crate::figure::{FigureTriangle, Walker};
+use cosfly_domain::BodyKind;
 use cosfly_frames::DVec3;
-use cosfly_world::BodyKind;
 use model::Model;
 
 /// Appends a vehicle with its rider to `triangles`. No corner leaves the vehicle's box, and each side of the box has a
