@@ -6,12 +6,14 @@
 //! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
 pub mod backend;
+mod body_bounds;
 mod buildings;
 mod channel_set;
 pub mod channels;
 pub mod config;
 pub mod effects;
 mod faces;
+mod far_light;
 mod found;
 pub mod frame;
 mod ground_polygons;
@@ -34,6 +36,7 @@ use cosfly_materials::{parts as scene_parts, roof_edges, roof_steps};
 use cosfly_raster::{eye, nearer, visibility};
 
 pub use backend::{Backend, BackendError};
+pub use body_bounds::LEAST_HEIGHT_PX;
 pub use buildings::Buildings;
 pub use channel_set::ChannelSet;
 pub use channels::Channel;
@@ -52,7 +55,6 @@ pub use found::{BodyPart, FoundFace, FoundPicture, FoundSource};
 pub use frame::{ChannelImage, FrameImages, PersonView, PixelBox, RenderedFrame, TargetView};
 pub use look::PictureLook;
 pub use outlook::Outlook;
-pub use people::LEAST_HEIGHT_PX;
 pub use props::SceneModel;
 pub use renderer::{FrameParts, Renderer};
 pub use scene::{Scene, SceneTriangle};

@@ -1,9 +1,9 @@
 //! People who may change a picture, told without drawing it.
 
+use crate::body_bounds::Bounds;
 use crate::camera::Camera;
 use crate::eye::Eye;
-use crate::people::Bounds;
-use crate::shade::light::Light;
+use crate::far_light::FarLight;
 use crate::visibility::Screen;
 use crate::weather::Weather;
 use cosfly_figures::figure::Walker;
@@ -32,24 +32,6 @@ impl Outlook {
     /// the camera hides all of that.
     pub fn hull(&self, walker: &Walker, lowest_m: f64) -> [DVec3; 16] {
         Bounds::new(walker).hull(lowest_m, self.far)
-    }
-}
-
-/// Light by which a body changes what lies away from it.
-#[derive(Clone, Copy)]
-pub(crate) struct FarLight {
-    /// Direction to the sun, or to the moon at night; unit length, above the horizon.
-    pub to_sun: DVec3,
-    /// Whether vehicles have their lamps on.
-    pub is_night: bool,
-}
-
-impl FarLight {
-    /// The light of a weather.
-    pub fn of(weather: &Weather) -> Self {
-        let Light { to_sun, night, .. } = Light::new(weather);
-        let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
-        Self { to_sun, is_night: night > 0.0 }
     }
 }
 

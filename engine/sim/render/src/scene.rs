@@ -11,7 +11,7 @@ use crate::shade::leaves::Leaves;
 use crate::shade::material::colour_of;
 use crate::shade::outskirts::Outskirts;
 use crate::shade::pattern::{NoiseTexture, noise_texture};
-use crate::shade::sun_map::SunMaps;
+use crate::shade::sun_tiles::SunMaps;
 use crate::shade::vector::Vec3;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_maps::{ObstacleKind, Town};

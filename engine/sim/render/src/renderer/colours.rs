@@ -2,9 +2,9 @@
 
 use super::Renderer;
 use crate::eye::Eye;
+use crate::far_light::FarLight;
 use crate::found::{Adoption, FoundPicture};
 use crate::look::PictureLook;
-use crate::outlook::FarLight;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 

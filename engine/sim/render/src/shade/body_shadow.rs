@@ -210,7 +210,7 @@ fn draw_triangle(corners: [[f32; 2]; 3], turned: f32, base_m: f32, rise_m: f32, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shade::sun_map::Sun;
+    use crate::shade::sun_tiles::Sun;
     use crate::shade::vector::Vec3;
     use cosfly_figures::{BodyShape, Clothes, figure::walker_triangles};
     use cosfly_frames::{Seed, TargetState};

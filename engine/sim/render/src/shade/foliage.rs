@@ -4,12 +4,12 @@
 //! shows the picture beyond the edge, mirrored at it; where gaps are follows from places in the world, so that they stay on
 //! the tree when the camera moves. Only edges before something farther away are broken.
 
-use super::bands::crown_of;
 use super::geometry::View;
-use super::leaves::Outline;
+use super::leaves::{Leaves, Outline};
 use super::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
 use super::setting::{Seen, Setting};
 use super::vector::Vec3;
+use crate::faces::FaceSource;
 use crate::frame::FrameImages;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
@@ -280,4 +280,10 @@ simd_kernel! {
             *gap = share((thin + CORNER * corner - places.least[k]) * STEEPNESS);
         }
     }
+}
+
+/// The crown that a face belongs to.
+pub(super) fn crown_of<'a>(seen: &Seen<'a>, face: u32) -> Option<&'a Leaves> {
+    let FaceSource::Crown { index, .. } = seen.faces.get(face as usize)?.source else { return None };
+    seen.scene.crowns.get(index as usize)?.as_ref()
 }

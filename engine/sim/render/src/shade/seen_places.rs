@@ -94,7 +94,7 @@ simd_kernel! {
 mod tests {
     use super::*;
     use crate::camera::Camera;
-    use crate::shade::sun_map::Sun;
+    use crate::shade::sun_tiles::Sun;
     use crate::shade::vector::Vec3;
     use cosfly_frames::Pose;
 

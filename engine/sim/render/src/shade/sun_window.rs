@@ -3,8 +3,11 @@
 use super::seen_places::SeenPlaces;
 use super::shadow_frame::Frame;
 use super::shadow_region::{Region, for_seen_points};
-use super::sun_map::{GRAINS, Painter, Sun, TEXEL_M, Tile, TilePlace, WINDOW_TILES};
-use super::sunlight::{Grain, LOWEST_M, Places, SUMMARY_SIDE, SummaryMap, TILE, Texels, TownMap, WINDOWS};
+use super::sun_map::Painter;
+use super::sun_tiles::{Sun, TEXEL_M, Tile, TilePlace};
+use super::sunlight::{
+    GRAINS, Grain, LOWEST_M, Places, SUMMARY_SIDE, SummaryMap, TILE, Texels, TownMap, WINDOW_TILES, WINDOWS,
+};
 use crate::eye::Eye;
 use crate::scene::Scene;
 use crate::shade::pattern::fixed_size;

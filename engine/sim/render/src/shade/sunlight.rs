@@ -3,11 +3,14 @@
 use super::lanes::{Block, FOUR, Lane, WIDE, get};
 use super::pattern::{NoiseTexture, Noises, floor_int, least, lerp, most, one_if, smoothstep};
 use super::shadow_frame::DEPTH_M;
-use super::sun_map::{GRAINS, WINDOW_TILES};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
 use std::sync::Arc;
 
+/// Sizes of texels.
+pub(super) const GRAINS: usize = 4;
+/// Tiles along a side of a view's window into the map.
+pub(super) const WINDOW_TILES: i32 = 8;
 /// Texels along a side of a tile of the town's map, and of its window there.
 pub(super) const TILE: usize = 128;
 /// Rows of a tile's texels, with the first of the tile below.
