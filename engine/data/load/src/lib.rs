@@ -6,6 +6,7 @@
 
 mod foreign;
 mod lerobot;
+mod open;
 mod ours;
 mod source;
 mod tables;
@@ -14,4 +15,5 @@ mod tasks;
 mod tests;
 mod v7;
 
-pub use source::{Flight, Source, open};
+pub use open::open;
+pub use source::{Flight, Source};

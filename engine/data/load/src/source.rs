@@ -1,13 +1,9 @@
 //! The seam: flights, tables and images of a dataset.
 
-use crate::ours::Ours;
-use crate::{lerobot, v7};
 use cosfly_diagnose::Result;
-use cosfly_doctor::sources;
 use cosfly_read::StoredImage;
 use cosfly_read::columns::TableData;
 use cosfly_render::channels::Channel;
-use std::path::Path;
 
 /// A flight of a dataset.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,23 +49,4 @@ pub trait Source: Send + Sync {
     /// # Errors
     /// `dataset-none` for a table that the dataset does not have, damage of files.
     fn table(&self, name: &str, split: Option<&str>) -> Result<TableData>;
-}
-
-/// The dataset in `folder`, in any of the layouts.
-///
-/// # Errors
-/// `dataset-none` where there is none, otherwise damage of its files.
-pub fn open(folder: &Path) -> Result<Box<dyn Source>> {
-    let roots = lerobot::roots(folder);
-    if sources::ours::recognises(folder) {
-        Ok(Box::new(Ours::open(folder)?))
-    } else if let Some(root) = sources::v7::root(folder) {
-        Ok(Box::new(v7::open(&root)?))
-    } else if !roots.is_empty() {
-        Ok(Box::new(lerobot::open(folder, &roots)?))
-    } else {
-        Ours::open(folder).map(|dataset| Box::new(dataset) as Box<dyn Source>).map_err(|refusal| {
-            refusal.hint("datasets of other layouts load, too: v7 (`<Town>/trajectory_<id>/<trace>/trajectory.json`) and LeRobot (`meta/info.json`)")
-        })
-    }
 }

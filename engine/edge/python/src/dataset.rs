@@ -1,11 +1,11 @@
 //! A published dataset: its tables, and random access to the images of its logs.
 
 use crate::errors::raised;
-use crate::images::{Image, checked};
+use crate::images::{Image, channel, checked};
 use crate::table::Table;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_load::{Flight, Source};
-use cosfly_render::channels::{self, Channel};
+use cosfly_render::channels::{Channel, rgb};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -109,7 +109,7 @@ impl Reader {
     /// The stored file of a colour image, undecoded.
     fn rgb_file(&self, py: Python<'_>, trajectory: usize, frame: usize) -> PyResult<Vec<u8>> {
         self.flight(trajectory)?;
-        match raised(py, self.0.image(trajectory, &channels::rgb::CHANNEL, frame))? {
+        match raised(py, self.0.image(trajectory, &rgb::CHANNEL, frame))? {
             cosfly_read::StoredImage::File(file, _) => Ok(file.to_vec()),
             cosfly_read::StoredImage::Raw { .. } => Ok(vec![]),
         }
@@ -151,16 +151,4 @@ impl Reader {
         images.sort_by_key(|(place, _)| *place);
         Ok(images.into_iter().map(|(_, image)| image).collect())
     }
-}
-
-/// The channel called `name`.
-///
-/// # Errors
-/// `dataset-channel`.
-pub fn channel(name: &str) -> Result<&'static Channel> {
-    channels::called(name).ok_or_else(|| {
-        let all: Vec<_> = channels::ALL.iter().map(|channel| channel.name).collect();
-        Diagnostic::new("dataset-channel", Fault::Recipe, format!("there is no channel `{name}`"))
-            .hint(format!("the channels are {}", all.join(", ")))
-    })
 }

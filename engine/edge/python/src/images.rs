@@ -4,7 +4,7 @@ use crate::errors::raised;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_images::read::{self, Picture};
 use cosfly_read::StoredImage;
-use cosfly_render::channels::{Channel, Element};
+use cosfly_render::channels::{self, Channel, Element};
 use cosfly_render::preview::{palette_image, picture_on_request};
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -112,7 +112,7 @@ pub fn decode_rgb<'py>(
 /// in a colour each. `pixels` are the bytes of the array.
 #[pyfunction]
 pub fn shown(py: Python<'_>, channel: &str, pixels: &[u8], width: u32, height: u32) -> PyResult<Vec<u8>> {
-    let (count, channel) = (width as usize * height as usize, raised(py, crate::dataset::channel(channel))?);
+    let (count, channel) = (width as usize * height as usize, raised(py, self::channel(channel))?);
     let rgb = match (channel.element(), pixels.len().checked_div(count)) {
         (_, Some(3)) => pixels.to_vec(),
         (Element::Float, Some(4)) => picture_on_request(channel, pixels),
@@ -141,4 +141,16 @@ pub fn checked(size: Option<(usize, usize)>) -> PyResult<Option<[usize; 2]>> {
         }
         size => Ok(size.map(|(width, height)| [width, height])),
     }
+}
+
+/// The channel called `name`.
+///
+/// # Errors
+/// `dataset-channel`.
+pub fn channel(name: &str) -> Result<&'static Channel> {
+    channels::called(name).ok_or_else(|| {
+        let all: Vec<_> = channels::ALL.iter().map(|channel| channel.name).collect();
+        Diagnostic::new("dataset-channel", Fault::Recipe, format!("there is no channel `{name}`"))
+            .hint(format!("the channels are {}", all.join(", ")))
+    })
 }

@@ -14,9 +14,9 @@ use crate::outputs::Outputs;
 use crate::raster::{HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_lane, draw_polygon, draw_within};
 use crate::resolve::resolve;
 use crate::view::View;
+use cosfly_figures::{FigureParts, FigureTriangle};
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
-use cosfly_render::figure::{FigureParts, FigureTriangle};
 use cosfly_render::{BodyPart, Wardrobe};
 
 /// Most corners of a polygon.

@@ -23,7 +23,6 @@ mod settings;
 mod tests;
 
 pub use action::{Action, Axes, Drive};
-pub use craft::{DroneModel, DroneSettings};
 pub use environment::{Environment, Step};
 pub use episode::{Episode, Start};
 pub use observation::{FEATURES, Observation, Sighting};
@@ -32,4 +31,4 @@ pub use place::Place;
 pub use policies::Policy;
 pub use reward::Reward;
 pub use score::{End, Score};
-pub use settings::{Blackouts, Lens, RewardWeights, Settings};
+pub use settings::{Blackouts, DroneModel, DroneSettings, Lens, RewardWeights, Settings};

@@ -1,6 +1,6 @@
 //! What moves: a person, or a vehicle of a kind and size.
 
-use crate::clothes::Region;
+use crate::region::Region;
 use crate::umbrella;
 use cosfly_frames::{DVec3, Seed, real};
 use cosfly_maps::SemanticLabel;

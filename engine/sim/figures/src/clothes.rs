@@ -2,58 +2,12 @@
 
 use crate::body_shape::BodyShape;
 use crate::build::{Build, Hair};
+use crate::colour::{Colour, Dye, dye};
 use crate::umbrella;
 use crate::vehicles::Livery;
 use cosfly_frames::{RandomStream, Seed};
 use cosfly_world::{Bag, BodyKind, Traits};
 use serde::{Deserialize, Serialize};
-
-/// Material of a part of the figure; those of vehicles follow those of people.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Region {
-    /// Face, neck, hands.
-    Skin,
-    /// Hair or hat.
-    Hair,
-    /// Shirt or jacket.
-    Top,
-    /// Trousers or skirt.
-    Trousers,
-    /// Shoes.
-    Shoes,
-    /// Backpack.
-    Bag,
-    /// Open umbrella.
-    Umbrella,
-    /// Painted sheet of a vehicle, or a painted frame.
-    Paint,
-    /// The box of a lorry.
-    Cargo,
-    /// Dark plastic, rubber and leather.
-    Trim,
-    /// Windows.
-    Glass,
-    /// Tyres.
-    Tyre,
-    /// Wheels and bare metal.
-    Metal,
-    /// Number plates.
-    Plate,
-    /// Lamps at the front.
-    HeadLamp,
-    /// Lamps at the back.
-    TailLamp,
-}
-
-impl Region {
-    /// Number of regions.
-    pub const COUNT: usize = 16;
-
-    /// Whether people wear it or are made of it.
-    pub fn is_of_people(self) -> bool {
-        self <= Self::Umbrella
-    }
-}
 
 /// Colours of a figure, linear RGB.
 #[derive(Clone, Copy, Debug)]
@@ -116,73 +70,6 @@ impl Outfit {
         let words = |it: &Self| (it.top.name, it.trousers.name, it.backpack);
         words(self) == words(other)
     }
-}
-
-/// Colour of a piece of clothing.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Dye {
-    /// Name of the colour.
-    pub name: Colour,
-    /// Reflected share of light, linear RGB.
-    pub linear_rgb: [f32; 3],
-}
-
-/// Names of colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Colour {
-    Black,
-    Grey,
-    White,
-    Red,
-    Orange,
-    Yellow,
-    Green,
-    Blue,
-    Purple,
-    Pink,
-    Brown,
-    Beige,
-}
-
-impl Colour {
-    /// All names.
-    pub const ALL: [Self; 12] = [
-        Self::Black,
-        Self::Grey,
-        Self::White,
-        Self::Red,
-        Self::Orange,
-        Self::Yellow,
-        Self::Green,
-        Self::Blue,
-        Self::Purple,
-        Self::Pink,
-        Self::Brown,
-        Self::Beige,
-    ];
-
-    /// The name in tables and in English texts.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Black => "black",
-            Self::Grey => "grey",
-            Self::White => "white",
-            Self::Red => "red",
-            Self::Orange => "orange",
-            Self::Yellow => "yellow",
-            Self::Green => "green",
-            Self::Blue => "blue",
-            Self::Purple => "purple",
-            Self::Pink => "pink",
-            Self::Brown => "brown",
-            Self::Beige => "beige",
-        }
-    }
-}
-
-pub(crate) const fn dye(name: Colour, linear_rgb: [f32; 3]) -> Dye {
-    Dye { name, linear_rgb }
 }
 
 /// Tops that stand out from asphalt, pavement and grass, linear RGB.

@@ -5,7 +5,7 @@ use crate::far_light::FarLight;
 use crate::nearer::Nearer;
 use crate::shade::headlights;
 use crate::visibility::{NEAR_M, Screen};
-use cosfly_figures::figure::Walker;
+use cosfly_figures::Walker;
 use cosfly_frames::{DVec2, DVec3};
 use std::ops::Range;
 
@@ -138,7 +138,7 @@ impl Bounds {
 mod tests {
     use super::*;
     use crate::camera::Camera;
-    use cosfly_figures::{BodyShape, figure::walker_triangles};
+    use cosfly_figures::{BodyShape, walker_triangles};
     use cosfly_frames::{Pose, Seed, TargetState};
     use cosfly_world::BodyKind;
 

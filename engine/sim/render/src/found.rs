@@ -5,7 +5,7 @@ use crate::faces::{DrawnFace, FaceSource};
 use crate::scene::Scene;
 use crate::scene_parts::BOX_FACES;
 use crate::visibility::{PlaneOnScreen, Screen};
-use cosfly_figures::clothes::Region;
+use cosfly_figures::Region;
 use cosfly_frames::DVec3;
 
 /// The faces of a picture.

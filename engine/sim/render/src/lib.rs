@@ -42,7 +42,6 @@ pub use channel_set::ChannelSet;
 pub use channels::Channel;
 pub use config::{BackendKind, ConfigProblem, GimbalConfig, RenderConfig};
 pub use cosfly_figures::{BodyShape, Bystander, Clothes, Colour, Dye, Livery, Outfit, TargetSetup, Walker, Wardrobe};
-pub use cosfly_figures::{clothes, figure};
 pub use cosfly_figures::{clothes_seed_of_target, gait_phase_rad, pedal_phase_rad, target_triangles, walker_triangles};
 pub use cosfly_materials::presets;
 pub use cosfly_materials::season::Season;

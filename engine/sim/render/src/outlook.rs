@@ -6,7 +6,7 @@ use crate::eye::Eye;
 use crate::far_light::FarLight;
 use crate::visibility::Screen;
 use crate::weather::Weather;
-use cosfly_figures::figure::Walker;
+use cosfly_figures::Walker;
 use cosfly_frames::{DVec3, Pose};
 
 /// The view of an ideal camera at a moment.

@@ -9,9 +9,9 @@ use crate::nearer::Nearer;
 use crate::setup::FrameSetup;
 use crate::shade::vector::Vec3;
 use crate::visibility::Screen;
-use cosfly_figures::clothes::{Clothes, Region};
-use cosfly_figures::figure::{FigureTriangle, Walker, figure};
 use cosfly_figures::{BodyShape, Livery, Wardrobe};
+use cosfly_figures::{Clothes, Region};
+use cosfly_figures::{FigureTriangle, Walker, figure};
 use cosfly_frames::{DVec3, real};
 use std::ops::Range;
 

@@ -2,7 +2,7 @@
 
 use crate::frame::{FrameImages, PersonView, PixelBox, TARGET_INSTANCE, TargetView};
 use crate::visibility::{NO_FACE, Visibility};
-use cosfly_figures::figure::Bystander;
+use cosfly_figures::Bystander;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 

@@ -1,16 +1,14 @@
 //! [`FlownQuadrotor`]: a quadrotor in closed loop: it follows velocities, or thrust and rates, or speeds of rotors, in wind.
 
 use super::control::{ControlGains, Controller, Setpoint, ThrustAndRates};
-use super::dynamics::{GRAVITY_MPS2, Quadrotor};
+use super::dynamics::{Quadrotor, TICK_S};
 use super::flipped;
-use super::parameters::QuadrotorParameters;
+use super::parameters::{GRAVITY_MPS2, QuadrotorParameters};
 use crate::point_mass::{Command, Motion, MotionLimits, PointMass};
 use crate::sensing::Sensing;
 use crate::wind::Air;
 use cosfly_frames::{DQuat, DVec3};
 
-/// Time between ticks of the controller and of the model, seconds.
-pub const TICK_S: f64 = 0.001;
 /// Distance by which the point that is followed gets ahead of the drone at most, metres.
 const LEASH_M: f64 = 2.0;
 

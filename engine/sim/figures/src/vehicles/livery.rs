@@ -1,7 +1,8 @@
 //! Paint and build of vehicles, drawn from their seeds.
 
 use crate::body_shape::BodyShape;
-use crate::clothes::{Colour, Dye, Region, dye};
+use crate::colour::{Colour, Dye, dye};
+use crate::region::Region;
 use cosfly_frames::Seed;
 use cosfly_world::BodyKind;
 

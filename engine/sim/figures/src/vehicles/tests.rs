@@ -1,12 +1,13 @@
 //! Models and boxes agree.
 
-use super::*;
 use crate::body_shape::BodyShape;
-use crate::clothes::Region;
+use crate::clothes::Clothes;
 use crate::figure::{figure, walker_triangles};
-use cosfly_frames::{Seed, TargetState};
+use crate::region::Region;
+use crate::walker::Walker;
+use cosfly_frames::{DVec3, Seed, TargetState};
 use cosfly_maps::SemanticLabel;
-use cosfly_world::BodyPlan;
+use cosfly_world::{BodyKind, BodyPlan};
 
 /// No corner is farther outside of the box than this, and every side of the box has a corner as near, metres.
 const BOUND_M: f64 = 0.01;

@@ -18,7 +18,7 @@ use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use crate::target_view;
 use crate::weather::Weather;
-use cosfly_figures::figure::{Bystander, TargetSetup};
+use cosfly_figures::{Bystander, TargetSetup};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{Pose, Seed};
 use cosfly_optics::Exposure;

@@ -6,7 +6,7 @@
 use super::pattern::{floor_int, least, most, share};
 use super::shadow_frame::Frame;
 use super::sunlight::FIGURE_SIDE;
-use cosfly_figures::figure::{FigureParts, MOST_PARTS, Ring, SIDES, Walker};
+use cosfly_figures::{FigureParts, MOST_PARTS, Ring, SIDES, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3, real, simd_kernel};
 use glam::Vec2;
@@ -212,7 +212,7 @@ mod tests {
     use super::*;
     use crate::shade::sun_tiles::Sun;
     use crate::shade::vector::Vec3;
-    use cosfly_figures::{BodyShape, Clothes, figure::walker_triangles};
+    use cosfly_figures::{BodyShape, Clothes, walker_triangles};
     use cosfly_frames::{Seed, TargetState};
 
     /// Greatest height of a triangle above a place of a map, metres.

@@ -6,7 +6,7 @@ use super::surface::Look;
 use super::vector::Vec3;
 use crate::people::{PartLook, Person};
 use cosfly_figures::Pattern;
-use cosfly_figures::clothes::Region;
+use cosfly_figures::Region;
 use cosfly_frames::simd_kernel;
 
 /// Rings and lines of a patterned top in a metre.

@@ -5,7 +5,7 @@ use super::light::Light;
 use super::pattern::{most, share, smoothstep};
 use super::vector::Vec3;
 use cosfly_figures::BodyShape;
-use cosfly_figures::figure::Walker;
+use cosfly_figures::Walker;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, real, simd_kernel};
 use cosfly_world::BodyKind;

@@ -10,7 +10,7 @@ use super::things::Thing;
 use super::vector::Vec3;
 use crate::roof_steps::Side;
 use crate::scene_parts::{BOX_FACES, SceneBox};
-use cosfly_figures::clothes::Region;
+use cosfly_figures::Region;
 use cosfly_frames::simd_kernel;
 use cosfly_maps::{ObstacleKind, SemanticLabel};
 

@@ -18,7 +18,7 @@ use crate::shade::sun_window::Window;
 use crate::shade::sunlight::{FIGURE_SIDE, FigureShadow, Places, SOLID, figure_shadow, pack_figure, town_sunlight};
 use crate::shade::vector::Vec3;
 use crate::visibility::{Screen, Visibility};
-use cosfly_figures::figure::{FigureParts, FigureTriangle};
+use cosfly_figures::{FigureParts, FigureTriangle};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
 

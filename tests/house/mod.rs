@@ -1,0 +1,5 @@
+//! Laws of the house, read from the source: circles of files, lengths, purity of `sim`, edges between crates.
+
+mod circles;
+mod modules;
+mod tokens;
