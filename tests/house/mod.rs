@@ -1,5 +1,7 @@
 //! Laws of the house, read from the source: circles of files, lengths, purity of `sim`, edges between crates.
 
 mod circles;
+mod lengths;
 mod modules;
+mod purity;
 mod tokens;

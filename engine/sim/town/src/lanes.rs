@@ -1,9 +1,8 @@
-//! [`Lane`]s: where vehicles drive, which lane follows which, and where people cross.
+//! Which lane follows which, and where people cross lanes.
 
 use crate::polygons::PolygonIndex;
-use crate::{Town, WalkableKind, WalkablePolygon};
-use cosfly_frames::{DVec2, DVec3};
-use serde::{Deserialize, Serialize};
+use crate::{Lane, Town, WalkableKind, WalkablePolygon};
+use cosfly_frames::DVec3;
 use std::collections::BTreeMap;
 
 /// A lane follows another one when it begins within this distance of the other's end, in plan and in height, metres.
@@ -12,66 +11,6 @@ const MEETING_M: [f64; 2] = [0.6, 0.5];
 const MEETING_COS: f64 = 0.6;
 /// Distance between the points of a lane that are looked up in crossings, metres.
 const SPACING_M: f64 = 0.5;
-
-/// A lane for vehicles; they drive from its first point to its last.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Lane {
-    /// Use of the lane.
-    pub kind: LaneKind,
-    /// Its middle line, at least two points, in the direction of driving.
-    pub middle_in_world: Vec<DVec3>,
-    /// Width at its narrowest place, metres.
-    pub width_m: f64,
-    /// Speed limit, m/s.
-    pub speed_limit_mps: f64,
-    /// Whether it is a way through a junction.
-    pub in_junction: bool,
-    /// Lanes that follow: indices in [`Town::lanes`], ascending.
-    pub successors: Vec<u32>,
-    /// Crossings and other ground where people cross it: indices in [`Town::walkable`], ascending.
-    pub crossings: Vec<u32>,
-}
-
-/// Use of a lane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LaneKind {
-    /// Motor vehicles, and bicycles where there is no lane for them.
-    Driving,
-    /// Bicycles.
-    Biking,
-}
-
-impl Lane {
-    /// A lane whose followers and crossings are not known yet, see [`Town::link_lanes`]; `None` for one without extent.
-    /// Points that nearly coincide become one.
-    pub fn new(kind: LaneKind, points: impl IntoIterator<Item = DVec3>, width_m: f64, limit_mps: f64) -> Option<Self> {
-        let mut middle_in_world: Vec<DVec3> = points.into_iter().collect();
-        middle_in_world.dedup_by(|next, before| (*next - *before).truncate().length() < 0.05);
-        (middle_in_world.len() >= 2 && width_m > 0.0).then_some(Self {
-            kind,
-            middle_in_world,
-            width_m,
-            speed_limit_mps: limit_mps,
-            in_junction: false,
-            successors: vec![],
-            crossings: vec![],
-        })
-    }
-
-    /// Length in plan, metres.
-    pub fn length_m(&self) -> f64 {
-        self.middle_in_world.windows(2).map(|pair| (pair[1] - pair[0]).truncate().length()).sum()
-    }
-
-    /// Place and direction of the first or the last point.
-    fn end(&self, last: bool) -> (DVec3, DVec2) {
-        let line = &self.middle_in_world;
-        let [from, to] = if last { [line.len() - 2, line.len() - 1] } else { [0, 1] };
-        let along = (line[to] - line[from]).truncate().normalize_or_zero();
-        (line[if last { to } else { 0 }], along)
-    }
-}
 
 impl Town {
     /// Finds which lane follows which, from the places of their ends, and which crossings each lane passes.

@@ -7,7 +7,8 @@ pub mod crown;
 pub mod error;
 pub mod format;
 pub mod ground;
-pub mod lanes;
+mod lane;
+mod lanes;
 pub mod mesh;
 pub mod open_ground;
 pub mod options;
@@ -26,7 +27,7 @@ pub mod world;
 pub use error::{MapError, Place};
 pub use format::{Format, MapFormat};
 pub use ground::{GroundIndex, GroundPoint};
-pub use lanes::{Lane, LaneKind};
+pub use lane::{Lane, LaneKind};
 pub use options::FormatOptions;
 pub use semantics::SemanticLabel;
 pub use town::{

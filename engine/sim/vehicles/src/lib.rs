@@ -15,6 +15,7 @@ mod outlines;
 mod parked;
 mod route;
 mod start;
+mod vehicle;
 mod vehicles;
 
 pub use config::{MixConfig, VehicleConfig};

@@ -2,7 +2,7 @@
 
 use crate::lanes::{Block, Shared, WIDE, get, groups, set};
 use crate::pattern::{NoiseTexture, Noises, draw, hash, lerp, one_if, stripes, unit};
-use crate::roof_steps::{Pitch, TopSlope};
+use crate::roof_step::{Pitch, TopSlope};
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;
 use cosfly_frames::simd_kernel;

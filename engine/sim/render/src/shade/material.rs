@@ -8,11 +8,11 @@ use super::lighting::Answers;
 use super::skin::Painted;
 use super::things::Thing;
 use super::vector::Vec3;
-use crate::roof_steps::Side;
 use crate::scene_parts::{BOX_FACES, SceneBox};
 use cosfly_figures::Region;
 use cosfly_frames::simd_kernel;
 use cosfly_maps::{ObstacleKind, SemanticLabel};
+use cosfly_materials::roof_step::Side;
 
 /// Material of the pixels of a group.
 pub(super) enum Material {

@@ -3,8 +3,9 @@
 use super::class;
 use super::survey::{Survey, is_ground};
 use crate::grid::parts;
-use crate::solid_cells::{Bases, Boxes, Column, boxes_of};
+use crate::solid_cells::{Boxes, boxes_of};
 use crate::window_cover::Volumes;
+use crate::window_cover::{Bases, Column};
 use cosfly_town::{Obstacle, ObstacleKind};
 use rayon::prelude::*;
 

@@ -2,6 +2,7 @@
 
 mod accessors;
 pub mod document;
+mod views;
 
 use crate::mesh::{MeshOptions, PartBuilder, town_of};
 use crate::way_out::or_advice;

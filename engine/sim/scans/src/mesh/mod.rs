@@ -5,6 +5,7 @@
 //! are one thing.
 
 pub mod ground;
+mod level;
 pub mod names;
 pub mod options;
 pub mod parts;

@@ -1,6 +1,6 @@
 //! [`Place`]: from the coordinates of a SUMO file to the world frame of a town.
 
-use super::FcdError;
+use super::error::FcdError;
 use cosfly_diagnose::plausible;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_geodata::reference::GeoReference;

@@ -1,5 +1,6 @@
 //! The stream of time steps, and the frames between them.
 
+use super::error::FcdError;
 use super::kinds::{kind_of, passenger_car};
 use super::lines::Lines;
 use super::samples::Sample;
@@ -11,7 +12,6 @@ use quick_xml::events::{BytesStart, Event};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 use std::io::BufRead;
 
 /// Most bodies in one time step.
@@ -39,47 +39,6 @@ pub struct FcdConfig {
     /// Kinds and sizes of types of vehicles by their names; others are told by words in their names.
     pub types: BTreeMap<String, FcdType>,
 }
-
-/// Reason why a file cannot be used. `Display` is one fragment with the line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FcdError {
-    /// The value that was found and the rule it breaks.
-    pub message: String,
-    /// Line of the file, from 1.
-    pub line: Option<u64>,
-    /// What the user can do.
-    pub hint: Option<String>,
-}
-
-impl FcdError {
-    pub(super) fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), line: None, hint: None }
-    }
-
-    fn because(mut self, cause: String) -> Self {
-        self.message = format!("{}: {cause}", self.message);
-        self
-    }
-
-    pub(super) fn at(mut self, line: u64) -> Self {
-        self.line = self.line.or(Some(line));
-        self
-    }
-
-    pub(super) fn hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
-        self
-    }
-}
-
-impl fmt::Display for FcdError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}", self.message)?;
-        self.line.map_or(Ok(()), |line| write!(out, " (line {line})"))
-    }
-}
-
-impl std::error::Error for FcdError {}
 
 /// Reads the frames of a clock from floating-car data. Reading ends with the last frame.
 ///
