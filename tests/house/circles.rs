@@ -44,7 +44,8 @@ fn circles(root: &Path) -> Vec<Vec<PathBuf>> {
     let reached: Vec<BTreeSet<usize>> = (0..edges.len()).map(|from| reached_from(&edges, from)).collect();
     let mut circles = BTreeSet::new();
     for (from, reached_here) in reached.iter().enumerate().filter(|(from, reached)| reached.contains(from)) {
-        let circle: BTreeSet<usize> = reached_here.iter().copied().filter(|other| reached[*other].contains(&from)).collect();
+        let circle: BTreeSet<usize> =
+            reached_here.iter().copied().filter(|other| reached[*other].contains(&from)).collect();
         if std::env::var("SHOW").is_ok() {
             for b in edges[from].iter().filter(|b| circle.contains(b)) {
                 println!("   {} -> {}", of.modules[from].file.display(), of.modules[*b].file.display());

@@ -107,7 +107,8 @@ impl Crate {
         if depth > 8 {
             return None;
         }
-        let named = of.uses.iter().filter(|used| used.name == name && used.path.first().is_none_or(|first| first != name));
+        let named =
+            of.uses.iter().filter(|used| used.name == name && used.path.first().is_none_or(|first| first != name));
         let named = named.filter_map(|used| self.resolve(module, &used.path, depth + 1)).next();
         named.or_else(|| {
             let all = of.uses.iter().filter(|used| used.name == "*");
@@ -197,7 +198,9 @@ fn paths_of(tokens: &[Token]) -> Vec<Vec<String>> {
             at = add_uses(tokens, at + 1, &[], &mut vec![]);
         } else if tokens[at].is_word() && !is_part {
             let mut path = vec![tokens[at].text.clone()];
-            while tokens.get(at + 1).is_some_and(|next| next.text == "::") && tokens.get(at + 2).is_some_and(Token::is_word) {
+            while tokens.get(at + 1).is_some_and(|next| next.text == "::")
+                && tokens.get(at + 2).is_some_and(Token::is_word)
+            {
                 path.push(tokens[at + 2].text.clone());
                 at += 2;
             }
