@@ -13,7 +13,7 @@ use crate::store::Store;
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_stage::{BlobSource, Blobs};
+use cosfly_stage::Blobs;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io;

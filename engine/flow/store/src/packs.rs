@@ -129,6 +129,7 @@ mod tests {
     use cosfly_stage::{BlobSource, Produced};
     use std::collections::BTreeMap;
     use std::io::Read;
+    use std::path::Path;
     use std::time::{Duration, SystemTime};
 
     /// A task with a blob of its own text, finished.

@@ -97,6 +97,7 @@ fn find_crossings(lanes: &mut [Lane], walkable: &[WalkablePolygon]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::LaneKind;
 
     fn lane(points: &[(f64, f64)]) -> Lane {
         let points = points.iter().map(|(x, y)| DVec3::new(*x, *y, 0.0));

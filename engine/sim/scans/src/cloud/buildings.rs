@@ -1,6 +1,7 @@
 //! Buildings: roofs as columns of cells down to the ground, on grids that are turned along the walls.
 
 use super::class;
+use super::numbers::next_id;
 use super::outline::smooth_unseen;
 use super::survey::{Survey, is_ground, plan_of};
 use crate::grid::{Grid, nearest_seeds, parts};
@@ -53,7 +54,7 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
     let mut volumes = Volumes::default();
     for cover in covers {
         volumes = volumes.plus(cover.volumes, 1.0);
-        let object_id = super::next_id(obstacles);
+        let object_id = next_id(obstacles);
         let obstacle = |shape| Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: false };
         obstacles.extend(cover.shapes.into_iter().map(obstacle));
     }

@@ -23,7 +23,7 @@ use cosfly_frames::{DVec2, Seed, TargetState};
 use cosfly_maps::Town;
 use cosfly_world::{BodyPlan, Clock, Population, Present, Snapshot};
 use limits::Limits;
-use person::Person;
+use person::{HARDEST_MPS2, Person};
 use roads::Right;
 use std::ops::Range;
 use std::sync::Arc;
@@ -35,9 +35,6 @@ const RELAXATION_S: f64 = 0.5;
 
 /// The same on a road before a vehicle, seconds.
 const ESCAPE_S: f64 = 0.2;
-
-/// Largest acceleration that people choose, m/s2.
-const HARDEST_MPS2: f64 = 2.5;
 
 /// Haste of the searches for routes: a metre of pavement beside an edge costs about so much.
 const HASTE: f32 = 1.4;

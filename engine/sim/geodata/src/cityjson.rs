@@ -32,7 +32,7 @@ impl MapFormat for CityJson {
 
     const NAME: &'static str = "CityJSON";
 
-    const EXAMPLE: &'static [u8] = include_bytes!("every_feature.city.json");
+    const EXAMPLE: &'static [u8] = include_bytes!("cityjson/every_feature.city.json");
 
     fn recognises(head: &[u8]) -> bool {
         let text = String::from_utf8_lossy(head);

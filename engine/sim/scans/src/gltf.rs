@@ -28,7 +28,7 @@ impl MapFormat for GlTf {
 
     const NAME: &'static str = "glTF";
 
-    const EXAMPLE: &'static [u8] = include_bytes!("../mesh/example.glb");
+    const EXAMPLE: &'static [u8] = include_bytes!("mesh/example.glb");
 
     fn recognises(head: &[u8]) -> bool {
         let text = String::from_utf8_lossy(head);

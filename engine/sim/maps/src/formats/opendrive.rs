@@ -55,7 +55,7 @@ impl MapFormat for OpenDrive {
 
     const NAME: &'static str = "OpenDRIVE";
 
-    const EXAMPLE: &'static [u8] = include_bytes!("every_feature.xodr");
+    const EXAMPLE: &'static [u8] = include_bytes!("opendrive/every_feature.xodr");
 
     fn recognises(head: &[u8]) -> bool {
         // UTF-16 is recognised, too, so that its refusal can say what to do.

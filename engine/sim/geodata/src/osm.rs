@@ -47,7 +47,7 @@ impl MapFormat for OpenStreetMap {
 
     const NAME: &'static str = "OpenStreetMap";
 
-    const EXAMPLE: &'static [u8] = include_bytes!("every_feature.osm");
+    const EXAMPLE: &'static [u8] = include_bytes!("osm/every_feature.osm");
 
     fn recognises(head: &[u8]) -> bool {
         if pbf::recognises(head) {
