@@ -1,6 +1,6 @@
 //! A sound dataset passes; every kind of damage is found and named.
 
-use super::*;
+use crate::{Options, verify};
 use cosfly_sample as sample;
 use cosfly_sample::SampleFlight;
 use cosfly_schema::{DatasetConfig, EncodingConfig};

@@ -127,7 +127,7 @@ impl Plan {
         strips.into_iter().flat_map(of_strip).map(|(low, high)| self.rectangle(low, high, yaw_rad)).collect()
     }
 
-    fn rectangle(&self, low: DVec2, high: DVec2, yaw_rad: f64) -> TurnedRectangle {
+    pub(super) fn rectangle(&self, low: DVec2, high: DVec2, yaw_rad: f64) -> TurnedRectangle {
         let (sin, cos) = real::sin_cos(yaw_rad);
         let center = 0.5 * (low + high);
         let turned = DVec2::new(cos * center.x - sin * center.y, sin * center.x + cos * center.y);
