@@ -1,6 +1,6 @@
 //! Random access to frames for training, whatever the layout: datasets of cosfly, the published v7 layout, LeRobot's.
 //!
-//! * [`Source`]: the seam; one file per layout implements it.
+//! * [`FlightSource`]: the seam; one file per layout implements it.
 //! * [`open`]: the source in a folder.
 //! * `tables`: tables of foreign layouts, with the names and columns that cosfly's own tables have.
 
@@ -16,4 +16,4 @@ mod tests;
 mod v7;
 
 pub use open::open;
-pub use source::{Flight, Source};
+pub use source::{FlightSource, LoadedFlight};

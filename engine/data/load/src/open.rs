@@ -1,7 +1,7 @@
 //! [`open`]: the source in a folder, by its layout.
 
 use crate::ours::Ours;
-use crate::{Source, lerobot, v7};
+use crate::{FlightSource, lerobot, v7};
 use cosfly_diagnose::Result;
 use cosfly_doctor::sources;
 use std::path::Path;
@@ -10,7 +10,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// `dataset-none` where there is none, otherwise damage of its files.
-pub fn open(folder: &Path) -> Result<Box<dyn Source>> {
+pub fn open(folder: &Path) -> Result<Box<dyn FlightSource>> {
     let roots = lerobot::roots(folder);
     if sources::ours::recognises(folder) {
         Ok(Box::new(Ours::open(folder)?))
@@ -19,7 +19,7 @@ pub fn open(folder: &Path) -> Result<Box<dyn Source>> {
     } else if !roots.is_empty() {
         Ok(Box::new(lerobot::open(folder, &roots)?))
     } else {
-        Ours::open(folder).map(|dataset| Box::new(dataset) as Box<dyn Source>).map_err(|refusal| {
+        Ours::open(folder).map(|dataset| Box::new(dataset) as Box<dyn FlightSource>).map_err(|refusal| {
             refusal.hint("datasets of other layouts load, too: v7 (`<Town>/trajectory_<id>/<trace>/trajectory.json`) and LeRobot (`meta/info.json`)")
         })
     }

@@ -7,7 +7,7 @@ use cosfly_render::channels::Channel;
 
 /// A flight of a dataset.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Flight {
+pub struct LoadedFlight {
     /// Name; one flight has it.
     pub id: String,
     /// Split; empty where the data state none.
@@ -19,9 +19,9 @@ pub struct Flight {
 }
 
 /// A dataset with random access. Threads may share it; it has no threads of its own, so that it survives a fork.
-pub trait Source: Send + Sync {
+pub trait FlightSource: Send + Sync {
     /// All flights; their numbers are places in this list.
-    fn flights(&self) -> &[Flight];
+    fn flights(&self) -> &[LoadedFlight];
 
     /// Digest that tells this dataset from others: hex digits.
     fn identity(&self) -> &str;

@@ -12,7 +12,7 @@ mod shot;
 mod town;
 
 pub use cosfly_read::LoggedFrame;
-pub use pictures::{Pictures, clip, draw};
+pub use pictures::{FlightPictures, clip, draw};
 pub use selection::FrameList;
-pub use shot::Shot;
+pub use shot::ClipShot;
 pub use town::town_plan;

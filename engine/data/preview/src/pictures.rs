@@ -1,4 +1,4 @@
-//! [`Pictures`] of a flight, and clips of shots.
+//! [`FlightPictures`] of a flight, and clips of shots.
 
 use crate::clip::Clip;
 use crate::ground::SeenGround;
@@ -21,7 +21,7 @@ const MOST_FRAMES: usize = 400;
 const MOST_ROWS: usize = 60;
 
 /// The pictures of one flight, as files.
-pub struct Pictures {
+pub struct FlightPictures {
     /// Contact sheet, PNG.
     pub sheet: Vec<u8>,
     /// Animated clip, GIF.
@@ -42,7 +42,7 @@ pub fn draw(
     flight: &PublishedFlight,
     frames: Option<&FrameList>,
     progress: &mut dyn FnMut(u64, u64),
-) -> Result<Pictures> {
+) -> Result<FlightPictures> {
     let of_clip = match frames {
         Some(list) => list.of(&flight.trajectory_id, flight.frames)?,
         None => spread(flight.frames, CLIP_FRAMES),
@@ -68,7 +68,7 @@ pub fn draw(
             ground.add(flight, &logged);
         }
         if of_clip.binary_search(frame).is_ok() {
-            let shot = Shot::new(logged)?;
+            let shot = ClipShot::new(logged)?;
             clip.add(&shot);
             if of_sheet.binary_search(frame).is_ok() {
                 sheet.add(&shot);
@@ -86,14 +86,14 @@ pub fn draw(
     let family = members.into_iter().filter_map(|it| Some((it, frames_of.remove(&it.trajectory_id)?))).collect();
     let plan = Plan { flight, family, boxes: log.scene()?, ground };
     let shown = [of_sheet.len(), of_clip.len()];
-    Ok(Pictures { sheet: sheet.finish().png()?, clip: clip.finish()?, plan: plan.draw().png()?, shown })
+    Ok(FlightPictures { sheet: sheet.finish().png()?, clip: clip.finish()?, plan: plan.draw().png()?, shown })
 }
 
 /// The animated clip of some frames, GIF: ten of them a second.
 ///
 /// # Errors
 /// `preview-encode` where they cannot be encoded.
-pub fn clip(shots: impl Iterator<Item = Shot>) -> Result<Vec<u8>> {
+pub fn clip(shots: impl Iterator<Item = ClipShot>) -> Result<Vec<u8>> {
     let mut clip = Clip::default();
     shots.for_each(|shot| clip.add(&shot));
     clip.finish()
@@ -105,7 +105,7 @@ mod tests {
     use cosfly_sample as sample;
     use cosfly_schema::{DatasetConfig, EncodingConfig, RgbEncoding};
 
-    fn drawn(encoding: EncodingConfig, frames: Option<&str>) -> Result<Pictures> {
+    fn drawn(encoding: EncodingConfig, frames: Option<&str>) -> Result<FlightPictures> {
         let folder = tempfile::tempdir().expect("a scratch folder");
         sample::write_to_folder(folder.path(), &DatasetConfig::default(), encoding).expect("the sample is sound");
         let dataset = PublishedDataset::open(folder.path())?;

@@ -8,7 +8,7 @@ use ::mcap::sans_io::summary_reader::{SummaryReadEvent, SummaryReader, SummaryRe
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_render::ChannelImage;
-use cosfly_render::channels::{self, Channel, Element, Source};
+use cosfly_render::channels::{self, Channel, ChannelSource, Element};
 use cosfly_schema::log::messages::{MAP_FRAME, OPTICAL_FRAME};
 use cosfly_schema::log::{TargetStateMessage, formats, frame_time_ns, topic};
 use foxglove::messages;
@@ -221,24 +221,24 @@ impl LoggedFrame {
             format!("its encoding is `{}`, not {}", image.encoding, known.join(" or "))
         })?;
         match channel.source {
-            Source::Depth => {
+            ChannelSource::Depth => {
                 (self.width, self.height) = (image.width, image.height);
                 let (depths, _) = image.data.as_chunks::<4>();
                 self.depth_m = depths.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
             }
-            Source::Labels => self.semantic = image.data.to_vec(),
-            Source::Ids if format.pixel_bytes == 2 => {
+            ChannelSource::Labels => self.semantic = image.data.to_vec(),
+            ChannelSource::Ids if format.pixel_bytes == 2 => {
                 let (ids, _) = image.data.as_chunks::<2>();
                 self.instance = ids.iter().map(|bytes| u32::from(u16::from_le_bytes(*bytes))).collect();
             }
-            Source::Ids => {
+            ChannelSource::Ids => {
                 let (ids, _) = image.data.as_chunks::<4>();
                 self.instance = ids.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect();
             }
-            Source::Number(_) | Source::Bytes(_) => {
+            ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
                 self.on_request.push(ChannelImage { channel, bytes: image.data.to_vec() });
             }
-            Source::Colour => {}
+            ChannelSource::Colour => {}
         }
         Ok(())
     }

@@ -12,7 +12,7 @@ use cosfly_frames::{DQuat, DVec3};
 use cosfly_maps::SemanticLabel;
 use cosfly_read::read_records;
 use cosfly_render::ChannelSet;
-use cosfly_render::channels::{self, Channel, Element, Source, depth};
+use cosfly_render::channels::{self, Channel, ChannelSource, Element, depth};
 use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_schema::log::{Frequency, TargetStateMessage, formats, frame_time_ns, right_handed, topic, topics};
 use foxglove::messages;
@@ -169,7 +169,7 @@ impl LogCheck<'_> {
         place: String,
     ) {
         match channel.source {
-            Source::Ids => {
+            ChannelSource::Ids => {
                 let (of_target, problem) = self.people_in(&image, row);
                 if let Some(message) = problem {
                     self.find(place, "verify-log", message);
@@ -183,18 +183,18 @@ impl LogCheck<'_> {
                     }
                 }
             }
-            Source::Labels => {
+            ChannelSource::Labels => {
                 self.check_labels(&image, row, place);
                 self.labels = Some((frame, image));
             }
-            Source::Depth => self.depth = Some((frame, image)),
-            Source::Number(_) | Source::Bytes(_) => {
+            ChannelSource::Depth => self.depth = Some((frame, image)),
+            ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
                 let mut pixels = image.data.chunks_exact(channel.bytes_on_request());
                 if let Some(at) = pixels.position(|pixel| !(channel.is_value)(pixel)) {
                     self.find(place, "verify-pixels", format!("pixel {at} holds no value of `{}`", channel.name));
                 }
             }
-            Source::Colour => {}
+            ChannelSource::Colour => {}
         }
     }
 

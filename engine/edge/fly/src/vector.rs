@@ -1,13 +1,13 @@
-//! [`Flock`]: many environments that are stepped together, for learners.
+//! [`VectorEnvironment`]: many environments that are stepped together, for learners.
 
 mod team;
 #[cfg(test)]
 mod tests;
 
 use crate::suite::Task;
-use cosfly_env::pictures::{Album, Format, Pictures};
+use cosfly_env::pictures::{PictureBatch, PictureFormat, Pictures};
 use cosfly_env::policies::baseline;
-use cosfly_env::{Action, End, Environment, FEATURES, Policy, Reward, Settings};
+use cosfly_env::{Action, End, Environment, EnvironmentSettings, FEATURES, Policy, Reward};
 use cosfly_frames::{RandomStream, Seed};
 use rayon::{ThreadPool, ThreadPoolBuildError};
 use std::sync::Arc;
@@ -38,9 +38,9 @@ pub struct Outputs {
     /// Features of the last observation of the episode that ended in this step; else those of `features`.
     pub last_features: Vec<[f32; FEATURES]>,
     /// Pictures of the observations, where they are asked for.
-    pub album: Album,
+    pub album: PictureBatch,
     /// In [`Autoreset::SameStep`], the last pictures of the episodes that ended in this step; the others are old.
-    pub last_album: Album,
+    pub last_album: PictureBatch,
     /// Weighted rewards.
     pub rewards: Vec<f64>,
     /// Terms of the rewards, unweighted.
@@ -62,7 +62,7 @@ pub struct Outputs {
 /// What all environments share.
 struct Shared {
     tasks: Arc<[Task]>,
-    settings: Settings,
+    settings: EnvironmentSettings,
     mode: Autoreset,
     has_experts: bool,
     /// Whether all fly the same episode at the same time.
@@ -70,7 +70,7 @@ struct Shared {
 }
 
 /// One of many.
-struct Bird {
+struct VectorMember {
     environment: Environment,
     expert: Option<Box<dyn Policy + Send + Sync>>,
     /// Draws episodes.
@@ -82,7 +82,7 @@ struct Bird {
     expert_action: [f32; ACTIONS],
 }
 
-impl Bird {
+impl VectorMember {
     fn new(number: usize, shared: &Shared) -> Self {
         let mut stream = stream_of(number as u64);
         let task = &shared.tasks[stream.index(shared.tasks.len())];
@@ -133,20 +133,20 @@ impl Bird {
 }
 
 /// Pictures of a flock, and the threads that draw them.
-struct Studio {
+struct PicturePool {
     pictures: Pictures,
     pool: Option<ThreadPool>,
 }
 
-impl Studio {
+impl PicturePool {
     /// Draws the pictures of some environments that follow each other from number `first` on.
-    fn draw(&mut self, birds: &[Bird], album: &mut Album, first: usize) {
+    fn draw(&mut self, birds: &[VectorMember], album: &mut PictureBatch, first: usize) {
         let environments: Vec<&Environment> = birds.iter().map(|bird| &bird.environment).collect();
         self.work(|pictures| pictures.draw(&environments, album, first));
     }
 
     /// Draws the pictures of a whole team.
-    fn draw_team(&mut self, birds: &[Bird], album: &mut Album) {
+    fn draw_team(&mut self, birds: &[VectorMember], album: &mut PictureBatch) {
         let environments: Vec<&Environment> = birds.iter().map(|bird| &bird.environment).collect();
         self.work(|pictures| pictures.draw_team(&environments, album));
     }
@@ -161,18 +161,24 @@ impl Studio {
 }
 
 /// Many environments that are stepped together. Each draws its episodes from a seed of its own: what one does changes no other.
-pub struct Flock {
+pub struct VectorEnvironment {
     shared: Shared,
-    birds: Vec<Bird>,
+    birds: Vec<VectorMember>,
     outputs: Outputs,
-    studio: Option<Studio>,
+    studio: Option<PicturePool>,
 }
 
-impl Flock {
+impl VectorEnvironment {
     /// Environments over the episodes of `tasks`, of which there must be one; before the first reset.
-    pub fn new(tasks: Arc<[Task]>, count: usize, settings: Settings, mode: Autoreset, has_experts: bool) -> Self {
+    pub fn new(
+        tasks: Arc<[Task]>,
+        count: usize,
+        settings: EnvironmentSettings,
+        mode: Autoreset,
+        has_experts: bool,
+    ) -> Self {
         let shared = Shared { tasks, settings, mode, has_experts, is_team: false };
-        let birds: Vec<Bird> = (0..count).map(|number| Bird::new(number, &shared)).collect();
+        let birds: Vec<VectorMember> = (0..count).map(|number| VectorMember::new(number, &shared)).collect();
         let outputs = Outputs {
             features: vec![[0.0; FEATURES]; count],
             last_features: vec![[0.0; FEATURES]; count],
@@ -200,14 +206,14 @@ impl Flock {
     ///
     /// # Errors
     /// Threads that cannot be started.
-    pub fn with_pictures(mut self, format: Format, threads: usize) -> Result<Self, ThreadPoolBuildError> {
+    pub fn with_pictures(mut self, format: PictureFormat, threads: usize) -> Result<Self, ThreadPoolBuildError> {
         let build = || rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = (threads > 1).then(build).transpose()?;
-        self.outputs.album = Album::new(&format, self.len());
+        self.outputs.album = PictureBatch::new(&format, self.len());
         if self.shared.mode == Autoreset::SameStep {
             self.outputs.last_album = self.outputs.album.clone();
         }
-        self.studio = Some(Studio { pictures: Pictures::new(format, threads), pool });
+        self.studio = Some(PicturePool { pictures: Pictures::new(format, threads), pool });
         Ok(self)
     }
 
@@ -222,12 +228,12 @@ impl Flock {
     }
 
     /// Settings of the environments.
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &EnvironmentSettings {
         &self.shared.settings
     }
 
     /// What their pictures hold, where there are any.
-    pub fn format(&self) -> Option<&Format> {
+    pub fn format(&self) -> Option<&PictureFormat> {
         self.studio.as_ref().map(|studio| studio.pictures.format())
     }
 
@@ -366,7 +372,7 @@ impl Flock {
 
 impl Outputs {
     /// Fills what is told of the present state of an environment and of its last step.
-    fn tell(&mut self, number: usize, bird: &Bird) {
+    fn tell(&mut self, number: usize, bird: &VectorMember) {
         let observation = bird.environment.observation();
         self.features[number] = observation.features().map(|feature| feature as f32);
         self.tracked[number] = observation.tracked;

@@ -4,7 +4,7 @@ use crate::errors::raised;
 use crate::images::{Image, channel, checked};
 use crate::table::Table;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_load::{Flight, Source};
+use cosfly_load::{FlightSource, LoadedFlight};
 use cosfly_render::channels::{Channel, rgb};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// Reader of one dataset, of any layout.
 #[pyclass(frozen, module = "cosfly._cosfly")]
-pub struct Reader(Arc<dyn Source>);
+pub struct Reader(Arc<dyn FlightSource>);
 
 #[pymethods]
 impl Reader {
@@ -117,7 +117,7 @@ impl Reader {
 }
 
 impl Reader {
-    fn flight(&self, trajectory: usize) -> PyResult<&Flight> {
+    fn flight(&self, trajectory: usize) -> PyResult<&LoadedFlight> {
         let all = self.0.flights();
         let message = || format!("trajectory {trajectory} is beyond the dataset, which has {} trajectories", all.len());
         all.get(trajectory).ok_or_else(|| PyIndexError::new_err(message()))

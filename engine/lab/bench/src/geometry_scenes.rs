@@ -4,7 +4,7 @@ use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
 use cosfly_planner::visibility::body_points;
 use cosfly_random::{RandomStream, Seed};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 
 /// Rays of one view: the body points of visibility.
 pub const RAYS: usize = 8;
@@ -45,7 +45,7 @@ impl BenchTown {
         } else {
             SceneKind::Fine
         };
-        let scene = Scene::generate(kind, seed);
+        let scene = SeededScene::generate(kind, seed);
         let track = scene.walker(seed, 0);
         let mut boxes = nearest_boxes(scene.boxes, &track, count);
         let mut stream = Seed::of_item(seed, "bench", "geometry").stream("views");

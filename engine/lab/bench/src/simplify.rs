@@ -4,7 +4,7 @@ use crate::clock::timed;
 use cosfly_geometry::{BoxBvh, OrientedBox};
 use cosfly_maps::simplify::{SimplifyConfig, simplify};
 use cosfly_maps::{Obstacle, ObstacleKind};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use serde::Serialize;
 use std::fmt;
 
@@ -43,7 +43,7 @@ pub struct SimplifyRow {
 
 /// Some 65,000 boxes of a generated town.
 pub fn fine_boxes(seed: u64) -> Vec<OrientedBox> {
-    Scene::generate(SceneKind::Fine, seed).boxes
+    SeededScene::generate(SceneKind::Fine, seed).boxes
 }
 
 /// Simplifies boxes with all limits in turns.

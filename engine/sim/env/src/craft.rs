@@ -2,8 +2,8 @@
 
 use crate::action::{Action, Drive};
 use crate::episode::Episode;
-use crate::settings::{DroneSettings, Settings};
-use cosfly_drone::quadrotor::{FlownQuadrotor, Lead, Strain, ThrustAndRates};
+use crate::settings::{DroneSettings, EnvironmentSettings};
+use cosfly_drone::quadrotor::{ControlInput, FlownQuadrotor, ThrustAndRates, TrackingError};
 use cosfly_drone::wind::{Air, Turbulence};
 use cosfly_drone::{Motion, PointMass, Sensed, Sensing};
 use cosfly_frames::{DVec3, real};
@@ -17,7 +17,7 @@ pub(crate) enum Craft {
 
 impl Craft {
     /// The drone at the beginning of an episode.
-    pub(crate) fn new(settings: &Settings, episode: &Episode, motion: Motion, yaw_rad: f64) -> Self {
+    pub(crate) fn new(settings: &EnvironmentSettings, episode: &Episode, motion: Motion, yaw_rad: f64) -> Self {
         let Some(parameters) = settings.drone.model.parameters() else {
             return Self::PointMass(PointMass { motion, limits: settings.motion });
         };
@@ -32,13 +32,13 @@ impl Craft {
             Self::PointMass(point) => point.step(&action.command(yaw_rad), time_s),
             Self::Quadrotor(flown) => {
                 let lead = match action.drive {
-                    Drive::Velocity => Lead::Velocity(action.command(yaw_rad), yaw_rad),
+                    Drive::Velocity => ControlInput::Velocity(action.command(yaw_rad), yaw_rad),
                     Drive::ThrustAndRates { weights, rates_rad_s } => {
                         // To the body's right-handed axes: x ahead, y left, z up.
                         let rates_rad_s = DVec3::new(rates_rad_s.x, -rates_rad_s.y, -rates_rad_s.z);
-                        Lead::ThrustAndRates(ThrustAndRates { thrust_n: flown.thrust_n(weights), rates_rad_s })
+                        ControlInput::ThrustAndRates(ThrustAndRates { thrust_n: flown.thrust_n(weights), rates_rad_s })
                     }
-                    Drive::Rotors(rotors_rpm) => Lead::Rotors(rotors_rpm),
+                    Drive::Rotors(rotors_rpm) => ControlInput::Rotors(rotors_rpm),
                 };
                 flown.step(&lead, time_s);
             }
@@ -54,7 +54,7 @@ impl Craft {
     }
 
     /// How well a quadrotor could do what it was asked for.
-    pub(crate) fn strain(&self) -> Option<&Strain> {
+    pub(crate) fn strain(&self) -> Option<&TrackingError> {
         match self {
             Self::PointMass(_) => None,
             Self::Quadrotor(flown) => Some(flown.strain()),
@@ -80,7 +80,7 @@ impl Craft {
 }
 
 /// The air of an episode, with the turbulence at the height where it begins.
-fn air(settings: &Settings, episode: &Episode, start: DVec3) -> Air {
+fn air(settings: &EnvironmentSettings, episode: &Episode, start: DVec3) -> Air {
     let DroneSettings { wind_mps, gusts, .. } = settings.drone;
     let towards_rad = episode.seed.stream("wind").uniform(0.0, real::TAU);
     let (sin, cos) = real::sin_cos(towards_rad);

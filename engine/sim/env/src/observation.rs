@@ -9,7 +9,7 @@ pub const FEATURES: usize = 16;
 
 /// The target when it was last tracked.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sighting {
+pub struct TargetSighting {
     /// Time, seconds from the beginning of the episode.
     pub time_s: f64,
     /// Place, heading and speed.
@@ -41,7 +41,7 @@ pub struct Observation {
     /// Whether the target counts as tracked: visible enough, in the picture, near enough.
     pub tracked: bool,
     /// The target when it was last tracked.
-    pub sighting: Sighting,
+    pub sighting: TargetSighting,
 }
 
 impl Observation {

@@ -1,4 +1,4 @@
-//! [`Settings`]: what an environment is set to, apart from its episodes.
+//! [`EnvironmentSettings`]: what an environment is set to, apart from its episodes.
 
 use cosfly_drone::quadrotor::QuadrotorParameters;
 use cosfly_drone::{GimbalLimits, MotionLimits};
@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// Field of view of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Lens {
+pub struct FieldOfView {
     /// Horizontal field of view, degrees.
     pub horizontal_deg: f64,
     /// Height of the picture divided by its width.
@@ -41,7 +41,7 @@ impl Blackouts {
     }
 }
 
-impl Lens {
+impl FieldOfView {
     /// Whether a point is inside the picture's borders.
     pub fn shows(&self, camera: &Pose, point_in_world: DVec3) -> bool {
         let seen = camera.body_from_world_point(point_in_world);
@@ -70,7 +70,7 @@ pub struct RewardWeights {
 
 /// What an environment is set to, apart from its episodes. Lengths in metres, times in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct EnvironmentSettings {
     /// Time from one action to the next.
     pub step_s: f64,
     /// Time from an observation to the effect of the action that answers it. Meanwhile the world moves on, and no further
@@ -85,7 +85,7 @@ pub struct Settings {
     /// Limits of the camera's turns.
     pub gimbal: GimbalLimits,
     /// The camera.
-    pub lens: Lens,
+    pub lens: FieldOfView,
     /// Stretches in which the camera sees nothing.
     pub blackouts: Blackouts,
     /// A target is tracked only where at least this share of it is seen, 0..=1.
@@ -100,7 +100,7 @@ pub struct Settings {
     pub weights: RewardWeights,
 }
 
-impl Default for Settings {
+impl Default for EnvironmentSettings {
     fn default() -> Self {
         Self {
             step_s: 0.1,
@@ -109,7 +109,7 @@ impl Default for Settings {
             drone: DroneSettings::default(),
             motion: MotionLimits::default(),
             gimbal: GimbalLimits::default(),
-            lens: Lens { horizontal_deg: 90.0, aspect: 0.75 },
+            lens: FieldOfView { horizontal_deg: 90.0, aspect: 0.75 },
             blackouts: Blackouts { count: 0, length_s: [2.0, 4.0] },
             least_visible: 0.5,
             farthest_m: 60.0,

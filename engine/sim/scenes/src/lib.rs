@@ -9,4 +9,4 @@ mod movers;
 mod scene;
 
 pub use movers::movers_around;
-pub use scene::{Scene, SceneKind};
+pub use scene::{SceneKind, SeededScene};

@@ -1,4 +1,4 @@
-//! [`Scene`]: boxes and a walker, drawn from a seed.
+//! [`SeededScene`]: boxes and a walker, drawn from a seed.
 
 use cosfly_frames::{DVec2, DVec3, TargetState, TargetTrack, real};
 use cosfly_geometry::OrientedBox;
@@ -43,7 +43,7 @@ impl SceneKind {
 }
 
 /// Obstacles and the lines between them.
-pub struct Scene {
+pub struct SeededScene {
     /// All obstacles; the ground is at z = 0.
     pub boxes: Vec<OrientedBox>,
     kind: SceneKind,
@@ -66,7 +66,7 @@ const WALL_GAP_M: f64 = 1.5;
 /// Distance of trees from the houses, metres.
 const TREE_GAP_M: f64 = 2.6;
 
-impl Scene {
+impl SeededScene {
     /// The scene of a kind and a seed.
     pub fn generate(kind: SceneKind, seed: u64) -> Self {
         let seed = Seed::of_item(seed, "scene", if kind == SceneKind::Fine { "leafy" } else { kind.name() });
@@ -260,8 +260,8 @@ mod tests {
     #[test]
     fn a_seed_gives_one_scene_and_walkers_stay_out_of_houses() {
         for kind in SceneKind::ALL {
-            let scene = Scene::generate(kind, 1);
-            assert_eq!(scene.boxes, Scene::generate(kind, 1).boxes);
+            let scene = SeededScene::generate(kind, 1);
+            assert_eq!(scene.boxes, SeededScene::generate(kind, 1).boxes);
             for index in 0..5 {
                 let track = scene.walker(1, index);
                 assert_eq!(track.len(), FRAMES);
@@ -275,6 +275,6 @@ mod tests {
                 }
             }
         }
-        assert!(Scene::generate(SceneKind::Fine, 1).boxes.len() > 20_000);
+        assert!(SeededScene::generate(SceneKind::Fine, 1).boxes.len() > 20_000);
     }
 }

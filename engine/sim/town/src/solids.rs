@@ -5,7 +5,7 @@ use crate::cover::{
     strips,
 };
 use crate::polygons::{contains, twice_area_m2};
-use crate::regions::Region;
+use crate::regions::PlanRegion;
 use cosfly_frames::DVec2;
 use cosfly_geometry::OrientedBox;
 
@@ -162,7 +162,7 @@ pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Ro
 }
 
 /// Boxes whose union covers a region between two heights, world, metres; overhang in plan as in [`crate::cover`].
-pub fn layer_boxes(region: &Region, base_m: f64, top_m: f64) -> Solid {
+pub fn layer_boxes(region: &PlanRegion, base_m: f64, top_m: f64) -> Solid {
     let (outer, holes) = region.rings();
     let Cover { rectangles, coarse } = cover_rings(&outer, &holes);
     let boxes = rectangles.into_iter().map(|one| upright(one, base_m, top_m)).collect();

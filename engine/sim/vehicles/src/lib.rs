@@ -19,5 +19,5 @@ mod vehicle;
 mod vehicles;
 
 pub use config::{MixConfig, VehicleConfig};
-pub use error::{ConfigRule, VehicleError};
+pub use error::{VehicleConfigRule, VehicleError};
 pub use vehicles::Vehicles;

@@ -10,7 +10,7 @@ pub mod video;
 
 use super::stretch;
 use crate::files::files_below;
-use crate::{Episode, Flag, Look, Moment};
+use crate::{ExaminedEpisode, ExaminedLook, ExaminedMoment, Flag};
 use actions::Recording;
 use cosfly_diagnose::{Fault, Result, Stop, plausible};
 use cosfly_frames::{DVec3, Pose};
@@ -33,7 +33,7 @@ pub fn recognises(folder: &Path) -> bool {
 }
 
 /// Episodes, faults of the files, and impossible checks as texts.
-pub type Read = (Vec<Episode>, Vec<Flag>, Vec<String>);
+pub type Read = (Vec<ExaminedEpisode>, Vec<Flag>, Vec<String>);
 
 /// Reads all episodes, and every file to its end.
 ///
@@ -239,8 +239,8 @@ impl Frames {
             let name = features.pictures.first()?;
             self.pictures.get(name)?.get(*rows.get(frame)?).cloned()
         };
-        let looks =
-            stretch(moments.len()).filter_map(|frame| Some(Look { frame, digest: digest(frame)?, ..Look::default() }));
+        let looks = stretch(moments.len())
+            .filter_map(|frame| Some(ExaminedLook { frame, digest: digest(frame)?, ..ExaminedLook::default() }));
         let part = |parts: &Option<features::Parts<3>>| -> Vec<Option<[f64; 3]>> {
             let of = |row: &usize| parts.as_ref().and_then(|parts| parts.of(self.row(&parts.feature, *row)));
             rows.iter().map(of).collect()
@@ -249,7 +249,7 @@ impl Frames {
             actions: part(&features.action),
             turns: part(&features.turn),
             expert: listed.experts.get(&number).cloned(),
-            episode: Episode {
+            episode: ExaminedEpisode {
                 split: split(info, number),
                 group: id.clone(),
                 is_perturbed: listed.experts.contains_key(&number),
@@ -258,7 +258,7 @@ impl Frames {
                 looks: looks.collect(),
                 moments,
                 id,
-                ..Episode::default()
+                ..ExaminedEpisode::default()
             },
         }
     }
@@ -271,7 +271,7 @@ impl Frames {
         features: &Features,
         in_degrees: bool,
         changes: f64,
-    ) -> Option<Moment> {
+    ) -> Option<ExaminedMoment> {
         let drone = match &features.position {
             Some(parts) => {
                 let place = DVec3::from_array(parts.of(self.row(&parts.feature, row))?);
@@ -295,7 +295,7 @@ impl Frames {
         };
         let edges = features.edges.as_ref().and_then(|parts| parts.of(self.row(&parts.feature, row)));
         let time = self.row("timestamp", row).first().copied();
-        Some(Moment {
+        Some(ExaminedMoment {
             time_s: time.unwrap_or(frame as f64 / fps),
             drone,
             camera,

@@ -9,7 +9,7 @@ use crate::console::Console;
 use crate::exit;
 use clap::{Parser, Subcommand};
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_env::Settings;
+use cosfly_env::EnvironmentSettings;
 use cosfly_fly::dagger::difference::told;
 use cosfly_fly::dagger::folder::{LabelCard, LabelFolder, RoundCard};
 use cosfly_fly::dagger::rollout::Mixture;
@@ -114,7 +114,7 @@ impl Command for Arguments {
             Suite::make(&recipe, &store, &options, &*progress)?
         };
         // A label belongs to the state it is for: actions take effect at once.
-        let settings = Settings { latency_s: 0.0, ..FlySettings::of(&recipe)?.environment() };
+        let settings = EnvironmentSettings { latency_s: 0.0, ..FlySettings::of(&recipe)?.environment() };
         let onto = self.onto.as_deref().map(LabelFolder::card).transpose()?;
         let card = self.card(&suite, &settings, &place, name, onto.as_ref())?;
         let folder = LabelFolder::open(out, &card, self.onto.as_deref())?;
@@ -157,7 +157,7 @@ impl Arguments {
     fn card(
         &self,
         suite: &Suite,
-        settings: &Settings,
+        settings: &EnvironmentSettings,
         place: &Place,
         name: &str,
         onto: Option<&LabelCard>,

@@ -9,7 +9,7 @@ use crate::console::Console;
 use crate::exit;
 use clap::{Parser, Subcommand, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_env::{DroneModel, DroneSettings, Settings};
+use cosfly_env::{DroneModel, DroneSettings, EnvironmentSettings};
 use cosfly_fly::flight::Latency;
 use cosfly_fly::pilot::Place;
 use cosfly_fly::results::{Card, EnvironmentCard, Folder, KeptCard, LogChoice, SuiteCard, beside};
@@ -241,7 +241,7 @@ fn check_names(places: &[Place]) -> cosfly_diagnose::Result<()> {
 
 impl Arguments {
     /// Settings of the environment: those of the suite, and over them those of the command line.
-    fn settings(&self, suite: &FlySettings) -> cosfly_diagnose::Result<Settings> {
+    fn settings(&self, suite: &FlySettings) -> cosfly_diagnose::Result<EnvironmentSettings> {
         let seconds = |milliseconds: u32| f64::from(milliseconds) / 1000.0;
         let latency_s = match self.latency_ms {
             None => seconds(suite.latency_ms),
@@ -266,7 +266,7 @@ impl Arguments {
         if is_point && (drone.wind_mps > 0.0 || drone.gusts) {
             return refused("wind does not move a point mass");
         }
-        Ok(Settings { step_s: seconds(self.step_ms), latency_s, drone, ..suite.environment() })
+        Ok(EnvironmentSettings { step_s: seconds(self.step_ms), latency_s, drone, ..suite.environment() })
     }
 
     fn latency(&self) -> Latency {
@@ -276,7 +276,7 @@ impl Arguments {
         }
     }
 
-    fn card(&self, suite: &Suite, place: &Place, name: &str, settings: &Settings) -> Card {
+    fn card(&self, suite: &Suite, place: &Place, name: &str, settings: &EnvironmentSettings) -> Card {
         Card {
             suite: SuiteCard::of(suite),
             policy: self.asked.card(place, name),

@@ -10,7 +10,7 @@ use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::{CostTerm, MucoConfig, PlanOutcome, TermContext, WeightedTerm, plan_with_terms};
 use cosfly_plugin_host::{Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm, laws};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use rustix::time::{ClockId, clock_gettime};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -150,7 +150,7 @@ fn calls(twin: &Plugin, heavy: bool) -> Result<(f64, f64, &'static str), PluginE
 
 /// Milliseconds per flight, native and plugin, and how the flights compare.
 fn flights(twin: &Plugin) -> Result<(f64, f64, String), PluginError> {
-    let scene = Scene::generate(SceneKind::Leafy, 1);
+    let scene = SeededScene::generate(SceneKind::Leafy, 1);
     let (track, exact) = (scene.walker(1, 0), BoxBvh::build(scene.boxes.clone()));
     let config = MucoConfig::default();
     let plan = |term: Box<dyn CostTerm>| {

@@ -5,7 +5,7 @@ use crate::pilot::{Asked, Failure, Pilot};
 use crate::suite::Task;
 use cosfly_diagnose::Result;
 use cosfly_env::policies::Plan;
-use cosfly_env::{Action, Environment, FEATURES, Settings};
+use cosfly_env::{Action, Environment, EnvironmentSettings, FEATURES};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_planner::{PlanOutcome, StartState, aim_point};
 use serde::{Deserialize, Serialize};
@@ -70,7 +70,7 @@ pub enum Attempt {
 pub fn rollout(
     task: &Task,
     known: &KnownFlight,
-    settings: Settings,
+    settings: EnvironmentSettings,
     mixture: &Mixture,
     pilot: &mut Asked<'_>,
 ) -> Result<Attempt> {

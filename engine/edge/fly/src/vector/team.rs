@@ -1,6 +1,6 @@
 //! Teams: the drones of a flock fly the same episode at the same time, each from a start of its own, and can hit each other.
 
-use super::{Bird, Shared};
+use super::{Shared, VectorMember};
 use cosfly_env::{Environment, Episode, Start};
 use cosfly_frames::{DVec3, real};
 use std::sync::Arc;
@@ -50,8 +50,8 @@ fn start_beside(episode: &Episode, taken: &[Start], share: f64, radius_m: f64) -
 }
 
 /// Places before a step of the drones that fly on; none of those whose episode is over.
-pub(super) fn places(birds: &[Bird]) -> Vec<Option<DVec3>> {
-    let place = |bird: &Bird| {
+pub(super) fn places(birds: &[VectorMember]) -> Vec<Option<DVec3>> {
+    let place = |bird: &VectorMember| {
         let is_flying = bird.environment.score().end.is_none();
         is_flying.then(|| bird.environment.observation().motion.position_in_world)
     };
@@ -59,7 +59,7 @@ pub(super) fn places(birds: &[Bird]) -> Vec<Option<DVec3>> {
 }
 
 /// Ends the episodes of drones that came as near as two radii to each other on their straight ways of a step.
-pub(super) fn meet(birds: &mut [Bird], before: &[Option<DVec3>], shared: &Shared) {
+pub(super) fn meet(birds: &mut [VectorMember], before: &[Option<DVec3>], shared: &Shared) {
     let mut hit = vec![false; birds.len()];
     for one in 0..birds.len() {
         for other in 0..one {
@@ -87,7 +87,7 @@ fn nearest_m(from: DVec3, to: DVec3) -> f64 {
 
 /// What a drone is told of each other one, in the order of their numbers: whether it flies (0 or 1), its place from the drone
 /// (metres) and its velocity (m/s), both ahead, right and up; zeros of one that does not fly.
-pub(super) fn beside(birds: &[Bird], number: usize) -> Vec<f32> {
+pub(super) fn beside(birds: &[VectorMember], number: usize) -> Vec<f32> {
     let own = birds[number].environment.observation();
     let told = |environment: &Environment| {
         if environment.score().end.is_some() {

@@ -3,13 +3,13 @@
 use super::*;
 use cosfly_env::pictures::Channel;
 use cosfly_env::policies::Knowledge;
-use cosfly_env::{Episode, Place, Start};
+use cosfly_env::{Episode, FlightSite, Start};
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_render::PictureLook;
 
 /// Targets that stand for 1 to 4 s.
 fn tasks() -> Arc<[Task]> {
-    let place = Arc::new(Place::on_flat_ground(vec![]));
+    let place = Arc::new(FlightSite::on_flat_ground(vec![]));
     let task = |seconds: usize| {
         let state = TargetState { feet_in_world: 20.0 * DVec3::X, heading_rad: 0.0, speed_mps: 0.0 };
         let states = vec![state; 2 * seconds + 1];
@@ -31,8 +31,8 @@ fn tasks() -> Arc<[Task]> {
     (1..=4).map(task).collect()
 }
 
-fn flock(mode: Autoreset) -> Flock {
-    let mut flock = Flock::new(tasks(), 3, Settings::default(), mode, true);
+fn flock(mode: Autoreset) -> VectorEnvironment {
+    let mut flock = VectorEnvironment::new(tasks(), 3, Settings::default(), mode, true);
     flock.reset(&[Some(5), Some(6), Some(5)], |_| true);
     flock
 }
@@ -59,7 +59,7 @@ fn episodes_end_and_begin_as_each_mode_says() {
             steps += 1;
         }
         assert_eq!(steps % 10, 0, "whole seconds");
-        let is_first = |flock: &Flock| flock.birds[0].environment.observation().step == 0;
+        let is_first = |flock: &VectorEnvironment| flock.birds[0].environment.observation().step == 0;
         assert_eq!(is_first(&flock), mode == Autoreset::SameStep);
         let last = flock.outputs().clone();
         flock.step(&[[0.0; ACTIONS]; 3]);
@@ -90,12 +90,12 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
     };
     for mode in [Autoreset::NextStep, Autoreset::SameStep, Autoreset::Disabled] {
         let mut flocks = [1, 2].map(|threads| {
-            let flock = Flock::new(tasks(), 3, Settings::default(), mode, false);
+            let flock = VectorEnvironment::new(tasks(), 3, Settings::default(), mode, false);
             let mut flock = flock.with_pictures(format(), threads).expect("threads");
             flock.reset(&[Some(5), Some(6), Some(7)], |_| true);
             flock
         });
-        let alone = |flock: &Flock, number: usize| {
+        let alone = |flock: &VectorEnvironment, number: usize| {
             let mut album = Album::new(&format(), 1);
             Pictures::new(format(), 1).draw(&[&flock.birds[number].environment], &mut album, 0);
             (album.depth_m, album.mask)
@@ -129,10 +129,12 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
 
 #[test]
 fn a_team_flies_one_episode_from_several_starts() {
-    let mut flock = Flock::new(tasks(), 3, Settings::default(), Autoreset::Disabled, false).as_team();
+    let mut flock = VectorEnvironment::new(tasks(), 3, Settings::default(), Autoreset::Disabled, false).as_team();
     flock.reset(&[Some(5), None, None], |_| true);
     assert!((1..3).all(|number| flock.episode(number) == flock.episode(0)));
-    let place = |flock: &Flock, number: usize| flock.birds[number].environment.observation().motion.position_in_world;
+    let place = |flock: &VectorEnvironment, number: usize| {
+        flock.birds[number].environment.observation().motion.position_in_world
+    };
     assert!(place(&flock, 0).distance(place(&flock, 1)) > 3.0 && place(&flock, 1).distance(place(&flock, 2)) > 3.0);
     let beside = &flock.outputs().beside[1];
     assert_eq!((beside.len(), beside[0], beside[BESIDE]), (2 * BESIDE, 1.0, 1.0));
@@ -145,7 +147,7 @@ fn a_team_flies_one_episode_from_several_starts() {
 
 #[test]
 fn drones_of_a_team_that_meet_collide_and_are_out_of_the_way_of_others() {
-    let mut flock = Flock::new(tasks(), 3, Settings::default(), Autoreset::Disabled, false).as_team();
+    let mut flock = VectorEnvironment::new(tasks(), 3, Settings::default(), Autoreset::Disabled, false).as_team();
     assert!(flock.begin_episode(0, "e4"));
     let mut ended = 0;
     while !flock.outputs().truncated[2] {

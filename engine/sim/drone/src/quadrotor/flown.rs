@@ -4,7 +4,7 @@ use super::control::{ControlGains, Controller, Setpoint, ThrustAndRates};
 use super::dynamics::{Quadrotor, TICK_S};
 use super::flipped;
 use super::parameters::{GRAVITY_MPS2, QuadrotorParameters};
-use crate::point_mass::{Command, Motion, MotionLimits, PointMass};
+use crate::point_mass::{Motion, MotionLimits, PointMass, VelocityCommand};
 use crate::sensing::Sensing;
 use crate::wind::Air;
 use cosfly_frames::{DQuat, DVec3};
@@ -14,9 +14,9 @@ const LEASH_M: f64 = 2.0;
 
 /// What a quadrotor is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Lead {
+pub enum ControlInput {
     /// To fly as a point mass would that follows a velocity, nose along a yaw (world frame, radians).
-    Velocity(Command, f64),
+    Velocity(VelocityCommand, f64),
     /// Collective thrust and rates of turning (the body's right-handed axes).
     ThrustAndRates(ThrustAndRates),
     /// Speeds of the rotors, rev/min.
@@ -25,7 +25,7 @@ pub enum Lead {
 
 /// How well a drone could do what it was asked for, since its beginning.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Strain {
+pub struct TrackingError {
     /// Ticks.
     pub ticks: u64,
     /// Ticks in which a rotor was asked for more or less thrust than it has.
@@ -46,7 +46,7 @@ pub struct FlownQuadrotor {
     point: PointMass,
     air: Air,
     time_s: f64,
-    strain: Strain,
+    strain: TrackingError,
     sensing: Option<Sensing>,
     acceleration_in_world: DVec3,
 }
@@ -66,15 +66,15 @@ impl FlownQuadrotor {
         quadrotor.state.velocity_mps = flipped(motion.velocity_in_world);
         quadrotor.state.attitude = DQuat::from_rotation_z(-yaw_rad);
         let point = PointMass { motion, limits };
-        let (strain, acceleration_in_world) = (Strain::default(), DVec3::ZERO);
+        let (strain, acceleration_in_world) = (TrackingError::default(), DVec3::ZERO);
         Self { quadrotor, controller, point, air, time_s: 0.0, strain, sensing, acceleration_in_world }
     }
 
     /// Flies for `time_s` seconds.
-    pub fn step(&mut self, lead: &Lead, time_s: f64) {
+    pub fn step(&mut self, lead: &ControlInput, time_s: f64) {
         let before = self.point.motion;
         let from = self.motion();
-        if let Lead::Velocity(command, _) = lead {
+        if let ControlInput::Velocity(command, _) = lead {
             self.point.step(command, time_s);
         }
         let acceleration = (self.point.motion.velocity_in_world - before.velocity_in_world) / time_s;
@@ -98,7 +98,7 @@ impl FlownQuadrotor {
         let motion = &mut self.point.motion;
         match lead {
             // A point that the drone cannot follow waits for it.
-            Lead::Velocity(..) => {
+            ControlInput::Velocity(..) => {
                 let ahead = (motion.position_in_world - position_in_world).clamp_length_max(LEASH_M);
                 motion.position_in_world = position_in_world + ahead;
             }
@@ -106,14 +106,14 @@ impl FlownQuadrotor {
         }
     }
 
-    fn tick(&mut self, lead: &Lead, setpoint: &dyn Fn(f64) -> Setpoint) {
+    fn tick(&mut self, lead: &ControlInput, setpoint: &dyn Fn(f64) -> Setpoint) {
         let state = &self.quadrotor.state;
         let mut driven = |wanted: &ThrustAndRates| {
             self.strain.saturated_ticks += u64::from(self.controller.saturates(state, wanted));
             self.controller.rotors_rpm(state, wanted)
         };
         let rotors = match lead {
-            Lead::Velocity(_, yaw_rad) => {
+            ControlInput::Velocity(_, yaw_rad) => {
                 let setpoint = setpoint(*yaw_rad);
                 let rotors = driven(&self.controller.track(state, &setpoint));
                 let error_m = state.position_m.distance(setpoint.position_m);
@@ -122,8 +122,8 @@ impl FlownQuadrotor {
                 self.strain.largest_error_m = self.strain.largest_error_m.max(error_m);
                 rotors
             }
-            Lead::ThrustAndRates(wanted) => driven(wanted),
-            Lead::Rotors(rotors) => {
+            ControlInput::ThrustAndRates(wanted) => driven(wanted),
+            ControlInput::Rotors(rotors) => {
                 let (low, high) = self.quadrotor.parameters.speed_rpm;
                 self.strain.saturated_ticks += u64::from(rotors.iter().any(|rpm| !(low..=high).contains(rpm)));
                 *rotors
@@ -156,7 +156,7 @@ impl FlownQuadrotor {
     }
 
     /// How well it could do what it was asked for.
-    pub fn strain(&self) -> &Strain {
+    pub fn strain(&self) -> &TrackingError {
         &self.strain
     }
 
@@ -194,8 +194,8 @@ mod tests {
             let mut point = flown.point;
             for step in 0..100 {
                 let velocity_in_world = if step < 50 { DVec3::new(2.0, -1.0, 0.5) } else { DVec3::new(0.0, 2.0, 0.0) };
-                let command = Command { velocity_in_world, ..Command::default() };
-                flown.step(&Lead::Velocity(command, 0.5), 0.1);
+                let command = VelocityCommand { velocity_in_world, ..VelocityCommand::default() };
+                flown.step(&ControlInput::Velocity(command, 0.5), 0.1);
                 point.step(&command, 0.1);
             }
             let away_m = flown.motion().position_in_world.distance(point.motion.position_in_world);
@@ -211,8 +211,8 @@ mod tests {
         let (mut whole, mut split) = (drone(parameters.clone(), Air::still()), drone(parameters, Air::still()));
         let wanted = ThrustAndRates { thrust_n: whole.thrust_n(1.1), rates_rad_s: DVec3::new(0.1, 0.2, 0.0) };
         for _ in 0..10 {
-            whole.step(&Lead::ThrustAndRates(wanted), 0.1);
-            [0.057, 0.043].iter().for_each(|time_s| split.step(&Lead::ThrustAndRates(wanted), *time_s));
+            whole.step(&ControlInput::ThrustAndRates(wanted), 0.1);
+            [0.057, 0.043].iter().for_each(|time_s| split.step(&ControlInput::ThrustAndRates(wanted), *time_s));
         }
         assert_eq!(whole.quadrotor.state, split.quadrotor.state);
         assert!(whole.motion().position_in_world.z > 20.1);
@@ -222,9 +222,9 @@ mod tests {
     fn more_than_the_rotors_have_is_counted() {
         let mut flown = drone(QuadrotorParameters::crazyflie(), Air::still());
         let wanted = ThrustAndRates { thrust_n: flown.thrust_n(5.0), rates_rad_s: DVec3::ZERO };
-        flown.step(&Lead::ThrustAndRates(wanted), 0.1);
+        flown.step(&ControlInput::ThrustAndRates(wanted), 0.1);
         assert_eq!(flown.strain().saturated_ticks, 100);
-        flown.step(&Lead::Rotors([f64::NAN; 4]), 0.1);
+        flown.step(&ControlInput::Rotors([f64::NAN; 4]), 0.1);
         assert_eq!(flown.strain().saturated_ticks, 200);
         assert!(flown.motion().position_in_world.is_finite());
     }

@@ -13,7 +13,7 @@ mod tests;
 
 pub use control::{ControlGains, Controller, Setpoint, ThrustAndRates};
 pub use dynamics::{Derivative, Quadrotor, QuadrotorState, TICK_S};
-pub use flown::{FlownQuadrotor, Lead, Strain};
+pub use flown::{ControlInput, FlownQuadrotor, TrackingError};
 pub use parameters::{Gyroscope, QuadrotorParameters};
 
 use cosfly_frames::DVec3;

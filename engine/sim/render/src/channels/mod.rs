@@ -8,7 +8,7 @@ pub mod normals;
 pub mod rgb;
 pub mod semantic;
 
-pub use channel::{Channel, Element, SeenPoint, Source};
+pub use channel::{Channel, ChannelSource, Element, SeenPoint};
 
 /// All channels.
 pub static ALL: &[&Channel] = &[

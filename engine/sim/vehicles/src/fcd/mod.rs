@@ -12,5 +12,5 @@ mod stream;
 
 pub use error::FcdError;
 pub use kinds::FcdType;
-pub use place::{NetLocation, Place};
+pub use place::{FcdProjection, NetLocation};
 pub use stream::{FcdConfig, read};

@@ -1,4 +1,4 @@
-//! [`Place`]: from the coordinates of a SUMO file to the world frame of a town.
+//! [`FcdProjection`]: from the coordinates of a SUMO file to the world frame of a town.
 
 use super::error::FcdError;
 use cosfly_diagnose::plausible;
@@ -52,7 +52,7 @@ impl NetLocation {
 }
 
 /// From the coordinates of a SUMO file to the world frame of a town, on the town's ground.
-pub struct Place {
+pub struct FcdProjection {
     offset_m: DVec2,
     between: Between,
     town_offset_m: DVec3,
@@ -72,7 +72,7 @@ enum Between {
 /// Bodies this far outside of a town are none of it, metres.
 const MARGIN_M: f64 = 500.0;
 
-impl Place {
+impl FcdProjection {
     /// The place of a file in a town. `net` is the location of its net, `is_geo` says that positions are degrees.
     ///
     /// # Errors

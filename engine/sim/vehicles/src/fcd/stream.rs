@@ -4,7 +4,7 @@ use super::error::FcdError;
 use super::kinds::{kind_of, passenger_car};
 use super::lines::Lines;
 use super::samples::Sample;
-use super::{FcdType, Place};
+use super::{FcdProjection, FcdType};
 use cosfly_frames::{DVec2, Seed, TargetState};
 use cosfly_world::{Body, BodyPlan, Clock, Prescribed};
 use quick_xml::Reader;
@@ -47,7 +47,7 @@ pub struct FcdConfig {
 /// should hold: each with its line.
 pub fn read(
     file: impl BufRead,
-    place: &Place,
+    place: &FcdProjection,
     config: &FcdConfig,
     clock: Clock,
     seed: Seed,
@@ -146,7 +146,7 @@ struct Step {
 
 /// The frames while they grow.
 struct Frames<'a> {
-    place: &'a Place,
+    place: &'a FcdProjection,
     config: &'a FcdConfig,
     clock: Clock,
     seed: Seed,
@@ -167,7 +167,7 @@ struct Frames<'a> {
 }
 
 impl<'a> Frames<'a> {
-    fn new(place: &'a Place, config: &'a FcdConfig, clock: Clock, seed: Seed) -> Self {
+    fn new(place: &'a FcdProjection, config: &'a FcdConfig, clock: Clock, seed: Seed) -> Self {
         Self {
             place,
             config,
