@@ -1,4 +1,4 @@
-//! What a store reads from its packs.
+//! Reading of a store from its packs.
 
 use crate::fault::Step;
 use crate::layout::Area;

@@ -13,7 +13,7 @@ pub enum Axes {
     World,
 }
 
-/// What moves the drone.
+/// Input that moves the drone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Drive {
     /// Velocity and acceleration of the action.
@@ -30,10 +30,10 @@ pub enum Drive {
     Rotors([f64; 4]),
 }
 
-/// What a policy asks of the drone until its next action.
+/// Action of a policy, in force until the next one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Action {
-    /// What moves the drone.
+    /// Input that moves the drone.
     pub drive: Drive,
     /// Axes of velocity and acceleration.
     pub axes: Axes,

@@ -70,7 +70,7 @@ impl Craft {
         }
     }
 
-    /// What the sensors of a quadrotor measured.
+    /// Samples of the sensors of a quadrotor.
     pub(crate) fn sensed(&self) -> &[Sensed] {
         match self {
             Self::Quadrotor(flown) => flown.sensing().map_or(&[], Sensing::sensed),

@@ -155,7 +155,7 @@ impl Environment {
         self.drone.attitude_xyzw()
     }
 
-    /// What the sensors of a quadrotor measured, by time; nothing without sensors.
+    /// Samples of the sensors of a quadrotor, by time; nothing without sensors.
     pub fn sensed(&self) -> &[Sensed] {
         self.drone.sensed()
     }
@@ -176,7 +176,7 @@ impl Environment {
         self.step_late(action, self.settings.latency_s)
     }
 
-    /// As [`Self::step`], with a latency of this action's own, seconds.
+    /// Step like [`Self::step`], with a latency of this action's own, seconds.
     pub fn step_late(&mut self, action: Option<&Action>, latency_s: f64) -> Step {
         if self.score.end.is_some() {
             return Step { observation: self.observation, reward: Reward::default(), end: self.score.end };

@@ -18,7 +18,7 @@ pub struct TargetSighting {
     pub velocity_in_world: DVec3,
 }
 
-/// What a policy is told, apart from pictures. The target is known where it is tracked, and else as it was last seen; in the
+/// Observation of a policy, apart from pictures. The target is known where it is tracked, and else as it was last seen; in the
 /// first observation it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observation {

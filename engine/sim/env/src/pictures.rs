@@ -39,7 +39,7 @@ impl Channel {
     }
 }
 
-/// What pictures hold.
+/// Content of pictures: size, channels, colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureFormat {
     /// Columns. Pixels are square; pictures are as wide as the environment's lens.
@@ -153,7 +153,7 @@ impl Pictures {
         Self { format, renderer, bystanders: vec![], ranges: vec![] }
     }
 
-    /// What the pictures hold.
+    /// Content of the pictures.
     pub fn format(&self) -> &PictureFormat {
         &self.format
     }
@@ -167,7 +167,7 @@ impl Pictures {
         self.draw_beside(environments, |_| None, album, first);
     }
 
-    /// The same for drones of a team, each of which sees the others that fly.
+    /// Pictures of drones of a team, each of which sees the others that fly.
     ///
     /// # Panics
     /// Where the album has no room for all pictures.

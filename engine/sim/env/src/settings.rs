@@ -1,4 +1,4 @@
-//! [`EnvironmentSettings`]: what an environment is set to, apart from its episodes.
+//! [`EnvironmentSettings`]: settings of an environment, apart from its episodes.
 
 use cosfly_drone::quadrotor::QuadrotorParameters;
 use cosfly_drone::{GimbalLimits, MotionLimits};
@@ -54,21 +54,21 @@ impl FieldOfView {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RewardWeights {
-    /// Of the share of the target that is seen in the picture.
+    /// Weight of the share of the target that is seen in the picture.
     pub visibility: f64,
-    /// Of the distance of the target from the picture's middle.
+    /// Weight of the distance of the target from the picture's middle.
     pub framing: f64,
-    /// Of the distance from the target, outside the wanted band.
+    /// Weight of the distance from the target, outside the wanted band.
     pub distance: f64,
-    /// Of the acceleration.
+    /// Weight of the acceleration.
     pub effort: f64,
-    /// Of a collision.
+    /// Weight of a collision.
     pub collision: f64,
-    /// Of steps in which the target is not tracked.
+    /// Weight of steps in which the target is not tracked.
     pub loss: f64,
 }
 
-/// What an environment is set to, apart from its episodes. Lengths in metres, times in seconds.
+/// Settings of an environment, apart from its episodes. Lengths in metres, times in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnvironmentSettings {
     /// Time from one action to the next.

@@ -1,4 +1,4 @@
-//! What moves: a person, or a vehicle of a kind and size.
+//! [`BodyShape`]: a person, or a vehicle of a kind and size.
 
 use crate::region::Region;
 use crate::umbrella;
@@ -9,7 +9,7 @@ use cosfly_world::BodyKind;
 /// Largest vehicle that is drawn, metres along each axis.
 const LARGEST_M: f64 = 60.0;
 
-/// What moves.
+/// Shape of a body: a person, or a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BodyShape {
     /// A person on foot.

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 pub struct Clothes {
     /// Indexed by the first seven of [`Region`].
     pub colours: [[f32; 3]; 7],
-    /// What texts may say of them; no umbrella.
+    /// Clothes in words, for texts; no umbrella.
     pub outfit: Outfit,
     /// Bare forearms.
     pub short_sleeves: bool,
@@ -53,7 +53,7 @@ pub struct Outfit {
 }
 
 impl Outfit {
-    /// What texts may say of a body: clothes of a person or rider; of another vehicle, its paint for top and trousers.
+    /// Look of a body in words: clothes of a person or rider; of another vehicle, its paint for top and trousers.
     pub fn of(body: BodyShape, seed: &Seed) -> Self {
         match body {
             BodyShape::Vehicle { kind, .. } if !matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle) => {

@@ -18,7 +18,7 @@ pub struct TargetSetup {
     pub gait_phase_rad: f64,
     /// Share of body points that unoccluded rays reach; copied into the picture's view of the target.
     pub visible_by_rays: f64,
-    /// What moves.
+    /// Shape of the body.
     pub body: BodyShape,
 }
 
@@ -49,7 +49,7 @@ pub struct Walker {
     pub clothes_seed: Seed,
     /// Phase of the gait, radians; see [`gait_phase_rad`]. Of a bicycle, that of the pedals; other vehicles have none.
     pub gait_phase_rad: f64,
-    /// What moves.
+    /// Shape of the body.
     pub body: BodyShape,
 }
 

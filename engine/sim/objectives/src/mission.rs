@@ -23,7 +23,7 @@ pub struct Site<'a> {
 }
 
 /// Flights that have places to be at fly as `agile`, where the recipe leaves the preset as it is: calm ones would miss them.
-fn agile(config: &MucoConfig) -> MucoConfig {
+pub(crate) fn agile(config: &MucoConfig) -> MucoConfig {
     let preset = if config.preset == Preset::Cosfly { Preset::Agile } else { config.preset };
     MucoConfig { preset, ..config.clone() }
 }

@@ -34,7 +34,7 @@ pub(crate) struct Person {
     pub height_px: f64,
 }
 
-/// What a part of somebody's figure looks like.
+/// Look of a part of somebody's figure.
 #[derive(Clone, Copy)]
 pub(crate) struct PartLook {
     /// Index among the members.
@@ -52,11 +52,11 @@ pub(crate) struct People {
     /// Parts of figures that were drawn.
     pub looks: Vec<PartLook>,
     wardrobe: Wardrobe,
-    /// Of the target and everybody else: whether they were found, and then their numbers among the members.
+    /// Numbers among the members of the target and everybody else, where they were found.
     found: Vec<Option<u32>>,
 }
 
-/// What triangles of a figure are built for.
+/// Use of the triangles of a figure.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Built {
     ForPicture,

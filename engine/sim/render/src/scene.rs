@@ -112,7 +112,7 @@ impl Scene {
         self.season
     }
 
-    /// The same town in a season of one's choice; without one, in its own.
+    /// This town in a season of one's choice; without one, in its own.
     pub fn in_season(mut self, season: Option<Season>) -> Self {
         let Some(season) = season else { return self };
         self.season = season;

@@ -21,7 +21,7 @@ use walls::Wall;
 /// A rectangle's overhang beyond the outline is at most this deep, metres, wherever [`MOST`] rectangles are enough; less for
 /// things of a few metres.
 pub const COVER_TOLERANCE_M: f64 = 0.25;
-/// The same of more crooked outlines. Only of a [`Cover::coarse`] one it is deeper.
+/// Overhang over more crooked outlines, metres. Only of a [`Cover::coarse`] one it is deeper.
 pub const LOOSE_TOLERANCE_M: f64 = 0.5;
 /// Few rectangles of one footprint: where rows need more, other covers are tried.
 const FEW: usize = 20;
@@ -50,7 +50,7 @@ pub struct Cover {
     pub coarse: Option<Coarse>,
 }
 
-/// What a coarse cover gains.
+/// Gain of a coarse cover.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coarse {
     /// Ground under rectangles that is not of the footprint, square metres, measured on a grid.

@@ -13,7 +13,7 @@ pub struct PlanRegion {
 }
 
 impl PlanRegion {
-    /// Of an outer ring and its holes, each either way round; sides must not cross.
+    /// Region of an outer ring and its holes, each either way round; sides must not cross.
     pub fn new(outer: &[DVec2], holes: &[Vec<DVec2>]) -> Self {
         let holes = holes.iter().map(|hole| turned(hole, false));
         Self { rings: core::iter::once(turned(outer, true)).chain(holes).collect() }

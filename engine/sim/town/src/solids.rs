@@ -106,7 +106,7 @@ impl CoarseThings {
         }
     }
 
-    /// What there is to say.
+    /// Warnings about covers that are coarse.
     pub fn warnings(&self) -> Vec<String> {
         let mut lines = Vec::new();
         if self.covers > 0 {
@@ -281,7 +281,7 @@ impl RoofPlan {
     }
 }
 
-/// What two sorted lists of spans share.
+/// Spans that two sorted lists share.
 fn overlaps(some: &[Span], others: &[Span]) -> Vec<Span> {
     let mut out = Vec::new();
     let (mut i, mut j) = (0, 0);

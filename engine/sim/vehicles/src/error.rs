@@ -31,7 +31,7 @@ pub enum VehicleError {
 }
 
 impl VehicleError {
-    /// What the user can do.
+    /// Advice for the user.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Config(_) => "change the value in the recipe",

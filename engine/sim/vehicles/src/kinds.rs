@@ -5,7 +5,7 @@ use cosfly_frames::{DVec3, RandomStream};
 use cosfly_maps::LaneKind;
 use cosfly_world::BodyKind;
 
-/// What a kind of vehicle can do.
+/// Limits of a kind of vehicle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
     /// Largest speed, m/s.

@@ -24,7 +24,7 @@ pub(crate) struct Vehicle {
     pub doing: Doing,
 }
 
-/// What a vehicle does.
+/// Activity of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Doing {
     Drives,

@@ -30,7 +30,7 @@ pub struct Derivative {
     pub acceleration_mps2: DVec3,
     /// Angular acceleration around the body's axes, rad/s^2.
     pub rates_rad_s2: DVec3,
-    /// Of the rotors, rev/min per second.
+    /// Change of the rotors' speeds, rev/min per second.
     pub rotors_rpm_s: [f64; 4],
 }
 

@@ -12,7 +12,7 @@ use cosfly_frames::{DQuat, DVec3};
 /// Distance by which the point that is followed gets ahead of the drone at most, metres.
 const LEASH_M: f64 = 2.0;
 
-/// What a quadrotor is asked for.
+/// Input of the control loop: a velocity, thrust and rates, or speeds of rotors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ControlInput {
     /// To fly as a point mass would that follows a velocity, nose along a yaw (world frame, radians).
@@ -160,7 +160,7 @@ impl FlownQuadrotor {
         &self.strain
     }
 
-    /// What its sensors measured.
+    /// Samples of its sensors.
     pub fn sensing(&self) -> Option<&Sensing> {
         self.sensing.as_ref()
     }

@@ -8,9 +8,9 @@ pub const GRAVITY_MPS2: f64 = 9.81;
 /// Signs of the torque of spinning rotors on a body that rolls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gyroscope {
-    /// As mechanics say: minus the cross product of body rates and the rotors' angular momentum.
+    /// Torque of mechanics: minus the cross product of body rates and the rotors' angular momentum.
     Exact,
-    /// As the Python package `drone-models` 0.1.0 has it, with the other sign in the roll component; to compare with it.
+    /// Torque of the Python package `drone-models` 0.1.0, with the other sign in the roll component; to compare with it.
     OfDroneModels,
 }
 

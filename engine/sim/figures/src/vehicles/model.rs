@@ -89,7 +89,7 @@ impl<'a> Model<'a> {
         sheet_m * DVec3::new(x, y * (foot + (top - foot) * z), z)
     }
 
-    /// The same panel on both sides of a hull: an outline of (x, z).
+    /// A panel on both sides of a hull: an outline of (x, z).
     pub fn side_panels(&mut self, region: Region, outline: &[[f64; 2]], half_width: [f64; 2]) {
         for y in [-1.0, 1.0] {
             self.side_panel(region, outline, half_width, y);

@@ -204,7 +204,7 @@ mod tests {
         Objective { rounds: 1, iterations: 20_000, nearness: 0.3, acceleration: 0.5, jerk: 2.0 };
     const REACH: [f64; 3] = [4.0, 1.2, 1.0];
 
-    /// The same programme for an interior-point solver: positions frame by frame, axis by axis.
+    /// Programme of the smoother for an interior-point solver: positions frame by frame, axis by axis.
     fn by_interior_point(wished: &[DVec3], corridor: &[FrameCorridor]) -> Vec<DVec3> {
         let n = 3 * wished.len();
         let mut quadratic = vec![vec![0.0; n]; n];

@@ -21,7 +21,7 @@ const REACH_M: f32 = 0.6;
 const REACH_SHARE: f32 = 0.28;
 /// And no farther than this, pixels.
 const MOST_PX: f32 = 20.0;
-/// The same for crowns without leaves.
+/// Reach of crowns without leaves, metres.
 const BARE_REACH_M: f32 = 1.2;
 const BARE_REACH_SHARE: f32 = 0.5;
 const MOST_BARE_PX: f32 = 32.0;

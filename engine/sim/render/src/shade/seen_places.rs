@@ -16,7 +16,7 @@ const SMALL_PIXELS: usize = 1 << 16;
 #[derive(Default)]
 pub(super) struct SeenPlaces {
     blocks: Vec<[f32; 2]>,
-    /// The same of the columns of a row of blocks.
+    /// Least and greatest inverse depths of the columns of a row of blocks.
     least: Vec<f32>,
     greatest: Vec<f32>,
 }

@@ -38,7 +38,7 @@ pub(super) struct Window {
     painter: Option<Painter>,
 }
 
-/// What a window shows of the texels of a size.
+/// Part of a window: the texels of one size.
 #[derive(Clone, Copy)]
 struct Part {
     lattice: Frame,

@@ -67,7 +67,7 @@ pub(super) struct Texels(pub(super) [u32; TILE * TILE]);
 pub(super) type TownMap = [Arc<Texels>; WINDOWS];
 /// Tiles of all windows.
 pub(super) const WINDOWS: usize = GRAINS * (WINDOW_TILES * WINDOW_TILES) as usize;
-/// Of each square of texels, and those right and below of it: the least height in the low half, 0 where leaves are, and the
+/// Summary of each square of texels, and those right and below of it: the least height in the low half, 0 where leaves are, and the
 /// greatest in the high half; steps.
 pub(super) type SummaryMap = [u32; GRAINS * SQUARES * SQUARES];
 type FigureMap = [u32; FIGURE_TEXELS];

@@ -9,7 +9,7 @@ pub struct FcdError {
     pub message: String,
     /// Line of the file, from 1.
     pub line: Option<u64>,
-    /// What the user can do.
+    /// Advice for the user.
     pub hint: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What a time step of the file says of each body, and states between two steps.
+//! [`Sample`]: a body in a time step of the file, and states between two steps.
 
 use cosfly_frames::{DVec2, TargetState, real};
 use cosfly_world::BodyKind;

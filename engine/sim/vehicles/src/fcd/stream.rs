@@ -135,7 +135,7 @@ fn degrees(line: u64) -> FcdError {
         .hint("set `geo = true`: the file was written with `--fcd-output.geo`")
 }
 
-/// What to do with a file that SUMO does not write.
+/// Advice about a file that SUMO does not write.
 const WRITE_AGAIN: &str = "write it again with `sumo --fcd-output FILE`, one file a run";
 
 /// A time step of the file.
