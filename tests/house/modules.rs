@@ -132,7 +132,7 @@ fn items_of(tokens: &[Token]) -> (BTreeSet<String>, Vec<String>) {
                 continue;
             }
             "mod" if text(at + 2) == ";" => children.push(text(at + 1).to_owned()),
-            "macro_rules" => drop(items.insert(text(at + 2).to_owned())),
+            "macro_rules" => _ = items.insert(text(at + 2).to_owned()),
             "fn" | "struct" | "enum" | "union" | "trait" | "type" | "const" | "static" | "mod" => {
                 items.insert(text(at + 1).to_owned());
             }
@@ -204,8 +204,6 @@ fn paths_of(tokens: &[Token]) -> Vec<Vec<String>> {
                 path.push(tokens[at + 2].text.clone());
                 at += 2;
             }
-            // One name may be a local one; a name of another file came through a `use`, which is counted itself,
-            // or through the `use` of all names of a module.
             found.push(path);
             at += 1;
         } else {

@@ -3,8 +3,9 @@
 use crate::clip::Clip;
 use crate::ground::SeenGround;
 use crate::plan::Plan;
-use crate::selection::spread;
+use crate::selection::{FrameList, spread};
 use crate::sheet::Sheet;
+use crate::shot::ClipShot;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_read::{FrameRow, PublishedDataset, PublishedFlight};
 use std::collections::{BTreeMap, BTreeSet};
