@@ -124,3 +124,10 @@ fn box_hit(shape: &OrientedBox, from: DVec3, ray: DVec3) -> f64 {
     let leave = to_min.max(to_max).min_element();
     if enter <= leave && enter > 0.0 { enter } else { f64::INFINITY }
 }
+
+/// State of a bystander 2.5 m ahead and 1.5 m to the right.
+pub(crate) fn ahead_of(state: &TargetState) -> TargetState {
+    let (sin, cos) = real::sin_cos(state.heading_rad);
+    let away = DVec3::new(2.5 * cos - 1.5 * sin, 2.5 * sin + 1.5 * cos, 0.0);
+    TargetState { feet_in_world: state.feet_in_world + away, ..*state }
+}

@@ -1,6 +1,6 @@
 //! Sample flights: the track of a pedestrian, the poses of a drone, pictures by rays.
 
-use crate::drawn::{COMPANION, HEIGHT_M, RADIUS_M, look, point};
+use crate::drawn::{COMPANION, HEIGHT_M, RADIUS_M, ahead_of, look, point};
 use crate::town::town;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
 use cosfly_maps::SemanticLabel;
@@ -173,13 +173,6 @@ fn track(pedestrian: usize) -> TargetTrack {
     let state =
         |i| TargetState { feet_in_world: DVec3::new(cos, sin, 0.0) * (0.65 * i as f64), heading_rad, speed_mps: 1.3 };
     TargetTrack { dt_s: 0.5, height_m: HEIGHT_M, radius_m: RADIUS_M, states: (0..FRAMES).map(state).collect() }
-}
-
-/// State of a bystander 2.5 m ahead and 1.5 m to the right.
-fn ahead_of(state: &TargetState) -> TargetState {
-    let (sin, cos) = real::sin_cos(state.heading_rad);
-    let away = DVec3::new(2.5 * cos - 1.5 * sin, 2.5 * sin + 1.5 * cos, 0.0);
-    TargetState { feet_in_world: state.feet_in_world + away, ..*state }
 }
 
 /// Pose of a camera 4 m above the feet and at least 6 m behind, falling back, that looks at the middle of the body.

@@ -2,7 +2,8 @@
 
 use crate::files::CheckedFiles;
 use crate::flights::Flights;
-use crate::options::Wanted;
+use crate::options::{Options, Wanted};
+use crate::report::VerifyReport;
 use crate::resume::ResumeFile;
 use crate::tables::SmallTables;
 use crate::{croissant, extras, files, splits, tables, waypoints, windows};

@@ -147,7 +147,7 @@ fn attempt_at(
         certified_visibility: task.certified_visibility,
         step_s: settings.step_s,
         from_expert_m: from_expert_m(task, &steps),
-        strain: environment.strain().map(StrainRow::from),
+        strain: environment.tracking_error().map(StrainRow::from),
         mean_latency_s: mean(steps.iter().filter_map(|step| step.latency_s)),
         score: *environment.score(),
     };

@@ -31,7 +31,7 @@ impl Craft {
         match self {
             Self::PointMass(point) => point.step(&action.command(yaw_rad), time_s),
             Self::Quadrotor(flown) => {
-                let lead = match action.drive {
+                let input = match action.drive {
                     Drive::Velocity => ControlInput::Velocity(action.command(yaw_rad), yaw_rad),
                     Drive::ThrustAndRates { weights, rates_rad_s } => {
                         // To the body's right-handed axes: x ahead, y left, z up.
@@ -40,7 +40,7 @@ impl Craft {
                     }
                     Drive::Rotors(rotors_rpm) => ControlInput::Rotors(rotors_rpm),
                 };
-                flown.step(&lead, time_s);
+                flown.step(&input, time_s);
             }
         }
     }
@@ -54,10 +54,10 @@ impl Craft {
     }
 
     /// How well a quadrotor could do what it was asked for.
-    pub(crate) fn strain(&self) -> Option<&TrackingError> {
+    pub(crate) fn tracking_error(&self) -> Option<&TrackingError> {
         match self {
             Self::PointMass(_) => None,
-            Self::Quadrotor(flown) => Some(flown.strain()),
+            Self::Quadrotor(flown) => Some(flown.tracking_error()),
         }
     }
 

@@ -145,8 +145,8 @@ impl Environment {
     }
 
     /// How well a quadrotor could do what it was asked for; `None` of a point mass.
-    pub fn strain(&self) -> Option<&TrackingError> {
-        self.drone.strain()
+    pub fn tracking_error(&self) -> Option<&TrackingError> {
+        self.drone.tracking_error()
     }
 
     /// Attitude of a quadrotor: x, y, z, w of the rotation from its right-handed axes (x ahead, y left, z up) to those of the world

@@ -191,7 +191,7 @@ fn quadrotors_hold_their_place_in_wind_and_fall_without_thrust() {
             environment.step(Some(&Action::default()));
         }
         let away_m = environment.observation().motion.position_in_world.distance(from);
-        let strain = environment.strain().expect("a quadrotor");
+        let strain = environment.tracking_error().expect("a quadrotor");
         assert!(away_m < 1.0 && strain.largest_error_m < 1.0 && strain.ticks == 5000, "{model:?} {away_m} {strain:?}");
         assert_eq!(environment.sensed().len(), 1000);
         while environment.score().end.is_none() {
