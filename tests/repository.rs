@@ -1,6 +1,6 @@
 //! Repository rules: heavy crates in their rooms, file headers, generated files, links of the book.
 
-use crate::house::edges::rooms;
+use crate::house::edges;
 use crate::support::{cosfly, repository_root};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ fn heavy_crates_stay_in_their_one_room() {
         ("tungstenite", &["cosfly-fly"][..]),
         ("rmpv", &["cosfly-fly"][..]),
     ]);
-    for (name, room) in rooms() {
+    for (name, room) in edges::rooms() {
         let places = [name.clone(), format!("shelf {}", room.shelf)];
         for dependency in room.uses.iter().filter(|(_, is_dev)| !**is_dev).map(|(dependency, _)| dependency) {
             if let Some(rooms) = rooms.get(dependency.as_str()) {

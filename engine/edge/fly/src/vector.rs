@@ -7,7 +7,7 @@ mod tests;
 
 use crate::suite::Task;
 use cosfly_env::pictures::{PictureBatch, PictureFormat, Pictures};
-use cosfly_env::{Action, End, Environment, EnvironmentSettings, FEATURES, Reward};
+use cosfly_env::{End, Environment, EnvironmentSettings, FEATURES, Reward};
 use member::{Shared, VectorMember, stream_of};
 use rayon::{ThreadPool, ThreadPoolBuildError};
 use std::sync::Arc;
