@@ -219,7 +219,7 @@ impl VectorEnvironment {
         self.draw(chosen);
     }
 
-    /// Moves every environment on by one step, with one action of [`Action::of_numbers`] each.
+    /// Moves every environment on by one step, with one action of [`cosfly_env::Action::of_numbers`] each.
     pub fn step(&mut self, actions: &[[f32; ACTIONS]]) {
         let before = if self.shared.is_team { team::places(&self.members) } else { vec![] };
         self.members.iter_mut().zip(actions).for_each(|(member, action)| member.step(action, &self.shared));

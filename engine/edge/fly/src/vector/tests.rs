@@ -3,7 +3,7 @@
 use super::*;
 use cosfly_env::pictures::Channel;
 use cosfly_env::policies::Knowledge;
-use cosfly_env::{Episode, FlightSite, Start};
+use cosfly_env::{Action, Episode, FlightSite, Start};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_render::PictureLook;
 

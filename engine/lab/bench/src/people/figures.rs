@@ -1,5 +1,6 @@
 //! [`Figures`]: how people move, from places at 2 Hz alone, so that recorded and simulated people are measured alike.
 
+use cosfly_pedestrians::Recording;
 use glam::DVec2;
 use serde::Serialize;
 use std::collections::BTreeMap;
