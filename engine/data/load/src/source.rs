@@ -1,9 +1,9 @@
 //! The seam: flights, tables and images of a dataset.
 
 use cosfly_diagnose::Result;
+use cosfly_domain::Channel;
 use cosfly_read::StoredImage;
 use cosfly_read::columns::TableData;
-use cosfly_render::channels::Channel;
 
 /// A flight of a dataset.
 #[derive(Clone, Debug, PartialEq, Eq)]

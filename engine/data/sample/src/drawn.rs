@@ -1,11 +1,10 @@
 //! Pictures by one ray for each pixel: ground, a wall, cylinders for people.
 
+use cosfly_domain::channels::SeenPoint;
+use cosfly_domain::{
+    Camera, FrameImages, OrientedBox, PersonView, PixelBox, SemanticLabel, TARGET_INSTANCE, TargetView, Town,
+};
 use cosfly_frames::{DVec3, Pose, TargetState, real};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{SemanticLabel, Town};
-use cosfly_render::channels::SeenPoint;
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{Camera, FrameImages, PersonView, PixelBox, TargetView};
 
 /// Height and radius of everybody, metres.
 pub(crate) const HEIGHT_M: f64 = 1.8;

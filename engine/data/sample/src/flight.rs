@@ -2,20 +2,18 @@
 
 use crate::drawn::{COMPANION, HEIGHT_M, RADIUS_M, ahead_of, look, point};
 use crate::town::town;
-use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
-use cosfly_maps::SemanticLabel;
-use cosfly_planner::certificate::view_rates_deg_s;
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermCost, Trajectory};
-use cosfly_render::channels::{ALL, SeenPoint};
-use cosfly_render::{
-    Camera, ChannelImage, ChannelSet, Clothes, FrameImages, Lens, MotionBlur, Mount, Noise, Outfit, RollingShutter,
-    Season, TargetView, Weather,
+use cosfly_domain::channels::{ALL, SeenPoint};
+use cosfly_domain::{
+    Around, BodyKind, Camera, Certificate, ChannelImage, ChannelSet, FrameImages, FramePerturbation, Lens, Limits,
+    MotionBlur, Mount, Noise, Outfit, Perturbation, PerturbationKind, RollingShutter, Season, SemanticLabel,
+    TargetView, TermCost, Trajectory, Weather,
 };
+use cosfly_figures::Clothes;
+use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
+use cosfly_planner::certificate::view_rates_deg_s;
 use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
 };
-use cosfly_world::{Around, BodyKind};
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 
 /// Number of frames of every flight.

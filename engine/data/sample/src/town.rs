@@ -1,8 +1,7 @@
 //! The town of the sample: a plane with a wall.
 
+use cosfly_domain::{MapOrigin, Obstacle, ObstacleKind, OrientedBox, SimplificationReport, Synthetic, Town};
 use cosfly_frames::DVec3;
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SimplificationReport, Synthetic, Town};
 
 /// A plain with one wall, part of which hides the target in some frames.
 pub fn town() -> Town {

@@ -2,10 +2,9 @@
 
 use crate::canvas::{Part, Parts, WIDE};
 use crate::eye::{Eye, NEAR_M};
-use cosfly_figures::{FigurePart, SIDES};
+use cosfly_figures::{FigurePart, SIDES, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, real, simd_kernel};
-use cosfly_render::Walker;
 
 /// A box around something on the screen: bounds in pixels from the image's centre, and the nearest depth.
 pub struct Around {

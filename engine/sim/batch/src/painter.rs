@@ -14,10 +14,10 @@ use crate::outputs::Outputs;
 use crate::raster::{HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_lane, draw_polygon, draw_within};
 use crate::resolve::resolve;
 use crate::view::View;
-use cosfly_figures::{FigureParts, FigureTriangle};
+use cosfly_figures::{FigureParts, FigureTriangle, Wardrobe};
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
-use cosfly_render::{BodyPart, Wardrobe};
+use cosfly_render::BodyPart;
 
 /// Most corners of a polygon.
 const MOST_CORNERS: usize = WIDE * MOST_LINES;

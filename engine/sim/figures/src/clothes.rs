@@ -5,8 +5,8 @@ use crate::build::{Build, Hair};
 use crate::colour::{Colour, Dye, dye};
 use crate::umbrella;
 use crate::vehicles::Livery;
+use cosfly_domain::{Bag, BodyKind, Traits};
 use cosfly_frames::{RandomStream, Seed};
-use cosfly_world::{Bag, BodyKind, Traits};
 use serde::{Deserialize, Serialize};
 
 /// Colours of a figure, linear RGB.

@@ -1,11 +1,10 @@
 //! [`Mission`]: a moving point to be watched, and wishes, as the planner is asked for it.
 
 use crate::meeting::Meeting;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, TargetTrack};
-use cosfly_geometry::{OrientedBox, SpatialQuery};
-use cosfly_planner::PlanRequest;
-use cosfly_planner::WeightedTerm;
-use cosfly_planner::{MucoConfig, Preset};
+use cosfly_geometry::SpatialQuery;
+use cosfly_planner::{MucoConfig, PlanRequest, Preset, WeightedTerm};
 
 /// Body height of a point to be watched that is nobody, metres: the smallest that can be followed.
 pub const POINT_HEIGHT_M: f64 = 0.2;

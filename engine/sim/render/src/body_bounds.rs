@@ -1,12 +1,12 @@
 //! Bounds of a body and of all that it may darken or light, in the world and on the screen.
 
-use crate::eye::Eye;
 use crate::far_light::FarLight;
-use crate::nearer::Nearer;
 use crate::shade::headlights;
-use crate::visibility::{NEAR_M, Screen};
 use cosfly_figures::Walker;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_raster::eye::Eye;
+use cosfly_raster::nearer::Nearer;
+use cosfly_raster::visibility::{NEAR_M, Screen};
 use std::ops::Range;
 
 /// Shadows are looked for on ground that lies at most this far below the feet, metres.
@@ -137,10 +137,9 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::Camera;
+    use cosfly_domain::{BodyKind, Camera};
     use cosfly_figures::{BodyShape, walker_triangles};
     use cosfly_frames::{Pose, Seed, TargetState};
-    use cosfly_world::BodyKind;
 
     #[test]
     fn a_body_and_its_shadow_stay_within_reach() {

@@ -1,8 +1,8 @@
 //! Light by which a body changes what lies away from it: the sun's, and that of its lamps.
 
-use crate::shade::light::Light;
-use crate::weather::Weather;
+use cosfly_domain::Weather;
 use cosfly_frames::DVec3;
+use cosfly_materials::light::Light;
 
 /// Light by which a body changes what lies away from it.
 #[derive(Clone, Copy)]

@@ -1,13 +1,12 @@
 //! People who may change a picture, told without drawing it.
 
 use crate::body_bounds::Bounds;
-use crate::camera::Camera;
-use crate::eye::Eye;
 use crate::far_light::FarLight;
-use crate::visibility::Screen;
-use crate::weather::Weather;
+use cosfly_domain::{Camera, Weather};
 use cosfly_figures::Walker;
 use cosfly_frames::{DVec3, Pose};
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::Screen;
 
 /// The view of an ideal camera at a moment.
 pub struct Outlook {

@@ -1,18 +1,16 @@
 //! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
 
 use crate::body_bounds::{Bounds, Reach};
-use crate::eye::Eye;
 use crate::far_light::FarLight;
 use crate::found::BodyPart;
-use crate::frame::TARGET_INSTANCE;
-use crate::nearer::Nearer;
 use crate::setup::FrameSetup;
-use crate::shade::vector::Vec3;
-use crate::visibility::Screen;
-use cosfly_figures::{BodyShape, Livery, Wardrobe};
-use cosfly_figures::{Clothes, Region};
-use cosfly_figures::{FigureTriangle, Walker, figure};
+use cosfly_domain::TARGET_INSTANCE;
+use cosfly_figures::{BodyShape, Clothes, FigureTriangle, Livery, Region, Walker, Wardrobe, figure};
 use cosfly_frames::{DVec3, real};
+use cosfly_materials::vector::Vec3;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::nearer::Nearer;
+use cosfly_raster::visibility::Screen;
 use std::ops::Range;
 
 /// Somebody whose figure is built in this frame.

@@ -1,6 +1,6 @@
 //! The content of one frame: pose, weather, people.
 
-use crate::weather::Weather;
+use cosfly_domain::Weather;
 use cosfly_figures::{Bystander, TargetSetup};
 use cosfly_frames::Pose;
 

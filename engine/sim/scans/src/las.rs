@@ -9,7 +9,8 @@ pub mod wkt;
 
 use crate::cloud::{CloudBuilder, CloudOptions, town_of};
 use crate::way_out::or_advice;
-use cosfly_town::{MapError, MapFormat, Town};
+use cosfly_domain::Town;
+use cosfly_town::{MapError, MapFormat};
 use header::Header;
 use projection::Projection;
 use records::Points;

@@ -1,7 +1,7 @@
 //! [`SeededScene`]: boxes and a walker, drawn from a seed.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, TargetState, TargetTrack, real};
-use cosfly_geometry::OrientedBox;
 use cosfly_random::{RandomStream, Seed};
 
 /// Kind of a scene.

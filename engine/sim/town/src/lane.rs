@@ -16,9 +16,9 @@ pub struct Lane {
     pub speed_limit_mps: f64,
     /// Whether it is a way through a junction.
     pub in_junction: bool,
-    /// Lanes that follow: indices in [`crate::Town::lanes`], ascending.
+    /// Lanes that follow: indices in [`cosfly_domain::Town::lanes`], ascending.
     pub successors: Vec<u32>,
-    /// Crossings and other ground where people cross it: indices in [`crate::Town::walkable`], ascending.
+    /// Crossings and other ground where people cross it: indices in [`cosfly_domain::Town::walkable`], ascending.
     pub crossings: Vec<u32>,
 }
 
@@ -33,7 +33,7 @@ pub enum LaneKind {
 }
 
 impl Lane {
-    /// A lane whose followers and crossings are not known yet, see [`crate::Town::link_lanes`]; `None` for one without extent.
+    /// A lane whose followers and crossings are not known yet, see [`cosfly_domain::Town::link_lanes`]; `None` for one without extent.
     /// Points that nearly coincide become one.
     pub fn new(kind: LaneKind, points: impl IntoIterator<Item = DVec3>, width_m: f64, limit_mps: f64) -> Option<Self> {
         let mut middle_in_world: Vec<DVec3> = points.into_iter().collect();

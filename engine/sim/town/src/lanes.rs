@@ -1,7 +1,7 @@
 //! Which lane follows which, and where people cross lanes.
 
 use crate::polygons::PolygonIndex;
-use crate::{Lane, Town, WalkableKind, WalkablePolygon};
+use cosfly_domain::{Lane, Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::DVec3;
 use std::collections::BTreeMap;
 
@@ -97,7 +97,7 @@ fn find_crossings(lanes: &mut [Lane], walkable: &[WalkablePolygon]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::LaneKind;
+    use cosfly_domain::LaneKind;
 
     fn lane(points: &[(f64, f64)]) -> Lane {
         let points = points.iter().map(|(x, y)| DVec3::new(*x, *y, 0.0));

@@ -3,8 +3,8 @@
 use crate::kinds::{Limits, limits};
 use crate::network::Network;
 use crate::route::Route;
+use cosfly_domain::{BodyKind, BodyPlan};
 use cosfly_frames::{RandomStream, TargetState};
-use cosfly_world::{BodyKind, BodyPlan};
 
 /// Room that a vehicle needs beside itself on its lane, metres.
 pub(crate) const BESIDE_M: f64 = 0.25;

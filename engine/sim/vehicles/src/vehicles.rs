@@ -8,9 +8,9 @@ use crate::network::Network;
 use crate::outlines::{blocked_lanes, meet};
 use crate::vehicle::{Doing, Vehicle};
 use crate::{parked, start};
+use cosfly_domain::{BodyPlan, Town};
 use cosfly_frames::{Seed, TargetState};
-use cosfly_maps::Town;
-use cosfly_world::{BodyPlan, Clock, Population, Present, Snapshot};
+use cosfly_world::{Clock, Population, Present, Snapshot};
 
 /// Vehicles keep this distance from each other when they move, metres.
 const APART_M: f64 = 0.05;

@@ -2,8 +2,8 @@
 
 use super::crowds::crowded_along;
 use super::figures::{SAMPLE_S, Tracks};
+use cosfly_domain::{Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::{Town, WalkableKind, WalkablePolygon};
 use cosfly_pedestrians::{CrowdConfig, PedestrianError};
 use serde::Serialize;
 

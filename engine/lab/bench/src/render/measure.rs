@@ -7,7 +7,8 @@ use super::throughput::Throughput;
 use super::views::{Ground, View};
 use super::{flight, flown, stages, throughput};
 use cosfly_diagnose::Result;
-use cosfly_render::{PictureLook, Weather};
+use cosfly_domain::Weather;
+use cosfly_render::PictureLook;
 use serde::Serialize;
 
 /// Times of one town in one weather and look.
@@ -87,7 +88,7 @@ fn row(ground: &Ground, weather: &Weather, look: PictureLook, options: &RenderOp
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_render::Camera;
+    use cosfly_domain::Camera;
     use cosfly_schema::EncodingConfig;
 
     #[test]

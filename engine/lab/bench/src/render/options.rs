@@ -1,7 +1,7 @@
 //! [`RenderOptions`]: what a measurement draws, and how often.
 
 use super::views::Ground;
-use cosfly_render::Weather;
+use cosfly_domain::Weather;
 use cosfly_schema::EncodingConfig;
 use std::path::Path;
 

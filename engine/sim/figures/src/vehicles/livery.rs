@@ -3,8 +3,8 @@
 use crate::body_shape::BodyShape;
 use crate::colour::{Colour, Dye, dye};
 use crate::region::Region;
+use cosfly_domain::BodyKind;
 use cosfly_frames::Seed;
-use cosfly_world::BodyKind;
 
 /// Paint of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,9 +5,8 @@ use crate::clothes::Clothes;
 use crate::figure::{figure, walker_triangles};
 use crate::region::Region;
 use crate::walker::Walker;
+use cosfly_domain::{BodyKind, BodyPlan, SemanticLabel};
 use cosfly_frames::{DVec3, Seed, TargetState};
-use cosfly_maps::SemanticLabel;
-use cosfly_world::{BodyKind, BodyPlan};
 
 /// No corner is farther outside of the box than this, and every side of the box has a corner as near, metres.
 const BOUND_M: f64 = 0.01;

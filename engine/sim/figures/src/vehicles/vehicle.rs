@@ -6,8 +6,8 @@ use super::{coaches, drones, riders};
 use crate::clothes::Clothes;
 use crate::frustum::FigureTriangle;
 use crate::walker::Walker;
+use cosfly_domain::BodyKind;
 use cosfly_frames::DVec3;
-use cosfly_world::BodyKind;
 
 /// Appends a vehicle with its rider to `triangles`. No corner leaves the vehicle's box, and each side of the box has a
 /// corner within 1 cm of it.

@@ -3,8 +3,8 @@
 use super::tiles::{Lattice, Tiles};
 use crate::ground::rank;
 use crate::polygon::{Cut, Polygon};
+use cosfly_domain::WalkableKind;
 use cosfly_frames::DVec2;
-use cosfly_maps::WalkableKind;
 use std::cmp::Ordering;
 
 /// Ground that takes more cells than this is refused (two kilometres square of it at the default cell size, several times over).

@@ -1,6 +1,6 @@
 //! Channel `depth`: planar depth.
 
-use super::channel::{Channel, ChannelSource};
+use cosfly_domain::channels::channel::{Channel, ChannelSource};
 
 /// Planar depth along the optical axis, metres.
 pub static CHANNEL: Channel = Channel {

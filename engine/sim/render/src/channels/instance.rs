@@ -1,6 +1,6 @@
 //! Channel `instance`: instance ids.
 
-use super::channel::{Channel, ChannelSource};
+use cosfly_domain::channels::channel::{Channel, ChannelSource};
 
 /// Instance ids: 0 for ground and sky, 1 for the target, then objects, then people.
 pub static CHANNEL: Channel = Channel {

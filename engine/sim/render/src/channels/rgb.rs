@@ -1,6 +1,6 @@
 //! Channel `rgb`: colours.
 
-use super::channel::{Channel, ChannelSource};
+use cosfly_domain::channels::channel::{Channel, ChannelSource};
 
 /// Colours, sRGB.
 pub static CHANNEL: Channel =

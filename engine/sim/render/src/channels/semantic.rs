@@ -1,6 +1,6 @@
 //! Channel `semantic`: labels.
 
-use super::channel::{Channel, ChannelSource};
+use cosfly_domain::channels::channel::{Channel, ChannelSource};
 
 /// CARLA label ids.
 pub static CHANNEL: Channel = Channel {

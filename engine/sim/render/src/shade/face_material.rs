@@ -4,8 +4,8 @@ use super::geometry::FaceAxes;
 use super::material::{Coach, FLAT, Material, box_axes, box_material};
 use super::setting::{Seen, Setting};
 use super::skin::Painted;
-use super::vector::Vec3;
 use crate::faces::FaceSource;
+use cosfly_materials::vector::Vec3;
 
 /// Material of a drawn face, and the axes along its surface.
 pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Material, FaceAxes) {

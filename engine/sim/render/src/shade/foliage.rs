@@ -5,15 +5,15 @@
 //! the tree when the camera moves. Only edges before something farther away are broken.
 
 use super::geometry::View;
-use super::leaves::{Leaves, Outline};
-use super::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
 use super::setting::{Seen, Setting};
-use super::vector::Vec3;
 use crate::faces::FaceSource;
-use crate::frame::FrameImages;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
+use cosfly_domain::FrameImages;
 use cosfly_frames::simd_kernel;
+use cosfly_materials::leaves::{Leaves, Outline};
+use cosfly_materials::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
+use cosfly_materials::vector::Vec3;
 
 /// Gaps reach this far into a crown, metres.
 const REACH_M: f32 = 0.6;

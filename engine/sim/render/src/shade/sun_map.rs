@@ -8,11 +8,11 @@ use super::shadow_region::Region;
 use super::sun_tiles::{Sun, Tile, TilePlace};
 use super::sunlight::{LEAVES, PACKED_ROWS, SOLID, SUMMARY_SIDE, TILE, Texels, WINDOW_TILES, measure_tile, pack_tile};
 use crate::scene::Scene;
-use crate::scene_parts::BOX_FACES;
-use crate::visibility::{PlaneOnScreen, Visibility};
+use cosfly_domain::ObstacleKind;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::ObstacleKind;
+use cosfly_materials::parts::BOX_FACES;
+use cosfly_raster::visibility::{PlaneOnScreen, Visibility};
 use std::sync::Arc;
 
 /// Posts thinner than this cast the shadow of a post this thick, half their width in texels: the map would tear them.

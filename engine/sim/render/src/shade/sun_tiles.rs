@@ -2,8 +2,8 @@
 
 use super::shadow_frame::Frame;
 use super::sunlight::{SUMMARY_SIDE, Texels};
-use super::vector::Vec3;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_materials::vector::Vec3;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 

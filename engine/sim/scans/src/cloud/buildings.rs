@@ -7,10 +7,9 @@ use super::survey::{Survey, is_ground, plan_of};
 use crate::grid::{Grid, nearest_seeds, parts};
 use crate::plan::{convex_hull, smallest_rectangle_rad};
 use crate::solid_cells::{Boxes, boxes_of};
-use crate::window_cover::Volumes;
-use crate::window_cover::{Bases, Column};
+use crate::window_cover::{Bases, Column, Volumes};
+use cosfly_domain::{Obstacle, ObstacleKind};
 use cosfly_frames::{DVec2, real};
-use cosfly_town::{Obstacle, ObstacleKind};
 use rayon::prelude::*;
 
 /// A roof over ground that was seen under it is no wall where it hangs higher than this, metres.

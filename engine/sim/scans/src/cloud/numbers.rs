@@ -1,6 +1,6 @@
 //! Numbers of things, which rise.
 
-use cosfly_town::Obstacle;
+use cosfly_domain::Obstacle;
 
 /// Number for the next thing.
 pub fn next_id(obstacles: &[Obstacle]) -> u32 {

@@ -7,10 +7,11 @@ use super::sorting::Sorted;
 use super::survey::{self, Survey};
 use super::{buildings, ground, things, trees};
 use crate::open_ground::open_ground;
+use cosfly_domain::{ObstacleKind, SemanticLabel, Synthetic, Town};
 use cosfly_frames::DVec2;
+use cosfly_town::MapError;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
-use cosfly_town::{MapError, ObstacleKind, SemanticLabel, Synthetic, Town};
 
 /// The town of a cloud, and what the user should know.
 ///

@@ -5,8 +5,8 @@ use crate::grid::Grid;
 use crate::plan::{convex_hull, smallest_rectangle_rad};
 use crate::solid_cells::boxes_of;
 use crate::window_cover::{Bases, Column};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_geometry::OrientedBox;
 
 /// Most cells that the triangles of one part may touch; larger parts get larger cells.
 const MOST_TOUCHED: f64 = 4e6;

@@ -1,7 +1,7 @@
 //! [`Sample`]: a body in a time step of the file, and states between two steps.
 
+use cosfly_domain::BodyKind;
 use cosfly_frames::{DVec2, TargetState, real};
-use cosfly_world::BodyKind;
 
 use super::FcdProjection;
 use cosfly_frames::DVec3;
