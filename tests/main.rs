@@ -17,6 +17,7 @@ mod fly;
 mod fly_policies;
 mod fuzzing;
 mod hostile_maps;
+mod house;
 mod long_walks;
 mod models;
 mod more_walkers;

@@ -1,60 +1,10 @@
-//! Repository rules: the layering law, heavy crates in their rooms, file headers, generated files, links of the book.
+//! Repository rules: heavy crates in their rooms, file headers, generated files, links of the book.
 
+use crate::house::edges;
 use crate::support::{cosfly, repository_root};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-/// Package name -> shelf (`base`, `sim`, `flow`, `data`, `edge`, `lab`) and direct dependencies, without
-/// dev-dependencies.
-fn packages() -> BTreeMap<String, (String, BTreeSet<String>)> {
-    let output = Command::new(env!("CARGO"))
-        .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
-        .current_dir(repository_root())
-        .output()
-        .expect("cargo runs");
-    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).expect("cargo metadata is JSON");
-    metadata["packages"]
-        .as_array()
-        .expect("packages")
-        .iter()
-        .map(|package| {
-            let manifest = package["manifest_path"].as_str().expect("path");
-            let shelf = manifest.split("/engine/").nth(1).and_then(|rest| rest.split('/').next()).unwrap_or("");
-            let dependencies = package["dependencies"]
-                .as_array()
-                .expect("dependencies")
-                .iter()
-                .filter(|dependency| dependency["kind"].as_str() != Some("dev"))
-                .map(|dependency| dependency["name"].as_str().expect("name").to_owned())
-                .collect();
-            (package["name"].as_str().expect("name").to_owned(), (shelf.to_owned(), dependencies))
-        })
-        .collect()
-}
-
-#[test]
-fn shelves_see_what_the_law_allows() {
-    let packages = packages();
-    let allowed: BTreeMap<&str, &[&str]> = BTreeMap::from([
-        ("base", &["base"][..]),
-        ("sim", &["base", "sim"][..]),
-        ("flow", &["base", "flow"][..]),
-        ("data", &["base", "sim", "data"][..]),
-        ("lab", &["base", "sim", "flow", "data", "edge", "lab"][..]),
-        ("edge", &["base", "sim", "flow", "data", "edge"][..]),
-    ]);
-    for (name, (shelf, dependencies)) in &packages {
-        for dependency in dependencies {
-            if let Some((other, _)) = packages.get(dependency) {
-                assert!(
-                    allowed[shelf.as_str()].contains(&other.as_str()),
-                    "`{name}` ({shelf}) uses `{dependency}` ({other})"
-                );
-            }
-        }
-    }
-}
 
 #[test]
 fn heavy_crates_stay_in_their_one_room() {
@@ -77,9 +27,9 @@ fn heavy_crates_stay_in_their_one_room() {
         ("tungstenite", &["cosfly-fly"][..]),
         ("rmpv", &["cosfly-fly"][..]),
     ]);
-    for (name, (shelf, dependencies)) in packages() {
-        let places = [name.clone(), format!("shelf {shelf}")];
-        for dependency in dependencies {
+    for (name, room) in edges::rooms() {
+        let places = [name.clone(), format!("shelf {}", room.shelf)];
+        for dependency in room.uses.iter().filter(|(_, is_dev)| !**is_dev).map(|(dependency, _)| dependency) {
             if let Some(rooms) = rooms.get(dependency.as_str()) {
                 let is_allowed = places.iter().any(|place| rooms.contains(&place.as_str()));
                 assert!(is_allowed, "`{name}` uses `{dependency}`, which belongs in {}", rooms.join(", "));

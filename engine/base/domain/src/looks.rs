@@ -110,6 +110,13 @@ pub struct Dye {
     pub linear_rgb: [f32; 3],
 }
 
+impl Dye {
+    /// A named colour and its light.
+    pub const fn new(name: Colour, linear_rgb: [f32; 3]) -> Self {
+        Self { name, linear_rgb }
+    }
+}
+
 /// Names of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "the names say it")]

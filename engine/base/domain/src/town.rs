@@ -49,7 +49,7 @@ pub struct MapOrigin {
 }
 
 impl MapOrigin {
-    /// The same where the file adds a vector, map frame, to its coordinates.
+    /// Origin where the file adds a vector, map frame, to its coordinates.
     #[must_use]
     pub fn beyond(mut self, added_in_map_m: DVec3) -> Self {
         let added_m = DVec3::new(added_in_map_m.x, -added_in_map_m.y, added_in_map_m.z);

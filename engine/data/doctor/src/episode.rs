@@ -6,7 +6,7 @@ use cosfly_frames::{DVec3, Pose};
 
 /// A flight. World frame: CARLA's (x east, y south, z up), metres, radians.
 #[derive(Clone, Debug, Default)]
-pub struct Episode {
+pub struct ExaminedEpisode {
     /// Name.
     pub id: String,
     /// Split, where the data have splits.
@@ -35,11 +35,11 @@ pub struct Episode {
     /// Stated limits of clearance (m), speed (m/s), acceleration (m/s^2), jerk (m/s^3), yaw and pitch rate (degrees/s).
     pub limits: [Option<f64>; 6],
     /// The frames.
-    pub moments: Vec<Moment>,
+    pub moments: Vec<ExaminedMoment>,
     /// Poses of the flight to whose next pose actions lead; none: the own poses.
     pub followed: Option<Vec<Pose>>,
     /// Pictures of some frames.
-    pub looks: Vec<Look>,
+    pub looks: Vec<ExaminedLook>,
     /// Language code and text of the instructions.
     pub captions: Vec<(String, String)>,
     /// Parked vehicles: middle (m), half lengths (m) and yaw (radians).
@@ -48,7 +48,7 @@ pub struct Episode {
 
 /// The values of a frame.
 #[derive(Clone, Debug)]
-pub struct Moment {
+pub struct ExaminedMoment {
     /// Time, seconds.
     pub time_s: f64,
     /// Pose of the drone.
@@ -75,7 +75,7 @@ pub struct Moment {
 
 /// Measurements of the pictures of a frame.
 #[derive(Clone, Debug, Default)]
-pub struct Look {
+pub struct ExaminedLook {
     /// The frame.
     pub frame: usize,
     /// Digest of the colour image's file.
@@ -95,7 +95,7 @@ pub struct Look {
 /// Offsets of the frames whose boxes and poses a depth image is compared with; the own frame first.
 pub const OFFSETS: [i64; 5] = [0, -1, 1, -2, 2];
 
-impl Episode {
+impl ExaminedEpisode {
     /// Planar depth of the target's middle in a frame.
     pub fn depth_of_target(&self, frame: usize) -> Option<f64> {
         let moment = self.moments.get(frame)?;

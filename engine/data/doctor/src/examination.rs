@@ -3,7 +3,7 @@
 use crate::checks::Trace;
 use crate::sources::{lerobot, ours, v7};
 use crate::texts::{GivenTexts, Judged, TextFigures, TextTally};
-use crate::{Episode, Flag, Severity, checks, shortcuts};
+use crate::{ExaminedEpisode, Flag, Severity, checks, shortcuts};
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_metrics::shortcuts::ShortcutFigures;
 use cosfly_read::{Identity, PublishedDataset};
@@ -100,7 +100,7 @@ pub fn examine_texts(
 ) -> Result<Examination> {
     let mut tally = Tally::new(quotas);
     tally.texts.judged = texts.map(|_| Judged::default());
-    let mut add = |mut episode: Episode| {
+    let mut add = |mut episode: ExaminedEpisode| {
         if let Some(texts) = texts {
             texts.give(&mut episode);
         }
@@ -173,7 +173,7 @@ impl<'a> Tally<'a> {
     }
 
     /// Checks an episode and counts it.
-    fn add(&mut self, episode: &Episode) {
+    fn add(&mut self, episode: &ExaminedEpisode) {
         if !episode.moments.is_empty() {
             self.flags.extend(checks::of_episode(episode));
         }

@@ -21,7 +21,7 @@ mod walk;
 pub mod walls;
 
 pub use cosfly_metrics::shortcuts::{Probe, ShortcutFigures};
-pub use episode::{Episode, Look, Moment};
+pub use episode::{ExaminedEpisode, ExaminedLook, ExaminedMoment};
 pub use examination::{Examination, Layout, Quota, examine, examine_texts};
 pub use flag::{Flag, Severity};
 pub use texts::{GivenTexts, Judged, TextFigures, TextVerdict};

@@ -1,7 +1,7 @@
 //! Figures of instructions: how different they are, what they speak of, how much of it is true. Anyone's texts can be given in the
 //! place of a dataset's own.
 
-use crate::Episode;
+use crate::ExaminedEpisode;
 use crate::walk::facts_of;
 use cosfly_captions::teaching::foreign_words;
 use cosfly_captions::{Coverage, Diversity, Facts, Language, Slot, check, claimed, coverage, diversity};
@@ -90,7 +90,7 @@ impl GivenTexts {
     }
 
     /// Puts the texts in the place of an episode's own.
-    pub(crate) fn give(&self, episode: &mut Episode) {
+    pub(crate) fn give(&self, episode: &mut ExaminedEpisode) {
         episode.captions = self.0.get(&episode.id).cloned().unwrap_or_default();
     }
 
@@ -114,7 +114,7 @@ pub(crate) struct TextTally {
 }
 
 impl TextTally {
-    pub(crate) fn add(&mut self, episode: &Episode) {
+    pub(crate) fn add(&mut self, episode: &ExaminedEpisode) {
         let Some(facts) = facts_of(episode) else { return };
         for (code, text) in &episode.captions {
             let Some(at) = Language::ALL.iter().position(|it| it.code() == code) else { continue };

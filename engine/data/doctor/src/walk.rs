@@ -3,7 +3,7 @@
 //! The way turns in a frame by the angle between two chords: from the last place before it that is 3 m away as the crow flies, and to
 //! the first such place behind it; and the same with 5 m. What is clear by both chords is a turn; what one of them hints at may be one.
 
-use crate::Episode;
+use crate::ExaminedEpisode;
 use cosfly_captions::{Compass, Facts, Stop, Turn, TurnKind};
 use cosfly_frames::{DVec2, DVec3, real};
 
@@ -37,7 +37,7 @@ const STOP_S: f64 = 1.0;
 const WALK_M: f64 = 1.0;
 
 /// Facts of a flight; none where the target is unknown in some frames.
-pub fn facts_of(episode: &Episode) -> Option<Facts> {
+pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
     let moments = &episode.moments;
     let feet: Vec<DVec3> = (moments.iter())
         .map(|it| it.target_in_world.map(|middle| middle - DVec3::Z * (0.5 * episode.target_height_m)))
@@ -238,7 +238,7 @@ fn sum_deg(angles: &[f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Moment;
+    use crate::ExaminedMoment;
     use TurnKind::{Around, Left, Right};
     use cosfly_frames::Pose;
 
@@ -259,10 +259,10 @@ mod tests {
     }
 
     /// A flight 28 m behind and above a walk, with one instruction.
-    fn episode(legs: &[(f64, f64)], text: &str) -> Episode {
+    fn episode(legs: &[(f64, f64)], text: &str) -> ExaminedEpisode {
         let moment = |(frame, feet): (usize, &DVec3)| {
             let drone = Pose::looking_at(*feet + DVec3::new(-20.0, 0.0, 20.0), *feet);
-            Moment {
+            ExaminedMoment {
                 time_s: 0.5 * frame as f64,
                 drone,
                 camera: drone,
@@ -276,7 +276,7 @@ mod tests {
                 clearance_m: None,
             }
         };
-        Episode {
+        ExaminedEpisode {
             id: "a".to_owned(),
             dt_s: 0.5,
             target_height_m: 1.7,
@@ -285,7 +285,7 @@ mod tests {
                 "en".to_owned(),
                 format!("The person {text}; keep about 28 m away and look down about 45 degrees."),
             )],
-            ..Episode::default()
+            ..ExaminedEpisode::default()
         }
     }
 

@@ -4,7 +4,7 @@ use super::rgb::{jpeg, palette_png, png};
 use crate::false_colours::{depth_preview, picture_on_request};
 use core::ops::Range;
 use cosfly_diagnose::Result;
-use cosfly_domain::channels::{Element, Source};
+use cosfly_domain::channels::{ChannelSource, Element};
 use cosfly_domain::{Channel, ChannelImage, FrameImages, SemanticLabel};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
@@ -38,11 +38,11 @@ impl SmallImages {
     pub fn draw(&mut self, channel: &Channel, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
         file.clear();
         match channel.source {
-            Source::Colour => self.rgb(images, file),
-            Source::Depth => self.depth(images, file),
-            Source::Labels => self.semantic(images, file),
-            Source::Ids => Ok(()),
-            Source::Number(_) | Source::Bytes(_) => {
+            ChannelSource::Colour => self.rgb(images, file),
+            ChannelSource::Depth => self.depth(images, file),
+            ChannelSource::Labels => self.semantic(images, file),
+            ChannelSource::Ids => Ok(()),
+            ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
                 match images.on_request.iter().find(|image| image.channel == channel) {
                     Some(image) => self.on_request(image, images, file),
                     None => Ok(()),

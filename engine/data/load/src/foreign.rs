@@ -1,9 +1,9 @@
 //! Datasets of foreign layouts: episodes as `cosfly doctor` reads them, and pictures at random.
 
 use crate::tables::{self, Part};
-use crate::{Flight, Source};
+use crate::{FlightSource, LoadedFlight};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_doctor::{Episode, Flag, Severity};
+use cosfly_doctor::{ExaminedEpisode, Flag, Severity};
 use cosfly_domain::Channel;
 use cosfly_fingerprint::Digest;
 use cosfly_read::StoredImage;
@@ -32,9 +32,9 @@ pub struct Foreign<P> {
     /// Folder of the dataset.
     pub folder: PathBuf,
     /// All flights.
-    pub flights: Vec<Flight>,
+    pub flights: Vec<LoadedFlight>,
     /// The episodes of the flights, in their order.
-    pub episodes: Vec<Episode>,
+    pub episodes: Vec<ExaminedEpisode>,
     /// Whether the poses of the drone are stated.
     pub has_poses: bool,
     /// Digest of flights, motions and sizes of picture files.
@@ -44,7 +44,7 @@ pub struct Foreign<P> {
 }
 
 /// Digest of a dataset of a foreign layout, which names itself nowhere: flights, motions, and sizes of some files of pictures.
-pub fn identity(flights: &[Flight], episodes: &[Episode], pictures: &[PathBuf]) -> String {
+pub fn identity(flights: &[LoadedFlight], episodes: &[ExaminedEpisode], pictures: &[PathBuf]) -> String {
     let mut known: Vec<u8> = vec![];
     let mut text = |text: &str| {
         known.extend((text.len() as u64).to_le_bytes());
@@ -67,8 +67,8 @@ pub fn identity(flights: &[Flight], episodes: &[Episode], pictures: &[PathBuf]) 
     Digest::of(&known).to_string()
 }
 
-impl<P: Pictures> Source for Foreign<P> {
-    fn flights(&self) -> &[Flight] {
+impl<P: Pictures> FlightSource for Foreign<P> {
+    fn flights(&self) -> &[LoadedFlight] {
         &self.flights
     }
 

@@ -1,10 +1,10 @@
 //! LeRobot's layout: pictures inside of tables, or as files that tables name.
 
 use crate::foreign::{Foreign, Pictures, damaged, identity, sound};
-use crate::{Flight, tasks};
+use crate::{LoadedFlight, tasks};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_doctor::sources::lerobot::{self, features::Features};
-use cosfly_doctor::{Episode, Flag};
+use cosfly_doctor::{ExaminedEpisode, Flag};
 use cosfly_domain::Channel;
 use cosfly_read::columns::{Column, column};
 use cosfly_read::{PictureColumn, PictureFile, StoredImage, inner_path};
@@ -43,11 +43,11 @@ pub fn open(folder: &Path, roots: &[PathBuf]) -> Result<Foreign<Tables>> {
         let mut captions = captions(root)?;
         for (place, mut episode) in found.into_iter().enumerate() {
             episode.captions = captions.get_mut(place).map(std::mem::take).unwrap_or_default();
-            if roots.len() > 1 && episodes.iter().any(|it: &Episode| it.id == episode.id) {
+            if roots.len() > 1 && episodes.iter().any(|it: &ExaminedEpisode| it.id == episode.id) {
                 let split = root.file_name().unwrap_or_default().to_string_lossy();
                 episode.id = format!("{split}/{}", episode.id);
             }
-            flights.push(Flight {
+            flights.push(LoadedFlight {
                 id: episode.id.clone(),
                 split: episode.split.clone().unwrap_or_default(),
                 frames: episode.moments.len(),

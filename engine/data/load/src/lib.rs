@@ -1,11 +1,12 @@
 //! Random access to frames for training, whatever the layout: datasets of cosfly, the published v7 layout, LeRobot's.
 //!
-//! * [`Source`]: the seam; one file per layout implements it.
+//! * [`FlightSource`]: the seam; one file per layout implements it.
 //! * [`open`]: the source in a folder.
 //! * `tables`: tables of foreign layouts, with the names and columns that cosfly's own tables have.
 
 mod foreign;
 mod lerobot;
+mod open;
 mod ours;
 mod source;
 mod tables;
@@ -14,4 +15,5 @@ mod tasks;
 mod tests;
 mod v7;
 
-pub use source::{Flight, Source, open};
+pub use open::open;
+pub use source::{FlightSource, LoadedFlight};

@@ -1,6 +1,6 @@
 //! Datasets of cosfly: tables in Parquet files, images in logs.
 
-use crate::{Flight, Source};
+use crate::{FlightSource, LoadedFlight};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::Channel;
 use cosfly_read::columns::TableData;
@@ -15,7 +15,7 @@ const OPEN_LOGS: usize = 64;
 /// A dataset of cosfly.
 pub struct Ours {
     dataset: PublishedDataset,
-    flights: Vec<Flight>,
+    flights: Vec<LoadedFlight>,
     /// Open logs by the number of their flight, the latest last.
     logs: Mutex<VecDeque<(usize, Arc<ImageLog>)>>,
 }
@@ -27,7 +27,7 @@ impl Ours {
     /// As of [`PublishedDataset::open`].
     pub fn open(folder: &Path) -> Result<Self> {
         let dataset = PublishedDataset::open(folder)?;
-        let flights = dataset.flights().iter().map(|flight| Flight {
+        let flights = dataset.flights().iter().map(|flight| LoadedFlight {
             id: flight.trajectory_id.clone(),
             split: flight.split.clone(),
             frames: flight.frames,
@@ -53,8 +53,8 @@ impl Ours {
     }
 }
 
-impl Source for Ours {
-    fn flights(&self) -> &[Flight] {
+impl FlightSource for Ours {
+    fn flights(&self) -> &[LoadedFlight] {
         &self.flights
     }
 

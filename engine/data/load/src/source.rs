@@ -1,17 +1,13 @@
 //! The seam: flights, tables and images of a dataset.
 
-use crate::ours::Ours;
-use crate::{lerobot, v7};
 use cosfly_diagnose::Result;
-use cosfly_doctor::sources;
 use cosfly_domain::Channel;
 use cosfly_read::StoredImage;
 use cosfly_read::columns::TableData;
-use std::path::Path;
 
 /// A flight of a dataset.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Flight {
+pub struct LoadedFlight {
     /// Name; one flight has it.
     pub id: String,
     /// Split; empty where the data state none.
@@ -23,9 +19,9 @@ pub struct Flight {
 }
 
 /// A dataset with random access. Threads may share it; it has no threads of its own, so that it survives a fork.
-pub trait Source: Send + Sync {
+pub trait FlightSource: Send + Sync {
     /// All flights; their numbers are places in this list.
-    fn flights(&self) -> &[Flight];
+    fn flights(&self) -> &[LoadedFlight];
 
     /// Digest that tells this dataset from others: hex digits.
     fn identity(&self) -> &str;
@@ -53,23 +49,4 @@ pub trait Source: Send + Sync {
     /// # Errors
     /// `dataset-none` for a table that the dataset does not have, damage of files.
     fn table(&self, name: &str, split: Option<&str>) -> Result<TableData>;
-}
-
-/// The dataset in `folder`, in any of the layouts.
-///
-/// # Errors
-/// `dataset-none` where there is none, otherwise damage of its files.
-pub fn open(folder: &Path) -> Result<Box<dyn Source>> {
-    let roots = lerobot::roots(folder);
-    if sources::ours::recognises(folder) {
-        Ok(Box::new(Ours::open(folder)?))
-    } else if let Some(root) = sources::v7::root(folder) {
-        Ok(Box::new(v7::open(&root)?))
-    } else if !roots.is_empty() {
-        Ok(Box::new(lerobot::open(folder, &roots)?))
-    } else {
-        Ours::open(folder).map(|dataset| Box::new(dataset) as Box<dyn Source>).map_err(|refusal| {
-            refusal.hint("datasets of other layouts load, too: v7 (`<Town>/trajectory_<id>/<trace>/trajectory.json`) and LeRobot (`meta/info.json`)")
-        })
-    }
 }

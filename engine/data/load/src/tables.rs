@@ -2,11 +2,11 @@
 //!
 //! Feet are half the target's height below its middle (1.8 m high in v7 unless stated). Windows have the default shape.
 
-use crate::Flight;
+use crate::LoadedFlight;
 use arrow_array::builder::{Float64Builder, ListBuilder, StringBuilder};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::{DataType, Field};
-use cosfly_doctor::{Episode, Moment};
+use cosfly_doctor::{ExaminedEpisode, ExaminedMoment};
 use cosfly_frames::{DVec3, Pose, action};
 use cosfly_metrics::WindowShape;
 use std::collections::BTreeMap;
@@ -18,12 +18,12 @@ pub const NAMES: &[&str] = &["trajectories", "frames", "captions", "windows"];
 pub const NAMES_WITHOUT_POSES: &[&str] = &["trajectories", "frames", "captions"];
 
 /// A flight that counts for a table, and its frames.
-pub type Part<'a> = (&'a Flight, &'a Episode);
+pub type Part<'a> = (&'a LoadedFlight, &'a ExaminedEpisode);
 
 /// Poses of the flight that a model learns, one for each frame; none where it is absent or of another length. `originals` are the
 /// experts of v7 by the folders of their pairs.
-fn expert(originals: &BTreeMap<&str, &Episode>, episode: &Episode) -> Option<Vec<Pose>> {
-    let poses = |of: &Episode| of.moments.iter().map(|moment| moment.drone).collect::<Vec<_>>();
+fn expert(originals: &BTreeMap<&str, &ExaminedEpisode>, episode: &ExaminedEpisode) -> Option<Vec<Pose>> {
+    let poses = |of: &ExaminedEpisode| of.moments.iter().map(|moment| moment.drone).collect::<Vec<_>>();
     let found = match &episode.followed {
         Some(poses) => poses.clone(),
         None if !episode.is_perturbed => poses(episode),
@@ -33,7 +33,7 @@ fn expert(originals: &BTreeMap<&str, &Episode>, episode: &Episode) -> Option<Vec
 }
 
 /// The table `name` of `parts`, some of `all` episodes; none where the layout has no such table.
-pub fn made(name: &str, parts: &[Part<'_>], all: &[Episode], has_poses: bool) -> Option<RecordBatch> {
+pub fn made(name: &str, parts: &[Part<'_>], all: &[ExaminedEpisode], has_poses: bool) -> Option<RecordBatch> {
     let columns = match name {
         "trajectories" => trajectories(parts),
         "frames" => frames(parts, has_poses),
@@ -98,7 +98,7 @@ fn captions(parts: &[Part<'_>]) -> Columns {
 }
 
 /// A number of a frame, which has a number and a moment.
-type Value<'a> = dyn Fn(&Part<'_>, usize, &Moment) -> Option<f64> + 'a;
+type Value<'a> = dyn Fn(&Part<'_>, usize, &ExaminedMoment) -> Option<f64> + 'a;
 
 fn frames(parts: &[Part<'_>], has_poses: bool) -> Columns {
     let each = || parts.iter().flat_map(|part| part.1.moments.iter().enumerate().map(move |it| (part, it)));
@@ -130,7 +130,7 @@ fn frames(parts: &[Part<'_>], has_poses: bool) -> Columns {
             ("action_in_body", step(action::in_body)),
         ]);
     }
-    let feet = |part: &Part<'_>, moment: &Moment| {
+    let feet = |part: &Part<'_>, moment: &ExaminedMoment| {
         moment.target_in_world.map(|middle| middle - DVec3::Z * (0.5 * part.1.target_height_m))
     };
     let stated: [(&'static str, &Value<'_>); 7] = [
@@ -156,9 +156,9 @@ fn frames(parts: &[Part<'_>], has_poses: bool) -> Columns {
 /// A window: the flight, the poses of its expert, and the first frame.
 type Window<'a> = (Part<'a>, &'a [Pose], usize);
 
-fn windows(parts: &[Part<'_>], all: &[Episode]) -> Columns {
+fn windows(parts: &[Part<'_>], all: &[ExaminedEpisode]) -> Columns {
     let shape = WindowShape::default();
-    let originals: BTreeMap<&str, &Episode> =
+    let originals: BTreeMap<&str, &ExaminedEpisode> =
         all.iter().filter_map(|it| Some((it.id.strip_suffix("/ORI")?, it))).collect();
     let experts: Vec<Option<Vec<Pose>>> = parts.iter().map(|(_, episode)| expert(&originals, episode)).collect();
     let mut all: Vec<Window<'_>> = vec![];

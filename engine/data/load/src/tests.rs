@@ -1,6 +1,6 @@
 //! The same flights from all layouts.
 
-use crate::{Flight, Source, open};
+use crate::{FlightSource, LoadedFlight, open};
 use cosfly_domain::{Channel, channels};
 use cosfly_images::read;
 use cosfly_read::columns::Column;
@@ -24,7 +24,7 @@ fn published() -> (tempfile::TempDir, [PathBuf; 3]) {
     (home, folders)
 }
 
-fn reals(source: &dyn Source, table: &str, name: &str) -> Vec<f64> {
+fn reals(source: &dyn FlightSource, table: &str, name: &str) -> Vec<f64> {
     match source.table(table, None).unwrap().column(name).unwrap() {
         Column::Reals(values) | Column::Lists(values, _) => values,
         Column::Integers(values) => values.into_iter().map(|value| value as f64).collect(),
@@ -32,7 +32,7 @@ fn reals(source: &dyn Source, table: &str, name: &str) -> Vec<f64> {
     }
 }
 
-fn pixels(source: &dyn Source, flight: usize, channel: &Channel, frame: usize) -> Vec<u8> {
+fn pixels(source: &dyn FlightSource, flight: usize, channel: &Channel, frame: usize) -> Vec<u8> {
     match source.image(flight, channel, frame).unwrap() {
         StoredImage::File(file, format) => read::decoded(&file, &format).unwrap().rgb,
         // v7 says 1,000 m for the sky, and readers take 999 m and more for it.
@@ -45,10 +45,10 @@ fn pixels(source: &dyn Source, flight: usize, channel: &Channel, frame: usize) -
 }
 
 /// The flight of `source` with these values of `drone_x_m`.
-fn flight_with(source: &dyn Source, xs: &[f64]) -> usize {
+fn flight_with(source: &dyn FlightSource, xs: &[f64]) -> usize {
     let all = reals(source, "frames", "drone_x_m");
     let mut rest = &all[..];
-    let is_it = |flight: &Flight| {
+    let is_it = |flight: &LoadedFlight| {
         let (own, others) = rest.split_at(flight.frames);
         rest = others;
         own.len() == xs.len() && own.iter().zip(xs).all(|(a, b)| (a - b).abs() < 1e-3)

@@ -1,6 +1,6 @@
 //! The published v7 layout: a folder per frame with `rgb.png`, `depth.npy` and `instance.png`.
 
-use crate::Flight;
+use crate::LoadedFlight;
 use crate::foreign::{Foreign, Pictures, damaged, identity, sound};
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_doctor::sources::v7;
@@ -20,9 +20,9 @@ pub fn open(root: &Path) -> Result<Foreign<Frames>> {
     let (episodes, flags) = v7::motions(root)?;
     sound(root, &flags)?;
     let traces: Vec<PathBuf> = episodes.iter().map(|episode| root.join(&episode.id)).collect();
-    let flight = |(episode, trace): (&cosfly_doctor::Episode, &PathBuf)| {
+    let flight = |(episode, trace): (&cosfly_doctor::ExaminedEpisode, &PathBuf)| {
         let stated = episode.camera.map(|camera| [camera.width, camera.height]);
-        Ok(Flight {
+        Ok(LoadedFlight {
             id: episode.id.clone(),
             split: episode.split.clone().unwrap_or_default(),
             frames: episode.moments.len(),

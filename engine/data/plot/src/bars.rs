@@ -1,7 +1,7 @@
 //! A panel of horizontal bars with intervals.
 
 use crate::axis::{Axis, label};
-use crate::document::{Anchor, Document};
+use crate::document::{ChartDocument, TextAnchor};
 
 /// Height of a bar with the gap below it, pixels.
 pub const BAR_PX: f64 = 26.0;
@@ -52,16 +52,16 @@ impl Bars {
     }
 
     /// Draws the bars one below the other.
-    pub fn draw(&self, document: &mut Document, axis: Axis, bars: &[Bar<'_>]) {
+    pub fn draw(&self, document: &mut ChartDocument, axis: Axis, bars: &[Bar<'_>]) {
         let x = |value: f64| self.left + self.width * axis.share(value);
         let bottom = self.top + self.height;
         for mark in axis.marks() {
             document.line(&[(x(mark), self.top - 8.0), (x(mark), bottom)], GRID, 1.0, "");
-            document.words((x(mark), bottom + 18.0), &label(mark), Anchor::Middle, GREY);
+            document.words((x(mark), bottom + 18.0), &label(mark), TextAnchor::Middle, GREY);
         }
         for (place, bar) in bars.iter().enumerate() {
             let y = self.top + BAR_PX * place as f64;
-            document.words((self.left - 8.0, y + 13.0), bar.name, Anchor::End, INK);
+            document.words((self.left - 8.0, y + 13.0), bar.name, TextAnchor::End, INK);
             document.rectangle((self.left, y), (x(bar.value) - self.left, 17.0), bar.colour, 0.85);
             if let Some((low, high)) = bar.interval {
                 let middle = y + 8.5;
@@ -72,7 +72,7 @@ impl Bars {
             }
             let arrow = if bar.end() > axis.end { "\u{2192} " } else { "" };
             let words = format!("{arrow}{}", self.number(bar.value));
-            document.words((x(bar.end()) + 6.0, y + 13.0), &words, Anchor::Start, INK);
+            document.words((x(bar.end()) + 6.0, y + 13.0), &words, TextAnchor::Start, INK);
         }
     }
 }
@@ -87,7 +87,7 @@ mod tests {
             |value: f64| Bar { name: "a<b", value, interval: Some((value - 1.0, value + 1.0)), colour: "#123456" };
         let bars = [bar(4.0), bar(5.0), bar(80.0)];
         let axis = Axis::of(&bars.map(|bar| bar.end()));
-        let mut document = Document::new("errors", 400.0, 200.0);
+        let mut document = ChartDocument::new("errors", 400.0, 200.0);
         Bars { left: 100.0, top: 20.0, width: 200.0, height: 100.0, decimals: 2 }.draw(&mut document, axis, &bars);
         let svg = document.finish();
         assert!(svg.contains("\u{2192} 80.00") && svg.contains(">4.00<") && svg.contains("a&lt;b"), "{svg}");
@@ -97,7 +97,7 @@ mod tests {
     fn absurd_values_make_a_small_picture_without_what_is_no_number() {
         let bars =
             [1e24, f64::INFINITY, 3.0, -2.0].map(|value| Bar { name: "a", value, interval: None, colour: "#123456" });
-        let mut document = Document::new("errors", 400.0, 200.0);
+        let mut document = ChartDocument::new("errors", 400.0, 200.0);
         let axis = Axis::of(&bars.map(|bar| bar.end()));
         Bars { left: 100.0, top: 20.0, width: 200.0, height: 100.0, decimals: 2 }.draw(&mut document, axis, &bars);
         let svg = document.finish();

@@ -4,12 +4,12 @@ use crate::font;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 
 /// Red, green, blue.
-pub type Colour = [u8; 3];
+pub type ChartColour = [u8; 3];
 
 /// White.
-pub const WHITE: Colour = [255, 255, 255];
+pub const WHITE: ChartColour = [255, 255, 255];
 /// Nearly black.
-pub const INK: Colour = [24, 26, 30];
+pub const INK: ChartColour = [24, 26, 30];
 
 /// A point of a picture: right, down, pixels.
 pub type Point = [f64; 2];
@@ -30,18 +30,18 @@ pub struct Canvas {
 
 impl Canvas {
     /// A picture of one colour.
-    pub fn new(width: usize, height: usize, colour: Colour) -> Self {
+    pub fn new(width: usize, height: usize, colour: ChartColour) -> Self {
         Self { width, height, rgb: colour.repeat(width * height) }
     }
 
     /// The colour at a pixel inside.
-    pub fn pixel(&self, x: usize, y: usize) -> Colour {
+    pub fn pixel(&self, x: usize, y: usize) -> ChartColour {
         let at = 3 * (y * self.width + x);
         [self.rgb[at], self.rgb[at + 1], self.rgb[at + 2]]
     }
 
     /// Lays `share` (0..=1) of a colour over a pixel; does nothing outside of the picture.
-    pub fn blend(&mut self, x: i64, y: i64, colour: Colour, share: f64) {
+    pub fn blend(&mut self, x: i64, y: i64, colour: ChartColour, share: f64) {
         if share <= 0.0 || x < 0 || y < 0 || x >= self.width as i64 || y >= self.height as i64 {
             return;
         }
@@ -62,7 +62,7 @@ impl Canvas {
     }
 
     /// Fills a rectangle with `share` of a colour.
-    pub fn fill(&mut self, corner: [i64; 2], size: [i64; 2], colour: Colour, share: f64) {
+    pub fn fill(&mut self, corner: [i64; 2], size: [i64; 2], colour: ChartColour, share: f64) {
         for y in corner[1].max(0)..(corner[1] + size[1]).min(self.height as i64) {
             for x in corner[0].max(0)..(corner[0] + size[0]).min(self.width as i64) {
                 self.blend(x, y, colour, share);
@@ -71,7 +71,7 @@ impl Canvas {
     }
 
     /// A line of `thickness` pixels with round ends.
-    pub fn line(&mut self, from: Point, to: Point, thickness: f64, colour: Colour, share: f64) {
+    pub fn line(&mut self, from: Point, to: Point, thickness: f64, colour: ChartColour, share: f64) {
         let reach = 0.5 * thickness + 1.0;
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = length_of(along);
@@ -85,12 +85,12 @@ impl Canvas {
     }
 
     /// A full circle.
-    pub fn disc(&mut self, middle: Point, radius: f64, colour: Colour) {
+    pub fn disc(&mut self, middle: Point, radius: f64, colour: ChartColour) {
         self.line(middle, middle, 2.0 * radius, colour, 1.0);
     }
 
     /// Fills an area of any shape by the even-odd rule: convex or not, crossed, with bridges to its holes.
-    pub fn area(&mut self, corners: &[Point], colour: Colour, share: f64) {
+    pub fn area(&mut self, corners: &[Point], colour: ChartColour, share: f64) {
         let columns = pixels_of(corners, 0, self.width);
         let mut covered = vec![0.0; columns.len()];
         let mut crossings: Vec<f64> = Vec::new();
@@ -111,14 +111,14 @@ impl Canvas {
     }
 
     /// The outline of an area.
-    pub fn outline(&mut self, corners: &[Point], thickness: f64, colour: Colour, share: f64) {
+    pub fn outline(&mut self, corners: &[Point], thickness: f64, colour: ChartColour, share: f64) {
         for (from, to) in edges(corners).collect::<Vec<_>>() {
             self.line(from, to, thickness, colour, share);
         }
     }
 
     /// Text with its top-left corner at (x, y); returns the x behind it.
-    pub fn text(&mut self, x: i64, y: i64, scale: usize, colour: Colour, text: &str) -> i64 {
+    pub fn text(&mut self, x: i64, y: i64, scale: usize, colour: ChartColour, text: &str) -> i64 {
         let mut left = x;
         for letter in text.chars() {
             for column in 0..font::ADVANCE - 1 {
@@ -133,7 +133,7 @@ impl Canvas {
     }
 
     /// Text on a dark strip, so that it can be read on any picture.
-    pub fn label(&mut self, x: i64, y: i64, scale: usize, colour: Colour, text: &str) {
+    pub fn label(&mut self, x: i64, y: i64, scale: usize, colour: ChartColour, text: &str) {
         let size = [text_width(text, scale) + scale as i64 * 2, (font::HEIGHT * scale + scale * 3) as i64];
         self.fill([x, y], size, INK, 0.65);
         self.text(x + scale as i64 * 3 / 2, y + scale as i64 * 3 / 2, scale, colour, text);

@@ -8,7 +8,7 @@ pub type Place = (f64, f64);
 
 /// End of a text that is at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
+pub enum TextAnchor {
     /// The beginning.
     Start,
     /// The middle.
@@ -18,11 +18,11 @@ pub enum Anchor {
 }
 
 /// A document under construction.
-pub struct Document {
+pub struct ChartDocument {
     text: String,
 }
 
-impl Document {
+impl ChartDocument {
     /// A white page with a title for screen readers.
     pub fn new(title: &str, width: f64, height: f64) -> Self {
         let title = escaped(title);
@@ -81,20 +81,20 @@ impl Document {
     }
 
     /// A line of text.
-    pub fn words(&mut self, (x, y): Place, words: &str, anchor: Anchor, colour: &str) {
+    pub fn words(&mut self, (x, y): Place, words: &str, anchor: TextAnchor, colour: &str) {
         self.styled_words((x, y), words, anchor, &format!("fill=\"{colour}\""));
     }
 
     /// A heading: a line of bold text.
     pub fn heading(&mut self, (x, y): Place, words: &str) {
-        self.styled_words((x, y), words, Anchor::Start, "font-weight=\"bold\"");
+        self.styled_words((x, y), words, TextAnchor::Start, "font-weight=\"bold\"");
     }
 
-    fn styled_words(&mut self, (x, y): Place, words: &str, anchor: Anchor, style: &str) {
+    fn styled_words(&mut self, (x, y): Place, words: &str, anchor: TextAnchor, style: &str) {
         let anchor = match anchor {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
+            TextAnchor::Start => "start",
+            TextAnchor::Middle => "middle",
+            TextAnchor::End => "end",
         };
         let words = escaped(words);
         let _ = writeln!(self.text, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" {style}>{words}</text>");

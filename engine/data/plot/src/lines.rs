@@ -1,7 +1,7 @@
 //! A panel of lines over numbered steps.
 
 use crate::axis::{Axis, label};
-use crate::document::{Anchor, Document};
+use crate::document::{ChartDocument, TextAnchor};
 
 const GREY: &str = "#555";
 const GRID: &str = "#dddddd";
@@ -36,19 +36,19 @@ pub struct Lines<'a> {
 
 impl Lines<'_> {
     /// Draws the lines, the first one thick and on top of the others. Steps are numbered from 1.
-    pub fn draw(&self, document: &mut Document, axis: Axis, lines: &[Line<'_>]) {
+    pub fn draw(&self, document: &mut ChartDocument, axis: Axis, lines: &[Line<'_>]) {
         let steps = lines.iter().map(|line| line.values.len()).max().unwrap_or(0);
         let (right, bottom) = (self.left + self.width, self.top + self.height);
         let y = |value: f64| self.top + self.height * (1.0 - value / axis.end).clamp(-OUTSIDE, OUTSIDE);
         let x = |at: usize| self.left + self.width * at as f64 / (steps.max(2) - 1) as f64;
         for mark in axis.marks() {
             document.line(&[(self.left, y(mark)), (right, y(mark))], GRID, 1.0, "");
-            document.words((self.left - 8.0, y(mark) + 4.0), &label(mark), Anchor::End, GREY);
+            document.words((self.left - 8.0, y(mark) + 4.0), &label(mark), TextAnchor::End, GREY);
         }
         for at in (0..steps).step_by(steps.div_ceil(MOST_NUMBERS).max(1)) {
-            document.words((x(at), bottom + 18.0), &(at + 1).to_string(), Anchor::Middle, GREY);
+            document.words((x(at), bottom + 18.0), &(at + 1).to_string(), TextAnchor::Middle, GREY);
         }
-        document.words((self.left + self.width / 2.0, bottom + 38.0), self.caption, Anchor::Middle, GREY);
+        document.words((self.left + self.width / 2.0, bottom + 38.0), self.caption, TextAnchor::Middle, GREY);
         document.begin_clip("lines", (self.left - 6.0, self.top - 4.0), (self.width + 12.0, self.height + 8.0));
         for (place, line) in lines.iter().enumerate().rev() {
             let known = line.values.iter().enumerate().filter(|(_, value)| !value.is_nan());

@@ -1,11 +1,11 @@
 //! The clip: an animated GIF with colours at the left, depth and labels at the right, visibility below.
 
-use crate::shot::{FULL_BOX, Shot, VISIBLE_BOX};
+use crate::shot::{ClipShot, FULL_BOX, VISIBLE_BOX};
 use color_quant::NeuQuant;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::SemanticLabel;
 use cosfly_images::false_colours::DepthScale;
-use cosfly_plot::canvas::{Canvas, Colour, INK, WHITE};
+use cosfly_plot::canvas::{Canvas, ChartColour, INK, WHITE};
 use std::borrow::Cow;
 
 /// Width of the colour image.
@@ -38,7 +38,7 @@ struct ClipFrame {
 
 impl Clip {
     /// Adds a frame.
-    pub fn add(&mut self, shot: &Shot) {
+    pub fn add(&mut self, shot: &ClipShot) {
         // Even sides, so that two half pictures fill one; tall images are narrower than wide ones.
         let (width, height) = (shot.rgb.width, shot.rgb.height);
         let wide = WIDE.min(width.max(160)).min((WIDE * width).div_ceil(height));
@@ -123,10 +123,10 @@ impl Clip {
     }
 }
 
-const RAMP: [Colour; 5] = [[215, 48, 39], [244, 120, 60], [250, 200, 70], [150, 205, 90], [40, 165, 80]];
+const RAMP: [ChartColour; 5] = [[215, 48, 39], [244, 120, 60], [250, 200, 70], [150, 205, 90], [40, 165, 80]];
 
 /// Red (nothing is visible) to green (all of it), in five steps.
-pub fn ramp(visible: f64) -> Colour {
+pub fn ramp(visible: f64) -> ChartColour {
     RAMP[(visible.clamp(0.0, 1.0) * 4.0 + 0.5) as usize]
 }
 
@@ -140,7 +140,7 @@ struct Palette {
 /// Colours learnt from pictures, and the nearest of them to every colour.
 struct Learnt {
     first: usize,
-    colours: Vec<Colour>,
+    colours: Vec<ChartColour>,
     /// By 6 bits of red, green and blue.
     nearest: Vec<u8>,
 }
@@ -148,7 +148,7 @@ struct Learnt {
 /// Colours that are used as they are.
 struct Exact {
     first: usize,
-    colours: Vec<Colour>,
+    colours: Vec<ChartColour>,
 }
 
 impl Palette {
@@ -158,7 +158,7 @@ impl Palette {
         let depth = sampled.iter().flat_map(|at| scale.colours(&frames[*at].depths)).collect();
         let colour = Learnt::learn(0, COLOURS, colour, &[FULL_BOX, VISIBLE_BOX]);
         let depth = Learnt::learn(COLOURS, DEPTHS, depth, &[[0, 0, 0]]);
-        let mut exact: Vec<Colour> = SemanticLabel::ALL.iter().map(|label| label.colour()).collect();
+        let mut exact: Vec<ChartColour> = SemanticLabel::ALL.iter().map(|label| label.colour()).collect();
         exact.extend(RAMP.into_iter().chain([INK, WHITE]));
         exact.truncate(256 - COLOURS - DEPTHS);
         Self { colour, depth, exact: Exact { first: COLOURS + DEPTHS, colours: exact } }
@@ -172,14 +172,14 @@ impl Palette {
 
 impl Learnt {
     /// `count` colours from `first` on, `kept` among them.
-    fn learn(first: usize, count: usize, rgb: Vec<u8>, kept: &[Colour]) -> Self {
+    fn learn(first: usize, count: usize, rgb: Vec<u8>, kept: &[ChartColour]) -> Self {
         let rgba: Vec<u8> = rgb.chunks_exact(3).flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 255]).collect();
         let learnt = NeuQuant::new(7, count - kept.len(), &rgba).color_map_rgb();
-        let mut colours: Vec<Colour> = learnt.chunks_exact(3).map(|it| [it[0], it[1], it[2]]).collect();
+        let mut colours: Vec<ChartColour> = learnt.chunks_exact(3).map(|it| [it[0], it[1], it[2]]).collect();
         colours.extend(kept);
         let nearest = (0..1 << 18).map(|cell: usize| {
             let colour = [cell >> 12, cell >> 6, cell].map(|bits| ((bits & 63) * 255 / 63) as i32);
-            let distance = |other: &Colour| {
+            let distance = |other: &ChartColour| {
                 let d: [i32; 3] = core::array::from_fn(|i| colour[i] - i32::from(other[i]));
                 2 * d[0] * d[0] + 4 * d[1] * d[1] + 3 * d[2] * d[2]
             };
@@ -191,7 +191,7 @@ impl Learnt {
     }
 
     /// The entry for a colour at a place: ordered dithering, so that still parts of a picture stay still.
-    fn of(&self, colour: Colour, x: usize, y: usize) -> u8 {
+    fn of(&self, colour: ChartColour, x: usize, y: usize) -> u8 {
         const ORDER: [[i32; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
         let shift = (ORDER[y % 4][x % 4] - 7) / 2;
         let bits = colour.map(|value| ((i32::from(value) + shift).clamp(0, 255) as usize * 63 + 127) / 255);
@@ -203,7 +203,7 @@ impl Learnt {
 
 impl Exact {
     /// The entry for a colour; the first one for a colour that is not listed.
-    fn of(&self, colour: Colour) -> u8 {
+    fn of(&self, colour: ChartColour) -> u8 {
         (self.first + self.colours.iter().position(|it| *it == colour).unwrap_or(0)) as u8
     }
 }

@@ -2,7 +2,7 @@
 
 use cosfly_domain::SemanticLabel;
 use cosfly_frames::DVec3;
-use cosfly_plot::canvas::Colour;
+use cosfly_plot::canvas::ChartColour;
 use cosfly_read::{LoggedFrame, PublishedFlight};
 use std::collections::BTreeMap;
 
@@ -49,7 +49,7 @@ impl SeenGround {
     }
 
     /// The colour at a point of the world, if it or a neighbour was seen.
-    pub fn colour_at(&self, x_m: f64, y_m: f64) -> Option<Colour> {
+    pub fn colour_at(&self, x_m: f64, y_m: f64) -> Option<ChartColour> {
         const AROUND: [(i32, i32); 9] = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1)];
         let (column, row) = ((x_m / CELL_M).floor() as i32, (y_m / CELL_M).floor() as i32);
         let found = AROUND.iter().find_map(|(dx, dy)| self.cells.get(&(column + dx, row + dy)));
@@ -69,7 +69,7 @@ fn straightened(x: f64, y: f64, [k1, k2]: [f64; 2]) -> [f64; 2] {
 }
 
 /// The plan's colour of a label of the ground; none for what stands on it.
-fn colour(label: u8) -> Option<Colour> {
+fn colour(label: u8) -> Option<ChartColour> {
     Some(match SemanticLabel::ALL.get(usize::from(label))? {
         SemanticLabel::Roads => [150, 152, 158],
         SemanticLabel::RoadLine => [236, 236, 230],

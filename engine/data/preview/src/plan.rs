@@ -3,7 +3,7 @@
 use crate::clip::ramp;
 use crate::ground::SeenGround;
 use cosfly_frames::{DVec3, real};
-use cosfly_plot::canvas::{Canvas, Colour, INK, Point, WHITE, text_width};
+use cosfly_plot::canvas::{Canvas, ChartColour, INK, Point, WHITE, text_width};
 use cosfly_read::{FrameRow, PublishedFlight, SceneBox};
 
 /// Longest side of the drawn area, pixels.
@@ -18,7 +18,7 @@ const HEADER: usize = 34;
 const LEGEND: usize = 34;
 /// Lines of sight that are drawn.
 const SIGHTS: usize = 9;
-const WALK: Colour = [70, 60, 200];
+const WALK: ChartColour = [70, 60, 200];
 
 /// Content of a plan.
 pub struct Plan<'a> {
@@ -190,7 +190,7 @@ fn draw_flight(view: &View, canvas: &mut Canvas, frames: &[FrameRow], is_expert:
     }
 }
 
-fn mark(canvas: &mut Canvas, at: Point, words: &str, colour: Colour) {
+fn mark(canvas: &mut Canvas, at: Point, words: &str, colour: ChartColour) {
     canvas.disc(at, 6.0, WHITE);
     canvas.disc(at, 4.5, colour);
     canvas.label(at[0] as i64 + 8, at[1] as i64 + 4, 1, WHITE, words);

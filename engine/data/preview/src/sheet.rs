@@ -1,7 +1,7 @@
 //! The contact sheet: some frames of a flight, one row each: colours, depth, labels, channels on
 //! request, the target enlarged.
 
-use crate::shot::Shot;
+use crate::shot::ClipShot;
 use cosfly_images::false_colours::DepthScale;
 use cosfly_plot::canvas::{Canvas, INK, WHITE};
 use cosfly_read::PublishedFlight;
@@ -24,7 +24,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// Adds a row.
-    pub fn add(&mut self, shot: &Shot) {
+    pub fn add(&mut self, shot: &ClipShot) {
         let (width, height) = cell(shot.rgb.width, shot.rgb.height);
         let side = height.clamp(CELL / 4, CELL);
         let tall = height.max(side);

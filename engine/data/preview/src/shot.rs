@@ -3,23 +3,23 @@
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_images::false_colours::{palette_image, picture_on_request};
 use cosfly_images::read::{Picture, decoded};
-use cosfly_plot::canvas::{Canvas, Colour, WHITE};
+use cosfly_plot::canvas::{Canvas, ChartColour, WHITE};
 use cosfly_read::LoggedFrame;
 
 /// Box of the target without obstacles.
-pub const FULL_BOX: Colour = [255, 220, 40];
+pub const FULL_BOX: ChartColour = [255, 220, 40];
 /// Box of its visible pixels.
-pub const VISIBLE_BOX: Colour = [60, 255, 90];
+pub const VISIBLE_BOX: ChartColour = [60, 255, 90];
 
 /// A frame whose colour image is decoded.
-pub struct Shot {
+pub struct ClipShot {
     /// Images, camera and target of the log.
     pub logged: LoggedFrame,
     /// The colour image.
     pub rgb: Canvas,
 }
 
-impl Shot {
+impl ClipShot {
     /// Decodes the colour image.
     pub fn new(logged: LoggedFrame) -> Result<Self> {
         let decoded = decoded(&logged.rgb_file, &logged.rgb_format);
@@ -158,6 +158,6 @@ mod tests {
     fn files_that_are_no_images_are_refused() {
         assert!(decoded(b"no image", "jpeg").is_err() && decoded(&[0; 40], "png").is_err());
         let logged = LoggedFrame { rgb_format: "bmp".into(), ..LoggedFrame::default() };
-        assert!(Shot::new(logged).err().is_some_and(|error| error.causes[0].contains("`bmp`")));
+        assert!(ClipShot::new(logged).err().is_some_and(|error| error.causes[0].contains("`bmp`")));
     }
 }

@@ -2,7 +2,7 @@
 
 use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind};
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_plot::canvas::{Canvas, Colour, INK, Point, text_width};
+use cosfly_plot::canvas::{Canvas, ChartColour, INK, Point, text_width};
 
 /// Longest side of the drawn area, pixels.
 const SIDE: f64 = 1400.0;
@@ -12,7 +12,7 @@ const DENSEST: f64 = 8.0;
 const MARGIN_M: f64 = 20.0;
 const HEADER: usize = 34;
 const LEGEND: usize = 34;
-const EMPTY: Colour = [244, 243, 240];
+const EMPTY: ChartColour = [244, 243, 240];
 
 /// The plan of a town; north is up. `title` stands above it.
 pub fn town_plan(town: &Town, title: &str) -> Canvas {
@@ -117,7 +117,7 @@ fn layer(label: SemanticLabel) -> u8 {
     }
 }
 
-fn ground_colour(label: SemanticLabel) -> Colour {
+fn ground_colour(label: SemanticLabel) -> ChartColour {
     match label {
         SemanticLabel::Terrain => [206, 218, 186],
         SemanticLabel::Ground => [226, 214, 188],
@@ -129,7 +129,7 @@ fn ground_colour(label: SemanticLabel) -> Colour {
     }
 }
 
-fn walkable_colour(kind: WalkableKind) -> Colour {
+fn walkable_colour(kind: WalkableKind) -> ChartColour {
     match kind {
         WalkableKind::Sidewalk | WalkableKind::Shoulder => [70, 60, 200],
         WalkableKind::Crossing => [220, 60, 60],

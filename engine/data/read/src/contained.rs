@@ -10,7 +10,7 @@ thread_local! {
 
 static HOOK: Once = Once::new();
 
-/// What the work gives; none if it panics. Panics of other threads and of other work are printed as before.
+/// Result of the work; none if it panics. Panics of other threads and of other work are printed as before.
 pub fn contained<T>(work: impl FnOnce() -> T) -> Option<T> {
     HOOK.call_once(|| {
         let usual = take_hook();

@@ -19,7 +19,7 @@ pub struct PublishedGoal {
     pub fits: bool,
     /// Subject of what is not so.
     pub false_subject: Option<String>,
-    /// What the user says in the end.
+    /// Last words of the user.
     pub claims: Vec<String>,
 }
 

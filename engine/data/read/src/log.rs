@@ -6,7 +6,7 @@ use ::mcap::Summary;
 use ::mcap::sans_io::indexed_reader::{IndexedReadEvent, IndexedReader, IndexedReaderOptions};
 use ::mcap::sans_io::summary_reader::{SummaryReadEvent, SummaryReader, SummaryReaderOptions};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_domain::channels::{Element, Source};
+use cosfly_domain::channels::{ChannelSource, Element};
 use cosfly_domain::{Channel, ChannelImage, channels};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_schema::log::messages::{MAP_FRAME, OPTICAL_FRAME};
@@ -221,24 +221,24 @@ impl LoggedFrame {
             format!("its encoding is `{}`, not {}", image.encoding, known.join(" or "))
         })?;
         match channel.source {
-            Source::Depth => {
+            ChannelSource::Depth => {
                 (self.width, self.height) = (image.width, image.height);
                 let (depths, _) = image.data.as_chunks::<4>();
                 self.depth_m = depths.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
             }
-            Source::Labels => self.semantic = image.data.to_vec(),
-            Source::Ids if format.pixel_bytes == 2 => {
+            ChannelSource::Labels => self.semantic = image.data.to_vec(),
+            ChannelSource::Ids if format.pixel_bytes == 2 => {
                 let (ids, _) = image.data.as_chunks::<2>();
                 self.instance = ids.iter().map(|bytes| u32::from(u16::from_le_bytes(*bytes))).collect();
             }
-            Source::Ids => {
+            ChannelSource::Ids => {
                 let (ids, _) = image.data.as_chunks::<4>();
                 self.instance = ids.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect();
             }
-            Source::Number(_) | Source::Bytes(_) => {
+            ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
                 self.on_request.push(ChannelImage { channel, bytes: image.data.to_vec() });
             }
-            Source::Colour => {}
+            ChannelSource::Colour => {}
         }
         Ok(())
     }

@@ -45,7 +45,7 @@ pub fn load_with_pages(file: &File) -> Result<ArrowReaderMetadata> {
 pub struct Batches(Option<ParquetRecordBatchReader>);
 
 impl Batches {
-    /// What `reader` reads.
+    /// Rows that `reader` reads.
     pub fn of(reader: ParquetRecordBatchReader) -> Self {
         Self(Some(reader))
     }

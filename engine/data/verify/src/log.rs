@@ -8,7 +8,7 @@ use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
 use ::mcap::records::Record;
 use cosfly_diagnose::Stop;
-use cosfly_domain::channels::{Element, Source, depth};
+use cosfly_domain::channels::{ChannelSource, Element, depth};
 use cosfly_domain::{Channel, ChannelSet, SemanticLabel, TARGET_INSTANCE, channels};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_read::read_records;
@@ -167,7 +167,7 @@ impl LogCheck<'_> {
         place: String,
     ) {
         match channel.source {
-            Source::Ids => {
+            ChannelSource::Ids => {
                 let (of_target, problem) = self.people_in(&image, row);
                 if let Some(message) = problem {
                     self.find(place, "verify-log", message);
@@ -181,18 +181,18 @@ impl LogCheck<'_> {
                     }
                 }
             }
-            Source::Labels => {
+            ChannelSource::Labels => {
                 self.check_labels(&image, row, place);
                 self.labels = Some((frame, image));
             }
-            Source::Depth => self.depth = Some((frame, image)),
-            Source::Number(_) | Source::Bytes(_) => {
+            ChannelSource::Depth => self.depth = Some((frame, image)),
+            ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
                 let mut pixels = image.data.chunks_exact(channel.bytes_on_request());
                 if let Some(at) = pixels.position(|pixel| !(channel.is_value)(pixel)) {
                     self.find(place, "verify-pixels", format!("pixel {at} holds no value of `{}`", channel.name));
                 }
             }
-            Source::Colour => {}
+            ChannelSource::Colour => {}
         }
     }
 

@@ -1,10 +1,10 @@
 //! A sound dataset passes; every kind of damage is found and named.
 
-use super::*;
+use crate::{Options, VerifyReport, files, frames, rows, tables, verify};
 use cosfly_sample as sample;
 use cosfly_sample::SampleFlight;
 use cosfly_schema::{DatasetConfig, EncodingConfig};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 fn published(flights: Vec<SampleFlight>) -> TempDir {

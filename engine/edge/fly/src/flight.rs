@@ -4,8 +4,8 @@ use crate::log::Line;
 use crate::pilot::{Asked, Failure, Pilot};
 use crate::suite::Task;
 use cosfly_drone::Sensed;
-use cosfly_drone::quadrotor::Strain;
-use cosfly_env::{Environment, Score, Settings};
+use cosfly_drone::quadrotor::TrackingError;
+use cosfly_env::{Environment, EnvironmentSettings, EpisodeScore};
 use cosfly_frames::DVec3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -39,7 +39,7 @@ pub struct Row {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_latency_s: Option<f64>,
     /// The outcome.
-    pub score: Score,
+    pub score: EpisodeScore,
 }
 
 /// How well a quadrotor could do what it was asked for.
@@ -54,8 +54,8 @@ pub struct StrainRow {
     pub largest_tracking_error_m: f64,
 }
 
-impl From<&Strain> for StrainRow {
-    fn from(strain: &Strain) -> Self {
+impl From<&TrackingError> for StrainRow {
+    fn from(strain: &TrackingError) -> Self {
         let share = |sum: f64, count: u64| (count > 0).then(|| sum / count as f64);
         Self {
             saturated: share(strain.saturated_ticks as f64, strain.ticks).unwrap_or(0.0),
@@ -95,7 +95,7 @@ pub enum Attempt {
 }
 
 /// Flies an episode. A policy that has answered and goes away in the middle of an episode begins anew, a few times.
-pub fn fly(task: &Task, settings: Settings, latency: Latency, pilot: &mut Asked<'_>) -> Attempt {
+pub fn fly(task: &Task, settings: EnvironmentSettings, latency: Latency, pilot: &mut Asked<'_>) -> Attempt {
     let mut attempt = 1;
     loop {
         if let Err(reason) = pilot.begin(&Environment::new(Arc::clone(&task.episode), settings), &task.knowledge) {
@@ -115,7 +115,12 @@ pub fn fly(task: &Task, settings: Settings, latency: Latency, pilot: &mut Asked<
 }
 
 /// Flies an episode that the policy has begun.
-fn attempt_at(task: &Task, settings: Settings, latency: Latency, pilot: &mut Asked<'_>) -> Result<Flown, String> {
+fn attempt_at(
+    task: &Task,
+    settings: EnvironmentSettings,
+    latency: Latency,
+    pilot: &mut Asked<'_>,
+) -> Result<Flown, String> {
     let mut environment = Environment::new(Arc::clone(&task.episode), settings);
     let mut policy_failure = None;
     let mut steps: Vec<Line> = Vec::new();
@@ -142,7 +147,7 @@ fn attempt_at(task: &Task, settings: Settings, latency: Latency, pilot: &mut Ask
         certified_visibility: task.certified_visibility,
         step_s: settings.step_s,
         from_expert_m: from_expert_m(task, &steps),
-        strain: environment.strain().map(StrainRow::from),
+        strain: environment.tracking_error().map(StrainRow::from),
         mean_latency_s: mean(steps.iter().filter_map(|step| step.latency_s)),
         score: *environment.score(),
     };

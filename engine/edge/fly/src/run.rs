@@ -7,7 +7,7 @@ use crate::pilot::{Asked, FirstAnswer, Manners, Place};
 use crate::results::{Card, Folder, LogChoice, worst};
 use crate::suite::{Suite, Task};
 use cosfly_diagnose::{Diagnostic, Result};
-use cosfly_env::Settings;
+use cosfly_env::EnvironmentSettings;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -34,7 +34,7 @@ pub struct Order<'a> {
     /// How it is asked.
     pub manners: &'a Manners,
     /// Settings of the environment.
-    pub settings: Settings,
+    pub settings: EnvironmentSettings,
     /// Time that the policy takes for an action.
     pub latency: Latency,
     /// Episodes to fly.

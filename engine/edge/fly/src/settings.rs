@@ -1,7 +1,7 @@
 //! [`FlySettings`]: the table `[tool.fly]` of a recipe: the drone that flies its episodes, the air, the latency.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_env::{Blackouts, DroneModel, DroneSettings, Settings};
+use cosfly_env::{Blackouts, DroneModel, DroneSettings, EnvironmentSettings};
 use cosfly_recipe::Recipe;
 use serde::Deserialize;
 
@@ -73,10 +73,10 @@ impl FlySettings {
 
 impl FlySettings {
     /// Settings of environments, with these of the suite.
-    pub fn environment(&self) -> Settings {
-        let defaults = Settings::default();
+    pub fn environment(&self) -> EnvironmentSettings {
+        let defaults = EnvironmentSettings::default();
         let drone = DroneSettings { model: self.drone, wind_mps: self.wind_mps, gusts: self.gusts, sensors: false };
         let blackouts = Blackouts { count: self.blackouts, ..defaults.blackouts };
-        Settings { drone, blackouts, latency_s: f64::from(self.latency_ms) / 1000.0, ..defaults }
+        EnvironmentSettings { drone, blackouts, latency_s: f64::from(self.latency_ms) / 1000.0, ..defaults }
     }
 }

@@ -3,7 +3,7 @@
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::{PlanOutcome, Town};
 use cosfly_env::policies::Knowledge;
-use cosfly_env::{Episode, Others, Place, Start};
+use cosfly_env::{Episode, FlightSite, Others, Start};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_recipe::{Recipe, RecipeStage};
@@ -118,7 +118,7 @@ struct Reader<'a> {
     plan: Plan<'a>,
     store: &'a Store,
     /// By the index of the stage that made the town, and its item.
-    places: BTreeMap<(usize, usize), (Arc<Place>, Arc<Scenery>)>,
+    places: BTreeMap<(usize, usize), (Arc<FlightSite>, Arc<Scenery>)>,
 }
 
 impl Reader<'_> {
@@ -175,14 +175,14 @@ impl Reader<'_> {
         Ok(Suite { name: recipe.name.clone(), digest: Digest::of(listed.as_bytes()), tasks, rejected })
     }
 
-    fn place(&mut self, at: (usize, usize)) -> Result<(Arc<Place>, Arc<Scenery>)> {
+    fn place(&mut self, at: (usize, usize)) -> Result<(Arc<FlightSite>, Arc<Scenery>)> {
         if let Some(known) = self.places.get(&at) {
             return Ok(known.clone());
         }
         let stored = self.blobs(at.0, at.1)?[read::TOWN_BLOB];
         let (town, looks) = (Arc::new(read::town(&self.store.read(&stored)?)?), Seed(stored.digest.0));
         // Buildings look as in films.
-        let known = (Arc::new(Place::new(Arc::clone(&town), looks)), Arc::new(Scenery { town, looks }));
+        let known = (Arc::new(FlightSite::new(Arc::clone(&town), looks)), Arc::new(Scenery { town, looks }));
         self.places.insert(at, known.clone());
         Ok(known)
     }

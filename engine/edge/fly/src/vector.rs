@@ -1,34 +1,22 @@
-//! [`Flock`]: many environments that are stepped together, for learners.
+//! [`VectorEnvironment`]: many environments that are stepped together, for learners.
 
+mod member;
 mod team;
 #[cfg(test)]
 mod tests;
 
 use crate::suite::Task;
-use cosfly_env::pictures::{Album, Format, Pictures};
-use cosfly_env::policies::baseline;
-use cosfly_env::{Action, End, Environment, FEATURES, Policy, Reward, Settings};
-use cosfly_frames::{RandomStream, Seed};
+use cosfly_env::pictures::{PictureBatch, PictureFormat, Pictures};
+use cosfly_env::{End, Environment, EnvironmentSettings, FEATURES, Reward};
+use member::{Shared, VectorMember, stream_of};
 use rayon::{ThreadPool, ThreadPoolBuildError};
 use std::sync::Arc;
 
+pub use member::{ACTIONS, Autoreset};
 pub use team::BESIDE;
 
-/// Numbers of an action.
-pub const ACTIONS: usize = 5;
 /// Terms of a reward.
 pub const TERMS: usize = Reward::NAMES.len();
-
-/// When an environment whose episode ended begins the next one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Autoreset {
-    /// In the step after the last one, whose action is not read.
-    NextStep,
-    /// In the last step itself; the last observation is kept apart.
-    SameStep,
-    /// When it is told to.
-    Disabled,
-}
 
 /// What a step fills, one entry or row per environment.
 #[derive(Clone, Debug, Default)]
@@ -38,9 +26,9 @@ pub struct Outputs {
     /// Features of the last observation of the episode that ended in this step; else those of `features`.
     pub last_features: Vec<[f32; FEATURES]>,
     /// Pictures of the observations, where they are asked for.
-    pub album: Album,
+    pub album: PictureBatch,
     /// In [`Autoreset::SameStep`], the last pictures of the episodes that ended in this step; the others are old.
-    pub last_album: Album,
+    pub last_album: PictureBatch,
     /// Weighted rewards.
     pub rewards: Vec<f64>,
     /// Terms of the rewards, unweighted.
@@ -59,95 +47,22 @@ pub struct Outputs {
     pub beside: Vec<Vec<f32>>,
 }
 
-/// What all environments share.
-struct Shared {
-    tasks: Arc<[Task]>,
-    settings: Settings,
-    mode: Autoreset,
-    has_experts: bool,
-    /// Whether all fly the same episode at the same time.
-    is_team: bool,
-}
-
-/// One of many.
-struct Bird {
-    environment: Environment,
-    expert: Option<Box<dyn Policy + Send + Sync>>,
-    /// Draws episodes.
-    stream: RandomStream,
-    /// Whether the next step begins an episode.
-    is_due: bool,
-    reward: Reward,
-    end: Option<End>,
-    expert_action: [f32; ACTIONS],
-}
-
-impl Bird {
-    fn new(number: usize, shared: &Shared) -> Self {
-        let mut stream = stream_of(number as u64);
-        let task = &shared.tasks[stream.index(shared.tasks.len())];
-        let environment = Environment::new(Arc::clone(&task.episode), shared.settings);
-        let (reward, expert_action) = (Reward::default(), [0.0; ACTIONS]);
-        Self { environment, expert: None, stream, is_due: false, reward, end: None, expert_action }
-    }
-
-    /// Begins the next episode. What the last step gave stays.
-    fn begin(&mut self, shared: &Shared) {
-        let task = self.stream.index(shared.tasks.len());
-        self.begin_task(shared, task);
-    }
-
-    fn begin_task(&mut self, shared: &Shared, task: usize) {
-        let task = &shared.tasks[task];
-        self.environment.reset(Arc::clone(&task.episode));
-        self.is_due = false;
-        if shared.has_experts {
-            let make = baseline("expert").map(|expert| expert.make);
-            self.expert = make.map(|make| make(&self.environment, &task.knowledge));
-        }
-        self.ask_expert();
-    }
-
-    /// Begins the next episode, with nothing to tell of the one before.
-    fn begin_anew(&mut self, shared: &Shared) {
-        self.begin(shared);
-        (self.reward, self.end) = (Reward::default(), None);
-    }
-
-    fn step(&mut self, action: &[f32; ACTIONS], shared: &Shared) {
-        if self.is_due && shared.mode == Autoreset::NextStep {
-            self.begin_anew(shared);
-            return;
-        }
-        let step = self.environment.step(Some(&Action::of_numbers(action.map(f64::from))));
-        (self.reward, self.end, self.is_due) = (step.reward, step.end, step.end.is_some());
-        self.ask_expert();
-    }
-
-    fn ask_expert(&mut self) {
-        if let Some(expert) = &mut self.expert {
-            let action = expert.act(&self.environment);
-            self.expert_action = action.numbers(self.environment.observation().yaw_rad).map(|number| number as f32);
-        }
-    }
-}
-
-/// Pictures of a flock, and the threads that draw them.
-struct Studio {
+/// Pictures of a vector environment, and the threads that draw them.
+struct PicturePool {
     pictures: Pictures,
     pool: Option<ThreadPool>,
 }
 
-impl Studio {
+impl PicturePool {
     /// Draws the pictures of some environments that follow each other from number `first` on.
-    fn draw(&mut self, birds: &[Bird], album: &mut Album, first: usize) {
-        let environments: Vec<&Environment> = birds.iter().map(|bird| &bird.environment).collect();
+    fn draw(&mut self, members: &[VectorMember], album: &mut PictureBatch, first: usize) {
+        let environments: Vec<&Environment> = members.iter().map(|member| &member.environment).collect();
         self.work(|pictures| pictures.draw(&environments, album, first));
     }
 
     /// Draws the pictures of a whole team.
-    fn draw_team(&mut self, birds: &[Bird], album: &mut Album) {
-        let environments: Vec<&Environment> = birds.iter().map(|bird| &bird.environment).collect();
+    fn draw_team(&mut self, members: &[VectorMember], album: &mut PictureBatch) {
+        let environments: Vec<&Environment> = members.iter().map(|member| &member.environment).collect();
         self.work(|pictures| pictures.draw_team(&environments, album));
     }
 
@@ -161,18 +76,24 @@ impl Studio {
 }
 
 /// Many environments that are stepped together. Each draws its episodes from a seed of its own: what one does changes no other.
-pub struct Flock {
+pub struct VectorEnvironment {
     shared: Shared,
-    birds: Vec<Bird>,
+    members: Vec<VectorMember>,
     outputs: Outputs,
-    studio: Option<Studio>,
+    studio: Option<PicturePool>,
 }
 
-impl Flock {
+impl VectorEnvironment {
     /// Environments over the episodes of `tasks`, of which there must be one; before the first reset.
-    pub fn new(tasks: Arc<[Task]>, count: usize, settings: Settings, mode: Autoreset, has_experts: bool) -> Self {
+    pub fn new(
+        tasks: Arc<[Task]>,
+        count: usize,
+        settings: EnvironmentSettings,
+        mode: Autoreset,
+        has_experts: bool,
+    ) -> Self {
         let shared = Shared { tasks, settings, mode, has_experts, is_team: false };
-        let birds: Vec<Bird> = (0..count).map(|number| Bird::new(number, &shared)).collect();
+        let members: Vec<VectorMember> = (0..count).map(|number| VectorMember::new(number, &shared)).collect();
         let outputs = Outputs {
             features: vec![[0.0; FEATURES]; count],
             last_features: vec![[0.0; FEATURES]; count],
@@ -185,7 +106,7 @@ impl Flock {
             expert_actions: vec![[0.0; ACTIONS]; if has_experts { count } else { 0 }],
             ..Outputs::default()
         };
-        Self { shared, birds, outputs, studio: None }
+        Self { shared, members, outputs, studio: None }
     }
 
     /// The same drones as a team: all fly the same episode at the same time, which the first draws, each from a start of its own, and
@@ -200,34 +121,34 @@ impl Flock {
     ///
     /// # Errors
     /// Threads that cannot be started.
-    pub fn with_pictures(mut self, format: Format, threads: usize) -> Result<Self, ThreadPoolBuildError> {
+    pub fn with_pictures(mut self, format: PictureFormat, threads: usize) -> Result<Self, ThreadPoolBuildError> {
         let build = || rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = (threads > 1).then(build).transpose()?;
-        self.outputs.album = Album::new(&format, self.len());
+        self.outputs.album = PictureBatch::new(&format, self.len());
         if self.shared.mode == Autoreset::SameStep {
             self.outputs.last_album = self.outputs.album.clone();
         }
-        self.studio = Some(Studio { pictures: Pictures::new(format, threads), pool });
+        self.studio = Some(PicturePool { pictures: Pictures::new(format, threads), pool });
         Ok(self)
     }
 
     /// Number of environments.
     pub fn len(&self) -> usize {
-        self.birds.len()
+        self.members.len()
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.birds.is_empty()
+        self.members.is_empty()
     }
 
     /// Settings of the environments.
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &EnvironmentSettings {
         &self.shared.settings
     }
 
     /// What their pictures hold, where there are any.
-    pub fn format(&self) -> Option<&Format> {
+    pub fn format(&self) -> Option<&PictureFormat> {
         self.studio.as_ref().map(|studio| studio.pictures.format())
     }
 
@@ -238,7 +159,7 @@ impl Flock {
 
     /// Name of the episode that an environment flies.
     pub fn episode(&self, number: usize) -> &str {
-        &self.birds[number].environment.episode().name
+        &self.members[number].environment.episode().name
     }
 
     /// Names of all episodes.
@@ -248,7 +169,7 @@ impl Flock {
 
     /// Steps of the whole episode that an environment flies.
     pub fn planned_steps(&self, number: usize) -> u32 {
-        self.birds[number].environment.score().planned_steps
+        self.members[number].environment.score().planned_steps
     }
 
     /// Begins the episode of a name in one environment; false where there is none.
@@ -258,10 +179,10 @@ impl Flock {
             self.begin_team(task);
             return true;
         }
-        let bird = &mut self.birds[number];
-        bird.begin_task(&self.shared, task);
-        (bird.reward, bird.end) = (Reward::default(), None);
-        self.outputs.tell(number, bird);
+        let member = &mut self.members[number];
+        member.begin_task(&self.shared, task);
+        (member.reward, member.end) = (Reward::default(), None);
+        self.outputs.tell(number, member);
         self.outputs.last_features[number] = self.outputs.features[number];
         self.draw(|chosen| chosen == number);
         true
@@ -269,9 +190,9 @@ impl Flock {
 
     /// Begins the draws of each environment that has a seed anew, without an episode.
     pub fn seed(&mut self, seeds: &[Option<u64>]) {
-        for (bird, seed) in self.birds.iter_mut().zip(seeds) {
+        for (member, seed) in self.members.iter_mut().zip(seeds) {
             if let Some(seed) = *seed {
-                bird.stream = stream_of(seed);
+                member.stream = stream_of(seed);
             }
         }
     }
@@ -279,7 +200,7 @@ impl Flock {
     /// Begins an episode in each environment that `chosen` names; where there is a seed, its draws begin anew.
     pub fn reset(&mut self, seeds: &[Option<u64>], chosen: impl Fn(usize) -> bool) {
         if self.shared.is_team {
-            let Some(first) = self.birds.first_mut() else { return };
+            let Some(first) = self.members.first_mut() else { return };
             if let Some(seed) = seeds.first().copied().flatten() {
                 first.stream = stream_of(seed);
             }
@@ -287,23 +208,23 @@ impl Flock {
             self.begin_team(task);
             return;
         }
-        for (number, bird) in self.birds.iter_mut().enumerate().filter(|(number, _)| chosen(*number)) {
+        for (number, member) in self.members.iter_mut().enumerate().filter(|(number, _)| chosen(*number)) {
             if let Some(seed) = seeds.get(number).copied().flatten() {
-                bird.stream = stream_of(seed);
+                member.stream = stream_of(seed);
             }
-            bird.begin_anew(&self.shared);
-            self.outputs.tell(number, bird);
+            member.begin_anew(&self.shared);
+            self.outputs.tell(number, member);
             self.outputs.last_features[number] = self.outputs.features[number];
         }
         self.draw(chosen);
     }
 
-    /// Moves every environment on by one step, with one action of [`Action::of_numbers`] each.
+    /// Moves every environment on by one step, with one action of [`cosfly_env::Action::of_numbers`] each.
     pub fn step(&mut self, actions: &[[f32; ACTIONS]]) {
-        let before = if self.shared.is_team { team::places(&self.birds) } else { vec![] };
-        self.birds.iter_mut().zip(actions).for_each(|(bird, action)| bird.step(action, &self.shared));
+        let before = if self.shared.is_team { team::places(&self.members) } else { vec![] };
+        self.members.iter_mut().zip(actions).for_each(|(member, action)| member.step(action, &self.shared));
         if self.shared.is_team {
-            team::meet(&mut self.birds, &before, &self.shared);
+            team::meet(&mut self.members, &before, &self.shared);
         }
         self.tell_all();
         self.draw(|_| true);
@@ -315,34 +236,34 @@ impl Flock {
     /// Begins an episode with the whole team.
     fn begin_team(&mut self, task: usize) {
         let episode = &self.shared.tasks[task].episode;
-        let episodes = team::episodes(episode, self.birds.len(), self.shared.settings.radius_m);
-        for (bird, episode) in self.birds.iter_mut().zip(episodes) {
-            bird.begin_task(&self.shared, task);
-            bird.environment.reset(episode);
-            (bird.reward, bird.end) = (Reward::default(), None);
+        let episodes = team::episodes(episode, self.members.len(), self.shared.settings.radius_m);
+        for (member, episode) in self.members.iter_mut().zip(episodes) {
+            member.begin_task(&self.shared, task);
+            member.environment.reset(episode);
+            (member.reward, member.end) = (Reward::default(), None);
         }
         self.tell_all();
         self.draw(|_| true);
     }
 
     fn tell_all(&mut self) {
-        for (number, bird) in self.birds.iter().enumerate() {
-            self.outputs.tell(number, bird);
+        for (number, member) in self.members.iter().enumerate() {
+            self.outputs.tell(number, member);
             self.outputs.last_features[number] = self.outputs.features[number];
         }
         for (number, told) in self.outputs.beside.iter_mut().enumerate() {
-            *told = team::beside(&self.birds, number);
+            *told = team::beside(&self.members, number);
         }
     }
 
     /// Begins the next episode wherever one ended in this step; its last observation is kept.
     fn begin_ended(&mut self) {
-        for (number, bird) in self.birds.iter_mut().enumerate().filter(|(_, bird)| bird.is_due) {
+        for (number, member) in self.members.iter_mut().enumerate().filter(|(_, member)| member.is_due) {
             self.outputs.last_album.copy(&self.outputs.album, number);
-            bird.begin(&self.shared);
-            self.outputs.tell(number, bird);
+            member.begin(&self.shared);
+            self.outputs.tell(number, member);
         }
-        let ended: Vec<bool> = self.birds.iter().map(|bird| bird.end.is_some()).collect();
+        let ended: Vec<bool> = self.members.iter().map(|member| member.end.is_some()).collect();
         self.draw(|number| ended[number]);
     }
 
@@ -350,14 +271,14 @@ impl Flock {
     fn draw(&mut self, chosen: impl Fn(usize) -> bool) {
         let Some(studio) = &mut self.studio else { return };
         if self.shared.is_team {
-            studio.draw_team(&self.birds, &mut self.outputs.album);
+            studio.draw_team(&self.members, &mut self.outputs.album);
             return;
         }
         let mut first = 0;
-        while first < self.birds.len() {
-            let end = (first..self.birds.len()).find(|number| !chosen(*number)).unwrap_or(self.birds.len());
+        while first < self.members.len() {
+            let end = (first..self.members.len()).find(|number| !chosen(*number)).unwrap_or(self.members.len());
             if end > first {
-                studio.draw(&self.birds[first..end], &mut self.outputs.album, first);
+                studio.draw(&self.members[first..end], &mut self.outputs.album, first);
             }
             first = end + 1;
         }
@@ -366,21 +287,17 @@ impl Flock {
 
 impl Outputs {
     /// Fills what is told of the present state of an environment and of its last step.
-    fn tell(&mut self, number: usize, bird: &Bird) {
-        let observation = bird.environment.observation();
+    fn tell(&mut self, number: usize, member: &VectorMember) {
+        let observation = member.environment.observation();
         self.features[number] = observation.features().map(|feature| feature as f32);
         self.tracked[number] = observation.tracked;
-        self.look_alikes[number] = bird.environment.look_alikes() as u32;
-        self.rewards[number] = bird.reward.sum(&bird.environment.settings().weights);
-        self.terms[number] = bird.reward.terms();
-        self.terminated[number] = matches!(bird.end, Some(End::Collision | End::Lost));
-        self.truncated[number] = bird.end == Some(End::Finished);
+        self.look_alikes[number] = member.environment.look_alikes() as u32;
+        self.rewards[number] = member.reward.sum(&member.environment.settings().weights);
+        self.terms[number] = member.reward.terms();
+        self.terminated[number] = matches!(member.end, Some(End::Collision | End::Lost));
+        self.truncated[number] = member.end == Some(End::Finished);
         if let Some(told) = self.expert_actions.get_mut(number) {
-            *told = bird.expert_action;
+            *told = member.expert_action;
         }
     }
-}
-
-fn stream_of(seed: u64) -> RandomStream {
-    Seed::of_item(seed, "fly", "environment").stream("episodes")
 }

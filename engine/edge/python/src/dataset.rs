@@ -1,11 +1,12 @@
 //! A published dataset: its tables, and random access to the images of its logs.
 
 use crate::errors::raised;
-use crate::images::{Image, checked};
+use crate::images::{Image, channel, checked};
 use crate::table::Table;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_domain::{Channel, channels};
-use cosfly_load::{Flight, Source};
+use cosfly_domain::Channel;
+use cosfly_domain::channels::rgb;
+use cosfly_load::{FlightSource, LoadedFlight};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -14,7 +15,7 @@ use std::sync::Arc;
 
 /// Reader of one dataset, of any layout.
 #[pyclass(frozen, module = "cosfly._cosfly")]
-pub struct Reader(Arc<dyn Source>);
+pub struct Reader(Arc<dyn FlightSource>);
 
 #[pymethods]
 impl Reader {
@@ -109,7 +110,7 @@ impl Reader {
     /// The stored file of a colour image, undecoded.
     fn rgb_file(&self, py: Python<'_>, trajectory: usize, frame: usize) -> PyResult<Vec<u8>> {
         self.flight(trajectory)?;
-        match raised(py, self.0.image(trajectory, &channels::rgb::CHANNEL, frame))? {
+        match raised(py, self.0.image(trajectory, &rgb::CHANNEL, frame))? {
             cosfly_read::StoredImage::File(file, _) => Ok(file.to_vec()),
             cosfly_read::StoredImage::Raw { .. } => Ok(vec![]),
         }
@@ -117,7 +118,7 @@ impl Reader {
 }
 
 impl Reader {
-    fn flight(&self, trajectory: usize) -> PyResult<&Flight> {
+    fn flight(&self, trajectory: usize) -> PyResult<&LoadedFlight> {
         let all = self.0.flights();
         let message = || format!("trajectory {trajectory} is beyond the dataset, which has {} trajectories", all.len());
         all.get(trajectory).ok_or_else(|| PyIndexError::new_err(message()))
@@ -151,16 +152,4 @@ impl Reader {
         images.sort_by_key(|(place, _)| *place);
         Ok(images.into_iter().map(|(_, image)| image).collect())
     }
-}
-
-/// The channel called `name`.
-///
-/// # Errors
-/// `dataset-channel`.
-pub fn channel(name: &str) -> Result<&'static Channel> {
-    channels::called(name).ok_or_else(|| {
-        let all: Vec<_> = channels::ALL.iter().map(|channel| channel.name).collect();
-        Diagnostic::new("dataset-channel", Fault::Recipe, format!("there is no channel `{name}`"))
-            .hint(format!("the channels are {}", all.join(", ")))
-    })
 }

@@ -5,11 +5,11 @@ use crate::errors::exception;
 use cosfly::Refusal;
 use cosfly_diagnose::Diagnostic;
 use cosfly_domain::Weather;
-use cosfly_env::pictures::{Channel, Format};
+use cosfly_env::pictures::{Channel, PictureFormat};
 use cosfly_fly::pilot::wrong_number;
 use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::{Suite, Task};
-use cosfly_fly::vector::{ACTIONS, Autoreset, Flock};
+use cosfly_fly::vector::{ACTIONS, Autoreset, VectorEnvironment};
 use cosfly_render::PictureLook;
 use cosfly_runner::RunOptions;
 use cosfly_store::Store;
@@ -21,9 +21,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Environments over the episodes of a recipe.
-#[pyclass(name = "Flock")]
+#[pyclass(name = "VectorEnvironment")]
 pub struct PyFlock {
-    flock: Flock,
+    flock: VectorEnvironment,
 }
 
 #[pymethods]
@@ -64,8 +64,8 @@ impl PyFlock {
         };
         let suite = suite.environment();
         let latency_s = latency_s.unwrap_or(suite.latency_s);
-        let settings = cosfly_env::Settings { step_s, latency_s, ..suite };
-        let flock = Flock::new(tasks, count, settings, mode, has_experts);
+        let settings = cosfly_env::EnvironmentSettings { step_s, latency_s, ..suite };
+        let flock = VectorEnvironment::new(tasks, count, settings, mode, has_experts);
         let flock = if is_team { flock.as_team() } else { flock };
         let channel = |name: &String| {
             Channel::named(name).ok_or_else(|| PyValueError::new_err(format!("`{name}` is no channel of pictures")))
@@ -79,7 +79,7 @@ impl PyFlock {
             let known = PictureLook::ALL.map(|(name, _)| name).join(", ");
             PyValueError::new_err(format!("look is `{look}`; it is one of {known}"))
         })?;
-        let format = Format { width: size.0, height: size.1, channels, farthest_m, weather, look };
+        let format = PictureFormat { width: size.0, height: size.1, channels, farthest_m, weather, look };
         let flock = flock.with_pictures(format, threads).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         Ok(Self { flock })
     }

@@ -2,8 +2,8 @@
 
 use crate::errors::raised;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_domain::Channel;
 use cosfly_domain::channels::Element;
+use cosfly_domain::{Channel, channels};
 use cosfly_images::false_colours::{palette_image, picture_on_request};
 use cosfly_images::read::{self, Picture};
 use cosfly_read::StoredImage;
@@ -113,7 +113,7 @@ pub fn decode_rgb<'py>(
 /// in a colour each. `pixels` are the bytes of the array.
 #[pyfunction]
 pub fn shown(py: Python<'_>, channel: &str, pixels: &[u8], width: u32, height: u32) -> PyResult<Vec<u8>> {
-    let (count, channel) = (width as usize * height as usize, raised(py, crate::dataset::channel(channel))?);
+    let (count, channel) = (width as usize * height as usize, raised(py, self::channel(channel))?);
     let rgb = match (channel.element(), pixels.len().checked_div(count)) {
         (_, Some(3)) => pixels.to_vec(),
         (Element::Float, Some(4)) => picture_on_request(channel, pixels),
@@ -142,4 +142,16 @@ pub fn checked(size: Option<(usize, usize)>) -> PyResult<Option<[usize; 2]>> {
         }
         size => Ok(size.map(|(width, height)| [width, height])),
     }
+}
+
+/// The channel called `name`.
+///
+/// # Errors
+/// `dataset-channel`.
+pub fn channel(name: &str) -> Result<&'static Channel> {
+    channels::called(name).ok_or_else(|| {
+        let all: Vec<_> = channels::ALL.iter().map(|channel| channel.name).collect();
+        Diagnostic::new("dataset-channel", Fault::Recipe, format!("there is no channel `{name}`"))
+            .hint(format!("the channels are {}", all.join(", ")))
+    })
 }

@@ -2,7 +2,7 @@
 
 use crate::errors::raised;
 use cosfly_diagnose::Result;
-use cosfly_load::Source;
+use cosfly_load::FlightSource;
 use cosfly_read::columns::{Column, TableData};
 use numpy::{PyArray1, PyArrayMethods, ToPyArray};
 use pyo3::exceptions::PyKeyError;
@@ -18,7 +18,7 @@ pub struct Table {
     /// The rows.
     pub data: TableData,
     /// The dataset that they are of.
-    pub dataset: Arc<dyn Source>,
+    pub dataset: Arc<dyn FlightSource>,
 }
 
 impl Table {

@@ -6,7 +6,7 @@ use crate::world::{check_same_town, world};
 use crate::{codec, parameters};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_doctor::{Episode, Severity, checks, sources};
+use cosfly_doctor::{ExaminedEpisode, Severity, checks, sources};
 use cosfly_domain::{ObstacleKind, Town};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_schema::RenderedTrajectory;
@@ -149,7 +149,7 @@ struct Family {
 }
 
 impl Family {
-    fn add(&mut self, episode: &Episode, config: &InspectConfig) {
+    fn add(&mut self, episode: &ExaminedEpisode, config: &InspectConfig) {
         for flag in checks::of_episode(episode) {
             let reason = match flag.severity {
                 Severity::Damage => &mut self.damage,

@@ -51,7 +51,7 @@ pub struct Driver<'a> {
 
 /// Failures of a run on other machines; everything else is in the store.
 #[derive(Debug, Default)]
-pub struct Elsewhere {
+pub struct ClusterOutcome {
     /// Failed tasks by plan digest, all reported as events.
     pub failed: BTreeMap<Digest, Box<Diagnostic>>,
     /// Tasks that gave other bytes than before; the earlier bytes are kept.
@@ -71,7 +71,7 @@ impl Driver<'_> {
     ///
     /// # Errors
     /// Failures of the engine, the store or the machine. Failed tasks are part of the result.
-    pub fn run(&self, hq: &Hq, report: &(dyn Fn(RunEvent) + Sync)) -> Result<Elsewhere> {
+    pub fn run(&self, hq: &Hq, report: &(dyn Fn(RunEvent) + Sync)) -> Result<ClusterOutcome> {
         let mut told = Told::new(self.store, report);
         let (mut idle_waves, mut is_first) = (0, true);
         while !self.is_stopped() {
@@ -104,7 +104,7 @@ impl Driver<'_> {
             idle_waves = if moved { 0 } else { idle_waves + 1 };
             is_first = false;
         }
-        Ok(Elsewhere { failed: told.failed, divergences: told.divergences })
+        Ok(ClusterOutcome { failed: told.failed, divergences: told.divergences })
     }
 
     fn is_stopped(&self) -> bool {

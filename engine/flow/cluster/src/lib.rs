@@ -17,7 +17,7 @@ mod request;
 mod slurm;
 mod told;
 
-pub use driver::{Driver, Elsewhere};
+pub use driver::{ClusterOutcome, Driver};
 pub use emit::json_lines;
 pub use hq::{Hq, Job};
 pub use job_file::job_file;

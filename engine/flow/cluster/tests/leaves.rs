@@ -2,11 +2,11 @@
 
 use cosfly_cluster::{Command, Leaf, Request, RequestChange, job_file, json_lines, kept_stages, leaves, requests_of};
 use cosfly_fingerprint::Digest;
-use cosfly_lab_engine::{Toy, ToyKind, toy_recipe};
 use cosfly_recipe::Recipe;
 use cosfly_runner::{RunOptions, plan, run_tasks};
 use cosfly_stage::{Fan, Registry};
 use cosfly_store::Store;
+use cosfly_toys::{Toy, ToyKind, toy_recipe};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A town, walks in it, experts, an album of all experts for each of three critics, a dataset of the critics.

@@ -28,25 +28,7 @@ pub fn schema(registry: &Registry) -> Value {
         add_definitions(kind, &mut definitions);
     }
     offers.push(json!({}));
-    definitions.insert(
-        "stage".to_owned(),
-        json!({
-            "type": "object",
-            "description": "One step of the recipe: `use` names its kind, `inputs` its upstream stages; all other keys are its parameters.",
-            "properties": {
-                "use": { "description": "Kind of the stage.", "oneOf": uses },
-                "for_each": {
-                    "description": "Lists of `[for_each]`: the stage is made for each of their values, `{LIST}` or `{LIST.FIELD}` in its parameters is the value.",
-                    "anyOf": [{ "type": "string" }, { "type": "array", "items": { "type": "string" }, "uniqueItems": true }],
-                },
-            },
-            "required": ["use"],
-            // A parameter may be a placeholder, whatever its type.
-            "if": { "not": { "required": ["for_each"] } },
-            "then": { "allOf": rules },
-            "anyOf": offers,
-        }),
-    );
+    definitions.insert("stage".to_owned(), stage(&uses, &rules, &offers));
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "cosfly recipe",
@@ -98,6 +80,26 @@ pub fn schema(registry: &Registry) -> Value {
         "required": ["name", "stages"],
         "additionalProperties": false,
         "$defs": definitions,
+    })
+}
+
+/// Schema of a stage: what `use` may be, the rule of each kind, and what editors may offer.
+fn stage(uses: &[Value], rules: &[Value], offers: &[Value]) -> Value {
+    json!({
+        "type": "object",
+        "description": "One step of the recipe: `use` names its kind, `inputs` its upstream stages; all other keys are its parameters.",
+        "properties": {
+            "use": { "description": "Kind of the stage.", "oneOf": uses },
+            "for_each": {
+                "description": "Lists of `[for_each]`: the stage is made for each of their values, `{LIST}` or `{LIST.FIELD}` in its parameters is the value.",
+                "anyOf": [{ "type": "string" }, { "type": "array", "items": { "type": "string" }, "uniqueItems": true }],
+            },
+        },
+        "required": ["use"],
+        // A parameter may be a placeholder, whatever its type.
+        "if": { "not": { "required": ["for_each"] } },
+        "then": { "allOf": rules },
+        "anyOf": offers,
     })
 }
 

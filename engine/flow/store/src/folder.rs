@@ -7,6 +7,9 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
+/// File in a materialised folder with its version and the names of its files.
+pub const VERSION_FILE: &str = ".cosfly-version";
+
 /// First file below `folder` that is not in `known`, as a path relative to `folder`.
 pub(crate) fn first_foreign(folder: &Path, prefix: &str, known: &BTreeSet<&str>) -> io::Result<Option<String>> {
     for entry in fs::read_dir(folder)? {

@@ -223,7 +223,7 @@ pub(crate) fn needed_by(roots: &[PastRun], read: &ReadFile<'_>) -> Needed {
     needed
 }
 
-/// What the files of a document name.
+/// Names in the files of a document.
 struct Found {
     /// Other documents.
     named: Vec<Digest>,

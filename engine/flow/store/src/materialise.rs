@@ -2,7 +2,8 @@
 
 use crate::blobs::digest_of_file;
 use crate::delivered::{Delivered, Stamp, Verified};
-use crate::folder::{first_foreign, fresh_beside, put_in_place, sync_file_system};
+use crate::folder::{VERSION_FILE, first_foreign, fresh_beside, put_in_place, sync_file_system};
+use crate::link::{place, refused};
 use crate::locks::lock_file;
 use crate::names::is_relative_path;
 use crate::places::check_out_folder;
@@ -12,14 +13,11 @@ use crate::store::Store;
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_stage::{BlobSource, Blobs};
+use cosfly_stage::Blobs;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
-
-/// File in a materialised folder with its version and the names of its files.
-pub const VERSION_FILE: &str = ".cosfly-version";
 
 /// State of a folder after [`materialise`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,10 +145,6 @@ fn marker_of(version: &Digest, blobs: &Blobs) -> String {
     marker
 }
 
-fn refused(folder: &Path, error: &io::Error) -> Box<Diagnostic> {
-    Diagnostic::io(format!("write the folder `{}`", folder.display()), error)
-}
-
 /// Digest over the sorted (path, digest, size) of all files: [`Materialised::version`].
 pub fn content_of(blobs: &Blobs) -> Digest {
     let mut hasher = blake3::Hasher::new();
@@ -251,18 +245,6 @@ fn build(store: &Store, blobs: &Blobs, verified: &Verified, marker: &str, folder
         .and_then(|()| sync_file_system(folder))
         .map_err(|error| refused(folder, &error))?;
     Ok(linked)
-}
-
-/// Puts a blob at `path`, where nothing is; true where it is a link.
-pub(crate) fn place(store: &Store, blob: &BlobRef, verified: &Verified, path: &Path) -> Result<bool> {
-    let stored = store.blob_path(blob);
-    if verified.same_file(&blob.digest, &stored).is_some() && fs::hard_link(&stored, path).is_ok() {
-        return Ok(true);
-    }
-    let mut source = store.open(blob)?;
-    let mut copy = || io::copy(&mut source, &mut File::create_new(path)?).map(|_| false);
-    let placed = fs::hard_link(&stored, path).map_or_else(|_| copy(), |()| Ok(true));
-    placed.map_err(|error| refused(path, &error))
 }
 
 #[cfg(test)]

@@ -212,7 +212,7 @@ impl PackWriter {
     }
 }
 
-/// What is left to read of some bytes.
+/// Rest of some bytes that is still to be read.
 struct Fields<'b>(&'b [u8]);
 
 impl Fields<'_> {

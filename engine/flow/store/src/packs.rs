@@ -2,19 +2,15 @@
 //!
 //! Garbage collection packs, alone in the store, what runs still need; a file of its own comes before a packed one.
 
-use crate::fault::Step;
 use crate::layout::{Area, Layout};
-use crate::mutex::locked;
-use crate::pack::{LARGEST, Pack, PackWriter, Packed, heads_of_shard};
+use crate::pack::{LARGEST, Pack, PackWriter, Packed};
 use crate::records;
 use crate::side_by_side::read_side_by_side;
-use crate::store::Store;
-use cosfly_blobs::BlobRef;
 use cosfly_fingerprint::Digest;
 use std::fs::{self, File};
 use std::io;
 use std::iter::Peekable;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::time::UNIX_EPOCH;
 
@@ -35,47 +31,8 @@ impl Packs {
     }
 }
 
-impl Store {
-    fn pack(&self, area: Area) -> Option<&Pack> {
-        self.packs.of(&self.layout, area)
-    }
-
-    /// Whether a file is in a pack.
-    pub(crate) fn is_packed(&self, area: Area, digest: &Digest) -> bool {
-        self.pack(area).is_some_and(|pack| pack.holds(digest)) && !locked(&self.packed_lost).contains(digest)
-    }
-
-    /// First bytes of the digests of the packed files of a shard, sorted.
-    pub(crate) fn packed_heads(&self, area: Area, shard: u8) -> &[u64] {
-        self.pack(area).map_or(&[], |pack| heads_of_shard(pack.heads(), shard))
-    }
-
-    /// Bytes of a packed file; `None` where it is not packed or not what its name says.
-    pub(crate) fn packed(&self, area: Area, digest: &Digest) -> Option<Vec<u8>> {
-        let pack = self.pack(area).filter(|pack| pack.holds(digest))?;
-        let bytes = pack.read(digest).filter(|bytes| is_sound(area, digest, bytes));
-        if bytes.is_none() {
-            locked(&self.packed_lost).insert(*digest);
-        }
-        bytes
-    }
-
-    /// Bytes of a record or document: from its file, a pack or the remote.
-    pub(crate) fn read_record(&self, area: Area, digest: &Digest) -> Option<Vec<u8>> {
-        let path = self.layout.file(area, digest);
-        fs::read(&path).ok().or_else(|| self.packed(area, digest)).or_else(|| self.fetch(&path))
-    }
-
-    /// Gives a packed blob a file of its own; true where it has one now.
-    pub(crate) fn unpack(&self, blob: &BlobRef, path: &Path) -> bool {
-        let Some(bytes) = self.packed(Area::Blobs, &blob.digest) else { return false };
-        let written = self.write_temporary(&[&bytes], 0o444, Step::WriteBlob);
-        written.and_then(|temporary| self.move_into_place(&temporary, path, Step::RenameBlob)).is_ok()
-    }
-}
-
 /// Whether bytes are what a name of the area promises.
-fn is_sound(area: Area, digest: &Digest, bytes: &[u8]) -> bool {
+pub(crate) fn is_sound(area: Area, digest: &Digest, bytes: &[u8]) -> bool {
     match area {
         Area::Blobs | Area::Plans => Digest::of(bytes) == *digest,
         Area::Actions | Area::Done => records::content_for(digest, bytes).is_some(),
@@ -166,11 +123,13 @@ pub(crate) fn is_small_and_alone(metadata: &fs::Metadata) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::store::Store;
     use crate::{FolderTimes, GarbageOptions, GarbageReport, IndexedTask, PastRun, PastStage, collect_garbage};
     use cosfly_blobs::OutputSink;
     use cosfly_stage::{BlobSource, Produced};
     use std::collections::BTreeMap;
     use std::io::Read;
+    use std::path::Path;
     use std::time::{Duration, SystemTime};
 
     /// A task with a blob of its own text, finished.

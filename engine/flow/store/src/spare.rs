@@ -5,9 +5,9 @@
 //! times) that was verified in the delivered folder. So a spare that a crash left half way is as good as any.
 
 use crate::delivered::{Stamp, Verified};
-use crate::folder::sync_file_system;
+use crate::folder::{VERSION_FILE, sync_file_system};
 use crate::layout::{Layout, read_dir_or_nothing};
-use crate::materialise::{VERSION_FILE, place};
+use crate::link::place;
 use crate::side_by_side::{PER_THREAD, side_by_side};
 use crate::store::{Store, with_folder_of};
 use cosfly_blobs::BlobRef;

@@ -4,7 +4,7 @@ use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_random::{RandomStream, Seed};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use cosfly_surroundings::visibility::body_points;
 
 /// Rays of one view: the body points of visibility.
@@ -46,7 +46,7 @@ impl BenchTown {
         } else {
             SceneKind::Fine
         };
-        let scene = Scene::generate(kind, seed);
+        let scene = SeededScene::generate(kind, seed);
         let track = scene.walker(seed, 0);
         let mut boxes = nearest_boxes(scene.boxes, &track, count);
         let mut stream = Seed::of_item(seed, "bench", "geometry").stream("views");

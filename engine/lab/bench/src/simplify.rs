@@ -3,7 +3,7 @@
 use crate::clock::timed;
 use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
 use cosfly_geometry::BoxBvh;
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use cosfly_town::simplify::{SimplifyConfig, simplify};
 use serde::Serialize;
 use std::fmt;
@@ -43,7 +43,7 @@ pub struct SimplifyRow {
 
 /// Some 65,000 boxes of a generated town.
 pub fn fine_boxes(seed: u64) -> Vec<OrientedBox> {
-    Scene::generate(SceneKind::Fine, seed).boxes
+    SeededScene::generate(SceneKind::Fine, seed).boxes
 }
 
 /// Simplifies boxes with all limits in turns.

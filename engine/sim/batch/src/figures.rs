@@ -2,8 +2,7 @@
 
 use crate::canvas::{Part, Parts, WIDE};
 use crate::eye::{Eye, NEAR_M};
-use cosfly_figures::Walker;
-use cosfly_figures::figure::{FigurePart, SIDES};
+use cosfly_figures::{FigurePart, SIDES, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, real, simd_kernel};
 

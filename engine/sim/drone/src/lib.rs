@@ -17,6 +17,6 @@ mod spline;
 pub mod wind;
 
 pub use gimbal::{Gimbal, GimbalLimits, ViewRates};
-pub use point_mass::{Command, Motion, MotionLimits, PointMass};
+pub use point_mass::{Motion, MotionLimits, PointMass, VelocityCommand};
 pub use sensing::{Sensed, Sensing};
 pub use spline::Spline;

@@ -33,7 +33,7 @@ impl Default for MotionLimits {
 
 /// Wanted motion at the end of a step, world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Command {
+pub struct VelocityCommand {
     /// Metres per second.
     pub velocity_in_world: DVec3,
     /// Acceleration with which the wanted velocity changes, m/s^2; zero for a velocity that stays.
@@ -55,7 +55,7 @@ pub struct PointMass {
 
 impl PointMass {
     /// Moves on by `step_s` seconds (above 0). Commands that are not finite count as zero.
-    pub fn step(&mut self, command: &Command, step_s: f64) {
+    pub fn step(&mut self, command: &VelocityCommand, step_s: f64) {
         let Motion { position_in_world, velocity_in_world: before, acceleration_in_world: last } = self.motion;
         let limits = &self.limits;
         let finite = |vector: DVec3| if vector.is_finite() { vector } else { DVec3::ZERO };
@@ -99,7 +99,7 @@ mod tests {
         let mut random = Seed([3; 32]).stream("commands");
         let limits = MotionLimits::default();
         let mut drone = PointMass { motion: Motion::default(), limits };
-        let mut command = Command::default();
+        let mut command = VelocityCommand::default();
         for step in 0..20_000 {
             if step % 7 == 0 {
                 command.velocity_in_world = DVec3::from_array(core::array::from_fn(|_| random.uniform(-30.0, 30.0)));
@@ -119,7 +119,8 @@ mod tests {
     fn a_velocity_is_reached_without_going_beyond_it() {
         for step_s in [0.02, 0.1, 0.5] {
             let mut drone = PointMass { motion: Motion::default(), limits: MotionLimits::default() };
-            let command = Command { velocity_in_world: DVec3::new(8.0, 0.0, 0.0), ..Command::default() };
+            let command =
+                VelocityCommand { velocity_in_world: DVec3::new(8.0, 0.0, 0.0), ..VelocityCommand::default() };
             for _ in 0..(6.0 / step_s) as usize {
                 drone.step(&command, step_s);
                 assert!(drone.motion.velocity_in_world.x <= 8.0 + 1e-9, "{step_s}");
@@ -131,7 +132,7 @@ mod tests {
     #[test]
     fn commands_that_are_not_finite_stop_the_drone() {
         let mut drone = PointMass { motion: Motion::default(), limits: MotionLimits::default() };
-        drone.step(&Command { velocity_in_world: DVec3::NAN, acceleration_in_world: DVec3::INFINITY }, 0.1);
+        drone.step(&VelocityCommand { velocity_in_world: DVec3::NAN, acceleration_in_world: DVec3::INFINITY }, 0.1);
         assert_eq!(drone.motion, Motion::default());
     }
 }

@@ -1,8 +1,8 @@
 //! Steps and resets per second of state-only environments, on one thread and on two.
 
-use cosfly_env::{Action, Environment, Episode, Place, Settings, Start};
+use cosfly_env::{Action, Environment, EnvironmentSettings, Episode, FlightSite, Start};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -10,9 +10,9 @@ const STEPS: u32 = 400_000;
 const RESETS: u32 = 20_000;
 
 fn main() {
-    let scene = Scene::generate(SceneKind::Leafy, 3);
+    let scene = SeededScene::generate(SceneKind::Leafy, 3);
     println!("{} boxes", scene.boxes.len());
-    let place = Arc::new(Place::on_flat_ground(scene.boxes.clone()));
+    let place = Arc::new(FlightSite::on_flat_ground(scene.boxes.clone()));
     let episodes: Vec<Arc<Episode>> = (0..8)
         .map(|index| {
             let target = scene.walker(3, index);
@@ -39,7 +39,7 @@ fn main() {
         let seconds = began.elapsed().as_secs_f64();
         println!("{threads} threads: {:.0} steps/s", f64::from(threads * STEPS) / seconds);
     }
-    let mut environment = Environment::new(Arc::clone(&episodes[0]), Settings::default());
+    let mut environment = Environment::new(Arc::clone(&episodes[0]), EnvironmentSettings::default());
     let began = Instant::now();
     (0..RESETS).for_each(|round| _ = environment.reset(Arc::clone(&episodes[round as usize % episodes.len()])));
     println!("a reset: {:.2} us", 1e6 * began.elapsed().as_secs_f64() / f64::from(RESETS));
@@ -47,7 +47,7 @@ fn main() {
 
 /// Drones that keep their place above their targets.
 fn fly(episodes: &[Arc<Episode>]) {
-    let settings = Settings::default();
+    let settings = EnvironmentSettings::default();
     let mut flying: Vec<Environment> = episodes.iter().map(|it| Environment::new(Arc::clone(it), settings)).collect();
     for step in 0..STEPS {
         let environment = &mut flying[step as usize % episodes.len()];

@@ -1,6 +1,6 @@
 //! [`Action`]: what a policy asks of the drone until its next action.
 
-use cosfly_drone::{Command, ViewRates};
+use cosfly_drone::{VelocityCommand, ViewRates};
 use cosfly_frames::{DVec3, real};
 
 /// Axes of the velocity of an action.
@@ -13,7 +13,7 @@ pub enum Axes {
     World,
 }
 
-/// What moves the drone.
+/// Input that moves the drone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Drive {
     /// Velocity and acceleration of the action.
@@ -30,10 +30,10 @@ pub enum Drive {
     Rotors([f64; 4]),
 }
 
-/// What a policy asks of the drone until its next action.
+/// Action of a policy, in force until the next one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Action {
-    /// What moves the drone.
+    /// Input that moves the drone.
     pub drive: Drive,
     /// Axes of velocity and acceleration.
     pub axes: Axes,
@@ -95,12 +95,12 @@ impl Action {
     }
 
     /// The command for a drone with this yaw.
-    pub fn command(&self, yaw_rad: f64) -> Command {
+    pub fn command(&self, yaw_rad: f64) -> VelocityCommand {
         let in_world = |vector: DVec3| match self.axes {
             Axes::Heading => world_from_heading(vector, yaw_rad),
             Axes::World => vector,
         };
-        Command {
+        VelocityCommand {
             velocity_in_world: in_world(self.velocity_mps),
             acceleration_in_world: in_world(self.acceleration_mps2),
         }

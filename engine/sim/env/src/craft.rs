@@ -1,59 +1,12 @@
-//! [`Craft`]: the drone of an environment, a point mass or a quadrotor; [`DroneSettings`]: which one, in which wind.
+//! [`Craft`]: the drone of an environment, a point mass or a quadrotor.
 
 use crate::action::{Action, Drive};
 use crate::episode::Episode;
-use crate::settings::Settings;
-use cosfly_drone::quadrotor::{FlownQuadrotor, Lead, QuadrotorParameters, Strain, ThrustAndRates};
+use crate::settings::{DroneSettings, EnvironmentSettings};
+use cosfly_drone::quadrotor::{ControlInput, FlownQuadrotor, ThrustAndRates, TrackingError};
 use cosfly_drone::wind::{Air, Turbulence};
 use cosfly_drone::{Motion, PointMass, Sensed, Sensing};
 use cosfly_frames::{DVec3, real};
-
-/// Model of a drone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DroneModel {
-    /// A point mass that follows velocities within the planner's limits.
-    #[default]
-    PointMass,
-    /// The quadrotor Crazyflie 2.x, 32 g.
-    Crazyflie,
-    /// The quadrotor AscTec Pelican, 1 kg.
-    Pelican,
-}
-
-impl DroneModel {
-    /// All models.
-    pub const ALL: [Self; 3] = [Self::PointMass, Self::Crazyflie, Self::Pelican];
-
-    /// Name on the command line, in recipes and in cards.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PointMass => "point-mass",
-            Self::Crazyflie => "crazyflie",
-            Self::Pelican => "pelican",
-        }
-    }
-
-    fn parameters(self) -> Option<QuadrotorParameters> {
-        match self {
-            Self::PointMass => None,
-            Self::Crazyflie => Some(QuadrotorParameters::crazyflie()),
-            Self::Pelican => Some(QuadrotorParameters::pelican()),
-        }
-    }
-}
-
-/// The drone of an environment and the air around it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DroneSettings {
-    /// Model.
-    pub model: DroneModel,
-    /// Speed of the mean wind, m/s; it blows along the level in a direction that each episode draws.
-    pub wind_mps: f64,
-    /// Whether the wind carries gusts (Dryden, near the ground).
-    pub gusts: bool,
-    /// Whether inertial unit, barometer and satellite receiver are sampled.
-    pub sensors: bool,
-}
 
 /// The drone of an environment.
 #[derive(Clone)]
@@ -64,7 +17,7 @@ pub(crate) enum Craft {
 
 impl Craft {
     /// The drone at the beginning of an episode.
-    pub(crate) fn new(settings: &Settings, episode: &Episode, motion: Motion, yaw_rad: f64) -> Self {
+    pub(crate) fn new(settings: &EnvironmentSettings, episode: &Episode, motion: Motion, yaw_rad: f64) -> Self {
         let Some(parameters) = settings.drone.model.parameters() else {
             return Self::PointMass(PointMass { motion, limits: settings.motion });
         };
@@ -78,16 +31,16 @@ impl Craft {
         match self {
             Self::PointMass(point) => point.step(&action.command(yaw_rad), time_s),
             Self::Quadrotor(flown) => {
-                let lead = match action.drive {
-                    Drive::Velocity => Lead::Velocity(action.command(yaw_rad), yaw_rad),
+                let input = match action.drive {
+                    Drive::Velocity => ControlInput::Velocity(action.command(yaw_rad), yaw_rad),
                     Drive::ThrustAndRates { weights, rates_rad_s } => {
                         // To the body's right-handed axes: x ahead, y left, z up.
                         let rates_rad_s = DVec3::new(rates_rad_s.x, -rates_rad_s.y, -rates_rad_s.z);
-                        Lead::ThrustAndRates(ThrustAndRates { thrust_n: flown.thrust_n(weights), rates_rad_s })
+                        ControlInput::ThrustAndRates(ThrustAndRates { thrust_n: flown.thrust_n(weights), rates_rad_s })
                     }
-                    Drive::Rotors(rotors_rpm) => Lead::Rotors(rotors_rpm),
+                    Drive::Rotors(rotors_rpm) => ControlInput::Rotors(rotors_rpm),
                 };
-                flown.step(&lead, time_s);
+                flown.step(&input, time_s);
             }
         }
     }
@@ -101,10 +54,10 @@ impl Craft {
     }
 
     /// How well a quadrotor could do what it was asked for.
-    pub(crate) fn strain(&self) -> Option<&Strain> {
+    pub(crate) fn tracking_error(&self) -> Option<&TrackingError> {
         match self {
             Self::PointMass(_) => None,
-            Self::Quadrotor(flown) => Some(flown.strain()),
+            Self::Quadrotor(flown) => Some(flown.tracking_error()),
         }
     }
 
@@ -117,7 +70,7 @@ impl Craft {
         }
     }
 
-    /// What the sensors of a quadrotor measured.
+    /// Samples of the sensors of a quadrotor.
     pub(crate) fn sensed(&self) -> &[Sensed] {
         match self {
             Self::Quadrotor(flown) => flown.sensing().map_or(&[], Sensing::sensed),
@@ -127,7 +80,7 @@ impl Craft {
 }
 
 /// The air of an episode, with the turbulence at the height where it begins.
-fn air(settings: &Settings, episode: &Episode, start: DVec3) -> Air {
+fn air(settings: &EnvironmentSettings, episode: &Episode, start: DVec3) -> Air {
     let DroneSettings { wind_mps, gusts, .. } = settings.drone;
     let towards_rad = episode.seed.stream("wind").uniform(0.0, real::TAU);
     let (sin, cos) = real::sin_cos(towards_rad);

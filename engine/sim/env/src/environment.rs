@@ -3,12 +3,12 @@
 use crate::action::Action;
 use crate::craft::Craft;
 use crate::episode::Episode;
-use crate::observation::{Observation, Sighting};
-use crate::others::Present;
+use crate::observation::{Observation, TargetSighting};
+use crate::others::BodyAtTime;
 use crate::reward::Reward;
-use crate::score::{End, Score};
-use crate::settings::Settings;
-use cosfly_drone::quadrotor::Strain;
+use crate::score::{End, EpisodeScore};
+use crate::settings::EnvironmentSettings;
+use cosfly_drone::quadrotor::TrackingError;
 use cosfly_drone::{Gimbal, Motion, Sensed};
 use cosfly_frames::{Pose, TargetState, real};
 use cosfly_geometry::SpatialQuery;
@@ -39,7 +39,7 @@ struct Answer {
 /// Flies an episode, action by action.
 #[derive(Clone)]
 pub struct Environment {
-    settings: Settings,
+    settings: EnvironmentSettings,
     episode: Arc<Episode>,
     drone: Craft,
     gimbal: Gimbal,
@@ -51,12 +51,12 @@ pub struct Environment {
     observation: Observation,
     /// Distance that the target covered so far, metres.
     target_covered_m: f64,
-    score: Score,
+    score: EpisodeScore,
 }
 
 impl Environment {
     /// The beginning of an episode.
-    pub fn new(episode: Arc<Episode>, settings: Settings) -> Self {
+    pub fn new(episode: Arc<Episode>, settings: EnvironmentSettings) -> Self {
         let (first, start) = (episode.first_view(), episode.start);
         let motion = Motion {
             position_in_world: start.position_in_world,
@@ -67,7 +67,7 @@ impl Environment {
         let drone = Craft::new(&settings, &episode, motion, gimbal.yaw_rad);
         let action = coasting(&motion);
         let target = episode.target_at(0.0);
-        let sighting = Sighting { time_s: 0.0, target, velocity_in_world: episode.target_velocity(0.0) };
+        let sighting = TargetSighting { time_s: 0.0, target, velocity_in_world: episode.target_velocity(0.0) };
         let observation = Observation {
             step: 0,
             time_s: 0.0,
@@ -81,7 +81,7 @@ impl Environment {
             sighting,
         };
         let blackouts = settings.blackouts.drawn(&episode.seed, episode.target.duration_s());
-        let score = Score { planned_steps: episode.steps(settings.step_s), ..Score::default() };
+        let score = EpisodeScore { planned_steps: episode.steps(settings.step_s), ..EpisodeScore::default() };
         let (answer, target_covered_m) = (None, 0.0);
         let mut new =
             Self { settings, episode, drone, gimbal, blackouts, action, answer, observation, target_covered_m, score };
@@ -101,7 +101,7 @@ impl Environment {
     }
 
     /// The outcome so far.
-    pub fn score(&self) -> &Score {
+    pub fn score(&self) -> &EpisodeScore {
         &self.score
     }
 
@@ -111,7 +111,7 @@ impl Environment {
     }
 
     /// The settings.
-    pub fn settings(&self) -> &Settings {
+    pub fn settings(&self) -> &EnvironmentSettings {
         &self.settings
     }
 
@@ -120,7 +120,7 @@ impl Environment {
     pub fn look_alikes(&self) -> usize {
         let (camera, settings, place) = (self.camera(), &self.settings, &self.episode.place);
         let eye = camera.position_in_world;
-        let is_seen = |present: &Present<'_>| {
+        let is_seen = |present: &BodyAtTime<'_>| {
             let middle = aim_point(&present.state, present.mover.plan.size_m.z);
             let is_near = eye.distance(middle) <= settings.farthest_m;
             is_near && settings.lens.shows(&camera, middle) && !place.exact.blocked(eye, middle)
@@ -145,8 +145,8 @@ impl Environment {
     }
 
     /// How well a quadrotor could do what it was asked for; `None` of a point mass.
-    pub fn strain(&self) -> Option<&Strain> {
-        self.drone.strain()
+    pub fn tracking_error(&self) -> Option<&TrackingError> {
+        self.drone.tracking_error()
     }
 
     /// Attitude of a quadrotor: x, y, z, w of the rotation from its right-handed axes (x ahead, y left, z up) to those of the world
@@ -155,7 +155,7 @@ impl Environment {
         self.drone.attitude_xyzw()
     }
 
-    /// What the sensors of a quadrotor measured, by time; nothing without sensors.
+    /// Samples of the sensors of a quadrotor, by time; nothing without sensors.
     pub fn sensed(&self) -> &[Sensed] {
         self.drone.sensed()
     }
@@ -176,7 +176,7 @@ impl Environment {
         self.step_late(action, self.settings.latency_s)
     }
 
-    /// As [`Self::step`], with a latency of this action's own, seconds.
+    /// Step like [`Self::step`], with a latency of this action's own, seconds.
     pub fn step_late(&mut self, action: Option<&Action>, latency_s: f64) -> Step {
         if self.score.end.is_some() {
             return Step { observation: self.observation, reward: Reward::default(), end: self.score.end };
@@ -260,7 +260,7 @@ impl Environment {
         observation.tracked = observation.visible >= settings.least_visible && observation.in_picture && is_near;
         if observation.tracked {
             let velocity_in_world = episode.target_velocity(observation.time_s);
-            observation.sighting = Sighting { time_s: observation.time_s, target, velocity_in_world };
+            observation.sighting = TargetSighting { time_s: observation.time_s, target, velocity_in_world };
         }
     }
 

@@ -1,7 +1,7 @@
 //! [`Episode`]: a town, the track of a target, a start.
 
 use crate::others::Others;
-use crate::place::Place;
+use crate::place::FlightSite;
 use cosfly_domain::{BodyPlan, Weather};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
 use cosfly_geometry::SpatialQuery;
@@ -26,7 +26,7 @@ pub struct Episode {
     /// Group of the episode in tables.
     pub stratum: String,
     /// Surroundings.
-    pub place: Arc<Place>,
+    pub place: Arc<FlightSite>,
     /// The target.
     pub target: Arc<TargetTrack>,
     /// Kind, size and looks of a target that is a body of traffic; a person otherwise.

@@ -1,8 +1,8 @@
 //! Closed-loop tracking: a drone, its target and its surroundings, stepped by actions.
 //!
 //! An [`Episode`] is a town, the track of a target, whoever else moves ([`Others`]), and a start. An [`Environment`] flies it: each step takes an [`Action`] and
-//! gives an [`Observation`], a [`Reward`] by named terms, and the [`End`] where there is one; [`Score`] is the outcome so far.
-//! What happens depends on the episode, the [`Settings`] and the actions alone. Steps allocate nothing.
+//! gives an [`Observation`], a [`Reward`] by named terms, and the [`End`] where there is one; [`EpisodeScore`] is the outcome so far.
+//! What happens depends on the episode, the [`EnvironmentSettings`] and the actions alone. Steps allocate nothing.
 //!
 //! A [`Policy`] answers observations; [`policies`] are the baselines. [`pictures`] draws what the cameras see.
 
@@ -23,13 +23,12 @@ mod settings;
 mod tests;
 
 pub use action::{Action, Axes, Drive};
-pub use craft::{DroneModel, DroneSettings};
 pub use environment::{Environment, Step};
 pub use episode::{Episode, Start};
-pub use observation::{FEATURES, Observation, Sighting};
-pub use others::{Mover, Others, Present};
-pub use place::Place;
+pub use observation::{FEATURES, Observation, TargetSighting};
+pub use others::{BodyAtTime, Mover, Others};
+pub use place::FlightSite;
 pub use policies::Policy;
 pub use reward::Reward;
-pub use score::{End, Score};
-pub use settings::{Blackouts, Lens, RewardWeights, Settings};
+pub use score::{End, EpisodeScore};
+pub use settings::{Blackouts, DroneModel, DroneSettings, EnvironmentSettings, FieldOfView, RewardWeights};

@@ -9,7 +9,7 @@ pub const FEATURES: usize = 16;
 
 /// The target when it was last tracked.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sighting {
+pub struct TargetSighting {
     /// Time, seconds from the beginning of the episode.
     pub time_s: f64,
     /// Place, heading and speed.
@@ -18,7 +18,7 @@ pub struct Sighting {
     pub velocity_in_world: DVec3,
 }
 
-/// What a policy is told, apart from pictures. The target is known where it is tracked, and else as it was last seen; in the
+/// Observation of a policy, apart from pictures. The target is known where it is tracked, and else as it was last seen; in the
 /// first observation it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observation {
@@ -41,7 +41,7 @@ pub struct Observation {
     /// Whether the target counts as tracked: visible enough, in the picture, near enough.
     pub tracked: bool,
     /// The target when it was last tracked.
-    pub sighting: Sighting,
+    pub sighting: TargetSighting,
 }
 
 impl Observation {

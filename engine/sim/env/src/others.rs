@@ -36,7 +36,7 @@ pub struct Mover {
 
 /// A body at a moment.
 #[derive(Clone, Copy, Debug)]
-pub struct Present<'a> {
+pub struct BodyAtTime<'a> {
     /// The body.
     pub mover: &'a Mover,
     /// Place, heading, speed.
@@ -69,7 +69,7 @@ impl Others {
     }
 
     /// Everybody who is there at a time, seconds from the beginning of the episode.
-    pub fn at(&self, time_s: f64) -> impl Iterator<Item = Present<'_>> {
+    pub fn at(&self, time_s: f64) -> impl Iterator<Item = BodyAtTime<'_>> {
         self.movers.iter().filter_map(move |mover| mover.at(time_s))
     }
 
@@ -110,7 +110,7 @@ impl Others {
     /// Boxes of those who are there at a time, as somebody supposes them who knows no more: `frames` of them, `dt_s` apart, each at
     /// the velocity of the moment.
     pub fn supposed(&self, time_s: f64, frames: usize, dt_s: f64) -> Vec<Vec<OrientedBox>> {
-        let boxes = |present: Present<'_>| {
+        let boxes = |present: BodyAtTime<'_>| {
             let here = present.mover.plan.box_at(&present.state);
             let velocity = present.mover.velocity(time_s);
             let at = |frame: usize| OrientedBox {
@@ -163,11 +163,11 @@ impl Mover {
     }
 
     /// The body at a time; `None` where it is absent.
-    pub fn at(&self, time_s: f64) -> Option<Present<'_>> {
+    pub fn at(&self, time_s: f64) -> Option<BodyAtTime<'_>> {
         let step = self.step(time_s)?;
         let (first, next, share) = self.around(step);
         let covered_m = self.covered_m[first] + share * (self.covered_m[next] - self.covered_m[first]);
-        Some(Present { mover: self, state: target_state_at(&self.states, step), covered_m })
+        Some(BodyAtTime { mover: self, state: target_state_at(&self.states, step), covered_m })
     }
 
     /// Velocity at a time, m/s, world frame; zero beyond its ends.

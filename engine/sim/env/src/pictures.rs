@@ -1,7 +1,7 @@
 //! [`Pictures`]: what the cameras of environments see, drawn in batches.
 
 use crate::environment::Environment;
-use crate::others::Present;
+use crate::others::BodyAtTime;
 use cosfly_batch::{BatchRenderer, Outputs, View};
 use cosfly_domain::{BodyKind, Weather};
 use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
@@ -12,7 +12,7 @@ use std::ops::Range;
 /// A channel of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
-    /// Planar depth along the optical axis, metres, up to [`Format::farthest_m`], which the sky has.
+    /// Planar depth along the optical axis, metres, up to [`PictureFormat::farthest_m`], which the sky has.
     Depth,
     /// CARLA's label ids.
     Semantic,
@@ -40,9 +40,9 @@ impl Channel {
     }
 }
 
-/// What pictures hold.
+/// Content of pictures: size, channels, colours.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Format {
+pub struct PictureFormat {
     /// Columns. Pixels are square; pictures are as wide as the environment's lens.
     pub width: u32,
     /// Rows.
@@ -57,7 +57,7 @@ pub struct Format {
     pub look: PictureLook,
 }
 
-impl Format {
+impl PictureFormat {
     /// Pixels of a picture.
     pub fn pixels(&self) -> usize {
         self.width as usize * self.height as usize
@@ -67,7 +67,7 @@ impl Format {
 /// Pictures of several environments, one after the other, row by row from the top left pixel. Channels that the format lacks are
 /// empty.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Album {
+pub struct PictureBatch {
     pixels: usize,
     /// [`Channel::Depth`].
     pub depth_m: Vec<f32>,
@@ -81,9 +81,9 @@ pub struct Album {
     pub rgb: Vec<u8>,
 }
 
-impl Album {
+impl PictureBatch {
     /// Room for `count` pictures.
-    pub fn new(format: &Format, count: usize) -> Self {
+    pub fn new(format: &PictureFormat, count: usize) -> Self {
         let length = |channel| if format.channels.contains(&channel) { count * format.pixels() } else { 0 };
         Self {
             pixels: format.pixels(),
@@ -140,7 +140,7 @@ fn copy_part<T: Copy>(to: &mut [T], from: &[T], part: &Range<usize>) {
 
 /// Draws what the cameras of environments see. A picture depends on its environment and the format alone.
 pub struct Pictures {
-    format: Format,
+    format: PictureFormat,
     renderer: BatchRenderer,
     bystanders: Vec<Bystander>,
     /// The bystanders of each view.
@@ -149,13 +149,13 @@ pub struct Pictures {
 
 impl Pictures {
     /// Up to `threads` pictures are drawn at a time, on the rayon pool that calls [`Self::draw`]; the number changes no byte.
-    pub fn new(format: Format, threads: usize) -> Self {
+    pub fn new(format: PictureFormat, threads: usize) -> Self {
         let renderer = BatchRenderer::on_threads(format.width, format.height, threads);
         Self { format, renderer, bystanders: vec![], ranges: vec![] }
     }
 
-    /// What the pictures hold.
-    pub fn format(&self) -> &Format {
+    /// Content of the pictures.
+    pub fn format(&self) -> &PictureFormat {
         &self.format
     }
 
@@ -164,15 +164,15 @@ impl Pictures {
     ///
     /// # Panics
     /// Where the album has no room for all pictures.
-    pub fn draw(&mut self, environments: &[&Environment], album: &mut Album, first: usize) {
+    pub fn draw(&mut self, environments: &[&Environment], album: &mut PictureBatch, first: usize) {
         self.draw_beside(environments, |_| None, album, first);
     }
 
-    /// The same for drones of a team, each of which sees the others that fly.
+    /// Pictures of drones of a team, each of which sees the others that fly.
     ///
     /// # Panics
     /// Where the album has no room for all pictures.
-    pub fn draw_team(&mut self, environments: &[&Environment], album: &mut Album) {
+    pub fn draw_team(&mut self, environments: &[&Environment], album: &mut PictureBatch) {
         let drones: Vec<Option<Walker>> = environments.iter().map(|environment| drone(environment)).collect();
         self.draw_beside(environments, |number| drones.get(number).copied().flatten(), album, 0);
     }
@@ -182,7 +182,7 @@ impl Pictures {
         &mut self,
         environments: &[&Environment],
         drone: impl Fn(usize) -> Option<Walker>,
-        album: &mut Album,
+        album: &mut PictureBatch,
         first: usize,
     ) {
         let Self { format, renderer, bystanders, ranges } = self;
@@ -226,12 +226,12 @@ impl Pictures {
 }
 
 /// The weather of a picture of an environment.
-fn weather<'a>(format: &'a Format, environment: &'a Environment) -> Option<&'a Weather> {
+fn weather<'a>(format: &'a PictureFormat, environment: &'a Environment) -> Option<&'a Weather> {
     format.weather.as_ref().or(environment.episode().weather.as_ref())
 }
 
 /// Precipitation in a picture of an environment.
-fn rain(format: &Format, environment: &Environment) -> f64 {
+fn rain(format: &PictureFormat, environment: &Environment) -> f64 {
     weather(format, environment).map_or(0.0, |weather| weather.precipitation)
 }
 
@@ -283,7 +283,7 @@ pub fn bystanders(environment: &Environment, rain: f64) -> impl Iterator<Item = 
 }
 
 /// Somebody who is there as they are drawn in a rain.
-pub fn walker(Present { mover, state, covered_m }: &Present<'_>, rain: f64) -> Walker {
+pub fn walker(BodyAtTime { mover, state, covered_m }: &BodyAtTime<'_>, rain: f64) -> Walker {
     let plan = &mover.plan;
     Walker {
         state: *state,

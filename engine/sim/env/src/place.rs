@@ -1,4 +1,4 @@
-//! [`Place`]: the surroundings of a flight, ready for queries.
+//! [`FlightSite`]: the surroundings of a flight, ready for queries.
 
 use cosfly_batch::BatchScene;
 use cosfly_domain::{OrientedBox, TARGET_INSTANCE, Town, object_instance};
@@ -8,7 +8,7 @@ use cosfly_town::GroundIndex;
 use std::sync::{Arc, OnceLock};
 
 /// The surroundings of a flight, ready for queries; shared by all episodes of a town.
-pub struct Place {
+pub struct FlightSite {
     /// All unsimplified boxes.
     pub exact: BoxBvh,
     /// Boxes for planning.
@@ -23,7 +23,7 @@ pub struct Place {
     with_colours: OnceLock<BatchScene>,
 }
 
-impl Place {
+impl FlightSite {
     /// The surroundings in a town; `looks` draws the look of its buildings.
     pub fn new(town: Arc<Town>, looks: Seed) -> Self {
         let instances = town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));

@@ -1,6 +1,6 @@
 //! [`Reward`]: the reward of a step, by named and weighted terms.
 
-use crate::settings::{RewardWeights, Settings};
+use crate::settings::{EnvironmentSettings, RewardWeights};
 
 /// The reward of a step, by terms; each is what its weight multiplies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,7 +41,7 @@ impl Reward {
     }
 
     /// Minus the distance outside the band.
-    pub(crate) fn outside_band(distance_m: f64, settings: &Settings) -> f64 {
+    pub(crate) fn outside_band(distance_m: f64, settings: &EnvironmentSettings) -> f64 {
         let (near_m, far_m) = settings.band_m;
         let outside_m = (near_m - distance_m).max(distance_m - far_m).max(0.0);
         -(outside_m / (far_m - near_m).max(1e-9)).min(1.0)

@@ -1,4 +1,4 @@
-//! [`Score`]: the outcome of an episode so far, and its [`End`].
+//! [`EpisodeScore`]: the outcome of an episode so far, and its [`End`].
 
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ pub enum End {
 
 /// The outcome of an episode so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Score {
+pub struct EpisodeScore {
     /// Steps of the whole episode.
     pub planned_steps: u32,
     /// Steps flown.
@@ -54,7 +54,7 @@ pub struct Score {
     pub tracked_s: f64,
 }
 
-impl Score {
+impl EpisodeScore {
     /// Counts a step of `step_s` seconds.
     pub(crate) fn count(&mut self, tracked: bool, step_s: f64) {
         self.steps += 1;
@@ -104,8 +104,9 @@ mod tests {
 
     #[test]
     fn losses_are_counted_once_and_short_gaps_are_none() {
-        let mut score = Score { planned_steps: 40, ..Score::default() };
-        let tracked = |score: &mut Score, steps: u32, tracked: bool| (0..steps).for_each(|_| score.count(tracked, 0.1));
+        let mut score = EpisodeScore { planned_steps: 40, ..EpisodeScore::default() };
+        let tracked =
+            |score: &mut EpisodeScore, steps: u32, tracked: bool| (0..steps).for_each(|_| score.count(tracked, 0.1));
         tracked(&mut score, 10, true);
         tracked(&mut score, 3, false);
         tracked(&mut score, 5, true);

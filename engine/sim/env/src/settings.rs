@@ -1,6 +1,6 @@
-//! [`Settings`]: what an environment is set to, apart from its episodes.
+//! [`EnvironmentSettings`]: settings of an environment, apart from its episodes.
 
-use crate::craft::DroneSettings;
+use cosfly_drone::quadrotor::QuadrotorParameters;
 use cosfly_drone::{GimbalLimits, MotionLimits};
 use cosfly_frames::{DVec3, Pose, Seed, real};
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// Field of view of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Lens {
+pub struct FieldOfView {
     /// Horizontal field of view, degrees.
     pub horizontal_deg: f64,
     /// Height of the picture divided by its width.
@@ -41,7 +41,7 @@ impl Blackouts {
     }
 }
 
-impl Lens {
+impl FieldOfView {
     /// Whether a point is inside the picture's borders.
     pub fn shows(&self, camera: &Pose, point_in_world: DVec3) -> bool {
         let seen = camera.body_from_world_point(point_in_world);
@@ -54,23 +54,23 @@ impl Lens {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RewardWeights {
-    /// Of the share of the target that is seen in the picture.
+    /// Weight of the share of the target that is seen in the picture.
     pub visibility: f64,
-    /// Of the distance of the target from the picture's middle.
+    /// Weight of the distance of the target from the picture's middle.
     pub framing: f64,
-    /// Of the distance from the target, outside the wanted band.
+    /// Weight of the distance from the target, outside the wanted band.
     pub distance: f64,
-    /// Of the acceleration.
+    /// Weight of the acceleration.
     pub effort: f64,
-    /// Of a collision.
+    /// Weight of a collision.
     pub collision: f64,
-    /// Of steps in which the target is not tracked.
+    /// Weight of steps in which the target is not tracked.
     pub loss: f64,
 }
 
-/// What an environment is set to, apart from its episodes. Lengths in metres, times in seconds.
+/// Settings of an environment, apart from its episodes. Lengths in metres, times in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct EnvironmentSettings {
     /// Time from one action to the next.
     pub step_s: f64,
     /// Time from an observation to the effect of the action that answers it. Meanwhile the world moves on, and no further
@@ -85,7 +85,7 @@ pub struct Settings {
     /// Limits of the camera's turns.
     pub gimbal: GimbalLimits,
     /// The camera.
-    pub lens: Lens,
+    pub lens: FieldOfView,
     /// Stretches in which the camera sees nothing.
     pub blackouts: Blackouts,
     /// A target is tracked only where at least this share of it is seen, 0..=1.
@@ -100,7 +100,7 @@ pub struct Settings {
     pub weights: RewardWeights,
 }
 
-impl Default for Settings {
+impl Default for EnvironmentSettings {
     fn default() -> Self {
         Self {
             step_s: 0.1,
@@ -109,7 +109,7 @@ impl Default for Settings {
             drone: DroneSettings::default(),
             motion: MotionLimits::default(),
             gimbal: GimbalLimits::default(),
-            lens: Lens { horizontal_deg: 90.0, aspect: 0.75 },
+            lens: FieldOfView { horizontal_deg: 90.0, aspect: 0.75 },
             blackouts: Blackouts { count: 0, length_s: [2.0, 4.0] },
             least_visible: 0.5,
             farthest_m: 60.0,
@@ -125,4 +125,52 @@ impl Default for Settings {
             },
         }
     }
+}
+
+/// Model of a drone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DroneModel {
+    /// A point mass that follows velocities within the planner's limits.
+    #[default]
+    PointMass,
+    /// The quadrotor Crazyflie 2.x, 32 g.
+    Crazyflie,
+    /// The quadrotor AscTec Pelican, 1 kg.
+    Pelican,
+}
+
+impl DroneModel {
+    /// All models.
+    pub const ALL: [Self; 3] = [Self::PointMass, Self::Crazyflie, Self::Pelican];
+
+    /// Name on the command line, in recipes and in cards.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PointMass => "point-mass",
+            Self::Crazyflie => "crazyflie",
+            Self::Pelican => "pelican",
+        }
+    }
+
+    /// Parameters of a quadrotor; none of a point mass.
+    pub(crate) fn parameters(self) -> Option<QuadrotorParameters> {
+        match self {
+            Self::PointMass => None,
+            Self::Crazyflie => Some(QuadrotorParameters::crazyflie()),
+            Self::Pelican => Some(QuadrotorParameters::pelican()),
+        }
+    }
+}
+
+/// The drone of an environment and the air around it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DroneSettings {
+    /// Model.
+    pub model: DroneModel,
+    /// Speed of the mean wind, m/s; it blows along the level in a direction that each episode draws.
+    pub wind_mps: f64,
+    /// Whether the wind carries gusts (Dryden, near the ground).
+    pub gusts: bool,
+    /// Whether inertial unit, barometer and satellite receiver are sampled.
+    pub sensors: bool,
 }

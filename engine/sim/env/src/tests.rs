@@ -2,19 +2,19 @@
 
 use crate::policies::{BASELINES, Knowledge, baseline};
 use crate::{
-    Action, Axes, Blackouts, DroneModel, DroneSettings, End, Environment, Episode, Others, Place, Reward, Score,
-    Settings, Start,
+    Action, Axes, Blackouts, DroneModel, DroneSettings, End, Environment, EnvironmentSettings, Episode, EpisodeScore,
+    FlightSite, Others, Reward, Start,
 };
 use cosfly_domain::{Around, Body, BodyKind, BodyPlan, OrientedBox, PlanOutcome, Traffic, Trajectory};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack, real};
 use cosfly_planner::{MucoConfig, PlanRequest, plan_request};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use std::sync::Arc;
 
 /// Episodes behind walkers of a scene with their experts' flights.
 fn episodes(kind: SceneKind, count: u64, frames: usize) -> Vec<(Arc<Episode>, Knowledge, Trajectory)> {
-    let scene = Scene::generate(kind, 3);
-    let place = Arc::new(Place::on_flat_ground(scene.boxes.clone()));
+    let scene = SeededScene::generate(kind, 3);
+    let place = Arc::new(FlightSite::on_flat_ground(scene.boxes.clone()));
     let config = Arc::new(MucoConfig::default());
     let flights = (0..count).filter_map(|index| {
         let mut track = scene.walker(3, index);
@@ -41,7 +41,7 @@ fn episodes(kind: SceneKind, count: u64, frames: usize) -> Vec<(Arc<Episode>, Kn
     flights.collect()
 }
 
-fn flown(name: &str, episode: &Arc<Episode>, knowledge: &Knowledge, settings: Settings) -> Score {
+fn flown(name: &str, episode: &Arc<Episode>, knowledge: &Knowledge, settings: EnvironmentSettings) -> EpisodeScore {
     let mut environment = Environment::new(Arc::clone(episode), settings);
     let mut policy = (baseline(name).unwrap().make)(&environment, knowledge);
     while environment.score().end.is_none() {
@@ -57,7 +57,7 @@ fn standing(boxes: Vec<OrientedBox>, seconds: usize) -> Arc<Episode> {
     Arc::new(Episode {
         name: "standing".into(),
         stratum: String::new(),
-        place: Arc::new(Place::on_flat_ground(boxes)),
+        place: Arc::new(FlightSite::on_flat_ground(boxes)),
         target: Arc::new(TargetTrack {
             dt_s: 0.5,
             height_m: 1.75,
@@ -80,7 +80,7 @@ fn an_expert_sees_what_its_certificate_says() {
         assert!(all.len() >= 4);
         let (mut flown_sum, mut stated_sum) = (0.0, 0.0);
         for (episode, knowledge, flight) in &all {
-            let score = flown("expert", episode, knowledge, Settings::default());
+            let score = flown("expert", episode, knowledge, EnvironmentSettings::default());
             assert_eq!(score.end, Some(End::Finished), "{}", episode.name);
             flown_sum += score.mean_visibility();
             stated_sum += flight.certificate.mean_visibility;
@@ -94,7 +94,8 @@ fn an_expert_sees_what_its_certificate_says() {
 fn baselines_rank_as_they_should() {
     let all = episodes(SceneKind::Light, 5, 60);
     let rate = |name: &str| {
-        let scores = all.iter().map(|(episode, knowledge, _)| flown(name, episode, knowledge, Settings::default()));
+        let scores =
+            all.iter().map(|(episode, knowledge, _)| flown(name, episode, knowledge, EnvironmentSettings::default()));
         scores.map(|score| score.tracking_rate()).sum::<f64>() / all.len() as f64
     };
     let [random, hold, causal, expert] = ["random", "hold", "causal", "expert"].map(rate);
@@ -106,13 +107,13 @@ fn baselines_rank_as_they_should() {
 fn the_same_actions_give_the_same_steps_in_a_used_environment_too() {
     let (episode, knowledge, _) = episodes(SceneKind::Light, 3, 40).remove(0);
     for name in BASELINES.iter().map(|it| it.name) {
-        let first = flown(name, &episode, &knowledge, Settings::default());
-        assert_eq!(flown(name, &episode, &knowledge, Settings::default()), first, "{name}");
+        let first = flown(name, &episode, &knowledge, EnvironmentSettings::default());
+        assert_eq!(flown(name, &episode, &knowledge, EnvironmentSettings::default()), first, "{name}");
     }
-    let mut used = Environment::new(standing(vec![], 5), Settings::default());
+    let mut used = Environment::new(standing(vec![], 5), EnvironmentSettings::default());
     (0..10).for_each(|_| _ = used.step(Some(&Action::of_numbers([3.0, 1.0, 0.0, 9.0, 2.0]))));
     used.reset(Arc::clone(&episode));
-    let mut fresh = Environment::new(episode, Settings::default());
+    let mut fresh = Environment::new(episode, EnvironmentSettings::default());
     for step in 0..50 {
         let action = Action::of_numbers([f64::from(step % 7), -1.0, 0.2, 3.0, -1.0]);
         assert_eq!(used.step(Some(&action)), fresh.step(Some(&action)));
@@ -126,7 +127,7 @@ fn a_drone_does_not_fly_through_a_wall_however_thin() {
         half_extents_m: DVec3::new(0.001, 5.0, 5.0),
         yaw_rad: 0.0,
     };
-    let settings = Settings { step_s: 0.5, ..Settings::default() };
+    let settings = EnvironmentSettings { step_s: 0.5, ..EnvironmentSettings::default() };
     let mut environment = Environment::new(standing(vec![wall], 20), settings);
     let ahead = Action { axes: Axes::World, velocity_mps: 12.0 * DVec3::X, ..Action::default() };
     while environment.score().end.is_none() {
@@ -136,7 +137,7 @@ fn a_drone_does_not_fly_through_a_wall_however_thin() {
     assert_eq!(after.end, Some(End::Collision));
     assert!(environment.observation().motion.position_in_world.x < 8.0 + 6.0);
     assert_eq!(after.reward, Reward::default(), "after the end nothing moves");
-    let mut sinking = Environment::new(standing(vec![], 60), Settings::default());
+    let mut sinking = Environment::new(standing(vec![], 60), EnvironmentSettings::default());
     while sinking.score().end.is_none() {
         sinking.step(Some(&Action::of_numbers([0.0, 0.0, -3.0, 0.0, 0.0])));
     }
@@ -148,7 +149,7 @@ fn an_action_takes_effect_after_the_latency_and_meanwhile_none_is_asked_for() {
     let ahead = Action { axes: Axes::World, velocity_mps: 2.0 * DVec3::X, ..Action::default() };
     // (latency, number of actions asked for in six steps, step after which the drone first moves)
     for (latency_s, asked, moves) in [(0.0, 6, 1), (0.057, 6, 1), (0.1, 6, 2), (0.2, 3, 3), (0.25, 2, 3)] {
-        let settings = Settings { latency_s, ..Settings::default() };
+        let settings = EnvironmentSettings { latency_s, ..EnvironmentSettings::default() };
         let mut environment = Environment::new(standing(vec![], 20), settings);
         let (mut count, mut first) = (0, None);
         for step in 1..=6 {
@@ -163,7 +164,7 @@ fn an_action_takes_effect_after_the_latency_and_meanwhile_none_is_asked_for() {
 
 #[test]
 fn a_lost_target_ends_the_episode_and_is_remembered_as_it_was_seen() {
-    let mut environment = Environment::new(standing(vec![], 60), Settings::default());
+    let mut environment = Environment::new(standing(vec![], 60), EnvironmentSettings::default());
     let turn = Action::of_numbers([0.0, 0.0, 0.0, 60.0, 0.0]);
     for _ in 0..30 {
         environment.step(Some(&turn));
@@ -182,14 +183,14 @@ fn a_lost_target_ends_the_episode_and_is_remembered_as_it_was_seen() {
 fn quadrotors_hold_their_place_in_wind_and_fall_without_thrust() {
     for model in [DroneModel::Crazyflie, DroneModel::Pelican] {
         let drone = DroneSettings { model, wind_mps: 3.0, gusts: true, sensors: true };
-        let settings = Settings { drone, ..Settings::default() };
+        let settings = EnvironmentSettings { drone, ..EnvironmentSettings::default() };
         let mut environment = Environment::new(standing(vec![], 20), settings);
         let from = environment.observation().motion.position_in_world;
         for _ in 0..50 {
             environment.step(Some(&Action::default()));
         }
         let away_m = environment.observation().motion.position_in_world.distance(from);
-        let strain = environment.strain().expect("a quadrotor");
+        let strain = environment.tracking_error().expect("a quadrotor");
         assert!(away_m < 1.0 && strain.largest_error_m < 1.0 && strain.ticks == 5000, "{model:?} {away_m} {strain:?}");
         assert_eq!(environment.sensed().len(), 1000);
         while environment.score().end.is_none() {
@@ -224,7 +225,7 @@ fn a_lorry_hides_the_target_while_it_passes_and_is_hit() {
     let start = Start { position_in_world: DVec3::new(0.0, 0.0, 4.0), velocity_in_world: DVec3::ZERO };
     let others = Arc::new(Others::new(&around(vec![lorry], 41), None));
     let episode = Arc::new(Episode { start, others, ..(*base).clone() });
-    let mut environment = Environment::new(Arc::clone(&episode), Settings::default());
+    let mut environment = Environment::new(Arc::clone(&episode), EnvironmentSettings::default());
     let mut seen = vec![];
     while environment.score().end.is_none() && seen.len() < 100 {
         seen.push(environment.step(Some(&Action::default())).observation.visible);
@@ -235,7 +236,7 @@ fn a_lorry_hides_the_target_while_it_passes_and_is_hit() {
     let low = Start { position_in_world: DVec3::new(4.0, 0.0, 2.0), velocity_in_world: DVec3::ZERO };
     for (speed_mps, end) in [(2.0, Some(End::Collision)), (0.0, None)] {
         let episode = Arc::new(Episode { start: low, ..(*episode).clone() });
-        let mut environment = Environment::new(episode, Settings::default());
+        let mut environment = Environment::new(episode, EnvironmentSettings::default());
         let ahead = Action { axes: Axes::World, velocity_mps: speed_mps * DVec3::X, ..Action::default() };
         (0..90).for_each(|_| _ = environment.step(Some(&ahead)));
         assert_eq!(environment.score().end, end);
@@ -266,7 +267,8 @@ fn a_followed_car_is_its_box_and_hides_nothing_of_itself() {
         assert!((clearance_m(17.0) - 2.1).abs() < 0.011, "{}", clearance_m(17.0));
         let descend = |x: f64| {
             let start = Start { position_in_world: DVec3::new(x, 0.0, 4.0), velocity_in_world: DVec3::ZERO };
-            let mut environment = Environment::new(Arc::new(Episode { start, ..episode.clone() }), Settings::default());
+            let mut environment =
+                Environment::new(Arc::new(Episode { start, ..episode.clone() }), EnvironmentSettings::default());
             let down = Action { velocity_mps: -0.5 * DVec3::Z, ..Action::default() };
             (0..60).for_each(|_| _ = environment.step(Some(&down)));
             environment.score().end
@@ -298,13 +300,13 @@ fn look_alikes_count_where_they_are_seen() {
     let others = Arc::new(Others::new(&around(bodies, 41), followed.as_ref()));
     assert_eq!(others.movers().iter().filter(|mover| mover.is_look_alike).count(), 4);
     let episode = Episode { others, followed, ..(*standing(vec![wall], 20)).clone() };
-    assert_eq!(Environment::new(Arc::new(episode), Settings::default()).look_alikes(), 1);
+    assert_eq!(Environment::new(Arc::new(episode), EnvironmentSettings::default()).look_alikes(), 1);
 }
 
 #[test]
 fn an_expert_among_traffic_sees_what_its_certificate_says() {
-    let scene = Scene::generate(SceneKind::Light, 3);
-    let place = Arc::new(Place::on_flat_ground(scene.boxes.clone()));
+    let scene = SeededScene::generate(SceneKind::Light, 3);
+    let place = Arc::new(FlightSite::on_flat_ground(scene.boxes.clone()));
     let config = Arc::new(MucoConfig::default());
     let (mut flown_sum, mut stated_sum, mut count) = (0.0, 0.0, 0.0);
     for index in 0..4 {
@@ -331,12 +333,12 @@ fn an_expert_among_traffic_sees_what_its_certificate_says() {
             ..(*standing(vec![], 1)).clone()
         });
         let knowledge = Knowledge { flight: waypoints.into(), config: Arc::clone(&config) };
-        let score = flown("expert", &episode, &knowledge, Settings::default());
+        let score = flown("expert", &episode, &knowledge, EnvironmentSettings::default());
         assert_eq!(score.end, Some(End::Finished));
         flown_sum += score.mean_visibility();
         stated_sum += flight.certificate.mean_visibility;
         count += 1.0;
-        assert!(flown("causal", &episode, &knowledge, Settings::default()).steps > 0);
+        assert!(flown("causal", &episode, &knowledge, EnvironmentSettings::default()).steps > 0);
     }
     assert!(count >= 2.0 && (flown_sum - stated_sum).abs() / count < 0.01, "{flown_sum} {stated_sum} {count}");
 }
@@ -344,7 +346,8 @@ fn an_expert_among_traffic_sees_what_its_certificate_says() {
 #[test]
 fn a_blind_camera_tracks_nothing_and_the_target_is_found_again() {
     let blackouts = Blackouts { count: 2, length_s: [2.0, 4.0] };
-    let mut environment = Environment::new(standing(vec![], 60), Settings { blackouts, ..Settings::default() });
+    let mut environment =
+        Environment::new(standing(vec![], 60), EnvironmentSettings { blackouts, ..EnvironmentSettings::default() });
     let mut blind_steps = 0;
     while environment.score().end.is_none() {
         let step = environment.step(Some(&Action::default()));

@@ -1,8 +1,8 @@
 //! Pictures of environments: as the large renderer draws them from the same place, whoever else is drawn beside them.
 
 use cosfly_domain::{Around, Body, BodyKind, BodyPlan, Camera, Town, Traffic, WalkableKind};
-use cosfly_env::pictures::{Album, Channel, Format, Pictures, bystanders, target};
-use cosfly_env::{Action, Environment, Episode, Others, Place, Settings, Start};
+use cosfly_env::pictures::{Channel, PictureBatch, PictureFormat, Pictures, bystanders, target};
+use cosfly_env::{Action, Environment, EnvironmentSettings, Episode, FlightSite, Others, Start};
 use cosfly_figures::{TargetSetup, Walker};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_maps::{MapConfig, read_town};
@@ -25,7 +25,7 @@ fn walk(from: DVec3, frames: usize) -> Vec<TargetState> {
 
 /// Environments behind walkers and a car, among people, cars and a bus, some steps after their beginnings.
 fn environments(town: &Town, count: usize) -> Vec<Environment> {
-    let place = Arc::new(Place::new(Arc::new(town.clone()), Seed([1; 32])));
+    let place = Arc::new(FlightSite::new(Arc::new(town.clone()), Seed([1; 32])));
     let pavements: Vec<_> = town.walkable.iter().filter(|area| area.kind == WalkableKind::Sidewalk).collect();
     let mut random = Seed([2; 32]).stream("environments");
     let environment = |number: usize| {
@@ -58,20 +58,27 @@ fn environments(town: &Town, count: usize) -> Vec<Environment> {
             start: Start { position_in_world, velocity_in_world: DVec3::ZERO },
             seed: Seed([0; 32]),
         };
-        let mut environment = Environment::new(Arc::new(episode), Settings::default());
+        let mut environment = Environment::new(Arc::new(episode), EnvironmentSettings::default());
         (0..3 * number).for_each(|_| _ = environment.step(Some(&Action::of_numbers([1.0, 0.0, 0.0, 2.0, 0.0]))));
         environment
     };
     (0..count).map(environment).collect()
 }
 
-fn format(size: u32) -> Format {
+fn format(size: u32) -> PictureFormat {
     let channels = Channel::ALL.map(|(_, channel)| channel).to_vec();
-    Format { width: size, height: size, channels, farthest_m: FARTHEST_M, weather: None, look: PictureLook::Simple }
+    PictureFormat {
+        width: size,
+        height: size,
+        channels,
+        farthest_m: FARTHEST_M,
+        weather: None,
+        look: PictureLook::Simple,
+    }
 }
 
-fn drawn(environments: &[&Environment], size: u32, threads: usize) -> Album {
-    let mut album = Album::new(&format(size), environments.len());
+fn drawn(environments: &[&Environment], size: u32, threads: usize) -> PictureBatch {
+    let mut album = PictureBatch::new(&format(size), environments.len());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| Pictures::new(format(size), threads).draw(environments, &mut album, 0));
     album
@@ -131,8 +138,8 @@ fn full_colours_are_those_of_the_large_renderer_in_the_weather_of_the_episode_or
             let size = [84, 128][number / 2];
             let channels = vec![Channel::Rgb];
             let asked = asked.map(weather);
-            let format = Format { channels, weather: asked, look: PictureLook::Full, ..format(size) };
-            let mut album = Album::new(&format, 1);
+            let format = PictureFormat { channels, weather: asked, look: PictureLook::Full, ..format(size) };
+            let mut album = PictureBatch::new(&format, 1);
             Pictures::new(format, 1).draw(&[environment], &mut album, 0);
             let rain = weather(shown).precipitation;
             let others: Vec<_> = bystanders(environment, rain).collect();
@@ -153,13 +160,13 @@ fn a_picture_is_the_same_alone_and_in_any_batch_on_any_number_of_threads() {
     let all: Vec<&Environment> = all.iter().collect();
     let together = drawn(&all, 84, 2);
     assert_eq!(drawn(&all, 84, 1), together);
-    let mut singly = Album::new(&format(84), all.len());
+    let mut singly = PictureBatch::new(&format(84), all.len());
     let mut pictures = Pictures::new(format(84), 1);
     for number in (0..all.len()).rev() {
         pictures.draw(&all[number..=number], &mut singly, number);
     }
     assert_eq!(singly, together);
-    let mut copied = Album::new(&format(84), all.len());
+    let mut copied = PictureBatch::new(&format(84), all.len());
     (0..all.len()).for_each(|number| copied.copy(&together, number));
     assert_eq!(copied, together);
     assert!(together.mask.contains(&1) && together.depth_m.iter().all(|depth| *depth <= FARTHEST_M));
@@ -174,14 +181,14 @@ fn drones_of_a_team_are_in_each_others_pictures_and_nobodys_own() {
     // The second hangs in the first one's line of sight, and a third is behind both.
     let beside = |share: f64| {
         let start = Start { position_in_world: from.lerp(feet + DVec3::Z, share), ..episode.start };
-        Environment::new(Arc::new(Episode { start, ..Episode::clone(episode) }), Settings::default())
+        Environment::new(Arc::new(Episode { start, ..Episode::clone(episode) }), EnvironmentSettings::default())
     };
     let team = [first.clone(), beside(0.15), beside(-0.15)];
     let team: Vec<&Environment> = team.iter().collect();
     let largest = episode.place.largest_instance();
     let pixels = format(128).pixels();
     let drawn_by = |threads: usize| {
-        let mut album = Album::new(&format(128), 3);
+        let mut album = PictureBatch::new(&format(128), 3);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| Pictures::new(format(128), threads).draw_team(&team, &mut album));
         album

@@ -1,6 +1,6 @@
-//! What moves: a person, or a vehicle of a kind and size.
+//! [`BodyShape`]: a person, or a vehicle of a kind and size.
 
-use crate::clothes::Region;
+use crate::region::Region;
 use crate::umbrella;
 use cosfly_domain::{BodyKind, SemanticLabel};
 use cosfly_frames::{DVec3, Seed, real};
@@ -8,7 +8,7 @@ use cosfly_frames::{DVec3, Seed, real};
 /// Largest vehicle that is drawn, metres along each axis.
 const LARGEST_M: f64 = 60.0;
 
-/// What moves.
+/// Shape of a body: a person, or a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BodyShape {
     /// A person on foot.

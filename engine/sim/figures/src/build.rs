@@ -26,7 +26,7 @@ pub struct Build {
     pub arm_swing: f64,
     /// Hair or hat.
     pub hair: Hair,
-    /// What the right arm does.
+    /// Bearing of the right arm.
     pub right_arm: Arm,
     /// Wears a top that reaches to the thighs.
     pub long_top: bool,
@@ -49,7 +49,7 @@ pub enum Hair {
     Cap,
 }
 
-/// What an arm does.
+/// Bearing of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arm {
     /// Swings with the gait.

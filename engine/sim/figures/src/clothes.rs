@@ -2,64 +2,18 @@
 
 use crate::body_shape::BodyShape;
 use crate::build::{Build, Hair};
+use cosfly_domain::{Colour, Dye};
 use crate::umbrella;
 use crate::vehicles::Livery;
 use cosfly_domain::{Bag, BodyKind, Colour, Dye, Outfit, Traits};
 use cosfly_frames::{RandomStream, Seed};
-
-/// Material of a part of the figure; those of vehicles follow those of people.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Region {
-    /// Face, neck, hands.
-    Skin,
-    /// Hair or hat.
-    Hair,
-    /// Shirt or jacket.
-    Top,
-    /// Trousers or skirt.
-    Trousers,
-    /// Shoes.
-    Shoes,
-    /// Backpack.
-    Bag,
-    /// Open umbrella.
-    Umbrella,
-    /// Painted sheet of a vehicle, or a painted frame.
-    Paint,
-    /// The box of a lorry.
-    Cargo,
-    /// Dark plastic, rubber and leather.
-    Trim,
-    /// Windows.
-    Glass,
-    /// Tyres.
-    Tyre,
-    /// Wheels and bare metal.
-    Metal,
-    /// Number plates.
-    Plate,
-    /// Lamps at the front.
-    HeadLamp,
-    /// Lamps at the back.
-    TailLamp,
-}
-
-impl Region {
-    /// Number of regions.
-    pub const COUNT: usize = 16;
-
-    /// Whether people wear it or are made of it.
-    pub fn is_of_people(self) -> bool {
-        self <= Self::Umbrella
-    }
-}
 
 /// Colours of a figure, linear RGB.
 #[derive(Clone, Copy, Debug)]
 pub struct Clothes {
     /// Indexed by the first seven of [`Region`].
     pub colours: [[f32; 3]; 7],
-    /// What texts may say of them; no umbrella.
+    /// Clothes in words, for texts; no umbrella.
     pub outfit: Outfit,
     /// Bare forearms.
     pub short_sleeves: bool,
@@ -94,45 +48,41 @@ pub fn outfit_of(body: BodyShape, seed: &Seed) -> Outfit {
     }
 }
 
-pub(crate) const fn dye(name: Colour, linear_rgb: [f32; 3]) -> Dye {
-    Dye { name, linear_rgb }
-}
-
 /// Tops that stand out from asphalt, pavement and grass, linear RGB.
 const BRIGHT_TOPS: [Dye; 10] = [
-    dye(Colour::Red, [0.72, 0.03, 0.03]),
-    dye(Colour::Orange, [0.85, 0.45, 0.02]),
-    dye(Colour::White, [0.80, 0.78, 0.72]),
-    dye(Colour::Blue, [0.03, 0.16, 0.70]),
-    dye(Colour::Pink, [0.75, 0.08, 0.35]),
-    dye(Colour::Blue, [0.02, 0.45, 0.55]),
-    dye(Colour::Yellow, [0.85, 0.70, 0.05]),
-    dye(Colour::Purple, [0.35, 0.05, 0.50]),
-    dye(Colour::Orange, [0.90, 0.22, 0.05]),
-    dye(Colour::Green, [0.05, 0.40, 0.10]),
+    Dye::new(Colour::Red, [0.72, 0.03, 0.03]),
+    Dye::new(Colour::Orange, [0.85, 0.45, 0.02]),
+    Dye::new(Colour::White, [0.80, 0.78, 0.72]),
+    Dye::new(Colour::Blue, [0.03, 0.16, 0.70]),
+    Dye::new(Colour::Pink, [0.75, 0.08, 0.35]),
+    Dye::new(Colour::Blue, [0.02, 0.45, 0.55]),
+    Dye::new(Colour::Yellow, [0.85, 0.70, 0.05]),
+    Dye::new(Colour::Purple, [0.35, 0.05, 0.50]),
+    Dye::new(Colour::Orange, [0.90, 0.22, 0.05]),
+    Dye::new(Colour::Green, [0.05, 0.40, 0.10]),
 ];
 /// Common colours of tops, linear RGB.
 const EVERYDAY_TOPS: [Dye; 12] = [
-    dye(Colour::Black, [0.03, 0.03, 0.035]),
-    dye(Colour::Grey, [0.08, 0.085, 0.09]),
-    dye(Colour::Grey, [0.20, 0.20, 0.20]),
-    dye(Colour::Grey, [0.45, 0.45, 0.44]),
-    dye(Colour::White, [0.62, 0.60, 0.55]),
-    dye(Colour::Blue, [0.03, 0.045, 0.10]),
-    dye(Colour::Blue, [0.10, 0.16, 0.27]),
-    dye(Colour::Blue, [0.30, 0.38, 0.48]),
-    dye(Colour::Green, [0.07, 0.09, 0.05]),
-    dye(Colour::Brown, [0.16, 0.09, 0.05]),
-    dye(Colour::Beige, [0.38, 0.29, 0.19]),
-    dye(Colour::Red, [0.20, 0.04, 0.045]),
+    Dye::new(Colour::Black, [0.03, 0.03, 0.035]),
+    Dye::new(Colour::Grey, [0.08, 0.085, 0.09]),
+    Dye::new(Colour::Grey, [0.20, 0.20, 0.20]),
+    Dye::new(Colour::Grey, [0.45, 0.45, 0.44]),
+    Dye::new(Colour::White, [0.62, 0.60, 0.55]),
+    Dye::new(Colour::Blue, [0.03, 0.045, 0.10]),
+    Dye::new(Colour::Blue, [0.10, 0.16, 0.27]),
+    Dye::new(Colour::Blue, [0.30, 0.38, 0.48]),
+    Dye::new(Colour::Green, [0.07, 0.09, 0.05]),
+    Dye::new(Colour::Brown, [0.16, 0.09, 0.05]),
+    Dye::new(Colour::Beige, [0.38, 0.29, 0.19]),
+    Dye::new(Colour::Red, [0.20, 0.04, 0.045]),
 ];
 const TROUSERS: [Dye; 6] = [
-    dye(Colour::Blue, [0.02, 0.03, 0.08]),
-    dye(Colour::Black, [0.015, 0.015, 0.02]),
-    dye(Colour::Blue, [0.05, 0.09, 0.22]),
-    dye(Colour::Beige, [0.30, 0.24, 0.15]),
-    dye(Colour::Grey, [0.12, 0.12, 0.13]),
-    dye(Colour::Brown, [0.10, 0.05, 0.03]),
+    Dye::new(Colour::Blue, [0.02, 0.03, 0.08]),
+    Dye::new(Colour::Black, [0.015, 0.015, 0.02]),
+    Dye::new(Colour::Blue, [0.05, 0.09, 0.22]),
+    Dye::new(Colour::Beige, [0.30, 0.24, 0.15]),
+    Dye::new(Colour::Grey, [0.12, 0.12, 0.13]),
+    Dye::new(Colour::Brown, [0.10, 0.05, 0.03]),
 ];
 const HAIR: [[f32; 3]; 5] =
     [[0.01, 0.008, 0.006], [0.04, 0.02, 0.01], [0.10, 0.05, 0.02], [0.30, 0.20, 0.08], [0.25, 0.25, 0.25]];

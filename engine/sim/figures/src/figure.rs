@@ -2,107 +2,12 @@
 
 use crate::body_shape::BodyShape;
 use crate::build::{Arm, Hair, head_size};
-use crate::clothes::{Clothes, Region};
+use cosfly_figures::Clothes;
+use crate::frustum::{FigurePart, FigureTriangle, Ring, Surface, around, ring};
+use crate::region::Region;
+use crate::walker::{TargetSetup, Walker};
 use crate::{umbrella, vehicles};
-use cosfly_frames::{DVec3, Seed, TargetState, real};
-
-/// The target of one frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TargetSetup {
-    /// Position, heading and speed.
-    pub state: TargetState,
-    /// Body height, metres.
-    pub height_m: f64,
-    /// Body radius seen from above, metres.
-    pub radius_m: f64,
-    /// Draws its clothes, skin and build.
-    pub clothes_seed: Seed,
-    /// Phase of the gait, radians; see [`gait_phase_rad`].
-    pub gait_phase_rad: f64,
-    /// Share of body points that unoccluded rays reach; copied into the picture's view of the target.
-    pub visible_by_rays: f64,
-    /// What moves.
-    pub body: BodyShape,
-}
-
-impl TargetSetup {
-    /// The target as one of the people in the picture.
-    pub fn walker(&self) -> Walker {
-        Walker {
-            state: self.state,
-            height_m: self.height_m,
-            radius_m: self.radius_m,
-            clothes_seed: self.clothes_seed,
-            gait_phase_rad: self.gait_phase_rad,
-            body: self.body,
-        }
-    }
-}
-
-/// Somebody in the picture: a person, or a vehicle with its rider.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Walker {
-    /// Position, heading and speed.
-    pub state: TargetState,
-    /// Body height, metres; vehicles have that of [`Self::body`].
-    pub height_m: f64,
-    /// Body radius seen from above, metres; vehicles have the extent of [`Self::body`].
-    pub radius_m: f64,
-    /// Draws their clothes, skin and build; paint and model of a vehicle.
-    pub clothes_seed: Seed,
-    /// Phase of the gait, radians; see [`gait_phase_rad`]. Of a bicycle, that of the pedals; other vehicles have none.
-    pub gait_phase_rad: f64,
-    /// What moves.
-    pub body: BodyShape,
-}
-
-impl Walker {
-    /// Whether there is a body to draw.
-    pub fn has_body(&self) -> bool {
-        let numbers = [self.radius_m, self.state.heading_rad, self.state.speed_mps, self.gait_phase_rad];
-        self.height_m > 0.0
-            && self.height_m.is_finite()
-            && self.body.is_drawable()
-            && self.state.feet_in_world.is_finite()
-            && numbers.iter().all(|number| number.is_finite())
-    }
-}
-
-/// Somebody in the picture beside the target.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bystander {
-    /// Position and looks.
-    pub walker: Walker,
-    /// Id in instance images: not 0, not the target's, not that of an object.
-    pub instance: u32,
-}
-
-/// Phase of the gait after `walked_m` metres: one turn every two steps, and two steps are 0.83 body heights.
-pub fn gait_phase_rad(walked_m: f64, height_m: f64) -> f64 {
-    real::wrap_angle_rad(real::TAU * walked_m / (0.83 * height_m.max(0.1)))
-}
-
-/// Phase of a cyclist's pedals after `ridden_m` metres: one turn every 5 m.
-pub fn pedal_phase_rad(ridden_m: f64) -> f64 {
-    real::wrap_angle_rad(real::TAU * ridden_m / 5.0)
-}
-
-/// A triangle of the figure, corners in the world frame.
-#[derive(Clone, Copy, Debug)]
-pub struct FigureTriangle {
-    /// Corners, metres.
-    pub corners_in_world: [DVec3; 3],
-    /// Away from the part's inside, unit length.
-    pub normal_in_world: DVec3,
-    /// The ends of its part's middle line: the part is round around it.
-    pub middle_in_world: [DVec3; 2],
-    /// Material.
-    pub region: Region,
-    /// Owner: index among the people of a frame.
-    pub person: u32,
-    /// The part of the body that it belongs to.
-    pub part: u32,
-}
+use cosfly_frames::{DVec3, real};
 
 /// The figure's surface as bare triangles, for rays.
 pub fn target_triangles(target: &TargetSetup) -> Vec<[DVec3; 3]> {
@@ -152,11 +57,6 @@ pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut V
     }
 }
 
-/// Sine and cosine of the direction of each side of a frustum.
-pub(crate) fn around() -> [(f64, f64); SIDES] {
-    core::array::from_fn(|k| real::sin_cos(real::TAU * k as f64 / SIDES as f64))
-}
-
 /// Most parts of a figure.
 pub const MOST_PARTS: usize = 30;
 
@@ -164,17 +64,6 @@ pub const MOST_PARTS: usize = 30;
 pub struct FigureParts {
     count: usize,
     parts: [FigurePart; MOST_PARTS],
-}
-
-/// A part of a figure between two level rings.
-#[derive(Clone, Copy)]
-pub struct FigurePart {
-    /// One end.
-    pub low: Ring,
-    /// The other end.
-    pub high: Ring,
-    /// Material.
-    pub region: Region,
 }
 
 impl Default for FigureParts {
@@ -236,26 +125,6 @@ impl FigureParts {
             .map(|up| up.max(0.0))
             .fold(f64::INFINITY, f64::min)
     }
-}
-
-/// Sides of every frustum.
-pub const SIDES: usize = 6;
-
-/// One end of a frustum, in body heights. Its corner `k` lies at `forward + half_forward * cos`, `right + half_side * sin` of
-/// `k` turns in [`SIDES`].
-#[derive(Clone, Copy)]
-#[expect(missing_docs, reason = "the names say it")]
-pub struct Ring {
-    pub forward: f64,
-    pub right: f64,
-    /// Below 0 counts as 0.
-    pub up: f64,
-    pub half_side: f64,
-    pub half_forward: f64,
-}
-
-pub(crate) fn ring(forward: f64, right: f64, up: f64, half_side: f64, half_forward: f64) -> Ring {
-    Ring { forward, right, up, half_side, half_forward }
 }
 
 struct Body<'a> {
@@ -395,66 +264,6 @@ impl Body<'_> {
     }
 }
 
-/// Triangles of a figure in the world.
-pub(crate) struct Surface<'a> {
-    pub feet: DVec3,
-    pub forward: DVec3,
-    pub right: DVec3,
-    pub height: f64,
-    /// Sine and cosine of the direction of each side.
-    pub around: [(f64, f64); SIDES],
-    pub person: u32,
-    /// Parts built so far.
-    pub parts: u32,
-    pub triangles: &'a mut Vec<FigureTriangle>,
-}
-
-impl Surface<'_> {
-    /// A closed hexagonal frustum between two rings.
-    pub(crate) fn part(&mut self, low: Ring, high: Ring, region: Region) {
-        let corner = |ring: &Ring, k: usize| {
-            let (sin, cos) = self.around[k];
-            self.feet
-                + self.height
-                    * (self.forward * (ring.forward + ring.half_forward * cos)
-                        + self.right * (ring.right + ring.half_side * sin)
-                        + DVec3::Z * ring.up.max(0.0))
-        };
-        let center = |ring: &Ring| {
-            self.feet
-                + self.height * (self.forward * ring.forward + self.right * ring.right + DVec3::Z * ring.up.max(0.0))
-        };
-        let middle_in_world = [center(&low), center(&high)];
-        let inside = 0.5 * (middle_in_world[0] + middle_in_world[1]);
-        let mut faces = [[DVec3::ZERO; 3]; 4 * SIDES];
-        let [lows, highs] = [&low, &high].map(|ring| core::array::from_fn::<_, SIDES, _>(|k| corner(ring, k)));
-        for k in 0..SIDES {
-            let next = (k + 1) % SIDES;
-            let (a, b, c, d) = (lows[k], lows[next], highs[k], highs[next]);
-            faces[4 * k] = [a, b, c];
-            faces[4 * k + 1] = [c, b, d];
-            faces[4 * k + 2] = [middle_in_world[0], b, a];
-            faces[4 * k + 3] = [middle_in_world[1], c, d];
-        }
-        for corners_in_world in faces {
-            let [a, b, c] = corners_in_world;
-            let normal = (b - a).cross(c - a).normalize_or_zero();
-            let outward = if normal.dot(a - inside) < 0.0 { -normal } else { normal };
-            if outward != DVec3::ZERO {
-                self.triangles.push(FigureTriangle {
-                    corners_in_world,
-                    normal_in_world: outward,
-                    middle_in_world,
-                    region,
-                    person: self.person,
-                    part: self.parts,
-                });
-            }
-        }
-        self.parts += 1;
-    }
-}
-
 /// The point `length` below `(forward, up)`, turned forward by an angle.
 fn reach((forward, up): (f64, f64), angle_rad: f64, length: f64) -> (f64, f64) {
     let (sin, cos) = real::sin_cos(angle_rad);
@@ -464,6 +273,8 @@ fn reach((forward, up): (f64, f64), angle_rad: f64, length: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::walker::gait_phase_rad;
+    use cosfly_frames::{Seed, TargetState};
 
     fn walking(phase: f64) -> TargetSetup {
         TargetSetup {

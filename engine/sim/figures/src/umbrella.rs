@@ -1,7 +1,7 @@
 //! Umbrellas of people on foot: who opens one in which rain, and how it looks, held in the right hand above the head.
 
-use crate::clothes::Region;
-use crate::figure::{FigurePart, ring};
+use crate::frustum::{FigurePart, ring};
+use crate::region::Region;
 use cosfly_frames::Seed;
 
 /// Colours of umbrellas, linear RGB; half of all are black.

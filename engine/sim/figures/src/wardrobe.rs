@@ -1,6 +1,6 @@
 //! Clothes that were drawn before: many pictures show the same people.
 
-use crate::clothes::Clothes;
+use cosfly_figures::Clothes;
 use cosfly_frames::Seed;
 
 /// Clothes of people by their seeds, so that nobody's are drawn again in every picture. Forgets rather than grows.
@@ -15,7 +15,7 @@ impl Default for Wardrobe {
 }
 
 impl Wardrobe {
-    /// What [`Clothes::draw`] gives.
+    /// Clothes as [`Clothes::draw`] gives them.
     pub fn clothes(&mut self, seed: &Seed) -> &Clothes {
         let shelf = &mut self.shelves[usize::from(seed.0[0])];
         if shelf.as_ref().is_none_or(|(known, _)| known != seed) {

@@ -46,7 +46,7 @@ impl BoxBvh {
         Self { given: boxes, slots, primitives, bounds, has_wild: !wild.is_empty(), tree, level: Level::best() }
     }
 
-    /// The same tree, queried with the instructions of a level; answers do not change.
+    /// This tree, queried with the instructions of a level; answers do not change.
     pub fn at_level(self, level: Level) -> Self {
         Self { level, ..self }
     }

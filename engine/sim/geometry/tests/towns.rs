@@ -1,4 +1,4 @@
-//! The same test for the planner's queries: towns of thousands of boxes, body points seen from cameras, far origins,
+//! Queries of the planner against plain loops: towns of thousands of boxes, body points seen from cameras, far origins,
 //! edges.
 
 use cosfly_domain::OrientedBox;

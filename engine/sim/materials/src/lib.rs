@@ -17,6 +17,7 @@ pub mod parts;
 pub mod pattern;
 pub mod presets;
 pub mod roof_edges;
+pub mod roof_step;
 pub mod roof_steps;
 pub mod season;
 pub mod surface;

@@ -2,7 +2,7 @@
 
 use crate::kerbs::KerbLine;
 use crate::pattern::hash;
-use crate::roof_steps::RoofStep;
+use crate::roof_step::RoofStep;
 use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, Town};
 use cosfly_frames::{DVec3, real};
 use glam::Vec3A as Vec3;

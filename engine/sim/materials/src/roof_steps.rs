@@ -1,6 +1,7 @@
 //! Which boxes of a building are steps of a pitched roof: they are drawn as slopes, whatever their faces.
 
 use crate::parts::SceneBox;
+use crate::roof_step::{Pitch, RoofStep, Side, TopSlope};
 use cosfly_domain::ObstacleKind;
 use cosfly_frames::DVec2;
 use std::collections::BTreeMap;
@@ -15,40 +16,6 @@ const FLUSH_M: f64 = 0.05;
 const FLATTEST: f64 = 4.0;
 /// Steps beside a strip of a roof are at most so many times their height away.
 const BESIDE: f64 = 2.0;
-
-/// Place of a box in a building with a pitched roof.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RoofStep {
-    /// What the upright faces show, in the order of the faces of boxes.
-    pub sides: [Side; 4],
-    /// Slope of the upper face; none where it is level.
-    pub top: Option<TopSlope>,
-    /// Foot and height of the wall below, metres.
-    pub wall_m: [f64; 2],
-}
-
-/// What an upright face shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Side {
-    /// A wall of its own.
-    Wall,
-    /// The wall below goes on.
-    Gable,
-    /// A slope that falls outwards.
-    Slope(Pitch),
-}
-
-/// Sine and cosine of a slope's angle.
-pub type Pitch = [f32; 2];
-
-/// An upper face that slopes down from a rectangle on all sides.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TopSlope {
-    /// Middle and half size of the rectangle along the box's axes, from its middle, metres.
-    pub above_m: [f32; 4],
-    /// Its angle.
-    pub pitch: Pitch,
-}
 
 /// A rectangle along the axes of a box, from its middle, metres.
 #[derive(Clone, Copy, Debug)]

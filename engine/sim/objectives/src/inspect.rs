@@ -7,7 +7,7 @@
 use super::config::{DT_S, InspectConfig};
 use super::facade::{Coverage, Side, coverage, hull, is_free, sides};
 use super::meeting::Meeting;
-use super::{Mission, POINT_HEIGHT_M, Site};
+use super::mission::{Mission, POINT_HEIGHT_M, Site, agile};
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, TargetState, TargetTrack, real};
 use cosfly_planner::MucoConfig;
@@ -250,7 +250,7 @@ fn timed(stops: &[Stop], wanted: &InspectConfig, config: &MucoConfig) -> Option<
 
 /// The drone is near the stand-off distance, a little above what it looks at; there is no "behind" of a wall.
 fn wishes(wanted: &InspectConfig, config: &MucoConfig) -> MucoConfig {
-    let mut config = super::agile(config);
+    let mut config = agile(config);
     let standoff = wanted.standoff_m;
     let view = &mut config.view;
     view.distance_m = standoff;

@@ -6,7 +6,7 @@
 use super::config::{DT_S, LONGEST_S, PatrolConfig};
 use super::facade::is_free;
 use super::meeting::Meeting;
-use super::{Mission, POINT_HEIGHT_M, Site};
+use super::mission::{Mission, POINT_HEIGHT_M, Site, agile};
 use cosfly_frames::{DVec2, DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_planner::MucoConfig;
 use cosfly_random::Seed;
@@ -183,7 +183,7 @@ fn wishes(heights: impl Iterator<Item = f64>, wanted: &PatrolConfig, config: &Mu
         (sum, count) = (sum + height, count + 1.0);
     }
     let mean = sum / f64::max(count, 1.0);
-    let mut config = super::agile(config);
+    let mut config = agile(config);
     let view = &mut config.view;
     view.distance_m = real::hypot(mean, wanted.lead_m).clamp(2.0, 200.0);
     view.pitch_deg = real::atan2(mean, wanted.lead_m).to_degrees().clamp(5.0, 85.0);

@@ -2,7 +2,7 @@
 
 use super::config::DT_S;
 use super::meeting::Meeting;
-use super::{Mission, POINT_HEIGHT_M};
+use super::mission::{Mission, POINT_HEIGHT_M, agile};
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_planner::MucoConfig;
 
@@ -72,7 +72,7 @@ fn wishes(reference: &Reference, config: &MucoConfig) -> MucoConfig {
     let (nearest, furthest) = offsets().map(across).fold((f64::INFINITY, 0.0_f64), |(a, b), r| (a.min(r), b.max(r)));
     let mean = offsets().sum::<DVec3>() / count;
     let (mean_up, mean_across) = (mean.z, offsets().map(across).sum::<f64>() / count);
-    let mut config = super::agile(config);
+    let mut config = agile(config);
     let view = &mut config.view;
     view.distance_m = real::hypot(mean_up, mean_across).clamp(2.0, 200.0);
     view.pitch_deg = real::atan2(mean_up, mean_across).to_degrees().clamp(5.0, 85.0);

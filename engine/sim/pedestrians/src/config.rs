@@ -1,6 +1,6 @@
 //! [`PedestrianConfig`]: the parameters of pedestrians in a recipe, and the rules between them.
 
-use crate::ConfigRule;
+use crate::PedestrianConfigRule;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -148,7 +148,7 @@ impl Default for RadiusRange {
 
 impl PedestrianConfig {
     /// Checks what the schema cannot say (order of limits) and, for callers without a schema, finiteness.
-    pub fn check(&self) -> Result<(), ConfigRule> {
+    pub fn check(&self) -> Result<(), PedestrianConfigRule> {
         let numbers: [(&'static [&'static str], f64, f64, f64); 17] = [
             (&["dt_s"], self.dt_s, 0.01, 10.0),
             (&["speed", "mean_mps"], self.speed.mean_mps, 0.05, 10.0),
@@ -169,19 +169,19 @@ impl PedestrianConfig {
             (&["edge_distance_m"], self.edge_distance_m, 0.0, 10.0),
         ];
         for (path, value, min, max) in numbers {
-            ConfigRule::within(path, value, min, max)?;
+            PedestrianConfigRule::within(path, value, min, max)?;
         }
-        ConfigRule::within(&["min_route_m"], self.min_route_m, 1.0, 10_000.0)?;
-        ConfigRule::within(&["steps"], f64::from(self.steps), 2.0, 100_000.0)?;
+        PedestrianConfigRule::within(&["min_route_m"], self.min_route_m, 1.0, 10_000.0)?;
+        PedestrianConfigRule::within(&["steps"], f64::from(self.steps), 2.0, 100_000.0)?;
         let duration_s = f64::from(self.steps) * self.dt_s;
         if duration_s > 86_400.0 {
             let message = format!("`steps` x `dt_s` is `{duration_s}` s; it must not be more than a day, `86400` s");
-            return Err(ConfigRule { path: vec!["steps"], message });
+            return Err(PedestrianConfigRule { path: vec!["steps"], message });
         }
-        ConfigRule::in_order(&["speed", "min_mps"], self.speed.min_mps, "max_mps", self.speed.max_mps)?;
-        ConfigRule::in_order(&["stops", "min_s"], self.stops.min_s, "max_s", self.stops.max_s)?;
-        ConfigRule::in_order(&["height", "min_m"], self.height.min_m, "max_m", self.height.max_m)?;
-        ConfigRule::in_order(&["radius", "min_m"], self.radius.min_m, "max_m", self.radius.max_m)
+        PedestrianConfigRule::in_order(&["speed", "min_mps"], self.speed.min_mps, "max_mps", self.speed.max_mps)?;
+        PedestrianConfigRule::in_order(&["stops", "min_s"], self.stops.min_s, "max_s", self.stops.max_s)?;
+        PedestrianConfigRule::in_order(&["height", "min_m"], self.height.min_m, "max_m", self.height.max_m)?;
+        PedestrianConfigRule::in_order(&["radius", "min_m"], self.radius.min_m, "max_m", self.radius.max_m)
     }
 }
 

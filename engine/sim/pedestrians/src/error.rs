@@ -4,14 +4,14 @@ use std::fmt;
 
 /// A rule between config values that is broken.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ConfigRule {
+pub struct PedestrianConfigRule {
     /// Keys from the config's table to the value.
     pub path: Vec<&'static str>,
     /// The value and the rule.
     pub message: String,
 }
 
-impl ConfigRule {
+impl PedestrianConfigRule {
     /// The same rule, for the config within a table.
     pub fn within_table(mut self, table: &'static str) -> Self {
         self.path.insert(0, table);
@@ -45,7 +45,7 @@ impl ConfigRule {
 #[derive(Clone, Debug, PartialEq)]
 pub enum PedestrianError {
     /// A config rule is broken.
-    Config(ConfigRule),
+    Config(PedestrianConfigRule),
     /// A corner of a walkable polygon is not a finite number.
     BrokenPolygon {
         /// Index in the town's list.
@@ -173,8 +173,8 @@ impl fmt::Display for PedestrianError {
 
 impl std::error::Error for PedestrianError {}
 
-impl From<ConfigRule> for PedestrianError {
-    fn from(rule: ConfigRule) -> Self {
+impl From<PedestrianConfigRule> for PedestrianError {
+    fn from(rule: PedestrianConfigRule) -> Self {
         Self::Config(rule)
     }
 }

@@ -1,21 +1,19 @@
 //! The walkable grid of a town: cells on walkable ground and the steps between them that are free.
 
-use crate::ground::{Ground, rank};
+use crate::ground::Ground;
 use crate::obstruction::Obstruction;
 use crate::polygon::Cut;
 use crate::{PedestrianConfig, PedestrianError};
 use cosfly_domain::{Town, WalkableKind};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_maps::advice::{WIDEST_WALKS_M2, busiest_part};
-use tiles::{Numbering, Tiles};
+use raster::MAX_CELLS;
+use tiles::{Lattice, Numbering, Tiles};
 
 mod raster;
 #[cfg(test)]
 pub(crate) mod test_towns;
 mod tiles;
-
-/// Ground that takes more cells than this is refused (two kilometres square of it at the default cell size, several times over).
-const MAX_CELLS: usize = 32_000_000;
 
 /// Largest step up or down between neighbouring cells, metres: a kerb, not a wall.
 const MAX_RISE_M: f64 = 0.4;
@@ -145,7 +143,7 @@ impl WalkableGrid {
     pub fn step_is_free(&self, from_in_world: DVec2, to_in_world: DVec2) -> bool {
         let (Some(z_from), Some(z_to)) = (self.z_near(from_in_world), self.z_near(to_in_world)) else { return false };
         let mut open = true;
-        raster::cells_on_segment(self, from_in_world, to_in_world, &mut |cell| {
+        raster::cells_on_segment(&self.lattice(), from_in_world, to_in_world, &mut |cell| {
             let node = self.node_of_cell.get(cell);
             open = open && node != NO_NODE && self.nodes[node as usize].open;
         });
@@ -261,19 +259,24 @@ impl WalkableGrid {
         inside.then(|| self.numbering.cell(c as usize, r as usize))
     }
 
+    fn lattice(&self) -> Lattice {
+        Lattice { corner: self.corner, cell_m: self.cell_m, numbering: self.numbering }
+    }
+
     /// Rasters the polygons: one node for every cell whose centre is on walkable ground. Returns their number; the error
     /// is the number of cells that are too many.
     fn lay_nodes(&mut self) -> Result<usize, usize> {
         let mut cells = raster::Cells { values: Tiles::new(self.numbering, raster::Cell::default()), count: 0 };
         let mut cut = Cut::default();
+        let lattice = self.lattice();
         for polygon in &self.ground.polygons {
             for (across, direction) in [(DVec2::Y, DVec2::X), (DVec2::X, DVec2::Y)] {
-                raster::fill(self, polygon, across, direction, &mut cut, &mut cells)?;
+                raster::fill(&lattice, polygon, across, direction, &mut cut, &mut cells)?;
             }
         }
         for polygon in &self.ground.polygons {
             for (from, to) in polygon.edges() {
-                raster::cells_on_segment(self, from.truncate(), to.truncate(), &mut |cell| {
+                raster::cells_on_segment(&lattice, from.truncate(), to.truncate(), &mut |cell| {
                     cells.values.get_mut(cell).outlined = true;
                 });
             }
@@ -425,17 +428,6 @@ impl WalkableGrid {
             Some((kind, z)) => (point.extend(z), Some(kind)),
             None => (point.extend(near), None),
         }
-    }
-}
-
-/// The better of two claims on a cell: the kind that ranks first, then the lower level, then the shorter way
-/// across (its height is the more local one).
-fn better_claim(new: (WalkableKind, f32, f32), old: (WalkableKind, f32, f32)) -> bool {
-    match rank(new.0).cmp(&rank(old.0)) {
-        std::cmp::Ordering::Less => true,
-        std::cmp::Ordering::Greater => false,
-        std::cmp::Ordering::Equal if (new.1 - old.1).abs() > 1.0 => new.1 < old.1,
-        std::cmp::Ordering::Equal => new.2 < old.2,
     }
 }
 

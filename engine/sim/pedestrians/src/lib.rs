@@ -21,7 +21,7 @@ pub mod walk;
 
 pub use config::{HeightRange, PedestrianConfig, RadiusRange, SpeedConfig, StopConfig};
 pub use crowd::{Crowd, CrowdConfig};
-pub use error::{ConfigRule, PedestrianError};
+pub use error::{PedestrianConfigRule, PedestrianError};
 pub use grid::WalkableGrid;
 pub use ground::Ground;
 pub use path::{PedestrianPath, path_of};

@@ -3,7 +3,7 @@
 use crate::motion::ArcPath;
 use crate::route::{LONE_COSTS, RouteSearch};
 use crate::smooth::smooth;
-use crate::{ConfigRule, PedestrianConfig, PedestrianError, WalkableGrid};
+use crate::{PedestrianConfig, PedestrianConfigRule, PedestrianError, WalkableGrid};
 use cosfly_domain::{Body, BodyKind, BodyPlan};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState};
 use cosfly_world::{Clock, Prescribed};
@@ -70,21 +70,21 @@ impl ScriptedPerson {
     ///
     /// # Errors
     /// The first broken rule.
-    pub fn check(&self) -> Result<(), ConfigRule> {
-        ConfigRule::within(&["speed_mps"], self.speed_mps, 0.05, 10.0)?;
-        ConfigRule::within(&["height_m"], self.height_m, 0.5, 3.0)?;
-        ConfigRule::within(&["radius_m"], self.radius_m, 0.05, 2.0)?;
+    pub fn check(&self) -> Result<(), PedestrianConfigRule> {
+        PedestrianConfigRule::within(&["speed_mps"], self.speed_mps, 0.05, 10.0)?;
+        PedestrianConfigRule::within(&["height_m"], self.height_m, 0.5, 3.0)?;
+        PedestrianConfigRule::within(&["radius_m"], self.radius_m, 0.05, 2.0)?;
         if self.route.is_empty() {
             let message = format!("the route of `{}` has no waypoint; it needs at least one", self.id);
-            return Err(ConfigRule { path: vec!["route"], message });
+            return Err(PedestrianConfigRule { path: vec!["route"], message });
         }
         let mut before_s = 0.0;
         for point in &self.route {
-            ConfigRule::within(&["route", "at_m"], point.at_m[0], -1e7, 1e7)?;
-            ConfigRule::within(&["route", "at_m"], point.at_m[1], -1e7, 1e7)?;
-            ConfigRule::within(&["route", "wait_s"], point.wait_s, 0.0, 1e6)?;
+            PedestrianConfigRule::within(&["route", "at_m"], point.at_m[0], -1e7, 1e7)?;
+            PedestrianConfigRule::within(&["route", "at_m"], point.at_m[1], -1e7, 1e7)?;
+            PedestrianConfigRule::within(&["route", "wait_s"], point.wait_s, 0.0, 1e6)?;
             if let Some(time_s) = point.time_s {
-                ConfigRule::within(&["route", "time_s"], time_s, before_s, 1e6)?;
+                PedestrianConfigRule::within(&["route", "time_s"], time_s, before_s, 1e6)?;
                 before_s = time_s;
             }
             before_s += point.wait_s;
@@ -96,7 +96,7 @@ impl ScriptedPerson {
 /// Why a script cannot be played.
 fn impossible(person: &ScriptedPerson, waypoint: usize, problem: String) -> PedestrianError {
     let message = format!("waypoint {} of `{}` {problem}", waypoint + 1, person.id);
-    PedestrianError::Config(ConfigRule { path: vec!["route"], message })
+    PedestrianError::Config(PedestrianConfigRule { path: vec!["route"], message })
 }
 
 /// What is wrong with a place off the ground: the nearest one that is not.

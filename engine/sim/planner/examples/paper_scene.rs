@@ -10,7 +10,7 @@ use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{MucoConfig, Preset};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use cosfly_surroundings::exact::ExactMap;
 use cosfly_surroundings::ground::GroundGrid;
 use cosfly_surroundings::local::LocalObstacles;
@@ -137,7 +137,7 @@ fn main() {
         "scene   paths   vis  >=.5 dist m  len m  ratio  rear  clear m  hit<.5 seg<lim  v max  a max  j max iter   ms ms/iter"
     );
     for &kind in &options.kinds {
-        let scene = Scene::generate(kind, options.seed);
+        let scene = SeededScene::generate(kind, options.seed);
         let exact = BoxBvh::build(scene.boxes.clone());
         let rows: Vec<Row> = (0..options.paths)
             .map(|index| fly(&scene.walker(options.seed, index), &exact, &scene.boxes, &options))

@@ -5,7 +5,7 @@ use cosfly_geometry::BoxBvh;
 use cosfly_planner::config::SearchEffort;
 use cosfly_planner::{MucoConfig, Preset, plan};
 use cosfly_random::Seed;
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use std::time::Instant;
 
 struct Options {
@@ -42,10 +42,10 @@ fn main() {
     let options = options();
     println!("scene    boxes paths rejected   vis  >=.5  dist m  len m  clear m  v max  a max  j max  rear deg    ms");
     for &kind in &options.kinds {
-        let scene = Scene::generate(kind, options.seed);
+        let scene = SeededScene::generate(kind, options.seed);
         // The fine map is planned on its coarse twin and judged on all its boxes.
         let coarse = if kind == SceneKind::Fine { SceneKind::Leafy } else { kind };
-        let planning = Scene::generate(coarse, options.seed).boxes;
+        let planning = SeededScene::generate(coarse, options.seed).boxes;
         let exact = BoxBvh::build(scene.boxes.clone());
         let mut planned: Vec<Certificate> = Vec::new();
         let mut rejected = Vec::new();

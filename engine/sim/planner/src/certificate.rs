@@ -29,7 +29,7 @@ pub struct Kinematics {
 }
 
 impl Kinematics {
-    /// Of waypoints behind `track`; 0 where there are too few. Rates of view count from the last of the `given` first
+    /// Figures of waypoints behind `track`; 0 where there are too few. Rates of view count from the last of the `given` first
     /// waypoints on: before that the target is not where it was.
     pub fn of(track: &TargetTrack, waypoints: &[DVec3], given: usize) -> Self {
         let dt_s = track.dt_s;
@@ -48,7 +48,7 @@ impl Kinematics {
         }
     }
 
-    /// As a certificate states them.
+    /// Figures that a certificate states.
     fn stated(certificate: &Certificate) -> Self {
         Self {
             speed_mps: certificate.max_speed_mps,

@@ -6,10 +6,10 @@ use cosfly_frames::{DVec3, Pose};
 use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
 use cosfly_planner::{MucoConfig, Preset, plan};
 use cosfly_random::Seed;
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use cosfly_surroundings::visibility::{aim_point, body_points};
 
-fn planned(scene: &Scene, seed: u64, index: u64, config: &MucoConfig) -> Result<Box<Trajectory>, String> {
+fn planned(scene: &SeededScene, seed: u64, index: u64, config: &MucoConfig) -> Result<Box<Trajectory>, String> {
     let exact = BoxBvh::build(scene.boxes.clone());
     let track = scene.walker(seed, index);
     match plan(&track, &exact, &scene.boxes, &|_, _| 0.0, config, Seed::of_item(seed, "muco", "x")) {
@@ -122,7 +122,7 @@ fn flights_in_seeded_scenes_keep_every_promise_of_their_certificate() {
         [(SceneKind::Light, 0.9), (SceneKind::Leafy, 0.8), (SceneKind::Alley, 0.9), (SceneKind::Canyon, 0.9)]
     {
         for seed in 0..3 {
-            let scene = Scene::generate(kind, 100 + seed);
+            let scene = SeededScene::generate(kind, 100 + seed);
             for index in 0..2 {
                 let label = format!("{} {seed} {index}", kind.name());
                 let flight = planned(&scene, seed, index, &config).unwrap_or_else(|reason| panic!("{label}: {reason}"));
@@ -138,7 +138,7 @@ fn flights_in_seeded_scenes_keep_every_promise_of_their_certificate() {
 #[test]
 fn the_papers_weights_fly_safely_too() {
     let config = MucoConfig { preset: Preset::Paper, ..MucoConfig::default() };
-    let scene = Scene::generate(SceneKind::Light, 5);
+    let scene = SeededScene::generate(SceneKind::Light, 5);
     let flight = planned(&scene, 5, 0, &config).expect("planned");
     check_flight(&flight, &scene.boxes, &config, "paper");
     assert_eq!(flight.terms[4].weight, 3.0);
@@ -155,21 +155,21 @@ fn the_papers_weights_fly_safely_too() {
 fn keyframes_may_be_seconds_apart() {
     let mut config = MucoConfig::default();
     config.search.keyframe_frames = 5;
-    let scene = Scene::generate(SceneKind::Light, 6);
+    let scene = SeededScene::generate(SceneKind::Light, 6);
     check_flight(&planned(&scene, 6, 1, &config).expect("planned"), &scene.boxes, &config, "keyframes");
 }
 
 #[test]
 fn the_same_inputs_give_the_same_flight() {
-    let scene = Scene::generate(SceneKind::Leafy, 9);
+    let scene = SeededScene::generate(SceneKind::Leafy, 9);
     let config = MucoConfig::default();
     assert_eq!(planned(&scene, 9, 0, &config), planned(&scene, 9, 0, &config));
 }
 
 #[test]
 fn a_map_cut_into_small_boxes_is_planned_coarse_and_certified_fine() {
-    let fine = Scene::generate(SceneKind::Fine, 3);
-    let coarse = Scene::generate(SceneKind::Leafy, 3);
+    let fine = SeededScene::generate(SceneKind::Fine, 3);
+    let coarse = SeededScene::generate(SceneKind::Leafy, 3);
     let track = coarse.walker(3, 0);
     let exact = BoxBvh::build(fine.boxes.clone());
     let config = MucoConfig::default();
@@ -180,7 +180,7 @@ fn a_map_cut_into_small_boxes_is_planned_coarse_and_certified_fine() {
 
 #[test]
 fn planning_boxes_that_miss_an_obstacle_never_lead_into_it() {
-    let scene = Scene::generate(SceneKind::Alley, 12);
+    let scene = SeededScene::generate(SceneKind::Alley, 12);
     let track = scene.walker(12, 0);
     let config = MucoConfig::default();
     let seed = Seed::of_item(12, "muco", "x");
@@ -216,7 +216,7 @@ fn resampled(track: &cosfly_frames::TargetTrack, dt_s: f64) -> cosfly_frames::Ta
 
 #[test]
 fn other_time_steps_are_flown_within_the_same_limits() {
-    let scene = Scene::generate(SceneKind::Light, 8);
+    let scene = SeededScene::generate(SceneKind::Light, 8);
     let exact = BoxBvh::build(scene.boxes.clone());
     let config = MucoConfig::default();
     for dt_s in [1.0, 0.25, 0.1] {

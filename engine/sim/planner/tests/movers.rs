@@ -7,7 +7,7 @@ use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
 use cosfly_planner::config::{Foresight, Planner};
 use cosfly_planner::{MucoConfig, PlanRequest, plan_request};
 use cosfly_random::Seed;
-use cosfly_scenes::{Scene, SceneKind, movers_around};
+use cosfly_scenes::{SceneKind, SeededScene, movers_around};
 use cosfly_surroundings::moving::{OtherDrones, drone_boxes};
 use cosfly_surroundings::visibility::body_points;
 
@@ -16,7 +16,7 @@ fn positions(flight: &Trajectory) -> Vec<DVec3> {
 }
 
 fn fly(
-    scene: &Scene,
+    scene: &SeededScene,
     track: &TargetTrack,
     movers: &[Vec<OrientedBox>],
     config: &MucoConfig,
@@ -64,7 +64,7 @@ fn least_distance_m(waypoints: &[DVec3], movers: &[Vec<OrientedBox>]) -> f64 {
 }
 
 /// Clearance and visibility of a flight among what moves, by sampling and by rays against every box.
-fn check_flight(flight: &Trajectory, scene: &Scene, movers: &[Vec<OrientedBox>], label: &str) {
+fn check_flight(flight: &Trajectory, scene: &SeededScene, movers: &[Vec<OrientedBox>], label: &str) {
     let waypoints = positions(flight);
     let (least, stated) = (least_distance_m(&waypoints, movers), flight.certificate.min_clearance_m);
     assert!(stated >= flight.certificate.limits.clearance_m, "{label}: {stated}");
@@ -100,7 +100,7 @@ fn flights_among_movers_keep_clear_of_them_and_state_what_they_see() {
         (SceneKind::Canyon, MucoConfig::default()),
         (SceneKind::Light, low()),
     ] {
-        let scene = Scene::generate(kind, 31);
+        let scene = SeededScene::generate(kind, 31);
         for index in 0..4 {
             let label = format!("{} {} m, {index}", kind.name(), config.view.min_altitude_m);
             let track = scene.walker(31, index);
@@ -119,7 +119,7 @@ fn flights_among_movers_keep_clear_of_them_and_state_what_they_see() {
 
 #[test]
 fn a_baseline_keeps_clear_of_movers_and_looks_past_them_too() {
-    let scene = Scene::generate(SceneKind::Light, 32);
+    let scene = SeededScene::generate(SceneKind::Light, 32);
     let mut track = scene.walker(32, 0);
     track.states.truncate(40);
     let movers = movers_around(&track, 50, Seed::of_item(32, "movers", "a"));
@@ -133,7 +133,7 @@ fn a_baseline_keeps_clear_of_movers_and_looks_past_them_too() {
 
 #[test]
 fn the_box_of_the_target_itself_hides_nothing_of_it() {
-    let scene = Scene::generate(SceneKind::Light, 33);
+    let scene = SeededScene::generate(SceneKind::Light, 33);
     let track = scene.walker(33, 0);
     let own = |state: &cosfly_frames::TargetState| OrientedBox {
         center_in_world: state.feet_in_world + DVec3::Z * 0.9,
@@ -149,7 +149,7 @@ fn the_box_of_the_target_itself_hides_nothing_of_it() {
 #[test]
 fn a_causal_flight_is_certified_against_what_happens_and_knows_nothing_of_it_before() {
     let config = MucoConfig { foresight: Foresight::Causal, ..MucoConfig::default() };
-    let scene = Scene::generate(SceneKind::Light, 34);
+    let scene = SeededScene::generate(SceneKind::Light, 34);
     let (mut flown, mut same) = (0, 0);
     for index in 0..3 {
         let mut track = scene.walker(34, index);
@@ -179,7 +179,7 @@ fn a_causal_expert_loses_its_target_when_that_is_ordered() {
     let mut config = MucoConfig { foresight: Foresight::Causal, ..MucoConfig::default() };
     (config.occlusion.count, config.occlusion.min_s, config.occlusion.max_s) = (1, 1.0, 2.0);
     (config.causal.horizon_s, config.causal.replan_s) = (8.0, 1.0);
-    let scene = Scene::generate(SceneKind::Alley, 36);
+    let scene = SeededScene::generate(SceneKind::Alley, 36);
     let (mut flown, mut lost) = (0, 0);
     for index in 0..4 {
         let mut track = scene.walker(36, index);
@@ -201,7 +201,7 @@ fn drones_behind_one_target_keep_apart() {
     const SEPARATION_M: f64 = 6.0;
     let config = MucoConfig::default();
     for (kind, index) in [(SceneKind::Light, 0), (SceneKind::Light, 1), (SceneKind::Leafy, 0), (SceneKind::Alley, 0)] {
-        let scene = Scene::generate(kind, 35);
+        let scene = SeededScene::generate(kind, 35);
         let exact = BoxBvh::build(scene.boxes.clone());
         let mut track = scene.walker(35, index);
         track.states.truncate(120);

@@ -6,7 +6,7 @@ use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_planner::certificate::Kinematics;
 use cosfly_planner::config::{Planner, SeveralTargets};
 use cosfly_planner::{MucoConfig, PlanRequest, Preset, StartState, plan_request};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use cosfly_surroundings::visibility::{body_points, visibility};
 
 fn flown(outcome: PlanOutcome) -> Trajectory {
@@ -33,7 +33,7 @@ fn straight(frames: usize, y: f64) -> TargetTrack {
 
 #[test]
 fn any_state_on_a_flight_can_be_continued_from_within_all_limits() {
-    let scene = Scene::generate(SceneKind::Leafy, 3);
+    let scene = SeededScene::generate(SceneKind::Leafy, 3);
     let exact = BoxBvh::build(scene.boxes.clone());
     let config = MucoConfig::default();
     let track = scene.walker(3, 0);
@@ -70,7 +70,7 @@ fn any_state_on_a_flight_can_be_continued_from_within_all_limits() {
 
 #[test]
 fn a_state_on_a_known_flight_goes_on_along_it_and_one_beside_it_joins_it() {
-    let scene = Scene::generate(SceneKind::Leafy, 4);
+    let scene = SeededScene::generate(SceneKind::Leafy, 4);
     let exact = BoxBvh::build(scene.boxes.clone());
     let config = MucoConfig::default();
     let track = scene.walker(4, 0);
@@ -187,7 +187,7 @@ fn boxes_that_move_are_kept_clear_of_and_looked_past() {
 
 #[test]
 fn the_target_is_lost_on_purpose_and_the_shortfall_is_told() {
-    let scene = Scene::generate(SceneKind::Alley, 2);
+    let scene = SeededScene::generate(SceneKind::Alley, 2);
     let exact = BoxBvh::build(scene.boxes.clone());
     let mut config = MucoConfig::default();
     config.occlusion.count = 1;
@@ -213,7 +213,7 @@ fn the_target_is_lost_on_purpose_and_the_shortfall_is_told() {
 
 #[test]
 fn presets_fly_behind_the_walker_or_short_ways() {
-    let scene = Scene::generate(SceneKind::Light, 4);
+    let scene = SeededScene::generate(SceneKind::Light, 4);
     let exact = BoxBvh::build(scene.boxes.clone());
     let of = |preset: Preset| {
         let config = MucoConfig { preset, ..MucoConfig::default() };

@@ -19,7 +19,7 @@ pub(crate) struct DrawnFace {
 pub(crate) enum FaceSource {
     /// Box number, face number.
     Box { index: u32, face: u8 },
-    /// The same of a box of leaves.
+    /// A face of a box of leaves.
     Crown { index: u32, face: u8 },
     /// Cluster number, polygon number in it.
     Ground { cluster: u32, polygon: u16 },
@@ -45,7 +45,7 @@ pub(crate) fn box_lift(index: u32) -> f64 {
     5e-7 * f64::from(index % 8)
 }
 
-/// The same share for ground: which of two coplanar layers lies on top.
+/// Share by which the inverse depth of ground counts as greater: which of two coplanar layers lies on top.
 pub(crate) fn ground_lift(label: SemanticLabel) -> f64 {
     let layer = match label {
         SemanticLabel::Terrain | SemanticLabel::Ground | SemanticLabel::Water => 0.0,

@@ -2,7 +2,7 @@
 
 use crate::faces::{DrawnFace, FaceSource};
 use crate::scene::Scene;
-use cosfly_figures::clothes::Region;
+use cosfly_figures::Region;
 use cosfly_frames::DVec3;
 use cosfly_materials::parts::BOX_FACES;
 use cosfly_raster::eye::Eye;
@@ -26,7 +26,7 @@ pub struct FoundPicture<'a> {
 pub struct FoundFace {
     /// Inverse depth at the image's centre and its change per pixel to the right and down, 1/m.
     pub plane: [f64; 3],
-    /// What it belongs to.
+    /// Owner of the face.
     pub of: FoundSource,
     /// CARLA label id.
     pub label: u8,
@@ -34,7 +34,7 @@ pub struct FoundFace {
     pub instance: u32,
 }
 
-/// What a face belongs to.
+/// Owner of a face: ground, a box, a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FoundSource {
     /// A face of the town, by its number in [`Scene::faces_of`].

@@ -5,10 +5,12 @@
 //! face), `shade` (light, materials, weather) and [`target_view`] (how much of people is seen). Every channel comes
 //! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
+mod body_bounds;
 mod buildings;
 pub mod config;
 pub mod effects;
 mod faces;
+mod far_light;
 mod found;
 pub mod frame;
 mod ground_polygons;
@@ -26,6 +28,7 @@ mod shade;
 mod stages;
 mod target_view;
 
+pub use body_bounds::LEAST_HEIGHT_PX;
 pub use buildings::Buildings;
 pub use config::{ConfigProblem, GimbalConfig, RenderConfig};
 pub use effects::{Effects, Moment, Shot};
@@ -33,7 +36,6 @@ pub use found::{BodyPart, FoundFace, FoundPicture, FoundSource};
 pub use frame::RenderedFrame;
 pub use look::PictureLook;
 pub use outlook::Outlook;
-pub use people::LEAST_HEIGHT_PX;
 pub use props::SceneModel;
 pub use renderer::{FrameParts, Renderer};
 pub use scene::{Scene, SceneTriangle};

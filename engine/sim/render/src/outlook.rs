@@ -1,10 +1,10 @@
 //! People who may change a picture, told without drawing it.
 
-use crate::people::Bounds;
+use crate::body_bounds::Bounds;
+use crate::far_light::FarLight;
 use cosfly_domain::{Camera, Weather};
-use cosfly_figures::figure::Walker;
+use cosfly_figures::Walker;
 use cosfly_frames::{DVec3, Pose};
-use cosfly_materials::light::Light;
 use cosfly_raster::eye::Eye;
 use cosfly_raster::visibility::Screen;
 
@@ -31,24 +31,6 @@ impl Outlook {
     /// the camera hides all of that.
     pub fn hull(&self, walker: &Walker, lowest_m: f64) -> [DVec3; 16] {
         Bounds::new(walker).hull(lowest_m, self.far)
-    }
-}
-
-/// Light by which a body changes what lies away from it.
-#[derive(Clone, Copy)]
-pub(crate) struct FarLight {
-    /// Direction to the sun, or to the moon at night; unit length, above the horizon.
-    pub to_sun: DVec3,
-    /// Whether vehicles have their lamps on.
-    pub is_night: bool,
-}
-
-impl FarLight {
-    /// The light of a weather.
-    pub fn of(weather: &Weather) -> Self {
-        let Light { to_sun, night, .. } = Light::new(weather);
-        let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
-        Self { to_sun, is_night: night > 0.0 }
     }
 }
 

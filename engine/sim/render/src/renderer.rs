@@ -4,6 +4,7 @@ mod colours;
 mod ground;
 
 use crate::faces::{DrawnFace, FaceSource, box_lift};
+use crate::far_light::FarLight;
 use crate::frame::RenderedFrame;
 use crate::look::PictureLook;
 use crate::outlook::FarLight;
@@ -48,7 +49,7 @@ pub struct Renderer {
     alone: Visibility,
     nearer: Nearer,
     faces: Vec<DrawnFace>,
-    /// Of faces that were found elsewhere: the first of each part of a body.
+    /// First face of each part of a body, of faces that were found elsewhere.
     first_faces: Vec<u32>,
     visible: Vec<(u64, u32)>,
     /// A cluster's points in body axes and on the screen.

@@ -5,7 +5,7 @@ use crate::kerb_lines::kerb_lines;
 use crate::props::{Props, SceneModel};
 use crate::shade::material::colour_of;
 use crate::shade::outskirts::Outskirts;
-use crate::shade::sun_map::SunMaps;
+use crate::shade::sun_tiles::SunMaps;
 use cosfly_domain::{ObstacleKind, Season, Town};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_materials::grid::LightGrid;
@@ -14,7 +14,8 @@ use cosfly_materials::leaves::Leaves;
 use cosfly_materials::parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox, boxes_of, join_crowns};
 use cosfly_materials::pattern::{NoiseTexture, noise_texture};
 use cosfly_materials::roof_edges::roofs_that_go_on;
-use cosfly_materials::roof_steps::{RoofStep, Side, roof_steps};
+use cosfly_materials::roof_step::{RoofStep, Side};
+use cosfly_materials::roof_steps::roof_steps;
 use cosfly_materials::vector::Vec3;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -110,7 +111,7 @@ impl Scene {
         self.season
     }
 
-    /// The same town in a season of one's choice; without one, in its own.
+    /// This town in a season of one's choice; without one, in its own.
     pub fn in_season(mut self, season: Option<Season>) -> Self {
         let Some(season) = season else { return self };
         self.season = season;

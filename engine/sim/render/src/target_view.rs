@@ -1,7 +1,7 @@
 //! Visible part of people in a frame, counted in pixels; of the target, against the target drawn alone.
 
 use cosfly_domain::{FrameImages, PersonView, PixelBox, TARGET_INSTANCE, TargetView};
-use cosfly_figures::figure::Bystander;
+use cosfly_figures::Bystander;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 use cosfly_raster::visibility::{NO_FACE, Visibility};

@@ -123,7 +123,7 @@ fn vehicles_and_riders_are_where_rays_meet_them_with_the_labels_of_their_kinds()
         let (mut triangles, mut labels) = (vec![], vec![]);
         for (walker, instance) in &drawn {
             let mut figure = vec![];
-            cosfly_figures::figure::figure(walker, &Clothes::draw(&walker.clothes_seed), 0, &mut figure);
+            cosfly_figures::figure(walker, &Clothes::draw(&walker.clothes_seed), 0, &mut figure);
             for triangle in figure {
                 triangles.push((triangle.corners_in_world, labels.len() as u32));
                 labels.push((walker.body.label(triangle.region), *instance));

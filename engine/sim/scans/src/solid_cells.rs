@@ -1,29 +1,11 @@
 //! Columns of solid space on a grid, joined into few boxes.
 
 use crate::grid::{Grid, parts};
-use crate::window_cover::{Block, Volumes, WIDEST, Window};
+use crate::window_cover::{Bases, Block, Column, Volumes, WIDEST, Window};
 use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec2;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-
-/// Solid space over one cell, world, metres.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Column {
-    /// Lower end.
-    pub base_m: f64,
-    /// Upper end.
-    pub top_m: f64,
-}
-
-/// Which of the bases of joined columns is that of their box.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bases {
-    /// The highest: nothing below a base is taken.
-    Highest,
-    /// The lowest: nothing solid is lost.
-    Lowest,
-}
 
 /// A cover of columns.
 #[derive(Clone, Debug, Default)]

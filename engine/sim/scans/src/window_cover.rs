@@ -1,6 +1,5 @@
 //! [`Window`]: columns of a part of a grid, covered by few blocks, the one that covers most new columns first.
 
-use crate::solid_cells::{Bases, Column};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
@@ -12,6 +11,24 @@ pub const SAME_BASE_M: f64 = 0.5;
 const THINNEST_M: f64 = 0.1;
 /// Most columns and rows of a window: a row is one word of bits. The work for a cell grows with its square.
 pub const WIDEST: usize = 48;
+
+/// Solid space over one cell, world, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Column {
+    /// Lower end.
+    pub base_m: f64,
+    /// Upper end.
+    pub top_m: f64,
+}
+
+/// Which of the bases of joined columns is that of their box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bases {
+    /// The highest: nothing below a base is taken.
+    Highest,
+    /// The lowest: nothing solid is lost.
+    Lowest,
+}
 
 /// Columns of some cells in rows.
 #[derive(Clone, Debug)]

@@ -33,14 +33,14 @@ impl MapError {
         Self { message: message.into(), place: None, hints: Vec::new() }
     }
 
-    /// The same with one more piece of advice.
+    /// This error with one more piece of advice.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hints.push(hint.into());
         self
     }
 
-    /// The same at a place.
+    /// This error at a place.
     #[must_use]
     pub fn at(mut self, place: Place) -> Self {
         self.place = Some(place);

@@ -1,4 +1,4 @@
-//! [`Region`]: rings around ground, and what is left of them outside a convex shape.
+//! [`PlanRegion`]: rings around ground, and what is left of them outside a convex shape.
 
 use crate::polygons::{contains, twice_area_m2};
 use cosfly_frames::DVec2;
@@ -8,12 +8,12 @@ const SMALLEST_M2: f64 = 1e-6;
 
 /// Ground between rings, plan view, metres. Outer rings turn from x towards y, holes the other way round.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Region {
+pub struct PlanRegion {
     rings: Vec<Vec<DVec2>>,
 }
 
-impl Region {
-    /// Of an outer ring and its holes, each either way round; sides must not cross.
+impl PlanRegion {
+    /// Region of an outer ring and its holes, each either way round; sides must not cross.
     pub fn new(outer: &[DVec2], holes: &[Vec<DVec2>]) -> Self {
         let holes = holes.iter().map(|hole| turned(hole, false));
         Self { rings: core::iter::once(turned(outer, true)).chain(holes).collect() }
@@ -131,7 +131,7 @@ mod tests {
         points.iter().map(|(x, y)| DVec2::new(*x, *y)).collect()
     }
 
-    fn area_m2(region: &Region) -> f64 {
+    fn area_m2(region: &PlanRegion) -> f64 {
         region.rings.iter().map(|ring| 0.5 * twice_area_m2(ring)).sum()
     }
 
@@ -148,7 +148,7 @@ mod tests {
             (9.0, 0.0),
         ]);
         let hole = ring(&[(3.0, 12.0), (3.0, 16.0), (26.0, 17.0), (26.0, 12.0)]);
-        let region = Region::new(&outer, &[hole]);
+        let region = PlanRegion::new(&outer, &[hole]);
         let mut stream = Seed::of_item(3, "regions", "cuts").stream("shapes");
         for _ in 0..300 {
             let corner = DVec2::new(stream.uniform(-5.0, 35.0), stream.uniform(-5.0, 25.0));
@@ -174,7 +174,7 @@ mod tests {
         let fork =
             ring(&[(0.0, 0.0), (9.0, 0.0), (9.0, 8.0), (6.0, 8.0), (6.0, 3.0), (3.0, 3.0), (3.0, 8.0), (0.0, 8.0)]);
         let parts =
-            Region::new(&fork, &[]).outside(&ring(&[(-1.0, 5.0), (10.0, 5.0), (10.0, 6.0), (-1.0, 6.0)])).unwrap();
+            PlanRegion::new(&fork, &[]).outside(&ring(&[(-1.0, 5.0), (10.0, 5.0), (10.0, 6.0), (-1.0, 6.0)])).unwrap();
         let rings: Vec<usize> = parts.iter().map(|part| part.rings.len()).collect();
         assert_eq!(rings, [1, 2], "the root, and two tips that are apart");
         assert!((parts.iter().map(area_m2).sum::<f64>() - (57.0 - 6.0)).abs() < 1e-9);

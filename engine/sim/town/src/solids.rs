@@ -5,7 +5,7 @@ use crate::cover::{
     strips,
 };
 use crate::polygons::{contains, twice_area_m2};
-use crate::regions::Region;
+use crate::regions::PlanRegion;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec2;
 
@@ -106,7 +106,7 @@ impl CoarseThings {
         }
     }
 
-    /// What there is to say.
+    /// Warnings about covers that are coarse.
     pub fn warnings(&self) -> Vec<String> {
         let mut lines = Vec::new();
         if self.covers > 0 {
@@ -162,7 +162,7 @@ pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Ro
 }
 
 /// Boxes whose union covers a region between two heights, world, metres; overhang in plan as in [`crate::cover`].
-pub fn layer_boxes(region: &Region, base_m: f64, top_m: f64) -> Solid {
+pub fn layer_boxes(region: &PlanRegion, base_m: f64, top_m: f64) -> Solid {
     let (outer, holes) = region.rings();
     let Cover { rectangles, coarse } = cover_rings(&outer, &holes);
     let boxes = rectangles.into_iter().map(|one| upright(one, base_m, top_m)).collect();
@@ -281,7 +281,7 @@ impl RoofPlan {
     }
 }
 
-/// What two sorted lists of spans share.
+/// Spans that two sorted lists share.
 fn overlaps(some: &[Span], others: &[Span]) -> Vec<Span> {
     let mut out = Vec::new();
     let (mut i, mut j) = (0, 0);

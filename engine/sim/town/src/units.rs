@@ -28,7 +28,7 @@ pub fn height_unit_m(code: u32) -> f64 {
     }
 }
 
-/// What to know of a map whose file counts in another unit than metres.
+/// Warning about a map whose file counts in another unit than metres.
 pub fn unit_warning(unit_m: f64, projection: Option<&str>) -> Option<String> {
     let name = projection.filter(|_| unit_m != 1.0)?;
     let name: String = name.chars().take(60).collect();
@@ -95,7 +95,7 @@ const SURVEY_FEET: &[(u16, u16)] = &[
     (32064, 32077), (32099, 32099), (32164, 32167), (32664, 32667),
 ];
 
-/// The same in international feet.
+/// Codes of coordinate systems in international feet, as ranges.
 #[rustfmt::skip]
 const FEET: &[(u16, u16)] = &[
     (2222, 2224), (2251, 2253), (2256, 2256), (2265, 2266), (2269, 2270), (2273, 2273), (2280, 2282), (2867, 2869),

@@ -4,7 +4,7 @@
 use cosfly_domain::Town;
 use cosfly_frames::{DVec2, Seed, real};
 use cosfly_maps::{MapConfig, read_town};
-use cosfly_vehicles::fcd::{FcdConfig, NetLocation, Place, read};
+use cosfly_vehicles::fcd::{FcdConfig, FcdProjection, NetLocation, read};
 use cosfly_world::Clock;
 use std::fs::File;
 use std::io::{BufReader, Read};
@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let config: FcdConfig = serde_json::from_str(config)?;
     let mut head = vec![];
     File::open(net)?.take(65_536).read_to_end(&mut head)?;
-    let place = Place::new(&town, &NetLocation::of_net(&head)?, config.geo)?;
+    let place = FcdProjection::new(&town, &NetLocation::of_net(&head)?, config.geo)?;
     let clock = Clock::new(frames.parse()?, dt_s.parse()?, 0.1);
     let recorded = read(BufReader::new(File::open(fcd)?), &place, &config, clock, Seed([1; 32]))?;
     println!("frame,source,kind,length_m,x,y,heading_rad,speed_mps,from_lane_m");

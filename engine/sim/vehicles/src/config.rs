@@ -1,6 +1,6 @@
 //! [`VehicleConfig`]: the parameters of simulated vehicles in a recipe, and the rules between them.
 
-use crate::error::ConfigRule;
+use crate::error::VehicleConfigRule;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -80,7 +80,7 @@ impl VehicleConfig {
     ///
     /// # Errors
     /// The first broken rule.
-    pub fn validate(&self) -> Result<(), ConfigRule> {
+    pub fn validate(&self) -> Result<(), VehicleConfigRule> {
         within(&["count"], f64::from(self.count), 0.0, 5_000.0)?;
         within(&["speed_share"], self.speed_share, 0.2, 1.5)?;
         within(&["speed_deviation"], self.speed_deviation, 0.0, 0.3)?;
@@ -101,24 +101,24 @@ impl VehicleConfig {
         }
         if shares.iter().sum::<f64>() <= 0.0 {
             let message = "all shares of `mix` are 0; at least one must be larger".to_owned();
-            return Err(ConfigRule { path: &["mix"], message });
+            return Err(VehicleConfigRule { path: &["mix"], message });
         }
         if let Some(area @ [left, top, right, bottom]) = self.area_m
             && !(area.iter().all(|edge| edge.is_finite()) && left < right && top < bottom)
         {
             let message = format!("`area_m` is `{area:?}`; it must be smallest x, smallest y, largest x, largest y");
-            return Err(ConfigRule { path: &["area_m"], message });
+            return Err(VehicleConfigRule { path: &["area_m"], message });
         }
         Ok(())
     }
 }
 
-fn within(path: &'static [&'static str], value: f64, min: f64, max: f64) -> Result<(), ConfigRule> {
+fn within(path: &'static [&'static str], value: f64, min: f64, max: f64) -> Result<(), VehicleConfigRule> {
     let name = path.last().copied().unwrap_or_default();
     if (min..=max).contains(&value) {
         return Ok(());
     }
-    Err(ConfigRule { path, message: format!("`{name}` is `{value}`; it must be within `{min}` and `{max}`") })
+    Err(VehicleConfigRule { path, message: format!("`{name}` is `{value}`; it must be within `{min}` and `{max}`") })
 }
 
 #[cfg(test)]

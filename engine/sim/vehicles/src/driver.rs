@@ -1,4 +1,4 @@
-//! What a driver does: the intelligent driver model, bends, people on crossings.
+//! Acceleration of a driver: the intelligent driver model, bends, people on crossings.
 
 use crate::kinds::Limits;
 use crate::network::{Crossing, Network};

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// A rule of the config that is broken.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ConfigRule {
+pub struct VehicleConfigRule {
     /// Keys from the config's table to the value.
     pub path: &'static [&'static str],
     /// The value and the rule.
@@ -15,7 +15,7 @@ pub struct ConfigRule {
 #[derive(Clone, Debug, PartialEq)]
 pub enum VehicleError {
     /// A config rule is broken.
-    Config(ConfigRule),
+    Config(VehicleConfigRule),
     /// The town has no lanes.
     NoLanes {
         /// Name of the town.
@@ -31,7 +31,7 @@ pub enum VehicleError {
 }
 
 impl VehicleError {
-    /// What the user can do.
+    /// Advice for the user.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Config(_) => "change the value in the recipe",

@@ -3,23 +3,12 @@
 
 use crate::driver::STANDING_GAP_M;
 use crate::network::Network;
-use crate::vehicles::Vehicle;
+use crate::vehicle::Vehicle;
 
 /// Vehicles ask from this distance beyond their braking distance, metres.
 const ASK_M: f64 = 12.0;
 /// Who waits longer than this keeps others from going before, seconds.
 const PATIENCE_S: f64 = 4.0;
-
-/// The way of a vehicle through junctions.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Passage {
-    /// Lanes of the route before this index are granted, or need no grant.
-    pub granted: usize,
-    /// Lanes before this index were left.
-    pub left: usize,
-    /// When the vehicle asked for the next way, seconds.
-    pub asked_s: Option<f64>,
-}
 
 /// Who holds which lane.
 #[derive(Clone, Debug)]

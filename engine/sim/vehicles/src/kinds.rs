@@ -4,7 +4,7 @@ use crate::config::MixConfig;
 use cosfly_domain::{BodyKind, LaneKind};
 use cosfly_frames::{DVec3, RandomStream};
 
-/// What a kind of vehicle can do.
+/// Limits of a kind of vehicle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
     /// Largest speed, m/s.

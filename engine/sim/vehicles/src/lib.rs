@@ -15,8 +15,9 @@ mod outlines;
 mod parked;
 mod route;
 mod start;
+mod vehicle;
 mod vehicles;
 
 pub use config::{MixConfig, VehicleConfig};
-pub use error::{ConfigRule, VehicleError};
+pub use error::{VehicleConfigRule, VehicleError};
 pub use vehicles::Vehicles;

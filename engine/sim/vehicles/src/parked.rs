@@ -8,7 +8,7 @@ use crate::network::Network;
 use crate::outlines::{Solid, to_outline};
 use crate::route::Route;
 use crate::start::is_free;
-use crate::vehicles::{Doing, Vehicle};
+use crate::vehicle::{Doing, Vehicle};
 use cosfly_domain::{BodyKind, BodyPlan, LaneKind, Town};
 use cosfly_frames::{DVec2, Seed, real};
 use cosfly_world::Snapshot;

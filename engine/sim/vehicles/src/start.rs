@@ -5,7 +5,7 @@ use crate::kinds::{draw_kind, drives_on, size_m};
 use crate::network::Network;
 use crate::outlines::{Solid, meet};
 use crate::route::Route;
-use crate::vehicles::{Doing, Vehicle};
+use crate::vehicle::{BESIDE_M, Doing, Vehicle};
 use cosfly_domain::{BodyKind, BodyPlan, LaneKind, Town};
 use cosfly_frames::Seed;
 
@@ -13,8 +13,6 @@ use cosfly_frames::Seed;
 const TRIES: u64 = 40;
 /// Free space around a vehicle in the beginning, metres.
 const APART_M: f64 = 2.0;
-/// Room that a vehicle needs beside itself on its lane, metres.
-pub(crate) const BESIDE_M: f64 = 0.25;
 /// Distance between a bicycle and the edge of the lane, metres.
 const FROM_EDGE_M: f64 = 0.35;
 

@@ -3,14 +3,13 @@
 use crate::config::VehicleConfig;
 use crate::driver::Driver;
 use crate::error::VehicleError;
-use crate::junctions::{Junctions, Passage, stop_m};
-use crate::kinds::{Limits, limits};
+use crate::junctions::{Junctions, stop_m};
 use crate::network::Network;
 use crate::outlines::{blocked_lanes, meet};
-use crate::route::Route;
+use crate::vehicle::{Doing, Vehicle};
 use crate::{parked, start};
-use cosfly_domain::{BodyKind, BodyPlan, Town};
-use cosfly_frames::{RandomStream, Seed, TargetState};
+use cosfly_domain::{BodyPlan, Town};
+use cosfly_frames::{Seed, TargetState};
 use cosfly_world::{Clock, Population, Present, Snapshot};
 
 /// Vehicles keep this distance from each other when they move, metres.
@@ -35,80 +34,6 @@ pub struct Vehicles {
     notes: Vec<String>,
     held_steps: u64,
     steps: u64,
-}
-
-/// One vehicle.
-pub(crate) struct Vehicle {
-    pub plan: BodyPlan,
-    pub limits: Limits,
-    pub speed_share: f64,
-    pub route: Route,
-    pub passage: Passage,
-    pub random: RandomStream,
-    /// Way of its middle along the route, metres.
-    pub way_m: f64,
-    pub speed_mps: f64,
-    pub state: TargetState,
-    pub doing: Doing,
-}
-
-/// What a vehicle does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Doing {
-    Drives,
-    IsParked,
-    HasLeft,
-}
-
-impl Vehicle {
-    /// A vehicle that stands on the first lane of a route.
-    pub fn new(network: &Network, plan: BodyPlan, route: Route, way_m: f64, doing: Doing) -> Self {
-        Self {
-            limits: limits(plan.kind),
-            speed_share: 1.0,
-            passage: Passage::default(),
-            random: plan.looks.stream("route"),
-            way_m,
-            speed_mps: 0.0,
-            state: route.state(network, way_m, 0.0),
-            route,
-            plan,
-            doing,
-        }
-    }
-
-    pub fn length_m(&self) -> f64 {
-        self.plan.size_m.x
-    }
-
-    pub fn front_m(&self) -> f64 {
-        self.way_m + 0.5 * self.length_m()
-    }
-
-    /// Width of lanes that the vehicle prefers, metres.
-    pub fn needed_m(&self) -> f64 {
-        if self.plan.kind == BodyKind::Bicycle { 0.0 } else { self.plan.size_m.y + 2.0 * start::BESIDE_M }
-    }
-
-    pub fn drives(&self) -> bool {
-        self.doing == Doing::Drives
-    }
-
-    pub fn driver<'a>(&'a self, network: &'a Network, number: u32, headway_s: f64) -> Driver<'a> {
-        Driver {
-            network,
-            route: &self.route,
-            limits: &self.limits,
-            speed_share: self.speed_share,
-            headway_s,
-            number,
-            way_m: self.way_m,
-            speed_mps: self.speed_mps,
-            length_m: self.length_m(),
-            width_m: self.plan.size_m.y,
-            stop_m: stop_m(network, self),
-        }
-    }
 }
 
 impl Vehicles {
@@ -171,7 +96,7 @@ impl Vehicles {
         for number in 0..self.vehicles.len() {
             let vehicle = &self.vehicles[number];
             if vehicle.drives() {
-                let driver = vehicle.driver(&self.network, number as u32, self.headway_s);
+                let driver = driver_of(vehicle, &self.network, number as u32, self.headway_s);
                 let speed_mps = driver.calm_speed_mps(&everybody, &mut self.near);
                 let vehicle = &mut self.vehicles[number];
                 (vehicle.speed_mps, vehicle.state.speed_mps) = (speed_mps, speed_mps);
@@ -255,7 +180,7 @@ impl Population for Vehicles {
         for number in 0..self.vehicles.len() {
             let vehicle = &self.vehicles[number];
             if vehicle.drives() {
-                let driver = vehicle.driver(&self.network, self.first_number + number as u32, self.headway_s);
+                let driver = driver_of(vehicle, &self.network, self.first_number + number as u32, self.headway_s);
                 self.accelerations_mps2[number] = driver.acceleration(everybody, &mut self.near);
             }
         }
@@ -273,5 +198,22 @@ impl Population for Vehicles {
             notes.push(format!("{words}: they would have touched somebody"));
         }
         notes
+    }
+}
+
+/// Who drives a vehicle, and what is asked of them.
+fn driver_of<'a>(vehicle: &'a Vehicle, network: &'a Network, number: u32, headway_s: f64) -> Driver<'a> {
+    Driver {
+        network,
+        route: &vehicle.route,
+        limits: &vehicle.limits,
+        speed_share: vehicle.speed_share,
+        headway_s,
+        number,
+        way_m: vehicle.way_m,
+        speed_mps: vehicle.speed_mps,
+        length_m: vehicle.length_m(),
+        width_m: vehicle.plan.size_m.y,
+        stop_m: stop_m(network, vehicle),
     }
 }

@@ -2,7 +2,7 @@
 
 use cosfly_domain::{BodyKind, Town};
 use cosfly_frames::{DVec2, DVec3, Seed, real};
-use cosfly_vehicles::fcd::{FcdConfig, FcdError, FcdType, NetLocation, Place, read};
+use cosfly_vehicles::fcd::{FcdConfig, FcdError, FcdProjection, FcdType, NetLocation, read};
 use cosfly_world::{Clock, Population, Prescribed, simulate};
 use std::collections::BTreeMap;
 use std::io::{BufReader, Read};
@@ -18,7 +18,7 @@ fn config() -> FcdConfig {
 
 fn read_with(text: &str, config: &FcdConfig, clock: Clock) -> Result<Prescribed, FcdError> {
     let net = NetLocation { offset_m: DVec2::new(100.0, 50.0), projection: None };
-    read(text.as_bytes(), &Place::new(&town(), &net, false).unwrap(), config, clock, Seed([1; 32]))
+    read(text.as_bytes(), &FcdProjection::new(&town(), &net, false).unwrap(), config, clock, Seed([1; 32]))
 }
 
 fn vehicle(id: &str, x: f64, y: f64, angle: f64) -> String {
@@ -121,7 +121,7 @@ fn degrees_are_told_from_metres_by_the_file_and_by_its_speeds() {
         town.origin.geo_reference = Some("+proj=utm +zone=33 +datum=WGS84".into());
         let net = NetLocation { offset_m: DVec2::ZERO, projection: Some("+proj=utm +zone=33 +datum=WGS84".into()) };
         let config = FcdConfig { geo, ..config() };
-        let place = Place::new(&town, &net, geo).unwrap();
+        let place = FcdProjection::new(&town, &net, geo).unwrap();
         read(text.as_bytes(), &place, &config, Clock::new(21, 1.0, 1.0), Seed([1; 32])).unwrap_err()
     };
     let option = "<!-- generated\n<fcd-output.geo value=\"true\"/>\n-->";
@@ -150,12 +150,12 @@ fn elements_of_other_names_are_counted_and_nets_say_their_place_once() {
     assert!(twice.to_string().contains("a second `<location>`") && twice.line == Some(3), "{twice}");
     // A projection of SUMO's own cannot be compared with that of a map.
     let net = NetLocation { offset_m: DVec2::ZERO, projection: Some("-".into()) };
-    assert!(Place::new(&town(), &net, false).is_ok());
+    assert!(FcdProjection::new(&town(), &net, false).is_ok());
     let mut placed = town();
     placed.origin.geo_reference = Some("+proj=utm +zone=33 +units=us-ft".into());
-    let error = Place::new(&placed, &net, false).err().unwrap();
+    let error = FcdProjection::new(&placed, &net, false).err().unwrap();
     assert!(error.to_string().contains("projection `-` of the net"), "{error}");
-    let error = Place::new(&placed, &net, true).err().unwrap();
+    let error = FcdProjection::new(&placed, &net, true).err().unwrap();
     assert!(error.to_string().contains("`+units=us-ft` is not read"), "{error}");
 }
 
@@ -186,7 +186,7 @@ impl Read for Endless {
 fn long_files_take_the_memory_of_their_frames() {
     let endless = Endless { step: 0, ready: b"<fcd-export>\n".to_vec(), given: 0 };
     let net = NetLocation { offset_m: DVec2::new(100.0, 50.0), projection: None };
-    let place = Place::new(&town(), &net, false).unwrap();
+    let place = FcdProjection::new(&town(), &net, false).unwrap();
     // 4 s in steps of a millisecond: about 25 MB of text for nine frames.
     let recorded = read(BufReader::new(endless), &place, &config(), Clock::new(9, 0.5, 0.5), Seed([1; 32])).unwrap();
     assert_eq!(recorded.bodies().len(), 50);

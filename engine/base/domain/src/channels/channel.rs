@@ -10,7 +10,7 @@ pub struct Channel {
     /// Meaning with unit and frame, a sentence without its first capital.
     pub doc: &'static str,
     /// Origin of the pixels, and with it their element type.
-    pub source: Source,
+    pub source: ChannelSource,
     /// Keys and texts that a log carries beside the channel's topic.
     pub notes: &'static [(&'static str, &'static str)],
     /// Whether the stored bytes of a pixel are a value of the channel, for channels on request; `cosfly verify` compares
@@ -20,7 +20,7 @@ pub struct Channel {
 
 /// Origin of a channel's pixels.
 #[derive(Clone, Copy, Debug)]
-pub enum Source {
+pub enum ChannelSource {
     /// Shading: sRGB, three bytes a pixel; part of every frame.
     Colour,
     /// Planar depth, metres; part of every frame.
@@ -72,17 +72,17 @@ impl Channel {
     /// Element type of the pixels.
     pub fn element(&self) -> Element {
         match self.source {
-            Source::Colour => Element::Colour,
-            Source::Depth | Source::Number(_) => Element::Float,
-            Source::Labels => Element::Label,
-            Source::Ids => Element::Id,
-            Source::Bytes(_) => Element::Bytes,
+            ChannelSource::Colour => Element::Colour,
+            ChannelSource::Depth | ChannelSource::Number(_) => Element::Float,
+            ChannelSource::Labels => Element::Label,
+            ChannelSource::Ids => Element::Id,
+            ChannelSource::Bytes(_) => Element::Bytes,
         }
     }
 
     /// Whether the channel is drawn only where a recipe asks for it.
     pub fn is_on_request(&self) -> bool {
-        matches!(self.source, Source::Number(_) | Source::Bytes(_))
+        matches!(self.source, ChannelSource::Number(_) | ChannelSource::Bytes(_))
     }
 
     /// Whether a log may hold small pictures of the channel: of all but ids, whose numbers are no picture.
@@ -93,17 +93,17 @@ impl Channel {
     /// Writes the stored bytes of one pixel of a channel on request; `pixel` has [`Self::bytes_on_request`] bytes.
     pub fn draw(&self, point: &SeenPoint, pixel: &mut [u8]) {
         match self.source {
-            Source::Number(number) => pixel.copy_from_slice(&number(point).to_le_bytes()),
-            Source::Bytes(three) => pixel.copy_from_slice(&three(point)),
-            Source::Colour | Source::Depth | Source::Labels | Source::Ids => {}
+            ChannelSource::Number(number) => pixel.copy_from_slice(&number(point).to_le_bytes()),
+            ChannelSource::Bytes(three) => pixel.copy_from_slice(&three(point)),
+            ChannelSource::Colour | ChannelSource::Depth | ChannelSource::Labels | ChannelSource::Ids => {}
         }
     }
 
     /// Bytes of a pixel of a channel on request; 0 for the channels of every frame.
     pub fn bytes_on_request(&self) -> usize {
         match self.source {
-            Source::Number(_) => 4,
-            Source::Bytes(_) => 3,
+            ChannelSource::Number(_) => 4,
+            ChannelSource::Bytes(_) => 3,
             _ => 0,
         }
     }

@@ -10,7 +10,7 @@ pub mod normals;
 pub mod rgb;
 pub mod semantic;
 
-pub use channel::{Channel, Element, SeenPoint, Source};
+pub use channel::{Channel, ChannelSource, Element, SeenPoint};
 pub use channel_set::ChannelSet;
 pub use image::ChannelImage;
 

@@ -1,6 +1,6 @@
 //! Channel `normals`: unit normals of the surfaces.
 
-use super::channel::{Channel, SeenPoint, Source};
+use super::channel::{Channel, ChannelSource, SeenPoint};
 use cosfly_frames::DVec3;
 
 /// Unit normals on the camera's side, world frame (CARLA's: x east, y south, z up), three bytes x, y, z:
@@ -9,7 +9,7 @@ pub static CHANNEL: Channel = Channel {
     name: "normals",
     doc: "unit normals of the surfaces on the camera's side, world frame (x east, y south, z up): \
           component = (byte - 128) / 127; 0, 0, 0 for sky.",
-    source: Source::Bytes(stored),
+    source: ChannelSource::Bytes(stored),
     notes: &[
         ("frame", "world of CARLA: x east, y south, z up; not `map`, whose y is minus that"),
         ("value", "(byte - 128) / 127 for x, y, z"),

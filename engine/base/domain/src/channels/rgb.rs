@@ -1,7 +1,7 @@
 //! Channel `rgb`: colours.
 
-use super::channel::{Channel, Source};
+use super::channel::{Channel, ChannelSource};
 
 /// Colours, sRGB.
 pub static CHANNEL: Channel =
-    Channel { name: "rgb", doc: "the colour image.", source: Source::Colour, notes: &[], is_value: |_| true };
+    Channel { name: "rgb", doc: "the colour image.", source: ChannelSource::Colour, notes: &[], is_value: |_| true };

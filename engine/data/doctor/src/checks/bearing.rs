@@ -1,6 +1,6 @@
 //! Plausibility of angles where the camera is unknown: a drone that shows its target looks towards it.
 
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 use cosfly_frames::real;
 use std::f64::consts::{PI, TAU};
 
@@ -17,7 +17,7 @@ const ENOUGH: usize = 8;
 type Mistake = (&'static str, &'static str, fn(f64) -> f64);
 
 /// Compares yaw with the direction to the target in all frames that show it.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     if episode.camera.is_some() {
         // Projection tells more.
         return vec![];

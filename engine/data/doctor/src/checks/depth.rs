@@ -4,7 +4,7 @@ use super::median::median;
 use super::motion::frames;
 use super::surface;
 use crate::episode::OFFSETS;
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 
 /// Range of the depth of a body's surface over that of its middle.
 const RATIOS: (f64, f64) = (0.8, 1.25);
@@ -17,7 +17,7 @@ const UNITS: [(f64, &str); 4] =
 const SPREAD_M: f64 = 0.4;
 
 /// Compares depth images with distances to the target.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     // A body that is hidden in parts shows the depth of what hides it.
     let free = |frame: usize| episode.moments.get(frame).and_then(|it| it.visible).is_none_or(|share| share > 0.95);
     let looks: Vec<_> = episode.looks.iter().filter(|look| free(look.frame)).collect();

@@ -1,11 +1,11 @@
 //! A target below drawn ground: the ground that is seen around its feet lies above them.
 
 use super::median::median;
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 use cosfly_read::drawn_ground::{BELOW_GROUND_M, is_below};
 
 /// Compares stated feet with the ground in depth images.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     let rises_m: Vec<f64> = episode.looks.iter().filter_map(|look| look.rise_m).collect();
     let below = rises_m.iter().filter(|rise| **rise > BELOW_GROUND_M).count();
     let Some(middle_m) = median(rises_m.iter().copied()).filter(|_| is_below(below, rises_m.len())) else {

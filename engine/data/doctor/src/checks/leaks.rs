@@ -1,6 +1,6 @@
 //! Leaks between splits.
 
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 use cosfly_frames::DVec3;
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ pub struct Trace {
 
 impl Trace {
     /// The trace of an episode.
-    pub fn of(episode: &Episode) -> Self {
+    pub fn of(episode: &ExaminedEpisode) -> Self {
         Self {
             id: episode.id.clone(),
             split: episode.split.clone(),
@@ -122,7 +122,7 @@ fn same_ways(episodes: &[Trace], flags: &mut Vec<Flag>) {
     }
 }
 
-fn way(episode: &Episode) -> Vec<DVec3> {
+fn way(episode: &ExaminedEpisode) -> Vec<DVec3> {
     let count = episode.moments.len();
     let points = (0..POINTS).map(|at| at * count.saturating_sub(1) / (POINTS - 1));
     points.filter_map(|at| episode.moments.get(at)?.target_in_world).collect()

@@ -18,11 +18,11 @@ pub(crate) mod words;
 pub use extent::of_towns as extent;
 pub use leaks::{Trace, of_all as leaks};
 
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 
 /// All checks of one episode.
-pub fn of_episode(episode: &Episode) -> Vec<Flag> {
-    let checks: [fn(&Episode) -> Vec<Flag>; 11] = [
+pub fn of_episode(episode: &ExaminedEpisode) -> Vec<Flag> {
+    let checks: [fn(&ExaminedEpisode) -> Vec<Flag>; 11] = [
         time::check,
         motion::check,
         projection::check,

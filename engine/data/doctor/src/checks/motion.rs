@@ -1,6 +1,6 @@
 //! Frozen poses, actions that do not lead to the next pose, broken limits.
 
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 use cosfly_frames::{DVec3, Pose};
 
 /// Largest difference between actions and poses, metres and degrees.
@@ -19,13 +19,13 @@ const NOTICEABLE_M: f64 = 0.05;
 const LIMIT_TOLERANCE: f64 = 1e-3;
 
 /// Checks poses, actions and limits.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     let parts = [frozen(episode), actions(episode)];
     parts.into_iter().flatten().chain(limits(episode)).collect()
 }
 
 /// Finds a pose that stays the same for long while the target walks: repeated frames.
-fn frozen(episode: &Episode) -> Option<Flag> {
+fn frozen(episode: &ExaminedEpisode) -> Option<Flag> {
     let moments = &episode.moments;
     let (mut start, mut longest) = (0, (0, 0));
     for frame in 1..moments.len() {
@@ -54,7 +54,7 @@ fn frozen(episode: &Episode) -> Option<Flag> {
 }
 
 /// Compares actions with the next poses; recognises actions of other frames.
-fn actions(episode: &Episode) -> Option<Flag> {
+fn actions(episode: &ExaminedEpisode) -> Option<Flag> {
     let moments = &episode.moments;
     let error = |shift: i64| {
         let mut worst: f64 = 0.0;
@@ -86,7 +86,7 @@ fn actions(episode: &Episode) -> Option<Flag> {
 }
 
 /// The pose that the action of the frame before leads to.
-fn led(episode: &Episode, frame: usize) -> Option<Pose> {
+fn led(episode: &ExaminedEpisode, frame: usize) -> Option<Pose> {
     match &episode.followed {
         Some(followed) => followed.get(frame).copied(),
         None => episode.moments.get(frame).map(|moment| moment.drone),
@@ -99,7 +99,7 @@ pub fn frames(shift: i64) -> String {
     if shift.abs() == 1 { format!("the frame {side}") } else { format!("{} frames {side}", shift.abs()) }
 }
 
-fn turns(episode: &Episode) -> Option<Flag> {
+fn turns(episode: &ExaminedEpisode) -> Option<Flag> {
     for (frame, pair) in episode.moments.windows(2).enumerate() {
         let Some(stated) = pair[0].turn_deg else { continue };
         let Some(next) = led(episode, frame + 1) else { continue };
@@ -129,7 +129,7 @@ pub fn extremes(places: &[DVec3], dt_s: f64) -> [f64; 3] {
 }
 
 /// Finds a step that is neither flown nor a displacement: its limit is in metres, for any rate of frames.
-fn jump(episode: &Episode, places: &[DVec3]) -> Option<Flag> {
+fn jump(episode: &ExaminedEpisode, places: &[DVec3]) -> Option<Flag> {
     let mut steps_m: Vec<f64> = places.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
     let (frame, longest_m) = steps_m.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let displaced_m = match episode.displaced_m {
@@ -153,7 +153,7 @@ fn jump(episode: &Episode, places: &[DVec3]) -> Option<Flag> {
     Some(Flag::damage("pose-jump", &episode.id, message))
 }
 
-fn limits(episode: &Episode) -> Vec<Flag> {
+fn limits(episode: &ExaminedEpisode) -> Vec<Flag> {
     let places: Vec<DVec3> = episode.moments.iter().map(|it| it.drone.position_in_world).collect();
     let found = extremes(&places, episode.dt_s);
     let mut flags = vec![];

@@ -1,9 +1,9 @@
 //! Pictures that repeat.
 
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 
 /// Finds equal files in neighbouring frames whose poses differ.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     let repeated: Vec<usize> = episode
         .looks
         .windows(2)

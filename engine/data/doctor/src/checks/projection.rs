@@ -3,7 +3,7 @@
 
 use super::median::median;
 use super::motion::frames;
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 use cosfly_domain::Camera;
 use cosfly_frames::Pose;
 
@@ -32,7 +32,7 @@ const MISTAKES: [Mistake; 4] = [
 ];
 
 /// Finds the mistake that explains the places of boxes.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     let Some(camera) = episode.camera else { return vec![] };
     let Some(own) = error(episode, &camera, 0, |pose| pose) else { return vec![] };
     let shifts = [-1, 1, -2, 2, -3, 3].map(|shift| (shift, error(episode, &camera, shift, |pose| pose)));
@@ -59,7 +59,7 @@ pub fn check(episode: &Episode) -> Vec<Flag> {
 
 /// Median distance between the projected and the shown middle, in units of the tolerance. `shift` takes the pose and the target
 /// of another frame.
-fn error(episode: &Episode, camera: &Camera, shift: i64, mended: fn(Pose) -> Pose) -> Option<f64> {
+fn error(episode: &ExaminedEpisode, camera: &Camera, shift: i64, mended: fn(Pose) -> Pose) -> Option<f64> {
     let moments = &episode.moments;
     let mut errors = vec![];
     for (frame, moment) in moments.iter().enumerate() {

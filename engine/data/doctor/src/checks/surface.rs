@@ -4,7 +4,7 @@
 use super::median::median;
 use super::motion::frames;
 use crate::episode::OFFSETS;
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 
 /// Smallest number of frames with walls in view for a verdict.
 const ENOUGH: usize = 4;
@@ -14,18 +14,18 @@ const ON_M: f64 = 0.03;
 const GAIN: f64 = 4.0;
 
 /// Whether walls are enough to say that depth images are those of their own frames.
-pub fn are_in_place(episode: &Episode) -> bool {
+pub fn are_in_place(episode: &ExaminedEpisode) -> bool {
     gap_m(episode, 0).is_some_and(|own| own <= ON_M)
 }
 
 /// Median distance of walls in depth images from the walls, seen from the poses at a place of [`OFFSETS`].
-fn gap_m(episode: &Episode, place: usize) -> Option<f64> {
+fn gap_m(episode: &ExaminedEpisode, place: usize) -> Option<f64> {
     let gaps: Vec<f64> = episode.looks.iter().filter_map(|look| look.walls_m.get(place).copied().flatten()).collect();
     (gaps.len() >= ENOUGH).then(|| median(gaps.iter().copied()))?
 }
 
 /// Compares each depth image with the poses of frames around it.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     let gap = |place| gap_m(episode, place);
     let Some(own) = gap(0).filter(|own| *own > ON_M) else { return vec![] };
     let others = (1..OFFSETS.len()).filter_map(|place| Some((OFFSETS[place], gap(place)?)));

@@ -1,17 +1,17 @@
 //! Obstacles that are too near, targets inside of vehicles, targets that are seldom visible.
 
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 use cosfly_frames::real;
 
 /// Share of frames with less than half of the target visible from which a flight is imperfect.
 const MOSTLY_LOST: f64 = 0.5;
 
 /// Checks clearance, overlap and visibility.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     [clearance(episode), overlap(episode), lost(episode)].into_iter().flatten().collect()
 }
 
-fn clearance(episode: &Episode) -> Option<Flag> {
+fn clearance(episode: &ExaminedEpisode) -> Option<Flag> {
     let nearest = episode.moments.iter().enumerate().filter_map(|(frame, it)| Some((frame, it.clearance_m?)));
     let (frame, metres) = nearest.min_by(|a, b| a.1.total_cmp(&b.1))?;
     if metres <= 0.0 {
@@ -23,7 +23,7 @@ fn clearance(episode: &Episode) -> Option<Flag> {
     Some(Flag::imperfect("clearance", &episode.id, message))
 }
 
-fn overlap(episode: &Episode) -> Option<Flag> {
+fn overlap(episode: &ExaminedEpisode) -> Option<Flag> {
     let inside = |frame: &usize| {
         let Some(target) = episode.moments[*frame].target_in_world else { return false };
         episode.vehicles.iter().any(|(center, half, yaw_rad)| {
@@ -39,7 +39,7 @@ fn overlap(episode: &Episode) -> Option<Flag> {
     Some(Flag::imperfect("target-overlap", &episode.id, message))
 }
 
-fn lost(episode: &Episode) -> Option<Flag> {
+fn lost(episode: &ExaminedEpisode) -> Option<Flag> {
     let stated: Vec<f64> = episode.moments.iter().filter_map(|it| it.visible).collect();
     let lost = stated.iter().filter(|share| **share < 0.5).count();
     let is_lost = !stated.is_empty() && lost as f64 > MOSTLY_LOST * stated.len() as f64;

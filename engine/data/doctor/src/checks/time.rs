@@ -1,6 +1,6 @@
 //! Times that decrease, repeat or jump.
 
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 
 /// Largest difference of a step from the usual one, as a share.
 const TOLERANCE: f64 = 0.02;
@@ -8,7 +8,7 @@ const TOLERANCE: f64 = 0.02;
 const ROUNDING_S: f64 = 1.001e-3;
 
 /// Checks the steps between frames.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     let steps = || episode.moments.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).enumerate();
     let flag = |message: String| vec![Flag::damage("timestamps", &episode.id, message)];
     if let Some((frame, step)) = steps().find(|(_, step)| step.is_nan() || *step <= 0.0) {

@@ -1,10 +1,10 @@
 //! Pictures and tables of one version: where a log says that the camera was, and what of the target it shows, is in the tables.
 
 use super::median::median;
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 
 /// Flags an episode most of whose pictures are of another flight than its rows.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     let elsewhere_m: Vec<f64> = episode.looks.iter().filter_map(|look| look.elsewhere_m).collect();
     if 2 * elsewhere_m.len() <= episode.looks.len() {
         return vec![];

@@ -1,11 +1,11 @@
 //! Instructions that differ from their flights.
 
 use crate::walk::facts_of;
-use crate::{Episode, Flag};
+use crate::{ExaminedEpisode, Flag};
 use cosfly_captions::{Language, check as check_caption};
 
 /// Parses every instruction in a known language and compares it with the facts of the flight.
-pub fn check(episode: &Episode) -> Vec<Flag> {
+pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     let Some(facts) = facts_of(episode).filter(|_| !episode.captions.is_empty()) else { return vec![] };
     let mut flags = vec![];
     for (code, text) in &episode.captions {

@@ -3,7 +3,7 @@
 use super::stretch;
 use crate::episode::{OFFSETS, depth_in_box};
 use crate::walls::{self, Walls};
-use crate::{Episode, Flag, Look, Moment};
+use crate::{ExaminedEpisode, ExaminedLook, ExaminedMoment, Flag};
 use cosfly_captions::Wear;
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_domain::{Colour, TARGET_INSTANCE};
@@ -24,7 +24,7 @@ const TOGETHER: usize = 32;
 const IN_PLACE_M: f64 = 0.01;
 
 /// An episode without its looks, its flight, and the frames of the flight.
-type Read = (Episode, PublishedFlight, Vec<FrameRow>);
+type Read = (ExaminedEpisode, PublishedFlight, Vec<FrameRow>);
 
 /// Whether `folder` has this layout.
 pub fn recognises(folder: &Path) -> bool {
@@ -57,7 +57,7 @@ pub fn files(folder: &Path, stop: &Stop) -> Result<Vec<Flag>> {
 pub fn episodes(
     folder: &Path,
     flags: &mut Vec<Flag>,
-    visit: &mut dyn FnMut(Episode),
+    visit: &mut dyn FnMut(ExaminedEpisode),
     (stop, progress): (&Stop, &mut dyn FnMut(u64, u64)),
 ) -> Result<()> {
     let mut damaged = |refusal: Box<Diagnostic>| match refusal.fault {
@@ -81,7 +81,7 @@ pub fn episodes(
     // Flights without frames and those that are in two tables: they count for leaks.
     for flight in dataset.flights() {
         if read_ones.insert((flight.trajectory_id.clone(), flight.split.clone())) {
-            visit(Episode { dt_s: flight.dt_s, ..named(flight) });
+            visit(ExaminedEpisode { dt_s: flight.dt_s, ..named(flight) });
         }
     }
     Ok(())
@@ -91,7 +91,7 @@ pub fn episodes(
 fn read(
     dataset: &PublishedDataset,
     (stop, progress): (&Stop, &mut dyn FnMut(u64, u64)),
-    visit: &mut dyn FnMut(Episode),
+    visit: &mut dyn FnMut(ExaminedEpisode),
 ) -> Result<()> {
     let mut captions = CaptionReader::of(dataset)?;
     let mut vehicles: BTreeMap<String, Vec<BoxInWorld>> = BTreeMap::new();
@@ -115,7 +115,7 @@ fn read(
     };
     let (mut done, all) = (0, dataset.flights().len() as u64);
     let mut visit_all = |together: &mut Vec<Read>| {
-        let episodes: Vec<Episode> = std::mem::take(together).into_par_iter().map(logged).collect();
+        let episodes: Vec<ExaminedEpisode> = std::mem::take(together).into_par_iter().map(logged).collect();
         for episode in episodes {
             progress(done, all);
             done += 1;
@@ -139,15 +139,15 @@ fn read(
     outcome
 }
 
-fn named(flight: &PublishedFlight) -> Episode {
-    Episode {
+fn named(flight: &PublishedFlight) -> ExaminedEpisode {
+    ExaminedEpisode {
         id: flight.trajectory_id.clone(),
         split: Some(flight.split.clone()),
         group: flight.pedestrian_id.clone(),
         place: if flight.town_geometry.is_empty() { flight.town.clone() } else { flight.town_geometry.clone() },
         town: flight.town.clone(),
         is_perturbed: flight.expert_id.is_some(),
-        ..Episode::default()
+        ..ExaminedEpisode::default()
     }
 }
 
@@ -158,13 +158,13 @@ fn wear(flight: &PublishedFlight) -> Option<Wear> {
     Some(Wear { top: colour(top)?, trousers: colour(trousers)?, backpack: *backpack })
 }
 
-fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> Episode {
+fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> ExaminedEpisode {
     // Lenses that bend and rows that are taken one after the other move what is projected.
     let is_plain = flight.lens.is_none() && flight.readout_s == 0.0;
     let middle = DVec3::Z * (0.5 * flight.target_height_m);
     let moment = |it: &FrameRow| {
         let action = it.action_in_world;
-        Moment {
+        ExaminedMoment {
             time_s: it.time_s,
             drone: it.pose,
             camera: it.camera_pose,
@@ -181,7 +181,7 @@ fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> Episode {
             clearance_m: Some(it.clearance_m),
         }
     };
-    Episode {
+    ExaminedEpisode {
         camera: is_plain.then_some(flight.camera),
         target_height_m: flight.target_height_m,
         wear: wear(flight),
@@ -199,7 +199,7 @@ fn looks(
     rows: &[FrameRow],
     walls: Option<&Walls>,
     stop: &Stop,
-) -> Result<Vec<Look>> {
+) -> Result<Vec<ExaminedLook>> {
     let mut log = dataset.log(flight)?;
     let mut looks = vec![];
     for frame in stretch(rows.len()) {
@@ -219,7 +219,7 @@ fn looks(
         let digest = Digest::of(&logged.rgb_file).to_string();
         let elsewhere_m = elsewhere_m(&logged, frame, rows);
         let depth_m = OFFSETS.iter().map(depth).collect();
-        let mut look = Look { frame, digest, depth_m, elsewhere_m, ..Look::default() };
+        let mut look = ExaminedLook { frame, digest, depth_m, elsewhere_m, ..ExaminedLook::default() };
         // Lenses that bend and rows that are taken one after the other show places elsewhere.
         if flight.lens.is_none() && flight.readout_s == 0.0 {
             let row = &rows[frame];

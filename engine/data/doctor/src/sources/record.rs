@@ -1,13 +1,13 @@
 //! Flights that are not published yet: from records to episodes.
 
-use crate::{Episode, Moment};
+use crate::{ExaminedEpisode, ExaminedMoment};
 use cosfly_captions::Wear;
 use cosfly_domain::{Perturbation, PixelBox, TargetView};
 use cosfly_frames::{DVec3, action};
 use cosfly_schema::{RenderedTrajectory, Role};
 
 /// The episode of a rendered flight, without its pictures.
-pub fn episode(record: &RenderedTrajectory) -> Episode {
+pub fn episode(record: &RenderedTrajectory) -> ExaminedEpisode {
     let trajectory = &record.trajectory;
     let is_plain = record.lens.is_none() && record.rolling_shutter.readout_s == 0.0;
     let limits = &trajectory.certificate.limits;
@@ -19,7 +19,7 @@ pub fn episode(record: &RenderedTrajectory) -> Episode {
         limits.yaw_rate_deg_s,
         limits.pitch_rate_deg_s,
     ];
-    Episode {
+    ExaminedEpisode {
         id: record.trajectory_id.clone(),
         group: record.pedestrian_id.clone(),
         place: record.town.geometry_digest.clone(),
@@ -33,7 +33,7 @@ pub fn episode(record: &RenderedTrajectory) -> Episode {
         dt_s: record.dt_s(),
         limits: limits.map(|limit| limit.is_finite().then_some(limit)),
         moments: (0..record.len()).map(|frame| moment(record, frame)).collect(),
-        ..Episode::default()
+        ..ExaminedEpisode::default()
     }
 }
 
@@ -43,11 +43,11 @@ fn displaced_m(perturbation: &Perturbation) -> f64 {
     jumps.map(|frame| frame.drone_offset_in_world.length()).fold(0.0, f64::max)
 }
 
-fn moment(record: &RenderedTrajectory, frame: usize) -> Moment {
+fn moment(record: &RenderedTrajectory, frame: usize) -> ExaminedMoment {
     let trajectory = &record.trajectory;
     let (pose, state, view) = (trajectory.poses_in_world[frame], trajectory.track.states[frame], &record.views[frame]);
     let next = trajectory.poses_in_world.get(frame + 1);
-    Moment {
+    ExaminedMoment {
         time_s: frame as f64 * record.dt_s(),
         drone: pose,
         camera: record.camera_pose(frame),

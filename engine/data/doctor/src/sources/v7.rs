@@ -2,7 +2,7 @@
 
 use super::stretch;
 use crate::episode::{OFFSETS, depth_in_box};
-use crate::{Episode, Flag, Look, Moment};
+use crate::{ExaminedEpisode, ExaminedLook, ExaminedMoment, Flag};
 use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_domain::Camera;
 use cosfly_fingerprint::Digest;
@@ -50,7 +50,11 @@ fn traces(town: &Path) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// Refusals of the machine where a folder cannot be listed.
-pub fn episodes(root: &Path, visit: &mut dyn FnMut(Episode), progress: &mut dyn FnMut(u64, u64)) -> Result<Vec<Flag>> {
+pub fn episodes(
+    root: &Path,
+    visit: &mut dyn FnMut(ExaminedEpisode),
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Vec<Flag>> {
     read(root, true, visit, progress)
 }
 
@@ -58,7 +62,7 @@ pub fn episodes(root: &Path, visit: &mut dyn FnMut(Episode), progress: &mut dyn 
 ///
 /// # Errors
 /// As of [`episodes`].
-pub fn motions(root: &Path) -> Result<(Vec<Episode>, Vec<Flag>)> {
+pub fn motions(root: &Path) -> Result<(Vec<ExaminedEpisode>, Vec<Flag>)> {
     let mut episodes = vec![];
     let flags = read(root, false, &mut |episode| episodes.push(episode), &mut |_, _| {})?;
     Ok((episodes, flags))
@@ -67,7 +71,7 @@ pub fn motions(root: &Path) -> Result<(Vec<Episode>, Vec<Flag>)> {
 fn read(
     root: &Path,
     with_pictures: bool,
-    visit: &mut dyn FnMut(Episode),
+    visit: &mut dyn FnMut(ExaminedEpisode),
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<Vec<Flag>> {
     let towns = listed(root).map_err(|error| Diagnostic::io(format!("read `{}`", root.display()), &error))?;
@@ -99,7 +103,7 @@ fn document(trace: &Path) -> Result<Value, String> {
     serde_json::from_slice(&bytes).map_err(|error| format!("not JSON: {error}"))
 }
 
-fn episode(id: &str, document: &Value) -> Result<Episode, String> {
+fn episode(id: &str, document: &Value) -> Result<ExaminedEpisode, String> {
     let points = document["points"].as_array().filter(|points| !points.is_empty()).ok_or("it has no points")?;
     let own = &document["cosfly"];
     let target_height_m = number(&own["target"]["height_m"]).unwrap_or(BODY_M);
@@ -109,13 +113,13 @@ fn episode(id: &str, document: &Value) -> Result<Episode, String> {
         .map(|(index, point)| {
             moment(point).ok_or_else(|| format!("point {index} has a pose or a time that is no number up to 1e9"))
         })
-        .collect::<Result<Vec<Moment>, String>>()?;
+        .collect::<Result<Vec<ExaminedMoment>, String>>()?;
     let mut steps: Vec<f64> = moments.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).collect();
     steps.sort_by(f64::total_cmp);
     let (town, source) = (id.split('/').next().unwrap_or_default(), &document["source"]);
     let captions = own["captions"].as_array().into_iter().flatten();
     let text = |it: &Value, key: &str| it[key].as_str().unwrap_or_default().to_owned();
-    Ok(Episode {
+    Ok(ExaminedEpisode {
         id: id.to_owned(),
         split: own["split"].as_str().map(str::to_owned),
         group: format!("{}/{}/{}", source["path_index"], source["scenario_id"], source["scenario_name"]),
@@ -127,7 +131,7 @@ fn episode(id: &str, document: &Value) -> Result<Episode, String> {
         dt_s: steps.get(steps.len() / 2).copied().unwrap_or(0.5),
         captions: captions.map(|it| (text(it, "language"), text(it, "text"))).collect(),
         moments,
-        ..Episode::default()
+        ..ExaminedEpisode::default()
     })
 }
 
@@ -163,7 +167,7 @@ fn pose(value: &Value) -> Option<Pose> {
     })
 }
 
-fn moment(point: &Value) -> Option<Moment> {
+fn moment(point: &Value) -> Option<ExaminedMoment> {
     let (target, own) = (&point["target"], &point["cosfly"]);
     let drone = pose(&point["drone_pose"])?;
     let edges = |value: &Value| {
@@ -174,7 +178,7 @@ fn moment(point: &Value) -> Option<Moment> {
     let shown = edges(&own["full_bbox_2d"]).or(visible_box);
     let uv = number(&target["image_uv"][0]).zip(number(&target["image_uv"][1]));
     let flag = |value: &Value| value.as_bool().map(|seen| f64::from(u8::from(seen)));
-    Some(Moment {
+    Some(ExaminedMoment {
         time_s: number(&point["timing"]["trace_timestamp"])?,
         drone,
         camera: pose(&own["camera_pose"]).unwrap_or(drone),
@@ -196,14 +200,14 @@ fn moment(point: &Value) -> Option<Moment> {
 }
 
 /// Pictures of a stretch of frames.
-fn looks(trace: &Path, episode: &mut Episode, flags: &mut Vec<Flag>) {
+fn looks(trace: &Path, episode: &mut ExaminedEpisode, flags: &mut Vec<Flag>) {
     for frame in stretch(episode.moments.len()) {
         let folder = frame_folder(trace, frame);
         let Ok(colour) = fs::read(folder.join("rgb.png")) else {
             flags.push(Flag::damage("picture-missing", &episode.id, format!("frame {frame} has no `rgb.png`")));
             return;
         };
-        let mut look = Look { frame, digest: Digest::of(&colour).to_string(), ..Look::default() };
+        let mut look = ExaminedLook { frame, digest: Digest::of(&colour).to_string(), ..ExaminedLook::default() };
         match fs::read(folder.join("depth.npy")).map_err(|error| error.to_string()).and_then(|it| depth_of_npy(&it)) {
             Ok((depth, width)) => {
                 let at = |offset: &i64| {
@@ -226,7 +230,7 @@ fn looks(trace: &Path, episode: &mut Episode, flags: &mut Vec<Flag>) {
 }
 
 /// Height of the drawn ground around the target's feet over them, where the frame has labels.
-fn rise_m(episode: &Episode, frame: usize, depth_m: &[f32], folder: &Path) -> Option<f64> {
+fn rise_m(episode: &ExaminedEpisode, frame: usize, depth_m: &[f32], folder: &Path) -> Option<f64> {
     let (camera, moment) = (episode.camera.as_ref()?, episode.moments.get(frame)?);
     let labels = decoded(&fs::read(folder.join("instance.png")).ok()?, "png").ok()?;
     let is_whole = labels.size == [camera.width, camera.height].map(|side| side as usize)

@@ -5,7 +5,7 @@ use crate::report::score::Score;
 use crate::report::table::title;
 use cosfly_plot::axis::Axis;
 use cosfly_plot::bars::{BAR_PX, Bar, Bars};
-use cosfly_plot::document::Document;
+use cosfly_plot::document::ChartDocument;
 
 /// Size and top edge of the panels, and left edges and widths of the two panels, pixels.
 const WIDTH_PX: f64 = 980.0;
@@ -23,7 +23,7 @@ impl PictureEvaluation {
         let (heading, others) = self.beside(metric.key, metric.name);
         let height = BAR_PX * kinds.len().max(others.len()) as f64;
         let name = format!("Scores of {} on {}", self.settings.kind.name(), self.dataset.name);
-        let mut document = Document::new(&name, WIDTH_PX, TOP_PX + height + 40.0);
+        let mut document = ChartDocument::new(&name, WIDTH_PX, TOP_PX + height + 40.0);
         document.heading((16.0, 26.0), &format!("{} with 95 % interval", title(metric)));
         document.heading((RIGHT.0 - 130.0, 26.0), &heading);
         bars(&mut document, LEFT, height, &kinds, "#2471a3");
@@ -47,7 +47,7 @@ impl PictureEvaluation {
     }
 }
 
-fn bars(document: &mut Document, (left, width): (f64, f64), height: f64, rows: &[(String, Score)], colour: &str) {
+fn bars(document: &mut ChartDocument, (left, width): (f64, f64), height: f64, rows: &[(String, Score)], colour: &str) {
     let bars: Vec<Bar<'_>> = rows
         .iter()
         .map(|(name, score)| Bar { name, value: score.value, interval: score.low.zip(score.high), colour })

@@ -3,7 +3,7 @@
 use super::result::{Evaluation, MethodReport};
 use cosfly_plot::axis::{Axis, label};
 use cosfly_plot::bars::{BAR_PX, Bar, Bars};
-use cosfly_plot::document::{Anchor, Document};
+use cosfly_plot::document::{ChartDocument, TextAnchor};
 use cosfly_plot::lines::{Line, Lines};
 
 const COLOURS: [&str; 9] =
@@ -19,7 +19,7 @@ impl Evaluation {
     pub fn to_svg(&self) -> String {
         let height = (BAR_PX * self.methods.len() as f64).max(200.0);
         let title = format!("Errors of predictions and baselines on {}", self.dataset.name);
-        let mut document = Document::new(&title, WIDTH_PX, TOP_PX + height + 56.0);
+        let mut document = ChartDocument::new(&title, WIDTH_PX, TOP_PX + height + 56.0);
         bars(&mut document, &self.methods, height);
         lines(&mut document, &self.methods, height);
         document.finish()
@@ -30,7 +30,7 @@ fn colour(place: usize) -> &'static str {
     COLOURS[place % COLOURS.len()]
 }
 
-fn bars(document: &mut Document, methods: &[MethodReport], height: f64) {
+fn bars(document: &mut ChartDocument, methods: &[MethodReport], height: f64) {
     let bars: Vec<Bar<'_>> = methods
         .iter()
         .enumerate()
@@ -47,7 +47,7 @@ fn bars(document: &mut Document, methods: &[MethodReport], height: f64) {
     Bars { left: BARS.0, top: TOP_PX, width: BARS.1, height, decimals: 2 }.draw(document, axis, &bars);
 }
 
-fn lines(document: &mut Document, methods: &[MethodReport], height: f64) {
+fn lines(document: &mut ChartDocument, methods: &[MethodReport], height: f64) {
     let lines: Vec<Line<'_>> = methods
         .iter()
         .enumerate()
@@ -63,9 +63,9 @@ fn lines(document: &mut Document, methods: &[MethodReport], height: f64) {
 }
 
 /// A note below a heading where the axis is cut.
-fn note(document: &mut Document, left: f64, axis: Axis, beyond: &str) {
+fn note(document: &mut ChartDocument, left: f64, axis: Axis, beyond: &str) {
     if axis.is_cut {
         let note = format!("axis cut at {} m; {beyond}", label(axis.end));
-        document.words((left, 44.0), &note, Anchor::Start, "#555");
+        document.words((left, 44.0), &note, TextAnchor::Start, "#555");
     }
 }

@@ -5,12 +5,12 @@ use std::ops::Range;
 /// Words that Python's `json` writes for numbers that JSON cannot hold.
 const BARE_WORDS: [&[u8]; 2] = [b"NaN", b"Infinity"];
 
-/// What is wrong with an array as a whole.
+/// Fault of an array as a whole.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ArrayFault {
     /// Byte where it is wrong.
     pub at: usize,
-    /// What is wrong, as the end of a sentence.
+    /// Fault, as the end of a sentence.
     pub what: String,
 }
 

@@ -48,7 +48,7 @@ struct Columns {
     trajectory_id: StringArray,
     frame: Int64Array,
     deltas: Option<ArrayRef>,
-    /// The same, where all of it is lists of lists of numbers.
+    /// Deltas, where all of them are lists of lists of numbers.
     plain: Option<PlainDeltas>,
     text: Option<StringArray>,
     boxes: Option<ArrayRef>,

@@ -1,6 +1,6 @@
 //! Tables of plugins as Parquet: the flight, the row number where there may be several rows, then the declared columns.
 
-use super::{Extra, ExtraShape, ExtraSource};
+use super::extra::{Extra, ExtraShape, ExtraSource};
 use crate::flight_table::{ColumnKind, DeclaredColumn, Values};
 use arrow_array::{ArrayRef, BinaryArray, BooleanArray, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;

@@ -1,6 +1,6 @@
 //! Answers of plugin stages. They are untrusted: framing, sizes and schema are checked before anything is decoded.
 
-use super::{ColumnKind, DeclaredColumn, Values};
+use super::column::{ColumnKind, DeclaredColumn, Values};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, RecordBatch};

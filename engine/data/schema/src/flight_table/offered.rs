@@ -1,6 +1,6 @@
 //! Columns of a flight that plugins can read: one value per frame, and facts about the flight.
 
-use super::{ColumnKind, DeclaredColumn, Values};
+use super::column::{ColumnKind, DeclaredColumn, Values};
 use crate::log::messages::edges_px;
 use crate::{CaptionRecord, RenderedTrajectory, flight_labels};
 use arrow_array::{Array, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchOptions};

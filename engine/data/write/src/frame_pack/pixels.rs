@@ -3,7 +3,7 @@
 use super::header::{InstanceFormat, PackHeader};
 use super::image_record::ImageRecord;
 use cosfly_domain::FrameImages;
-use cosfly_domain::channels::Source;
+use cosfly_domain::channels::ChannelSource;
 use cosfly_frames::simd::Level;
 use cosfly_images::{depth, ids};
 use cosfly_schema::config::DepthEncoding;
@@ -24,10 +24,10 @@ pub fn write(
     record.write_frame(bytes);
     let place = record.pixels();
     match record.channel.source {
-        Source::Depth => write_depth(bytes, place, &images.depth_m, header.encoding.depth),
-        Source::Labels => Ok(pieces(bytes, place, &images.semantic, 1, |ids, bytes| bytes.copy_from_slice(ids))),
-        Source::Ids => write_ids(bytes, place, &images.instance, header.instance),
-        Source::Colour | Source::Number(_) | Source::Bytes(_) => {
+        ChannelSource::Depth => write_depth(bytes, place, &images.depth_m, header.encoding.depth),
+        ChannelSource::Labels => Ok(pieces(bytes, place, &images.semantic, 1, |ids, bytes| bytes.copy_from_slice(ids))),
+        ChannelSource::Ids => write_ids(bytes, place, &images.instance, header.instance),
+        ChannelSource::Colour | ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
             let image = images.on_request.iter().find(|image| image.channel == record.channel);
             let drawn = image.map_or(&[][..], |image| &image.bytes[..]);
             Ok(pieces(bytes, place, drawn, 1, |drawn, bytes| bytes.copy_from_slice(drawn)))

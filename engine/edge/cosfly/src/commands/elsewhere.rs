@@ -4,7 +4,7 @@ use crate::arguments::ClusterArguments;
 use crate::command::Outcome;
 use crate::console::Console;
 use crate::exit;
-use cosfly_cluster::{Command, Driver, Elsewhere, Hq, json_lines, kept_stages, leaves};
+use cosfly_cluster::{ClusterOutcome, Command, Driver, Hq, json_lines, kept_stages, leaves};
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_recipe::Recipe;
 use cosfly_runner::{Delivery, RunOptions, RunOutcome, plan_elsewhere};
@@ -53,7 +53,7 @@ pub fn deliver(
     }
     let driver =
         Driver { recipe, store, wanted, asked: options.asked, command, requests, cancelled: options.cancelled.clone() };
-    let Elsewhere { failed, divergences } = driver.run(&hq, report)?;
+    let ClusterOutcome { failed, divergences } = driver.run(&hq, report)?;
     // What was reported already is not reported again.
     let rest = |event: RunEvent| match event {
         RunEvent::Planned { .. } | RunEvent::Stopping => {}

@@ -6,7 +6,7 @@ use crate::exit;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Result, visible_text};
-use cosfly_preview::{FrameList, Pictures};
+use cosfly_preview::{FlightPictures, FrameList};
 use cosfly_read::{PublishedDataset, PublishedFlight};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -76,7 +76,7 @@ fn beside(dataset: &Path) -> PathBuf {
 }
 
 /// Writes the files; returns their paths and sizes.
-fn write(out: &Path, flight: &PublishedFlight, pictures: &Pictures) -> Result<Vec<(PathBuf, u64)>> {
+fn write(out: &Path, flight: &PublishedFlight, pictures: &FlightPictures) -> Result<Vec<(PathBuf, u64)>> {
     let refused = |error: std::io::Error| Diagnostic::io(format!("write pictures to `{}`", out.display()), &error);
     std::fs::create_dir_all(out).map_err(refused)?;
     let files = [("sheet.png", &pictures.sheet), ("clip.gif", &pictures.clip), ("plan.png", &pictures.plan)];
@@ -118,7 +118,7 @@ fn json(dataset: &PublishedDataset, flight: &PublishedFlight, written: &[(PathBu
 fn report(
     dataset: &PublishedDataset,
     flight: &PublishedFlight,
-    pictures: &Pictures,
+    pictures: &FlightPictures,
     written: &[(PathBuf, u64)],
 ) -> String {
     let [rows, shots] = pictures.shown.map(|number| count(number as u64, "frame"));

@@ -6,7 +6,7 @@ use crate::suite::Task;
 use cosfly_diagnose::Result;
 use cosfly_domain::PlanOutcome;
 use cosfly_env::policies::Plan;
-use cosfly_env::{Action, Environment, FEATURES, Settings};
+use cosfly_env::{Action, Environment, EnvironmentSettings, FEATURES};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_planner::StartState;
 use cosfly_surroundings::visibility::aim_point;
@@ -72,7 +72,7 @@ pub enum Attempt {
 pub fn rollout(
     task: &Task,
     known: &KnownFlight,
-    settings: Settings,
+    settings: EnvironmentSettings,
     mixture: &Mixture,
     pilot: &mut Asked<'_>,
 ) -> Result<Attempt> {

@@ -7,7 +7,7 @@ use crate::experts::Experts;
 use crate::pilot::{Asked, FirstAnswer, Manners, Place};
 use crate::suite::Suite;
 use cosfly_diagnose::{Diagnostic, Result};
-use cosfly_env::Settings;
+use cosfly_env::EnvironmentSettings;
 use cosfly_recipe::Recipe;
 use cosfly_store::Store;
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ pub struct Round<'a> {
     /// How it is asked.
     pub manners: &'a Manners,
     /// Settings of the environment.
-    pub settings: Settings,
+    pub settings: EnvironmentSettings,
     /// Who flies.
     pub mixture: Mixture,
     /// Name of the round.

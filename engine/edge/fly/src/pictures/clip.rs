@@ -6,10 +6,10 @@ use crate::suite::Task;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Camera, PixelBox};
 use cosfly_env::pictures::walker;
-use cosfly_env::{Present, Settings};
+use cosfly_env::{BodyAtTime, EnvironmentSettings};
 use cosfly_figures::{Bystander, TargetSetup, gait_phase_rad};
 use cosfly_plot::canvas::Canvas;
-use cosfly_preview::{LoggedFrame, Shot, clip as encoded};
+use cosfly_preview::{ClipShot, LoggedFrame, clip as encoded};
 use cosfly_render::{FrameSetup, Renderer, Scene};
 use cosfly_schema::log::TargetStateMessage;
 use cosfly_schema::log::messages::edges_px;
@@ -24,7 +24,7 @@ const EVERY_S: f64 = 0.2;
 ///
 /// # Errors
 /// `preview-encode`.
-pub fn clip(task: &Task, settings: &Settings, steps: &[Line]) -> Result<Option<Vec<u8>>> {
+pub fn clip(task: &Task, settings: &EnvironmentSettings, steps: &[Line]) -> Result<Option<Vec<u8>>> {
     let count = |time_s: f64| ((time_s / settings.step_s).round() as usize).max(1);
     let shown: Vec<&Line> = steps[telling(steps, count(LENGTH_S))].iter().step_by(count(EVERY_S)).collect();
     if shown.is_empty() {
@@ -37,7 +37,7 @@ pub fn clip(task: &Task, settings: &Settings, steps: &[Line]) -> Result<Option<V
     encoded(shown.into_iter().map(|line| shot(task, &scene, &mut renderer, line))).map(Some)
 }
 
-fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> Shot {
+fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> ClipShot {
     let (track, shooting) = (&task.episode.target, &task.shooting);
     let state = task.episode.target_at(line.time_s);
     let target = TargetSetup {
@@ -74,13 +74,13 @@ fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> Sho
         ..LoggedFrame::default()
     };
     let rgb = Canvas { width: images.width as usize, height: images.height as usize, rgb: images.rgb.clone() };
-    Shot { logged, rgb }
+    ClipShot { logged, rgb }
 }
 
 /// Ids of bodies of traffic in clips begin behind those of all objects of a town.
 const FIRST_INSTANCE: u32 = 1 << 24;
 
 /// Somebody beside the target, as the renderer draws them.
-fn bystander(present: &Present<'_>, rain: f64) -> Bystander {
+fn bystander(present: &BodyAtTime<'_>, rain: f64) -> Bystander {
     Bystander { walker: walker(present, rain), instance: FIRST_INSTANCE + present.mover.number }
 }

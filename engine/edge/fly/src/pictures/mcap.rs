@@ -7,7 +7,7 @@ use crate::suite::Task;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Camera, OrientedBox};
 use cosfly_drone::Sensed;
-use cosfly_env::{End, Reward, Settings};
+use cosfly_env::{End, EnvironmentSettings, Reward};
 use cosfly_frames::DVec3;
 use cosfly_geometry::SpatialQuery;
 use cosfly_write::log::{FlownFlight, FlownStep, SensedSample, write_flown_log};
@@ -26,7 +26,7 @@ const SHORTEST_LOSS_S: f64 = 0.45;
 ///
 /// # Errors
 /// None that is expected: memory takes all bytes.
-pub fn mcap(task: &Task, settings: &Settings, flown: &Flown) -> Result<Vec<u8>> {
+pub fn mcap(task: &Task, settings: &EnvironmentSettings, flown: &Flown) -> Result<Vec<u8>> {
     let (episode, row, lines) = (&task.episode, &flown.row, &flown.steps);
     let mut steps: Vec<FlownStep> = lines.iter().map(|line| step(task, settings, line)).collect();
     let mut rest = &flown.sensed[..];
@@ -65,7 +65,7 @@ pub fn mcap(task: &Task, settings: &Settings, flown: &Flown) -> Result<Vec<u8>> 
     Ok(bytes)
 }
 
-fn step(task: &Task, settings: &Settings, line: &Line) -> FlownStep {
+fn step(task: &Task, settings: &EnvironmentSettings, line: &Line) -> FlownStep {
     let pose = line.pose();
     let nearest = task.episode.place.exact.nearest(pose.position_in_world, FAR_M);
     FlownStep {

@@ -14,7 +14,7 @@ pub use first_answer::{Asked, FirstAnswer};
 pub use source::source_of;
 
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name, visible_text};
-use cosfly_env::pictures::Format;
+use cosfly_env::pictures::PictureFormat;
 use cosfly_env::policies::{BASELINES, Knowledge};
 use cosfly_env::{Action, Environment};
 use cosfly_secrets::{Secrets, has_secret, without_secrets};
@@ -105,7 +105,7 @@ pub struct Manners {
     /// Steps after which a policy is asked again, at least 1; rows of its last answer are flown meanwhile.
     pub every: u32,
     /// Pictures that observations carry.
-    pub pictures: Option<Format>,
+    pub pictures: Option<PictureFormat>,
     /// Text of the task that observations carry.
     pub prompt: String,
     /// Time within which an answer must come.

@@ -2,20 +2,20 @@
 
 use super::Manners;
 use crate::wire::{self, Field};
-use cosfly_env::pictures::{Album, Channel, Pictures};
+use cosfly_env::pictures::{Channel, PictureBatch, Pictures};
 use cosfly_env::{Environment, FEATURES};
 
 /// Asks for actions. Owns what draws the pictures.
 pub struct Question {
     prompt: String,
-    pictures: Option<(Pictures, Album)>,
+    pictures: Option<(Pictures, PictureBatch)>,
 }
 
 impl Question {
     /// Questions in a manner.
     pub fn new(manners: &Manners) -> Self {
         let pictures = manners.pictures.clone().map(|format| {
-            let album = Album::new(&format, 1);
+            let album = PictureBatch::new(&format, 1);
             (Pictures::new(format, 1), album)
         });
         Self { prompt: manners.prompt.clone(), pictures }

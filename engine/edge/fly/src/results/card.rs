@@ -2,8 +2,8 @@
 
 use crate::flight::Latency;
 use crate::suite::Suite;
-use cosfly_env::pictures::{Channel, Format};
-use cosfly_env::{Blackouts, RewardWeights, Settings};
+use cosfly_env::pictures::{Channel, PictureFormat};
+use cosfly_env::{Blackouts, EnvironmentSettings, RewardWeights};
 use cosfly_render::PictureLook;
 use serde::{Deserialize, Serialize};
 
@@ -92,7 +92,7 @@ pub struct PicturesCard {
 
 impl PicturesCard {
     /// The card of a format.
-    pub fn of(format: &Format) -> Self {
+    pub fn of(format: &PictureFormat) -> Self {
         let asked = Channel::ALL.into_iter().filter(|(_, channel)| format.channels.contains(channel));
         Self {
             channels: asked.map(|(name, _)| name.to_owned()).collect(),
@@ -156,7 +156,7 @@ pub struct EnvironmentCard {
 
 impl EnvironmentCard {
     /// The card of settings.
-    pub fn new(settings: &Settings, latency: Latency) -> Self {
+    pub fn new(settings: &EnvironmentSettings, latency: Latency) -> Self {
         let gimbal = &settings.gimbal;
         Self {
             step_s: settings.step_s,

@@ -1,6 +1,6 @@
-//! Teams: the drones of a flock fly the same episode at the same time, each from a start of its own, and can hit each other.
+//! Teams: the drones of a vector environment fly the same episode at the same time, each from a start of its own, and can hit each other.
 
-use super::{Bird, Shared};
+use super::member::{Shared, VectorMember};
 use cosfly_env::{Environment, Episode, Start};
 use cosfly_frames::{DVec3, real};
 use std::sync::Arc;
@@ -50,31 +50,31 @@ fn start_beside(episode: &Episode, taken: &[Start], share: f64, radius_m: f64) -
 }
 
 /// Places before a step of the drones that fly on; none of those whose episode is over.
-pub(super) fn places(birds: &[Bird]) -> Vec<Option<DVec3>> {
-    let place = |bird: &Bird| {
-        let is_flying = bird.environment.score().end.is_none();
-        is_flying.then(|| bird.environment.observation().motion.position_in_world)
+pub(super) fn places(members: &[VectorMember]) -> Vec<Option<DVec3>> {
+    let place = |member: &VectorMember| {
+        let is_flying = member.environment.score().end.is_none();
+        is_flying.then(|| member.environment.observation().motion.position_in_world)
     };
-    birds.iter().map(place).collect()
+    members.iter().map(place).collect()
 }
 
 /// Ends the episodes of drones that came as near as two radii to each other on their straight ways of a step.
-pub(super) fn meet(birds: &mut [Bird], before: &[Option<DVec3>], shared: &Shared) {
-    let mut hit = vec![false; birds.len()];
-    for one in 0..birds.len() {
+pub(super) fn meet(members: &mut [VectorMember], before: &[Option<DVec3>], shared: &Shared) {
+    let mut hit = vec![false; members.len()];
+    for one in 0..members.len() {
         for other in 0..one {
             let (Some(from), Some(other_from)) = (before[one], before[other]) else { continue };
-            let to = |number: usize| birds[number].environment.observation().motion.position_in_world;
+            let to = |number: usize| members[number].environment.observation().motion.position_in_world;
             if nearest_m(from - other_from, to(one) - to(other)) < 2.0 * shared.settings.radius_m {
                 (hit[one], hit[other]) = (true, true);
             }
         }
     }
-    for (bird, _) in birds.iter_mut().zip(hit).filter(|(_, hit)| *hit) {
-        if bird.environment.collide() {
-            bird.reward.collision = -1.0;
+    for (member, _) in members.iter_mut().zip(hit).filter(|(_, hit)| *hit) {
+        if member.environment.collide() {
+            member.reward.collision = -1.0;
         }
-        (bird.end, bird.is_due) = (bird.environment.score().end, true);
+        (member.end, member.is_due) = (member.environment.score().end, true);
     }
 }
 
@@ -87,8 +87,8 @@ fn nearest_m(from: DVec3, to: DVec3) -> f64 {
 
 /// What a drone is told of each other one, in the order of their numbers: whether it flies (0 or 1), its place from the drone
 /// (metres) and its velocity (m/s), both ahead, right and up; zeros of one that does not fly.
-pub(super) fn beside(birds: &[Bird], number: usize) -> Vec<f32> {
-    let own = birds[number].environment.observation();
+pub(super) fn beside(members: &[VectorMember], number: usize) -> Vec<f32> {
+    let own = members[number].environment.observation();
     let told = |environment: &Environment| {
         if environment.score().end.is_some() {
             return [0.0; BESIDE];
@@ -98,8 +98,8 @@ pub(super) fn beside(birds: &[Bird], number: usize) -> Vec<f32> {
         let velocity = own.along_heading(motion.velocity_in_world);
         [1.0, place.x, place.y, place.z, velocity.x, velocity.y, velocity.z].map(|part| part as f32)
     };
-    let others = birds.iter().enumerate().filter(|(other, _)| *other != number);
-    others.flat_map(|(_, bird)| told(&bird.environment)).collect()
+    let others = members.iter().enumerate().filter(|(other, _)| *other != number);
+    others.flat_map(|(_, member)| told(&member.environment)).collect()
 }
 
 #[cfg(test)]

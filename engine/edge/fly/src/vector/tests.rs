@@ -1,15 +1,15 @@
-//! Laws of flocks: seeds, modes of autoreset, pictures.
+//! Laws of vector environments: seeds, modes of autoreset, pictures.
 
 use super::*;
 use cosfly_env::pictures::Channel;
 use cosfly_env::policies::Knowledge;
-use cosfly_env::{Episode, Place, Start};
-use cosfly_frames::{DVec3, TargetState, TargetTrack};
+use cosfly_env::{Action, Episode, FlightSite, Start};
+use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_render::PictureLook;
 
 /// Targets that stand for 1 to 4 s.
 fn tasks() -> Arc<[Task]> {
-    let place = Arc::new(Place::on_flat_ground(vec![]));
+    let place = Arc::new(FlightSite::on_flat_ground(vec![]));
     let task = |seconds: usize| {
         let state = TargetState { feet_in_world: 20.0 * DVec3::X, heading_rad: 0.0, speed_mps: 0.0 };
         let states = vec![state; 2 * seconds + 1];
@@ -31,20 +31,20 @@ fn tasks() -> Arc<[Task]> {
     (1..=4).map(task).collect()
 }
 
-fn flock(mode: Autoreset) -> Flock {
-    let mut flock = Flock::new(tasks(), 3, Settings::default(), mode, true);
-    flock.reset(&[Some(5), Some(6), Some(5)], |_| true);
-    flock
+fn many(mode: Autoreset) -> VectorEnvironment {
+    let mut many = VectorEnvironment::new(tasks(), 3, EnvironmentSettings::default(), mode, true);
+    many.reset(&[Some(5), Some(6), Some(5)], |_| true);
+    many
 }
 
 #[test]
 fn equal_seeds_fly_equal_episodes_beside_any_others() {
-    let mut flock = flock(Autoreset::SameStep);
+    let mut many = many(Autoreset::SameStep);
     for step in 0..200 {
-        flock.step(&[[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, step as f32, 0.0, 9.0], [1.0, 0.0, 0.0, 0.0, 0.0]]);
-        let outputs = flock.outputs();
+        many.step(&[[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, step as f32, 0.0, 9.0], [1.0, 0.0, 0.0, 0.0, 0.0]]);
+        let outputs = many.outputs();
         assert_eq!(outputs.features[0], outputs.features[2]);
-        assert_eq!((outputs.rewards[0], flock.episode(0)), (outputs.rewards[2], flock.episode(2)));
+        assert_eq!((outputs.rewards[0], many.episode(0)), (outputs.rewards[2], many.episode(2)));
         assert_eq!(outputs.expert_actions[0], outputs.expert_actions[2]);
     }
 }
@@ -52,27 +52,27 @@ fn equal_seeds_fly_equal_episodes_beside_any_others() {
 #[test]
 fn episodes_end_and_begin_as_each_mode_says() {
     for mode in [Autoreset::NextStep, Autoreset::SameStep, Autoreset::Disabled] {
-        let mut flock = flock(mode);
+        let mut many = many(mode);
         let mut steps = 0;
-        while !flock.outputs().truncated[0] {
-            flock.step(&[[0.0; ACTIONS]; 3]);
+        while !many.outputs().truncated[0] {
+            many.step(&[[0.0; ACTIONS]; 3]);
             steps += 1;
         }
         assert_eq!(steps % 10, 0, "whole seconds");
-        let is_first = |flock: &Flock| flock.birds[0].environment.observation().step == 0;
-        assert_eq!(is_first(&flock), mode == Autoreset::SameStep);
-        let last = flock.outputs().clone();
-        flock.step(&[[0.0; ACTIONS]; 3]);
-        assert_eq!(is_first(&flock), mode == Autoreset::NextStep);
+        let is_first = |many: &VectorEnvironment| many.members[0].environment.observation().step == 0;
+        assert_eq!(is_first(&many), mode == Autoreset::SameStep);
+        let last = many.outputs().clone();
+        many.step(&[[0.0; ACTIONS]; 3]);
+        assert_eq!(is_first(&many), mode == Autoreset::NextStep);
         match mode {
             Autoreset::NextStep => {
-                assert_eq!((flock.outputs().rewards[0], flock.outputs().truncated[0]), (0.0, false))
+                assert_eq!((many.outputs().rewards[0], many.outputs().truncated[0]), (0.0, false))
             }
-            Autoreset::SameStep => assert!(!flock.outputs().truncated[0]),
+            Autoreset::SameStep => assert!(!many.outputs().truncated[0]),
             Autoreset::Disabled => {
-                assert!(flock.outputs().truncated[0] && flock.outputs().features[0] == last.features[0]);
-                flock.reset(&[], |number| number == 0);
-                assert!(is_first(&flock) && !flock.outputs().truncated[0]);
+                assert!(many.outputs().truncated[0] && many.outputs().features[0] == last.features[0]);
+                many.reset(&[], |number| number == 0);
+                assert!(is_first(&many) && !many.outputs().truncated[0]);
             }
         }
     }
@@ -80,7 +80,7 @@ fn episodes_end_and_begin_as_each_mode_says() {
 
 #[test]
 fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_mode() {
-    let format = || Format {
+    let format = || PictureFormat {
         width: 160,
         height: 120,
         channels: vec![Channel::Depth, Channel::Mask],
@@ -89,23 +89,23 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
         look: PictureLook::Simple,
     };
     for mode in [Autoreset::NextStep, Autoreset::SameStep, Autoreset::Disabled] {
-        let mut flocks = [1, 2].map(|threads| {
-            let flock = Flock::new(tasks(), 3, Settings::default(), mode, false);
-            let mut flock = flock.with_pictures(format(), threads).expect("threads");
-            flock.reset(&[Some(5), Some(6), Some(7)], |_| true);
-            flock
+        let mut both = [1, 2].map(|threads| {
+            let many = VectorEnvironment::new(tasks(), 3, EnvironmentSettings::default(), mode, false);
+            let mut many = many.with_pictures(format(), threads).expect("threads");
+            many.reset(&[Some(5), Some(6), Some(7)], |_| true);
+            many
         });
-        let alone = |flock: &Flock, number: usize| {
-            let mut album = Album::new(&format(), 1);
-            Pictures::new(format(), 1).draw(&[&flock.birds[number].environment], &mut album, 0);
+        let alone = |many: &VectorEnvironment, number: usize| {
+            let mut album = PictureBatch::new(&format(), 1);
+            Pictures::new(format(), 1).draw(&[&many.members[number].environment], &mut album, 0);
             (album.depth_m, album.mask)
         };
         let (mut ended, mut is_seen) = (0, false);
         for step in 0..60 {
-            let before: Vec<_> = (0..3).map(|number| flocks[0].birds[number].environment.clone()).collect();
+            let before: Vec<_> = (0..3).map(|number| both[0].members[number].environment.clone()).collect();
             let action = [0.3, 0.1, 0.0, step as f32 % 7.0, 0.0];
-            flocks.iter_mut().for_each(|flock| flock.step(&[action; 3]));
-            let [one, other] = &flocks;
+            both.iter_mut().for_each(|many| many.step(&[action; 3]));
+            let [one, other] = &both;
             assert_eq!(one.outputs.album, other.outputs.album);
             is_seen |= one.outputs.album.mask.contains(&1);
             let pixels = format().pixels();
@@ -117,7 +117,7 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
                 if mode == Autoreset::SameStep && one.outputs.truncated[number] {
                     ended += 1;
                     environment.step(Some(&Action::of_numbers(action.map(f64::from))));
-                    let mut last = Album::new(&format(), 1);
+                    let mut last = PictureBatch::new(&format(), 1);
                     Pictures::new(format(), 1).draw(&[&environment], &mut last, 0);
                     assert!(one.outputs.last_album.depth_m[part] == last.depth_m);
                 }
@@ -129,14 +129,17 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
 
 #[test]
 fn a_team_flies_one_episode_from_several_starts() {
-    let mut flock = Flock::new(tasks(), 3, Settings::default(), Autoreset::Disabled, false).as_team();
-    flock.reset(&[Some(5), None, None], |_| true);
-    assert!((1..3).all(|number| flock.episode(number) == flock.episode(0)));
-    let place = |flock: &Flock, number: usize| flock.birds[number].environment.observation().motion.position_in_world;
-    assert!(place(&flock, 0).distance(place(&flock, 1)) > 3.0 && place(&flock, 1).distance(place(&flock, 2)) > 3.0);
-    let beside = &flock.outputs().beside[1];
+    let mut many =
+        VectorEnvironment::new(tasks(), 3, EnvironmentSettings::default(), Autoreset::Disabled, false).as_team();
+    many.reset(&[Some(5), None, None], |_| true);
+    assert!((1..3).all(|number| many.episode(number) == many.episode(0)));
+    let place = |many: &VectorEnvironment, number: usize| {
+        many.members[number].environment.observation().motion.position_in_world
+    };
+    assert!(place(&many, 0).distance(place(&many, 1)) > 3.0 && place(&many, 1).distance(place(&many, 2)) > 3.0);
+    let beside = &many.outputs().beside[1];
     assert_eq!((beside.len(), beside[0], beside[BESIDE]), (2 * BESIDE, 1.0, 1.0));
-    let away = place(&flock, 0) - place(&flock, 1);
+    let away = place(&many, 0) - place(&many, 1);
     assert!(
         (DVec3::new(f64::from(beside[1]), f64::from(beside[2]), f64::from(beside[3])).length() - away.length()).abs()
             < 1e-4
@@ -145,20 +148,21 @@ fn a_team_flies_one_episode_from_several_starts() {
 
 #[test]
 fn drones_of_a_team_that_meet_collide_and_are_out_of_the_way_of_others() {
-    let mut flock = Flock::new(tasks(), 3, Settings::default(), Autoreset::Disabled, false).as_team();
-    assert!(flock.begin_episode(0, "e4"));
+    let mut many =
+        VectorEnvironment::new(tasks(), 3, EnvironmentSettings::default(), Autoreset::Disabled, false).as_team();
+    assert!(many.begin_episode(0, "e4"));
     let mut ended = 0;
-    while !flock.outputs().truncated[2] {
+    while !many.outputs().truncated[2] {
         // The first two fly at each other, the third stays.
         let toward = |one: usize, other: usize| {
-            let environment = &flock.birds[one].environment;
-            let (own, goal) = (environment.observation(), flock.birds[other].environment.observation());
+            let environment = &many.members[one].environment;
+            let (own, goal) = (environment.observation(), many.members[other].environment.observation());
             let way = own.along_heading(goal.motion.position_in_world - own.motion.position_in_world) * 5.0;
             [way.x as f32, way.y as f32, way.z as f32, 0.0, 0.0]
         };
         let actions = [toward(0, 1), toward(1, 0), [0.0; ACTIONS]];
-        flock.step(&actions);
-        let outputs = flock.outputs();
+        many.step(&actions);
+        let outputs = many.outputs();
         assert_eq!(outputs.terminated[0], outputs.terminated[1]);
         if outputs.terminated[0] && ended == 0 {
             assert!(outputs.rewards[0] < -10.0 && outputs.terms[1][4] == -1.0);
@@ -166,5 +170,5 @@ fn drones_of_a_team_that_meet_collide_and_are_out_of_the_way_of_others() {
             ended += 1;
         }
     }
-    assert_eq!((ended, flock.outputs().terminated[2]), (1, false));
+    assert_eq!((ended, many.outputs().terminated[2]), (1, false));
 }

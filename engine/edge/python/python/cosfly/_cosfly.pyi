@@ -32,7 +32,7 @@ class Table:
     def __getitem__(self, name: str) -> Any: ...
     def __arrow_c_stream__(self, requested_schema: object = ...) -> object: ...
 
-class Flock:
+class VectorEnvironment:
     """Environments over the episodes of a recipe; see :mod:`cosfly.gym`."""
 
     def __init__(

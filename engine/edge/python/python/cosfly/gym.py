@@ -23,7 +23,7 @@ from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from ._cosfly import Flock
+from ._cosfly import VectorEnvironment
 from ._gym import register
 
 _LARGEST = (12, 12, 12, 60, 60)
@@ -148,7 +148,7 @@ def _flock(
     latency_s: float | None,
     expert_action: bool,
     is_team: bool = False,
-) -> tuple[Flock, _Observations]:
+) -> tuple[VectorEnvironment, _Observations]:
     if isinstance(overrides, str):
         raise ValueError(f"overrides is {overrides!r}; it is a list, such as ['stages.walkers.count=8']")
     if threads is not None and not 1 <= operator.index(threads) <= 1024:
@@ -158,7 +158,7 @@ def _flock(
     if not 0.01 <= step_s <= 1.0 or not 0.0 <= (latency_s or 0.0) <= 5.0:
         raise ValueError(f"step_s is {step_s} (0.01 to 1 s) and latency_s is {latency_s} (0 to 5 s)")
     place = os.fspath(store if store is not None else os.environ.get("COSFLY_STORE") or ".cosfly")
-    flock = Flock(
+    flock = VectorEnvironment(
         os.fspath(recipe), list(overrides), place, count, step_s, latency_s, _MODES[mode], expert_action,
         observations.channels, observations.size, observations.max_depth_m, weather, look,
         min(count, threads if threads is not None else os.cpu_count() or 1), is_team,

@@ -2,7 +2,7 @@
 
 use crate::parameters;
 use cosfly_domain::{BodyKind, Traffic};
-use cosfly_pedestrians::{ConfigRule, CrowdConfig, RecordedConfig, ScriptedPerson};
+use cosfly_pedestrians::{CrowdConfig, PedestrianConfigRule, RecordedConfig, ScriptedPerson};
 use cosfly_stage::Source;
 use cosfly_vehicles::VehicleConfig;
 use cosfly_vehicles::fcd::FcdConfig;
@@ -150,22 +150,22 @@ fn is_no_size(size_m: &[f64; 3]) -> bool {
 
 impl TrafficConfig {
     /// Checks what the schema cannot say.
-    pub fn check(&self) -> Result<(), ConfigRule> {
+    pub fn check(&self) -> Result<(), PedestrianConfigRule> {
         let duration_s = f64::from(self.frames) * self.dt_s;
         if duration_s > 86_400.0 {
             let message = format!("`frames` x `dt_s` is `{duration_s}` s; it must not be more than a day, `86400` s");
-            return Err(ConfigRule { path: vec!["frames"], message });
+            return Err(PedestrianConfigRule { path: vec!["frames"], message });
         }
         if let Some(at) =
             (1..self.follow.kinds.len()).find(|at| self.follow.kinds[..*at].contains(&self.follow.kinds[*at]))
         {
             let message = format!("`{}` is listed twice", self.follow.kinds[at].name());
-            return Err(ConfigRule { path: vec!["follow", "kinds"], message });
+            return Err(PedestrianConfigRule { path: vec!["follow", "kinds"], message });
         }
         let named = &self.follow.named;
         if let Some(at) = (1..named.len()).find(|at| named[..*at].contains(&named[*at])) {
             let message = format!("`{}` is listed twice", named[at]);
-            return Err(ConfigRule { path: vec!["follow", "named"], message });
+            return Err(PedestrianConfigRule { path: vec!["follow", "named"], message });
         }
         if named.len() as u64 > self.follow.count {
             let message = format!(
@@ -173,34 +173,34 @@ impl TrafficConfig {
                 named.len(),
                 self.follow.count
             );
-            return Err(ConfigRule { path: vec!["follow", "named"], message });
+            return Err(PedestrianConfigRule { path: vec!["follow", "named"], message });
         }
         let mut types = self.sumo.iter().flat_map(|sumo| &sumo.options.types);
         if let Some((name, _)) = types.find(|(_, it)| it.kind == BodyKind::Drone) {
             let known = BodyKind::ON_THE_GROUND.map(|kind| format!("`{}`", kind.name())).join(", ");
             let message = format!("type `{name}` is a `drone`, which no traffic has; its kind must be one of {known}");
-            return Err(ConfigRule { path: vec!["sumo", "options", "types"], message });
+            return Err(PedestrianConfigRule { path: vec!["sumo", "options", "types"], message });
         }
         let mut types = self.sumo.iter().flat_map(|sumo| &sumo.options.types);
         if let Some((name, size_m)) = types.find_map(|(name, it)| Some((name, it.size_m.filter(is_no_size)?))) {
             let message = format!("`size_m` of type `{name}` is `{size_m:?}`; each side must be from 0.1 to 50 m long");
-            return Err(ConfigRule { path: vec!["sumo", "options", "types"], message });
+            return Err(PedestrianConfigRule { path: vec!["sumo", "options", "types"], message });
         }
         if let Err((table, message)) = self.looks.check() {
-            return Err(ConfigRule { path: vec!["looks", table], message });
+            return Err(PedestrianConfigRule { path: vec!["looks", table], message });
         }
-        let shares = |message| ConfigRule { path: vec!["look_alikes", "shares"], message };
+        let shares = |message| PedestrianConfigRule { path: vec!["look_alikes", "shares"], message };
         self.look_alikes.check().map_err(shares)?;
         for person in &self.scripted {
-            let below = |rule: ConfigRule| ConfigRule { path: vec!["scripted"], ..rule };
+            let below = |rule: PedestrianConfigRule| PedestrianConfigRule { path: vec!["scripted"], ..rule };
             person.check().map_err(below)?;
         }
         for recorded in &self.recorded {
-            let below = |rule: ConfigRule| ConfigRule { path: vec!["recorded"], ..rule };
+            let below = |rule: PedestrianConfigRule| PedestrianConfigRule { path: vec!["recorded"], ..rule };
             recorded.options.check().map_err(below)?;
         }
-        let below = |rule: cosfly_vehicles::ConfigRule| {
-            ConfigRule { path: rule.path.to_vec(), message: rule.message }.within_table("vehicles")
+        let below = |rule: cosfly_vehicles::VehicleConfigRule| {
+            PedestrianConfigRule { path: rule.path.to_vec(), message: rule.message }.within_table("vehicles")
         };
         self.vehicles.validate().map_err(below)?;
         self.people.check().map_err(|rule| rule.within_table("people"))

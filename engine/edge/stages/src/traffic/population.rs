@@ -6,7 +6,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::Town;
 use cosfly_frames::{DVec2, Seed};
 use cosfly_pedestrians::{Crowd, PedestrianError, Recording, WalkableGrid, scripted};
-use cosfly_vehicles::fcd::{self, FcdError, NetLocation, Place};
+use cosfly_vehicles::fcd::{self, FcdError, FcdProjection, NetLocation};
 use cosfly_vehicles::{VehicleError, Vehicles};
 use cosfly_world::{Clock, Population};
 use std::fs::File;
@@ -107,7 +107,7 @@ fn sumo(source: &SumoSource, files: &[PathBuf], town: &Town, clock: Clock, seed:
         .and_then(|file| file.take(NET_HEAD_BYTES).read_to_end(&mut head))
         .map_err(|error| unreadable(net, &error))?;
     let net_location = NetLocation::of_net(&head).map_err(|error| refused(net, error))?;
-    let place = Place::new(town, &net_location, source.options.geo).map_err(|error| refused(net, error))?;
+    let place = FcdProjection::new(town, &net_location, source.options.geo).map_err(|error| refused(net, error))?;
     let file = File::open(traffic).map_err(|error| unreadable(traffic, &error))?;
     let recorded = fcd::read(BufReader::new(file), &place, &source.options, clock, seed)
         .map_err(|error| refused(traffic, error))?;

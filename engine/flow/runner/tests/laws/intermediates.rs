@@ -1,10 +1,10 @@
 //! Only what is needed is made; intermediate blobs go once everything that reads them is finished.
 
 use super::*;
-use cosfly_lab_engine::PACK;
 use cosfly_runner::{RunOutcome, plan};
 use cosfly_stage::Sees;
 use cosfly_store::{GarbageOptions, collect_garbage};
+use cosfly_toys::PACK;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 

@@ -8,11 +8,11 @@ mod intermediates;
 mod sharing;
 mod single;
 
-use cosfly_lab_engine::{Hook, Toy, toy_recipe};
 use cosfly_recipe::Recipe;
 use cosfly_runner::{RunOptions, RunSummary, run};
 use cosfly_stage::{Fan, RunEvent};
 use cosfly_store::{ActionRecord, Store};
+use cosfly_toys::{Hook, Toy, toy_recipe};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;

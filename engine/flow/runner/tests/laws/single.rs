@@ -2,9 +2,9 @@
 
 use super::*;
 use cosfly_diagnose::Result;
-use cosfly_lab_engine::ToyKind;
 use cosfly_runner::{plan, run_tasks};
 use cosfly_stage::{Registry, Takes, Work};
+use cosfly_toys::ToyKind;
 
 fn run_one(store: &Store, version: u32, digest: &cosfly_fingerprint::Digest) -> Result<Work> {
     let registry = Registry::new(vec![Box::new(ToyKind { version })]);

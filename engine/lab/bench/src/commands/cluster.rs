@@ -42,8 +42,7 @@ pub fn cluster(arguments: &ClusterArguments) -> Outcome {
     let program = vec![std::env::current_exe().map_err(io)?.to_string_lossy().into_owned()];
     let store = scratch.path().join("store");
     let items = arguments.items as usize;
-    let figures =
-        cosfly_lab_engine::bench_cluster(&store, items, arguments.batch, arguments.apart, &program).map_err(one)?;
+    let figures = cosfly_toys::bench_cluster(&store, items, arguments.batch, arguments.apart, &program).map_err(one)?;
     print(&format!(
         "{} tasks in six stages as {} commands on HyperQueue, a durable store, 16 KiB written per task\n\
          cold                {:>9.3} s   {:.2} ms per task\n\
@@ -58,5 +57,5 @@ pub fn cluster(arguments: &ClusterArguments) -> Outcome {
 
 /// Runs toys by their plan digests.
 pub fn task(arguments: &TaskArguments) -> Outcome {
-    cosfly_lab_engine::run_toys(&arguments.store, &arguments.plans).map_err(|refusal| vec![refusal])
+    cosfly_toys::run_toys(&arguments.store, &arguments.plans).map_err(|refusal| vec![refusal])
 }

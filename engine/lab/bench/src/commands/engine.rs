@@ -20,7 +20,7 @@ pub fn engine(arguments: &EngineArguments) -> Outcome {
         .map_err(|error| one(Diagnostic::io("make a scratch folder here", &error)))?;
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
     let figures =
-        cosfly_lab_engine::bench_engine(&scratch.path().join("store"), arguments.items as usize, jobs).map_err(one)?;
+        cosfly_toys::bench_engine(&scratch.path().join("store"), arguments.items as usize, jobs).map_err(one)?;
     print(&format!(
         "{} tasks in six stages, {jobs} jobs, a durable store, 16 KiB written per task\n\
          cold                                {:>9.3} s   {:.2} ms per task\n\

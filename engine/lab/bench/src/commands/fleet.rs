@@ -2,7 +2,7 @@
 
 use super::outcome::{Outcome, print};
 use clap::Args;
-use cosfly_lab_engine::{Fleet, simulate};
+use cosfly_toys::{Fleet, simulate};
 use std::fmt::Write;
 
 /// Arguments of `fleet`.

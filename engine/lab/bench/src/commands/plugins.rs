@@ -7,7 +7,7 @@ use cosfly_geometry::BoxBvh;
 use cosfly_lab::clock::thread_cpu_s;
 use cosfly_planner::{CostTerm, MucoConfig, TermContext, WeightedTerm, plan_with_terms};
 use cosfly_plugin_host::{Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm, laws};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use std::fmt::Write;
 use std::sync::Arc;
 use std::time::Instant;
@@ -111,7 +111,7 @@ fn calls(twin: &Plugin, heavy: bool) -> Result<(f64, f64, &'static str), PluginE
 
 /// Milliseconds per flight, native and plugin, and how the flights compare.
 fn flights(twin: &Plugin) -> Result<(f64, f64, String), PluginError> {
-    let scene = Scene::generate(SceneKind::Leafy, 1);
+    let scene = SeededScene::generate(SceneKind::Leafy, 1);
     let (track, exact) = (scene.walker(1, 0), BoxBvh::build(scene.boxes.clone()));
     let config = MucoConfig::default();
     let plan = |term: Box<dyn CostTerm>| {

@@ -1,6 +1,6 @@
 //! A crowd in a town: its tracks, its cost, and how well it keeps its laws.
 
-use super::{SAMPLE_S, Tracks};
+use super::figures::{SAMPLE_S, Tracks};
 use crate::clock::thread_cpu_s;
 use cosfly_domain::{Body, Town, Traffic};
 use cosfly_frames::{DVec2, Seed, TargetState};

@@ -1,6 +1,7 @@
 //! Speed by density: people on a ring of pavement, at rising numbers, beside Weidmann's curve.
 
-use super::{SAMPLE_S, Tracks, crowded_along};
+use super::crowds::crowded_along;
+use super::figures::{SAMPLE_S, Tracks};
 use cosfly_domain::{Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_pedestrians::{CrowdConfig, PedestrianError};

@@ -1,9 +1,12 @@
 //! [`Figures`]: how people move, from places at 2 Hz alone, so that recorded and simulated people are measured alike.
 
-use super::SAMPLE_S;
+use cosfly_pedestrians::Recording;
 use glam::DVec2;
 use serde::Serialize;
 use std::collections::BTreeMap;
+
+/// Time between samples, seconds.
+pub const SAMPLE_S: f64 = 0.5;
 
 /// Slower than this, a person stands, m/s.
 const STANDING_MPS: f64 = 0.2;
@@ -241,6 +244,16 @@ fn company(tracks: &Tracks) -> Company {
 fn common_samples(one: &(u32, Vec<DVec2>), other: &(u32, Vec<DVec2>)) -> usize {
     let end = |it: &(u32, Vec<DVec2>)| it.0 as usize + it.1.len();
     end(one).min(end(other)).saturating_sub(one.0.max(other.0) as usize)
+}
+
+impl Tracks {
+    /// Tracks of a recording, metres.
+    pub fn of_recording(name: &str, recording: &Recording) -> Self {
+        let first_s = recording.tracks.iter().flat_map(|track| track.points.first()).map(|point| point.time_s);
+        let from_s = first_s.fold(f64::INFINITY, f64::min);
+        let people = recording.tracks.iter().map(|track| track.sampled(from_s, SAMPLE_S));
+        Self { name: name.to_owned(), people: people.filter(|(_, places)| places.len() > 1).collect() }
+    }
 }
 
 #[cfg(test)]

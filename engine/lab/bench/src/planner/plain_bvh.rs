@@ -296,11 +296,11 @@ impl Sight for PlainBvh {
 mod tests {
     use super::*;
     use cosfly_random::Seed;
-    use cosfly_scenes::{Scene, SceneKind};
+    use cosfly_scenes::{SceneKind, SeededScene};
 
     #[test]
     fn answers_are_those_of_every_box_in_turn() {
-        let mut boxes = Scene::generate(SceneKind::Leafy, 1).boxes;
+        let mut boxes = SeededScene::generate(SceneKind::Leafy, 1).boxes;
         boxes.iter_mut().step_by(3).for_each(|shape| shape.yaw_rad = 0.7);
         let tree = PlainBvh::build(&boxes);
         let solids: Vec<Solid> = boxes.iter().map(Solid::new).collect();

@@ -4,7 +4,7 @@ use super::figures::Flight;
 use super::scene::Ground;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, TargetTrack, real};
-use cosfly_plot::document::{Anchor, Document};
+use cosfly_plot::document::{ChartDocument, TextAnchor};
 
 /// Width of one plan view, pixels.
 const VIEW_PX: f64 = 460.0;
@@ -64,7 +64,7 @@ pub fn picture(ground: &Ground, path: usize, flights: &[(&str, &Flight)]) -> Str
     let chart_px = if solvers.is_empty() { 0.0 } else { CHART_PX };
     let total = (gap + columns as f64 * column).max(560.0);
     let title = format!("Flights over walk {path} of {}", ground.name);
-    let mut page = Document::new(&title, total, views_px + 30.0 + chart_px);
+    let mut page = ChartDocument::new(&title, total, views_px + 30.0 + chart_px);
     for (index, (name, flight)) in flights.iter().enumerate() {
         let (left, top) = (gap + (index % columns) as f64 * column, (index / columns) as f64 * row);
         let view = Projection { low, scale, left, bottom: top + row };
@@ -92,19 +92,19 @@ fn extent(track: &TargetTrack, flights: &[(&str, &Flight)]) -> (DVec2, DVec2) {
     (low - DVec2::splat(MARGIN_M), high + DVec2::splat(MARGIN_M))
 }
 
-fn titles(page: &mut Document, (left, top): (f64, f64), name: &str, flight: &Flight) {
-    page.words((left, top + 18.0), name, Anchor::Start, "#111111");
+fn titles(page: &mut ChartDocument, (left, top): (f64, f64), name: &str, flight: &Flight) {
+    page.words((left, top + 18.0), name, TextAnchor::Start, "#111111");
     let words = match &flight.figures {
         Ok(figures) => {
             format!("visibility {:.3}, {:.0} m, {:.1} ms", figures.visibility, figures.length_m, 1e3 * flight.cpu_s)
         }
         Err(_) => "no flight".to_owned(),
     };
-    page.words((left, top + 35.0), &words, Anchor::Start, "#555555");
+    page.words((left, top + 35.0), &words, TextAnchor::Start, "#555555");
 }
 
 /// Obstacles from above; higher ones are darker.
-fn footprint(page: &mut Document, view: &Projection, shape: &OrientedBox, low: DVec2, high: DVec2) {
+fn footprint(page: &mut ChartDocument, view: &Projection, shape: &OrientedBox, low: DVec2, high: DVec2) {
     let (min, max) = shape.bounds_in_world();
     if min.x > high.x || min.y > high.y || max.x < low.x || max.y < low.y {
         return;
@@ -118,7 +118,7 @@ fn footprint(page: &mut Document, view: &Projection, shape: &OrientedBox, low: D
     page.polygon(&corners, "#5b6770", (0.2 + 0.015 * max.z).clamp(0.2, 0.75));
 }
 
-fn walk(page: &mut Document, view: &Projection, track: &TargetTrack) {
+fn walk(page: &mut ChartDocument, view: &Projection, track: &TargetTrack) {
     let feet: Vec<(f64, f64)> = track.states.iter().map(|state| view.of(state.feet_in_world)).collect();
     page.line(&feet, "#1f3b73", 1.6, "5 4");
     if let Some(&first) = feet.first() {
@@ -127,7 +127,7 @@ fn walk(page: &mut Document, view: &Projection, track: &TargetTrack) {
 }
 
 /// Flight in segments of one colour.
-fn flown(page: &mut Document, view: &Projection, flight: &Flight) {
+fn flown(page: &mut ChartDocument, view: &Projection, flight: &Flight) {
     let mut run: Vec<(f64, f64)> = Vec::new();
     let mut shade = String::new();
     for (pair, visibility) in flight.waypoints.windows(2).zip(&flight.visibility) {
@@ -149,22 +149,22 @@ fn flown(page: &mut Document, view: &Projection, flight: &Flight) {
     }
 }
 
-fn legend(page: &mut Document, left: f64, y: f64, scale: f64) {
+fn legend(page: &mut ChartDocument, left: f64, y: f64, scale: f64) {
     let words = ["0", "1/2", "all seen"];
     let mut x = left;
     for (value, word) in [0.0, 0.5, 1.0].iter().zip(words) {
         page.line(&[(x, y - 4.0), (x + 24.0, y - 4.0)], &colour(*value), 3.0, "");
-        page.words((x + 30.0, y), word, Anchor::Start, "#333333");
+        page.words((x + 30.0, y), word, TextAnchor::Start, "#333333");
         x += 70.0 + 12.0 * f64::from(u8::from(word.len() > 3));
     }
     page.line(&[(x + 20.0, y - 4.0), (x + 44.0, y - 4.0)], "#1f3b73", 1.6, "5 4");
-    page.words((x + 50.0, y), "walker", Anchor::Start, "#333333");
+    page.words((x + 50.0, y), "walker", TextAnchor::Start, "#333333");
     page.line(&[(x + 110.0, y - 4.0), (x + 110.0 + 20.0 * scale, y - 4.0)], "#111111", 2.0, "");
-    page.words((x + 116.0 + 20.0 * scale, y), "20 m", Anchor::Start, "#333333");
+    page.words((x + 116.0 + 20.0 * scale, y), "20 m", TextAnchor::Start, "#333333");
 }
 
 /// Cost by iteration, one colour per solver, on a logarithmic scale.
-fn chart(page: &mut Document, left: f64, top: f64, width: f64, solvers: &[&(&str, &Flight)]) {
+fn chart(page: &mut ChartDocument, left: f64, top: f64, width: f64, solvers: &[&(&str, &Flight)]) {
     let (plot_left, plot_width, plot_height) = (left + 60.0, width - 180.0, CHART_PX - 70.0);
     let costs = || solvers.iter().flat_map(|(_, flight)| flight.convergence.iter().copied()).filter(|c| *c > 0.0);
     let (low, high) = costs().fold((f64::INFINITY, 0.0_f64), |(low, high), cost| (low.min(cost), high.max(cost)));
@@ -182,18 +182,18 @@ fn chart(page: &mut Document, left: f64, top: f64, width: f64, solvers: &[&(&str
     for cost in [low, (low * high).sqrt(), high] {
         let (_, y) = at(0, cost);
         page.line(&[(plot_left, y), (plot_left + plot_width, y)], "#d0d0d0", 0.8, "");
-        page.words((plot_left - 6.0, y + 4.0), &format!("{cost:.0}"), Anchor::End, "#555555");
+        page.words((plot_left - 6.0, y + 4.0), &format!("{cost:.0}"), TextAnchor::End, "#555555");
     }
     for step in [0, steps] {
-        page.words((at(step, low).0, top + plot_height + 16.0), &step.to_string(), Anchor::Middle, "#555555");
+        page.words((at(step, low).0, top + plot_height + 16.0), &step.to_string(), TextAnchor::Middle, "#555555");
     }
     let middle = plot_left + 0.5 * plot_width;
-    page.words((middle, top + plot_height + 16.0), "total cost by iteration", Anchor::Middle, "#333333");
+    page.words((middle, top + plot_height + 16.0), "total cost by iteration", TextAnchor::Middle, "#333333");
     for ((name, flight), shade) in solvers.iter().zip(["#1b6ca8", "#c2571a", "#3a7d44", "#7a3b8f"].iter().cycle()) {
         let line: Vec<(f64, f64)> = flight.convergence.iter().enumerate().map(|(i, &cost)| at(i, cost)).collect();
         page.line(&line, shade, 1.8, "");
         if let Some(&(x, y)) = line.last() {
-            page.words((x + 6.0, y + 4.0), name, Anchor::Start, shade);
+            page.words((x + 6.0, y + 4.0), name, TextAnchor::Start, shade);
         }
     }
 }

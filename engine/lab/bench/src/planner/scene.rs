@@ -3,7 +3,7 @@
 use cosfly_domain::OrientedBox;
 use cosfly_frames::TargetTrack;
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 
 /// Function of the height of the ground at (x, y), metres.
 pub type GroundHeight = Box<dyn Fn(f64, f64) -> f64 + Send + Sync>;
@@ -32,9 +32,9 @@ impl Ground {
 
     /// [`Self::scene`] and its unsimplified boxes.
     pub fn scene_and_boxes(kind: SceneKind, seed: u64, paths: usize) -> (Self, Vec<OrientedBox>) {
-        let scene = Scene::generate(kind, seed);
+        let scene = SeededScene::generate(kind, seed);
         let coarse = if kind == SceneKind::Fine { SceneKind::Leafy } else { kind };
-        let planning_boxes = Scene::generate(coarse, seed).boxes;
+        let planning_boxes = SeededScene::generate(coarse, seed).boxes;
         let tracks = (0..paths as u64).map(|index| scene.walker(seed, index)).collect();
         let ground = Self {
             name: kind.name().to_owned(),

@@ -1,7 +1,7 @@
 //! CPU time of one frame on one core, split by stage: drawing, encoding by channel, writing.
 
-use super::RenderOptions;
 use super::flight::{DT_S, StoredFile, flight};
+use super::options::RenderOptions;
 use super::views::{Ground, View};
 use crate::clock::timed;
 use cosfly_diagnose::Result;

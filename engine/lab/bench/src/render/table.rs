@@ -1,6 +1,6 @@
 //! The report as text.
 
-use super::{RenderReport, RenderRow};
+use super::measure::{RenderReport, RenderRow};
 use cosfly_render::PictureLook;
 use std::fmt;
 

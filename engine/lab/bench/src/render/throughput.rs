@@ -1,7 +1,7 @@
 //! Throughput of several threads: frames drawn, encoded, packed, and written as finished logs.
 
-use super::RenderOptions;
 use super::flight::{DT_S, StoredFile, flight};
+use super::options::RenderOptions;
 use super::views::{Ground, View};
 use crate::clock::{process_cpu_s, wall_s};
 use cosfly_diagnose::Result;

@@ -1,7 +1,7 @@
 //! [`Controller`]: from a setpoint to thrust and body rates, and from those to speeds of the rotors.
 
-use super::dynamics::{GRAVITY_MPS2, QuadrotorState};
-use super::parameters::QuadrotorParameters;
+use super::dynamics::QuadrotorState;
+use super::parameters::{GRAVITY_MPS2, QuadrotorParameters};
 use cosfly_frames::{DMat3, DQuat, DVec3, real};
 use glam::{DMat4, DVec4};
 

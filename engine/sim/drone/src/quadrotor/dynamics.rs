@@ -1,10 +1,10 @@
 //! [`Quadrotor`]: the motion that follows from speeds of the rotors.
 
-use super::parameters::{Gyroscope, QuadrotorParameters};
+use super::parameters::{GRAVITY_MPS2, Gyroscope, QuadrotorParameters};
 use cosfly_frames::{DMat3, DQuat, DVec3};
 
-/// Acceleration of free fall, m/s^2.
-pub const GRAVITY_MPS2: f64 = 9.81;
+/// Time between ticks of the controller and of the model, seconds.
+pub const TICK_S: f64 = 0.001;
 /// Rev/min in rad/s.
 const RPM: f64 = cosfly_frames::real::TAU / 60.0;
 
@@ -30,7 +30,7 @@ pub struct Derivative {
     pub acceleration_mps2: DVec3,
     /// Angular acceleration around the body's axes, rad/s^2.
     pub rates_rad_s2: DVec3,
-    /// Of the rotors, rev/min per second.
+    /// Change of the rotors' speeds, rev/min per second.
     pub rotors_rpm_s: [f64; 4],
 }
 

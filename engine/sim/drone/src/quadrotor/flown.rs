@@ -1,24 +1,22 @@
 //! [`FlownQuadrotor`]: a quadrotor in closed loop: it follows velocities, or thrust and rates, or speeds of rotors, in wind.
 
 use super::control::{ControlGains, Controller, Setpoint, ThrustAndRates};
-use super::dynamics::{GRAVITY_MPS2, Quadrotor};
+use super::dynamics::{Quadrotor, TICK_S};
 use super::flipped;
-use super::parameters::QuadrotorParameters;
-use crate::point_mass::{Command, Motion, MotionLimits, PointMass};
+use super::parameters::{GRAVITY_MPS2, QuadrotorParameters};
+use crate::point_mass::{Motion, MotionLimits, PointMass, VelocityCommand};
 use crate::sensing::Sensing;
 use crate::wind::Air;
 use cosfly_frames::{DQuat, DVec3};
 
-/// Time between ticks of the controller and of the model, seconds.
-pub const TICK_S: f64 = 0.001;
 /// Distance by which the point that is followed gets ahead of the drone at most, metres.
 const LEASH_M: f64 = 2.0;
 
-/// What a quadrotor is asked for.
+/// Input of the control loop: a velocity, thrust and rates, or speeds of rotors.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Lead {
+pub enum ControlInput {
     /// To fly as a point mass would that follows a velocity, nose along a yaw (world frame, radians).
-    Velocity(Command, f64),
+    Velocity(VelocityCommand, f64),
     /// Collective thrust and rates of turning (the body's right-handed axes).
     ThrustAndRates(ThrustAndRates),
     /// Speeds of the rotors, rev/min.
@@ -27,7 +25,7 @@ pub enum Lead {
 
 /// How well a drone could do what it was asked for, since its beginning.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Strain {
+pub struct TrackingError {
     /// Ticks.
     pub ticks: u64,
     /// Ticks in which a rotor was asked for more or less thrust than it has.
@@ -48,7 +46,7 @@ pub struct FlownQuadrotor {
     point: PointMass,
     air: Air,
     time_s: f64,
-    strain: Strain,
+    error: TrackingError,
     sensing: Option<Sensing>,
     acceleration_in_world: DVec3,
 }
@@ -68,22 +66,22 @@ impl FlownQuadrotor {
         quadrotor.state.velocity_mps = flipped(motion.velocity_in_world);
         quadrotor.state.attitude = DQuat::from_rotation_z(-yaw_rad);
         let point = PointMass { motion, limits };
-        let (strain, acceleration_in_world) = (Strain::default(), DVec3::ZERO);
-        Self { quadrotor, controller, point, air, time_s: 0.0, strain, sensing, acceleration_in_world }
+        let (error, acceleration_in_world) = (TrackingError::default(), DVec3::ZERO);
+        Self { quadrotor, controller, point, air, time_s: 0.0, error, sensing, acceleration_in_world }
     }
 
     /// Flies for `time_s` seconds.
-    pub fn step(&mut self, lead: &Lead, time_s: f64) {
+    pub fn step(&mut self, input: &ControlInput, time_s: f64) {
         let before = self.point.motion;
         let from = self.motion();
-        if let Lead::Velocity(command, _) = lead {
+        if let ControlInput::Velocity(command, _) = input {
             self.point.step(command, time_s);
         }
         let acceleration = (self.point.motion.velocity_in_world - before.velocity_in_world) / time_s;
         // The parabola that begins where the point was and ends where it is, so that velocities are those of the places.
         let first_velocity = before.velocity_in_world + 0.5 * time_s * acceleration;
         self.time_s += time_s;
-        let ticks = (self.time_s / TICK_S).round() as u64 - self.strain.ticks;
+        let ticks = (self.time_s / TICK_S).round() as u64 - self.error.ticks;
         for tick in 0..ticks {
             let since_s = tick as f64 * TICK_S;
             let place = before.position_in_world + since_s * (first_velocity + 0.5 * since_s * acceleration);
@@ -93,14 +91,14 @@ impl FlownQuadrotor {
                 acceleration_mps2: flipped(acceleration),
                 yaw_rad: -yaw_rad,
             };
-            self.tick(lead, &setpoint);
+            self.tick(input, &setpoint);
         }
         self.acceleration_in_world = (self.velocity_in_world() - from.velocity_in_world) / time_s;
         let Motion { position_in_world, velocity_in_world, .. } = self.motion();
         let motion = &mut self.point.motion;
-        match lead {
+        match input {
             // A point that the drone cannot follow waits for it.
-            Lead::Velocity(..) => {
+            ControlInput::Velocity(..) => {
                 let ahead = (motion.position_in_world - position_in_world).clamp_length_max(LEASH_M);
                 motion.position_in_world = position_in_world + ahead;
             }
@@ -108,34 +106,34 @@ impl FlownQuadrotor {
         }
     }
 
-    fn tick(&mut self, lead: &Lead, setpoint: &dyn Fn(f64) -> Setpoint) {
+    fn tick(&mut self, input: &ControlInput, setpoint: &dyn Fn(f64) -> Setpoint) {
         let state = &self.quadrotor.state;
         let mut driven = |wanted: &ThrustAndRates| {
-            self.strain.saturated_ticks += u64::from(self.controller.saturates(state, wanted));
+            self.error.saturated_ticks += u64::from(self.controller.saturates(state, wanted));
             self.controller.rotors_rpm(state, wanted)
         };
-        let rotors = match lead {
-            Lead::Velocity(_, yaw_rad) => {
+        let rotors = match input {
+            ControlInput::Velocity(_, yaw_rad) => {
                 let setpoint = setpoint(*yaw_rad);
                 let rotors = driven(&self.controller.track(state, &setpoint));
                 let error_m = state.position_m.distance(setpoint.position_m);
-                self.strain.followed_ticks += 1;
-                self.strain.error_sum_m += error_m;
-                self.strain.largest_error_m = self.strain.largest_error_m.max(error_m);
+                self.error.followed_ticks += 1;
+                self.error.error_sum_m += error_m;
+                self.error.largest_error_m = self.error.largest_error_m.max(error_m);
                 rotors
             }
-            Lead::ThrustAndRates(wanted) => driven(wanted),
-            Lead::Rotors(rotors) => {
+            ControlInput::ThrustAndRates(wanted) => driven(wanted),
+            ControlInput::Rotors(rotors) => {
                 let (low, high) = self.quadrotor.parameters.speed_rpm;
-                self.strain.saturated_ticks += u64::from(rotors.iter().any(|rpm| !(low..=high).contains(rpm)));
+                self.error.saturated_ticks += u64::from(rotors.iter().any(|rpm| !(low..=high).contains(rpm)));
                 *rotors
             }
         };
         let wind_mps = flipped(self.air.next_in_world());
         self.quadrotor.step(rotors, wind_mps, TICK_S);
-        self.strain.ticks += 1;
+        self.error.ticks += 1;
         if let Some(sensing) = &mut self.sensing {
-            sensing.tick(self.strain.ticks, &self.quadrotor.state);
+            sensing.tick(self.error.ticks, &self.quadrotor.state);
         }
     }
 
@@ -158,11 +156,11 @@ impl FlownQuadrotor {
     }
 
     /// How well it could do what it was asked for.
-    pub fn strain(&self) -> &Strain {
-        &self.strain
+    pub fn tracking_error(&self) -> &TrackingError {
+        &self.error
     }
 
-    /// What its sensors measured.
+    /// Samples of its sensors.
     pub fn sensing(&self) -> Option<&Sensing> {
         self.sensing.as_ref()
     }
@@ -196,14 +194,14 @@ mod tests {
             let mut point = flown.point;
             for step in 0..100 {
                 let velocity_in_world = if step < 50 { DVec3::new(2.0, -1.0, 0.5) } else { DVec3::new(0.0, 2.0, 0.0) };
-                let command = Command { velocity_in_world, ..Command::default() };
-                flown.step(&Lead::Velocity(command, 0.5), 0.1);
+                let command = VelocityCommand { velocity_in_world, ..VelocityCommand::default() };
+                flown.step(&ControlInput::Velocity(command, 0.5), 0.1);
                 point.step(&command, 0.1);
             }
             let away_m = flown.motion().position_in_world.distance(point.motion.position_in_world);
-            let strain = flown.strain();
-            assert_eq!((strain.ticks, strain.followed_ticks), (10_000, 10_000));
-            assert!(away_m < within_m && strain.largest_error_m < within_m, "{away_m} {strain:?}");
+            let error = flown.tracking_error();
+            assert_eq!((error.ticks, error.followed_ticks), (10_000, 10_000));
+            assert!(away_m < within_m && error.largest_error_m < within_m, "{away_m} {error:?}");
         }
     }
 
@@ -213,8 +211,8 @@ mod tests {
         let (mut whole, mut split) = (drone(parameters.clone(), Air::still()), drone(parameters, Air::still()));
         let wanted = ThrustAndRates { thrust_n: whole.thrust_n(1.1), rates_rad_s: DVec3::new(0.1, 0.2, 0.0) };
         for _ in 0..10 {
-            whole.step(&Lead::ThrustAndRates(wanted), 0.1);
-            [0.057, 0.043].iter().for_each(|time_s| split.step(&Lead::ThrustAndRates(wanted), *time_s));
+            whole.step(&ControlInput::ThrustAndRates(wanted), 0.1);
+            [0.057, 0.043].iter().for_each(|time_s| split.step(&ControlInput::ThrustAndRates(wanted), *time_s));
         }
         assert_eq!(whole.quadrotor.state, split.quadrotor.state);
         assert!(whole.motion().position_in_world.z > 20.1);
@@ -224,10 +222,10 @@ mod tests {
     fn more_than_the_rotors_have_is_counted() {
         let mut flown = drone(QuadrotorParameters::crazyflie(), Air::still());
         let wanted = ThrustAndRates { thrust_n: flown.thrust_n(5.0), rates_rad_s: DVec3::ZERO };
-        flown.step(&Lead::ThrustAndRates(wanted), 0.1);
-        assert_eq!(flown.strain().saturated_ticks, 100);
-        flown.step(&Lead::Rotors([f64::NAN; 4]), 0.1);
-        assert_eq!(flown.strain().saturated_ticks, 200);
+        flown.step(&ControlInput::ThrustAndRates(wanted), 0.1);
+        assert_eq!(flown.tracking_error().saturated_ticks, 100);
+        flown.step(&ControlInput::Rotors([f64::NAN; 4]), 0.1);
+        assert_eq!(flown.tracking_error().saturated_ticks, 200);
         assert!(flown.motion().position_in_world.is_finite());
     }
 }

@@ -12,8 +12,8 @@ mod parameters;
 mod tests;
 
 pub use control::{ControlGains, Controller, Setpoint, ThrustAndRates};
-pub use dynamics::{Derivative, Quadrotor, QuadrotorState};
-pub use flown::{FlownQuadrotor, Lead, Strain, TICK_S};
+pub use dynamics::{Derivative, Quadrotor, QuadrotorState, TICK_S};
+pub use flown::{ControlInput, FlownQuadrotor, TrackingError};
 pub use parameters::{Gyroscope, QuadrotorParameters};
 
 use cosfly_frames::DVec3;

@@ -2,12 +2,15 @@
 
 use cosfly_frames::DVec3;
 
+/// Acceleration of free fall, m/s^2.
+pub const GRAVITY_MPS2: f64 = 9.81;
+
 /// Signs of the torque of spinning rotors on a body that rolls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gyroscope {
-    /// As mechanics say: minus the cross product of body rates and the rotors' angular momentum.
+    /// Torque of mechanics: minus the cross product of body rates and the rotors' angular momentum.
     Exact,
-    /// As the Python package `drone-models` 0.1.0 has it, with the other sign in the roll component; to compare with it.
+    /// Torque of the Python package `drone-models` 0.1.0, with the other sign in the roll component; to compare with it.
     OfDroneModels,
 }
 
@@ -104,7 +107,7 @@ impl QuadrotorParameters {
 
     /// Speed of the rotors at hover, rev/min.
     pub fn hover_rpm(&self) -> f64 {
-        self.speed_of_thrust_rpm(0.25 * self.mass_kg * super::dynamics::GRAVITY_MPS2)
+        self.speed_of_thrust_rpm(0.25 * self.mass_kg * GRAVITY_MPS2)
     }
 }
 

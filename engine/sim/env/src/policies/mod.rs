@@ -24,7 +24,7 @@ pub trait Policy {
     fn act(&mut self, environment: &Environment) -> Action;
 }
 
-/// What baselines may know of an episode beside its environment.
+/// Knowledge of baselines about an episode, beside its environment.
 #[derive(Clone)]
 pub struct Knowledge {
     /// Waypoints of the expert's flight, one per frame of the target's track; empty where there is none. World frame, metres.

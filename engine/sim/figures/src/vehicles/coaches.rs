@@ -2,7 +2,7 @@
 
 use super::livery::CarBody;
 use super::model::Model;
-use crate::clothes::Region;
+use crate::region::Region;
 
 /// Half width of straight sheet, as a share of the width: wheels reach a little farther.
 const STRAIGHT: [f64; 2] = [0.494, 0.494];

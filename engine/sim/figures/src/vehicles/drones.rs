@@ -1,7 +1,7 @@
 //! A small quadrotor: trunk, camera, four arms with motors and two-bladed rotors. All sizes follow the box.
 
 use super::model::Model;
-use crate::clothes::Region;
+use crate::region::Region;
 use cosfly_frames::DVec3;
 
 /// Sizes that the shares are made for, metres.

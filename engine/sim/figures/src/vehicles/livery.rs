@@ -1,8 +1,8 @@
 //! Paint and build of vehicles, drawn from their seeds.
 
 use crate::body_shape::BodyShape;
-use crate::clothes::{Region, dye};
 use cosfly_domain::{BodyKind, Colour, Dye};
+use crate::region::Region;
 use cosfly_frames::Seed;
 
 /// Paint of a vehicle.
@@ -25,20 +25,20 @@ pub(crate) enum CarBody {
 
 /// Paints with their shares: those of new cars in the world in the early 2020s, by the yearly reports of paint makers.
 const PAINTS: [(f64, Dye); 14] = [
-    (0.33, dye(Colour::White, [0.72, 0.72, 0.70])),
-    (0.20, dye(Colour::Black, [0.018, 0.018, 0.020])),
-    (0.10, dye(Colour::Grey, [0.13, 0.135, 0.14])),
-    (0.06, dye(Colour::Grey, [0.25, 0.26, 0.27])),
-    (0.10, dye(Colour::Grey, [0.48, 0.49, 0.50])),
-    (0.05, dye(Colour::Blue, [0.020, 0.050, 0.18])),
-    (0.03, dye(Colour::Blue, [0.05, 0.16, 0.42])),
-    (0.05, dye(Colour::Red, [0.38, 0.018, 0.018])),
-    (0.01, dye(Colour::Green, [0.03, 0.10, 0.05])),
-    (0.01, dye(Colour::Green, [0.10, 0.14, 0.08])),
-    (0.02, dye(Colour::Brown, [0.12, 0.07, 0.04])),
-    (0.02, dye(Colour::Beige, [0.46, 0.40, 0.30])),
-    (0.01, dye(Colour::Orange, [0.65, 0.20, 0.02])),
-    (0.01, dye(Colour::Yellow, [0.70, 0.52, 0.04])),
+    (0.33, Dye::new(Colour::White, [0.72, 0.72, 0.70])),
+    (0.20, Dye::new(Colour::Black, [0.018, 0.018, 0.020])),
+    (0.10, Dye::new(Colour::Grey, [0.13, 0.135, 0.14])),
+    (0.06, Dye::new(Colour::Grey, [0.25, 0.26, 0.27])),
+    (0.10, Dye::new(Colour::Grey, [0.48, 0.49, 0.50])),
+    (0.05, Dye::new(Colour::Blue, [0.020, 0.050, 0.18])),
+    (0.03, Dye::new(Colour::Blue, [0.05, 0.16, 0.42])),
+    (0.05, Dye::new(Colour::Red, [0.38, 0.018, 0.018])),
+    (0.01, Dye::new(Colour::Green, [0.03, 0.10, 0.05])),
+    (0.01, Dye::new(Colour::Green, [0.10, 0.14, 0.08])),
+    (0.02, Dye::new(Colour::Brown, [0.12, 0.07, 0.04])),
+    (0.02, Dye::new(Colour::Beige, [0.46, 0.40, 0.30])),
+    (0.01, Dye::new(Colour::Orange, [0.65, 0.20, 0.02])),
+    (0.01, Dye::new(Colour::Yellow, [0.70, 0.52, 0.04])),
 ];
 
 impl Livery {

@@ -1,7 +1,8 @@
 //! Flat faces of a vehicle's model, in the vehicle's own axes.
 
-use crate::clothes::Region;
-use crate::figure::{FigureTriangle, Surface, Walker, around};
+use crate::frustum::{FigureTriangle, Surface, around};
+use crate::region::Region;
+use crate::walker::Walker;
 use cosfly_frames::{DVec3, real};
 
 /// Panels such as windows lie this far before the sheet, metres.
@@ -88,7 +89,7 @@ impl<'a> Model<'a> {
         sheet_m * DVec3::new(x, y * (foot + (top - foot) * z), z)
     }
 
-    /// The same panel on both sides of a hull: an outline of (x, z).
+    /// A panel on both sides of a hull: an outline of (x, z).
     pub fn side_panels(&mut self, region: Region, outline: &[[f64; 2]], half_width: [f64; 2]) {
         for y in [-1.0, 1.0] {
             self.side_panel(region, outline, half_width, y);

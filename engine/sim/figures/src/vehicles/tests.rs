@@ -1,11 +1,13 @@
 //! Models and boxes agree.
 
-use super::*;
 use crate::body_shape::BodyShape;
-use crate::clothes::Region;
-use crate::figure::{figure, walker_triangles};
-use cosfly_domain::{BodyPlan, SemanticLabel};
-use cosfly_frames::{Seed, TargetState};
+use cosfly_figures::Clothes;
+use cosfly_figures::walker_triangles;
+use crate::figure::figure;
+use crate::region::Region;
+use crate::walker::Walker;
+use cosfly_domain::{BodyKind, BodyPlan, SemanticLabel};
+use cosfly_frames::{DVec3, Seed, TargetState};
 
 /// No corner is farther outside of the box than this, and every side of the box has a corner as near, metres.
 const BOUND_M: f64 = 0.01;

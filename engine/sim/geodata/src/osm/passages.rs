@@ -7,7 +7,7 @@ use super::rings::Area;
 use super::roads::{Road, lines_of};
 use super::tags::Tags;
 use cosfly_frames::DVec2;
-use cosfly_town::regions::Region;
+use cosfly_town::regions::PlanRegion;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Clear height of a passage that states none: for people, and for vehicles, metres.
@@ -60,7 +60,7 @@ pub struct Passages {
 #[derive(Debug)]
 pub struct Layer {
     /// What is solid.
-    pub regions: Vec<Region>,
+    pub regions: Vec<PlanRegion>,
     /// Lower end.
     pub base_m: f64,
     /// Upper end.
@@ -192,13 +192,14 @@ fn layers(area: &Area<'_>, base_m: f64, through: &[Stretch]) -> Option<Vec<Layer
     let mut tops_m: Vec<f64> = through.iter().map(|stretch| stretch.clear_m).collect();
     tops_m.sort_by(f64::total_cmp);
     tops_m.dedup();
-    let whole = Region::new(&area.outer, &area.holes);
+    let whole = PlanRegion::new(&area.outer, &area.holes);
     let mut layers = Vec::with_capacity(tops_m.len());
     let mut below_m = base_m;
     for top_m in tops_m {
         let mut regions = vec![whole.clone()];
         for stretch in through.iter().filter(|stretch| stretch.clear_m >= top_m) {
-            let cut: Option<Vec<Vec<Region>>> = regions.iter().map(|region| region.outside(&stretch.quad)).collect();
+            let cut: Option<Vec<Vec<PlanRegion>>> =
+                regions.iter().map(|region| region.outside(&stretch.quad)).collect();
             regions = cut?.into_iter().flatten().collect();
         }
         layers.push(Layer { regions, base_m: below_m, top_m });

@@ -1,5 +1,6 @@
 //! Families of houses by use and age: what their walls, windows and ground floors are drawn from.
 
+use super::draws;
 use crate::pattern::{draw, hash, one_if};
 use crate::vector::Vec3;
 
@@ -31,6 +32,18 @@ pub(super) struct Family {
     /// Strength of dirt.
     pub age: [f32; 2],
 }
+
+/// Shop signs, linear RGB.
+pub(super) const SIGNS: [Vec3; 8] = [
+    Vec3::new(0.55, 0.04, 0.03),
+    Vec3::new(0.03, 0.12, 0.35),
+    Vec3::new(0.02, 0.22, 0.10),
+    Vec3::new(0.60, 0.35, 0.03),
+    Vec3::new(0.06, 0.06, 0.07),
+    Vec3::new(0.45, 0.43, 0.40),
+    Vec3::new(0.16, 0.07, 0.03),
+    Vec3::new(0.05, 0.25, 0.32),
+];
 
 const PLASTER: &[[f32; 3]] = &[
     [0.62, 0.52, 0.36],
@@ -251,7 +264,7 @@ impl Family {
             _ => &TALL,
         };
         // Squared: the first of the list, as the town turns it, come most often.
-        let drawn = draw(seed, 0);
+        let drawn = draw(seed, draws::FAMILY);
         let place = (drawn * (0.35 + 0.65 * drawn) * kinds.len() as f32) as usize;
         let turned = place + (hash(town, kinds.len() as u32) % 3) as usize;
         &FAMILIES[kinds[turned % kinds.len()]]
@@ -259,8 +272,8 @@ impl Family {
 
     /// Colour of the wall and of what frames it.
     pub fn colours(&self, seed: u32) -> [Vec3; 2] {
-        let [r, g, b] = self.walls[(draw(seed, 1) * self.walls.len() as f32) as usize % self.walls.len()];
-        let bright = 0.82 + 0.32 * draw(seed, 2);
+        let [r, g, b] = self.walls[(draw(seed, draws::WALL) * self.walls.len() as f32) as usize % self.walls.len()];
+        let bright = 0.82 + 0.32 * draw(seed, draws::BRIGHTNESS);
         let [x, y, z] = self.trim;
         let wall = Vec3::new(r, g, b) * bright;
         [wall, wall.lerp(Vec3::new(x, y, z), 0.8)]

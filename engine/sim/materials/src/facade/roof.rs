@@ -1,5 +1,6 @@
 //! Flat roofs: roofing, parapets, skylights, machines and their shadows.
 
+use super::draws;
 use crate::lanes::{Block, Shared, WIDE, get, groups, set};
 use crate::light::Light;
 use crate::pattern::{
@@ -83,7 +84,7 @@ impl Roof {
             Vec3::new(0.27, 0.22, 0.18),
             Vec3::new(0.13, 0.16, 0.07),
         ];
-        let tone = tones[(draw(seed, 20) * 6.0) as usize % 6];
+        let tone = tones[(draw(seed, draws::FLAT_ROOF) * 6.0) as usize % 6];
         let parapet_m = |side: usize| half_m[side / 2] + if goes_on[side] { FAR_M } else { 0.0 };
         let parapets_m = [0, 1, 2, 3].map(parapet_m);
         Self { seed, tone, shift: unit(seed) * 99.0, center, axes, half_m, parapets_m }
@@ -149,11 +150,12 @@ impl Roof {
         let cell = self.square([x, y]);
         let (u, v) = (x * THINGS_PER_M, y * THINGS_PER_M);
         let (du, dv) = (point.footprints_m[0] * THINGS_PER_M, point.footprints_m[1] * THINGS_PER_M);
-        let kind = unit(hash(cell, 2));
-        let side = 0.05 + 0.20 * unit(hash(cell, 1)) * one_if(kind > 0.25);
-        let other = side * (0.5 + unit(hash(cell, 3)));
-        let (middle_u, middle_v) = (0.32 + 0.2 * unit(hash(cell, 4)), 0.32 + 0.2 * unit(hash(cell, 5)));
-        let tall = (0.5 + 1.3 * unit(hash(cell, 6))) * one_if(kind < 0.80) + 0.1;
+        let kind = unit(hash(cell, draws::THING_KIND));
+        let side = 0.05 + 0.20 * unit(hash(cell, draws::THING_LENGTH)) * one_if(kind > 0.25);
+        let other = side * (0.5 + unit(hash(cell, draws::THING_WIDTH)));
+        let (middle_u, middle_v) =
+            (0.32 + 0.2 * unit(hash(cell, draws::THING_U)), 0.32 + 0.2 * unit(hash(cell, draws::THING_V)));
+        let tall = (0.5 + 1.3 * unit(hash(cell, draws::THING_HEIGHT))) * one_if(kind < 0.80) + 0.1;
         // The shadow lies on the side away from the sun.
         let reach = -tall / most(to_sun.z, 0.3);
         let aside = to_sun.dot(self.axes[0]) * reach * THINGS_PER_M;

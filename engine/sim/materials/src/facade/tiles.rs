@@ -1,8 +1,9 @@
 //! Pitched roofs: the steps of their boxes drawn as slopes of tiles.
 
+use super::draws;
 use crate::lanes::{Block, Shared, WIDE, get, groups, set};
 use crate::pattern::{NoiseTexture, Noises, draw, hash, lerp, one_if, stripes, unit};
-use crate::roof_steps::{Pitch, TopSlope};
+use crate::roof_step::{Pitch, TopSlope};
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;
 use cosfly_frames::simd_kernel;
@@ -71,9 +72,9 @@ impl Tiles {
     /// An upright face of a step that falls to `outward`.
     pub fn side(seed: u32, town: u32, outward: Vec3, pitch: Pitch) -> Self {
         // A town prefers some: squared, the first ones as the town turns the list come most often.
-        let place = (draw(seed, 21) * draw(seed, 22) * TONES.len() as f32) as usize;
-        let turned = place + (hash(town, 21) % TONES.len() as u32) as usize;
-        let tone = TONES[turned % TONES.len()] * (0.85 + 0.3 * draw(seed, 23));
+        let place = (draw(seed, draws::TILES) * draw(seed, draws::TILES_AGAIN) * TONES.len() as f32) as usize;
+        let turned = place + (hash(town, draws::TILES) % TONES.len() as u32) as usize;
+        let tone = TONES[turned % TONES.len()] * (0.85 + 0.3 * draw(seed, draws::TILES_BRIGHTNESS));
         let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
         Self { tone, shift: unit(seed) * 99.0, center: Vec3::ZERO, axes, above_m: [0.0; 4], outward, pitch }
     }

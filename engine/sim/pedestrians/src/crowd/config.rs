@@ -1,6 +1,6 @@
 //! [`CrowdConfig`]: the parameters of people who walk a town together, and the rules between them.
 
-use crate::{ConfigRule, HeightRange, PedestrianConfig, RadiusRange, SpeedConfig};
+use crate::{HeightRange, PedestrianConfig, PedestrianConfigRule, RadiusRange, SpeedConfig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -169,8 +169,8 @@ impl CrowdConfig {
     ///
     /// # Errors
     /// The first broken rule.
-    pub fn check(&self) -> Result<(), ConfigRule> {
-        ConfigRule::within(&["count"], f64::from(self.count), 0.0, 20_000.0)?;
+    pub fn check(&self) -> Result<(), PedestrianConfigRule> {
+        PedestrianConfigRule::within(&["count"], f64::from(self.count), 0.0, 20_000.0)?;
         self.body_and_grid().check()?;
         let numbers: [(&'static [&'static str], f64, f64, f64); 17] = [
             (&["speed_noise"], self.speed_noise, 0.0, 0.5),
@@ -192,11 +192,11 @@ impl CrowdConfig {
             (&["ground_cost", "road"], self.ground_cost.road, 1.0, 1000.0),
         ];
         for (path, value, min, max) in numbers {
-            ConfigRule::within(path, value, min, max)?;
+            PedestrianConfigRule::within(path, value, min, max)?;
         }
-        ConfigRule::within(&["gap_s"], self.gap_s, 0.0, 60.0)?;
+        PedestrianConfigRule::within(&["gap_s"], self.gap_s, 0.0, 60.0)?;
         self.groups.check()?;
-        ConfigRule::in_order(&["stops", "median_s"], self.stops.median_s, "longest_s", self.stops.longest_s)
+        PedestrianConfigRule::in_order(&["stops", "median_s"], self.stops.median_s, "longest_s", self.stops.longest_s)
     }
 
     /// Body sizes, speeds and grid, as the pedestrians who walk alone have them.
@@ -214,8 +214,8 @@ impl CrowdConfig {
 }
 
 impl GroupConfig {
-    fn check(&self) -> Result<(), ConfigRule> {
-        let refused = |message: String| Err(ConfigRule { path: vec!["groups", "sizes"], message });
+    fn check(&self) -> Result<(), PedestrianConfigRule> {
+        let refused = |message: String| Err(PedestrianConfigRule { path: vec!["groups", "sizes"], message });
         if self.sizes.is_empty() || self.sizes.len() > 5 {
             return refused(format!("`sizes` has {} numbers; it must have between 1 and 5", self.sizes.len()));
         }

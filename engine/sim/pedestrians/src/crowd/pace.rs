@@ -1,9 +1,9 @@
 //! The speed that a person plans: own tempo, level with the company, slower before a stop and before a road that is not free.
 
 use crate::crowd::company::{Activity, Company};
-use crate::crowd::person::Person;
+use crate::crowd::person::{HARDEST_MPS2, Person};
 use crate::crowd::roads::Right;
-use crate::crowd::{CrowdConfig, HARDEST_MPS2, pursuit};
+use crate::crowd::{CrowdConfig, pursuit};
 use cosfly_frames::DVec2;
 
 /// Change of the speed for each metre behind the middle of the company, as a share, and its limits.

@@ -4,6 +4,9 @@ use crate::crowd::CrowdConfig;
 use cosfly_domain::{BodyKind, BodyPlan};
 use cosfly_frames::{DVec2, DVec3, RandomStream, Seed, TargetState, real};
 
+/// Largest acceleration that people choose, m/s2.
+pub(super) const HARDEST_MPS2: f64 = 2.5;
+
 /// Slower than this, a person stands, m/s.
 const STANDING_MPS: f64 = 0.03;
 

@@ -2,9 +2,9 @@
 //! that would hit them if they went on.
 
 use crate::WalkableGrid;
+use crate::crowd::CrowdConfig;
 use crate::crowd::company::{Company, is_road};
-use crate::crowd::person::Person;
-use crate::crowd::{CrowdConfig, HARDEST_MPS2};
+use crate::crowd::person::{HARDEST_MPS2, Person};
 use cosfly_frames::{DVec2, real};
 use cosfly_world::Present;
 

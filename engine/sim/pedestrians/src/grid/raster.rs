@@ -1,10 +1,14 @@
 //! Polygons and segments on the cells of the grid.
 
-use super::tiles::Tiles;
-use super::{MAX_CELLS, WalkableGrid, better_claim};
+use super::tiles::{Lattice, Tiles};
+use crate::ground::rank;
 use crate::polygon::{Cut, Polygon};
 use cosfly_domain::WalkableKind;
 use cosfly_frames::DVec2;
+use std::cmp::Ordering;
+
+/// Ground that takes more cells than this is refused (two kilometres square of it at the default cell size, several times over).
+pub(super) const MAX_CELLS: usize = 32_000_000;
 
 /// Ground of one cell by the polygons, while the grid is built.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,7 +42,7 @@ pub(super) struct Cells {
 /// Claims every cell whose centre lies in the polygon, line by line along `direction`. The error is the number of cells
 /// that are too many.
 pub(super) fn fill(
-    grid: &WalkableGrid,
+    grid: &Lattice,
     polygon: &Polygon,
     across: DVec2,
     direction: DVec2,
@@ -75,7 +79,7 @@ pub(super) fn fill(
 }
 
 /// Visits every cell that the segment passes through (a line exactly on a border visits one side).
-pub(super) fn cells_on_segment(grid: &WalkableGrid, from: DVec2, to: DVec2, visit: &mut dyn FnMut(usize)) {
+pub(super) fn cells_on_segment(grid: &Lattice, from: DVec2, to: DVec2, visit: &mut dyn FnMut(usize)) {
     let (start, end) = ((from - grid.corner) / grid.cell_m, (to - grid.corner) / grid.cell_m);
     let step = end - start;
     let (mut column, mut row) = (start.x.floor() as isize, start.y.floor() as isize);
@@ -104,5 +108,16 @@ pub(super) fn cells_on_segment(grid: &WalkableGrid, from: DVec2, to: DVec2, visi
             row += step.y.signum() as isize;
             next_y += stride_y;
         }
+    }
+}
+
+/// The better of two claims on a cell: the kind that ranks first, then the lower level, then the shorter way
+/// across (its height is the more local one).
+fn better_claim(new: (WalkableKind, f32, f32), old: (WalkableKind, f32, f32)) -> bool {
+    match rank(new.0).cmp(&rank(old.0)) {
+        Ordering::Less => true,
+        Ordering::Greater => false,
+        Ordering::Equal if (new.1 - old.1).abs() > 1.0 => new.1 < old.1,
+        Ordering::Equal => new.2 < old.2,
     }
 }

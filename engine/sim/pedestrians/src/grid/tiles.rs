@@ -1,5 +1,7 @@
 //! [`Tiles`]: a value for each cell of a wide grid, where most of the grid is empty.
 
+use cosfly_frames::DVec2;
+
 /// Cells along the side of a tile, as a power of two.
 const TILE_BITS: usize = 3;
 const TILE: usize = 1 << TILE_BITS;
@@ -36,6 +38,17 @@ impl Numbering {
         let (column, row) = self.column_row(cell);
         (row >> TILE_BITS) << (self.row_bits - TILE_BITS) | column >> TILE_BITS
     }
+}
+
+/// Where the cells of a grid lie.
+#[derive(Clone, Copy, Debug)]
+pub struct Lattice {
+    /// Corner of the first cell, world frame.
+    pub corner: DVec2,
+    /// Size of a cell, metres.
+    pub cell_m: f64,
+    /// Numbers of the cells.
+    pub numbering: Numbering,
 }
 
 /// Values of cells. A tile takes room from its first value on.

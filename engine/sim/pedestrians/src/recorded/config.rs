@@ -1,6 +1,6 @@
 //! [`RecordedConfig`]: how a file of tracks is read and placed in a town.
 
-use crate::{ConfigRule, HeightRange, RadiusRange};
+use crate::{HeightRange, PedestrianConfigRule, RadiusRange};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -86,7 +86,7 @@ impl RecordedConfig {
     ///
     /// # Errors
     /// The first broken rule.
-    pub fn check(&self) -> Result<(), ConfigRule> {
+    pub fn check(&self) -> Result<(), PedestrianConfigRule> {
         let far_m = 1e7;
         let numbers: [(&'static [&'static str], f64, f64, f64); 11] = [
             (&["rate_hz"], self.rate_hz.unwrap_or(1.0), 0.001, 10_000.0),
@@ -102,9 +102,9 @@ impl RecordedConfig {
             (&["radius", "max_m"], self.radius.max_m, 0.05, 2.0),
         ];
         for (path, value, min, max) in numbers {
-            ConfigRule::within(path, value, min, max)?;
+            PedestrianConfigRule::within(path, value, min, max)?;
         }
-        ConfigRule::in_order(&["height", "min_m"], self.height.min_m, "max_m", self.height.max_m)?;
-        ConfigRule::in_order(&["radius", "min_m"], self.radius.min_m, "max_m", self.radius.max_m)
+        PedestrianConfigRule::in_order(&["height", "min_m"], self.height.min_m, "max_m", self.height.max_m)?;
+        PedestrianConfigRule::in_order(&["radius", "min_m"], self.radius.min_m, "max_m", self.radius.max_m)
     }
 }

@@ -114,7 +114,7 @@ impl<'a> VoxelGrid<'a> {
         Ok(Self { problem, ground, costs, clearance_m, options, origin, size, layers, move_cost, move_m, moving })
     }
 
-    /// The same among boxes that move.
+    /// This grid among boxes that move.
     pub fn among(mut self, movers: &[Vec<OrientedBox>], config: &MucoConfig) -> Self {
         let (view, influence_m) = (self.problem.view, config.view.safety_influence_m);
         let obstacles =

@@ -12,12 +12,12 @@ use crate::walk::Walk;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{BoxBvh, BruteForce};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use cosfly_surroundings::Surroundings;
 use cosfly_surroundings::exact::ExactObstacles;
 use cosfly_surroundings::ground::GroundGrid;
 
-fn track_of(scene: &Scene, frames: usize) -> TargetTrack {
+fn track_of(scene: &SeededScene, frames: usize) -> TargetTrack {
     let mut track = scene.walker(5, 1);
     track.states.truncate(frames);
     track
@@ -88,7 +88,7 @@ fn exhaustive(grid: &VoxelGrid<'_>, costs: &[f64], free: &dyn Fn(DVec3, DVec3) -
 
 #[test]
 fn astar_finds_the_cheapest_of_all_ways_through_a_small_grid() {
-    let scene = Scene::generate(SceneKind::Leafy, 3);
+    let scene = SeededScene::generate(SceneKind::Leafy, 3);
     let mut config = MucoConfig::default();
     config.view.min_altitude_m = 4.0;
     config.view.preferred_altitude_m = 5.0;
@@ -118,7 +118,7 @@ fn astar_finds_the_cheapest_of_all_ways_through_a_small_grid() {
 fn no_voxel_path_comes_nearer_than_the_clearance_and_no_beam_is_cheaper_than_the_optimum() {
     let config = MucoConfig::default();
     for kind in [SceneKind::Leafy, SceneKind::Alley, SceneKind::Canyon] {
-        let mut scene = Scene::generate(kind, 4);
+        let mut scene = SeededScene::generate(kind, 4);
         scene.boxes.iter_mut().step_by(5).for_each(|shape| shape.yaw_rad = 0.1);
         let track = track_of(&scene, 25);
         with_input(&track, &scene.boxes, &config, |input| {
@@ -141,7 +141,7 @@ fn no_voxel_path_comes_nearer_than_the_clearance_and_no_beam_is_cheaper_than_the
 
 #[test]
 fn sealed_places_long_tracks_and_broken_ones_are_refused_in_words() {
-    let scene = Scene::generate(SceneKind::Light, 1);
+    let scene = SeededScene::generate(SceneKind::Light, 1);
     let config = MucoConfig::default();
     let track = track_of(&scene, 10);
     let around = OrientedBox::from_corners(DVec3::splat(-600.0), DVec3::splat(600.0));

@@ -16,7 +16,7 @@ pub struct MovingLayers {
 }
 
 impl MovingLayers {
-    /// Of a search with layers at `frames` whose drone stays `lowest_m` above the target's feet and within `farthest_m` of them
+    /// Layers of a search at `frames` whose drone stays `lowest_m` above the target's feet and within `farthest_m` of them
     /// (from above), and asks for distances up to `within_m`.
     pub fn new(
         obstacles: &LocalObstacles<'_>,

@@ -39,7 +39,7 @@ impl OcclusionConfig {
         self.count > 0 && (self.share < 1.0 || self.beside_look_alike > 0.0)
     }
 
-    /// The same without an order: of a flight that keeps its target.
+    /// Rules without an order: those of a flight that keeps its target.
     #[must_use]
     pub fn without_losses(&self) -> Self {
         let Self { share, beside_look_alike, count, .. } = Self::default();

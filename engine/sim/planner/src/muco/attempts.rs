@@ -32,7 +32,7 @@ const FULL_EXTRA_M: f64 = 0.25;
 const LIGHT: Objective = Objective { rounds: 2, iterations: 60, nearness: 0.15, acceleration: 0.2, jerk: 1.0 };
 /// Smoothing of the lattice's way (or of the paper's flight), when light smoothing was not enough.
 pub const THOROUGH: Objective = Objective { rounds: 4, iterations: 160, nearness: 0.05, acceleration: 0.5, jerk: 2.0 };
-/// The same for calm presets, which are flattened beyond what the limits ask.
+/// Light weights of calm presets, which are flattened beyond what the limits ask.
 const CALM_LIGHT: Objective = Objective { acceleration: 10.0, jerk: 20.0, ..LIGHT };
 const CALM_THOROUGH: Objective = Objective { acceleration: 2.0, jerk: 5.0, ..THOROUGH };
 /// Steps of refinement per round: heavy weights of smoothness need more of them.
@@ -49,7 +49,7 @@ thread_local! {
     static WORKSHOP: RefCell<Workshop> = RefCell::default();
 }
 
-/// What depends on the pace of the preset.
+/// Values that depend on the pace of the preset.
 struct Pace {
     steps: usize,
     light: Objective,

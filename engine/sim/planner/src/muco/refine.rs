@@ -34,9 +34,9 @@ const EXTRA_JERK: f64 = 3.0;
 /// Weight of missing clearance, and how far before the limit it begins, metres.
 const CLEARANCE_WEIGHT: f64 = 40.0;
 const CLEARANCE_EXTRA_M: f64 = 0.4;
-/// The same for the lowest altitude.
+/// How far above the lowest altitude its penalty begins, metres.
 const FLOOR_EXTRA_M: f64 = 0.2;
-/// The same for the least horizontal distance from the target.
+/// How far beyond the least horizontal distance from the target its penalty begins, metres.
 const RADIUS_EXTRA_M: f64 = 0.5;
 /// Weight of leaving the sector in which flights start, and how far before its side it begins, metres.
 const START_WEIGHT: f64 = 400.0;

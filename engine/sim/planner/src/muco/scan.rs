@@ -90,7 +90,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// The same with other instructions; for tests.
+    /// This scan with other instructions; for tests.
     pub fn at_level(mut self, level: Level) -> Self {
         self.level = level;
         self

@@ -14,7 +14,7 @@ const ALL: u8 = u8::MAX;
 pub struct BodyLanes([Lanes; 3]);
 
 impl BodyLanes {
-    /// Of the points one by one.
+    /// Rays to points, given one by one.
     pub fn new(points_in_world: &[DVec3; BODY_POINTS]) -> Self {
         Self([0, 1, 2].map(|axis| points_in_world.map(|point| point[axis])))
     }
@@ -30,7 +30,7 @@ pub struct RayBox {
 }
 
 impl RayBox {
-    /// Of a planning box.
+    /// Rays against a planning box.
     pub fn new(solid: &Solid) -> Self {
         let (sin, cos) = solid.turn();
         let (center, _) = solid.disc_from_above();

@@ -11,7 +11,7 @@ use crate::walk::Walk;
 use crate::weights::Preset;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
-use cosfly_scenes::{Scene, SceneKind};
+use cosfly_scenes::{SceneKind, SeededScene};
 use cosfly_surroundings::Surroundings;
 use cosfly_surroundings::ground::GroundGrid;
 use cosfly_surroundings::local::LocalObstacles;
@@ -47,7 +47,7 @@ pub fn with(track: &TargetTrack, boxes: &[OrientedBox], check: impl FnOnce(&Prob
 
 /// A walk through a leafy street, and the paper's start above it.
 pub fn with_street(check: impl FnOnce(&Problem<'_>, &mut LocalObstacles<'_>, &MucoConfig, &mut Vec<DVec3>)) {
-    let scene = Scene::generate(SceneKind::Leafy, 2);
+    let scene = SeededScene::generate(SceneKind::Leafy, 2);
     let mut track = scene.walker(2, 1);
     track.states.truncate(90);
     with(&track, &scene.boxes, |problem, obstacles| {

@@ -66,7 +66,7 @@ mod tests {
     use super::*;
     use cosfly_domain::OrientedBox;
     use cosfly_frames::TargetTrack;
-    use cosfly_scenes::{Scene, SceneKind};
+    use cosfly_scenes::{SceneKind, SeededScene};
     use cosfly_surroundings::Surroundings;
 
     #[test]
@@ -74,7 +74,7 @@ mod tests {
         with_street(|problem, obstacles, config, _| {
             let alone = plan_paper(problem, obstacles, config);
             let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap();
-            let scene = Scene::generate(SceneKind::Leafy, 2);
+            let scene = SeededScene::generate(SceneKind::Leafy, 2);
             let together = pool.install(|| {
                 let mut result = None;
                 with(problem.track, &scene.boxes, |problem, obstacles| {
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn a_light_street_is_seen_about_as_well_as_the_paper_says() {
-        let scene = Scene::generate(SceneKind::Light, 1);
+        let scene = SeededScene::generate(SceneKind::Light, 1);
         let mut seen = 0.0;
         for index in 0..4 {
             let track = scene.walker(1, index);
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn tracks_of_few_frames_and_of_none_are_planned_without_ado() {
-        let scene = Scene::generate(SceneKind::Light, 1);
+        let scene = SeededScene::generate(SceneKind::Light, 1);
         for frames in 0..8 {
             let mut track = scene.walker(1, 0);
             track.states.truncate(frames);

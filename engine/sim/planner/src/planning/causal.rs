@@ -88,7 +88,7 @@ fn add(sum: &mut Certificate, one: &Certificate) {
     sum.filtered_boxes = sum.filtered_boxes.max(one.filtered_boxes);
 }
 
-/// What is known from frame `first` to the present, and what is predicted from there.
+/// Knowledge from frame `first` to the present, and predictions from there.
 struct Part {
     first: usize,
     track: TargetTrack,

@@ -17,7 +17,7 @@ pub(super) struct LongerRequest {
 }
 
 impl LongerRequest {
-    /// Of a request whose drone starts in `start`.
+    /// Start of a request whose drone starts in `start`.
     pub(super) fn new(request: &PlanRequest<'_>, start: StartState) -> Self {
         let dt_s = request.track.dt_s;
         let back = |frames: usize| start.position_in_world - frames as f64 * dt_s * start.velocity_in_world;

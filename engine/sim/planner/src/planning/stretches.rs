@@ -32,7 +32,7 @@ const fn stretch(frames: usize, again: usize) -> Stretch {
 /// The stretches that are tried, in this order.
 pub(super) type Division = [Stretch];
 
-/// As long as memory allows.
+/// Longest stretches that memory allows.
 pub(super) const LONG: [Stretch; 1] = [stretch(STRETCH_FRAMES, 256)];
 /// About as short as usual walks, which are planned at once. Where one finds no way on, others begin and end elsewhere.
 pub(super) const SHORT: [Stretch; 8] = [

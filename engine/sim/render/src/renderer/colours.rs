@@ -1,9 +1,9 @@
 //! Colours alone, of a picture whose faces were found elsewhere.
 
 use super::Renderer;
+use crate::far_light::FarLight;
 use crate::found::{Adoption, FoundPicture};
 use crate::look::PictureLook;
-use crate::outlook::FarLight;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use cosfly_raster::eye::Eye;

@@ -1,10 +1,11 @@
 //! Bands of rows: pixels gathered by face, taken through the kernels, put back.
 
 use super::cloth::{Cloth, Cloths, put_cloth};
-use super::foliage;
+use super::face_material::{axes_of, even_colour, material_of};
+use super::foliage::{self, crown_of};
 use super::geometry::FaceAxes;
 use super::kernels::{Staged, run_kernels, run_simple_kernels};
-use super::material::{FLAT, Material, axes_of, even_colour, material_of};
+use super::material::{FLAT, Material};
 use super::setting::{Seen, Setting};
 use super::simple::put_colour;
 use crate::faces::FaceSource;
@@ -17,7 +18,7 @@ use cosfly_materials::kerbs::{KerbLine, Kerbs, put_kerb};
 use cosfly_materials::lanes::{
     Block, EMPTY_ROW, FOUR, FOURS, GROUPS, LANES, Shared, Stage, StageRow, WIDE, write_row, write_three,
 };
-use cosfly_materials::leaves::{Crowns, Leaves, put_crown};
+use cosfly_materials::leaves::{Crowns, put_crown};
 use cosfly_materials::vector::Vec3;
 use cosfly_raster::visibility::{NO_FACE, PlaneOnScreen};
 
@@ -428,12 +429,6 @@ fn kerb_of(seen: &Seen<'_>, face: u32) -> KerbLine {
         }
         _ => KerbLine::NONE,
     }
-}
-
-/// The crown that a face belongs to.
-pub(super) fn crown_of<'a>(seen: &Seen<'a>, face: u32) -> Option<&'a Leaves> {
-    let FaceSource::Crown { index, .. } = seen.faces.get(face as usize)?.source else { return None };
-    seen.scene.crowns.get(index as usize)?.as_ref()
 }
 
 /// The look of a part of a person that a face belongs to.

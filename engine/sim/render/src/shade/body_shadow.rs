@@ -5,7 +5,7 @@
 
 use super::shadow_frame::Frame;
 use super::sunlight::FIGURE_SIDE;
-use cosfly_figures::figure::{FigureParts, MOST_PARTS, Ring, SIDES, Walker};
+use cosfly_figures::{FigureParts, MOST_PARTS, Ring, SIDES, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3, real, simd_kernel};
 use cosfly_materials::pattern::{floor_int, least, most, share};
@@ -210,8 +210,8 @@ fn draw_triangle(corners: [[f32; 2]; 3], turned: f32, base_m: f32, rise_m: f32, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shade::sun_map::Sun;
-    use cosfly_figures::{BodyShape, Clothes, figure::walker_triangles};
+    use crate::shade::sun_tiles::Sun;
+    use cosfly_figures::{BodyShape, Clothes, walker_triangles};
     use cosfly_frames::{Seed, TargetState};
     use cosfly_materials::vector::Vec3;
 

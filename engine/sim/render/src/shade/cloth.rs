@@ -1,8 +1,7 @@
 //! Clothes, skin and hair: round around the middle line of their part, with folds, weave and patterns that move with the body.
 
 use crate::people::{PartLook, Person};
-use cosfly_figures::Pattern;
-use cosfly_figures::clothes::Region;
+use cosfly_figures::{Pattern, Region};
 use cosfly_frames::simd_kernel;
 use cosfly_materials::lanes::{
     Block, EMPTY_ROW, Shared, Stage, StageRow, WIDE, groups, three_of, write_row, write_three,

@@ -4,14 +4,14 @@
 //! shows the picture beyond the edge, mirrored at it; where gaps are follows from places in the world, so that they stay on
 //! the tree when the camera moves. Only edges before something farther away are broken.
 
-use super::bands::crown_of;
 use super::geometry::View;
 use super::setting::{Seen, Setting};
+use crate::faces::FaceSource;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
 use cosfly_domain::FrameImages;
 use cosfly_frames::simd_kernel;
-use cosfly_materials::leaves::Outline;
+use cosfly_materials::leaves::{Leaves, Outline};
 use cosfly_materials::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
 use cosfly_materials::vector::Vec3;
 
@@ -21,7 +21,7 @@ const REACH_M: f32 = 0.6;
 const REACH_SHARE: f32 = 0.28;
 /// And no farther than this, pixels.
 const MOST_PX: f32 = 20.0;
-/// The same for crowns without leaves.
+/// Reach of crowns without leaves, metres.
 const BARE_REACH_M: f32 = 1.2;
 const BARE_REACH_SHARE: f32 = 0.5;
 const MOST_BARE_PX: f32 = 32.0;
@@ -280,4 +280,10 @@ simd_kernel! {
             *gap = share((thin + CORNER * corner - places.least[k]) * STEEPNESS);
         }
     }
+}
+
+/// The crown that a face belongs to.
+pub(super) fn crown_of<'a>(seen: &Seen<'a>, face: u32) -> Option<&'a Leaves> {
+    let FaceSource::Crown { index, .. } = seen.faces.get(face as usize)?.source else { return None };
+    seen.scene.crowns.get(index as usize)?.as_ref()
 }

@@ -1,8 +1,7 @@
 //! Lamps of vehicles at night: white light on what is ahead, red light on the ground behind.
 
 use cosfly_domain::BodyKind;
-use cosfly_figures::BodyShape;
-use cosfly_figures::figure::Walker;
+use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, real, simd_kernel};
 use cosfly_materials::lanes::{Shared, WIDE, get, set};

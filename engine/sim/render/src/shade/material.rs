@@ -2,17 +2,15 @@
 
 use super::geometry::FaceAxes;
 use super::lighting::Answers;
-use super::setting::{Seen, Setting};
 use super::skin::Painted;
-use crate::faces::FaceSource;
 use cosfly_domain::{ObstacleKind, SemanticLabel};
-use cosfly_figures::clothes::Region;
+use cosfly_figures::Region;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::facade::{BoxFace, Facade, Roof, Tiles};
 use cosfly_materials::lanes::{Block, Stage, WIDE, set};
 use cosfly_materials::light::Light;
 use cosfly_materials::parts::{BOX_FACES, SceneBox};
-use cosfly_materials::roof_steps::Side;
+use cosfly_materials::roof_step::Side;
 use cosfly_materials::things::Thing;
 use cosfly_materials::vector::Vec3;
 
@@ -26,7 +24,7 @@ pub(super) enum Material {
     Thing(Thing),
     /// See [`super::cloth::Cloths`].
     Cloth,
-    /// Even surfaces of the simple look, of many colours: see [`even_colour`].
+    /// Even surfaces of the simple look, of many colours: see [`super::face_material::even_colour`].
     Even,
     /// See [`super::leaves::Crowns`].
     Leaves,
@@ -36,47 +34,6 @@ pub(super) enum Material {
 
 /// The axes of flat ground.
 pub(super) const FLAT: FaceAxes = FaceAxes { along: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) };
-
-/// Material of a drawn face, and the axes along its surface.
-pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Material, FaceAxes) {
-    let flat = FLAT;
-    let Some(face) = seen.faces.get(face as usize) else { return (Material::Sky, flat) };
-    match face.source {
-        FaceSource::Ground { cluster, polygon } => {
-            let polygon = seen.scene.clusters[cluster as usize].polygons[usize::from(polygon)];
-            (Material::Ground(polygon.label), flat)
-        }
-        FaceSource::Prop { triangle } => {
-            let props = &seen.scene.props;
-            (Material::Skin(Painted::new(&props.triangles[triangle as usize].skin, &props.textures)), flat)
-        }
-        FaceSource::Figure { is_cloth: true, .. } => (Material::Cloth, flat),
-        FaceSource::Figure { look, .. } => {
-            let look = &seen.people.looks[look as usize];
-            let person = seen.people.members.get(look.person as usize);
-            let [r, g, b] = person.map_or([0.0; 3], |person| person.colours[look.region as usize]);
-            (Material::Coach(Coach::new(look.region, Vec3::new(r, g, b), setting.light.night)), flat)
-        }
-        FaceSource::Box { index, face } | FaceSource::Crown { index, face } => {
-            let (b, face) = (&seen.scene.boxes[index as usize], usize::from(face));
-            (box_material(b, face, setting.light.night), box_axes(b, face))
-        }
-    }
-}
-
-/// The colour of a figure's face or of a thing or roof, in the simple look.
-pub(super) fn even_colour(seen: &Seen<'_>, face: u32) -> Vec3 {
-    match seen.faces.get(face as usize).map(|face| face.source) {
-        Some(FaceSource::Figure { look, .. }) => {
-            let look = &seen.people.looks[look as usize];
-            let person = seen.people.members.get(look.person as usize);
-            let [red, green, blue] = person.map_or([0.0; 3], |person| person.colours[look.region as usize]);
-            Vec3::new(red, green, blue)
-        }
-        Some(FaceSource::Box { index, .. } | FaceSource::Crown { index, .. }) => seen.scene.colours[index as usize],
-        _ => Vec3::ZERO,
-    }
-}
 
 /// The colour of a box's faces in the simple look; of a building's, that of its roof.
 pub(crate) fn colour_of(b: &SceneBox) -> Vec3 {
@@ -97,24 +54,16 @@ pub(crate) fn colour_of(b: &SceneBox) -> Vec3 {
 /// The upper face of a box among [`BOX_FACES`].
 const ROOF: usize = 5;
 
-/// The axes along a box's face; any for other faces.
-pub(super) fn axes_of(seen: &Seen<'_>, face: u32) -> FaceAxes {
-    match seen.faces.get(face as usize).map(|face| face.source) {
-        Some(FaceSource::Box { index, face } | FaceSource::Crown { index, face }) => {
-            box_axes(&seen.scene.boxes[index as usize], usize::from(face))
-        }
-        _ => FLAT,
-    }
-}
-
-fn box_axes(b: &SceneBox, face: usize) -> FaceAxes {
+/// The axes along a face of a box.
+pub(super) fn box_axes(b: &SceneBox, face: usize) -> FaceAxes {
     let axis = BOX_FACES[face].0;
     let axes = b.axes_in_world.map(Vec3::from);
     let up = if axis == 2 { axes[1] } else { Vec3::new(0.0, 0.0, 1.0) };
     FaceAxes { along: axes[usize::from(axis == 0)], up }
 }
 
-fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
+/// Material of a face of a box.
+pub(super) fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
     let axis = BOX_FACES[face].0;
     let center: Vec3 = b.center_in_world.into();
     let axes = b.axes_in_world.map(Vec3::from);
@@ -205,7 +154,7 @@ pub(super) struct Coach {
 
 impl Coach {
     /// The look of a region of a vehicle; `night` is 1 when lamps are lit.
-    fn new(region: Region, colour: Vec3, night: f32) -> Self {
+    pub(super) fn new(region: Region, colour: Vec3, night: f32) -> Self {
         let (mirror, glow) = match region {
             Region::Paint => (0.16, 0.0),
             Region::Cargo => (0.04, 0.0),

@@ -7,6 +7,7 @@
 mod bands;
 mod body_shadow;
 mod cloth;
+mod face_material;
 pub mod foliage;
 pub mod geometry;
 pub(crate) mod headlights;
@@ -24,7 +25,8 @@ pub mod simple;
 mod skin;
 pub mod sky;
 pub mod smooth;
-pub(crate) mod sun_map;
+mod sun_map;
+pub(crate) mod sun_tiles;
 mod sun_window;
 mod sunlight;
 pub mod tone;

@@ -16,7 +16,7 @@ const SMALL_PIXELS: usize = 1 << 16;
 #[derive(Default)]
 pub(super) struct SeenPlaces {
     blocks: Vec<[f32; 2]>,
-    /// The same of the columns of a row of blocks.
+    /// Least and greatest inverse depths of the columns of a row of blocks.
     least: Vec<f32>,
     greatest: Vec<f32>,
 }
@@ -93,7 +93,7 @@ simd_kernel! {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shade::sun_map::Sun;
+    use crate::shade::sun_tiles::Sun;
     use cosfly_domain::Camera;
     use cosfly_frames::Pose;
     use cosfly_materials::vector::Vec3;

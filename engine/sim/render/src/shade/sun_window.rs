@@ -3,8 +3,11 @@
 use super::seen_places::SeenPlaces;
 use super::shadow_frame::Frame;
 use super::shadow_region::{Region, for_seen_points};
-use super::sun_map::{GRAINS, Painter, Sun, TEXEL_M, Tile, TilePlace, WINDOW_TILES};
-use super::sunlight::{Grain, LOWEST_M, Places, SUMMARY_SIDE, SummaryMap, TILE, Texels, TownMap, WINDOWS};
+use super::sun_map::Painter;
+use super::sun_tiles::{Sun, TEXEL_M, Tile, TilePlace};
+use super::sunlight::{
+    GRAINS, Grain, LOWEST_M, Places, SUMMARY_SIDE, SummaryMap, TILE, Texels, TownMap, WINDOW_TILES, WINDOWS,
+};
 use crate::scene::Scene;
 use cosfly_domain::Season;
 use cosfly_frames::simd::Level;
@@ -35,7 +38,7 @@ pub(super) struct Window {
     painter: Option<Painter>,
 }
 
-/// What a window shows of the texels of a size.
+/// Part of a window: the texels of one size.
 #[derive(Clone, Copy)]
 struct Part {
     lattice: Frame,

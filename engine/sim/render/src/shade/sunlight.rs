@@ -1,13 +1,16 @@
 //! Shadow maps packed for look-up, and the share of the sun's light at each pixel's place.
 
 use super::shadow_frame::DEPTH_M;
-use super::sun_map::{GRAINS, WINDOW_TILES};
 use cosfly_frames::simd_kernel;
 use cosfly_materials::lanes::{Block, FOUR, Lane, WIDE, get};
 use cosfly_materials::pattern::{NoiseTexture, Noises, floor_int, least, lerp, most, one_if, smoothstep};
 use cosfly_materials::vector::Vec3;
 use std::sync::Arc;
 
+/// Sizes of texels.
+pub(super) const GRAINS: usize = 4;
+/// Tiles along a side of a view's window into the map.
+pub(super) const WINDOW_TILES: i32 = 8;
 /// Texels along a side of a tile of the town's map, and of its window there.
 pub(super) const TILE: usize = 128;
 /// Rows of a tile's texels, with the first of the tile below.
@@ -64,7 +67,7 @@ pub(super) struct Texels(pub(super) [u32; TILE * TILE]);
 pub(super) type TownMap = [Arc<Texels>; WINDOWS];
 /// Tiles of all windows.
 pub(super) const WINDOWS: usize = GRAINS * (WINDOW_TILES * WINDOW_TILES) as usize;
-/// Of each square of texels, and those right and below of it: the least height in the low half, 0 where leaves are, and the
+/// Summary of each square of texels, and those right and below of it: the least height in the low half, 0 where leaves are, and the
 /// greatest in the high half; steps.
 pub(super) type SummaryMap = [u32; GRAINS * SQUARES * SQUARES];
 type FigureMap = [u32; FIGURE_TEXELS];

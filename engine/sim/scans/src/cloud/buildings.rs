@@ -1,12 +1,13 @@
 //! Buildings: roofs as columns of cells down to the ground, on grids that are turned along the walls.
 
 use super::class;
+use super::numbers::next_id;
 use super::outline::smooth_unseen;
 use super::survey::{Survey, is_ground, plan_of};
 use crate::grid::{Grid, nearest_seeds, parts};
 use crate::plan::{convex_hull, smallest_rectangle_rad};
-use crate::solid_cells::{Bases, Boxes, Column, boxes_of};
-use crate::window_cover::Volumes;
+use crate::solid_cells::{Boxes, boxes_of};
+use crate::window_cover::{Bases, Column, Volumes};
 use cosfly_domain::{Obstacle, ObstacleKind};
 use cosfly_frames::{DVec2, real};
 use rayon::prelude::*;
@@ -52,7 +53,7 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
     let mut volumes = Volumes::default();
     for cover in covers {
         volumes = volumes.plus(cover.volumes, 1.0);
-        let object_id = super::next_id(obstacles);
+        let object_id = next_id(obstacles);
         let obstacle = |shape| Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: false };
         obstacles.extend(cover.shapes.into_iter().map(obstacle));
     }

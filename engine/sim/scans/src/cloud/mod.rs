@@ -6,6 +6,7 @@
 pub mod buildings;
 pub mod classify;
 pub mod ground;
+mod numbers;
 pub mod options;
 pub mod outline;
 pub mod planes;
@@ -14,102 +15,9 @@ pub mod sorting;
 pub mod survey;
 pub mod table;
 pub mod things;
+pub mod town;
 pub mod trees;
 
 pub use options::CloudOptions;
 pub use points::{Cloud, CloudBuilder, class};
-
-use crate::open_ground::open_ground;
-use classify::Unknown;
-use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, Synthetic, Town};
-use cosfly_frames::DVec2;
-use cosfly_town::MapError;
-use cosfly_town::mesh::MeshBuilder;
-use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
-use sorting::Sorted;
-use survey::Survey;
-
-/// The town of a cloud, and what the user should know.
-///
-/// # Errors
-/// Points that leave no ground to walk on.
-pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<String>), MapError> {
-    let mut warnings = std::mem::take(&mut cloud.warnings);
-    let mut notes = Vec::new();
-    let spacing_m = survey::spacing_m(&cloud);
-    let voxel_m = survey::voxel_m(&cloud, spacing_m, options.voxel_m, &mut warnings);
-    let grid = survey::grid_of(&cloud, voxel_m);
-    let sorted = Sorted::new(&mut cloud, grid);
-    let is_classified = ground::is_classified(&cloud);
-    if !is_classified {
-        notes.push(ground::estimate(&mut cloud, &sorted));
-    }
-    warnings.extend(survey::unevenness(&cloud, &sorted, is_classified));
-    let relief = ground::relief(&cloud, &sorted);
-    if let Some(unknown) = Unknown::of(&cloud) {
-        notes.push(classify::estimate(&mut cloud, &sorted, &relief, unknown));
-    }
-    let survey = Survey::new(&cloud, relief, sorted, spacing_m, options.step_m);
-    let mut obstacles = Vec::new();
-    let houses = buildings::add(&survey, &mut obstacles);
-    trees::add(&survey, &mut obstacles);
-    let volumes = houses.plus(things::add(&survey, &mut obstacles), 1.0);
-    if volumes.solid > 0.0 {
-        let [gained, lost] = [volumes.gained, volumes.lost].map(|volume| 100.0 * volume / volumes.solid);
-        notes.push(format!(
-            "boxes of buildings and things hold {:.0} m3 of cells of {voxel_m:.2} m: {gained:.1} % more is filled, {lost:.1} % \
-             (at feet on slopes) is lost",
-            volumes.solid
-        ));
-    }
-    let walkable = open_ground(&obstacles, &survey.relief);
-    if walkable.is_empty() {
-        let error = MapError::new("the cloud leaves no open ground to walk on");
-        return Err(error.hint("the cloud must show ground; check `unit_m`, or give a smaller `voxel_m`"));
-    }
-    notes.push(format!(
-        "{} plazas on the open ground are invented: a cloud does not say where people walk",
-        walkable.len()
-    ));
-    let trunks = obstacles.iter().filter(|one| one.kind == ObstacleKind::TreeTrunk).count();
-    if trunks > 0 {
-        notes.push(format!("{trunks} trunks are invented under the crowns of the cloud"));
-    }
-    let mut meshes = MeshBuilder::default();
-    survey.relief.add_mesh(&mut meshes, |at| label(&survey, at));
-    add_terrain(&mut meshes, &obstacles, USUAL_MARGIN_M)?;
-    let town = Town {
-        name: "town".to_owned(),
-        origin: cloud.world.origin(cloud.geo_reference.clone()),
-        obstacles,
-        walkable,
-        surfaces: meshes.finish(),
-        synthetic: Synthetic { notes, ..Synthetic::default() },
-        ..Town::default()
-    };
-    Ok((town, warnings))
-}
-
-/// Label of the ground at a place: that of the nearest ground points, where they have a class of their own.
-fn label(survey: &Survey<'_>, at: DVec2) -> SemanticLabel {
-    let cell = survey.grid.cell_of(at);
-    let mut counts = [0_usize; 3];
-    for point in survey.grid.around_cell(cell, 1).flat_map(|cell| survey.points_of(cell)) {
-        match survey.cloud.classes[point] {
-            class::GROUND => counts[0] += 1,
-            class::WATER => counts[1] += 1,
-            class::ROAD => counts[2] += 1,
-            _ => {}
-        }
-    }
-    match counts {
-        [ground, water, road] if water > ground.max(road) => SemanticLabel::Water,
-        [ground, _, road] if road > ground => SemanticLabel::Roads,
-        _ => SemanticLabel::Terrain,
-    }
-}
-
-/// Number for the next thing; numbers rise.
-fn next_id(obstacles: &[Obstacle]) -> u32 {
-    obstacles.last().map_or(0, |last| last.object_id) + 1
-}
+pub use town::town_of;

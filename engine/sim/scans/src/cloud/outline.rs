@@ -1,7 +1,7 @@
 //! Straighter outlines of roofs: cells in which nothing was seen follow their neighbours.
 
 use crate::grid::Grid;
-use crate::solid_cells::Column;
+use crate::window_cover::Column;
 
 /// Of eight neighbours, so many make a cell without points a roof, and so few make it none.
 const MOST_AND_FEW: [usize; 2] = [5, 3];

@@ -1,10 +1,11 @@
 //! What is neither building nor plant: cars, walls, masts, bridges, as boxes around the points of each cell.
 
 use super::class;
+use super::numbers::next_id;
 use super::survey::{Survey, is_ground};
 use crate::grid::parts;
-use crate::solid_cells::{Bases, Boxes, Column, boxes_of};
-use crate::window_cover::Volumes;
+use crate::solid_cells::{Boxes, boxes_of};
+use crate::window_cover::{Bases, Column, Volumes};
 use cosfly_domain::{Obstacle, ObstacleKind};
 use rayon::prelude::*;
 
@@ -76,7 +77,7 @@ fn add_kind(
             *column = None;
         }
     }
-    let first_id = super::next_id(obstacles);
+    let first_id = next_id(obstacles);
     let Boxes { shapes, volumes } = boxes_of(grid, &columns, survey.step_m, Bases::Highest, |_| false);
     let number = |shape: &cosfly_domain::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
     let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();

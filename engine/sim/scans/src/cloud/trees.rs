@@ -2,6 +2,7 @@
 //! the walls of a house as parts of the house.
 
 use super::class;
+use super::numbers::next_id;
 use super::survey::{Survey, coarse_enough, grid_of};
 use crate::grid::{Buckets, Grid};
 use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
@@ -66,7 +67,7 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
             obstacles.extend(crown.into_iter().map(part));
             continue;
         }
-        let object_id = super::next_id(obstacles);
+        let object_id = next_id(obstacles);
         let obstacle = |shape, kind, synthetic| Obstacle { shape, kind, object_id, synthetic };
         let height_m = f64::from(top_m[peak]);
         let is_tree = height_m >= LOWEST_TREE_M;

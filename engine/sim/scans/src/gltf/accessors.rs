@@ -1,61 +1,14 @@
 //! Accessors of a glTF file: numbers in its buffers, plain, packed or sparse. Every index and every range is checked.
 
 use super::document::{Document, Node, Primitive};
+use super::views::{Accessor, Instances, Sparse, View};
 use crate::scalar::Scalar;
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 use glam::{DMat4, DQuat};
-use serde::Deserialize;
-use std::collections::BTreeMap;
 
 /// Real numbers of 4 bytes.
 const REAL: u32 = 5126;
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct Accessor {
-    buffer_view: Option<usize>,
-    byte_offset: usize,
-    component_type: u32,
-    count: usize,
-    normalized: bool,
-    #[serde(rename = "type")]
-    kind: String,
-    sparse: Option<Sparse>,
-}
-
-/// Elements that differ from those of the buffer view, or from zero.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Sparse {
-    count: usize,
-    indices: Place,
-    values: Place,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-struct Place {
-    buffer_view: usize,
-    byte_offset: usize,
-    component_type: u32,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct View {
-    buffer: usize,
-    byte_offset: usize,
-    byte_length: usize,
-    byte_stride: Option<usize>,
-}
-
-/// Accessors of the places of a mesh that stands in many.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Instances {
-    attributes: BTreeMap<String, usize>,
-}
 
 /// Most places of one mesh that stands in many.
 const MOST_PLACES: usize = 1_000_000;

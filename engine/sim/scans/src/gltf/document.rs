@@ -1,6 +1,6 @@
 //! [`Document`]: the parts of a glTF file that shapes need. Every index and every range is checked where it is used.
 
-use super::accessors::{Accessor, Instances, View};
+use super::views::{Accessor, Instances, View};
 use crate::bytes::Bytes;
 use crate::mesh::options::IN_A_PLAN;
 use base64::Engine as _;

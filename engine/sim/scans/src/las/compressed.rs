@@ -2,7 +2,7 @@
 
 use super::contained::contained;
 use super::header::Header;
-use super::{Points, Record};
+use super::records::{Points, Record};
 use cosfly_town::MapError;
 use laz::laszip::ChunkTable;
 use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor};

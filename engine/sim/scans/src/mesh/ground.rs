@@ -1,5 +1,6 @@
 //! The ground of a scene: surfaces with labels, the relief under everything, walkable pavements.
 
+use super::level::is_level;
 use super::names::Thing;
 use super::parts::Part;
 use super::solid::height_at;
@@ -15,10 +16,6 @@ const CELL_M: f64 = 1.0;
 const MOST_CELLS: f64 = 4e6;
 /// Ground that is invented around a scene without any, metres.
 const MARGIN_M: f64 = 30.0;
-/// Triangles steeper than this are faces of kerbs: the share of their normal that points up.
-const STEEPEST: f64 = 0.5;
-/// Smallest triangle to walk on, square metres.
-const SMALLEST_M2: f64 = 1e-3;
 /// Most walkable polygons.
 const MOST_POLYGONS: usize = 200_000;
 
@@ -26,12 +23,6 @@ const MOST_POLYGONS: usize = 200_000;
 pub fn add_surface(meshes: &mut MeshBuilder, label: SemanticLabel, part: &Part) {
     let vertices: Vec<(DVec3, DVec2)> = part.vertices.iter().map(|vertex| (*vertex, vertex.truncate())).collect();
     meshes.polygon(label, false, &vertices, &part.triangles);
-}
-
-/// Whether one can stand on a triangle.
-pub fn is_level([a, b, c]: &[DVec3; 3]) -> bool {
-    let normal = (*b - *a).cross(*c - *a);
-    normal.z.abs() > STEEPEST * normal.length() && 0.5 * normal.z.abs() > SMALLEST_M2
 }
 
 /// Triangles of the ground that one can stand on.

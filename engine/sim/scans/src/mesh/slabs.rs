@@ -1,6 +1,6 @@
 //! Closed slabs of ground: their undersides are no ground.
 
-use super::ground::is_level;
+use super::level::is_level;
 use super::parts::{Part, find, join};
 use super::plan_index::PlanIndex;
 use super::solid::height_at;

@@ -3,7 +3,8 @@
 use super::parts::{Part, bounds};
 use crate::grid::Grid;
 use crate::plan::{convex_hull, smallest_rectangle_rad};
-use crate::solid_cells::{Bases, Column, boxes_of};
+use crate::solid_cells::boxes_of;
+use crate::window_cover::{Bases, Column};
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, real};
 

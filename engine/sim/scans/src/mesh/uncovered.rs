@@ -1,6 +1,6 @@
 //! Faces to walk on without what lies close under other ground: steps, stacked slabs, decks.
 
-use super::ground::is_level;
+use super::level::is_level;
 use super::names::{Kind, Thing};
 use super::plan_index::{PlanIndex, bounds};
 use cosfly_frames::DVec3;

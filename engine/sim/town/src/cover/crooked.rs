@@ -1,7 +1,7 @@
 //! Covers of crooked rings: rectangles that grow inside as far as the walls let them, each turned along a wall near it.
 
 use super::pieces::{Frame, Piece, Rectangle};
-use super::{Plan, TurnedRectangle};
+use super::plan::{Plan, TurnedRectangle};
 use cosfly_frames::{DVec2, real};
 
 /// Walls near a place whose directions are tried there, beside the plan's own.

@@ -105,13 +105,13 @@ impl Piece {
         self.low.cmple(high).all() && self.high.cmpge(low).all()
     }
 
-    /// What a rectangle has of it.
+    /// Part of it within a rectangle.
     pub(super) fn within(&self, rectangle: &Rectangle) -> Self {
         let [(x, low_x, high_x), (y, low_y, high_y)] = rectangle.bands();
         Self::new(clipped_to_band(&clipped_to_band(&self.corners, x, low_x, high_x), y, low_y, high_y))
     }
 
-    /// What a rectangle leaves of it, in convex pieces: itself where it has nothing of it.
+    /// Part of it outside of a rectangle, in convex pieces: itself where it has nothing of it.
     pub(super) fn outside(&self, rectangle: &Rectangle) -> Vec<Self> {
         if !self.touches(rectangle.bounds()) || self.within(rectangle).is_thin() {
             return vec![self.clone()];

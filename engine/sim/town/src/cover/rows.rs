@@ -100,12 +100,12 @@ impl Row {
 }
 
 impl Rows {
-    /// Of rings; the flag marks holes. Sides that two neighbours share cancel out.
+    /// Rows of rings; the flag marks holes. Sides that two neighbours share cancel out.
     pub(crate) fn of(rings: impl Iterator<Item = (Vec<DVec2>, bool)>) -> Self {
         Self::behind_walls(rings.map(|(ring, is_hole)| (ring, Vec::new(), is_hole)))
     }
 
-    /// Of rings some of whose sides, by the number of their first corner, have rectangles of a depth along them.
+    /// Rows of rings some of whose sides, by the number of their first corner, have rectangles of a depth along them.
     pub(crate) fn behind_walls(rings: impl Iterator<Item = (Vec<DVec2>, Vec<f64>, bool)>) -> Self {
         let mut sides = Vec::new();
         for (ring, walls_m, is_hole) in rings {
@@ -171,7 +171,7 @@ impl Rows {
         rows
     }
 
-    /// The same with levels where sides cross, so that [`Self::trapezoids`] are exact there, too; `None` where there are
+    /// These rows with levels where sides cross, so that [`Self::trapezoids`] are exact there, too; `None` where there are
     /// too many sides to look at all pairs.
     pub(super) fn with_levels_at_crossings(mut self) -> Option<Self> {
         let mut pairs = 0;

@@ -5,7 +5,7 @@ use cosfly_frames::DVec2;
 /// Most corners that are left as they are: in all rings, or on average where there are many rings.
 const MOST_CORNERS: usize = 256;
 const MOST_OF_A_RING: usize = 8;
-/// The same after the first thinning, which moves next to nothing.
+/// Most corners of all rings, and of each, after the first thinning, which moves next to nothing.
 const MOST_FINE_CORNERS: usize = 1024;
 const MOST_FINE_OF_A_RING: usize = 16;
 /// Most corners of a ring that the exact thinning (quadratic at worst) works on at a time.
@@ -82,7 +82,7 @@ fn without_small_bends(ring: &[DVec2], step_m: f64) -> Vec<DVec2> {
     kept
 }
 
-/// The same of a line, whose ends stay.
+/// A line without small bends; its ends stay.
 fn line_without_small_bends(line: &[DVec2], step_m: f64) -> Vec<DVec2> {
     let mut keeps = vec![false; line.len()];
     let mut stack = vec![(0, line.len().saturating_sub(1))];

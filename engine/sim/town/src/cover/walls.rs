@@ -1,6 +1,6 @@
 //! Slanted walls: a rectangle along the inner side of each, so that rows behind it need not follow the wall in steps.
 
-use super::{Plan, TurnedRectangle};
+use super::plan::{Plan, TurnedRectangle};
 use cosfly_frames::{DVec2, real};
 
 /// Depths of the rectangles that are tried, metres, and the least share of a side that one of each takes.

@@ -1,6 +1,6 @@
-//! [`Place`]: from the coordinates of a SUMO file to the world frame of a town.
+//! [`FcdProjection`]: from the coordinates of a SUMO file to the world frame of a town.
 
-use super::FcdError;
+use super::error::FcdError;
 use cosfly_diagnose::plausible;
 use cosfly_domain::Town;
 use cosfly_frames::{DVec2, DVec3};
@@ -53,7 +53,7 @@ impl NetLocation {
 }
 
 /// From the coordinates of a SUMO file to the world frame of a town, on the town's ground.
-pub struct Place {
+pub struct FcdProjection {
     offset_m: DVec2,
     between: Between,
     town_offset_m: DVec3,
@@ -73,7 +73,7 @@ enum Between {
 /// Bodies this far outside of a town are none of it, metres.
 const MARGIN_M: f64 = 500.0;
 
-impl Place {
+impl FcdProjection {
     /// The place of a file in a town. `net` is the location of its net, `is_geo` says that positions are degrees.
     ///
     /// # Errors

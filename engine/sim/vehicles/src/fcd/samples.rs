@@ -1,9 +1,9 @@
-//! What a time step of the file says of each body, and states between two steps.
+//! [`Sample`]: a body in a time step of the file, and states between two steps.
 
 use cosfly_domain::BodyKind;
 use cosfly_frames::{DVec2, TargetState, real};
 
-use super::Place;
+use super::FcdProjection;
 use cosfly_frames::DVec3;
 
 /// A body in a time step.
@@ -21,7 +21,7 @@ pub(super) struct Sample {
 impl Sample {
     /// A body whose position in the file is `point` and whose angle, degrees clockwise from north, is `angle_deg`. `None` where the
     /// projections know no such point.
-    pub fn place(&mut self, place: &Place, point: DVec2, angle_deg: f64, is_person: bool) -> Option<()> {
+    pub fn place(&mut self, place: &FcdProjection, point: DVec2, angle_deg: f64, is_person: bool) -> Option<()> {
         let (sin, cos) = real::sin_cos(angle_deg.to_radians());
         let front = place.plan(point)?;
         // One metre ahead in the file, in degrees by the length of a degree there.
@@ -38,7 +38,7 @@ impl Sample {
     }
 
     /// The state a share of the way from this sample to the next one.
-    pub fn towards(&self, next: &Self, share: f64, place: &Place) -> TargetState {
+    pub fn towards(&self, next: &Self, share: f64, place: &FcdProjection) -> TargetState {
         let turn_rad = real::wrap_angle_rad(next.heading_rad - self.heading_rad);
         TargetState {
             feet_in_world: place.on_ground(self.middle.lerp(next.middle, share)),

@@ -1,9 +1,10 @@
 //! The stream of time steps, and the frames between them.
 
+use super::error::FcdError;
 use super::kinds::{kind_of, passenger_car};
 use super::lines::Lines;
 use super::samples::Sample;
-use super::{FcdType, Place};
+use super::{FcdProjection, FcdType};
 use cosfly_domain::{Body, BodyPlan};
 use cosfly_frames::{DVec2, Seed, TargetState};
 use cosfly_world::{Clock, Prescribed};
@@ -12,7 +13,6 @@ use quick_xml::events::{BytesStart, Event};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt;
 use std::io::BufRead;
 
 /// Most bodies in one time step.
@@ -41,47 +41,6 @@ pub struct FcdConfig {
     pub types: BTreeMap<String, FcdType>,
 }
 
-/// Reason why a file cannot be used. `Display` is one fragment with the line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FcdError {
-    /// The value that was found and the rule it breaks.
-    pub message: String,
-    /// Line of the file, from 1.
-    pub line: Option<u64>,
-    /// What the user can do.
-    pub hint: Option<String>,
-}
-
-impl FcdError {
-    pub(super) fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), line: None, hint: None }
-    }
-
-    fn because(mut self, cause: String) -> Self {
-        self.message = format!("{}: {cause}", self.message);
-        self
-    }
-
-    pub(super) fn at(mut self, line: u64) -> Self {
-        self.line = self.line.or(Some(line));
-        self
-    }
-
-    pub(super) fn hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
-        self
-    }
-}
-
-impl fmt::Display for FcdError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}", self.message)?;
-        self.line.map_or(Ok(()), |line| write!(out, " (line {line})"))
-    }
-}
-
-impl std::error::Error for FcdError {}
-
 /// Reads the frames of a clock from floating-car data. Reading ends with the last frame.
 ///
 /// # Errors
@@ -89,7 +48,7 @@ impl std::error::Error for FcdError {}
 /// should hold: each with its line.
 pub fn read(
     file: impl BufRead,
-    place: &Place,
+    place: &FcdProjection,
     config: &FcdConfig,
     clock: Clock,
     seed: Seed,
@@ -177,7 +136,7 @@ fn degrees(line: u64) -> FcdError {
         .hint("set `geo = true`: the file was written with `--fcd-output.geo`")
 }
 
-/// What to do with a file that SUMO does not write.
+/// Advice about a file that SUMO does not write.
 const WRITE_AGAIN: &str = "write it again with `sumo --fcd-output FILE`, one file a run";
 
 /// A time step of the file.
@@ -188,7 +147,7 @@ struct Step {
 
 /// The frames while they grow.
 struct Frames<'a> {
-    place: &'a Place,
+    place: &'a FcdProjection,
     config: &'a FcdConfig,
     clock: Clock,
     seed: Seed,
@@ -209,7 +168,7 @@ struct Frames<'a> {
 }
 
 impl<'a> Frames<'a> {
-    fn new(place: &'a Place, config: &'a FcdConfig, clock: Clock, seed: Seed) -> Self {
+    fn new(place: &'a FcdProjection, config: &'a FcdConfig, clock: Clock, seed: Seed) -> Self {
         Self {
             place,
             config,

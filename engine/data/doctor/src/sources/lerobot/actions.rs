@@ -1,7 +1,7 @@
 //! Meaning of actions: LeRobot does not state it, so the usual meanings are tried, and the exact one is taken.
 
 use super::features::Features;
-use crate::Episode;
+use crate::ExaminedEpisode;
 use cosfly_frames::{DVec3, Pose};
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ const SHIFTS: [i64; 5] = [0, -1, 1, -2, 2];
 /// An episode with the numbers of its actions.
 pub struct Recording {
     /// The episode without its actions.
-    pub episode: Episode,
+    pub episode: ExaminedEpisode,
     /// Three numbers per frame.
     pub actions: Vec<Option<[f64; 3]>>,
     /// Three angles per frame: pitch, yaw, roll.

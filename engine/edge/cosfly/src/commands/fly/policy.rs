@@ -2,7 +2,7 @@
 
 use crate::arguments::count;
 use clap::{Args, ValueEnum};
-use cosfly_env::pictures::{Channel, Format};
+use cosfly_env::pictures::{Channel, PictureFormat};
 use cosfly_fly::pilot::{ActionKind, Manners, Place, source_of};
 use cosfly_fly::results::{PicturesCard, PolicyCard};
 use cosfly_render::PictureLook;
@@ -100,12 +100,12 @@ impl PolicyArguments {
         }
     }
 
-    fn pictures(&self) -> Option<Format> {
+    fn pictures(&self) -> Option<PictureFormat> {
         let mut channels = self.obs.clone();
         channels.dedup();
         let (width, height) = (self.size, self.size);
         let look = self.look;
-        (!channels.is_empty()).then_some(Format {
+        (!channels.is_empty()).then_some(PictureFormat {
             width,
             height,
             channels,

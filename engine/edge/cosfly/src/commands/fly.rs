@@ -1,0 +1,306 @@
+//! `cosfly fly`: flies the episodes of a suite with policies, in closed loop, and scores them.
+
+mod compare;
+pub mod policy;
+
+use crate::arguments::{RecipeArguments, StoreArguments};
+use crate::command::{Command, Outcome};
+use crate::console::Console;
+use crate::exit;
+use clap::{Parser, Subcommand, ValueEnum};
+use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_env::{DroneModel, DroneSettings, EnvironmentSettings};
+use cosfly_fly::flight::Latency;
+use cosfly_fly::pilot::Place;
+use cosfly_fly::results::{Card, EnvironmentCard, Folder, KeptCard, LogChoice, SuiteCard, beside};
+use cosfly_fly::run::{Order, Shard, run};
+use cosfly_fly::settings::FlySettings;
+use cosfly_fly::suite::Suite;
+use cosfly_runner::RunOptions;
+use cosfly_store::check_out_folder;
+use policy::PolicyArguments;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// Fly a suite's episodes with a policy, in closed loop, and score it
+#[derive(Debug, Parser)]
+#[command(
+    name = "fly",
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    after_help = "\
+Examples:
+  cosfly fly recipes/suites/street.toml --policy follow
+  cosfly fly recipes/suites/street.toml --policy hold --policy follow --policy causal --policy expert
+  cosfly fly recipes/suites/street.toml --policy ws://127.0.0.1:8000 --name mine --latency-ms 57
+  cosfly fly recipes/suites/street.toml --policy python:my_policy:act
+  cosfly fly compare out/fly/street/follow out/fly/street/mine
+
+A policy is a server that speaks openpi's wire, a function in Python, or a baseline: causal, constant-velocity, expert,
+follow, hold, random. It gets a map with `state` (16 numbers), `prompt`, `episode`, `step` and `time_s`, and answers with a
+map whose `actions` are rows of numbers. The result is a folder: card.json, report.html with clips of the worst
+episodes, report.md, scores.json, episodes.jsonl, rows and logs. The same command goes on with what a folder lacks. Exits with 1 when a policy
+has given no right answer (then nothing is an episode, and nothing is kept) or went away before all episodes were flown."
+)]
+pub struct Arguments {
+    #[command(subcommand)]
+    other: Option<Other>,
+    #[command(flatten)]
+    recipe: Option<RecipeArguments>,
+    #[command(flatten)]
+    store: StoreArguments,
+    /// The policy: ws://HOST:PORT, python:MODULE:FUNCTION, or the name of a baseline (repeatable)
+    #[arg(long, value_name = "POLICY", required = true)]
+    policy: Vec<String>,
+    /// Name of the policy in the result [default: made from its place]
+    #[arg(long, value_name = "NAME", value_parser = folder_name)]
+    name: Option<String>,
+    /// Folder for the results, one folder per policy [default: out/fly/<recipe name>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Episodes at the same time [default: one per core]
+    #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// Fly a share of the episodes, such as 1/4; once the folder has all, the tables are written
+    #[arg(long, value_name = "I/N", value_parser = shard, default_value = "1/1")]
+    shard: Shard,
+    /// Simulated time from an observation to the effect of the action that answers it; the world moves on meanwhile
+    /// (`measured`: as long as the policy really takes; then rows and logs differ from run to run) [default: that of the suite, else 0]
+    #[arg(long, value_name = "MS", value_parser = latency)]
+    latency_ms: Option<LatencyChoice>,
+    /// Simulated time from one action to the next
+    #[arg(long, value_name = "MS", default_value_t = 100, value_parser = clap::value_parser!(u32).range(10..=1000))]
+    step_ms: u32,
+    /// The drone [default: that of the suite, else a point mass]
+    #[arg(long, value_name = "MODEL", value_parser = drone_model)]
+    drone: Option<DroneModel>,
+    /// Speed of the mean wind that moves a quadrotor, m/s; each episode draws its direction [default: that of the suite, else 0]
+    #[arg(long, value_name = "MPS", value_parser = wind)]
+    wind_mps: Option<f64>,
+    /// Gusts in the wind
+    #[arg(long)]
+    gusts: bool,
+    #[command(flatten)]
+    asked: PolicyArguments,
+    /// Episodes whose logs are also written for Foxglove (MCAP): all, those that have clips, none
+    #[arg(long, value_enum, value_name = "WHICH", default_value_t = LogsChoice::All)]
+    logs: LogsChoice,
+    /// Number of the worst episodes that get a clip on the page
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=100))]
+    clips: u32,
+    /// Print the scores as JSON
+    #[arg(long)]
+    json: bool,
+    /// Print errors and the table only
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Other work with results.
+#[derive(Debug, Subcommand)]
+enum Other {
+    Compare(compare::Arguments),
+}
+
+/// Episodes with logs for Foxglove.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum LogsChoice {
+    /// All episodes
+    All,
+    /// The episodes that have clips
+    Worst,
+    /// No episode
+    None,
+}
+
+impl From<LogsChoice> for LogChoice {
+    fn from(choice: LogsChoice) -> Self {
+        match choice {
+            LogsChoice::All => Self::All,
+            LogsChoice::Worst => Self::Worst,
+            LogsChoice::None => Self::None,
+        }
+    }
+}
+
+/// Time from an observation to the effect of its action.
+#[derive(Clone, Copy, Debug)]
+enum LatencyChoice {
+    Milliseconds(u32),
+    Measured,
+}
+
+fn latency(text: &str) -> Result<LatencyChoice, String> {
+    if text == "measured" {
+        return Ok(LatencyChoice::Measured);
+    }
+    let number = text.parse().ok().filter(|number| *number <= 5000);
+    number.map(LatencyChoice::Milliseconds).ok_or_else(|| "it must be 0 to 5000, or `measured`".to_owned())
+}
+
+fn drone_model(text: &str) -> Result<DroneModel, String> {
+    let names: Vec<&str> = DroneModel::ALL.iter().map(|model| model.name()).collect();
+    let found = DroneModel::ALL.into_iter().find(|model| model.name() == text);
+    found.ok_or_else(|| format!("allowed are {}", names.join(", ")))
+}
+
+fn wind(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| (0.0..=30.0).contains(number));
+    number.ok_or_else(|| "it must be 0 to 30".to_owned())
+}
+
+/// Name that can be that of a folder.
+pub fn folder_name(text: &str) -> Result<String, String> {
+    let is_safe = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    let fits = !text.is_empty() && !text.starts_with('.') && text.chars().all(is_safe);
+    if fits { Ok(text.to_owned()) } else { Err("letters, digits, `-`, `_` and `.` are allowed".to_owned()) }
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let number = |text: &str| text.parse::<usize>().ok();
+    let parts = text.split_once('/').and_then(|(index, of)| Some((number(index)?, number(of)?)));
+    match parts {
+        Some((index, of)) if index >= 1 && index <= of => Ok(Shard { index: index - 1, of }),
+        _ => Err("it must be like 1/4: a number from 1 on, and the number of shares".to_owned()),
+    }
+}
+
+impl Command for Arguments {
+    fn run(&self, console: &dyn Console) -> Outcome {
+        if let Some(Other::Compare(arguments)) = &self.other {
+            return arguments.run(console);
+        }
+        let Some(recipe) = &self.recipe else {
+            let message = "a suite is missing: `cosfly fly SUITE --policy POLICY`";
+            return Err(Diagnostic::new("fly-suite", Fault::Recipe, message).into());
+        };
+        let places = self.policy.iter().map(|text| Place::read(text)).collect::<Result<Vec<_>, _>>()?;
+        if places.len() > 1 && self.name.is_some() {
+            let message = "`--name` names one policy, but several are given";
+            return Err(Diagnostic::new("fly-policy", Fault::Recipe, message).hint("leave it out").into());
+        }
+        check_names(&places)?;
+        let recipe = recipe.load(console)?;
+        let settings = self.settings(&FlySettings::of(&recipe)?)?;
+        let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join("fly").join(&recipe.name));
+        check_out_folder(&self.store.folder(), &out)?;
+        let store = self.store.open()?;
+        let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
+        let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
+        let suite = {
+            let progress = console.run_progress(self.quiet);
+            Suite::make(&recipe, &store, &options, &*progress)?
+        };
+        let mut arms = Vec::new();
+        let mut code = exit::SUCCESS;
+        for place in &places {
+            let name = self.name.clone().unwrap_or_else(|| place.name());
+            let card = self.card(&suite, place, &name, &settings);
+            let folder = Folder::open(&out.join(&name), &card)?;
+            let cancelled = console.cancelled();
+            let manners = self.asked.manners();
+            let (shard, suite) = (self.shard, &suite);
+            let latency = self.latency();
+            let order =
+                Order { suite, place, manners: &manners, settings, latency, shard, jobs, cancelled: &cancelled };
+            let progress = console.progress("fly", "episodes");
+            let outcome = run(&order, &card, &folder, &*progress)?;
+            drop(progress);
+            if let Some(problem) = &outcome.gone {
+                console.tell(&cosfly_diagnose::render(problem, console.colour()));
+                code = exit::FOUND_PROBLEMS;
+            }
+            if !self.quiet && !self.json {
+                let state = if outcome.whole { "" } else { ", not yet whole" };
+                let kept = outcome.rows.len() - outcome.flown;
+                let path = folder.path().display();
+                console.print(&format!("{path}: {} flown, {kept} kept{state}\n", outcome.flown))?;
+            }
+            if !outcome.rows.is_empty() {
+                arms.push((name, outcome.rows));
+            }
+        }
+        if self.json || !arms.is_empty() {
+            self.tell(&arms, console)?;
+        }
+        Ok(code)
+    }
+}
+
+/// Every policy has a name of its own: the folder of its results.
+fn check_names(places: &[Place]) -> cosfly_diagnose::Result<()> {
+    let names: Vec<String> = places.iter().map(Place::name).collect();
+    let Some(name) = names.iter().enumerate().find_map(|(index, name)| names[..index].contains(name).then_some(name))
+    else {
+        return Ok(());
+    };
+    let message = format!("two policies have the name `{name}`: results of both would lie in one folder");
+    let refusal = Diagnostic::new("fly-policy", Fault::Recipe, message);
+    Err(refusal.hint("leave one out, or fly each by a command of its own with `--name`"))
+}
+
+impl Arguments {
+    /// Settings of the environment: those of the suite, and over them those of the command line.
+    fn settings(&self, suite: &FlySettings) -> cosfly_diagnose::Result<EnvironmentSettings> {
+        let seconds = |milliseconds: u32| f64::from(milliseconds) / 1000.0;
+        let latency_s = match self.latency_ms {
+            None => seconds(suite.latency_ms),
+            Some(LatencyChoice::Milliseconds(milliseconds)) => seconds(milliseconds),
+            Some(LatencyChoice::Measured) => 0.0,
+        };
+        let drone = DroneSettings {
+            model: self.drone.unwrap_or(suite.drone),
+            wind_mps: self.wind_mps.unwrap_or(suite.wind_mps),
+            gusts: self.gusts || suite.gusts,
+            sensors: !matches!(self.logs, LogsChoice::None),
+        };
+        let actions = self.asked.actions();
+        let is_point = drone.model == DroneModel::PointMass;
+        let refused = |message: &str| {
+            let problem = Diagnostic::new("fly-drone", Fault::Recipe, message);
+            Err(problem.hint("choose a quadrotor: `--drone pelican` or `--drone crazyflie`"))
+        };
+        if is_point && actions.is_of_rotors() {
+            return refused(&format!("a point mass takes no actions of the kind `{}`", actions.name()));
+        }
+        if is_point && (drone.wind_mps > 0.0 || drone.gusts) {
+            return refused("wind does not move a point mass");
+        }
+        Ok(EnvironmentSettings { step_s: seconds(self.step_ms), latency_s, drone, ..suite.environment() })
+    }
+
+    fn latency(&self) -> Latency {
+        match self.latency_ms {
+            None | Some(LatencyChoice::Milliseconds(_)) => Latency::Simulated,
+            Some(LatencyChoice::Measured) => Latency::Measured,
+        }
+    }
+
+    fn card(&self, suite: &Suite, place: &Place, name: &str, settings: &EnvironmentSettings) -> Card {
+        Card {
+            suite: SuiteCard::of(suite),
+            policy: self.asked.card(place, name),
+            environment: EnvironmentCard::new(settings, self.latency()),
+            kept: KeptCard { logs: self.logs.into(), clips: self.clips },
+            cosfly: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+
+    fn tell(
+        &self,
+        arms: &[(String, Vec<cosfly_fly::flight::Row>)],
+        console: &dyn Console,
+    ) -> cosfly_diagnose::Result<()> {
+        if self.json {
+            let scores = arms.iter().map(|(name, rows)| (name.clone(), cosfly_fly::results::scores(rows)));
+            let scores: serde_json::Map<String, serde_json::Value> = scores.collect();
+            let mut text = String::new();
+            let _ = writeln!(text, "{:#}", serde_json::Value::Object(scores));
+            console.print(&text)?;
+            return Ok(());
+        }
+        let arms: Vec<(&str, &[_])> = arms.iter().map(|(name, rows)| (name.as_str(), rows.as_slice())).collect();
+        console.print(&beside(&arms))?;
+        Ok(())
+    }
+}

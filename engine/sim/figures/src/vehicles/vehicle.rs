@@ -1,0 +1,32 @@
+//! Triangles of a vehicle with its rider, by its kind.
+
+use super::livery::Livery;
+use super::model::Model;
+use super::{coaches, drones, riders};
+use cosfly_figures::Clothes;
+use crate::frustum::FigureTriangle;
+use crate::walker::Walker;
+use cosfly_domain::BodyKind;
+use cosfly_frames::DVec3;
+
+/// Appends a vehicle with its rider to `triangles`. No corner leaves the vehicle's box, and each side of the box has a
+/// corner within 1 cm of it.
+pub fn add(
+    walker: &Walker,
+    kind: BodyKind,
+    size_m: DVec3,
+    clothes: &Clothes,
+    person: u32,
+    triangles: &mut Vec<FigureTriangle>,
+) {
+    let mut model = Model::new(walker, size_m, person, triangles);
+    match kind {
+        BodyKind::Bicycle => riders::bicycle(&mut model, clothes, walker.gait_phase_rad),
+        BodyKind::Motorcycle => riders::motorcycle(&mut model, clothes),
+        BodyKind::Van => coaches::van(&mut model),
+        BodyKind::Truck => coaches::truck(&mut model),
+        BodyKind::Bus => coaches::bus(&mut model),
+        BodyKind::Drone => drones::quadrotor(&mut model),
+        BodyKind::Car | BodyKind::Pedestrian => coaches::car(&mut model, Livery::draw(&walker.clothes_seed).body),
+    }
+}

@@ -1,0 +1,85 @@
+//! People and vehicles that a picture shows: where they are, how they move, what draws their looks.
+
+use crate::body_shape::BodyShape;
+use cosfly_frames::{Seed, TargetState, real};
+
+/// The target of one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TargetSetup {
+    /// Position, heading and speed.
+    pub state: TargetState,
+    /// Body height, metres.
+    pub height_m: f64,
+    /// Body radius seen from above, metres.
+    pub radius_m: f64,
+    /// Draws its clothes, skin and build.
+    pub clothes_seed: Seed,
+    /// Phase of the gait, radians; see [`gait_phase_rad`].
+    pub gait_phase_rad: f64,
+    /// Share of body points that unoccluded rays reach; copied into the picture's view of the target.
+    pub visible_by_rays: f64,
+    /// Shape of the body.
+    pub body: BodyShape,
+}
+
+impl TargetSetup {
+    /// The target as one of the people in the picture.
+    pub fn walker(&self) -> Walker {
+        Walker {
+            state: self.state,
+            height_m: self.height_m,
+            radius_m: self.radius_m,
+            clothes_seed: self.clothes_seed,
+            gait_phase_rad: self.gait_phase_rad,
+            body: self.body,
+        }
+    }
+}
+
+/// Somebody in the picture: a person, or a vehicle with its rider.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Walker {
+    /// Position, heading and speed.
+    pub state: TargetState,
+    /// Body height, metres; vehicles have that of [`Self::body`].
+    pub height_m: f64,
+    /// Body radius seen from above, metres; vehicles have the extent of [`Self::body`].
+    pub radius_m: f64,
+    /// Draws their clothes, skin and build; paint and model of a vehicle.
+    pub clothes_seed: Seed,
+    /// Phase of the gait, radians; see [`gait_phase_rad`]. Of a bicycle, that of the pedals; other vehicles have none.
+    pub gait_phase_rad: f64,
+    /// Shape of the body.
+    pub body: BodyShape,
+}
+
+impl Walker {
+    /// Whether there is a body to draw.
+    pub fn has_body(&self) -> bool {
+        let numbers = [self.radius_m, self.state.heading_rad, self.state.speed_mps, self.gait_phase_rad];
+        self.height_m > 0.0
+            && self.height_m.is_finite()
+            && self.body.is_drawable()
+            && self.state.feet_in_world.is_finite()
+            && numbers.iter().all(|number| number.is_finite())
+    }
+}
+
+/// Somebody in the picture beside the target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bystander {
+    /// Position and looks.
+    pub walker: Walker,
+    /// Id in instance images: not 0, not the target's, not that of an object.
+    pub instance: u32,
+}
+
+/// Phase of the gait after `walked_m` metres: one turn every two steps, and two steps are 0.83 body heights.
+pub fn gait_phase_rad(walked_m: f64, height_m: f64) -> f64 {
+    real::wrap_angle_rad(real::TAU * walked_m / (0.83 * height_m.max(0.1)))
+}
+
+/// Phase of a cyclist's pedals after `ridden_m` metres: one turn every 5 m.
+pub fn pedal_phase_rad(ridden_m: f64) -> f64 {
+    real::wrap_angle_rad(real::TAU * ridden_m / 5.0)
+}

@@ -1,0 +1,164 @@
+//! [`Facade`]: what a building's seed and family draw for a face, and its bare wall.
+
+use super::draws;
+use super::family::{Family, SIGNS, between, chance};
+use crate::pattern::{NoiseLevel, NoiseTexture, Noises, band, draw, hash, one_if, smoothstep, stripes};
+use crate::surface::{Look, SurfacePoint};
+use crate::vector::Vec3;
+
+/// Texels of the plaster's grain per metre.
+pub(super) const GRAIN_PER_M: f32 = 14.0;
+/// Height of the darker foot of a wall, and of its cornice, metres.
+const FOOT_M: f32 = 2.2;
+const CORNICE_M: f32 = 0.45;
+
+/// Properties of a whole facade.
+#[derive(Clone, Copy, Debug)]
+pub struct Facade {
+    pub(super) seed: u32,
+    pub(super) wall: Vec3,
+    pub(super) trim: Vec3,
+    pub(super) rail: Vec3,
+    pub(super) door: Vec3,
+    pub(super) bays_per_m: f32,
+    pub(super) floors_per_m: f32,
+    pub(super) floor_m: f32,
+    pub(super) floors: f32,
+    pub(super) window: [f32; 2],
+    pub(super) sill: [f32; 2],
+    /// Depth of the panes in the wall, metres.
+    pub(super) reveal_m: f32,
+    /// Share of a mirror in the glass.
+    pub(super) gloss: f32,
+    /// 1 where windows have a bar in the middle.
+    pub(super) mullions: f32,
+    /// 1 for walls of bricks.
+    pub(super) brick: f32,
+    /// Strength of ledges and of joints between panels.
+    pub(super) ledge: f32,
+    pub(super) joint: f32,
+    /// Height of either, share of a storey.
+    pub(super) course: f32,
+    /// Strength of dirt.
+    pub(super) age: f32,
+    /// Share of the columns of bays that have balconies.
+    pub(super) balconies: f32,
+    pub(super) shops: bool,
+    pub(super) height_m: f32,
+    pub(super) shift: f32,
+}
+
+impl Facade {
+    /// The facade of a building `seed` in a town on a face of this size.
+    pub fn new(seed: u32, town: u32, face: u32, width_m: f32, height_m: f32) -> Self {
+        let family = Family::of(seed, town, height_m);
+        let [wall, trim] = family.colours(seed);
+        let floors = (height_m / between(family.storey_m, seed, draws::STOREY)).round().max(1.0);
+        let bay_m = width_m / (width_m / between(family.bay_m, seed, draws::BAY)).round().max(1.0);
+        let share = between(family.share, seed, draws::WINDOW);
+        let rails = [Vec3::splat(0.06), Vec3::splat(0.5), trim, Vec3::new(0.16, 0.22, 0.24)];
+        Self {
+            seed: hash(seed, face),
+            wall,
+            trim,
+            rail: rails[(draw(seed, draws::RAIL) * 4.0) as usize % 4],
+            door: SIGNS[(draw(seed, draws::DOOR) * 8.0) as usize % 8] * 0.6,
+            bays_per_m: 1.0 / bay_m,
+            floors_per_m: floors / height_m,
+            floor_m: height_m / floors,
+            floors,
+            window: [0.5 - 0.5 * share, 0.5 + 0.5 * share],
+            sill: [between(family.sill[0], seed, draws::SILL), between(family.sill[1], seed, draws::LINTEL)],
+            reveal_m: family.reveal_m,
+            gloss: family.gloss,
+            mullions: if family.mullion { 1.0 } else { 0.0 },
+            brick: if family.brick { 1.0 } else { 0.0 },
+            ledge: family.ledge,
+            joint: family.joint,
+            course: if family.joint > 0.0 { 0.012 } else { 0.05 },
+            age: between(family.age, seed, draws::AGE),
+            // Streets have more of them than yards.
+            balconies: if floors > 1.5 {
+                chance(family.balconies, hash(seed, face), draws::BALCONIES) * 0.55
+            } else {
+                0.0
+            },
+            shops: draw(seed, draws::SHOPS) < family.shops && height_m > 5.0,
+            height_m,
+            shift: 200.0 * draw(seed, draws::SHIFT),
+        }
+    }
+
+    /// The same wall without anything in it: a gable.
+    pub fn bare(self) -> Self {
+        let bare = Self { window: [0.5; 2], shops: false, balconies: 0.0, ledge: 0.0, joint: 0.0, ..self };
+        // No cornice.
+        Self { height_m: self.height_m + 100.0, ..bare }
+    }
+
+    /// The colour of its wall.
+    #[inline(always)]
+    pub fn wall_colour(&self) -> Vec3 {
+        self.wall
+    }
+
+    /// The wall at `along_m` from one edge and `up_m` above the building's foot, and how much of the place is opening.
+    #[inline(always)]
+    pub(super) fn wall_and_opening(&self, point: &SurfacePoint, [along_m, up_m]: [f32; 2], wall: Vec3) -> (Look, f32) {
+        let (bay, floor) = (along_m * self.bays_per_m, up_m * self.floors_per_m);
+        let (du, dv) = (point.footprints_m[0] * self.bays_per_m, point.footprints_m[1] * self.floors_per_m);
+        // A ledge between storeys, or the joint between panels.
+        let ledge = stripes(floor, 0.0, self.course, dv);
+        let wall = wall.lerp(self.trim, self.ledge * ledge) * (1.0 - self.joint * ledge);
+        let openings = one_if(floor < self.floors - 0.02);
+        let opening = openings
+            * stripes(bay, self.window[0], self.window[1], du)
+            * stripes(floor, self.sill[0], self.sill[1], dv);
+        (Look::matt(wall, point.normal), opening)
+    }
+
+    /// Streaks of dirt under sills and roofs: the share of light that they leave.
+    #[inline(always)]
+    pub(super) fn dirt(&self, point: &SurfacePoint, [along_m, up_m]: [f32; 2], noise: &NoiseTexture) -> f32 {
+        let streak = noise.clumps(along_m * 11.0 + self.shift, up_m * 1.3 + self.shift, point.footprint_m * 5.0);
+        1.0 - self.age * 0.5 * smoothstep(0.42, 0.80, streak)
+    }
+
+    /// Grain of the plaster.
+    #[inline(always)]
+    pub(super) fn grain(&self, along_m: f32, up_m: f32, fine: NoiseLevel, noise: &NoiseTexture) -> f32 {
+        noise.rough_at(along_m * GRAIN_PER_M + self.shift, up_m * GRAIN_PER_M, fine)
+    }
+
+    /// Joints between courses of bricks.
+    #[inline(always)]
+    pub(super) fn courses(&self, point: &SurfacePoint, up_m: f32) -> f32 {
+        let course = stripes(up_m / 0.08, 0.0, 0.17, point.footprints_m[1] / 0.08);
+        1.0 - self.brick * one_if(point.footprint_m < 0.1) * 0.25 * course
+    }
+
+    /// Plaster or brick, with the share of light that the foot of the wall leaves.
+    #[inline(always)]
+    pub(super) fn plaster(&self, grain: f32, foot: f32, dirt: f32, courses: f32) -> Vec3 {
+        self.wall * ((0.78 + 0.44 * grain) * foot * dirt * courses)
+    }
+
+    /// The bare wall: plaster or brick, a base of darker stone and a cornice.
+    #[inline(always)]
+    pub(super) fn wall_at(&self, point: &SurfacePoint, up_m: f32, grain: f32, dirt: f32, courses: f32) -> Vec3 {
+        let foot = 1.0 - (0.15 + 0.2 * self.age) * (1.0 - smoothstep(0.0, FOOT_M, up_m));
+        let wall = self.plaster(grain, foot, dirt, courses);
+        let dv = point.footprints_m[1];
+        let base = band(up_m, -1.0, 0.55, dv);
+        let wall = wall.lerp(Vec3::splat(0.20) * (0.6 + 0.6 * grain), 0.7 * base);
+        let crown = band(up_m, self.height_m - CORNICE_M, self.height_m + 1.0, dv);
+        wall.lerp(self.trim * 0.9, crown)
+    }
+
+    /// Whether a wall is bare of base and cornice at a place.
+    #[inline(always)]
+    pub(super) fn is_middle(&self, point: &SurfacePoint, up_m: f32) -> bool {
+        let dv = point.footprints_m[1];
+        (up_m - dv > FOOT_M) & (up_m + dv < self.height_m - CORNICE_M)
+    }
+}

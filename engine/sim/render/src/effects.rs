@@ -1,0 +1,170 @@
+//! Effects of a real camera on an ideal picture: lens distortion, motion blur, a rolling shutter, sensor noise. All off by
+//! default.
+//!
+//! Colour goes through the blur (a mean of light over the shutter), then the lens (bilinear), then the sensor (noise).
+//! Depth, ids and channels on request are those of the middle of the shutter, seen through the lens at the nearest sample:
+//! they are never mixed.
+//! A rolling shutter takes all channels of a strip of rows at the strip's moment, so that they still agree.
+
+mod lens;
+
+use crate::frame::RenderedFrame;
+use crate::renderer::Renderer;
+use crate::scene::Scene;
+use crate::setup::FrameSetup;
+use crate::target_view;
+use cosfly_domain::{Camera, ChannelImage, FrameImages, Lens, MotionBlur, Noise, PersonView, RollingShutter, Weather};
+use cosfly_figures::{Bystander, TargetSetup};
+use cosfly_frames::simd::Level;
+use cosfly_frames::{Pose, Seed};
+use cosfly_optics::{Exposure, add_noise};
+use lens::LensMap;
+use std::ops::Range;
+
+/// Camera and target at a moment.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment {
+    /// The camera's pose.
+    pub pose: Pose,
+    /// The followed target, if there is one.
+    pub target: Option<TargetSetup>,
+}
+
+/// One picture to take.
+pub struct Shot<'a> {
+    /// Weather with its sun azimuth drawn.
+    pub weather: &'a Weather,
+    /// The moment this many seconds after the middle of the shutter (before it, when negative).
+    pub moment: &'a dyn Fn(f64) -> Moment,
+    /// Adds everybody else at that time to an empty list.
+    pub others: &'a dyn Fn(f64, &mut Vec<Bystander>),
+    /// Seed of the sensor's noise; another one per frame.
+    pub noise_seed: Seed,
+}
+
+/// The effects of one camera with their buffers; keep one per thread beside its renderer.
+pub struct Effects {
+    camera: Camera,
+    blur: MotionBlur,
+    rolling: RollingShutter,
+    noise: Noise,
+    lens: Option<LensMap>,
+    exposure: Exposure,
+    /// Strips put together, and the target's pixels in them.
+    rolled: FrameImages,
+    rolled_target: Vec<u32>,
+    images: FrameImages,
+    covered: Vec<u32>,
+    occluders: Vec<u32>,
+    mask: Vec<bool>,
+    bystanders: Vec<Bystander>,
+    seen: Vec<PersonView>,
+}
+
+impl Effects {
+    /// The effects of a camera whose finished pictures have the size and field of view of `camera`. The field of view is
+    /// that of the ideal camera without the lens: its focal length stays the same.
+    pub fn new(camera: Camera, lens: Lens, blur: MotionBlur, rolling: RollingShutter, noise: Noise) -> Self {
+        let lens = (!lens.is_none()).then(|| LensMap::new(camera, lens));
+        Self {
+            camera,
+            blur,
+            rolling,
+            noise,
+            lens,
+            exposure: Exposure::default(),
+            rolled: FrameImages::default(),
+            rolled_target: vec![],
+            images: FrameImages::default(),
+            covered: vec![],
+            occluders: vec![],
+            mask: vec![],
+            bystanders: vec![],
+            seen: vec![],
+        }
+    }
+
+    /// The ideal camera that the renderer has to draw with: wider than the finished picture where the lens needs it.
+    pub fn ideal_camera(&self) -> Camera {
+        self.lens.as_ref().map_or(self.camera, LensMap::ideal_camera)
+    }
+
+    /// Moments at which [`Self::film`] looks at what is in front of the camera, seconds from the middle of the shutter.
+    pub fn moments_s(&self) -> Vec<f64> {
+        let strips = self.rolling.strips(self.ideal_camera().height as usize);
+        let moments = strips.flat_map(|(_, moment_s)| self.blur.offsets_s().chain([0.0]).map(move |it| moment_s + it));
+        moments.collect()
+    }
+
+    /// Takes a picture with `renderer`, which draws with [`Self::ideal_camera`].
+    pub fn film<'a>(&'a mut self, renderer: &'a mut Renderer, scene: &Scene, shot: &Shot<'_>) -> RenderedFrame<'a> {
+        if self.lens.is_none() && self.blur.is_none() && self.rolling.is_none() && self.noise.is_none() {
+            return renderer.render(scene, &setup(shot, 0.0, &mut self.bystanders));
+        }
+        let strips = self.rolling.strips(self.ideal_camera().height as usize);
+        let Self { blur, exposure, rolled, rolled_target, bystanders, .. } = self;
+        rolled_target.clear();
+        for (rows, moment_s) in strips {
+            exposure.open();
+            for offset_s in blur.offsets_s() {
+                let setup = setup(shot, moment_s + offset_s, bystanders);
+                exposure.add(&renderer.render(scene, &setup).images.rgb);
+            }
+            // The middle comes last: its depth and ids are what stays.
+            let frame = renderer.render(scene, &setup(shot, moment_s, bystanders));
+            if !blur.is_none() {
+                exposure.add(&frame.images.rgb);
+            }
+            let rgb = exposure.developed().unwrap_or(&frame.images.rgb);
+            add_rows(frame.images, rgb, rows.clone(), rolled);
+            let width = frame.images.width as usize;
+            let pixels = (rows.start * width) as u32..(rows.end * width) as u32;
+            rolled_target.extend(frame.target_pixels.iter().filter(|pixel| pixels.contains(*pixel)));
+        }
+        match &self.lens {
+            None => {
+                core::mem::swap(rolled, &mut self.images);
+                core::mem::swap(rolled_target, &mut self.covered);
+            }
+            Some(lens) => {
+                lens.bend(rolled, &rolled.rgb, &mut self.images);
+                lens.bend_pixels(rolled_target, &mut self.mask, &mut self.covered);
+            }
+        }
+        add_noise(&self.noise, &mut self.images.rgb, &shot.noise_seed);
+        let mut view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
+        view.visible_by_rays = (shot.moment)(0.0).target.map_or(0.0, |target| target.visible_by_rays);
+        target_view::measure_people(Level::best(), &self.images, bystanders, &mut self.seen);
+        RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered, others: &self.seen }
+    }
+}
+
+/// The frame at a moment of a shot; `bystanders` is room for who is about.
+fn setup<'a>(shot: &Shot<'a>, offset_s: f64, bystanders: &'a mut Vec<Bystander>) -> FrameSetup<'a> {
+    let Moment { pose, target } = (shot.moment)(offset_s);
+    bystanders.clear();
+    (shot.others)(offset_s, bystanders);
+    FrameSetup { pose, weather: shot.weather, target, others: bystanders }
+}
+
+/// Copies rows of all channels, those of `rgb` for colours, without new buffers when the sizes agree.
+fn add_rows(from: &FrameImages, rgb: &[u8], rows: Range<usize>, to: &mut FrameImages) {
+    (to.width, to.height) = (from.width, from.height);
+    let width = from.width as usize;
+    let pixels = rows.start * width..rows.end * width;
+    let colours = 3 * pixels.start..3 * pixels.end;
+    to.rgb.resize(from.rgb.len(), 0);
+    to.depth_m.resize(from.depth_m.len(), 0.0);
+    to.semantic.resize(from.semantic.len(), 0);
+    to.instance.resize(from.instance.len(), 0);
+    to.rgb[colours.clone()].copy_from_slice(&rgb[colours]);
+    to.depth_m[pixels.clone()].copy_from_slice(&from.depth_m[pixels.clone()]);
+    to.semantic[pixels.clone()].copy_from_slice(&from.semantic[pixels.clone()]);
+    to.instance[pixels.clone()].copy_from_slice(&from.instance[pixels.clone()]);
+    ChannelImage::match_channels(&mut to.on_request, &from.on_request, from.depth_m.len());
+    for (to, from) in to.on_request.iter_mut().zip(&from.on_request) {
+        let size = from.channel.bytes_on_request();
+        let bytes = size * pixels.start..size * pixels.end;
+        to.bytes[bytes.clone()].copy_from_slice(&from.bytes[bytes]);
+    }
+}
