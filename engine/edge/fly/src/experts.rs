@@ -5,7 +5,7 @@ use cosfly_frames::{DVec3, Seed};
 use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Arrival, RecipeStage};
 use cosfly_runner::Plan;
-use cosfly_stage::{BlobSource, Blobs, ItemName};
+use cosfly_stage::{BlobSource, Blobs, ItemName, StageRole};
 use cosfly_stages::expert::{Bodies, Companion, Expert, Flight};
 use cosfly_stages::plugins::Plugins;
 use cosfly_stages::read;
@@ -62,10 +62,10 @@ impl<'a> Experts<'a> {
         let (mut stage, mut item) = self.named(trajectory)?;
         loop {
             let found = &self.plan.recipe.stages[stage];
-            if found.kind == "muco" {
+            if found.has_role(StageRole::Plans) {
                 return Ok((stage, item));
             }
-            let arrival = found.connection("trajectories").and_then(|connection| connection.arrivals.get(item));
+            let arrival = found.changed().and_then(|connection| connection.arrivals.get(item));
             let arrival = arrival.ok_or_else(|| unknown(trajectory, &[]))?;
             (stage, item) = (arrival.stage, arrival.item);
         }
@@ -86,7 +86,9 @@ impl<'a> Experts<'a> {
         let mut names = Vec::new();
         let stages = self.plan.recipe.stages.iter().enumerate();
         let flies = |stage: &RecipeStage| {
-            stage.name.part().is_empty() && matches!(stage.kind.as_str(), "muco" | "perturb" | "wasm")
+            let changes_flights =
+                || stage.has_role(StageRole::Changes) && stage.stage.properties().artifact == read::FLIGHT;
+            stage.has_role(StageRole::Plans) || changes_flights()
         };
         for (index, stage) in stages.filter(|(_, stage)| flies(stage)) {
             let published = |item: &ItemName| item.of_stage(&stage.name).to_string() == trajectory;
@@ -178,6 +180,6 @@ fn unknown(trajectory: &str, names: &[String]) -> Box<Diagnostic> {
         (Some(near), _) => diagnostic.hint(format!("did you mean `{near}`?")),
         (None, [first, .., last]) => diagnostic.hint(format!("its trajectories are `{first}` ... `{last}`")),
         (None, [only]) => diagnostic.hint(format!("its only trajectory is `{only}`")),
-        (None, []) => diagnostic.hint("trajectories come from stages with `use = \"muco\"` or `use = \"perturb\"`"),
+        (None, []) => diagnostic.hint("trajectories come from stages that plan flights, such as `use = \"muco\"`"),
     }
 }

@@ -9,7 +9,7 @@ use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_render::RenderConfig;
 use cosfly_runner::{Plan, RunOptions, RunOutcome, run};
-use cosfly_stage::{BlobSource, Blobs, RunEvent};
+use cosfly_stage::{BlobSource, Blobs, RunEvent, StageRole};
 use cosfly_stages::expert::Expert;
 use cosfly_stages::read;
 use cosfly_stages::shooting::{self, Shooting};
@@ -67,10 +67,7 @@ pub struct Suite {
 
 /// Whether a stage plans flights behind walkers.
 fn follows(stage: &RecipeStage) -> bool {
-    let objective = stage.stage.properties().parameters.get("objective");
-    stage.kind == "muco"
-        && stage.name.part().is_empty()
-        && objective.is_none_or(|objective| objective.as_str() == Some("track"))
+    stage.has_role(StageRole::Plans) && stage.connection("paths").is_some()
 }
 
 impl Suite {
@@ -207,13 +204,20 @@ impl Reader<'_> {
 /// makes none.
 fn pictures(recipe: &Recipe, flights: usize) -> std::result::Result<RenderConfig, ParameterError> {
     let films = |stage: &&RecipeStage| {
-        let is_of_flights = stage.connections.iter().any(|connection| connection.upstreams.contains(&flights));
-        stage.kind == "render" && stage.name.part().is_empty() && is_of_flights
+        let mut upstreams = stage.connections.iter().flat_map(|connection| &connection.upstreams);
+        let is_of_flights = upstreams.any(|upstream| are_of(recipe, *upstream, flights));
+        stage.has_role(StageRole::Films) && is_of_flights
     };
     match recipe.stages.iter().find(films) {
         Some(stage) => shooting::render_config(stage.parameters.clone()),
         None => Ok(RenderConfig { weathers: vec!["ClearNoon".to_owned()], ..RenderConfig::default() }),
     }
+}
+
+/// Whether the artifacts of a stage are those of `flights`, or were made of them by stages that change flights.
+fn are_of(recipe: &Recipe, stage: usize, flights: usize) -> bool {
+    let changed = || recipe.stages[stage].changed().into_iter().flat_map(|connection| &connection.upstreams);
+    stage == flights || changed().any(|upstream| are_of(recipe, *upstream, flights))
 }
 
 /// The first state of a flight.

@@ -10,7 +10,8 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::TargetTrack;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_stage::{
-    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 
 /// Name of the part, of the port that reads it and of its blob.
@@ -30,6 +31,8 @@ pub fn part(count: u32, paths: InputPort, others: InputPort) -> StagePart {
         files_per_item: 1,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 512, batch: 4 },
     };
     StagePart { suffix: NAME, stage: Box::new(CompanionsStage { count: count as usize, properties }) }
 }

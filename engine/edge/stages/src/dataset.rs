@@ -11,8 +11,8 @@ use cosfly_report::PlannerRow;
 use cosfly_schema::DatasetConfig;
 use cosfly_schema::tables::ObjectRecord;
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StageKind, StagePart, StageProperties, Takes,
-    TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Resources, Sees, Stage, StageKind, StagePart,
+    StageProperties, StageRole, Takes, TaskContext,
 };
 use cosfly_write::{DatasetSource, Shards, write_dataset};
 use std::collections::BTreeMap;
@@ -69,6 +69,8 @@ impl StageKind for Dataset {
             files_per_item: 14,
             intermediate: &[],
             asks: None,
+            role: StageRole::Publishes,
+            resources: Resources { memory_mib: 2048, batch: 1 },
         };
         let records = |fan| ports::without_pictures(frames(fan));
         Ok(vec![

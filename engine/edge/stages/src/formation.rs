@@ -13,7 +13,7 @@ use cosfly_diagnose::Result;
 use cosfly_frames::Seed;
 use cosfly_planner::PlanOutcome;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StagePart, StageProperties, StageRole, TaskContext,
 };
 
 /// Name of the part and of the port that reads it.
@@ -23,6 +23,7 @@ const NAME: &str = "formation";
 /// stage itself, and `losses` the parts that order losses.
 pub fn parts(expert: Expert, properties: StageProperties) -> Vec<StagePart> {
     let mut planning = StageProperties { items: ItemRule::PerInput("paths"), ..properties.clone() };
+    planning.role = StageRole::Serves;
     planning.parameters["drones"]["count"] = expert.config.drones.count.into();
     let mut parts = vec![];
     let occlusion = &expert.config.occlusion;

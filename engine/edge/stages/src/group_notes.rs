@@ -8,7 +8,8 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
 use cosfly_schema::{DatasetConfig, Rejection, RenderedTrajectory};
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_write::{FlightNote, GroupName};
 use serde::{Deserialize, Serialize};
@@ -56,6 +57,8 @@ pub fn part(config: &DatasetConfig, frames: InputPort) -> StagePart {
         files_per_item: 1,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 2048, batch: 1 },
     };
     StagePart { suffix: NAME, stage: Box::new(NotesStage { window, properties }) }
 }

@@ -36,7 +36,6 @@ mod quotas;
 pub mod read;
 mod rejections;
 mod render;
-pub mod requests;
 mod shards;
 pub mod shooting;
 mod traffic;

@@ -11,7 +11,8 @@ use cosfly_render::ChannelSet;
 use cosfly_schema::record::captions_from_bytes;
 use cosfly_schema::{CaptionRecord, PreviewStrip, RenderedTrajectory};
 use cosfly_stage::{
-    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_write::{FramePackReader, write_log};
 use std::io::BufReader;
@@ -46,6 +47,8 @@ pub fn part(frames: InputPort, captions: InputPort) -> StagePart {
         files_per_item: 3,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 2048, batch: 1 },
     };
     StagePart { suffix: NAME, stage: Box::new(LogStage { properties }) }
 }

@@ -9,8 +9,8 @@ use cosfly_frames::Seed;
 use cosfly_maps::advice::advice;
 use cosfly_maps::{Bounds, FORMATS, Format, FormatOptions, MapConfig, MapError, Town, read_town_of, recognise};
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, Produced, Source, SourceCheck, Stage, StageKind, StagePart, StageProperties,
-    TaskContext,
+    InputPort, Inputs, ItemRule, Produced, Resources, Source, SourceCheck, Stage, StageKind, StagePart,
+    StageProperties, StageRole, TaskContext,
 };
 use serde_json::{Value, json};
 use std::io::Read;
@@ -52,6 +52,8 @@ impl StageKind for Map {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role: StageRole::World,
+            resources: Resources::default(),
         };
         Ok(single(MapStage { config, properties }))
     }

@@ -12,7 +12,10 @@ use cosfly_frames::Seed;
 use cosfly_objectives::Objective;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
-use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
+};
 use cosfly_world::Around;
 use std::sync::Arc;
 
@@ -65,6 +68,8 @@ impl StageKind for Muco {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role: StageRole::Plans,
+            resources: Resources { memory_mib: 512, batch: 4 },
         };
         if expert.config.drones.count > 1 {
             parts.extend(formation::parts(expert, properties));
@@ -76,6 +81,7 @@ impl StageKind for Muco {
                 version: quotas::TRIALS_VERSION,
                 artifact: ports::LOSSES,
                 bytes_per_item: 100,
+                role: StageRole::Serves,
                 ..properties
             };
             let trial = MucoStage { expert: expert.clone(), properties: trial, is_trial: true };

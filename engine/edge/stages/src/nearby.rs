@@ -17,7 +17,8 @@ use cosfly_render::effects::pose_at;
 use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
 use cosfly_render::{Buildings, Camera, Outlook, RenderConfig, Walker};
 use cosfly_stage::{
-    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_world::{Around, Body, Followed, Traffic};
 use serde::{Deserialize, Serialize};
@@ -61,6 +62,8 @@ pub fn part(config: &RenderConfig, parameters: serde_json::Value, items: ItemRul
         files_per_item: 2,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources::default(),
     };
     let stage = NearbyStage { config: config.clone(), properties, buildings: Memo::default() };
     StagePart { suffix: NAME, stage: Box::new(stage) }

@@ -8,7 +8,10 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_frames::Seed;
 use cosfly_pedestrians::{PedestrianConfig, PedestrianError, WalkableGrid, walk};
-use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
+};
 
 /// Stage kind `pedestrians`.
 pub struct Pedestrians;
@@ -49,6 +52,8 @@ impl StageKind for Pedestrians {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role: StageRole::World,
+            resources: Resources { memory_mib: 512, batch: 16 },
         };
         Ok(single(PedestrianStage { config, properties, grid: Memo::default() }))
     }

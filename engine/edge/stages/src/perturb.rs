@@ -12,7 +12,8 @@ use cosfly_pilot::perturb::{PerturbConfig, perturb};
 use cosfly_planner::PlanOutcome;
 use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_stage::{
-    InputPort, Inputs, ItemId, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
+    InputPort, Inputs, ItemId, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
 
 /// Stage kind `perturb`.
@@ -50,6 +51,8 @@ impl StageKind for Perturb {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role: StageRole::Changes,
+            resources: Resources { memory_mib: 256, batch: 16 },
         };
         Ok(single(PerturbStage { config, properties }))
     }

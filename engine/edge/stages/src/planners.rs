@@ -10,7 +10,8 @@ use cosfly_diagnose::Result;
 use cosfly_report::PlannerRow;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use std::collections::BTreeMap;
 
@@ -33,6 +34,8 @@ pub fn part(frames: InputPort) -> StagePart {
         files_per_item: 1,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 2048, batch: 1 },
     };
     StagePart { suffix: NAME, stage: Box::new(PlannersStage { properties }) }
 }

@@ -12,7 +12,10 @@ use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_planner::config::OcclusionConfig;
 use cosfly_planner::{PlanOutcome, Trajectory};
 use cosfly_render::{BodyShape, Outfit};
-use cosfly_stage::{Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StagePart, StageProperties, TaskContext};
+use cosfly_stage::{
+    Fan, InputPort, Inputs, ItemRule, Produced, Resources, Sees, Stage, StagePart, StageProperties, StageRole,
+    TaskContext,
+};
 use cosfly_world::{Around, Body, Followed};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -167,6 +170,8 @@ pub fn orders_part(config: &OcclusionConfig) -> StagePart {
         files_per_item: 1,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 512, batch: 4 },
     };
     StagePart { suffix: ORDERS_PART, stage: Box::new(OrdersStage { config: config.clone(), properties }) }
 }

@@ -17,7 +17,9 @@ use cosfly_world::{Around, Followed};
 pub const TOWN_BLOB: &str = crate::world::TOWN_BLOB;
 /// Name of the blob of a `pedestrians` item that holds the walk.
 pub const WALK_BLOB: &str = "walk";
-/// Name of the blob of a `muco` or `perturb` item that holds the trajectory.
+/// Artifact of a flight, of a stage that plans or changes flights.
+pub const FLIGHT: &str = TRAJECTORY;
+/// Name of the blob of a flight that holds the trajectory.
 pub const TRAJECTORY_BLOB: &str = "trajectory";
 
 /// Name of the blob of a `muco` or `perturb` item that holds all drones behind the walk, where there are several.

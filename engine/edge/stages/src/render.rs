@@ -24,7 +24,8 @@ use cosfly_render::{
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
 use cosfly_stage::{
-    InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
+    InputPort, Inputs, ItemName, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_world::Around;
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
@@ -82,6 +83,8 @@ impl StageKind for Render {
             files_per_item: 2,
             intermediate: &[PACK],
             asks: None,
+            role: StageRole::Films,
+            resources: Resources::default(),
         };
         let stage = RenderStage { config, encoding, properties, scene: Memo::default(), idle: Mutex::default() };
         Ok(vec![nearby, StagePart { suffix: "", stage: Box::new(stage) }])

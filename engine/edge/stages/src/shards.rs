@@ -13,7 +13,8 @@ use cosfly_schema::extras::Extra;
 use cosfly_schema::tables::Landmarks;
 use cosfly_schema::{CaptionRecord, DatasetConfig, LogRecord, PreviewStrip, Rejection, RenderedTrajectory};
 use cosfly_stage::{
-    Artifact, Blobs, Fan, InputPort, Inputs, ItemName, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, Blobs, Fan, InputPort, Inputs, ItemName, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_write::{GroupFlights, GroupSource, PublishedLog, Shard, write_shard};
 use std::collections::BTreeMap;
@@ -52,6 +53,8 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
         files_per_item: 24,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 2048, batch: 1 },
     };
     StagePart { suffix: NAME, stage: Box::new(TablesStage { config, properties }) }
 }

@@ -11,7 +11,8 @@ use cosfly_frames::{DVec3, Seed};
 use cosfly_maps::{ObstacleKind, Town};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -77,6 +78,8 @@ pub fn part(config: InspectConfig) -> StagePart {
         files_per_item: 1,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources::default(),
     };
     StagePart { suffix: NAME, stage: Box::new(VerdictStage { config, properties }) }
 }

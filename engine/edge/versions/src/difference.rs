@@ -266,9 +266,8 @@ fn stage_changes(old: &Version, new: &Version, stage: &str) -> Vec<String> {
 
 /// Changes of the stages that pack, by name: splits, tables and texts.
 fn packing(old: &Version, new: &Version) -> Vec<String> {
-    let is_dataset = |(_, it): &(&String, &Value)| it["kind"] == "dataset";
-    let stages: Vec<&String> = new.definitions.iter().filter(is_dataset).map(|(name, _)| name).collect();
-    stages.into_iter().flat_map(|stage| stage_changes(old, new, stage)).collect()
+    let packs = |stage: &&String| StageName::read(stage).recipe_name() == new.published_by;
+    new.definitions.keys().filter(packs).flat_map(|stage| stage_changes(old, new, stage)).collect()
 }
 
 #[cfg(test)]
@@ -302,6 +301,7 @@ mod tests {
             sources: BTreeMap::new(),
             content: key(format!("{walkers} {weight}")),
             files: Blobs::default(),
+            published_by: "dataset".into(),
             definitions: BTreeMap::from([
                 ("expert".to_owned(), definition("muco", json!({"weights": {"visibility": weight}}))),
                 ("dataset".to_owned(), definition("dataset", json!({"splits": {"seed": 0}}))),

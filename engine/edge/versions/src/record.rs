@@ -7,7 +7,7 @@ use cosfly_fingerprint::Digest;
 use cosfly_read::PublishedDataset;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::{Plan, plan};
-use cosfly_stage::{Blobs, StageName};
+use cosfly_stage::{Blobs, StageName, StageRole};
 use cosfly_store::{Store, materialise};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,9 +16,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// # Errors
 /// `version-no-dataset`.
 pub fn dataset_stage(recipe: &Recipe) -> Result<usize> {
-    let is_dataset = |stage: &RecipeStage| stage.kind == "dataset" && stage.name.part().is_empty();
-    recipe.stages.iter().rposition(is_dataset).ok_or_else(|| {
-        let message = format!("recipe `{}` has no stage that uses `dataset`", recipe.name);
+    recipe.stages.iter().rposition(|stage| stage.has_role(StageRole::Publishes)).ok_or_else(|| {
+        let message = format!("recipe `{}` has no stage that publishes a dataset", recipe.name);
         Diagnostic::new("version-no-dataset", Fault::Recipe, message)
     })
 }
@@ -58,6 +57,7 @@ pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, 
         sources: BTreeMap::new(),
         content,
         files,
+        published_by: recipe.stages[stage].name.recipe_name().to_owned(),
         definitions: BTreeMap::new(),
         tasks: BTreeMap::new(),
         flights,

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Format of the manifest.
-pub const SCHEMA: &str = "cosfly.version/1";
+pub const SCHEMA: &str = "cosfly.version/2";
 
 /// A named version. Its content does not depend on when or where it was named, except for the recipe's path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,6 +33,8 @@ pub struct Version {
     pub content: Digest,
     /// All files of the dataset by their paths.
     pub files: Blobs,
+    /// Stage of the recipe that published the files.
+    pub published_by: String,
     /// Definitions by stage: kind, version, all parameters with their defaults, digests of files.
     pub definitions: BTreeMap<String, Value>,
     /// All tasks behind the flights.

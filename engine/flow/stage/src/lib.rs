@@ -23,6 +23,7 @@ pub use event::{RunEvent, Work};
 pub use kind::{Registry, StageKind, StagePart};
 pub use name::{ItemId, ItemName, StageName};
 pub use properties::{
-    Fan, InputPort, ItemRule, PortSource, ReadSchema, Sees, Settle, Source, SourceCheck, StageProperties, Takes,
+    Fan, InputPort, ItemRule, PortSource, ReadSchema, Resources, Sees, Settle, Source, SourceCheck, StageProperties,
+    StageRole, Takes,
 };
 pub use stage::{Produced, Stage, TaskContext};

@@ -15,7 +15,8 @@ use cosfly_render::Clothes;
 use cosfly_schema::CaptionRecord;
 use cosfly_schema::record::captions_to_bytes;
 use cosfly_stage::{
-    Asks, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
+    Asks, InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
 use cosfly_teacher::{Frames, Teacher, TeacherConfig};
 use taught::{Class, record_of};
@@ -89,6 +90,8 @@ impl StageKind for Caption {
             files_per_item: 1,
             intermediate: &[],
             asks: is_taught.then(|| asks(&config, &teacher)),
+            role: StageRole::Speaks,
+            resources: Resources { memory_mib: 256, batch: 64 },
         };
         let teacher = is_taught.then(|| Teacher::new(teacher));
         Ok(single(CaptionStage { config, teacher, properties }))

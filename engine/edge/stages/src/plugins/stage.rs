@@ -16,7 +16,10 @@ use cosfly_schema::extras::{Extra, ExtraShape};
 use cosfly_schema::flight_labels::{self, FlightLabel};
 use cosfly_schema::flight_table::{self, FlightColumns, MOST_FILES, MOST_ROWS};
 use cosfly_schema::record::captions_from_bytes;
-use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
+};
 use std::collections::BTreeMap;
 
 /// Blob of extras.
@@ -47,9 +50,9 @@ impl StageKind for Wasm {
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: StagePlugin = parameters::read(given)?;
-        let (artifact, items, bytes_per_item) = match config.makes {
-            Makes::Flights => (TRAJECTORY, "trajectories", 60_000),
-            Makes::Extras => (EXTRAS, "frames", 20_000),
+        let (artifact, items, bytes_per_item, role) = match config.makes {
+            Makes::Flights => (TRAJECTORY, "trajectories", 60_000, StageRole::Changes),
+            Makes::Extras => (EXTRAS, "frames", 20_000, StageRole::Speaks),
         };
         let properties = StageProperties {
             kind: self.name().into(),
@@ -63,6 +66,8 @@ impl StageKind for Wasm {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role,
+            resources: Resources::default(),
         };
         Ok(single(WasmStage { config, properties }))
     }

@@ -17,7 +17,8 @@ use cosfly_frames::{Seed, TargetTrack};
 use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
 use cosfly_render::{BodyShape, Outfit};
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_world::{Around, Body, Followed, Traffic, Traits, Wardrobe, dress, give_looks, simulate};
 use std::collections::BTreeMap;
@@ -69,11 +70,13 @@ impl StageKind for TrafficKind {
             files_per_item: 2,
             intermediate: &[],
             asks: None,
+            role: StageRole::World,
+            resources: Resources::default(),
         };
         let bodies = config.canonical_of_bodies();
         let bytes = 20 * u64::from(config.frames) * u64::from(config.people.count);
         let bodies = properties(bodies, self.ports(), TRAFFIC, ItemRule::One, bytes);
-        let bodies = StageProperties { sources, ..bodies };
+        let bodies = StageProperties { sources, role: StageRole::Serves, ..bodies };
         let doc = "Everybody: the part of the same stage.";
         let inputs = vec![ports::town(), ports::sibling(BODIES, TRAFFIC, Fan::Broadcast, doc)];
         let items = ItemRule::Count { prefix: "t", count: config.follow.count };

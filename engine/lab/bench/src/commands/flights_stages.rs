@@ -5,8 +5,8 @@ use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_sample::ManyFlights;
 use cosfly_schema::Role;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Sees, Stage, StageKind, StagePart,
-    StageProperties, Takes, TaskContext,
+    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Resources, Sees, Stage, StageKind, StagePart,
+    StageProperties, StageRole, Takes, TaskContext,
 };
 use cosfly_stages::{codec, read::TOWN_BLOB};
 use serde_json::{Value, json};
@@ -99,11 +99,11 @@ impl StageKind for Toy {
 
     fn build(&self, parameters: Value) -> Result<Vec<StagePart>, ParameterError> {
         let count = parameters["count"].as_u64().unwrap_or(0);
-        let (artifact, items) = match self.makes {
-            Makes::Town => ("town/1", ItemRule::One),
-            Makes::Walks => (WALK, ItemRule::Count { prefix: "p", count }),
-            Makes::Twins => (WALK, ItemRule::PerInput("walks")),
-            Makes::Films => ("frames/1", ItemRule::PerInput("walks")),
+        let (artifact, items, role) = match self.makes {
+            Makes::Town => ("town/1", ItemRule::One, StageRole::World),
+            Makes::Walks => (WALK, ItemRule::Count { prefix: "p", count }, StageRole::World),
+            Makes::Twins => (WALK, ItemRule::PerInput("walks"), StageRole::Changes),
+            Makes::Films => ("frames/1", ItemRule::PerInput("walks"), StageRole::Films),
         };
         let properties = StageProperties {
             kind: self.name.to_owned(),
@@ -118,6 +118,8 @@ impl StageKind for Toy {
             files_per_item: 2,
             intermediate: if self.makes == Makes::Films { &["pack"] } else { &[] },
             asks: None,
+            role,
+            resources: Resources::default(),
         };
         let stage = ToyStage { makes: self.makes, samples: Arc::clone(&self.samples), properties };
         Ok(vec![StagePart { suffix: "", stage: Box::new(stage) }])
