@@ -3,9 +3,9 @@
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_planner::PlanOutcome;
-use cosfly_recipe::{Arrival, RecipeStage};
+use cosfly_recipe::{Arrival, Recipe, RecipeStage};
 use cosfly_runner::Plan;
-use cosfly_stage::{BlobSource, Blobs, ItemName, StageRole};
+use cosfly_stage::{BlobSource, Blobs, StageRole};
 use cosfly_stages::expert::{Bodies, Companion, Expert, Flight};
 use cosfly_stages::plugins::Plugins;
 use cosfly_stages::read;
@@ -25,6 +25,8 @@ pub struct Experts<'a> {
     /// By the index of the stage that made the town.
     worlds: BTreeMap<usize, Arc<World>>,
     flights: BTreeMap<String, Arc<KnownFlight>>,
+    /// Stage and item of each flight by the ids that it can be asked for with; made with the first question.
+    ids: Option<BTreeMap<String, (usize, usize)>>,
 }
 
 /// A flight that can be planned again in its town.
@@ -40,7 +42,7 @@ pub struct KnownFlight {
 impl<'a> Experts<'a> {
     /// The experts of `plan`, whose artifacts are in `store`.
     pub fn new(plan: Plan<'a>, store: &'a Store) -> Self {
-        Self { plan, store, worlds: BTreeMap::new(), flights: BTreeMap::new() }
+        Self { plan, store, worlds: BTreeMap::new(), flights: BTreeMap::new(), ids: None }
     }
 
     /// The flight of a trajectory: `<stage>-<item>` as it is published, or `<stage>/<item>`; of a twin, its expert's.
@@ -58,7 +60,7 @@ impl<'a> Experts<'a> {
     }
 
     /// Stage and item of the expert of a trajectory.
-    fn expert_of(&self, trajectory: &str) -> Result<(usize, usize)> {
+    fn expert_of(&mut self, trajectory: &str) -> Result<(usize, usize)> {
         let (mut stage, mut item) = self.named(trajectory)?;
         loop {
             let found = &self.plan.recipe.stages[stage];
@@ -71,36 +73,11 @@ impl<'a> Experts<'a> {
         }
     }
 
-    /// Id of a flight without the weather that paired weathers add: the flight is the same in all of them.
-    fn without_weather<'t>(&self, trajectory: &'t str) -> &'t str {
-        let Some((flight, end)) = trajectory.rsplit_once('-') else { return trajectory };
-        let is_paired = self.plan.recipe.stages.iter().map(|stage| &stage.stage.properties().parameters).any(|it| {
-            let weathers = it["weathers"].as_array().into_iter().flatten();
-            it["paired_weathers"] == true && weathers.into_iter().any(|weather| weather == end)
-        });
-        if is_paired { flight } else { trajectory }
-    }
-
-    fn named(&self, trajectory: &str) -> Result<(usize, usize)> {
-        let trajectory = self.without_weather(trajectory);
-        let mut names = Vec::new();
-        let stages = self.plan.recipe.stages.iter().enumerate();
-        let flies = |stage: &RecipeStage| {
-            let changes_flights =
-                || stage.has_role(StageRole::Changes) && stage.stage.properties().artifact == read::FLIGHT;
-            stage.has_role(StageRole::Plans) || changes_flights()
-        };
-        for (index, stage) in stages.filter(|(_, stage)| flies(stage)) {
-            let published = |item: &ItemName| item.of_stage(&stage.name).to_string() == trajectory;
-            let is_meant = |item: &ItemName| published(item) || format!("{}/{item}", stage.name) == trajectory;
-            if trajectory.starts_with(stage.name.as_str())
-                && let Some(item) = stage.items.iter().position(is_meant)
-            {
-                return Ok((index, item));
-            }
-            names.extend(stage.items.iter().take(1000).map(|item| item.of_stage(&stage.name).to_string()));
-        }
-        Err(unknown(trajectory, &names))
+    /// Stage and item of a flight, by the id of a trajectory or of a film of it.
+    fn named(&mut self, trajectory: &str) -> Result<(usize, usize)> {
+        let recipe = self.plan.recipe;
+        let ids = self.ids.get_or_insert_with(|| ids(recipe));
+        ids.get(trajectory).copied().ok_or_else(|| unknown(trajectory, &first_ids(recipe)))
     }
 
     fn make_ready(&mut self, stage: usize, item: usize) -> Result<KnownFlight> {
@@ -170,6 +147,41 @@ impl<'a> Experts<'a> {
                 .hint(format!("`cosfly why {path} {id}` says what changed since"))
         })
     }
+}
+
+/// Stages of flights: those that plan and those that change them.
+fn flying(recipe: &Recipe) -> impl Iterator<Item = (usize, &RecipeStage)> {
+    let changes_flights =
+        |stage: &RecipeStage| stage.has_role(StageRole::Changes) && stage.stage.properties().artifact == read::FLIGHT;
+    let stages = recipe.stages.iter().enumerate();
+    stages.filter(move |(_, stage)| stage.has_role(StageRole::Plans) || changes_flights(stage))
+}
+
+/// Stage and item of each flight: by `<stage>-<item>` and `<stage>/<item>`, and by the ids of its films, which may name a
+/// weather as well.
+fn ids(recipe: &Recipe) -> BTreeMap<String, (usize, usize)> {
+    let mut ids = BTreeMap::new();
+    for (index, stage) in flying(recipe) {
+        for (place, item) in stage.items.iter().enumerate() {
+            ids.entry(item.of_stage(&stage.name).to_string()).or_insert((index, place));
+            ids.entry(recipe.id(index, place).to_string()).or_insert((index, place));
+        }
+    }
+    for film in recipe.stages.iter().filter(|stage| stage.has_role(StageRole::Films)) {
+        let Some(flown) = film.connections.iter().find(|it| it.port.artifact == read::FLIGHT) else { continue };
+        for (item, flight) in film.items.iter().zip(flown.arrivals.iter()) {
+            ids.entry(item.to_string()).or_insert((flight.stage, flight.item));
+        }
+    }
+    ids
+}
+
+/// Ids of the first flights of each stage.
+fn first_ids(recipe: &Recipe) -> Vec<String> {
+    let first = |(_, stage): (usize, &RecipeStage)| {
+        stage.items.iter().take(1000).map(|item| item.of_stage(&stage.name).to_string()).collect::<Vec<_>>()
+    };
+    flying(recipe).flat_map(first).collect()
 }
 
 fn unknown(trajectory: &str, names: &[String]) -> Box<Diagnostic> {

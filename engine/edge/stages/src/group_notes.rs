@@ -37,9 +37,8 @@ pub fn items(config: &DatasetConfig) -> ItemRule {
 
 /// Name of a group in files, from the name of its item.
 pub fn group_name(item: &ItemName) -> GroupName {
-    let (_, own) = item.origin();
-    let number = own.strip_prefix(PREFIX).and_then(|digits| digits.parse().ok()).unwrap_or_default();
-    GroupName { stage: item.stage().map(|stage| stage.recipe_name().to_owned()), number }
+    let stage = item.stage().map(|stage| stage.recipe_name().to_owned());
+    GroupName { stage, number: item.number().unwrap_or_default() }
 }
 
 /// The part of a stage that meets pictures at the port `frames`.

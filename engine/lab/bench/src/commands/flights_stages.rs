@@ -144,15 +144,15 @@ impl Stage for ToyStage {
 impl ToyStage {
     fn film(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<()> {
         let (_, walk) = context.id.item.origin();
-        let number: usize = walk.trim_start_matches('p').parse().map_err(|error| {
-            Diagnostic::new("bench-walk", Fault::Bug, format!("`{walk}` is not the name of a walk")).because(error)
-        })?;
+        let number = walk
+            .number()
+            .ok_or_else(|| Diagnostic::new("bench-walk", Fault::Bug, format!("`{walk}` is not the name of a walk")))?;
         let is_expert = context.id.item.stage().is_some_and(|stage| stage.as_str() == Role::Expert.name());
-        let index = 2 * number + usize::from(!is_expert);
+        let index = 2 * number as usize + usize::from(!is_expert);
         let mut record = self.samples.record(index);
         record.trajectory_id = context.id.item.to_string();
         record.flight_id.clone_from(&record.trajectory_id);
-        walk.clone_into(&mut record.pedestrian_id);
+        record.pedestrian_id = walk.to_string();
         if let Some(pair) = &mut record.pair {
             pair.expert_id = format!("{}-{walk}", Role::Expert.name());
         }
