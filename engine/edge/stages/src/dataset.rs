@@ -40,11 +40,7 @@ impl StageKind for Dataset {
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: DatasetConfig = parameters::read(given)?;
         config.check()?;
-        let mut parameters = parameters::canonical(&config);
-        // Tables are written by a part.
-        for key in ["windows", "frames_per_file", "walks_per_file"] {
-            parameters.as_object_mut().map(|table| table.remove(key));
-        }
+        let mut parameters = parameters::without(parameters::canonical(&config), DatasetConfig::NOT_IN_KEY);
         // A new column or table makes manifest and card anew without a raised version.
         parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
         let whole = StageProperties {

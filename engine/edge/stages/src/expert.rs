@@ -11,9 +11,9 @@ use crate::plugins::{Plugins, Role, source};
 use crate::world::World;
 use cosfly_diagnose::ParameterError;
 use cosfly_frames::Seed;
-use cosfly_objectives::{Objective, ObjectiveConfig};
+use cosfly_objectives::{InspectConfig, Objective, ObjectiveConfig, PatrolConfig};
 use cosfly_pilot::aim::AimConfig;
-use cosfly_planner::config::{Foresight, Planner};
+use cosfly_planner::config::{DronesConfig, Foresight, Planner};
 use cosfly_planner::weights::Preset;
 use cosfly_planner::{MucoConfig, PlanOutcome, Trajectory};
 use cosfly_stage::Source;
@@ -125,18 +125,14 @@ impl Expert {
             all[key] = value.clone();
         }
         let mut objective = parameters::canonical(&self.objective);
-        if let Some(table) = all.as_object_mut() {
-            // What is left at its default is left out, so that recipes that know none of it keep their keys.
-            if self.config.foresight == Foresight::Expected {
-                table.remove("foresight");
-                table.remove("causal");
-            }
-            if self.config.drones.count == 1 {
-                table.remove("drones");
-            }
+        // What is left at its default is left out, so that recipes that know none of it keep their keys.
+        if self.config.foresight == Foresight::Expected {
+            all = parameters::without(all, &["foresight", "causal"]);
         }
-        if let Some(drones) = all.get_mut("drones").and_then(|drones| drones.as_object_mut()) {
-            drones.remove("count");
+        if self.config.drones.count == 1 {
+            all = parameters::without(all, &["drones"]);
+        } else {
+            all["drones"] = parameters::without(all["drones"].take(), DronesConfig::NOT_IN_KEY);
         }
         if self.objective.objective == Objective::Track {
             all["aim"] = parameters::canonical(&self.aim);
@@ -147,10 +143,11 @@ impl Expert {
         if self.objective.objective == Objective::Plugin {
             return all;
         }
-        all[key] = objective[key].take();
-        if let Some(table) = all[key].as_object_mut() {
-            table.remove("count");
-        }
+        let not_in_key = match self.objective.objective {
+            Objective::Patrol => PatrolConfig::NOT_IN_KEY,
+            _ => InspectConfig::NOT_IN_KEY,
+        };
+        all[key] = parameters::without(objective[key].take(), not_in_key);
         all
     }
 

@@ -13,7 +13,7 @@ use cosfly_pilot::aim::AimConfig;
 use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_planner::obstacles::ground::GroundGrid;
 use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes, hides};
-use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, body_points, plan_request};
+use cosfly_planner::{MucoConfig, PlanOutcome, StartState, Trajectory, body_points, plan_request};
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
@@ -170,8 +170,7 @@ impl Flight {
         })
     }
 
-    /// The whole flight, and warnings of plugins for users. An inspection lists its coverage beside its costs, as `coverage`
-    /// of weight 0.
+    /// The whole flight, and warnings of plugins for users.
     ///
     /// # Errors
     /// Failures of a plugin.
@@ -188,9 +187,7 @@ impl Flight {
             let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
             let structures = buildings(world);
             let site = Site { exact: &world.exact, structures: &structures, ground: &ground, bounds: bounds(world) };
-            let per_frame = inspection.coverage(&site, &flight.poses_in_world, &self.objective.inspect).gained();
-            let sum = per_frame.iter().sum();
-            flight.terms.push(TermCost { name: "coverage".to_owned(), weight: 0.0, sum, per_frame });
+            flight.coverage = inspection.coverage(&site, &flight.poses_in_world, &self.objective.inspect).gained();
         }
         Ok((outcome, warnings))
     }
@@ -261,8 +258,7 @@ impl Flight {
         match &self.purpose {
             Purpose::Walker => {}
             Purpose::Walls(inspection) => {
-                let covered = flight.terms.iter().find(|term| term.name == "coverage");
-                notes.insert("coverage".to_owned(), format!("{:.3}", covered.map_or(0.0, |term| term.sum)));
+                notes.insert("coverage".to_owned(), format!("{:.3}", flight.coverage.iter().sum::<f64>()));
                 notes.insert("sides".to_owned(), format!("{} of 4", inspection.sides));
             }
             Purpose::Waypoints(patrol) => {

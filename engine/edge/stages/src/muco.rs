@@ -5,13 +5,14 @@ use crate::plugins::Plugins;
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::quotas::{self, Trial};
 use crate::world::{World, check_same_town, link_town, world};
-use crate::{codec, companions, formation, traffic};
+use crate::{codec, companions, formation, parameters, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_frames::Seed;
 use cosfly_objectives::Objective;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_planner::PlanOutcome;
+use cosfly_planner::config::OcclusionConfig;
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,
@@ -52,10 +53,7 @@ impl StageKind for Muco {
         };
         let occlusion = expert.config.occlusion.clone();
         let mut parameters = expert.canonical();
-        // A flight depends on its own order alone.
-        for key in ["share", "beside_look_alike"] {
-            parameters["occlusion"].as_object_mut().expect("a table").remove(key);
-        }
+        parameters["occlusion"] = parameters::without(parameters["occlusion"].take(), OcclusionConfig::NOT_IN_KEY);
         let properties = StageProperties {
             kind: self.name().into(),
             version: 6,

@@ -37,9 +37,7 @@ impl StageKind for Pedestrians {
         let config: PedestrianConfig = parameters::read(given)?;
         config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
         let count = config.count;
-        let mut canonical = parameters::canonical(&config);
-        // No single walk depends on the number of walks.
-        canonical.as_object_mut().expect("a table").remove("count");
+        let canonical = parameters::without(parameters::canonical(&config), PedestrianConfig::NOT_IN_KEY);
         let properties = StageProperties {
             kind: self.name().into(),
             version: 1,

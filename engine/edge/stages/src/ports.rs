@@ -21,15 +21,15 @@ pub const ORDERS: &str = "orders/1";
 /// Artifact of the flights of all drones behind a walk.
 pub const FORMATION: &str = "formation/1";
 /// Artifact of a planned or perturbed trajectory.
-pub const TRAJECTORY: &str = "trajectory/3";
+pub const TRAJECTORY: &str = "trajectory/4";
 /// Artifact of the people who are near a flight.
 pub const NEARBY: &str = "nearby/1";
 /// Artifact of a rendered trajectory.
-pub const FRAMES: &str = "frames/1";
+pub const FRAMES: &str = "frames/2";
 /// Blob of a rendered trajectory: its packed pictures, which its log holds as well.
 pub const PACK: &str = "pack";
 /// Artifact of a trajectory's captions.
-pub const CAPTIONS: &str = "captions/2";
+pub const CAPTIONS: &str = "captions/3";
 /// Artifact of a trajectory's MCAP log.
 pub const LOG: &str = "log/1";
 /// Artifact of extras that a plugin made of a trajectory.

@@ -93,11 +93,8 @@ impl StageKind for Render {
 
 /// Parameters for keys. A paired item is named after its own weather and reads no other: one more weather renders no old
 /// one again.
-fn canonical(config: &RenderConfig, mut all: serde_json::Value) -> serde_json::Value {
-    if let Some(table) = all.as_object_mut().filter(|_| config.paired_weathers) {
-        table.remove("weathers");
-    }
-    all
+fn canonical(config: &RenderConfig, all: serde_json::Value) -> serde_json::Value {
+    if config.paired_weathers { parameters::without(all, RenderConfig::NOT_IN_KEY) } else { all }
 }
 
 struct RenderStage {

@@ -31,6 +31,8 @@ pub use planning::{plan, plan_request, plan_with_terms};
 pub use request::{PlanRequest, StartState};
 pub use terms::{CostTerm, TermContext, WeightedTerm};
 pub use terms::{WeightOverrides, Weights};
-pub use trajectory::{Certificate, FramePerturbation, Limits, Perturbation, PlanOutcome, TermCost, Trajectory};
+pub use trajectory::{
+    Certificate, FlightLabel, FramePerturbation, Limits, Perturbation, PlanOutcome, TermCost, Trajectory,
+};
 pub use visibility::{aim_point, body_points, visibility};
 pub use weights::Preset;

@@ -74,9 +74,7 @@ impl StageKind for Caption {
                 refusal.path.insert(0, TEACHER.to_owned());
                 refusal
             })?;
-            canonical[TEACHER] = parameters::canonical(&teacher);
-            // Where and how fast the server is asked changes no text.
-            canonical[TEACHER].as_object_mut().and_then(|table| table.remove("server"));
+            canonical[TEACHER] = parameters::without(parameters::canonical(&teacher), TeacherConfig::NOT_IN_KEY);
         }
         let properties = StageProperties {
             kind: self.name().into(),

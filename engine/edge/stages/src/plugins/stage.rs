@@ -10,10 +10,9 @@ use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
-use cosfly_planner::{PlanOutcome, Trajectory};
+use cosfly_planner::{FlightLabel, PlanOutcome, Trajectory};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraShape};
-use cosfly_schema::flight_labels::{self, FlightLabel};
 use cosfly_schema::flight_table::{self, FlightColumns, MOST_FILES, MOST_ROWS};
 use cosfly_schema::record::captions_from_bytes;
 use cosfly_stage::{
@@ -154,7 +153,11 @@ fn labelled(
     [plugin, version, _]: [&str; 3],
 ) -> Result<PlanOutcome, String> {
     for (name, per_frame) in flight_table::labels(answer, &tables::columns(&declared.gives), flight.track.len())? {
-        flight_labels::add(&mut flight, FlightLabel { name: &name, plugin, version, per_frame: &per_frame })?;
+        if let Some(earlier) = flight.labels.iter().find(|earlier| earlier.name == name) {
+            let plugin = &earlier.plugin;
+            return Err(format!("it returned a label `{name}`, but plugin `{plugin}` already gave one of that name"));
+        }
+        flight.labels.push(FlightLabel { name, plugin: plugin.to_owned(), version: version.to_owned(), per_frame });
     }
     Ok(PlanOutcome::Planned(Box::new(flight)))
 }
