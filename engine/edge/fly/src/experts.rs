@@ -1,16 +1,16 @@
 //! The experts of a recipe's finished run, to be asked again: towns, walks and parameters out of the store.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_experts::plugins::Plugins;
+use cosfly_experts::{Kind, RecipeExpert, artifacts};
+use cosfly_flight::{Bodies, Companion, Flight, World};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Arrival, Recipe, RecipeStage};
 use cosfly_runner::Plan;
 use cosfly_stage::{BlobSource, Blobs, StageRole};
-use cosfly_stages::expert::{Bodies, Companion, Expert, Flight};
-use cosfly_stages::plugins::Plugins;
-use cosfly_stages::read;
-use cosfly_stages::world::World;
 use cosfly_store::Store;
+use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -85,11 +85,11 @@ impl<'a> Experts<'a> {
         let name = described.items[item].of_stage(&described.name).to_string();
         let broken = |rule: String| Diagnostic::new("plan-from-parameters", Fault::Bug, rule);
         let mut expert =
-            Expert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
+            RecipeExpert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
         let town = described.connection("town").and_then(|connection| connection.arrivals.first().cloned());
         let world = self.world(&town.ok_or_else(|| broken(format!("`{name}` has no town")))?)?;
         let blobs = self.blobs(stage, item)?;
-        let outcome = read::trajectory(&self.store.read(&blobs[read::TRAJECTORY_BLOB])?)?;
+        let outcome = artifacts::FLIGHT.decode(&self.store.read(&blobs[artifacts::FLIGHT.blob])?)?;
         let published_without_loss =
             matches!(&outcome, PlanOutcome::Planned(it) if it.certificate.occlusion_ordered_s == 0.0);
         let (track, flown) = match outcome {
@@ -100,22 +100,21 @@ impl<'a> Experts<'a> {
             PlanOutcome::Rejected { track, .. } => (track, vec![]),
         };
         if published_without_loss {
-            expert.config.occlusion = expert.config.occlusion.without_losses();
+            expert.expert.config.occlusion = expert.expert.config.occlusion.without_losses();
         }
-        let around = blobs.get(read::AROUND_BLOB).map(|blob| read::around(&self.store.read(blob)?)).transpose()?;
+        let around = self.find(blobs, &artifacts::AROUND)?;
         let movers = around.map_or_else(Vec::new, |around| around.boxes());
-        let before =
-            blobs.get(read::DRONES_BLOB).map(|blob| read::drones_before(&self.store.read(blob)?)).transpose()?;
+        let drones = self.find(blobs, &artifacts::DRONES)?;
         let companions = self.companions(stage, item)?;
         let bodies = Bodies { walk: Some(track), companions, movers };
         let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());
         let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
         let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());
-        let mut flight = expert.flight(&world, bodies, seed, plugins)?.map_err(|reason| {
+        let mut flight = expert.expert.flight(&world, bodies, seed, Arc::new(plugins))?.map_err(|reason| {
             Diagnostic::new("plan-from-nothing", Fault::Recipe, format!("`{name}` has no flight to go on from"))
                 .because(reason)
         })?;
-        before.into_iter().flatten().for_each(|places| flight.beside(places));
+        drones.iter().flat_map(|drones| drones.before()).for_each(|places| flight.beside(places));
         Ok(KnownFlight { world, flight, flown })
     }
 
@@ -124,16 +123,21 @@ impl<'a> Experts<'a> {
             return Ok(Arc::clone(world));
         }
         let blobs = self.blobs(town.stage, town.item)?;
-        let world = Arc::new(World::new(read::town(&self.store.read(&blobs[read::TOWN_BLOB])?)?));
+        let world = Arc::new(World::new(artifacts::TOWN.decode(&self.store.read(&blobs[artifacts::TOWN.blob])?)?));
         self.worlds.insert(town.stage, Arc::clone(&world));
         Ok(world)
     }
 
     fn companions(&self, stage: usize, item: usize) -> Result<Vec<Companion>> {
-        let part = self.plan.recipe.stages[stage].connection(read::COMPANIONS_BLOB);
+        let part = self.plan.recipe.stages[stage].connection(artifacts::COMPANIONS.blob);
         let Some(chosen) = part.and_then(|part| part.arrivals.get(item)) else { return Ok(vec![]) };
         let blobs = self.blobs(chosen.stage, chosen.item)?;
-        read::companions(&self.store.read(&blobs[read::COMPANIONS_BLOB])?)
+        artifacts::COMPANIONS.decode(&self.store.read(&blobs[artifacts::COMPANIONS.blob])?)
+    }
+
+    /// Value in a blob of a flight; `None` where there is no such blob.
+    fn find<T: DeserializeOwned>(&self, blobs: &Blobs, kind: &Kind<T>) -> Result<Option<T>> {
+        blobs.get(kind.blob).map(|blob| kind.decode(&self.store.read(blob)?)).transpose()
     }
 
     fn blobs(&self, stage: usize, item: usize) -> Result<&Blobs> {
@@ -151,8 +155,9 @@ impl<'a> Experts<'a> {
 
 /// Stages of flights: those that plan and those that change them.
 fn flying(recipe: &Recipe) -> impl Iterator<Item = (usize, &RecipeStage)> {
-    let changes_flights =
-        |stage: &RecipeStage| stage.has_role(StageRole::Changes) && stage.stage.properties().artifact == read::FLIGHT;
+    let changes_flights = |stage: &RecipeStage| {
+        stage.has_role(StageRole::Changes) && stage.stage.properties().artifact == artifacts::FLIGHT.artifact
+    };
     let stages = recipe.stages.iter().enumerate();
     stages.filter(move |(_, stage)| stage.has_role(StageRole::Plans) || changes_flights(stage))
 }
@@ -168,7 +173,9 @@ fn ids(recipe: &Recipe) -> BTreeMap<String, (usize, usize)> {
         }
     }
     for film in recipe.stages.iter().filter(|stage| stage.has_role(StageRole::Films)) {
-        let Some(flown) = film.connections.iter().find(|it| it.port.artifact == read::FLIGHT) else { continue };
+        let Some(flown) = film.connections.iter().find(|it| it.port.artifact == artifacts::FLIGHT.artifact) else {
+            continue;
+        };
         for (item, flight) in film.items.iter().zip(flown.arrivals.iter()) {
             ids.entry(item.to_string()).or_insert((flight.stage, flight.item));
         }

@@ -1,11 +1,10 @@
 //! Part `notes` of a `dataset` stage: notes about the flights of each group of walks, from which the splits are drawn.
 
-use crate::codec;
 use crate::ports::{self, NOTES};
 use crate::rejections::rejection;
-use crate::world::TOWN_BLOB;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
+use cosfly_experts::{artifacts, codec};
 use cosfly_schema::{DatasetConfig, Rejection, RenderedTrajectory};
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Resources, Stage, StagePart, StageProperties,
@@ -103,5 +102,5 @@ impl Stage for NotesStage {
 
 /// Digest of the town that pictures show, hex digits.
 fn town_digest(frames: &Artifact) -> String {
-    frames.blobs.get(TOWN_BLOB).map(|blob| blob.digest.to_string()).unwrap_or_default()
+    frames.blobs.get(artifacts::TOWN.blob).map(|blob| blob.digest.to_string()).unwrap_or_default()
 }

@@ -2,11 +2,12 @@
 //! that a group whose splits stay keeps its tables.
 
 use crate::group_notes::{self, GroupNotes};
+use crate::parameters;
 use crate::ports::{self, SPLITS};
 use crate::published_towns::PublishedTowns;
-use crate::{codec, parameters};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_experts::codec;
 use cosfly_fingerprint::canonical_json;
 use cosfly_schema::config::SplitShares;
 use cosfly_schema::{DatasetConfig, Rejection};

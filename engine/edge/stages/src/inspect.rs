@@ -3,10 +3,11 @@
 use crate::parameters;
 use crate::ports::{self, FRAMES, PACK};
 use crate::rejections::{handed_on, reject};
-use crate::verdict::{self, InspectConfig};
+use crate::verdict;
 use crate::world::link_town;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
+use cosfly_doctor::verdict::InspectConfig;
 use cosfly_schema::{Rejection, RenderedTrajectory};
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,

@@ -1,12 +1,12 @@
 //! Part `logs` of a `dataset` stage: one MCAP log per trajectory.
 
-use crate::codec;
 use crate::ports::{self, LOG, PACK};
 use crate::rejections::handed_on;
 use crate::world::world_of;
 use cosfly_blobs::{BlobPart, OutputSink, PassingFile};
 use cosfly_captions::{Language, Wear, check_clothes as clothes_in};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_experts::codec;
 use cosfly_render::ChannelSet;
 use cosfly_schema::record::captions_from_bytes;
 use cosfly_schema::{CaptionRecord, PreviewStrip, RenderedTrajectory};

@@ -1,10 +1,10 @@
 //! `map`: reads a town from a map file.
 
 use crate::ports::TOWN;
-use crate::world::TOWN_BLOB;
-use crate::{codec, parameters, single};
+use crate::{parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result, plausible};
+use cosfly_experts::artifacts;
 use cosfly_frames::Seed;
 use cosfly_maps::advice::advice;
 use cosfly_maps::{Bounds, FORMATS, Format, FormatOptions, MapConfig, MapError, Town, read_town_of, recognise};
@@ -260,7 +260,7 @@ impl Stage for MapStage {
 
     fn run(&self, _inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let ReadMap { town, warnings, advice, .. } = read_files(&context.sources, &self.config, Seed(context.seed))?;
-        outputs.put(TOWN_BLOB, &codec::encode(TOWN, &town)?)?;
+        artifacts::TOWN.put(outputs, &town)?;
         let report = &town.simplification;
         let mut notes = std::collections::BTreeMap::from([
             ("obstacles".to_owned(), format!("{} boxes", town.obstacles.len())),

@@ -3,9 +3,10 @@
 use crate::memo::Memo;
 use crate::ports::{self, WALK};
 use crate::world::{link_town, world};
-use crate::{codec, parameters, single};
+use crate::{parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_experts::artifacts;
 use cosfly_frames::Seed;
 use cosfly_pedestrians::{PedestrianConfig, PedestrianError, WalkableGrid, walk};
 use cosfly_stage::{
@@ -74,7 +75,7 @@ impl Stage for PedestrianStage {
         let refused = |error: PedestrianError| refusal(error, &world.town.name);
         let grid = self.grid.get(digest, || WalkableGrid::build(&world.town, &self.config)).map_err(refused)?;
         let path = walk(&grid, &self.config, Seed(context.seed)).map_err(refused)?;
-        outputs.put("walk", &codec::encode(WALK, &path)?)?;
+        artifacts::WALK.put(outputs, &path)?;
         link_town(inputs, outputs)?;
         Ok(Produced::default())
     }

@@ -1,12 +1,12 @@
 //! `perturb`: the twin of every expert trajectory, with errors of position and rotation.
 
-use crate::muco::produced;
-use crate::other_drones::Formation;
+use crate::planning::produced;
 use crate::ports::{self, TRAJECTORY};
 use crate::world::{check_same_town, link_town, world};
-use crate::{codec, parameters, single, traffic};
+use crate::{parameters, single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
+use cosfly_experts::artifacts;
 use cosfly_frames::Seed;
 use cosfly_pilot::perturb::{PerturbConfig, perturb};
 use cosfly_planner::PlanOutcome;
@@ -85,13 +85,13 @@ impl Stage for PerturbStage {
         check_same_town(inputs, "trajectories")?;
         let world = world(inputs)?;
         let artifact = inputs.one("trajectories")?;
-        let expert: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
+        let expert = artifacts::FLIGHT.read(inputs, artifact)?;
         // The expert is published under this name (see `Takes::Named`).
         let expert_id = artifact.id.item.of_stage(&artifact.id.stage).to_string();
         let twin = match expert {
             PlanOutcome::Planned(expert) => {
                 let mut movers = traffic::around(inputs, artifact)?.boxes();
-                let drones = Formation::of(inputs, artifact)?.join(&mut movers);
+                let drones = artifacts::DRONES.find(inputs, artifact)?.unwrap_or_default().join(&mut movers);
                 let clearance_m = self.config.clearance_m;
                 let map = ExactMap { drones, clearance_m, ..ExactMap::among(&world.exact, &movers) };
                 perturb(&expert, &expert_id, map, &self.config_of(&context.id), Seed(context.seed))
@@ -100,7 +100,7 @@ impl Stage for PerturbStage {
                 PlanOutcome::Rejected { track, reason: format!("its expert was rejected: {reason}") }
             }
         };
-        outputs.put("trajectory", &codec::encode(TRAJECTORY, &twin)?)?;
+        artifacts::FLIGHT.put(outputs, &twin)?;
         link_town(inputs, outputs)?;
         traffic::link_moving(artifact, outputs)?;
         Ok(produced(&twin))

@@ -1,15 +1,16 @@
 //! `wasm`: a plugin as a stage, `use = "wasm:FILE"`: it judges or labels finished flights, or makes extras of rendered ones.
 
-use super::config::{Makes, StagePlugin};
-use super::{Declaration, Effect, Plugins, Role, source, tables};
-use crate::muco::produced;
+use crate::planning::produced;
 use crate::ports::{self, CAPTIONS, EXTRAS, FRAMES, TRAJECTORY};
 use crate::rejections::handed_on;
 use crate::traffic::link_moving;
 use crate::world::{check_same_town, link_town, world};
-use crate::{codec, parameters, single};
+use crate::{parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
+use cosfly_experts::plugins::config::{Makes, StagePlugin};
+use cosfly_experts::plugins::{Declaration, Effect, Plugins, Role, source, tables};
+use cosfly_experts::{artifacts, codec};
 use cosfly_planner::{FlightLabel, PlanOutcome, Trajectory};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraShape};
@@ -116,7 +117,7 @@ fn flights(
     check_same_town(inputs, "trajectories")?;
     let world = world(inputs)?;
     let artifact = inputs.one("trajectories")?;
-    let given: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
+    let given = artifacts::FLIGHT.read(inputs, artifact)?;
     let mut warnings = vec![];
     let outcome = match given {
         PlanOutcome::Planned(flight) => {
@@ -131,7 +132,7 @@ fn flights(
         }
         rejected @ PlanOutcome::Rejected { .. } => rejected,
     };
-    outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
+    artifacts::FLIGHT.put(outputs, &outcome)?;
     link_town(inputs, outputs)?;
     link_moving(artifact, outputs)?;
     Ok(Produced { warnings, ..produced(&outcome) })

@@ -1,12 +1,12 @@
 //! Part `tables` of a `dataset` stage: tables and logs of each group of walks.
 
-use crate::plugins::stage::EXTRA;
-use crate::ports::{self, EXTRAS, LOG, SHARD, TOWN};
+use crate::plugin::EXTRA;
+use crate::ports::{self, EXTRAS, LOG, SHARD};
 use crate::rejections::rejection;
-use crate::world::TOWN_BLOB;
-use crate::{codec, group_notes, group_splits, logs, parameters};
+use crate::{group_notes, group_splits, logs, parameters};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_experts::{artifacts, codec};
 use cosfly_fingerprint::Digest;
 use cosfly_maps::Town;
 use cosfly_schema::extras::Extra;
@@ -150,8 +150,8 @@ impl GroupSource for Gathered<'_> {
     }
 
     fn landmarks(&self, index: usize) -> Result<Arc<Landmarks>> {
-        self.inputs.decoded(self.flights[index].frames, TOWN_BLOB, |bytes| {
-            codec::decode(TOWN, bytes).map(|town: Town| Landmarks::of(&town))
+        self.inputs.decoded(self.flights[index].frames, artifacts::TOWN.blob, |bytes| {
+            artifacts::TOWN.decode(bytes).map(|town: Town| Landmarks::of(&town))
         })
     }
 

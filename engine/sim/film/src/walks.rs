@@ -1,9 +1,8 @@
 //! People and vehicles on their tracks, by the clock of a flight.
 
-use crate::codec;
+use crate::looks::walk_seed;
 use crate::shooting::Shooting;
 use cosfly_diagnose::Result;
-use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::effects::target_state_at;
@@ -143,11 +142,6 @@ pub fn touch(
         is_level && away.truncate().length_squared() < reach_m * reach_m && plan.gap_m(one, other, two) < 0.0
     };
     states.iter().zip(others).any(overlap)
-}
-
-/// Seed of a walker's looks, and of the camera and weather of flights behind them.
-pub fn walk_seed(track: &TargetTrack) -> Result<Seed> {
-    Ok(Seed(Digest::of(&codec::encode("walk-seed/1", track)?).0))
 }
 
 /// Distance walked up to each frame, metres.

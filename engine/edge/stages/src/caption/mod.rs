@@ -4,11 +4,12 @@ mod pictures;
 mod taught;
 
 use crate::ports::{self, CAPTIONS, FRAMES, TRAJECTORY};
-use crate::walks::walk_seed;
-use crate::{codec, parameters, single, traffic};
+use crate::{parameters, single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_captions::{Caption as Text, CaptionConfig, Facts, Wear, Writer, captions, check, facts};
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_experts::artifacts;
+use cosfly_film::looks::walk_seed;
 use cosfly_frames::Seed;
 use cosfly_planner::PlanOutcome;
 use cosfly_render::Clothes;
@@ -120,7 +121,7 @@ impl Stage for CaptionStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let outcome: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(inputs.one("trajectories")?, "trajectory")?)?;
+        let outcome = artifacts::FLIGHT.read(inputs, inputs.one("trajectories")?)?;
         let trajectory = match outcome {
             PlanOutcome::Planned(trajectory) => trajectory,
             PlanOutcome::Rejected { reason, .. } => {

@@ -2,13 +2,13 @@
 
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_experts::{artifacts, codec};
 use cosfly_sample::ManyFlights;
 use cosfly_schema::Role;
 use cosfly_stage::{
     Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Resources, Sees, Stage, StageKind, StagePart,
     StageProperties, StageRole, Takes, TaskContext,
 };
-use cosfly_stages::{codec, read::TOWN_BLOB};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -133,7 +133,7 @@ impl Stage for ToyStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         match self.makes {
-            Makes::Town => outputs.put(TOWN_BLOB, &codec::encode("town/1", &cosfly_sample::town())?)?,
+            Makes::Town => outputs.put(artifacts::TOWN.blob, &codec::encode("town/1", &cosfly_sample::town())?)?,
             Makes::Walks | Makes::Twins => outputs.put("walk", context.id.item.to_string().as_bytes())?,
             Makes::Films => self.film(inputs, outputs, context)?,
         }
@@ -156,7 +156,7 @@ impl ToyStage {
         if let Some(pair) = &mut record.pair {
             pair.expert_id = format!("{}-{walk}", Role::Expert.name());
         }
-        outputs.link(TOWN_BLOB, inputs.one("town")?.blobs[TOWN_BLOB])?;
+        outputs.link(artifacts::TOWN.blob, inputs.one("town")?.blobs[artifacts::TOWN.blob])?;
         outputs.put("index", &record.to_bytes())?;
         outputs.put("pack", self.samples.pack(index))
     }

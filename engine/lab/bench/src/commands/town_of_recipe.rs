@@ -2,6 +2,7 @@
 
 use super::outcome::Refusals;
 use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_experts::{RecipeExpert, artifacts};
 use cosfly_geometry::BoxBvh;
 use cosfly_lab::planner::scene::Ground;
 use cosfly_maps::GroundIndex;
@@ -9,8 +10,6 @@ use cosfly_planner::MucoConfig;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::{RunOptions, RunSummary};
 use cosfly_stage::{BlobSource, Blobs, Registry, StageRole};
-use cosfly_stages::expert::Expert;
-use cosfly_stages::read;
 use cosfly_store::Store;
 use std::path::Path;
 use std::sync::Arc;
@@ -47,9 +46,9 @@ pub fn town_of_recipe(
         return Err(failures);
     }
     let ground = ground(&recipe, &planner, &summary, &store).map_err(one)?;
-    let expert = Expert::read(planner.stage.properties().parameters.clone())
+    let expert = RecipeExpert::read(planner.stage.properties().parameters.clone())
         .map_err(|refused| one(Diagnostic::new("bench-parameters", Fault::Recipe, refused.message)))?;
-    Ok((ground, expert.config))
+    Ok((ground, expert.expert.config))
 }
 
 /// Index of the first stage that plans flights behind walkers.
@@ -79,12 +78,12 @@ fn ground(
     store: &Store,
 ) -> cosfly_diagnose::Result<Ground> {
     let town = match arrived(planner, summary, "town")?.first() {
-        Some(blobs) => read::town(&store.read(&blobs[read::TOWN_BLOB])?)?,
+        Some(blobs) => artifacts::TOWN.decode(&store.read(&blobs[artifacts::TOWN.blob])?)?,
         None => return Err(unfinished("town")),
     };
     let mut tracks = Vec::new();
     for blobs in arrived(planner, summary, "paths")? {
-        tracks.push(read::walk(&store.read(&blobs[read::WALK_BLOB])?)?.track);
+        tracks.push(artifacts::WALK.decode(&store.read(&blobs[artifacts::WALK.blob])?)?.track);
     }
     let index = GroundIndex::new(&town);
     Ok(Ground {
