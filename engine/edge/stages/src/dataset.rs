@@ -3,13 +3,14 @@
 
 use crate::ports::{self, CAPTIONS, DATASET, EXTRAS, FRAMES};
 use crate::published_towns::PublishedTowns;
-use crate::{group_notes, group_splits, logs, parameters, planners, shards};
+use crate::{group_notes, group_splits, logs, planners, shards};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_report::PlannerRow;
 use cosfly_schema::DatasetConfig;
 use cosfly_schema::tables::ObjectRecord;
+use cosfly_stage::parameters;
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Resources, Sees, Stage, StageKind, StagePart,
     StageProperties, StageRole, Takes, TaskContext,

@@ -2,7 +2,6 @@
 //! that a group whose splits stay keeps its tables.
 
 use crate::group_notes::{self, GroupNotes};
-use crate::parameters;
 use crate::ports::{self, SPLITS};
 use crate::published_towns::PublishedTowns;
 use cosfly_blobs::OutputSink;
@@ -11,6 +10,7 @@ use cosfly_experts::codec;
 use cosfly_fingerprint::canonical_json;
 use cosfly_schema::config::SplitShares;
 use cosfly_schema::{DatasetConfig, Rejection};
+use cosfly_stage::parameters;
 use cosfly_stage::{
     Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Resources, Sees, Stage, StagePart, StageProperties,
     StageRole, TaskContext,

@@ -1,6 +1,5 @@
 //! `inspect`: examines rendered flights and leaves out what is damaged, more imperfect than allowed, or beyond a quota.
 
-use crate::parameters;
 use crate::ports::{self, FRAMES, PACK};
 use crate::rejections::{handed_on, reject};
 use crate::verdict;
@@ -9,6 +8,7 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_doctor::verdict::InspectConfig;
 use cosfly_schema::{Rejection, RenderedTrajectory};
+use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,

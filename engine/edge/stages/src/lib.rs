@@ -32,7 +32,6 @@ mod traffic;
 mod verdict;
 mod world;
 
-use cosfly_stage::parameters;
 use cosfly_stage::{Registry, Stage, StageKind};
 
 /// All built-in stage kinds, sorted by name.

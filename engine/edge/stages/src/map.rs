@@ -1,13 +1,14 @@
 //! `map`: reads a town from a map file.
 
 use crate::ports::TOWN;
-use crate::{parameters, single};
+use crate::single;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result, plausible};
 use cosfly_experts::artifacts;
 use cosfly_frames::Seed;
 use cosfly_maps::advice::advice;
 use cosfly_maps::{Bounds, FORMATS, Format, FormatOptions, MapConfig, MapError, Town, read_town_of, recognise};
+use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Resources, Source, SourceCheck, Stage, StageKind, StagePart,
     StageProperties, StageRole, TaskContext,

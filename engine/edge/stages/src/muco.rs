@@ -4,7 +4,7 @@ use crate::planning::{Setting, produced};
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::quotas;
 use crate::world::link_town;
-use crate::{companions, formation, parameters, traffic};
+use crate::{companions, formation, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_experts::plugins::Plugins;
@@ -13,6 +13,7 @@ use cosfly_flight::Flown;
 use cosfly_flight::losses::Trial;
 use cosfly_frames::Seed;
 use cosfly_planner::config::OcclusionConfig;
+use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,

@@ -2,13 +2,14 @@
 
 use crate::memo::Memo;
 use crate::ports::{self, WALK};
+use crate::single;
 use crate::world::{link_town, world};
-use crate::{parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_experts::artifacts;
 use cosfly_frames::Seed;
 use cosfly_pedestrians::{PedestrianConfig, PedestrianError, WalkableGrid, walk};
+use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,

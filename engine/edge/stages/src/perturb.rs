@@ -3,7 +3,7 @@
 use crate::planning::produced;
 use crate::ports::{self, TRAJECTORY};
 use crate::world::{check_same_town, link_town, world};
-use crate::{parameters, single, traffic};
+use crate::{single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_experts::artifacts;
@@ -11,6 +11,7 @@ use cosfly_frames::Seed;
 use cosfly_pilot::perturb::{PerturbConfig, perturb};
 use cosfly_planner::PlanOutcome;
 use cosfly_planner::obstacles::exact::ExactMap;
+use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, ItemId, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,

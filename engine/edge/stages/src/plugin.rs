@@ -3,9 +3,9 @@
 use crate::planning::produced;
 use crate::ports::{self, CAPTIONS, EXTRAS, FRAMES, TRAJECTORY};
 use crate::rejections::handed_on;
+use crate::single;
 use crate::traffic::link_moving;
 use crate::world::{check_same_town, link_town, world};
-use crate::{parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_experts::plugins::config::{Makes, StagePlugin};
@@ -16,6 +16,7 @@ use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraShape};
 use cosfly_schema::flight_table::{self, FlightColumns, MOST_FILES, MOST_ROWS};
 use cosfly_schema::record::captions_from_bytes;
+use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,

@@ -6,7 +6,7 @@ use crate::memo::Memo;
 use crate::ports::{self, FRAMES, PACK};
 use crate::rejections::reject;
 use crate::world::{check_same_town, link_town, world};
-use crate::{backends, nearby, parameters, props, traffic};
+use crate::{backends, nearby, props, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_experts::{artifacts, pictures};
@@ -25,6 +25,7 @@ use cosfly_render::{
 };
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
+use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, ItemName, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties,
     StageRole, TaskContext,

@@ -3,7 +3,7 @@
 use crate::plugin::EXTRA;
 use crate::ports::{self, EXTRAS, LOG, SHARD};
 use crate::rejections::rejection;
-use crate::{group_notes, group_splits, logs, parameters};
+use crate::{group_notes, group_splits, logs};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_experts::{artifacts, codec};
@@ -12,6 +12,7 @@ use cosfly_maps::Town;
 use cosfly_schema::extras::Extra;
 use cosfly_schema::tables::Landmarks;
 use cosfly_schema::{CaptionRecord, DatasetConfig, LogRecord, PreviewStrip, Rejection, RenderedTrajectory};
+use cosfly_stage::parameters;
 use cosfly_stage::{
     Artifact, Blobs, Fan, InputPort, Inputs, ItemName, Produced, Resources, Stage, StagePart, StageProperties,
     StageRole, TaskContext,

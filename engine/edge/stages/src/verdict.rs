@@ -1,6 +1,5 @@
 //! Part `verdict` of an `inspect` stage: flights that are left out, with their reasons, decided over all of them at once.
 
-use crate::parameters;
 use crate::ports::{self, FRAMES, VERDICT};
 use crate::rejections::is_rejected;
 use crate::world::{check_same_town, world};
@@ -12,6 +11,7 @@ use cosfly_experts::codec;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_maps::{ObstacleKind, Town};
 use cosfly_schema::RenderedTrajectory;
+use cosfly_stage::parameters;
 use cosfly_stage::{
     Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties, StageRole,
     TaskContext,

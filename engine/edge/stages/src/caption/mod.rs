@@ -4,7 +4,7 @@ mod pictures;
 mod taught;
 
 use crate::ports::{self, CAPTIONS, FRAMES, TRAJECTORY};
-use crate::{parameters, single, traffic};
+use crate::{single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_captions::{Caption as Text, CaptionConfig, Facts, Wear, Writer, captions, check, facts};
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
@@ -15,6 +15,7 @@ use cosfly_planner::PlanOutcome;
 use cosfly_render::Clothes;
 use cosfly_schema::CaptionRecord;
 use cosfly_schema::record::captions_to_bytes;
+use cosfly_stage::parameters;
 use cosfly_stage::{
     Asks, InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,

@@ -1,8 +1,8 @@
 //! [`TrafficConfig`]: the parameters of traffic in a recipe.
 
-use crate::parameters;
 use cosfly_pedestrians::{ConfigRule, CrowdConfig, RecordedConfig, ScriptedPerson};
 use cosfly_stage::Source;
+use cosfly_stage::parameters;
 use cosfly_vehicles::VehicleConfig;
 use cosfly_vehicles::fcd::FcdConfig;
 use cosfly_world::{BodyKind, Clock, LookAlikeConfig, LooksConfig, Traffic};

@@ -5,7 +5,6 @@ mod config;
 mod population;
 
 use crate::memo::Memo;
-use crate::parameters;
 use crate::ports::{self, TRAFFIC, WALK};
 use crate::world::{check_same_town, link_town, world};
 use avoided::Avoided;
@@ -16,6 +15,7 @@ use cosfly_experts::artifacts;
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
 use cosfly_render::{BodyShape, Outfit};
+use cosfly_stage::parameters;
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties,
     StageRole, TaskContext,
