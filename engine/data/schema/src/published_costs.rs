@@ -1,6 +1,6 @@
 //! Costs of a flight as tables and plugins see them: those of its terms, and the coverage of an inspection.
 
-use cosfly_planner::Trajectory;
+use cosfly_domain::Trajectory;
 
 /// Name of the coverage among the costs; no term has it.
 const COVERAGE: &str = "coverage";

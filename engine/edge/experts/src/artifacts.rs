@@ -3,16 +3,14 @@
 use crate::codec;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
+use cosfly_domain::{Around, Followed, PlanOutcome, Town, Traffic};
 use cosfly_film::nearby::{NearbyBodies, NearbyPerson};
 use cosfly_flight::formation::Formation;
 use cosfly_flight::losses::Trial;
 use cosfly_flight::{Companion, Flown};
-use cosfly_maps::Town;
 use cosfly_pedestrians::PedestrianPath;
-use cosfly_planner::PlanOutcome;
 use cosfly_schema::Rejection;
 use cosfly_stage::{Artifact, Inputs};
-use cosfly_world::{Around, Followed, Traffic};
 use serde::{Serialize, de::DeserializeOwned};
 use std::any::Any;
 use std::marker::PhantomData;

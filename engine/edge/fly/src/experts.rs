@@ -1,11 +1,11 @@
 //! The experts of a recipe's finished run, to be asked again: towns, walks and parameters out of the store.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_domain::PlanOutcome;
 use cosfly_experts::plugins::Plugins;
 use cosfly_experts::{Kind, RecipeExpert, artifacts};
 use cosfly_flight::{Bodies, Companion, Flight, World};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Arrival, Recipe, RecipeStage};
 use cosfly_runner::Plan;
 use cosfly_stage::{BlobSource, Blobs, StageRole};

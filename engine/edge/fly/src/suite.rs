@@ -1,19 +1,18 @@
 //! [`Suite`]: the episodes of a recipe, with the experts' flights.
 
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_domain::{PlanOutcome, Town};
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Episode, Others, Place, Start};
 use cosfly_experts::{Kind, RecipeExpert, artifacts, pictures};
 use cosfly_film::Shooting;
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Seed};
-use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_render::RenderConfig;
 use cosfly_runner::{Plan, RunOptions, RunOutcome, run};
 use cosfly_stage::{BlobSource, Blobs, RunEvent, StageRole};
 use cosfly_store::Store;
-use cosfly_town::Town;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -2,15 +2,15 @@
 
 use crate::nearby;
 use cosfly_diagnose::Result;
+use cosfly_domain::{BodyKind, PersonView, Traffic};
 use cosfly_experts::artifacts;
+use cosfly_figures::Bystander;
 use cosfly_film::nearby::{NearbyBodies, NearbyPerson, instance_of_drone, largest_object};
 use cosfly_film::{Person, Shooting};
 use cosfly_flight::World;
 use cosfly_pedestrians::PedestrianPath;
-use cosfly_render::{Bystander, PersonView};
 use cosfly_schema::{OtherPerson, Sighting};
 use cosfly_stage::{Artifact, Inputs};
-use cosfly_world::{BodyKind, Traffic};
 
 /// Other people around one flight, by instance id.
 #[derive(Default)]

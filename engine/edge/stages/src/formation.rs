@@ -3,17 +3,16 @@
 
 use crate::planning::{Setting, produced};
 use crate::ports::{self, FORMATION};
-use crate::quotas;
-use crate::traffic;
 use crate::world::link_town;
+use crate::{quotas, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
+use cosfly_domain::PlanOutcome;
 use cosfly_experts::{RecipeExpert, artifacts, codec};
 use cosfly_flight::Flown;
 use cosfly_flight::formation::{Drone, Formation};
 use cosfly_flight::losses::Trial;
 use cosfly_frames::Seed;
-use cosfly_planner::PlanOutcome;
 use cosfly_stage::{
     Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StagePart, StageProperties, StageRole, TaskContext,
 };

@@ -4,15 +4,17 @@ use crate::ports::TOWN;
 use crate::single;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result, plausible};
+use cosfly_domain::Town;
 use cosfly_experts::artifacts;
 use cosfly_frames::Seed;
 use cosfly_maps::advice::advice;
-use cosfly_maps::{Bounds, FORMATS, Format, FormatOptions, MapConfig, MapError, Town, read_town_of, recognise};
+use cosfly_maps::{Bounds, FORMATS, MapConfig, read_town_of, recognise};
 use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Resources, Source, SourceCheck, Stage, StageKind, StagePart,
     StageProperties, StageRole, TaskContext,
 };
+use cosfly_town::{Format, FormatOptions, MapError};
 use serde_json::{Value, json};
 use std::io::Read;
 use std::path::{Path, PathBuf};

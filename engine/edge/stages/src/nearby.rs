@@ -7,12 +7,12 @@ use crate::traffic::{followed, traffic_of};
 use crate::world::{check_same_town, world};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::PlanOutcome;
 use cosfly_experts::artifacts;
 use cosfly_film::Shooting;
 use cosfly_film::nearby::{
     Candidate, Candidates, Filming, NearbyBodies, NearbyPerson, Origin, Refused, Scenery, apart,
 };
-use cosfly_planner::PlanOutcome;
 use cosfly_render::{Buildings, RenderConfig};
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,

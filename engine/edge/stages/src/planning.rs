@@ -3,12 +3,11 @@
 use crate::world::{check_same_town, world};
 use crate::{companions, traffic};
 use cosfly_diagnose::Result;
+use cosfly_domain::{Around, PlanOutcome};
 use cosfly_experts::{RecipeExpert, artifacts};
 use cosfly_flight::{Bodies, World};
 use cosfly_objectives::Objective;
-use cosfly_planner::PlanOutcome;
 use cosfly_stage::{Inputs, Produced};
-use cosfly_world::Around;
 use std::sync::Arc;
 
 /// What the flights of an item are planned among.

@@ -7,9 +7,9 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
 use cosfly_doctor::sources;
 use cosfly_doctor::verdict::{Family, InspectConfig, Verdict, verdict};
+use cosfly_domain::{ObstacleKind, Town};
 use cosfly_experts::codec;
 use cosfly_frames::{DVec3, Seed};
-use cosfly_maps::{ObstacleKind, Town};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_stage::parameters;
 use cosfly_stage::{

@@ -21,7 +21,7 @@ pub use turn::TurnKind;
 
 pub(crate) use english::words::LUGGAGE;
 
-use cosfly_render::Colour;
+use cosfly_domain::Colour;
 
 /// One claim of a text.
 #[derive(Clone, Debug, PartialEq)]

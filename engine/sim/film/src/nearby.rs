@@ -4,14 +4,12 @@ use crate::body_rays;
 use crate::shooting::Shooting;
 use crate::walks::{Person, touch};
 use cosfly_diagnose::Result;
+use cosfly_domain::{Around, Body, Camera, Followed, TARGET_INSTANCE, Town, Traffic, Trajectory, object_instance};
+use cosfly_figures::Walker;
 use cosfly_frames::{Pose, TargetState};
-use cosfly_maps::Town;
+use cosfly_optics::pose_at;
 use cosfly_pedestrians::PedestrianPath;
-use cosfly_planner::Trajectory;
-use cosfly_render::effects::pose_at;
-use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
-use cosfly_render::{Buildings, Camera, Outlook, RenderConfig, Walker};
-use cosfly_world::{Around, Body, Followed, Traffic};
+use cosfly_render::{Buildings, Outlook, RenderConfig};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

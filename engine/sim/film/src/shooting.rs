@@ -2,10 +2,10 @@
 
 use crate::looks::walk_seed;
 use cosfly_diagnose::Result;
+use cosfly_domain::{Camera, Followed, Mount, Trajectory, Weather};
+use cosfly_figures::{BodyShape, clothes_seed_of_target};
 use cosfly_frames::{Pose, Seed};
-use cosfly_planner::Trajectory;
-use cosfly_render::{BodyShape, Camera, Mount, RenderConfig, Weather, clothes_seed_of_target};
-use cosfly_world::Followed;
+use cosfly_render::RenderConfig;
 
 /// Settings of one flight.
 pub struct Shooting {

@@ -1,8 +1,8 @@
 //! The aim of the pilot of a planned flight.
 
+use cosfly_domain::Trajectory;
 use cosfly_frames::{DVec3, Seed, TargetTrack};
 use cosfly_pilot::aim::{AimConfig, aimed};
-use cosfly_planner::Trajectory;
 use cosfly_planner::certificate::view_rates_deg_s;
 
 /// Turns the views of a planned flight behind `track`, whose first frame is `first_frame` of the track, as a pilot aims, within

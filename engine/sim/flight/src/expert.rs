@@ -5,10 +5,11 @@ use crate::flight::{Bodies, Flight};
 use crate::flown::Flown;
 use crate::plugins::{NoPlugins, Plugins};
 use crate::world::World;
+use cosfly_domain::{PlanOutcome, Trajectory};
 use cosfly_frames::Seed;
 use cosfly_objectives::ObjectiveConfig;
 use cosfly_pilot::aim::AimConfig;
-use cosfly_planner::{MucoConfig, PlanOutcome, Trajectory};
+use cosfly_planner::MucoConfig;
 use std::sync::Arc;
 
 /// An expert.

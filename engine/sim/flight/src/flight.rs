@@ -4,17 +4,17 @@ use crate::aim::take_aim;
 use crate::companions::Companion;
 use crate::plugins::{DrawnReference, Plugins};
 use crate::world::World;
+use cosfly_domain::{ObstacleKind, OrientedBox, PlanOutcome, Trajectory};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetTrack};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::ObstacleKind;
 use cosfly_objectives::inspect::{self, Inspection};
 use cosfly_objectives::patrol::{self, MET_M, Patrol};
 use cosfly_objectives::{Mission, Objective, ObjectiveConfig, Site, reference, track};
 use cosfly_pilot::aim::AimConfig;
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::obstacles::ground::GroundGrid;
-use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes, hides};
-use cosfly_planner::{MucoConfig, PlanOutcome, StartState, Trajectory, body_points, plan_request};
+use cosfly_planner::{MucoConfig, StartState, plan_request};
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::moving::{OtherDrones, drone_boxes, hides};
+use cosfly_surroundings::visibility::body_points;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
@@ -337,8 +337,8 @@ mod tests {
     use crate::expert::Expert;
     use crate::flown::Flown;
     use crate::plugins::NoPlugins;
+    use cosfly_domain::Town;
     use cosfly_frames::TargetState;
-    use cosfly_maps::Town;
     use cosfly_planner::config::DronesConfig;
 
     #[test]

@@ -2,9 +2,9 @@
 
 use crate::flight::Flight;
 use crate::world::World;
+use cosfly_domain::PlanOutcome;
 use cosfly_frames::TargetTrack;
 use cosfly_objectives::config::DT_S;
-use cosfly_planner::PlanOutcome;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,9 +1,8 @@
 //! The drones behind the same walk: what twins, pictures and filters of a drone's flight need to know of the others.
 
+use cosfly_domain::{Body, BodyKind, BodyPlan, OrientedBox};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_geometry::OrientedBox;
-use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes};
-use cosfly_world::{Body, BodyKind, BodyPlan};
+use cosfly_surroundings::moving::{OtherDrones, drone_boxes};
 use serde::{Deserialize, Serialize};
 
 /// Length, width and height of a drone's body in pictures, metres; it lies within the cube that the planner keeps free and

@@ -1,13 +1,12 @@
 //! Losses of the target that are ordered in a share of the flights: every flight is planned with its loss once, and the orders
 //! go to flights that succeeded, so that the shares are filled.
 
+use cosfly_domain::{Around, Body, Followed, Outfit, PlanOutcome, Trajectory};
+use cosfly_figures::BodyShape;
 use cosfly_film::hidden::hidden;
 use cosfly_frames::DVec3;
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_planner::config::OcclusionConfig;
-use cosfly_planner::{PlanOutcome, Trajectory};
-use cosfly_render::{BodyShape, Outfit};
-use cosfly_world::{Around, Body, Followed};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

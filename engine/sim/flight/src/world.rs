@@ -1,7 +1,8 @@
 //! A town with its obstacle BVH and its ground, ready for queries.
 
+use cosfly_domain::Town;
 use cosfly_geometry::BoxBvh;
-use cosfly_maps::{GroundIndex, Town};
+use cosfly_town::GroundIndex;
 
 /// A town, ready for queries.
 pub struct World {

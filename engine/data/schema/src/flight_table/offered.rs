@@ -8,7 +8,7 @@ use arrow_array::{Array, BooleanArray, Float64Array, Int64Array, RecordBatch, Re
 use arrow_ipc::writer::StreamWriter;
 use arrow_schema::{DataType, Field, Schema};
 use cosfly_diagnose::nearest_name;
-use cosfly_planner::Trajectory;
+use cosfly_domain::Trajectory;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -7,9 +7,8 @@ use super::{DatasetItem, Need, Table};
 use crate::Role;
 use crate::log::messages::edges_px;
 use crate::published_costs::costs;
+use cosfly_domain::{FramePerturbation, PixelBox, TargetView};
 use cosfly_frames::{Pose, TargetState, action};
-use cosfly_planner::FramePerturbation;
-use cosfly_render::{PixelBox, TargetView};
 
 /// Definition of the table. Previews make its rows large, so that row groups are small.
 pub fn table() -> Table<DatasetItem> {

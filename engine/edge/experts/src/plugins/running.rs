@@ -3,10 +3,10 @@
 use super::config::{ExpertPlugins, Makes, Setting};
 use super::{Role, tables};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_flight::{DrawnReference, OpenTerms, World};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_geometry::{OrientedBox, SpatialQuery};
-use cosfly_maps::ObstacleKind;
+use cosfly_geometry::SpatialQuery;
 use cosfly_objectives::config::{DT_S, LONGEST_S};
 use cosfly_objectives::reference::Reference;
 use cosfly_planner::{MucoConfig, WeightedTerm};

@@ -5,12 +5,12 @@ use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_experts::{RecipeExpert, artifacts};
 use cosfly_geometry::BoxBvh;
 use cosfly_lab::planner::scene::Ground;
-use cosfly_maps::GroundIndex;
 use cosfly_planner::MucoConfig;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::{RunOptions, RunSummary};
 use cosfly_stage::{BlobSource, Blobs, Registry, StageRole};
 use cosfly_store::Store;
+use cosfly_town::GroundIndex;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -57,7 +57,7 @@ fn mismatch(claim: &SightClaim, sight: &Sight) -> Option<SlotMismatch> {
 }
 
 /// Whether a single person near the target wears a top of this colour.
-fn is_worn_near(seen: &Seen, top: cosfly_render::Colour) -> bool {
+fn is_worn_near(seen: &Seen, top: cosfly_domain::Colour) -> bool {
     Place::ALL.iter().zip(&seen.near).any(|(_, near)| near.is_clear && near.tops == [top])
 }
 

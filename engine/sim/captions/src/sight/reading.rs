@@ -3,12 +3,11 @@
 use super::facts::{Across, Place, Side};
 use super::landmark_reading::{LandmarkClaim, of_chinese, of_english};
 use crate::part::Part;
-use cosfly_claims::Language;
 use cosfly_claims::english::clothes as english_clothes;
 use cosfly_claims::english::numbers::number_word;
 use cosfly_claims::english::tokens::{self, Token};
-use cosfly_claims::{Claim, chinese};
-use cosfly_render::Colour;
+use cosfly_claims::{Claim, Language, chinese};
+use cosfly_domain::Colour;
 
 /// One claim of a text about a picture.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::garments::{COLOURS, SHADES, TOPS, TROUSERS};
 use crate::Claim;
-use cosfly_render::Colour;
+use cosfly_domain::Colour;
 
 /// Whether a text begins with a colour.
 pub(crate) fn begins_with_colour(text: &str) -> bool {

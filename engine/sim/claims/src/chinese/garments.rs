@@ -1,6 +1,6 @@
 //! Chinese garments, colours and their shades.
 
-use cosfly_render::Colour;
+use cosfly_domain::Colour;
 
 pub const TOPS: [&str; 40] = [
     "上衣",

@@ -236,7 +236,7 @@ fn ordinal<'a>(before: &str, text: &'a str) -> Option<&'a str> {
 mod tests {
     use super::*;
     use crate::compass::Compass;
-    use cosfly_render::Colour;
+    use cosfly_domain::Colour;
 
     #[test]
     fn sentences_in_other_words_are_read() {

@@ -3,7 +3,7 @@
 use super::garments::{SHADES, TOPS, TROUSERS};
 use super::words::{LUGGAGE, NEGATIONS};
 use crate::Claim;
-use cosfly_render::Colour;
+use cosfly_domain::Colour;
 
 const CARRIES: [&str; 7] = ["wearing", "carrying", "toting", "bearing", "clad", "laden", "wearer"];
 /// Words between a colour and its garment: `a red long-sleeved cotton shirt`.

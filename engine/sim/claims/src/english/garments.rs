@@ -1,6 +1,6 @@
 //! English garments and shades of colours.
 
-use cosfly_render::Colour;
+use cosfly_domain::Colour;
 
 pub const TOPS: [&str; 60] = [
     "top",

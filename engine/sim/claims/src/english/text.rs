@@ -303,7 +303,7 @@ const STRAIGHT_AT: [&str; 14] =
 mod tests {
     use super::*;
     use crate::compass::Compass;
-    use cosfly_render::Colour;
+    use cosfly_domain::Colour;
 
     #[test]
     fn sentences_in_other_words_are_read() {
