@@ -1,11 +1,11 @@
 //! The recipe that everybody runs first: nobody walks through anybody, and one more walker makes no other expert again.
 
 use crate::support::repository_root;
+use cosfly_experts::artifacts;
 use cosfly_frames::{DVec3, TargetState};
 use cosfly_recipe::Recipe;
 use cosfly_runner::{RunOptions, RunSummary};
 use cosfly_stage::BlobSource;
-use cosfly_stages::read;
 use cosfly_store::{ActionRecord, Store};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -51,12 +51,13 @@ fn tracks(store: &Store, target: &ActionRecord, near: &ActionRecord) -> Vec<Plac
     let bytes = |record: &ActionRecord, blob: &str| store.read(&record.outputs[blob]).expect("it is there");
     let place = |state: &TargetState| Some(state.feet_in_world);
     let walk = |record: &ActionRecord, blob: &str| {
-        let walk = read::walk(&bytes(record, blob)).expect("a walk");
+        let walk = artifacts::WALK.decode(&bytes(record, blob)).expect("a walk");
         walk.track.states.iter().map(place).collect()
     };
     let walks = near.outputs.keys().filter(|blob| blob.starts_with("walk-")).map(|blob| walk(near, blob));
-    let mut all: Vec<Places> = std::iter::once(walk(target, read::WALK_BLOB)).chain(walks).collect();
-    for around in read::bodies_near(&bytes(near, read::NEARBY_BODIES_BLOB)).expect("bodies") {
+    let mut all: Vec<Places> = std::iter::once(walk(target, artifacts::WALK.blob)).chain(walks).collect();
+    for near in artifacts::NEARBY_BODIES.decode(&bytes(near, artifacts::NEARBY_BODIES.blob)).expect("bodies") {
+        let around = near.around;
         let frames = around.traffic.frames;
         all.extend(around.bodies().map(|(_, body)| (0..frames).map(|at| body.state(at).and_then(place)).collect()));
     }

@@ -99,6 +99,27 @@ fn every_file_says_what_is_in_its_room_and_none_is_called_utils() {
 }
 
 #[test]
+fn no_room_knows_a_kind_of_stage_by_its_name() {
+    let registry = cosfly_stages::registry();
+    let kinds: Vec<String> = registry.iter().map(|kind| format!("\"{}\"", kind.name())).collect();
+    let compares = |line: &str| {
+        let names_kind = kinds.iter().any(|kind| line.contains(kind.as_str()));
+        let is_about_kinds = line.contains("kind") && !line.contains(".kind()");
+        let is_compared = ["==", "!=", "=>", "matches!"].iter().any(|word| line.contains(word));
+        names_kind && is_about_kinds && is_compared
+    };
+    let mut files = vec![];
+    rust_files(&repository_root().join("engine"), &mut files);
+    rust_files(&repository_root().join("tests"), &mut files);
+    for file in files {
+        let text = std::fs::read_to_string(&file).expect("UTF-8");
+        if let Some(line) = text.lines().find(|line| compares(line)) {
+            panic!("{}: `{}`: ask the stage for its role (`StageProperties::role`)", file.display(), line.trim());
+        }
+    }
+}
+
+#[test]
 fn generated_files_are_current() {
     for (arguments, path) in [
         (vec!["schema"], "schemas/recipe.schema.json"),

@@ -3,8 +3,9 @@
 
 use crate::support::repository_root;
 use cosfly_fingerprint::Digest;
-use cosfly_recipe::Recipe;
+use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::RunOptions;
+use cosfly_stage::StageRole;
 use cosfly_store::{Finished, Store};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -149,11 +150,13 @@ fn every_kind_preset_planner_objective_and_plugin_world_has_a_recipe() {
     for kind in registry.iter() {
         assert!(kinds.contains(kind.name()), "no recipe in `tests/versions_held` uses `{}`", kind.name());
     }
-    let schema = registry.get("muco").expect("a kind").schema();
+    let plans = |stage: &&RecipeStage| stage.has_role(StageRole::Plans);
+    let planner = stages().find(plans).expect("a planner");
+    let schema = registry.get(&planner.kind).expect("a kind").schema();
     for (key, name, default) in
         [("preset", "Preset", "cosfly"), ("planner", "Planner", "muco"), ("objective", "Objective", "track")]
     {
-        let planned = stages().filter(|stage| stage.kind == "muco");
+        let planned = stages().filter(plans);
         let used: BTreeSet<&str> = planned.map(|stage| stage.parameters[key].as_str().unwrap_or(default)).collect();
         let all = allowed(&schema, name);
         assert!(all.len() > 2 && all.contains(default), "{all:?}");

@@ -30,6 +30,10 @@ pub struct Trajectory {
     pub clearance_m: Vec<f64>,
     /// Cost per term of the recipe's weights.
     pub terms: Vec<TermCost>,
+    /// Share of the inspected faces that each frame is the first to see; empty but for inspections.
+    pub coverage: Vec<f64>,
+    /// Labels that plugins gave, in the order in which they were given; names differ.
+    pub labels: Vec<FlightLabel>,
     /// Total cost against the planning boxes: before and after refinement, and of the flight itself; with
     /// `preset = "paper"` after each iteration of its descent in between. Stretch by stretch on tracks that are planned so;
     /// empty for baselines.
@@ -50,6 +54,19 @@ pub struct TermCost {
     /// Sum over the frames, unweighted.
     pub sum: f64,
     /// Unweighted cost of each frame.
+    pub per_frame: Vec<f64>,
+}
+
+/// A label of a plugin: one value per frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FlightLabel {
+    /// Name of the label.
+    pub name: String,
+    /// Name of the plugin that gave it.
+    pub plugin: String,
+    /// Version of the plugin.
+    pub version: String,
+    /// Values, one per frame.
     pub per_frame: Vec<f64>,
 }
 

@@ -4,6 +4,7 @@
 //! * [`sources`]: one reader per layout.
 //! * [`checks`]: one file per kind of fault; each looks at an episode and raises flags.
 //! * [`examine`]: reads a folder and runs all checks.
+//! * [`verdict`]: which flights are left out of a dataset.
 //!
 //! To add a check: one file in `checks/` and its line in [`checks::of_episode`].
 
@@ -17,6 +18,7 @@ pub mod sources;
 #[cfg(test)]
 mod tests;
 mod texts;
+pub mod verdict;
 mod walk;
 pub mod walls;
 

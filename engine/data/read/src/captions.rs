@@ -49,6 +49,7 @@ impl CaptionReader {
                         verdicts: rows.get_or(Captions::verdicts, row, vec![])?,
                         refused: rows.get_or(Captions::refused, row, vec![])?,
                         refused_because: rows.get_or(Captions::refused_because, row, vec![])?,
+                        refused_for: vec![],
                     });
                 }
                 Ok(())

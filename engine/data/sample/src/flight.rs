@@ -206,6 +206,8 @@ fn trajectory(
         visibility: views.iter().map(|view| view.visible_by_rays).collect(),
         clearance_m: vec![3.0; frames],
         terms: vec![TermCost { name: "distance".into(), weight: 2.0, sum: 0.5, per_frame: vec![0.1; frames] }],
+        coverage: vec![],
+        labels: vec![],
         convergence: vec![3.0, 1.0],
         certificate,
         perturbation: (role == Role::Perturbed).then(|| Perturbation {

@@ -77,6 +77,9 @@ impl Default for DatasetConfig {
 }
 
 impl DatasetConfig {
+    /// Parameters that only parts read which write tables; not in the key of the dataset itself.
+    pub const NOT_IN_KEY: &[&str] = &["windows", "frames_per_file", "walks_per_file"];
+
     /// Checks the rules that the schema cannot express.
     pub fn check(&self) -> Result<(), ParameterError> {
         let shares = [self.splits.train, self.splits.val, self.splits.test];

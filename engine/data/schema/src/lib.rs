@@ -6,15 +6,15 @@
 //! * [`tables`]: the Parquet tables and their columns.
 //! * [`log`]: the topics and messages of a trajectory's MCAP log.
 //! * [`town_layout`]: ground plan of a town, which identifies the town.
-//! * [`flight_labels`], [`flight_table`], [`extras`]: labels, tables and files of plugins.
+//! * [`flight_table`], [`extras`]: labels, tables and files of plugins; [`published_costs`]: costs of flights.
 
 pub mod card_text;
 pub mod config;
 pub mod extras;
-pub mod flight_labels;
 pub mod flight_table;
 pub mod log;
 pub mod losses;
+pub mod published_costs;
 pub mod record;
 mod reference;
 mod split;

@@ -217,7 +217,10 @@ impl RenderedTrajectory {
             ("perturbation.frames", trajectory.perturbation.as_ref().map_or(frames, |p| p.frames.len())),
         ];
         let terms = trajectory.terms.iter().map(|term| (term.name.as_str(), term.per_frame.len()));
-        if let Some((name, length)) = lengths.into_iter().chain(terms).find(|(_, length)| *length != frames) {
+        let labels = trajectory.labels.iter().map(|label| (label.name.as_str(), label.per_frame.len()));
+        let coverage = Some(trajectory.coverage.len()).filter(|length| *length > 0).map(|length| ("coverage", length));
+        let all = lengths.into_iter().chain(terms).chain(labels).chain(coverage);
+        if let Some((name, length)) = all.into_iter().find(|(_, length)| *length != frames) {
             return Err(self.refusal(format!("`{name}` has {length} frames; there are {frames} poses")));
         }
         for (what, name) in
@@ -330,6 +333,9 @@ pub struct CaptionRecord {
     pub refused: Vec<String>,
     /// Why they were refused.
     pub refused_because: Vec<String>,
+    /// Subjects for which each of them was refused, such as `distance`, sorted; `form` where it was no text. Tables do not have
+    /// them.
+    pub refused_for: Vec<Vec<String>>,
 }
 
 /// An item without a trajectory, published with its reason.
@@ -364,8 +370,8 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
     decode("captions", CAPTIONS_MAGIC, bytes)
 }
 
-const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x06";
-const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x02";
+const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x07";
+const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x03";
 
 /// Encodes eight bytes of kind and version, then postcard.
 fn encode<T: Serialize>(magic: &[u8; 8], value: &T) -> Vec<u8> {
@@ -407,7 +413,7 @@ mod tests {
         let bytes = captions_to_bytes(&captions);
         assert_eq!(captions_from_bytes(&bytes).unwrap(), captions);
         assert!(captions_from_bytes(&bytes[..bytes.len() - 1]).is_err());
-        assert!(captions_from_bytes(b"CFCAPT\x00\x03").unwrap_err().message.contains("version 3"));
+        assert!(captions_from_bytes(b"CFCAPT\x00\x04").unwrap_err().message.contains("version 4"));
         assert!(captions_from_bytes(b"CFPREV\x00\x01").unwrap_err().message.contains("not a captions"));
     }
 

@@ -66,7 +66,7 @@ pub fn call(arguments: impl IntoIterator<Item = OsString>, console: &dyn Console
 pub fn prepare() -> Result<(), String> {
     choose_vector_level()?;
     #[cfg(feature = "plugins")]
-    cosfly_stages::plugins::keep_compiled_in(compiled_plugins());
+    cosfly_experts::plugins::keep_compiled_in(compiled_plugins());
     Ok(())
 }
 

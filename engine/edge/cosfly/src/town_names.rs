@@ -2,6 +2,7 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Label};
 use cosfly_recipe::{Recipe, RecipeStage, SourceFile};
+use cosfly_stage::StageRole;
 use std::collections::BTreeMap;
 
 /// The first two towns of a dataset that would have one name, as an error.
@@ -9,7 +10,7 @@ use std::collections::BTreeMap;
 /// # Errors
 /// `towns-same-name`.
 pub fn check(recipe: &Recipe) -> cosfly_diagnose::Result<()> {
-    let datasets = recipe.stages.iter().filter(|stage| stage.kind == "dataset" && stage.name.part().is_empty());
+    let datasets = recipe.stages.iter().filter(|stage| stage.has_role(StageRole::Publishes));
     for port in datasets.filter_map(|dataset| dataset.connection("town")) {
         let mut known: BTreeMap<&str, &RecipeStage> = BTreeMap::new();
         for town in port.upstreams.iter().map(|upstream| &recipe.stages[*upstream]) {

@@ -2,15 +2,15 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_domain::PlanOutcome;
+use cosfly_experts::plugins::Plugins;
+use cosfly_experts::{Kind, RecipeExpert, artifacts};
+use cosfly_flight::{Bodies, Companion, Flight, World};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_recipe::{Arrival, RecipeStage};
+use cosfly_recipe::{Arrival, Recipe, RecipeStage};
 use cosfly_runner::Plan;
-use cosfly_stage::{BlobSource, Blobs, ItemName};
-use cosfly_stages::expert::{Bodies, Companion, Expert, Flight};
-use cosfly_stages::plugins::Plugins;
-use cosfly_stages::read;
-use cosfly_stages::world::World;
+use cosfly_stage::{BlobSource, Blobs, StageRole};
 use cosfly_store::Store;
+use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -25,6 +25,8 @@ pub struct Experts<'a> {
     /// By the index of the stage that made the town.
     worlds: BTreeMap<usize, Arc<World>>,
     flights: BTreeMap<String, Arc<KnownFlight>>,
+    /// Stage and item of each flight by the ids that it can be asked for with; made with the first question.
+    ids: Option<BTreeMap<String, (usize, usize)>>,
 }
 
 /// A flight that can be planned again in its town.
@@ -40,7 +42,7 @@ pub struct KnownFlight {
 impl<'a> Experts<'a> {
     /// The experts of `plan`, whose artifacts are in `store`.
     pub fn new(plan: Plan<'a>, store: &'a Store) -> Self {
-        Self { plan, store, worlds: BTreeMap::new(), flights: BTreeMap::new() }
+        Self { plan, store, worlds: BTreeMap::new(), flights: BTreeMap::new(), ids: None }
     }
 
     /// The flight of a trajectory: `<stage>-<item>` as it is published, or `<stage>/<item>`; of a twin, its expert's.
@@ -58,47 +60,24 @@ impl<'a> Experts<'a> {
     }
 
     /// Stage and item of the expert of a trajectory.
-    fn expert_of(&self, trajectory: &str) -> Result<(usize, usize)> {
+    fn expert_of(&mut self, trajectory: &str) -> Result<(usize, usize)> {
         let (mut stage, mut item) = self.named(trajectory)?;
         loop {
             let found = &self.plan.recipe.stages[stage];
-            if found.kind == "muco" {
+            if found.has_role(StageRole::Plans) {
                 return Ok((stage, item));
             }
-            let arrival = found.connection("trajectories").and_then(|connection| connection.arrivals.get(item));
+            let arrival = found.changed().and_then(|connection| connection.arrivals.get(item));
             let arrival = arrival.ok_or_else(|| unknown(trajectory, &[]))?;
             (stage, item) = (arrival.stage, arrival.item);
         }
     }
 
-    /// Id of a flight without the weather that paired weathers add: the flight is the same in all of them.
-    fn without_weather<'t>(&self, trajectory: &'t str) -> &'t str {
-        let Some((flight, end)) = trajectory.rsplit_once('-') else { return trajectory };
-        let is_paired = self.plan.recipe.stages.iter().map(|stage| &stage.stage.properties().parameters).any(|it| {
-            let weathers = it["weathers"].as_array().into_iter().flatten();
-            it["paired_weathers"] == true && weathers.into_iter().any(|weather| weather == end)
-        });
-        if is_paired { flight } else { trajectory }
-    }
-
-    fn named(&self, trajectory: &str) -> Result<(usize, usize)> {
-        let trajectory = self.without_weather(trajectory);
-        let mut names = Vec::new();
-        let stages = self.plan.recipe.stages.iter().enumerate();
-        let flies = |stage: &RecipeStage| {
-            stage.name.part().is_empty() && matches!(stage.kind.as_str(), "muco" | "perturb" | "wasm")
-        };
-        for (index, stage) in stages.filter(|(_, stage)| flies(stage)) {
-            let published = |item: &ItemName| item.of_stage(&stage.name).to_string() == trajectory;
-            let is_meant = |item: &ItemName| published(item) || format!("{}/{item}", stage.name) == trajectory;
-            if trajectory.starts_with(stage.name.as_str())
-                && let Some(item) = stage.items.iter().position(is_meant)
-            {
-                return Ok((index, item));
-            }
-            names.extend(stage.items.iter().take(1000).map(|item| item.of_stage(&stage.name).to_string()));
-        }
-        Err(unknown(trajectory, &names))
+    /// Stage and item of a flight, by the id of a trajectory or of a film of it.
+    fn named(&mut self, trajectory: &str) -> Result<(usize, usize)> {
+        let recipe = self.plan.recipe;
+        let ids = self.ids.get_or_insert_with(|| ids(recipe));
+        ids.get(trajectory).copied().ok_or_else(|| unknown(trajectory, &first_ids(recipe)))
     }
 
     fn make_ready(&mut self, stage: usize, item: usize) -> Result<KnownFlight> {
@@ -106,11 +85,11 @@ impl<'a> Experts<'a> {
         let name = described.items[item].of_stage(&described.name).to_string();
         let broken = |rule: String| Diagnostic::new("plan-from-parameters", Fault::Bug, rule);
         let mut expert =
-            Expert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
+            RecipeExpert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
         let town = described.connection("town").and_then(|connection| connection.arrivals.first().cloned());
         let world = self.world(&town.ok_or_else(|| broken(format!("`{name}` has no town")))?)?;
         let blobs = self.blobs(stage, item)?;
-        let outcome = read::trajectory(&self.store.read(&blobs[read::TRAJECTORY_BLOB])?)?;
+        let outcome = artifacts::FLIGHT.decode(&self.store.read(&blobs[artifacts::FLIGHT.blob])?)?;
         let published_without_loss =
             matches!(&outcome, PlanOutcome::Planned(it) if it.certificate.occlusion_ordered_s == 0.0);
         let (track, flown) = match outcome {
@@ -121,22 +100,21 @@ impl<'a> Experts<'a> {
             PlanOutcome::Rejected { track, .. } => (track, vec![]),
         };
         if published_without_loss {
-            expert.config.occlusion = expert.config.occlusion.without_losses();
+            expert.expert.config.occlusion = expert.expert.config.occlusion.without_losses();
         }
-        let around = blobs.get(read::AROUND_BLOB).map(|blob| read::around(&self.store.read(blob)?)).transpose()?;
+        let around = self.find(blobs, &artifacts::AROUND)?;
         let movers = around.map_or_else(Vec::new, |around| around.boxes());
-        let before =
-            blobs.get(read::DRONES_BLOB).map(|blob| read::drones_before(&self.store.read(blob)?)).transpose()?;
+        let drones = self.find(blobs, &artifacts::DRONES)?;
         let companions = self.companions(stage, item)?;
         let bodies = Bodies { walk: Some(track), companions, movers };
         let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());
         let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
         let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());
-        let mut flight = expert.flight(&world, bodies, seed, plugins)?.map_err(|reason| {
+        let mut flight = expert.expert.flight(&world, bodies, seed, Arc::new(plugins))?.map_err(|reason| {
             Diagnostic::new("plan-from-nothing", Fault::Recipe, format!("`{name}` has no flight to go on from"))
                 .because(reason)
         })?;
-        before.into_iter().flatten().for_each(|places| flight.beside(places));
+        drones.iter().flat_map(|drones| drones.before()).for_each(|places| flight.beside(places));
         Ok(KnownFlight { world, flight, flown })
     }
 
@@ -145,16 +123,21 @@ impl<'a> Experts<'a> {
             return Ok(Arc::clone(world));
         }
         let blobs = self.blobs(town.stage, town.item)?;
-        let world = Arc::new(World::new(read::town(&self.store.read(&blobs[read::TOWN_BLOB])?)?));
+        let world = Arc::new(World::new(artifacts::TOWN.decode(&self.store.read(&blobs[artifacts::TOWN.blob])?)?));
         self.worlds.insert(town.stage, Arc::clone(&world));
         Ok(world)
     }
 
     fn companions(&self, stage: usize, item: usize) -> Result<Vec<Companion>> {
-        let part = self.plan.recipe.stages[stage].connection(read::COMPANIONS_BLOB);
+        let part = self.plan.recipe.stages[stage].connection(artifacts::COMPANIONS.blob);
         let Some(chosen) = part.and_then(|part| part.arrivals.get(item)) else { return Ok(vec![]) };
         let blobs = self.blobs(chosen.stage, chosen.item)?;
-        read::companions(&self.store.read(&blobs[read::COMPANIONS_BLOB])?)
+        artifacts::COMPANIONS.decode(&self.store.read(&blobs[artifacts::COMPANIONS.blob])?)
+    }
+
+    /// Value in a blob of a flight; `None` where there is no such blob.
+    fn find<T: DeserializeOwned>(&self, blobs: &Blobs, kind: &Kind<T>) -> Result<Option<T>> {
+        blobs.get(kind.blob).map(|blob| kind.decode(&self.store.read(blob)?)).transpose()
     }
 
     fn blobs(&self, stage: usize, item: usize) -> Result<&Blobs> {
@@ -170,6 +153,44 @@ impl<'a> Experts<'a> {
     }
 }
 
+/// Stages of flights: those that plan and those that change them.
+fn flying(recipe: &Recipe) -> impl Iterator<Item = (usize, &RecipeStage)> {
+    let changes_flights = |stage: &RecipeStage| {
+        stage.has_role(StageRole::Changes) && stage.stage.properties().artifact == artifacts::FLIGHT.artifact
+    };
+    let stages = recipe.stages.iter().enumerate();
+    stages.filter(move |(_, stage)| stage.has_role(StageRole::Plans) || changes_flights(stage))
+}
+
+/// Stage and item of each flight: by `<stage>-<item>` and `<stage>/<item>`, and by the ids of its films, which may name a
+/// weather as well.
+fn ids(recipe: &Recipe) -> BTreeMap<String, (usize, usize)> {
+    let mut ids = BTreeMap::new();
+    for (index, stage) in flying(recipe) {
+        for (place, item) in stage.items.iter().enumerate() {
+            ids.entry(item.of_stage(&stage.name).to_string()).or_insert((index, place));
+            ids.entry(recipe.id(index, place).to_string()).or_insert((index, place));
+        }
+    }
+    for film in recipe.stages.iter().filter(|stage| stage.has_role(StageRole::Films)) {
+        let Some(flown) = film.connections.iter().find(|it| it.port.artifact == artifacts::FLIGHT.artifact) else {
+            continue;
+        };
+        for (item, flight) in film.items.iter().zip(flown.arrivals.iter()) {
+            ids.entry(item.to_string()).or_insert((flight.stage, flight.item));
+        }
+    }
+    ids
+}
+
+/// Ids of the first flights of each stage.
+fn first_ids(recipe: &Recipe) -> Vec<String> {
+    let first = |(_, stage): (usize, &RecipeStage)| {
+        stage.items.iter().take(1000).map(|item| item.of_stage(&stage.name).to_string()).collect::<Vec<_>>()
+    };
+    flying(recipe).flat_map(first).collect()
+}
+
 fn unknown(trajectory: &str, names: &[String]) -> Box<Diagnostic> {
     let message = format!("the recipe has no trajectory `{trajectory}`");
     let diagnostic = Diagnostic::new("plan-from-unknown", Fault::Input, message);
@@ -178,6 +199,6 @@ fn unknown(trajectory: &str, names: &[String]) -> Box<Diagnostic> {
         (Some(near), _) => diagnostic.hint(format!("did you mean `{near}`?")),
         (None, [first, .., last]) => diagnostic.hint(format!("its trajectories are `{first}` ... `{last}`")),
         (None, [only]) => diagnostic.hint(format!("its only trajectory is `{only}`")),
-        (None, []) => diagnostic.hint("trajectories come from stages with `use = \"muco\"` or `use = \"perturb\"`"),
+        (None, []) => diagnostic.hint("trajectories come from stages that plan flights, such as `use = \"muco\"`"),
     }
 }

@@ -4,16 +4,16 @@ use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::{PlanOutcome, Town};
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Episode, FlightSite, Others, Start};
+use cosfly_experts::{Kind, RecipeExpert, artifacts, pictures};
+use cosfly_film::Shooting;
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_render::RenderConfig;
 use cosfly_runner::{Plan, RunOptions, RunOutcome, run};
-use cosfly_stage::{BlobSource, Blobs, RunEvent};
-use cosfly_stages::expert::Expert;
-use cosfly_stages::read;
-use cosfly_stages::shooting::{self, Shooting};
+use cosfly_stage::{BlobSource, Blobs, RunEvent, StageRole};
 use cosfly_store::Store;
+use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -66,10 +66,7 @@ pub struct Suite {
 
 /// Whether a stage plans flights behind walkers.
 fn follows(stage: &RecipeStage) -> bool {
-    let objective = stage.stage.properties().parameters.get("objective");
-    stage.kind == "muco"
-        && stage.name.part().is_empty()
-        && objective.is_none_or(|objective| objective.as_str() == Some("track"))
+    stage.has_role(StageRole::Plans) && stage.connection("paths").is_some()
 }
 
 impl Suite {
@@ -129,25 +126,25 @@ impl Reader<'_> {
             let described = &recipe.stages[stage];
             let broken = |rule: String| Diagnostic::new("fly-suite", Fault::Bug, rule);
             let parameters = described.stage.properties().parameters.clone();
-            let expert = Expert::read(parameters).map_err(|error| broken(error.message))?;
-            let config = Arc::new(expert.config);
+            let expert = RecipeExpert::read(parameters).map_err(|error| broken(error.message))?;
+            let config = Arc::new(expert.expert.config);
             let town = described.connection("town").and_then(|connection| connection.arrivals.first());
             let town = town.map(|arrival| (arrival.stage, arrival.item));
             let town = town.ok_or_else(|| broken(format!("`{}` has no town", described.name)))?;
-            let pictures = pictures(recipe, stage).map_err(|error| broken(error.message))?;
+            let pictures = pictures_of(recipe, stage).map_err(|error| broken(error.message))?;
             for (item, name) in described.items.iter().enumerate() {
                 let blobs = self.blobs(stage, item)?.clone();
                 for (blob, stored) in blobs.iter() {
                     let _ = writeln!(listed, "{}/{name}/{blob} {}", described.name, stored.digest);
                 }
-                let outcome = read::trajectory(&self.store.read(&blobs[read::TRAJECTORY_BLOB])?)?;
+                let outcome = artifacts::FLIGHT.decode(&self.store.read(&blobs[artifacts::FLIGHT.blob])?)?;
                 let PlanOutcome::Planned(flight) = outcome else {
                     rejected += 1;
                     continue;
                 };
-                let followed = self.read_blob(&blobs, read::FOLLOWED_BLOB, read::followed)?;
-                let around = self.read_blob(&blobs, read::AROUND_BLOB, read::around)?.unwrap_or_default();
-                let shooting = Shooting::of(&pictures, &flight, followed.as_ref(), name)?;
+                let followed = self.find(&blobs, &artifacts::FOLLOWED)?;
+                let around = self.find(&blobs, &artifacts::AROUND)?.unwrap_or_default();
+                let shooting = Shooting::of(&pictures, &flight, followed.as_ref(), name.variant())?;
                 // Pictures of policies show it.
                 let _ = writeln!(listed, "{}/{name}/weather {:?}", described.name, shooting.weather);
                 let followed = followed.map(|followed| followed.plan);
@@ -179,17 +176,17 @@ impl Reader<'_> {
         if let Some(known) = self.places.get(&at) {
             return Ok(known.clone());
         }
-        let stored = self.blobs(at.0, at.1)?[read::TOWN_BLOB];
-        let (town, looks) = (Arc::new(read::town(&self.store.read(&stored)?)?), Seed(stored.digest.0));
+        let stored = self.blobs(at.0, at.1)?[artifacts::TOWN.blob];
+        let (town, looks) = (Arc::new(artifacts::TOWN.decode(&self.store.read(&stored)?)?), Seed(stored.digest.0));
         // Buildings look as in films.
         let known = (Arc::new(FlightSite::new(Arc::clone(&town), looks)), Arc::new(Scenery { town, looks }));
         self.places.insert(at, known.clone());
         Ok(known)
     }
 
-    /// What a blob of a flight holds; `None` where the flight has none of that name.
-    fn read_blob<T>(&self, blobs: &Blobs, name: &str, decode: fn(&[u8]) -> Result<T>) -> Result<Option<T>> {
-        blobs.get(name).map(|blob| decode(&self.store.read(blob)?)).transpose()
+    /// Value in a blob of a flight; `None` where there is no such blob.
+    fn find<T: DeserializeOwned>(&self, blobs: &Blobs, kind: &Kind<T>) -> Result<Option<T>> {
+        blobs.get(kind.blob).map(|blob| kind.decode(&self.store.read(blob)?)).transpose()
     }
 
     fn blobs(&self, stage: usize, item: usize) -> Result<&Blobs> {
@@ -204,15 +201,22 @@ impl Reader<'_> {
 
 /// The settings of the pictures that a recipe makes of the flights of a stage; those of the default under a clear sky where it
 /// makes none.
-fn pictures(recipe: &Recipe, flights: usize) -> std::result::Result<RenderConfig, ParameterError> {
+fn pictures_of(recipe: &Recipe, flights: usize) -> std::result::Result<RenderConfig, ParameterError> {
     let films = |stage: &&RecipeStage| {
-        let is_of_flights = stage.connections.iter().any(|connection| connection.upstreams.contains(&flights));
-        stage.kind == "render" && stage.name.part().is_empty() && is_of_flights
+        let mut upstreams = stage.connections.iter().flat_map(|connection| &connection.upstreams);
+        let is_of_flights = upstreams.any(|upstream| are_of(recipe, *upstream, flights));
+        stage.has_role(StageRole::Films) && is_of_flights
     };
     match recipe.stages.iter().find(films) {
-        Some(stage) => shooting::render_config(stage.parameters.clone()),
+        Some(stage) => pictures::read(stage.parameters.clone()).map(|(config, _)| config),
         None => Ok(RenderConfig { weathers: vec!["ClearNoon".to_owned()], ..RenderConfig::default() }),
     }
+}
+
+/// Whether the artifacts of a stage are those of `flights`, or were made of them by stages that change flights.
+fn are_of(recipe: &Recipe, stage: usize, flights: usize) -> bool {
+    let changed = || recipe.stages[stage].changed().into_iter().flat_map(|connection| &connection.upstreams);
+    stage == flights || changed().any(|upstream| are_of(recipe, *upstream, flights))
 }
 
 /// The first state of a flight.

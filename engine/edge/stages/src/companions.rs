@@ -1,20 +1,20 @@
 //! Part `companions` of a `muco` stage: the walks that stay nearest to a followed one. An item of its own per flight, so that
 //! one more walker plans no flight anew whose companions stay the same.
 
-use crate::codec;
-use crate::flight::Companion;
-use crate::ports::{self, COMPANIONS, WALK};
+use crate::ports::{self, COMPANIONS};
 use crate::world::check_same_town;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_experts::artifacts;
+use cosfly_flight::companions::{Companion, nearest};
 use cosfly_frames::TargetTrack;
-use cosfly_pedestrians::PedestrianPath;
 use cosfly_stage::{
-    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 
 /// Name of the part, of the port that reads it and of its blob.
-pub const NAME: &str = "companions";
+const NAME: &str = artifacts::COMPANIONS.blob;
 
 /// The part of a stage whose flights have `count` companions each and follow the walks at port `paths`.
 pub fn part(count: u32, paths: InputPort, others: InputPort) -> StagePart {
@@ -30,6 +30,8 @@ pub fn part(count: u32, paths: InputPort, others: InputPort) -> StagePart {
         files_per_item: 1,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 512, batch: 4 },
     };
     StagePart { suffix: NAME, stage: Box::new(CompanionsStage { count: count as usize, properties }) }
 }
@@ -43,12 +45,7 @@ pub fn port(optional: bool) -> InputPort {
 /// Companions at the port of [`port`]; none where it is not connected.
 pub fn read(inputs: &Inputs<'_>) -> Result<Vec<Companion>> {
     let artifact = inputs.all(NAME).first();
-    artifact.map_or(Ok(vec![]), |artifact| decode(&inputs.read(artifact, NAME)?))
-}
-
-/// Companions in a blob of the part.
-pub fn decode(bytes: &[u8]) -> Result<Vec<Companion>> {
-    codec::decode(COMPANIONS, bytes)
+    artifact.map_or(Ok(vec![]), |artifact| artifacts::COMPANIONS.read(inputs, artifact))
 }
 
 struct CompanionsStage {
@@ -63,7 +60,7 @@ impl Stage for CompanionsStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, _: &TaskContext) -> Result<Produced> {
         let chosen = if self.count == 0 { vec![] } else { self.choose(inputs)? };
-        outputs.put(NAME, &codec::encode(COMPANIONS, &chosen)?)?;
+        artifacts::COMPANIONS.put(outputs, &chosen)?;
         Ok(Produced::default())
     }
 }
@@ -97,8 +94,7 @@ impl CompanionsStage {
 }
 
 fn walk(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<TargetTrack> {
-    let walk = inputs.decoded(artifact, "walk", |bytes| codec::decode::<PedestrianPath>(WALK, bytes))?;
-    Ok(walk.track.clone())
+    Ok(artifacts::WALK.shared(inputs, artifact)?.track.clone())
 }
 
 /// Refusal of a walk with another number of steps, or another time between them.
@@ -114,34 +110,4 @@ fn differing((own, track): (&Artifact, &TargetTrack), (other, walk): (&Artifact,
     );
     Diagnostic::new("companions-differ", Fault::Recipe, message)
         .hint("connect `inputs.others` to walkers with the same `steps` and `dt_s`")
-}
-
-/// The `count` walks that stay nearest to `track` on average over its frames, nearest first; equally near ones by id.
-fn nearest(track: &TargetTrack, others: Vec<Companion>, count: usize) -> Vec<Companion> {
-    let distance = |other: &TargetTrack| {
-        let pairs = track.states.iter().zip(&other.states);
-        pairs.map(|(a, b)| a.feet_in_world.distance(b.feet_in_world)).sum::<f64>()
-    };
-    let mut ranked: Vec<(f64, Companion)> = others.into_iter().map(|other| (distance(&other.1), other)).collect();
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.0.cmp(&b.1.0)));
-    ranked.into_iter().take(count).map(|(_, companion)| companion).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use cosfly_frames::{DVec3, TargetState};
-
-    fn walk_at(y: f64) -> TargetTrack {
-        let state = |x: f64| TargetState { feet_in_world: DVec3::new(x, y, 0.0), heading_rad: 0.0, speed_mps: 1.0 };
-        TargetTrack { dt_s: 0.5, height_m: 1.7, radius_m: 0.3, states: (0..9).map(|x| state(f64::from(x))).collect() }
-    }
-
-    #[test]
-    fn companions_are_the_nearest_and_equals_come_by_id() {
-        let others = [("p3", 2.0), ("p1", -9.0), ("p2", 2.0), ("p4", 30.0)];
-        let others = others.map(|(id, y)| (id.to_owned(), walk_at(y))).to_vec();
-        let chosen = nearest(&walk_at(0.0), others, 3);
-        assert_eq!(chosen.iter().map(|(id, _)| id.as_str()).collect::<Vec<_>>(), ["p2", "p3", "p1"]);
-    }
 }

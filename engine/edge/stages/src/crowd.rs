@@ -1,13 +1,14 @@
 //! Everybody else in the pictures of a flight: those whom part `nearby` found, and the other drones behind the target.
 
-use crate::nearby::{self, NearbyBodies, NearbyPerson};
-use crate::other_drones::Formation;
-use crate::shooting::Shooting;
-use crate::walks::Person;
-use crate::world::World;
+use crate::nearby;
 use cosfly_diagnose::Result;
 use cosfly_domain::{BodyKind, PersonView, Traffic};
+use cosfly_experts::artifacts;
 use cosfly_figures::Bystander;
+use cosfly_film::nearby::{NearbyBodies, NearbyPerson, instance_of_drone, largest_object};
+use cosfly_film::{Person, Shooting};
+use cosfly_flight::World;
+use cosfly_pedestrians::PedestrianPath;
 use cosfly_schema::{OtherPerson, Sighting};
 use cosfly_stage::{Artifact, Inputs};
 
@@ -22,15 +23,18 @@ impl Crowd {
     pub fn around(inputs: &Inputs<'_>) -> Result<Self> {
         let Some(artifact) = inputs.all(nearby::NAME).first() else { return Ok(Self::default()) };
         let read = |NearbyPerson { instance, walk_id }: NearbyPerson| {
-            let walk = nearby::walk(inputs, artifact, &nearby::walk_blob(&walk_id))?;
-            let person = Person::on(&walk)?;
+            let blob = nearby::walk_blob(&walk_id);
+            let walk = inputs.decoded(artifact, &blob, |bytes| artifacts::WALK.decode(bytes))?;
+            let walk: &PedestrianPath = &walk;
+            let person = Person::on(walk)?;
             let (height_m, radius_m) = person.size_m();
             let outfit = person.outfit();
             let kind = BodyKind::Pedestrian;
             Ok((OtherPerson { instance, walk_id, kind, height_m, radius_m, outfit }, person))
         };
-        let mut members: Vec<_> = nearby::people(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()?;
-        for NearbyBodies { instances, around } in nearby::bodies(inputs, artifact)? {
+        let mut members: Vec<_> =
+            artifacts::NEARBY.read(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()?;
+        for NearbyBodies { instances, around } in artifacts::NEARBY_BODIES.find(inputs, artifact)?.unwrap_or_default() {
             for (instance, (number, body)) in instances.into_iter().zip(around.bodies()) {
                 let person = Person::of(body, around.traffic.dt_s);
                 let ((height_m, radius_m), outfit) = (person.size_m(), person.outfit());
@@ -44,9 +48,9 @@ impl Crowd {
 
     /// The same with the other drones behind the target of `flight`, which have the names of their flights.
     pub fn and_drones(mut self, inputs: &Inputs<'_>, flight: &Artifact, world: &World, dt_s: f64) -> Result<Self> {
-        let largest_object = nearby::largest_object(world);
-        for (number, body) in Formation::of(inputs, flight)?.bodies(dt_s) {
-            let number = nearby::instance_of_drone(number).and_then(|number| largest_object.checked_add(number));
+        let largest_object = largest_object(&world.town);
+        for (number, body) in artifacts::DRONES.find(inputs, flight)?.unwrap_or_default().bodies(dt_s) {
+            let number = instance_of_drone(number).and_then(|number| largest_object.checked_add(number));
             let instance = number.ok_or_else(|| nearby::too_many(flight))?;
             let person = Person::of(&body, dt_s);
             let ((height_m, radius_m), outfit) = (person.size_m(), person.outfit());

@@ -3,16 +3,17 @@
 
 use crate::ports::{self, CAPTIONS, DATASET, EXTRAS, FRAMES};
 use crate::published_towns::PublishedTowns;
-use crate::{group_notes, group_splits, logs, parameters, planners, shards};
+use crate::{group_notes, group_splits, logs, planners, shards};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_report::PlannerRow;
 use cosfly_schema::DatasetConfig;
 use cosfly_schema::tables::ObjectRecord;
+use cosfly_stage::parameters;
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StageKind, StagePart, StageProperties, Takes,
-    TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Resources, Sees, Stage, StageKind, StagePart,
+    StageProperties, StageRole, Takes, TaskContext,
 };
 use cosfly_write::{DatasetSource, Shards, write_dataset};
 use std::collections::BTreeMap;
@@ -40,11 +41,7 @@ impl StageKind for Dataset {
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: DatasetConfig = parameters::read(given)?;
         config.check()?;
-        let mut parameters = parameters::canonical(&config);
-        // Tables are written by a part.
-        for key in ["windows", "frames_per_file", "walks_per_file"] {
-            parameters.as_object_mut().map(|table| table.remove(key));
-        }
+        let mut parameters = parameters::without(parameters::canonical(&config), DatasetConfig::NOT_IN_KEY);
         // A new column or table makes manifest and card anew without a raised version.
         parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
         let whole = StageProperties {
@@ -69,6 +66,8 @@ impl StageKind for Dataset {
             files_per_item: 14,
             intermediate: &[],
             asks: None,
+            role: StageRole::Publishes,
+            resources: Resources { memory_mib: 2048, batch: 1 },
         };
         let records = |fan| ports::without_pictures(frames(fan));
         Ok(vec![

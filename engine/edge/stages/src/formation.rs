@@ -1,19 +1,20 @@
 //! Several drones behind one walk: part `formation` of a `muco` stage plans them one after the other, each beside those before
 //! it; the stage itself gives every drone its flight and its aim.
 
-use crate::expert::{Expert, Flown};
-use crate::muco::{Setting, produced};
-use crate::other_drones::{Drone, Formation};
-use crate::ports::{self, FORMATION, TRAJECTORY};
-use crate::quotas::{self, Trial};
+use crate::planning::{Setting, produced};
+use crate::ports::{self, FORMATION};
 use crate::world::link_town;
-use crate::{codec, traffic};
+use crate::{quotas, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
 use cosfly_domain::PlanOutcome;
+use cosfly_experts::{RecipeExpert, artifacts, codec};
+use cosfly_flight::Flown;
+use cosfly_flight::formation::{Drone, Formation};
+use cosfly_flight::losses::Trial;
 use cosfly_frames::Seed;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StagePart, StageProperties, StageRole, TaskContext,
 };
 
 /// Name of the part and of the port that reads it.
@@ -21,11 +22,12 @@ const NAME: &str = "formation";
 
 /// The parts of a stage whose recipe asks for several drones: `inputs` are those of the planning, `properties` those of the
 /// stage itself, and `losses` the parts that order losses.
-pub fn parts(expert: Expert, properties: StageProperties) -> Vec<StagePart> {
+pub fn parts(expert: RecipeExpert, properties: StageProperties) -> Vec<StagePart> {
     let mut planning = StageProperties { items: ItemRule::PerInput("paths"), ..properties.clone() };
-    planning.parameters["drones"]["count"] = expert.config.drones.count.into();
+    planning.role = StageRole::Serves;
+    planning.parameters["drones"]["count"] = expert.expert.config.drones.count.into();
     let mut parts = vec![];
-    let occlusion = &expert.config.occlusion;
+    let occlusion = &expert.expert.config.occlusion;
     if occlusion.has_quota() {
         let trial = StageProperties {
             version: quotas::TRIALS_VERSION,
@@ -41,8 +43,10 @@ pub fn parts(expert: Expert, properties: StageProperties) -> Vec<StagePart> {
     planning.artifact = FORMATION;
     let stage = FormationStage { expert: expert.clone(), properties: planning, is_trial: false };
     parts.push(StagePart { suffix: NAME, stage: Box::new(stage) });
-    let mut formed =
-        StageProperties { items: ItemRule::PerVariant { port: "paths", variants: expert.drones() }, ..properties };
+    let mut formed = StageProperties {
+        items: ItemRule::PerVariant { port: "paths", variants: expert.expert.drones() },
+        ..properties
+    };
     formed.inputs.push(port());
     parts.push(StagePart { suffix: "", stage: Box::new(FormedStage { expert, properties: formed }) });
     parts
@@ -53,7 +57,7 @@ fn port() -> InputPort {
 }
 
 struct FormationStage {
-    expert: Expert,
+    expert: RecipeExpert,
     properties: StageProperties,
     /// Whether the flights are planned only to learn whether they can lose their targets.
     is_trial: bool,
@@ -68,17 +72,17 @@ impl Stage for FormationStage {
         // All drones behind a walk have the order of the walk.
         let expert = quotas::ordered(&self.expert, inputs, context)?;
         let Setting { world, around, bodies } = Setting::read(inputs, &expert)?;
-        let flown = expert.formation(&world, bodies, Seed(context.seed))?;
+        let flown = expert.expert.formation(&world, bodies, Seed(context.seed))?;
         let walk = inputs.one("paths")?;
         if self.is_trial {
             let followed = traffic::followed(inputs, walk)?;
             let trial = |flown: &Flown| {
-                Trial::of(&flown.outcome, &expert.config.occlusion, &world.exact, &around, followed.as_ref())
+                Trial::of(&flown.outcome, &expert.expert.config.occlusion, &world.exact, &around, followed.as_ref())
             };
-            Trial::of_all(flown.iter().map(trial)).put(outputs)?;
+            artifacts::LOSSES.put(outputs, &Trial::of_all(flown.iter().map(trial)))?;
             return Ok(Produced::default());
         }
-        for (variant, flown) in expert.drones().iter().zip(&flown) {
+        for (variant, flown) in expert.expert.drones().iter().zip(&flown) {
             outputs.put(variant, &codec::encode(FORMATION, flown)?)?;
         }
         traffic::put_around(walk, &around, outputs)?;
@@ -87,7 +91,7 @@ impl Stage for FormationStage {
 }
 
 struct FormedStage {
-    expert: Expert,
+    expert: RecipeExpert,
     properties: StageProperties,
 }
 
@@ -95,9 +99,9 @@ impl FormedStage {
     /// Flights of all drones behind the walk of an item, and the place of the item's own among them.
     fn flown(&self, inputs: &Inputs<'_>, item: &ItemName) -> Result<(Vec<Flown>, usize)> {
         let artifact = inputs.one(NAME)?;
-        let variants = self.expert.drones();
+        let variants = self.expert.expert.drones();
         let own = variants.iter().position(|variant| item.variant() == Some(variant)).unwrap_or(0);
-        let read = |variant: &String| codec::decode(FORMATION, &inputs.read(artifact, variant)?);
+        let read = |variant: &String| artifacts::FORMATION.decode(&inputs.read(artifact, variant)?);
         Ok((variants.iter().map(read).collect::<Result<_>>()?, own))
     }
 }
@@ -117,14 +121,14 @@ impl Stage for FormedStage {
             }),
             PlanOutcome::Rejected { .. } => None,
         };
-        let drones = self.expert.drones().into_iter().zip(&flown).map(drone).collect();
-        let separation_m = self.expert.config.drones.separation_m;
-        Formation { separation_m, own: own as u32, drones }.put(outputs)?;
+        let drones = self.expert.expert.drones().into_iter().zip(&flown).map(drone).collect();
+        let separation_m = self.expert.expert.config.drones.separation_m;
+        artifacts::DRONES.put(outputs, &Formation { separation_m, own: own as u32, drones })?;
         let Flown { mut outcome, notes, warnings } = flown.swap_remove(own);
         if let PlanOutcome::Planned(flight) = &mut outcome {
-            self.expert.aim_of(flight, Seed(context.seed));
+            self.expert.expert.aim_of(flight, Seed(context.seed));
         }
-        outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
+        artifacts::FLIGHT.put(outputs, &outcome)?;
         link_town(inputs, outputs)?;
         traffic::link_moving(inputs.one(NAME)?, outputs)?;
         let mut produced = produced(&outcome);

@@ -1,14 +1,14 @@
 //! Part `notes` of a `dataset` stage: notes about the flights of each group of walks, from which the splits are drawn.
 
-use crate::codec;
 use crate::ports::{self, NOTES};
 use crate::rejections::rejection;
-use crate::world::TOWN_BLOB;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
+use cosfly_experts::{artifacts, codec};
 use cosfly_schema::{DatasetConfig, Rejection, RenderedTrajectory};
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_write::{FlightNote, GroupName};
 use serde::{Deserialize, Serialize};
@@ -36,9 +36,8 @@ pub fn items(config: &DatasetConfig) -> ItemRule {
 
 /// Name of a group in files, from the name of its item.
 pub fn group_name(item: &ItemName) -> GroupName {
-    let (_, own) = item.origin();
-    let number = own.strip_prefix(PREFIX).and_then(|digits| digits.parse().ok()).unwrap_or_default();
-    GroupName { stage: item.stage().map(|stage| stage.recipe_name().to_owned()), number }
+    let stage = item.stage().map(|stage| stage.recipe_name().to_owned());
+    GroupName { stage, number: item.number().unwrap_or_default() }
 }
 
 /// The part of a stage that meets pictures at the port `frames`.
@@ -56,6 +55,8 @@ pub fn part(config: &DatasetConfig, frames: InputPort) -> StagePart {
         files_per_item: 1,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 2048, batch: 1 },
     };
     StagePart { suffix: NAME, stage: Box::new(NotesStage { window, properties }) }
 }
@@ -101,5 +102,5 @@ impl Stage for NotesStage {
 
 /// Digest of the town that pictures show, hex digits.
 fn town_digest(frames: &Artifact) -> String {
-    frames.blobs.get(TOWN_BLOB).map(|blob| blob.digest.to_string()).unwrap_or_default()
+    frames.blobs.get(artifacts::TOWN.blob).map(|blob| blob.digest.to_string()).unwrap_or_default()
 }

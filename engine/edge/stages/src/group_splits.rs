@@ -4,14 +4,16 @@
 use crate::group_notes::{self, GroupNotes};
 use crate::ports::{self, SPLITS};
 use crate::published_towns::PublishedTowns;
-use crate::{codec, parameters};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_experts::codec;
 use cosfly_fingerprint::canonical_json;
 use cosfly_schema::config::SplitShares;
 use cosfly_schema::{DatasetConfig, Rejection};
+use cosfly_stage::parameters;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Sees, Stage, StagePart, StageProperties, TaskContext,
+    Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Resources, Sees, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_write::{GroupPlan, plan_groups};
 use std::collections::BTreeMap;
@@ -40,6 +42,8 @@ pub fn part(config: &DatasetConfig, towns: InputPort) -> StagePart {
         files_per_item: 2,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 2048, batch: 1 },
     };
     StagePart { suffix: NAME, stage: Box::new(SplitsStage { config, properties }) }
 }

@@ -1,14 +1,18 @@
 //! `inspect`: examines rendered flights and leaves out what is damaged, more imperfect than allowed, or beyond a quota.
 
-use crate::parameters;
 use crate::ports::{self, FRAMES, PACK};
 use crate::rejections::{handed_on, reject};
-use crate::verdict::{self, InspectConfig};
+use crate::verdict;
 use crate::world::link_town;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
+use cosfly_doctor::verdict::InspectConfig;
 use cosfly_schema::{Rejection, RenderedTrajectory};
-use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
+use cosfly_stage::parameters;
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
+};
 
 /// Stage kind `inspect`.
 pub struct Inspect;
@@ -51,6 +55,8 @@ impl StageKind for Inspect {
             files_per_item: 0,
             intermediate: &[PACK],
             asks: None,
+            role: StageRole::Changes,
+            resources: Resources::default(),
         };
         Ok(vec![verdict::part(config), StagePart { suffix: "", stage: Box::new(KeepStage { properties: kept }) }])
     }

@@ -2,48 +2,36 @@
 //!
 //! Adding a stage: one new file here, its `mod` line, and its line in [`registry`].
 
-mod body_rays;
 mod caption;
-pub mod codec;
 mod companions;
 mod crowd;
 mod dataset;
-pub mod expert;
-mod flight;
-mod flown;
 mod formation;
 mod group_notes;
 mod group_splits;
-mod hidden;
 mod inspect;
 mod logs;
 pub mod map;
 mod memo;
 mod muco;
 mod nearby;
-mod other_drones;
-mod parameters;
 mod pedestrians;
 mod perturb;
-mod planner_comparison;
 mod planners;
-pub mod plugins;
+mod planning;
+mod plugin;
 mod ports;
 mod props;
 mod published_towns;
 mod quotas;
 #[cfg(test)]
 mod rare_keys;
-pub mod read;
 mod rejections;
 mod render;
-pub mod requests;
 mod shards;
-pub mod shooting;
 mod traffic;
 mod verdict;
-pub mod walks;
-pub mod world;
+mod world;
 
 use cosfly_stage::{Registry, Stage, StageKind};
 
@@ -64,7 +52,7 @@ pub fn registry_with(others: Vec<Box<dyn StageKind>>) -> Registry {
         Box::new(perturb::Perturb),
         Box::new(render::Render),
         Box::new(traffic::TrafficKind),
-        Box::new(plugins::stage::Wasm),
+        Box::new(plugin::Wasm),
     ];
     kinds.extend(others);
     Registry::new(kinds)

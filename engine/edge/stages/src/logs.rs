@@ -1,6 +1,5 @@
 //! Part `logs` of a `dataset` stage: one MCAP log per trajectory.
 
-use crate::codec;
 use crate::ports::{self, LOG, PACK};
 use crate::rejections::handed_on;
 use crate::world::world_of;
@@ -8,10 +7,12 @@ use cosfly_blobs::{BlobPart, OutputSink, PassingFile};
 use cosfly_captions::{Language, Wear, check_clothes as clothes_in};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::ChannelSet;
+use cosfly_experts::codec;
 use cosfly_schema::record::captions_from_bytes;
 use cosfly_schema::{CaptionRecord, PreviewStrip, RenderedTrajectory};
 use cosfly_stage::{
-    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_write::{FramePackReader, write_log};
 use std::io::BufReader;
@@ -46,6 +47,8 @@ pub fn part(frames: InputPort, captions: InputPort) -> StagePart {
         files_per_item: 3,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 2048, batch: 1 },
     };
     StagePart { suffix: NAME, stage: Box::new(LogStage { properties }) }
 }

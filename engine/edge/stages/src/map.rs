@@ -1,17 +1,18 @@
 //! `map`: reads a town from a map file.
 
 use crate::ports::TOWN;
-use crate::world::TOWN_BLOB;
-use crate::{codec, parameters, single};
+use crate::single;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result, plausible};
 use cosfly_domain::Town;
+use cosfly_experts::artifacts;
 use cosfly_frames::Seed;
 use cosfly_maps::advice::advice;
 use cosfly_maps::{Bounds, FORMATS, MapConfig, read_town_of, recognise};
+use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, Produced, Source, SourceCheck, Stage, StageKind, StagePart, StageProperties,
-    TaskContext,
+    InputPort, Inputs, ItemRule, Produced, Resources, Source, SourceCheck, Stage, StageKind, StagePart,
+    StageProperties, StageRole, TaskContext,
 };
 use cosfly_town::{Format, FormatOptions, MapError};
 use serde_json::{Value, json};
@@ -54,6 +55,8 @@ impl StageKind for Map {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role: StageRole::World,
+            resources: Resources::default(),
         };
         Ok(single(MapStage { config, properties }))
     }
@@ -260,7 +263,7 @@ impl Stage for MapStage {
 
     fn run(&self, _inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let ReadMap { town, warnings, advice, .. } = read_files(&context.sources, &self.config, Seed(context.seed))?;
-        outputs.put(TOWN_BLOB, &codec::encode(TOWN, &town)?)?;
+        artifacts::TOWN.put(outputs, &town)?;
         let report = &town.simplification;
         let mut notes = std::collections::BTreeMap::from([
             ("obstacles".to_owned(), format!("{} boxes", town.obstacles.len())),

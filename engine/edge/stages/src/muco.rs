@@ -1,18 +1,23 @@
 //! `muco`: expert trajectories from the multi-constraint optimiser.
 
-use crate::expert::{Bodies, Expert, Flown};
-use crate::plugins::Plugins;
+use crate::planning::{Setting, produced};
 use crate::ports::{self, TRAJECTORY, WALK};
-use crate::quotas::{self, Trial};
-use crate::world::{World, check_same_town, link_town, world};
-use crate::{codec, companions, formation, traffic};
+use crate::quotas;
+use crate::world::link_town;
+use crate::{companions, formation, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
-use cosfly_domain::{Around, PlanOutcome};
+use cosfly_experts::plugins::Plugins;
+use cosfly_experts::{RecipeExpert, artifacts};
+use cosfly_flight::Flown;
+use cosfly_flight::losses::Trial;
 use cosfly_frames::Seed;
-use cosfly_objectives::Objective;
-use cosfly_pedestrians::PedestrianPath;
-use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
+use cosfly_planner::config::OcclusionConfig;
+use cosfly_stage::parameters;
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
+};
 use std::sync::Arc;
 
 /// Stage kind `muco`.
@@ -28,7 +33,7 @@ impl StageKind for Muco {
     }
 
     fn schema(&self) -> serde_json::Value {
-        Expert::schema()
+        RecipeExpert::schema()
     }
 
     fn ports(&self) -> Vec<InputPort> {
@@ -37,8 +42,8 @@ impl StageKind for Muco {
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
-        let expert = Expert::read(given)?;
-        let count = expert.config.targets.companions;
+        let expert = RecipeExpert::read(given)?;
+        let count = expert.expert.config.targets.companions;
         let (mut parts, inputs, items) = match expert.count() {
             None => {
                 let ports = vec![ports::town(), paths(), companions::port(count == 0)];
@@ -46,12 +51,9 @@ impl StageKind for Muco {
             }
             Some(count) => (vec![], vec![ports::town()], ItemRule::Count { prefix: "f", count }),
         };
-        let occlusion = expert.config.occlusion.clone();
+        let occlusion = expert.expert.config.occlusion.clone();
         let mut parameters = expert.canonical();
-        // A flight depends on its own order alone.
-        for key in ["share", "beside_look_alike"] {
-            parameters["occlusion"].as_object_mut().expect("a table").remove(key);
-        }
+        parameters["occlusion"] = parameters::without(parameters["occlusion"].take(), OcclusionConfig::NOT_IN_KEY);
         let properties = StageProperties {
             kind: self.name().into(),
             version: 6,
@@ -64,8 +66,10 @@ impl StageKind for Muco {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role: StageRole::Plans,
+            resources: Resources { memory_mib: 512, batch: 4 },
         };
-        if expert.config.drones.count > 1 {
+        if expert.expert.config.drones.count > 1 {
             parts.extend(formation::parts(expert, properties));
             return Ok(parts);
         }
@@ -75,6 +79,7 @@ impl StageKind for Muco {
                 version: quotas::TRIALS_VERSION,
                 artifact: ports::LOSSES,
                 bytes_per_item: 100,
+                role: StageRole::Serves,
                 ..properties
             };
             let trial = MucoStage { expert: expert.clone(), properties: trial, is_trial: true };
@@ -96,7 +101,7 @@ fn others() -> InputPort {
 }
 
 struct MucoStage {
-    expert: Expert,
+    expert: RecipeExpert,
     properties: StageProperties,
     /// Whether the flights are planned only to learn whether they can lose their targets.
     is_trial: bool,
@@ -111,17 +116,20 @@ impl Stage for MucoStage {
         let expert = quotas::ordered(&self.expert, inputs, context)?;
         let Setting { world, around, bodies } = Setting::read(inputs, &expert)?;
         let plugins = Plugins::of_expert(&expert.plugins, &context.sources)?;
-        let plugins = plugins.for_item(context.id.to_string());
-        let Flown { outcome, notes, warnings } = match expert.flight(&world, bodies, Seed(context.seed), plugins)? {
+        let plugins = Arc::new(plugins.for_item(context.id.to_string()));
+        let flight = expert.expert.flight(&world, bodies, Seed(context.seed), plugins)?;
+        let Flown { outcome, notes, warnings } = match flight {
             Ok(flight) => Flown::of(&flight, &world)?,
             Err(reason) => Flown::none(&reason),
         };
         if self.is_trial {
             let followed = traffic::followed(inputs, inputs.one("paths")?)?;
-            Trial::of(&outcome, &expert.config.occlusion, &world.exact, &around, followed.as_ref()).put(outputs)?;
+            let occlusion = &expert.expert.config.occlusion;
+            let trial = Trial::of(&outcome, occlusion, &world.exact, &around, followed.as_ref());
+            artifacts::LOSSES.put(outputs, &trial)?;
             return Ok(Produced::default());
         }
-        outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
+        artifacts::FLIGHT.put(outputs, &outcome)?;
         link_town(inputs, outputs)?;
         if let Some(walk) = inputs.all("paths").first() {
             traffic::put_around(walk, &around, outputs)?;
@@ -130,42 +138,5 @@ impl Stage for MucoStage {
         produced.notes.extend(notes);
         produced.warnings.extend(warnings);
         Ok(produced)
-    }
-}
-
-/// What the flights of an item are planned among.
-pub struct Setting {
-    /// The town.
-    pub world: Arc<World>,
-    /// The bodies around the target.
-    pub around: Around,
-    /// Walk, companions and what moves.
-    pub bodies: Bodies,
-}
-
-impl Setting {
-    /// The setting of a task.
-    pub fn read(inputs: &Inputs<'_>, expert: &Expert) -> Result<Self> {
-        let world = world(inputs)?;
-        if expert.objective.objective != Objective::Track {
-            return Ok(Self { world, around: Around::default(), bodies: Bodies::default() });
-        }
-        check_same_town(inputs, "paths")?;
-        let artifact = inputs.one("paths")?;
-        let walk: PedestrianPath = codec::decode(WALK, &inputs.read(artifact, "walk")?)?;
-        let around = traffic::cut_around(inputs, artifact, &walk.track)?;
-        let (companions, movers) = (companions::read(inputs)?, around.boxes());
-        Ok(Self { world, around, bodies: Bodies { walk: Some(walk.track), companions, movers } })
-    }
-}
-
-/// Notes or rejection of a trajectory.
-pub fn produced(outcome: &PlanOutcome) -> Produced {
-    match outcome {
-        PlanOutcome::Planned(trajectory) => Produced {
-            notes: [("visibility".to_owned(), format!("{:.3}", trajectory.certificate.mean_visibility))].into(),
-            ..Produced::default()
-        },
-        PlanOutcome::Rejected { reason, .. } => Produced::rejected(reason),
     }
 }

@@ -2,13 +2,18 @@
 
 use crate::memo::Memo;
 use crate::ports::{self, WALK};
+use crate::single;
 use crate::world::{link_town, world};
-use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_experts::artifacts;
 use cosfly_frames::Seed;
 use cosfly_pedestrians::{PedestrianConfig, PedestrianError, WalkableGrid, walk};
-use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
+use cosfly_stage::parameters;
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
+};
 
 /// Stage kind `pedestrians`.
 pub struct Pedestrians;
@@ -34,9 +39,7 @@ impl StageKind for Pedestrians {
         let config: PedestrianConfig = parameters::read(given)?;
         config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
         let count = config.count;
-        let mut canonical = parameters::canonical(&config);
-        // No single walk depends on the number of walks.
-        canonical.as_object_mut().expect("a table").remove("count");
+        let canonical = parameters::without(parameters::canonical(&config), PedestrianConfig::NOT_IN_KEY);
         let properties = StageProperties {
             kind: self.name().into(),
             version: 1,
@@ -49,6 +52,8 @@ impl StageKind for Pedestrians {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role: StageRole::World,
+            resources: Resources { memory_mib: 512, batch: 16 },
         };
         Ok(single(PedestrianStage { config, properties, grid: Memo::default() }))
     }
@@ -71,7 +76,7 @@ impl Stage for PedestrianStage {
         let refused = |error: PedestrianError| refusal(error, &world.town.name);
         let grid = self.grid.get(digest, || WalkableGrid::build(&world.town, &self.config)).map_err(refused)?;
         let path = walk(&grid, &self.config, Seed(context.seed)).map_err(refused)?;
-        outputs.put("walk", &codec::encode(WALK, &path)?)?;
+        artifacts::WALK.put(outputs, &path)?;
         link_town(inputs, outputs)?;
         Ok(Produced::default())
     }

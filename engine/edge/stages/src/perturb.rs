@@ -1,17 +1,19 @@
 //! `perturb`: the twin of every expert trajectory, with errors of position and rotation.
 
-use crate::muco::produced;
-use crate::other_drones::Formation;
+use crate::planning::produced;
 use crate::ports::{self, TRAJECTORY};
 use crate::world::{check_same_town, link_town, world};
-use crate::{codec, parameters, single, traffic};
+use crate::{single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::PlanOutcome;
+use cosfly_experts::artifacts;
 use cosfly_frames::Seed;
 use cosfly_pilot::perturb::{PerturbConfig, perturb};
+use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemId, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
+    InputPort, Inputs, ItemId, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
 use cosfly_surroundings::exact::ExactMap;
 
@@ -50,6 +52,8 @@ impl StageKind for Perturb {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role: StageRole::Changes,
+            resources: Resources { memory_mib: 256, batch: 16 },
         };
         Ok(single(PerturbStage { config, properties }))
     }
@@ -82,13 +86,13 @@ impl Stage for PerturbStage {
         check_same_town(inputs, "trajectories")?;
         let world = world(inputs)?;
         let artifact = inputs.one("trajectories")?;
-        let expert: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
+        let expert = artifacts::FLIGHT.read(inputs, artifact)?;
         // The expert is published under this name (see `Takes::Named`).
         let expert_id = artifact.id.item.of_stage(&artifact.id.stage).to_string();
         let twin = match expert {
             PlanOutcome::Planned(expert) => {
                 let mut movers = traffic::around(inputs, artifact)?.boxes();
-                let drones = Formation::of(inputs, artifact)?.join(&mut movers);
+                let drones = artifacts::DRONES.find(inputs, artifact)?.unwrap_or_default().join(&mut movers);
                 let clearance_m = self.config.clearance_m;
                 let map = ExactMap { drones, clearance_m, ..ExactMap::among(&world.exact, &movers) };
                 perturb(&expert, &expert_id, map, &self.config_of(&context.id), Seed(context.seed))
@@ -97,7 +101,7 @@ impl Stage for PerturbStage {
                 PlanOutcome::Rejected { track, reason: format!("its expert was rejected: {reason}") }
             }
         };
-        outputs.put("trajectory", &codec::encode(TRAJECTORY, &twin)?)?;
+        artifacts::FLIGHT.put(outputs, &twin)?;
         link_town(inputs, outputs)?;
         traffic::link_moving(artifact, outputs)?;
         Ok(produced(&twin))

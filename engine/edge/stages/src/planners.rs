@@ -1,16 +1,20 @@
 //! Part `planners` of a `dataset` stage: other planners behind the walks of a few published flights, for the report. An item
 //! of its own, so that a new title plans nothing anew.
 
-use crate::planner_comparison::{ComparedFlight, compared};
+use crate::group_notes;
+
 use crate::ports::{self, PLANNERS};
 use crate::world::world_of;
-use crate::{codec, group_notes};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
+use cosfly_domain::Trajectory;
+use cosfly_experts::codec;
+use cosfly_flight::comparison::{ComparedFlight, Means, PlannerFigures, compared};
 use cosfly_report::PlannerRow;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use std::collections::BTreeMap;
 
@@ -33,6 +37,8 @@ pub fn part(frames: InputPort) -> StagePart {
         files_per_item: 1,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 2048, batch: 1 },
     };
     StagePart { suffix: NAME, stage: Box::new(PlannersStage { properties }) }
 }
@@ -59,7 +65,7 @@ impl Stage for PlannersStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let rows = compared(&chosen(inputs, context)?);
+        let rows: Vec<PlannerRow> = compared(&chosen(inputs, context)?).into_iter().map(row).collect();
         outputs.put(NAME, &codec::encode(PLANNERS, &rows)?)?;
         Ok(Produced::default())
     }
@@ -87,15 +93,35 @@ fn chosen(inputs: &Inputs<'_>, context: &TaskContext) -> Result<Vec<ComparedFlig
     let mut chosen: Vec<ComparedFlight> = vec![];
     for at in 0..count {
         for frames in &experts[(2 * at + 1) * experts.len() / (2 * count)] {
-            let flight = record(frames)?;
-            let way = |flight: &RenderedTrajectory| -> Vec<_> {
-                flight.trajectory.poses_in_world.iter().map(|pose| pose.position_in_world).collect()
+            let RenderedTrajectory { trajectory, around, town, pedestrian_id, .. } = record(frames)?;
+            let way = |flight: &Trajectory| -> Vec<_> {
+                flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect()
             };
-            if chosen.iter().all(|other| way(&other.flight) != way(&flight)) {
+            if chosen.iter().all(|other| way(&other.trajectory) != way(&trajectory)) {
                 let planner = frames.name.stage().map(ToString::to_string).unwrap_or_default();
-                chosen.push(ComparedFlight { flight, world: world_of(inputs, frames)?, planner });
+                let (walk, world) = ((town.geometry_digest, pedestrian_id), world_of(inputs, frames)?);
+                chosen.push(ComparedFlight { trajectory, around, walk, world, planner });
             }
         }
     }
     Ok(chosen)
+}
+
+fn row(figures: PlannerFigures) -> PlannerRow {
+    let known = |of: fn(&Means) -> f64| figures.means.as_ref().map(of);
+    PlannerRow {
+        visible: known(|it| it.visible),
+        half_visible: known(|it| it.half_visible),
+        distance_m: known(|it| it.distance_m),
+        length_m: known(|it| it.length_m),
+        nearest_m: known(|it| it.nearest_m),
+        acceleration_mps2: known(|it| it.acceleration_mps2),
+        jerk_mps3: known(|it| it.jerk_mps3),
+        sound: figures.sound,
+        planned: figures.planned,
+        asked: figures.asked,
+        costs: figures.costs,
+        refusal: figures.refusal,
+        planner: figures.planner,
+    }
 }

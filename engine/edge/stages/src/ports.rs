@@ -1,35 +1,32 @@
 //! Ports that built-in stages share, declared once.
 
-use crate::rejections::REJECTION;
-use crate::world::TOWN_BLOB;
+use cosfly_experts::artifacts::{self, REJECTION};
 use cosfly_stage::{Fan, InputPort, PortSource, Sees, Takes};
 
 /// Artifact of a town.
-pub const TOWN: &str = "town/1";
+pub const TOWN: &str = artifacts::TOWN.artifact;
 /// Artifact of a pedestrian's walk.
-pub const WALK: &str = "walk/1";
+pub const WALK: &str = artifacts::WALK.artifact;
 /// Artifact of the companions of a flight.
-pub const COMPANIONS: &str = "companions/1";
+pub const COMPANIONS: &str = artifacts::COMPANIONS.artifact;
 /// Artifact of all people and vehicles that move through a town.
-pub const TRAFFIC: &str = "traffic/1";
-/// Artifact of the bodies around the target of a flight.
-pub const AROUND: &str = "around/1";
+pub const TRAFFIC: &str = artifacts::TRAFFIC.artifact;
 /// Artifact of what came of ordering a loss of the target.
-pub const LOSSES: &str = "losses/1";
+pub const LOSSES: &str = artifacts::LOSSES.artifact;
 /// Artifact of the orders to lose the target, by item.
 pub const ORDERS: &str = "orders/1";
 /// Artifact of the flights of all drones behind a walk.
-pub const FORMATION: &str = "formation/1";
+pub const FORMATION: &str = artifacts::FORMATION.artifact;
 /// Artifact of a planned or perturbed trajectory.
-pub const TRAJECTORY: &str = "trajectory/3";
+pub const TRAJECTORY: &str = artifacts::FLIGHT.artifact;
 /// Artifact of the people who are near a flight.
-pub const NEARBY: &str = "nearby/1";
+pub const NEARBY: &str = artifacts::NEARBY.artifact;
 /// Artifact of a rendered trajectory.
-pub const FRAMES: &str = "frames/1";
+pub const FRAMES: &str = artifacts::REJECTION.artifact;
 /// Blob of a rendered trajectory: its packed pictures, which its log holds as well.
 pub const PACK: &str = "pack";
 /// Artifact of a trajectory's captions.
-pub const CAPTIONS: &str = "captions/2";
+pub const CAPTIONS: &str = "captions/3";
 /// Artifact of a trajectory's MCAP log.
 pub const LOG: &str = "log/1";
 /// Artifact of extras that a plugin made of a trajectory.
@@ -91,7 +88,7 @@ pub fn gather(name: &'static str, artifact: &'static str, many: bool, doc: &'sta
 
 /// A port of rendered trajectories whose stage does not see the pictures.
 pub fn without_pictures(port: InputPort) -> InputPort {
-    InputPort { sees: Sees::Only(&["index", REJECTION, TOWN_BLOB]), ..port }
+    InputPort { sees: Sees::Only(&["index", REJECTION.blob, artifacts::TOWN.blob]), ..port }
 }
 
 /// A port that brings the items of a group at once.

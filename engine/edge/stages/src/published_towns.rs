@@ -1,10 +1,8 @@
 //! Towns of a dataset: the one of each flight, and their tables.
 
-use crate::codec;
-use crate::ports::TOWN;
-use crate::world::TOWN_BLOB;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::Town;
+use cosfly_experts::artifacts;
 use cosfly_schema::TownLayout;
 use cosfly_schema::tables::ObjectRecord;
 use cosfly_stage::{Artifact, Inputs};
@@ -23,7 +21,7 @@ struct PublishedTown {
 impl PublishedTown {
     /// Digest of its artifact, hex digits.
     fn digest(&self) -> String {
-        self.artifact.blobs.get(TOWN_BLOB).map(|blob| blob.digest.to_string()).unwrap_or_default()
+        self.artifact.blobs.get(artifacts::TOWN.blob).map(|blob| blob.digest.to_string()).unwrap_or_default()
     }
 }
 
@@ -37,7 +35,8 @@ impl PublishedTowns {
         for artifact in inputs.all("town") {
             let town = read(inputs, artifact)?;
             match towns.get(&town.name) {
-                Some(known) if known.artifact.blobs.get(TOWN_BLOB) == artifact.blobs.get(TOWN_BLOB) => {}
+                Some(known)
+                    if known.artifact.blobs.get(artifacts::TOWN.blob) == artifact.blobs.get(artifacts::TOWN.blob) => {}
                 Some(known) => return Err(same_name(&town.name, &known.artifact, artifact)),
                 None => {
                     let layout = Arc::new(TownLayout::of(&town));
@@ -100,7 +99,7 @@ impl PublishedTowns {
 }
 
 fn read(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Town> {
-    codec::decode(TOWN, &inputs.read(artifact, TOWN_BLOB)?)
+    artifacts::TOWN.read(inputs, artifact)
 }
 
 /// Refusal of two towns with one name, which tables and folders could not tell apart.

@@ -1,27 +1,31 @@
 //! `render`: pictures of every trajectory, all channels of a frame from one visibility pass; the people in them come from
 //! part `nearby`.
 
-use crate::body_rays::BodyRays;
 use crate::crowd::Crowd;
 use crate::memo::Memo;
-use crate::ports::{self, FRAMES, PACK, TRAJECTORY};
+use crate::ports::{self, FRAMES, PACK};
 use crate::rejections::reject;
-use crate::shooting::{Shooting, preset};
-use crate::walks::walked_m;
-use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
-use crate::{codec, nearby, parameters, props, traffic};
+use crate::world::{check_same_town, link_town, world};
+use crate::{nearby, props, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::{Around, Camera, Outfit, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, object_instance};
-use cosfly_figures::{Bystander, TargetSetup, gait_phase_rad, outfit_of};
+use cosfly_experts::{artifacts, pictures};
+use cosfly_figures::{Bystander, TargetSetup, gait_phase_rad};
+use cosfly_film::body_rays::BodyRays;
+use cosfly_film::shooting::{Shooting, preset};
+use cosfly_film::walks::walked_m;
+use cosfly_flight::World;
 use cosfly_frames::{Pose, Seed};
 use cosfly_geometry::SpatialQuery;
 use cosfly_optics::{pose_at, target_state_at};
 use cosfly_render::{Effects, Moment, RenderConfig, Renderer, Scene, Shot};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
+use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
+    InputPort, Inputs, ItemName, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,7 +44,7 @@ impl StageKind for Render {
     }
 
     fn schema(&self) -> serde_json::Value {
-        parameters::joined_schema::<RenderConfig, EncodingConfig>("encoding")
+        parameters::joined_schema::<RenderConfig, EncodingConfig>(pictures::ENCODING)
     }
 
     fn ports(&self) -> Vec<InputPort> {
@@ -48,7 +52,7 @@ impl StageKind for Render {
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
-        let (mut config, encoding) = parameters::read_joined::<RenderConfig, EncodingConfig>(given, "encoding")?;
+        let (mut config, encoding) = pictures::read(given)?;
         config.validate().map_err(|problem| ParameterError {
             hint: Some(problem.hint),
             ..parameters::refused_at(&problem.path, problem.message)
@@ -65,7 +69,7 @@ impl StageKind for Render {
         let properties = StageProperties {
             kind: self.name().into(),
             version: 20,
-            parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, "encoding")),
+            parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
             artifact: FRAMES,
@@ -74,6 +78,8 @@ impl StageKind for Render {
             files_per_item: 2,
             intermediate: &[PACK],
             asks: None,
+            role: StageRole::Films,
+            resources: Resources::default(),
         };
         let stage = RenderStage { config, encoding, properties, scene: Memo::default(), idle: Mutex::default() };
         Ok(vec![nearby, StagePart { suffix: "", stage: Box::new(stage) }])
@@ -82,11 +88,8 @@ impl StageKind for Render {
 
 /// Parameters for keys. A paired item is named after its own weather and reads no other: one more weather renders no old
 /// one again.
-fn canonical(config: &RenderConfig, mut all: serde_json::Value) -> serde_json::Value {
-    if let Some(table) = all.as_object_mut().filter(|_| config.paired_weathers) {
-        table.remove("weathers");
-    }
-    all
+fn canonical(config: &RenderConfig, all: serde_json::Value) -> serde_json::Value {
+    if config.paired_weathers { parameters::without(all, RenderConfig::NOT_IN_KEY) } else { all }
 }
 
 struct RenderStage {
@@ -113,7 +116,7 @@ impl Stage for RenderStage {
         link_town(inputs, outputs)?;
         let artifact = inputs.one("trajectories")?;
         let world = world(inputs)?;
-        let outcome: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
+        let outcome = artifacts::FLIGHT.read(inputs, artifact)?;
         let trajectory = match filmable(&world, outcome) {
             Ok(trajectory) => *trajectory,
             Err(reason) => {
@@ -127,15 +130,15 @@ impl Stage for RenderStage {
                 return reject(outputs, rejection);
             }
         };
-        let town_digest = inputs.one("town")?.blobs[TOWN_BLOB].digest;
+        let town_digest = inputs.one("town")?.blobs[artifacts::TOWN.blob].digest;
         // Buildings look the same in every flight through the town.
         let scene = self.scene.get(town_digest, || -> Result<_> {
             let models = props::read_models(&self.config, &context.sources)?;
             Ok(Scene::with_models(&world.town, Seed(town_digest.0), &models).in_season(self.config.season))
         })?;
         let target = traffic::followed(inputs, artifact)?;
-        let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), &context.id.item)?;
-        let preset = preset(&self.config, &context.id.item);
+        let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), context.id.item.variant())?;
+        let preset = preset(&self.config, context.id.item.variant());
         let crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
         let crowd = crowd.dressed_for(&shooting);
         let place = Place { scene: &scene, world: &world, crowd: &crowd };

@@ -1,19 +1,21 @@
 //! Part `tables` of a `dataset` stage: tables and logs of each group of walks.
 
-use crate::plugins::stage::EXTRA;
-use crate::ports::{self, EXTRAS, LOG, SHARD, TOWN};
+use crate::plugin::EXTRA;
+use crate::ports::{self, EXTRAS, LOG, SHARD};
 use crate::rejections::rejection;
-use crate::world::TOWN_BLOB;
-use crate::{codec, group_notes, group_splits, logs, parameters};
+use crate::{group_notes, group_splits, logs};
 use cosfly_blobs::OutputSink;
 use cosfly_captions::sight::Landmarks;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::Town;
+use cosfly_experts::{artifacts, codec};
 use cosfly_fingerprint::Digest;
 use cosfly_schema::extras::Extra;
 use cosfly_schema::{CaptionRecord, DatasetConfig, LogRecord, PreviewStrip, Rejection, RenderedTrajectory};
+use cosfly_stage::parameters;
 use cosfly_stage::{
-    Artifact, Blobs, Fan, InputPort, Inputs, ItemName, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Artifact, Blobs, Fan, InputPort, Inputs, ItemName, Produced, Resources, Stage, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_write::{GroupFlights, GroupSource, PublishedLog, Shard, write_shard};
 use std::collections::BTreeMap;
@@ -52,6 +54,8 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
         files_per_item: 24,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources { memory_mib: 2048, batch: 1 },
     };
     StagePart { suffix: NAME, stage: Box::new(TablesStage { config, properties }) }
 }
@@ -147,8 +151,8 @@ impl GroupSource for Gathered<'_> {
     }
 
     fn landmarks(&self, index: usize) -> Result<Arc<Landmarks>> {
-        self.inputs.decoded(self.flights[index].frames, TOWN_BLOB, |bytes| {
-            codec::decode(TOWN, bytes).map(|town: Town| Landmarks::of(&town))
+        self.inputs.decoded(self.flights[index].frames, artifacts::TOWN.blob, |bytes| {
+            artifacts::TOWN.decode(bytes).map(|town: Town| Landmarks::of(&town))
         })
     }
 

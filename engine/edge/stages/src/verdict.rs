@@ -3,61 +3,20 @@
 use crate::ports::{self, FRAMES, VERDICT};
 use crate::rejections::is_rejected;
 use crate::world::{check_same_town, world};
-use crate::{codec, parameters};
 use cosfly_blobs::OutputSink;
-use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_doctor::{ExaminedEpisode, Severity, checks, sources};
+use cosfly_diagnose::Result;
+use cosfly_doctor::sources;
+use cosfly_doctor::verdict::{Family, InspectConfig, Verdict, verdict};
 use cosfly_domain::{ObstacleKind, Town};
+use cosfly_experts::codec;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_schema::RenderedTrajectory;
+use cosfly_stage::parameters;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
+    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
-/// Parameters of the `inspect` stage.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct InspectConfig {
-    /// Flights of which less is visible on average (by pixels) are imperfect.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub min_visibility: f64,
-    /// Flights that lose their target (less than half visible) for longer are imperfect, seconds.
-    #[schemars(range(min = 0.0))]
-    pub max_lost_s: f64,
-    /// Share of imperfect flights among all that are kept.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub imperfect_share: f64,
-    /// Shares of flights that must lose their target for a certain time; flights that do not are left out until they are
-    /// met.
-    pub quotas: Vec<LossQuota>,
-}
-
-impl Default for InspectConfig {
-    fn default() -> Self {
-        Self { min_visibility: 0.0, max_lost_s: 3600.0, imperfect_share: 0.05, quotas: vec![] }
-    }
-}
-
-/// A share of flights with a loss of a certain length, such as 20 % with one of 2 to 4 s.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LossQuota {
-    /// Share that is wanted.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub share: f64,
-    /// Shortest loss, seconds.
-    #[schemars(range(min = 0.0))]
-    pub from_s: f64,
-    /// Longest loss, seconds.
-    #[schemars(range(min = 0.0))]
-    pub to_s: f64,
-}
-
-/// Reasons why items are left out, by name.
-pub type Verdict = BTreeMap<String, String>;
 
 /// Name of the part, of the port that reads it and of its blob.
 const NAME: &str = "verdict";
@@ -77,6 +36,8 @@ pub fn part(config: InspectConfig) -> StagePart {
         files_per_item: 1,
         intermediate: &[],
         asks: None,
+        role: StageRole::Serves,
+        resources: Resources::default(),
     };
     StagePart { suffix: NAME, stage: Box::new(VerdictStage { config, properties }) }
 }
@@ -116,15 +77,8 @@ impl Stage for VerdictStage {
             family.items.push(artifact.name.to_string());
             family.add(&episode, &self.config);
         }
-        let mut drawn: Vec<(u64, Family)> = families
-            .into_iter()
-            .map(|(name, family)| (Seed(context.seed).child(&name, 0).stream("inspect").unit().to_bits(), family))
-            .collect();
-        // The order of leaving out is drawn from the family's own name: other families do not change it.
-        drawn.sort_by_key(|(draw, _)| *draw);
-        let families: Vec<Family> = drawn.into_iter().map(|(_, family)| family).collect();
-        let verdict = decide(&families, &self.config)?;
-        let all: usize = families.iter().map(|family| family.items.len()).sum();
+        let all: usize = families.values().map(|family| family.items.len()).sum();
+        let verdict = verdict(families, Seed(context.seed), &self.config)?;
         outputs.put(NAME, &codec::encode(VERDICT, &verdict)?)?;
         let notes = BTreeMap::from([("kept".to_owned(), format!("{} of {all}", all - verdict.len()))]);
         Ok(Produced { notes, ..Produced::default() })
@@ -134,139 +88,4 @@ impl Stage for VerdictStage {
 fn vehicles(town: &Town) -> Vec<(DVec3, DVec3, f64)> {
     let cars = town.obstacles.iter().filter(|it| it.kind == ObstacleKind::Car);
     cars.map(|it| (it.shape.center_in_world, it.shape.half_extents_m, it.shape.yaw_rad)).collect()
-}
-
-/// An expert with its twins: kept or left out together.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Family {
-    items: Vec<String>,
-    /// Damage, where there is one.
-    damage: Option<String>,
-    /// Imperfection, where there is one.
-    imperfection: Option<String>,
-    /// Losses of all members, seconds.
-    losses_s: Vec<f64>,
-}
-
-impl Family {
-    fn add(&mut self, episode: &ExaminedEpisode, config: &InspectConfig) {
-        for flag in checks::of_episode(episode) {
-            let reason = match flag.severity {
-                Severity::Damage => &mut self.damage,
-                Severity::Imperfect => &mut self.imperfection,
-            };
-            reason.get_or_insert_with(|| flag.to_string());
-        }
-        let losses = episode.losses_s();
-        let longest = losses.iter().copied().fold(0.0, f64::max);
-        if longest > config.max_lost_s && !episode.is_perturbed {
-            let id = &episode.id;
-            self.imperfection.get_or_insert_with(|| format!("{id}: its target is lost for {longest:.1} s"));
-        }
-        let shares = episode.moments.iter().filter_map(|it| it.visible);
-        let mean = shares.sum::<f64>() / episode.moments.len().max(1) as f64;
-        if mean < config.min_visibility && !episode.is_perturbed {
-            let id = &episode.id;
-            self.imperfection.get_or_insert_with(|| format!("{id}: {:.1} % of its target is visible", 100.0 * mean));
-        }
-        self.losses_s.extend(losses);
-    }
-
-    fn meets(&self, quota: &LossQuota) -> bool {
-        self.losses_s.iter().any(|lost| *lost >= quota.from_s && *lost <= quota.to_s)
-    }
-}
-
-/// Leaves out damaged families, then imperfect ones beyond their share, then those that exceed a quota.
-fn decide(families: &[Family], config: &InspectConfig) -> Result<Verdict> {
-    let mut verdict = Verdict::new();
-    let mut leave = |family: &Family, reason: &str| {
-        family.items.iter().for_each(|item| {
-            verdict.insert(item.clone(), reason.to_owned());
-        });
-    };
-    let (damaged, sound): (Vec<&Family>, Vec<&Family>) = families.iter().partition(|it| it.damage.is_some());
-    damaged.iter().for_each(|family| leave(family, family.damage.as_deref().unwrap_or_default()));
-    let (imperfect, perfect): (Vec<&Family>, Vec<&Family>) =
-        sound.into_iter().partition(|it| it.imperfection.is_some());
-    // n imperfect ones among p + n: n <= share (p + n).
-    let share = config.imperfect_share;
-    let allowed = match share {
-        _ if share >= 1.0 => imperfect.len(),
-        _ => ((share * perfect.len() as f64 / (1.0 - share) + 1e-9) as usize).min(imperfect.len()),
-    };
-    let (kept, surplus) = imperfect.split_at(allowed);
-    for family in surplus {
-        let reason = family.imperfection.as_deref().unwrap_or_default();
-        leave(family, &format!("{reason}; more than {:.1} % would be imperfect", 100.0 * share));
-    }
-    let mut kept: Vec<&Family> = perfect.into_iter().chain(kept.iter().copied()).collect();
-    for quota in &config.quotas {
-        let members = kept.iter().filter(|family| family.meets(quota)).count();
-        let (from_s, to_s, percent) = (quota.from_s, quota.to_s, 100.0 * quota.share);
-        if members == 0 && quota.share > 0.0 && !kept.is_empty() {
-            let message = format!("no flight loses its target for {from_s} to {to_s} s; {percent} % are wanted");
-            return Err(Diagnostic::new("inspect-quota", Fault::Recipe, message)
-                .hint("lower the quota's share, widen its times, or make more flights"));
-        }
-        let most = if quota.share > 0.0 { (members as f64 / quota.share + 1e-9) as usize } else { kept.len() };
-        let mut surplus = kept.len().saturating_sub(most);
-        kept.retain(|family| {
-            let goes = surplus > 0 && !family.meets(quota);
-            if goes {
-                surplus -= 1;
-                leave(
-                    family,
-                    &format!("the quota: {percent} % of the flights are to lose their target for {from_s} to {to_s} s"),
-                );
-            }
-            !goes
-        });
-    }
-    Ok(verdict)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn families(count: usize, change: impl Fn(usize, &mut Family)) -> Vec<Family> {
-        let one = |at: usize| {
-            let mut family = Family { items: vec![format!("e{at}"), format!("p{at}")], ..Family::default() };
-            change(at, &mut family);
-            family
-        };
-        (0..count).map(one).collect()
-    }
-
-    #[test]
-    fn damaged_families_go_and_a_few_imperfect_ones_stay() {
-        let families = families(22, |at, family| match at {
-            0 => family.damage = Some("the yaw".into()),
-            1..=3 => family.imperfection = Some("a car".into()),
-            _ => {}
-        });
-        let verdict = decide(&families, &InspectConfig::default()).unwrap();
-        // 18 sound ones allow none; 19 would allow one.
-        assert_eq!(verdict.len(), 8);
-        assert_eq!(verdict["p0"], "the yaw");
-        let loose = InspectConfig { imperfect_share: 0.1, ..InspectConfig::default() };
-        assert_eq!(decide(&families, &loose).unwrap().len(), 4, "2 of 20 are 10 %");
-    }
-
-    #[test]
-    fn a_quota_leaves_out_as_many_as_it_must() {
-        let families = families(10, |at, family| family.losses_s = if at < 2 { vec![3.0] } else { vec![0.5] });
-        let quota = |share: f64| InspectConfig {
-            quotas: vec![LossQuota { share, from_s: 2.0, to_s: 4.0 }],
-            ..InspectConfig::default()
-        };
-        assert!(decide(&families, &quota(0.2)).unwrap().is_empty());
-        assert_eq!(decide(&families, &quota(0.5)).unwrap().len(), 12, "2 of 4 families are half");
-        let config = InspectConfig {
-            quotas: vec![LossQuota { share: 0.1, from_s: 8.0, to_s: 9.0 }],
-            ..InspectConfig::default()
-        };
-        assert_eq!(decide(&families, &config).unwrap_err().code, "inspect-quota");
-    }
 }

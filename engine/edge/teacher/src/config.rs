@@ -159,6 +159,9 @@ impl Default for ServerConfig {
 }
 
 impl TeacherConfig {
+    /// Parameters that say where and how fast the server is asked, which changes no text; not in the key.
+    pub const NOT_IN_KEY: &[&str] = &["server"];
+
     /// Checks what the schema cannot express.
     ///
     /// # Errors

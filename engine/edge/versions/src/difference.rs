@@ -1,9 +1,8 @@
 //! Differences between two versions, and their causes, from the keys of the tasks behind every flight.
 
-use crate::task_name::TaskName;
 use crate::version::Version;
 use cosfly_runner::{Change, definition_difference};
-use cosfly_stage::StageName;
+use cosfly_stage::{ItemId, StageName};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -138,7 +137,7 @@ pub fn difference(old: &Version, new: &Version) -> Difference {
 }
 
 /// Causes why a flight is in `with` and not in `without`.
-fn appearance(without: &Version, with: &Version, id: &str, task: &TaskName) -> Vec<String> {
+fn appearance(without: &Version, with: &Version, id: &str, task: &ItemId) -> Vec<String> {
     if let Some(reason) = without.rejected.get(id) {
         let mut why = vec![format!("it was rejected in `{}`: {reason}", without.name)];
         why.extend(causes(without, with, task, task).into_iter().filter(|_| without.tasks.contains_key(task)));
@@ -159,9 +158,9 @@ fn appearance(without: &Version, with: &Version, id: &str, task: &TaskName) -> V
 }
 
 /// Stages where the item of a task begins to be there in `with` alone: everything that their tasks read is in both.
-fn origins<'a>(without: &Version, with: &'a Version, task: &'a TaskName) -> BTreeSet<&'a StageName> {
+fn origins<'a>(without: &Version, with: &'a Version, task: &'a ItemId) -> BTreeSet<&'a StageName> {
     let mut open = vec![task];
-    let mut seen: BTreeSet<&TaskName> = BTreeSet::from([task]);
+    let mut seen: BTreeSet<&ItemId> = BTreeSet::from([task]);
     let mut found = BTreeSet::new();
     while let Some(task) = open.pop() {
         let reads = with.tasks.get(task).map_or(&[][..], |task| &task.reads);
@@ -223,9 +222,9 @@ fn setting_changes(old: &Value, new: &Value) -> Vec<(String, Option<Value>, Opti
 }
 
 /// Changes of the stages where two tasks begin to differ.
-fn causes(old: &Version, new: &Version, old_task: &TaskName, new_task: &TaskName) -> Vec<String> {
+fn causes(old: &Version, new: &Version, old_task: &ItemId, new_task: &ItemId) -> Vec<String> {
     let mut open = vec![(old_task, new_task)];
-    let mut seen: BTreeSet<(&TaskName, &TaskName)> = open.iter().copied().collect();
+    let mut seen: BTreeSet<(&ItemId, &ItemId)> = open.iter().copied().collect();
     let mut why: Vec<String> = vec![];
     while let Some((was, is)) = open.pop() {
         let (Some(a), Some(b)) = (old.tasks.get(was), new.tasks.get(is)) else { continue };
@@ -237,7 +236,7 @@ fn causes(old: &Version, new: &Version, old_task: &TaskName, new_task: &TaskName
                 why.push(change);
             }
         }
-        let is_read = |name: &&TaskName| b.reads.contains(*name);
+        let is_read = |name: &&ItemId| b.reads.contains(*name);
         for gone in a.reads.iter().filter(|name| !is_read(name)) {
             why.push(format!("{is}: it no longer reads `{gone}`"));
         }
@@ -266,9 +265,8 @@ fn stage_changes(old: &Version, new: &Version, stage: &str) -> Vec<String> {
 
 /// Changes of the stages that pack, by name: splits, tables and texts.
 fn packing(old: &Version, new: &Version) -> Vec<String> {
-    let is_dataset = |(_, it): &(&String, &Value)| it["kind"] == "dataset";
-    let stages: Vec<&String> = new.definitions.iter().filter(is_dataset).map(|(name, _)| name).collect();
-    stages.into_iter().flat_map(|stage| stage_changes(old, new, stage)).collect()
+    let packs = |stage: &&String| StageName::read(stage).recipe_name() == new.published_by;
+    new.definitions.keys().filter(packs).flat_map(|stage| stage_changes(old, new, stage)).collect()
 }
 
 #[cfg(test)]
@@ -276,7 +274,7 @@ mod tests {
     use super::*;
     use crate::version::{Flight, RecipeText, SCHEMA, Task};
     use cosfly_fingerprint::Digest;
-    use cosfly_stage::Blobs;
+    use cosfly_stage::{Blobs, ItemName};
     use serde_json::json;
 
     fn version(name: &str, walkers: u32, weight: f64) -> Version {
@@ -284,7 +282,7 @@ mod tests {
         let key = |text: String| Digest::of(text.as_bytes());
         let (mut tasks, mut flights) = (BTreeMap::new(), BTreeMap::new());
         for id in (0..walkers).map(|number| format!("p{number}")) {
-            let name = |stage: &str| TaskName { stage: StageName::read(stage), item: id.clone() };
+            let name = |stage: &str| ItemId { stage: StageName::read(stage), item: ItemName::own(id.as_str()) };
             let (walk, expert, task) = (name("walkers"), name("expert"), name("dataset.logs"));
             tasks.insert(walk.clone(), Task { key: key(id.clone()), reads: vec![] });
             tasks.insert(task.clone(), Task { key: key(format!("{id} {weight}")), reads: vec![expert.clone()] });
@@ -302,6 +300,7 @@ mod tests {
             sources: BTreeMap::new(),
             content: key(format!("{walkers} {weight}")),
             files: Blobs::default(),
+            published_by: "dataset".into(),
             definitions: BTreeMap::from([
                 ("expert".to_owned(), definition("muco", json!({"weights": {"visibility": weight}}))),
                 ("dataset".to_owned(), definition("dataset", json!({"splits": {"seed": 0}}))),
@@ -351,9 +350,9 @@ mod tests {
         old.definitions.get_mut("expert").unwrap()["parameters"] = json!({"limits": {"yaw_rate_deg_s": null}});
         new.definitions.get_mut("expert").unwrap()["parameters"] = json!({"limits": {"yaw_rate_deg_s": 7.5}});
         new.flights.get_mut("p0").unwrap().log = Digest::of(b"other");
-        let task = TaskName { stage: StageName::read("expert"), item: "p0".into() };
+        let task = ItemId { stage: StageName::read("expert"), item: ItemName::own("p0") };
         new.tasks.get_mut(&task).unwrap().key = Digest::of(b"other");
-        let logs = TaskName { stage: StageName::read("dataset.logs"), item: "p0".into() };
+        let logs = ItemId { stage: StageName::read("dataset.logs"), item: ItemName::own("p0") };
         new.tasks.get_mut(&logs).unwrap().key = Digest::of(b"other log");
         let why = difference(&old, &new).flights["p0"].1.join("; ");
         assert!(why.contains("from its default to `7.5`") && !why.contains("null"), "{why}");

@@ -10,11 +10,9 @@ pub mod difference;
 pub mod record;
 pub mod regenerate;
 pub mod shelf;
-mod task_name;
 pub mod version;
 
 pub use difference::{Bump, Difference, difference};
 pub use record::record;
 pub use regenerate::{Regenerated, regenerate};
-pub use task_name::TaskName;
 pub use version::Version;

@@ -1,24 +1,23 @@
 //! Creates a version of a finished dataset in a store.
 
-use crate::task_name::TaskName;
 use crate::version::{Flight, RecipeText, SCHEMA, Task, Version};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_read::PublishedDataset;
-use cosfly_recipe::{Recipe, RecipeStage};
+use cosfly_recipe::{ItemNames, Recipe, RecipeStage};
 use cosfly_runner::{Plan, plan};
-use cosfly_stage::{Blobs, StageName};
+use cosfly_stage::{Blobs, ItemId, ItemName, StageName, StageRole};
 use cosfly_store::{Store, materialise};
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// Index of the last stage of a recipe that makes a dataset.
 ///
 /// # Errors
 /// `version-no-dataset`.
 pub fn dataset_stage(recipe: &Recipe) -> Result<usize> {
-    let is_dataset = |stage: &RecipeStage| stage.kind == "dataset" && stage.name.part().is_empty();
-    recipe.stages.iter().rposition(is_dataset).ok_or_else(|| {
-        let message = format!("recipe `{}` has no stage that uses `dataset`", recipe.name);
+    recipe.stages.iter().rposition(|stage| stage.has_role(StageRole::Publishes)).ok_or_else(|| {
+        let message = format!("recipe `{}` has no stage that publishes a dataset", recipe.name);
         Diagnostic::new("version-no-dataset", Fault::Recipe, message)
     })
 }
@@ -37,7 +36,7 @@ pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, 
             .hint("run the recipe first, with the same `--set`"));
     };
     let files = (*finished.record.outputs).clone();
-    let logs = logs_of(&recipe.stages[stage]);
+    let logs = Logs::of(recipe, stage);
     let (flights, rejected, content) = flights(store, &files, &logs)?;
     let mut version = Version {
         schema: SCHEMA.to_owned(),
@@ -58,6 +57,7 @@ pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, 
         sources: BTreeMap::new(),
         content,
         files,
+        published_by: recipe.stages[stage].name.recipe_name().to_owned(),
         definitions: BTreeMap::new(),
         tasks: BTreeMap::new(),
         flights,
@@ -82,7 +82,7 @@ pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, 
 type Published = (BTreeMap<String, Flight>, BTreeMap<String, String>, Digest);
 
 /// Flights and rejections, read from a copy of the dataset's tables alone.
-fn flights(store: &Store, files: &Blobs, logs: &StageName) -> Result<Published> {
+fn flights(store: &Store, files: &Blobs, logs: &Logs) -> Result<Published> {
     let refused = |error: std::io::Error| Diagnostic::io("make a folder for the table of flights", &error);
     let scratch = tempfile::tempdir().map_err(refused)?;
     let folder = scratch.path().join("tables");
@@ -92,28 +92,49 @@ fn flights(store: &Store, files: &Blobs, logs: &StageName) -> Result<Published> 
     let published = PublishedDataset::open(&folder)?;
     let flight = |flight: &cosfly_read::PublishedFlight| {
         let log = files.get(&flight.mcap_path).map_or(Digest([0; 32]), |blob| blob.digest);
-        let task = TaskName { stage: logs.clone(), item: flight.trajectory_id.clone() };
+        let task = ItemId { stage: logs.stage.clone(), item: logs.item(&flight.trajectory_id) };
         (flight.trajectory_id.clone(), Flight { split: flight.split.clone(), log, task })
     };
     let flights = published.flights().iter().map(flight).collect();
     Ok((flights, published.rejections()?, cosfly_store::content_of(files)))
 }
 
-/// All tasks behind the named items of the stage that writes logs.
-fn tasks<'a>(plan: &Plan<'_>, logs: &StageName, items: impl Iterator<Item = &'a String>) -> BTreeMap<TaskName, Task> {
-    let wanted: BTreeSet<&str> = items.map(String::as_str).collect();
-    let Some(last) = plan.recipe.position(logs.as_str()) else { return BTreeMap::new() };
-    let places = plan.recipe.stages[last].items.iter().enumerate();
-    let first = places.filter(|(_, item)| wanted.contains(&*item.to_string())).map(|(item, _)| (last, item));
-    let mut open: Vec<(usize, usize)> = first.collect();
+/// Items of the stage that writes the logs, by the ids that they are published under.
+struct Logs {
+    stage: StageName,
+    position: Option<usize>,
+    items: BTreeMap<String, usize>,
+    names: ItemNames,
+}
+
+impl Logs {
+    /// Of the recipe's dataset stage number `dataset`.
+    fn of(recipe: &Recipe, dataset: usize) -> Self {
+        let stage = logs_of(&recipe.stages[dataset]);
+        let position = recipe.position(stage.as_str());
+        let names = position.map_or_else(ItemNames::default, |at| Arc::clone(&recipe.stages[at].items));
+        let items = names.iter().enumerate().map(|(place, item)| (item.to_string(), place)).collect();
+        Self { stage, position, items, names }
+    }
+
+    /// Name of the item that is published as `id`.
+    fn item(&self, id: &str) -> ItemName {
+        self.items.get(id).map_or_else(|| ItemName::own(id), |place| self.names[*place].clone())
+    }
+}
+
+/// All tasks behind the items that are published as `ids`.
+fn tasks<'a>(plan: &Plan<'_>, logs: &Logs, ids: impl Iterator<Item = &'a String>) -> BTreeMap<ItemId, Task> {
+    let Some(last) = logs.position else { return BTreeMap::new() };
+    let mut open: Vec<(usize, usize)> = ids.filter_map(|id| Some((last, *logs.items.get(id)?))).collect();
     let mut seen: BTreeSet<(usize, usize)> = open.iter().copied().collect();
-    let name = |(stage, item): (usize, usize)| TaskName::from(&plan.recipe.id(stage, item));
+    let id = |(stage, item): (usize, usize)| plan.recipe.id(stage, item);
     let mut tasks = BTreeMap::new();
     while let Some((stage, item)) = open.pop() {
         let read = reads(plan.recipe, stage, item);
         open.extend(read.iter().filter(|task| seen.insert(**task)));
-        let reads = read.iter().map(|task| name(*task)).collect();
-        tasks.insert(name((stage, item)), Task { key: plan.stages[stage].plans[item], reads });
+        let reads = read.iter().map(|task| id(*task)).collect();
+        tasks.insert(id((stage, item)), Task { key: plan.stages[stage].plans[item], reads });
     }
     tasks
 }

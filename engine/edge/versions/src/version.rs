@@ -1,15 +1,14 @@
 //! Manifest of a version of a dataset: hashes of all files, the exact recipe, the tool, and the origin of each flight.
 
-use crate::task_name::TaskName;
 use cosfly_fingerprint::Digest;
-use cosfly_stage::Blobs;
-use serde::{Deserialize, Serialize};
+use cosfly_stage::{Blobs, ItemId};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Format of the manifest.
-pub const SCHEMA: &str = "cosfly.version/1";
+pub const SCHEMA: &str = "cosfly.version/2";
 
 /// A named version. Its content does not depend on when or where it was named, except for the recipe's path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,10 +32,13 @@ pub struct Version {
     pub content: Digest,
     /// All files of the dataset by their paths.
     pub files: Blobs,
+    /// Stage of the recipe that published the files.
+    pub published_by: String,
     /// Definitions by stage: kind, version, all parameters with their defaults, digests of files.
     pub definitions: BTreeMap<String, Value>,
-    /// All tasks behind the flights.
-    pub tasks: BTreeMap<TaskName, Task>,
+    /// All tasks behind the flights; in the manifest, a list of names and tasks.
+    #[serde(serialize_with = "as_list", deserialize_with = "from_list")]
+    pub tasks: BTreeMap<ItemId, Task>,
     /// Published flights by their ids.
     pub flights: BTreeMap<String, Flight>,
     /// Items without a flight, with their reasons.
@@ -64,7 +66,7 @@ pub struct Task {
     /// Key of the task: equal keys give equal bytes.
     pub key: Digest,
     /// Tasks that the task reads.
-    pub reads: Vec<TaskName>,
+    pub reads: Vec<ItemId>,
 }
 
 /// A published flight.
@@ -76,7 +78,15 @@ pub struct Flight {
     /// BLAKE3 of the flight's log.
     pub log: Digest,
     /// Task that wrote the log.
-    pub task: TaskName,
+    pub task: ItemId,
+}
+
+fn as_list<S: Serializer>(tasks: &BTreeMap<ItemId, Task>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(tasks)
+}
+
+fn from_list<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<ItemId, Task>, D::Error> {
+    Vec::deserialize(deserializer).map(|tasks| tasks.into_iter().collect())
 }
 
 impl Version {

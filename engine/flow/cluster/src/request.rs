@@ -2,6 +2,7 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_recipe::{Recipe, RecipeStage};
+use cosfly_stage::Resources;
 
 const MOST_CPUS: u64 = 1024;
 const MOST_BATCH: u64 = 10_000;
@@ -102,19 +103,15 @@ fn with_unit(text: &str, units: &[(&str, u64)]) -> Option<u64> {
     number.trim().parse::<u64>().ok()?.checked_mul(*factor)
 }
 
-/// Requests of all stages of a recipe, in its order: those of their kinds, with the changes in the order given.
+/// Requests of all stages of a recipe, in its order: what the stages declare, with the changes in the order given.
 ///
 /// # Errors
 /// `request-unknown-stage`.
-pub fn requests_of(
-    recipe: &Recipe,
-    of_kind: impl Fn(&str) -> Request,
-    changes: &[RequestChange],
-) -> Result<Vec<Request>> {
+pub fn requests_of(recipe: &Recipe, changes: &[RequestChange]) -> Result<Vec<Request>> {
     let of_stage = |stage: &RecipeStage| {
-        let request = of_kind(&stage.kind);
+        let Resources { memory_mib, batch } = stage.stage.properties().resources;
         let most = u32::try_from(stage.items.len() / LEAST_LEAVES).unwrap_or(u32::MAX).max(1);
-        Request { batch: request.batch.min(most), ..request }
+        Request { memory_mib, batch: batch.min(most), ..Request::default() }
     };
     let mut requests: Vec<Request> = recipe.stages.iter().map(of_stage).collect();
     for change in changes {

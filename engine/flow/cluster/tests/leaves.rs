@@ -25,7 +25,7 @@ fn recipe() -> Recipe {
 fn requests(recipe: &Recipe) -> Vec<Request> {
     let changes = ["walks:batch=2,time=1h,memory=2GB", "expert:cpus=4,gpus=1,batch=2"].map(RequestChange::read);
     let changes: Vec<RequestChange> = changes.into_iter().map(Result::unwrap).collect();
-    requests_of(recipe, |_| Request::default(), &changes).unwrap()
+    requests_of(recipe, &changes).unwrap()
 }
 
 fn store() -> (tempfile::TempDir, Store) {
@@ -120,7 +120,7 @@ fn cheap_stages_whose_items_read_each_other_share_commands() {
     ];
     let recipe = toy_recipe("toys", 7, &toys).unwrap();
     let shape_of = |change: &str| {
-        let requests = requests_of(&recipe, |_| Request::default(), &[RequestChange::read(change).unwrap()]).unwrap();
+        let requests = requests_of(&recipe, &[RequestChange::read(change).unwrap()]).unwrap();
         let leaves = leaves(&plan(&recipe, &store).unwrap(), &BTreeSet::new(), |_| false, &requests);
         assert_well_formed(&leaves);
         leaves
@@ -226,7 +226,7 @@ fn json_lines_name_command_dependencies_and_resources() {
 #[test]
 fn a_request_for_an_unknown_stage_is_refused_with_the_known_ones() {
     let change = RequestChange::read("film:cpus=2").unwrap();
-    let refusal = requests_of(&recipe(), |_| Request::default(), &[change]).unwrap_err();
+    let refusal = requests_of(&recipe(), &[change]).unwrap_err();
     assert_eq!(refusal.code, "request-unknown-stage");
     assert!(refusal.hints[0].contains("`critics`"), "{refusal:?}");
 }

@@ -1,7 +1,7 @@
 //! Builds the parts of a stage from its kind and parameters.
 
 use crate::document::{Node, Place, Problems, Texts, Value, list};
-use crate::outline::StageOutline;
+use crate::outline::{FILE_KIND, StageOutline};
 use crate::parameters::{Subject, allowed_values, check_parameters, resolve};
 use cosfly_diagnose::{Diagnostic, ParameterError, nearest_name};
 use cosfly_stage::{InputPort, PortSource, Registry, Stage, StageKind};
@@ -83,7 +83,7 @@ impl<'a> Builder<'a> {
     fn unknown_kind(&self, name: &str, place: &Place) -> Box<Diagnostic> {
         let known = || self.registry.iter().map(StageKind::name);
         let problem = self.texts.problem("recipe-unknown-kind", place, format!("there is no stage kind `{name}`"));
-        if name == "wasm" {
+        if name == FILE_KIND {
             return problem
                 .hint("this cosfly was built without plugins; the feature `plugins` adds them")
                 .hint(format!("built-in stage kinds: {}", list(known(), usize::MAX)));

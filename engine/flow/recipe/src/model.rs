@@ -1,6 +1,6 @@
 //! The checked recipe: connected stages in dependency order, with their items and files.
 
-use cosfly_stage::{Fan, InputPort, ItemId, ItemName, Stage, StageName};
+use cosfly_stage::{Fan, InputPort, ItemId, ItemName, Stage, StageName, StageRole};
 use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -98,6 +98,18 @@ impl RecipeStage {
     /// Connection of port `name`.
     pub fn connection(&self, name: &str) -> Option<&Connection> {
         self.connections.iter().find(|connection| connection.port.name == name)
+    }
+
+    /// Whether the stage has the role `role`.
+    pub fn has_role(&self, role: StageRole) -> bool {
+        self.stage.properties().role == role
+    }
+
+    /// Port through which a stage of the role [`StageRole::Changes`] reads what it changes.
+    pub fn changed(&self) -> Option<&Connection> {
+        let artifact = self.stage.properties().artifact;
+        let is_changed = |it: &&Connection| it.port.fan == Fan::Each && it.port.artifact == artifact;
+        self.connections.iter().find(is_changed).filter(|_| self.has_role(StageRole::Changes))
     }
 
     /// Items that the stage's item number `item` reads, through all ports.

@@ -1,7 +1,7 @@
 //! Plan documents: canonical JSON whose digest is the key of a task before it runs, and the action key afterwards.
 //!
-//! A *definition* (`cosfly.stage/1`) is shared by all items of a stage. A *plan* (`cosfly.plan/1`) names the definition,
-//! the item and, by their plan digests, the tasks that are read. A *gather* (`cosfly.gather/1`) lists the items at a port
+//! A *definition* (`cosfly.stage/1`) is shared by all items of a stage. A *plan* (`cosfly.plan/2`) names the definition,
+//! the item and, by their plan digests, the tasks that are read. A *gather* (`cosfly.gather/2`) lists the items at a port
 //! that takes all of them, once for all tasks that read it. The *action key* is taken over everything that a stage can
 //! see while it runs, with inputs as contents; it is never stored as a document.
 
@@ -13,8 +13,8 @@ use std::collections::BTreeMap;
 use std::fmt::{Display, Write as _};
 
 pub(crate) const DEFINITION_SCHEMA: &str = "cosfly.stage/1";
-pub(crate) const PLAN_SCHEMA: &str = "cosfly.plan/1";
-const GATHER_SCHEMA: &str = "cosfly.gather/1";
+pub(crate) const PLAN_SCHEMA: &str = "cosfly.plan/2";
+const GATHER_SCHEMA: &str = "cosfly.gather/2";
 const ACTION_SCHEMA: &str = "cosfly.action/1";
 
 /// Document that all items of a stage share.
@@ -172,7 +172,7 @@ pub(crate) fn plan_document<'a, I: Iterator<Item = PlannedInput<'a>>>(
         }
     }
     text.push_str("},\"item\":");
-    push_quoted(&mut text, item);
+    push_name(&mut text, item);
     let _ = write!(text, ",\"schema\":\"{PLAN_SCHEMA}\"}}");
     text
 }
@@ -187,9 +187,9 @@ fn push_list<'a>(text: &mut String, inputs: impl Iterator<Item = PlannedInput<'a
     text.push('[');
     for (index, input) in inputs.enumerate() {
         let _ = write!(text, "{}{{\"as\":", comma(index));
-        push_quoted(text, input.name);
+        push_name(text, input.name);
         text.push_str(",\"item\":");
-        push_quoted(text, input.item);
+        push_name(text, input.item);
         text.push_str(",\"plan\":\"");
         push_digest(text, &input.plan);
         text.push_str("\",\"stage\":");
@@ -212,6 +212,11 @@ fn push_digest(text: &mut String, digest: &Digest) {
     }
 }
 
+/// Appends the structure of an item's name.
+fn push_name(text: &mut String, name: &ItemName) {
+    text.push_str(&serde_json::to_string(name).expect("a name is JSON"));
+}
+
 /// Appends a value as a JSON string. Names are almost always plain, and there are many of them.
 fn push_quoted(text: &mut String, value: &(impl Display + ?Sized)) {
     text.push('"');
@@ -231,9 +236,9 @@ fn push_quoted(text: &mut String, value: &(impl Display + ?Sized)) {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Deserialize)]
 pub(crate) struct StoredInput {
     #[serde(rename = "as")]
-    pub(crate) name: String,
-    pub(crate) stage: String,
-    pub(crate) item: String,
+    pub(crate) name: ItemName,
+    pub(crate) stage: StageName,
+    pub(crate) item: ItemName,
     pub(crate) plan: Digest,
 }
 
@@ -241,7 +246,7 @@ pub(crate) struct StoredInput {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StoredPlan {
     pub(crate) definition: Digest,
-    pub(crate) item: String,
+    pub(crate) item: ItemName,
     pub(crate) inputs: BTreeMap<String, Vec<StoredInput>>,
 }
 
@@ -262,7 +267,7 @@ impl StoredPlan {
         }
         Some(Self {
             definition: value["definition"].as_str()?.parse().ok()?,
-            item: value["item"].as_str()?.to_owned(),
+            item: serde_json::from_value(value["item"].take()).ok()?,
             inputs,
         })
     }
@@ -293,9 +298,9 @@ mod tests {
         let documents = BTreeMap::from([(Digest::of(b"it"), text), (*gather, json)]);
         let stored = StoredPlan::read(&Digest::of(b"it"), |digest| serde_json::from_str(documents.get(digest)?).ok());
         let stored = stored.unwrap();
-        assert_eq!((stored.definition, stored.item.as_str()), (definition, "é\\"));
+        assert_eq!((stored.definition, stored.item), (definition, ItemName::own("é\\")));
         assert_eq!(stored.inputs["all"].len(), 2);
-        assert_eq!(stored.inputs["path"][0].item, "p\"0\n");
+        assert_eq!(stored.inputs["path"][0].item, item);
         assert_eq!(stored.inputs["town"][0].plan, Digest::of(b"upstream"));
     }
 }

@@ -7,7 +7,7 @@ use crate::planning::plan;
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Arrival, Recipe};
-use cosfly_stage::ItemId;
+use cosfly_stage::{ItemId, ItemName, StageName};
 use cosfly_store::Store;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -150,10 +150,10 @@ fn compare(
     changes.extend(wiring_changes(&before.inputs, &now));
     let mut changed = now.iter().flat_map(|(port, inputs)| {
         let before = before.inputs.get(*port).map_or(&[][..], Vec::as_slice);
-        let by_name: BTreeMap<&str, &StoredInput> = before.iter().map(|input| (input.name.as_str(), input)).collect();
+        let by_name: BTreeMap<&ItemName, &StoredInput> = before.iter().map(|input| (&input.name, input)).collect();
         inputs.iter().filter_map(move |(arrival, input)| {
             let is_same = |old: &&&StoredInput| old.stage == input.stage && old.item == input.item;
-            let old = by_name.get(input.name.as_str()).filter(is_same)?;
+            let old = by_name.get(&input.name).filter(is_same)?;
             (old.plan != input.plan).then_some((arrival.stage, arrival.item, old.plan))
         })
     });
@@ -172,9 +172,9 @@ fn inputs_of<'p>(plan: &'p Plan<'_>, stage: usize, item: usize) -> InputsNow<'p>
     let stored = |arrival: &'p Arrival| {
         let upstream = &plan.recipe.stages[arrival.stage];
         let input = StoredInput {
-            name: arrival.name.to_string(),
-            stage: upstream.name.to_string(),
-            item: upstream.items[arrival.item].to_string(),
+            name: arrival.name.clone(),
+            stage: upstream.name.clone(),
+            item: upstream.items[arrival.item].clone(),
             plan: plan.stages[arrival.stage].plans[arrival.item],
         };
         (arrival, input)
@@ -196,7 +196,7 @@ fn wiring_changes(old: &BTreeMap<String, Vec<StoredInput>>, new: &InputsNow<'_>)
             continue;
         }
         let names = |inputs: &mut dyn Iterator<Item = &StoredInput>| -> BTreeSet<String> {
-            inputs.map(|input| input.name.clone()).collect()
+            inputs.map(|input| input.name.to_string()).collect()
         };
         let (before, now) = (names(&mut before.iter()), names(&mut now.iter().copied()));
         if before != now {
@@ -210,11 +210,11 @@ fn wiring_changes(old: &BTreeMap<String, Vec<StoredInput>>, new: &InputsNow<'_>)
 
 /// Stages of `inputs`, each once, in their order.
 fn stages_of<'i>(inputs: impl Iterator<Item = &'i StoredInput>) -> Vec<String> {
-    let mut stages: Vec<String> = Vec::new();
+    let mut stages: Vec<&StageName> = Vec::new();
     for input in inputs {
-        if stages.last() != Some(&input.stage) && !stages.contains(&input.stage) {
-            stages.push(input.stage.clone());
+        if stages.last() != Some(&&input.stage) && !stages.contains(&&input.stage) {
+            stages.push(&input.stage);
         }
     }
-    stages
+    stages.into_iter().map(StageName::to_string).collect()
 }

@@ -13,7 +13,6 @@ mod explain;
 mod inputs;
 mod intermediates;
 mod leaf;
-mod names;
 mod options;
 mod plan;
 mod planning;

@@ -4,13 +4,12 @@ use crate::change::definition_changes;
 use crate::document::{DEFINITION_SCHEMA, Definition, StoredPlan};
 use crate::inputs::seen_by;
 use crate::leaf::{Ended, Settlement, Task, execute};
-use crate::names::NameReader;
 use crate::options::RunOptions;
 use crate::sources::{HashedSource, SourceReader};
 use crate::workers::thread_pool;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::{Digest, canonical_json};
-use cosfly_stage::{Artifact, ItemId, ItemName, Ports, Registry, Stage, StageName, Work};
+use cosfly_stage::{Artifact, ItemId, Ports, Registry, Stage, StageName, Work};
 use cosfly_store::{Finished, Store};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -46,7 +45,6 @@ pub fn run_tasks(
         options,
         pool: thread_pool(options.jobs)?,
         definitions: BTreeMap::new(),
-        names: NameReader::new(store),
         settled: Vec::new(),
         since: Instant::now(),
         ends: vec![Ok(Work::Cached); plans.len()],
@@ -92,7 +90,6 @@ struct Tasks<'s> {
     options: &'s RunOptions,
     pool: rayon::ThreadPool,
     definitions: BTreeMap<Digest, Arc<StoredStage>>,
-    names: NameReader<'s>,
     settled: Vec<Settled>,
     /// Time of the last publication.
     since: Instant,
@@ -138,18 +135,17 @@ impl Tasks<'_> {
         let document = canonical_json(&store.document(plan).ok_or_else(|| unknown(plan))?);
         let of = self.definition(plan, &stored.definition)?;
         let missing = || input_missing(&of.name, &stored.item);
-        let item = self.names.of_task(plan).ok_or_else(missing)?;
         // What it reads may be among the tasks before it, and not be published yet.
         let settled = &self.settled;
         let finished = |plan: &Digest| {
             let before = settled.iter().rev().find(|it| it.plan == *plan);
             before.map(|it| it.settlement.finished.clone()).or_else(|| store.finished(plan))
         };
-        let ports = read_inputs(&finished, &*of.stage, &stored, &item, &mut self.names)?.ok_or_else(missing)?;
+        let ports = read_inputs(&finished, &*of.stage, &stored)?;
         let task = Task {
             plan: *plan,
             stage: &*of.stage,
-            id: ItemId { stage: of.name.clone(), item },
+            id: ItemId { stage: of.name.clone(), item: stored.item.clone() },
             recipe_seed: of.recipe_seed,
             definition: &of.definition,
             sources: &of.sources,
@@ -217,14 +213,12 @@ fn read_sources(build: &Value) -> Result<Vec<HashedSource>> {
     sources.iter().map(|source| reader.read(&text(source, "parameter"), Path::new(&text(source, "path")))).collect()
 }
 
-/// Inputs by port; `None` where a document behind the name of an input is missing or damaged.
+/// Inputs by port.
 fn read_inputs(
     finished: &impl Fn(&Digest) -> Option<Finished>,
     stage: &dyn Stage,
     stored: &StoredPlan,
-    reader: &ItemName,
-    names: &mut NameReader<'_>,
-) -> Result<Option<Ports>> {
+) -> Result<Ports> {
     let declared = &stage.properties().inputs;
     if let Some(unknown) = stored.inputs.keys().find(|name| declared.iter().all(|port| port.name != *name)) {
         let message = format!("`{}` has no input `{unknown}` in this version of cosfly", stage.properties().kind);
@@ -235,15 +229,14 @@ fn read_inputs(
         let Some(inputs) = stored.inputs.get(port.name) else { continue };
         let mut artifacts = Vec::with_capacity(inputs.len());
         for input in inputs {
-            let upstream = StageName::read(&input.stage);
-            let finished = finished(&input.plan).ok_or_else(|| input_missing(&upstream, &input.item))?;
-            let (Some(item), Some(name)) = (names.of_task(&input.plan), names.at_port(input)) else { return Ok(None) };
-            let blobs = seen_by(reader, port.sees, Arc::clone(&finished.record.outputs));
-            artifacts.push(Artifact { id: ItemId { stage: upstream, item }, name, blobs });
+            let id = ItemId { stage: input.stage.clone(), item: input.item.clone() };
+            let finished = finished(&input.plan).ok_or_else(|| input_missing(&id.stage, &id.item))?;
+            let blobs = seen_by(&stored.item, port.sees, Arc::clone(&finished.record.outputs));
+            artifacts.push(Artifact { id, name: input.name.clone(), blobs });
         }
         ports.insert(port.name, artifacts.into());
     }
-    Ok(Some(ports))
+    Ok(ports)
 }
 
 fn input_missing(stage: &StageName, item: &dyn Display) -> Box<Diagnostic> {

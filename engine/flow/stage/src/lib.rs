@@ -5,6 +5,7 @@
 //! * [`StageName`], [`ItemName`], [`ItemId`]: identities of stages and items.
 //! * [`Inputs`], [`TaskContext`], [`cosfly_blobs::OutputSink`]: everything that a stage may access while it runs.
 //! * [`Answers`]: answers of services outside, kept because nobody can compute them again.
+//! * [`parameters`]: parameters between JSON and config structs, for [`StageKind`]s.
 //! * [`RunEvent`]: the events of a run.
 
 mod answers;
@@ -13,6 +14,7 @@ mod blobs;
 mod event;
 mod kind;
 mod name;
+pub mod parameters;
 mod properties;
 mod stage;
 
@@ -23,6 +25,7 @@ pub use event::{RunEvent, Work};
 pub use kind::{Registry, StageKind, StagePart};
 pub use name::{ItemId, ItemName, StageName};
 pub use properties::{
-    Fan, InputPort, ItemRule, PortSource, ReadSchema, Sees, Settle, Source, SourceCheck, StageProperties, Takes,
+    Fan, InputPort, ItemRule, PortSource, ReadSchema, Resources, Sees, Settle, Source, SourceCheck, StageProperties,
+    StageRole, Takes,
 };
 pub use stage::{Produced, Stage, TaskContext};

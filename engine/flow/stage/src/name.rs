@@ -1,7 +1,14 @@
-//! Identity of stages and items. Names are built here and compared as values; their text is never split.
+//! Identity of stages and items. Names are built here, compared as values and stored as structure; the text of an item's name
+//! is never split.
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
+use std::cell::RefCell;
 use std::fmt;
 use std::sync::Arc;
+
+/// Most names of stages that a thread remembers while it reads documents.
+const MOST_REMEMBERED: usize = 64;
 
 /// Name of a stage of a recipe, such as `walkers`, or of one part of it, such as `dataset.logs`.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -17,19 +24,26 @@ pub struct StageName {
 /// * `expert-p00003` at a port that names items after their stages,
 /// * `expert-p00003-HardRainNoon` for a variant of it.
 ///
-/// Clones share their memory.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+/// Clones share their memory. Documents hold the structure, such as `{"of":["expert",{"numbered":["p",3]}]}`.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct ItemName(Form);
 
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 enum Form {
+    #[serde(rename = "own")]
     Own(Arc<str>),
+    #[serde(rename = "numbered")]
+    Numbered(Arc<str>, u64),
+    #[serde(rename = "of")]
     OfStage(Arc<(StageName, ItemName)>),
+    #[serde(rename = "variant")]
     Variant(Arc<(ItemName, Arc<str>)>),
 }
 
 /// Identity of an item in a recipe, `expert/p00003` as text.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ItemId {
     /// Stage that makes the item.
     pub stage: StageName,
@@ -44,9 +58,21 @@ impl StageName {
         Self { text, recipe_bytes: recipe_name.len() }
     }
 
-    /// Parses a name from a stored document. Names in recipes have no dot.
+    /// Parses a name from a stored document. Names in recipes have no dot. A document has hundreds of thousands of names of a
+    /// few stages: equal ones share their memory.
     pub fn read(text: &str) -> Self {
-        Self { text: text.into(), recipe_bytes: text.find('.').unwrap_or(text.len()) }
+        thread_local! {
+            static REMEMBERED: RefCell<Vec<StageName>> = const { RefCell::new(Vec::new()) };
+        }
+        REMEMBERED.with_borrow_mut(|remembered| {
+            if let Some(name) = remembered.iter().find(|name| name.as_str() == text) {
+                return name.clone();
+            }
+            let name = Self { text: text.into(), recipe_bytes: text.find('.').unwrap_or(text.len()) };
+            remembered.truncate(MOST_REMEMBERED - 1);
+            remembered.push(name.clone());
+            name
+        })
     }
 
     /// The whole name.
@@ -73,7 +99,7 @@ impl ItemName {
 
     /// Name of item number `number` of a stage that counts its items: `<prefix>00003`.
     pub fn numbered(prefix: &str, number: u64) -> Self {
-        Self::own(format!("{prefix}{number:05}"))
+        Self(Form::Numbered(prefix.into(), number))
     }
 
     /// Name of an item in the stage where it begins, from its text.
@@ -83,9 +109,12 @@ impl ItemName {
 
     /// Number of an item of a stage that counts its items (see [`Self::numbered`]).
     pub fn number(&self) -> Option<u64> {
-        let text = self.origin().1;
-        let digits = text.trim_start_matches(|letter: char| !letter.is_ascii_digit());
-        digits.parse().ok()
+        match &self.0 {
+            Form::Own(_) => None,
+            Form::Numbered(_, number) => Some(*number),
+            Form::OfStage(named) => named.1.number(),
+            Form::Variant(variant) => variant.0.number(),
+        }
     }
 
     /// Name of this item of `stage` at a port that names items after their stages.
@@ -101,7 +130,7 @@ impl ItemName {
     /// Stage that the item is named after; the last one where there are several.
     pub fn stage(&self) -> Option<&StageName> {
         match &self.0 {
-            Form::Own(_) => None,
+            Form::Own(_) | Form::Numbered(..) => None,
             Form::OfStage(named) => Some(&named.0),
             Form::Variant(variant) => variant.0.stage(),
         }
@@ -110,7 +139,7 @@ impl ItemName {
     /// Variant of the item; the last one where there are several.
     pub fn variant(&self) -> Option<&str> {
         match &self.0 {
-            Form::Own(_) => None,
+            Form::Own(_) | Form::Numbered(..) => None,
             Form::OfStage(named) => named.1.variant(),
             Form::Variant(variant) => Some(&variant.1),
         }
@@ -118,11 +147,11 @@ impl ItemName {
 
     /// Names of the stages that the item is named after, the last one first, and its name in the stage where it began,
     /// without variants.
-    pub fn origin(&self) -> (Vec<&str>, &str) {
+    pub fn origin(&self) -> (Vec<&str>, Self) {
         let (mut stages, mut form) = (vec![], self);
         loop {
             match &form.0 {
-                Form::Own(text) => return (stages, text),
+                Form::Own(_) | Form::Numbered(..) => return (stages, form.clone()),
                 Form::OfStage(named) => {
                     stages.push(named.0.as_str());
                     form = &named.1;
@@ -135,7 +164,7 @@ impl ItemName {
     /// Name of the item that this one is a variant of, without its last variant.
     pub fn without_variant(&self) -> Option<Self> {
         match &self.0 {
-            Form::Own(_) => None,
+            Form::Own(_) | Form::Numbered(..) => None,
             Form::OfStage(named) => Some(named.1.without_variant()?.of_stage(&named.0)),
             Form::Variant(variant) => Some(variant.0.clone()),
         }
@@ -152,6 +181,7 @@ impl fmt::Display for ItemName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.0 {
             Form::Own(text) => f.write_str(text),
+            Form::Numbered(prefix, number) => write!(f, "{prefix}{number:05}"),
             Form::OfStage(named) => write!(f, "{}-{}", named.0, named.1),
             Form::Variant(variant) => write!(f, "{}-{}", variant.0, variant.1),
         }
@@ -182,6 +212,18 @@ impl fmt::Debug for ItemId {
     }
 }
 
+impl Serialize for StageName {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.text)
+    }
+}
+
+impl<'de> Deserialize<'de> for StageName {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Cow::<'de, str>::deserialize(deserializer).map(|text| Self::read(&text))
+    }
+}
+
 impl PartialEq<str> for StageName {
     fn eq(&self, text: &str) -> bool {
         &*self.text == text
@@ -206,6 +248,18 @@ mod tests {
         assert_eq!(gathered.without_variant().unwrap().to_string(), "extras-expert-p00003");
         assert_eq!(walker.of_stage(&expert).without_variant(), None);
         assert_eq!(ItemId { stage: expert, item: walker }.to_string(), "expert/p00003");
+    }
+
+    #[test]
+    fn names_are_stored_as_structure() {
+        let seen = ItemName::numbered("p", 3).of_stage(&StageName::new("expert", "")).with_variant("Noon");
+        let id = ItemId { stage: StageName::new("dataset", "logs"), item: seen };
+        let text = serde_json::to_string(&id).expect("JSON");
+        let stored = r#"{"variant":[{"of":["expert",{"numbered":["p",3]}]},"Noon"]}"#;
+        assert_eq!(text, format!(r#"{{"stage":"dataset.logs","item":{stored}}}"#));
+        assert_eq!(serde_json::from_str::<ItemId>(&text).expect("an id"), id);
+        let only = serde_json::to_string(&ItemName::only()).expect("JSON");
+        assert_eq!((only.as_str(), serde_json::from_str(&only).ok()), (r#"{"own":"all"}"#, Some(ItemName::only())));
     }
 
     #[test]

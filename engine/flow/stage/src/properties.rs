@@ -33,6 +33,44 @@ pub struct StageProperties {
     pub intermediate: &'static [&'static str],
     /// Requests that an item may send to a service outside, for `cosfly plan`.
     pub asks: Option<Asks>,
+    /// Role of the stage; not part of the key.
+    pub role: StageRole,
+    /// Resources of one item, for engines on other machines; not part of the key.
+    pub resources: Resources,
+}
+
+/// Role of a stage in a recipe: other tools find stages by it, never by the names of kinds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StageRole {
+    /// Makes the world, or bodies that move in it.
+    World,
+    /// Plans flights.
+    Plans,
+    /// Changes, judges or labels artifacts: its output is of the kind that it reads at a [`Fan::Each`] port.
+    Changes,
+    /// Makes pictures of flights.
+    Films,
+    /// Makes texts, tables or files about flights.
+    Speaks,
+    /// Publishes the result of a recipe.
+    Publishes,
+    /// Serves the other parts of its stage only.
+    Serves,
+}
+
+/// Resources of one item, as measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Resources {
+    /// Memory, MiB.
+    pub memory_mib: u64,
+    /// Items that share a command: starting one costs about as much as 20 cheap items.
+    pub batch: u32,
+}
+
+impl Default for Resources {
+    fn default() -> Self {
+        Self { memory_mib: 1024, batch: 1 }
+    }
 }
 
 /// A file that a stage reads from outside the store.

@@ -44,7 +44,7 @@ pub fn bench_cluster(
     for stage in recipe.stages.iter().skip(1).step_by(2).filter(|_| apart) {
         changes.push(RequestChange::read(&format!("{}:batch={}", stage.name, batch + 1))?);
     }
-    let requests = requests_of(&recipe, |_| cosfly_cluster::Request::default(), &changes)?;
+    let requests = requests_of(&recipe, &changes)?;
     let hq = Hq::connect()?;
     let store = Store::open(folder)?;
     let root = std::path::absolute(folder).map_err(|error| Diagnostic::io("find the store", &error))?;

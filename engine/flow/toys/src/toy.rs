@@ -5,8 +5,8 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Arrival, Connection, ItemNames, Recipe, RecipeStage, SourceFile};
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemName, ItemRule, PortSource, Produced, Sees, Source, Stage, StageName, StageProperties,
-    Takes, TaskContext,
+    Fan, InputPort, Inputs, ItemName, ItemRule, PortSource, Produced, Resources, Sees, Source, Stage, StageName,
+    StageProperties, StageRole, Takes, TaskContext,
 };
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -184,6 +184,8 @@ fn toy_stage(toy: &Toy, earlier: &[RecipeStage]) -> Result<RecipeStage> {
         files_per_item: 1,
         intermediate: if toy.packs { &[PACK] } else { &[] },
         asks: None,
+        role: StageRole::Changes,
+        resources: Resources { memory_mib: 0, batch: 1 },
     };
     let files = sources.map(|(parameter, path)| SourceFile { parameter, path });
     Ok(RecipeStage {

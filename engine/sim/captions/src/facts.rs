@@ -219,6 +219,8 @@ pub(crate) mod test_flights {
             visibility,
             clearance_m,
             terms: vec![],
+            coverage: vec![],
+            labels: vec![],
             convergence: vec![],
             certificate: Certificate {
                 limits: Limits { clearance_m: 1.5, speed_mps: 12.0, acceleration_mps2: 6.0, ..Limits::default() },

@@ -114,6 +114,11 @@ impl Default for InspectConfig {
     }
 }
 
+impl InspectConfig {
+    /// Parameters that no single flight depends on; not in its key.
+    pub const NOT_IN_KEY: &[&str] = &["count"];
+}
+
 impl Default for PatrolConfig {
     fn default() -> Self {
         Self {
@@ -126,6 +131,11 @@ impl Default for PatrolConfig {
             lead_m: 15.0,
         }
     }
+}
+
+impl PatrolConfig {
+    /// Parameters that no single flight depends on; not in its key.
+    pub const NOT_IN_KEY: &[&str] = &["count"];
 }
 
 /// Frames are this far apart where nobody walks, seconds.

@@ -147,6 +147,9 @@ impl Default for RadiusRange {
 }
 
 impl PedestrianConfig {
+    /// Parameters that no single walk depends on; not in its key.
+    pub const NOT_IN_KEY: &[&str] = &["count"];
+
     /// Checks what the schema cannot say (order of limits) and, for callers without a schema, finiteness.
     pub fn check(&self) -> Result<(), PedestrianConfigRule> {
         let numbers: [(&'static [&'static str], f64, f64, f64); 17] = [

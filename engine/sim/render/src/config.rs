@@ -137,6 +137,9 @@ impl fmt::Display for ConfigProblem {
 impl std::error::Error for ConfigProblem {}
 
 impl RenderConfig {
+    /// Parameters that no single film depends on where weathers are paired: it is named after its own; not in its key.
+    pub const NOT_IN_KEY: &[&str] = &["weathers"];
+
     /// Checks every value.
     ///
     /// # Errors

@@ -2,7 +2,8 @@
 
 use super::column::{ColumnKind, DeclaredColumn, Values};
 use crate::log::messages::edges_px;
-use crate::{CaptionRecord, RenderedTrajectory, flight_labels};
+use crate::published_costs::costs;
+use crate::{CaptionRecord, RenderedTrajectory};
 use arrow_array::{Array, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchOptions};
 use arrow_ipc::writer::StreamWriter;
 use arrow_schema::{DataType, Field, Schema};
@@ -143,11 +144,11 @@ impl FlightColumns {
             Values::Reals(flight.clearance_m.clone()),
         ];
         let mut columns = named(&OF_FLIGHTS, values.into());
-        for term in flight_labels::costs(flight) {
-            columns.push((format!("cost_{}", term.name), Values::Reals(term.per_frame.clone())));
+        for term in costs(flight) {
+            columns.push((format!("cost_{}", term.name), Values::Reals(term.per_frame.to_vec())));
         }
-        for label in flight_labels::labels(flight) {
-            columns.push((format!("label_{}", label.name), Values::Reals(label.per_frame.to_vec())));
+        for label in &flight.labels {
+            columns.push((format!("label_{}", label.name), Values::Reals(label.per_frame.clone())));
         }
         let facts = vec![("item".to_owned(), item.to_owned()), ("dt_s".to_owned(), flight.track.dt_s.to_string())];
         Self { facts, columns, frames }

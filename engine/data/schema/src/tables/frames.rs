@@ -4,8 +4,9 @@ use super::column::columns;
 use super::value::{Edges, ImageFile, class_value};
 use super::waypoints::action_from;
 use super::{DatasetItem, Need, Table};
+use crate::Role;
 use crate::log::messages::edges_px;
-use crate::{Role, flight_labels};
+use crate::published_costs::costs;
 use cosfly_domain::{FramePerturbation, PixelBox, TargetView};
 use cosfly_frames::{Pose, TargetState, action};
 
@@ -96,11 +97,11 @@ columns! { Frames::COLUMNS of DatasetItem;
     action_in_body: Option<[f64; 6]> = |item, i| action_from(item, i, action::in_body);
     /// Unweighted cost of each planner term, in the order of `trajectories.term_names`; empty for perturbed trajectories.
     term_costs: Vec<f64> = |item, i| {
-        flight_labels::costs(&item.record.trajectory).map(|term| term.per_frame[i]).collect()
+        costs(&item.record.trajectory).map(|term| term.per_frame[i]).collect()
     };
     /// Labels that plugins gave to the frame, in the order of `trajectories.label_names`; empty without such plugins.
     labels: Vec<f64> = |item, i| {
-        flight_labels::labels(&item.record.trajectory).map(|label| label.per_frame[i]).collect()
+        item.record.trajectory.labels.iter().map(|label| label.per_frame[i]).collect()
     };
 
     /// Frame of the expert that this frame belongs to; null for experts.

@@ -6,8 +6,8 @@ use cosfly_diagnose::Result;
 use cosfly_frames::DVec3;
 use cosfly_report::{BoxSketch, Figures, FlightSketch, RejectionSketch, Report, TextSketch, TownSketch};
 use cosfly_schema::config::DatasetConfig;
-use cosfly_schema::flight_labels::costs;
 use cosfly_schema::log::messages::edges_px;
+use cosfly_schema::published_costs::costs;
 use cosfly_schema::tables::{DatasetItem, ObjectRecord};
 use cosfly_schema::{Rejection, RenderedTrajectory, Role};
 
@@ -84,7 +84,7 @@ pub fn sketch(number: u64, item: &DatasetItem, split: &str) -> FlightSketch {
         violations: trajectory.certificate.violations.clone(),
         max_jerk_mps3: trajectory.certificate.max_jerk_mps3,
         convergence: trajectory.convergence.clone(),
-        term_costs: costs(trajectory).map(|term| (term.name.clone(), term.weight * term.sum)).collect(),
+        term_costs: costs(trajectory).map(|term| (term.name.to_owned(), term.weight * term.sum)).collect(),
         texts: texts(item),
     }
 }
@@ -103,7 +103,7 @@ fn texts(item: &DatasetItem) -> Vec<TextSketch> {
     let captions = item.captions.iter().map(|it| TextSketch {
         is_taught: it.writer == "teacher",
         refused: it.refused.len() as u64,
-        refused_for: it.refused_because.iter().flat_map(|why| subjects_of(why)).collect(),
+        refused_for: it.refused_for.concat(),
         ..text(&it.language, &it.style, it.text.clone(), it.verdicts.clone())
     });
     let goals = item.derived.goals.iter().map(|it| {
@@ -112,16 +112,6 @@ fn texts(item: &DatasetItem) -> Vec<TextSketch> {
         TextSketch { singles_out: sketch.singles_out && it.fits, ..sketch }
     });
     captions.chain(goals).collect()
-}
-
-/// Subjects of contradictions such as `distance: the text says ...; turns: ...`, each once.
-fn subjects_of(why: &str) -> Vec<String> {
-    let subject =
-        |part: &str| part.split_once(": the text says").map_or("form", |(subject, _)| subject.trim()).to_owned();
-    let mut subjects: Vec<String> = why.split("; ").map(subject).collect();
-    subjects.sort();
-    subjects.dedup();
-    subjects
 }
 
 /// Whether nobody else who is seen in the flight wears what the target wears.

@@ -95,6 +95,6 @@ impl ClusterArguments {
     /// Requests of the recipe's stages.
     fn requests(&self, recipe: &Recipe) -> Result<Vec<cosfly_cluster::Request>> {
         let changes = self.request.iter().map(|text| cosfly_cluster::RequestChange::read(text));
-        cosfly_cluster::requests_of(recipe, cosfly_stages::requests::request, &changes.collect::<Result<Vec<_>>>()?)
+        cosfly_cluster::requests_of(recipe, &changes.collect::<Result<Vec<_>>>()?)
     }
 }

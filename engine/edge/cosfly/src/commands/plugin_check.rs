@@ -5,13 +5,13 @@ use crate::console::Console;
 use crate::exit;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_experts::plugins::config::Makes;
+use cosfly_experts::plugins::{host, tables};
 use cosfly_plugin_host::laws::{self, Finding};
 use cosfly_plugin_host::{
     Declaration, Effect, Effort, Kind, NoTown, Plugin, PluginError, PluginTerm, check_schema, with_defaults,
 };
 use cosfly_schema::flight_table::{self, FlightColumns};
-use cosfly_stages::plugins::config::Makes;
-use cosfly_stages::plugins::{host, tables};
 use serde_json::{Map, Value};
 use std::fmt::Write;
 use std::path::PathBuf;

@@ -9,9 +9,9 @@ use crate::text::{bytes, count, duration};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_recipe::{Recipe, RecipeStage};
+use cosfly_recipe::Recipe;
 use cosfly_runner::{Delivery, Origin, Rejection, RunOptions, RunOutcome, RunSummary, deliver};
-use cosfly_stage::{ItemId, StageName};
+use cosfly_stage::{ItemId, StageName, StageRole};
 use cosfly_store::check_out_folder;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -115,10 +115,9 @@ fn asked_stage(recipe: &Recipe, name: &str) -> Result<usize> {
     })
 }
 
-/// Index of the stage whose artifact is the result: the last `dataset`, else the last stage.
+/// Index of the stage whose artifact is the result: the last one that publishes, else the last stage.
 fn delivered_stage(recipe: &Recipe) -> usize {
-    let is_dataset = |stage: &RecipeStage| stage.kind == "dataset" && stage.name.part().is_empty();
-    recipe.stages.iter().rposition(is_dataset).unwrap_or(recipe.stages.len() - 1)
+    recipe.stages.iter().rposition(|stage| stage.has_role(StageRole::Publishes)).unwrap_or(recipe.stages.len() - 1)
 }
 
 /// Exit code, after printing the failures that belong to no task (failed tasks were reported as they failed).

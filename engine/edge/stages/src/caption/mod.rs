@@ -4,18 +4,21 @@ mod pictures;
 mod taught;
 
 use crate::ports::{self, CAPTIONS, FRAMES, TRAJECTORY};
-use crate::walks::walk_seed;
-use crate::{codec, parameters, single, traffic};
+use crate::{single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_captions::{Caption as Text, CaptionConfig, Facts, Wear, Writer, captions, check, facts};
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::PlanOutcome;
+use cosfly_experts::artifacts;
 use cosfly_figures::Clothes;
+use cosfly_film::looks::walk_seed;
 use cosfly_frames::Seed;
 use cosfly_schema::CaptionRecord;
 use cosfly_schema::record::captions_to_bytes;
+use cosfly_stage::parameters;
 use cosfly_stage::{
-    Asks, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
+    Asks, InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
 use cosfly_teacher::{Frames, Teacher, TeacherConfig};
 use taught::{Class, record_of};
@@ -73,9 +76,7 @@ impl StageKind for Caption {
                 refusal.path.insert(0, TEACHER.to_owned());
                 refusal
             })?;
-            canonical[TEACHER] = parameters::canonical(&teacher);
-            // Where and how fast the server is asked changes no text.
-            canonical[TEACHER].as_object_mut().and_then(|table| table.remove("server"));
+            canonical[TEACHER] = parameters::without(parameters::canonical(&teacher), TeacherConfig::NOT_IN_KEY);
         }
         let properties = StageProperties {
             kind: self.name().into(),
@@ -89,6 +90,8 @@ impl StageKind for Caption {
             files_per_item: 1,
             intermediate: &[],
             asks: is_taught.then(|| asks(&config, &teacher)),
+            role: StageRole::Speaks,
+            resources: Resources { memory_mib: 256, batch: 64 },
         };
         let teacher = is_taught.then(|| Teacher::new(teacher));
         Ok(single(CaptionStage { config, teacher, properties }))
@@ -119,7 +122,7 @@ impl Stage for CaptionStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        let outcome: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(inputs.one("trajectories")?, "trajectory")?)?;
+        let outcome = artifacts::FLIGHT.read(inputs, inputs.one("trajectories")?)?;
         let trajectory = match outcome {
             PlanOutcome::Planned(trajectory) => trajectory,
             PlanOutcome::Rejected { reason, .. } => {

@@ -6,6 +6,7 @@ use cosfly_diagnose::Result;
 use cosfly_schema::CaptionRecord;
 use cosfly_stage::{Answers, TaskContext};
 use cosfly_teacher::{Question, Reply, Teacher};
+use std::collections::BTreeSet;
 
 /// What the texts of a flight are made of.
 pub struct Class<'a> {
@@ -65,23 +66,28 @@ impl Class<'_> {
                 }
             };
             record.attempts += 1;
-            let (text, why) = match text_of(&answer.content) {
+            let (text, why, subjects) = match text_of(&answer.content) {
                 Ok(text) => match believe(&text, language, self.facts, others) {
                     Ok(()) => return Ok(accepted(record, text, language)),
                     Err(mismatches) => {
-                        (text, mismatches.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
+                        let why: Vec<String> = mismatches.iter().map(ToString::to_string).collect();
+                        let subjects: BTreeSet<&str> = mismatches.iter().map(|it| it.slot.name()).collect();
+                        (text, why.join("; "), subjects)
                     }
                 },
-                Err(why) => (answer.content.chars().take(MOST_KEPT).collect(), why.to_owned()),
+                Err(why) => (answer.content.chars().take(MOST_KEPT).collect(), why.to_owned(), BTreeSet::from([FORM])),
             };
             record.refused.push(text);
             record.refused_because.push(why);
+            record.refused_for.push(subjects.into_iter().map(str::to_owned).collect());
         }
         record.fallback = Some("refused".to_owned());
         Ok(record)
     }
 }
 
+/// Subject of an answer that is no text.
+const FORM: &str = "form";
 /// Characters of a refused answer in the table.
 const MOST_KEPT: usize = 2000;
 

@@ -1,10 +1,10 @@
 //! People whom traffic moves around: other stages made their walks, and they make way for nobody.
 
-use crate::nearby;
 use crate::ports::{self, WALK};
-use crate::walks::Person;
 use cosfly_diagnose::Result;
 use cosfly_domain::{BodyPlan, Traffic};
+use cosfly_experts::artifacts;
+use cosfly_film::Person;
 use cosfly_frames::TargetState;
 use cosfly_stage::{InputPort, Inputs};
 use cosfly_world::{Population, Snapshot, contacts};
@@ -37,7 +37,7 @@ impl Avoided {
                 continue;
             }
             for artifact in artifacts {
-                let walk = nearby::walk(inputs, artifact, "walk")?;
+                let walk = artifacts::WALK.shared(inputs, artifact)?;
                 if !walk.track.is_empty() {
                     people.push(Person::on(&walk)?);
                 }

@@ -1,9 +1,8 @@
 //! [`TrafficConfig`]: the parameters of traffic in a recipe.
 
-use crate::parameters;
 use cosfly_domain::{BodyKind, Traffic};
 use cosfly_pedestrians::{CrowdConfig, PedestrianConfigRule, RecordedConfig, ScriptedPerson};
-use cosfly_stage::Source;
+use cosfly_stage::{Source, parameters};
 use cosfly_vehicles::VehicleConfig;
 use cosfly_vehicles::fcd::FcdConfig;
 use cosfly_world::{Clock, LookAlikeConfig, LooksConfig};
@@ -107,6 +106,9 @@ impl Default for Follow {
 }
 
 impl Follow {
+    /// Parameters that no single followed body depends on; not in its key.
+    pub const NOT_IN_KEY: &[&str] = &["count"];
+
     /// Numbers of all bodies that may be followed, in the order in which they are: those with names, then the first of each
     /// kind, the second of each kind and so on, so that further ones change nothing.
     ///
@@ -149,6 +151,9 @@ fn is_no_size(size_m: &[f64; 3]) -> bool {
 }
 
 impl TrafficConfig {
+    /// Parameters that the bodies depend on only where others are dressed like the followed ones; otherwise not in their key.
+    pub const NOT_IN_KEY_OF_BODIES: &[&str] = &["follow"];
+
     /// Checks what the schema cannot say.
     pub fn check(&self) -> Result<(), PedestrianConfigRule> {
         let duration_s = f64::from(self.frames) * self.dt_s;
@@ -226,18 +231,13 @@ impl TrafficConfig {
 
     /// Parameters that the bodies depend on, for keys: those who are followed as far as others are dressed like them.
     pub fn canonical_of_bodies(&self) -> serde_json::Value {
-        let mut all = parameters::canonical(self);
-        if self.look_alikes.shares.is_empty() {
-            all.as_object_mut().expect("a table").remove("follow");
-        }
-        all
+        let all = parameters::canonical(self);
+        if self.look_alikes.shares.is_empty() { parameters::without(all, Self::NOT_IN_KEY_OF_BODIES) } else { all }
     }
 
     /// Parameters that one walk depends on beside the tracks, for keys: not how many there are.
     pub fn canonical_of_walks(&self) -> serde_json::Value {
-        let mut follow = parameters::canonical(&self.follow);
-        follow.as_object_mut().expect("a table").remove("count");
-        follow
+        parameters::without(parameters::canonical(&self.follow), Follow::NOT_IN_KEY)
     }
 }
 

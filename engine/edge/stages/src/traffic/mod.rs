@@ -5,32 +5,29 @@ mod config;
 mod population;
 
 use crate::memo::Memo;
-use crate::other_drones::DRONES_BLOB;
 use crate::ports::{self, TRAFFIC, WALK};
-use crate::world::{TOWN_BLOB, check_same_town, link_town, world};
-use crate::{codec, parameters};
+use crate::world::{check_same_town, link_town, world};
 use avoided::Avoided;
 use config::TrafficConfig;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::{Around, Body, Followed, Traffic, Traits};
+use cosfly_experts::artifacts;
 use cosfly_figures::{BodyShape, outfit_of};
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
+use cosfly_stage::parameters;
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
+    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties,
+    StageRole, TaskContext,
 };
 use cosfly_world::{Wardrobe, dress, give_looks, simulate};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Blob of a walk that was taken out of traffic, with the whole [`Traffic`]; and the part that makes it.
-pub const BODIES: &str = "bodies";
-/// Blob of such a walk, and of the flights behind it, with its [`Followed`].
-pub const FOLLOWED: &str = "followed";
+const BODIES: &str = artifacts::TRAFFIC.blob;
 
-/// Blob of a flight through traffic with the [`Around`] of its target.
-pub const AROUND_BLOB: &str = "around";
 /// Bodies that come within this distance of the followed one, seen from above, are around it, metres.
 const AROUND_M: f64 = 60.0;
 
@@ -70,11 +67,13 @@ impl StageKind for TrafficKind {
             files_per_item: 2,
             intermediate: &[],
             asks: None,
+            role: StageRole::World,
+            resources: Resources::default(),
         };
         let bodies = config.canonical_of_bodies();
         let bytes = 20 * u64::from(config.frames) * u64::from(config.people.count);
         let bodies = properties(bodies, self.ports(), TRAFFIC, ItemRule::One, bytes);
-        let bodies = StageProperties { sources, ..bodies };
+        let bodies = StageProperties { sources, role: StageRole::Serves, ..bodies };
         let doc = "Everybody: the part of the same stage.";
         let inputs = vec![ports::town(), ports::sibling(BODIES, TRAFFIC, Fan::Broadcast, doc)];
         let items = ItemRule::Count { prefix: "t", count: config.follow.count };
@@ -92,18 +91,12 @@ impl StageKind for TrafficKind {
 
 /// Traffic that a walk was taken out of; `None` for a walk of a stage `pedestrians`.
 pub fn traffic_of(inputs: &Inputs<'_>, walk: &Artifact) -> Result<Option<Arc<Traffic>>> {
-    if !walk.blobs.contains_key(BODIES) {
-        return Ok(None);
-    }
-    inputs.decoded(walk, BODIES, |bytes| codec::decode(TRAFFIC, bytes)).map(Some)
+    artifacts::TRAFFIC.is_in(walk).then(|| artifacts::TRAFFIC.shared(inputs, walk)).transpose()
 }
 
 /// The followed body of a walk or a flight; `None` outside of traffic.
 pub fn followed(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Option<Followed>> {
-    if !artifact.blobs.contains_key(FOLLOWED) {
-        return Ok(None);
-    }
-    codec::decode(WALK, &inputs.read(artifact, FOLLOWED)?).map(Some)
+    artifacts::FOLLOWED.find(inputs, artifact)
 }
 
 /// Bodies around the target of a walk; nobody outside of traffic.
@@ -115,23 +108,23 @@ pub fn cut_around(inputs: &Inputs<'_>, walk: &Artifact, track: &TargetTrack) -> 
 
 /// Writes the bodies around the target of a flight, and links what later stages need to know of the moving world.
 pub fn put_around(walk: &Artifact, around: &Around, outputs: &mut dyn OutputSink) -> Result<()> {
-    if walk.blobs.contains_key(BODIES) {
-        outputs.put(AROUND_BLOB, &codec::encode(ports::AROUND, around)?)?;
+    if artifacts::TRAFFIC.is_in(walk) {
+        artifacts::AROUND.put(outputs, around)?;
     }
     link_moving(walk, outputs)
 }
 
 /// Bodies around the target of a flight; nobody outside of traffic.
 pub fn around(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Arc<Around>> {
-    if !artifact.blobs.contains_key(AROUND_BLOB) {
+    if !artifacts::AROUND.is_in(artifact) {
         return Ok(Arc::default());
     }
-    inputs.decoded(artifact, AROUND_BLOB, |bytes| codec::decode(ports::AROUND, bytes))
+    artifacts::AROUND.shared(inputs, artifact)
 }
 
 /// Links the followed body, the bodies around it and the other drones from an input to the output of a task.
 pub fn link_moving(artifact: &Artifact, outputs: &mut dyn OutputSink) -> Result<()> {
-    for name in [FOLLOWED, AROUND_BLOB, DRONES_BLOB] {
+    for name in [artifacts::FOLLOWED.blob, artifacts::AROUND.blob, artifacts::DRONES.blob] {
         if let Some(blob) = artifact.blobs.get(name) {
             outputs.link(name, *blob)?;
         }
@@ -173,7 +166,7 @@ impl Stage for BodiesStage {
         let about = traffic.notes.join("; ");
         let warnings: Vec<String> = populations.notes.into_iter().chain(looks_note).chain(note).collect();
         traffic.notes.extend(warnings.iter().cloned());
-        outputs.put(BODIES, &codec::encode(TRAFFIC, &traffic)?)?;
+        artifacts::TRAFFIC.put(outputs, &traffic)?;
         link_town(inputs, outputs)?;
         let mut notes = BTreeMap::from([("bodies".to_owned(), traffic.bodies.len().to_string())]);
         if !about.is_empty() {
@@ -206,13 +199,13 @@ impl Stage for WalksStage {
         let number = *eligible.get(place).ok_or_else(|| too_few(&self.config, eligible.len()))?;
         let body: &Body = &traffic.bodies[number as usize];
         let track = traffic.track(number).ok_or_else(|| missing(artifact))?;
-        let digest = inputs.one("town")?.blobs[TOWN_BLOB].digest;
+        let digest = inputs.one("town")?.blobs[artifacts::TOWN.blob].digest;
         let world = world(inputs)?;
         let grid = || Ok::<_, Box<Diagnostic>>(Crowd::grid(&world.town, &self.config.people).ok());
         let grid = self.grid.get(digest, grid)?;
         let path = path_of(Option::as_ref(&grid).map(WalkableGrid::ground), track);
-        outputs.put("walk", &codec::encode(WALK, &path)?)?;
-        outputs.put(FOLLOWED, &codec::encode(WALK, &Followed { number, plan: body.plan.clone() })?)?;
+        artifacts::WALK.put(outputs, &path)?;
+        artifacts::FOLLOWED.put(outputs, &Followed { number, plan: body.plan.clone() })?;
         outputs.link(BODIES, artifact.blobs[BODIES])?;
         link_town(inputs, outputs)?;
         let notes = [("body".to_owned(), format!("{} {number}", body.plan.kind.name()))].into();

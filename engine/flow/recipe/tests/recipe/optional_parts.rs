@@ -3,7 +3,9 @@
 use crate::toys::{ToyStage, port};
 use cosfly_diagnose::{Diagnostic, ParameterError};
 use cosfly_recipe::{Recipe, read};
-use cosfly_stage::{Fan, InputPort, ItemRule, PortSource, Registry, StageKind, StagePart, StageProperties};
+use cosfly_stage::{
+    Fan, InputPort, ItemRule, PortSource, Registry, Resources, StageKind, StagePart, StageProperties, StageRole,
+};
 use std::path::Path;
 
 /// A film of each of its two tracks; part `near` cuts down the tracks at port `others`.
@@ -26,6 +28,8 @@ impl Film {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role: StageRole::Changes,
+            resources: Resources::default(),
         }
     }
 }

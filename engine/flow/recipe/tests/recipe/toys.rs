@@ -5,8 +5,8 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::ParameterError;
 use cosfly_recipe::Recipe;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Sees, Source, Stage, StageKind, StagePart,
-    StageProperties, Takes, TaskContext,
+    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Resources, Sees, Source, Stage, StageKind,
+    StagePart, StageProperties, StageRole, Takes, TaskContext,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -68,6 +68,8 @@ impl Toy {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role: StageRole::Changes,
+            resources: Resources::default(),
         }
     }
 

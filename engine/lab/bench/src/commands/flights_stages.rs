@@ -2,13 +2,13 @@
 
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_experts::{artifacts, codec};
 use cosfly_sample::ManyFlights;
 use cosfly_schema::Role;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Sees, Stage, StageKind, StagePart,
-    StageProperties, Takes, TaskContext,
+    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Registry, Resources, Sees, Stage, StageKind, StagePart,
+    StageProperties, StageRole, Takes, TaskContext,
 };
-use cosfly_stages::{codec, read::TOWN_BLOB};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -99,11 +99,11 @@ impl StageKind for Toy {
 
     fn build(&self, parameters: Value) -> Result<Vec<StagePart>, ParameterError> {
         let count = parameters["count"].as_u64().unwrap_or(0);
-        let (artifact, items) = match self.makes {
-            Makes::Town => ("town/1", ItemRule::One),
-            Makes::Walks => (WALK, ItemRule::Count { prefix: "p", count }),
-            Makes::Twins => (WALK, ItemRule::PerInput("walks")),
-            Makes::Films => ("frames/1", ItemRule::PerInput("walks")),
+        let (artifact, items, role) = match self.makes {
+            Makes::Town => ("town/1", ItemRule::One, StageRole::World),
+            Makes::Walks => (WALK, ItemRule::Count { prefix: "p", count }, StageRole::World),
+            Makes::Twins => (WALK, ItemRule::PerInput("walks"), StageRole::Changes),
+            Makes::Films => ("frames/2", ItemRule::PerInput("walks"), StageRole::Films),
         };
         let properties = StageProperties {
             kind: self.name.to_owned(),
@@ -118,6 +118,8 @@ impl StageKind for Toy {
             files_per_item: 2,
             intermediate: if self.makes == Makes::Films { &["pack"] } else { &[] },
             asks: None,
+            role,
+            resources: Resources::default(),
         };
         let stage = ToyStage { makes: self.makes, samples: Arc::clone(&self.samples), properties };
         Ok(vec![StagePart { suffix: "", stage: Box::new(stage) }])
@@ -131,7 +133,7 @@ impl Stage for ToyStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         match self.makes {
-            Makes::Town => outputs.put(TOWN_BLOB, &codec::encode("town/1", &cosfly_sample::town())?)?,
+            Makes::Town => outputs.put(artifacts::TOWN.blob, &codec::encode("town/1", &cosfly_sample::town())?)?,
             Makes::Walks | Makes::Twins => outputs.put("walk", context.id.item.to_string().as_bytes())?,
             Makes::Films => self.film(inputs, outputs, context)?,
         }
@@ -142,19 +144,19 @@ impl Stage for ToyStage {
 impl ToyStage {
     fn film(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<()> {
         let (_, walk) = context.id.item.origin();
-        let number: usize = walk.trim_start_matches('p').parse().map_err(|error| {
-            Diagnostic::new("bench-walk", Fault::Bug, format!("`{walk}` is not the name of a walk")).because(error)
-        })?;
+        let number = walk
+            .number()
+            .ok_or_else(|| Diagnostic::new("bench-walk", Fault::Bug, format!("`{walk}` is not the name of a walk")))?;
         let is_expert = context.id.item.stage().is_some_and(|stage| stage.as_str() == Role::Expert.name());
-        let index = 2 * number + usize::from(!is_expert);
+        let index = 2 * number as usize + usize::from(!is_expert);
         let mut record = self.samples.record(index);
         record.trajectory_id = context.id.item.to_string();
         record.flight_id.clone_from(&record.trajectory_id);
-        walk.clone_into(&mut record.pedestrian_id);
+        record.pedestrian_id = walk.to_string();
         if let Some(pair) = &mut record.pair {
             pair.expert_id = format!("{}-{walk}", Role::Expert.name());
         }
-        outputs.link(TOWN_BLOB, inputs.one("town")?.blobs[TOWN_BLOB])?;
+        outputs.link(artifacts::TOWN.blob, inputs.one("town")?.blobs[artifacts::TOWN.blob])?;
         outputs.put("index", &record.to_bytes())?;
         outputs.put("pack", self.samples.pack(index))
     }

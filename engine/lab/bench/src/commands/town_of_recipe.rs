@@ -2,20 +2,19 @@
 
 use super::outcome::Refusals;
 use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_experts::{RecipeExpert, artifacts};
 use cosfly_geometry::BoxBvh;
 use cosfly_lab::planner::scene::Ground;
 use cosfly_planner::MucoConfig;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::{RunOptions, RunSummary};
-use cosfly_stage::{BlobSource, Blobs};
-use cosfly_stages::expert::Expert;
-use cosfly_stages::read;
+use cosfly_stage::{BlobSource, Blobs, Registry, StageRole};
 use cosfly_store::Store;
 use cosfly_town::GroundIndex;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Town, walks, and planner parameters of the first `muco` stage of a recipe with the values of `set`; `paths` and `seed`
+/// Town, walks, and planner parameters of the first stage of a recipe that plans flights behind walkers, with the values of `set`; `paths` and `seed`
 /// replace the number of walks and the recipe's seed where given.
 pub fn town_of_recipe(
     path: &Path,
@@ -28,7 +27,7 @@ pub fn town_of_recipe(
     overrides.extend(seed.map(|seed| format!("seed={seed}")));
     let mut recipe = cosfly_recipe::load(path, &overrides, &registry)?;
     let position = planner_of(&recipe)?;
-    if let (Some(count), Some(walkers)) = (paths, walkers_of(&recipe, position)) {
+    if let (Some(count), Some(walkers)) = (paths, walkers_of(&recipe, &registry, position)) {
         overrides.push(format!("stages.{walkers}.count={count}"));
         recipe = cosfly_recipe::load(path, &overrides, &registry)?;
     }
@@ -47,28 +46,25 @@ pub fn town_of_recipe(
         return Err(failures);
     }
     let ground = ground(&recipe, &planner, &summary, &store).map_err(one)?;
-    let expert = Expert::read(planner.stage.properties().parameters.clone())
+    let expert = RecipeExpert::read(planner.stage.properties().parameters.clone())
         .map_err(|refused| one(Diagnostic::new("bench-parameters", Fault::Recipe, refused.message)))?;
-    Ok((ground, expert.config))
+    Ok((ground, expert.expert.config))
 }
 
-/// Index of the first `muco` stage that follows a pedestrian.
+/// Index of the first stage that plans flights behind walkers.
 fn planner_of(recipe: &Recipe) -> Result<usize, Refusals> {
-    let follows = |stage: &RecipeStage| {
-        let is_planner = stage.kind == "muco" && stage.name.part().is_empty();
-        is_planner && stage.connections.iter().any(|connection| connection.port.name == "paths")
-    };
+    let follows = |stage: &RecipeStage| stage.has_role(StageRole::Plans) && stage.connection("paths").is_some();
     recipe.stages.iter().position(follows).ok_or_else(|| {
-        let message = format!("`{}` has no stage with `use = \"muco\"` that follows walkers", recipe.name);
+        let message = format!("`{}` has no stage that plans flights behind walkers", recipe.name);
         one(Diagnostic::new("bench-no-planner", Fault::Recipe, message))
     })
 }
 
-/// Name of the recipe stage that makes the planner's walks.
-fn walkers_of(recipe: &Recipe, planner: usize) -> Option<&str> {
-    let connection = recipe.stages[planner].connections.iter().find(|connection| connection.port.name == "paths")?;
-    let upstream = &recipe.stages[*connection.upstreams.first()?];
-    (upstream.kind == "pedestrians").then_some(upstream.name.recipe_name())
+/// Name of the recipe stage that makes the planner's walks, where it has a `count`.
+fn walkers_of<'r>(recipe: &'r Recipe, registry: &Registry, planner: usize) -> Option<&'r str> {
+    let upstream = &recipe.stages[*recipe.stages[planner].connection("paths")?.upstreams.first()?];
+    let is_counted = registry.get(&upstream.kind)?.schema()["properties"]["count"].is_object();
+    is_counted.then_some(upstream.name.recipe_name())
 }
 
 fn one(diagnostic: Box<Diagnostic>) -> Refusals {
@@ -82,12 +78,12 @@ fn ground(
     store: &Store,
 ) -> cosfly_diagnose::Result<Ground> {
     let town = match arrived(planner, summary, "town")?.first() {
-        Some(blobs) => read::town(&store.read(&blobs[read::TOWN_BLOB])?)?,
+        Some(blobs) => artifacts::TOWN.decode(&store.read(&blobs[artifacts::TOWN.blob])?)?,
         None => return Err(unfinished("town")),
     };
     let mut tracks = Vec::new();
     for blobs in arrived(planner, summary, "paths")? {
-        tracks.push(read::walk(&store.read(&blobs[read::WALK_BLOB])?)?.track);
+        tracks.push(artifacts::WALK.decode(&store.read(&blobs[artifacts::WALK.blob])?)?.track);
     }
     let index = GroundIndex::new(&town);
     Ok(Ground {

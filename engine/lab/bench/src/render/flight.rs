@@ -29,6 +29,7 @@ pub fn flight(ground: &Ground, weather: &Weather, shown: &[View], views: Vec<Tar
     trajectory.visibility = vec![1.0; shown.len()];
     trajectory.clearance_m = vec![10.0; shown.len()];
     trajectory.terms.iter_mut().for_each(|term| term.per_frame = vec![0.0; shown.len()]);
+    trajectory.labels.iter_mut().for_each(|label| label.per_frame = vec![0.0; shown.len()]);
     record
 }
 

@@ -38,6 +38,8 @@ fn expert(count: usize) -> Trajectory {
         visibility: vec![],
         clearance_m: vec![],
         terms: vec![],
+        coverage: vec![],
+        labels: vec![],
         convergence: vec![],
         certificate: Certificate {
             limits: MucoConfig::default().stated_limits(),

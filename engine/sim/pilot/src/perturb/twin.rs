@@ -185,6 +185,8 @@ pub(super) fn measured(
         visibility: measured.visibility,
         clearance_m: measured.clearance_m,
         terms: vec![],
+        coverage: vec![],
+        labels: vec![],
         convergence: vec![],
         certificate: measured.certificate,
         perturbation: Some(perturbation),

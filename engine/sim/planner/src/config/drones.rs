@@ -25,6 +25,9 @@ impl Default for DronesConfig {
 }
 
 impl DronesConfig {
+    /// Parameters that no single flight depends on; not in its key.
+    pub const NOT_IN_KEY: &[&str] = &["count"];
+
     pub(super) fn ranges(&self) -> [Range; 2] {
         [("drones.count", f64::from(self.count), 1.0, 8.0), ("drones.separation_m", self.separation_m, 0.6, 50.0)]
     }

@@ -34,6 +34,9 @@ impl Default for OcclusionConfig {
 }
 
 impl OcclusionConfig {
+    /// Parameters that no single flight depends on, only the order that it gets; not in its key.
+    pub const NOT_IN_KEY: &[&str] = &["share", "beside_look_alike"];
+
     /// Whether losses are ordered in a share of the flights, or a share of the losses beside look-alikes.
     pub fn has_quota(&self) -> bool {
         self.count > 0 && (self.share < 1.0 || self.beside_look_alike > 0.0)

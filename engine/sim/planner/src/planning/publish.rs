@@ -39,6 +39,8 @@ pub(super) fn publish(request: &PlanRequest<'_>, terms: &[WeightedTerm], found: 
         visibility: measured.visibility.clone(),
         clearance_m: measured.clearance_m,
         terms: costs,
+        coverage: vec![],
+        labels: vec![],
         convergence: found.convergence,
         certificate: measured.certificate,
         perturbation: None,

@@ -1,7 +1,7 @@
 //! The certificate of a trajectory: limits, reached values, and figures of the planner.
 
 use super::columns::Trajectories;
-use crate::flight_labels;
+use crate::published_costs::costs;
 use crate::tables::DatasetItem;
 use crate::tables::column::columns;
 use cosfly_domain::{Certificate, Perturbation, PerturbationKind};
@@ -66,19 +66,19 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
     filtered_boxes: u32 = |item, _| certificate(item).filtered_boxes;
     /// Names of the planner's terms; empty for perturbed trajectories.
     term_names: Vec<String> = |item, _| {
-        flight_labels::costs(&item.record.trajectory).map(|term| term.name.clone()).collect()
+        costs(&item.record.trajectory).map(|term| term.name.to_owned()).collect()
     };
     /// Weights of the planner's terms; empty for perturbed trajectories.
-    term_weights: Vec<f64> = |item, _| flight_labels::costs(&item.record.trajectory).map(|term| term.weight).collect();
+    term_weights: Vec<f64> = |item, _| costs(&item.record.trajectory).map(|term| term.weight).collect();
     /// Unweighted costs of the planner's terms over all frames; empty for perturbed trajectories.
-    term_sums: Vec<f64> = |item, _| flight_labels::costs(&item.record.trajectory).map(|term| term.sum).collect();
+    term_sums: Vec<f64> = |item, _| costs(&item.record.trajectory).map(|term| term.sum).collect();
     /// Names of the labels given by plugins, see `frames.labels`; empty without such plugins.
     label_names: Vec<String> = |item, _| {
-        flight_labels::labels(&item.record.trajectory).map(|it| it.name.to_owned()).collect()
+        item.record.trajectory.labels.iter().map(|it| it.name.clone()).collect()
     };
     /// Plugin of each label, with its version.
     label_plugins: Vec<String> = |item, _| {
-        flight_labels::labels(&item.record.trajectory).map(|it| format!("{} {}", it.plugin, it.version)).collect()
+        item.record.trajectory.labels.iter().map(|it| format!("{} {}", it.plugin, it.version)).collect()
     };
     /// Total cost against the planning boxes before and after refinement (preset `paper`: after each iteration of
     /// descent) and of the published trajectory; empty for baselines and perturbed trajectories.

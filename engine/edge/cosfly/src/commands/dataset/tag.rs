@@ -9,8 +9,9 @@ use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::Recipe;
+use cosfly_stage::ItemId;
 use cosfly_store::{Store, pin};
-use cosfly_versions::{TaskName, Version, difference, record, shelf};
+use cosfly_versions::{Version, difference, record, shelf};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -88,8 +89,8 @@ fn notes_against_earlier(root: &Path, version: &Version) -> Result<String> {
 /// Garbage collection keeps a version by the run that made it, which must be the newest one.
 fn check_newest(recipe: &Recipe, store: &Store, version: &Version) -> Result<()> {
     let newest = store.past_runs(&cosfly_runner::recipe_id(recipe)).next();
-    let holds = |task: &TaskName, key: Digest| {
-        (*newest.as_ref()?.stage(task.stage.as_str())?.items.get(&task.item)? == key).then_some(())
+    let holds = |task: &ItemId, key: Digest| {
+        (*newest.as_ref()?.stage(task.stage.as_str())?.items.get(&task.item.to_string())? == key).then_some(())
     };
     let is_newest = version
         .flights

@@ -1,10 +1,10 @@
 //! Plugins at work: those of a stage are loaded once, and opened again for every item.
 
 use super::config::{ExpertPlugins, Makes, Setting};
-use super::{DrawnReference, Role, tables};
-use crate::world::World;
+use super::{Role, tables};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{ObstacleKind, OrientedBox};
+use cosfly_flight::{DrawnReference, OpenTerms, World};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::SpatialQuery;
 use cosfly_objectives::config::{DT_S, LONGEST_S};
@@ -169,7 +169,7 @@ impl Plugins {
                 refusal.hint.into_iter().fold(failed, PluginError::hint)
             })
         };
-        run_stage(&ready.plugin, Arc::clone(world) as _, &ready.params, encode)
+        run_stage(&ready.plugin, Arc::new(Town(Arc::clone(world))), &ready.params, encode)
             .map_err(|error| error.diagnostic(self.item.as_deref()))
     }
 
@@ -184,28 +184,23 @@ impl Plugins {
         let shown = self.other.as_ref().map_or("", |ready| &ready.plugin.shown);
         PluginError::failed(shown, "run", message).diagnostic(self.item.as_deref())
     }
+}
 
-    /// New instances of all terms, for one flight.
-    ///
-    /// # Errors
-    /// Failures of a plugin.
-    pub fn open_terms(&self, world: &Arc<World>, seed: Seed) -> Result<(Vec<WeightedTerm>, AfterPlanning)> {
+impl cosfly_flight::Plugins for Plugins {
+    fn open_terms(&self, world: &Arc<World>, seed: Seed) -> Result<OpenTerms> {
         let (mut terms, mut began) = (vec![], vec![]);
         for (ready, name, weight) in &self.terms {
-            let town: Arc<dyn TownView> = Arc::clone(world) as _;
+            let town: Arc<dyn TownView> = Arc::new(Town(Arc::clone(world)));
             let term = PluginTerm::open(&ready.plugin, town, name, &ready.params, number_of(seed, name));
             let term = term.map_err(|error| error.diagnostic(self.item.as_deref()))?;
             began.push((name.clone(), term.began()));
             terms.push(WeightedTerm { term: Box::new(term), weight: *weight });
         }
-        Ok((terms, AfterPlanning { began, item: self.item.clone() }))
+        let item = self.item.clone();
+        Ok(OpenTerms { terms, warnings: Box::new(move || warnings(&began, item.as_deref())) })
     }
 
-    /// Reference that the objective draws; `Err` inside is its own reason why there is nothing to fly.
-    ///
-    /// # Errors
-    /// Failures of the plugin.
-    pub fn draw_reference(
+    fn draw_reference(
         &self,
         world: &Arc<World>,
         config: &MucoConfig,
@@ -222,7 +217,7 @@ impl Plugins {
             max_speed: config.limits.speed_mps,
             channels: vec![],
         };
-        let drawn = draw_reference(&ready.plugin, Arc::clone(world) as _, &ready.params, site)
+        let drawn = draw_reference(&ready.plugin, Arc::new(Town(Arc::clone(world))), &ready.params, site)
             .map_err(|error| error.diagnostic(self.item.as_deref()))?;
         Ok(drawn.map(|drawn| {
             let points = |flat: &[f64]| flat.as_chunks::<3>().0.iter().map(|xyz| DVec3::from_array(*xyz)).collect();
@@ -233,27 +228,19 @@ impl Plugins {
     }
 }
 
-/// Terms of a flight after planning, for their warnings.
-pub struct AfterPlanning {
-    began: Vec<(String, Began)>,
-    item: Option<String>,
-}
-
-impl AfterPlanning {
-    /// Warnings of the terms for users.
-    ///
-    /// # Errors
-    /// The first failure of a term, which makes the flight invalid.
-    pub fn warnings(&self) -> Result<Vec<String>> {
-        let mut warnings = vec![];
-        for (name, began) in &self.began {
-            if let Some(failure) = began.failure() {
-                return Err(failure.diagnostic(self.item.as_deref()));
-            }
-            warnings.extend(began.warnings().into_iter().map(|text| format!("{name}: {text}")));
+/// Warnings of terms for users, after planning.
+///
+/// # Errors
+/// The first failure of a term, which makes the flight invalid.
+fn warnings(began: &[(String, Began)], item: Option<&str>) -> Result<Vec<String>> {
+    let mut warnings = vec![];
+    for (name, began) in began {
+        if let Some(failure) = began.failure() {
+            return Err(failure.diagnostic(item));
         }
-        Ok(warnings)
+        warnings.extend(began.warnings().into_iter().map(|text| format!("{name}: {text}")));
     }
+    Ok(warnings)
 }
 
 fn is_built_in(name: &str) -> bool {
@@ -270,21 +257,24 @@ fn number_of(seed: Seed, name: &str) -> u64 {
     u64::from_le_bytes(first)
 }
 
-impl TownView for World {
+/// A town as plugins see it.
+struct Town(Arc<World>);
+
+impl TownView for Town {
     fn first_hit(&self, from: DVec3, to: DVec3) -> Option<f64> {
-        self.exact.closest_hit(from, to - from, 1.0).map(|hit| hit.t)
+        self.0.exact.closest_hit(from, to - from, 1.0).map(|hit| hit.t)
     }
 
     fn distance_m(&self, point: DVec3, within_m: f64) -> f64 {
-        self.exact.nearest(point, within_m).map_or(within_m, |nearest| nearest.distance_m)
+        self.0.exact.nearest(point, within_m).map_or(within_m, |nearest| nearest.distance_m)
     }
 
     fn ground_m(&self, x_m: f64, y_m: f64) -> Option<f64> {
-        self.ground.ground_height_m(x_m, y_m)
+        self.0.ground.ground_height_m(x_m, y_m)
     }
 
     fn buildings(&self) -> Vec<(u32, OrientedBox)> {
-        let buildings = self.town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::Building);
+        let buildings = self.0.town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::Building);
         let mut boxes: Vec<(u32, OrientedBox)> = buildings.map(|it| (it.object_id, it.shape)).collect();
         boxes.sort_by_key(|(building, _)| *building);
         boxes

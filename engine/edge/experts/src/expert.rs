@@ -1,38 +1,24 @@
-//! Expert of a `muco` stage: its parameters and its flights. For the stage itself, and for tools that ask the same expert
-//! again from another state.
-
-pub use crate::flight::{Bodies, Companion, Flight};
-pub use crate::flown::Flown;
-
-use crate::flown::take_aim;
-use crate::parameters;
+//! Parameters of an expert in a recipe: for the stage that plans, and for tools that ask the same expert again.
 use crate::plugins::config::ExpertPlugins;
-use crate::plugins::{Plugins, Role, source};
-use crate::world::World;
+use crate::plugins::{Role, source};
 use cosfly_diagnose::ParameterError;
-use cosfly_domain::{PlanOutcome, Trajectory};
-use cosfly_frames::Seed;
-use cosfly_objectives::{Objective, ObjectiveConfig};
+use cosfly_flight::Expert;
+use cosfly_objectives::{InspectConfig, Objective, ObjectiveConfig, PatrolConfig};
 use cosfly_pilot::aim::AimConfig;
 use cosfly_planner::MucoConfig;
-use cosfly_planner::config::{Foresight, Planner};
+use cosfly_planner::config::{DronesConfig, Foresight, Planner};
 use cosfly_planner::weights::Preset;
-use cosfly_stage::Source;
+use cosfly_stage::{Source, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
-/// Parameters of a `muco` stage.
+/// An expert as a recipe describes it: parameters of a `muco` stage.
 #[derive(Clone, Debug, Default)]
-pub struct Expert {
-    /// Weights and limits.
-    pub config: MucoConfig,
-    /// Objective of the flights.
-    pub objective: ObjectiveConfig,
+pub struct RecipeExpert {
+    /// Weights, objective and aim.
+    pub expert: Expert,
     /// Cost terms and objective from plugins.
     pub plugins: ExpertPlugins,
-    /// Aim at a walker.
-    pub aim: AimConfig,
 }
 
 /// The pilot of a `muco` stage.
@@ -43,7 +29,7 @@ struct Pilot {
     aim: AimConfig,
 }
 
-impl Expert {
+impl RecipeExpert {
     /// Schema of all parameters in one table.
     pub fn schema() -> serde_json::Value {
         let own = parameters::merged_schema::<MucoConfig, ObjectiveConfig>();
@@ -98,13 +84,13 @@ impl Expert {
         check_planner(&config)?;
         check_foresight(&config, &objective)?;
         check_drones(&config, &objective, &plugins)?;
-        Ok(Self { config, objective, plugins, aim })
+        Ok(Self { expert: Expert { config, objective, aim }, plugins })
     }
 
     /// Number of flights, where that is not the number of walkers.
     pub fn count(&self) -> Option<u64> {
-        let of_plugin = self.plugins.plugin.as_ref().filter(|_| self.objective.objective == Objective::Plugin);
-        of_plugin.map(|plugin| plugin.count).or_else(|| self.objective.count())
+        let of_plugin = self.plugins.plugin.as_ref().filter(|_| self.expert.objective.objective == Objective::Plugin);
+        of_plugin.map(|plugin| plugin.count).or_else(|| self.expert.objective.count())
     }
 
     /// Files of its plugins.
@@ -117,7 +103,7 @@ impl Expert {
     /// Parameters with the values in force, for keys and for reasons of changes. Those that the objective does not read are left out, and so are the
     /// numbers of flights and drones, on which no single flight depends.
     pub fn canonical(&self) -> serde_json::Value {
-        let mut all = parameters::canonical(&self.config.in_force());
+        let mut all = parameters::canonical(&self.expert.config.in_force());
         let plugins = parameters::canonical(&self.plugins.canonical());
         let defaults = parameters::canonical(&ExpertPlugins::default());
         for (key, value) in
@@ -125,83 +111,31 @@ impl Expert {
         {
             all[key] = value.clone();
         }
-        let mut objective = parameters::canonical(&self.objective);
-        if let Some(table) = all.as_object_mut() {
-            // What is left at its default is left out, so that recipes that know none of it keep their keys.
-            if self.config.foresight == Foresight::Expected {
-                table.remove("foresight");
-                table.remove("causal");
-            }
-            if self.config.drones.count == 1 {
-                table.remove("drones");
-            }
+        let mut objective = parameters::canonical(&self.expert.objective);
+        // What is left at its default is left out, so that recipes that know none of it keep their keys.
+        if self.expert.config.foresight == Foresight::Expected {
+            all = parameters::without(all, &["foresight", "causal"]);
         }
-        if let Some(drones) = all.get_mut("drones").and_then(|drones| drones.as_object_mut()) {
-            drones.remove("count");
+        if self.expert.config.drones.count == 1 {
+            all = parameters::without(all, &["drones"]);
+        } else {
+            all["drones"] = parameters::without(all["drones"].take(), DronesConfig::NOT_IN_KEY);
         }
-        if self.objective.objective == Objective::Track {
-            all["aim"] = parameters::canonical(&self.aim);
+        if self.expert.objective.objective == Objective::Track {
+            all["aim"] = parameters::canonical(&self.expert.aim);
             return all;
         }
-        let key = self.objective.objective.name();
+        let key = self.expert.objective.objective.name();
         all["objective"] = objective["objective"].take();
-        if self.objective.objective == Objective::Plugin {
+        if self.expert.objective.objective == Objective::Plugin {
             return all;
         }
-        all[key] = objective[key].take();
-        if let Some(table) = all[key].as_object_mut() {
-            table.remove("count");
-        }
-        all
-    }
-
-    /// Flight behind a walk and its companions, or one that the objective draws from `seed`, as [`Flight::of`].
-    ///
-    /// # Errors
-    /// Failures of a plugin.
-    pub fn flight(
-        &self,
-        world: &Arc<World>,
-        bodies: Bodies,
-        seed: Seed,
-        plugins: Plugins,
-    ) -> cosfly_diagnose::Result<Result<Flight, String>> {
-        let flight = Flight::of((&self.config, &self.objective), world, bodies, seed, plugins)?;
-        Ok(flight.map(|flight| flight.aiming(&self.aim)))
-    }
-
-    /// Flights of all drones behind a walk, one after the other, each beside those before it; none of them aims (see
-    /// [`Self::aim_of`]). Drones without a flight are in nobody's way.
-    ///
-    /// # Errors
-    /// Failures of a plugin.
-    pub fn formation(&self, world: &Arc<World>, bodies: Bodies, seed: Seed) -> cosfly_diagnose::Result<Vec<Flown>> {
-        let all = (&self.config, &self.objective);
-        let mut flight = match Flight::of(all, world, bodies, seed, Plugins::default())? {
-            Ok(flight) => flight,
-            Err(reason) => return Ok((0..self.config.drones.count).map(|_| Flown::none(&reason)).collect()),
+        let not_in_key = match self.expert.objective.objective {
+            Objective::Patrol => PatrolConfig::NOT_IN_KEY,
+            _ => InspectConfig::NOT_IN_KEY,
         };
-        let mut flown = vec![];
-        for _ in 0..self.config.drones.count {
-            let own = Flown::of(&flight, world)?;
-            if let PlanOutcome::Planned(trajectory) = &own.outcome {
-                flight.beside(trajectory.poses_in_world.iter().map(|pose| pose.position_in_world).collect());
-            }
-            flown.push(own);
-        }
-        Ok(flown)
-    }
-
-    /// Turns the views of a flight of [`Self::formation`] as its pilot aims.
-    pub fn aim_of(&self, flight: &mut Trajectory, seed: Seed) {
-        let track = flight.track.clone();
-        take_aim(flight, 0, &self.aim, &track, seed);
-    }
-
-    /// Names of the variants of each walk's item, one per drone; none where there is one drone alone.
-    pub fn drones(&self) -> Vec<String> {
-        let count = self.config.drones.count;
-        if count > 1 { (1..=count).map(|number| format!("d{number}")).collect() } else { vec![] }
+        all[key] = parameters::without(objective[key].take(), not_in_key);
+        all
     }
 }
 
@@ -295,11 +229,14 @@ mod tests {
     fn parameters_survive_their_canonical_form_and_tracking_reads_nothing_of_other_objectives() {
         let given =
             serde_json::json!({ "objective": "patrol", "patrol": { "count": 3, "corners": 5 }, "preset": "short" });
-        let read = Expert::read(given).unwrap();
-        let again = Expert::read(read.canonical()).unwrap();
-        assert_eq!((again.objective.patrol.corners, again.objective.patrol.count), (5, 1));
-        assert_eq!((again.config, again.objective.objective), (read.config.in_force(), Objective::Patrol));
-        let track = Expert::read(serde_json::json!({ "objective": "track" })).unwrap().canonical();
+        let read = RecipeExpert::read(given).unwrap();
+        let again = RecipeExpert::read(read.canonical()).unwrap();
+        assert_eq!((again.expert.objective.patrol.corners, again.expert.objective.patrol.count), (5, 1));
+        assert_eq!(
+            (again.expert.config, again.expert.objective.objective),
+            (read.expert.config.in_force(), Objective::Patrol)
+        );
+        let track = RecipeExpert::read(serde_json::json!({ "objective": "track" })).unwrap().canonical();
         let mut defaults = parameters::canonical(&MucoConfig::default().in_force());
         for key in ["foresight", "causal", "drones"] {
             defaults.as_object_mut().unwrap().remove(key);
@@ -307,7 +244,9 @@ mod tests {
         defaults["aim"] = parameters::canonical(&AimConfig::default());
         assert_eq!(track, defaults);
         let drones = |count: u32| {
-            Expert::read(serde_json::json!({ "drones": { "count": count, "separation_m": 9.0 } })).unwrap().canonical()
+            RecipeExpert::read(serde_json::json!({ "drones": { "count": count, "separation_m": 9.0 } }))
+                .unwrap()
+                .canonical()
         };
         assert_eq!(drones(2), drones(3));
         assert_eq!(drones(2)["drones"], serde_json::json!({ "separation_m": 9.0 }));
@@ -316,7 +255,7 @@ mod tests {
     #[test]
     fn contradictions_between_objective_preset_and_planner_are_refused_at_their_place() {
         let check = |given: serde_json::Value, path: &[&str]| {
-            assert_eq!(Expert::read(given.clone()).expect_err("refused").path, path, "{given}");
+            assert_eq!(RecipeExpert::read(given.clone()).expect_err("refused").path, path, "{given}");
         };
         check(
             serde_json::json!({ "objective": "inspect", "targets": { "companions": 1 } }),
@@ -343,7 +282,7 @@ mod tests {
             serde_json::json!({ "planner": "dp", "limits": { "require_kinematics": false } }),
             serde_json::json!({ "objective": "inspect", "inspect": { "row_m": 2.0 } }),
         ] {
-            Expert::read(fine).unwrap();
+            RecipeExpert::read(fine).unwrap();
         }
     }
 }

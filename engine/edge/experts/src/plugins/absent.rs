@@ -1,11 +1,11 @@
 //! In place of the host, in a build without plugins: every use is refused when the recipe is read.
 
+use super::Role;
 use super::config::{ExpertPlugins, Makes, Setting};
-use super::{DrawnReference, Role};
-use crate::world::World;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_flight::{DrawnReference, NoPlugins, OpenTerms, World};
 use cosfly_frames::Seed;
-use cosfly_planner::{MucoConfig, WeightedTerm};
+use cosfly_planner::MucoConfig;
 use cosfly_schema::flight_table::FlightColumns;
 use cosfly_stage::{Source, SourceCheck};
 use std::path::PathBuf;
@@ -91,19 +91,6 @@ pub struct Answered {
 #[derive(Clone, Default)]
 pub struct Plugins;
 
-/// Nothing.
-pub struct AfterPlanning;
-
-impl AfterPlanning {
-    /// Nothing.
-    ///
-    /// # Errors
-    /// None.
-    pub fn warnings(&self) -> Result<Vec<String>> {
-        Ok(vec![])
-    }
-}
-
 impl Plugins {
     /// # Errors
     /// When there are any.
@@ -123,24 +110,6 @@ impl Plugins {
     }
 
     /// # Errors
-    /// None.
-    pub fn open_terms(&self, _: &Arc<World>, _: Seed) -> Result<(Vec<WeightedTerm>, AfterPlanning)> {
-        Ok((vec![], AfterPlanning))
-    }
-
-    /// # Errors
-    /// Always.
-    pub fn draw_reference(
-        &self,
-        _: &Arc<World>,
-        _: &MucoConfig,
-        _: [f64; 4],
-        _: Seed,
-    ) -> Result<Result<DrawnReference, String>> {
-        Err(refused(""))
-    }
-
-    /// # Errors
     /// Always.
     pub fn answer(&self, _: &Arc<World>, _: Makes, _: &FlightColumns) -> Result<(Declaration, Answered)> {
         Err(refused(""))
@@ -154,5 +123,21 @@ impl Plugins {
     /// That an answer is wrong.
     pub fn wrong_answer(&self, message: String) -> Box<Diagnostic> {
         Diagnostic::new("plugin-failed", Fault::Input, message)
+    }
+}
+
+impl cosfly_flight::Plugins for Plugins {
+    fn open_terms(&self, world: &Arc<World>, seed: Seed) -> Result<OpenTerms> {
+        NoPlugins.open_terms(world, seed)
+    }
+
+    fn draw_reference(
+        &self,
+        _: &Arc<World>,
+        _: &MucoConfig,
+        _: [f64; 4],
+        _: Seed,
+    ) -> Result<Result<DrawnReference, String>> {
+        Err(refused(""))
     }
 }

@@ -1,7 +1,7 @@
-//! Comparison of planners in a dataset's report: others on the walks of published flights, among the same bodies, measured like them.
+//! Comparison of planners: others on the walks of published flights, among the same bodies, measured like them.
 
 use crate::world::World;
-use cosfly_domain::{Certificate, Limits, OrientedBox, PlanOutcome};
+use cosfly_domain::{Around, Certificate, Limits, OrientedBox, PlanOutcome, Trajectory};
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, flyable::made_flyable, plan_baseline};
 use cosfly_planner::certificate::{certify, term_costs};
@@ -9,8 +9,6 @@ use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{MucoConfig, PlanRequest, WeightedTerm, plan_request};
-use cosfly_report::PlannerRow;
-use cosfly_schema::RenderedTrajectory;
 use cosfly_surroundings::exact::ExactMap;
 use cosfly_surroundings::ground::GroundGrid;
 use cosfly_surroundings::local::LocalObstacles;
@@ -43,29 +41,71 @@ enum Other {
 /// A published flight, for the comparison.
 pub struct ComparedFlight {
     /// The flight.
-    pub flight: RenderedTrajectory,
+    pub trajectory: Trajectory,
+    /// Bodies around its target.
+    pub around: Around,
+    /// Digest of its town and name of its walk: equal for flights behind the same walk.
+    pub walk: (String, String),
     /// Town that it was planned in.
     pub world: Arc<World>,
     /// Name of the stage that planned it.
     pub planner: String,
 }
 
+/// Figures of one planner.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannerFigures {
+    /// Name.
+    pub planner: String,
+    /// Number of walks.
+    pub asked: u64,
+    /// Number of flights that were found.
+    pub planned: u64,
+    /// Number of flights that keep all limits.
+    pub sound: u64,
+    /// Means over the flights; `None` without one.
+    pub means: Option<Means>,
+    /// Weighted cost of each term per frame.
+    pub costs: Vec<(String, f64)>,
+    /// Reason of the first walk without a flight.
+    pub refusal: Option<String>,
+}
+
+/// Means and extremes over flights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Means {
+    /// Mean visibility, 0..=1.
+    pub visible: f64,
+    /// Share of frames with at least half of the target visible, 0..=1.
+    pub half_visible: f64,
+    /// Mean distance to the target, metres.
+    pub distance_m: f64,
+    /// Mean length of the way, metres.
+    pub length_m: f64,
+    /// Smallest distance of a swept way to an obstacle, metres.
+    pub nearest_m: f64,
+    /// Largest acceleration, m/s^2.
+    pub acceleration_mps2: f64,
+    /// Largest jerk, m/s^3.
+    pub jerk_mps3: f64,
+}
+
 /// Rows for the published flights and for other planners on their walks, all measured against the unsimplified town of
 /// each flight and the bodies of traffic around it. Others have the default weights and the limits of the flight's certificate.
-pub fn compared(flights: &[ComparedFlight]) -> Vec<PlannerRow> {
+pub fn compared(flights: &[ComparedFlight]) -> Vec<PlannerFigures> {
     let mut published: Vec<Column> = vec![];
     let mut others: Vec<Column> = OTHERS.iter().map(|(_, name)| Column::new((*name).to_owned())).collect();
     let mut followed = BTreeSet::new();
-    for ComparedFlight { flight, world, planner } in flights.iter().filter(|it| walks(&it.flight)) {
-        let name = format!("as published (`{planner}`)");
+    for flight in flights.iter().filter(|it| walks(&it.trajectory)) {
+        let name = format!("as published (`{}`)", flight.planner);
         let place = published.iter().position(|column| column.name == name).unwrap_or(published.len());
         if place == published.len() {
             published.push(Column::new(name));
         }
-        let task = Task::new(flight, world);
+        let task = Task::new(flight);
         let positions = flight.trajectory.poses_in_world.iter().map(|pose| pose.position_in_world);
         published[place].add(&task, Ok(positions.take(task.track.len()).collect()));
-        if !followed.insert((&flight.town.geometry_digest, &flight.pedestrian_id)) {
+        if !followed.insert(&flight.walk) {
             continue;
         }
         let astar = task.baseline(Baseline::AstarFast);
@@ -73,17 +113,18 @@ pub fn compared(flights: &[ComparedFlight]) -> Vec<PlannerRow> {
             column.add(&task, task.by(*other, &astar));
         }
     }
-    let published: Vec<PlannerRow> = published.into_iter().map(Column::row).collect();
+    let published: Vec<PlannerFigures> = published.into_iter().map(Column::row).collect();
     let anew = others.into_iter().map(Column::row);
+    let way = |row: &PlannerFigures| row.means.map(|means| (means.length_m, means.visible));
     // Published flights of the default planner are the same when they are planned again.
-    let is_new = |row: &PlannerRow| published.iter().all(|it| (it.length_m, it.visible) != (row.length_m, row.visible));
-    let anew: Vec<PlannerRow> = anew.filter(is_new).collect();
+    let is_new = |row: &PlannerFigures| published.iter().all(|it| way(it) != way(row));
+    let anew: Vec<PlannerFigures> = anew.filter(is_new).collect();
     let rows = [published, anew].concat();
     if rows.iter().all(|row| row.asked == 0) { vec![] } else { rows }
 }
 
-fn walks(flight: &RenderedTrajectory) -> bool {
-    let track = &flight.trajectory.track;
+fn walks(flight: &Trajectory) -> bool {
+    let track = &flight.track;
     track.height_m > 0.0 && track.length_m() > LEAST_WAY_M
 }
 
@@ -100,7 +141,8 @@ struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    fn new(flight: &RenderedTrajectory, world: &'a World) -> Self {
+    fn new(flight: &'a ComparedFlight) -> Self {
+        let world: &World = &flight.world;
         let mut track = flight.trajectory.track.clone();
         track.states.truncate(MOST_FRAMES);
         let mut config = MucoConfig::default();
@@ -229,27 +271,26 @@ impl Column {
         self.measured.push(Measure { certificate, costs });
     }
 
-    fn row(self) -> PlannerRow {
+    fn row(self) -> PlannerFigures {
         let count = self.measured.len();
-        let known = |value: f64| (count > 0).then_some(value);
-        let mean = |of: fn(&Certificate) -> f64| {
-            known(self.measured.iter().map(|it| of(&it.certificate)).sum::<f64>() / count.max(1) as f64)
-        };
-        let most = |of: fn(&Certificate) -> f64| {
-            known(self.measured.iter().map(|it| of(&it.certificate)).fold(f64::NEG_INFINITY, f64::max))
-        };
-        let mut costs: Vec<(String, f64)> = self.measured.first().map_or(vec![], |it| it.costs.clone());
-        for (place, cost) in costs.iter_mut().enumerate() {
-            cost.1 = self.measured.iter().map(|it| it.costs[place].1).sum::<f64>() / count.max(1) as f64;
-        }
-        PlannerRow {
+        let all = || self.measured.iter().map(|it| &it.certificate);
+        let mean = |of: fn(&Certificate) -> f64| all().map(of).sum::<f64>() / count.max(1) as f64;
+        let most = |of: fn(&Certificate) -> f64| all().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let means = (count > 0).then(|| Means {
             visible: mean(|it| it.mean_visibility),
             half_visible: mean(|it| it.frames_half_visible),
             distance_m: mean(|it| it.mean_distance_m),
             length_m: mean(|it| it.length_m),
-            nearest_m: most(|it| -it.min_clearance_m).map(|metres| -metres),
+            nearest_m: -most(|it| -it.min_clearance_m),
             acceleration_mps2: most(|it| it.max_acceleration_mps2),
             jerk_mps3: most(|it| it.max_jerk_mps3),
+        });
+        let mut costs: Vec<(String, f64)> = self.measured.first().map_or(vec![], |it| it.costs.clone());
+        for (place, cost) in costs.iter_mut().enumerate() {
+            cost.1 = self.measured.iter().map(|it| it.costs[place].1).sum::<f64>() / count.max(1) as f64;
+        }
+        PlannerFigures {
+            means,
             sound: self.measured.iter().filter(|it| it.certificate.holds).count() as u64,
             planned: count as u64,
             asked: self.asked,

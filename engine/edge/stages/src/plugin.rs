@@ -1,22 +1,27 @@
 //! `wasm`: a plugin as a stage, `use = "wasm:FILE"`: it judges or labels finished flights, or makes extras of rendered ones.
 
-use super::config::{Makes, StagePlugin};
-use super::{Declaration, Effect, Plugins, Role, source, tables};
-use crate::muco::produced;
+use crate::planning::produced;
 use crate::ports::{self, CAPTIONS, EXTRAS, FRAMES, TRAJECTORY};
 use crate::rejections::handed_on;
+use crate::single;
 use crate::traffic::link_moving;
 use crate::world::{check_same_town, link_town, world};
-use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::{PlanOutcome, Trajectory};
+use cosfly_experts::plugins::config::{Makes, StagePlugin};
+use cosfly_experts::plugins::{Declaration, Effect, Plugins, Role, source, tables};
+use cosfly_experts::{artifacts, codec};
+use cosfly_planner::FlightLabel;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraShape};
-use cosfly_schema::flight_labels::{self, FlightLabel};
 use cosfly_schema::flight_table::{self, FlightColumns, MOST_FILES, MOST_ROWS};
 use cosfly_schema::record::captions_from_bytes;
-use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
+use cosfly_stage::parameters;
+use cosfly_stage::{
+    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
+};
 use std::collections::BTreeMap;
 
 /// Blob of extras.
@@ -47,9 +52,9 @@ impl StageKind for Wasm {
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: StagePlugin = parameters::read(given)?;
-        let (artifact, items, bytes_per_item) = match config.makes {
-            Makes::Flights => (TRAJECTORY, "trajectories", 60_000),
-            Makes::Extras => (EXTRAS, "frames", 20_000),
+        let (artifact, items, bytes_per_item, role) = match config.makes {
+            Makes::Flights => (TRAJECTORY, "trajectories", 60_000, StageRole::Changes),
+            Makes::Extras => (EXTRAS, "frames", 20_000, StageRole::Speaks),
         };
         let properties = StageProperties {
             kind: self.name().into(),
@@ -63,6 +68,8 @@ impl StageKind for Wasm {
             files_per_item: 1,
             intermediate: &[],
             asks: None,
+            role,
+            resources: Resources::default(),
         };
         Ok(single(WasmStage { config, properties }))
     }
@@ -112,7 +119,7 @@ fn flights(
     check_same_town(inputs, "trajectories")?;
     let world = world(inputs)?;
     let artifact = inputs.one("trajectories")?;
-    let given: PlanOutcome = codec::decode(TRAJECTORY, &inputs.read(artifact, "trajectory")?)?;
+    let given = artifacts::FLIGHT.read(inputs, artifact)?;
     let mut warnings = vec![];
     let outcome = match given {
         PlanOutcome::Planned(flight) => {
@@ -127,7 +134,7 @@ fn flights(
         }
         rejected @ PlanOutcome::Rejected { .. } => rejected,
     };
-    outputs.put("trajectory", &codec::encode(TRAJECTORY, &outcome)?)?;
+    artifacts::FLIGHT.put(outputs, &outcome)?;
     link_town(inputs, outputs)?;
     link_moving(artifact, outputs)?;
     Ok(Produced { warnings, ..produced(&outcome) })
@@ -149,7 +156,11 @@ fn labelled(
     [plugin, version, _]: [&str; 3],
 ) -> Result<PlanOutcome, String> {
     for (name, per_frame) in flight_table::labels(answer, &tables::columns(&declared.gives), flight.track.len())? {
-        flight_labels::add(&mut flight, FlightLabel { name: &name, plugin, version, per_frame: &per_frame })?;
+        if let Some(earlier) = flight.labels.iter().find(|earlier| earlier.name == name) {
+            let plugin = &earlier.plugin;
+            return Err(format!("it returned a label `{name}`, but plugin `{plugin}` already gave one of that name"));
+        }
+        flight.labels.push(FlightLabel { name, plugin: plugin.to_owned(), version: version.to_owned(), per_frame });
     }
     Ok(PlanOutcome::Planned(Box::new(flight)))
 }

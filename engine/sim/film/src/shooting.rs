@@ -1,14 +1,11 @@
 //! Settings that all frames of a flight share: camera, mount and weather.
 
-use crate::parameters;
-use crate::walks::walk_seed;
-use cosfly_diagnose::{ParameterError, Result};
+use crate::looks::walk_seed;
+use cosfly_diagnose::Result;
 use cosfly_domain::{Camera, Followed, Mount, Trajectory, Weather};
 use cosfly_figures::{BodyShape, clothes_seed_of_target};
 use cosfly_frames::{Pose, Seed};
 use cosfly_render::RenderConfig;
-use cosfly_schema::EncodingConfig;
-use cosfly_stage::ItemName;
 
 /// Settings of one flight.
 pub struct Shooting {
@@ -27,16 +24,19 @@ pub struct Shooting {
 }
 
 impl Shooting {
-    /// Settings of the item `item`, which films `trajectory` behind a walker or behind a body of traffic. Twins follow the same walk: same clothes, same weather, same
-    /// camera.
+    /// Settings of a film of `trajectory` behind a walker or behind a body of traffic; `variant` is the one of its item. Twins
+    /// follow the same walk: same clothes, same weather, same camera.
+    ///
+    /// # Errors
+    /// None for tracks in memory.
     pub fn of(
         config: &RenderConfig,
         trajectory: &Trajectory,
         followed: Option<&Followed>,
-        item: &ItemName,
+        variant: Option<&str>,
     ) -> Result<Self> {
         let walk_seed = walk_seed(&trajectory.track)?;
-        let weather = match preset(config, item) {
+        let weather = match preset(config, variant) {
             Some(preset) => config.weather_called(preset, &walk_seed),
             None => config.draw_weather(&walk_seed),
         };
@@ -67,15 +67,7 @@ impl Shooting {
     }
 }
 
-/// The settings of pictures among the parameters of a stage `render`.
-///
-/// # Errors
-/// Parameters that the stage refuses.
-pub fn render_config(parameters: serde_json::Value) -> std::result::Result<RenderConfig, ParameterError> {
-    parameters::read_joined::<RenderConfig, EncodingConfig>(parameters, "encoding").map(|(config, _)| config)
-}
-
-/// Weather preset that a paired rendering names the item after.
-pub fn preset<'a>(config: &RenderConfig, item: &'a ItemName) -> Option<&'a str> {
-    item.variant().filter(|_| config.paired_weathers)
+/// Weather preset that a paired rendering names its item after: the variant of the item.
+pub fn preset<'a>(config: &RenderConfig, variant: Option<&'a str>) -> Option<&'a str> {
+    variant.filter(|_| config.paired_weathers)
 }

@@ -1,6 +1,7 @@
 //! How recipes name plugins: file, parameters, limits.
 
 use cosfly_diagnose::ParameterError;
+use cosfly_stage::parameters;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -212,7 +213,7 @@ impl ExpertPlugins {
             let Some(name) = &term.name else { continue };
             if self.terms[..index].iter().any(|earlier| earlier.name.as_ref() == Some(name)) {
                 let message = format!("two terms are called `{name}`");
-                return Err(crate::parameters::refused_at(&format!("terms[{index}].name"), message));
+                return Err(parameters::refused_at(&format!("terms[{index}].name"), message));
             }
         }
         Ok(())

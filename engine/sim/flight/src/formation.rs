@@ -1,16 +1,9 @@
 //! The drones behind the same walk: what twins, pictures and filters of a drone's flight need to know of the others.
 
-use crate::{codec, ports};
-use cosfly_blobs::OutputSink;
-use cosfly_diagnose::Result;
 use cosfly_domain::{Body, BodyKind, BodyPlan, OrientedBox};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_stage::{Artifact, Inputs};
 use cosfly_surroundings::moving::{OtherDrones, drone_boxes};
 use serde::{Deserialize, Serialize};
-
-/// Blob of a flight with its [`Formation`]; absent where the drone is alone.
-pub const DRONES_BLOB: &str = "drones";
 
 /// Length, width and height of a drone's body in pictures, metres; it lies within the cube that the planner keeps free and
 /// looks past.
@@ -37,19 +30,6 @@ pub struct Drone {
 }
 
 impl Formation {
-    /// Writes the drones beside a flight.
-    pub fn put(&self, outputs: &mut dyn OutputSink) -> Result<()> {
-        outputs.put(DRONES_BLOB, &codec::encode(ports::FORMATION, self)?)
-    }
-
-    /// The drones behind the walk of a flight; none where it has the walk for itself.
-    pub fn of(inputs: &Inputs<'_>, flight: &Artifact) -> Result<Self> {
-        if !flight.blobs.contains_key(DRONES_BLOB) {
-            return Ok(Self::default());
-        }
-        codec::decode(ports::FORMATION, &inputs.read(flight, DRONES_BLOB)?)
-    }
-
     fn others(&self) -> impl Iterator<Item = &Drone> {
         let others = self.drones.iter().enumerate().filter(|(place, _)| *place != self.own as usize);
         others.filter_map(|(_, drone)| drone.as_ref())

@@ -1,9 +1,10 @@
-//! One flight of a `muco` stage: its mission, its companions, and how it is planned, from its beginning or from any state.
+//! One flight of an expert: its mission, its companions, and how it is planned, from its beginning or from any state.
 
-use crate::flown::take_aim;
+use crate::aim::take_aim;
+use crate::companions::Companion;
 use crate::plugins::{DrawnReference, Plugins};
 use crate::world::World;
-use cosfly_domain::{ObstacleKind, OrientedBox, PlanOutcome, TermCost, Trajectory};
+use cosfly_domain::{ObstacleKind, OrientedBox, PlanOutcome, Trajectory};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetTrack};
 use cosfly_objectives::inspect::{self, Inspection};
 use cosfly_objectives::patrol::{self, MET_M, Patrol};
@@ -20,9 +21,6 @@ use std::sync::{Arc, OnceLock};
 /// Flights of up to so many frames sample the ground once for all states that ask for a way on; along longer ones the samples would
 /// lie too far apart.
 const SHARED_GROUND_FRAMES: usize = 4096;
-
-/// A walk that may accompany another one: id and track.
-pub type Companion = (String, TargetTrack);
 
 /// Who moves around a flight. The walker's own body is in none of the lists beside it.
 #[derive(Clone, Debug, Default)]
@@ -57,7 +55,7 @@ pub struct Flight {
     objective: ObjectiveConfig,
     /// Aim at a walker; `None` where the flight follows nobody.
     aim: Option<AimConfig>,
-    plugins: Plugins,
+    plugins: Arc<dyn Plugins>,
     seed: Seed,
     /// The ground around the whole flight, once a state asks for a way on.
     ground: OnceLock<GroundGrid>,
@@ -75,7 +73,7 @@ impl Flight {
         world: &Arc<World>,
         bodies: Bodies,
         seed: Seed,
-        plugins: Plugins,
+        plugins: Arc<dyn Plugins>,
     ) -> cosfly_diagnose::Result<Result<Self, String>> {
         let drawn = if objective.objective == Objective::Plugin {
             let (low, high) = bounds(world);
@@ -95,7 +93,7 @@ impl Flight {
         world: &World,
         bodies: Bodies,
         seed: Seed,
-        plugins: Plugins,
+        plugins: Arc<dyn Plugins>,
         drawn: Option<DrawnReference>,
     ) -> Result<Self, String> {
         let Bodies { walk, companions, movers } = bodies;
@@ -170,8 +168,7 @@ impl Flight {
         })
     }
 
-    /// The whole flight, and warnings of plugins for users. An inspection lists its coverage beside its costs, as `coverage`
-    /// of weight 0.
+    /// The whole flight, and warnings of plugins for users.
     ///
     /// # Errors
     /// Failures of a plugin.
@@ -188,9 +185,7 @@ impl Flight {
             let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
             let structures = buildings(world);
             let site = Site { exact: &world.exact, structures: &structures, ground: &ground, bounds: bounds(world) };
-            let per_frame = inspection.coverage(&site, &flight.poses_in_world, &self.objective.inspect).gained();
-            let sum = per_frame.iter().sum();
-            flight.terms.push(TermCost { name: "coverage".to_owned(), weight: 0.0, sum, per_frame });
+            flight.coverage = inspection.coverage(&site, &flight.poses_in_world, &self.objective.inspect).gained();
         }
         Ok((outcome, warnings))
     }
@@ -248,10 +243,10 @@ impl Flight {
                 request.ground_grid = Some(self.ground.get_or_init(whole));
             }
         }
-        let (terms, after) = self.plugins.open_terms(world, self.seed)?;
-        request.extra_terms.extend(terms);
+        let opened = self.plugins.open_terms(world, self.seed)?;
+        request.extra_terms.extend(opened.terms);
         let outcome = plan_request(request);
-        Ok((outcome, after.warnings()?))
+        Ok((outcome, (opened.warnings)()?))
     }
 
     /// Notes by name, and warnings, about the whole flight.
@@ -261,8 +256,7 @@ impl Flight {
         match &self.purpose {
             Purpose::Walker => {}
             Purpose::Walls(inspection) => {
-                let covered = flight.terms.iter().find(|term| term.name == "coverage");
-                notes.insert("coverage".to_owned(), format!("{:.3}", covered.map_or(0.0, |term| term.sum)));
+                notes.insert("coverage".to_owned(), format!("{:.3}", flight.coverage.iter().sum::<f64>()));
                 notes.insert("sides".to_owned(), format!("{} of 4", inspection.sides));
             }
             Purpose::Waypoints(patrol) => {
@@ -340,9 +334,12 @@ fn bounds(world: &World) -> (DVec2, DVec2) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expert::{Expert, Flown};
+    use crate::expert::Expert;
+    use crate::flown::Flown;
+    use crate::plugins::NoPlugins;
     use cosfly_domain::Town;
     use cosfly_frames::TargetState;
+    use cosfly_planner::config::DronesConfig;
 
     #[test]
     fn movers_are_kept_clear_of_by_the_whole_flight_and_by_each_part_of_it() {
@@ -352,7 +349,7 @@ mod tests {
         let world = Arc::new(World::new(Town::default()));
         let fly = |movers: Vec<Vec<OrientedBox>>| {
             let bodies = Bodies { walk: Some(walk.clone()), movers, ..Bodies::default() };
-            Expert::default().flight(&world, bodies, Seed([1; 32]), Plugins::default()).unwrap().unwrap()
+            Expert::default().flight(&world, bodies, Seed([1; 32]), Arc::new(NoPlugins)).unwrap().unwrap()
         };
         let flown = |outcome: PlanOutcome| match outcome {
             PlanOutcome::Planned(flight) => flight.poses_in_world.iter().map(|it| it.position_in_world).collect(),
@@ -388,8 +385,8 @@ mod tests {
         let walk = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states };
         let world = Arc::new(World::new(Town::default()));
         let fly = |count: u32| -> Vec<Vec<DVec3>> {
-            let expert =
-                Expert::read(serde_json::json!({ "drones": { "count": count, "separation_m": 7.0 } })).unwrap();
+            let mut expert = Expert::default();
+            expert.config.drones = DronesConfig { count, separation_m: 7.0 };
             let bodies = Bodies { walk: Some(walk.clone()), ..Bodies::default() };
             let places = |flown: Flown| match flown.outcome {
                 PlanOutcome::Planned(flight) => flight.poses_in_world.iter().map(|it| it.position_in_world).collect(),

@@ -1,11 +1,10 @@
 //! People and vehicles on their tracks, by the clock of a flight.
 
-use crate::codec;
+use crate::looks::walk_seed;
 use crate::shooting::Shooting;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Body, BodyKind, BodyPlan, Followed, Outfit};
 use cosfly_figures::{BodyShape, Walker, gait_phase_rad, outfit_of};
-use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_optics::target_state_at;
 use cosfly_pedestrians::PedestrianPath;
@@ -145,11 +144,6 @@ pub fn touch(
             && cosfly_world::gap_m(&plan, one, other, two) < 0.0
     };
     states.iter().zip(others).any(overlap)
-}
-
-/// Seed of a walker's looks, and of the camera and weather of flights behind them.
-pub fn walk_seed(track: &TargetTrack) -> Result<Seed> {
-    Ok(Seed(Digest::of(&codec::encode("walk-seed/1", track)?).0))
 }
 
 /// Distance walked up to each frame, metres.

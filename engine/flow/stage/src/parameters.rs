@@ -19,6 +19,16 @@ pub fn canonical<T: Serialize>(config: &T) -> serde_json::Value {
     serde_json::to_value(config).expect("configs are plain JSON values")
 }
 
+/// `table` without the parameters `names`, which must not enter a key. A name that is not in the table is a bug: a misspelt one
+/// fails with the first stage that is built.
+pub fn without(mut table: serde_json::Value, names: &[&str]) -> serde_json::Value {
+    let all = table.as_object_mut().expect("parameters are a table");
+    for name in names {
+        assert!(all.remove(*name).is_some(), "there is no parameter `{name}`");
+    }
+    table
+}
+
 /// Schema of `A` with one more property, `key`, that holds a `B`: configs of two rooms in one table of a recipe.
 pub fn joined_schema<A: JsonSchema, B: JsonSchema>(key: &str) -> serde_json::Value {
     let (mut outer, mut inner) = (schema_of::<A>(), schema_of::<B>());

@@ -1,0 +1,111 @@
+//! Kinds of artifacts: each has a type of values, a format version and blobs.
+
+use crate::codec;
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::Result;
+use cosfly_domain::{Around, Followed, PlanOutcome, Town, Traffic};
+use cosfly_film::nearby::{NearbyBodies, NearbyPerson};
+use cosfly_flight::formation::Formation;
+use cosfly_flight::losses::Trial;
+use cosfly_flight::{Companion, Flown};
+use cosfly_pedestrians::PedestrianPath;
+use cosfly_schema::Rejection;
+use cosfly_stage::{Artifact, Inputs};
+use serde::{Serialize, de::DeserializeOwned};
+use std::any::Any;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// A blob of an artifact with values of type `T`.
+pub struct Kind<T> {
+    /// Artifact with its format version, such as `town/1`.
+    pub artifact: &'static str,
+    /// Name of the blob.
+    pub blob: &'static str,
+    values: PhantomData<fn() -> T>,
+}
+
+/// A town. Every artifact that was made in it carries it as a link.
+pub const TOWN: Kind<Town> = Kind::new("town/1", "town");
+/// The walk of a pedestrian, or of another body that is followed.
+pub const WALK: Kind<PedestrianPath> = Kind::new("walk/1", "walk");
+/// The body of traffic that a walk or a flight follows.
+pub const FOLLOWED: Kind<Followed> = Kind::new("walk/1", "followed");
+/// Companions of a flight.
+pub const COMPANIONS: Kind<Vec<Companion>> = Kind::new("companions/1", "companions");
+/// All people and vehicles that move through a town; the part and the blob have one name.
+pub const TRAFFIC: Kind<Traffic> = Kind::new("traffic/1", "bodies");
+/// Bodies around the target of a flight.
+pub const AROUND: Kind<Around> = Kind::new("around/1", "around");
+/// What came of ordering a loss of the target.
+pub const LOSSES: Kind<Trial> = Kind::new("losses/1", "trial");
+/// Flights of all drones behind a walk; a blob for each, of this type.
+pub const FORMATION: Kind<Flown> = Kind::new("formation/1", "");
+/// All drones behind the walk of a flight; absent where the drone is alone.
+pub const DRONES: Kind<Formation> = Kind::new("formation/1", "drones");
+/// A planned or changed flight, or the reason why there is none.
+pub const FLIGHT: Kind<PlanOutcome> = Kind::new("trajectory/4", "trajectory");
+/// People who are near a flight, each with a blob of the walk.
+pub const NEARBY: Kind<Vec<NearbyPerson>> = Kind::new("nearby/1", "people");
+/// Bodies of traffic near a flight; absent where there is no traffic.
+pub const NEARBY_BODIES: Kind<Vec<NearbyBodies>> = Kind::new("nearby/1", "bodies");
+/// Reason why a film has no pictures; absent where it has.
+pub const REJECTION: Kind<Rejection> = Kind::new("frames/2", "rejection");
+
+impl<T> Kind<T> {
+    /// Values of type `T` in blobs called `blob` of artifacts `artifact`.
+    pub const fn new(artifact: &'static str, blob: &'static str) -> Self {
+        Self { artifact, blob, values: PhantomData }
+    }
+
+    /// Whether an artifact has such a blob.
+    pub fn is_in(&self, artifact: &Artifact) -> bool {
+        artifact.blobs.contains_key(self.blob)
+    }
+}
+
+impl<T: Serialize> Kind<T> {
+    /// Writes a value as the blob of an item.
+    ///
+    /// # Errors
+    /// Those of the disk.
+    pub fn put(&self, outputs: &mut dyn OutputSink, value: &T) -> Result<()> {
+        outputs.put(self.blob, &codec::encode(self.artifact, value)?)
+    }
+}
+
+impl<T: DeserializeOwned> Kind<T> {
+    /// Value in the bytes of a blob.
+    ///
+    /// # Errors
+    /// Bytes of another kind or format version, and broken ones.
+    pub fn decode(&self, bytes: &[u8]) -> Result<T> {
+        codec::decode(self.artifact, bytes)
+    }
+
+    /// Value in the blob of an artifact.
+    ///
+    /// # Errors
+    /// As [`Self::decode`]; a blob that is not there.
+    pub fn read(&self, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<T> {
+        self.decode(&inputs.read(artifact, self.blob)?)
+    }
+
+    /// Value in the blob of an artifact; `None` where there is no such blob.
+    ///
+    /// # Errors
+    /// As [`Self::decode`].
+    pub fn find(&self, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Option<T>> {
+        self.is_in(artifact).then(|| self.read(inputs, artifact)).transpose()
+    }
+}
+
+impl<T: DeserializeOwned + Any + Send + Sync> Kind<T> {
+    /// As [`Self::read`], decoded once for all tasks that share it.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn shared(&self, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Arc<T>> {
+        inputs.decoded(artifact, self.blob, |bytes| self.decode(bytes))
+    }
+}

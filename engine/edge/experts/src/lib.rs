@@ -1,0 +1,14 @@
+//! Experts as recipes describe them, and the artifacts of stages as everybody reads and writes them.
+//!
+//! * [`artifacts`]: kinds of artifacts, each with its type, its format version and its blobs; [`codec`]: their encoding.
+//! * [`expert`]: parameters of an expert; [`pictures`]: settings of pictures.
+//! * [`plugins`]: plugins in recipes.
+
+pub mod artifacts;
+pub mod codec;
+pub mod expert;
+pub mod pictures;
+pub mod plugins;
+
+pub use artifacts::Kind;
+pub use expert::RecipeExpert;

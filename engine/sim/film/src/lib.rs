@@ -1,0 +1,16 @@
+//! Films of a flight, before any picture is drawn.
+//!
+//! * [`shooting`]: camera, mount and weather that all frames share.
+//! * [`walks`]: people and vehicles on their tracks, by the clock of a flight; [`looks`]: seeds of what they look like.
+//! * [`nearby`]: who may appear in the pictures, or throw a shadow into them.
+//! * [`body_rays`], [`hidden`]: how much of the target rays reach.
+
+pub mod body_rays;
+pub mod hidden;
+pub mod looks;
+pub mod nearby;
+pub mod shooting;
+pub mod walks;
+
+pub use shooting::Shooting;
+pub use walks::Person;

@@ -1,0 +1,293 @@
+//! Who is near a flight: the people and vehicles who may appear in its pictures, or throw a shadow into them.
+
+use crate::body_rays;
+use crate::shooting::Shooting;
+use crate::walks::{Person, touch};
+use cosfly_diagnose::Result;
+use cosfly_domain::{Around, Body, Camera, Followed, TARGET_INSTANCE, Town, Traffic, Trajectory, object_instance};
+use cosfly_figures::Walker;
+use cosfly_frames::{Pose, TargetState};
+use cosfly_optics::pose_at;
+use cosfly_pedestrians::PedestrianPath;
+use cosfly_render::{Buildings, Outlook, RenderConfig};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// A person who is near a flight.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NearbyPerson {
+    /// Id in instance images (see [`instance_of`]).
+    pub instance: u32,
+    /// Stage and item of the walk, such as `crowd-p00003`.
+    pub walk_id: String,
+}
+
+/// The bodies of one traffic that are near a flight.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NearbyBodies {
+    /// Ids in instance images, one for each body.
+    pub instances: Vec<u32>,
+    /// The bodies.
+    pub around: Around,
+}
+
+/// A person or vehicle that may be near.
+pub struct Candidate {
+    /// Id in instance images.
+    pub instance: u32,
+    /// Origin of its track.
+    pub origin: Origin,
+    /// Place among the candidates: that of their stage, then that of the item.
+    place: usize,
+    person: Person,
+}
+
+/// Origin of a track.
+pub enum Origin {
+    /// A walk of its own: number of its stage, and of the walk in it.
+    Walk(usize, usize),
+    /// A body of traffic.
+    Body(Arc<Traffic>, u32),
+}
+
+/// Reason why somebody cannot be a candidate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refused {
+    /// The walk has no steps.
+    NoSteps,
+    /// There is no instance id left.
+    NoId,
+}
+
+/// Everybody except the target of a flight, and those whose own walk crosses the target's body.
+pub struct Candidates<'a> {
+    flight: &'a Trajectory,
+    target: Option<&'a Followed>,
+    largest_object: u32,
+    /// The candidates.
+    pub all: Vec<Candidate>,
+    /// Number of those whose walk crosses the target's body.
+    pub left_out: usize,
+}
+
+impl<'a> Candidates<'a> {
+    /// Nobody yet, around `flight` behind `target` in `town`.
+    pub fn new(town: &Town, flight: &'a Trajectory, target: Option<&'a Followed>) -> Self {
+        Self { flight, target, largest_object: largest_object(town), all: vec![], left_out: 0 }
+    }
+
+    /// Adds the bodies of the traffic that stage number `stage` made.
+    ///
+    /// # Errors
+    /// [`Refused::NoId`].
+    pub fn add_traffic(&mut self, stage: usize, traffic: &Arc<Traffic>) -> std::result::Result<(), Refused> {
+        for (number, body) in (0..).zip(&traffic.bodies).filter(|(_, body)| !body.states.is_empty()) {
+            if !is_of(self.target, number, body, self.flight) {
+                let instance = self.instance(stage, number as usize)?;
+                self.add(instance, Origin::Body(Arc::clone(traffic), number), Person::of(body, traffic.dt_s));
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds walk number `item` of stage number `stage`. `Some` is the reason why that cannot be.
+    ///
+    /// # Errors
+    /// As [`Person::on`].
+    pub fn add_walk(&mut self, stage: usize, item: usize, walk: &PedestrianPath) -> Result<Option<Refused>> {
+        let track = &walk.track;
+        if track.is_empty() || !(track.dt_s > 0.0 && track.dt_s.is_finite()) {
+            return Ok(Some(Refused::NoSteps));
+        }
+        if track.states == self.flight.track.states {
+            return Ok(None);
+        }
+        let instance = match self.instance(stage, item) {
+            Ok(instance) => instance,
+            Err(refused) => return Ok(Some(refused)),
+        };
+        let person = Person::on(walk)?;
+        if person.meets(&self.flight.track) {
+            self.left_out += 1;
+        } else {
+            self.add(instance, Origin::Walk(stage, item), person);
+        }
+        Ok(None)
+    }
+
+    fn instance(&self, stage: usize, item: usize) -> std::result::Result<u32, Refused> {
+        let number = instance_of(stage, item).and_then(|number| self.largest_object.checked_add(number));
+        number.ok_or(Refused::NoId)
+    }
+
+    fn add(&mut self, instance: u32, origin: Origin, person: Person) {
+        self.all.push(Candidate { instance, place: self.all.len(), origin, person });
+    }
+}
+
+impl NearbyBodies {
+    /// Adds a body to those of its traffic.
+    pub fn add(all: &mut Vec<Self>, traffic: &Traffic, number: u32, instance: u32) {
+        let place = all.iter().position(|it| it.around.traffic.name == traffic.name).unwrap_or_else(|| {
+            let (name, dt_s, frames) = (traffic.name.clone(), traffic.dt_s, traffic.frames);
+            let traffic = Traffic { name, dt_s, frames, ..Traffic::default() };
+            all.push(Self { instances: vec![], around: Around { numbers: vec![], traffic } });
+            all.len() - 1
+        });
+        let own = &mut all[place];
+        own.instances.push(instance);
+        own.around.numbers.push(number);
+        own.around.traffic.bodies.push(traffic.bodies[number as usize].clone());
+    }
+}
+
+/// Parts of a town that hide people.
+pub struct Scenery<'a> {
+    /// Buildings.
+    pub buildings: &'a Buildings,
+    /// Height below which there is nothing to be seen, metres.
+    pub lowest_m: f64,
+}
+
+/// A film of a flight.
+pub struct Filming<'a> {
+    /// Settings of the pictures.
+    pub config: &'a RenderConfig,
+    /// Camera, mount and weather.
+    pub shooting: &'a Shooting,
+    /// Parts of the town that hide people.
+    pub scenery: Scenery<'a>,
+    /// The flight.
+    pub flight: &'a Trajectory,
+}
+
+/// Whether a body of traffic is the target of a flight.
+fn is_of(target: Option<&Followed>, number: u32, body: &Body, trajectory: &Trajectory) -> bool {
+    target.is_some_and(|it| it.number == number && it.plan == body.plan && trajectory.track.states == body.states)
+}
+
+impl Origin {
+    /// Whether two people were moved together, each around the other.
+    fn is_with(&self, other: &Origin) -> bool {
+        match (self, other) {
+            (Origin::Body(one, _), Origin::Body(other, _)) => Arc::ptr_eq(one, other),
+            _ => false,
+        }
+    }
+
+    /// Whether a person was moved together with the target of a flight.
+    fn is_with_target(&self, target: Option<&Followed>, trajectory: &Trajectory) -> bool {
+        let Origin::Body(traffic, _) = self else { return false };
+        let body = target.and_then(|it| Some((it.number, traffic.bodies.get(it.number as usize)?)));
+        body.is_some_and(|(number, body)| is_of(target, number, body, trajectory))
+    }
+}
+
+/// Leaves out everybody who would walk through the target or through somebody before them: those whose tracks were made apart
+/// from each other do not know of each other. More people change nothing for those before them.
+pub fn apart(mut near: Vec<Candidate>, trajectory: &Trajectory, target: Option<&Followed>) -> Vec<Candidate> {
+    let track = &trajectory.track;
+    let flown_at = Person::target(track, target);
+    let target_states = flown_at.states(track);
+    near.sort_by_key(|candidate| candidate.place);
+    let mut kept: Vec<(Candidate, Vec<Option<TargetState>>)> = vec![];
+    for candidate in near {
+        let states = candidate.person.states(track);
+        let (origin, own) = (&candidate.origin, (candidate.person.plan(), &states[..]));
+        let meets_target = track.radius_m > 0.0
+            && !origin.is_with_target(target, trajectory)
+            && touch((flown_at.plan(), &target_states), own);
+        let meets = |(other, others): &(Candidate, Vec<_>)| {
+            !origin.is_with(&other.origin) && touch((other.person.plan(), others), own)
+        };
+        if !meets_target && !kept.iter().any(meets) {
+            kept.push((candidate, states));
+        }
+    }
+    kept.into_iter().map(|(candidate, _)| candidate).collect()
+}
+
+/// Largest id of an object in instance images.
+pub fn largest_object(town: &Town) -> u32 {
+    let objects = town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
+    objects.max().unwrap_or(TARGET_INSTANCE)
+}
+
+/// Place among the stages at port `others` that drones have instead of a stage.
+const PLACE_OF_DRONES: usize = 12;
+
+/// Instance id of a drone by its number behind the walk, counted after the ids of objects as those of people are.
+pub fn instance_of_drone(number: u32) -> Option<u32> {
+    odd_multiple(PLACE_OF_DRONES, number as usize)
+}
+
+/// Instance id of a person, counted after the ids of objects: a number that no other person has, and that depends on the
+/// places of the stage at the port and of the item in the stage alone. More people, and stages that are added at the end,
+/// change no id: the first stage has every second number, the next one every second of the rest, and so on. `None` beyond
+/// 32 bits.
+pub fn instance_of(stage: usize, item: usize) -> Option<u32> {
+    odd_multiple(stage + usize::from(stage >= PLACE_OF_DRONES), item)
+}
+
+/// Number `item` of those that can be halved just so often.
+fn odd_multiple(halvings: usize, item: usize) -> Option<u32> {
+    let odd = u32::try_from(item).ok()?.checked_mul(2)?.checked_add(1)?;
+    odd.checked_mul(1u32.checked_shl(u32::try_from(halvings).ok()?)?)
+}
+
+impl Filming<'_> {
+    /// The candidates who may change a pixel or a label of a frame: the renderer draws them or their shadows, or they stand
+    /// between camera and target; and no building hides them.
+    ///
+    /// # Errors
+    /// Those of `check`, which is called before each frame.
+    pub fn near(&self, mut others: Vec<Candidate>, check: &dyn Fn() -> Result<()>) -> Result<Vec<Candidate>> {
+        let Self { shooting, scenery, flight, .. } = self;
+        let effects = self.config.effects(shooting.camera);
+        let (camera, moments_s): (Camera, Vec<f64>) = (effects.ideal_camera(), effects.moments_s());
+        let poses: Vec<Pose> = shooting.poses(flight);
+        let track = &flight.track;
+        others.iter_mut().for_each(|other| other.person.dress_for(shooting));
+        let mut near = vec![];
+        for (frame, target) in track.states.iter().enumerate() {
+            check()?;
+            let target = Walker {
+                state: *target,
+                height_m: track.height_m,
+                radius_m: track.radius_m,
+                clothes_seed: shooting.clothes_seed,
+                gait_phase_rad: 0.0,
+                body: shooting.body,
+            };
+            for offset_s in &moments_s {
+                let pose = pose_at(&poses, frame as f64 + offset_s / track.dt_s);
+                let outlook = Outlook::new(&camera, &shooting.weather, &pose);
+                let eye_in_world = pose.position_in_world;
+                let matters = |other: &mut Candidate| {
+                    let walker = other.person.walker(frame as f64 * track.dt_s + offset_s);
+                    let Some(walker) = walker else { return false };
+                    (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, &target))
+                        && !scenery.buildings.hide(eye_in_world, &outlook.hull(&walker, scenery.lowest_m))
+                };
+                near.extend(others.extract_if(.., matters));
+            }
+        }
+        Ok(near)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn ids_of_people_differ_and_do_not_depend_on_how_many_there_are() {
+        let people = (0..14).flat_map(|stage| (0..300).map(move |item| instance_of(stage, item).unwrap()));
+        let ids: BTreeSet<u32> = people.chain((0..8).map(|number| instance_of_drone(number).unwrap())).collect();
+        assert_eq!((ids.len(), ids.first()), (14 * 300 + 8, Some(&1)));
+        assert_eq!([0, 1, 2].map(|item| instance_of(0, item)), [Some(1), Some(3), Some(5)]);
+        assert_eq!([0, 1, 2].map(|item| instance_of(1, item)), [Some(2), Some(6), Some(10)]);
+        assert_eq!((instance_of(30, 0), instance_of(30, 1), instance_of(31, 0)), (Some(1 << 31), None, None));
+    }
+}
