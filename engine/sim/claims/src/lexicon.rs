@@ -28,6 +28,8 @@ pub(crate) enum Concept {
     Times,
     /// Near a length: distance of the drone.
     Away,
+    /// Before a length: distance of the drone.
+    At,
     /// Near a length: height of the drone.
     Above,
     /// Near a length: way of the target.
@@ -162,7 +164,7 @@ fn concept(name: &str) -> Option<Concept> {
 }
 
 fn plain_concept(name: &str) -> Option<Concept> {
-    const NAMES: [(&str, Concept); 29] = [
+    const NAMES: [(&str, Concept); 30] = [
         ("point", Concept::Point),
         ("metres", Concept::Metres),
         ("seconds", Concept::Seconds),
@@ -172,6 +174,7 @@ fn plain_concept(name: &str) -> Option<Concept> {
         ("each_second", Concept::EachSecond),
         ("times", Concept::Times),
         ("away", Concept::Away),
+        ("at", Concept::At),
         ("above", Concept::Above),
         ("way", Concept::Way),
         ("time", Concept::Time),

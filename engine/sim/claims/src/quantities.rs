@@ -43,7 +43,8 @@ fn is_speed(sentence: Sentence<'_>, at: usize) -> bool {
 fn length(sentence: Sentence<'_>, at: usize, unit: usize, value: f64) -> Claim {
     let is_cue = |it| matches!(it, Concept::Away | Concept::Above | Concept::Way | Concept::Walks);
     let clause = sentence.clause(at);
-    let near = sentence.behind(unit, REACH, &is_cue).or_else(|| sentence.before(at, &is_cue));
+    let near =
+        sentence.behind(unit, REACH, &is_cue).or_else(|| sentence.before(at, &|it| is_cue(it) || it == Concept::At));
     let near = near.or_else(|| sentence.behind(unit, clause.len(), &is_cue));
     let is_of_walk = |it| matches!(it, Concept::Seconds | Concept::Speed);
     match near.and_then(|place| sentence.concept(place)) {

@@ -47,11 +47,13 @@ impl Sentence<'_> {
         (0..at).rev().find(|place| self.concept(*place).is_some_and(is_such))
     }
 
-    /// Whether a negation reaches a place.
+    /// Whether a negation reaches a place; a word between two statements and a backpack, which has its own, end its reach.
     pub(crate) fn is_denied(self, at: usize) -> bool {
         let start = self.clause(at).start.max(at.saturating_sub(NEGATION_REACH));
         let words = (start..at).rev().map(|place| self.concept(place));
-        words.take_while(|concept| *concept != Some(Concept::And)).any(|concept| concept == Some(Concept::Not))
+        words
+            .take_while(|concept| !matches!(concept, Some(Concept::And | Concept::Backpack)))
+            .any(|concept| concept == Some(Concept::Not))
     }
 
     /// Whether some concept is in the sentence.

@@ -79,7 +79,7 @@ impl StageKind for Caption {
         }
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 12,
+            version: 13,
             parameters: canonical,
             sources: vec![],
             inputs,
