@@ -2,13 +2,14 @@
 //!
 //! `fuzz_targets/NAME.rs` hands them to libFuzzer; `tests/fuzzing.rs` runs them over damaged files of `corpus/NAME`.
 
+use cosfly_domain::channels;
 use cosfly_frames::Seed;
-use cosfly_maps::{MapConfig, MapError, read_town};
+use cosfly_maps::{MapConfig, read_town};
 use cosfly_metrics::run_lengths::Runs;
 #[cfg(feature = "plugins")]
 use cosfly_plugin_host::{Host, PluginLimits};
-use cosfly_render::channels;
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, read_answer};
+use cosfly_town::MapError;
 use cosfly_write::FramePackReader;
 use std::io::{Cursor, Write};
 use std::path::Path;

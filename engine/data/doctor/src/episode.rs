@@ -1,8 +1,8 @@
 //! A flight as the checks see it: the values of its files, absent where the files have none.
 
 use cosfly_captions::Wear;
+use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose};
-use cosfly_render::Camera;
 
 /// A flight. World frame: CARLA's (x east, y south, z up), metres, radians.
 #[derive(Clone, Debug, Default)]

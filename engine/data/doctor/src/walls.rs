@@ -1,8 +1,8 @@
 //! Distance of the walls in a depth image from the walls of the town, seen from a pose.
 
+use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_read::BoxInWorld;
-use cosfly_render::Camera;
 use std::collections::BTreeMap;
 
 /// Number of pixels of an image that are used, about.

@@ -1,10 +1,10 @@
 //! The job file with which `plugins/carla/replay.py` flies published flights through a CARLA server again.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::Lens;
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
 use cosfly_read::{FrameRow, PublishedDataset, PublishedFlight};
-use cosfly_render::Lens;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::Write;

@@ -1,10 +1,10 @@
 //! Colour images decoded and made smaller; labels, ids and depths encoded as pictures and as NumPy files.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::channels::Element;
+use cosfly_domain::{Channel, ChannelImage};
 use cosfly_images::read::decoded;
 use cosfly_read::LoggedFrame;
-use cosfly_render::channels::Element;
-use cosfly_render::{Channel, ChannelImage};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use std::io::Write;

@@ -2,9 +2,9 @@
 
 use crate::shared_options::Language;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::{Channel, channels};
 use cosfly_frames::Pose;
 use cosfly_read::{CaptionReader, FrameRow, LogReader, LoggedFrame, PublishedDataset, PublishedFlight, RowIndex};
-use cosfly_render::channels::{self, Channel};
 use cosfly_schema::CaptionRecord;
 use rayon::prelude::*;
 use std::cell::{Cell, OnceCell, RefCell};

@@ -3,12 +3,11 @@
 use super::rgb::{jpeg, palette_png, png};
 use core::ops::Range;
 use cosfly_diagnose::Result;
+use cosfly_domain::channels::{Element, Source};
+use cosfly_domain::{Channel, ChannelImage, FrameImages, SemanticLabel};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
-use cosfly_maps::SemanticLabel;
-use cosfly_render::channels::{Channel, Element, Source};
-use cosfly_render::preview::{depth_preview, picture_on_request};
-use cosfly_render::{ChannelImage, FrameImages};
+use cosfly_images::false_colours::{depth_preview, picture_on_request};
 
 /// Largest width of a preview, pixels.
 const WIDTH: u32 = 320;

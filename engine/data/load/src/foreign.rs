@@ -4,10 +4,10 @@ use crate::tables::{self, Part};
 use crate::{Flight, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_doctor::{Episode, Flag, Severity};
+use cosfly_domain::Channel;
 use cosfly_fingerprint::Digest;
 use cosfly_read::StoredImage;
 use cosfly_read::columns::TableData;
-use cosfly_render::channels::Channel;
 use std::path::{Path, PathBuf};
 
 /// Pictures of a layout.

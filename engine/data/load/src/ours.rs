@@ -2,9 +2,9 @@
 
 use crate::{Flight, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::Channel;
 use cosfly_read::columns::TableData;
 use cosfly_read::{ImageLog, PublishedDataset, StoredImage};
-use cosfly_render::channels::Channel;
 use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -4,9 +4,9 @@ use crate::ours::Ours;
 use crate::{lerobot, v7};
 use cosfly_diagnose::Result;
 use cosfly_doctor::sources;
+use cosfly_domain::Channel;
 use cosfly_read::StoredImage;
 use cosfly_read::columns::TableData;
-use cosfly_render::channels::Channel;
 use std::path::Path;
 
 /// A flight of a dataset.

@@ -1,10 +1,10 @@
 //! The same flights from all layouts.
 
 use crate::{Flight, Source, open};
+use cosfly_domain::{Channel, channels};
 use cosfly_images::read;
 use cosfly_read::columns::Column;
 use cosfly_read::{PublishedDataset, StoredImage};
-use cosfly_render::channels::{self, Channel};
 use cosfly_sample as sample;
 use cosfly_schema::{DatasetConfig, EncodingConfig};
 use serde_json::Map;

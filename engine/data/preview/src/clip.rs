@@ -3,9 +3,9 @@
 use crate::shot::{FULL_BOX, Shot, VISIBLE_BOX};
 use color_quant::NeuQuant;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_maps::SemanticLabel;
+use cosfly_domain::SemanticLabel;
+use cosfly_images::false_colours::DepthScale;
 use cosfly_plot::canvas::{Canvas, Colour, INK, WHITE};
-use cosfly_render::preview::DepthScale;
 use std::borrow::Cow;
 
 /// Width of the colour image.

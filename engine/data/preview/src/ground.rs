@@ -1,7 +1,7 @@
 //! The ground as the camera saw it: labels of pixels brought back to the plane through their depths.
 
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::DVec3;
-use cosfly_maps::SemanticLabel;
 use cosfly_plot::canvas::Colour;
 use cosfly_read::{LoggedFrame, PublishedFlight};
 use std::collections::BTreeMap;

@@ -2,9 +2,9 @@
 //! request, the target enlarged.
 
 use crate::shot::Shot;
+use cosfly_images::false_colours::DepthScale;
 use cosfly_plot::canvas::{Canvas, INK, WHITE};
 use cosfly_read::PublishedFlight;
-use cosfly_render::preview::DepthScale;
 
 /// Longer side of a picture, about.
 const CELL: usize = 384;

@@ -1,10 +1,10 @@
 //! One frame of a log as pictures of any size.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_images::false_colours::{palette_image, picture_on_request};
 use cosfly_images::read::{Picture, decoded};
 use cosfly_plot::canvas::{Canvas, Colour, WHITE};
 use cosfly_read::LoggedFrame;
-use cosfly_render::preview::{palette_image, picture_on_request};
 
 /// Box of the target without obstacles.
 pub const FULL_BOX: Colour = [255, 220, 40];

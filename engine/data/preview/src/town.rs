@@ -1,7 +1,7 @@
 //! The plan of a whole town: ground, walkable ground and obstacles from above.
 
+use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind};
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_maps::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind};
 use cosfly_plot::canvas::{Canvas, Colour, INK, Point, text_width};
 
 /// Longest side of the drawn area, pixels.
@@ -172,7 +172,7 @@ fn draw_frame(view: &View, canvas: &mut Canvas, title: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_maps::WalkablePolygon;
+    use cosfly_domain::WalkablePolygon;
 
     #[test]
     fn pavements_that_bend_are_filled_along_both_arms_and_not_between_them() {

@@ -1,7 +1,7 @@
 //! The ground that a picture shows around somebody's feet, by its depths and labels alone.
 
+use cosfly_domain::Camera;
 use cosfly_frames::{DVec2, DVec3, Pose};
-use cosfly_render::Camera;
 
 /// CARLA's labels of ground: road, pavement, terrain, road line, other ground, rails.
 const GROUND: [u8; 6] = [1, 2, 10, 24, 25, 27];

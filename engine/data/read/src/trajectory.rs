@@ -2,8 +2,8 @@
 
 use super::rows::Rows;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::{Camera, Lens, Mount};
 use cosfly_frames::DVec3;
-use cosfly_render::{Camera, Lens, Mount};
 use cosfly_schema::TownLayout;
 use cosfly_schema::tables::{Trajectories, WEATHER_NUMBERS};
 use std::collections::{BTreeMap, BTreeSet};

@@ -4,7 +4,7 @@
 //! In a [`Trajectory`] they are stored among the terms, with weight 0 and a name that no term can have: names of terms
 //! are `a-z`, `0-9` and `_`.
 
-use cosfly_planner::{TermCost, Trajectory};
+use cosfly_domain::{TermCost, Trajectory};
 
 /// Prefix and separator of such a name.
 const MARK: &str = "label/";

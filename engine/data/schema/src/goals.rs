@@ -6,10 +6,8 @@ use crate::{OtherPerson, RenderedTrajectory, Sighting};
 use cosfly_captions::Wear;
 use cosfly_captions::goals::{Course, Flight, Goal, Hidden, Hider, Neighbour, Sample, goals};
 use cosfly_captions::sight::Landmarks;
+use cosfly_domain::{BodyKind, Outfit, TARGET_INSTANCE, object_instance};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_render::Outfit;
-use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
-use cosfly_world::BodyKind;
 use std::ops::Range;
 
 /// A target is partly hidden where less than this share of its pixels is visible.

@@ -3,9 +3,8 @@
 use crate::RenderedTrajectory;
 use crate::log::messages::edges_px;
 use cosfly_captions::refer::{Candidate, Phrase};
+use cosfly_domain::{Bag, BodyKind, Outfit, PixelBox};
 use cosfly_frames::TargetState;
-use cosfly_render::{Outfit, PixelBox};
-use cosfly_world::{Bag, BodyKind};
 
 /// A phrase is given once in this time, seconds.
 const EVERY_S: f64 = 10.0;

@@ -1,14 +1,11 @@
 //! The record model: one rendered trajectory with everything that tables, logs and cards contain about it.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_frames::{Pose, TargetState};
-use cosfly_maps::{MapOrigin, Synthetic, Town};
-use cosfly_planner::Trajectory;
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{
-    Camera, Lens, MotionBlur, Mount, Noise, Outfit, PersonView, RollingShutter, Season, TargetView, Weather,
+use cosfly_domain::{
+    Around, BodyKind, Camera, Followed, Lens, MapOrigin, MotionBlur, Mount, Noise, Outfit, PersonView, RollingShutter,
+    Season, Synthetic, TARGET_INSTANCE, TargetView, Town, Trajectory, Weather,
 };
-use cosfly_world::{Around, BodyKind, Followed};
+use cosfly_frames::{Pose, TargetState};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 /// Role of a flight behind a pedestrian.

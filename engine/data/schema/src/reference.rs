@@ -2,7 +2,7 @@
 
 use crate::log::topics;
 use crate::tables::{self, Table};
-use cosfly_render::ChannelSet;
+use cosfly_domain::ChannelSet;
 use std::fmt::Write;
 
 /// Text of the page in Markdown.

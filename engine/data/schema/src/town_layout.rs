@@ -1,7 +1,7 @@
 //! Ground plans of towns: identity of a town independent of its name, its buildings and the origin of its file.
 
+use cosfly_domain::Town;
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::Town;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -127,7 +127,7 @@ fn crossings(plan: &[DVec2], y: f64) -> Vec<f64> {
 }
 
 /// Corners of a box seen from above.
-fn footprint(shape: &cosfly_geometry::OrientedBox) -> Vec<DVec3> {
+fn footprint(shape: &cosfly_domain::OrientedBox) -> Vec<DVec3> {
     let (sin, cos) = cosfly_frames::real::sin_cos(shape.yaw_rad);
     let half = shape.half_extents_m;
     let corner = |(x, y): (f64, f64)| shape.center_in_world + DVec3::new(cos * x - sin * y, sin * x + cos * y, 0.0);
@@ -144,8 +144,8 @@ fn mix(mut bits: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_domain::{WalkableKind, WalkablePolygon};
     use cosfly_frames::Seed;
-    use cosfly_maps::{WalkableKind, WalkablePolygon};
 
     /// A grid of pavements, some of them missing.
     fn town(seed: u64, missing: f64) -> Town {

@@ -2,9 +2,9 @@
 
 use super::people::PersonRow;
 use super::rows::{PlacedFlight, PlacedFrame};
+use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::DVec3;
 use cosfly_read::drawn_ground::{BELOW_GROUND_M, SeenGround, is_below};
-use cosfly_render::frame::TARGET_INSTANCE;
 use std::collections::BTreeMap;
 
 /// Bodies of one flight by their ids in instance images.

@@ -3,8 +3,8 @@
 use super::figures::{MAXIMA, MEANS};
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
+use cosfly_domain::Camera;
 use cosfly_frames::real;
-use cosfly_render::Camera;
 use cosfly_schema::Role;
 use cosfly_schema::tables::Trajectories;
 

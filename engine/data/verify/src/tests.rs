@@ -166,7 +166,7 @@ fn depths_outside_of_the_target_s_body_are_found() {
 
 #[test]
 fn bodies_below_drawn_ground_are_found() {
-    let camera = cosfly_render::Camera { width: 320, height: 240, horizontal_fov_rad: 1.2 };
+    let camera = cosfly_domain::Camera { width: 320, height: 240, horizontal_fov_rad: 1.2 };
     let flight = || sample::flight_filmed_by(camera, 0, cosfly_schema::Role::Expert);
     let report = verify(published(vec![flight()]).path(), &Options::default(), &mut |_, _| {}).unwrap();
     assert!(report.findings.iter().all(|it| it.rule != "verify-ground"), "{:#?}", report.findings);
@@ -231,7 +231,7 @@ fn a_twin_that_is_not_its_expert_plus_its_displacement_is_found() {
 
 #[test]
 fn figures_that_do_not_follow_from_the_frames_are_found() {
-    let spoils: [fn(&mut cosfly_planner::Certificate); 7] = [
+    let spoils: [fn(&mut cosfly_domain::Certificate); 7] = [
         |it| it.max_yaw_rate_deg_s += 0.01,
         |it| it.max_pitch_rate_deg_s += 0.01,
         |it| it.mean_visibility += 1e-6,

@@ -1,8 +1,8 @@
 //! The experts of a recipe's finished run, to be asked again: towns, walks and parameters out of the store.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_domain::PlanOutcome;
 use cosfly_frames::{DVec3, Seed};
-use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Arrival, RecipeStage};
 use cosfly_runner::Plan;
 use cosfly_stage::{BlobSource, Blobs, ItemName};

@@ -1,11 +1,11 @@
 //! [`Suite`]: the episodes of a recipe, with the experts' flights.
 
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_domain::{PlanOutcome, Town};
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Episode, Others, Place, Start};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Seed};
-use cosfly_planner::PlanOutcome;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_render::RenderConfig;
 use cosfly_runner::{Plan, RunOptions, RunOutcome, run};
@@ -14,7 +14,6 @@ use cosfly_stages::expert::Expert;
 use cosfly_stages::read;
 use cosfly_stages::shooting::{self, Shooting};
 use cosfly_store::Store;
-use cosfly_town::Town;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;

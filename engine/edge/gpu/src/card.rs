@@ -2,11 +2,11 @@
 
 use crate::mesh::{Mesh, Vertex};
 use bytemuck::{Pod, Zeroable};
+use cosfly_domain::{Camera, ChannelSet};
 use cosfly_frames::Pose;
+use cosfly_optics::Optics;
 use cosfly_render::outside::NO_FACE;
-use cosfly_render::{
-    Backend, BackendError, Camera, ChannelSet, FrameSetup, Optics, PictureLook, RenderedFrame, Renderer, Scene,
-};
+use cosfly_render::{Backend, BackendError, FrameSetup, PictureLook, RenderedFrame, Renderer, Scene};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Distance of the near plane along the optical axis, metres.

@@ -2,13 +2,13 @@
 
 #![cfg(feature = "device")]
 
+use cosfly_domain::{Camera, FrameImages, TargetView, Town, WalkableKind, Weather};
+use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_gpu::GpuBackend;
+use cosfly_maps::MapConfig;
 use cosfly_maps::generate::{GenerateConfig, generate_town};
-use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::{
-    Backend, BodyShape, Camera, FrameImages, FrameSetup, Renderer, Scene, TargetSetup, TargetView, Weather,
-};
+use cosfly_render::{Backend, FrameSetup, Renderer, Scene};
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.5 };
 

@@ -8,7 +8,8 @@ use crate::town::TownView;
 use cosfly_diagnose::{LARGEST_MAGNITUDE, plausible};
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_planner::walk::Walk;
-use cosfly_planner::{CostTerm, TermContext, body_points};
+use cosfly_planner::{CostTerm, TermContext};
+use cosfly_surroundings::visibility::body_points;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The receiver of gradients.

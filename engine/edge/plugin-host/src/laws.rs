@@ -11,10 +11,10 @@ use cosfly_frames::{DVec3, RandomStream, Seed, TargetState, TargetTrack};
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::config::ViewConfig;
 use cosfly_planner::gradient::difference_gradient;
-use cosfly_planner::obstacles::exact::ExactObstacles;
-use cosfly_planner::obstacles::ground::GroundGrid;
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{CostTerm, TermContext};
+use cosfly_surroundings::exact::ExactObstacles;
+use cosfly_surroundings::ground::GroundGrid;
 use std::sync::Arc;
 
 /// Frames of the flights that terms are tried on.

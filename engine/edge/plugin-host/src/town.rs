@@ -1,7 +1,7 @@
 //! The town as plugins see it.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec3;
-use cosfly_geometry::OrientedBox;
 
 /// Queries of plugins to a town. World frame, metres.
 pub trait TownView: Send + Sync {

@@ -2,10 +2,11 @@
 
 use crate::errors::raised;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::Channel;
+use cosfly_domain::channels::Element;
+use cosfly_images::false_colours::{palette_image, picture_on_request};
 use cosfly_images::read::{self, Picture};
 use cosfly_read::StoredImage;
-use cosfly_render::channels::{Channel, Element};
-use cosfly_render::preview::{palette_image, picture_on_request};
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

@@ -1,7 +1,8 @@
 //! Rendering backends of this build, and how to get the others.
 
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_render::{Backend, BackendError, BackendKind, Camera, RenderConfig, Renderer};
+use cosfly_domain::Camera;
+use cosfly_render::{Backend, BackendError, BackendKind, RenderConfig, Renderer};
 
 /// Refuses a backend that this build does not have, before anything runs.
 pub fn check(kind: BackendKind) -> Result<(), BackendError> {

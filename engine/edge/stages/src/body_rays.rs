@@ -1,9 +1,10 @@
 //! Share of the target's body that hundreds of rays reach: the figure's triangles against the town's boxes and other
 //! people in double precision, without any code of the renderer, so that its pixels can be compared with it.
 
+use cosfly_domain::Camera;
+use cosfly_figures::{Bystander, TargetSetup, Walker, target_triangles, walker_triangles};
 use cosfly_frames::{DVec3, Pose};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_render::{Bystander, Camera, TargetSetup, Walker, target_triangles, walker_triangles};
 
 /// Rays through the box around the body in the image; about half of them meet the body.
 const RAYS: f64 = 900.0;
@@ -153,9 +154,9 @@ fn cross(from: &Corner, to: &Corner, u: f64, v: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_domain::OrientedBox;
+    use cosfly_figures::BodyShape;
     use cosfly_frames::{Seed, TargetState};
-    use cosfly_geometry::OrientedBox;
-    use cosfly_render::BodyShape;
 
     const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.2 };
 
@@ -211,7 +212,7 @@ mod tests {
     fn a_long_vehicle_hides_from_far_off_its_middle_and_can_be_the_target() {
         let pose = Pose::looking_at(DVec3::new(20.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
         let size_m = DVec3::new(12.0, 2.5, 3.1);
-        let bus = BodyShape::Vehicle { kind: cosfly_world::BodyKind::Bus, size_m };
+        let bus = BodyShape::Vehicle { kind: cosfly_domain::BodyKind::Bus, size_m };
         let share = |target: &TargetSetup, x: f64, y: f64| {
             let mut walker = Walker { body: bus, ..self::target().walker() };
             (walker.state.feet_in_world, walker.state.heading_rad) =

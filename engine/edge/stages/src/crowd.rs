@@ -6,10 +6,10 @@ use crate::shooting::Shooting;
 use crate::walks::Person;
 use crate::world::World;
 use cosfly_diagnose::Result;
-use cosfly_render::{Bystander, PersonView};
+use cosfly_domain::{BodyKind, PersonView, Traffic};
+use cosfly_figures::Bystander;
 use cosfly_schema::{OtherPerson, Sighting};
 use cosfly_stage::{Artifact, Inputs};
-use cosfly_world::{BodyKind, Traffic};
 
 /// Other people around one flight, by instance id.
 #[derive(Default)]

@@ -3,17 +3,17 @@
 use crate::flown::take_aim;
 use crate::plugins::{DrawnReference, Plugins};
 use crate::world::World;
+use cosfly_domain::{ObstacleKind, OrientedBox, PlanOutcome, TermCost, Trajectory};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetTrack};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::ObstacleKind;
 use cosfly_objectives::inspect::{self, Inspection};
 use cosfly_objectives::patrol::{self, MET_M, Patrol};
 use cosfly_objectives::{Mission, Objective, ObjectiveConfig, Site, reference, track};
 use cosfly_pilot::aim::AimConfig;
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::obstacles::ground::GroundGrid;
-use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes, hides};
-use cosfly_planner::{MucoConfig, PlanOutcome, StartState, TermCost, Trajectory, body_points, plan_request};
+use cosfly_planner::{MucoConfig, StartState, plan_request};
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::moving::{OtherDrones, drone_boxes, hides};
+use cosfly_surroundings::visibility::body_points;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
@@ -341,8 +341,8 @@ fn bounds(world: &World) -> (DVec2, DVec2) {
 mod tests {
     use super::*;
     use crate::expert::{Expert, Flown};
+    use cosfly_domain::Town;
     use cosfly_frames::TargetState;
-    use cosfly_maps::Town;
 
     #[test]
     fn movers_are_kept_clear_of_by_the_whole_flight_and_by_each_part_of_it() {

@@ -2,11 +2,11 @@
 
 use crate::flight::Flight;
 use crate::world::World;
+use cosfly_domain::{PlanOutcome, Trajectory};
 use cosfly_frames::{DVec3, Seed, TargetTrack};
 use cosfly_objectives::config::DT_S;
 use cosfly_pilot::aim::{AimConfig, aimed};
 use cosfly_planner::certificate::view_rates_deg_s;
-use cosfly_planner::{PlanOutcome, Trajectory};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;

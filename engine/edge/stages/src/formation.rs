@@ -10,8 +10,8 @@ use crate::world::link_town;
 use crate::{codec, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
+use cosfly_domain::PlanOutcome;
 use cosfly_frames::Seed;
-use cosfly_planner::PlanOutcome;
 use cosfly_stage::{
     Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StagePart, StageProperties, TaskContext,
 };

@@ -3,11 +3,10 @@
 use crate::body_rays::BodyRays;
 use crate::shooting::Shooting;
 use crate::walks::Person;
+use cosfly_domain::{Around, Followed, Trajectory};
+use cosfly_figures::{Bystander, TargetSetup, Walker};
 use cosfly_frames::Seed;
 use cosfly_geometry::BoxBvh;
-use cosfly_planner::Trajectory;
-use cosfly_render::{Bystander, TargetSetup, Walker};
-use cosfly_world::{Around, Followed};
 
 /// Where more of the eight points of the certificate is seen, the figure is in sight.
 const MOST_SEEN: f64 = 0.25;

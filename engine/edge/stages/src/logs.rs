@@ -7,7 +7,7 @@ use crate::world::world_of;
 use cosfly_blobs::{BlobPart, OutputSink, PassingFile};
 use cosfly_captions::{Language, Wear, check_clothes as clothes_in};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_render::ChannelSet;
+use cosfly_domain::ChannelSet;
 use cosfly_schema::record::captions_from_bytes;
 use cosfly_schema::{CaptionRecord, PreviewStrip, RenderedTrajectory};
 use cosfly_stage::{

@@ -5,13 +5,15 @@ use crate::world::TOWN_BLOB;
 use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result, plausible};
+use cosfly_domain::Town;
 use cosfly_frames::Seed;
 use cosfly_maps::advice::advice;
-use cosfly_maps::{Bounds, FORMATS, Format, FormatOptions, MapConfig, MapError, Town, read_town_of, recognise};
+use cosfly_maps::{Bounds, FORMATS, MapConfig, read_town_of, recognise};
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Source, SourceCheck, Stage, StageKind, StagePart, StageProperties,
     TaskContext,
 };
+use cosfly_town::{Format, FormatOptions, MapError};
 use serde_json::{Value, json};
 use std::io::Read;
 use std::path::{Path, PathBuf};

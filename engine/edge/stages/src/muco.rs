@@ -8,12 +8,11 @@ use crate::world::{World, check_same_town, link_town, world};
 use crate::{codec, companions, formation, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
+use cosfly_domain::{Around, PlanOutcome};
 use cosfly_frames::Seed;
 use cosfly_objectives::Objective;
 use cosfly_pedestrians::PedestrianPath;
-use cosfly_planner::PlanOutcome;
 use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext};
-use cosfly_world::Around;
 use std::sync::Arc;
 
 /// Stage kind `muco`.

@@ -10,16 +10,17 @@ use crate::world::{TOWN_BLOB, World, check_same_town, world};
 use crate::{body_rays, codec};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::{
+    Around, Body, Camera, Followed, PlanOutcome, TARGET_INSTANCE, Traffic, Trajectory, object_instance,
+};
+use cosfly_figures::Walker;
 use cosfly_frames::{Pose, TargetState};
+use cosfly_optics::pose_at;
 use cosfly_pedestrians::PedestrianPath;
-use cosfly_planner::{PlanOutcome, Trajectory};
-use cosfly_render::effects::pose_at;
-use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
-use cosfly_render::{Buildings, Camera, Outlook, RenderConfig, Walker};
+use cosfly_render::{Buildings, Outlook, RenderConfig};
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::{Around, Body, Followed, Traffic};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;

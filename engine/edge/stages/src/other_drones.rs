@@ -3,11 +3,10 @@
 use crate::{codec, ports};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
+use cosfly_domain::{Body, BodyKind, BodyPlan, OrientedBox};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_geometry::OrientedBox;
-use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes};
 use cosfly_stage::{Artifact, Inputs};
-use cosfly_world::{Body, BodyKind, BodyPlan};
+use cosfly_surroundings::moving::{OtherDrones, drone_boxes};
 use serde::{Deserialize, Serialize};
 
 /// Blob of a flight with its [`Formation`]; absent where the drone is alone.

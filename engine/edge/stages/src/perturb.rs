@@ -7,13 +7,13 @@ use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
+use cosfly_domain::PlanOutcome;
 use cosfly_frames::Seed;
 use cosfly_pilot::perturb::{PerturbConfig, perturb};
-use cosfly_planner::PlanOutcome;
-use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_stage::{
     InputPort, Inputs, ItemId, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
+use cosfly_surroundings::exact::ExactMap;
 
 /// Stage kind `perturb`.
 pub struct Perturb;

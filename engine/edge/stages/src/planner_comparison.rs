@@ -1,19 +1,19 @@
 //! Comparison of planners in a dataset's report: others on the walks of published flights, among the same bodies, measured like them.
 
 use crate::world::World;
+use cosfly_domain::{Certificate, Limits, OrientedBox, PlanOutcome};
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::OrientedBox;
 use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, flyable::made_flyable, plan_baseline};
 use cosfly_planner::certificate::{certify, term_costs};
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::obstacles::ground::GroundGrid;
-use cosfly_planner::obstacles::local::LocalObstacles;
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
-use cosfly_planner::{Certificate, Limits, MucoConfig, PlanOutcome, PlanRequest, WeightedTerm, plan_request};
+use cosfly_planner::{MucoConfig, PlanRequest, WeightedTerm, plan_request};
 use cosfly_report::PlannerRow;
 use cosfly_schema::RenderedTrajectory;
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::local::LocalObstacles;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

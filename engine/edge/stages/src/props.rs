@@ -1,7 +1,8 @@
 //! Models of a `render` stage: files of the recipe, checked before any stage runs.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_render::{Model, RenderConfig, SceneModel};
+use cosfly_models::Model;
+use cosfly_render::{RenderConfig, SceneModel};
 use cosfly_stage::{Source, SourceCheck};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -26,7 +27,7 @@ pub fn take_sources(config: &mut RenderConfig) -> Vec<Source> {
 /// # Errors
 /// Files that cannot be read, or are no models.
 pub fn read_models(config: &RenderConfig, files: &[PathBuf]) -> Result<Vec<SceneModel>> {
-    let read = |(model, file): (&cosfly_render::ModelConfig, &PathBuf)| {
+    let read = |(model, file): (&cosfly_models::ModelConfig, &PathBuf)| {
         let turn_rad = model.turn_deg.to_radians();
         Ok(SceneModel { kind: model.kind, fit: model.fit, turn_rad, model: read_model(file)? })
     };

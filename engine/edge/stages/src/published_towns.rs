@@ -4,7 +4,7 @@ use crate::codec;
 use crate::ports::TOWN;
 use crate::world::TOWN_BLOB;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_maps::Town;
+use cosfly_domain::Town;
 use cosfly_schema::TownLayout;
 use cosfly_schema::tables::ObjectRecord;
 use cosfly_stage::{Artifact, Inputs};

@@ -7,13 +7,12 @@ use crate::hidden::hidden;
 use crate::ports::{self, LOSSES, ORDERS};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
+use cosfly_domain::{Around, Body, Followed, Outfit, PlanOutcome, Trajectory};
+use cosfly_figures::BodyShape;
 use cosfly_frames::DVec3;
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_planner::config::OcclusionConfig;
-use cosfly_planner::{PlanOutcome, Trajectory};
-use cosfly_render::{BodyShape, Outfit};
 use cosfly_stage::{Fan, InputPort, Inputs, ItemRule, Produced, Sees, Stage, StagePart, StageProperties, TaskContext};
-use cosfly_world::{Around, Body, Followed};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

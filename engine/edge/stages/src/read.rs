@@ -7,11 +7,9 @@ use crate::ports::{AROUND, FORMATION, NEARBY, TOWN, TRAJECTORY, WALK};
 use crate::walks::walk_seed;
 use crate::{codec, companions};
 use cosfly_diagnose::Result;
+use cosfly_domain::{Around, Followed, PlanOutcome, Town};
 use cosfly_frames::{DVec3, Seed, TargetTrack};
-use cosfly_maps::Town;
 use cosfly_pedestrians::PedestrianPath;
-use cosfly_planner::PlanOutcome;
-use cosfly_world::{Around, Followed};
 
 /// Name of the blob of a `map` item that holds the town.
 pub const TOWN_BLOB: &str = crate::world::TOWN_BLOB;

@@ -12,21 +12,17 @@ use crate::world::{TOWN_BLOB, World, check_same_town, link_town, world};
 use crate::{backends, codec, nearby, parameters, props, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
+use cosfly_domain::{Around, Camera, Outfit, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, object_instance};
+use cosfly_figures::{Bystander, TargetSetup, gait_phase_rad};
 use cosfly_frames::{Pose, Seed};
 use cosfly_geometry::SpatialQuery;
-use cosfly_planner::{PlanOutcome, Trajectory};
-use cosfly_render::effects::{pose_at, target_state_at};
-use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
-use cosfly_render::{
-    Backend, Bystander, Camera, Effects, Moment, Outfit, RenderConfig, Scene, Shot, TargetSetup, TargetView,
-    gait_phase_rad,
-};
+use cosfly_optics::{pose_at, target_state_at};
+use cosfly_render::{Backend, Effects, Moment, RenderConfig, Scene, Shot};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
 use cosfly_stage::{
     InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::Around;
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};

@@ -3,12 +3,12 @@
 use crate::parameters;
 use crate::walks::walk_seed;
 use cosfly_diagnose::{ParameterError, Result};
+use cosfly_domain::{Camera, Followed, Mount, Trajectory, Weather};
+use cosfly_figures::{BodyShape, clothes_seed_of_target};
 use cosfly_frames::{Pose, Seed};
-use cosfly_planner::Trajectory;
-use cosfly_render::{BodyShape, Camera, Mount, RenderConfig, Weather, clothes_seed_of_target};
+use cosfly_render::RenderConfig;
 use cosfly_schema::EncodingConfig;
 use cosfly_stage::ItemName;
-use cosfly_world::Followed;
 
 /// Settings of one flight.
 pub struct Shooting {

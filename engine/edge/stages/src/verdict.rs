@@ -7,8 +7,8 @@ use crate::{codec, parameters};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_doctor::{Episode, Severity, checks, sources};
+use cosfly_domain::{ObstacleKind, Town};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_maps::{ObstacleKind, Town};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_stage::{
     Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, TaskContext,

@@ -3,12 +3,12 @@
 use crate::codec;
 use crate::shooting::Shooting;
 use cosfly_diagnose::Result;
+use cosfly_domain::{Body, BodyKind, BodyPlan, Followed, Outfit};
+use cosfly_figures::{BodyShape, Walker, gait_phase_rad};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
+use cosfly_optics::target_state_at;
 use cosfly_pedestrians::PedestrianPath;
-use cosfly_render::effects::target_state_at;
-use cosfly_render::{BodyShape, Outfit, Walker, gait_phase_rad};
-use cosfly_world::{Body, BodyKind, BodyPlan, Followed};
 
 /// Distance between the axes of a target and somebody who walks on their own below which one would walk through the other, metres.
 const APART_M: f64 = 0.6;

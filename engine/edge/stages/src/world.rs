@@ -4,9 +4,10 @@ use crate::codec;
 use crate::ports::TOWN;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::Town;
 use cosfly_geometry::BoxBvh;
-use cosfly_maps::{GroundIndex, Town};
 use cosfly_stage::{Artifact, Inputs};
+use cosfly_town::GroundIndex;
 use std::sync::Arc;
 
 /// The town at port `town`, ready for queries.

@@ -201,7 +201,7 @@ fn distances(contenders: &Contenders, points: &[DVec3]) -> Vec<Figure> {
     measure(&mut tasks, points.len(), 1)
 }
 
-fn segments(contenders: &Contenders, boxes: &[cosfly_geometry::OrientedBox], points: &[DVec3]) -> Vec<Figure> {
+fn segments(contenders: &Contenders, boxes: &[cosfly_domain::OrientedBox], points: &[DVec3]) -> Vec<Figure> {
     const CAP_M: f64 = 5.0;
     let plain = BruteForce::new(boxes);
     let sum = |query: &dyn SpatialQuery, part: std::ops::Range<usize>| {

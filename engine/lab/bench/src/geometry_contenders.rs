@@ -3,10 +3,10 @@
 //! Trees of other libraries hold bounds; at their leaves all test the same f32 box, with the precomputed inverse of the
 //! direction. Their inlined traversals are compiled for the vector instructions of this processor as well.
 
-use cosfly_frames::DVec3;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::simd::Level;
-use cosfly_frames::simd_kernel;
-use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox, SpatialQuery};
+use cosfly_frames::{DVec3, simd_kernel};
+use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
 use glam::Vec3A;
 use obvhs::bvh2::Bvh2;
 use obvhs::cwbvh::CwBvh;

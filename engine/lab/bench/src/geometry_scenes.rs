@@ -1,10 +1,11 @@
 //! Towns and rays for `cosfly-lab geometry`: boxes around a walk, cameras above it, body points below.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetTrack, real};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_planner::visibility::body_points;
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_random::{RandomStream, Seed};
 use cosfly_scenes::{Scene, SceneKind};
+use cosfly_surroundings::visibility::body_points;
 
 /// Rays of one view: the body points of visibility.
 pub const RAYS: usize = 8;

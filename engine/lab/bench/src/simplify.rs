@@ -1,10 +1,10 @@
 //! Boxes for planning: how few, what they gain and lose, and how long that takes, by tolerance.
 
 use crate::clock::timed;
-use cosfly_geometry::{BoxBvh, OrientedBox};
-use cosfly_maps::simplify::{SimplifyConfig, simplify};
-use cosfly_maps::{Obstacle, ObstacleKind};
+use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
+use cosfly_geometry::BoxBvh;
 use cosfly_scenes::{Scene, SceneKind};
+use cosfly_town::simplify::{SimplifyConfig, simplify};
 use serde::Serialize;
 use std::fmt;
 

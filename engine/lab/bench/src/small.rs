@@ -4,11 +4,12 @@
 use crate::clock::timed;
 use crate::render::views::Ground;
 use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
+use cosfly_domain::{Camera, FrameImages, Weather};
+use cosfly_figures::{Bystander, Walker};
 use cosfly_frames::{DVec3, TargetState};
-use cosfly_maps::GroundIndex;
 use cosfly_random::Seed;
-use cosfly_render::frame::FrameImages;
-use cosfly_render::{Bystander, Camera, FrameParts, FrameSetup, PictureLook, Renderer, Walker, Weather};
+use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer};
+use cosfly_town::GroundIndex;
 use serde::Serialize;
 use std::fmt;
 use std::hint::black_box;
@@ -140,7 +141,7 @@ fn crowd(around: DVec3, count: u32, index: &GroundIndex) -> Vec<Bystander> {
             radius_m: random.uniform(0.24, 0.34),
             clothes_seed: Seed([6; 32]).child("clothes", u64::from(number)),
             gait_phase_rad: random.uniform(-3.1, 3.1),
-            body: cosfly_render::BodyShape::default(),
+            body: cosfly_figures::BodyShape::default(),
         };
         Bystander { walker, instance: 1_000_000 + number }
     };

@@ -1,10 +1,10 @@
 //! How simulated vehicles drive: speeds and accelerations by kind, from their places in frames alone.
 
 use crate::clock::thread_cpu_s;
+use cosfly_domain::{Body, BodyKind, Town};
 use cosfly_frames::{DVec2, Seed};
-use cosfly_maps::Town;
 use cosfly_vehicles::{VehicleConfig, VehicleError, Vehicles};
-use cosfly_world::{Body, BodyKind, Clock, Population, contacts, simulate};
+use cosfly_world::{Clock, Population, contacts, simulate};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;

@@ -4,9 +4,8 @@
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_metrics::WindowShape;
 use cosfly_sample as sample;
-use cosfly_schema::TownLayout;
 use cosfly_schema::tables::{self, DatasetItem, Derived, Landmarks, Membership};
-use cosfly_schema::{LogRecord, PreviewStrip, RenderedTrajectory, Role, Split};
+use cosfly_schema::{LogRecord, PreviewStrip, RenderedTrajectory, Role, Split, TownLayout};
 use cosfly_write::table_file::TableWriter;
 use std::fs::File;
 use std::io::BufWriter;
@@ -80,9 +79,8 @@ fn long_flight(pattern: &RenderedTrajectory, number: usize, spread_m: f64) -> Re
     record.views = vec![view; FRAMES];
     if let Some(perturbation) = &mut record.trajectory.perturbation {
         let frame = perturbation.frames[0];
-        perturbation.frames = (0..FRAMES as u32)
-            .map(|expert_frame| cosfly_planner::FramePerturbation { expert_frame, ..frame })
-            .collect();
+        perturbation.frames =
+            (0..FRAMES as u32).map(|expert_frame| cosfly_domain::FramePerturbation { expert_frame, ..frame }).collect();
     }
     record
 }

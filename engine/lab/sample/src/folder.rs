@@ -3,8 +3,8 @@
 use super::{SampleFlight, flights, rejections, town};
 use cosfly_blobs::{BlobRef, OutputSink, SeekWrite};
 use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_domain::ChannelSet;
 use cosfly_fingerprint::Digest;
-use cosfly_render::ChannelSet;
 use cosfly_schema::tables::{Landmarks, ObjectRecord};
 use cosfly_schema::{
     CaptionRecord, DatasetConfig, EncodingConfig, LogRecord, PreviewStrip, RenderedTrajectory, TownLayout,

@@ -7,22 +7,19 @@ mod many;
 pub use folder::{write_flights, write_to_folder};
 pub use many::{ManyFlights, write_many};
 
-use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, Synthetic, Town};
-use cosfly_planner::certificate::view_rates_deg_s;
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::{Certificate, FramePerturbation, Limits, Perturbation, TermCost, Trajectory};
-use cosfly_render::channels::{ALL, SeenPoint};
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{
-    Camera, ChannelImage, ChannelSet, Clothes, FrameImages, Lens, MotionBlur, Mount, Noise, Outfit, PersonView,
-    PixelBox, RollingShutter, Season, TargetView, Weather,
+use cosfly_domain::channels::{ALL, SeenPoint};
+use cosfly_domain::{
+    Around, BodyKind, Camera, Certificate, ChannelImage, ChannelSet, FrameImages, FramePerturbation, Lens, Limits,
+    MapOrigin, MotionBlur, Mount, Noise, Obstacle, ObstacleKind, OrientedBox, Outfit, PersonView, Perturbation,
+    PerturbationKind, PixelBox, RollingShutter, Season, SemanticLabel, SimplificationReport, Synthetic,
+    TARGET_INSTANCE, TargetView, TermCost, Town, Trajectory, Weather,
 };
+use cosfly_figures::Clothes;
+use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
+use cosfly_planner::certificate::view_rates_deg_s;
 use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
 };
-use cosfly_world::{Around, BodyKind};
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 
 /// Number of frames of every flight.

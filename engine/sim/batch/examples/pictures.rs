@@ -31,7 +31,7 @@ fn main() {
         _ => {}
     }
     let scene = if matches!(content, "none" | "depth") {
-        BatchScene::without_colours(&town, &cosfly_maps::GroundIndex::new(&town))
+        BatchScene::without_colours(&town, &cosfly_town::GroundIndex::new(&town))
     } else {
         BatchScene::new(&town, Seed([1; 32]))
     };

@@ -2,8 +2,8 @@
 //! pavements. Nothing of it is seen from above the ground.
 
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::GroundIndex;
 use cosfly_render::outside::SceneFace;
+use cosfly_town::GroundIndex;
 use std::collections::BTreeMap;
 
 /// Distance between the places along an edge where polygons are compared, metres.

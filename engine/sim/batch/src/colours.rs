@@ -3,11 +3,11 @@
 use crate::canvas::{Canvas, WIDE};
 use crate::faces::{BODY, DrawnFace};
 use crate::view::View;
+use cosfly_domain::{Camera, Weather};
+use cosfly_figures::{TargetSetup, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_render::outside::NO_FACE;
-use cosfly_render::{
-    BodyPart, Camera, FoundFace, FoundPicture, FoundSource, FrameSetup, Renderer, TargetSetup, Walker, Weather,
-};
+use cosfly_render::{BodyPart, FoundFace, FoundPicture, FoundSource, FrameSetup, Renderer};
 
 /// Weather of views without any.
 const WEATHER: &str = "ClearNoon";

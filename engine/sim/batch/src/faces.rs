@@ -1,7 +1,7 @@
 //! The faces drawn in a picture.
 
 use crate::eye::Linear;
-use cosfly_maps::SemanticLabel;
+use cosfly_domain::SemanticLabel;
 use cosfly_render::outside::NO_FACE;
 
 /// A face drawn in this picture.

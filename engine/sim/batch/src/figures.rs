@@ -2,10 +2,10 @@
 
 use crate::canvas::{Part, Parts, WIDE};
 use crate::eye::{Eye, NEAR_M};
+use cosfly_figures::Walker;
+use cosfly_figures::figure::{FigurePart, SIDES};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, real, simd_kernel};
-use cosfly_render::Walker;
-use cosfly_render::figure::{FigurePart, SIDES};
 
 /// A box around something on the screen: bounds in pixels from the image's centre, and the nearest depth.
 pub struct Around {

@@ -9,7 +9,7 @@ pub struct Outputs<'a> {
     pub depth_m: Option<&'a mut [f32]>,
     /// CARLA label ids.
     pub semantic: Option<&'a mut [u8]>,
-    /// Instance ids, as in [`cosfly_render::FrameImages`]: 0 for ground and sky.
+    /// Instance ids, as in [`cosfly_domain::FrameImages`]: 0 for ground and sky.
     pub instance: Option<&'a mut [u32]>,
     /// 1 where the target is seen, 0 elsewhere.
     pub target_mask: Option<&'a mut [u8]>,

@@ -14,10 +14,11 @@ use crate::outputs::Outputs;
 use crate::raster::{HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_lane, draw_polygon, draw_within};
 use crate::resolve::resolve;
 use crate::view::View;
+use cosfly_figures::figure::FigureTriangle;
+use cosfly_figures::{FigureParts, Wardrobe};
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
-use cosfly_render::figure::{FigureParts, FigureTriangle};
-use cosfly_render::{BodyPart, Wardrobe};
+use cosfly_render::BodyPart;
 
 /// Most corners of a polygon.
 const MOST_CORNERS: usize = WIDE * MOST_LINES;

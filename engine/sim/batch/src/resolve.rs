@@ -3,8 +3,8 @@
 use crate::canvas::{Canvas, WIDE};
 use crate::faces::{DrawnFace, SKY};
 use crate::outputs::Outputs;
+use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::simd_kernel;
-use cosfly_render::frame::TARGET_INSTANCE;
 use std::ops::Range;
 
 simd_kernel! {

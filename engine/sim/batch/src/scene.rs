@@ -3,9 +3,10 @@
 use crate::boxes::Boxes;
 use crate::buried::seen_from_above;
 use crate::ground::Ground;
+use cosfly_domain::Town;
 use cosfly_frames::Seed;
-use cosfly_maps::{GroundIndex, Town};
 use cosfly_render::Scene;
+use cosfly_town::GroundIndex;
 
 /// Everything that the cameras of one town share. Immutable: any number of threads may draw from it.
 pub struct BatchScene {

@@ -1,8 +1,10 @@
 //! The content of one picture: the town, the camera, and whoever moves in it.
 
 use crate::scene::BatchScene;
+use cosfly_domain::Weather;
+use cosfly_figures::{Bystander, Walker};
 use cosfly_frames::{DVec3, Pose};
-use cosfly_render::{Bystander, PictureLook, Walker, Weather};
+use cosfly_render::PictureLook;
 
 /// One picture of a batch.
 #[derive(Clone, Copy)]
@@ -13,7 +15,7 @@ pub struct View<'a> {
     pub pose: Pose,
     /// Horizontal field of view, radians; pixels are square, the optical centre is the picture's centre.
     pub horizontal_fov_rad: f64,
-    /// The followed target, if there is one; its instance id is [`cosfly_render::frame::TARGET_INSTANCE`].
+    /// The followed target, if there is one; its instance id is [`cosfly_domain::TARGET_INSTANCE`].
     pub target: Option<Walker>,
     /// All other people and vehicles, drawn as the same figures as in large pictures; those less than a pixel high are left out, as
     /// there.

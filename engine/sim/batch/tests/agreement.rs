@@ -5,14 +5,12 @@ mod shared;
 mod towns;
 
 use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
+use cosfly_domain::{BodyKind, Camera, Town, Weather, object_instance};
+use cosfly_figures::{BodyShape, TargetSetup, Walker};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_maps::{GroundIndex, Town};
-use cosfly_render::frame::object_instance;
-use cosfly_render::{
-    BodyShape, Camera, FrameParts, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Walker, Weather,
-};
-use cosfly_world::BodyKind;
+use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer, Scene};
+use cosfly_town::GroundIndex;
 use towns::Place;
 
 const FOV_RAD: f64 = 1.4;

@@ -69,7 +69,7 @@ pub(crate) mod tests {
     use super::*;
     use crate::check::check;
     use crate::facts::{Wear, facts, test_flights::flight};
-    use cosfly_render::Colour;
+    use cosfly_domain::Colour;
 
     /// Walks of every shape: straight, bent, many turns, with and without stops, standing, seen from below.
     pub(crate) fn flights() -> Vec<Facts> {

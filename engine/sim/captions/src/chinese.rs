@@ -8,8 +8,8 @@ use crate::precision::{
 use crate::turns::Turn;
 use crate::wording::{one_of, rounded, without};
 use cosfly_claims::TurnKind;
+use cosfly_domain::Colour;
 use cosfly_random::RandomStream;
-use cosfly_render::Colour;
 
 /// More turns than this are counted instead of listed.
 const LISTED_TURNS: usize = 4;

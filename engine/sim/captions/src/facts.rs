@@ -1,11 +1,9 @@
 //! Facts of a trajectory: directions, turns, stops, distances, angles.
 
 use crate::turns::{Path, Turn};
-use cosfly_claims::Compass;
-use cosfly_claims::TurnKind;
+use cosfly_claims::{Compass, TurnKind};
+use cosfly_domain::{Colour, Outfit, Trajectory};
 use cosfly_frames::DVec2;
-use cosfly_planner::Trajectory;
-use cosfly_render::{Colour, Outfit};
 use serde::{Deserialize, Serialize};
 
 /// Slower than this is standing, m/s.
@@ -187,8 +185,8 @@ pub(crate) mod test_flights {
     //! Flights with known facts.
 
     use super::*;
+    use cosfly_domain::{Certificate, Limits};
     use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
-    use cosfly_planner::{Certificate, Limits};
 
     /// A target that goes `count` steps of 0.6 m in each of the yaws (degrees), `None` = stands; a drone
     /// 20 m behind (west of it) and 20 m above.

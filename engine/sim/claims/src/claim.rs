@@ -2,7 +2,7 @@
 
 use crate::compass::Compass;
 use crate::turn::TurnKind;
-use cosfly_render::Colour;
+use cosfly_domain::Colour;
 
 /// One claim of a text.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use crate::claim::Claim;
 use crate::lexicon::Concept;
 use crate::sentence::Sentence;
-use cosfly_render::Colour;
+use cosfly_domain::Colour;
 
 /// Words between a colour and its garment: `a red long-sleeved cotton shirt`.
 const REACH: usize = 3;

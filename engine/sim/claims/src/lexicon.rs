@@ -3,7 +3,7 @@
 use crate::compass::Compass;
 use crate::language::Language;
 use crate::turn::TurnKind;
-use cosfly_render::Colour;
+use cosfly_domain::Colour;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 

@@ -127,7 +127,7 @@ fn whole(sentence: Sentence<'_>, mut claims: Vec<Claim>) -> Vec<Claim> {
 mod tests {
     use super::*;
     use crate::{Compass, TurnKind};
-    use cosfly_render::Colour;
+    use cosfly_domain::Colour;
 
     fn check(language: Language, text: &str, expected: &[Claim]) {
         assert_eq!(read(text, language), expected, "{text}");

@@ -12,7 +12,7 @@ use cosfly_drone::quadrotor::Strain;
 use cosfly_drone::{Gimbal, Motion, Sensed};
 use cosfly_frames::{Pose, TargetState, real};
 use cosfly_geometry::SpatialQuery;
-use cosfly_planner::aim_point;
+use cosfly_surroundings::visibility::aim_point;
 use std::sync::Arc;
 
 /// Slack for the comparison of times, seconds.

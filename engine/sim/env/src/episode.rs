@@ -2,13 +2,11 @@
 
 use crate::others::Others;
 use crate::place::Place;
+use cosfly_domain::{BodyPlan, Weather};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
 use cosfly_geometry::SpatialQuery;
-use cosfly_planner::obstacles::moving::Encounter;
-use cosfly_planner::visibility::BODY_POINTS;
-use cosfly_planner::{aim_point, body_points};
-use cosfly_render::Weather;
-use cosfly_world::BodyPlan;
+use cosfly_surroundings::moving::Encounter;
+use cosfly_surroundings::visibility::{BODY_POINTS, aim_point, body_points};
 use std::sync::Arc;
 
 /// State of the drone at the beginning.

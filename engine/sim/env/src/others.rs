@@ -3,13 +3,12 @@
 //! Between frames a body goes evenly from place to place and turns the shorter way, as in films and for the planner. A body that comes
 //! or goes is there for half a frame before its first state and after its last.
 
+use cosfly_domain::{Around, Body, BodyPlan, OrientedBox, Outfit};
+use cosfly_figures::BodyShape;
 use cosfly_frames::{DVec3, TargetState, real};
-use cosfly_geometry::OrientedBox;
-use cosfly_planner::body_points;
-use cosfly_planner::obstacles::moving::{Encounter, hides};
-use cosfly_render::effects::target_state_at;
-use cosfly_render::{BodyShape, Outfit};
-use cosfly_world::{Around, Body, BodyPlan};
+use cosfly_optics::target_state_at;
+use cosfly_surroundings::moving::{Encounter, hides};
+use cosfly_surroundings::visibility::body_points;
 
 /// Who moves around the target.
 #[derive(Clone, Debug, Default)]

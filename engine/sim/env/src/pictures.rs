@@ -3,9 +3,10 @@
 use crate::environment::Environment;
 use crate::others::Present;
 use cosfly_batch::{BatchRenderer, Outputs, View};
+use cosfly_domain::{BodyKind, Weather};
+use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
 use cosfly_frames::{DVec3, TargetState};
-use cosfly_render::{BodyShape, Bystander, PictureLook, Walker, Weather, gait_phase_rad};
-use cosfly_world::BodyKind;
+use cosfly_render::PictureLook;
 use std::ops::Range;
 
 /// A channel of pictures.

@@ -1,10 +1,10 @@
 //! [`Place`]: the surroundings of a flight, ready for queries.
 
 use cosfly_batch::BatchScene;
+use cosfly_domain::{OrientedBox, TARGET_INSTANCE, Town, object_instance};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
-use cosfly_town::{GroundIndex, Town};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_town::GroundIndex;
 use std::sync::{Arc, OnceLock};
 
 /// The surroundings of a flight, ready for queries; shared by all episodes of a town.

@@ -5,11 +5,10 @@ use crate::{
     Action, Axes, Blackouts, DroneModel, DroneSettings, End, Environment, Episode, Others, Place, Reward, Score,
     Settings, Start,
 };
+use cosfly_domain::{Around, Body, BodyKind, BodyPlan, OrientedBox, PlanOutcome, Traffic, Trajectory};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack, real};
-use cosfly_geometry::OrientedBox;
-use cosfly_planner::{MucoConfig, PlanOutcome, PlanRequest, Trajectory, plan_request};
+use cosfly_planner::{MucoConfig, PlanRequest, plan_request};
 use cosfly_scenes::{Scene, SceneKind};
-use cosfly_world::{Around, Body, BodyKind, BodyPlan, Traffic};
 use std::sync::Arc;
 
 /// Episodes behind walkers of a scene with their experts' flights.

@@ -1,11 +1,12 @@
 //! Pictures of environments: as the large renderer draws them from the same place, whoever else is drawn beside them.
 
+use cosfly_domain::{Around, Body, BodyKind, BodyPlan, Camera, Town, Traffic, WalkableKind, Weather};
 use cosfly_env::pictures::{Album, Channel, Format, Pictures, bystanders, target};
 use cosfly_env::{Action, Environment, Episode, Others, Place, Settings, Start};
+use cosfly_figures::{TargetSetup, Walker};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
-use cosfly_maps::{MapConfig, Town, WalkableKind, read_town};
-use cosfly_render::{Camera, FrameParts, FrameSetup, PictureLook, Renderer, Scene, TargetSetup, Walker, Weather};
-use cosfly_world::{Around, Body, BodyKind, BodyPlan, Traffic};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer, Scene};
 use std::path::Path;
 use std::sync::Arc;
 

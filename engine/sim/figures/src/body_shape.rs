@@ -2,9 +2,8 @@
 
 use crate::clothes::Region;
 use crate::umbrella;
+use cosfly_domain::{BodyKind, SemanticLabel};
 use cosfly_frames::{DVec3, Seed, real};
-use cosfly_maps::SemanticLabel;
-use cosfly_world::BodyKind;
 
 /// Largest vehicle that is drawn, metres along each axis.
 const LARGEST_M: f64 = 60.0;
@@ -21,7 +20,7 @@ pub enum BodyShape {
     Vehicle {
         /// Kind of the vehicle; a pedestrian is drawn as a car.
         kind: BodyKind,
-        /// Length, width and height, metres: the model fills the box of [`cosfly_world::BodyPlan::box_at`].
+        /// Length, width and height, metres: the model fills the box of [`cosfly_domain::BodyPlan::box_at`].
         size_m: DVec3,
     },
 }

@@ -1,7 +1,7 @@
 //! Upright boxes around figures, for who is in view and who may hide whom.
 
 use crate::body_shape::BodyShape;
-use crate::figure::Walker;
+use cosfly_figures::Walker;
 use cosfly_frames::DVec3;
 
 /// Limbs swing this far from the upright axis, in body heights.

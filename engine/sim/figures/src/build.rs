@@ -1,7 +1,7 @@
 //! Builds of people: proportions, hair, coats, bags at the shoulder and gait, drawn from a person's own seed.
 
+use cosfly_domain::{BodyBuild, Gait};
 use cosfly_frames::Seed;
-use cosfly_world::{BodyBuild, Gait};
 
 /// Bellies deeper than this are stout; mean widths of shoulders and hips below this are slim.
 const STOUT_BELLY: f64 = 1.1;

@@ -4,8 +4,8 @@ use crate::body_shape::BodyShape;
 use crate::build::{Build, Hair};
 use crate::umbrella;
 use crate::vehicles::Livery;
+use cosfly_domain::{Bag, BodyKind, Traits};
 use cosfly_frames::{RandomStream, Seed};
-use cosfly_world::{Bag, BodyKind, Traits};
 use serde::{Deserialize, Serialize};
 
 /// Material of a part of the figure; those of vehicles follow those of people.

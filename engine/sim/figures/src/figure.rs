@@ -2,8 +2,9 @@
 
 use crate::body_shape::BodyShape;
 use crate::build::{Arm, Hair, head_size};
-use crate::clothes::{Clothes, Region};
+use crate::clothes::Region;
 use crate::{umbrella, vehicles};
+use cosfly_figures::Clothes;
 use cosfly_frames::{DVec3, Seed, TargetState, real};
 
 /// The target of one frame.

@@ -46,8 +46,8 @@ pub fn parts() -> [FigurePart; 3] {
 mod tests {
     use super::*;
     use crate::{BodyShape, Walker, walker_triangles};
+    use cosfly_domain::BodyKind;
     use cosfly_frames::{DVec3, TargetState};
-    use cosfly_world::BodyKind;
 
     fn looks(number: u64) -> Seed {
         Seed([4; 32]).child("person", number)

@@ -1,8 +1,9 @@
 //! Open ground around obstacles as walkable plazas, for maps that know of buildings only.
 
+use cosfly_domain::{Obstacle, SurfaceMesh, WalkablePolygon};
 use cosfly_frames::DVec2;
+use cosfly_town::GroundIndex;
 use cosfly_town::open_ground::OpenGround;
-use cosfly_town::{GroundIndex, Obstacle, SurfaceMesh, WalkablePolygon};
 
 /// Narrowest cells, metres.
 const NARROWEST_CELL_M: f64 = 2.0;

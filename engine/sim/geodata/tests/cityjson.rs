@@ -1,8 +1,9 @@
 //! CityJSON: every feature of a file reaches the town, and bad input is refused or left out and counted.
 
+use cosfly_domain::{ObstacleKind, SemanticLabel, Town, WalkableKind};
 use cosfly_frames::DVec3;
 use cosfly_geodata::cityjson::{CityJson, CityJsonOptions};
-use cosfly_town::{MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind};
+use cosfly_town::{MapError, MapFormat};
 
 /// A house of two parts, a shed without a height of its own, a street, a square, relief, a hedge, a wall, a pond, a tree.
 const PLACE: &str = include_str!("../src/cityjson/every_feature.city.json");

@@ -1,7 +1,8 @@
 //! Extracts of OpenStreetMap beside the repository. The counts are those of pyosmium (`tests/outside/check_osm.py`).
 
+use cosfly_domain::ObstacleKind;
 use cosfly_geodata::osm::{OpenStreetMap, OsmOptions};
-use cosfly_town::{Format, MapFormat, ObstacleKind};
+use cosfly_town::{Format, MapFormat};
 use std::collections::BTreeSet;
 
 #[path = "../../../../tests/shared.rs"]

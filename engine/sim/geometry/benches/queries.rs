@@ -2,8 +2,9 @@
 
 #![expect(missing_docs, reason = "the benchmark macro writes an undocumented function")]
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, Seed};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 

@@ -4,10 +4,10 @@ use crate::bounds::Bounds;
 use crate::shape::Shape;
 use crate::turned_box::TurnedBox;
 use crate::wide::near::{self, most_square};
-use crate::wide::ray;
-use crate::wide::shaft;
 use crate::wide::tree::{REACH_M, WideTree};
-use crate::{Hit, Nearest, OrientedBox, SpatialQuery};
+use crate::wide::{ray, shaft};
+use crate::{Hit, Nearest, SpatialQuery};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 

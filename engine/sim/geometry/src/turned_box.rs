@@ -1,8 +1,8 @@
 //! A box prepared for queries: precomputed sine and cosine of its yaw, and the exact kernels in its own axes.
 
-use crate::OrientedBox;
 use crate::bounds::Bounds;
 use crate::shape::Shape;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, real};
 
 /// An [`OrientedBox`] with the precomputed data of queries.

@@ -1,9 +1,10 @@
 //! Every implementation of [`SpatialQuery`] gives the answers of brute force, bit for bit, on degenerate scenes; and
 //! the kernels agree with `parry3d`, an independent library.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, RandomStream, Seed, real};
-use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox, SpatialQuery, Triangle, TriangleBruteForce, TriangleBvh};
+use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery, Triangle, TriangleBruteForce, TriangleBvh};
 use parry3d_f64::query::{PointQuery, Ray, RayCast};
 use proptest::collection::vec;
 use proptest::prelude::*;

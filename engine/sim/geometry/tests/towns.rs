@@ -1,9 +1,10 @@
 //! The same test for the planner's queries: towns of thousands of boxes, body points seen from cameras, far origins,
 //! edges.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, RandomStream, Seed};
-use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox, SpatialQuery};
+use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
 
 fn random(seed: u64) -> RandomStream {
     Seed::of_item(seed, "geometry", "towns").stream("scene")

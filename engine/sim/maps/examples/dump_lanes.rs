@@ -1,9 +1,11 @@
 //! Prints what the reader makes of a map file, as JSON, for comparison with other software:
 //! `dump_lanes FILE [STEP_M] [shoulders]`. Positions are in the map's own origin with y negated (CARLA's frame).
 
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_maps::formats::opendrive::{OpenDriveOptions, RoadMap};
-use cosfly_maps::{FormatOptions, MapConfig, SemanticLabel, read_town};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_town::FormatOptions;
 use serde_json::{Value, json};
 use std::error::Error;
 

@@ -4,7 +4,8 @@
 
 use cosfly_frames::{DVec3, Seed};
 use cosfly_maps::formats::opendrive::OpenDriveOptions;
-use cosfly_maps::{FormatOptions, GroundIndex, MapConfig, read_town};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_town::{FormatOptions, GroundIndex};
 use std::error::Error;
 use std::io::Write;
 

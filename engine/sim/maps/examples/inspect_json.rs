@@ -3,8 +3,10 @@
 //! World frame, metres, radians: counts of boxes by kind, boxes, walkable polygons, surfaces (triangles only with
 //! `--surfaces` as last argument), origin, notes, warnings. Nothing is filled in.
 
+use cosfly_domain::Town;
 use cosfly_frames::Seed;
-use cosfly_maps::{FormatOptions, MapConfig, Town, read_town, recognise};
+use cosfly_maps::{MapConfig, read_town, recognise};
+use cosfly_town::FormatOptions;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;

@@ -1,7 +1,8 @@
 //! What a town lacks and an option of the stage `map` brings.
 
+use crate::MapConfig;
 use crate::bounds::Bounds;
-use crate::{MapConfig, ObstacleKind, SemanticLabel, Town, WalkableKind};
+use cosfly_domain::{ObstacleKind, SemanticLabel, Town, WalkableKind};
 use cosfly_frames::DVec2;
 use cosfly_geodata::reference::GeoReference;
 use std::collections::BTreeMap;

@@ -1,8 +1,9 @@
 //! Towns whose things are kilometres apart: most likely two places, or a broken coordinate.
 
 use crate::bounds::Bounds;
-use crate::{MapError, SemanticLabel, Town};
+use cosfly_domain::{SemanticLabel, Town};
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::MapError;
 
 /// A gap with nothing in it is said from this width on, metres.
 const NOTABLE_M: f64 = 2_000.0;

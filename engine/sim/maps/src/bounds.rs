@@ -1,13 +1,13 @@
 //! [`Bounds`]: the part of a town that is kept, whatever the format of its file.
 
-use crate::polygons::{triangulated, twice_area_m2};
-use crate::{Lane, Obstacle, ObstacleKind, SurfaceMesh, Town, WalkablePolygon};
 use cosfly_diagnose::plausible;
+use cosfly_domain::{Lane, Obstacle, ObstacleKind, SurfaceMesh, Town, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::polygons::{triangulated, twice_area_m2};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Ground is kept so far beyond the bounds, metres: as far as readers invent it beyond everything.
-const GROUND_M: f64 = crate::terrain::USUAL_MARGIN_M;
+const GROUND_M: f64 = cosfly_town::terrain::USUAL_MARGIN_M;
 /// Narrowest bounds, metres.
 const NARROWEST_M: f64 = 10.0;
 /// Pieces of ground smaller than this are left out, square metres.
@@ -231,8 +231,7 @@ fn is_convex(plan: &[DVec2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{LaneKind, SemanticLabel, WalkableKind};
-    use cosfly_geometry::OrientedBox;
+    use cosfly_domain::{LaneKind, OrientedBox, SemanticLabel, WalkableKind};
 
     fn bounds() -> Bounds {
         Bounds::new([0.0, 0.0, 100.0, 50.0]).unwrap()

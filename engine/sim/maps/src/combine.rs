@@ -1,9 +1,11 @@
 //! Several map files in one town: streets from one, houses or plants from another.
 
 use crate::bounds::Bounds;
-use crate::{FormatOptions, GroundIndex, MapError, MapOrigin, Obstacle, ObstacleKind, Town, recognise};
+use crate::recognise;
+use cosfly_domain::{MapOrigin, Obstacle, ObstacleKind, Town};
 use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_geodata::reference::GeoReference;
+use cosfly_town::{FormatOptions, GroundIndex, MapError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};

@@ -1,9 +1,9 @@
 //! [`MapConfig`]: the parameters of a map in a recipe.
 
-use crate::FormatOptions;
 use crate::combine::FurtherSource;
 use crate::fill::FillConfig;
-use crate::simplify::SimplifyConfig;
+use cosfly_town::FormatOptions;
+use cosfly_town::simplify::SimplifyConfig;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -5,9 +5,9 @@
 //! without a house beside it is taken for a green square.
 
 use crate::fill::land::{Plot, visit_rows};
-use crate::terrain::beside;
-use crate::{ObstacleKind, SemanticLabel, SurfaceMesh, Town};
+use cosfly_domain::{ObstacleKind, SemanticLabel, SurfaceMesh, Town};
 use cosfly_frames::DVec2;
+use cosfly_town::terrain::beside;
 use std::collections::VecDeque;
 
 /// Wanted side of a cell, metres.
@@ -223,10 +223,10 @@ impl Sums {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::MeshBuilder;
-    use crate::{GroundIndex, Obstacle};
+    use cosfly_domain::{Obstacle, OrientedBox};
     use cosfly_frames::DVec3;
-    use cosfly_geometry::OrientedBox;
+    use cosfly_town::GroundIndex;
+    use cosfly_town::mesh::MeshBuilder;
 
     /// Twenty-five blocks of 40 m: four wings of a depth around a court, streets 8 m wide between them.
     fn blocks(wing_m: f64) -> Town {
@@ -259,7 +259,7 @@ mod tests {
                 });
             }
         }
-        crate::terrain::add_terrain(&mut builder, &obstacles, 60.0).unwrap();
+        cosfly_town::terrain::add_terrain(&mut builder, &obstacles, 60.0).unwrap();
         Town { obstacles, surfaces: builder.finish(), ..Town::default() }
     }
 

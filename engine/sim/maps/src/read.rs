@@ -1,14 +1,15 @@
 //! [`read_town`]: bytes of any known format into a finished, checked [`Town`].
 
-use crate::apart;
 use crate::bounds::Bounds;
 use crate::combine::add_source;
 use crate::fill::fill;
 use crate::paving::pave_quarters;
 use crate::recognise::recognise;
-use crate::simplify::simplify;
-use crate::{MapConfig, MapError, ObstacleKind, Town};
+use crate::{MapConfig, apart};
+use cosfly_domain::{ObstacleKind, Town};
 use cosfly_frames::Seed;
+use cosfly_town::MapError;
+use cosfly_town::simplify::simplify;
 use std::collections::BTreeMap;
 
 /// Fewer houses may have any height.

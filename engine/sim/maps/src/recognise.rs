@@ -1,6 +1,7 @@
 //! [`recognise`]: the format of a file by its beginning, or the way from a format that is not read to one that is.
 
-use crate::{FORMATS, Format, MapError};
+use crate::FORMATS;
+use cosfly_town::{Format, MapError};
 
 /// Whether a file of this beginning is of some format.
 type IsIt = fn(&[u8]) -> bool;

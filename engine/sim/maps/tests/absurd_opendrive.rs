@@ -1,7 +1,9 @@
 //! OpenDRIVE files of absurd counts, lengths and nesting end in an error, or in a town, in bounded time and memory.
 
+use cosfly_domain::Town;
 use cosfly_frames::Seed;
-use cosfly_maps::{MapConfig, MapError, Town, read_town};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_town::MapError;
 use std::time::{Duration, Instant};
 
 /// A road of every curve, with every kind of profile, object and signal.

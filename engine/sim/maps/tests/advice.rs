@@ -1,8 +1,10 @@
 //! Advice of the stage `map` and of refusals: each piece is carried out here, and helps.
 
+use cosfly_domain::{ObstacleKind, Town, WalkableKind};
 use cosfly_frames::Seed;
 use cosfly_maps::advice::{advice, busiest_part};
-use cosfly_maps::{MapConfig, MapError, ObstacleKind, Town, WalkableKind, read_town_of, recognise};
+use cosfly_maps::{MapConfig, read_town_of, recognise};
+use cosfly_town::MapError;
 use serde_json::{Value, json};
 
 /// A street with a house, of OpenDRIVE; and one without, with a projection.

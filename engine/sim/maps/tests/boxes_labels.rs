@@ -1,7 +1,9 @@
 //! Boxes with labels of a CARLA server: kinds, plants, enclosed rotations, what is left out.
 
+use cosfly_domain::{ObstacleKind, Town};
 use cosfly_frames::{DVec2, DVec3, Seed};
-use cosfly_maps::{MapConfig, MapError, ObstacleKind, Town, read_town};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_town::MapError;
 
 /// A town of one box on a square.
 fn read(one: &str) -> Result<(Town, Vec<String>), MapError> {

@@ -1,9 +1,11 @@
 //! Towns of several files: things stand where they are in the world, and what earlier files have is replaced.
 
+use cosfly_domain::{Obstacle, ObstacleKind, Town};
 use cosfly_frames::{DVec2, DVec3, Seed};
 use cosfly_geodata::reference::GeoReference;
 use cosfly_maps::combine::{FurtherSource, Part};
-use cosfly_maps::{MapConfig, MapError, Obstacle, ObstacleKind, Town, read_town_of};
+use cosfly_maps::{MapConfig, read_town_of};
+use cosfly_town::MapError;
 use serde_json::json;
 
 const STREET: &str = include_str!("../src/formats/opendrive/every_feature.xodr");

@@ -1,7 +1,9 @@
 //! Laws of all map formats, run over the example of each: recognition, refusals, options, determinism.
 
+use cosfly_domain::Town;
 use cosfly_frames::Seed;
-use cosfly_maps::{FORMATS, Format, FormatOptions, MapConfig, MapError, Town, read_town, recognise};
+use cosfly_maps::{FORMATS, MapConfig, read_town, recognise};
+use cosfly_town::{Format, FormatOptions, MapError};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};

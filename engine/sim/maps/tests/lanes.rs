@@ -1,8 +1,9 @@
 //! Lanes of vehicles: linked as the files' own links say, in the direction of traffic.
 
+use cosfly_domain::{LaneKind, Town};
 use cosfly_frames::Seed;
 use cosfly_maps::generate::{GenerateConfig, generate_town};
-use cosfly_maps::{LaneKind, MapConfig, Town, read_town};
+use cosfly_maps::{MapConfig, read_town};
 use std::collections::BTreeMap;
 
 #[path = "../../../../tests/shared.rs"]

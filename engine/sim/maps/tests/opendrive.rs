@@ -1,11 +1,10 @@
 //! OpenDRIVE: every feature of a file reaches the town, and bad input is refused at its place.
 
+use cosfly_domain::{ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_maps::formats::opendrive::{OpenDriveOptions, RoadMap, Roofs};
-use cosfly_maps::{
-    FormatOptions, GroundIndex, MapConfig, MapError, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind,
-    read_town,
-};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_town::{FormatOptions, GroundIndex, MapError};
 
 /// A road of every curve, with every kind of profile, object and signal.
 const STREET: &str = include_str!("../src/formats/opendrive/every_feature.xodr");
@@ -122,7 +121,7 @@ fn courtyards_of_outlines_stay_open() {
 fn trees_keep_the_crowns_of_the_file() {
     let town = read(STREET).unwrap();
     let crowns: Vec<_> = town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::TreeCrown).collect();
-    let reach_m = |one: &&cosfly_maps::Obstacle| one.shape.half_extents_m.truncate().length();
+    let reach_m = |one: &&cosfly_domain::Obstacle| one.shape.half_extents_m.truncate().length();
     let widest_m = crowns[..4].iter().map(reach_m).fold(0.0, f64::max);
     assert!(widest_m > 0.9 * 2.5 && widest_m < 1.42 * 2.5, "radius 2.5 m: {widest_m}");
     assert!((2.0 * crowns[0].shape.half_extents_m.z - 5.0).abs() < 1e-9, "height 8 m, crown from 3 m");

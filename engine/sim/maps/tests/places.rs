@@ -1,8 +1,10 @@
 //! Where things are in the world: offsets of headers, further files, parts of towns, towns in two places.
 
+use cosfly_domain::{ObstacleKind, Town, WalkableKind};
 use cosfly_frames::{DVec2, Seed};
 use cosfly_geodata::reference::GeoReference;
-use cosfly_maps::{Bounds, MapConfig, MapError, ObstacleKind, Town, WalkableKind, read_town_of};
+use cosfly_maps::{Bounds, MapConfig, read_town_of};
+use cosfly_town::MapError;
 use serde_json::{Value, json};
 
 const UTM: &str = "+proj=utm +zone=33 +datum=WGS84 +units=m +no_defs";

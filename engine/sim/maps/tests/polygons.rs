@@ -1,8 +1,8 @@
 //! Laws of plan-view polygons over star-shaped outlines of any size, found wrong ones shrunk.
 
 use cosfly_frames::{DVec2, real};
-use cosfly_maps::cover::cover_polygon;
-use cosfly_maps::polygons::{PolygonIndex, clipped_to_band, contains, triangulated, twice_area_m2};
+use cosfly_town::cover::cover_polygon;
+use cosfly_town::polygons::{PolygonIndex, clipped_to_band, contains, triangulated, twice_area_m2};
 use proptest::prelude::*;
 
 /// A simple polygon around `center`: corners at equal angles, each at its own distance.

@@ -1,7 +1,8 @@
 //! OpenDRIVE: elements that are there twice, out of order, missing or unknown are refused at their place, or said.
 
+use cosfly_domain::Town;
 use cosfly_maps::formats::opendrive::RoadMap;
-use cosfly_maps::{MapError, Town};
+use cosfly_town::MapError;
 
 const STREET: &str = include_str!("../src/formats/opendrive/every_feature.xodr");
 

@@ -1,12 +1,11 @@
 //! Real map files of `../shared`: each is read, is well formed and has what it is known to have.
 
+use cosfly_domain::{ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind};
 use cosfly_frames::{DVec2, DVec3, Seed};
 use cosfly_maps::formats::opendrive::{OpenDriveOptions, Roofs};
-use cosfly_maps::polygons::contains;
-use cosfly_maps::{
-    FormatOptions, GroundIndex, MapConfig, MapError, ObstacleKind, SemanticLabel, SurfaceMesh, Town, WalkableKind,
-    read_town,
-};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_town::polygons::contains;
+use cosfly_town::{FormatOptions, GroundIndex, MapError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;

@@ -1,7 +1,9 @@
 //! Terrain under the streets of a whole town.
 
+use cosfly_domain::{SemanticLabel, SurfaceMesh, Town};
 use cosfly_frames::Seed;
-use cosfly_maps::{GroundIndex, MapConfig, SemanticLabel, SurfaceMesh, Town, read_town};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_town::GroundIndex;
 
 fn downtown() -> Town {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../recipes/towns/downtown.xodr");

@@ -2,8 +2,9 @@
 
 mod wide_town;
 
+use cosfly_domain::{ObstacleKind, Town};
 use cosfly_frames::Seed;
-use cosfly_maps::{MapConfig, ObstacleKind, Town, read_town};
+use cosfly_maps::{MapConfig, read_town};
 use std::collections::BTreeMap;
 use std::time::Instant;
 use wide_town::{TOWER_M, WideTown};

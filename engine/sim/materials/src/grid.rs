@@ -3,8 +3,8 @@
 use crate::parts::{Cluster, SceneBox};
 use crate::pattern::{blend, fixed_size, floor_int, four_bytes, least, lerp, most, nearest_index, share};
 use crate::things::bulb;
+use cosfly_domain::ObstacleKind;
 use cosfly_frames::DVec3;
-use cosfly_maps::ObstacleKind;
 
 /// Most cells along one side.
 const MAX_CELLS: usize = 508;

@@ -7,8 +7,8 @@ use super::pattern::{
 };
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::simd_kernel;
-use cosfly_maps::SemanticLabel;
 
 /// Dull surfaces whose colour follows from the place. Not a function: closures are not always inlined, and only what is
 /// inlined becomes vector code.
@@ -240,8 +240,8 @@ mod tests {
     use super::super::grid::LightGrid;
     use super::super::lanes::FOUR;
     use super::super::pattern::noise_texture;
-    use super::super::season::Season;
     use super::*;
+    use cosfly_domain::Season;
     use cosfly_frames::simd::Level;
 
     /// Albedo of road at sixteen places a pixel of 5 cm wide.

@@ -6,12 +6,11 @@ use super::lanes::{
     Block, EMPTY_ROW, FOUR, Shared, Stage, StageRow, WIDE, get, groups, set, three_of, write_row, write_three,
 };
 use super::pattern::{NoiseTexture, Noises, draw, least, lerp, most, share, smoothstep, unit};
-use super::season::Season;
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use crate::parts::SceneBox;
+use cosfly_domain::{ObstacleKind, Season};
 use cosfly_frames::simd_kernel;
-use cosfly_maps::ObstacleKind;
 
 /// Leaves by species, linear RGB: plane, lime, maple, oak, ash, willow, cherry, olive, birch, and copper beech.
 const SPECIES: [[f32; 3]; 10] = [

@@ -2,7 +2,7 @@
 
 use super::pattern::{lerp, most, smoothstep};
 use super::vector::Vec3;
-use crate::weather::Weather;
+use cosfly_domain::Weather;
 use cosfly_frames::real;
 
 /// Everything about light that is the same in the whole frame. Colours are linear RGB.

@@ -3,8 +3,8 @@
 use crate::kerbs::KerbLine;
 use crate::pattern::hash;
 use crate::roof_steps::RoofStep;
+use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, Town};
 use cosfly_frames::{DVec3, real};
-use cosfly_maps::{Obstacle, ObstacleKind, SemanticLabel, Town};
 use glam::Vec3A as Vec3;
 use std::collections::BTreeMap;
 

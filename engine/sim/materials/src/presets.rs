@@ -1,6 +1,6 @@
 //! CARLA 0.9.16's weather presets, all 22.
 
-use crate::weather::Weather;
+use cosfly_domain::Weather;
 
 /// Name, cloudiness, precipitation, deposits, wind, sun altitude, fog density, fog distance, fog falloff, wetness, dust.
 type Row = (&'static str, [f64; 10]);

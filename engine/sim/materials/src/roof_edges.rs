@@ -1,8 +1,8 @@
 //! Where the flat roof of a building that is made of several boxes goes on from box to box: no parapet stands there.
 
 use crate::parts::{BOX_FACES, SceneBox};
+use cosfly_domain::ObstacleKind;
 use cosfly_frames::DVec2;
-use cosfly_maps::ObstacleKind;
 use std::collections::BTreeMap;
 
 /// Places beside a side that are looked at, as shares of its length.
@@ -70,9 +70,8 @@ fn contains(b: &SceneBox, place: DVec2) -> bool {
 mod tests {
     use super::*;
     use crate::parts::boxes_of;
+    use cosfly_domain::{Obstacle, OrientedBox, Town};
     use cosfly_frames::DVec3;
-    use cosfly_geometry::OrientedBox;
-    use cosfly_maps::{Obstacle, Town};
 
     /// Boxes of one building: middle, half size.
     fn sides_of(parts: &[([f64; 3], [f64; 3])]) -> Vec<[bool; 4]> {

@@ -1,8 +1,8 @@
 //! Which boxes of a building are steps of a pitched roof: they are drawn as slopes, whatever their faces.
 
 use crate::parts::SceneBox;
+use cosfly_domain::ObstacleKind;
 use cosfly_frames::DVec2;
-use cosfly_maps::ObstacleKind;
 use std::collections::BTreeMap;
 
 /// Highest step, metres: readers of maps make steps of 0.75 and 1 m.
@@ -209,10 +209,9 @@ fn ridge(half_m: DVec2, sides: &[Side; 4], pitch: Pitch) -> TopSlope {
 mod tests {
     use super::*;
     use crate::parts::boxes_of;
+    use cosfly_domain::{Obstacle, OrientedBox, Town};
     use cosfly_frames::DVec3;
-    use cosfly_geometry::OrientedBox;
-    use cosfly_maps::solids::{Footprint, Roof, building_boxes};
-    use cosfly_maps::{Obstacle, Town};
+    use cosfly_town::solids::{Footprint, Roof, building_boxes};
 
     fn steps_of(shapes: Vec<OrientedBox>) -> Vec<Option<RoofStep>> {
         let obstacle = |shape| Obstacle { shape, kind: ObstacleKind::Building, object_id: 1, synthetic: false };

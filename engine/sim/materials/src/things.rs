@@ -4,8 +4,8 @@ use super::lanes::{Block, Shared, WIDE, groups};
 use super::pattern::{NoiseTexture, Noises, band, draw, hash, least, smoothstep, stripes, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
+use cosfly_domain::ObstacleKind;
 use cosfly_frames::simd_kernel;
-use cosfly_maps::ObstacleKind;
 
 /// Car paints, linear RGB.
 const PAINTS: [Vec3; 8] = [

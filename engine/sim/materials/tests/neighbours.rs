@@ -1,6 +1,7 @@
 //! Walls and roofs leave work out where sixteen pixels have no need of it: the look of a pixel must not follow from the pixels
 //! beside it, on any processor.
 
+use cosfly_domain::Weather;
 use cosfly_frames::Seed;
 use cosfly_frames::simd::Level;
 use cosfly_materials::facade::{BoxFace, Facade, Roof, facade, roofs};
@@ -8,7 +9,6 @@ use cosfly_materials::lanes::{Block, FOUR, Shared, WIDE, get, set};
 use cosfly_materials::light::Light;
 use cosfly_materials::pattern::noise_texture;
 use cosfly_materials::vector::Vec3;
-use cosfly_materials::weather::Weather;
 
 /// A face that is seen with pixels of one size.
 #[derive(Clone, Copy)]

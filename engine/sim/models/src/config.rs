@@ -1,6 +1,6 @@
 //! Parameters of models in a recipe.
 
-use cosfly_town::ObstacleKind;
+use cosfly_domain::ObstacleKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -2,8 +2,8 @@
 
 use crate::config::ModelFit;
 use crate::model::{Model, ModelTriangle};
+use cosfly_domain::{Obstacle, ObstacleKind};
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_town::{Obstacle, ObstacleKind};
 use std::collections::BTreeMap;
 
 /// The box around all parts of a thing, in the axes of its largest part.

@@ -1,8 +1,8 @@
 //! Facades: the sides of a building, and how much of them a flight has seen.
 
 use super::Site;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, Pose, real};
-use cosfly_geometry::OrientedBox;
 
 /// Side of a facade's cells, metres.
 const CELL_M: f64 = 2.0;

@@ -8,8 +8,8 @@ use super::config::{DT_S, InspectConfig};
 use super::facade::{Coverage, Side, coverage, hull, is_free, sides};
 use super::meeting::Meeting;
 use super::{Mission, POINT_HEIGHT_M, Site};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, TargetState, TargetTrack, real};
-use cosfly_geometry::OrientedBox;
 use cosfly_planner::MucoConfig;
 use cosfly_random::Seed;
 
@@ -269,9 +269,9 @@ fn wishes(wanted: &InspectConfig, config: &MucoConfig) -> MucoConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_domain::{PlanOutcome, Trajectory};
     use cosfly_geometry::BoxBvh;
     use cosfly_planner::plan_request;
-    use cosfly_planner::{PlanOutcome, Trajectory};
 
     fn house(center: DVec3, half: DVec3) -> OrientedBox {
         OrientedBox { center_in_world: center, half_extents_m: half, yaw_rad: 0.3 }

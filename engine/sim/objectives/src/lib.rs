@@ -18,11 +18,10 @@ pub mod track;
 
 pub use config::{InspectConfig, Objective, ObjectiveConfig, PatrolConfig};
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, TargetTrack};
-use cosfly_geometry::{OrientedBox, SpatialQuery};
-use cosfly_planner::PlanRequest;
-use cosfly_planner::WeightedTerm;
-use cosfly_planner::{MucoConfig, Preset};
+use cosfly_geometry::SpatialQuery;
+use cosfly_planner::{MucoConfig, PlanRequest, Preset, WeightedTerm};
 use meeting::Meeting;
 
 /// Body height of a point to be watched that is nobody, metres: the smallest that can be followed.

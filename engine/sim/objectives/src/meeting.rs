@@ -75,8 +75,9 @@ mod tests {
     use cosfly_frames::{TargetState, TargetTrack};
     use cosfly_geometry::BoxBvh;
     use cosfly_planner::config::view::ViewConfig;
-    use cosfly_planner::obstacles::{exact::ExactObstacles, ground::GroundGrid};
     use cosfly_planner::walk::Walk;
+    use cosfly_surroundings::exact::ExactObstacles;
+    use cosfly_surroundings::ground::GroundGrid;
 
     #[test]
     fn places_are_those_of_the_last_frames_and_the_slope_is_that_of_the_cost() {

@@ -201,8 +201,8 @@ fn wishes(heights: impl Iterator<Item = f64>, wanted: &PatrolConfig, config: &Mu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_geometry::{BoxBvh, OrientedBox};
-    use cosfly_planner::PlanOutcome;
+    use cosfly_domain::{OrientedBox, PlanOutcome};
+    use cosfly_geometry::BoxBvh;
     use cosfly_planner::plan_request;
 
     fn tower(x: f64, y: f64, height: f64) -> OrientedBox {

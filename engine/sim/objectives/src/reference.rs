@@ -92,8 +92,8 @@ fn wishes(reference: &Reference, config: &MucoConfig) -> MucoConfig {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_geometry::{BoxBvh, OrientedBox};
-    use cosfly_planner::PlanOutcome;
+    use cosfly_domain::{OrientedBox, PlanOutcome};
+    use cosfly_geometry::BoxBvh;
     use cosfly_planner::plan_request;
 
     #[test]

@@ -1,8 +1,8 @@
 //! Starts and goals: pieces of ground with room, places on them, and the next goal of a walk.
 
 use crate::{PedestrianError, WalkableGrid};
+use cosfly_domain::WalkableKind;
 use cosfly_frames::{DVec2, RandomStream, real};
-use cosfly_maps::WalkableKind;
 
 /// Longest straight distance to the next goal, metres: bounds the work of one search.
 pub(crate) const LONGEST_LEG_M: f64 = 120.0;

@@ -4,9 +4,9 @@ use crate::ground::{Ground, rank};
 use crate::obstruction::Obstruction;
 use crate::polygon::Cut;
 use crate::{PedestrianConfig, PedestrianError};
+use cosfly_domain::{Town, WalkableKind};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_maps::advice::{WIDEST_WALKS_M2, busiest_part};
-use cosfly_maps::{Town, WalkableKind};
 use tiles::{Numbering, Tiles};
 
 mod raster;

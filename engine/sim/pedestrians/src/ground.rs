@@ -2,8 +2,8 @@
 
 use crate::polygon::{Cut, Polygon};
 use crate::{PedestrianError, polygon::Interval};
+use cosfly_domain::{Town, WalkableKind};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::{Town, WalkableKind};
 
 /// Seams between neighbouring polygons up to this width count as ground, metres: map readers cut one
 /// pavement into pieces whose outlines agree only to rounding.
@@ -161,7 +161,7 @@ mod tests {
     use super::*;
     use crate::grid::test_towns::{rectangle, town};
 
-    fn ground(walkable: Vec<cosfly_maps::WalkablePolygon>) -> Ground {
+    fn ground(walkable: Vec<cosfly_domain::WalkablePolygon>) -> Ground {
         let mut ground = Ground::new(&town(walkable, vec![])).unwrap();
         ground.index();
         ground

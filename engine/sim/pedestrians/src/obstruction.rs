@@ -1,8 +1,8 @@
 //! Obstacles to a walking body: rectangles in plan with a height range.
 
 use crate::PedestrianError;
+use cosfly_domain::Town;
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_maps::Town;
 
 /// Highest thing that a foot steps over, metres.
 const STEP_OVER_M: f64 = 0.05;

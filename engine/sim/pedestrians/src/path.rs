@@ -1,8 +1,8 @@
 //! [`PedestrianPath`]: track of a pedestrian and the ground under it.
 
 use crate::Ground;
+use cosfly_domain::WalkableKind;
 use cosfly_frames::TargetTrack;
-use cosfly_maps::WalkableKind;
 use serde::{Deserialize, Serialize};
 
 /// A pedestrian's walk.

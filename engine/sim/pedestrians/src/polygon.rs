@@ -1,7 +1,7 @@
 //! One walkable polygon, cut by a line: the exact kernel under rasters, heights and coverage tests.
 
+use cosfly_domain::WalkableKind;
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::WalkableKind;
 
 /// Edges per bounding chunk; long strips along roads have hundreds of edges.
 const CHUNK: usize = 16;

@@ -179,8 +179,8 @@ mod tests {
     use super::*;
     use crate::PedestrianConfig;
     use crate::grid::test_towns::{pillar, rectangle, streets, town};
+    use cosfly_domain::WalkableKind;
     use cosfly_frames::DVec2;
-    use cosfly_maps::WalkableKind;
 
     fn seed() -> Seed {
         Seed::of_item(3, "walkers", "route")

@@ -4,8 +4,9 @@ use crate::motion::ArcPath;
 use crate::route::{LONE_COSTS, RouteSearch};
 use crate::smooth::smooth;
 use crate::{ConfigRule, PedestrianConfig, PedestrianError, WalkableGrid};
+use cosfly_domain::{Body, BodyKind, BodyPlan};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState};
-use cosfly_world::{Body, BodyKind, BodyPlan, Clock, Prescribed};
+use cosfly_world::{Clock, Prescribed};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

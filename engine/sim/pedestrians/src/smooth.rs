@@ -159,7 +159,7 @@ mod tests {
     use super::*;
     use crate::PedestrianConfig;
     use crate::grid::test_towns::{pillar, rectangle, town};
-    use cosfly_maps::WalkableKind;
+    use cosfly_domain::WalkableKind;
 
     fn corner_town() -> WalkableGrid {
         let along = rectangle(WalkableKind::Sidewalk, (0.0, 0.0), (30.0, 2.0), 0.0);

@@ -5,8 +5,8 @@ use crate::motion::{self, ArcPath};
 use crate::route::{LONE_COSTS, RouteSearch, TASTE_SHARE};
 use crate::smooth::smooth;
 use crate::{PedestrianConfig, PedestrianError, PedestrianPath, WalkableGrid};
+use cosfly_domain::WalkableKind;
 use cosfly_frames::{DVec2, RandomStream, Seed, TargetState, TargetTrack};
-use cosfly_maps::WalkableKind;
 
 /// Shortest straight distance to the next goal, metres.
 const SHORTEST_LEG_M: f64 = 15.0;
@@ -184,7 +184,7 @@ mod tests {
     }
 
     /// The law of a walk, on the exact ground and the exact obstacles.
-    fn check_walk(town: &cosfly_maps::Town, grid: &WalkableGrid, config: &PedestrianConfig, walked: &PedestrianPath) {
+    fn check_walk(town: &cosfly_domain::Town, grid: &WalkableGrid, config: &PedestrianConfig, walked: &PedestrianPath) {
         let track = &walked.track;
         assert_eq!((track.len(), track.dt_s), (config.steps as usize, config.dt_s));
         assert_eq!((walked.ground.len(), walked.standing.len()), (track.len(), track.len()));

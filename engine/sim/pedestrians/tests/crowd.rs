@@ -1,9 +1,10 @@
 //! People who walk together in a real town: on its ground, off its things, apart from each other, and getting on.
 
+use cosfly_domain::{Body, Town, Traffic};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState, real};
-use cosfly_maps::{MapConfig, Town, read_town};
+use cosfly_maps::{MapConfig, read_town};
 use cosfly_pedestrians::{Crowd, CrowdConfig, Ground, WalkableGrid};
-use cosfly_world::{Body, Clock, Population, Traffic, contacts, simulate};
+use cosfly_world::{Clock, Population, contacts, simulate};
 use std::path::Path;
 use std::sync::Arc;
 

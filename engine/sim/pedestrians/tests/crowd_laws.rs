@@ -1,10 +1,10 @@
 //! Laws of crowds in small towns: no order, no later frame and no other person's number changes a state; vehicles are kept clear
 //! of; scripts are played as written.
 
+use cosfly_domain::{Body, BodyKind, BodyPlan, Town, Traffic, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState};
-use cosfly_maps::{Town, WalkableKind, WalkablePolygon};
 use cosfly_pedestrians::{Crowd, CrowdConfig, ScriptedPerson, WalkableGrid, Waypoint, path_of, scripted};
-use cosfly_world::{Body, BodyKind, BodyPlan, Clock, Population, Prescribed, Traffic, contacts, simulate};
+use cosfly_world::{Clock, Population, Prescribed, contacts, simulate};
 use std::sync::Arc;
 
 /// Two pavements of 4 m along a road of 8 m that one crossing joins, 120 m long.

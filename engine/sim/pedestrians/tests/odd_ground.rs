@@ -1,11 +1,11 @@
 //! Odd ground: crossed, flat, doubled and steep polygons, things everywhere. Nothing panics, and every walk that
 //! comes out keeps to the ground.
 
-use cosfly_frames::{DVec3, RandomStream, Seed};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{
-    MapOrigin, Obstacle, ObstacleKind, SimplificationReport, Synthetic, Town, WalkableKind, WalkablePolygon,
+use cosfly_domain::{
+    MapOrigin, Obstacle, ObstacleKind, OrientedBox, SimplificationReport, Synthetic, Town, WalkableKind,
+    WalkablePolygon,
 };
+use cosfly_frames::{DVec3, RandomStream, Seed};
 use cosfly_pedestrians::{PedestrianConfig, WalkableGrid, walk};
 
 const KINDS: [WalkableKind; 5] =

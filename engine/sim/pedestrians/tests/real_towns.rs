@@ -1,7 +1,8 @@
 //! Walks on real towns: CARLA's own and a surveyed city. Skipped where the shared data is absent.
 
+use cosfly_domain::{Town, WalkableKind};
 use cosfly_frames::{DVec2, Seed};
-use cosfly_maps::{MapConfig, Town, WalkableKind, read_town};
+use cosfly_maps::{MapConfig, read_town};
 use cosfly_pedestrians::{PedestrianConfig, PedestrianPath, WalkableGrid, walk};
 use shared::shared_input;
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ mod shared;
 /// Distance in plan from a point to the nearest obstacle that a body would meet there.
 fn free_m(town: &Town, walked: &PedestrianPath, frame: usize) -> f64 {
     let feet = walked.track.states[frame].feet_in_world;
-    let meets = |shape: &cosfly_geometry::OrientedBox| {
+    let meets = |shape: &cosfly_domain::OrientedBox| {
         let (low, high) = shape.bounds_in_world();
         low.z < feet.z + walked.track.height_m && high.z > feet.z + 0.1
     };

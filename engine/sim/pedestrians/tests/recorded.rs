@@ -1,8 +1,7 @@
 //! Recorded people: every format, real files, and files with something wrong.
 
+use cosfly_domain::{MapOrigin, Obstacle, ObstacleKind, OrientedBox, SemanticLabel, SurfaceMesh, Town};
 use cosfly_frames::{DVec2, DVec3, Seed};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town};
 use cosfly_pedestrians::{RecordedConfig, Recording};
 use cosfly_world::{Clock, Population, contacts, simulate};
 use shared::shared_input;

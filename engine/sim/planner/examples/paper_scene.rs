@@ -1,16 +1,19 @@
 //! Flies the paper's pipeline through seeded scenes and prints what came out, good and bad:
 //! `paper_scene [KIND ...] [--paths N] [--seed N] [--iterations N] [--set NAME=VALUE] [--pool] [--split]`.
 
+use cosfly_domain::{Certificate, OrientedBox};
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_planner::certificate::{Kinematics, certify, swept_clearance_m};
-use cosfly_planner::obstacles::{exact::ExactMap, ground::GroundGrid, local::LocalObstacles};
 use cosfly_planner::paper::{FocusedSurroundings, NearBoxes, PaperFlight, Threads, iteration, plan_paper_in};
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
-use cosfly_planner::{Certificate, MucoConfig, Preset};
+use cosfly_planner::{MucoConfig, Preset};
 use cosfly_scenes::{Scene, SceneKind};
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::local::LocalObstacles;
 use std::time::Instant;
 
 /// A clearance below this is a collision of a body of half a metre, metres.

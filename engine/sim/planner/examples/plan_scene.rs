@@ -1,8 +1,9 @@
 //! Plans walkers in seeded scenes and prints what came out: `plan_scene [KIND ...] [--paths N] [--seed N] [--preset paper]`.
 
+use cosfly_domain::{Certificate, PlanOutcome};
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::config::SearchEffort;
-use cosfly_planner::{Certificate, MucoConfig, PlanOutcome, Preset, plan};
+use cosfly_planner::{MucoConfig, Preset, plan};
 use cosfly_random::Seed;
 use cosfly_scenes::{Scene, SceneKind};
 use std::time::Instant;

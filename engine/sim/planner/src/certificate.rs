@@ -1,12 +1,12 @@
 //! The final word on a flight: everything measured again in f64 against the unsimplified map.
 
 use crate::config::muco::MucoConfig;
-use crate::obstacles::exact::ExactMap;
 use crate::terms::term::{TermContext, WeightedTerm};
-use crate::trajectory::{Certificate, Limits, TermCost};
-use crate::visibility::aim_point;
 use crate::walk::Walk;
+use cosfly_domain::{Certificate, Limits, TermCost};
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::visibility::aim_point;
 
 /// Distances from obstacles are reported up to here, metres.
 pub const CLEARANCE_CAP_M: f64 = 50.0;

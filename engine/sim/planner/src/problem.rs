@@ -2,10 +2,10 @@
 
 use crate::config::view::ViewConfig;
 use crate::gradient::total_cost;
-use crate::obstacles::local::LocalObstacles;
 use crate::terms::term::{TermContext, WeightedTerm};
 use crate::walk::Walk;
 use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_surroundings::local::LocalObstacles;
 
 /// Target, wishes and cost of one flight.
 pub struct Problem<'a> {

@@ -1,10 +1,13 @@
 //! The request for a flight: track, map, wishes, start, companions, moving occluders.
 
 use crate::config::muco::MucoConfig;
-use crate::obstacles::{exact::ExactMap, ground::GroundGrid, moving::OtherDrones};
 use crate::terms::term::WeightedTerm;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::{OrientedBox, SpatialQuery};
+use cosfly_geometry::SpatialQuery;
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::moving::OtherDrones;
 
 /// Inputs of a flight. [`PlanRequest::new`] sets the usual ones; the other fields are set by name.
 pub struct PlanRequest<'a> {

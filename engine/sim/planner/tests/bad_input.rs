@@ -1,8 +1,9 @@
 //! Bad tracks, absurd maps and impossible wishes end in a reason or a certified flight, never in a panic.
 
+use cosfly_domain::{OrientedBox, PlanOutcome};
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
-use cosfly_geometry::{BoxBvh, OrientedBox};
-use cosfly_planner::{MucoConfig, PlanOutcome, plan};
+use cosfly_geometry::BoxBvh;
+use cosfly_planner::{MucoConfig, plan};
 use cosfly_random::Seed;
 
 fn track(feet: impl IntoIterator<Item = DVec3>) -> TargetTrack {
@@ -26,7 +27,7 @@ fn check_rejected(outcome: PlanOutcome, parts: &[&str]) {
     }
 }
 
-fn check_planned(outcome: PlanOutcome) -> cosfly_planner::Trajectory {
+fn check_planned(outcome: PlanOutcome) -> cosfly_domain::Trajectory {
     match outcome {
         PlanOutcome::Planned(flight) => {
             assert!(flight.certificate.holds, "{:?}", flight.certificate.violations);

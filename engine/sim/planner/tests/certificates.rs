@@ -1,11 +1,13 @@
 //! Every planned flight is measured again, by other means than the planner's own.
 
 use core::f64::consts::PI;
+use cosfly_domain::{OrientedBox, PlanOutcome, Trajectory};
 use cosfly_frames::{DVec3, Pose};
-use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox, SpatialQuery};
-use cosfly_planner::{MucoConfig, PlanOutcome, Preset, Trajectory, aim_point, body_points, plan};
+use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
+use cosfly_planner::{MucoConfig, Preset, plan};
 use cosfly_random::Seed;
 use cosfly_scenes::{Scene, SceneKind};
+use cosfly_surroundings::visibility::{aim_point, body_points};
 
 fn planned(scene: &Scene, seed: u64, index: u64, config: &MucoConfig) -> Result<Box<Trajectory>, String> {
     let exact = BoxBvh::build(scene.boxes.clone());

@@ -1,9 +1,10 @@
 //! A term from outside joins the search, the refinement and the output like the nine built-in ones.
 
+use cosfly_domain::{PlanOutcome, Trajectory};
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::config::{LimitsConfig, SearchConfig, SearchEffort, ViewConfig};
-use cosfly_planner::{CostTerm, MucoConfig, PlanOutcome, TermContext, Trajectory, WeightedTerm, plan_with_terms};
+use cosfly_planner::{CostTerm, MucoConfig, TermContext, WeightedTerm, plan_with_terms};
 use cosfly_random::Seed;
 
 /// Prefers to be east of the target; knows no gradient.

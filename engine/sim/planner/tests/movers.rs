@@ -1,13 +1,15 @@
 //! Flights among boxes that move, measured by other means than the planner's own.
 
 use core::f64::consts::{PI, TAU};
+use cosfly_domain::{OrientedBox, PlanOutcome, Trajectory};
 use cosfly_frames::{DVec3, TargetTrack, real};
-use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox, SpatialQuery};
+use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
 use cosfly_planner::config::{Foresight, Planner};
-use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes};
-use cosfly_planner::{MucoConfig, PlanOutcome, PlanRequest, Trajectory, body_points, plan_request};
+use cosfly_planner::{MucoConfig, PlanRequest, plan_request};
 use cosfly_random::Seed;
 use cosfly_scenes::{Scene, SceneKind, movers_around};
+use cosfly_surroundings::moving::{OtherDrones, drone_boxes};
+use cosfly_surroundings::visibility::body_points;
 
 fn positions(flight: &Trajectory) -> Vec<DVec3> {
     flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect()

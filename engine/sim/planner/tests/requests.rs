@@ -1,13 +1,14 @@
 //! Requests beside a plain flight: start states, companions, moving boxes, ordered losses, presets.
 
+use cosfly_domain::{OrientedBox, PlanOutcome, Trajectory};
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_planner::certificate::Kinematics;
 use cosfly_planner::config::{Planner, SeveralTargets};
-use cosfly_planner::{
-    MucoConfig, PlanOutcome, PlanRequest, Preset, StartState, Trajectory, body_points, plan_request, visibility,
-};
+use cosfly_planner::{MucoConfig, PlanRequest, Preset, StartState, plan_request};
 use cosfly_scenes::{Scene, SceneKind};
+use cosfly_surroundings::visibility;
+use cosfly_surroundings::visibility::body_points;
 
 fn flown(outcome: PlanOutcome) -> Trajectory {
     match outcome {

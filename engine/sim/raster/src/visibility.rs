@@ -1,6 +1,6 @@
 //! The visibility pass: convex polygons into a buffer of (inverse depth, face number), sampled at pixel centres.
 
-use crate::camera::Camera;
+use cosfly_domain::Camera;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, simd_kernel};
 

@@ -9,11 +9,11 @@ mod small_town;
 #[path = "../tests/traffic/mod.rs"]
 mod traffic;
 
+use cosfly_domain::{Town, Weather};
+use cosfly_figures::{BodyShape, Bystander, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_maps::{MapConfig, Town};
-use cosfly_render::{
-    BodyShape, Bystander, FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages, TargetSetup, Weather,
-};
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

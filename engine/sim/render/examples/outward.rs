@@ -1,8 +1,10 @@
 //! Looks from the edges of a town outwards, and at its roofs: `outward OUT_DIR MAP [PRESET...]`; noon and haze by default.
 
+use cosfly_domain::{Camera, ObstacleKind, Town, Weather};
 use cosfly_frames::{DVec2, DVec3, Pose, Seed};
-use cosfly_maps::{GroundIndex, MapConfig, ObstacleKind, Town, read_town};
-use cosfly_render::{Camera, FrameSetup, Renderer, Scene, Weather};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_render::{FrameSetup, Renderer, Scene};
+use cosfly_town::GroundIndex;
 use std::fs::File;
 use std::path::Path;
 

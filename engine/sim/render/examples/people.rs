@@ -1,8 +1,10 @@
 //! Draws people of all builds side by side, close and from a drone's height, as PNG files: `people OUT_DIR TOWN.xodr`.
 
+use cosfly_domain::{WalkableKind, Weather};
+use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_maps::{MapConfig, WalkableKind};
-use cosfly_render::{BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, Walker, Weather, gait_phase_rad};
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
 use std::fs::File;
 use std::path::Path;
 

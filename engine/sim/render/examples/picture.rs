@@ -7,9 +7,11 @@ mod crowd;
 #[path = "../tests/small_town/mod.rs"]
 mod small_town;
 
+use cosfly_domain::{Season, Town, WalkableKind, Weather};
+use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::{BodyShape, FrameSetup, RenderConfig, Renderer, Scene, Season, TargetSetup, Weather, preview};
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene, preview};
 use std::fs::File;
 use std::path::Path;
 

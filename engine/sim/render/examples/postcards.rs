@@ -1,11 +1,10 @@
 //! The book's pictures: one town at noon, sunset, in rain, fog, at night, in dust and in winter: `postcards OUT_DIR TOWN.xodr`.
 
+use cosfly_domain::{Season, Town, WalkableKind, Weather};
+use cosfly_figures::{BodyShape, Bystander, TargetSetup, Walker, gait_phase_rad};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::{
-    BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, Season, TargetSetup, Walker, Weather,
-    gait_phase_rad,
-};
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
 use std::fs::File;
 use std::path::Path;
 

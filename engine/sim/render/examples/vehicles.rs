@@ -1,11 +1,10 @@
 //! Draws vehicles of all kinds on a street of a town, and a drone above them, from both ends and from above, as PNG files.
 
+use cosfly_domain::{BodyKind, WalkableKind, Weather};
+use cosfly_figures::{BodyShape, Bystander, Walker, pedal_phase_rad};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_maps::{MapConfig, WalkableKind};
-use cosfly_render::{
-    BodyShape, Bystander, FrameSetup, RenderConfig, Renderer, Scene, Walker, Weather, pedal_phase_rad,
-};
-use cosfly_world::BodyKind;
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
 use std::fs::File;
 use std::path::Path;
 

@@ -1,15 +1,15 @@
 //! The seam between a run and what draws its pictures: one trait.
 
-use crate::camera::Camera;
 use crate::frame::RenderedFrame;
 use crate::renderer::Renderer;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
+use cosfly_domain::Camera;
 use std::fmt;
 
 /// Draws frames of a scene with one camera. A backend owns its buffers; a run keeps one per thread.
 ///
-/// Every channel follows the conventions of [`crate::FrameImages`]: sampled at pixel centres, agreeing pixel by pixel,
+/// Every channel follows the conventions of [`cosfly_domain::FrameImages`]: sampled at pixel centres, agreeing pixel by pixel,
 /// planar depth in metres with infinity for the sky. [`RenderedFrame::target_pixels`] and
 /// [`crate::measure_target`] give the target's view.
 pub trait Backend: Send {

@@ -1,8 +1,8 @@
 //! Buildings of a town, as what hides other things from a point.
 
+use cosfly_domain::{ObstacleKind, OrientedBox, Town};
 use cosfly_frames::{DVec3, real};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_maps::{ObstacleKind, Town};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 
 /// Length by which each face of a building is moved inwards, metres: nothing that is seen past an edge counts as hidden.
 const EDGE_M: f64 = 0.1;

@@ -1,6 +1,6 @@
 //! The channels of a rendering: a list of names in recipes and packs.
 
-use crate::channels::{self, Channel};
+use cosfly_domain::{Channel, channels};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;

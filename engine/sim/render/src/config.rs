@@ -1,12 +1,10 @@
 //! Parameters of a recipe's pictures: renderer, camera, effects, weathers.
 
-use crate::camera::{Camera, Mount};
-use crate::channel_set::ChannelSet;
-use crate::effects::{Effects, Lens, MotionBlur, Noise, RollingShutter};
+use crate::effects::Effects;
 use crate::look::PictureLook;
-use crate::weather::{Weather, WeatherRanges};
+use cosfly_domain::{Camera, ChannelSet, Lens, MotionBlur, Mount, Noise, RollingShutter, Season, Weather};
 use cosfly_frames::Seed;
-use cosfly_materials::season::Season;
+use cosfly_materials::weather::WeatherRanges;
 use cosfly_models::ModelConfig;
 use cosfly_optics::Optics;
 use schemars::JsonSchema;
@@ -282,7 +280,7 @@ impl RenderConfig {
 
     /// The weather `preset` over one walk: everything that is drawn is the same for all presets.
     pub fn weather_called(&self, preset: &str, walk_seed: &Seed) -> Weather {
-        let mut weather = Weather::preset(preset).unwrap_or_else(crate::presets::clear_noon);
+        let mut weather = Weather::preset(preset).unwrap_or_else(cosfly_materials::presets::clear_noon);
         let mut stream = walk_seed.stream("weather");
         // The first number chose the preset.
         stream.bits();

@@ -1,8 +1,8 @@
 //! The faces drawn in a frame, and where each comes from.
 
 use crate::scene::Scene;
-use crate::visibility::PlaneOnScreen;
-use cosfly_maps::SemanticLabel;
+use cosfly_domain::SemanticLabel;
+use cosfly_raster::visibility::PlaneOnScreen;
 
 /// A face drawn in this frame.
 pub(crate) struct DrawnFace {

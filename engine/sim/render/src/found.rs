@@ -1,12 +1,12 @@
 //! Pictures whose nearest faces were found elsewhere, those of people and vehicles too: what colours are drawn from.
 
-use crate::eye::Eye;
 use crate::faces::{DrawnFace, FaceSource};
 use crate::scene::Scene;
-use crate::scene_parts::BOX_FACES;
-use crate::visibility::{PlaneOnScreen, Screen};
 use cosfly_figures::clothes::Region;
 use cosfly_frames::DVec3;
+use cosfly_materials::parts::BOX_FACES;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::{PlaneOnScreen, Screen};
 
 /// The faces of a picture.
 #[derive(Clone, Copy)]

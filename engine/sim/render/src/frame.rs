@@ -1,6 +1,6 @@
 //! One rendered frame: images, and views of the target and of other people.
 
-use crate::channels::Channel;
+use cosfly_domain::Channel;
 use serde::{Deserialize, Serialize};
 
 /// All channels of one frame, row-major from the top-left pixel, sampled at pixel centres.
@@ -17,9 +17,9 @@ pub struct FrameImages {
     /// CARLA label ids.
     pub semantic: Vec<u8>,
     /// Instance ids: 0 for ground and sky, [`TARGET_INSTANCE`] for the target, [`object_instance`] for
-    /// objects, and for other people what [`crate::Bystander`] says.
+    /// objects, and for other people what [`cosfly_figures::Bystander`] says.
     pub instance: Vec<u32>,
-    /// Channels that were asked for, in the order of [`crate::channels::ALL`].
+    /// Channels that were asked for, in the order of [`cosfly_domain::channels::ALL`].
     pub on_request: Vec<ChannelImage>,
 }
 

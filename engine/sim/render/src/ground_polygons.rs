@@ -1,7 +1,7 @@
 //! Ground as few large polygons: neighbouring triangles of one label that lie in one plane, joined while convex.
 
+use cosfly_domain::{SemanticLabel, Town};
 use cosfly_frames::DVec3;
-use cosfly_maps::{SemanticLabel, Town};
 use std::collections::BTreeMap;
 
 /// Largest distance of a corner from its polygon's plane, metres.

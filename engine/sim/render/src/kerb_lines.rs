@@ -1,8 +1,8 @@
 //! Where pavements end at a kerb: edges that they share with a low upright face.
 
 use crate::ground_polygons::GroundPolygon;
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::SemanticLabel;
 use cosfly_materials::kerbs::KerbLine;
 
 /// Faces that are less level than this are upright.

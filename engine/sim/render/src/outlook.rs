@@ -1,13 +1,12 @@
 //! People who may change a picture, told without drawing it.
 
-use crate::camera::Camera;
-use crate::eye::Eye;
 use crate::people::Bounds;
-use crate::shade::light::Light;
-use crate::visibility::Screen;
-use crate::weather::Weather;
-use cosfly_figures::figure::Walker;
+use cosfly_domain::{Camera, Weather};
+use cosfly_figures::Walker;
 use cosfly_frames::{DVec3, Pose};
+use cosfly_materials::light::Light;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::Screen;
 
 /// The view of an ideal camera at a moment.
 pub struct Outlook {

@@ -1,14 +1,12 @@
 //! Frames whose nearest static faces were found elsewhere, such as on a graphics card: everything after visibility is ours.
 
-use crate::eye::Eye;
 use crate::faces::{DrawnFace, FaceSource, box_lift, ground_lift};
 use crate::scene::{Scene, clusters_of};
-use crate::scene_parts::{BOX_FACES, Cluster, SceneBox, boxes_of};
-use crate::visibility::{PlaneOnScreen, Screen, Visibility};
+use cosfly_domain::Town;
 use cosfly_frames::DVec3;
-use cosfly_maps::Town;
-
-pub use crate::visibility::NO_FACE;
+use cosfly_materials::parts::{BOX_FACES, Cluster, SceneBox, boxes_of};
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::{PlaneOnScreen, Screen, Visibility};
 
 /// A static face: numbered by its place in [`Scene::faces`].
 #[derive(Clone, Debug, PartialEq)]

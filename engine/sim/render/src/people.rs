@@ -1,18 +1,18 @@
 //! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
 
-use crate::eye::Eye;
 use crate::found::BodyPart;
-use crate::frame::TARGET_INSTANCE;
-use crate::nearer::Nearer;
 use crate::outlook::FarLight;
 use crate::setup::FrameSetup;
 use crate::shade::headlights;
-use crate::shade::vector::Vec3;
-use crate::visibility::{NEAR_M, Screen};
-use cosfly_figures::clothes::{Clothes, Region};
-use cosfly_figures::figure::{FigureTriangle, Walker, figure};
-use cosfly_figures::{BodyShape, Livery, Wardrobe};
+use cosfly_domain::TARGET_INSTANCE;
+use cosfly_figures::clothes::Region;
+use cosfly_figures::figure::{FigureTriangle, figure};
+use cosfly_figures::{BodyShape, Clothes, Livery, Walker, Wardrobe};
 use cosfly_frames::{DVec2, DVec3, real};
+use cosfly_materials::vector::Vec3;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::nearer::Nearer;
+use cosfly_raster::visibility::{NEAR_M, Screen};
 use std::ops::Range;
 
 /// Shadows are looked for on ground that lies at most this far below the feet, metres.
@@ -295,10 +295,9 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::Camera;
-    use cosfly_figures::{BodyShape, figure::walker_triangles};
+    use cosfly_domain::{BodyKind, Camera};
+    use cosfly_figures::{BodyShape, walker_triangles};
     use cosfly_frames::{Pose, Seed, TargetState};
-    use cosfly_world::BodyKind;
 
     #[test]
     fn a_body_and_its_shadow_stay_within_reach() {

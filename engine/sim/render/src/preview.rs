@@ -1,7 +1,7 @@
 //! Pictures of channels that are not pictures: semantic colours, coloured depth, channels on request.
 
-use crate::channels::{Channel, Element};
-use cosfly_maps::SemanticLabel;
+use cosfly_domain::channels::Element;
+use cosfly_domain::{Channel, SemanticLabel};
 
 /// CARLA's palette applied to label ids; unknown ids are black. 3 bytes a pixel.
 pub fn palette_image(semantic: &[u8]) -> Vec<u8> {

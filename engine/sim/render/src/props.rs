@@ -1,11 +1,10 @@
 //! Models in the places of a town's things: triangles in the world with their colours, ready to be drawn.
 
-use crate::frame::object_instance;
-use crate::scene_parts::SceneBox;
-use crate::shade::pattern::hash;
-use crate::shade::vector::Vec3;
+use cosfly_domain::{ObstacleKind, Town, object_instance};
 use cosfly_frames::DVec3;
-use cosfly_maps::{ObstacleKind, Town};
+use cosfly_materials::parts::SceneBox;
+use cosfly_materials::pattern::hash;
+use cosfly_materials::vector::Vec3;
 use cosfly_models::{Model, ModelFit, ModelKind, ModelTriangle, Stand, Texture, place, stands};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;

@@ -3,31 +3,31 @@
 mod colours;
 mod ground;
 
-use crate::camera::Camera;
-use crate::channel_set::ChannelSet;
-use crate::eye::Eye;
 use crate::faces::{DrawnFace, FaceSource, box_lift};
-use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame, TARGET_INSTANCE, TargetView};
+use crate::frame::RenderedFrame;
 use crate::look::PictureLook;
-use crate::nearer::Nearer;
 use crate::outlook::FarLight;
 use crate::outside::Found;
 use crate::passes::ids::{SeenRuns, for_each_band};
 use crate::passes::on_request;
 use crate::people::{PartLook, People};
 use crate::scene::Scene;
-use crate::scene_parts::BOX_FACES;
 use crate::setup::FrameSetup;
 use crate::shade::setting::Seen;
 use crate::shade::shader::Shader;
 use crate::shade::smooth;
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
-use crate::visibility::{PlaneOnScreen, Screen, Visibility};
+use cosfly_domain::{
+    Camera, ChannelImage, ChannelSet, FrameImages, PersonView, SemanticLabel, TARGET_INSTANCE, TargetView,
+};
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
-use cosfly_maps::SemanticLabel;
+use cosfly_materials::parts::BOX_FACES;
 use cosfly_optics::{Glass, Optics};
+use cosfly_raster::eye::Eye;
+use cosfly_raster::nearer::Nearer;
+use cosfly_raster::visibility::{PlaneOnScreen, Screen, Visibility};
 
 /// Which parts of a frame [`Renderer::render_parts`] makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

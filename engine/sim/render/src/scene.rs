@@ -3,20 +3,19 @@
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::kerb_lines::kerb_lines;
 use crate::props::{Props, SceneModel};
-use crate::roof_edges::roofs_that_go_on;
-use crate::roof_steps::{RoofStep, Side, roof_steps};
-use crate::scene_parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox, boxes_of, join_crowns};
-use crate::shade::grid::LightGrid;
-use crate::shade::leaves::Leaves;
 use crate::shade::material::colour_of;
 use crate::shade::outskirts::Outskirts;
-use crate::shade::pattern::{NoiseTexture, noise_texture};
 use crate::shade::sun_map::SunMaps;
-use crate::shade::vector::Vec3;
+use cosfly_domain::{ObstacleKind, Season, Town};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_maps::{ObstacleKind, Town};
+use cosfly_materials::grid::LightGrid;
 use cosfly_materials::kerbs::{KerbLine, tone_of_town};
-use cosfly_materials::season::Season;
+use cosfly_materials::leaves::Leaves;
+use cosfly_materials::parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox, boxes_of, join_crowns};
+use cosfly_materials::pattern::{NoiseTexture, noise_texture};
+use cosfly_materials::roof_edges::roofs_that_go_on;
+use cosfly_materials::roof_steps::{RoofStep, Side, roof_steps};
+use cosfly_materials::vector::Vec3;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -1,7 +1,7 @@
 //! The content of one frame: pose, weather, people.
 
-use crate::weather::Weather;
-use cosfly_figures::figure::{Bystander, TargetSetup};
+use cosfly_domain::Weather;
+use cosfly_figures::{Bystander, TargetSetup};
 use cosfly_frames::Pose;
 
 /// Camera, weather and people of one frame.

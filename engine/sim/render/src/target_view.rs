@@ -1,10 +1,10 @@
 //! Visible part of people in a frame, counted in pixels; of the target, against the target drawn alone.
 
-use crate::frame::{FrameImages, PersonView, PixelBox, TARGET_INSTANCE, TargetView};
-use crate::visibility::{NO_FACE, Visibility};
-use cosfly_figures::figure::Bystander;
+use cosfly_domain::{FrameImages, PersonView, PixelBox, TARGET_INSTANCE, TargetView};
+use cosfly_figures::Bystander;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
+use cosfly_raster::visibility::{NO_FACE, Visibility};
 
 /// The view of a target that is not in the image.
 pub(crate) const NOT_IN_VIEW: TargetView = TargetView {

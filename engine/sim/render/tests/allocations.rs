@@ -4,8 +4,10 @@ mod crowd;
 mod small_town;
 mod traffic;
 
+use cosfly_domain::{Camera, Weather};
+use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_render::{BodyShape, Camera, FrameSetup, Renderer, Scene, TargetSetup, Weather};
+use cosfly_render::{FrameSetup, Renderer, Scene};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 

@@ -2,13 +2,10 @@
 
 mod small_town;
 
+use cosfly_domain::channels::normals;
+use cosfly_domain::{Camera, ChannelSet, FrameImages, Lens, MotionBlur, Noise, RollingShutter, SemanticLabel, Weather};
 use cosfly_frames::{DVec3, Pose, Seed};
-use cosfly_maps::SemanticLabel;
-use cosfly_render::channels::normals;
-use cosfly_render::{
-    Camera, ChannelSet, Effects, FrameImages, FrameSetup, Lens, Moment, MotionBlur, Noise, Renderer, RollingShutter,
-    Scene, Shot, Weather,
-};
+use cosfly_render::{Effects, FrameSetup, Moment, Renderer, Scene, Shot};
 
 const CAMERA: Camera = Camera { width: 160, height: 90, horizontal_fov_rad: 1.4 };
 

@@ -2,12 +2,12 @@
 
 mod small_town;
 
-use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{
-    BodyShape, Bystander, Camera, Effects, FrameImages, Lens, Moment, MotionBlur, Noise, PixelBox, Renderer,
-    RollingShutter, Scene, Shot, TargetSetup, TargetView, Weather,
+use cosfly_domain::{
+    Camera, FrameImages, Lens, MotionBlur, Noise, PixelBox, RollingShutter, TARGET_INSTANCE, TargetView, Weather,
 };
+use cosfly_figures::{BodyShape, Bystander, TargetSetup};
+use cosfly_frames::{DVec3, Pose, Seed, TargetState};
+use cosfly_render::{Effects, Moment, Renderer, Scene, Shot};
 use std::cell::RefCell;
 
 const CAMERA: Camera = Camera { width: 320, height: 180, horizontal_fov_rad: 1.4 };

@@ -1,13 +1,11 @@
 //! Flights through the default town: labels by rays and by pixels, boxes, and depth carried from frame to frame.
 
+use cosfly_domain::{Camera, FrameImages, TARGET_INSTANCE, TargetView, Town, WalkableKind, Weather};
+use cosfly_figures::{BodyShape, TargetSetup, target_triangles};
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_maps::{MapConfig, Town, WalkableKind};
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{
-    BodyShape, Camera, FrameImages, FrameParts, FrameSetup, Renderer, Scene, TargetSetup, TargetView, Weather,
-    target_triangles,
-};
+use cosfly_maps::MapConfig;
+use cosfly_render::{FrameParts, FrameSetup, Renderer, Scene};
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.2 };
 const DT_S: f64 = 0.5;

@@ -2,11 +2,10 @@
 
 mod small_town;
 
+use cosfly_domain::{Camera, Lens, MotionBlur, Noise, RollingShutter, Weather};
+use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_render::{
-    BodyShape, Camera, Effects, Lens, Moment, MotionBlur, Noise, Renderer, RollingShutter, Scene, Shot, TargetSetup,
-    Weather,
-};
+use cosfly_render::{Effects, Moment, Renderer, Scene, Shot};
 
 /// Resident memory of this process in kB, where the system tells.
 fn resident_kb() -> Option<u64> {

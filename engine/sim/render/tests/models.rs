@@ -2,12 +2,10 @@
 
 mod small_town;
 
+use cosfly_domain::{Camera, FrameImages, ObstacleKind, Town, Weather, object_instance};
 use cosfly_frames::{DVec3, Pose, Seed};
-use cosfly_maps::{ObstacleKind, Town};
-use cosfly_render::frame::object_instance;
-use cosfly_render::{
-    Camera, FrameImages, FrameSetup, Model, ModelFit, ModelKind, PictureLook, Renderer, Scene, SceneModel, Weather,
-};
+use cosfly_models::{Model, ModelFit, ModelKind};
+use cosfly_render::{FrameSetup, PictureLook, Renderer, Scene, SceneModel};
 
 fn example(fit: ModelFit) -> SceneModel {
     let model = Model::read(Model::EXAMPLE).expect("a model");
@@ -60,7 +58,7 @@ fn models_lie_within_the_boxes_of_their_things() {
         let of_cars = triangles.iter().filter(|it| it.label == label);
         let mut counted = 0;
         for triangle in of_cars {
-            let is_part = |it: &&cosfly_maps::Obstacle| object_instance(it.object_id) == triangle.instance;
+            let is_part = |it: &&cosfly_domain::Obstacle| object_instance(it.object_id) == triangle.instance;
             let parts = || town.obstacles.iter().filter(is_part).map(|it| it.shape.bounds_in_world());
             let low = parts().map(|it| it.0).fold(DVec3::INFINITY, DVec3::min);
             let high = parts().map(|it| it.1).fold(DVec3::NEG_INFINITY, DVec3::max);

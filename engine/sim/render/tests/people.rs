@@ -2,16 +2,14 @@
 
 mod small_town;
 
+use cosfly_domain::{
+    BodyKind, Camera, FrameImages, Lens, MotionBlur, Noise, PersonView, PixelBox, RollingShutter, SemanticLabel,
+    SurfaceMesh, TARGET_INSTANCE, TargetView, Weather,
+};
+use cosfly_figures::{BodyShape, Bystander, Clothes, TargetSetup, Walker, walker_triangles};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
-use cosfly_maps::{SemanticLabel, SurfaceMesh};
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{
-    BodyShape, Buildings, Bystander, Camera, Clothes, Effects, FrameImages, FrameSetup, Lens, Moment, MotionBlur,
-    Noise, Outlook, PersonView, PixelBox, Renderer, RollingShutter, Scene, Shot, TargetSetup, TargetView, Walker,
-    Weather, walker_triangles,
-};
-use cosfly_world::BodyKind;
+use cosfly_render::{Buildings, Effects, FrameSetup, Moment, Outlook, Renderer, Scene, Shot};
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.4 };
 /// Larger than all ids of the small town.
@@ -125,7 +123,7 @@ fn vehicles_and_riders_are_where_rays_meet_them_with_the_labels_of_their_kinds()
         let (mut triangles, mut labels) = (vec![], vec![]);
         for (walker, instance) in &drawn {
             let mut figure = vec![];
-            cosfly_render::figure::figure(walker, &Clothes::draw(&walker.clothes_seed), 0, &mut figure);
+            cosfly_figures::figure::figure(walker, &Clothes::draw(&walker.clothes_seed), 0, &mut figure);
             for triangle in figure {
                 triangles.push((triangle.corners_in_world, labels.len() as u32));
                 labels.push((walker.body.label(triangle.region), *instance));

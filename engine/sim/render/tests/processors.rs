@@ -2,12 +2,11 @@
 
 mod small_town;
 
+use cosfly_domain::{Camera, FrameImages, Season, SemanticLabel, Weather};
+use cosfly_figures::{BodyShape, TargetSetup};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_maps::SemanticLabel;
-use cosfly_render::{
-    BodyShape, Camera, FrameImages, FrameSetup, PictureLook, Renderer, Scene, Season, TargetSetup, Weather,
-};
+use cosfly_render::{FrameSetup, PictureLook, Renderer, Scene};
 
 const CAMERA: Camera = Camera { width: 333, height: 187, horizontal_fov_rad: 1.4 };
 

@@ -2,14 +2,14 @@
 
 mod small_town;
 
-use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town};
-use cosfly_render::frame::TARGET_INSTANCE;
-use cosfly_render::{
-    BodyShape, Camera, FrameImages, FrameSetup, Model, ModelFit, ModelKind, PixelBox, Renderer, Scene, SceneModel,
-    TargetSetup, TargetView, Weather, target_triangles,
+use cosfly_domain::{
+    Camera, FrameImages, Obstacle, ObstacleKind, OrientedBox, PixelBox, SemanticLabel, SurfaceMesh, TARGET_INSTANCE,
+    TargetView, Town, Weather,
 };
+use cosfly_figures::{BodyShape, TargetSetup, target_triangles};
+use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState};
+use cosfly_models::{Model, ModelFit, ModelKind};
+use cosfly_render::{FrameSetup, Renderer, Scene, SceneModel};
 
 fn noon() -> Weather {
     Weather { sun_azimuth_angle: 200.0, ..Weather::preset("ClearNoon").expect("a preset") }

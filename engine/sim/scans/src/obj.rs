@@ -3,11 +3,12 @@
 use crate::cloud::table::not_applied;
 use crate::mesh::{MeshOptions, PartBuilder, town_of};
 use crate::way_out::or_advice;
+use cosfly_domain::Town;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::polygons::triangulated;
 use cosfly_town::remarks::speaks_of_a_place;
 use cosfly_town::text::decoded;
-use cosfly_town::{MapError, MapFormat, Town};
+use cosfly_town::{MapError, MapFormat};
 
 /// Most remarks about the place of the coordinates that are repeated as warnings.
 const MOST_REMARKS: usize = 5;

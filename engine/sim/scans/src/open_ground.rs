@@ -1,9 +1,9 @@
 //! Open ground of measured scenes: where the ground was measured nearby and is not too steep.
 
 use crate::relief::Relief;
+use cosfly_domain::{Obstacle, WalkablePolygon};
 use cosfly_frames::DVec2;
 use cosfly_town::open_ground::{OpenGround, STEEPEST};
-use cosfly_town::{Obstacle, WalkablePolygon};
 use rayon::prelude::*;
 
 /// Narrowest cells, metres.

@@ -1,13 +1,13 @@
 //! `PCD`: point clouds of the Point Cloud Library; text, binary or compressed.
 
 use crate::bytes::Bytes;
-use crate::cloud::table::Columns;
-use crate::cloud::table::not_applied;
+use crate::cloud::table::{Columns, not_applied};
 use crate::cloud::{CloudBuilder, CloudOptions, town_of};
 use crate::scalar::Scalar;
 use crate::way_out::or_advice;
+use cosfly_domain::Town;
 use cosfly_town::remarks::speaks_of_a_place;
-use cosfly_town::{MapError, MapFormat, Town};
+use cosfly_town::{MapError, MapFormat};
 use std::collections::BTreeMap;
 
 /// First words of the lines of the head.

@@ -5,8 +5,9 @@ use crate::cloud::table::{Columns, not_applied};
 use crate::cloud::{CloudBuilder, CloudOptions, town_of};
 use crate::scalar::Scalar;
 use crate::way_out::or_advice;
+use cosfly_domain::Town;
 use cosfly_town::remarks::speaks_of_a_place;
-use cosfly_town::{MapError, MapFormat, Town};
+use cosfly_town::{MapError, MapFormat};
 
 /// Longest head, bytes.
 const LONGEST_HEAD: usize = 64 << 10;

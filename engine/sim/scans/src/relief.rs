@@ -1,8 +1,8 @@
 //! [`Relief`]: height of the ground on a grid, with the gaps filled smoothly, and its mesh.
 
 use crate::grid::Grid;
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_town::SemanticLabel;
 use cosfly_town::mesh::MeshBuilder;
 
 /// Most quads along one side of the mesh.

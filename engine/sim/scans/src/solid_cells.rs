@@ -2,8 +2,8 @@
 
 use crate::grid::{Grid, parts};
 use crate::window_cover::{Block, Volumes, WIDEST, Window};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec2;
-use cosfly_geometry::OrientedBox;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

@@ -1,12 +1,13 @@
 //! One scene in every format and encoding of point clouds; what the town of it has; files that lie about their size.
 
+use cosfly_domain::{Obstacle, ObstacleKind, Town};
 use cosfly_frames::DVec3;
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_scans::cloud::CloudOptions;
 use cosfly_scans::las::Las;
 use cosfly_scans::pcd::Pcd;
 use cosfly_scans::ply::Ply;
-use cosfly_town::{MapError, MapFormat, Obstacle, ObstacleKind, Town};
+use cosfly_town::{MapError, MapFormat};
 
 #[path = "../examples/write_clouds.rs"]
 #[expect(dead_code, reason = "the program's own `main`")]

@@ -1,11 +1,12 @@
 //! One scene in every format of meshes; boxes of solids against `parry3d`, an independent library; files that lie.
 
+use cosfly_domain::{ObstacleKind, SemanticLabel, Town, WalkableKind};
 use cosfly_frames::{DVec3, RandomStream, Seed, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_scans::gltf::GlTf;
 use cosfly_scans::mesh::{MeshOptions, Part, UpAxis, solid};
 use cosfly_scans::obj::Obj;
-use cosfly_town::{MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind};
+use cosfly_town::{MapError, MapFormat};
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
@@ -191,7 +192,7 @@ fn packed_and_sparse_corners_and_repeated_meshes_are_read() {
     for is_sparse in [false, true] {
         let town = read::<GlTf>(&houses(is_sparse, ""), &options).unwrap();
         assert_eq!(town.obstacles.len(), 4, "{:?}", town.obstacles);
-        let size = |one: &cosfly_town::Obstacle| (2.0 * one.shape.half_extents_m - DVec3::new(8.0, 6.0, 5.0)).abs();
+        let size = |one: &cosfly_domain::Obstacle| (2.0 * one.shape.half_extents_m - DVec3::new(8.0, 6.0, 5.0)).abs();
         assert!(town.obstacles.iter().all(|one| size(one).max_element() < 0.02), "{:?}", town.obstacles);
     }
     let required = r#""extensionsRequired":["KHR_draco_mesh_compression"],"#;

@@ -1,10 +1,11 @@
 //! Pavements that are solids: people stand on their tops, and nowhere without headroom.
 
+use cosfly_domain::{ObstacleKind, SemanticLabel, Town};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_scans::mesh::MeshOptions;
 use cosfly_scans::obj::Obj;
+use cosfly_town::MapFormat;
 use cosfly_town::polygons::twice_area_m2;
-use cosfly_town::{MapFormat, ObstacleKind, SemanticLabel, Town};
 use std::fmt::Write;
 
 /// Text of an OBJ file: one box for each name, from corner to corner (x, y up, z).

@@ -9,8 +9,8 @@ mod movers;
 
 pub use movers::movers_around;
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, TargetState, TargetTrack, real};
-use cosfly_geometry::OrientedBox;
 use cosfly_random::{RandomStream, Seed};
 
 /// Kind of a scene.

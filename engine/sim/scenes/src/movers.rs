@@ -1,7 +1,7 @@
 //! Bodies that move around a walker: people, vehicles, and things that fly at the height of drones.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetTrack, real};
-use cosfly_geometry::OrientedBox;
 use cosfly_random::{RandomStream, Seed};
 
 /// `count` boxes around a track, each given by its places frame by frame: of five, three are people, one is a vehicle and

@@ -3,8 +3,9 @@
 use crate::moving::{Encounter, OtherDrones, hides};
 use crate::visibility::{aim_point, body_points, visibility};
 use crate::{Surroundings, ground::GroundGrid, solid::Solid};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
-use cosfly_geometry::{OrientedBox, SpatialQuery};
+use cosfly_geometry::SpatialQuery;
 
 /// All unsimplified boxes, and those that move.
 #[derive(Clone, Copy)]

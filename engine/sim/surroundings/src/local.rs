@@ -1,10 +1,9 @@
 //! Per-path obstacle filtering: the planning boxes near each stretch of the path (paper, section 3.3).
 
-use crate::SeveralTargets;
 use crate::visibility::{BODY_POINTS, body_points};
-use crate::{Surroundings, ground::GroundGrid, moving::Moving, moving::OtherDrones, solid::Solid};
+use crate::{SeveralTargets, Surroundings, ground::GroundGrid, moving::Moving, moving::OtherDrones, solid::Solid};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::OrientedBox;
 
 /// Frames that share one list of boxes.
 const FRAMES_PER_LIST: usize = 8;

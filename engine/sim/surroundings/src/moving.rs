@@ -4,8 +4,8 @@
 //! straight segment past a box that only turns, so distances in space and time are those of a segment and a box.
 
 use crate::solid::{Approach, HalfSpace, Solid};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, real};
-use cosfly_geometry::OrientedBox;
 
 /// [`clearance_m`] is at most this much below the true distance, and never above it, metres.
 pub const TURN_ERROR_M: f64 = 0.01;

@@ -1,7 +1,7 @@
 //! One obstacle box with its turn worked out: rays, distances, separating planes, and the shadow it casts.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, real};
-use cosfly_geometry::OrientedBox;
 
 /// A box prepared for many queries. All points in the world frame, metres.
 #[derive(Clone, Copy, Debug)]

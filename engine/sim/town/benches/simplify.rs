@@ -2,10 +2,9 @@
 
 #![expect(missing_docs, reason = "the benchmark macro writes an undocumented function")]
 
+use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec3, Seed, real};
-use cosfly_geometry::OrientedBox;
 use cosfly_town::simplify::{SimplifyConfig, simplify};
-use cosfly_town::{Obstacle, ObstacleKind};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 /// Houses of cells of one size: `kind` 0 stand on one grid and have pitched roofs, 1 are turned each its own way, 2 are rough crowns of random cells.

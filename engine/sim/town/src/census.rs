@@ -1,7 +1,7 @@
 //! Figures of a town: things by kind, their heights, walkable ground by kind, seen ground by label.
 
 use crate::polygons::twice_area_m2;
-use crate::{Obstacle, Town};
+use cosfly_domain::{Obstacle, Town};
 use std::collections::BTreeMap;
 
 /// Figures of a town.

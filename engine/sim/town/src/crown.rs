@@ -1,7 +1,7 @@
 //! A tree's crown as nested boxes, differently high, wide and turned: narrow at its foot and top, wide in the middle.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, Seed, real};
-use cosfly_geometry::OrientedBox;
 
 /// One box of a crown, in shares of the crown's half width and height; the turn is from the layer before, radians.
 struct Layer {

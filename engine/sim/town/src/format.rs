@@ -1,7 +1,8 @@
 //! The seam of map formats: [`MapFormat`] for one format, [`Format`] for a list of them.
 
-use crate::{FormatOptions, MapError, Town};
+use crate::{FormatOptions, MapError};
 use core::fmt;
+use cosfly_domain::Town;
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::Value;

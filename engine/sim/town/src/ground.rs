@@ -1,6 +1,6 @@
 //! [`GroundIndex`]: height of the ground under a point, from the town's surfaces.
 
-use crate::{SemanticLabel, SurfaceMesh, Town};
+use cosfly_domain::{SemanticLabel, SurfaceMesh, Town};
 use cosfly_frames::{DVec2, DVec3};
 
 /// Cells along one side of the index at most.

@@ -1,7 +1,7 @@
 //! [`Lane`]s: where vehicles drive, which lane follows which, and where people cross.
 
 use crate::polygons::PolygonIndex;
-use crate::{Town, WalkableKind, WalkablePolygon};
+use cosfly_domain::{Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! [`MeshBuilder`]: surfaces of a town while it is read, one mesh for each label.
 
-use crate::{SemanticLabel, SurfaceMesh};
+use cosfly_domain::{SemanticLabel, SurfaceMesh};
 use cosfly_frames::{DVec2, DVec3};
 use std::collections::BTreeMap;
 

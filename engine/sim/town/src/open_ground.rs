@@ -1,8 +1,7 @@
 //! [`OpenGround`]: ground that no obstacle stands on as walkable plazas, in rectangles that follow it.
 
-use crate::{Obstacle, WalkableKind, WalkablePolygon};
+use cosfly_domain::{Obstacle, OrientedBox, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_geometry::OrientedBox;
 
 /// Most cells.
 const MOST_CELLS: f64 = 4e6;
@@ -144,7 +143,7 @@ impl OpenGround {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ObstacleKind;
+    use cosfly_domain::ObstacleKind;
 
     #[test]
     fn plazas_end_at_obstacles_edges_and_cliffs_and_pass_under_bridges() {

@@ -6,8 +6,8 @@ use crate::cover::{
 };
 use crate::polygons::{contains, twice_area_m2};
 use crate::regions::Region;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec2;
-use cosfly_geometry::OrientedBox;
 
 /// Highest step of a roof that is made of boxes, metres; higher only where the roof has more than [`MOST_STEPS`].
 pub const ROOF_STEP_M: f64 = 0.75;

@@ -2,8 +2,9 @@
 //!
 //! Heights are solved on a fine grid, so that grass meets pavements at their edge; open land is meshed in larger cells.
 
+use crate::MapError;
 use crate::mesh::MeshBuilder;
-use crate::{MapError, Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh};
+use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh};
 use cosfly_frames::{DVec2, DVec3};
 use std::collections::BTreeMap;
 

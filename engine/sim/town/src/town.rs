@@ -1,8 +1,7 @@
 //! The town every stage works in: solid obstacles, ground surfaces, walkable polygons, all in one local world frame.
 
-use crate::{Lane, SemanticLabel};
+use cosfly_domain::{Lane, OrientedBox, SemanticLabel};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_geometry::OrientedBox;
 use serde::{Deserialize, Serialize};
 
 /// A town. World frame: CARLA's (left-handed, x forward, y right, z up, metres), shifted by [`MapOrigin`].

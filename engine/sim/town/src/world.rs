@@ -1,6 +1,6 @@
 //! From a map's frame (right-handed, x east, y north, z up) to the world frame (CARLA's: y negated, near the origin).
 
-use crate::MapOrigin;
+use cosfly_domain::MapOrigin;
 use cosfly_frames::{DVec2, DVec3, real};
 
 /// A map whose centre is farther from its origin than this is moved by whole metres.
@@ -39,7 +39,7 @@ impl WorldFromMap {
         real::wrap_angle_rad(-heading_in_map_rad)
     }
 
-    /// The shift for [`crate::Town::origin`], with the map's projection text.
+    /// The shift for [`cosfly_domain::Town::origin`], with the map's projection text.
     pub fn origin(&self, geo_reference: Option<String>) -> MapOrigin {
         MapOrigin { offset_m: self.offset_m, geo_reference, ..MapOrigin::default() }
     }

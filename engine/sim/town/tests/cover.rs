@@ -1,8 +1,8 @@
 //! Covers of footprints and boxes of buildings against a slow oracle: points of the footprint lie in boxes, and
 //! points in boxes lie near the footprint.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, Seed, real};
-use cosfly_geometry::OrientedBox;
 use cosfly_town::cover::{
     COVER_TOLERANCE_M, Cover, LOOSE_TOLERANCE_M, MOST, TurnedRectangle, cover_polygon, cover_rings,
 };

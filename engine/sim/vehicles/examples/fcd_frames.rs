@@ -1,8 +1,9 @@
 //! Frames of floating-car data of SUMO as a table: `fcd_frames MAP NET FCD DT_S FRAMES CONFIG_JSON`. The last column is the
 //! distance from the front of the body to the middle of the town's nearest lane, seen from above.
 
+use cosfly_domain::Town;
 use cosfly_frames::{DVec2, Seed, real};
-use cosfly_maps::{MapConfig, Town, read_town};
+use cosfly_maps::{MapConfig, read_town};
 use cosfly_vehicles::fcd::{FcdConfig, NetLocation, Place, read};
 use cosfly_world::Clock;
 use std::fs::File;

@@ -1,9 +1,10 @@
 //! Simulates traffic on the lanes of maps and prints its figures: `traffic_figures COUNT SECONDS STEP_S MAP...`.
 
+use cosfly_domain::{BodyKind, ObstacleKind, Town, Traffic};
 use cosfly_frames::{DVec2, Seed, real};
-use cosfly_maps::{MapConfig, ObstacleKind, Town, read_town};
+use cosfly_maps::{MapConfig, read_town};
 use cosfly_vehicles::{VehicleConfig, Vehicles};
-use cosfly_world::{BodyKind, Clock, Population, Traffic, contacts, simulate};
+use cosfly_world::{Clock, Population, contacts, simulate};
 use std::time::Instant;
 
 const DT_S: f64 = 0.5;
@@ -105,7 +106,7 @@ fn in_solid_things(town: &Town, traffic: &Traffic) -> usize {
     count
 }
 
-fn overlap(one: &cosfly_geometry::OrientedBox, other: &cosfly_geometry::OrientedBox) -> bool {
+fn overlap(one: &cosfly_domain::OrientedBox, other: &cosfly_domain::OrientedBox) -> bool {
     let axes = |yaw_rad: f64| {
         let (sin, cos) = real::sin_cos(yaw_rad);
         [DVec2::new(cos, sin), DVec2::new(-sin, cos)]

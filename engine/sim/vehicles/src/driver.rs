@@ -5,7 +5,7 @@ use crate::network::{Crossing, Network};
 use crate::outlines::{LEVEL_M, to_outline};
 use crate::route::Route;
 use cosfly_frames::DVec2;
-use cosfly_maps::polygons::contains;
+use cosfly_town::polygons::contains;
 use cosfly_world::{Present, Snapshot};
 
 /// Gap to a standing vehicle, metres.

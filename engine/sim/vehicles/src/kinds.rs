@@ -1,9 +1,8 @@
 //! Sizes and limits of the kinds of vehicles.
 
 use crate::config::MixConfig;
+use cosfly_domain::{BodyKind, LaneKind};
 use cosfly_frames::{DVec3, RandomStream};
-use cosfly_maps::LaneKind;
-use cosfly_world::BodyKind;
 
 /// What a kind of vehicle can do.
 #[derive(Clone, Copy, Debug)]

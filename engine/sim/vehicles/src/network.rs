@@ -1,8 +1,8 @@
 //! [`Network`]: the lanes of a town prepared for driving: places along them, crossings, conflicts in junctions.
 
+use cosfly_domain::{Lane, LaneKind, Town};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::polygons::contains;
-use cosfly_maps::{Lane, LaneKind, Town};
+use cosfly_town::polygons::contains;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Lanes through a junction whose middle lines come closer than this are in conflict, metres.

@@ -1,10 +1,10 @@
 //! Outlines seen from above: nearest points of bodies, overlaps of bodies that are about to move, solid things on lanes.
 
 use crate::network::{Drive, Network};
+use cosfly_domain::{BodyPlan, ObstacleKind, OrientedBox, Town};
 use cosfly_frames::{DVec2, DVec3, TargetState, real};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_maps::{ObstacleKind, Town};
-use cosfly_world::{BodyPlan, Present};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_world::Present;
 
 /// Bodies whose feet differ by more do not meet: one is on a bridge, metres.
 pub(crate) const LEVEL_M: f64 = 2.5;

@@ -9,9 +9,9 @@ use crate::outlines::{Solid, to_outline};
 use crate::route::Route;
 use crate::start::is_free;
 use crate::vehicles::{Doing, Vehicle};
+use cosfly_domain::{BodyKind, BodyPlan, LaneKind, Town};
 use cosfly_frames::{DVec2, Seed, real};
-use cosfly_maps::{LaneKind, Town};
-use cosfly_world::{BodyKind, BodyPlan, Snapshot};
+use cosfly_world::Snapshot;
 use std::collections::BTreeMap;
 
 /// Distance between parked cars: least and most, metres.

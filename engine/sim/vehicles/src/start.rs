@@ -6,9 +6,8 @@ use crate::network::Network;
 use crate::outlines::{Solid, meet};
 use crate::route::Route;
 use crate::vehicles::{Doing, Vehicle};
+use cosfly_domain::{BodyKind, BodyPlan, LaneKind, Town};
 use cosfly_frames::Seed;
-use cosfly_maps::{LaneKind, Town};
-use cosfly_world::{BodyKind, BodyPlan};
 
 /// Places that are tried for each vehicle.
 const TRIES: u64 = 40;

@@ -9,9 +9,9 @@ use crate::network::Network;
 use crate::outlines::{blocked_lanes, meet};
 use crate::route::Route;
 use crate::{parked, start};
+use cosfly_domain::{BodyKind, BodyPlan, Town};
 use cosfly_frames::{RandomStream, Seed, TargetState};
-use cosfly_maps::Town;
-use cosfly_world::{BodyKind, BodyPlan, Clock, Population, Present, Snapshot};
+use cosfly_world::{Clock, Population, Present, Snapshot};
 
 /// Vehicles keep this distance from each other when they move, metres.
 const APART_M: f64 = 0.05;

@@ -1,10 +1,11 @@
 //! Simulated vehicles: no overlaps, the same every time, speeds and accelerations of real drivers, yielding to people.
 
+use cosfly_domain::{BodyKind, BodyPlan, Town, Traffic, WalkableKind};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState};
 use cosfly_maps::generate::{GenerateConfig, generate_town};
-use cosfly_maps::{MapConfig, Town, WalkableKind, read_town};
+use cosfly_maps::{MapConfig, read_town};
 use cosfly_vehicles::{VehicleConfig, Vehicles};
-use cosfly_world::{BodyKind, BodyPlan, Clock, Population, Snapshot, Traffic, contacts, simulate};
+use cosfly_world::{Clock, Population, Snapshot, contacts, simulate};
 
 fn town(seed: u64) -> Town {
     let text = generate_town(&GenerateConfig::default(), seed);

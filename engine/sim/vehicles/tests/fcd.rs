@@ -1,9 +1,9 @@
 //! Floating-car data of SUMO: places, angles, frames between steps, gaps, refusals, memory.
 
+use cosfly_domain::{BodyKind, Town};
 use cosfly_frames::{DVec2, DVec3, Seed, real};
-use cosfly_maps::Town;
 use cosfly_vehicles::fcd::{FcdConfig, FcdError, FcdType, NetLocation, Place, read};
-use cosfly_world::{BodyKind, Clock, Population, Prescribed, simulate};
+use cosfly_world::{Clock, Population, Prescribed, simulate};
 use std::collections::BTreeMap;
 use std::io::{BufReader, Read};
 

@@ -1,9 +1,7 @@
 //! [`Around`]: the bodies near one track, cut out of the traffic of a whole town.
 
-use crate::body::{Body, BodyPlan};
-use crate::traffic::Traffic;
+use cosfly_domain::{Body, BodyPlan, OrientedBox, Traffic};
 use cosfly_frames::TargetTrack;
-use cosfly_geometry::OrientedBox;
 use serde::{Deserialize, Serialize};
 
 /// The body that a walk is the track of.
@@ -54,7 +52,7 @@ impl Around {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::BodyKind;
+    use cosfly_domain::BodyKind;
     use cosfly_frames::{DVec3, Seed, TargetState};
 
     #[test]

@@ -1,7 +1,7 @@
 //! [`Body`]: one person or vehicle and its track.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState, real};
-use cosfly_geometry::OrientedBox;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

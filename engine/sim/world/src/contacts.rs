@@ -1,6 +1,6 @@
 //! Bodies that overlap, found by comparing all pairs that are near: the judge of simulated traffic.
 
-use crate::traffic::Traffic;
+use cosfly_domain::Traffic;
 
 /// Two bodies that overlap in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ pub fn contacts(traffic: &Traffic, deeper_than_m: f64) -> Vec<Contact> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Body, BodyKind, BodyPlan};
+    use cosfly_domain::{Body, BodyKind, BodyPlan};
     use cosfly_frames::{DVec3, Seed, TargetState};
 
     #[test]

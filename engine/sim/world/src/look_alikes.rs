@@ -1,8 +1,6 @@
 //! Look-alikes by order: how many of the people who come near a followed person wear the same clothes.
 
-use crate::body::Body;
-use crate::looks::Traits;
-use crate::traffic::Traffic;
+use cosfly_domain::{Body, Traffic, Traits};
 use cosfly_frames::{DVec2, Seed};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -200,7 +198,7 @@ fn nearest_first(traffic: &Traffic, own: u32, within_m: f64) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Bag, BodyBuild, BodyKind, BodyPlan, Gait};
+    use cosfly_domain::{Bag, BodyBuild, BodyKind, BodyPlan, Gait};
     use cosfly_frames::{DVec3, TargetState};
 
     /// Seeds that begin with the same letter of three give the same clothes.

@@ -1,6 +1,6 @@
 //! Looks by order: shares of the people by bag, build and gait.
 
-use crate::traffic::Traffic;
+use cosfly_domain::Traffic;
 use cosfly_frames::Seed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -230,7 +230,7 @@ pub fn give_looks(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Body, BodyKind, BodyPlan};
+    use cosfly_domain::{Body, BodyKind, BodyPlan};
     use cosfly_frames::DVec3;
 
     fn traits(looks: &Seed) -> Traits {

@@ -1,8 +1,7 @@
 //! [`Population`]: a group of bodies that move by one rule, and [`simulate`], which steps several of them together.
 
-use crate::body::{Body, BodyPlan};
 use crate::snapshot::Snapshot;
-use crate::traffic::Traffic;
+use cosfly_domain::{Body, BodyPlan, Traffic};
 use cosfly_frames::TargetState;
 use std::ops::Range;
 
@@ -112,7 +111,7 @@ pub fn simulate<E>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::BodyKind;
+    use cosfly_domain::BodyKind;
     use cosfly_frames::{DVec3, Seed};
 
     /// Bodies on a line that each go half of the way to the mean place of all others.

@@ -1,6 +1,7 @@
 //! [`Prescribed`]: bodies whose tracks are known beforehand: recorded tracks, scripted routes.
 
-use crate::{Body, BodyPlan, Population, Snapshot};
+use crate::{Population, Snapshot};
+use cosfly_domain::{Body, BodyPlan};
 use cosfly_frames::{TargetState, real};
 
 /// Bodies whose states at all frames are known; between frames they go on evenly.
@@ -68,7 +69,8 @@ fn between(from: &TargetState, to: &TargetState, share: f64) -> TargetState {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BodyKind, Clock, simulate};
+    use crate::{Clock, simulate};
+    use cosfly_domain::BodyKind;
     use cosfly_frames::{DVec3, Seed};
 
     #[test]

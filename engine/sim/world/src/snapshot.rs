@@ -1,6 +1,6 @@
 //! [`Snapshot`]: everybody at one moment, with a grid to find neighbours.
 
-use crate::body::{BodyKind, BodyPlan};
+use cosfly_domain::{BodyKind, BodyPlan};
 use cosfly_frames::{DVec2, DVec3, TargetState, real};
 
 /// Side of a cell of the grid, metres.

@@ -1,9 +1,8 @@
 //! [`Traffic`]: all bodies of a town over a stretch of time.
 
-use crate::body::Body;
 use crate::snapshot::Snapshot;
+use cosfly_domain::{Body, OrientedBox};
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::OrientedBox;
 use serde::{Deserialize, Serialize};
 
 /// An absent body lies this far below its nearest state, metres: away from every ray and every flight.
@@ -78,7 +77,7 @@ impl Traffic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BodyKind, BodyPlan};
+    use cosfly_domain::{BodyKind, BodyPlan};
     use cosfly_frames::{Seed, TargetState};
 
     #[test]

@@ -4,8 +4,8 @@
 use super::median::median;
 use super::motion::frames;
 use crate::{Episode, Flag};
+use cosfly_domain::Camera;
 use cosfly_frames::Pose;
-use cosfly_render::Camera;
 
 /// Largest distance of a box's middle from the projected middle: share of the box's height, and pixels.
 const TOLERANCE: (f64, f64) = (0.35, 3.0);

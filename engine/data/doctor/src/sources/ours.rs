@@ -6,14 +6,13 @@ use crate::walls::{self, Walls};
 use crate::{Episode, Flag, Look, Moment};
 use cosfly_captions::Wear;
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
+use cosfly_domain::{Colour, TARGET_INSTANCE};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
 use cosfly_read::drawn_ground::SeenGround;
 use cosfly_read::{
     BoxInWorld, CaptionReader, FrameRow, LoggedFrame, PublishedDataset, PublishedFlight, log_problem, parquet_problem,
 };
-use cosfly_render::Colour;
-use cosfly_render::frame::TARGET_INSTANCE;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -2,9 +2,8 @@
 
 use crate::{Episode, Moment};
 use cosfly_captions::Wear;
+use cosfly_domain::{Perturbation, PixelBox, TargetView};
 use cosfly_frames::{DVec3, action};
-use cosfly_planner::Perturbation;
-use cosfly_render::{PixelBox, TargetView};
 use cosfly_schema::{RenderedTrajectory, Role};
 
 /// The episode of a rendered flight, without its pictures.

@@ -2,12 +2,11 @@
 
 use super::report::ClassReport;
 use super::tallies::Counted;
-use cosfly_maps::SemanticLabel;
-use cosfly_metrics::Metric;
-use cosfly_metrics::boxes;
+use cosfly_domain::SemanticLabel;
 use cosfly_metrics::detection::{ImageDetections, Ranked, Ranking};
 use cosfly_metrics::run_lengths::{Runs, things};
 use cosfly_metrics::scores::OF_DETECTIONS;
+use cosfly_metrics::{Metric, boxes};
 use cosfly_read::LoggedFrame;
 use cosfly_read::predictions::detections::Detection;
 

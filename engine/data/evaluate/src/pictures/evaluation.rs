@@ -15,7 +15,7 @@ use crate::report::result::DatasetFacts;
 use crate::scoring::groups_of_flights;
 use crate::windows::Flights;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_maps::SemanticLabel;
+use cosfly_domain::SemanticLabel;
 use cosfly_metrics::depth::{DepthScores, depth_scores};
 use cosfly_metrics::segmentation::Confusion;
 use cosfly_read::predictions::detections::Detection;

@@ -6,7 +6,7 @@ use super::report::{FileFacts, FileProblem};
 use super::settings::{PictureKind, PictureSettings};
 use crate::windows::Flights;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_maps::SemanticLabel;
+use cosfly_domain::SemanticLabel;
 use cosfly_read::predictions::detections as rows;
 use cosfly_read::predictions::detections::{Detection, ImageKey};
 use std::collections::{BTreeMap, BTreeSet};

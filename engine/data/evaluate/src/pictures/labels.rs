@@ -2,7 +2,7 @@
 
 use super::report::ClassReport;
 use super::tallies::Counted;
-use cosfly_maps::SemanticLabel;
+use cosfly_domain::SemanticLabel;
 use cosfly_metrics::Metric;
 use cosfly_metrics::scores::OF_LABELS;
 use cosfly_metrics::segmentation::Confusion;

@@ -1,14 +1,13 @@
 //! Columns of a flight that plugins can read: one value per frame, and facts about the flight.
 
 use super::{ColumnKind, DeclaredColumn, Values};
-use crate::flight_labels;
 use crate::log::messages::edges_px;
-use crate::{CaptionRecord, RenderedTrajectory};
+use crate::{CaptionRecord, RenderedTrajectory, flight_labels};
 use arrow_array::{Array, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchOptions};
 use arrow_ipc::writer::StreamWriter;
 use arrow_schema::{DataType, Field, Schema};
 use cosfly_diagnose::nearest_name;
-use cosfly_planner::Trajectory;
+use cosfly_domain::Trajectory;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::sync::Arc;

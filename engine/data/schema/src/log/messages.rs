@@ -3,8 +3,8 @@
 use super::right_handed::{self, map_from_world_point};
 use super::target_state::TargetStateMessage;
 use crate::RenderedTrajectory;
+use cosfly_domain::{Camera, Lens, Mount, PixelBox};
 use cosfly_frames::{DQuat, DVec3, Pose, TargetState};
-use cosfly_render::{Camera, Lens, Mount, PixelBox};
 use foxglove::bytes::Bytes;
 use foxglove::messages::{self, Timestamp};
 

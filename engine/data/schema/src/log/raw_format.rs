@@ -1,6 +1,7 @@
 //! Raw images in a log: encoding and bytes per pixel of each element type.
 
-use cosfly_render::channels::{Channel, Element};
+use cosfly_domain::Channel;
+use cosfly_domain::channels::Element;
 
 /// Layout of a raw image's pixels: row-major, little-endian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

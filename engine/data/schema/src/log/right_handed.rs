@@ -3,8 +3,8 @@
 //! A point (x, y, z) becomes (x, -y, z). A rotation is conjugated by the reflection of y: Rz(-yaw) * Ry(-pitch) *
 //! Rx(roll). The body frame becomes x ahead, y left, z up.
 
+use cosfly_domain::Mount;
 use cosfly_frames::{DQuat, DVec3, Pose, real};
-use cosfly_render::Mount;
 use foxglove::messages;
 
 /// Rotation from the optical axes (x right, y down, z ahead) to the right-handed body axes (x ahead, y left, z up).

@@ -2,8 +2,8 @@
 
 use super::raw_format::formats;
 use super::{flown_step, own_message, target_state};
-use cosfly_render::ChannelSet;
-use cosfly_render::channels::{self, Channel, Element};
+use cosfly_domain::channels::Element;
+use cosfly_domain::{Channel, ChannelSet, channels};
 use foxglove::{Encode, Schema, messages};
 
 /// Calibration of all images.

@@ -2,8 +2,8 @@
 
 use super::column::columns;
 use super::{DatasetItem, Table};
+use cosfly_domain::Body;
 use cosfly_frames::TargetState;
-use cosfly_world::Body;
 
 /// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
@@ -28,7 +28,7 @@ columns! { Bodies::COLUMNS of DatasetItem;
     kind: String = |item, i| body(item, i).plan.kind.name().to_owned();
     /// Name of the traffic and number of the body, as in `people.walk_id`.
     walk_id: String = |item, i| {
-        cosfly_world::Traffic::body_id(&item.record.around.traffic.name, item.record.around.numbers[item.derived.bodies[i].1 as usize])
+        cosfly_domain::Traffic::body_id(&item.record.around.traffic.name, item.record.around.numbers[item.derived.bodies[i].1 as usize])
     };
     /// Number of the group that the body moves with; null where it moves alone.
     group: Option<u32> = |item, i| body(item, i).plan.group;

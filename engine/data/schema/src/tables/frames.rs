@@ -4,12 +4,10 @@ use super::column::columns;
 use super::value::{Edges, ImageFile, class_value};
 use super::waypoints::action_from;
 use super::{DatasetItem, Need, Table};
-use crate::Role;
-use crate::flight_labels;
 use crate::log::messages::edges_px;
+use crate::{Role, flight_labels};
+use cosfly_domain::{FramePerturbation, PixelBox, TargetView};
 use cosfly_frames::{Pose, TargetState, action};
-use cosfly_planner::FramePerturbation;
-use cosfly_render::{PixelBox, TargetView};
 
 /// Definition of the table. Previews make its rows large, so that row groups are small.
 pub fn table() -> Table<DatasetItem> {

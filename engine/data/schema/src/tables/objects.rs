@@ -3,8 +3,7 @@
 use super::Table;
 use super::column::columns;
 use super::value::class_value;
-use cosfly_maps::{Obstacle, ObstacleKind, SemanticLabel, Town};
-use cosfly_render::frame::object_instance;
+use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, Town, object_instance};
 
 /// One box of an object of a town.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,7 @@
 
 use super::column::columns;
 use super::{DatasetItem, Table};
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::{FramePerturbation, Perturbation};
+use cosfly_domain::{FramePerturbation, Perturbation, PerturbationKind};
 
 /// Definition of the table.
 pub fn table() -> Table<DatasetItem> {

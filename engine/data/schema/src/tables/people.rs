@@ -5,7 +5,7 @@ use super::value::Edges;
 use super::{DatasetItem, Table};
 use crate::log::messages::edges_px;
 use crate::{OtherPerson, Sighting};
-use cosfly_world::Traits;
+use cosfly_domain::Traits;
 
 /// Definition of the table.
 pub fn table() -> Table<DatasetItem> {

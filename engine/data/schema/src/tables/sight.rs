@@ -5,9 +5,8 @@ use crate::log::messages::edges_px;
 use crate::{OtherPerson, Sighting};
 use cosfly_captions::sight::{self, Person, View};
 use cosfly_captions::{Language, Wear};
+use cosfly_domain::{BodyKind, Colour, PixelBox};
 use cosfly_frames::{Seed, TargetState};
-use cosfly_render::{Colour, PixelBox};
-use cosfly_world::BodyKind;
 
 /// The instruction of frame `frame`, of a window that begins at frame `start`; empty for a target that is no person.
 pub fn instruction(item: &DatasetItem, frame: usize, start: usize, language: Language) -> String {

@@ -6,11 +6,10 @@ use super::{DatasetItem, Need, Table, sight};
 use crate::Role;
 use crate::log::messages::edges_px;
 use cosfly_captions::Language;
-use cosfly_frames::Pose;
-use cosfly_frames::action;
+use cosfly_domain::TargetView;
+use cosfly_frames::{Pose, action};
 use cosfly_metrics::difficulty::WindowFrames;
 use cosfly_metrics::{Difficulty, WindowFeatures};
-use cosfly_render::TargetView;
 use std::ops::Range;
 
 /// Whether the town is part of the training data.

@@ -9,7 +9,7 @@ pub(crate) mod responsible_ai;
 use crate::publish::citation::citation;
 use crate::publish::layout::LAYOUT_VERSION;
 use crate::publish::summary::{Summary, TownSummary};
-use cosfly_maps::SemanticLabel;
+use cosfly_domain::SemanticLabel;
 use cosfly_schema::Split;
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::extras::{self, ExtraShape, ExtraSource, ExtraSummary};

@@ -1,8 +1,8 @@
 //! The header of a frame pack: image size, encodings, channels.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_render::channels::Element;
-use cosfly_render::{Channel, ChannelSet};
+use cosfly_domain::channels::Element;
+use cosfly_domain::{Channel, ChannelSet};
 use cosfly_schema::config::EncodingConfig;
 use cosfly_schema::log::{RawFormat, formats};
 use serde::{Deserialize, Serialize};

@@ -2,7 +2,7 @@
 
 use super::header::PackHeader;
 use crate::message_head::message_head;
-use cosfly_render::Channel;
+use cosfly_domain::Channel;
 use cosfly_schema::log::frame_time_ns;
 use cosfly_schema::log::messages::{OPTICAL_FRAME, timestamp};
 use foxglove::messages::RawImage;

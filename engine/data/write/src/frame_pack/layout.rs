@@ -1,8 +1,8 @@
 //! The layout of a frame pack: marks, sections, and the parts that each frame has.
 
 use super::header::PackHeader;
-use cosfly_render::Channel;
-use cosfly_render::channels::Element;
+use cosfly_domain::Channel;
+use cosfly_domain::channels::Element;
 
 pub const MAGIC: &[u8; 8] = b"COSFLYFP";
 pub const END_MAGIC: &[u8; 8] = b"COSFLYFE";

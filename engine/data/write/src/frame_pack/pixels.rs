@@ -2,10 +2,10 @@
 
 use super::header::{InstanceFormat, PackHeader};
 use super::image_record::ImageRecord;
+use cosfly_domain::FrameImages;
+use cosfly_domain::channels::Source;
 use cosfly_frames::simd::Level;
 use cosfly_images::{depth, ids};
-use cosfly_render::FrameImages;
-use cosfly_render::channels::Source;
 use cosfly_schema::config::DepthEncoding;
 
 /// Pixels that are converted and checked together.

@@ -2,9 +2,9 @@
 
 use super::*;
 use cosfly_diagnose::Result;
+use cosfly_domain::channels::{ALL, depth, instance, semantic};
+use cosfly_domain::{ChannelImage, ChannelSet, FrameImages};
 use cosfly_images::depth::GRID_M;
-use cosfly_render::channels::{ALL, depth, instance, semantic};
-use cosfly_render::{ChannelImage, ChannelSet, FrameImages};
 use cosfly_schema::EncodingConfig;
 use std::io::Cursor;
 

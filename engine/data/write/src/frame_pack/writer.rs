@@ -5,10 +5,10 @@ use super::image_record::{length_of, records_of};
 use super::layout::{END_MAGIC, ENTRY_BYTES, MAGIC, Part, Section, VERSION, check_of, parts};
 use super::pixels;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::{Channel, FrameImages};
 use cosfly_images::jpeg::Chroma;
 use cosfly_images::previews::SmallImages;
 use cosfly_images::rgb;
-use cosfly_render::{Channel, FrameImages};
 use cosfly_schema::config::{JpegChroma, RgbEncoding};
 use std::io::Write;
 

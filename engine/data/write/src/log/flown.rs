@@ -3,10 +3,8 @@
 use super::channels::ChannelWriter;
 use super::scene;
 use cosfly_diagnose::Result;
+use cosfly_domain::{Camera, Lens, Mount, OrientedBox, Town};
 use cosfly_frames::{DQuat, DVec3, Pose, TargetState};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::Town;
-use cosfly_render::{Camera, Lens, Mount};
 use cosfly_schema::log::flown_step::{FixMessage, FlownStepMessage, HeightMessage, InertialMessage};
 use cosfly_schema::log::right_handed::map_from_world_point;
 use cosfly_schema::log::{TargetStateMessage, flown_topics, messages, topic};

@@ -1,12 +1,10 @@
 //! The metadata records of a log: trajectory, weather, camera, conventions, labels, instances.
 
 use crate::frame_pack::PackHeader;
-use cosfly_maps::{Obstacle, SemanticLabel, Town};
-use cosfly_render::channels::instance;
-use cosfly_render::frame::{TARGET_INSTANCE, object_instance};
+use cosfly_domain::channels::instance;
+use cosfly_domain::{BodyKind, Obstacle, SemanticLabel, TARGET_INSTANCE, Town, object_instance};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{DepthEncoding, OtherPerson, RenderedTrajectory};
-use cosfly_world::BodyKind;
 use std::collections::BTreeMap;
 
 /// Layout of our logs; raised when channels or conventions change.

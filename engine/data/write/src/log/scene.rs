@@ -1,8 +1,7 @@
 //! The obstacles near a flight and the target as coloured cubes, and the captions as log lines.
 
+use cosfly_domain::{Obstacle, OrientedBox, Town};
 use cosfly_frames::{DQuat, DVec3, Pose};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{Obstacle, Town};
 use cosfly_schema::CaptionRecord;
 use cosfly_schema::log::messages::{MAP_FRAME, timestamp};
 use cosfly_schema::log::right_handed;

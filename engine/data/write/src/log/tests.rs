@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::frame_pack::FramePackReader;
-use cosfly_render::ChannelSet;
+use cosfly_domain::ChannelSet;
 use cosfly_sample as sample;
 use cosfly_schema::log::{Frequency, TargetStateMessage, right_handed, topic, topics};
 use cosfly_schema::{EncodingConfig, LogRecord, RenderedTrajectory, Role};

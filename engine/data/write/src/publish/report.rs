@@ -135,6 +135,6 @@ fn is_unlike_all(record: &RenderedTrajectory) -> bool {
     seen.all(|it| Some(it.kind) != own_kind || !it.outfit.is_like(own))
 }
 
-fn edges(it: &cosfly_render::PixelBox) -> [f32; 4] {
+fn edges(it: &cosfly_domain::PixelBox) -> [f32; 4] {
     edges_px(it).map(|edge| edge as f32)
 }

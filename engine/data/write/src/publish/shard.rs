@@ -9,7 +9,7 @@ use crate::gathered_extras::{gather, path_of_file};
 use crate::table_file::{TableWriter, write_error, writer_properties};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_render::{Channel, ChannelSet};
+use cosfly_domain::{Channel, ChannelSet};
 use cosfly_report::Figures;
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::extras::{self, Extra, ExtraShape, ExtraSource, ExtraSummary};

@@ -1,11 +1,10 @@
 //! What gives the targets of rendered flights away: counted flight by flight.
 
+use cosfly_domain::{BodyKind, Outfit, PixelBox, Traits};
 use cosfly_frames::{DVec3, Pose, TargetState};
 use cosfly_metrics::shortcuts::{Looks, Seen, Shortcuts};
-use cosfly_render::{Outfit, PixelBox};
 use cosfly_schema::log::messages::edges_px;
 use cosfly_schema::{RenderedTrajectory, Role};
-use cosfly_world::{BodyKind, Traits};
 
 /// Counts a flight: the frames of experts, where others are those of the target's kind, and the people of all flights.
 pub fn count(record: &RenderedTrajectory, shortcuts: &mut Shortcuts) {

@@ -2,7 +2,7 @@
 
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::Result;
-use cosfly_render::ChannelSet;
+use cosfly_domain::ChannelSet;
 use cosfly_report::PlannerRow;
 use cosfly_schema::extras::Extra;
 use cosfly_schema::tables::{Landmarks, ObjectRecord};

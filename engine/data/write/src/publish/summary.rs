@@ -3,13 +3,12 @@
 use super::shortcuts;
 use crate::gathered_extras::merged;
 use cosfly_diagnose::Result;
+use cosfly_domain::ChannelSet;
 use cosfly_metrics::shortcuts::Shortcuts;
-use cosfly_render::ChannelSet;
-use cosfly_schema::LogRecord;
 use cosfly_schema::card_text::counted;
 use cosfly_schema::extras::ExtraSummary;
 use cosfly_schema::tables::DatasetItem;
-use cosfly_schema::{Rejection, Role};
+use cosfly_schema::{LogRecord, Rejection, Role};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 

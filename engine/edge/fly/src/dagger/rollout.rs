@@ -4,10 +4,12 @@ use crate::experts::{KnownFlight, LOOK_AHEAD_S};
 use crate::pilot::{Asked, Failure, Pilot};
 use crate::suite::Task;
 use cosfly_diagnose::Result;
+use cosfly_domain::PlanOutcome;
 use cosfly_env::policies::Plan;
 use cosfly_env::{Action, Environment, FEATURES, Settings};
 use cosfly_frames::{DVec3, Seed};
-use cosfly_planner::{PlanOutcome, StartState, aim_point};
+use cosfly_planner::StartState;
+use cosfly_surroundings::visibility::aim_point;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

@@ -4,11 +4,13 @@ use super::window::telling;
 use crate::log::Line;
 use crate::suite::Task;
 use cosfly_diagnose::Result;
+use cosfly_domain::{Camera, PixelBox};
 use cosfly_env::pictures::walker;
 use cosfly_env::{Present, Settings};
+use cosfly_figures::{Bystander, TargetSetup, gait_phase_rad};
 use cosfly_plot::canvas::Canvas;
 use cosfly_preview::{LoggedFrame, Shot, clip as encoded};
-use cosfly_render::{Bystander, Camera, FrameSetup, PixelBox, Renderer, Scene, TargetSetup, gait_phase_rad};
+use cosfly_render::{FrameSetup, Renderer, Scene};
 use cosfly_schema::log::TargetStateMessage;
 use cosfly_schema::log::messages::edges_px;
 

@@ -5,11 +5,11 @@ use crate::flight::{Flown, Row};
 use crate::log::Line;
 use crate::suite::Task;
 use cosfly_diagnose::Result;
+use cosfly_domain::{Camera, OrientedBox};
 use cosfly_drone::Sensed;
 use cosfly_env::{End, Reward, Settings};
 use cosfly_frames::DVec3;
-use cosfly_geometry::{OrientedBox, SpatialQuery};
-use cosfly_render::Camera;
+use cosfly_geometry::SpatialQuery;
 use cosfly_write::log::{FlownFlight, FlownStep, SensedSample, write_flown_log};
 use std::collections::BTreeMap;
 

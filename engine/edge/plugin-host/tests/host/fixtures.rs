@@ -3,11 +3,11 @@
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::config::ViewConfig;
-use cosfly_planner::obstacles::exact::ExactObstacles;
-use cosfly_planner::obstacles::ground::GroundGrid;
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{CostTerm, TermContext};
 use cosfly_plugin_host::{Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm};
+use cosfly_surroundings::exact::ExactObstacles;
+use cosfly_surroundings::ground::GroundGrid;
 use std::sync::Arc;
 
 /// A cost term as a core module. Its parts can be replaced one by one.

@@ -9,9 +9,9 @@ use crate::{codec, parameters, single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_captions::{Caption as Text, CaptionConfig, Facts, Wear, Writer, captions, check, facts};
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_domain::PlanOutcome;
+use cosfly_figures::Clothes;
 use cosfly_frames::Seed;
-use cosfly_planner::PlanOutcome;
-use cosfly_render::Clothes;
 use cosfly_schema::CaptionRecord;
 use cosfly_schema::record::captions_to_bytes;
 use cosfly_stage::{

@@ -10,7 +10,7 @@ use crate::world::{check_same_town, link_town, world};
 use crate::{codec, parameters, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
-use cosfly_planner::{PlanOutcome, Trajectory};
+use cosfly_domain::{PlanOutcome, Trajectory};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraShape};
 use cosfly_schema::flight_labels::{self, FlightLabel};

@@ -4,9 +4,10 @@ use crate::nearby;
 use crate::ports::{self, WALK};
 use crate::walks::Person;
 use cosfly_diagnose::Result;
+use cosfly_domain::{BodyPlan, Traffic};
 use cosfly_frames::TargetState;
 use cosfly_stage::{InputPort, Inputs};
-use cosfly_world::{BodyPlan, Population, Snapshot, Traffic, contacts};
+use cosfly_world::{Population, Snapshot, contacts};
 use std::collections::BTreeSet;
 
 /// Name of the port.
@@ -83,8 +84,8 @@ pub fn take_out(traffic: &mut Traffic, count: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_domain::{Body, BodyKind};
     use cosfly_frames::{DVec3, Seed};
-    use cosfly_world::{Body, BodyKind};
 
     #[test]
     fn who_is_avoided_is_taken_out_with_those_whom_they_walk_through() {

@@ -1,11 +1,12 @@
 //! [`TrafficConfig`]: the parameters of traffic in a recipe.
 
 use crate::parameters;
+use cosfly_domain::{BodyKind, Traffic};
 use cosfly_pedestrians::{ConfigRule, CrowdConfig, RecordedConfig, ScriptedPerson};
 use cosfly_stage::Source;
 use cosfly_vehicles::VehicleConfig;
 use cosfly_vehicles::fcd::FcdConfig;
-use cosfly_world::{BodyKind, Clock, LookAlikeConfig, LooksConfig, Traffic};
+use cosfly_world::{Clock, LookAlikeConfig, LooksConfig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -13,13 +13,14 @@ use avoided::Avoided;
 use config::TrafficConfig;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_domain::{Around, Body, Followed, Outfit, Traffic, Traits};
+use cosfly_figures::BodyShape;
 use cosfly_frames::{Seed, TargetTrack};
 use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
-use cosfly_render::{BodyShape, Outfit};
 use cosfly_stage::{
     Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, TaskContext,
 };
-use cosfly_world::{Around, Body, Followed, Traffic, Traits, Wardrobe, dress, give_looks, simulate};
+use cosfly_world::{Wardrobe, dress, give_looks, simulate};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

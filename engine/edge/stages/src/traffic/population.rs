@@ -3,8 +3,8 @@
 use super::avoided::Avoided;
 use super::config::{RecordedSource, SumoSource, TrafficConfig};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::Town;
 use cosfly_frames::{DVec2, Seed};
-use cosfly_maps::Town;
 use cosfly_pedestrians::{Crowd, PedestrianError, Recording, WalkableGrid, scripted};
 use cosfly_vehicles::fcd::{self, FcdError, NetLocation, Place};
 use cosfly_vehicles::{VehicleError, Vehicles};

@@ -2,8 +2,8 @@
 
 use super::outcome::Refusals;
 use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_domain::{Camera, Season, Weather};
 use cosfly_lab::render::views::Ground;
-use cosfly_render::{Camera, Season, Weather};
 use std::path::Path;
 
 /// A map file with viewpoints, or the town printed by `cosfly town`.

@@ -2,9 +2,10 @@
 
 use super::outcome::{Outcome, print};
 use clap::Args;
+use cosfly_domain::Season;
 use cosfly_lab::look::{LookReport, of_folder, of_town};
 use cosfly_lab::render::views::Ground;
-use cosfly_render::{RenderConfig, Season};
+use cosfly_render::RenderConfig;
 use std::path::PathBuf;
 
 /// Default weathers.

@@ -3,9 +3,10 @@
 use super::outcome::{Outcome, Refusals, print};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_domain::{Camera, Weather};
 use cosfly_lab::render::views::Ground;
 use cosfly_lab::render::{RenderOptions, measure};
-use cosfly_render::{Camera, RenderConfig, Weather};
+use cosfly_render::RenderConfig;
 use cosfly_schema::EncodingConfig;
 use std::path::PathBuf;
 

@@ -3,8 +3,8 @@
 use super::outcome::{Outcome, print};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::Seed;
-use cosfly_geometry::OrientedBox;
 use cosfly_lab::simplify::{fine_boxes, simplify_table};
 use cosfly_maps::{MapConfig, read_town};
 use std::path::PathBuf;

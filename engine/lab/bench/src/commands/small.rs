@@ -2,8 +2,8 @@
 
 use super::outcome::{Outcome, print};
 use clap::Args;
+use cosfly_domain::Camera;
 use cosfly_lab::small::{SmallOptions, measure};
-use cosfly_render::Camera;
 use std::path::PathBuf;
 
 /// Examples of `small`.

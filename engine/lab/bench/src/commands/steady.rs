@@ -2,9 +2,10 @@
 
 use super::outcome::{Outcome, print};
 use clap::Args;
+use cosfly_domain::{Camera, Season};
 use cosfly_frames::Pose;
 use cosfly_lab::look::{SteadyReport, of_clips};
-use cosfly_render::{Camera, PictureLook, Season};
+use cosfly_render::PictureLook;
 use std::path::PathBuf;
 
 /// Default weathers: without rain, whose drops fall anew in each frame.

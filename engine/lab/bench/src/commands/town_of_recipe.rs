@@ -4,7 +4,6 @@ use super::outcome::Refusals;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_geometry::BoxBvh;
 use cosfly_lab::planner::scene::Ground;
-use cosfly_maps::GroundIndex;
 use cosfly_planner::MucoConfig;
 use cosfly_recipe::{Recipe, RecipeStage};
 use cosfly_runner::{RunOptions, RunSummary};
@@ -12,6 +11,7 @@ use cosfly_stage::{BlobSource, Blobs};
 use cosfly_stages::expert::Expert;
 use cosfly_stages::read;
 use cosfly_store::Store;
+use cosfly_town::GroundIndex;
 use std::path::Path;
 use std::sync::Arc;
 

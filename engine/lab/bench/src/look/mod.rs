@@ -9,8 +9,9 @@ pub use steady::{SteadyReport, SteadyRow, of_clips};
 
 use crate::render::views::Ground;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::Weather;
 use cosfly_images::read::picture;
-use cosfly_render::{FrameSetup, Renderer, Weather};
+use cosfly_render::{FrameSetup, Renderer};
 use serde::Serialize;
 use std::fmt;
 use std::path::Path;
@@ -116,7 +117,7 @@ impl fmt::Display for LookReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_render::Camera;
+    use cosfly_domain::Camera;
 
     #[test]
     fn sets_have_ordered_quartiles_and_empty_folders_are_refused() {

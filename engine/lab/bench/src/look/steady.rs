@@ -4,9 +4,9 @@
 //! Where the same thing is seen there with all its neighbours, the pixel's brightness must lie between the least and the
 //! greatest of the nine pixels around that place, give or take [`TOLERANCE_CODES`]: what lies outside popped.
 
+use cosfly_domain::{Camera, FrameImages, SemanticLabel, Weather};
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_maps::SemanticLabel;
-use cosfly_render::{Camera, FrameImages, FrameSetup, PictureLook, Renderer, Scene, Weather};
+use cosfly_render::{FrameSetup, PictureLook, Renderer, Scene};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;

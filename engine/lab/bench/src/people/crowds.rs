@@ -2,10 +2,10 @@
 
 use super::{SAMPLE_S, Tracks};
 use crate::clock::thread_cpu_s;
+use cosfly_domain::{Body, Town, Traffic};
 use cosfly_frames::{DVec2, Seed, TargetState};
-use cosfly_maps::Town;
 use cosfly_pedestrians::{Crowd, CrowdConfig, PedestrianError, WalkableGrid, path_of};
-use cosfly_world::{Body, Clock, Population, Traffic, contacts, simulate};
+use cosfly_world::{Clock, Population, contacts, simulate};
 use serde::Serialize;
 use std::fmt;
 use std::sync::Arc;
@@ -122,7 +122,7 @@ fn is_stuck(body: &Body) -> bool {
 }
 
 fn on_roads(grid: &WalkableGrid, traffic: &Traffic) -> (f64, f64) {
-    use cosfly_maps::WalkableKind::{Crossing, Road};
+    use cosfly_domain::WalkableKind::{Crossing, Road};
     let (mut crossings, mut roads, mut all) = (0, 0, 0);
     for number in 0..traffic.bodies.len() as u32 {
         let Some(track) = traffic.track(number) else { continue };

@@ -1,8 +1,8 @@
 //! Speed by density: people on a ring of pavement, at rising numbers, beside Weidmann's curve.
 
 use super::{SAMPLE_S, Tracks, crowded_along};
+use cosfly_domain::{Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::{Town, WalkableKind, WalkablePolygon};
 use cosfly_pedestrians::{CrowdConfig, PedestrianError};
 use serde::Serialize;
 

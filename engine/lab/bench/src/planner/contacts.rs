@@ -1,8 +1,8 @@
 //! The judge of flights among boxes that move. It shares no code with the planner: places are sampled finely in time, and
 //! distances are measured in each box's own axes.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, real};
-use cosfly_geometry::OrientedBox;
 
 /// Moments that are looked at from frame to frame.
 const MOMENTS: usize = 25;

@@ -2,17 +2,18 @@
 
 use super::plain_bvh::PlainBvh;
 use super::scene::Ground;
+use cosfly_domain::{OrientedBox, PlanOutcome};
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::OrientedBox;
 use cosfly_planner::baselines::grid::VoxelOptions;
 use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, plan_astar, plan_baseline, plan_baseline_with};
 use cosfly_planner::config::Foresight;
-use cosfly_planner::obstacles::{ground::GroundGrid, local::LocalObstacles};
 use cosfly_planner::paper::plan_paper;
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
-use cosfly_planner::{MucoConfig, PlanOutcome, PlanRequest, Preset, plan_request};
+use cosfly_planner::{MucoConfig, PlanRequest, Preset, plan_request};
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::local::LocalObstacles;
 
 /// A planner of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,9 +3,10 @@
 use super::contender::Planned;
 use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_geometry::SpatialQuery;
+use cosfly_planner::MucoConfig;
 use cosfly_planner::certificate::Kinematics;
 use cosfly_planner::walk::Walk;
-use cosfly_planner::{MucoConfig, visibility};
+use cosfly_surroundings::visibility;
 use serde::Serialize;
 
 /// Clearance below which a swept path collides, metres: the radius of the drone.

@@ -6,8 +6,8 @@
 //! time between frames (s), least clearance (m), two f64; the waypoints, three f64 a frame; the boxes that move, seven f64 for each frame
 //! of each. `N`, a path without a flight: length of its name (u32), the name.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec3;
-use cosfly_geometry::OrientedBox;
 use std::io::{self, Write};
 
 /// A flight among boxes that move.

@@ -16,11 +16,12 @@ use cosfly_planner::muco::refine::{RefineSpace, Rounds, refine};
 use cosfly_planner::muco::scan::Scanner;
 use cosfly_planner::muco::search::search;
 use cosfly_planner::muco::viterbi::SearchSpace;
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::obstacles::{ground::GroundGrid, local::LocalObstacles};
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::local::LocalObstacles;
 use serde::Serialize;
 use std::fmt;
 

@@ -4,10 +4,10 @@
 //! body from drones around it, it is as fast as the trees of parry and obvhs. Nodes are `f32`, rounded outward; leaves
 //! test the exact `f64` boxes; nearer children come first.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec3;
-use cosfly_geometry::OrientedBox;
 use cosfly_planner::baselines::sight::Sight;
-use cosfly_planner::obstacles::solid::Solid;
+use cosfly_surroundings::solid::Solid;
 use glam::Vec3A;
 
 /// Most boxes in a leaf.

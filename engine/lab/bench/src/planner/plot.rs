@@ -2,8 +2,8 @@
 
 use super::figures::Flight;
 use super::scene::Ground;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, TargetTrack, real};
-use cosfly_geometry::OrientedBox;
 use cosfly_plot::document::{Anchor, Document};
 
 /// Width of one plan view, pixels.

@@ -1,7 +1,8 @@
 //! Scenes with paths: seeded scenes, or any town with its walkers.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::TargetTrack;
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_scenes::{Scene, SceneKind};
 
 /// Function of the height of the ground at (x, y), metres.

@@ -7,13 +7,15 @@ use super::scene::Ground;
 use crate::clock::timed;
 use cosfly_frames::{DVec3, TargetTrack};
 use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
-use cosfly_planner::obstacles::exact::ExactObstacles;
-use cosfly_planner::obstacles::{Surroundings, ground::GroundGrid, local::LocalObstacles};
 use cosfly_planner::paper::{FocusedSurroundings, NearBoxes, Threads, iteration, plan_paper_in};
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
 use cosfly_planner::walk::Walk;
 use cosfly_planner::{MucoConfig, Preset};
+use cosfly_surroundings::Surroundings;
+use cosfly_surroundings::exact::ExactObstacles;
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::local::LocalObstacles;
 use serde::Serialize;
 use std::fmt;
 

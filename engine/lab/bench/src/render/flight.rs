@@ -3,7 +3,7 @@
 use super::views::{Ground, View};
 use cosfly_blobs::PassingFile;
 use cosfly_diagnose::{Diagnostic, Result};
-use cosfly_render::{TargetView, Weather};
+use cosfly_domain::{TargetView, Weather};
 use cosfly_schema::{RenderedTrajectory, Role, TownInfo};
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom, Write};

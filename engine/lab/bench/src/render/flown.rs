@@ -1,13 +1,14 @@
 //! Flights as `cosfly run` makes them: pedestrians walk the town, the planner follows.
 
 use super::views::{Ground, View};
+use cosfly_domain::PlanOutcome;
+use cosfly_figures::{BodyShape, TargetSetup, gait_phase_rad};
 use cosfly_frames::TargetState;
 use cosfly_geometry::BoxBvh;
-use cosfly_maps::GroundIndex;
 use cosfly_pedestrians::{PedestrianConfig, WalkableGrid, walk};
-use cosfly_planner::{MucoConfig, PlanOutcome, plan};
+use cosfly_planner::{MucoConfig, plan};
 use cosfly_random::Seed;
-use cosfly_render::{BodyShape, TargetSetup, gait_phase_rad};
+use cosfly_town::GroundIndex;
 
 /// Expert flights behind `count` walkers, `frames` frames each, with the defaults of all recipes. Empty in a town
 /// without walkable ground.

@@ -12,7 +12,8 @@ pub mod throughput;
 pub mod views;
 
 use cosfly_diagnose::Result;
-use cosfly_render::{PictureLook, Weather};
+use cosfly_domain::Weather;
+use cosfly_render::PictureLook;
 use cosfly_schema::EncodingConfig;
 use machine::Machine;
 use serde::Serialize;
@@ -116,7 +117,7 @@ fn row(ground: &Ground, weather: &Weather, look: PictureLook, options: &RenderOp
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_render::Camera;
+    use cosfly_domain::Camera;
 
     #[test]
     fn a_tiny_measurement_has_every_figure() {

@@ -1,14 +1,17 @@
 //! Towns and views for measurements: a follower behind a walker, and free views of many boxes.
 
-use cosfly_frames::{DVec2, DVec3, Pose, TargetState, real};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_maps::generate::{GenerateConfig, generate_town};
-use cosfly_maps::{
-    MapConfig, MapError, MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, SurfaceMesh,
-    Synthetic, Town, WalkableKind, read_town,
+use cosfly_domain::{
+    Camera, MapOrigin, Obstacle, ObstacleKind, OrientedBox, SemanticLabel, SimplificationReport, SurfaceMesh,
+    Synthetic, Town, WalkableKind,
 };
+use cosfly_figures::{BodyShape, TargetSetup, gait_phase_rad};
+use cosfly_frames::{DVec2, DVec3, Pose, TargetState, real};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_maps::generate::{GenerateConfig, generate_town};
+use cosfly_maps::{MapConfig, read_town};
 use cosfly_random::Seed;
-use cosfly_render::{BodyShape, Camera, Scene, TargetSetup, gait_phase_rad};
+use cosfly_render::Scene;
+use cosfly_town::MapError;
 use serde::Serialize;
 
 /// Distance from the camera to the target, metres.

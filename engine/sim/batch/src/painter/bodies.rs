@@ -6,13 +6,13 @@ use crate::eye::{Eye, NEAR_M};
 use crate::faces::{BODY, DrawnFace, SKY};
 use crate::figures::{Around, SeenPart, Stance};
 use crate::view::{Figure, View};
+use cosfly_domain::{SemanticLabel, TARGET_INSTANCE};
+use cosfly_figures::Walker;
+use cosfly_figures::clothes::Region;
+use cosfly_figures::figure::figure;
 use cosfly_frames::DVec3;
-use cosfly_maps::SemanticLabel;
-use cosfly_render::clothes::Region;
-use cosfly_render::figure::figure;
-use cosfly_render::frame::TARGET_INSTANCE;
 use cosfly_render::outside::NO_FACE;
-use cosfly_render::{BodyPart, LEAST_HEIGHT_PX, Walker};
+use cosfly_render::{BodyPart, LEAST_HEIGHT_PX};
 
 impl Painter {
     pub(super) fn draw_people(&mut self, eye: &Eye, view: &View<'_>) {

@@ -1,9 +1,11 @@
 //! Towns, places and people for tests.
 
+use cosfly_domain::{Town, WalkableKind};
+use cosfly_figures::{Bystander, Walker};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_maps::{GroundIndex, MapConfig, Town, WalkableKind, read_town};
-use cosfly_render::{Bystander, Walker};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_town::GroundIndex;
 use std::path::Path;
 
 /// A town of the shipped recipes.
@@ -55,7 +57,7 @@ pub fn places(town: &Town, count: usize, people: u32) -> Vec<Place> {
             radius_m: random.uniform(0.24, 0.34),
             clothes_seed: Seed([6; 32]).child("clothes", number),
             gait_phase_rad: random.uniform(-3.1, 3.1),
-            body: cosfly_render::BodyShape::default(),
+            body: cosfly_figures::BodyShape::default(),
         };
         let target = walker(feet, 0);
         let mut scatter = Seed([9; 32]).child("crowd", places.len() as u64).stream("crowd");

@@ -1,14 +1,12 @@
 //! Texts of the templates pass, and each with a number, direction, side or count changed fails.
 
 use super::*;
-use crate::Language;
 use crate::caption::tests::flights;
-use crate::facts::{Facts, facts, test_flights::flight};
-use crate::facts::{Stop, Wear};
+use crate::facts::{Facts, Stop, Wear, facts, test_flights::flight};
 use crate::turns::Turn;
-use crate::{CaptionConfig, Compass, Style, TurnKind, captions};
+use crate::{CaptionConfig, Compass, Language, Style, TurnKind, captions};
+use cosfly_domain::Colour;
 use cosfly_random::{RandomStream, Seed};
-use cosfly_render::Colour;
 
 /// Places of the numbers in a text.
 fn numbers(text: &str) -> Vec<std::ops::Range<usize>> {

@@ -8,9 +8,8 @@ use crate::facts::Wear;
 use crate::sight::{LandmarkKind, OnSide};
 use crate::wording::one_of;
 use cosfly_claims::TurnKind;
-use cosfly_maps::ObstacleKind;
+use cosfly_domain::{BodyKind, ObstacleKind};
 use cosfly_random::RandomStream;
-use cosfly_world::BodyKind;
 
 /// The wordings of the language.
 pub(super) const WORDING: Wording = Wording {

@@ -3,9 +3,7 @@
 use crate::facts::Wear;
 use crate::sight::{LandmarkKind, OnSide};
 use cosfly_claims::TurnKind;
-use cosfly_maps::ObstacleKind;
-use cosfly_render::Colour;
-use cosfly_world::BodyKind;
+use cosfly_domain::{BodyKind, Colour, ObstacleKind};
 use std::fmt;
 use std::ops::Range;
 

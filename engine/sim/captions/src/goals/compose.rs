@@ -6,10 +6,9 @@ use super::{chinese, english, pick, steps};
 use crate::facts::Wear;
 use crate::sight::OnSide;
 use crate::wording::{one_of, without};
-use cosfly_claims::Language;
-use cosfly_claims::TurnKind;
+use cosfly_claims::{Language, TurnKind};
+use cosfly_domain::Colour;
 use cosfly_random::{RandomStream, Seed};
-use cosfly_render::Colour;
 use std::ops::Range;
 
 /// A move within so many frames of the end of a crossing is `after the crossing`.

@@ -6,8 +6,8 @@ use crate::facts::Wear;
 use crate::sight::Landmarks;
 use crate::turns::{Path, Turns};
 use cosfly_claims::TurnKind;
+use cosfly_domain::BodyKind;
 use cosfly_frames::{DVec2, TargetState};
-use cosfly_world::BodyKind;
 use std::ops::Range;
 
 /// Slower than this is standing, m/s.

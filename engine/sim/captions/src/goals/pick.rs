@@ -4,9 +4,8 @@ use super::claim::{Claim, Passed, Said, Subject};
 use super::compose::{Grain, Plan, mirrored, other_side};
 use super::course::{Course, Neighbour};
 use crate::facts::Wear;
+use cosfly_domain::{BodyKind, Colour};
 use cosfly_random::RandomStream;
-use cosfly_render::Colour;
-use cosfly_world::BodyKind;
 
 /// Goals of a whole flight, dialogues, and goals that do not fit.
 const FLIGHTS: usize = 3;

@@ -6,12 +6,9 @@ use super::course::{Course, Flight, Hidden, Neighbour, Sample};
 use crate::facts::Wear;
 use crate::sight::Landmarks;
 use cosfly_claims::Language;
+use cosfly_domain::{BodyKind, Colour, Obstacle, ObstacleKind, OrientedBox, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec3, TargetState, real};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{Obstacle, ObstacleKind, WalkableKind, WalkablePolygon};
 use cosfly_random::Seed;
-use cosfly_render::Colour;
-use cosfly_world::BodyKind;
 use std::collections::BTreeSet;
 
 fn tree(object_id: u32, x: f64, y: f64) -> Obstacle {

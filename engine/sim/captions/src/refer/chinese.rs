@@ -3,7 +3,7 @@
 use super::{Phrase, Property};
 use crate::chinese::colour;
 use crate::part::Part;
-use cosfly_world::BodyKind;
+use cosfly_domain::BodyKind;
 
 /// `画面左侧正在行走、穿红色上衣、蓝色裤子、背着背包的人`.
 pub(super) fn text(phrase: &Phrase) -> String {

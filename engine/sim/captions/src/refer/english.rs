@@ -3,7 +3,7 @@
 use super::{Phrase, Property};
 use crate::english::article;
 use crate::part::Part;
-use cosfly_world::BodyKind;
+use cosfly_domain::BodyKind;
 
 /// `the walking person in a red top and blue trousers with a backpack on the left of the picture`.
 pub(super) fn text(phrase: &Phrase) -> String {

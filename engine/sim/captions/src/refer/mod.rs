@@ -5,8 +5,7 @@ mod english;
 
 use crate::part::Part;
 use cosfly_claims::Language;
-use cosfly_render::Colour;
-use cosfly_world::BodyKind;
+use cosfly_domain::{BodyKind, Colour};
 
 /// Faster than this a body moves, m/s; slower than [`STANDS_MPS`] it stands; nobody says what is between.
 const MOVES_MPS: f64 = 0.4;

@@ -2,8 +2,8 @@
 
 use super::facts::{Person, STANDS_M, View, WALKS_M};
 use super::landmarks::{LandmarkKind, Landmarks, way_to};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_geometry::OrientedBox;
 
 /// Slowest walk of somebody who passes or approaches a landmark, m/s.
 const WALKS_MPS: f64 = 0.3;
@@ -191,7 +191,7 @@ fn building_behind(view: &View, landmarks: &Landmarks, person: &Person) -> Optio
 mod tests {
     use super::super::facts::test_views::{person, town, view};
     use super::*;
-    use cosfly_render::Colour::{Black, Red};
+    use cosfly_domain::Colour::{Black, Red};
 
     fn found(target: Person, others: Vec<Person>) -> Option<NearLandmark> {
         near_landmarks(&view(target, others), &town()).first().copied()

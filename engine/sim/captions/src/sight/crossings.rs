@@ -1,7 +1,8 @@
 //! Marked crossings of a town, where people cross its streets.
 
+use cosfly_domain::{WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::{WalkableKind, WalkablePolygon, polygons};
+use cosfly_town::polygons;
 
 /// Feet that are farther above or below a crossing are not on it, metres.
 const LEVEL_M: f64 = 1.5;

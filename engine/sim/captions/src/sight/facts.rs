@@ -7,8 +7,8 @@ use super::beside::{NearLandmark, near_landmarks};
 use super::landmarks::Landmarks;
 use crate::facts::Wear;
 use crate::part::Part;
+use cosfly_domain::{Camera, Colour};
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_render::{Camera, Colour};
 
 /// A person with fewer visible pixels is not clear: texts do not mention and do not count such a person, and do not say how
 /// many people the picture shows.
@@ -244,8 +244,7 @@ pub(crate) mod test_views {
     //! Pictures with known facts.
 
     use super::*;
-    use cosfly_geometry::OrientedBox;
-    use cosfly_maps::{Obstacle, ObstacleKind};
+    use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
 
     /// Somebody at x, y (m) who walks along a yaw (degrees) at 1.3 m/s, seen by the camera of [`view`].
     pub(crate) fn person(x: f64, y: f64, yaw_deg: f64, top: Colour) -> Person {

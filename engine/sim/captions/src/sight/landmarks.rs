@@ -1,9 +1,9 @@
 //! Things of a town that a text may name: trees, street lamps, traffic lights and signs, parked cars, buildings, crossings.
 
 use super::crossings::Crossing;
+use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox, Town, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_maps::{Obstacle, ObstacleKind, Town, WalkablePolygon};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 
 /// Kind of a landmark. Things of other kinds have no name that everybody would give them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

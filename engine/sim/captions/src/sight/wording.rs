@@ -4,8 +4,8 @@ use super::facts::{Near, Place, Seen, Side, Sight};
 use super::{chinese, english};
 use crate::part::Part;
 use cosfly_claims::Language;
+use cosfly_domain::Colour;
 use cosfly_random::Seed;
-use cosfly_render::Colour;
 
 /// More people are not counted in words.
 const MOST_COUNTED: usize = 6;

@@ -3,8 +3,10 @@
 use super::plan::Plan;
 use super::{Baseline, Knowledge, Policy};
 use crate::{Action, Environment};
+use cosfly_domain::PlanOutcome;
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
-use cosfly_planner::{PlanOutcome, PlanRequest, StartState, aim_point, plan_request};
+use cosfly_planner::{PlanRequest, StartState, plan_request};
+use cosfly_surroundings::visibility::aim_point;
 
 /// Time between plans, seconds.
 const EVERY_S: f64 = 1.0;

@@ -3,7 +3,7 @@
 use super::plan::Plan;
 use super::{Baseline, Policy};
 use crate::{Action, Environment};
-use cosfly_planner::aim_point;
+use cosfly_surroundings::visibility::aim_point;
 
 pub(super) const BASELINE: Baseline = Baseline {
     name: "expert",

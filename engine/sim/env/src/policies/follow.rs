@@ -3,7 +3,7 @@
 use super::{Baseline, Policy};
 use crate::{Action, Axes, Environment};
 use cosfly_frames::DVec3;
-use cosfly_planner::aim_point;
+use cosfly_surroundings::visibility::aim_point;
 
 /// Rate at which an error of the position is removed, 1/s.
 const GAIN: f64 = 0.6;

@@ -1,9 +1,9 @@
 //! Paint and build of vehicles, drawn from their seeds.
 
 use crate::body_shape::BodyShape;
-use crate::clothes::{Colour, Dye, Region, dye};
+use crate::clothes::{Region, dye};
+use cosfly_domain::{BodyKind, Colour, Dye};
 use cosfly_frames::Seed;
-use cosfly_world::BodyKind;
 
 /// Paint of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,10 +10,10 @@ mod tests;
 
 pub use livery::Livery;
 
-use crate::clothes::Clothes;
-use crate::figure::{FigureTriangle, Walker};
+use crate::figure::FigureTriangle;
+use cosfly_domain::BodyKind;
+use cosfly_figures::{Clothes, Walker};
 use cosfly_frames::DVec3;
-use cosfly_world::BodyKind;
 use model::Model;
 
 /// Appends a vehicle with its rider to `triangles`. No corner leaves the vehicle's box, and each side of the box has a

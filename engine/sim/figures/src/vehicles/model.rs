@@ -1,7 +1,8 @@
 //! Flat faces of a vehicle's model, in the vehicle's own axes.
 
 use crate::clothes::Region;
-use crate::figure::{FigureTriangle, Surface, Walker, around};
+use crate::figure::{FigureTriangle, Surface, around};
+use cosfly_figures::Walker;
 use cosfly_frames::{DVec3, real};
 
 /// Panels such as windows lie this far before the sheet, metres.

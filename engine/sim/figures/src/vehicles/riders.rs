@@ -1,8 +1,9 @@
 //! Bicycles and motorcycles with their riders. All sizes follow the box.
 
 use super::model::Model;
-use crate::clothes::{Clothes, Region};
+use crate::clothes::Region;
 use crate::figure::{Surface, ring};
+use cosfly_figures::Clothes;
 use cosfly_frames::{DVec3, real};
 
 /// Sizes that the shares of both vehicles are made for, metres.

@@ -3,10 +3,10 @@
 use super::*;
 use crate::body_shape::BodyShape;
 use crate::clothes::Region;
-use crate::figure::{figure, walker_triangles};
+use crate::figure::figure;
+use cosfly_domain::{BodyPlan, SemanticLabel};
+use cosfly_figures::walker_triangles;
 use cosfly_frames::{Seed, TargetState};
-use cosfly_maps::SemanticLabel;
-use cosfly_world::BodyPlan;
 
 /// No corner is farther outside of the box than this, and every side of the box has a corner as near, metres.
 const BOUND_M: f64 = 0.01;

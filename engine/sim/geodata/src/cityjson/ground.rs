@@ -1,11 +1,12 @@
 //! Roads, footpaths, land and water: faces as surfaces, and as walkable polygons.
 
 use super::faces::Face;
+use cosfly_domain::{SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::MapError;
 use cosfly_town::cover::Plan;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::polygons::{triangulated, twice_area_m2};
-use cosfly_town::{MapError, SemanticLabel, WalkableKind, WalkablePolygon};
 
 /// Ground is at most this steep, vertical part of the unit normal.
 const STEEPEST_NORMAL: f64 = 0.3;

@@ -1,8 +1,8 @@
 //! The solid under faces as stacked boxes: each layer covers what reaches above its foot.
 
 use super::faces::{Face, plan_of};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec2;
-use cosfly_geometry::OrientedBox;
 use cosfly_town::cover::{COVER_TOLERANCE_M, Coarse, Cover, LOOSE_TOLERANCE_M, MOST, Plan, TurnedRectangle};
 use cosfly_town::solids::Solid;
 use std::collections::BTreeMap;

@@ -14,7 +14,8 @@ mod town;
 mod undersides;
 mod words;
 
-use cosfly_town::{MapError, MapFormat, Town};
+use cosfly_domain::Town;
+use cosfly_town::{MapError, MapFormat};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

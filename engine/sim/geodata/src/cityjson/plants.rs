@@ -4,9 +4,8 @@ use super::document::Attributes;
 use super::faces::Face;
 use super::layers::{Steps, layered, pieces};
 use super::shapes::{Shape, Space};
+use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_frames::DVec3;
-use cosfly_geometry::OrientedBox;
-use cosfly_town::ObstacleKind;
 use cosfly_town::crown::crown_boxes;
 use cosfly_town::solids::Solid;
 

@@ -9,10 +9,10 @@ use super::shapes::{Shape, Space};
 use super::undersides::undersides;
 use super::words::{Part, ground_of_surface, is_indoors, part_of};
 use crate::open_ground::add_open_ground;
-use cosfly_geometry::OrientedBox;
+use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox, Synthetic, Town, WalkableKind};
 use cosfly_town::solids::{CoarseThings, Solid};
 use cosfly_town::units::unit_warning;
-use cosfly_town::{MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkableKind, terrain};
+use cosfly_town::{MapError, terrain};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most boxes of one file.
@@ -232,7 +232,7 @@ impl Parts {
     fn add_plants(&mut self, shape: &Shape, object_id: u32) -> Result<(), MapError> {
         let Some((low, _)) = shape.bounds() else { return Ok(()) };
         for face in shape.faces.iter().filter(|face| face.highest_m() <= low.z + plants::GROUND_RISE_M) {
-            self.ground.add(face, cosfly_town::SemanticLabel::Terrain, None)?;
+            self.ground.add(face, cosfly_domain::SemanticLabel::Terrain, None)?;
         }
         let stand = plants::stand(&shape.faces, low.z);
         self.tally.stands += usize::from(!stand.is_empty());

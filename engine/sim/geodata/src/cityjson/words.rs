@@ -1,7 +1,7 @@
 //! Meaning of kinds, functions and classes of objects and surfaces.
 
 use super::document::Attributes;
-use cosfly_town::{ObstacleKind, SemanticLabel, WalkableKind};
+use cosfly_domain::{ObstacleKind, SemanticLabel, WalkableKind};
 
 /// Part of the town that an object becomes.
 #[derive(Clone, Copy, Debug, PartialEq)]

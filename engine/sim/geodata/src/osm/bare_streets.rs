@@ -3,8 +3,8 @@
 use super::options::OsmOptions;
 use super::pavements::{PAVEMENT_M, is_street, may_be_assumed};
 use super::roads::Road;
+use cosfly_domain::WalkablePolygon;
 use cosfly_frames::DVec2;
-use cosfly_town::WalkablePolygon;
 use cosfly_town::polygons::PolygonIndex;
 
 /// Distance between the places of a street that are looked at, metres.

@@ -9,10 +9,11 @@ use super::rings::{Area, Problems, Source, areas, closes};
 use super::tags::Tags;
 use super::tally::Tally;
 use crate::slabs::inner_point;
+use cosfly_domain::{Obstacle, ObstacleKind};
 use cosfly_frames::DVec2;
+use cosfly_town::MapError;
 use cosfly_town::polygons::PolygonIndex;
 use cosfly_town::solids::{CoarseThings, Footprint, building_boxes, layer_boxes};
-use cosfly_town::{MapError, Obstacle, ObstacleKind};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Buildings farther outside the stated bounds are left out, metres.

@@ -2,9 +2,9 @@
 
 use super::pbf::{DenseInfo, DenseNodes, PrimitiveBlock, PrimitiveGroup, StringTable};
 use super::tests::{RING, blob, gzip, osm, raw, read, way, zlib};
+use cosfly_domain::{ObstacleKind, Town, WalkableKind};
 use cosfly_frames::DVec2;
 use cosfly_town::polygons::contains;
-use cosfly_town::{ObstacleKind, Town, WalkableKind};
 use prost::Message;
 
 const SQUARE: [(i64, i32, i32); 4] = [(1, 0, 0), (2, 2, 0), (3, 2, 2), (4, 0, 2)];

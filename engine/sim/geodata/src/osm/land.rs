@@ -7,11 +7,11 @@ use super::rings::{Area, Problems, areas};
 use super::roads::{LINE_MARGIN_M, Road, RoadIndex};
 use super::tags::Tags;
 use super::things::Things;
+use cosfly_domain::{Obstacle, OrientedBox, SemanticLabel};
 use cosfly_frames::{DVec2, Seed};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::polygons::PolygonIndex;
-use cosfly_town::{Obstacle, SemanticLabel};
 use std::collections::BTreeMap;
 
 /// Heights of grass and of bare ground, metres: below water, which often lies within them.
@@ -197,7 +197,7 @@ impl Around {
 #[cfg(test)]
 mod tests {
     use crate::osm::tests::{RING, osm, read, way};
-    use cosfly_town::{ObstacleKind, SemanticLabel};
+    use cosfly_domain::{ObstacleKind, SemanticLabel};
 
     #[test]
     fn woods_have_trees_beside_their_paths_and_land_is_seen_by_its_use() {

@@ -3,8 +3,8 @@
 use super::roads::{ROAD_HEIGHT_M, Road};
 use super::strip::{moved_left, thinned};
 use super::tags::{Tags, speed_mps};
+use cosfly_domain::{Lane, LaneKind};
 use cosfly_frames::DVec2;
-use cosfly_town::{Lane, LaneKind};
 use std::collections::BTreeMap;
 
 /// Narrower lanes are left out, metres.

@@ -35,7 +35,8 @@ mod tests;
 
 pub use options::OsmOptions;
 
-use cosfly_town::{Format, MapError, MapFormat, Town};
+use cosfly_domain::Town;
+use cosfly_town::{Format, MapError, MapFormat};
 use unpacked::{GZIP_MAGIC, Unpacked};
 
 /// The format OpenStreetMap.

@@ -1,9 +1,9 @@
 //! Passages through buildings: clear where the way leads, closed everywhere else.
 
 use super::tests::{read, way};
+use cosfly_domain::Town;
 use cosfly_frames::{DVec2, DVec3, RandomStream, Seed, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_town::Town;
 use cosfly_town::polygons::contains;
 
 /// A file of nodes in metres east and south of (0, 0) degrees.

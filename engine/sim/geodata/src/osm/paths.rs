@@ -9,10 +9,11 @@ use super::roads::{LINE_MARGIN_M, Road, RoadIndex, is_shared_street, lines};
 use super::strip::{add_surface, strips, walkable};
 use super::tags::Tags;
 use crate::slabs::{Trapezoid, trapezoids};
+use cosfly_domain::{SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::DVec2;
+use cosfly_town::MapError;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::polygons::twice_area_m2;
-use cosfly_town::{MapError, SemanticLabel, WalkableKind, WalkablePolygon};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Height of pavements and paths, and of crossings, metres.

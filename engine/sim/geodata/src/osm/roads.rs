@@ -4,9 +4,10 @@ use super::elements::{Elements, Way};
 use super::frame::Frame;
 use super::strip::{add_surface, strips};
 use super::tags::Tags;
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, real};
+use cosfly_town::MapError;
 use cosfly_town::mesh::MeshBuilder;
-use cosfly_town::{MapError, SemanticLabel};
 use std::collections::BTreeMap;
 
 /// Lines are kept so far beyond the stated bounds, metres.

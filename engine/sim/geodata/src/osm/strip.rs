@@ -1,8 +1,8 @@
 //! Strips of ground along lines: roads, paths, pavements.
 
+use cosfly_domain::{SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::mesh::MeshBuilder;
-use cosfly_town::{SemanticLabel, WalkableKind, WalkablePolygon};
 
 /// Points of a line closer than this are one, metres.
 const SAME_POINT_M: f64 = 0.2;

@@ -5,9 +5,10 @@ use super::pbf::{
 };
 use super::pbf::{PrimitiveGroup, StringTable};
 use super::{OpenStreetMap, OsmOptions};
+use cosfly_domain::{ObstacleKind, SemanticLabel, Town, WalkableKind};
 use cosfly_frames::{DVec2, Seed};
 use cosfly_town::polygons::contains;
-use cosfly_town::{MapError, MapFormat, ObstacleKind, SemanticLabel, Town, WalkableKind};
+use cosfly_town::{MapError, MapFormat};
 use flate2::Compression;
 use flate2::write::{GzEncoder, ZlibEncoder};
 use prost::Message;

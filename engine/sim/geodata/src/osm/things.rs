@@ -7,10 +7,10 @@ use super::roads::lines;
 use super::tags::Tags;
 use super::tally::Tally;
 use core::fmt::Display;
+use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec2, Seed, real};
-use cosfly_geometry::OrientedBox;
+use cosfly_town::MapError;
 use cosfly_town::crown::crown_boxes;
-use cosfly_town::{MapError, Obstacle, ObstacleKind};
 use std::collections::BTreeSet;
 
 /// Things farther outside the stated bounds are left out, metres.

@@ -10,11 +10,10 @@ use super::things::Things;
 use super::{bare_streets, buildings, land, lanes, paths, roads, sea, things};
 use crate::open_ground::add_open_ground;
 use crate::slabs::trapezoids;
+use cosfly_domain::{MapOrigin, Obstacle, SemanticLabel, Synthetic, Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::DVec2;
 use cosfly_town::mesh::MeshBuilder;
-use cosfly_town::{
-    MapError, MapOrigin, Obstacle, SemanticLabel, Synthetic, Town, WalkableKind, WalkablePolygon, terrain,
-};
+use cosfly_town::{MapError, terrain};
 
 /// Height of water and of squares of asphalt, metres.
 const WATER_HEIGHT_M: f64 = 0.0;

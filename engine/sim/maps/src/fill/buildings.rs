@@ -4,9 +4,8 @@ use super::FillConfig;
 use super::frontage::Front;
 use super::land::{Land, Plot, Use};
 use super::site::Site;
-use crate::ObstacleKind;
+use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec2, RandomStream};
-use cosfly_geometry::OrientedBox;
 
 /// Distance between tries along a front, metres.
 const STEP_M: f64 = 1.0;

@@ -1,7 +1,7 @@
 //! Fronts: where a pavement, or a road near one, borders open land.
 
 use super::land::{Land, Plot, Use};
-use crate::{SemanticLabel, Town, WalkableKind};
+use cosfly_domain::{SemanticLabel, Town, WalkableKind};
 use cosfly_frames::{DVec2, DVec3, real};
 use std::collections::BTreeSet;
 

@@ -4,10 +4,9 @@ use super::FillConfig;
 use super::frontage::Front;
 use super::land::{Land, Plot, Use};
 use super::site::Site;
-use crate::ObstacleKind;
-use crate::crown::crown_boxes;
+use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec2, DVec3, Seed};
-use cosfly_geometry::OrientedBox;
+use cosfly_town::crown::crown_boxes;
 use std::collections::BTreeMap;
 
 /// Distance between tries along a front, metres.

@@ -1,8 +1,8 @@
 //! Which ground is taken: a coarse grid seen from above that marks every cell a street or a thing touches.
 
-use crate::polygons::triangulated;
-use crate::{SemanticLabel, Town};
+use cosfly_domain::{SemanticLabel, Town};
 use cosfly_frames::{DVec2, real};
+use cosfly_town::polygons::triangulated;
 
 /// Wanted size of a cell, metres.
 const CELL_M: f64 = 0.25;

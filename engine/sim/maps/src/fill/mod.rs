@@ -12,7 +12,7 @@ pub mod site;
 
 pub use config::FillConfig;
 
-use crate::Town;
+use cosfly_domain::Town;
 use cosfly_frames::Seed;
 
 /// Adds to `town` what `config` asks for, flags it in `town.synthetic`, and gives warnings for the user. Reads the

@@ -1,9 +1,8 @@
 //! [`Site`]: a town while it is being filled.
 
-use crate::ground::GroundIndex;
-use crate::{Obstacle, ObstacleKind, SemanticLabel, Town};
+use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox, SemanticLabel, Town};
 use cosfly_frames::DVec3;
-use cosfly_geometry::OrientedBox;
+use cosfly_town::ground::GroundIndex;
 
 /// The town while it is being filled.
 pub struct Site<'a> {

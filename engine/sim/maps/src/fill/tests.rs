@@ -2,10 +2,12 @@
 
 use super::*;
 use crate::generate::{GenerateConfig, generate_town};
-use crate::polygons::triangulated;
-use crate::{GroundIndex, MapConfig, Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, read_town};
+use crate::{MapConfig, read_town};
+use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox, SemanticLabel, SurfaceMesh};
 use cosfly_frames::DVec2;
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_town::GroundIndex;
+use cosfly_town::polygons::triangulated;
 
 #[path = "../../../../../tests/shared.rs"]
 mod shared;
@@ -23,7 +25,7 @@ fn bare_town() -> Town {
     let text = generate_town(&GenerateConfig::default(), 4);
     let (mut town, _) = read_town(text.as_bytes(), &MapConfig::default(), seed()).expect("it reads");
     town.obstacles.clear();
-    town.synthetic = crate::Synthetic::default();
+    town.synthetic = cosfly_domain::Synthetic::default();
     town
 }
 

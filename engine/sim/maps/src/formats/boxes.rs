@@ -4,15 +4,16 @@
 
 mod labels;
 
-use crate::format::MapFormat;
-use crate::mesh::MeshBuilder;
-use crate::polygons::triangulated;
-use crate::terrain;
-use crate::text::{decoded, refused_json};
-use crate::world::WorldFromMap;
-use crate::{MapError, Obstacle, ObstacleKind, SemanticLabel, Synthetic, Town, WalkableKind, WalkablePolygon};
+use cosfly_domain::{
+    Obstacle, ObstacleKind, OrientedBox, SemanticLabel, Synthetic, Town, WalkableKind, WalkablePolygon,
+};
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_geometry::OrientedBox;
+use cosfly_town::format::MapFormat;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::polygons::triangulated;
+use cosfly_town::text::{decoded, refused_json};
+use cosfly_town::world::WorldFromMap;
+use cosfly_town::{MapError, terrain};
 use labels::{Label, Part, Tally};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -3,8 +3,9 @@
 
 use super::opendrive::{OpenDrive, OpenDriveOptions};
 use crate::generate::{GenerateConfig, generate_town};
-use crate::text::{decoded, refused_json};
-use crate::{MapError, MapFormat, Town};
+use cosfly_domain::Town;
+use cosfly_town::text::{decoded, refused_json};
+use cosfly_town::{MapError, MapFormat};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

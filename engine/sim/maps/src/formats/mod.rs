@@ -6,9 +6,9 @@ pub mod boxes;
 pub mod generated;
 pub mod opendrive;
 
-use crate::Format;
 use cosfly_geodata::{cityjson, osm};
 use cosfly_scans::{gltf, las, obj, pcd, ply};
+use cosfly_town::Format;
 
 /// All formats.
 pub const FORMATS: &[Format] = &[

@@ -39,7 +39,8 @@ pub fn generate_town(config: &GenerateConfig, seed: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{MapConfig, ObstacleKind, Town, WalkableKind, read_town};
+    use crate::{MapConfig, read_town};
+    use cosfly_domain::{ObstacleKind, Town, WalkableKind};
     use cosfly_frames::{DVec2, DVec3, real};
     use cosfly_geometry::{BoxBvh, SpatialQuery};
 

@@ -5,8 +5,8 @@ use crate::crowd::CrowdConfig;
 use crate::crowd::person::Person;
 use crate::goal::{GOAL_ATTEMPTS, LONGEST_LEG_M, draw_goal};
 use crate::route::RouteSearch;
+use cosfly_domain::WalkableKind;
 use cosfly_frames::{DVec2, RandomStream, Seed, real};
-use cosfly_maps::WalkableKind;
 use std::ops::Range;
 use std::sync::Arc;
 

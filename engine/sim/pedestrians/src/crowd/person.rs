@@ -1,8 +1,8 @@
 //! [`Person`]: one member of a crowd: what is drawn once, and the present state.
 
 use crate::crowd::CrowdConfig;
+use cosfly_domain::{BodyKind, BodyPlan};
 use cosfly_frames::{DVec2, DVec3, RandomStream, Seed, TargetState, real};
-use cosfly_world::{BodyKind, BodyPlan};
 
 /// Slower than this, a person stands, m/s.
 const STANDING_MPS: f64 = 0.03;

@@ -3,8 +3,8 @@
 use super::tiles::Tiles;
 use super::{MAX_CELLS, WalkableGrid, better_claim};
 use crate::polygon::{Cut, Polygon};
+use cosfly_domain::WalkableKind;
 use cosfly_frames::DVec2;
-use cosfly_maps::WalkableKind;
 
 /// Ground of one cell by the polygons, while the grid is built.
 #[derive(Clone, Copy, Debug, Default)]

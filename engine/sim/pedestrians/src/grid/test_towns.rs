@@ -1,10 +1,10 @@
 //! Small towns for the tests of this crate.
 
-use cosfly_frames::DVec3;
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{
-    MapOrigin, Obstacle, ObstacleKind, SimplificationReport, Synthetic, Town, WalkableKind, WalkablePolygon,
+use cosfly_domain::{
+    MapOrigin, Obstacle, ObstacleKind, OrientedBox, SimplificationReport, Synthetic, Town, WalkableKind,
+    WalkablePolygon,
 };
+use cosfly_frames::DVec3;
 
 /// A level rectangle of ground between two corners.
 pub(crate) fn rectangle(kind: WalkableKind, min: (f64, f64), max: (f64, f64), z: f64) -> WalkablePolygon {

@@ -3,11 +3,12 @@
 use super::curve::Curve;
 use super::{RecordedConfig, RecordedError, RecordedPoint, RecordedTrack, Recording};
 use crate::obstruction::Obstruction;
+use cosfly_domain::{Body, BodyKind, BodyPlan, Town, Traffic};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState, real};
 use cosfly_geodata::reference::GeoReference;
-use cosfly_maps::{GroundIndex, Town};
+use cosfly_town::GroundIndex;
 use cosfly_town::world::WorldFromMap;
-use cosfly_world::{Body, BodyKind, BodyPlan, Clock, Prescribed, Snapshot, Traffic};
+use cosfly_world::{Clock, Prescribed, Snapshot};
 
 /// Slower than this, a recorded person stands, m/s: below it, directions are the annotators' noise.
 const STANDING_MPS: f64 = 0.1;

@@ -3,8 +3,8 @@
 use super::config::AimConfig;
 use super::wander::{Wander, smooth};
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
-use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
+use cosfly_surroundings::visibility::aim_point;
 
 /// Time constant of the quick error of the aim, seconds.
 const TREMOR_S: f64 = 1.0;

@@ -2,8 +2,8 @@
 
 use super::{AimConfig, aimed};
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
-use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
+use cosfly_surroundings::visibility::aim_point;
 
 /// A target that walks a square, and a drone that stays 20 m west and 20 m above.
 fn flight(count: usize) -> (TargetTrack, Vec<DVec3>) {

@@ -1,7 +1,7 @@
 //! Parameters of the `perturb` stage, their defaults and ranges.
 
 use super::mixture::Mixture;
-use cosfly_planner::trajectory::Kind;
+use cosfly_domain::PerturbationKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -2,8 +2,8 @@
 
 use super::config::OffsetRange;
 use cosfly_frames::{DVec3, real};
-use cosfly_planner::obstacles::exact::ExactMap;
 use cosfly_random::RandomStream;
+use cosfly_surroundings::exact::ExactMap;
 
 /// Kept beyond the asked clearance, so that rounding cannot take it away again, metres.
 const ROUNDING_M: f64 = 1e-6;

@@ -4,12 +4,11 @@
 use super::config::{FlyableConfig, PerturbConfig};
 use super::{motion, search};
 use crate::aim::{AimConfig, aimed, reached};
+use cosfly_domain::{FramePerturbation, PerturbationKind, Trajectory};
 use cosfly_frames::{DVec3, Pose, real};
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::trajectory::{FramePerturbation, Trajectory};
-use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::visibility::aim_point;
 
 /// Kept beyond the asked clearance, so that rounding cannot take it away again, metres.
 const ROUNDING_M: f64 = 1e-6;

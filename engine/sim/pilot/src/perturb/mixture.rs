@@ -1,6 +1,6 @@
 //! The mixture of kinds of perturbation, and the kind of each flight.
 
-use cosfly_planner::trajectory::Kind;
+use cosfly_domain::PerturbationKind;
 use cosfly_random::Seed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

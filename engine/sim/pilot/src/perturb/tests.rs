@@ -3,15 +3,16 @@
 use super::config::{FlyableConfig, PerturbConfig};
 use super::mixture::Mixture;
 use super::twin::{measured, perturb};
+use cosfly_domain::{
+    Certificate, FramePerturbation, OrientedBox, Perturbation, PerturbationKind, PlanOutcome, Trajectory,
+};
 use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_planner::config::muco::MucoConfig;
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::obstacles::moving::{OtherDrones, drone_boxes};
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::trajectory::{Certificate, FramePerturbation, Perturbation, PlanOutcome, Trajectory};
-use cosfly_planner::visibility::aim_point;
 use cosfly_random::Seed;
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::moving::{OtherDrones, drone_boxes};
+use cosfly_surroundings::visibility::aim_point;
 
 /// An expert 20 m behind and 20 m above a target that walks along x at 1 m/s.
 fn expert(count: usize) -> Trajectory {

@@ -4,15 +4,14 @@
 use super::config::PerturbConfig;
 use super::displacement::{Corridor, free_offset, horizontal_offset};
 use super::flyable;
+use cosfly_domain::{FramePerturbation, Perturbation, PerturbationKind, PlanOutcome, Trajectory};
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_planner::certificate::{certify, view_rates_deg_s};
 use cosfly_planner::config::limits::LimitsConfig;
 use cosfly_planner::config::muco::MucoConfig;
-use cosfly_planner::obstacles::exact::ExactMap;
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::trajectory::{FramePerturbation, Perturbation, PlanOutcome, Trajectory};
-use cosfly_planner::visibility::aim_point;
 use cosfly_random::{RandomStream, Seed};
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::visibility::aim_point;
 
 /// Steepest pitch of a turned view, radians (89.9 degrees): at 90 a pose has no unique yaw.
 const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);

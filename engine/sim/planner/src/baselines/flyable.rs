@@ -3,8 +3,8 @@
 use super::input::{BaselineInput, BaselinePath};
 use crate::muco::judge::Judge;
 use crate::muco::smoother::Objective;
-use crate::obstacles::exact::ExactMap;
-use crate::obstacles::local::LocalObstacles;
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::local::LocalObstacles;
 
 /// Near the voxels' middles, but loosely.
 const OBJECTIVE: Objective = Objective { rounds: 4, iterations: 160, nearness: 0.05, acceleration: 0.5, jerk: 2.0 };

@@ -3,14 +3,14 @@
 use super::moving_layers::MovingLayers;
 use super::sight::Sight;
 use crate::config::muco::MucoConfig;
-use crate::obstacles::ground::GroundGrid;
-use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
 use crate::terms::place::PlaceCosts;
 use crate::terms::{length, viewpoint};
-use crate::visibility::{BODY_POINTS, body_points};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetState};
-use cosfly_geometry::OrientedBox;
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::local::LocalObstacles;
+use cosfly_surroundings::visibility::{BODY_POINTS, body_points};
 
 /// Time between layers that one move of a voxel fits, seconds (the paper's time step).
 const LAYER_S: f64 = 0.5;

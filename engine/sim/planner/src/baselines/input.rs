@@ -1,10 +1,11 @@
 //! Input and output of a baseline.
 
 use crate::config::muco::MucoConfig;
-use crate::obstacles::ground::GroundGrid;
 use crate::problem::Problem;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec3;
-use cosfly_geometry::{OrientedBox, SpatialQuery};
+use cosfly_geometry::SpatialQuery;
+use cosfly_surroundings::ground::GroundGrid;
 
 /// Problem, map and limits.
 #[derive(Clone, Copy)]

@@ -3,7 +3,7 @@
 use super::input::{BaselineInput, BaselinePath};
 use crate::muco::attempts::full_effort;
 use crate::muco::search::search;
-use crate::obstacles::local::LocalObstacles;
+use cosfly_surroundings::local::LocalObstacles;
 
 /// The cheapest way through the lattice of the recipe.
 pub fn lattice_path(input: &BaselineInput<'_>) -> Result<BaselinePath, String> {

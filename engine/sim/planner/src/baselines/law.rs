@@ -5,16 +5,17 @@ use super::beam::beam;
 use super::grid::{Cell, MOVES, VoxelGrid, VoxelOptions};
 use super::{Baseline, BaselineInput, plan_baseline};
 use crate::config::muco::MucoConfig;
-use crate::obstacles::Surroundings;
-use crate::obstacles::exact::ExactObstacles;
-use crate::obstacles::ground::GroundGrid;
 use crate::problem::Problem;
 use crate::terms::term::{CostTerm, TermContext};
 use crate::terms::{altitude, built_in_terms, pitch, safety, tracking, viewpoint, visibility};
 use crate::walk::Walk;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::{BoxBvh, BruteForce, OrientedBox};
+use cosfly_geometry::{BoxBvh, BruteForce};
 use cosfly_scenes::{Scene, SceneKind};
+use cosfly_surroundings::Surroundings;
+use cosfly_surroundings::exact::ExactObstacles;
+use cosfly_surroundings::ground::GroundGrid;
 
 fn track_of(scene: &Scene, frames: usize) -> TargetTrack {
     let mut track = scene.walker(5, 1);

@@ -1,10 +1,10 @@
 //! Boxes that move, layer by layer of a voxel search: those that may hide the target, and those that may come near a drone.
 
-use crate::obstacles::local::LocalObstacles;
-use crate::obstacles::moving::Moving;
-use crate::visibility::BODY_POINTS;
 use core::ops::Range;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::local::LocalObstacles;
+use cosfly_surroundings::moving::Moving;
+use cosfly_surroundings::visibility::BODY_POINTS;
 
 /// Boxes that move, by layer and by frame.
 #[derive(Default)]

@@ -1,7 +1,7 @@
 //! The boxes near a track, so that a tree holds no others.
 
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, TargetTrack};
-use cosfly_geometry::OrientedBox;
 
 /// The boxes within `radius_m` (from above) of the track (paper, section 3.3: per-path obstacle filtering).
 pub fn near_track(track: &TargetTrack, boxes: &[OrientedBox], radius_m: f64) -> Vec<OrientedBox> {

@@ -10,7 +10,8 @@ use super::lattice_path::lattice_path;
 use super::near_track::near_track;
 use super::sight::Sight;
 use crate::track_check::check_track;
-use cosfly_geometry::{BoxBvh, OrientedBox};
+use cosfly_domain::OrientedBox;
+use cosfly_geometry::BoxBvh;
 
 /// Plans one waypoint per frame.
 ///

@@ -12,8 +12,8 @@ use super::search::SearchConfig;
 use super::targets::TargetsConfig;
 use super::view::ViewConfig;
 use crate::terms::{WeightOverrides, Weights};
-use crate::trajectory::Limits;
 use crate::weights::Preset;
+use cosfly_domain::Limits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

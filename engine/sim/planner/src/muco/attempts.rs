@@ -11,10 +11,10 @@ use crate::certificate::Measured;
 use crate::config::muco::MucoConfig;
 use crate::config::search::SearchEffort;
 use crate::found::Found;
-use crate::obstacles::Surroundings;
-use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
+use cosfly_surroundings::local::LocalObstacles;
 use std::cell::RefCell;
 
 /// A flight that sees less than this share of what the lattice's best way sees is searched again with more effort.

@@ -4,9 +4,10 @@
 //! the segment stay on its free side by the clearance, so does all between: swept safety by construction, for
 //! turned boxes too. A plane of a box that moves goes along with it. Planes of the boxes' shadows keep the line of sight open in the same way, as wishes.
 
-use crate::obstacles::local::{GUARDED_POINTS, LocalObstacles};
-use crate::obstacles::{Surroundings, solid::HalfSpace};
 use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_surroundings::Surroundings;
+use cosfly_surroundings::local::{GUARDED_POINTS, LocalObstacles};
+use cosfly_surroundings::solid::HalfSpace;
 
 /// Largest distance of a waypoint from the place where its planes were taken, metres.
 pub const TRUST_M: f64 = 4.0;

@@ -6,12 +6,12 @@ use super::smoother::{Objective, smooth};
 use super::start_sector;
 use crate::certificate::{Kinematics, Measured, certify, publishable};
 use crate::config::muco::MucoConfig;
-use crate::obstacles::Surroundings;
-use crate::obstacles::exact::ExactMap;
-use crate::obstacles::local::LocalObstacles;
-use crate::obstacles::solid::HalfSpace;
 use crate::problem::Problem;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
+use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::local::LocalObstacles;
+use cosfly_surroundings::solid::HalfSpace;
 
 /// Distance kept beyond the limit while smoothing, metres.
 pub const KEEP_OUT_EXTRA_M: f64 = 0.1;

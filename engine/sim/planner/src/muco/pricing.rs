@@ -3,11 +3,11 @@
 use super::lattice::Lattice;
 use super::viterbi::NodeCosts;
 use crate::config::muco::MucoConfig;
-use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
 use crate::terms::place::PlaceCosts;
 use crate::terms::viewpoint;
 use cosfly_frames::{DVec3, real};
+use cosfly_surroundings::local::LocalObstacles;
 
 /// Cost of a viewpoint outside the sector behind the walker.
 const OUTSIDE_SECTOR: f64 = 30.0;

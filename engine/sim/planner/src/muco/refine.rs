@@ -8,9 +8,10 @@ use super::start_sector;
 use crate::config::muco::MucoConfig;
 use crate::equations::NormalEquations;
 use crate::gradient::total_gradient;
-use crate::obstacles::{Surroundings, local::LocalObstacles};
 use crate::problem::Problem;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
+use cosfly_surroundings::local::LocalObstacles;
 
 /// Numbers of rounds, and of steps in a round.
 #[derive(Clone, Copy, Debug)]

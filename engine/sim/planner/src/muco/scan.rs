@@ -5,9 +5,11 @@
 
 use super::lattice::{Lattice, MAX_RINGS};
 use super::node_state::{CLOSE, CLOSE_EXTRA_M, NodeState, UNSAFE};
-use crate::obstacles::{Surroundings, local::LocalObstacles, solid::Solid};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, TargetState, real, simd_kernel};
+use cosfly_surroundings::Surroundings;
+use cosfly_surroundings::local::LocalObstacles;
+use cosfly_surroundings::solid::Solid;
 
 /// Heights of the body seen along its axis, for a body of 1.75 m, and how many body points each stands for.
 pub const BODY_HEIGHTS: [(f64, u32); 5] = [(0.12, 1), (0.5, 1), (1.05, 2), (1.42, 3), (1.7, 1)];

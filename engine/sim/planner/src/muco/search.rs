@@ -10,10 +10,10 @@ use super::scan::Scanner;
 use super::start_sector;
 use super::viterbi::{MoveCosts, SearchSpace, Viterbi};
 use crate::config::muco::MucoConfig;
-use crate::obstacles::local::LocalObstacles;
 use crate::problem::{Problem, frame_number};
 use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_surroundings::SeveralTargets;
+use cosfly_surroundings::local::LocalObstacles;
 
 /// Searches that may be needed to go round nodes whose connections are not free.
 const MAX_SEARCHES: usize = 12;

@@ -7,9 +7,9 @@
 use super::banded::{Banded, Factor, add_transposed, differences};
 use super::corridor::{self, CorridorInput, FrameCorridor};
 use super::turning::add_turning;
-use crate::obstacles::Surroundings;
-use crate::trajectory::Limits;
+use cosfly_domain::Limits;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
 
 /// Iterations between looks at whether all holds.
 const CHECK_EVERY: usize = 10;
@@ -193,11 +193,11 @@ impl<'a> Programme<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::obstacles::solid::HalfSpace;
     use clarabel::algebra::CscMatrix;
     use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT};
     use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
     use cosfly_random::Seed;
+    use cosfly_surroundings::solid::HalfSpace;
 
     const FRAMES: usize = 24;
     const OBJECTIVE: Objective =

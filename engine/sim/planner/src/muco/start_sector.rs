@@ -2,9 +2,9 @@
 
 use super::lattice::Lattice;
 use crate::config::view::ViewConfig;
-use crate::obstacles::solid::HalfSpace;
 use crate::problem::Problem;
 use cosfly_frames::{DVec2, DVec3, real};
+use cosfly_surroundings::solid::HalfSpace;
 
 /// Cost of a first viewpoint outside the sector: more than hiding for many frames, so that only closed viewpoints lead out.
 const OUTSIDE: f32 = 1e5;

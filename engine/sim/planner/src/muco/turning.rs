@@ -4,9 +4,9 @@
 //! wedge round the mean direction of each fast pair of frames bounds its turn, and each of its sides is a half-space.
 
 use super::corridor::{CorridorInput, FrameCorridor};
-use crate::obstacles::solid::HalfSpace;
-use crate::visibility::aim_point;
 use cosfly_frames::{DVec3, real};
+use cosfly_surroundings::solid::HalfSpace;
+use cosfly_surroundings::visibility::aim_point;
 
 /// The wedges are this share of the limit, so that what the programme leaves open stays within it.
 const AIM_SHARE: f64 = 0.9;

@@ -1,8 +1,8 @@
 //! Lines of sight from one camera to the eight body points against one box, eight lanes at a time.
 
-use crate::obstacles::solid::Solid;
-use crate::visibility::BODY_POINTS;
 use cosfly_frames::{DVec3, simd::Level, simd_kernel};
+use cosfly_surroundings::solid::Solid;
+use cosfly_surroundings::visibility::BODY_POINTS;
 
 /// One coordinate of all body points.
 type Lanes = [f64; BODY_POINTS];
@@ -88,7 +88,7 @@ pub fn level() -> Level {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cosfly_geometry::OrientedBox;
+    use cosfly_domain::OrientedBox;
     use cosfly_random::{RandomStream, Seed};
 
     #[test]

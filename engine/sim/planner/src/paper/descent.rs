@@ -4,9 +4,9 @@ use super::differences::{Threads, context, gradient};
 use super::focus::FocusedSurroundings;
 use crate::config::descent::DescentConfig;
 use crate::gradient::total_cost;
-use crate::obstacles::Surroundings;
 use crate::problem::Problem;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
 
 /// Growth of the learning rate after a step that lowered the cost ("slowly recovering").
 const RECOVERY: f64 = 1.05;

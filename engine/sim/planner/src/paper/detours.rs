@@ -1,8 +1,8 @@
 //! Step 2 of the clean-up: stretches that bend far off their chord become straight.
 
 use super::hidden_runs::safe_sight;
-use crate::obstacles::Surroundings;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
 
 /// Frames of a stretch that is looked at.
 const STRETCH_FRAMES: usize = 12;

@@ -1,11 +1,11 @@
 //! The gradient of the whole cost by coordinate-wise differences, on one thread or on all, with the same bytes.
 
 use super::window::Window;
-use crate::obstacles::Surroundings;
 use crate::problem::Problem;
 use crate::terms::term::{CostTerm, TermContext};
 use core::ops::Range;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
 use rayon::prelude::*;
 
 /// Frames that a thread of many takes at a time.

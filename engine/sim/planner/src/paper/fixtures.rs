@@ -5,16 +5,16 @@ use super::start::initial_path;
 use crate::config::muco::MucoConfig;
 use crate::config::paper::PaperConfig;
 use crate::config::view::ViewConfig;
-use crate::obstacles::Surroundings;
-use crate::obstacles::ground::GroundGrid;
-use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
 use crate::terms::built_in_terms;
 use crate::walk::Walk;
 use crate::weights::Preset;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
-use cosfly_geometry::OrientedBox;
 use cosfly_scenes::{Scene, SceneKind};
+use cosfly_surroundings::Surroundings;
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::local::LocalObstacles;
 
 /// A plain without anything.
 pub struct Nothing;

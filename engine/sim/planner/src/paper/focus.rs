@@ -1,7 +1,8 @@
 //! Surroundings that get ready for queries near a set of waypoints.
 
-use crate::obstacles::{Surroundings, local::LocalObstacles};
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
+use cosfly_surroundings::local::LocalObstacles;
 
 /// Surroundings that may get ready for queries near a set of waypoints; brute force and trees have nothing to do.
 pub trait FocusedSurroundings {

@@ -1,8 +1,8 @@
 //! Stretches in which the target is hidden for long, and how a change of one runs into the rest.
 
-use crate::obstacles::Surroundings;
 use core::ops::Range;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
 
 /// Below this visibility a frame counts as hidden.
 const HIDDEN_BELOW: f64 = 0.5;

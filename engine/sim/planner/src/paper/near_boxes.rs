@@ -2,9 +2,10 @@
 
 use super::body_rays::{BodyLanes, RayBox, blocked, level, seen_share};
 use super::focus::FocusedSurroundings;
-use crate::obstacles::solid::Solid;
-use crate::obstacles::{Surroundings, local::LocalObstacles};
 use cosfly_frames::{DVec3, simd::Level};
+use cosfly_surroundings::Surroundings;
+use cosfly_surroundings::local::LocalObstacles;
+use cosfly_surroundings::solid::Solid;
 
 /// Largest distance of a query from its frame's centre at which the frame's lists are complete, metres.
 const FOCUS_M: f64 = 2.6;

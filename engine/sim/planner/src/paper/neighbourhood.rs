@@ -2,10 +2,10 @@
 
 use super::window::Window;
 use crate::gradient::total_cost;
-use crate::obstacles::Surroundings;
 use crate::problem::Problem;
 use crate::terms::term::WeightedTerm;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
 
 /// Frames on each side: twice the reach of the built-in terms, so that every frame which reads the middle one reads
 /// nothing beyond the edge.

@@ -10,9 +10,9 @@ use super::start::initial_path;
 use crate::config::muco::MucoConfig;
 use crate::config::paper::PaperConfig;
 use crate::gradient::total_cost;
-use crate::obstacles::local::LocalObstacles;
 use crate::problem::Problem;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::local::LocalObstacles;
 
 /// Flight of the paper's pipeline. Neither safe nor flyable until measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,10 +64,10 @@ pub fn plan_paper_in(
 mod tests {
     use super::super::fixtures::{paper_config, with, with_street};
     use super::*;
-    use crate::obstacles::Surroundings;
+    use cosfly_domain::OrientedBox;
     use cosfly_frames::TargetTrack;
-    use cosfly_geometry::OrientedBox;
     use cosfly_scenes::{Scene, SceneKind};
+    use cosfly_surroundings::Surroundings;
 
     #[test]
     fn the_same_bytes_come_from_one_thread_and_four() {

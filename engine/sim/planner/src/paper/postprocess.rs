@@ -45,7 +45,7 @@ pub fn postprocess(
 mod tests {
     use super::super::fixtures::with_wall;
     use super::*;
-    use crate::obstacles::Surroundings;
+    use cosfly_surroundings::Surroundings;
 
     #[test]
     fn the_steps_leave_a_safe_visible_path_beside_a_wall() {

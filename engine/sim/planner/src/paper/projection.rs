@@ -1,9 +1,9 @@
 //! Geometric safety projection (paper, algorithm 1): unsafe waypoints are lifted, led round or pushed out.
 
 use super::neighbourhood::Neighbourhood;
-use crate::obstacles::Surroundings;
 use crate::problem::Problem;
 use cosfly_frames::{DVec3, real};
+use cosfly_surroundings::Surroundings;
 
 /// Penetration beyond which only a large push along the distance gradient is tried, metres.
 const DEEP_M: f64 = 5.0;

@@ -1,7 +1,7 @@
 //! Steps 5 and 6 of the clean-up: velocity repair and altitude smoothing (paper, safety layers 3 and 4).
 
-use crate::obstacles::Surroundings;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::Surroundings;
 
 /// Weights of the low-pass filter of the altitude, from two frames before to two after.
 const LOW_PASS: [f64; 5] = [1.0, 2.0, 3.0, 2.0, 1.0];

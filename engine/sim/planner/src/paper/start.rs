@@ -6,12 +6,12 @@ use super::following::follow;
 use super::hidden_runs::{hidden_runs, ramp, safe_sight};
 use crate::config::muco::MucoConfig;
 use crate::config::paper::PaperConfig;
-use crate::obstacles::Surroundings;
 use crate::problem::Problem;
 use crate::terms::place::PlaceCosts;
 use crate::terms::viewpoint;
 use core::ops::Range;
 use cosfly_frames::{DVec2, DVec3, real};
+use cosfly_surroundings::Surroundings;
 
 /// Azimuths over the sector, from one edge to the other.
 const AZIMUTHS: usize = 9;

@@ -2,10 +2,10 @@
 
 use super::hidden_runs::{hidden_runs, ramp, safe_sight};
 use crate::config::paper::PaperConfig;
-use crate::obstacles::Surroundings;
 use crate::problem::Problem;
 use core::ops::Range;
 use cosfly_frames::{DVec3, real};
+use cosfly_surroundings::Surroundings;
 
 /// Azimuths that are tried.
 const AZIMUTHS: usize = 24;

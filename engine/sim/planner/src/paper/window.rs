@@ -1,11 +1,11 @@
 //! A stretch cut out of a flight, in which terms cost what they cost in the whole of it.
 
-use crate::obstacles::Surroundings;
 use crate::problem::Problem;
 use crate::terms::term::TermContext;
 use crate::walk::Walk;
 use core::ops::Range;
 use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_surroundings::Surroundings;
 
 /// Some frames of a flight with a margin on both sides, which ends where the flight does.
 pub struct Window<'a> {

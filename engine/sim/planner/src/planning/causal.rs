@@ -10,9 +10,8 @@ use crate::certificate::{certify, publishable};
 use crate::found::Found;
 use crate::problem::frame_number;
 use crate::request::PlanRequest;
-use crate::trajectory::Certificate;
+use cosfly_domain::{Certificate, OrientedBox};
 use cosfly_frames::{DVec3, TargetState, TargetTrack, real};
-use cosfly_geometry::OrientedBox;
 
 /// Waypoints that a plan takes over: enough for speed, acceleration and jerk.
 const HEAD_FRAMES: usize = 3;

@@ -5,7 +5,7 @@ use super::stretches::PlanOne;
 use crate::config::muco::MucoConfig;
 use crate::found::Found;
 use crate::request::PlanRequest;
-use crate::trajectory::Certificate;
+use cosfly_domain::Certificate;
 use cosfly_frames::DVec3;
 use std::ops::Range;
 

@@ -11,9 +11,9 @@ use crate::request::PlanRequest;
 use crate::terms::built_in_terms;
 use crate::terms::term::WeightedTerm;
 use crate::track_check::check_track;
-use crate::trajectory::PlanOutcome;
+use cosfly_domain::{OrientedBox, PlanOutcome};
 use cosfly_frames::TargetTrack;
-use cosfly_geometry::{OrientedBox, SpatialQuery};
+use cosfly_geometry::SpatialQuery;
 use cosfly_random::Seed;
 
 /// Plans a flight behind `track`.

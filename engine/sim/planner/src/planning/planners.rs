@@ -9,7 +9,6 @@ use crate::config::planner::Planner;
 use crate::found::Found;
 use crate::muco::attempts::{THOROUGH, escalate};
 use crate::muco::judge::Judge;
-use crate::obstacles::{ground::GroundGrid, local::LocalObstacles};
 use crate::paper::pipeline::plan_paper;
 use crate::problem::Problem;
 use crate::request::PlanRequest;
@@ -17,6 +16,8 @@ use crate::terms::term::WeightedTerm;
 use crate::walk::Walk;
 use crate::weights::Preset;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::local::LocalObstacles;
 
 /// The planner of a recipe.
 #[derive(Clone, Copy, PartialEq, Eq)]

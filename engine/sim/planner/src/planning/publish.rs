@@ -2,14 +2,14 @@
 
 use crate::certificate::{Measured, certify, term_costs};
 use crate::found::Found;
-use crate::obstacles::{exact::ExactMap, exact::ExactObstacles};
 use crate::problem::frame_number;
 use crate::request::PlanRequest;
 use crate::terms::term::{TermContext, WeightedTerm};
-use crate::trajectory::{PlanOutcome, Trajectory};
-use crate::visibility::aim_point;
 use crate::walk::Walk;
+use cosfly_domain::{PlanOutcome, Trajectory};
 use cosfly_frames::{DVec3, Pose};
+use cosfly_surroundings::exact::{ExactMap, ExactObstacles};
+use cosfly_surroundings::visibility::aim_point;
 
 /// The flight as it is handed out: without the frames before the first one, with poses and the costs of all terms.
 pub(super) fn publish(request: &PlanRequest<'_>, terms: &[WeightedTerm], found: Found) -> PlanOutcome {

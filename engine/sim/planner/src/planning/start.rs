@@ -1,8 +1,8 @@
 //! Given starts: frames are put before the first one, in which everything stands still and the drone arrives.
 
 use crate::request::{PlanRequest, StartState};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::OrientedBox;
 
 /// Number of frames that a start state fixes before the first one.
 const FRAMES_BEFORE: usize = 2;

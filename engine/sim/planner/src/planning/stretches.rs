@@ -8,9 +8,8 @@ use crate::certificate::{certify, publishable};
 use crate::found::Found;
 use crate::problem::frame_number;
 use crate::request::PlanRequest;
-use crate::trajectory::Certificate;
+use cosfly_domain::{Certificate, OrientedBox};
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_geometry::OrientedBox;
 use std::ops::Range;
 
 /// Longest track that is planned at once, frames.

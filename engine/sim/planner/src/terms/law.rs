@@ -5,11 +5,12 @@ use super::term::{CostTerm, TermContext};
 use crate::config::muco::MucoConfig;
 use crate::config::view::ViewConfig;
 use crate::gradient::difference_gradient;
-use crate::obstacles::{ground::GroundGrid, local::LocalObstacles};
 use crate::walk::Walk;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
-use cosfly_geometry::OrientedBox;
 use cosfly_random::{RandomStream, Seed};
+use cosfly_surroundings::ground::GroundGrid;
+use cosfly_surroundings::local::LocalObstacles;
 
 const FRAMES: usize = 24;
 

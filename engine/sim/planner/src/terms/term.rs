@@ -2,9 +2,9 @@
 
 use crate::config::view::ViewConfig;
 use crate::equations::NormalEquations;
-use crate::obstacles::Surroundings;
 use crate::walk::Walk;
 use cosfly_frames::{DVec3, TargetTrack};
+use cosfly_surroundings::Surroundings;
 
 /// Everything that a term may read beside the waypoints.
 pub struct TermContext<'a> {

@@ -2,8 +2,8 @@
 
 use super::term::{CostTerm, TermContext};
 use crate::equations::NormalEquations;
-use crate::obstacles::local::GUARDED_POINTS;
 use cosfly_frames::DVec3;
+use cosfly_surroundings::local::GUARDED_POINTS;
 
 /// Lines of sight are wished this far from the edge of a shadow, metres.
 const MARGIN_M: f64 = 0.7;

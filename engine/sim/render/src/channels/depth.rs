@@ -1,6 +1,6 @@
 //! Channel `depth`: planar depth.
 
-use super::channel::{Channel, Source};
+use cosfly_domain::channels::channel::{Channel, Source};
 
 /// Planar depth along the optical axis, metres.
 pub static CHANNEL: Channel = Channel {

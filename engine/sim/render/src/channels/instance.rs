@@ -1,6 +1,6 @@
 //! Channel `instance`: instance ids.
 
-use super::channel::{Channel, Source};
+use cosfly_domain::channels::channel::{Channel, Source};
 
 /// Instance ids: 0 for ground and sky, 1 for the target, then objects, then people.
 pub static CHANNEL: Channel = Channel {

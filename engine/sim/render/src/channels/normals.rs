@@ -1,6 +1,6 @@
 //! Channel `normals`: unit normals of the surfaces.
 
-use super::channel::{Channel, SeenPoint, Source};
+use cosfly_domain::channels::channel::{Channel, SeenPoint, Source};
 use cosfly_frames::DVec3;
 
 /// Unit normals on the camera's side, world frame (CARLA's: x east, y south, z up), three bytes x, y, z:

@@ -1,6 +1,6 @@
 //! Channel `rgb`: colours.
 
-use super::channel::{Channel, Source};
+use cosfly_domain::channels::channel::{Channel, Source};
 
 /// Colours, sRGB.
 pub static CHANNEL: Channel =

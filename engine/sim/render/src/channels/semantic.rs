@@ -1,6 +1,6 @@
 //! Channel `semantic`: labels.
 
-use super::channel::{Channel, Source};
+use cosfly_domain::channels::channel::{Channel, Source};
 
 /// CARLA label ids.
 pub static CHANNEL: Channel = Channel {

@@ -1,7 +1,6 @@
 //! Radial distortion after Brown: `r_seen = r (1 + k1 r^2 + k2 r^4)`, with r the tangent of the angle from the optical axis.
 
-use crate::camera::Camera;
-use crate::frame::{ChannelImage, FrameImages};
+use cosfly_domain::{Camera, ChannelImage, FrameImages};
 use cosfly_frames::real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

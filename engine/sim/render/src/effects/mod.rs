@@ -8,17 +8,16 @@
 
 mod lens;
 
-pub use cosfly_optics::{MotionBlur, Noise, RollingShutter, pose_at, target_state_at};
+pub use cosfly_optics::{pose_at, target_state_at};
 pub use lens::Lens;
 
 use crate::backend::{Backend, BackendError};
-use crate::camera::Camera;
-use crate::frame::{ChannelImage, FrameImages, PersonView, RenderedFrame};
+use crate::frame::RenderedFrame;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use crate::target_view;
-use crate::weather::Weather;
-use cosfly_figures::figure::{Bystander, TargetSetup};
+use cosfly_domain::{Camera, ChannelImage, FrameImages, PersonView, Weather};
+use cosfly_figures::{Bystander, TargetSetup};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{Pose, Seed};
 use cosfly_optics::Exposure;

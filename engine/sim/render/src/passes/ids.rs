@@ -1,12 +1,11 @@
 //! Planar depth, semantic and instance ids in bands of rows, from the faces seen in them.
 
 use crate::faces::{DrawnFace, FaceSource};
-use crate::frame::FrameImages;
-use crate::shade::leaves::Outline;
-use crate::visibility::NO_FACE;
+use cosfly_domain::{FrameImages, SemanticLabel};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
-use cosfly_maps::SemanticLabel;
+use cosfly_materials::leaves::Outline;
+use cosfly_raster::visibility::NO_FACE;
 use rayon::prelude::*;
 
 /// Rows of a band, the piece of an image that one thread works on.

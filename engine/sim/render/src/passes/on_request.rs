@@ -1,11 +1,11 @@
 //! Channels that a recipe asks for, pixel by pixel from the faces seen and their depths.
 
-use crate::channels::SeenPoint;
-use crate::eye::Eye;
 use crate::faces::DrawnFace;
-use crate::frame::FrameImages;
-use crate::visibility::Screen;
+use cosfly_domain::FrameImages;
+use cosfly_domain::channels::SeenPoint;
 use cosfly_frames::DVec3;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::Screen;
 
 /// Fills the channels on request of a frame whose other channels are finished; `nearest` are the faces seen.
 pub(crate) fn draw(images: &mut FrameImages, nearest: &[u32], faces: &[DrawnFace], eye: &Eye, screen: &Screen) {

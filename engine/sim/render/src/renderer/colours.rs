@@ -1,12 +1,12 @@
 //! Colours alone, of a picture whose faces were found elsewhere.
 
 use super::Renderer;
-use crate::eye::Eye;
 use crate::found::{Adoption, FoundPicture};
 use crate::look::PictureLook;
 use crate::outlook::FarLight;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
+use cosfly_raster::eye::Eye;
 
 impl Renderer {
     /// The colours of a frame whose faces were found elsewhere: sRGB, 3 bytes a pixel, those that [`Self::render`] draws. Nothing

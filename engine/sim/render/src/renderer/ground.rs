@@ -1,12 +1,12 @@
 //! The ground of a frame, cluster by cluster from near to far.
 
 use super::Renderer;
-use crate::eye::Eye;
 use crate::faces::{DrawnFace, FaceSource, ground_lift};
 use crate::scene::Scene;
-use crate::scene_parts::Cluster;
-use crate::visibility::{MAX_CORNERS, NEAR_M, PlaneOnScreen, bounds};
 use cosfly_frames::DVec3;
+use cosfly_materials::parts::Cluster;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::{MAX_CORNERS, NEAR_M, PlaneOnScreen, bounds};
 
 impl Renderer {
     pub(super) fn draw_ground(&mut self, scene: &Scene, eye: &Eye) {

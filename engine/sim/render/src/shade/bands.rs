@@ -3,23 +3,23 @@
 use super::cloth::{Cloth, Cloths, put_cloth};
 use super::foliage;
 use super::geometry::FaceAxes;
-use super::kerbs::{KerbLine, Kerbs, put_kerb};
 use super::kernels::{Staged, run_kernels, run_simple_kernels};
-use super::lanes::{
-    Block, EMPTY_ROW, FOUR, FOURS, GROUPS, LANES, Shared, Stage, StageRow, WIDE, write_row, write_three,
-};
-use super::leaves::{Crowns, Leaves, put_crown};
 use super::material::{FLAT, Material, axes_of, even_colour, material_of};
 use super::setting::{Seen, Setting};
 use super::simple::put_colour;
-use super::vector::Vec3;
 use crate::faces::FaceSource;
 use crate::look::PictureLook;
 use crate::passes::ids::{Band, Run};
-use crate::visibility::{NO_FACE, PlaneOnScreen};
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
-use cosfly_maps::SemanticLabel;
+use cosfly_materials::kerbs::{KerbLine, Kerbs, put_kerb};
+use cosfly_materials::lanes::{
+    Block, EMPTY_ROW, FOUR, FOURS, GROUPS, LANES, Shared, Stage, StageRow, WIDE, write_row, write_three,
+};
+use cosfly_materials::leaves::{Crowns, Leaves, put_crown};
+use cosfly_materials::vector::Vec3;
+use cosfly_raster::visibility::{NO_FACE, PlaneOnScreen};
 
 /// Groups of pixels that are not of a single face: the sky, people, crowns, and ground by label. Faces of one part of a vehicle are a
 /// group, too, named after the first of them.

@@ -3,12 +3,13 @@
 //! The rings of a figure are level, so over ground sheared along the light each is an ellipse of one height: a part is the
 //! band of triangles between two of them that faces the sun, and its upper ring.
 
-use super::pattern::{floor_int, least, most, share};
 use super::shadow_frame::Frame;
 use super::sunlight::FIGURE_SIDE;
-use cosfly_figures::figure::{FigureParts, MOST_PARTS, Ring, SIDES, Walker};
+use cosfly_figures::figure::{MOST_PARTS, Ring, SIDES};
+use cosfly_figures::{FigureParts, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3, real, simd_kernel};
+use cosfly_materials::pattern::{floor_int, least, most, share};
 use glam::Vec2;
 
 /// Texels that are compared at a time.
@@ -211,9 +212,9 @@ fn draw_triangle(corners: [[f32; 2]; 3], turned: f32, base_m: f32, rise_m: f32, 
 mod tests {
     use super::*;
     use crate::shade::sun_map::Sun;
-    use crate::shade::vector::Vec3;
-    use cosfly_figures::{BodyShape, Clothes, figure::walker_triangles};
+    use cosfly_figures::{BodyShape, Clothes, walker_triangles};
     use cosfly_frames::{Seed, TargetState};
+    use cosfly_materials::vector::Vec3;
 
     /// Greatest height of a triangle above a place of a map, metres.
     fn height_at(frame: &Frame, corners: &[DVec3; 3], at: DVec2) -> Option<f64> {

@@ -1,13 +1,15 @@
 //! Clothes, skin and hair: round around the middle line of their part, with folds, weave and patterns that move with the body.
 
-use super::lanes::{Block, EMPTY_ROW, Shared, Stage, StageRow, WIDE, groups, three_of, write_row, write_three};
-use super::pattern::{NoiseTexture, Noises, share, stripes};
-use super::surface::Look;
-use super::vector::Vec3;
 use crate::people::{PartLook, Person};
 use cosfly_figures::Pattern;
 use cosfly_figures::clothes::Region;
 use cosfly_frames::simd_kernel;
+use cosfly_materials::lanes::{
+    Block, EMPTY_ROW, Shared, Stage, StageRow, WIDE, groups, three_of, write_row, write_three,
+};
+use cosfly_materials::pattern::{NoiseTexture, Noises, share, stripes};
+use cosfly_materials::surface::Look;
+use cosfly_materials::vector::Vec3;
 
 /// Rings and lines of a patterned top in a metre.
 const PER_METRE: f32 = 14.0;

@@ -6,14 +6,14 @@
 
 use super::bands::crown_of;
 use super::geometry::View;
-use super::leaves::Outline;
-use super::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
 use super::setting::{Seen, Setting};
-use super::vector::Vec3;
-use crate::frame::FrameImages;
 use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
+use cosfly_domain::FrameImages;
 use cosfly_frames::simd_kernel;
+use cosfly_materials::leaves::Outline;
+use cosfly_materials::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
+use cosfly_materials::vector::Vec3;
 
 /// Gaps reach this far into a crown, metres.
 const REACH_M: f32 = 0.6;

@@ -1,11 +1,11 @@
 //! From pixels to places: world points, pixel sizes on the surface, openness to the sky, haze.
 
-use super::grid::{GridFrame, GridTables};
-use super::lanes::{Block, Shared, Stage, WIDE, get, groups, set, three_of};
-use super::light::Light;
-use super::pattern::{least, most, one_if};
-use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
+use cosfly_materials::grid::{GridFrame, GridTables};
+use cosfly_materials::lanes::{Block, Shared, Stage, WIDE, get, groups, set, three_of};
+use cosfly_materials::light::Light;
+use cosfly_materials::pattern::{least, most, one_if};
+use cosfly_materials::vector::Vec3;
 
 /// The camera for shading, f32.
 #[derive(Clone, Copy, Debug)]

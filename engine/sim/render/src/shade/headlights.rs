@@ -1,14 +1,13 @@
 //! Lamps of vehicles at night: white light on what is ahead, red light on the ground behind.
 
-use super::lanes::{Shared, WIDE, get, set};
-use super::light::Light;
-use super::pattern::{most, share, smoothstep};
-use super::vector::Vec3;
-use cosfly_figures::BodyShape;
-use cosfly_figures::figure::Walker;
+use cosfly_domain::BodyKind;
+use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, real, simd_kernel};
-use cosfly_world::BodyKind;
+use cosfly_materials::lanes::{Shared, WIDE, get, set};
+use cosfly_materials::light::Light;
+use cosfly_materials::pattern::{most, share, smoothstep};
+use cosfly_materials::vector::Vec3;
 
 /// Distance that lamps of full strength reach ahead of the vehicle and behind it, metres.
 const AHEAD_M: f32 = 16.0;
@@ -107,7 +106,7 @@ simd_kernel! {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::weather::Weather;
+    use cosfly_domain::Weather;
     use cosfly_frames::{DVec3, Seed, TargetState};
 
     fn car(heading_rad: f64, kind: BodyKind) -> Walker {

@@ -1,24 +1,23 @@
 //! Which kernels pixels of a material go through, in both looks.
 
 use super::cloth::{Cloths, cloth};
-use super::facade::{facade, lift, roofs, tiles};
 use super::geometry::{open, place, points};
-use super::ground::ground;
 use super::headlights::shine;
-use super::kerbs::{Kerbs, stones};
-use super::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
-use super::leaves::{Crowns, even_leaves, leaves, swell};
-use super::lighting;
 use super::material::{Material, coach};
-use super::pattern::{most, share};
 use super::setting::{Seen, Setting};
-use super::simple;
 use super::skin::painted;
-use super::things::things;
-use super::vector::Vec3;
+use super::{lighting, simple};
+use cosfly_domain::SemanticLabel;
 use cosfly_figures::BodyShape;
 use cosfly_frames::{real, simd_kernel};
-use cosfly_maps::SemanticLabel;
+use cosfly_materials::facade::{facade, lift, roofs, tiles};
+use cosfly_materials::ground::ground;
+use cosfly_materials::kerbs::{Kerbs, stones};
+use cosfly_materials::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
+use cosfly_materials::leaves::{Crowns, even_leaves, leaves, swell};
+use cosfly_materials::pattern::{most, share};
+use cosfly_materials::things::things;
+use cosfly_materials::vector::Vec3;
 
 /// Sunlight on leaves is looked up this far towards the sun, metres.
 const OFF_CROWN_M: f32 = 1.5;

@@ -1,14 +1,14 @@
 //! From looks to bytes: sun, sky, lamps, wetness, mirrors, haze and the tone curve.
 
 use super::geometry::View;
-use super::grid::{GridFrame, GridTables};
-use super::lanes::{Block, FOUR, Shared, Stage, WIDE, get, groups, set};
-use super::light::Light;
 use super::outskirts::{self, Outskirts, Sight};
-use super::pattern::{NoiseTexture, Noises, least, most, share, smoothstep};
 use super::tone::ToneCurve;
-use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
+use cosfly_materials::grid::{GridFrame, GridTables};
+use cosfly_materials::lanes::{Block, FOUR, Shared, Stage, WIDE, get, groups, set};
+use cosfly_materials::light::Light;
+use cosfly_materials::pattern::{NoiseTexture, Noises, least, most, share, smoothstep};
+use cosfly_materials::vector::Vec3;
 
 /// Rays that rise or fall by less (sine of the angle) may have others beside them on the other side of the horizon.
 const LEVEL: f32 = 1e-3;

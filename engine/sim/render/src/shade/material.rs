@@ -1,20 +1,20 @@
 //! Materials of drawn faces.
 
-use super::facade::{BoxFace, Facade, Roof, Tiles};
 use super::geometry::FaceAxes;
-use super::lanes::{Block, Stage, WIDE, set};
-use super::light::Light;
 use super::lighting::Answers;
 use super::setting::{Seen, Setting};
 use super::skin::Painted;
-use super::things::Thing;
-use super::vector::Vec3;
 use crate::faces::FaceSource;
-use crate::roof_steps::Side;
-use crate::scene_parts::{BOX_FACES, SceneBox};
+use cosfly_domain::{ObstacleKind, SemanticLabel};
 use cosfly_figures::clothes::Region;
 use cosfly_frames::simd_kernel;
-use cosfly_maps::{ObstacleKind, SemanticLabel};
+use cosfly_materials::facade::{BoxFace, Facade, Roof, Tiles};
+use cosfly_materials::lanes::{Block, Stage, WIDE, set};
+use cosfly_materials::light::Light;
+use cosfly_materials::parts::{BOX_FACES, SceneBox};
+use cosfly_materials::roof_steps::Side;
+use cosfly_materials::things::Thing;
+use cosfly_materials::vector::Vec3;
 
 /// Material of the pixels of a group.
 pub(super) enum Material {

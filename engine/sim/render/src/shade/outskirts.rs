@@ -4,14 +4,14 @@
 //! world: rings around the town's middle at fixed distances, and a plain at the height of the town's border.
 
 use super::geometry::fast_exp;
-use super::grid::LightGrid;
-use super::ground::lawn;
-use super::light::Light;
-use super::pattern::{
+use cosfly_domain::Season;
+use cosfly_materials::grid::LightGrid;
+use cosfly_materials::ground::lawn;
+use cosfly_materials::light::Light;
+use cosfly_materials::pattern::{
     NoiseTexture, Noises, floor_int, hash, least, lerp, most, one_if, share, smoothstep, stripes, unit,
 };
-use super::vector::Vec3;
-use cosfly_materials::season::Season;
+use cosfly_materials::vector::Vec3;
 
 /// Rays that rise faster than this (sine of the angle) pass above all rings.
 pub const HIGHEST: f32 = 0.13;

@@ -2,10 +2,10 @@
 
 use super::shadow_frame::Frame;
 use super::shadow_region::FAR_M;
-use crate::eye::Eye;
-use crate::visibility::{Screen, Visibility};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3, simd_kernel};
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::{Screen, Visibility};
 
 /// Sides of the blocks of a large picture and of a small one, pixels.
 const SIDES: [usize; 2] = [16, 8];
@@ -93,10 +93,10 @@ simd_kernel! {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::Camera;
     use crate::shade::sun_map::Sun;
-    use crate::shade::vector::Vec3;
+    use cosfly_domain::Camera;
     use cosfly_frames::Pose;
+    use cosfly_materials::vector::Vec3;
 
     #[test]
     fn every_drawn_pixel_lies_in_a_visited_rectangle() {

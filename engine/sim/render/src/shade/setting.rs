@@ -1,20 +1,20 @@
 //! Everything that shading reads: view and light of a frame, shadows, tone; and the scene, faces and people seen.
 
 use super::geometry::View;
-use super::light::Light;
-use super::pattern::hash;
 use super::shadow::Shadows;
 use super::tone::ToneCurve;
-use super::vector::Vec3;
-use crate::eye::Eye;
 use crate::faces::DrawnFace;
 use crate::look::PictureLook;
 use crate::people::People;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
-use crate::visibility::{Screen, Visibility};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose};
+use cosfly_materials::light::Light;
+use cosfly_materials::pattern::hash;
+use cosfly_materials::vector::Vec3;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::{Screen, Visibility};
 
 /// Camera, light and shadows of a frame.
 pub struct Setting {
@@ -47,7 +47,7 @@ impl Setting {
             level: Level::best(),
             look: PictureLook::Full,
             view: View::new(screen, &Eye::new(&pose)),
-            light: Light::new(&crate::presets::clear_noon()),
+            light: Light::new(&cosfly_materials::presets::clear_noon()),
             haze: Vec3::ZERO,
             shadows: Shadows::new(),
             exposure: 1.0,

@@ -4,17 +4,17 @@ use super::bands::Worker;
 use super::foliage::Foliage;
 use super::setting::{Seen, Setting};
 use super::sky;
-use super::vector::Vec3;
-use crate::eye::Eye;
-use crate::frame::FrameImages;
 use crate::look::PictureLook;
 use crate::passes::ids::{Band, SeenRuns};
 use crate::people::People;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
-use crate::visibility::{Screen, Visibility};
+use cosfly_domain::FrameImages;
 use cosfly_frames::simd::Level;
+use cosfly_materials::vector::Vec3;
 use cosfly_optics::Optics;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::{Screen, Visibility};
 use std::sync::{Mutex, PoisonError};
 
 /// Shades whole frames; owns the shadow maps.

@@ -3,23 +3,24 @@
 //! A point (x, y, z) and every point on its ray towards the sun fall on the same place of the map,
 //! `(x, y) - (z - reference) * sun.xy / sun.z`; it is in shadow when the map's height there is above z.
 
-use crate::eye::Eye;
-use crate::frame::TARGET_INSTANCE;
 use crate::people::People;
 use crate::scene::Scene;
 use crate::shade::body_shadow::{HEIGHTS, Heights, draw_person};
-use crate::shade::lanes::Block;
-use crate::shade::pattern::{NoiseTexture, fixed_size};
 use crate::shade::shadow_frame::Frame;
 use crate::shade::shadow_region::Region;
 use crate::shade::sun_map::{Sun, draw};
 use crate::shade::sun_window::Window;
 use crate::shade::sunlight::{FIGURE_SIDE, FigureShadow, Places, SOLID, figure_shadow, pack_figure, town_sunlight};
-use crate::shade::vector::Vec3;
-use crate::visibility::{Screen, Visibility};
-use cosfly_figures::figure::{FigureParts, FigureTriangle};
+use cosfly_domain::TARGET_INSTANCE;
+use cosfly_figures::FigureParts;
+use cosfly_figures::figure::FigureTriangle;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_materials::lanes::Block;
+use cosfly_materials::pattern::{NoiseTexture, fixed_size};
+use cosfly_materials::vector::Vec3;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::{Screen, Visibility};
 
 /// People less high than this on the screen throw no shadow, pixels.
 const LEAST_FIGURE_PX: f64 = 4.0;

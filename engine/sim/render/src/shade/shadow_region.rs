@@ -1,8 +1,8 @@
 //! Which part of a shadow map a view can need.
 
-use crate::eye::Eye;
-use crate::visibility::Screen;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::Screen;
 
 /// Shadows on what is farther ahead are left out, metres.
 pub(super) const FAR_M: f64 = 600.0;
@@ -50,7 +50,7 @@ pub fn for_seen_points(eye: &Eye, screen: &Screen, lowest_m: f64, mut visit: imp
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::Camera;
+    use cosfly_domain::Camera;
     use cosfly_frames::Pose;
 
     #[test]

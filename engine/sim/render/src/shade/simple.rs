@@ -1,14 +1,14 @@
 //! The simple look, for those who want speed: plain colours and windows in the light of sun, sky and haze, without
 //! shadows, textures or smooth edges. Colours are worked out once for four pixels; windows for each.
 
-use super::facade::{BoxFace, Facade};
 use super::geometry::View;
-use super::lanes::{Block, FOUR, Shared, Stage, StageRow, WIDE, get, groups, three_of, write_three};
-use super::light::Light;
 use super::tone::ToneCurve;
-use super::vector::Vec3;
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::simd_kernel;
-use cosfly_maps::SemanticLabel;
+use cosfly_materials::facade::{BoxFace, Facade};
+use cosfly_materials::lanes::{Block, FOUR, Shared, Stage, StageRow, WIDE, get, groups, three_of, write_three};
+use cosfly_materials::light::Light;
+use cosfly_materials::vector::Vec3;
 
 /// The albedo of ground.
 pub fn ground_colour(label: SemanticLabel) -> Vec3 {

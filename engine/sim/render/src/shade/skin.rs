@@ -1,9 +1,9 @@
 //! Skins of models: textures as their files have them.
 
-use super::lanes::{Block, Shared, WIDE, groups};
-use super::surface::Look;
-use super::vector::Vec3;
 use crate::props::Skin;
+use cosfly_materials::lanes::{Block, Shared, WIDE, groups};
+use cosfly_materials::surface::Look;
+use cosfly_materials::vector::Vec3;
 use cosfly_models::Texture;
 
 /// A triangle of a model.

@@ -1,9 +1,9 @@
 //! The sky behind everything, and the rain in front of it.
 
-use super::light::Light;
-use super::pattern::{NoiseTexture, Noises, hash, most, share, smoothstep, unit};
-use super::vector::Vec3;
-use crate::frame::FrameImages;
+use cosfly_domain::FrameImages;
+use cosfly_materials::light::Light;
+use cosfly_materials::pattern::{NoiseTexture, Noises, hash, most, share, smoothstep, unit};
+use cosfly_materials::vector::Vec3;
 
 /// Colour of the sky in a direction (unit length): gradient, sun, clouds, and haze near the horizon.
 #[inline(always)]

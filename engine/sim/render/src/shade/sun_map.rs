@@ -6,13 +6,13 @@
 use super::shadow_frame::Frame;
 use super::shadow_region::Region;
 use super::sunlight::{LEAVES, PACKED_ROWS, SOLID, SUMMARY_SIDE, TILE, Texels, measure_tile, pack_tile};
-use super::vector::Vec3;
 use crate::scene::Scene;
-use crate::scene_parts::BOX_FACES;
-use crate::visibility::{PlaneOnScreen, Visibility};
+use cosfly_domain::ObstacleKind;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_maps::ObstacleKind;
+use cosfly_materials::parts::BOX_FACES;
+use cosfly_materials::vector::Vec3;
+use cosfly_raster::visibility::{PlaneOnScreen, Visibility};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 

@@ -5,13 +5,13 @@ use super::shadow_frame::Frame;
 use super::shadow_region::{Region, for_seen_points};
 use super::sun_map::{GRAINS, Painter, Sun, TEXEL_M, Tile, TilePlace, WINDOW_TILES};
 use super::sunlight::{Grain, LOWEST_M, Places, SUMMARY_SIDE, SummaryMap, TILE, Texels, TownMap, WINDOWS};
-use crate::eye::Eye;
 use crate::scene::Scene;
-use crate::shade::pattern::fixed_size;
-use crate::visibility::{Screen, Visibility};
+use cosfly_domain::Season;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_materials::season::Season;
+use cosfly_materials::pattern::fixed_size;
+use cosfly_raster::eye::Eye;
+use cosfly_raster::visibility::{Screen, Visibility};
 use std::sync::Arc;
 
 /// Where the windows of the coarser texels have their middle, along the camera's axis, metres.
@@ -232,9 +232,9 @@ fn places(parts: &[Part; GRAINS], season: Season) -> Places {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::Camera;
-    use crate::shade::vector::Vec3;
+    use cosfly_domain::Camera;
     use cosfly_frames::Pose;
+    use cosfly_materials::vector::Vec3;
 
     #[test]
     fn ground_within_forty_metres_of_the_target_has_the_finest_texels() {

@@ -1,11 +1,11 @@
 //! Shadow maps packed for look-up, and the share of the sun's light at each pixel's place.
 
-use super::lanes::{Block, FOUR, Lane, WIDE, get};
-use super::pattern::{NoiseTexture, Noises, floor_int, least, lerp, most, one_if, smoothstep};
 use super::shadow_frame::DEPTH_M;
 use super::sun_map::{GRAINS, WINDOW_TILES};
-use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
+use cosfly_materials::lanes::{Block, FOUR, Lane, WIDE, get};
+use cosfly_materials::pattern::{NoiseTexture, Noises, floor_int, least, lerp, most, one_if, smoothstep};
+use cosfly_materials::vector::Vec3;
 use std::sync::Arc;
 
 /// Texels along a side of a tile of the town's map, and of its window there.

@@ -1,7 +1,7 @@
 //! A small invented crowd for tests and pictures.
 
+use cosfly_figures::{BodyShape, Bystander, Walker};
 use cosfly_frames::{DVec3, Seed, TargetState};
-use cosfly_render::{BodyShape, Bystander, Walker};
 
 /// People who walk and stand within 30 m of a place, on its height.
 pub fn crowd(around: DVec3, count: u32) -> Vec<Bystander> {

@@ -1,10 +1,9 @@
 //! A small invented town for tests and pictures: blocks of buildings, streets, pavements, trees, lamps, cars.
 
-use cosfly_frames::{DVec2, DVec3, RandomStream, Seed};
-use cosfly_geometry::OrientedBox;
-use cosfly_maps::{
-    MapOrigin, Obstacle, ObstacleKind, SemanticLabel, SimplificationReport, SurfaceMesh, Synthetic, Town,
+use cosfly_domain::{
+    MapOrigin, Obstacle, ObstacleKind, OrientedBox, SemanticLabel, SimplificationReport, SurfaceMesh, Synthetic, Town,
 };
+use cosfly_frames::{DVec2, DVec3, RandomStream, Seed};
 
 /// Side of a block with its street, metres.
 pub const BLOCK_M: f64 = 60.0;

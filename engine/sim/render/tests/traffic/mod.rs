@@ -1,8 +1,8 @@
 //! Invented vehicles for tests and benches.
 
+use cosfly_domain::BodyKind;
+use cosfly_figures::{BodyShape, Bystander, Walker};
 use cosfly_frames::{DVec3, Seed, TargetState};
-use cosfly_render::{BodyShape, Bystander, Walker};
-use cosfly_world::BodyKind;
 
 /// Kinds of vehicles with their sizes, metres; most are cars.
 const VEHICLES: [(BodyKind, [f64; 3]); 8] = [

@@ -7,8 +7,8 @@ use crate::grid::{Grid, nearest_seeds, parts};
 use crate::plan::{convex_hull, smallest_rectangle_rad};
 use crate::solid_cells::{Bases, Boxes, Column, boxes_of};
 use crate::window_cover::Volumes;
+use cosfly_domain::{Obstacle, ObstacleKind};
 use cosfly_frames::{DVec2, real};
-use cosfly_town::{Obstacle, ObstacleKind};
 use rayon::prelude::*;
 
 /// A roof over ground that was seen under it is no wall where it hangs higher than this, metres.

@@ -21,10 +21,11 @@ pub use points::{Cloud, CloudBuilder, class};
 
 use crate::open_ground::open_ground;
 use classify::Unknown;
+use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, Synthetic, Town};
 use cosfly_frames::DVec2;
+use cosfly_town::MapError;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
-use cosfly_town::{MapError, Obstacle, ObstacleKind, SemanticLabel, Synthetic, Town};
 use sorting::Sorted;
 use survey::Survey;
 

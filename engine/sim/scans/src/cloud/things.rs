@@ -5,7 +5,7 @@ use super::survey::{Survey, is_ground};
 use crate::grid::parts;
 use crate::solid_cells::{Bases, Boxes, Column, boxes_of};
 use crate::window_cover::Volumes;
-use cosfly_town::{Obstacle, ObstacleKind};
+use cosfly_domain::{Obstacle, ObstacleKind};
 use rayon::prelude::*;
 
 /// Lower points are kerbs and litter, metres.
@@ -78,7 +78,7 @@ fn add_kind(
     }
     let first_id = super::next_id(obstacles);
     let Boxes { shapes, volumes } = boxes_of(grid, &columns, survey.step_m, Bases::Highest, |_| false);
-    let number = |shape: &cosfly_geometry::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
+    let number = |shape: &cosfly_domain::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
     let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();
     numbered.sort_by_key(|(number, _)| *number);
     obstacles.extend(numbered.into_iter().map(|(number, shape)| Obstacle {

@@ -4,9 +4,9 @@
 use super::class;
 use super::survey::{Survey, coarse_enough, grid_of};
 use crate::grid::{Buckets, Grid};
+use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec2, DVec3};
-use cosfly_geometry::{BoxBvh, OrientedBox, SpatialQuery};
-use cosfly_town::{Obstacle, ObstacleKind};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use rayon::prelude::*;
 
 /// Narrowest cells of the canopy, metres.

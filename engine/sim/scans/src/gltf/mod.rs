@@ -5,8 +5,9 @@ pub mod document;
 
 use crate::mesh::{MeshOptions, PartBuilder, town_of};
 use crate::way_out::or_advice;
+use cosfly_domain::Town;
 use cosfly_frames::DVec3;
-use cosfly_town::{MapError, MapFormat, Town};
+use cosfly_town::{MapError, MapFormat};
 use document::{Document, Primitive};
 use glam::DMat4;
 

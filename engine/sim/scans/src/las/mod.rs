@@ -8,8 +8,9 @@ pub mod wkt;
 
 use crate::cloud::{CloudBuilder, CloudOptions, class, town_of};
 use crate::way_out::or_advice;
+use cosfly_domain::Town;
 use cosfly_frames::DVec3;
-use cosfly_town::{MapError, MapFormat, Town};
+use cosfly_town::{MapError, MapFormat};
 use header::Header;
 use projection::Projection;
 use rayon::prelude::*;

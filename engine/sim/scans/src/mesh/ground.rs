@@ -6,9 +6,9 @@ use super::solid::height_at;
 use super::uncovered::{Uncovered, uncovered};
 use crate::grid::Grid;
 use crate::relief::Relief;
+use cosfly_domain::{SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::mesh::MeshBuilder;
-use cosfly_town::{SemanticLabel, WalkableKind, WalkablePolygon};
 
 /// Cells of the relief, metres, and most of them.
 const CELL_M: f64 = 1.0;

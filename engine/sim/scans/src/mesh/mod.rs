@@ -18,10 +18,11 @@ pub use options::{MeshOptions, UpAxis};
 pub use parts::{Part, PartBuilder};
 
 use crate::open_ground::open_ground;
+use cosfly_domain::{Obstacle, Synthetic, Town};
+use cosfly_town::MapError;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::terrain::{USUAL_MARGIN_M, add_terrain};
 use cosfly_town::world::WorldFromMap;
-use cosfly_town::{MapError, Obstacle, Synthetic, Town};
 use names::{Kind, Thing};
 use options::IN_A_PLAN;
 

@@ -2,8 +2,8 @@
 
 use super::parts::{Part, bounds};
 use super::whole::{in_groups, in_one_thing};
+use cosfly_domain::{ObstacleKind, SemanticLabel};
 use cosfly_frames::DVec3;
-use cosfly_town::{ObstacleKind, SemanticLabel};
 
 /// One thing of the scene.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,8 +4,8 @@ use super::parts::{Part, bounds};
 use crate::grid::Grid;
 use crate::plan::{convex_hull, smallest_rectangle_rad};
 use crate::solid_cells::{Bases, Column, boxes_of};
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_geometry::OrientedBox;
 
 /// Most cells that the triangles of one part may touch; larger parts get larger cells.
 const MOST_TOUCHED: f64 = 4e6;

@@ -1,6 +1,6 @@
 //! [`Candidate`]: a box on its way through simplification.
 
-use cosfly_geometry::OrientedBox;
+use cosfly_domain::OrientedBox;
 
 /// A box on its way through simplification.
 #[derive(Clone, Copy, Debug, PartialEq)]

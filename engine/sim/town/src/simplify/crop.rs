@@ -1,7 +1,7 @@
 //! Crop: boxes far from all walkable ground never matter to a drone that follows a walker.
 
 use super::candidate::Candidate;
-use crate::WalkablePolygon;
+use cosfly_domain::WalkablePolygon;
 use cosfly_frames::DVec3;
 use cosfly_geometry::Bounds;
 use cosfly_geometry::bvh::{Bvh, Visitor};

@@ -13,8 +13,7 @@ pub mod prune;
 pub use candidate::Candidate;
 pub use config::SimplifyConfig;
 
-use crate::{Obstacle, SimplificationReport, WalkablePolygon};
-use cosfly_geometry::OrientedBox;
+use cosfly_domain::{Obstacle, OrientedBox, SimplificationReport, WalkablePolygon};
 
 /// Boxes for planning and what was done to get them; `walkable` is the region that `crop` keeps the surroundings of.
 ///
@@ -68,7 +67,7 @@ pub fn simplify(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ObstacleKind, WalkableKind};
+    use cosfly_domain::{ObstacleKind, WalkableKind};
     use cosfly_frames::{DVec3, RandomStream, Seed, real};
     use cosfly_geometry::{BoxBvh, SpatialQuery};
 

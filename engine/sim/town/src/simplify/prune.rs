@@ -2,7 +2,7 @@
 
 use super::candidate::Candidate;
 use super::containment::{covered_by_another, retain_by};
-use cosfly_geometry::OrientedBox;
+use cosfly_domain::OrientedBox;
 
 /// Drops the boxes no larger than `tolerance_m` whose every point is within `tolerance_m` of one larger box. Larger
 /// boxes are never dropped, so what covers a speck stays.

@@ -1,7 +1,7 @@
 //! Kinds and sizes of SUMO's types of vehicles.
 
+use cosfly_domain::BodyKind;
 use cosfly_frames::DVec3;
-use cosfly_world::BodyKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

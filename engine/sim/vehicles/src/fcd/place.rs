@@ -2,9 +2,10 @@
 
 use super::FcdError;
 use cosfly_diagnose::plausible;
+use cosfly_domain::Town;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_geodata::reference::GeoReference;
-use cosfly_maps::{GroundIndex, Town};
+use cosfly_town::GroundIndex;
 
 /// `<location>` of a SUMO net.
 #[derive(Clone, Debug, Default, PartialEq)]

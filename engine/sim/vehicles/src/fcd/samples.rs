@@ -1,7 +1,7 @@
 //! What a time step of the file says of each body, and states between two steps.
 
+use cosfly_domain::BodyKind;
 use cosfly_frames::{DVec2, TargetState, real};
-use cosfly_world::BodyKind;
 
 use super::Place;
 use cosfly_frames::DVec3;

@@ -3,10 +3,9 @@
 use super::names::{PART_FRAMES, Place};
 use super::short_ids::ShortIds;
 use crate::source::Episode;
+use cosfly_domain::{Camera, Lens};
 use cosfly_frames::{DVec3, Pose};
 use cosfly_read::{FrameRow, PublishedFlight};
-use cosfly_render::Camera;
-use cosfly_render::Lens;
 use serde_json::{Value, json};
 
 /// Name of the schema.

@@ -4,8 +4,7 @@ use super::columns::Trajectories;
 use crate::flight_labels;
 use crate::tables::DatasetItem;
 use crate::tables::column::columns;
-use cosfly_planner::trajectory::Kind;
-use cosfly_planner::{Certificate, Perturbation};
+use cosfly_domain::{Certificate, Perturbation, PerturbationKind};
 
 columns! { Trajectories::CERTIFICATE of DatasetItem;
     /// Whether all limits hold, checked against the unsimplified map.

@@ -5,9 +5,8 @@ use crate::Role;
 use crate::tables::DatasetItem;
 use crate::tables::column::columns;
 use crate::tables::windows::{self, Scene};
+use cosfly_domain::{Outfit, Traits};
 use cosfly_metrics::{Difficulty, WindowFeatures};
-use cosfly_render::Outfit;
-use cosfly_world::Traits;
 
 columns! { Trajectories::IDENTITY of DatasetItem;
     /// Name of the trajectory, unique in the dataset.

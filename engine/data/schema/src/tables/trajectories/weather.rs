@@ -3,7 +3,7 @@
 use super::columns::Trajectories;
 use crate::tables::column::columns;
 use crate::tables::{Column, DatasetItem};
-use cosfly_render::Weather;
+use cosfly_domain::Weather;
 
 columns! { Trajectories::WEATHER of DatasetItem;
     /// CARLA's preset on which the numbers are based.

@@ -1,9 +1,8 @@
 //! What boxes with a label of CARLA's `CityObjectLabel` become.
 
-use crate::ObstacleKind;
-use crate::crown::crown_boxes;
+use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_frames::DVec3;
-use cosfly_geometry::OrientedBox;
+use cosfly_town::crown::crown_boxes;
 use serde::Deserialize;
 
 /// Plants up to this height are bushes, metres; higher ones are trees.

@@ -1,9 +1,9 @@
 //! Numbers and names out of XML attributes; each refusal says its line, column, element and rule.
 
 use super::polynomial::{Cubic, CubicProfile};
-use crate::error::{MapError, Place};
-use crate::text::Lines;
 use core::cell::{Cell, RefCell};
+use cosfly_town::error::{MapError, Place};
+use cosfly_town::text::Lines;
 use roxmltree::{Document, Node};
 
 /// Range of a number in the file.

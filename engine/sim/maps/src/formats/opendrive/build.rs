@@ -1,11 +1,9 @@
 //! From the network to a town: surfaces, walkable ground, obstacles.
 
-use super::OpenDriveOptions;
 use super::crossings::{Crosswalk, crosswalks, unmarked_crossings};
 use super::document::with_source;
 use super::gaps::{self, JunctionArea};
 use super::inner_lanes::{self, InnerStrip};
-use super::islands;
 use super::joining::joining_strips;
 use super::kerb_stones::{self, Kerb};
 use super::lanes::lanes_of;
@@ -13,23 +11,20 @@ use super::line_ends::LineFree;
 use super::network::{LaneKind, Road, RoadNetwork};
 use super::objects::{MOST_OBSTACLES, ObstacleBuilder, ROOF_PITCH_DEG};
 use super::options::Roofs;
-use super::parse_road;
 use super::refuges::Walkway;
 use super::road_ends::{self, LaneEnd};
 use super::road_marks::{LinePainter, MOST_STROKES};
-use super::signals;
 use super::slits::{self, Edge};
 use super::stations::{StationBudget, cross_sections};
 use super::surfaces::{self, DEFAULT_KERB_M};
-use super::verges;
-use super::walkable;
-use crate::mesh::MeshBuilder;
-use crate::polygons::PolygonIndex;
-use crate::terrain;
-use crate::text::Lines;
-use crate::world::WorldFromMap;
-use crate::{GroundIndex, Lane, MapError, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolygon};
+use super::{OpenDriveOptions, islands, parse_road, signals, verges, walkable};
+use cosfly_domain::{Lane, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::polygons::PolygonIndex;
+use cosfly_town::text::Lines;
+use cosfly_town::world::WorldFromMap;
+use cosfly_town::{GroundIndex, MapError, terrain};
 use std::collections::BTreeMap;
 
 /// Reads a file into a town without planning boxes and bounds.

@@ -7,11 +7,12 @@ use super::refuges::Walkway;
 use super::road_geometry::LaneSpan;
 use super::road_marks::PAINT_ABOVE_M;
 use super::walkable::without_repeats;
-use crate::mesh::MeshBuilder;
-use crate::polygons::{PolygonIndex, clipped_to_band, triangulated, twice_area_m2};
-use crate::world::WorldFromMap;
-use crate::{GroundIndex, SemanticLabel, WalkableKind, WalkablePolygon};
+use cosfly_domain::{SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, real};
+use cosfly_town::GroundIndex;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::polygons::{PolygonIndex, clipped_to_band, triangulated, twice_area_m2};
+use cosfly_town::world::WorldFromMap;
 
 /// Painted stripes of a crossing, and the gaps between them, metres.
 const STRIPE_M: f64 = 0.5;
@@ -310,7 +311,7 @@ fn far_pavement_edge(road: &Road, section: &LaneSection, side: usize, s_m: f64, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::SurfaceMesh;
+    use cosfly_domain::SurfaceMesh;
 
     /// A crossing of 6 m by 3 m over a road 4 m wide along y.
     fn crosswalk() -> Crosswalk {

@@ -2,8 +2,8 @@
 
 use super::attributes::Source;
 use super::xml_bounds;
-use crate::error::MapError;
-use crate::text::{Lines, decoded};
+use cosfly_town::error::MapError;
+use cosfly_town::text::{Lines, decoded};
 use roxmltree::{Document, ParsingOptions};
 
 /// Most XML nodes of one file.

@@ -3,10 +3,11 @@
 //! The ways through a junction are strips beside and over one another; files leave the triangles between them out, or
 //! give them as lanes of no kind.
 
-use crate::mesh::MeshBuilder;
-use crate::terrain::beside;
-use crate::{GroundIndex, SemanticLabel};
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::GroundIndex;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::terrain::beside;
 
 /// Side of the cells in which gaps are found, metres.
 const CELL_M: f64 = 0.4;

@@ -1,9 +1,9 @@
 //! `<header>` into the model: name, projection, and the offset of all coordinates.
 
 use super::attributes::{ANGLE, COORDINATE, OFFSET, Source};
-use crate::error::MapError;
 use cosfly_frames::DVec3;
 use cosfly_geodata::reference::unusual_words;
+use cosfly_town::error::MapError;
 use cosfly_town::remarks::speaks_of_a_place;
 use roxmltree::Node;
 

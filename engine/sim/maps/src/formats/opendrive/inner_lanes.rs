@@ -5,10 +5,11 @@
 
 use super::network::{Lane, LaneKind};
 use super::stations::CrossSection;
-use crate::mesh::MeshBuilder;
-use crate::world::WorldFromMap;
-use crate::{GroundIndex, SemanticLabel};
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::DVec3;
+use cosfly_town::GroundIndex;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::world::WorldFromMap;
 
 /// Longest piece that is paved or not as a whole, metres.
 const PIECE_M: f64 = 1.0;

@@ -1,7 +1,7 @@
 //! The outline of a set of cells, on the edges of what lies around it.
 
-use crate::polygons::twice_area_m2;
 use cosfly_frames::DVec2;
+use cosfly_town::polygons::twice_area_m2;
 use std::collections::BTreeMap;
 
 /// Side of the cells, metres.

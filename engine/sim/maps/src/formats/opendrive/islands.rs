@@ -7,11 +7,12 @@ use super::island_outline::{CELL_M, Cell, Closed, middle, outline};
 use super::network::{LaneKind, LaneSection};
 use super::stations::CrossSection;
 use super::surfaces::DEFAULT_KERB_M;
-use crate::mesh::MeshBuilder;
-use crate::polygons::{PolygonIndex, contains, triangulated_up_to, twice_area_m2};
-use crate::world::WorldFromMap;
-use crate::{GroundIndex, SemanticLabel};
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::GroundIndex;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::polygons::{PolygonIndex, contains, triangulated_up_to, twice_area_m2};
+use cosfly_town::world::WorldFromMap;
 use std::collections::BTreeMap;
 
 /// Most cells of an island; larger pieces of grass are land, not islands.

@@ -3,10 +3,11 @@
 //! Files often leave out the pavement at junction corners, or give an arm pavement on one side only; pedestrians
 //! walk there all the same. Every strip is synthetic.
 
-use crate::mesh::MeshBuilder;
-use crate::polygons::PolygonIndex;
-use crate::{GroundIndex, Obstacle, SemanticLabel, WalkableKind, WalkablePolygon};
+use cosfly_domain::{Obstacle, SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::GroundIndex;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::polygons::PolygonIndex;
 use std::collections::BTreeMap;
 
 /// Longest strip, metres.
@@ -200,7 +201,7 @@ fn candidates<'s>(parts: &mut Parts, samples: &'s [Sample]) -> Vec<(&'s Sample, 
 
 /// Footprints of everything a pedestrian would run into.
 fn footprints(obstacles: &[Obstacle]) -> PolygonIndex {
-    let standing = obstacles.iter().filter(|obstacle| crate::terrain::stands_on_ground(obstacle.kind));
+    let standing = obstacles.iter().filter(|obstacle| cosfly_town::terrain::stands_on_ground(obstacle.kind));
     let outlines = standing.map(|obstacle| {
         let corners = obstacle.shape.corners_in_world();
         [0, 1, 3, 2].map(|corner| corners[corner].truncate()).to_vec()

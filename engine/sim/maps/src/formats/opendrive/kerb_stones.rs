@@ -3,10 +3,11 @@
 use super::network::{LaneSection, RoadMark};
 use super::stations::CrossSection;
 use super::surfaces::DEFAULT_KERB_M;
-use crate::mesh::MeshBuilder;
-use crate::world::WorldFromMap;
-use crate::{GroundIndex, SemanticLabel};
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::GroundIndex;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::world::WorldFromMap;
 
 /// Width of the stones from above, and the depth of their faces below the road, metres.
 const WIDTH_M: f64 = 0.2;

@@ -2,9 +2,9 @@
 
 use super::network::{LaneSection, Road};
 use super::stations::CrossSection;
-use crate::world::WorldFromMap;
+use cosfly_domain::{Lane, LaneKind};
 use cosfly_frames::DVec3;
-use cosfly_town::{Lane, LaneKind};
+use cosfly_town::world::WorldFromMap;
 
 /// Limit where the file states none: that of towns, m/s.
 const USUAL_LIMIT_MPS: f64 = 50.0 / 3.6;

@@ -1,7 +1,7 @@
 //! [`LineFree`]: ground around crossings where no lane line is painted.
 
-use crate::polygons::PolygonIndex;
 use cosfly_frames::DVec2;
+use cosfly_town::polygons::PolygonIndex;
 
 /// Distance of the places along a line that are looked at, and the accuracy of the line's ends, metres.
 const STEP_M: f64 = 0.25;

@@ -1,7 +1,7 @@
 //! OpenDRIVE 1.4 to 1.8: roads, lanes, objects and signals into a [`Town`].
 //!
 //! [`network`] is the file as it stands; [`plan_view`] and [`road_geometry`] evaluate it; the other rooms build the
-//! town's parts from it. Everything stays in the file's right-handed frame until [`crate::world`] turns it over.
+//! town's parts from it. Everything stays in the file's right-handed frame until [`cosfly_town::world`] turns it over.
 
 mod attributes;
 mod build;
@@ -43,8 +43,9 @@ mod xml_bounds;
 pub use options::{OpenDriveOptions, Roofs};
 pub use road_map::{LanePoint, RoadMap};
 
-use crate::format::MapFormat;
-use crate::{MapError, Town};
+use cosfly_domain::Town;
+use cosfly_town::MapError;
+use cosfly_town::format::MapFormat;
 
 /// The OpenDRIVE format.
 #[derive(Clone, Copy, Debug)]

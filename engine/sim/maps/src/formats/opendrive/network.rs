@@ -120,7 +120,7 @@ pub struct Lane {
     /// Use of the lane.
     pub kind: LaneKind,
     /// Vehicles that drive on it in its direction, if any.
-    pub traffic: Option<cosfly_town::LaneKind>,
+    pub traffic: Option<cosfly_domain::LaneKind>,
     /// Its own speed limit, m/s.
     pub speed_limit_mps: Option<f64>,
     /// Kept level: the road's roll does not apply.

@@ -1,7 +1,7 @@
 //! Kind of an `<object>`, from its type and name.
 
 use super::network::RoadObject;
-use crate::ObstacleKind;
+use cosfly_domain::ObstacleKind;
 
 /// Part of the town that an object becomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

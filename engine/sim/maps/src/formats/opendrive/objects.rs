@@ -2,12 +2,11 @@
 
 use super::network::{Corner, Outline, Repeat, Road, RoadObject};
 use super::object_kind::{ObjectKind, kind_of};
-use crate::crown::crown_boxes;
-use crate::solids::{CoarseThings, Footprint, Roof, building_boxes};
-use crate::world::WorldFromMap;
-use crate::{Obstacle, ObstacleKind};
+use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec2, DVec3, real};
-use cosfly_geometry::OrientedBox;
+use cosfly_town::crown::crown_boxes;
+use cosfly_town::solids::{CoarseThings, Footprint, Roof, building_boxes};
+use cosfly_town::world::WorldFromMap;
 
 /// Most boxes of one file.
 pub(super) const MOST_OBSTACLES: usize = 500_000;

@@ -3,8 +3,8 @@
 use super::attributes::{OFFSET, SIZE, STATION, Source, child, children};
 use super::network::{Dash, Lane, LaneEdge, LaneHeight, LaneKind, LaneSection, Paint, RoadMark};
 use super::polynomial::{Cubic, CubicProfile};
-use crate::error::MapError;
-use cosfly_town::LaneKind as TrafficKind;
+use cosfly_domain::LaneKind as TrafficKind;
+use cosfly_town::error::MapError;
 use roxmltree::Node;
 
 /// The sections of a road in the order of their start.

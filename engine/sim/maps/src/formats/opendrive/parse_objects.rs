@@ -2,7 +2,7 @@
 
 use super::attributes::{ANGLE, LENGTH, LOOSE_SIZE, OFFSET, STATION, Source, children};
 use super::network::{Corner, Crown, ObjectSize, Outline, Repeat, RoadObject, RoadPosition, RoadSignal};
-use crate::error::MapError;
+use cosfly_town::error::MapError;
 use roxmltree::Node;
 
 /// The objects of a road; `<objectReference>`s, tunnels and bridges are not things of their own.

@@ -1,15 +1,14 @@
 //! `<header>`, `<road>`, `<planView>`, `<elevationProfile>` and `<lateralProfile>` into the model.
 
 use super::attributes::{ANGLE, COEFFICIENT, COORDINATE, CURVATURE, LENGTH, STATION, Source, child, children};
-use super::header;
 use super::network::{Road, RoadNetwork, ShapeSection};
 use super::parse_lanes::{lane_sections, speed_limit_mps};
 use super::parse_objects::{objects, signals};
 use super::plan_view::{Curve, PlanElement, PlanPoint};
 use super::polynomial::{Cubic, CubicProfile};
-use super::unread;
-use crate::error::MapError;
+use super::{header, unread};
 use cosfly_frames::DVec2;
+use cosfly_town::error::MapError;
 use roxmltree::Node;
 use std::collections::BTreeMap;
 

@@ -1,9 +1,10 @@
 //! Refuges: where a crossing leads over a median or another piece of grass between carriageways, the ground is paved
 //! and level with the road.
 
-use crate::mesh::MeshBuilder;
-use crate::{GroundIndex, SemanticLabel};
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::GroundIndex;
+use cosfly_town::mesh::MeshBuilder;
 
 /// Distance of the places across the road that are looked at, metres, and most of them.
 const STEP_M: f64 = 0.2;

@@ -5,10 +5,11 @@
 use super::network::{Lane, LaneKind};
 use super::stations::CrossSection;
 use super::surfaces::lane_label;
-use crate::mesh::MeshBuilder;
-use crate::world::WorldFromMap;
-use crate::{GroundIndex, SemanticLabel};
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::GroundIndex;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::world::WorldFromMap;
 use std::collections::BTreeMap;
 
 /// Longest gap, and the shortest, metres.
@@ -189,7 +190,7 @@ mod tests {
         let areas = meshes.iter().flat_map(|mesh| {
             let corner = |k: u32| mesh.vertices_in_world[k as usize].truncate();
             let areas = mesh.triangles.iter().map(move |it| it.map(corner));
-            areas.map(|it| 0.5 * crate::polygons::twice_area_m2(&it).abs())
+            areas.map(|it| 0.5 * cosfly_town::polygons::twice_area_m2(&it).abs())
         });
         areas.sum()
     }

@@ -3,9 +3,9 @@
 use super::document::with_source;
 use super::network::RoadNetwork;
 use super::parse_road;
-use crate::MapError;
-use crate::world::WorldFromMap;
 use cosfly_frames::DVec3;
+use cosfly_town::MapError;
+use cosfly_town::world::WorldFromMap;
 
 /// A parsed road network in the world frame; answers questions about lanes.
 #[derive(Clone, Debug, PartialEq)]

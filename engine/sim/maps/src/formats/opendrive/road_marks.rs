@@ -3,10 +3,10 @@
 use super::line_ends::LineFree;
 use super::network::{Lane, LaneSection, Paint, Road, RoadMark};
 use super::stations::CrossSection;
-use crate::SemanticLabel;
-use crate::mesh::MeshBuilder;
-use crate::world::WorldFromMap;
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3, real};
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::world::WorldFromMap;
 
 /// Paint lies this far above the surface below it, metres.
 pub(super) const PAINT_ABOVE_M: f64 = 0.02;

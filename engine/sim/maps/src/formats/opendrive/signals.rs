@@ -2,9 +2,9 @@
 
 use super::network::{Road, RoadSignal};
 use super::objects::ObstacleBuilder;
-use crate::ObstacleKind;
-use crate::world::WorldFromMap;
+use cosfly_domain::ObstacleKind;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::world::WorldFromMap;
 
 /// A pole of the file this close to a signal carries it, metres.
 const OWN_POLE_M: f64 = 0.8;

@@ -2,10 +2,11 @@
 
 use super::network::{Lane, LaneKind};
 use super::stations::CrossSection;
-use crate::mesh::MeshBuilder;
-use crate::world::WorldFromMap;
-use crate::{GroundIndex, SemanticLabel};
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::GroundIndex;
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::world::WorldFromMap;
 
 /// Longest piece that is closed or not as a whole, metres, and most pieces of an edge.
 const PIECE_M: f64 = 0.5;

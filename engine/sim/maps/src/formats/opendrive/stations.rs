@@ -2,8 +2,8 @@
 
 use super::network::{Lane, LaneEdge, LaneSection, Road};
 use super::road_geometry::LaneSpan;
-use crate::error::MapError;
 use cosfly_frames::DVec3;
+use cosfly_town::error::MapError;
 
 /// Largest distance between a lane edge and the straight piece that stands for it, metres.
 const CHORD_ERROR_M: f64 = 0.02;

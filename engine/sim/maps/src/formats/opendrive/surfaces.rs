@@ -3,10 +3,10 @@
 use super::network::{Lane, LaneHeight, LaneKind, Road};
 use super::road_geometry::LaneSpan;
 use super::stations::CrossSection;
-use crate::SemanticLabel;
-use crate::mesh::MeshBuilder;
-use crate::world::WorldFromMap;
+use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::world::WorldFromMap;
 
 /// Height of the skirt below a road's edge, so that no gap opens towards the terrain, metres.
 pub(super) const SKIRT_M: f64 = 1.5;

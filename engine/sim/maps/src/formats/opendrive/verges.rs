@@ -4,10 +4,11 @@ use super::network::{LaneKind, LaneSection, Road, RoadNetwork};
 use super::stations::{CrossSection, StationBudget, cross_sections};
 use super::surfaces::{DEFAULT_KERB_M, SKIRT_M};
 use super::walkable::{pieces, without_repeats};
-use crate::mesh::MeshBuilder;
-use crate::world::WorldFromMap;
-use crate::{GroundIndex, MapError, SemanticLabel, WalkableKind, WalkablePolygon};
+use cosfly_domain::{SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_town::mesh::MeshBuilder;
+use cosfly_town::world::WorldFromMap;
+use cosfly_town::{GroundIndex, MapError};
 
 /// Width of an invented pavement, metres.
 pub(super) const WIDTH_M: f64 = 2.0;

@@ -2,9 +2,9 @@
 
 use super::network::{Lane, LaneKind, LaneSection, Road};
 use super::stations::CrossSection;
-use crate::world::WorldFromMap;
-use crate::{WalkableKind, WalkablePolygon};
+use cosfly_domain::{WalkableKind, WalkablePolygon};
 use cosfly_frames::DVec3;
+use cosfly_town::world::WorldFromMap;
 
 /// Longest piece of pavement in one polygon, metres.
 pub(super) const LONGEST_PIECE_M: f64 = 10.0;

@@ -1,8 +1,8 @@
 //! Bounds on the XML of a file, checked before it is parsed: the parser's work grows with the square of an element's
 //! attributes and of the depth of elements that declare namespaces.
 
-use crate::error::MapError;
-use crate::text::Lines;
+use cosfly_town::error::MapError;
+use cosfly_town::text::Lines;
 
 /// Deepest nesting of elements; OpenDRIVE itself has about ten levels.
 const DEEPEST: usize = 100;

@@ -3,10 +3,10 @@
 use super::super::lattice::LatticeSize;
 use super::*;
 use crate::config::view::ViewConfig;
-use crate::obstacles::ground::GroundGrid;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::TargetTrack;
-use cosfly_geometry::OrientedBox;
 use cosfly_random::Seed;
+use cosfly_surroundings::ground::GroundGrid;
 
 fn one_frame() -> TargetTrack {
     let state = TargetState { feet_in_world: DVec3::new(3.0, -2.0, 1.0), heading_rad: 0.0, speed_mps: 0.0 };
