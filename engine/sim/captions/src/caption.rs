@@ -168,11 +168,8 @@ pub(crate) mod tests {
 
     /// Way, duration and pace of a text.
     fn read_numbers(text: &str, language: Language) -> [Option<f64>; 3] {
-        use cosfly_claims::Claim;
-        let claims = match language {
-            Language::Zh => cosfly_claims::chinese::read(text),
-            Language::En => cosfly_claims::english::read(text),
-        };
+        use cosfly_claims::{Claim, read};
+        let claims = read(text, language);
         let find = |of: &dyn Fn(&Claim) -> Option<f64>| claims.iter().find_map(of);
         [
             find(&|it| if let Claim::Way(value) = it { Some(*value) } else { None }),

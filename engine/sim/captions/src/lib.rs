@@ -1,7 +1,7 @@
 //! Typed facts of a trajectory, and Chinese and English instructions checked against them.
 //!
 //! [`facts`] reads a trajectory, [`captions`] puts the facts into words, [`check`] reads any text back and compares
-//! it with the facts. The reader (`cosfly-claims`) shares no code with the templates, so it can judge other people's texts as well.
+//! it with the facts. The reader (`cosfly-claims`) shares no code with the templates; it judges what its lexicon has.
 //!
 //! [`part`] says what is the left, the middle and the right of a picture.
 //!
@@ -23,6 +23,7 @@ pub mod diversity;
 mod english;
 mod english_frames;
 pub mod facts;
+mod facts_in_words;
 pub mod goals;
 pub mod part;
 pub mod precision;
@@ -39,4 +40,5 @@ pub use cosfly_claims::{Compass, Language, TurnKind};
 pub use coverage::{Coverage, coverage};
 pub use diversity::{Diversity, diversity};
 pub use facts::{Facts, FirstTurn, Stop, Wear, facts};
+pub use facts_in_words::facts_in_words;
 pub use turns::Turn;

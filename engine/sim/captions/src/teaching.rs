@@ -5,12 +5,7 @@
 use crate::check::{Slot, SlotMismatch, check};
 use crate::config::Style;
 use crate::facts::Facts;
-use crate::precision::{DISTANCE_STEP_M, PITCH_STEP_DEG, SPEED_STEP_MPS, STOP_STEP_S, duration_step_s, way_step_m};
-use crate::wording::rounded;
-use crate::{chinese, english};
-use cosfly_claims::Language;
-use cosfly_claims::TurnKind;
-use cosfly_claims::foreign_things;
+use cosfly_claims::{Language, foreign_things};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
@@ -92,103 +87,6 @@ pub fn task(lesson: &Lesson<'_>) -> String {
     text
 }
 
-/// The facts in words, one a line.
-pub fn facts_in_words(facts: &Facts, language: Language, style: Style) -> String {
-    let number = |value: f64, step: f64| rounded(value, step);
-    let is_up = facts.pitch_down_deg < 0.0;
-    let [distance, pitch, altitude] = [
-        number(facts.distance_m, DISTANCE_STEP_M),
-        number(facts.pitch_down_deg.abs(), PITCH_STEP_DEG),
-        number(facts.altitude_m, DISTANCE_STEP_M),
-    ];
-    let way = number(facts.way_m, way_step_m(facts.way_m));
-    let duration = number(facts.duration_s, duration_step_s(facts.duration_s));
-    let speed = number(facts.walking_speed_mps, SPEED_STEP_MPS);
-    let standing = number(facts.standing_s(), STOP_STEP_S);
-    let mut lines = vec![];
-    let side = |kind: TurnKind| match (language, kind) {
-        (Language::En, TurnKind::Left) => "left",
-        (Language::En, TurnKind::Right) => "right",
-        (Language::En, TurnKind::Around) => "around",
-        (Language::Zh, TurnKind::Left) => "左转",
-        (Language::Zh, TurnKind::Right) => "右转",
-        (Language::Zh, TurnKind::Around) => "掉头",
-    };
-    let turns: Vec<&str> = facts.turns.iter().map(|turn| side(turn.kind)).collect();
-    let is_doubtful = !facts.doubtful_turns.is_empty();
-    match language {
-        Language::En => {
-            lines.push(match &facts.wear {
-                Some(wear) => format!(
-                    "the person wears {} {} top and {} trousers{}",
-                    english::article(wear.top.name()),
-                    wear.top.name(),
-                    wear.trousers.name(),
-                    if wear.backpack { ", with a backpack" } else { "" }
-                ),
-                None => "the clothes are unknown: do not name any".to_owned(),
-            });
-            lines
-                .push(if facts.walks { "the person walks" } else { "the person stands still all the time" }.to_owned());
-            lines.push(format!("the drone keeps about {distance} m away"));
-            lines.push(format!("the camera looks {} at about {pitch} degrees", if is_up { "up" } else { "down" }));
-            if style == Style::Description {
-                if facts.walks {
-                    lines.push(match turns.len() {
-                        _ if is_doubtful => "whether the person turns is not clear: do not write of turns".to_owned(),
-                        0 if facts.bends => "no sharp turn, and not straight".to_owned(),
-                        0 => "no turns".to_owned(),
-                        count => format!("{count} turns, in order: {}", turns.join(", ")),
-                    });
-                    lines.push(match facts.stops.len() {
-                        0 => "no stops".to_owned(),
-                        count => format!("{count} stops, about {standing} seconds in all"),
-                    });
-                    lines.push(format!("the way is about {way} m; while walking, the speed is about {speed} m/s"));
-                }
-                lines.push(format!("the flight takes about {duration} seconds"));
-                if facts.altitude_m >= 0.5 {
-                    lines.push(format!("the drone is about {altitude} m above the person's feet"));
-                }
-            }
-        }
-        Language::Zh => {
-            lines.push(match &facts.wear {
-                Some(wear) => format!(
-                    "此人穿{}上衣、{}裤子{}",
-                    chinese::colour(wear.top),
-                    chinese::colour(wear.trousers),
-                    if wear.backpack { "，背着背包" } else { "" }
-                ),
-                None => "衣着未知：不要写衣着".to_owned(),
-            });
-            lines.push(if facts.walks { "此人在行走" } else { "此人始终站立不动" }.to_owned());
-            lines.push(format!("无人机保持约{distance}米距离"));
-            lines.push(format!("镜头向{}约{pitch}度", if is_up { "上仰视" } else { "下俯视" }));
-            if style == Style::Description {
-                if facts.walks {
-                    lines.push(match turns.len() {
-                        _ if is_doubtful => "是否转弯看不清：不要写转弯".to_owned(),
-                        0 if facts.bends => "没有急转弯，也不是直线".to_owned(),
-                        0 => "没有转弯".to_owned(),
-                        count => format!("转弯{count}次，依次为：{}", turns.join("、")),
-                    });
-                    lines.push(match facts.stops.len() {
-                        0 => "途中没有停留".to_owned(),
-                        count => format!("停留{count}次，共约{standing}秒"),
-                    });
-                    lines.push(format!("全程约{way}米，走动时步速约{speed}米/秒"));
-                }
-                lines.push(format!("历时约{duration}秒"));
-                if facts.altitude_m >= 0.5 {
-                    lines.push(format!("无人机高出目标约{altitude}米"));
-                }
-            }
-        }
-    }
-    lines.iter().map(|line| format!("- {line}")).collect::<Vec<_>>().join("\n")
-}
-
 /// Whether a text of a model is believed: what it claims is true, it speaks of nothing that the facts do not know, and it is no
 /// text that exists already.
 ///
@@ -233,6 +131,7 @@ pub fn likeness(one: &str, other: &str, language: Language) -> f64 {
 mod tests {
     use super::*;
     use crate::caption::tests::flights;
+    use crate::facts_in_words::facts_in_words;
     use crate::{CaptionConfig, captions};
     use cosfly_random::Seed;
 

@@ -2,7 +2,7 @@
 
 use crate::body_shape::BodyShape;
 use crate::build::{Arm, Hair, head_size};
-use cosfly_figures::Clothes;
+use crate::Clothes;
 use crate::frustum::{FigurePart, FigureTriangle, Ring, Surface, around, ring};
 use crate::region::Region;
 use crate::walker::{TargetSetup, Walker};

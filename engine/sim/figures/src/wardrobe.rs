@@ -1,6 +1,6 @@
 //! Clothes that were drawn before: many pictures show the same people.
 
-use cosfly_figures::Clothes;
+use crate::Clothes;
 use cosfly_frames::Seed;
 
 /// Clothes of people by their seeds, so that nobody's are drawn again in every picture. Forgets rather than grows.

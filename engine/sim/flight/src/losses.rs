@@ -51,7 +51,7 @@ impl Trial {
             && flight.certificate.occlusion_reached_s >= least_s - 1e-9;
         let seen_again = seen_again(&by_points);
         let beside_look_alike = followed.zip(seen_again).is_some_and(|(followed, frame)| {
-            let looks = |seed| Outfit::of(BodyShape::default(), seed);
+            let looks = |seed| outfit_of(BodyShape::default(), seed);
             let bodies = around.bodies().map(|(_, body)| body);
             let mut alike = bodies.filter(|body| {
                 body.plan.kind == followed.plan.kind && looks(&body.plan.looks).is_like(&looks(&followed.plan.looks))

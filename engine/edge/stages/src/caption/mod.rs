@@ -80,7 +80,7 @@ impl StageKind for Caption {
         }
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 12,
+            version: 13,
             parameters: canonical,
             sources: vec![],
             inputs,

@@ -1,7 +1,7 @@
 //! Texts of a teacher: asked for, judged, asked for again, replaced by the template's.
 
-use cosfly_captions::teaching::{Lesson, believe, facts_in_words, rules, task};
-use cosfly_captions::{Caption as Text, Facts, Language, claimed};
+use cosfly_captions::teaching::{Lesson, believe, rules, task};
+use cosfly_captions::{Caption as Text, Facts, Language, claimed, facts_in_words};
 use cosfly_diagnose::Result;
 use cosfly_schema::CaptionRecord;
 use cosfly_stage::{Answers, TaskContext};

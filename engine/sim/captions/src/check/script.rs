@@ -3,15 +3,17 @@
 use super::slot::{Slot, SlotMismatch};
 use cosfly_claims::Language;
 
+/// Latin words in Chinese texts: symbols of units, and the letter of a shirt.
+const SYMBOLS: [&str; 4] = ["m", "s", "m/s", "T"];
+
 /// The disagreement of a text that is not in the script of its language.
-pub(crate) fn script_mismatch(text: &str, language: Language) -> Option<SlotMismatch> {
-    // A letter in a Chinese word, and symbols of units.
-    let text = &match language {
-        Language::Zh => cosfly_claims::chinese::plain(&text.replace("T恤", "恤").replace(['U', 'V'], "")),
-        Language::En => text.to_owned(),
+pub(super) fn script_mismatch(text: &str, language: Language) -> Option<SlotMismatch> {
+    let words = text.split(|c: char| !c.is_ascii_alphabetic() && c != '/').filter(|word| !SYMBOLS.contains(word));
+    let latin = match language {
+        Language::Zh => words.flat_map(str::chars).filter(char::is_ascii_alphabetic).count(),
+        Language::En => text.chars().filter(char::is_ascii_alphabetic).count(),
     };
     let han = text.chars().filter(|c| ('\u{4e00}'..='\u{9fff}').contains(c)).count();
-    let latin = text.chars().filter(char::is_ascii_alphabetic).count();
     let foreign = text.chars().filter(|c| c.is_alphabetic() && !c.is_ascii()).count();
     let (holds, expected) = match language {
         Language::Zh => (han > 0 && latin == 0 && foreign == han, "Chinese characters alone"),

@@ -1,11 +1,12 @@
 //! Texts of the templates pass, and each with a number, direction, side or count changed fails.
 
 use super::*;
-use crate::Language;
 use crate::caption::tests::flights;
-use crate::facts::{Facts, facts, test_flights::flight};
-use crate::{CaptionConfig, Compass, captions};
-use cosfly_random::Seed;
+use crate::facts::{Facts, Stop, Wear, facts, test_flights::flight};
+use crate::turns::Turn;
+use crate::{CaptionConfig, Compass, Language, Style, TurnKind, captions};
+use cosfly_domain::Colour;
+use cosfly_random::{RandomStream, Seed};
 
 /// Places of the numbers in a text.
 fn numbers(text: &str) -> Vec<std::ops::Range<usize>> {
@@ -156,4 +157,80 @@ fn a_doubtful_turn_may_be_told_or_left_out_and_a_straight_way_must_be_one() {
     };
     assert!(holds("makes no sharp turn"));
     assert!(!holds("turns around") && !holds("turns right") && !holds("heads straight on throughout"));
+}
+
+/// Facts of a made-up flight: any clothes, turns, stops and numbers.
+fn made_up(random: &mut RandomStream) -> Facts {
+    let kind = |random: &mut RandomStream| [TurnKind::Left, TurnKind::Right, TurnKind::Around][random.index(3)];
+    let turns = |random: &mut RandomStream| (0..random.index(7) as u32).map(|it| (20 * it, kind(random))).collect();
+    let turns: Vec<(u32, TurnKind)> = turns(random);
+    let colour = |random: &mut RandomStream| Colour::ALL[random.index(Colour::ALL.len())];
+    let wear = Wear { top: colour(random), trousers: colour(random), backpack: random.chance(0.5) };
+    let walking_s = random.uniform(20.0, 200.0);
+    let speed = random.uniform(0.6, 1.9);
+    let stops: Vec<Stop> = (0..random.index(5) as u32)
+        .map(|it| Stop { frame: 9 + 9 * it, duration_s: random.uniform(1.0, 7.0) })
+        .collect();
+    Facts {
+        turns: turns.into_iter().map(|(frame, kind)| Turn { frame, angle_deg: 90.0, kind }).collect(),
+        bends: true,
+        dt_s: 0.5,
+        duration_s: walking_s + stops.iter().map(|it| it.duration_s).sum::<f64>(),
+        stops,
+        way_m: speed * walking_s,
+        walking_speed_mps: speed,
+        distance_m: random.uniform(5.0, 60.0),
+        pitch_down_deg: random.uniform(-20.0, 80.0),
+        altitude_m: random.uniform(1.0, 50.0),
+        wear: Some(wear),
+        ..flights()[0].clone()
+    }
+}
+
+/// The facts with one of them changed, and whether only descriptions state it.
+fn changed(facts: &Facts) -> Vec<(Facts, bool)> {
+    let other = |colour: Colour| Colour::ALL[(colour as usize + 5) % Colour::ALL.len()];
+    let wear = facts.wear.expect("they wear something");
+    let more_turns = [facts.turns.clone(), vec![Turn { frame: 900, angle_deg: 90.0, kind: TurnKind::Left }]].concat();
+    let more_stops = [facts.stops.clone(), vec![Stop { frame: 300, duration_s: 1.0 }]].concat();
+    let mut all = vec![
+        (Facts { distance_m: facts.distance_m + 3.0, ..facts.clone() }, false),
+        (Facts { pitch_down_deg: facts.pitch_down_deg - 3.0, ..facts.clone() }, false),
+        (Facts { wear: Some(Wear { top: other(wear.top), ..wear }), ..facts.clone() }, false),
+        (Facts { wear: Some(Wear { trousers: other(wear.trousers), ..wear }), ..facts.clone() }, false),
+        (Facts { altitude_m: facts.altitude_m + 3.0, ..facts.clone() }, true),
+        (Facts { way_m: facts.way_m + 20.0, ..facts.clone() }, true),
+        (Facts { duration_s: facts.duration_s - 15.0, ..facts.clone() }, true),
+        (Facts { turns: more_turns, ..facts.clone() }, true),
+        (Facts { stops: more_stops, ..facts.clone() }, true),
+    ];
+    if wear.backpack {
+        all.push((Facts { wear: Some(Wear { backpack: false, ..wear }), ..facts.clone() }, false));
+    }
+    let mirrored = |turn: &Turn| Turn {
+        kind: if turn.kind == TurnKind::Left { TurnKind::Around } else { TurnKind::Left },
+        ..*turn
+    };
+    if let Some(first) = facts.turns.first() {
+        let turns = [vec![mirrored(first)], facts.turns[1..].to_vec()].concat();
+        all.push((Facts { turns, ..facts.clone() }, true));
+    }
+    all
+}
+
+#[test]
+fn texts_of_many_made_up_flights_are_true_of_them_and_of_no_others() {
+    let config = CaptionConfig { variants_per_style: 6, ..CaptionConfig::default() };
+    let random = &mut Seed::of_item(3, "captions", "made up").stream("facts");
+    for item in 0..100 {
+        let facts = made_up(random);
+        let others = changed(&facts);
+        for caption in captions(&facts, &config, Seed::of_item(3, "captions", &format!("{item}"))) {
+            assert_eq!(check(&caption.text, caption.language, &facts), Ok(()), "{}", caption.text);
+            let stated = others.iter().filter(|(_, described)| !described || caption.style == Style::Description);
+            for (other, _) in stated {
+                assert!(check(&caption.text, caption.language, other).is_err(), "{}\n{other:?}", caption.text);
+            }
+        }
+    }
 }

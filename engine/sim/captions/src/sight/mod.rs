@@ -2,18 +2,14 @@
 //! that single it out by that.
 
 mod beside;
-pub mod check;
 mod chinese;
 mod crossings;
 mod english;
 pub mod facts;
-mod landmark_reading;
 pub mod landmarks;
-mod reading;
 mod wording;
 
 pub use beside::{Beside, NearLandmark, OnSide};
-pub use check::check_sight;
 pub use crossings::Crossing;
 pub use facts::{Across, Near, Person, Place, Seen, Side, Sight, View, sight};
 pub use landmarks::{LandmarkKind, Landmarks};

@@ -1,7 +1,7 @@
 //! Bicycles and motorcycles with their riders. All sizes follow the box.
 
 use super::model::Model;
-use cosfly_figures::Clothes;
+use crate::Clothes;
 use crate::frustum::{Surface, ring};
 use crate::region::Region;
 use cosfly_frames::{DVec3, real};

@@ -1,8 +1,8 @@
 //! Models and boxes agree.
 
 use crate::body_shape::BodyShape;
-use cosfly_figures::Clothes;
-use cosfly_figures::walker_triangles;
+use crate::Clothes;
+use crate::walker_triangles;
 use crate::figure::figure;
 use crate::region::Region;
 use crate::walker::Walker;

@@ -3,7 +3,7 @@
 use super::livery::Livery;
 use super::model::Model;
 use super::{coaches, drones, riders};
-use cosfly_figures::Clothes;
+use crate::Clothes;
 use crate::frustum::FigureTriangle;
 use crate::walker::Walker;
 use cosfly_domain::BodyKind;
