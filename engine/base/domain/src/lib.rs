@@ -44,7 +44,8 @@ pub use town::{
 };
 pub use traffic::Traffic;
 pub use trajectory::{
-    Certificate, FlightLabel, FramePerturbation, Limits, Perturbation, PerturbationKind, PlanOutcome, TermCost, Trajectory,
+    Certificate, FlightLabel, FramePerturbation, Limits, Perturbation, PerturbationKind, PlanOutcome, TermCost,
+    Trajectory,
 };
 pub use view::{PersonView, PixelBox, TargetView};
 pub use weather::Weather;

@@ -2,10 +2,10 @@
 
 use crate::body_shape::BodyShape;
 use crate::build::{Build, Hair};
-use cosfly_domain::{Colour, Dye};
 use crate::umbrella;
 use crate::vehicles::Livery;
-use cosfly_domain::{Bag, BodyKind, Colour, Dye, Outfit, Traits};
+use cosfly_domain::{Bag, BodyKind, Outfit, Traits};
+use cosfly_domain::{Colour, Dye};
 use cosfly_frames::{RandomStream, Seed};
 
 /// Colours of a figure, linear RGB.

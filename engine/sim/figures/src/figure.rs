@@ -1,8 +1,8 @@
 //! People: jointed figures of frustums whose limbs swing with the gait; and the entry to the figures of vehicles.
 
+use crate::Clothes;
 use crate::body_shape::BodyShape;
 use crate::build::{Arm, Hair, head_size};
-use crate::Clothes;
 use crate::frustum::{FigurePart, FigureTriangle, Ring, Surface, around, ring};
 use crate::region::Region;
 use crate::walker::{TargetSetup, Walker};

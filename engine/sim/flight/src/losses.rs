@@ -1,8 +1,8 @@
 //! Losses of the target that are ordered in a share of the flights: every flight is planned with its loss once, and the orders
 //! go to flights that succeeded, so that the shares are filled.
 
-use cosfly_domain::{Around, Body, Followed, Outfit, PlanOutcome, Trajectory};
-use cosfly_figures::BodyShape;
+use cosfly_domain::{Around, Body, Followed, PlanOutcome, Trajectory};
+use cosfly_figures::{BodyShape, outfit_of};
 use cosfly_film::hidden::hidden;
 use cosfly_frames::DVec3;
 use cosfly_geometry::{BoxBvh, SpatialQuery};

@@ -1,8 +1,8 @@
 //! Paint and build of vehicles, drawn from their seeds.
 
 use crate::body_shape::BodyShape;
-use cosfly_domain::{BodyKind, Colour, Dye};
 use crate::region::Region;
+use cosfly_domain::{BodyKind, Colour, Dye};
 use cosfly_frames::Seed;
 
 /// Paint of a vehicle.

@@ -1,11 +1,11 @@
 //! Models and boxes agree.
 
-use crate::body_shape::BodyShape;
 use crate::Clothes;
-use crate::walker_triangles;
+use crate::body_shape::BodyShape;
 use crate::figure::figure;
 use crate::region::Region;
 use crate::walker::Walker;
+use crate::walker_triangles;
 use cosfly_domain::{BodyKind, BodyPlan, SemanticLabel};
 use cosfly_frames::{DVec3, Seed, TargetState};
 
