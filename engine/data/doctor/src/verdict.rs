@@ -1,7 +1,7 @@
 //! The verdict over flights that are about to be published: which are left out, with their reasons, decided over all of them at
 //! once.
 
-use crate::{Episode, Severity, checks};
+use crate::{ExaminedEpisode, Severity, checks};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Seed;
 use schemars::JsonSchema;
@@ -65,7 +65,7 @@ pub struct Family {
 
 impl Family {
     /// Adds what the checks find in a flight of the family.
-    pub fn add(&mut self, episode: &Episode, config: &InspectConfig) {
+    pub fn add(&mut self, episode: &ExaminedEpisode, config: &InspectConfig) {
         for flag in checks::of_episode(episode) {
             let reason = match flag.severity {
                 Severity::Damage => &mut self.damage,

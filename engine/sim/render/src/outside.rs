@@ -2,10 +2,9 @@
 
 use crate::faces::{box_lift, ground_lift};
 use crate::scene::{Scene, clusters_of};
+use cosfly_domain::Town;
 use cosfly_frames::DVec3;
 use cosfly_materials::parts::{BOX_FACES, Cluster, SceneBox, boxes_of};
-use cosfly_raster::eye::Eye;
-use cosfly_raster::visibility::{NO_FACE, PlaneOnScreen, Screen, Visibility};
 
 /// A static face: numbered by its place in [`Scene::faces_of`].
 #[derive(Clone, Debug, PartialEq)]

@@ -7,7 +7,6 @@ use crate::faces::{DrawnFace, FaceSource, box_lift};
 use crate::far_light::FarLight;
 use crate::frame::RenderedFrame;
 use crate::look::PictureLook;
-use crate::outlook::FarLight;
 use crate::passes::ids::{SeenRuns, for_each_band};
 use crate::passes::on_request;
 use crate::people::{PartLook, People};

@@ -97,7 +97,7 @@ mod tests {
         let scratch = tempfile::tempdir().unwrap();
         let report = measure(&RenderOptions {
             grounds: vec![Ground::of_boxes(20, camera, 2)],
-            weathers: vec![Weather::preset("HardRainNoon").unwrap()],
+            weathers: vec![cosfly_materials::presets::preset("HardRainNoon").unwrap()],
             rounds: 1,
             encoding: EncodingConfig::default(),
             threads: 2,
