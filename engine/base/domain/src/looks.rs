@@ -117,56 +117,41 @@ impl Dye {
     }
 }
 
-/// Names of colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
-pub enum Colour {
-    Black,
-    Grey,
-    White,
-    Red,
-    Orange,
-    Yellow,
-    Green,
-    Blue,
-    Purple,
-    Pink,
-    Brown,
-    Beige,
+/// One row per colour: name in code, name in tables and in English texts.
+macro_rules! colours {
+    ($($colour:ident $name:literal;)*) => {
+        /// Names of colours.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        #[expect(missing_docs, reason = "the names say it")]
+        pub enum Colour {
+            $($colour,)*
+        }
+
+        impl Colour {
+            /// All names.
+            pub const ALL: [Self; 12] = [$(Self::$colour),*];
+
+            /// The name in tables and in English texts.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$colour => $name,)*
+                }
+            }
+        }
+    };
 }
 
-impl Colour {
-    /// All names.
-    pub const ALL: [Self; 12] = [
-        Self::Black,
-        Self::Grey,
-        Self::White,
-        Self::Red,
-        Self::Orange,
-        Self::Yellow,
-        Self::Green,
-        Self::Blue,
-        Self::Purple,
-        Self::Pink,
-        Self::Brown,
-        Self::Beige,
-    ];
-
-    /// The name in tables and in English texts.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Black => "black",
-            Self::Grey => "grey",
-            Self::White => "white",
-            Self::Red => "red",
-            Self::Orange => "orange",
-            Self::Yellow => "yellow",
-            Self::Green => "green",
-            Self::Blue => "blue",
-            Self::Purple => "purple",
-            Self::Pink => "pink",
-            Self::Brown => "brown",
-            Self::Beige => "beige",
-        }
-    }
+colours! {
+    Black "black";
+    Grey "grey";
+    White "white";
+    Red "red";
+    Orange "orange";
+    Yellow "yellow";
+    Green "green";
+    Blue "blue";
+    Purple "purple";
+    Pink "pink";
+    Brown "brown";
+    Beige "beige";
 }
