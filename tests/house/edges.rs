@@ -34,28 +34,11 @@ const SIM_FOR_DATA: [(&[&str], &[&str]); 2] = [
 /// Edges beyond the law: who, whom, why. An edge that is gone must leave the list.
 const BEYOND: &[(&str, &[&str], &str)] = &[
     ("cosfly-doctor", &["cosfly-captions"], "judges texts of others against the world"),
-    ("cosfly-doctor", &["cosfly-planner"], "certificates of planned flights"),
-    ("cosfly-doctor", &["cosfly-render"], "channels and cameras"),
-    ("cosfly-evaluate", &["cosfly-maps"], "towns, to find collisions"),
-    ("cosfly-export", &["cosfly-maps", "cosfly-render"], "labels, channels and cameras"),
-    ("cosfly-images", &["cosfly-maps", "cosfly-render"], "labels and channels"),
-    ("cosfly-load", &["cosfly-render"], "channels"),
-    ("cosfly-preview", &["cosfly-maps", "cosfly-render"], "draws towns; channels"),
-    ("cosfly-read", &["cosfly-render"], "channels"),
+    ("cosfly-env", &["cosfly-scenes"], "tests: seeded streets"),
+    ("cosfly-planner", &["cosfly-scenes"], "tests: seeded streets"),
     ("cosfly-report", &["cosfly-captions"], "counts what texts say"),
-    ("cosfly-schema", &["cosfly-captions"], "fills the columns of texts"),
-    ("cosfly-schema", &["cosfly-geometry", "cosfly-maps", "cosfly-world"], "tables of towns and bodies"),
-    ("cosfly-schema", &["cosfly-planner", "cosfly-render"], "fills the columns of flights and pictures"),
-    ("cosfly-splits", &["cosfly-maps"], "places of towns"),
-    ("cosfly-verify", &["cosfly-maps", "cosfly-render"], "labels and channels"),
-    ("cosfly-verify", &["cosfly-planner"], "tests: certificates are made anew"),
-    ("cosfly-write", &["cosfly-geometry", "cosfly-maps", "cosfly-world"], "scenes of logs"),
-    ("cosfly-write", &["cosfly-planner", "cosfly-render"], "flights and channels"),
-    (
-        "cosfly-sample",
-        &["cosfly-geometry", "cosfly-maps", "cosfly-planner", "cosfly-render", "cosfly-world"],
-        "makes a dataset for tests",
-    ),
+    ("cosfly-sample", &["cosfly-captions", "cosfly-figures", "cosfly-planner"], "makes a dataset for tests"),
+    ("cosfly-write", &["cosfly-captions"], "words goals, phrases and instructions of windows"),
 ];
 
 /// All rooms by their names, from the resolved graph and from what manifests declare (the graph lacks what features leave out).

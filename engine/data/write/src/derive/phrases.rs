@@ -1,7 +1,7 @@
 //! Referring phrases of a flight: given where they single the target out, followed to its end.
 
 use cosfly_captions::Language;
-use cosfly_captions::refer::{Candidate, Phrase};
+use cosfly_captions::refer::{Candidate, Phrase, text};
 use cosfly_domain::{Bag, BodyKind, Outfit, PixelBox};
 use cosfly_frames::TargetState;
 use cosfly_schema::RenderedTrajectory;
@@ -48,8 +48,8 @@ impl Given {
         let property = |it: &cosfly_captions::refer::Property| it.name().to_owned();
         PhraseRow {
             frame: self.frame,
-            text_en: self.phrase.text(Language::En),
-            text_zh: self.phrase.text(Language::Zh),
+            text_en: text(&self.phrase, Language::En),
+            text_zh: text(&self.phrase, Language::Zh),
             properties: self.phrase.properties.iter().map(property).collect(),
             candidates: self.candidates.clone(),
             fits_target: self.fits_target.clone(),

@@ -1,6 +1,6 @@
 //! Baselines as pilots.
 
-use super::{Failure, Pilot};
+use super::seam::{Failure, Pilot};
 use cosfly_env::policies::{Knowledge, baseline};
 use cosfly_env::{Action, Environment, Policy};
 

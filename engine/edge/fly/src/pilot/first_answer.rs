@@ -1,6 +1,9 @@
 //! [`FirstAnswer`]: whether a policy has answered at all. Before that, nothing is an episode.
 
-use super::{Failure, Manners, Pilot, Place, open};
+use super::manners::Manners;
+use super::open::open;
+use super::place::Place;
+use super::seam::{Failure, Pilot};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Action, Environment};

@@ -1,9 +1,10 @@
 //! A policy that is a function in Python, in a process of its own.
 
 use super::answer::Answer;
+use super::manners::Manners;
 use super::process::{Process, Silence, Told};
 use super::question::Question;
-use super::{Failure, Manners, Pilot};
+use super::seam::{Failure, Pilot, late};
 use crate::wire;
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Action, Environment};
@@ -66,7 +67,7 @@ impl PythonPilot {
                 return Err(Failure::Answer(format!("the policy failed: {}", self.manners.end_of(&text, KEPT))));
             }
             Ok(Told::TooLong) => Failure::Answer(wire::too_long()),
-            Err(Silence::Late) => Failure::Answer(super::late(within)),
+            Err(Silence::Late) => Failure::Answer(late(within)),
             Err(Silence::Ended) => {
                 let words = process.last_words();
                 Failure::Gone(format!("the process of the policy {}", self.manners.end_of(&words, KEPT_OF_LOADING)))

@@ -1,6 +1,6 @@
 //! [`Question`]: the message that asks for an action, with pictures where they are asked for.
 
-use super::Manners;
+use super::manners::Manners;
 use crate::wire::{self, Field};
 use cosfly_env::pictures::{Channel, PictureBatch, Pictures};
 use cosfly_env::{Environment, FEATURES};

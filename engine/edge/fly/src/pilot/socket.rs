@@ -1,8 +1,9 @@
 //! A policy behind a WebSocket that speaks openpi's wire: metadata first, then an action for every observation.
 
 use super::answer::Answer;
+use super::manners::Manners;
 use super::question::Question;
-use super::{Failure, Manners, Pilot};
+use super::seam::{Failure, Pilot, late};
 use crate::wire;
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Action, Environment};
@@ -163,7 +164,7 @@ impl SocketPilot {
                 Ok(Message::Close(_) | Message::Frame(_)) => {
                     Err(Failure::Gone("the policy closed the connection".to_owned()))
                 }
-                Err(Error::Io(error)) if is_late(&error) => Err(Failure::Answer(super::late(timeout))),
+                Err(Error::Io(error)) if is_late(&error) => Err(Failure::Answer(late(timeout))),
                 Err(Error::Capacity(_)) => Err(Failure::Answer(wire::too_long())),
                 // It ended without a word of goodbye.
                 Err(Error::Protocol(ProtocolError::ResetWithoutClosingHandshake)) => {

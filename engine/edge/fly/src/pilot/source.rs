@@ -1,7 +1,8 @@
 //! [`source_of`]: the digest of the file of a policy in Python.
 
+use super::manners::Manners;
+use super::place::Place;
 use super::process::{end, in_group};
-use super::{Manners, Place};
 use cosfly_fingerprint::Digest;
 use std::io::Read;
 use std::path::PathBuf;

@@ -31,7 +31,9 @@ impl Avoided {
     pub fn read(inputs: &Inputs<'_>) -> Result<Self> {
         let mut people = vec![];
         for artifacts in inputs.all(PORT).chunk_by(|a, b| a.id.stage == b.id.stage) {
-            if let Some(traffic) = artifacts.first().map_or(Ok(None), |artifact| super::traffic_of(inputs, artifact))? {
+            if let Some(traffic) =
+                artifacts.first().map_or(Ok(None), |artifact| super::moving::traffic_of(inputs, artifact))?
+            {
                 let bodies = traffic.bodies.iter().filter(|body| !body.states.is_empty());
                 people.extend(bodies.map(|body| Person::of(body, traffic.dt_s)));
                 continue;

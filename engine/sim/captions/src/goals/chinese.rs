@@ -2,7 +2,7 @@
 
 use super::chinese_frames::{FLIGHTS, KEEPS, OF_CLOTHES, OF_DISTANCE, OF_MOVES, STEPS};
 use super::claim::{Claim, Hider, Said, Subject};
-use super::compose::Wording;
+use super::plan::Wording;
 use crate::chinese::{colour, numeral, who};
 use crate::facts::Wear;
 use crate::sight::{LandmarkKind, OnSide};

@@ -2,11 +2,11 @@
 
 use super::claim::{Claim, Said, Subject};
 use super::course::Course;
+use super::plan::{Goal, Plan, Wording};
 use super::{chinese, english, pick, steps};
 use crate::facts::Wear;
-use crate::sight::OnSide;
 use crate::wording::{one_of, without};
-use cosfly_claims::{Language, TurnKind};
+use cosfly_claims::Language;
 use cosfly_domain::Colour;
 use cosfly_random::{RandomStream, Seed};
 use std::ops::Range;
@@ -18,81 +18,7 @@ const RIGHT_AFTER_FRAMES: usize = 10;
 const OF_A_WALK: &[&str] =
     &["walk", "way", "trip", "pace", "set out", "may go", "will go", "Go with", "走", "路", "途中", "陪"];
 
-/// Kind of goal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Grain {
-    /// One for the whole flight.
-    Flight,
-    /// One for a stretch.
-    Step,
-    /// Three lines, the last of which corrects the second.
-    Dialogue,
-    /// One that does not fit: one thing in it is not so.
-    Negative,
-}
-
-impl Grain {
-    /// All grains, in the order of the table.
-    pub const ALL: [Self; 4] = [Self::Flight, Self::Step, Self::Dialogue, Self::Negative];
-
-    /// Name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Flight => "flight",
-            Self::Step => "step",
-            Self::Dialogue => "dialogue",
-            Self::Negative => "negative",
-        }
-    }
-}
-
-/// A goal in one language.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Goal {
-    /// Kind of goal.
-    pub grain: Grain,
-    /// Language of the lines.
-    pub language: Language,
-    /// Frames that the goal is about.
-    pub frames: Range<usize>,
-    /// Lines: the user's first, then by turns the pilot's and the user's.
-    pub lines: Vec<String>,
-    /// What the user says in the end; of a negative, one of the claims is false.
-    pub said: Vec<Said>,
-    /// What a negative, or the corrected line of a dialogue, is wrong about.
-    pub wrong: Option<Subject>,
-}
-
-/// What a goal says, before it has words.
-#[derive(Clone, Debug)]
-pub(super) struct Plan {
-    pub grain: Grain,
-    pub frames: Range<usize>,
-    pub said: Vec<Said>,
-    pub wrong: Option<Subject>,
-    /// What the pilot understands, for a dialogue.
-    pub mistaken: Option<Claim>,
-    /// Whether a dialogue is about one of two people.
-    pub is_other_of_two: bool,
-}
-
-/// The words of a language.
-pub(super) struct Wording {
-    pub flights: &'static [&'static str],
-    pub steps: &'static [&'static str],
-    pub keeps: &'static [&'static str],
-    pub predicate: fn(&Said, &mut RandomStream) -> String,
-    /// A move right after a claim that [`is_anchor`].
-    pub anchored: fn(&Claim, &str, &mut RandomStream) -> String,
-    /// Several things that overlap in time, and things in order of time.
-    pub together: fn(&[String], &mut RandomStream) -> String,
-    pub joined: fn(&[String], &mut RandomStream) -> String,
-    pub finished: fn(&str, &str, &str) -> String,
-    pub target: fn(&Wear, &mut RandomStream) -> String,
-    pub dialogue: fn(Subject) -> &'static [[&'static str; 3]],
-}
-
-/// Goals of a flight, in both languages, in the order of [`Grain::ALL`].
+/// Goals of a flight, in both languages, in the order of [`Grain::ALL`](super::Grain::ALL).
 pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
     let mut plans = pick::flights(course, &mut seed.stream("flights"));
     plans.extend(steps::steps(course, &mut seed.stream("steps")));
@@ -254,21 +180,4 @@ fn dialogue(
         }
     }
     filled.iter().map(|line| (wording.finished)(line, "", "")).collect()
-}
-
-/// The other side.
-pub(super) fn mirrored(kind: TurnKind) -> Option<TurnKind> {
-    match kind {
-        TurnKind::Left => Some(TurnKind::Right),
-        TurnKind::Right => Some(TurnKind::Left),
-        TurnKind::Around => None,
-    }
-}
-
-/// The other side.
-pub(super) fn other_side(side: OnSide) -> OnSide {
-    match side {
-        OnSide::Left => OnSide::Right,
-        OnSide::Right => OnSide::Left,
-    }
 }

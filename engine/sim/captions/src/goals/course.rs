@@ -1,7 +1,7 @@
 //! The course of a flight: all that a goal may say of it, in order of time.
 
 use super::claim::{Claim, Hider, Said, is_named};
-use super::{passing, people};
+use super::crossings::crossings;
 use crate::facts::Wear;
 use crate::sight::Landmarks;
 use crate::turns::{Path, Turns};
@@ -102,7 +102,7 @@ impl<'a> Course<'a> {
         let path = if walks { Path::of(&feet, &moving, flight.dt_s) } else { Path::of(&[], &[], flight.dt_s) };
         let turns = path.turns();
         let stops = if walks { pauses(&moving, flight.dt_s) } else { vec![] };
-        let crossings = passing::crossings(flight.states, landmarks);
+        let crossings = crossings(flight.states, landmarks);
         Self { flight, landmarks, walks, turns, path, stops, crossings }
     }
 
@@ -178,15 +178,6 @@ impl<'a> Course<'a> {
         };
         let begin = self.flight.hidden.iter().filter(|hidden| frames.contains(&hidden.frames.start));
         begin.filter_map(said).collect()
-    }
-
-    /// Crossings and landmarks on the way, people who walk along, and people and vehicles that pass the target, in the frames.
-    pub(super) fn surroundings(&self, frames: &Range<usize>) -> Vec<Said> {
-        let mut found = passing::passed(self, frames);
-        found.extend(people::walks_with(self, frames));
-        found.extend(passing::crossed(self, frames));
-        found.extend(people::passed(self, frames));
-        found
     }
 }
 

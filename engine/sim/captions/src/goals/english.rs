@@ -1,8 +1,8 @@
 //! English wordings of goals.
 
 use super::claim::{Claim, Hider, Passed, Said, Subject};
-use super::compose::Wording;
 use super::english_frames::{FLIGHTS, KEEPS, OF_CLOTHES, OF_DISTANCE, OF_MOVES, STEPS};
+use super::plan::Wording;
 use crate::english::{article, who};
 use crate::facts::Wear;
 use crate::sight::{LandmarkKind, OnSide};

@@ -3,20 +3,24 @@
 //!
 //! [`Course`] reads off a flight what can be said of it, as typed [`Claim`]s; [`goals`] picks some of them and puts them into words.
 
+mod around;
 mod chinese;
 mod chinese_frames;
 mod claim;
 mod compose;
 mod course;
+mod crossings;
 mod english;
 mod english_frames;
 mod passing;
 mod people;
 mod pick;
+mod plan;
 mod steps;
 #[cfg(test)]
 mod tests;
 
 pub use claim::{Claim, Hider, Subject};
-pub use compose::{Goal, Grain, goals};
+pub use compose::goals;
 pub use course::{Course, Flight, Hidden, Neighbour, Sample};
+pub use plan::{Goal, Grain};

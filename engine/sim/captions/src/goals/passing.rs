@@ -86,16 +86,6 @@ pub(super) fn crossed(course: &Course<'_>, frames: &Range<usize>) -> Vec<Said> {
     found
 }
 
-/// Runs of frames in which the target is on a marked crossing.
-pub(super) fn crossings(states: &[TargetState], landmarks: &Landmarks) -> Vec<Range<usize>> {
-    let feet: Vec<DVec3> = states.iter().map(|state| state.feet_in_world).collect();
-    let near = landmarks.crossings_near(&feet, 0.0);
-    let is_on: Vec<bool> = feet.iter().map(|point| near.iter().any(|crossing| crossing.holds(*point))).collect();
-    let frames: Vec<usize> = (0..feet.len()).collect();
-    let runs = frames.chunk_by(|a, b| is_on[*a] == is_on[*b]).filter(|run| is_on[run[0]]);
-    runs.map(|run| run[0]..run[0] + run.len()).collect()
-}
-
 /// Whether no landmark of a kind is on a side of the target in the frames, not even at the border.
 pub(super) fn is_free(course: &Course<'_>, frames: &Range<usize>, kind: LandmarkKind, side: OnSide) -> bool {
     let is_on_side = |it: &Beside| if side == OnSide::Left { it.left > 0 } else { it.right > 0 };

@@ -1,8 +1,9 @@
 //! Choice of what goals of whole flights, dialogues and goals that do not fit say.
 
+use super::around::surroundings;
 use super::claim::{Claim, Passed, Said, Subject};
-use super::compose::{Grain, Plan, mirrored, other_side};
 use super::course::{Course, Neighbour};
+use super::plan::{Grain, Plan, mirrored, other_side};
 use crate::facts::Wear;
 use cosfly_domain::{BodyKind, Colour};
 use cosfly_random::RandomStream;
@@ -49,7 +50,7 @@ fn flight(course: &Course<'_>, words: &mut RandomStream) -> Plan {
     let mut more: Vec<Said> = moves.into_iter().filter(|it| matches!(it.claim, Claim::Stops(_))).collect();
     more.extend(course.sights(&frames));
     if course.walks {
-        more.extend(course.surroundings(&frames));
+        more.extend(surroundings(course, &frames));
     }
     for _ in 0..2 {
         if told.len() < 3 && !more.is_empty() {

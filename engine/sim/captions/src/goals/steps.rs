@@ -1,8 +1,9 @@
 //! Steps: the stretches of a flight, each with its move, what is on the way, and the distance.
 
+use super::around::surroundings;
 use super::claim::{Claim, Said, Subject};
-use super::compose::{Grain, Plan};
 use super::course::Course;
+use super::plan::{Grain, Plan};
 use cosfly_random::RandomStream;
 use std::ops::Range;
 
@@ -54,7 +55,7 @@ fn step(course: &Course<'_>, frames: Range<usize>, action: Option<Said>, words: 
         frames.start..action.as_ref().map_or(frames.end, |said| said.frames.start.saturating_sub(1)).max(frames.start);
     let mut said = vec![];
     // At most two things on the way: one around the target, one that hides it.
-    let around = if course.walks { course.surroundings(&before) } else { vec![] };
+    let around = if course.walks { surroundings(course, &before) } else { vec![] };
     if !around.is_empty() {
         said.push(around[words.index(around.len())].clone());
     }

@@ -1,8 +1,10 @@
 //! Tests of goals on a walk past trees, round a corner, with people.
 
+use super::around::surroundings;
 use super::claim::{Claim, Hider, Subject};
-use super::compose::{Goal, Grain, goals};
+use super::compose::goals;
 use super::course::{Course, Flight, Hidden, Neighbour, Sample};
+use super::plan::{Goal, Grain};
 use crate::facts::Wear;
 use crate::sight::Landmarks;
 use cosfly_claims::Language;
@@ -72,10 +74,10 @@ fn a_walk_is_cut_at_its_moves_and_says_what_is_on_the_way() {
     let course = Course::of(&flight, &town);
     let names = |claims: Vec<super::claim::Said>| -> Vec<String> { claims.iter().map(ToString::to_string).collect() };
     assert_eq!(names(course.moves(&(0..98))), ["stops 4 @ 50..58", "turns right @ 58..59"]);
-    assert_eq!(names(course.surroundings(&(0..48))), ["passes tree left 3 @ 0..48", "walks_with 1 @ 0..48"]);
+    assert_eq!(names(surroundings(&course, &(0..48))), ["passes tree left 3 @ 0..48", "walks_with 1 @ 0..48"]);
     assert_eq!(names(course.sights(&(0..98))), ["lost van 3 found @ 70..76"]);
     // At the border of the frames nobody could say whether the last tree counts.
-    assert_eq!(names(course.surroundings(&(0..37))), ["walks_with 1 @ 0..37"]);
+    assert_eq!(names(surroundings(&course, &(0..37))), ["walks_with 1 @ 0..37"]);
     assert_eq!(names(course.quiet(&(0..40)).into_iter().collect()), ["no_turn @ 0..40"]);
 }
 
@@ -92,7 +94,7 @@ fn crossings_are_told_whole_and_the_only_one_begins_a_count() {
     let trees = [tree(1, 6.0, -3.0), tree(2, 14.0, -3.0), tree(3, 22.0, -3.0)];
     let told = |ground: &[WalkablePolygon]| -> Vec<String> {
         let (flight, town) = (flight(&states), Landmarks::among(&trees, ground));
-        let all = Course::of(&flight, &town).surroundings(&(0..48));
+        let all = surroundings(&Course::of(&flight, &town), &(0..48));
         all.iter().map(ToString::to_string).filter(|it| it.contains("cross")).collect()
     };
     assert_eq!(told(&[crossing(4.0)]), ["crosses @ 6..18", "passes tree left 2 after_crossing @ 18..48"]);
@@ -116,7 +118,8 @@ fn who_passes_is_told_by_the_way_it_goes() {
     let neighbours = vec![Neighbour { wear: wear(Colour::Green), samples: drive(9.1, 0.5) }];
     let vehicles = vec![(BodyKind::Bus, drive(60.0, -4.0)), (BodyKind::Bicycle, drive(-30.0, 4.0))];
     let (flight, town) = (Flight { neighbours, vehicles, ..flight(&states) }, Landmarks::default());
-    let told: Vec<String> = Course::of(&flight, &town).surroundings(&(0..48)).iter().map(ToString::to_string).collect();
+    let told: Vec<String> =
+        surroundings(&Course::of(&flight, &town), &(0..48)).iter().map(ToString::to_string).collect();
     assert_eq!(told, ["overtaken_by bicycle @ 21..23", "meets_vehicle bus @ 22..24", "overtakes green @ 24..26"]);
 }
 

@@ -1,6 +1,6 @@
 //! Chinese referring phrases.
 
-use super::{Phrase, Property};
+use super::phrase::{Phrase, Property};
 use crate::chinese::colour;
 use crate::part::Part;
 use cosfly_domain::BodyKind;

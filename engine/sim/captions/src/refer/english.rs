@@ -1,6 +1,6 @@
 //! English referring phrases.
 
-use super::{Phrase, Property};
+use super::phrase::{Phrase, Property};
 use crate::english::article;
 use crate::part::Part;
 use cosfly_domain::BodyKind;

@@ -1,7 +1,7 @@
 //! Relations of a person to landmarks that a picture shows: passing a tree, approaching a street lamp, in front of a building.
 
-use super::facts::{Person, STANDS_M, View, WALKS_M};
 use super::landmarks::{LandmarkKind, Landmarks, way_to};
+use super::view::{Person, STANDS_M, View, WALKS_M};
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, real};
 
@@ -189,7 +189,7 @@ fn building_behind(view: &View, landmarks: &Landmarks, person: &Person) -> Optio
 
 #[cfg(test)]
 mod tests {
-    use super::super::facts::test_views::{person, town, view};
+    use super::super::test_views::{person, town, view};
     use super::*;
     use cosfly_domain::Colour::{Black, Red};
 

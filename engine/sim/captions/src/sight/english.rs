@@ -3,7 +3,7 @@
 use super::beside::{Beside, NearLandmark, OnSide};
 use super::facts::{Across, Place, Side, Sight};
 use super::landmarks::LandmarkKind;
-use super::wording::{Relation, relation};
+use super::relation::{Relation, relation};
 use crate::english::{article, who};
 use crate::part::Part;
 use crate::wording::one_of;

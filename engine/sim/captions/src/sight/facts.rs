@@ -5,19 +5,12 @@
 
 use super::beside::{NearLandmark, near_landmarks};
 use super::landmarks::Landmarks;
+use super::view::{Person, STANDS_M, View, WALKS_M};
 use crate::facts::Wear;
 use crate::part::Part;
 use cosfly_domain::{Camera, Colour};
 use cosfly_frames::{DVec3, Pose, real};
 
-/// A person with fewer visible pixels is not clear: texts do not mention and do not count such a person, and do not say how
-/// many people the picture shows.
-const CLEAR_PIXELS: u32 = 30;
-/// Smallest height of the box of a clear person, pixels.
-const CLEAR_HEIGHT_PX: f64 = 10.0;
-/// A target that moves less than this over the input stands; one that moves more than [`WALKS_M`] walks, metres.
-pub(super) const STANDS_M: f64 = 0.1;
-pub(super) const WALKS_M: f64 = 0.4;
 /// A way within this angle of a direction of the picture has its name, degrees.
 const ACROSS_DEG: f64 = 30.0;
 /// In a picture that looks down more steeply, "away" and "towards" mean little, degrees.
@@ -38,51 +31,6 @@ const BORDER: f64 = 1.3;
 const NEARER: f64 = 1.25;
 /// The outermost person is this far from the next one at least, as a share of the picture's width.
 const OUTER: f64 = 0.03;
-
-/// Somebody in a picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Person {
-    /// Ground point between the feet, world frame.
-    pub feet_in_world: DVec3,
-    /// Walking direction, radians.
-    pub heading_rad: f64,
-    /// Speed along the ground, m/s.
-    pub speed_mps: f64,
-    /// Left, top, right, bottom edge of the visible pixels; `None` where no pixel is visible.
-    pub box_px: Option<[f64; 4]>,
-    /// Number of visible pixels.
-    pub pixels: u32,
-    /// Colour of the shirt or jacket.
-    pub top: Colour,
-}
-
-impl Person {
-    fn is_clear(&self) -> bool {
-        self.pixels >= CLEAR_PIXELS && self.box_px.is_some_and(|edges| edges[3] - edges[1] >= CLEAR_HEIGHT_PX)
-    }
-
-    /// Middle of the visible pixels as a share of the picture's width.
-    fn across(&self, width_px: f64) -> f64 {
-        self.box_px.map_or(0.5, |edges| 0.5 * (edges[0] + edges[2]) / width_px)
-    }
-}
-
-/// The picture that ends the input of a window.
-#[derive(Clone, Debug, PartialEq)]
-pub struct View {
-    /// Pose of the camera.
-    pub camera: Pose,
-    /// Size of the picture and its field of view.
-    pub optics: Camera,
-    /// The target.
-    pub target: Person,
-    /// Clothes of the target.
-    pub wear: Option<Wear>,
-    /// Way of the target over the input, world frame, metres.
-    pub moved_in_world: DVec3,
-    /// Everybody else of whom at least one pixel is visible.
-    pub others: Vec<Person>,
-}
 
 /// Way across the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -240,99 +188,8 @@ fn near(view: &View, place: Place) -> Near {
 }
 
 #[cfg(test)]
-pub(crate) mod test_views {
-    //! Pictures with known facts.
-
-    use super::*;
-    use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox};
-
-    /// Somebody at x, y (m) who walks along a yaw (degrees) at 1.3 m/s, seen by the camera of [`view`].
-    pub(crate) fn person(x: f64, y: f64, yaw_deg: f64, top: Colour) -> Person {
-        let (across_px, height_px) = (320.0 + 320.0 * y / x, 400.0 / x);
-        let edges = [across_px - 0.2 * height_px, 200.0, across_px + 0.2 * height_px, 200.0 + height_px];
-        Person {
-            feet_in_world: DVec3::new(x, y, 0.0),
-            heading_rad: yaw_deg.to_radians(),
-            speed_mps: 1.3,
-            box_px: Some(edges),
-            pixels: (0.3 * height_px * height_px) as u32,
-            top,
-        }
-    }
-
-    /// A town with a tree, a lamp and a building near the people of [`views`].
-    pub(crate) fn town() -> Landmarks {
-        let thing = |kind, object_id, center: [f64; 3], half: [f64; 3]| Obstacle {
-            shape: OrientedBox {
-                center_in_world: DVec3::from_array(center),
-                half_extents_m: DVec3::from_array(half),
-                yaw_rad: 0.0,
-            },
-            kind,
-            object_id,
-            synthetic: false,
-        };
-        Landmarks::among(
-            &[
-                thing(ObstacleKind::TreeTrunk, 0, [12.5, 7.0, 1.2], [0.2, 0.2, 1.2]),
-                thing(ObstacleKind::TreeCrown, 0, [12.5, 7.0, 3.2], [1.0, 1.0, 1.0]),
-                thing(ObstacleKind::Lamp, 1, [17.0, -4.0, 2.5], [0.2, 0.2, 2.5]),
-                thing(ObstacleKind::Building, 2, [21.0, 0.0, 4.0], [3.0, 12.0, 4.0]),
-            ],
-            &[],
-        )
-    }
-
-    /// A picture 640 pixels wide, taken 5 m above the world's origin along x. Everybody walked on for 2 s.
-    pub(crate) fn view(target: Person, others: Vec<Person>) -> View {
-        let (sin, cos) = real::sin_cos(target.heading_rad);
-        View {
-            camera: Pose::looking_at(DVec3::Z * 5.0, DVec3::new(12.0, 0.0, 1.0)),
-            optics: Camera { width: 640, height: 480, horizontal_fov_rad: 90f64.to_radians() },
-            wear: Some(Wear { top: target.top, trousers: Colour::Blue, backpack: false }),
-            moved_in_world: 2.0 * target.speed_mps * DVec3::new(cos, sin, 0.0),
-            target,
-            others,
-        }
-    }
-
-    /// Pictures with every kind of fact.
-    pub(crate) fn views() -> Vec<View> {
-        let target = |y, yaw_deg| person(12.0, y, yaw_deg, Colour::Red);
-        let still = Person { speed_mps: 0.0, ..target(-5.0, 0.0) };
-        let hidden = Person { box_px: None, pixels: 0, ..target(0.0, 0.0) };
-        let faint = Person { pixels: 5, ..person(13.0, 5.5, 90.0, Colour::Grey) };
-        let follower = person(10.0, 0.3, 5.0, Colour::Black);
-        vec![
-            view(target(0.0, 0.0), vec![]),
-            view(target(0.0, 45.0), vec![]),
-            view(target(-4.0, 180.0), vec![person(22.0, 4.0, 90.0, Colour::White)]),
-            view(target(4.0, 90.0), vec![person(12.0, -3.0, 0.0, Colour::White), person(14.0, 0.0, 0.0, Colour::Grey)]),
-            view(target(0.0, 0.0), vec![follower]),
-            view(target(0.0, 0.0), vec![follower, person(8.5, -0.4, -3.0, Colour::Green)]),
-            view(target(0.0, 180.0), vec![person(10.0, 0.2, 178.0, Colour::Purple)]),
-            view(target(0.0, -90.0), vec![person(13.0, 0.2, -90.0, Colour::Beige)]),
-            view(
-                target(0.0, -90.0),
-                vec![person(13.0, 0.2, -90.0, Colour::Beige), person(90.0, 3.0, 0.0, Colour::Red)],
-            ),
-            view(still, vec![person(11.0, 5.0, 0.0, Colour::Orange)]),
-            view(hidden, vec![person(11.0, 5.0, 0.0, Colour::Orange)]),
-            view(target(-5.2, 0.0), vec![faint]),
-            view(target(0.0, 0.0), vec![faint]),
-            view(target(5.2, 0.0), vec![faint]),
-            view(target(4.5, 0.0), vec![]),
-            view(target(9.5, 0.0), vec![]),
-            view(target(4.5, 90.0), vec![]),
-            view(Person { speed_mps: 0.0, ..target(5.5, 0.0) }, vec![]),
-            view(person(16.7, 3.0, 90.0, Colour::Red), vec![]),
-        ]
-    }
-}
-
-#[cfg(test)]
 mod tests {
-    use super::test_views::{person, town, view, views};
+    use super::super::test_views::{person, town, view, views};
     use super::*;
 
     fn seen_in(number: usize) -> Seen {

@@ -7,10 +7,15 @@ mod crossings;
 mod english;
 pub mod facts;
 pub mod landmarks;
+mod relation;
+#[cfg(test)]
+mod test_views;
+mod view;
 mod wording;
 
 pub use beside::{Beside, NearLandmark, OnSide};
 pub use crossings::Crossing;
-pub use facts::{Across, Near, Person, Place, Seen, Side, Sight, View, sight};
+pub use facts::{Across, Near, Place, Seen, Side, Sight, sight};
 pub use landmarks::{LandmarkKind, Landmarks};
+pub use view::{Person, View};
 pub use wording::instruction;

@@ -1,30 +1,9 @@
 //! The instruction of a picture: whom to follow, by clothes, by the people around, by the way across the picture.
 
-use super::facts::{Near, Place, Seen, Side, Sight};
+use super::facts::Sight;
 use super::{chinese, english};
-use crate::part::Part;
 use cosfly_claims::Language;
-use cosfly_domain::Colour;
 use cosfly_random::Seed;
-
-/// More people are not counted in words.
-const MOST_COUNTED: usize = 6;
-
-/// A relation that singles the target out.
-pub(super) enum Relation {
-    /// Ahead of, behind or beside one person.
-    One(Place, Colour),
-    /// Ahead of, behind or beside several people.
-    Several(Place, usize),
-    /// The only person in the picture.
-    Alone,
-    /// Outermost of so many people.
-    Outermost(Side, usize),
-    /// Nearest to the camera.
-    Nearest,
-    /// In a part of the picture.
-    In(Part),
-}
 
 /// One sentence for the pilot that holds in this picture. The wording is the seed's.
 pub fn instruction(sight: &Sight, language: Language, seed: Seed) -> String {
@@ -32,25 +11,5 @@ pub fn instruction(sight: &Sight, language: Language, seed: Seed) -> String {
     match language {
         Language::Zh => chinese::instruction(sight, words),
         Language::En => english::instruction(sight, words),
-    }
-}
-
-/// The relation that singles the target out best: people who walk along, then all people, then the place in the picture.
-pub(super) fn relation(seen: &Seen) -> Option<Relation> {
-    let near = Place::ALL.into_iter().zip(&seen.near).find_map(|(place, near)| along(place, near));
-    let outermost = seen.side.zip(seen.people.filter(|count| *count <= MOST_COUNTED));
-    near.or_else(|| (seen.people == Some(1)).then_some(Relation::Alone))
-        .or_else(|| outermost.map(|(side, count)| Relation::Outermost(side, count)))
-        .or_else(|| seen.is_nearest.then_some(Relation::Nearest))
-        .or_else(|| seen.part.map(Relation::In))
-}
-
-fn along(place: Place, near: &Near) -> Option<Relation> {
-    match near.tops[..] {
-        _ if !near.is_clear => None,
-        [] => None,
-        [top] => Some(Relation::One(place, top)),
-        _ if near.tops.len() <= MOST_COUNTED => Some(Relation::Several(place, near.tops.len())),
-        _ => None,
     }
 }

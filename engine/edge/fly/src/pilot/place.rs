@@ -1,0 +1,78 @@
+//! [`Place`]: where a policy is.
+
+use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
+use cosfly_env::policies::BASELINES;
+use cosfly_secrets::{has_secret, without_secrets};
+
+/// Where a policy is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// One of [`BASELINES`], by its name.
+    Baseline(&'static str),
+    /// `ws://HOST:PORT`, a server that speaks openpi's wire.
+    Socket(String),
+    /// `python:module:function`.
+    Python {
+        /// Module.
+        module: String,
+        /// Function of the module: takes an observation, gives an action.
+        function: String,
+    },
+}
+
+impl Place {
+    /// Reads `ws://HOST:PORT`, `python:module:function` or the name of a baseline.
+    ///
+    /// # Errors
+    /// `fly-policy`, with what is allowed.
+    pub fn read(text: &str) -> Result<Self> {
+        let refused = |message: String| Diagnostic::new("fly-policy", Fault::Recipe, message);
+        // The address names folders and stands on cards and pages.
+        if has_secret(text) {
+            let message = format!("`{}` holds a name, a password or a key", without_secrets(text));
+            return Err(refused(message).hint(
+                "give the key of a server in the environment variable COSFLY_API_KEY, or with `--api-key`; it is written nowhere",
+            ));
+        }
+        if text.starts_with("ws://") {
+            return Ok(Self::Socket(text.to_owned()));
+        }
+        if text.starts_with("wss://") {
+            let message = format!("`{text}` asks for an encrypted connection, which `cosfly fly` does not make");
+            return Err(refused(message).hint("use ws://, through a tunnel such as `ssh -L` where the network is open"));
+        }
+        if let Some(rest) = text.strip_prefix("python:") {
+            let parts: Vec<&str> = rest.split(':').collect();
+            return match parts[..] {
+                [module, function] if !module.is_empty() && !function.is_empty() => {
+                    Ok(Self::Python { module: module.to_owned(), function: function.to_owned() })
+                }
+                _ => Err(refused(format!("`{text}` must be `python:MODULE:FUNCTION`"))),
+            };
+        }
+        let names = || BASELINES.iter().map(|it| it.name);
+        if let Some(baseline) = BASELINES.iter().find(|it| it.name == text) {
+            return Ok(Self::Baseline(baseline.name));
+        }
+        let problem = refused(format!("there is no policy `{text}`"));
+        let problem = match nearest_name(text, names()) {
+            Some(near) => problem.hint(format!("did you mean `{near}`?")),
+            None => problem,
+        };
+        let names: Vec<&str> = names().collect();
+        Err(problem.hint(format!("allowed are ws://HOST:PORT, python:MODULE:FUNCTION, {}", names.join(", "))))
+    }
+
+    /// Name in tables and of folders, where none is given.
+    pub fn name(&self) -> String {
+        let safe = |text: &str| {
+            let kept = |c: char| if c.is_ascii_alphanumeric() || "-_.".contains(c) { c } else { '-' };
+            text.chars().map(kept).collect::<String>()
+        };
+        match self {
+            Self::Baseline(name) => (*name).to_owned(),
+            Self::Socket(address) => safe(address.trim_start_matches("ws://")),
+            Self::Python { module, function } => safe(&format!("{module}.{function}")),
+        }
+    }
+}
