@@ -3,8 +3,8 @@
 use super::claim::{Claim, Passed, Said};
 use super::course::Course;
 use crate::sight::landmarks::way_to;
-use crate::sight::{LandmarkKind, Landmarks, OnSide};
-use cosfly_frames::{DVec3, TargetState, real};
+use crate::sight::{LandmarkKind, OnSide};
+use cosfly_frames::real;
 use std::collections::BTreeMap;
 use std::ops::Range;
 

@@ -8,8 +8,8 @@ use super::landmarks::Landmarks;
 use super::view::{Person, STANDS_M, View, WALKS_M};
 use crate::facts::Wear;
 use crate::part::Part;
-use cosfly_domain::{Camera, Colour};
-use cosfly_frames::{DVec3, Pose, real};
+use cosfly_domain::Colour;
+use cosfly_frames::real;
 
 /// A way within this angle of a direction of the picture has its name, degrees.
 const ACROSS_DEG: f64 = 30.0;

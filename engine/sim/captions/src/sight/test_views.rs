@@ -4,7 +4,7 @@ use super::landmarks::Landmarks;
 use super::view::{Person, View};
 use crate::facts::Wear;
 use cosfly_domain::{Camera, Colour, Obstacle, ObstacleKind, OrientedBox};
-use cosfly_frames::{DVec3, Pose};
+use cosfly_frames::{DVec3, Pose, real};
 
 /// Somebody at x, y (m) who walks along a yaw (degrees) at 1.3 m/s, seen by the camera of [`view`].
 pub(crate) fn person(x: f64, y: f64, yaw_deg: f64, top: Colour) -> Person {
