@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tags, size and contents of the wheel and the source distribution: python check_wheel.py FOLDER"""
+"""Tags, size and contents of the wheel and the source distribution: python check_wheel.py FOLDER [--most-mb SIZE]"""
 
 import re
 import sys
@@ -11,7 +11,9 @@ folder = Path(sys.argv[1])
 [wheel], [source] = folder.glob("*.whl"), folder.glob("*.tar.gz")
 
 assert re.fullmatch(r"cosfly-[\d.]+-cp310-abi3-(manylinux|macosx|win).*\.whl", wheel.name), wheel.name
-assert wheel.stat().st_size <= 20e6, f"{wheel.stat().st_size / 1e6:.1f} MB"
+if "--most-mb" in sys.argv:
+    most = float(sys.argv[sys.argv.index("--most-mb") + 1])
+    assert wheel.stat().st_size <= most * 1e6, f"{wheel.stat().st_size / 1e6:.1f} MB"
 with zipfile.ZipFile(wheel) as files:
     names = set(files.namelist())
     metadata = files.read(next(name for name in names if name.endswith("METADATA"))).decode()

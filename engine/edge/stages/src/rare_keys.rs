@@ -81,6 +81,9 @@ const RARE: &[(&str, &str, &str)] = &[
     ("traffic", "vehicles/speed_share", "0.8"),
 ];
 
+/// Kind, and a parameter that must not be left out.
+const NEEDED: &[(&str, &str, &str)] = &[("map", "source", "street.xodr")];
+
 /// A table with one value at a path.
 fn table(path: &str, value: Value) -> Value {
     path.rsplit('/').fold(value, |inner, key| json!({ key: inner }))
@@ -88,8 +91,8 @@ fn table(path: &str, value: Value) -> Value {
 
 /// What parameters give to the keys of a stage's parts.
 fn keys_of(kind: &str, mut given: Value) -> Result<Vec<Value>, String> {
-    if kind == "map" {
-        given["source"] = "street.xodr".into();
+    for (_, name, value) in NEEDED.iter().filter(|it| it.0 == kind) {
+        given[*name] = (*value).into();
     }
     let registry = registry();
     let built = registry.get(kind).expect("a kind").build(given).map_err(|error| format!("{error:?}"))?;

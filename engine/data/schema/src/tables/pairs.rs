@@ -27,7 +27,7 @@ columns! { Pairs::COLUMNS of DatasetItem;
     split: String = |item, _| item.membership.split.name().to_owned();
     /// Number of frames of the perturbed trajectory.
     frames: u32 = |item, _| item.record.len() as u32;
-    /// PerturbationKind of the perturbation, such as `jumps` (the paper's) or `drift`.
+    /// Kind of the perturbation, such as `jumps` (the paper's) or `drift`.
     perturbation: Option<String> = |item, _| perturbation(item).map(|it| it.kind.name().to_owned());
     /// Probability of the position event per frame; null for kinds of perturbation but `jumps`.
     position_probability: Option<f64> = |item, _| jumps(item).map(|it| it.position_probability);

@@ -13,17 +13,17 @@ pub struct PerturbConfig {
     pub mixture: Mixture,
     /// Sizes and limits of the kinds that a drone could fly: all but `jumps`.
     pub flyable: FlyableConfig,
-    /// PerturbationKind `jumps`: probability per frame that drone and aim are displaced. Default 0.6.
+    /// Kind `jumps`: probability per frame that drone and aim are displaced. Default 0.6.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub position_probability: f64,
-    /// PerturbationKind `jumps`: probability per frame that the view is turned, independent of the other. Default 0.6.
+    /// Kind `jumps`: probability per frame that the view is turned, independent of the other. Default 0.6.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub rotation_probability: f64,
-    /// PerturbationKind `jumps`: length of the drone's displacement, in any direction.
+    /// Kind `jumps`: length of the drone's displacement, in any direction.
     pub drone_offset: OffsetRange,
-    /// PerturbationKind `jumps`: length of the displacement of the point aimed at, in any horizontal direction.
+    /// Kind `jumps`: length of the displacement of the point aimed at, in any horizontal direction.
     pub aim_offset: OffsetRange,
-    /// PerturbationKind `jumps`: largest turn of the view, pitch and yaw together, degrees. Default 5.
+    /// Kind `jumps`: largest turn of the view, pitch and yaw together, degrees. Default 5.
     #[schemars(range(min = 0.0, max = 90.0))]
     pub max_rotation_deg: f64,
     /// Distance from obstacles that displaced drones keep along the whole swept path, metres. Default 1.
@@ -73,28 +73,28 @@ pub struct FlyableConfig {
     /// Time constant of the drift, seconds. Default 6.
     #[schemars(range(min = 0.5, max = 1000.0))]
     pub drift_s: f64,
-    /// PerturbationKind `gusts`: mean time from the end of a gust to the next one, seconds. Default 8.
+    /// Kind `gusts`: mean time from the end of a gust to the next one, seconds. Default 8.
     #[schemars(range(min = 1.0, max = 1000.0))]
     pub gust_every_s: f64,
-    /// PerturbationKind `gusts`: largest acceleration by a gust, m/s^2; the smallest is a third of it. Default 4.
+    /// Kind `gusts`: largest acceleration by a gust, m/s^2; the smallest is a third of it. Default 4.
     #[schemars(range(min = 0.0, max = 20.0))]
     pub gust_mps2: f64,
-    /// PerturbationKind `timing`: standard deviation of the time by which the drone is early or late, seconds. Default 0.8.
+    /// Kind `timing`: standard deviation of the time by which the drone is early or late, seconds. Default 0.8.
     #[schemars(range(min = 0.0, max = 5.0))]
     pub timing_s: f64,
-    /// PerturbationKind `aim`: mean time by which the aim is late, seconds. Default 1.
+    /// Kind `aim`: mean time by which the aim is late, seconds. Default 1.
     #[schemars(range(min = 0.0, max = 3.0))]
     pub aim_lag_s: f64,
-    /// PerturbationKind `aim`: standard deviation of the aim, degrees, along each axis of the picture. Default 9.
+    /// Kind `aim`: standard deviation of the aim, degrees, along each axis of the picture. Default 9.
     #[schemars(range(min = 0.0, max = 30.0))]
     pub aim_deg: f64,
-    /// PerturbationKind `search`: mean time from the end of a search to the next loss, seconds. Default 12.
+    /// Kind `search`: mean time from the end of a search to the next loss, seconds. Default 12.
     #[schemars(range(min = 1.0, max = 1000.0))]
     pub search_every_s: f64,
-    /// PerturbationKind `search`: longest time from a loss until the camera returns, seconds; the shortest is half of it. Default 6.
+    /// Kind `search`: longest time from a loss until the camera returns, seconds; the shortest is half of it. Default 6.
     #[schemars(range(min = 1.0, max = 60.0))]
     pub search_s: f64,
-    /// PerturbationKind `search`: angle to both sides by which the camera looks for the target, degrees. Default 35.
+    /// Kind `search`: angle to both sides by which the camera looks for the target, degrees. Default 35.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub search_deg: f64,
     /// Largest speed, m/s: displacements that lead beyond it are made smaller, and the certificate states it. Default 14.

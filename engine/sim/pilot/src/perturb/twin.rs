@@ -23,7 +23,7 @@ const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
 /// Twins of all kinds but `jumps` could be flown: the certificate states their limits of speed and acceleration; a
 /// displacement that would break them, or that comes too near to an obstacle, still or moving, is made smaller, smoothly in time.
 ///
-/// PerturbationKind `jumps`: with probability `position_probability` the drone is displaced and aims at a displaced point; independently,
+/// Kind `jumps`: with probability `position_probability` the drone is displaced and aims at a displaced point; independently,
 /// with probability `rotation_probability`, its view is turned. A displacement that would come nearer to an obstacle than
 /// `clearance_m`, there or on the way from the frame before or to the expert's next position, is drawn again, then
 /// shortened, at last zero; the event stays recorded with the displacement that was flown. So the swept path of the

@@ -83,7 +83,7 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
     /// Total cost against the planning boxes before and after refinement (preset `paper`: after each iteration of
     /// descent) and of the published trajectory; empty for baselines and perturbed trajectories.
     convergence: Vec<f64> = |item, _| item.record.trajectory.convergence.clone();
-    /// PerturbationKind of the perturbation, such as `jumps` (the paper's) or `drift`; null for experts.
+    /// Kind of the perturbation, such as `jumps` (the paper's) or `drift`; null for experts.
     perturbation: Option<String> = |item, _| perturbation(item).map(|it| it.kind.name().to_owned());
     /// Probability of the position event per frame; null for experts and for kinds of perturbation but `jumps`.
     position_probability: Option<f64> = |item, _| jumps(item).map(|it| it.position_probability);
