@@ -141,7 +141,7 @@ pub fn touch(
         let is_level = away.z < plan.size_m.z && -away.z < other.size_m.z;
         is_level
             && away.truncate().length_squared() < reach_m * reach_m
-            && cosfly_world::gap_m(&plan, one, other, two) < 0.0
+            && cosfly_world::gap_m(plan, one, other, two) < 0.0
     };
     states.iter().zip(others).any(overlap)
 }

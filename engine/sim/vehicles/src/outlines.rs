@@ -28,7 +28,7 @@ pub(crate) fn meet(plan: &BodyPlan, state: &TargetState, other: &BodyPlan, at: &
     let reach_m = plan.radius_m() + other.radius_m() + apart_m;
     away.z.abs() < LEVEL_M
         && away.truncate().length_squared() < reach_m * reach_m
-        && cosfly_world::gap_m(&plan, state, other, at) < apart_m
+        && cosfly_world::gap_m(plan, state, other, at) < apart_m
 }
 
 /// Size of what must fit on a lane: length of a piece, width and height, metres.

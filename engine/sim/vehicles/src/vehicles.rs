@@ -112,8 +112,8 @@ impl Vehicles {
             !meet(plan, state, &other.plan, &other.state, APART_M)
                 // Those that touch already may part.
                 || meet(plan, &self.vehicles[number].state, &other.plan, &other.state, APART_M)
-                    && cosfly_world::gap_m(&plan, state, &other.plan, &other.state)
-                        > cosfly_world::gap_m(&plan, &self.vehicles[number].state, &other.plan, &other.state)
+                    && cosfly_world::gap_m(plan, state, &other.plan, &other.state)
+                        > cosfly_world::gap_m(plan, &self.vehicles[number].state, &other.plan, &other.state)
                     && !meet(plan, state, &other.plan, &other.state, 0.0)
         });
         if !is_clear {

@@ -1,7 +1,7 @@
 //! Balconies of a facade, and the sunlight that they let through.
 
 use super::box_face::Slant;
-use super::facade::Facade;
+use super::wall::Facade;
 use crate::pattern::{floor_int, hash, least, most, one_if, stripes, unit};
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;

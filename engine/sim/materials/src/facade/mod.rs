@@ -4,16 +4,16 @@
 mod balconies;
 mod box_face;
 mod draws;
-mod facade;
 mod family;
 mod paint;
 mod roof;
 mod shops;
 mod tiles;
+mod wall;
 mod windows;
 
 pub use box_face::BoxFace;
-pub use facade::Facade;
 pub use paint::facade;
 pub use roof::{Roof, roofs};
 pub use tiles::{Tiles, lift, tiles};
+pub use wall::Facade;

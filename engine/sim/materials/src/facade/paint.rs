@@ -1,7 +1,7 @@
 //! The look of a facade, sixteen pixels at a time: step by step over all of them, so that each step is one loop over lanes.
 
 use super::box_face::{BoxFace, Slant, slant};
-use super::facade::{Facade, GRAIN_PER_M};
+use super::wall::{Facade, GRAIN_PER_M};
 use crate::lanes::{Block, Lane, Shared, WIDE, get, groups, set};
 use crate::light::Light;
 use crate::pattern::{NoiseLevels, NoiseTexture, lerp, most, one_if, share};

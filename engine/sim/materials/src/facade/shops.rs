@@ -2,8 +2,8 @@
 
 use super::box_face::Slant;
 use super::draws;
-use super::facade::Facade;
 use super::family::SIGNS;
+use super::wall::Facade;
 use crate::pattern::{band, floor_int, hash, least, lerp, one_if, stripes, unit};
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;

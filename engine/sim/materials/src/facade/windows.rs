@@ -2,7 +2,7 @@
 
 use super::box_face::{BoxFace, Slant};
 use super::draws;
-use super::facade::Facade;
+use super::wall::Facade;
 use crate::pattern::{floor_int, hash, most, one_if, smoothstep, stripes, unit};
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;

@@ -76,7 +76,7 @@ impl Arguments {
 /// Figures of the town for programs.
 fn figures(map: &ReadMap) -> Value {
     let ReadMap { town, format, warnings, advice } = map;
-    let census = cosfly_town::census::census(&town);
+    let census = cosfly_town::census::census(town);
     let kinds = census.kinds.iter().map(|(kind, it)| {
         let figures = json!({
             "objects": it.objects, "boxes": it.boxes, "synthetic_objects": it.synthetic_objects,
@@ -120,7 +120,7 @@ fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
         "\n{:<14} {:>8} {:>8}  {:>24}  {:>8}",
         "kind", "objects", "boxes", "height m (median)", "invented"
     );
-    let census = cosfly_town::census::census(&town);
+    let census = cosfly_town::census::census(town);
     for (kind, it) in &census.kinds {
         let heights = &it.heights_m;
         let range = format!("{:.1} to {:.1} ({:.1})", heights.least, heights.most, heights.median);
