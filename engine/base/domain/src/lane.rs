@@ -33,7 +33,7 @@ pub enum LaneKind {
 }
 
 impl Lane {
-    /// A lane whose followers and crossings are not known yet, see [`Town::link_lanes`]; `None` for one without extent.
+    /// A lane whose followers and crossings are not known yet, see `link_lanes` of `cosfly-town`; `None` for one without extent.
     /// Points that nearly coincide become one.
     pub fn new(kind: LaneKind, points: impl IntoIterator<Item = DVec3>, width_m: f64, limit_mps: f64) -> Option<Self> {
         let mut middle_in_world: Vec<DVec3> = points.into_iter().collect();

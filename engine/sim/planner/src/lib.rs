@@ -1,11 +1,11 @@
 //! MuCO, the multi-constraint trajectory optimiser, and its safety layers.
 //!
-//! [`plan`] turns a target track into a certified [`Trajectory`] or gives the reason why there is none.
+//! [`plan`] turns a target track into a certified [`cosfly_domain::Trajectory`] or gives the reason why there is none.
 //!
 //! * [`planning`]: from a request to a published flight; hands the problem to the planner that the recipe names.
 //! * [`muco`], [`paper`], [`baselines`]: the optimiser, the paper's own pipeline, planners to compare with.
 //! * [`terms`]: the cost, one file per term.
-//! * [`obstacles`]: the map around a path, a room of its own; [`certificate`]: the promises of a published flight.
+//! * [`certificate`]: the promises of a published flight. The map around a path is the room `cosfly-surroundings`.
 
 pub mod baselines;
 pub mod certificate;

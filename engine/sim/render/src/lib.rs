@@ -1,8 +1,8 @@
 //! The CPU renderer: RGB, planar depth, semantic and instance ids from one visibility pass.
 //!
 //! [`Scene`] is built once per town and shared; one [`Renderer`] per thread owns all buffers. A frame goes through
-//! [`visibility`] (which face is nearest at each pixel centre), `passes` (depth and ids, exact, from the plane of that
-//! face), `shade` (light, materials, weather) and [`target_view`] (how much of people is seen). Every channel comes
+//! [`cosfly_raster::visibility`] (which face is nearest at each pixel centre), `passes` (depth and ids, exact, from the plane of that
+//! face), `shade` (light, materials, weather) and `target_view` (how much of people is seen). Every channel comes
 //! from the same face at the same pixel centre, so they agree pixel by pixel; only RGB is smoothed along edges afterwards.
 
 mod body_bounds;
