@@ -134,6 +134,24 @@ fn generated_files_are_current() {
     }
 }
 
+/// The workspace of libFuzzer is built by nobody here: its manifest must name what its sources use.
+#[test]
+fn the_manifest_of_the_fuzz_targets_names_the_rooms_that_they_use() {
+    let folder = repository_root().join("tests/fuzz");
+    let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).expect("readable");
+    let declared = manifest.lines().filter_map(|line| line.split_once(" = { path")).map(|it| it.0.to_owned());
+    let mut files = vec![];
+    ["src", "fuzz_targets"].iter().for_each(|part| rust_files(&folder.join(part), &mut files));
+    let is_named = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let mut used = BTreeSet::new();
+    for file in files {
+        let text = std::fs::read_to_string(&file).expect("UTF-8");
+        let words = text.split(|c| !is_named(c)).filter(|word| word.starts_with("cosfly_") && *word != "cosfly_fuzz");
+        used.extend(words.map(|word| word.replace('_', "-")));
+    }
+    assert_eq!(declared.collect::<BTreeSet<_>>(), used);
+}
+
 #[test]
 fn every_link_and_page_of_the_book_exists() {
     let book = repository_root().join("book/src");

@@ -1,6 +1,6 @@
 """Judges the judge of texts on true ordinary sentences and on texts with one planted error each.
 
-    check_text_judge.py target/release/examples/judge_of_stdin [--texts 1000] [--show 10]
+    check_text_judge.py target/ci/examples/judge_of_stdin [--texts 1000] [--show 10]
 
 The program is an example of the crate `cosfly-captions` (`cargo build --release -p cosfly-captions --example judge_of_stdin`). A text is
 written from the facts of a made-up flight with the sentences of paraphrases.txt, which share nothing with cosfly's templates; a planted
