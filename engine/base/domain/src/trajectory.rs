@@ -2,6 +2,7 @@
 
 use cosfly_frames::{DVec3, Pose, TargetTrack};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// The planner's answer to a target track: a certified trajectory, or the reason why there is none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -140,43 +141,27 @@ pub struct Certificate {
     pub occlusion_reached_s: f64,
 }
 
-/// Kind of departure from an expert.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum PerturbationKind {
-    /// Independent displacements and turns, frame by frame (the paper's).
-    Jumps,
-    /// A correlated drift of the drone, which the kinds below have, too.
-    Drift,
-    /// Gusts that push the drone aside, from which it recovers.
-    Gusts,
-    /// The expert's way flown early or late.
-    Timing,
-    /// A coarse and late aim.
-    Aim,
-    /// Losses of the target, and the search for it.
-    Search,
-}
+/// Kind of departure of a twin from its expert: its name in recipes and tables. The list of kinds is `KINDS` of `sim/pilot`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PerturbationKind(Cow<'static, str>);
 
 impl PerturbationKind {
-    /// All kinds, in the order of mixtures.
-    pub const ALL: [Self; 6] = [Self::Jumps, Self::Drift, Self::Gusts, Self::Timing, Self::Aim, Self::Search];
+    /// Independent displacements and turns, frame by frame (the paper's): the only kind that no drone could fly.
+    pub const JUMPS: Self = Self::named("jumps");
 
-    /// The name in recipes and tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Jumps => "jumps",
-            Self::Drift => "drift",
-            Self::Gusts => "gusts",
-            Self::Timing => "timing",
-            Self::Aim => "aim",
-            Self::Search => "search",
-        }
+    /// The kind of a name.
+    pub const fn named(name: &'static str) -> Self {
+        Self(Cow::Borrowed(name))
+    }
+
+    /// Name in recipes and tables.
+    pub fn name(&self) -> &str {
+        &self.0
     }
 
     /// Whether a drone could fly it: speed, acceleration and rates of turning are bounded.
-    pub fn is_flyable(self) -> bool {
-        self != Self::Jumps
+    pub fn is_flyable(&self) -> bool {
+        *self != Self::JUMPS
     }
 }
 

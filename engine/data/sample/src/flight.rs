@@ -212,7 +212,7 @@ fn trajectory(
         certificate,
         perturbation: (role == Role::Perturbed).then(|| Perturbation {
             expert_item: format!("p{pedestrian:05}"),
-            kind: PerturbationKind::Jumps,
+            kind: PerturbationKind::JUMPS,
             position_probability: 0.3,
             rotation_probability: 0.3,
             frames: (0..frames).map(perturbed).collect(),

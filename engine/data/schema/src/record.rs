@@ -370,7 +370,7 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
     decode("captions", CAPTIONS_MAGIC, bytes)
 }
 
-const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x07";
+const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x08";
 const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x03";
 
 /// Encodes eight bytes of kind and version, then postcard.

@@ -44,7 +44,7 @@ pub const FORMATION: Kind<Flown> = Kind::new("formation/1", "");
 /// All drones behind the walk of a flight; absent where the drone is alone.
 pub const DRONES: Kind<Formation> = Kind::new("formation/1", "drones");
 /// A planned or changed flight, or the reason why there is none.
-pub const FLIGHT: Kind<PlanOutcome> = Kind::new("trajectory/4", "trajectory");
+pub const FLIGHT: Kind<PlanOutcome> = Kind::new("trajectory/5", "trajectory");
 /// People who are near a flight, each with a blob of the walk.
 pub const NEARBY: Kind<Vec<NearbyPerson>> = Kind::new("nearby/1", "people");
 /// Bodies of traffic near a flight; absent where there is no traffic.

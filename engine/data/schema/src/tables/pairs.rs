@@ -2,7 +2,7 @@
 
 use super::column::columns;
 use super::{DatasetItem, Table};
-use cosfly_domain::{FramePerturbation, Perturbation, PerturbationKind};
+use cosfly_domain::{FramePerturbation, Perturbation};
 
 /// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
@@ -48,7 +48,7 @@ fn perturbation(item: &DatasetItem) -> Option<&Perturbation> {
 }
 
 fn jumps(item: &DatasetItem) -> Option<&Perturbation> {
-    perturbation(item).filter(|it| it.kind == PerturbationKind::Jumps)
+    perturbation(item).filter(|it| !it.kind.is_flyable())
 }
 
 fn events(item: &DatasetItem) -> impl Iterator<Item = &FramePerturbation> {

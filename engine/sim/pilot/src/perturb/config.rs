@@ -1,7 +1,6 @@
 //! Parameters of the `perturb` stage, their defaults and ranges.
 
 use super::mixture::Mixture;
-use cosfly_domain::PerturbationKind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -169,15 +168,15 @@ impl PerturbConfig {
             ("clearance_m", self.clearance_m, 0.05, 10.0),
             ("min_height_m", self.min_height_m, 0.5, 100.0),
         ];
-        let kinds = PerturbationKind::ALL.map(|kind| kind.name()).into_iter().zip(self.mixture.shares());
-        let shares: Vec<(String, f64)> = kinds.map(|(name, share)| (format!("mixture.{name}"), share)).collect();
+        let shares: Vec<(String, f64)> =
+            self.mixture.shares().map(|(kind, share)| (format!("mixture.{}", kind.name), share)).collect();
         let shares = shares.iter().map(|(path, share)| (path.as_str(), *share, 0.0, 1000.0));
         for (path, value, low, high) in own.into_iter().chain(self.flyable.ranges()).chain(shares) {
             if !(low..=high).contains(&value) {
                 return Err((path.to_owned(), format!("`{path}` is {value}; it must be between {low} and {high}")));
             }
         }
-        if self.mixture.shares().iter().sum::<f64>() <= 0.0 {
+        if self.mixture.shares().map(|(_, share)| share).sum::<f64>() <= 0.0 {
             return Err(("mixture".to_owned(), "all shares of `mixture` are 0; one must be above 0".to_owned()));
         }
         for (name, range) in [("drone_offset", &self.drone_offset), ("aim_offset", &self.aim_offset)] {
@@ -206,11 +205,11 @@ mod tests {
         assert_eq!(path, "aim_offset.min_m");
         assert_eq!(rule, "`aim_offset.min_m` is 4; it must not be above `aim_offset.max_m`, which is 3");
         config.aim_offset.min_m = 2.0;
-        config.mixture.jumps = 0.0;
+        config.mixture = Mixture::of(&[]);
         assert_eq!(config.validate().unwrap_err().0, "mixture");
-        config.mixture.gusts = -1.0;
+        config.mixture = Mixture::of(&[("gusts", -1.0)]);
         assert_eq!(config.validate().unwrap_err().0, "mixture.gusts");
-        config.mixture.gusts = 1.0;
+        config.mixture = Mixture::of(&[("gusts", 1.0)]);
         config.flyable.search_s = 0.0;
         assert_eq!(config.validate().unwrap_err().0, "flyable.search_s");
         config.clearance_m = f64::NAN;

@@ -1,10 +1,11 @@
 //! Twins that a drone could fly: smooth displacements that are made smaller until clearance, height, speed and acceleration
 //! hold, and views that turn no faster than stated.
 
-use super::config::{FlyableConfig, PerturbConfig};
-use super::{motion, search};
-use crate::aim::{AimConfig, aimed, reached};
-use cosfly_domain::{FramePerturbation, PerturbationKind, Trajectory};
+use super::config::PerturbConfig;
+use super::kinds::kind::{Departed, Departing, Offsets, Views};
+use super::motion;
+use crate::aim::reached;
+use cosfly_domain::{FramePerturbation, Trajectory};
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_random::Seed;
 use cosfly_surroundings::exact::ExactMap;
@@ -24,53 +25,30 @@ const GENTLY_S: f64 = 20.0;
 /// Displacements and turns smaller than this are none, metres and radians.
 const NOTHING: f64 = 1e-6;
 
-/// Poses and recorded departures of a twin of `expert`.
+/// Poses and recorded departures of a twin of `expert`, with the displacements and views of its kind.
 pub(super) fn twin(
     expert: &Trajectory,
-    kind: PerturbationKind,
+    (offsets, views): (Offsets, Views),
     map: ExactMap<'_>,
     config: &PerturbConfig,
     seed: &Seed,
-) -> (Vec<Pose>, Vec<FramePerturbation>) {
+) -> Departed {
     let places: Vec<DVec3> = expert.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
     let (flyable, dt_s) = (&config.flyable, expert.track.dt_s);
+    let departing = Departing { places: &places, dt_s, config: flyable, seed };
     // Every twin drifts: where its own way were the expert's, poses alone would tell a model the answer.
     let mut wanted = motion::drift(places.len(), dt_s, flyable, seed);
-    let more = match kind {
-        PerturbationKind::Gusts => motion::gusts(places.len(), dt_s, flyable, seed),
-        PerturbationKind::Timing => motion::timing(&places, dt_s, flyable, seed),
-        PerturbationKind::Drift | PerturbationKind::Jumps | PerturbationKind::Aim | PerturbationKind::Search => vec![],
-    };
-    wanted.iter_mut().zip(more).for_each(|(drift, more)| *drift += more);
+    wanted.iter_mut().zip(offsets(&departing)).for_each(|(drift, more)| *drift += more);
     let way = Way { expert, places: &places, map, config };
     let mut offsets = way.flown(wanted);
     offsets.iter_mut().filter(|offset| offset.length() <= NOTHING).for_each(|offset| *offset = DVec3::ZERO);
-    let straight = views(expert, &offsets);
-    let poses = match kind {
-        PerturbationKind::Aim => {
-            let places: Vec<DVec3> = places.iter().zip(&offsets).map(|(place, offset)| *place + *offset).collect();
-            aimed(&places, &expert.track, 0, None, &coarse_aim(flyable), seed.child("aim", 0))
-        }
-        PerturbationKind::Search => search::views(&straight, dt_s, flyable, seed),
-        _ => straight.clone(),
-    };
+    let straight = straight_views(expert, &offsets);
+    let poses = views(&departing, &expert.track, &straight);
     let poses = turned_in_time(&poses, flyable.max_rate_deg_s.to_radians() * dt_s);
     let recorded = poses.iter().zip(&straight).zip(&offsets).enumerate();
     let frames = recorded.map(|(frame, ((pose, straight), offset))| recorded_frame(frame, pose, straight, *offset));
     let frames = frames.collect();
     (poses, frames)
-}
-
-fn coarse_aim(config: &FlyableConfig) -> AimConfig {
-    AimConfig {
-        framing_deg: config.aim_deg,
-        framing_s: 5.0,
-        tremor_deg: 1.0,
-        lag_s: config.aim_lag_s,
-        lag_spread_s: 0.4 * config.aim_lag_s,
-        max_deg: 3.0 * config.aim_deg,
-        max_rate_deg_s: config.max_rate_deg_s,
-    }
 }
 
 fn recorded_frame(frame: usize, pose: &Pose, straight: &Pose, offset: DVec3) -> FramePerturbation {
@@ -88,7 +66,7 @@ fn recorded_frame(frame: usize, pose: &Pose, straight: &Pose, offset: DVec3) -> 
 }
 
 /// Views from the displaced places to the points that the expert looks at abreast of the target.
-fn views(expert: &Trajectory, offsets: &[DVec3]) -> Vec<Pose> {
+fn straight_views(expert: &Trajectory, offsets: &[DVec3]) -> Vec<Pose> {
     let view = |((pose, state), offset): ((&Pose, &_), &DVec3)| {
         if *offset == DVec3::ZERO {
             return *pose;

@@ -1,14 +1,14 @@
-//! Perturbed twins of expert flights: parameters, mixture of kinds, displacements, and the twin itself.
+//! Perturbed twins of expert flights: parameters, mixture of kinds, the kinds, and the twin itself.
 
 pub mod config;
-mod displacement;
 mod flyable;
+pub mod kinds;
 pub mod mixture;
 mod motion;
-mod search;
 mod twin;
 
 pub use config::{FlyableConfig, OffsetRange, PerturbConfig};
+pub use kinds::KINDS;
 pub use mixture::Mixture;
 pub use twin::perturb;
 

@@ -2,19 +2,15 @@
 //! safe displacements (paper, section "Dual-Trajectory Augmentation").
 
 use super::config::PerturbConfig;
-use super::displacement::{Corridor, free_offset, horizontal_offset};
 use super::flyable;
-use cosfly_domain::{FramePerturbation, Perturbation, PerturbationKind, PlanOutcome, Trajectory};
-use cosfly_frames::{DVec3, Pose, real};
+use super::kinds::Departure;
+use cosfly_domain::{Perturbation, PerturbationKind, PlanOutcome, Trajectory};
+use cosfly_frames::{DVec3, Pose};
 use cosfly_planner::certificate::{certify, view_rates_deg_s};
 use cosfly_planner::config::limits::LimitsConfig;
 use cosfly_planner::config::muco::MucoConfig;
-use cosfly_random::{RandomStream, Seed};
+use cosfly_random::Seed;
 use cosfly_surroundings::exact::ExactMap;
-use cosfly_surroundings::visibility::aim_point;
-
-/// Steepest pitch of a turned view, radians (89.9 degrees): at 90 a pose has no unique yaw.
-const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
 
 /// The perturbed twin of `expert`, of the kind that the seed draws from the mixture; [`Mixture::of_flight`] leaves one kind.
 ///
@@ -50,16 +46,17 @@ pub fn perturb(
         return rejected(format!("the expert has {} poses for {count} frames", expert.poses_in_world.len()));
     }
     let kind = config.mixture.draw(&seed);
-    let (poses, frames) = match kind {
-        PerturbationKind::Jumps => jumps(expert, map, config, &seed),
-        _ => flyable::twin(expert, kind, map, config, &seed),
+    let (poses, frames) = match &kind.departure {
+        Departure::FrameByFrame(depart) => depart(expert, map, config, &seed),
+        Departure::Flown { offsets, views } => flyable::twin(expert, (*offsets, *views), map, config, &seed),
     };
-    let probability = |probability| if kind == PerturbationKind::Jumps { probability } else { 0.0 };
+    let kind = PerturbationKind::named(kind.name);
+    let probability = |probability| if kind.is_flyable() { 0.0 } else { probability };
     let perturbation = Perturbation {
         expert_item: expert_item.to_owned(),
-        kind,
         position_probability: probability(config.position_probability),
         rotation_probability: probability(config.rotation_probability),
+        kind,
         frames,
     };
     let twin = measured(expert, poses, perturbation, map, config);
@@ -67,89 +64,6 @@ pub fn perturb(
         free if free > 0.0 => PlanOutcome::Planned(Box::new(twin)),
         touching => rejected(format!("the twin comes to {touching:.2} m from an obstacle, as its expert does")),
     }
-}
-
-/// Poses and events of kind `jumps`.
-fn jumps(
-    expert: &Trajectory,
-    map: ExactMap<'_>,
-    config: &PerturbConfig,
-    seed: &Seed,
-) -> (Vec<Pose>, Vec<FramePerturbation>) {
-    let count = expert.track.len();
-    let mut frames = Vec::with_capacity(count);
-    let mut poses: Vec<Pose> = Vec::with_capacity(count);
-    let (mut position_events, mut rotation_events) = (seed.stream("position event"), seed.stream("rotation event"));
-    for frame in 0..count {
-        let mut applied = FramePerturbation {
-            position: position_events.chance(config.position_probability),
-            rotation: rotation_events.chance(config.rotation_probability),
-            drone_offset_in_world: DVec3::ZERO,
-            aim_offset_in_world: DVec3::ZERO,
-            pitch_offset_rad: 0.0,
-            yaw_offset_rad: 0.0,
-            expert_frame: frame as u32,
-        };
-        let before = poses.last().map(|pose| pose.position_in_world);
-        let own = seed.child("frame", frame as u64);
-        let pose = perturbed(expert, frame, before, map, config, &own, &mut applied);
-        poses.push(pose);
-        frames.push(applied);
-    }
-    (poses, frames)
-}
-
-/// The pose of a frame after the events that `applied` names, whose displacements and turns are written there.
-fn perturbed(
-    expert: &Trajectory,
-    frame: usize,
-    before: Option<DVec3>,
-    map: ExactMap<'_>,
-    config: &PerturbConfig,
-    own: &Seed,
-    applied: &mut FramePerturbation,
-) -> Pose {
-    let mut pose = expert.poses_in_world[frame];
-    if applied.position {
-        let corridor = Corridor {
-            map,
-            frame,
-            clearance_m: config.clearance_m,
-            lowest_z_m: expert.track.states[frame].feet_in_world.z + config.min_height_m,
-            before,
-            after: expert.poses_in_world.get(frame + 1).map(|pose| pose.position_in_world),
-        };
-        applied.drone_offset_in_world =
-            free_offset(&corridor, pose.position_in_world, &config.drone_offset, own.stream("drone"));
-        applied.aim_offset_in_world = horizontal_offset(&config.aim_offset, own.stream("aim"));
-        pose = displaced(pose, expert, frame, applied);
-    }
-    if applied.rotation {
-        turn(&mut pose, applied, config, own.stream("rotation"));
-    }
-    pose
-}
-
-/// The pose from the displaced position towards the displaced aim. The undisplaced aim is the point of the expert's
-/// own line of sight abreast of the target, so that zero displacements give the expert's view.
-fn displaced(expert_pose: Pose, expert: &Trajectory, frame: usize, applied: &FramePerturbation) -> Pose {
-    let position = expert_pose.position_in_world;
-    let forward = expert_pose.world_from_body() * DVec3::X;
-    let ahead_m = (aim_point(&expert.track.states[frame], expert.track.height_m) - position).dot(forward).max(1.0);
-    let aim = position + ahead_m * forward + applied.aim_offset_in_world;
-    Pose { roll_rad: expert_pose.roll_rad, ..Pose::looking_at(position + applied.drone_offset_in_world, aim) }
-}
-
-/// Turns the view by an angle uniform in 0..=max, split into pitch and yaw by a uniform direction. The pitch stops at
-/// [`STEEPEST_PITCH_RAD`]; what was turned is recorded, not what was drawn.
-fn turn(pose: &mut Pose, applied: &mut FramePerturbation, config: &PerturbConfig, mut stream: RandomStream) {
-    let angle = stream.uniform(0.0, config.max_rotation_deg.to_radians());
-    let (sin, cos) = real::sin_cos(stream.uniform(-real::PI, real::PI));
-    let pitch_rad = (pose.pitch_rad + sin * angle).clamp(-STEEPEST_PITCH_RAD, STEEPEST_PITCH_RAD);
-    applied.pitch_offset_rad = pitch_rad - pose.pitch_rad;
-    applied.yaw_offset_rad = cos * angle;
-    pose.pitch_rad = pitch_rad;
-    pose.yaw_rad = real::wrap_angle_rad(pose.yaw_rad + applied.yaw_offset_rad);
 }
 
 /// The twin with visibility, clearance and certificate measured anew.

@@ -4,7 +4,7 @@ use super::columns::Trajectories;
 use crate::published_costs::costs;
 use crate::tables::DatasetItem;
 use crate::tables::column::columns;
-use cosfly_domain::{Certificate, Perturbation, PerturbationKind};
+use cosfly_domain::{Certificate, Perturbation};
 
 columns! { Trajectories::CERTIFICATE of DatasetItem;
     /// Whether all limits hold, checked against the unsimplified map.
@@ -105,5 +105,5 @@ fn perturbation(item: &DatasetItem) -> Option<&Perturbation> {
 }
 
 fn jumps(item: &DatasetItem) -> Option<&Perturbation> {
-    perturbation(item).filter(|it| it.kind == PerturbationKind::Jumps)
+    perturbation(item).filter(|it| !it.kind.is_flyable())
 }

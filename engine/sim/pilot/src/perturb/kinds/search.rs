@@ -1,9 +1,16 @@
-//! Losses of the target: the camera stays behind, looks to both sides, and returns.
+//! `search`: losses of the target. The camera stays behind, looks to both sides, and returns.
 
-use super::config::FlyableConfig;
-use super::motion::waiting_s;
-use cosfly_frames::{Pose, real};
-use cosfly_random::{RandomStream, Seed};
+use super::kind::{Departing, Departure, Kind, no_offsets};
+use crate::perturb::config::FlyableConfig;
+use crate::perturb::motion::waiting_s;
+use cosfly_frames::{Pose, TargetTrack, real};
+use cosfly_random::RandomStream;
+
+pub(super) const KIND: Kind = Kind {
+    name: "search",
+    doc: "The camera loses the target at times, looks for it to both sides, and finds it again.",
+    departure: Departure::Flown { offsets: no_offsets, views },
+};
 
 /// Time of a sweep from one side to the other and back, seconds.
 const SWEEP_S: f64 = 4.0;
@@ -32,7 +39,8 @@ impl Loss {
 
 /// The views of a camera that loses its target at times: from a loss on it sweeps around the view of that moment, and then
 /// returns to `straight`, the views without losses.
-pub(super) fn views(straight: &[Pose], dt_s: f64, config: &FlyableConfig, seed: &Seed) -> Vec<Pose> {
+fn views(departing: &Departing<'_>, _: &TargetTrack, straight: &[Pose]) -> Vec<Pose> {
+    let Departing { dt_s, config, seed, .. } = *departing;
     let mut stream = seed.stream("search");
     let mut loss = Loss::after(0.0, config, &mut stream);
     let mut at_loss: Option<Pose> = None;
