@@ -1,9 +1,8 @@
 //! [`open`]: the source in a folder, by its layout.
 
-use crate::ours::Ours;
-use crate::{FlightSource, lerobot, v7};
+use crate::FlightSource;
+use crate::layouts::LAYOUTS;
 use cosfly_diagnose::Result;
-use cosfly_doctor::sources;
 use std::path::Path;
 
 /// The dataset in `folder`, in any of the layouts.
@@ -11,16 +10,10 @@ use std::path::Path;
 /// # Errors
 /// `dataset-none` where there is none, otherwise damage of its files.
 pub fn open(folder: &Path) -> Result<Box<dyn FlightSource>> {
-    let roots = lerobot::roots(folder);
-    if sources::ours::recognises(folder) {
-        Ok(Box::new(Ours::open(folder)?))
-    } else if let Some(root) = sources::v7::root(folder) {
-        Ok(Box::new(v7::open(&root)?))
-    } else if !roots.is_empty() {
-        Ok(Box::new(lerobot::open(folder, &roots)?))
-    } else {
-        Ours::open(folder).map(|dataset| Box::new(dataset) as Box<dyn FlightSource>).map_err(|refusal| {
-            refusal.hint("datasets of other layouts load, too: v7 (`<Town>/trajectory_<id>/<trace>/trajectory.json`) and LeRobot (`meta/info.json`)")
-        })
+    if let Some(layout) = LAYOUTS.iter().find(|layout| (layout.recognises)(folder)) {
+        return (layout.open)(folder);
     }
+    // The first layout is cosfly's own: its reader says what is missing in the folder.
+    let others = LAYOUTS[1..].iter().map(|layout| layout.doc).collect::<Vec<_>>().join(" and ");
+    (LAYOUTS[0].open)(folder).map_err(|refusal| refusal.hint(format!("datasets of other layouts load, too: {others}")))
 }

@@ -1,7 +1,9 @@
 //! LeRobot's layout: pictures inside of tables, or as files that tables name.
 
+use super::tasks;
+use crate::LoadedFlight;
 use crate::foreign::{Foreign, Pictures, damaged, identity, sound};
-use crate::{LoadedFlight, tasks};
+use crate::layout::Layout;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_doctor::sources::lerobot::{self, features::Features};
 use cosfly_doctor::{ExaminedEpisode, Flag};
@@ -12,8 +14,14 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+pub(super) const LAYOUT: Layout = Layout {
+    doc: "LeRobot (`meta/info.json`)",
+    recognises: |folder| !roots(folder).is_empty(),
+    open: |folder| Ok(Box::new(open(folder, &roots(folder))?)),
+};
+
 /// The LeRobot datasets in `folder`: itself, or those of its splits, as `cosfly export` writes them.
-pub fn roots(folder: &Path) -> Vec<PathBuf> {
+fn roots(folder: &Path) -> Vec<PathBuf> {
     if lerobot::recognises(folder) {
         return vec![folder.to_owned()];
     }
@@ -26,7 +34,7 @@ pub fn roots(folder: &Path) -> Vec<PathBuf> {
 ///
 /// # Errors
 /// `dataset-damaged` where tables cannot be read.
-pub fn open(folder: &Path, roots: &[PathBuf]) -> Result<Foreign<Tables>> {
+fn open(folder: &Path, roots: &[PathBuf]) -> Result<Foreign<Tables>> {
     let (mut flights, mut episodes, mut has_poses) = (vec![], vec![], true);
     let mut pictures = Tables { files: vec![], frames: vec![], feature: None, videos: vec![] };
     for root in roots {
@@ -106,7 +114,7 @@ fn size_of(feature: &Value) -> [u32; 2] {
 }
 
 /// Pictures of all episodes.
-pub struct Tables {
+struct Tables {
     /// Tables with the folder that names of files begin at.
     files: Vec<(PathBuf, PictureColumn)>,
     /// Table and row of each frame, flight by flight.

@@ -2,6 +2,7 @@
 
 use crate::LoadedFlight;
 use crate::foreign::{Foreign, Pictures, damaged, identity, sound};
+use crate::layout::Layout;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_doctor::sources::v7;
 use cosfly_domain::Channel;
@@ -12,11 +13,17 @@ use prost::bytes::Bytes;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+pub(super) const LAYOUT: Layout = Layout {
+    doc: "v7 (`<Town>/trajectory_<id>/<trace>/trajectory.json`)",
+    recognises: |folder| v7::root(folder).is_some(),
+    open: |folder| Ok(Box::new(open(&v7::root(folder).unwrap_or_else(|| folder.to_owned()))?)),
+};
+
 /// Opens the dataset whose towns are folders of `root`.
 ///
 /// # Errors
 /// `dataset-damaged` where a document cannot be read.
-pub fn open(root: &Path) -> Result<Foreign<Frames>> {
+fn open(root: &Path) -> Result<Foreign<Frames>> {
     let (episodes, flags) = v7::motions(root)?;
     sound(root, &flags)?;
     let traces: Vec<PathBuf> = episodes.iter().map(|episode| root.join(&episode.id)).collect();
@@ -37,7 +44,7 @@ pub fn open(root: &Path) -> Result<Foreign<Frames>> {
 }
 
 /// Folders of the traces.
-pub struct Frames {
+struct Frames {
     traces: Vec<PathBuf>,
 }
 

@@ -1,7 +1,9 @@
 //! Datasets of cosfly: tables in Parquet files, images in logs.
 
+use crate::layout::Layout;
 use crate::{FlightSource, LoadedFlight};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_doctor::sources;
 use cosfly_domain::Channel;
 use cosfly_read::columns::TableData;
 use cosfly_read::{ImageLog, PublishedDataset, StoredImage};
@@ -9,11 +11,17 @@ use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
+pub(super) const LAYOUT: Layout = Layout {
+    doc: "cosfly (`files.parquet`)",
+    recognises: sources::ours::recognises,
+    open: |folder| Ok(Box::new(Ours::open(folder)?)),
+};
+
 /// Logs kept open; each needs a file descriptor and about 100 kB for its index.
 const OPEN_LOGS: usize = 64;
 
 /// A dataset of cosfly.
-pub struct Ours {
+struct Ours {
     dataset: PublishedDataset,
     flights: Vec<LoadedFlight>,
     /// Open logs by the number of their flight, the latest last.
@@ -25,7 +33,7 @@ impl Ours {
     ///
     /// # Errors
     /// As of [`PublishedDataset::open`].
-    pub fn open(folder: &Path) -> Result<Self> {
+    fn open(folder: &Path) -> Result<Self> {
         let dataset = PublishedDataset::open(folder)?;
         let flights = dataset.flights().iter().map(|flight| LoadedFlight {
             id: flight.trajectory_id.clone(),
