@@ -1,12 +1,13 @@
 //! [`FlySettings`]: the table `[tool.fly]` of a recipe: the drone that flies its episodes, the air, the latency.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_env::{Blackouts, DroneModel, DroneSettings, EnvironmentSettings};
+use cosfly_drone::models::{self, DroneModel, MODELS};
+use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings};
 use cosfly_recipe::Recipe;
 use serde::Deserialize;
 
 /// What a suite says of the drone.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlySettings {
     /// Model.
     pub drone: DroneModel,
@@ -35,6 +36,12 @@ struct Given {
     latency_ms: u32,
 }
 
+impl Default for FlySettings {
+    fn default() -> Self {
+        Self { drone: MODELS[0], wind_mps: 0.0, gusts: false, blackouts: 0, latency_ms: 0 }
+    }
+}
+
 impl FlySettings {
     /// The table `[tool.fly]` of a recipe.
     ///
@@ -44,16 +51,16 @@ impl FlySettings {
         let Some(table) = recipe.tool.get("fly") else { return Ok(Self::default()) };
         let refused = |message: String| {
             let message = format!("[tool.fly] of `{}`: {message}", recipe.path.display());
-            let allowed = "allowed are drone (point-mass, crazyflie, pelican), wind_mps (0 to 30), gusts (true or false), \
-                           blackouts (0 to 10) and latency_ms (0 to 5000)";
+            let drones = MODELS.iter().map(|model| model.name).collect::<Vec<_>>().join(", ");
+            let allowed = format!(
+                "allowed are drone ({drones}), wind_mps (0 to 30), gusts (true or false), \
+                           blackouts (0 to 10) and latency_ms (0 to 5000)"
+            );
             Diagnostic::new("fly-settings", Fault::Recipe, message).hint(allowed)
         };
         let given: Given = serde_json::from_value(table.clone()).map_err(|error| refused(error.to_string()))?;
-        let named = |name: &String| {
-            let found = DroneModel::ALL.into_iter().find(|model| model.name() == *name);
-            found.ok_or_else(|| refused(format!("there is no drone `{name}`")))
-        };
-        let drone = given.drone.as_ref().map(named).transpose()?.unwrap_or_default();
+        let named = |name: &String| models::model(name).map_err(|_| refused(format!("there is no drone `{name}`")));
+        let drone = given.drone.as_ref().map(named).transpose()?.unwrap_or(MODELS[0]);
         if !(0.0..=30.0).contains(&given.wind_mps) {
             return Err(refused(format!("wind_mps is {}", given.wind_mps)));
         }
@@ -63,7 +70,7 @@ impl FlySettings {
         if given.latency_ms > 5000 {
             return Err(refused(format!("latency_ms is {}", given.latency_ms)));
         }
-        if drone == DroneModel::PointMass && (given.wind_mps > 0.0 || given.gusts) {
+        if drone.parameters.is_none() && (given.wind_mps > 0.0 || given.gusts) {
             return Err(refused("wind does not move a point mass".to_owned()));
         }
         let Given { wind_mps, gusts, blackouts, latency_ms, .. } = given;

@@ -4,6 +4,7 @@
 //! speeds, three components of the wind and a step; prints the state after each. The right-handed frame, SI, rev/min.
 //! `gusts STEP SPEED DEVIATION LENGTH COUNT` and `inertial RATE COUNT` print three and six numbers a line.
 
+use cosfly_drone::models::quadrotor;
 use cosfly_drone::quadrotor::{Gyroscope, Quadrotor, QuadrotorParameters, QuadrotorState};
 use cosfly_drone::sensors::{Carried, InertialParameters, InertialUnit};
 use cosfly_drone::wind::{Gusts, Turbulence};
@@ -21,7 +22,7 @@ fn main() {
     match arguments[0].as_str() {
         "quadrotor" => {
             let parameters =
-                QuadrotorParameters { gyroscope: Gyroscope::OfDroneModels, ..QuadrotorParameters::crazyflie() };
+                QuadrotorParameters { gyroscope: Gyroscope::OfDroneModels, ..quadrotor("crazyflie").unwrap() };
             let mut drone = Quadrotor::hovering(DVec3::ZERO, parameters);
             for (at, line) in std::io::stdin().lock().lines().enumerate() {
                 let line = line.expect("read");

@@ -193,11 +193,12 @@ impl Receiver {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::quadrotor::{Quadrotor, QuadrotorParameters};
+    use crate::models::quadrotor;
+    use crate::quadrotor::Quadrotor;
 
     #[test]
     fn samples_without_errors_add_up_to_the_flight() {
-        let mut drone = Quadrotor::hovering(DVec3::ZERO, QuadrotorParameters::pelican());
+        let mut drone = Quadrotor::hovering(DVec3::ZERO, quadrotor("pelican").unwrap());
         let hover = drone.parameters.hover_rpm();
         let mut unit = InertialUnit::new(InertialParameters::exact(500.0), Seed([1; 32]));
         let carried =

@@ -18,12 +18,12 @@ pub(crate) enum Craft {
 impl Craft {
     /// The drone at the beginning of an episode.
     pub(crate) fn new(settings: &EnvironmentSettings, episode: &Episode, motion: Motion, yaw_rad: f64) -> Self {
-        let Some(parameters) = settings.drone.model.parameters() else {
+        let Some(parameters) = settings.drone.model.parameters else {
             return Self::PointMass(PointMass { motion, limits: settings.motion });
         };
         let sensing = settings.drone.sensors.then(|| Sensing::new(episode.seed));
         let air = air(settings, episode, motion.position_in_world);
-        Self::Quadrotor(Box::new(FlownQuadrotor::new(parameters, motion, yaw_rad, settings.motion, air, sensing)))
+        Self::Quadrotor(Box::new(FlownQuadrotor::new(parameters(), motion, yaw_rad, settings.motion, air, sensing)))
     }
 
     /// Flies with an action in force.

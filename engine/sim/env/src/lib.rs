@@ -31,4 +31,4 @@ pub use place::FlightSite;
 pub use policies::Policy;
 pub use reward::Reward;
 pub use score::{End, EpisodeScore};
-pub use settings::{Blackouts, DroneModel, DroneSettings, EnvironmentSettings, FieldOfView, RewardWeights};
+pub use settings::{Blackouts, DroneSettings, EnvironmentSettings, FieldOfView, RewardWeights};

@@ -1,6 +1,6 @@
 //! [`EnvironmentSettings`]: settings of an environment, apart from its episodes.
 
-use cosfly_drone::quadrotor::QuadrotorParameters;
+use cosfly_drone::models::{DroneModel, MODELS};
 use cosfly_drone::{GimbalLimits, MotionLimits};
 use cosfly_frames::{DVec3, Pose, Seed, real};
 use serde::{Deserialize, Serialize};
@@ -127,43 +127,8 @@ impl Default for EnvironmentSettings {
     }
 }
 
-/// Model of a drone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DroneModel {
-    /// A point mass that follows velocities within the planner's limits.
-    #[default]
-    PointMass,
-    /// The quadrotor Crazyflie 2.x, 32 g.
-    Crazyflie,
-    /// The quadrotor AscTec Pelican, 1 kg.
-    Pelican,
-}
-
-impl DroneModel {
-    /// All models.
-    pub const ALL: [Self; 3] = [Self::PointMass, Self::Crazyflie, Self::Pelican];
-
-    /// Name on the command line, in recipes and in cards.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PointMass => "point-mass",
-            Self::Crazyflie => "crazyflie",
-            Self::Pelican => "pelican",
-        }
-    }
-
-    /// Parameters of a quadrotor; none of a point mass.
-    pub(crate) fn parameters(self) -> Option<QuadrotorParameters> {
-        match self {
-            Self::PointMass => None,
-            Self::Crazyflie => Some(QuadrotorParameters::crazyflie()),
-            Self::Pelican => Some(QuadrotorParameters::pelican()),
-        }
-    }
-}
-
 /// The drone of an environment and the air around it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DroneSettings {
     /// Model.
     pub model: DroneModel,
@@ -173,4 +138,10 @@ pub struct DroneSettings {
     pub gusts: bool,
     /// Whether inertial unit, barometer and satellite receiver are sampled.
     pub sensors: bool,
+}
+
+impl Default for DroneSettings {
+    fn default() -> Self {
+        Self { model: MODELS[0], wind_mps: 0.0, gusts: false, sensors: false }
+    }
 }

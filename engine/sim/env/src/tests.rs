@@ -2,10 +2,11 @@
 
 use crate::policies::{BASELINES, Knowledge, baseline};
 use crate::{
-    Action, Axes, Blackouts, DroneModel, DroneSettings, End, Environment, EnvironmentSettings, Episode, EpisodeScore,
-    FlightSite, Others, Reward, Start,
+    Action, Axes, Blackouts, DroneSettings, End, Environment, EnvironmentSettings, Episode, EpisodeScore, FlightSite,
+    Others, Reward, Start,
 };
 use cosfly_domain::{Around, Body, BodyKind, BodyPlan, OrientedBox, PlanOutcome, Traffic, Trajectory};
+use cosfly_drone::models::MODELS;
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack, real};
 use cosfly_planner::{MucoConfig, PlanRequest, plan_request};
 use cosfly_scenes::{SceneKind, SeededScene};
@@ -181,7 +182,7 @@ fn a_lost_target_ends_the_episode_and_is_remembered_as_it_was_seen() {
 
 #[test]
 fn quadrotors_hold_their_place_in_wind_and_fall_without_thrust() {
-    for model in [DroneModel::Crazyflie, DroneModel::Pelican] {
+    for model in MODELS.iter().copied().filter(|model| model.parameters.is_some()) {
         let drone = DroneSettings { model, wind_mps: 3.0, gusts: true, sensors: true };
         let settings = EnvironmentSettings { drone, ..EnvironmentSettings::default() };
         let mut environment = Environment::new(standing(vec![], 20), settings);

@@ -9,7 +9,8 @@ use crate::console::Console;
 use crate::exit;
 use clap::{Parser, Subcommand, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_env::{DroneModel, DroneSettings, EnvironmentSettings};
+use cosfly_drone::models::{self, DroneModel};
+use cosfly_env::{DroneSettings, EnvironmentSettings};
 use cosfly_fly::flight::Latency;
 use cosfly_fly::pilot::Place;
 use cosfly_fly::results::{Card, EnvironmentCard, Folder, KeptCard, LogChoice, SuiteCard, beside};
@@ -72,7 +73,7 @@ pub struct Arguments {
     #[arg(long, value_name = "MS", default_value_t = 100, value_parser = clap::value_parser!(u32).range(10..=1000))]
     step_ms: u32,
     /// The drone [default: that of the suite, else a point mass]
-    #[arg(long, value_name = "MODEL", value_parser = drone_model)]
+    #[arg(long, value_name = "MODEL", value_parser = models::model)]
     drone: Option<DroneModel>,
     /// Speed of the mean wind that moves a quadrotor, m/s; each episode draws its direction [default: that of the suite, else 0]
     #[arg(long, value_name = "MPS", value_parser = wind)]
@@ -136,12 +137,6 @@ fn latency(text: &str) -> Result<LatencyChoice, String> {
     }
     let number = text.parse().ok().filter(|number| *number <= 5000);
     number.map(LatencyChoice::Milliseconds).ok_or_else(|| "it must be 0 to 5000, or `measured`".to_owned())
-}
-
-fn drone_model(text: &str) -> Result<DroneModel, String> {
-    let names: Vec<&str> = DroneModel::ALL.iter().map(|model| model.name()).collect();
-    let found = DroneModel::ALL.into_iter().find(|model| model.name() == text);
-    found.ok_or_else(|| format!("allowed are {}", names.join(", ")))
 }
 
 fn wind(text: &str) -> Result<f64, String> {
@@ -255,7 +250,7 @@ impl Arguments {
             sensors: !matches!(self.logs, LogsChoice::None),
         };
         let actions = self.asked.actions();
-        let is_point = drone.model == DroneModel::PointMass;
+        let is_point = drone.model.parameters.is_none();
         let refused = |message: &str| {
             let problem = Diagnostic::new("fly-drone", Fault::Recipe, message);
             Err(problem.hint("choose a quadrotor: `--drone pelican` or `--drone crazyflie`"))

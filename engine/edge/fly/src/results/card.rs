@@ -162,7 +162,7 @@ impl EnvironmentCard {
             step_s: settings.step_s,
             latency_s: settings.latency_s,
             latency_is_measured: latency == Latency::Measured,
-            drone: settings.drone.model.name().to_owned(),
+            drone: settings.drone.model.name.to_owned(),
             wind_mps: settings.drone.wind_mps,
             gusts: settings.drone.gusts,
             blackouts: settings.blackouts,

@@ -174,6 +174,7 @@ impl FlownQuadrotor {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::models::quadrotor;
     use crate::wind::Turbulence;
     use cosfly_frames::Seed;
 
@@ -186,9 +187,9 @@ mod tests {
     fn velocities_are_followed_as_a_point_mass_would_also_in_gusts() {
         let gusty = || Air::new(DVec3::new(3.0, 0.0, 0.0), Some(Turbulence::near_ground(20.0, 3.0)), Seed([7; 32]));
         for (parameters, air, within_m) in [
-            (QuadrotorParameters::crazyflie(), Air::still(), 0.3),
-            (QuadrotorParameters::pelican(), Air::still(), 0.3),
-            (QuadrotorParameters::pelican(), gusty(), 0.6),
+            (quadrotor("crazyflie").unwrap(), Air::still(), 0.3),
+            (quadrotor("pelican").unwrap(), Air::still(), 0.3),
+            (quadrotor("pelican").unwrap(), gusty(), 0.6),
         ] {
             let mut flown = drone(parameters, air);
             let mut point = flown.point;
@@ -207,7 +208,7 @@ mod tests {
 
     #[test]
     fn split_steps_fly_as_whole_ones_under_thrust_and_rates() {
-        let parameters = QuadrotorParameters::pelican();
+        let parameters = quadrotor("pelican").unwrap();
         let (mut whole, mut split) = (drone(parameters.clone(), Air::still()), drone(parameters, Air::still()));
         let wanted = ThrustAndRates { thrust_n: whole.thrust_n(1.1), rates_rad_s: DVec3::new(0.1, 0.2, 0.0) };
         for _ in 0..10 {
@@ -220,7 +221,7 @@ mod tests {
 
     #[test]
     fn more_than_the_rotors_have_is_counted() {
-        let mut flown = drone(QuadrotorParameters::crazyflie(), Air::still());
+        let mut flown = drone(quadrotor("crazyflie").unwrap(), Air::still());
         let wanted = ThrustAndRates { thrust_n: flown.thrust_n(5.0), rates_rad_s: DVec3::ZERO };
         flown.step(&ControlInput::ThrustAndRates(wanted), 0.1);
         assert_eq!(flown.tracking_error().saturated_ticks, 100);

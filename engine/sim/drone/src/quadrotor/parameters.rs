@@ -42,50 +42,7 @@ pub struct QuadrotorParameters {
     pub speed_rpm: (f64, f64),
 }
 
-/// Rev/min in rad/s.
-const RPM: f64 = cosfly_frames::real::TAU / 60.0;
-
 impl QuadrotorParameters {
-    /// Crazyflie 2.x with the large propellers: parameter set `cf2x_L250` of `drone-models` 0.1.0 (identified by its authors).
-    /// The speeds are those of its least and largest thrust.
-    pub fn crazyflie() -> Self {
-        Self {
-            mass_kg: 0.0319,
-            arm_m: 0.03253,
-            inertia_kgm2: DVec3::new(16.8e-6, 16.8e-6, 29.8e-6),
-            thrust: [0.0, -5.382196214637237e-7, 2.4582929831265485e-10],
-            torque: [0.0, 1.410454111996297e-9, 1.4592584373980652e-12],
-            spin: [7.355623702172756, 0.0, 0.0, 0.00024443862952110715],
-            mixing: [[-1.0, -1.0, 1.0, 1.0], [-1.0, 1.0, 1.0, -1.0], [-1.0, 1.0, -1.0, 1.0]],
-            drag: DVec3::new(-0.01471782, -0.01471782, -0.01277641),
-            rotor_inertia_kgm2: 34.52e-9,
-            gyroscope: Gyroscope::Exact,
-            speed_rpm: (8_400.0, 23_200.0),
-        }
-    }
-
-    /// AscTec Pelican, 1 kg: the figures of the simulator RotorS (`pelican.xacro`: mass, inertia, arm, motor and moment constants,
-    /// time constants, largest speed; rotors of 10 g as flat bars of 128 by 15 mm). Its drag of the rotors, which grows with their
-    /// speed, is taken at hover (496 rad/s).
-    pub fn pelican() -> Self {
-        let (thrust, ratio_m) = (9.9865e-6 * RPM * RPM, 0.016);
-        let drag = -4.0 * 8.06428e-5 * 495.6;
-        Self {
-            mass_kg: 1.0,
-            arm_m: 0.21,
-            inertia_kgm2: DVec3::new(0.01, 0.01, 0.02),
-            thrust: [0.0, 0.0, thrust],
-            torque: [0.0, 0.0, ratio_m * thrust],
-            spin: [1.0 / 0.0125, 0.0, 1.0 / 0.025, 0.0],
-            // Front, left, back, right; front and back turn clockwise, their torque on the body is to the left.
-            mixing: [[0.0, 1.0, 0.0, -1.0], [-1.0, 0.0, 1.0, 0.0], [1.0, -1.0, 1.0, -1.0]],
-            drag: DVec3::new(drag, drag, 0.0),
-            rotor_inertia_kgm2: 0.01 / 12.0 * (0.128 * 0.128 + 0.015 * 0.015),
-            gyroscope: Gyroscope::Exact,
-            speed_rpm: (0.0, 838.0 / RPM),
-        }
-    }
-
     /// Speed at which a rotor has a thrust, rev/min, within its limits.
     pub fn speed_of_thrust_rpm(&self, thrust_n: f64) -> f64 {
         let [constant, linear, square] = self.thrust;

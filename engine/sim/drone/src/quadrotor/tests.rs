@@ -1,10 +1,11 @@
 //! Quadrotors: hover, free fall, drag, a controller that reaches setpoints in wind, steps that converge.
 
 use super::{ControlGains, Controller, Quadrotor, QuadrotorParameters, Setpoint};
+use crate::models::quadrotor;
 use cosfly_frames::{DQuat, DVec3};
 
 fn both() -> [QuadrotorParameters; 2] {
-    [QuadrotorParameters::crazyflie(), QuadrotorParameters::pelican()]
+    [quadrotor("crazyflie").unwrap(), quadrotor("pelican").unwrap()]
 }
 
 #[test]
@@ -35,7 +36,7 @@ fn each_axis_turns_the_way_the_rotors_say() {
 #[test]
 fn smaller_steps_converge_with_the_fourth_order() {
     let flown = |steps: u32| {
-        let mut drone = Quadrotor::hovering(DVec3::ZERO, QuadrotorParameters::pelican());
+        let mut drone = Quadrotor::hovering(DVec3::ZERO, quadrotor("pelican").unwrap());
         drone.state.rates_rad_s = DVec3::new(1.0, -2.0, 0.5);
         drone.state.velocity_mps = DVec3::new(5.0, 1.0, -1.0);
         let hover = drone.parameters.hover_rpm();
@@ -72,7 +73,7 @@ fn a_controller_reaches_a_setpoint_and_stays_near_it_in_wind() {
 fn frames_flip_and_flip_back() {
     let vector = DVec3::new(1.0, 2.0, 3.0);
     assert_eq!(super::flipped(super::flipped(vector)), vector);
-    let tilted = Quadrotor::hovering(DVec3::ZERO, QuadrotorParameters::pelican());
+    let tilted = Quadrotor::hovering(DVec3::ZERO, quadrotor("pelican").unwrap());
     let state = super::QuadrotorState { attitude: DQuat::from_rotation_y(0.2), ..tilted.state };
     let slope = tilted.derivative(&state, state.rotors_rpm, DVec3::ZERO);
     assert!(slope.acceleration_mps2.x > 0.0 && slope.acceleration_mps2.z < 0.0, "nose down flies ahead");
