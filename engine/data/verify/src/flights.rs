@@ -1,7 +1,8 @@
 //! All flights, side by side: table `frames` with the tables beside it, and the log of each flight.
 
+use super::checks::OF_FLIGHTS;
 use super::files::{CheckedFiles, State};
-use super::frames::{check_frames, check_occluders, check_pair, check_town};
+use super::flight_rows::FlightRows;
 use super::log::{self, Known};
 use super::options::Wanted;
 use super::people::{PeopleIndex, PersonRow};
@@ -9,7 +10,6 @@ use super::report::VerifyReport;
 use super::resume::ResumeFile;
 use super::rows::{self, PlacedFrame};
 use super::tables::SmallTables;
-use super::{labels, people, sums, twins};
 use cosfly_diagnose::Result;
 use cosfly_read::{FlightTrack, RowIndex};
 use rayon::prelude::*;
@@ -213,7 +213,7 @@ impl<'a> Flights<'a> {
     /// Checks the rows and the log of a flight.
     fn check_flight(&self, number: usize, rows: &Rows<'_>) -> Result<Checked> {
         self.files.stop.check("verify")?;
-        let (file, frames, others) = (rows.file, rows.frames, rows.people);
+        let (frames, others) = (rows.frames, rows.people);
         let flight = self.tables.flights.at(number);
         let id = &flight.trajectory_id;
         let mut hasher = blake3::Hasher::new();
@@ -234,17 +234,19 @@ impl<'a> Flights<'a> {
         }
         checked.log = log;
         let report = &mut checked.report;
-        check_frames(file, flight, frames, report);
-        sums::check_frames(flight, frames, report);
-        labels::compare(file, flight, frames, report);
         let objects = self.tables.instances.get(&flight.town);
-        people::check(rows.people_file, flight, frames, others, objects, report);
-        check_occluders(file, objects, others, frames, report);
-        check_pair(&self.tables.pairs, flight, frames, report);
-        check_town(file, self.tables.extents.get(&flight.town), flight, frames, report);
-        if let Some(expert) = rows.expert {
-            twins::check(file, flight, frames, expert, report);
-        }
+        let all = FlightRows {
+            file: rows.file,
+            flight,
+            frames,
+            people_file: rows.people_file,
+            people: others,
+            objects,
+            pairs: &self.tables.pairs,
+            extent: self.tables.extents.get(&flight.town),
+            expert: rows.expert,
+        };
+        OF_FLIGHTS.iter().for_each(|check| check(&all, report));
         if self.files.check_log(self.folder, &flight.mcap_path, report)? >= State::Regular {
             let captions = self.tables.captions.of(number);
             log::check(

@@ -10,15 +10,16 @@
 mod body;
 mod boxes;
 mod captions;
+mod checks;
 mod croissant;
 mod extras;
 mod figures;
 mod files;
 mod flight_list;
+mod flight_rows;
 mod flights;
 mod frames;
 mod ground;
-mod labels;
 mod log;
 mod options;
 mod people;
@@ -30,7 +31,6 @@ mod sums;
 mod tables;
 #[cfg(test)]
 mod tests;
-mod twins;
 mod verify;
 mod waypoints;
 mod windows;

@@ -1,19 +1,13 @@
 //! Perturbed flights against their experts: each frame is the expert's plus the stored displacement.
 
-use super::frames::TOLERANCE;
-use super::report::VerifyReport;
-use super::rows::{PlacedFlight, PlacedFrame};
+use crate::flight_rows::FlightRows;
+use crate::frames::TOLERANCE;
+use crate::report::VerifyReport;
 use cosfly_frames::DVec3;
-use cosfly_read::FlightTrack;
 
 /// A twin is its expert plus the stored displacement, and exactly its expert where nothing happened.
-pub fn check(
-    file: &str,
-    flight: &PlacedFlight,
-    frames: &[PlacedFrame],
-    expert: &FlightTrack,
-    report: &mut VerifyReport,
-) {
+pub fn check(rows: &FlightRows<'_>, report: &mut VerifyReport) {
+    let FlightRows { file, flight, frames, expert: Some(expert), .. } = *rows else { return };
     let (id, expert_id) = (&flight.trajectory_id, flight.expert_id.as_deref().unwrap_or_default());
     for (number, frame) in frames.iter().enumerate() {
         let event = frame.disturbance.as_ref();

@@ -1,8 +1,8 @@
 //! Visible shares by rays and by pixels held against each other: made apart from each other, they should agree, and where
 //! they do not there should be a reason.
 
-use super::report::{LabelGap, VerifyReport};
-use super::rows::{PlacedFlight, PlacedFrame};
+use crate::report::{LabelGap, VerifyReport};
+use crate::rows::{PlacedFlight, PlacedFrame};
 
 /// Shares that differ by more than this are listed.
 const AGREEMENT: f64 = 0.05;

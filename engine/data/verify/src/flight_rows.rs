@@ -1,0 +1,29 @@
+//! [`FlightRows`]: the rows of a flight, and all that they are compared with.
+
+use crate::people::PersonRow;
+use crate::rows::{PlacedFlight, PlacedFrame};
+use crate::tables::{Extent, PairRow};
+use cosfly_read::FlightTrack;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The rows of a flight in all tables.
+pub struct FlightRows<'a> {
+    /// File of table `frames`, for findings.
+    pub file: &'a str,
+    /// Row of table `trajectories`.
+    pub flight: &'a PlacedFlight,
+    /// Rows of table `frames`, in the order of the file.
+    pub frames: &'a [PlacedFrame],
+    /// File of table `people`, for findings.
+    pub people_file: &'a str,
+    /// Rows of table `people`.
+    pub people: &'a [PersonRow],
+    /// Instance ids of the town's objects.
+    pub objects: Option<&'a BTreeSet<u32>>,
+    /// Rows of table `pairs` by the perturbed flight.
+    pub pairs: &'a BTreeMap<String, PairRow>,
+    /// Reach of the town, metres.
+    pub extent: Option<&'a Extent>,
+    /// Motion of the expert of a perturbed flight.
+    pub expert: Option<&'a FlightTrack>,
+}
