@@ -10,4 +10,9 @@ mod v7;
 use crate::layout::Layout;
 
 /// All layouts, in the order in which a folder is tried.
-pub const LAYOUTS: &[Layout] = &[ours::LAYOUT, v7::LAYOUT, lerobot::LAYOUT];
+#[rustfmt::skip] // an entry per line
+pub const LAYOUTS: &[Layout] = &[
+    ours::LAYOUT,
+    v7::LAYOUT,
+    lerobot::LAYOUT,
+];

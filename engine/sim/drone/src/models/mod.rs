@@ -12,7 +12,12 @@ pub use model::DroneModel;
 use crate::quadrotor::QuadrotorParameters;
 
 /// All models; the first one is the default.
-pub const MODELS: &[DroneModel] = &[point_mass::MODEL, crazyflie::MODEL, pelican::MODEL];
+#[rustfmt::skip] // an entry per line
+pub const MODELS: &[DroneModel] = &[
+    point_mass::MODEL,
+    crazyflie::MODEL,
+    pelican::MODEL,
+];
 
 /// Parameters of the quadrotor of a name; none where there is no such quadrotor.
 pub fn quadrotor(name: &str) -> Option<QuadrotorParameters> {

@@ -14,4 +14,12 @@ mod timing;
 pub use kind::{Departing, Departure, Kind};
 
 /// All kinds. The order decides which kind a flight draws: new ones stand at the end.
-pub const KINDS: &[Kind] = &[jumps::KIND, drift::KIND, gusts::KIND, timing::KIND, aim::KIND, search::KIND];
+#[rustfmt::skip] // an entry per line
+pub const KINDS: &[Kind] = &[
+    jumps::KIND,
+    drift::KIND,
+    gusts::KIND,
+    timing::KIND,
+    aim::KIND,
+    search::KIND,
+];
