@@ -7,10 +7,19 @@ use serde::{Deserialize, Serialize};
 /// The body that a walk is the track of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
+    /// Name of the traffic.
+    pub traffic: String,
     /// Number of the body in the traffic.
     pub number: u32,
     /// Kind, size and looks.
     pub plan: BodyPlan,
+}
+
+impl Followed {
+    /// Whether it is body number `number` of a traffic.
+    pub fn is(&self, traffic: &str, number: u32) -> bool {
+        self.traffic == traffic && self.number == number
+    }
 }
 
 /// The bodies near one track, with their numbers in the whole traffic.

@@ -28,7 +28,7 @@ pub use body::{Body, BodyKind, BodyPlan};
 pub use camera::{Camera, Mount};
 pub use channels::{Channel, ChannelImage, ChannelSet};
 pub use frame_images::FrameImages;
-pub use instance::{TARGET_INSTANCE, object_instance};
+pub use instance::{BodyId, TARGET_INSTANCE, largest_object_instance, object_instance};
 pub use lane::{Lane, LaneKind};
 pub use lens::Lens;
 pub use looks::{Bag, BodyBuild, Colour, Dye, Gait, Outfit, Traits};

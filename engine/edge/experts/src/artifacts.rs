@@ -28,9 +28,9 @@ pub struct Kind<T> {
 /// A town. Every artifact that was made in it carries it as a link.
 pub const TOWN: Kind<Town> = Kind::new("town/1", "town");
 /// The walk of a pedestrian, or of another body that is followed.
-pub const WALK: Kind<PedestrianPath> = Kind::new("walk/1", "walk");
+pub const WALK: Kind<PedestrianPath> = Kind::new("walk/2", "walk");
 /// The body of traffic that a walk or a flight follows.
-pub const FOLLOWED: Kind<Followed> = Kind::new("walk/1", "followed");
+pub const FOLLOWED: Kind<Followed> = Kind::new("walk/2", "followed");
 /// Companions of a flight.
 pub const COMPANIONS: Kind<Vec<Companion>> = Kind::new("companions/1", "companions");
 /// All people and vehicles that move through a town; the part and the blob have one name.

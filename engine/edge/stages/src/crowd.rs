@@ -2,10 +2,10 @@
 
 use crate::nearby;
 use cosfly_diagnose::Result;
-use cosfly_domain::{BodyKind, PersonView, Traffic};
+use cosfly_domain::{BodyId, BodyKind, PersonView, Traffic, largest_object_instance};
 use cosfly_experts::artifacts;
 use cosfly_figures::Bystander;
-use cosfly_film::nearby::{NearbyBodies, NearbyPerson, instance_of_drone, largest_object};
+use cosfly_film::nearby::{NearbyBodies, NearbyPerson};
 use cosfly_film::{Person, Shooting};
 use cosfly_flight::World;
 use cosfly_pedestrians::PedestrianPath;
@@ -48,10 +48,10 @@ impl Crowd {
 
     /// The same with the other drones behind the target of `flight`, which have the names of their flights.
     pub fn and_drones(mut self, inputs: &Inputs<'_>, flight: &Artifact, world: &World, dt_s: f64) -> Result<Self> {
-        let largest_object = largest_object(&world.town);
+        let largest_object = largest_object_instance(&world.town);
         for (number, body) in artifacts::DRONES.find(inputs, flight)?.unwrap_or_default().bodies(dt_s) {
-            let number = instance_of_drone(number).and_then(|number| largest_object.checked_add(number));
-            let instance = number.ok_or_else(|| nearby::too_many(flight))?;
+            let instance = BodyId::of_drone(number).and_then(|id| id.instance(largest_object));
+            let instance = instance.ok_or_else(|| nearby::too_many(flight))?;
             let person = Person::of(&body, dt_s);
             let ((height_m, radius_m), outfit) = (person.size_m(), person.outfit());
             let (walk_id, kind) = (body.plan.source, body.plan.kind);

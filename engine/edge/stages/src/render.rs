@@ -9,7 +9,7 @@ use crate::world::{check_same_town, link_town, world};
 use crate::{nearby, props, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
-use cosfly_domain::{Around, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, object_instance};
+use cosfly_domain::{Around, Camera, PlanOutcome, TargetView, Trajectory, largest_object_instance};
 use cosfly_experts::{artifacts, pictures};
 use cosfly_figures::{Bystander, TargetSetup, gait_phase_rad, outfit_of};
 use cosfly_film::body_rays::BodyRays;
@@ -245,8 +245,7 @@ impl RenderStage {
         let Place { scene, world, crowd } = *place;
         let mut rig = self.take_rig(shooting.camera);
         let Camera { width, height, .. } = shooting.camera;
-        let objects = world.town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
-        let largest_instance = objects.max().unwrap_or(TARGET_INSTANCE).max(crowd.largest_instance());
+        let largest_instance = largest_object_instance(&world.town).max(crowd.largest_instance());
         let header = PackHeader {
             channels: self.config.channels.clone(),
             ..PackHeader::new(width, height, largest_instance, self.encoding, trajectory.track.dt_s)

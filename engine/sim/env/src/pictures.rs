@@ -3,7 +3,7 @@
 use crate::environment::Environment;
 use crate::others::BodyAtTime;
 use cosfly_batch::{BatchRenderer, Outputs, View};
-use cosfly_domain::{BodyKind, Weather};
+use cosfly_domain::{BodyId, BodyKind, Weather};
 use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
 use cosfly_frames::{DVec3, TargetState};
 use cosfly_render::PictureLook;
@@ -194,8 +194,7 @@ impl Pictures {
             bystanders.extend(self::bystanders(environment, rain));
             let others = (0..environments.len()).filter(|number| *number != own);
             bystanders.extend(others.filter_map(|number| {
-                let after = (number as u32).saturating_mul(2).saturating_add(2);
-                let instance = environment.episode().place.largest_instance().saturating_add(after);
+                let instance = environment.episode().place.instance(BodyId::of_drone(number as u32));
                 drone(number).map(|walker| Bystander { walker, instance })
             }));
             ranges.push(start..bystanders.len());
@@ -271,14 +270,12 @@ fn drone(environment: &Environment) -> Option<Walker> {
     })
 }
 
-/// Everybody else who is there now, with ids that follow those of the town's objects: the body number `n` of traffic has the odd
-/// number `2 n + 1` after the largest; drones of a team have the even ones, `2 n + 2`.
+/// Everybody else who is there now. The bodies are the only source of their world beside the drones of a team.
 pub fn bystanders(environment: &Environment, rain: f64) -> impl Iterator<Item = Bystander> {
     let episode = environment.episode();
-    let largest = episode.place.largest_instance();
     episode.others.at(environment.observation().time_s).map(move |present| Bystander {
         walker: walker(&present, rain),
-        instance: largest.saturating_add(present.mover.number.saturating_mul(2).saturating_add(1)),
+        instance: episode.place.instance(BodyId::of(0, present.mover.number as usize)),
     })
 }
 

@@ -1,7 +1,7 @@
 //! [`FlightSite`]: the surroundings of a flight, ready for queries.
 
 use cosfly_batch::BatchScene;
-use cosfly_domain::{OrientedBox, TARGET_INSTANCE, Town, object_instance};
+use cosfly_domain::{BodyId, OrientedBox, Town, largest_object_instance};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_town::GroundIndex;
@@ -15,7 +15,7 @@ pub struct FlightSite {
     pub planning_boxes: Vec<OrientedBox>,
     ground: GroundIndex,
     lowest_m: f64,
-    largest_instance: u32,
+    largest_object: u32,
     looks: Seed,
     /// The town as pictures show it.
     town: Arc<Town>,
@@ -26,13 +26,12 @@ pub struct FlightSite {
 impl FlightSite {
     /// The surroundings in a town; `looks` draws the look of its buildings.
     pub fn new(town: Arc<Town>, looks: Seed) -> Self {
-        let instances = town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
         Self {
             exact: BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect()),
             planning_boxes: town.planning_boxes.clone(),
             ground: GroundIndex::new(&town),
             lowest_m: town.min_in_world.z.min(0.0),
-            largest_instance: instances.max().unwrap_or(TARGET_INSTANCE),
+            largest_object: largest_object_instance(&town),
             looks,
             town,
             without_colours: OnceLock::new(),
@@ -64,9 +63,9 @@ impl FlightSite {
         BatchScene::without_colours(&self.town, &self.ground)
     }
 
-    /// Largest instance id of an object of the town.
-    pub fn largest_instance(&self) -> u32 {
-        self.largest_instance
+    /// Instance id of a body in pictures.
+    pub fn instance(&self, body: Option<BodyId>) -> u32 {
+        body.and_then(|id| id.instance(self.largest_object)).unwrap_or(u32::MAX)
     }
 
     /// Height of the ground, metres; the town's lowest point (at most 0) where there is none.

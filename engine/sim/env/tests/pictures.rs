@@ -1,6 +1,6 @@
 //! Pictures of environments: as the large renderer draws them from the same place, whoever else is drawn beside them.
 
-use cosfly_domain::{Around, Body, BodyKind, BodyPlan, Camera, Town, Traffic, WalkableKind};
+use cosfly_domain::{Around, Body, BodyId, BodyKind, BodyPlan, Camera, Town, Traffic, WalkableKind};
 use cosfly_env::pictures::{Channel, PictureBatch, PictureFormat, Pictures, bystanders, target};
 use cosfly_env::{Action, Environment, EnvironmentSettings, Episode, FlightSite, Others, Start};
 use cosfly_figures::{TargetSetup, Walker};
@@ -185,7 +185,7 @@ fn drones_of_a_team_are_in_each_others_pictures_and_nobodys_own() {
     };
     let team = [first.clone(), beside(0.15), beside(-0.15)];
     let team: Vec<&Environment> = team.iter().collect();
-    let largest = episode.place.largest_instance();
+    let instance = |other: u32| episode.place.instance(BodyId::of_drone(other));
     let pixels = format(128).pixels();
     let drawn_by = |threads: usize| {
         let mut album = PictureBatch::new(&format(128), 3);
@@ -197,14 +197,14 @@ fn drones_of_a_team_are_in_each_others_pictures_and_nobodys_own() {
     assert_eq!(drawn_by(2), album);
     let seen = |own: usize, other: u32| {
         let ids = album.instance[own * pixels..(own + 1) * pixels].iter();
-        ids.filter(|id| **id == largest + 2 * other + 2).count()
+        ids.filter(|id| **id == instance(other)).count()
     };
     let sees = |own: usize, other: u32| seen(own, other) > 0;
     assert!(sees(0, 1) && sees(2, 0), "those ahead");
     assert!([(0, 0), (0, 2), (1, 0), (1, 1), (1, 2), (2, 2)].iter().all(|(own, other)| !sees(*own, *other)));
-    let at = album.instance[..pixels].iter().position(|id| *id == largest + 4).expect("the second drone");
+    let at = album.instance[..pixels].iter().position(|id| *id == instance(1)).expect("the second drone");
     let way_m = 0.15 * (from - feet - DVec3::Z).length();
     assert!((f64::from(album.depth_m[at]) - way_m).abs() < 0.6 && album.semantic[at] == 21);
     let alone = drawn(&[&first], 128, 1);
-    assert!(!alone.instance.contains(&(largest + 4)));
+    assert!(!alone.instance.contains(&instance(1)));
 }

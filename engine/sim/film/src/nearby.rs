@@ -4,7 +4,7 @@ use crate::body_rays;
 use crate::shooting::Shooting;
 use crate::walks::{Person, touch};
 use cosfly_diagnose::Result;
-use cosfly_domain::{Around, Body, Camera, Followed, TARGET_INSTANCE, Town, Traffic, Trajectory, object_instance};
+use cosfly_domain::{Around, BodyId, Camera, Followed, Town, Traffic, Trajectory, largest_object_instance};
 use cosfly_figures::Walker;
 use cosfly_frames::{Pose, TargetState};
 use cosfly_optics::pose_at;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// A person who is near a flight.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NearbyPerson {
-    /// Id in instance images (see [`instance_of`]).
+    /// Id in instance images (see [`BodyId`]).
     pub instance: u32,
     /// Stage and item of the walk, such as `crowd-p00003`.
     pub walk_id: String,
@@ -73,7 +73,7 @@ pub struct Candidates<'a> {
 impl<'a> Candidates<'a> {
     /// Nobody yet, around `flight` behind `target` in `town`.
     pub fn new(town: &Town, flight: &'a Trajectory, target: Option<&'a Followed>) -> Self {
-        Self { flight, target, largest_object: largest_object(town), all: vec![], left_out: 0 }
+        Self { flight, target, largest_object: largest_object_instance(town), all: vec![], left_out: 0 }
     }
 
     /// Adds the bodies of the traffic that stage number `stage` made.
@@ -82,7 +82,7 @@ impl<'a> Candidates<'a> {
     /// [`Refused::NoId`].
     pub fn add_traffic(&mut self, stage: usize, traffic: &Arc<Traffic>) -> std::result::Result<(), Refused> {
         for (number, body) in (0..).zip(&traffic.bodies).filter(|(_, body)| !body.states.is_empty()) {
-            if !is_of(self.target, number, body, self.flight) {
+            if !self.target.is_some_and(|it| it.is(&traffic.name, number)) {
                 let instance = self.instance(stage, number as usize)?;
                 self.add(instance, Origin::Body(Arc::clone(traffic), number), Person::of(body, traffic.dt_s));
             }
@@ -116,8 +116,7 @@ impl<'a> Candidates<'a> {
     }
 
     fn instance(&self, stage: usize, item: usize) -> std::result::Result<u32, Refused> {
-        let number = instance_of(stage, item).and_then(|number| self.largest_object.checked_add(number));
-        number.ok_or(Refused::NoId)
+        BodyId::of(stage, item).and_then(|id| id.instance(self.largest_object)).ok_or(Refused::NoId)
     }
 
     fn add(&mut self, instance: u32, origin: Origin, person: Person) {
@@ -161,11 +160,6 @@ pub struct Filming<'a> {
     pub flight: &'a Trajectory,
 }
 
-/// Whether a body of traffic is the target of a flight.
-fn is_of(target: Option<&Followed>, number: u32, body: &Body, trajectory: &Trajectory) -> bool {
-    target.is_some_and(|it| it.number == number && it.plan == body.plan && trajectory.track.states == body.states)
-}
-
 impl Origin {
     /// Whether two people were moved together, each around the other.
     fn is_with(&self, other: &Origin) -> bool {
@@ -176,10 +170,8 @@ impl Origin {
     }
 
     /// Whether a person was moved together with the target of a flight.
-    fn is_with_target(&self, target: Option<&Followed>, trajectory: &Trajectory) -> bool {
-        let Origin::Body(traffic, _) = self else { return false };
-        let body = target.and_then(|it| Some((it.number, traffic.bodies.get(it.number as usize)?)));
-        body.is_some_and(|(number, body)| is_of(target, number, body, trajectory))
+    fn is_with_target(&self, target: Option<&Followed>) -> bool {
+        matches!(self, Origin::Body(traffic, _) if target.is_some_and(|it| it.traffic == traffic.name))
     }
 }
 
@@ -194,9 +186,8 @@ pub fn apart(mut near: Vec<Candidate>, trajectory: &Trajectory, target: Option<&
     for candidate in near {
         let states = candidate.person.states(track);
         let (origin, own) = (&candidate.origin, (candidate.person.plan(), &states[..]));
-        let meets_target = track.radius_m > 0.0
-            && !origin.is_with_target(target, trajectory)
-            && touch((flown_at.plan(), &target_states), own);
+        let meets_target =
+            track.radius_m > 0.0 && !origin.is_with_target(target) && touch((flown_at.plan(), &target_states), own);
         let meets = |(other, others): &(Candidate, Vec<_>)| {
             !origin.is_with(&other.origin) && touch((other.person.plan(), others), own)
         };
@@ -205,34 +196,6 @@ pub fn apart(mut near: Vec<Candidate>, trajectory: &Trajectory, target: Option<&
         }
     }
     kept.into_iter().map(|(candidate, _)| candidate).collect()
-}
-
-/// Largest id of an object in instance images.
-pub fn largest_object(town: &Town) -> u32 {
-    let objects = town.obstacles.iter().map(|obstacle| object_instance(obstacle.object_id));
-    objects.max().unwrap_or(TARGET_INSTANCE)
-}
-
-/// Place among the stages at port `others` that drones have instead of a stage.
-const PLACE_OF_DRONES: usize = 12;
-
-/// Instance id of a drone by its number behind the walk, counted after the ids of objects as those of people are.
-pub fn instance_of_drone(number: u32) -> Option<u32> {
-    odd_multiple(PLACE_OF_DRONES, number as usize)
-}
-
-/// Instance id of a person, counted after the ids of objects: a number that no other person has, and that depends on the
-/// places of the stage at the port and of the item in the stage alone. More people, and stages that are added at the end,
-/// change no id: the first stage has every second number, the next one every second of the rest, and so on. `None` beyond
-/// 32 bits.
-pub fn instance_of(stage: usize, item: usize) -> Option<u32> {
-    odd_multiple(stage + usize::from(stage >= PLACE_OF_DRONES), item)
-}
-
-/// Number `item` of those that can be halved just so often.
-fn odd_multiple(halvings: usize, item: usize) -> Option<u32> {
-    let odd = u32::try_from(item).ok()?.checked_mul(2)?.checked_add(1)?;
-    odd.checked_mul(1u32.checked_shl(u32::try_from(halvings).ok()?)?)
 }
 
 impl Filming<'_> {
@@ -273,21 +236,5 @@ impl Filming<'_> {
             }
         }
         Ok(near)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::BTreeSet;
-
-    #[test]
-    fn ids_of_people_differ_and_do_not_depend_on_how_many_there_are() {
-        let people = (0..14).flat_map(|stage| (0..300).map(move |item| instance_of(stage, item).unwrap()));
-        let ids: BTreeSet<u32> = people.chain((0..8).map(|number| instance_of_drone(number).unwrap())).collect();
-        assert_eq!((ids.len(), ids.first()), (14 * 300 + 8, Some(&1)));
-        assert_eq!([0, 1, 2].map(|item| instance_of(0, item)), [Some(1), Some(3), Some(5)]);
-        assert_eq!([0, 1, 2].map(|item| instance_of(1, item)), [Some(2), Some(6), Some(10)]);
-        assert_eq!((instance_of(30, 0), instance_of(30, 1), instance_of(31, 0)), (Some(1 << 31), None, None));
     }
 }

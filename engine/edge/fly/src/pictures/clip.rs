@@ -4,7 +4,7 @@ use super::window::telling;
 use crate::log::Line;
 use crate::suite::Task;
 use cosfly_diagnose::Result;
-use cosfly_domain::{Camera, PixelBox};
+use cosfly_domain::{BodyId, Camera, PixelBox};
 use cosfly_env::pictures::walker;
 use cosfly_env::{BodyAtTime, EnvironmentSettings};
 use cosfly_figures::{Bystander, TargetSetup, gait_phase_rad};
@@ -50,7 +50,8 @@ fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> Cli
         body: shooting.body.in_rain(shooting.weather.precipitation, &shooting.clothes_seed),
     };
     let rain = shooting.weather.precipitation;
-    let others: Vec<Bystander> = task.episode.others.at(line.time_s).map(|present| bystander(&present, rain)).collect();
+    let others: Vec<Bystander> =
+        task.episode.others.at(line.time_s).map(|present| bystander(task, &present, rain)).collect();
     let setup = FrameSetup { pose: line.pose(), weather: &shooting.weather, target: Some(target), others: &others };
     let drawn = renderer.render(scene, &setup);
     let (images, view) = (drawn.images, drawn.target_view);
@@ -77,10 +78,8 @@ fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> Cli
     ClipShot { logged, rgb }
 }
 
-/// Ids of bodies of traffic in clips begin behind those of all objects of a town.
-const FIRST_INSTANCE: u32 = 1 << 24;
-
 /// Somebody beside the target, as the renderer draws them.
-fn bystander(present: &BodyAtTime<'_>, rain: f64) -> Bystander {
-    Bystander { walker: walker(present, rain), instance: FIRST_INSTANCE + present.mover.number }
+fn bystander(task: &Task, present: &BodyAtTime<'_>, rain: f64) -> Bystander {
+    let instance = task.episode.place.instance(BodyId::of(0, present.mover.number as usize));
+    Bystander { walker: walker(present, rain), instance }
 }

@@ -157,7 +157,8 @@ impl Stage for WalksStage {
         let grid = self.grid.get(digest, grid)?;
         let path = path_of(Option::as_ref(&grid).map(WalkableGrid::ground), track);
         artifacts::WALK.put(outputs, &path)?;
-        artifacts::FOLLOWED.put(outputs, &Followed { number, plan: body.plan.clone() })?;
+        artifacts::FOLLOWED
+            .put(outputs, &Followed { traffic: traffic.name.clone(), number, plan: body.plan.clone() })?;
         outputs.link(BODIES, artifact.blobs[BODIES])?;
         link_town(inputs, outputs)?;
         let notes = [("body".to_owned(), format!("{} {number}", body.plan.kind.name()))].into();
