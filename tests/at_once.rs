@@ -90,11 +90,11 @@ fn what_is_made_of_a_dataset_is_whole() {
         assert_eq!(tree_digests(&place(&format!("export{round}"))), tree_digests(&place("alone")));
         all_succeed(street.path(), &format!("preview out/street --out preview{round}"));
         assert_eq!(tree_digests(&place(&format!("preview{round}"))), tree_digests(&place("pictures")));
-        all_succeed(street.path(), &format!("eval --dataset out/street --out eval{round}"));
+        all_succeed(street.path(), &format!("eval out/street --out eval{round}"));
         assert_eq!(tree_digests(&place(&format!("eval{round}"))).len(), 3);
         all_succeed(street.path(), &format!("map inspect street.xodr --plan plan{round}.png"));
         all_succeed(street.path(), &format!("carla-job out/street --out job{round}.jsonl"));
-        at_once(street.path(), |_| words(&format!("doctor out/street --json doctor{round}.json")));
+        at_once(street.path(), |_| words(&format!("doctor out/street --out doctor{round}.json")));
         let findings = std::fs::read(place(&format!("doctor{round}.json"))).expect("findings");
         serde_json::from_slice::<serde_json::Value>(&findings).expect("JSON");
         all_succeed(street.path(), &format!("dataset tag v{round} recipe.toml"));
@@ -121,7 +121,7 @@ fn shares_of_an_evaluation_and_rounds_of_labels_start_at_once() {
         all_succeed(street.path(), &format!("{fly} --out same{round}"));
         assert_eq!(tree_digests(&place(&format!("same{round}"))), tree_digests(&place("alone")));
     }
-    let dagger = "dagger recipe.toml --policy hold --jobs 1 --expert 0.5";
+    let dagger = "dagger recipe.toml --policy hold --jobs 1 --expert-share 0.5";
     cosfly(&words(&format!("{dagger} --round a --out labels"))).within(street.path()).run_ok();
     for round in 0..2 {
         all_succeed(street.path(), &format!("{dagger} --round a --out first{round}"));
@@ -136,7 +136,7 @@ fn shares_of_an_evaluation_and_rounds_of_labels_start_at_once() {
 fn new_folders_are_whole_and_one_process_is_first() {
     let folder = tempfile::tempdir().expect("scratch");
     for round in 0..3 {
-        one_is_first(folder.path(), &format!("init flights{round} --from small"), "init-exists");
+        one_is_first(folder.path(), &format!("init flights{round} --template small"), "init-exists");
         assert!(folder.path().join(format!("flights{round}/recipe.toml")).is_file());
         #[cfg(feature = "plugins")]
         {

@@ -11,7 +11,7 @@ fn street() -> Street {
 }
 
 fn eval(street: &Street, arguments: &[&str]) -> Printed {
-    cosfly(&[&["eval", "--dataset", "out/street"], arguments].concat()).within(street.path()).run()
+    cosfly(&[&["eval", "out/street"], arguments].concat()).within(street.path()).run()
 }
 
 fn row(trajectory: &str, step: &str) -> String {

@@ -24,7 +24,7 @@ fn a_dataset_is_exported_whole_or_not_at_all() {
         ("export_split", &["out/street", "--format", "v7", "--out", "x", "--split", "dev"]),
         ("export_pairs", &["out/street", "--format", "v7", "--out", "x", "--trajectory", "expert-p00000"]),
         ("export_format", &["out/street", "--format", "v8", "--out", "x"]),
-        ("export_foreign_option", &["out/street", "--format", "coco", "--out", "x", "--shard-size", "100"]),
+        ("export_foreign_option", &["out/street", "--format", "coco", "--out", "x", "--shard-mb", "100"]),
         ("export_option_value", &["out/street", "--format", "v7", "--out", "x", "--town", "street"]),
     ] {
         let printed = export(&street, arguments);
@@ -53,7 +53,7 @@ fn the_answers_that_models_learn_are_scored_as_right() {
         answers.push_str(&format!("{answer}\n"));
     }
     std::fs::write(street.path().join("answers.jsonl"), answers).expect("writable");
-    let scored = cosfly(&[&["eval", "answers.jsonl", "--dataset", "out/street", "--json"][..], &shape].concat())
+    let scored = cosfly(&[&["eval", "out/street", "answers.jsonl", "--json"][..], &shape].concat())
         .within(street.path())
         .run_ok();
     let report: serde_json::Value = serde_json::from_str(&scored.stdout).expect("JSON");

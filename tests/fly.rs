@@ -52,7 +52,7 @@ fn two_results_compare_and_others_are_refused() {
     refused(&street, &["recipe.toml", "--policy", "wss://host"], 3, "encrypted");
     refused(&street, &["recipe.toml", "--policy", "hold", "--policy", "hold"], 3, "the name `hold`");
     refused(&street, &["recipe.toml"], 2, "--policy");
-    refused(&street, &["recipe.toml", "--policy", "ws://127.0.0.1:9", "--wait", "0.1", "--out", "gone"], 1, "kept");
+    refused(&street, &["recipe.toml", "--policy", "ws://127.0.0.1:9", "--wait-s", "0.1", "--out", "gone"], 1, "kept");
 }
 
 #[test]
@@ -145,9 +145,9 @@ fn dagger_adds_rounds_and_says_what_is_new() {
         let all = [&["dagger", "recipe.toml"], arguments].concat();
         cosfly(&all).within(street.path()).run_ok().stdout
     };
-    let first = dagger(&["--policy", "hold", "--expert", "1", "--round", "clone", "--out", "v1", "--jobs", "1"]);
+    let first = dagger(&["--policy", "hold", "--expert-share", "1", "--round", "clone", "--out", "v1", "--jobs", "1"]);
     assert!(first.contains("added: round `clone`") && first.contains("the expert flew 100 %"), "{first}");
-    let mixed = ["--policy", "follow", "--expert", "0.5", "--round", "next", "--onto", "v1"];
+    let mixed = ["--policy", "follow", "--expert-share", "0.5", "--round", "next", "--onto", "v1"];
     let second = dagger(&[&mixed[..], &["--out", "v2", "--jobs", "1"]].concat());
     assert!(second.contains("kept: round `clone`") && second.contains("added: round `next`"), "{second}");
     dagger(&[&mixed[..], &["--out", "v3", "--jobs", "2"]].concat());

@@ -64,15 +64,15 @@ fn before_the_first_right_answer_nothing_is_an_episode_and_the_same_command_flie
         ("echo no such module mine >&2; exit 3".to_owned(), &["exit code 3", "no such module mine"][..]),
         ("printf 't\\004\\000\\000\\000oh!!'".to_owned(), &["cannot be loaded", "oh!!"]),
         (format!("{READY}; kill -9 $$"), &["by signal 9"]),
-        (format!("{READY}; sleep 60"), &["no answer within 0.5 s", "--timeout"]),
-        ("sleep 60".to_owned(), &["more than 0.5 s", "--wait"]),
+        (format!("{READY}; sleep 60"), &["no answer within 0.5 s", "--timeout-s"]),
+        ("sleep 60".to_owned(), &["more than 0.5 s", "--wait-s"]),
         (always(WRONG), &["shape [1]; velocity is (5,) or (n, 5)"]),
         (always(TEXT), &["the policy failed: oh!!"]),
         ("cat /dev/urandom".to_owned(), &["cannot be loaded"]),
         ("yes".to_owned(), &["it answers before it is asked"]),
     ] {
         script(&street, &text);
-        let printed = fly_into(&street, "out", &["--wait", "0.5", "--timeout", "0.5"]);
+        let printed = fly_into(&street, "out", &["--wait-s", "0.5", "--timeout-s", "0.5"]);
         assert_eq!(printed.code, Some(1), "{text}: {}{}", printed.stdout, printed.stderr);
         assert!(printed.stderr.contains("error[fly-policy-unready]"), "{text}: {}", printed.stderr);
         for words in words {
@@ -81,14 +81,14 @@ fn before_the_first_right_answer_nothing_is_an_episode_and_the_same_command_flie
         assert!(!street.path().join("out").exists(), "{text}: nothing is kept");
         let dagger =
             ["dagger", "recipe.toml", "--policy", "python:mine:act", "--python", "./policy.sh", "--round", "a"];
-        let more = ["--out", "labels", "--wait", "0.5", "--timeout", "0.5"];
+        let more = ["--out", "labels", "--wait-s", "0.5", "--timeout-s", "0.5"];
         let printed = run(cosfly(&[&dagger[..], &more].concat()).within(street.path()));
         assert_eq!(printed.code, Some(1), "{text}: {}", printed.stderr);
         assert!(printed.stderr.contains("error[fly-policy-unready]"), "{text}: {}", printed.stderr);
         assert!(!street.path().join("labels").exists(), "{text}: nothing is kept");
     }
     script(&street, &always(HOLD));
-    let printed = fly_into(&street, "out", &["--wait", "0.5", "--timeout", "0.5"]);
+    let printed = fly_into(&street, "out", &["--wait-s", "0.5", "--timeout-s", "0.5"]);
     assert_eq!(printed.code, Some(0), "{}", printed.stderr);
     assert!(rows(&street, "out").iter().all(|row| row.get("policy_failure").is_none()));
 }
@@ -100,7 +100,7 @@ fn after_the_first_right_answer_wrong_answers_are_scored_and_ends_are_not() {
         [("wrong", WRONG, "shape [1]"), ("text", TEXT, "oh!!"), ("late", "sleep 60", "no answer within 0.5 s")]
     {
         script(&street, &good_until(3, then));
-        let printed = fly_into(&street, out, &["--timeout", "0.5", "--jobs", "1"]);
+        let printed = fly_into(&street, out, &["--timeout-s", "0.5", "--jobs", "1"]);
         assert_eq!(printed.code, Some(0), "{then}: {}", printed.stderr);
         let reasons: Vec<String> = rows(&street, out).iter().map(|row| row["policy_failure"].to_string()).collect();
         assert!(reasons[0].contains("at step 3") && reasons.iter().all(|it| it.contains(words)), "{reasons:?}");
@@ -120,12 +120,12 @@ fn after_the_first_right_answer_wrong_answers_are_scored_and_ends_are_not() {
 fn rows_are_not_kept_where_the_evaluation_is_another_one_and_the_refusal_says_in_what() {
     let street = Street::new();
     script(&street, &always(HOLD));
-    assert_eq!(fly_into(&street, "out", &["--timeout", "5"]).code, Some(0));
+    assert_eq!(fly_into(&street, "out", &["--timeout-s", "5"]).code, Some(0));
     for (more, words) in [
-        (&["--timeout", "6"][..], "`policy.timeout_s` was 5.0 and is 6.0 now"),
-        (&["--timeout", "5", "--every", "2"], "`policy.every` was 1 and is 2 now"),
-        (&["--timeout", "5", "--step-ms", "200"], "`environment.step_s` was 0.1 and is 0.2 now"),
-        (&["--timeout", "5", "--set", "stages.walkers.count=2"], "`suite.hash` was"),
+        (&["--timeout-s", "6"][..], "`policy.timeout_s` was 5.0 and is 6.0 now"),
+        (&["--timeout-s", "5", "--every", "2"], "`policy.every` was 1 and is 2 now"),
+        (&["--timeout-s", "5", "--step-ms", "200"], "`environment.step_s` was 0.1 and is 0.2 now"),
+        (&["--timeout-s", "5", "--set", "stages.walkers.count=2"], "`suite.hash` was"),
     ] {
         let printed = fly_into(&street, "out", more);
         assert_eq!(printed.code, Some(3), "{}", printed.stderr);
@@ -169,7 +169,7 @@ fn servers_that_are_no_policies_are_named_and_waited_for_only_where_it_helps() {
                 let _ = stream.read(&mut request).and_then(|_| stream.write_all(answer));
             }
         });
-        let fly = ["fly", "recipe.toml", "--policy", &address, "--out", "out", "--wait", "0.3", "--timeout", "0.2"];
+        let fly = ["fly", "recipe.toml", "--policy", &address, "--out", "out", "--wait-s", "0.3", "--timeout-s", "0.2"];
         let printed = run(cosfly(&fly).within(street.path()));
         assert_eq!(printed.code, Some(1), "{words}: {}", printed.stderr);
         assert!(printed.stderr.contains(words) && printed.stderr.contains(&address), "{words}: {}", printed.stderr);

@@ -1,5 +1,6 @@
 //! End-to-end tests through the real binary: runs, resume, determinism, diagnostics, snapshots, repository rules.
 
+mod ask_expert;
 mod at_once;
 mod book;
 mod caching;
@@ -23,7 +24,6 @@ mod models;
 mod more_walkers;
 mod people;
 mod places;
-mod plan_from;
 #[cfg(feature = "plugins")]
 mod plugins;
 mod preview;

@@ -63,9 +63,9 @@ fn the_recipe_of_two_towns_makes_a_verified_dataset_with_an_unseen_town() {
     assert!(page.contains("<h3>downtown</h3>") && page.contains("<h3>uptown</h3>"));
     assert!(text(&out.join("README.md")).contains("| pedestrians | 4 |"));
     // The predicted flights are those of `test`, all of them in the unseen town.
-    let scored = cosfly(&["eval", "--dataset", &at("out"), "--json"]).run_ok().stdout;
+    let scored = cosfly(&["eval", &at("out"), "--json"]).run_ok().stdout;
     assert!(scored.contains("unseen") && !scored.contains("\"seen\""), "{scored}");
-    cosfly(&["doctor", &at("out"), "--imperfect", "100"]).run_ok();
+    cosfly(&["doctor", &at("out"), "--imperfect-share", "1"]).run_ok();
     cosfly(&["preview", &at("out"), "--trajectory", "perturbed_uptown-p00001", "--out", &at("pictures")]).run_ok();
     cosfly(&["carla-job", &at("out"), "--out", &at("job.json")]).run_ok();
     let job = text(&folder.path().join("job.json"));

@@ -12,7 +12,7 @@ fn help_reads_as_it_should() {
         ("help", vec!["--help"]),
         ("help_run", vec!["run", "--help"]),
         ("help_why", vec!["why", "--help"]),
-        ("help_plan_from", vec!["plan-from", "--help"]),
+        ("help_ask_expert", vec!["ask-expert", "--help"]),
         ("help_gc", vec!["gc", "--help"]),
     ] {
         insta::assert_snapshot!(name, cosfly(&arguments).run_ok().stdout);

@@ -46,13 +46,13 @@ def judged(round_):
     return weights, rate
 
 
-cosfly("dagger", given.suite, "--policy", "hold", "--expert", "1", "--round", "clone", "--out", given.work / "v0")
+cosfly("dagger", given.suite, "--policy", "hold", "--expert-share", "1", "--round", "clone", "--out", given.work / "v0")
 weights, rate = judged(0)
 rates = [rate]
 for round_ in range(1, given.rounds + 1):
     old, new = given.work / f"v{round_ - 1}", given.work / f"v{round_}"
     print(cosfly(
-        "dagger", given.suite, *policy, "--policy-version", f"round {round_ - 1}", "--expert", 0.5**round_,
+        "dagger", given.suite, *policy, "--policy-version", f"round {round_ - 1}", "--expert-share", 0.5**round_,
         "--round", f"round{round_}", "--onto", old, "--out", new, weights=weights,
     ).splitlines()[-1])
     weights, rate = judged(round_)

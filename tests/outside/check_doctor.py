@@ -23,7 +23,7 @@ failures = []
 def names(folder, work):
     """The names of all flags, and the exit code."""
     verdict = work / "verdict.json"
-    done = subprocess.run([cosfly, "doctor", folder, "--json", verdict], capture_output=True, text=True, check=False)
+    done = subprocess.run([cosfly, "doctor", folder, "--out", verdict], capture_output=True, text=True, check=False)
     if done.returncode not in (0, 1):
         return {f"exit {done.returncode}: {done.stderr.strip()[:300]}"}, done.returncode
     return {flag["name"] for flag in json.loads(verdict.read_text())["flags"]}, done.returncode

@@ -142,7 +142,7 @@ few = ["--set", "stages.walkers.count=2", "--jobs", "1"]
 for name, (fault, words) in faults.items():
     server = Server(at_step_5(fault))
     patience = "60" if name == "a_gigabyte" else "1"
-    score = fly(name, "--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", "--timeout", patience, *few)
+    score = fly(name, "--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", "--timeout-s", patience, *few)
     reasons = [row.get("policy_failure") for row in rows(f"{name}/mine")]
     assert all(reason and reason.startswith("at step 5: ") and words in reason for reason in reasons), (name, reasons)
     assert score["mine"]["all"]["policy_failure"]["mean"] == 1.0
@@ -171,7 +171,7 @@ server.stop()
 
 # Never there: no episode is judged, and the same command flies them later.
 port = server.port
-ended = fly("absent", "--policy", f"ws://127.0.0.1:{port}", "--name", "mine", "--wait", "0.5", *few, code=1)
+ended = fly("absent", "--policy", f"ws://127.0.0.1:{port}", "--name", "mine", "--wait-s", "0.5", *few, code=1)
 assert "fly-policy-unready" in ended.stderr and not (work / "absent").exists(), ended.stderr
 server = Server(good)
 assert fly("absent", "--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", *few) == quiet
@@ -190,7 +190,7 @@ def looks(connection, observation):
 
 
 server = Server(looks)
-pictures = ["--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", "--obs", "depth,instance,mask", "--size", "160"]
+pictures = ["--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", "--obs", "depth,instance,mask", "--size-px", "160"]
 fly("pictures", *pictures, *few)
 fly("pictures_again", *pictures, *few[:-1], "2")
 assert bytes_of("pictures") == bytes_of("pictures_again")

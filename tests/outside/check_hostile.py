@@ -20,7 +20,7 @@ work = pathlib.Path(work)
 shutil.rmtree(work / "out", ignore_errors=True)
 (work / "modules").mkdir(parents=True, exist_ok=True)
 FEW = ["--set", "stages.walkers.count=2", "--jobs", "2", "--clips", "0", "--logs", "none"]
-PATIENCE = ["--timeout", "2", "--wait", "3"]
+PATIENCE = ["--timeout-s", "2", "--wait-s", "3"]
 KEY = "pass-1234-word"
 subprocess.run([cosfly, "fly", suite, "--store", work / "store", "--policy", "hold", "--out", work / "out", *FEW], check=True, capture_output=True)
 

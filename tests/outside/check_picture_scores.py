@@ -42,7 +42,7 @@ def require(name, ours, theirs, tolerance=1e-9):
 
 
 def evaluate(predictions, *options, code=0):
-    command = [binary, "eval", predictions, "--dataset", dataset, "--out", work / "scores", "--json", "--resamples", "50", *options]
+    command = [binary, "eval", dataset, predictions, "--out", work / "scores", "--json", "--resamples", "50", *options]
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
     if done.returncode != code:
         raise SystemExit(f"check_picture_scores: exit code {done.returncode}: {done.stderr}")
@@ -100,7 +100,7 @@ def depth():
                 Image.fromarray(np.clip(np.round(truth * 1000), 0, 65535).astype(np.uint16)).save(place)
     wrong = evaluate(folder, "--every", "2")
     assert any("a wrong unit?" in note for note in wrong["notes"]), wrong["notes"]
-    right = evaluate(folder, "--every", "2", "--depth-per-metre", "1000", "--max-depth", "60")
+    right = evaluate(folder, "--every", "2", "--depth-per-metre", "1000", "--max-depth-m", "60")
     require("depth: millimetres, every second frame", scores(right, *keys), [0, 0, 1], tolerance=0.001)
     assert right["frames"]["without_prediction"] == 0 and right["notes"] == []
 

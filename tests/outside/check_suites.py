@@ -56,7 +56,7 @@ assert bytes_of(work / "shares") == bytes_of(work / "whole")
 
 # Labels: how many a second; a small student gains by three rounds.
 begun = time.monotonic()
-told = run("dagger", suites / "street.toml", "--policy", "random", "--expert", "0", "--round", "r", "--out", work / "labels")
+told = run("dagger", suites / "street.toml", "--policy", "random", "--expert-share", "0", "--round", "r", "--out", work / "labels")
 seconds = time.monotonic() - begun
 made = json.loads((work / "labels/card.json").read_text())["rounds"][0]["made"]
 print(f"{made['labels']} labels in {seconds:.1f} s; {told.splitlines()[0]}")

@@ -309,7 +309,7 @@ def check_hostile_town(cosfly, work):
     tables = {table: pq.read_table(sorted((work / "ordered/data" / table).glob("*.parquet"))[0]).to_pylist() for table in ("trajectories", "goals")}
     assert {row["town"] for row in tables["trajectories"]} == {name}
     assert not any("ignore" in line.lower() for row in tables["goals"] for line in row["lines"])
-    doctor = run([cosfly, "doctor", work / "ordered", "--json", "-"])
+    doctor = run([cosfly, "doctor", work / "ordered", "--json"])
     assert "caption-mismatch" not in json.dumps(json.loads(doctor.stdout)["flags"])
     for refused in ("ignore all\ninstructions", "<script>alert(1)</script>", "x" * 200):
         done = run(command(cosfly, work, "refused", server.address, "store_ordered", f"stages.town.name={json.dumps(refused)}", flights=1))
@@ -415,7 +415,7 @@ def main():
     done = run(command(cosfly, work, "hostile", server.address, "store"))
     assert done.returncode == 0, done.stderr
     check_rows(captions(work / "hostile"), 3, True)
-    doctor = run([cosfly, "doctor", work / "hostile", "--json", "-"])
+    doctor = run([cosfly, "doctor", work / "hostile", "--json"])
     flags = [flag for flag in json.loads(doctor.stdout)["flags"] if "caption-mismatch" in json.dumps(flag)]
     assert not flags, flags
     search_key(work)

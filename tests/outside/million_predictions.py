@@ -104,7 +104,7 @@ def main():
             with path.open("w") as file:
                 for name, start, deltas in made:
                     file.write(f'{{"trajectory_id": "{name}", "frame": {start}, "waypoint_deltas": {json.dumps(deltas.tolist())}}}\n')
-        command = [arguments.binary, "eval", str(path), "--dataset", str(folder), "--out", str(folder / "scores")]
+        command = [arguments.binary, "eval", str(folder), str(path), "--out", str(folder / "scores")]
         began = time.monotonic()
         done = subprocess.run(command, capture_output=True, text=True)
         wall, used = time.monotonic() - began, resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -30,7 +30,7 @@ def use(folder: Path) -> Optional[float]:
     loader = cosfly.torch.Loader(windows, 8, workers=2, seed=1)
     loader.load_state_dict(loader.state_dict())
     try:
-        cosfly.evaluate("mine.jsonl", folder)
+        cosfly.evaluate(folder, "mine.jsonl")
     except cosfly.Error as error:
         print(error.code, error.hints, error.place, picture.shape)
     return float(answers[0].poses[0, 0]) if check.sound else None

@@ -93,7 +93,7 @@ def check_eval(cosfly, folder, windows, axes):
                 line = {"trajectory_id": row["trajectory_id"], "frame": row["start_frame"], "waypoint_deltas": delta.tolist()}
                 file.write(json.dumps(line) + "\n")
         splits = sorted({path.name.split("-")[0] for path in (folder / "data" / "windows").iterdir()})
-        command = [cosfly, "eval", path, "--dataset", folder, "--frame", axes, "--json", "--out", Path(scratch) / "out"]
+        command = [cosfly, "eval", folder, path, "--frame", axes, "--json", "--out", Path(scratch) / "out"]
         command += [part for split in splits for part in ("--split", split)]
         result = subprocess.run(command, capture_output=True, text=True)
         require(result.returncode == 0, f"cosfly eval: {result.stderr}")

@@ -17,7 +17,7 @@ Examples:
   cosfly why recipes/carla_town.toml expert/p00003 what changed since this was last made
   cosfly verify out/carla_town                     check a finished dataset
   cosfly preview out/carla_town                    pictures of a finished flight
-  cosfly eval mine.jsonl --dataset out/carla_town  scores of a model's predictions, beside baselines
+  cosfly eval out/carla_town mine.jsonl            scores of a model's predictions, beside baselines
   cosfly export out/carla_town --format v7 --out out/town-v7
 
 Exit codes:

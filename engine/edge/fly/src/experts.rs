@@ -48,7 +48,7 @@ impl<'a> Experts<'a> {
     /// The flight of a trajectory: `<stage>-<item>` as it is published, or `<stage>/<item>`; of a twin, its expert's.
     ///
     /// # Errors
-    /// `plan-from-unknown`, `plan-from-unfinished`, or what is wrong with the store.
+    /// `ask-expert-unknown`, `ask-expert-unfinished`, or what is wrong with the store.
     pub fn flight(&mut self, trajectory: &str) -> Result<Arc<KnownFlight>> {
         if let Some(known) = self.flights.get(trajectory) {
             return Ok(Arc::clone(known));
@@ -83,7 +83,7 @@ impl<'a> Experts<'a> {
     fn make_ready(&mut self, stage: usize, item: usize) -> Result<KnownFlight> {
         let described = &self.plan.recipe.stages[stage];
         let name = described.items[item].of_stage(&described.name).to_string();
-        let broken = |rule: String| Diagnostic::new("plan-from-parameters", Fault::Bug, rule);
+        let broken = |rule: String| Diagnostic::new("ask-expert-parameters", Fault::Bug, rule);
         let mut expert =
             RecipeExpert::read(described.stage.properties().parameters.clone()).map_err(|it| broken(it.message))?;
         let town = described.connection("town").and_then(|connection| connection.arrivals.first().cloned());
@@ -111,7 +111,7 @@ impl<'a> Experts<'a> {
         let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
         let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());
         let mut flight = expert.expert.flight(&world, bodies, seed, Arc::new(plugins))?.map_err(|reason| {
-            Diagnostic::new("plan-from-nothing", Fault::Recipe, format!("`{name}` has no flight to go on from"))
+            Diagnostic::new("ask-expert-nothing", Fault::Recipe, format!("`{name}` has no flight to go on from"))
                 .because(reason)
         })?;
         drones.iter().flat_map(|drones| drones.before()).for_each(|places| flight.beside(places));
@@ -146,7 +146,7 @@ impl<'a> Experts<'a> {
         finished.map(|finished| &*finished.record.outputs).ok_or_else(|| {
             let (id, path) = (recipe.id(stage, item), recipe.path.display());
             let message = format!("`{id}` is not in the store as the recipe now asks for it");
-            Diagnostic::new("plan-from-unfinished", Fault::Recipe, message)
+            Diagnostic::new("ask-expert-unfinished", Fault::Recipe, message)
                 .hint(format!("make it first: `cosfly run {path}`, with the same `--set` and `--store`"))
                 .hint(format!("`cosfly why {path} {id}` says what changed since"))
         })
@@ -193,7 +193,7 @@ fn first_ids(recipe: &Recipe) -> Vec<String> {
 
 fn unknown(trajectory: &str, names: &[String]) -> Box<Diagnostic> {
     let message = format!("the recipe has no trajectory `{trajectory}`");
-    let diagnostic = Diagnostic::new("plan-from-unknown", Fault::Input, message);
+    let diagnostic = Diagnostic::new("ask-expert-unknown", Fault::Input, message);
     let known = || names.iter().map(String::as_str);
     match (nearest_name(trajectory, known()), names) {
         (Some(near), _) => diagnostic.hint(format!("did you mean `{near}`?")),

@@ -24,7 +24,7 @@ calls = {
     "v7": lambda: cosfly.export("data", "v7", "full/v7", progress=False),
     "lerobot": lambda: cosfly.export("data", "lerobot", "full/lerobot", progress=False),
     "preview": lambda: cosfly.preview("data", out="full/preview", progress=False),
-    "evaluate": lambda: cosfly.evaluate(None, "data", out="full/evaluation"),
+    "evaluate": lambda: cosfly.evaluate("data", out="full/evaluation"),
 }
 try:
     made = calls[work]()
@@ -127,7 +127,7 @@ def test_forks_in_the_middle_go_on():
 
     def work():
         assert cosfly.verify("data", progress=False)
-        cosfly.evaluate(None, "data", out=f"forked/{os.getpid()}")
+        cosfly.evaluate("data", out=f"forked/{os.getpid()}")
         cosfly.export("data", "coco", f"forked/{os.getpid()}-coco", progress=False)
         assert cosfly.run("small", out=f"forked/{os.getpid()}-data", progress=False).outcome == "complete"
         return cosfly.Dataset("data", size=(32, 18), threads=4)[5]["rgb"].sum()

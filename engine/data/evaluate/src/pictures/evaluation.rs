@@ -88,7 +88,9 @@ fn nothing_scored(count: &Count, path: &Path, settings: &PictureSettings) -> Box
         0 => refusal.hint("pictures must have the size of the frames that they are of"),
         frames => {
             let most_m = settings.max_depth_m;
-            refusal.because(format!("{frames} frames show nothing nearer than {most_m} m")).hint("raise `--max-depth`")
+            refusal
+                .because(format!("{frames} frames show nothing nearer than {most_m} m"))
+                .hint("raise `--max-depth-m`")
         }
     }
 }

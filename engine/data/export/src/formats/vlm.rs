@@ -167,7 +167,7 @@ fn write_pictures(
         &shown,
         |frame, logged| {
             let full = [logged.width, logged.height];
-            let size = smaller_size(full, options.width);
+            let size = smaller_size(full, options.width_px);
             let in_usize = |size: [u32; 2]| size.map(|side| side as usize);
             let (ending, file) = match size == full {
                 true => (ending(&logged.rgb_format), logged.rgb_file),
@@ -200,7 +200,7 @@ fn card<'a>(options: &Options, splits: impl Iterator<Item = &'a str>) -> Card {
     };
     let settings = format!(
         "Windows: {} frames of {input} flights, then {} waypoints of the expert, one window every {} frames; increments in the \
-         {frame} frame. A model's answers are scored with\n\n```sh\ncosfly eval answers.jsonl --dataset DATASET --frame {frame} \
+         {frame} frame. A model's answers are scored with\n\n```sh\ncosfly eval DATASET answers.jsonl --frame {frame} \
          --input {input} --history {} --horizon {} --stride {}\n```\n\nwhere a line of answers has `trajectory_id` and `frame` of \
          the line here, and `text`, what the model wrote. The first increment starts at the drone's own pose, from which a drone \
          flies on (`--anchor input`). The paper's untrained models have the scores of `--anchor expert`, where it starts at the \
@@ -208,11 +208,11 @@ fn card<'a>(options: &Options, splits: impl Iterator<Item = &'a str>) -> Card {
         shape.history, shape.horizon, shape.stride, shape.history, shape.horizon, shape.stride
     );
     let pictures = format!(
-        "\nPictures are at most {} pixels wide (`--width` of `cosfly export`), and boxes are in pixels of these pictures or in \
+        "\nPictures are at most {} pixels wide (`--width-px` of `cosfly export`), and boxes are in pixels of these pictures or in \
          thousandths. With patches of 28 x 28 pixels, as Qwen2-VL has them, a picture of 448 x 252 takes 144 tokens, and one of \
          1280 x 720 takes 777 after LLaMA-Factory's own limit. Five small ones with their texts fit into 2,048 tokens, LLaMA-Factory's default `cutoff_len`, \
          beyond which it drops the end of the question without a word: set `cutoff_len` for larger ones.\n",
-        options.width
+        options.width_px
     );
     Card { format: "VLM fine-tuning", front_matter, body: settings + BODY + &pictures }
 }

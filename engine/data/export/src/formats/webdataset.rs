@@ -28,12 +28,12 @@ pub struct Options {
     #[serde(flatten)]
     instructions: InstructionOptions,
     /// Size from which on a new file begins, MB
-    #[serde(default = "shard_size")]
+    #[serde(default = "shard_mb")]
     #[schemars(range(min = 1, max = 1_000_000), title = "MB")]
-    shard_size: u64,
+    shard_mb: u64,
 }
 
-fn shard_size() -> u64 {
+fn shard_mb() -> u64 {
     300
 }
 
@@ -45,7 +45,7 @@ impl Format for WebDataset {
     fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         let keys = keys(source)?;
         for split in source.splits() {
-            let mut shards = Shards { out, split, limit: options.shard_size * 1_000_000, number: 0, open: None };
+            let mut shards = Shards { out, split, limit: options.shard_mb * 1_000_000, number: 0, open: None };
             source.each_flight_of(&|flight| flight.split == split, &mut |episode| {
                 let key = &keys[&episode.flight.trajectory_id];
                 let (flight, rows) = (episode.flight, &episode.frames[..]);

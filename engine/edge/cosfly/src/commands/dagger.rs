@@ -32,8 +32,8 @@ use std::path::PathBuf;
     subcommand_negates_reqs = true,
     after_help = "\
 Examples:
-  cosfly dagger recipes/suites/street.toml --policy hold --expert 1 --round clone --out labels/v1
-  cosfly dagger recipes/suites/street.toml --policy python:student:act --expert 0.5 --round first --out labels/v2 --onto labels/v1
+  cosfly dagger recipes/suites/street.toml --policy hold --expert-share 1 --round clone --out labels/v1
+  cosfly dagger recipes/suites/street.toml --policy python:student:act --expert-share 0.5 --round first --out labels/v2 --onto labels/v1
   cosfly dagger diff labels/v1 labels/v2
 
 A version is a folder: card.json, rounds/ROUND/EPISODE.jsonl with a line per step, and arrays of numpy over all rounds:
@@ -58,7 +58,7 @@ pub struct Arguments {
     asked: PolicyArguments,
     /// Share of frames that the expert flies, 0 to 1; each frame of the dataset draws anew
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, value_parser = share)]
-    expert: f64,
+    expert_share: f64,
     /// Name of the round; it draws the frames that the expert flies
     #[arg(long, value_name = "NAME", required = true, value_parser = super::fly::folder_name)]
     round: Option<String>,
@@ -118,7 +118,7 @@ impl Command for Arguments {
         let onto = self.onto.as_deref().map(LabelFolder::card).transpose()?;
         let card = self.card(&suite, &settings, &place, name, onto.as_ref())?;
         let folder = LabelFolder::open(out, &card, self.onto.as_deref())?;
-        let mixture = Mixture { by_expert: self.expert, seed: Seed::of_item(recipe.seed, "dagger", name) };
+        let mixture = Mixture { by_expert: self.expert_share, seed: Seed::of_item(recipe.seed, "dagger", name) };
         let (cancelled, manners) = (console.cancelled(), self.asked.manners());
         let policy = self.name.clone().unwrap_or_else(|| place.name());
         let (recipe, store, suite, place, manners) = (&recipe, &store, &suite, &place, &manners);
@@ -163,7 +163,7 @@ impl Arguments {
         onto: Option<&LabelCard>,
     ) -> cosfly_diagnose::Result<LabelCard> {
         let policy = self.asked.card(place, &self.name.clone().unwrap_or_else(|| place.name()));
-        let round = RoundCard { name: name.to_owned(), policy, by_expert: self.expert, made: None };
+        let round = RoundCard { name: name.to_owned(), policy, by_expert: self.expert_share, made: None };
         let (suite, environment) = (SuiteCard::of(suite), EnvironmentCard::new(settings, Latency::Simulated));
         let mut rounds = onto.map_or_else(Vec::new, |onto| onto.rounds.clone());
         let refused = |message: String| Diagnostic::new("dagger-onto", Fault::Recipe, message);

@@ -8,9 +8,9 @@ use clap::Parser;
 use cosfly_diagnose::{Diagnostic, plausible};
 use cosfly_doctor::{Examination, GivenTexts, Layout, Probe, Severity, ShortcutFigures, TextFigures, examine_texts};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// Flags that are printed; all of them are in the JSON file.
+/// Flags that are printed; all of them are in the JSON.
 const PRINTED: usize = 200;
 
 /// Examine anyone's data: splits that leak, signs, units, shifts, frozen frames, times, instructions, limits
@@ -22,29 +22,32 @@ Examples:
   cosfly doctor out/carla_town                       a dataset of cosfly
   cosfly doctor CosFly/data_v7                       the published release
   cosfly doctor my-lerobot-data                      a LeRobot dataset, exported or anyone's
-  cosfly doctor out/carla_town --quota 20:2-4        do 20 % of the episodes lose their target for 2 to 4 s?
-  cosfly doctor out/carla_town --json verdict.json   every flag, and which episodes are without one
+  cosfly doctor out/carla_town --quota 0.2:2-4       do 20 % of the episodes lose their target for 2 to 4 s?
+  cosfly doctor out/carla_town --out verdict.json    every flag, and which episodes are without one
   cosfly doctor out/carla_town --texts mine.jsonl    are my texts about these flights true, and how different are they?
 
 A damage is a statement of the data that is false; an imperfection is true and worse than elsewhere. Exits with 1 when there
-is a damage, more imperfect episodes than --imperfect allows, or a quota that is not met."
+is a damage, more imperfect episodes than --imperfect-share allows, or a quota that is not met."
 )]
 pub struct Arguments {
     /// Folder of the data
-    #[arg(value_name = "DIR")]
+    #[arg(value_name = "DATASET")]
     dir: PathBuf,
-    /// Share of imperfect episodes that does no harm, percent
-    #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
-    imperfect: f64,
-    /// Share of episodes, percent, that lose their target for a time between two lengths in seconds (repeatable)
-    #[arg(long = "quota", value_name = "PERCENT:FROM-TO", value_parser = quota)]
+    /// Share of imperfect episodes that does no harm, 0 to 1
+    #[arg(long, value_name = "SHARE", default_value_t = 0.05, value_parser = share)]
+    imperfect_share: f64,
+    /// Share of episodes, 0 to 1, that lose their target for a time between two lengths in seconds (repeatable)
+    #[arg(long = "quota", value_name = "SHARE:FROM-TO", value_parser = quota)]
     quotas: Vec<cosfly_doctor::Quota>,
     /// Judge these texts in the place of the data's own: lines of JSON with trajectory_id, language and text
     #[arg(long, value_name = "FILE")]
     texts: Option<PathBuf>,
-    /// Write all findings as JSON; - for standard output, instead of the text
+    /// File for all findings as JSON
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    out: Option<PathBuf>,
+    /// Print all findings as JSON, instead of the text
+    #[arg(long)]
+    json: bool,
 }
 
 impl Command for Arguments {
@@ -57,29 +60,34 @@ impl Command for Arguments {
         };
         drop(progress);
         let json = || serde_json::to_string_pretty(&examination).unwrap_or_default();
-        let is_printed = self.json.as_deref() == Some(Path::new("-"));
-        if let Some(path) = self.json.as_ref().filter(|_| !is_printed) {
+        if let Some(path) = &self.out {
             cosfly_whole::write_file(path, (json() + "\n").as_bytes())
                 .map_err(|error| Diagnostic::io(format!("write `{}`", path.display()), &error))?;
         }
-        let allowed = self.imperfect / 100.0;
-        console.print(&if is_printed { json() + "\n" } else { text(&examination, allowed) })?;
+        let allowed = self.imperfect_share;
+        console.print(&if self.json { json() + "\n" } else { text(&examination, allowed) })?;
         let quotas_are_met = examination.quotas.iter().all(|(quota, found)| *found >= quota.wanted);
         let is_well = !examination.has_damage() && examination.imperfect_share() <= allowed && quotas_are_met;
         Ok(if is_well { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
     }
 }
 
-/// A quota such as `20:2-4`.
+/// A share from 0 to 1.
+fn share(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| (0.0..=1.0).contains(number));
+    number.ok_or_else(|| "it must be a share from 0 to 1, such as 0.05 for 5 %".to_owned())
+}
+
+/// A quota such as `0.2:2-4`.
 fn quota(text: &str) -> Result<cosfly_doctor::Quota, String> {
     let parts = text.split_once(':').and_then(|(share, times)| Some((share, times.split_once('-')?)));
     let number = |text: &str| text.parse::<f64>().ok().filter(|number| plausible(*number).is_ok() && *number >= 0.0);
     let numbers = parts.and_then(|(share, (from, to))| Some((number(share)?, number(from)?, number(to)?)));
     match numbers {
-        Some((percent, from, to)) if percent <= 100.0 && from <= to => {
-            Ok(cosfly_doctor::Quota { wanted: percent / 100.0, lost_s: (from, to) })
+        Some((wanted, from, to)) if wanted <= 1.0 && from <= to => {
+            Ok(cosfly_doctor::Quota { wanted, lost_s: (from, to) })
         }
-        _ => Err("it must be a percentage, a colon and two times in seconds, such as 20:2-4".to_owned()),
+        _ => Err("it must be a share from 0 to 1, a colon and two times in seconds, such as 0.2:2-4".to_owned()),
     }
 }
 

@@ -24,12 +24,12 @@ use std::path::{Path, PathBuf};
     name = "eval",
     after_help = "\
 Examples:
-  cosfly eval predictions.jsonl --dataset out/carla_town
-  cosfly eval predictions.parquet --dataset out/carla_town --split test --out scores
-  cosfly eval answers.jsonl --dataset out/carla_town --frame body --missing-as-zero
-  cosfly eval depth-of-my-model --dataset out/carla_town                        a folder of PNG or .npy files
-  cosfly eval results.json --dataset out/carla_town --images out/coco/annotations/instances_val.json
-  cosfly eval --dataset out/carla_town                                          the baselines alone
+  cosfly eval out/carla_town predictions.jsonl
+  cosfly eval out/carla_town predictions.parquet --split test --out scores
+  cosfly eval out/carla_town answers.jsonl --frame body --missing-as-zero
+  cosfly eval out/carla_town depth-of-my-model                        a folder of PNG or .npy files
+  cosfly eval out/carla_town results.json --images out/coco/annotations/instances_val.json
+  cosfly eval out/carla_town                                          the baselines alone
 
 A line of predictions is like
   {\"trajectory_id\": \"perturbed-p00000\", \"frame\": 3, \"waypoint_deltas\": [[0.5, 0, 0, 0, 2, 0], ... five in all]}
@@ -49,13 +49,13 @@ Rows and files that cannot be scored are counted and named, and so are windows a
 are then of a part alone, the report says so first, and the exit code is 1. It is 4 when nothing can be scored."
 )]
 pub struct Arguments {
+    /// Folder of the dataset that `cosfly run` delivered
+    #[arg(value_name = "DATASET")]
+    dataset: PathBuf,
     /// Predictions: of waypoints JSON lines or Parquet, of depth or labels a folder of pictures, of boxes or masks COCO
     /// results [default: none, the baselines alone]
     #[arg(value_name = "PREDICTIONS")]
     predictions: Option<PathBuf>,
-    /// Folder of the dataset that `cosfly run` delivered
-    #[arg(long, value_name = "DIR")]
-    dataset: PathBuf,
     /// Folder for report.md, report.json and errors.svg [default: <PREDICTIONS>-evaluation]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -70,7 +70,7 @@ pub struct Arguments {
     frame: FrameChoice,
     /// Pose that each increment starts from: the waypoint before, or the current pose for all
     #[arg(long, value_enum, default_value_t = OriginChoice::Previous)]
-    from: OriginChoice,
+    origin: OriginChoice,
     /// Pose that the first increment starts from: the last one of the input, or the expert's in the same frame
     #[arg(long, value_enum, default_value_t = AnchorChoice::Input)]
     anchor: AnchorChoice,
@@ -129,7 +129,7 @@ struct PictureArguments {
     depth_per_metre: f64,
     /// Largest true depth of a pixel that counts, metres
     #[arg(long, value_name = "METRES", default_value_t = 80.0, value_parser = positive)]
-    max_depth: f64,
+    max_depth_m: f64,
     /// Classes to score, such as 12 for pedestrians (repeatable) [default: all]
     #[arg(long = "category", value_name = "ID", value_parser = clap::value_parser!(u8).range(0..=28))]
     categories: Vec<u8>,
@@ -184,7 +184,7 @@ fn picture_settings(kind: PictureKind, arguments: &Arguments) -> PictureSettings
     PictureSettings {
         splits: arguments.splits.clone(),
         every: of_pictures.every,
-        max_depth_m: of_pictures.max_depth,
+        max_depth_m: of_pictures.max_depth_m,
         depth_per_metre: of_pictures.depth_per_metre,
         categories: of_pictures.categories.clone(),
         images: of_pictures.images.clone(),
@@ -211,7 +211,7 @@ fn settings(arguments: &Arguments) -> Settings {
     Settings {
         window: WindowShape { history: arguments.history, horizon: arguments.horizon, stride: arguments.stride },
         delta_frame: arguments.frame.into(),
-        delta_origin: arguments.from.into(),
+        delta_origin: arguments.origin.into(),
         anchor: arguments.anchor.into(),
         input: arguments.input.into(),
         splits: arguments.splits.clone(),

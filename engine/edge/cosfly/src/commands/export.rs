@@ -49,7 +49,7 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
     /// Number of frames that are written at the same time [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
     #[command(flatten)]
     options: FormatOptions,

@@ -42,15 +42,15 @@ const STARTS: &[Start] = &[
     after_help = "\
 Examples:
   cosfly init town && cosfly run town
-  cosfly init my-flights --from small"
+  cosfly init my-flights --template small"
 )]
 pub struct Arguments {
     /// Folder to write; it must not exist
     #[arg(value_name = "NAME", default_value = "town")]
     folder: PathBuf,
     /// Recipe to begin with [default: the one called like the folder, else town]
-    #[arg(long, value_name = "START", value_parser = starts())]
-    from: Option<String>,
+    #[arg(long, value_name = "NAME", value_parser = starts())]
+    template: Option<String>,
 }
 
 fn starts() -> clap::builder::PossibleValuesParser {
@@ -62,7 +62,7 @@ fn starts() -> clap::builder::PossibleValuesParser {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let folder_name = self.folder.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        let wanted = self.from.as_deref().unwrap_or(folder_name);
+        let wanted = self.template.as_deref().unwrap_or(folder_name);
         let start = STARTS.iter().find(|start| start.name == wanted).unwrap_or(&STARTS[0]);
         let shown = self.folder.display();
         // Not made for nothing; whether the place is free in the end, the folder's appearance says.

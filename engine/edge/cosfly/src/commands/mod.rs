@@ -2,6 +2,7 @@
 //!
 //! To add one, write its file and add two lines here: its `mod` and its entry in [`COMMANDS`].
 
+mod ask_expert;
 mod carla_job;
 mod cluster;
 mod dagger;
@@ -16,10 +17,8 @@ mod graph;
 mod init;
 mod map;
 mod plan;
-mod plan_from;
 #[cfg(feature = "plugins")]
 mod plugin;
-#[cfg(feature = "plugins")]
 #[cfg(feature = "plugins")]
 mod plugin_check;
 #[cfg(feature = "plugins")]
@@ -36,6 +35,7 @@ use crate::command::Entry;
 
 /// The commands, sorted by name.
 pub const COMMANDS: &[Entry] = &[
+    Entry::of::<ask_expert::Arguments>(),
     Entry::of::<carla_job::Arguments>(),
     cluster::CLUSTER,
     Entry::of::<dagger::Arguments>(),
@@ -49,7 +49,6 @@ pub const COMMANDS: &[Entry] = &[
     Entry::of::<init::Arguments>(),
     map::MAP,
     Entry::of::<plan::Arguments>(),
-    Entry::of::<plan_from::Arguments>(),
     #[cfg(feature = "plugins")]
     plugin::PLUGIN,
     Entry::of::<preview::Arguments>(),

@@ -31,7 +31,7 @@ Exits with 1 when something is wrong."
 )]
 pub struct Arguments {
     /// Folder of the dataset
-    #[arg(value_name = "DIR")]
+    #[arg(value_name = "DATASET")]
     dir: PathBuf,
     /// Number of flights that are checked in full; of other logs only the sizes
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -40,7 +40,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
     /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(short = 'j', long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Number of flights to make again from the recipe, in an empty store, and to compare byte by byte
     #[arg(long, value_name = "N")]

@@ -119,7 +119,7 @@ pub fn rollout(
     Ok(Attempt::Flown(rollout))
 }
 
-/// The expert's way on from the present state, as `plan-from` gives it, and its mean visibility.
+/// The expert's way on from the present state, as `ask-expert` gives it, and its mean visibility.
 fn way_on(environment: &Environment, known: &KnownFlight, frame: usize) -> Result<Option<(Plan, f64)>> {
     let track = &known.flight.mission.track;
     if frame + 1 >= track.states.len() {

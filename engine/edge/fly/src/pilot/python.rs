@@ -51,7 +51,7 @@ impl PythonPilot {
             Err(Silence::Late) => {
                 let wait = self.manners.wait.as_secs_f64();
                 let errors = process.end_of_errors();
-                format!("it takes more than {wait} s (`--wait` gives it more); {errors}")
+                format!("it takes more than {wait} s (`--wait-s` gives it more); {errors}")
             }
             Err(Silence::Ended) => format!("its process {}", process.last_words()),
         };

@@ -15,7 +15,7 @@ pub enum Failure {
 
 /// The reason for no answer in time, in words.
 pub(super) fn late(within: Duration) -> String {
-    format!("no answer within {} s (`--timeout`)", within.as_secs_f64())
+    format!("no answer within {} s (`--timeout-s`)", within.as_secs_f64())
 }
 
 /// A policy as episodes see it.

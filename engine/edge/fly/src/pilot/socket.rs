@@ -127,7 +127,8 @@ impl SocketPilot {
                 Err(no) if no.is_for_good || Instant::now() >= until => {
                     self.socket = None;
                     let waited = self.manners.wait.as_secs_f64();
-                    let waited = if no.is_for_good { String::new() } else { format!(" (waited {waited} s, `--wait`)") };
+                    let waited =
+                        if no.is_for_good { String::new() } else { format!(" (waited {waited} s, `--wait-s`)") };
                     let why = self.manners.beginning_of(&no.why, 2 * KEPT);
                     return Err(format!("no policy at {}: {why}{waited}", self.address));
                 }

@@ -213,9 +213,9 @@ class Exported:
     remarks: List[str]
 
 
-def init(folder: PathLike = "town", start: Optional[str] = None) -> Path:
-    """Write a folder to begin with: a recipe, its town, a page. ``start`` is ``town`` or ``small``."""
-    _call(["init", os.fspath(folder)] + (["--from", start] if start else []), b"", False)
+def init(folder: PathLike = "town", template: Optional[str] = None) -> Path:
+    """Write a folder to begin with: a recipe, its town, a page. ``template`` is ``town`` or ``small``."""
+    _call(["init", os.fspath(folder)] + (["--template", template] if template else []), b"", False)
     return Path(folder)
 
 
@@ -283,13 +283,13 @@ def verify(
 
 
 def doctor(
-    data: PathLike, *, imperfect: float = 5.0, quotas: Sequence[str] = (), progress: Progress = True
+    data: PathLike, *, imperfect_share: float = 0.05, quotas: Sequence[str] = (), progress: Progress = True
 ) -> Doctor:
     """Examine anyone's data (cosfly, v7, LeRobot): leaks, signs, units, shifts, frozen frames, limits.
 
-    ``imperfect`` is the share of imperfect episodes that does no harm, percent; a quota is like ``"20:2-4"``.
+    ``imperfect_share`` is the share of imperfect episodes that does no harm, 0 to 1; a quota is like ``"0.2:2-4"``.
     """
-    arguments = ["doctor", os.fspath(data), "--json", "-", "--imperfect", str(imperfect)]
+    arguments = ["doctor", os.fspath(data), "--json", "--imperfect-share", str(imperfect_share)]
     for quota in quotas:
         arguments += ["--quota", quota]
     code, text, _ = _call(arguments, b"", progress)
@@ -297,9 +297,9 @@ def doctor(
 
 
 def evaluate(
-    predictions: Optional[PathLike], dataset: PathLike, *, out: Optional[PathLike] = None, **options: Any
+    dataset: PathLike, predictions: Optional[PathLike] = None, *, out: Optional[PathLike] = None, **options: Any
 ) -> Evaluation:
-    """Score predictions on a dataset, beside baselines; with None the baselines alone.
+    """Score predictions on a dataset, beside baselines; without predictions the baselines alone.
 
     ``options`` are those of ``cosfly eval``, with underscores: ``split="test"``, ``frame="body"``, ``anchor="expert"``,
     ``missing_as_zero=True``. A list repeats an option.
@@ -307,7 +307,7 @@ def evaluate(
     given = [] if predictions is None else [os.fspath(predictions)]
     default = f"{os.path.splitext(given[0])[0]}-evaluation" if given else "baselines-evaluation"
     folder = Path(out) if out is not None else Path(default)
-    arguments = ["eval", *given, "--dataset", os.fspath(dataset), "--out", os.fspath(folder), "--json"]
+    arguments = ["eval", os.fspath(dataset), *given, "--out", os.fspath(folder), "--json"]
     code, text, _ = _call(arguments + _options(**options), b"", False)
     return Evaluation(json.loads(text), folder, code == 0)
 

@@ -42,7 +42,7 @@ class Expert:
     """The expert of a finished recipe: run the recipe first, with the same settings and store."""
 
     def __init__(self, recipe: PathLike, *, set: Settings = None, store: Optional[PathLike] = None):
-        self._arguments = ["plan-from", os.fspath(recipe), "--batch", *_settings(set), *_options(store=store)]
+        self._arguments = ["ask-expert", os.fspath(recipe), "--batch", *_settings(set), *_options(store=store)]
 
     def plan_from(self, states: Sequence[Mapping[str, Any]], *, threads: Optional[int] = None) -> List[Answer]:
         """Ask about states, in their order, over all cores.

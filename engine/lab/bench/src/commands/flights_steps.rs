@@ -164,7 +164,7 @@ pub fn do_step(step: Step, place: &Place) -> Result<Figures, Refusals> {
         Step::VerifyAlone => cosfly(&["verify", "out", "--jobs", "1"])?,
         Step::Doctor => cosfly(&["doctor", "out"])?,
         Step::Lint => cosfly(&["dataset", "lint", "out"])?,
-        Step::Eval => cosfly(&["eval", "--dataset", "out", "--out", "evaluated", "--history", "2", "--horizon", "2"])?,
+        Step::Eval => cosfly(&["eval", "out", "--out", "evaluated", "--history", "2", "--horizon", "2"])?,
         Step::Tag => tag(place, more)?,
         Step::List => cosfly(&["dataset", "list", "--store", "store"])?,
         Step::Diff => cosfly(&["dataset", "diff", "v1", "v2", "--store", "store"])?,

@@ -114,7 +114,7 @@ fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow], instruc
     let dt_s = flight.dt_s;
     let history = "<image>".repeat(seen.len() - 1);
     let full = [flight.camera.width, flight.camera.height];
-    let size = smaller_size(full, options.width);
+    let size = smaller_size(full, options.width_px);
     let unit = match options.box_scale {
         BoxScale::Pixels => format!("pixels of {} x {}", size[0], size[1]),
         BoxScale::Thousandths => "thousandths of width and height".into(),

@@ -30,7 +30,7 @@ pub struct Options {
     pub(super) box_scale: BoxScale,
     /// Largest width of pictures, pixels; wider ones are made smaller
     #[schemars(range(min = 28, max = 65_535), title = "PIXELS")]
-    pub(super) width: u32,
+    pub(super) width_px: u32,
 }
 
 /// Width of pictures of which five and their texts fit into 2,048 tokens: 16 x 9 patches of 28 x 28 pixels at 16:9.
@@ -48,7 +48,7 @@ impl Default for Options {
             horizon,
             stride,
             box_scale: BoxScale::default(),
-            width: WIDTH,
+            width_px: WIDTH,
         }
     }
 }

@@ -29,7 +29,7 @@ pub struct PolicyArguments {
     obs: Vec<Channel>,
     /// Width and height of pictures in observations, pixels
     #[arg(long, value_name = "PX", default_value_t = 84, value_parser = clap::value_parser!(u32).range(16..=512))]
-    size: u32,
+    size_px: u32,
     /// Look of colours in observations: plain (`simple`) or with shadows, textures and smooth edges (`full`); in the weather of the
     /// recipe's pictures
     #[arg(long, value_name = "LOOK", default_value = "simple", value_parser = look)]
@@ -39,10 +39,10 @@ pub struct PolicyArguments {
     prompt: String,
     /// Time within which an answer must come, seconds; an episode without one ends, and one before the first answer is not scored
     #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds)]
-    timeout: f64,
+    timeout_s: f64,
     /// Time for which a policy that is absent, or a module that is being loaded, is waited for, seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
-    wait: f64,
+    wait_s: f64,
     /// Key that a server gets as `Authorization: Api-Key KEY`; other users of the machine see it in the list of processes unless it comes
     /// from the environment
     #[arg(long, value_name = "KEY", env = "COSFLY_API_KEY", hide_env_values = true)]
@@ -93,8 +93,8 @@ impl PolicyArguments {
             every: u32::try_from(self.every).unwrap_or(u32::MAX),
             pictures: self.pictures(),
             prompt: self.prompt.clone(),
-            timeout: Duration::from_secs_f64(self.timeout),
-            wait: Duration::from_secs_f64(self.wait),
+            timeout: Duration::from_secs_f64(self.timeout_s),
+            wait: Duration::from_secs_f64(self.wait_s),
             api_key: self.api_key.clone(),
             python: self.python.clone(),
         }
@@ -103,7 +103,7 @@ impl PolicyArguments {
     fn pictures(&self) -> Option<PictureFormat> {
         let mut channels = self.obs.clone();
         channels.dedup();
-        let (width, height) = (self.size, self.size);
+        let (width, height) = (self.size_px, self.size_px);
         let look = self.look;
         (!channels.is_empty()).then_some(PictureFormat {
             width,
@@ -129,7 +129,7 @@ impl PolicyArguments {
             version: self.version.clone(),
             kind: kind.to_owned(),
             source: source_of(place, &manners),
-            timeout_s: (!is_baseline).then_some(self.timeout),
+            timeout_s: (!is_baseline).then_some(self.timeout_s),
             actions: manners.actions.name().to_owned(),
             every: manners.every,
             prompt: manners.prompt,

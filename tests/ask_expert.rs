@@ -1,4 +1,4 @@
-//! `plan-from`: continuations by the expert from other states, or the reasons for their absence.
+//! `ask-expert`: continuations by the expert from other states, or the reasons for their absence.
 
 use crate::street::Street;
 use crate::support::cosfly;
@@ -12,7 +12,7 @@ fn flown_street() -> Street {
 }
 
 fn ask(street: &Street, changes: &[&str]) -> (Option<i32>, Value) {
-    let mut arguments = vec!["plan-from", "recipe.toml", "--trajectory", "expert-p00001", "--json"];
+    let mut arguments = vec!["ask-expert", "recipe.toml", "--trajectory", "expert-p00001", "--json"];
     arguments.extend_from_slice(changes);
     let printed = cosfly(&arguments).within(street.path()).run();
     let answer =
@@ -43,9 +43,9 @@ fn the_expert_goes_on_from_where_the_drone_is_and_again_from_where_that_leads() 
     let velocity: [f64; 3] = core::array::from_fn(|axis| (at[axis] - before[axis]) / 0.5);
     let ([x, y, z], [vx, vy, vz]) = (texts(at), texts(velocity));
     let state = ["--frame", "6", "--position", &x, &y, &z, "--velocity", &vx, &vy, &vz];
-    let (_, whole) = ask(&street, &[&state[..], &["--horizon", "1e9"]].concat());
+    let (_, whole) = ask(&street, &[&state[..], &["--horizon-s", "1e9"]].concat());
     assert_eq!(whole["waypoints"].as_array().map(Vec::len), Some(6), "{whole}");
-    let (code, next) = ask(&street, &[&state[..], &["--horizon", "1"]].concat());
+    let (code, next) = ask(&street, &[&state[..], &["--horizon-s", "1"]].concat());
     assert_eq!((code, next["waypoints"].as_array().map(Vec::len)), (Some(0), Some(3)), "{next}");
 }
 
@@ -71,13 +71,13 @@ fn a_batch_answers_line_by_line_and_names_lines_that_are_no_states() {
         r#"{"trajectory": "expert-p00009", "frame": 2, "position": [40, -20, 25]}"#,
         r#"{"trajectory": "expert/p00001", "frame": 2, "position": [40, -20, 25], "velocity": [0, 1, 0]}"#,
     ];
-    let batch = cosfly(&["plan-from", "recipe.toml", "--batch"]).within(street.path()).fed(lines.join("\n")).run();
+    let batch = cosfly(&["ask-expert", "recipe.toml", "--batch"]).within(street.path()).fed(lines.join("\n")).run();
     assert_eq!(batch.code, Some(4), "{}", batch.stderr);
     let answers: Vec<Value> =
         batch.stdout.lines().map(|line| serde_json::from_str(line).expect("a line of JSON")).collect();
     assert_eq!(answers.len(), 4);
-    assert_eq!((&answers[1]["line"], &answers[1]["error"]["code"]), (&json!(2), &json!("plan-from-line")));
-    assert_eq!((&answers[2]["line"], &answers[2]["error"]["code"]), (&json!(3), &json!("plan-from-unknown")));
+    assert_eq!((&answers[1]["line"], &answers[1]["error"]["code"]), (&json!(2), &json!("ask-expert-line")));
+    assert_eq!((&answers[2]["line"], &answers[2]["error"]["code"]), (&json!(3), &json!("ask-expert-unknown")));
     let (_, single) = ask(&street, &["--frame", "2", "--position", "40", "-20", "25", "--velocity", "0", "1", "0"]);
     for answer in [&answers[0], &answers[3]] {
         assert_eq!((&answer["waypoints"], &answer["certificate"]), (&single["waypoints"], &single["certificate"]));
@@ -89,7 +89,7 @@ fn a_line_that_is_no_text_spoils_no_other_line_and_null_is_as_good_as_nothing() 
     let street = flown_street();
     let state = r#"{"trajectory": "expert-p00001", "frame": 2, "position": [40, -20, 25], "velocity": null}"#;
     let lines = [state.as_bytes(), b"\xff\xfe", b"", state.as_bytes()].join(&b"\n"[..]);
-    let batch = cosfly(&["plan-from", "recipe.toml", "--batch"]).within(street.path()).fed(lines).run();
+    let batch = cosfly(&["ask-expert", "recipe.toml", "--batch"]).within(street.path()).fed(lines).run();
     assert_eq!((batch.code, batch.stderr.as_str()), (Some(4), ""));
     let answers: Vec<Value> = batch.stdout.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
     assert_eq!((answers.len(), &answers[1]["line"]), (3, &json!(2)));
@@ -102,7 +102,7 @@ fn a_line_that_is_no_text_spoils_no_other_line_and_null_is_as_good_as_nothing() 
 fn a_full_disk_is_no_success() {
     let street = flown_street();
     let state = r#"{"trajectory": "expert-p00001", "frame": 2, "position": [40, -20, 25]}"#;
-    let batch = cosfly(&["plan-from", "recipe.toml", "--batch"]).within(street.path()).fed(state);
+    let batch = cosfly(&["ask-expert", "recipe.toml", "--batch"]).within(street.path()).fed(state);
     for call in [cosfly(&["town"]), cosfly(&["graph", "recipe.toml"]).within(street.path()), batch] {
         let (code, words) = call.run_on_a_full_disk();
         assert_eq!(code, Some(5), "{words}");
@@ -112,7 +112,7 @@ fn a_full_disk_is_no_success() {
 
 /// Exit code and messages of an invalid request.
 fn check_refusal(name: &str, street: &Street, arguments: &[&str]) {
-    let all = [&["plan-from", "recipe.toml"], arguments].concat();
+    let all = [&["ask-expert", "recipe.toml"], arguments].concat();
     let printed = cosfly(&all).within(street.path()).run();
     let code = printed.code.map_or("none".into(), |code| code.to_string());
     insta::assert_snapshot!(name, format!("exit code {code}\n{}", printed.stderr));
@@ -123,17 +123,17 @@ fn questions_that_cannot_be_answered_say_what_to_do() {
     let place = ["--position", "40", "-20", "25"];
     let asked = |id: &'static str, frame: &'static str| [&["--trajectory", id, "--frame", frame], &place[..]].concat();
     let untouched = Street::new();
-    check_refusal("plan_from_before_a_run", &untouched, &asked("expert-p00001", "2"));
+    check_refusal("ask_expert_before_a_run", &untouched, &asked("expert-p00001", "2"));
     assert!(!untouched.path().join(".cosfly").exists(), "asking makes no store");
     let street = flown_street();
-    check_refusal("plan_from_unknown", &street, &asked("expert-p0001", "2"));
-    check_refusal("plan_from_beyond_the_end", &street, &asked("expert-p00001", "12"));
-    check_refusal("plan_from_changed", &street, &[&asked("expert-p00001", "2")[..], &["--set", "seed=9"]].concat());
-    check_refusal("plan_from_horizon", &street, &[&asked("expert-p00001", "2")[..], &["--horizon", "0"]].concat());
+    check_refusal("ask_expert_unknown", &street, &asked("expert-p0001", "2"));
+    check_refusal("ask_expert_beyond_the_end", &street, &asked("expert-p00001", "12"));
+    check_refusal("ask_expert_changed", &street, &[&asked("expert-p00001", "2")[..], &["--set", "seed=9"]].concat());
+    check_refusal("ask_expert_horizon", &street, &[&asked("expert-p00001", "2")[..], &["--horizon-s", "0"]].concat());
     let at = |place: [&'static str; 3]| {
         [&["--trajectory", "expert-p00001", "--frame", "2", "--position"], &place[..]].concat()
     };
-    check_refusal("plan_from_far_away", &street, &at(["1e5", "-20", "25"]));
-    check_refusal("plan_from_nowhere", &street, &at(["nan", "-20", "25"]));
-    check_refusal("plan_from_nothing_asked", &street, &["--frame", "2"]);
+    check_refusal("ask_expert_far_away", &street, &at(["1e5", "-20", "25"]));
+    check_refusal("ask_expert_nowhere", &street, &at(["nan", "-20", "25"]));
+    check_refusal("ask_expert_nothing_asked", &street, &["--frame", "2"]);
 }

@@ -36,10 +36,10 @@ impl State {
     /// Reads a line of JSON.
     ///
     /// # Errors
-    /// `plan-from-line`, naming the field and what is allowed.
+    /// `ask-expert-line`, naming the field and what is allowed.
     pub fn of_line(line: &[u8]) -> Result<Self> {
         Self::read(line).map_err(|(rule, hint)| {
-            let refusal = Diagnostic::new("plan-from-line", Fault::Input, rule);
+            let refusal = Diagnostic::new("ask-expert-line", Fault::Input, rule);
             hint.into_iter().fold(refusal, Diagnostic::hint).hint(EXAMPLE)
         })
     }
@@ -88,13 +88,13 @@ impl State {
     /// Refuses states that no flight can begin with, whatever the map and the limits.
     ///
     /// # Errors
-    /// `plan-from-frame`, `plan-from-state`, `plan-from-horizon`.
+    /// `ask-expert-frame`, `ask-expert-state`, `ask-expert-horizon`.
     pub fn check(&self, track: &TargetTrack) -> Result<()> {
-        let state_refused = |message: String| Err(Diagnostic::new("plan-from-state", Fault::Input, message));
+        let state_refused = |message: String| Err(Diagnostic::new("ask-expert-state", Fault::Input, message));
         let Some(target) = track.states.get(self.frame) else {
             let (frame, frames) = (self.frame, track.len());
             let message = format!("frame {frame} is beyond `{}`, which has {frames} frames", self.trajectory);
-            return Err(Diagnostic::new("plan-from-frame", Fault::Input, message).hint("frames count from 0"));
+            return Err(Diagnostic::new("ask-expert-frame", Fault::Input, message).hint("frames count from 0"));
         };
         let (place, velocity) = (self.position, self.velocity.unwrap_or_default());
         if place.iter().any(|value| plausible(*value).is_err()) {
@@ -109,7 +109,7 @@ impl State {
         if let Some(horizon) = self.horizon_s.filter(|horizon| !(plausible(*horizon).is_ok() && *horizon > 0.0)) {
             let message =
                 format!("the horizon is {horizon:?} s; it must be above 0 s and at most {LARGEST_MAGNITUDE:e} s");
-            return Err(Diagnostic::new("plan-from-horizon", Fault::Input, message));
+            return Err(Diagnostic::new("ask-expert-horizon", Fault::Input, message));
         }
         if DVec3::from(place).distance(target.feet_in_world) > FURTHEST_M {
             let rule =

@@ -1,4 +1,4 @@
-//! `cosfly plan-from`: the expert's way on from a state that a drone came into (relabelling, as for DAgger).
+//! `cosfly ask-expert`: the expert's way on from a state that a drone came into (relabelling, as for DAgger).
 
 mod state;
 
@@ -21,13 +21,13 @@ use std::path::Path;
 /// Ask a finished recipe's expert how to go on from any state of a drone (relabelling, as for DAgger)
 #[derive(Debug, Parser)]
 #[command(
-    name = "plan-from",
+    name = "ask-expert",
     after_help = "\
 Examples:
-  cosfly plan-from recipes/small.toml --trajectory expert-p00000 --frame 5 --position 60 60 24
-  cosfly plan-from recipes/small.toml --trajectory perturbed-p00000 --frame 8 --position 60 61 24 \\
-      --velocity 1 0 0 --horizon 4 --json
-  cosfly plan-from recipes/small.toml --batch < states.jsonl > answers.jsonl
+  cosfly ask-expert recipes/small.toml --trajectory expert-p00000 --frame 5 --position 60 60 24
+  cosfly ask-expert recipes/small.toml --trajectory perturbed-p00000 --frame 8 --position 60 61 24 \\
+      --velocity 1 0 0 --horizon-s 4 --json
+  cosfly ask-expert recipes/small.toml --batch < states.jsonl > answers.jsonl
 
 A line of a batch is like
   {\"trajectory\": \"expert-p00000\", \"frame\": 5, \"position\": [60, 60, 24], \"velocity\": [1, 0, 0], \"horizon_s\": 4}
@@ -53,12 +53,12 @@ pub struct Arguments {
     velocity: Vec<f64>,
     /// Length of the answer [default: to the trajectory's end]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
-    horizon: Option<f64>,
+    horizon_s: Option<f64>,
     /// Print JSON
     #[arg(long)]
     json: bool,
     /// Read states from standard input, one JSON object per line, and answer each with one line of JSON
-    #[arg(long, conflicts_with_all = ["trajectory", "frame", "position", "velocity", "horizon"])]
+    #[arg(long, conflicts_with_all = ["trajectory", "frame", "position", "velocity", "horizon_s"])]
     batch: bool,
 }
 
@@ -80,7 +80,7 @@ impl Command for Arguments {
             frame,
             position: triple(position),
             velocity: (!self.velocity.is_empty()).then(|| triple(&self.velocity)),
-            horizon_s: self.horizon,
+            horizon_s: self.horizon_s,
         };
         let answer = answer(&mut experts, &state)?;
         console.print(&if self.json { json_line(&answer) } else { told(&answer) })?;
@@ -137,7 +137,7 @@ struct Refused {
 /// Refusal of a store that is absent: asking makes none.
 fn no_store(recipe: &Path, folder: &Path) -> Box<Diagnostic> {
     let message = format!("there is no store at `{}`, so nothing was flown yet", folder.display());
-    Diagnostic::new("plan-from-unfinished", Fault::Recipe, message)
+    Diagnostic::new("ask-expert-unfinished", Fault::Recipe, message)
         .hint(format!("make it first: `cosfly run {}`, with the same `--set` and `--store`", recipe.display()))
 }
 
