@@ -27,12 +27,12 @@ fn check_map(name: &str, from: &str, to: &str) {
 #[test]
 fn recipe_mistakes_point_at_the_place_and_name_the_way_out() {
     check_recipe("unknown_key", "count = 3", "cuont = 3");
-    check_recipe("unknown_kind", "use = \"muco\"", "use = \"mucco\"");
+    check_recipe("unknown_kind", "use = \"plan\"", "use = \"mucco\"");
     check_recipe("wrong_type", "steps = 12", "steps = \"many\"");
     check_recipe("out_of_range", "width = 96", "width = 0");
     check_recipe("missing_input", "inputs.town = \"town\"\ncount", "count");
-    check_recipe("unknown_stage", "paths = \"walkers\"", "paths = \"walker\"");
-    check_recipe("wrong_artifact", "paths = \"walkers\"", "paths = \"town\"");
+    check_recipe("unknown_stage", "walks = \"walkers\"", "walks = \"walker\"");
+    check_recipe("wrong_artifact", "walks = \"walkers\"", "walks = \"town\"");
     check_recipe("missing_file", "street.xodr", "streets.xodr");
     check_recipe("toml_syntax", "seed = 3", "seed = = 3");
     check_recipe("cycle", "trajectories = \"expert\"", "trajectories = \"perturbed\"");

@@ -61,8 +61,8 @@ fn the_stage_inspect_lets_sound_flights_pass_and_leaves_out_imperfect_families()
     let tables = |street: &Street| tree_digests(&street.dataset().join("data/frames"));
     assert_eq!(tables(&street), tables(&plain), "what is kept passes as it is");
     // Targets in the exact middle of these tiny pictures fall between the pixels' centres.
-    let exact = "use = \"muco\"\naim = { framing_deg = 0.0, tremor_deg = 0.0, lag_s = 0.0, lag_spread_s = 0.0 }";
-    let strict = RECIPE.replace("use = \"muco\"", exact).replace("width = 96\nheight = 54", "width = 72\nheight = 41");
+    let exact = "use = \"plan\"\naim = { framing_deg = 0.0, tremor_deg = 0.0, lag_s = 0.0, lag_spread_s = 0.0 }";
+    let strict = RECIPE.replace("use = \"plan\"", exact).replace("width = 96\nheight = 54", "width = 72\nheight = 41");
     let strict = inspected_in(&strict, "");
     let printed = cosfly(&["run", "recipe.toml"]).within(strict.path()).run_ok();
     assert!(printed.stdout.contains("kept: 2 of 6"), "{}", printed.stdout);

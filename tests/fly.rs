@@ -121,9 +121,9 @@ fn a_suite_names_its_drone_and_other_keys_are_refused() {
     let card = std::fs::read_to_string(street.path().join("small/expert/card.json")).expect("a card");
     assert!(card.contains("\"drone\": \"crazyflie\""), "{card}");
     with("drone = \"glider\"");
-    refused(&street, &["recipe.toml", "--policy", "follow"], 3, "there is no drone `glider`");
+    refused(&street, &["recipe.toml", "--policy", "follow"], 3, "`drone` is `glider`; it must be");
     with("wings = 2");
-    refused(&street, &["recipe.toml", "--policy", "follow"], 3, "unknown field `wings`");
+    refused(&street, &["recipe.toml", "--policy", "follow"], 3, "`wings` is not a parameter of `tool.fly`");
     with("wind_mps = 3");
     refused(&street, &["recipe.toml", "--policy", "follow"], 3, "wind does not move a point mass");
 }

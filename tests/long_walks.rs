@@ -13,11 +13,11 @@ source = "DOWNTOWN"
 use = "pedestrians"
 inputs.town = "town"
 count = 5
-steps = 1000
+frames = 1000
 
 [stages.expert]
-use = "muco"
-inputs = { town = "town", paths = "walkers" }
+use = "plan"
+inputs = { town = "town", walks = "walkers" }
 "#;
 
 /// Two of the five are rejected where every effort must succeed along the whole flight.

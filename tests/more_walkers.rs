@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// Overrides that make small pictures of short walks.
 const SMALL: [&str; 6] = [
-    "stages.walkers.steps=40",
+    "stages.walkers.frames=40",
     "stages.crowd.frames=40",
     "stages.crowd.people.count=150",
     "stages.frames.width=160",

@@ -74,7 +74,7 @@ fn a_crowd_is_in_pictures_and_tables_and_another_one_plans_nothing_anew() {
 
 #[test]
 fn drones_behind_one_walk_are_in_each_others_pictures_under_the_names_of_their_flights() {
-    let behind = "paths = \"walkers\" }\n";
+    let behind = "walks = \"walkers\" }\n";
     let with_drones = RECIPE.replacen(behind, &format!("{behind}drones = {{ count = 2, separation_m = 4.0 }}\n"), 1);
     let street = Street::with(&with_drones, &map());
     let wide = ["stages.frames.width=320", "stages.frames.height=180", "stages.frames.fov_deg=120"];

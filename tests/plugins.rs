@@ -29,11 +29,11 @@ source = "street.xodr"
 use = "pedestrians"
 inputs.town = "town"
 count = 2
-steps = 12
+frames = 12
 
 [stages.expert]
-use = "muco"
-inputs = { town = "town", paths = "walkers" }
+use = "plan"
+inputs = { town = "town", walks = "walkers" }
 
 [[stages.expert.terms]]
 use = "wasm:no_fly_zone.wasm"

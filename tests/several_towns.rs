@@ -102,7 +102,7 @@ fn the_recipe_of_the_papers_size_has_its_counts_and_runs_in_small() {
         "for_each.town.walks=1",
         "for_each.town.others=3",
         "for_each.town.files=towns/track/town0[18].json",
-        "stages.walkers.steps=24",
+        "stages.walkers.frames=24",
         "stages.crowd.frames=24",
         "stages.frames.width=96",
         "stages.frames.height=54",
@@ -121,7 +121,7 @@ fn the_recipe_of_the_papers_size_has_its_counts_and_runs_in_small() {
         let stages = plan["stages"].as_array().into_iter().flatten();
         stages.filter(|it| it["uses"] == kind).filter_map(|it| it["items"].as_u64()).sum()
     };
-    assert_eq!((items("map"), items("muco"), items("perturb"), items("caption")), (16, 6_000, 6_000, 12_000));
+    assert_eq!((items("map"), items("plan"), items("perturb"), items("caption")), (16, 6_000, 6_000, 12_000));
     assert_eq!(plan["all_measured"], true);
     assert!(plan["predicted_price"].as_f64().is_some_and(|price| price > 0.0), "{}", plan["predicted_price"]);
 }

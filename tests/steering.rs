@@ -8,7 +8,7 @@ use parquet::record::Field;
 use std::collections::BTreeMap;
 
 /// The street with longer walks, experts only.
-const WALKERS: &str = "stages.walkers.steps=48";
+const WALKERS: &str = "stages.walkers.frames=48";
 
 /// Experts of the street with `changes`: the output, and per flight the numbers of table `trajectories`.
 fn flights(changes: &[&str]) -> (Printed, Vec<BTreeMap<String, f64>>) {
@@ -103,9 +103,9 @@ fn losses_ordered_for_a_share_leave_the_other_flights_as_they_are() {
 /// The street with companions for its experts.
 fn accompanied(companions: u32) -> String {
     let with = format!(
-        "inputs = {{ town = \"town\", paths = \"walkers\", others = \"walkers\" }}\ntargets.companions = {companions}"
+        "inputs = {{ town = \"town\", walks = \"walkers\", others = \"walkers\" }}\ntargets.companions = {companions}"
     );
-    RECIPE.replacen("inputs = { town = \"town\", paths = \"walkers\" }", &with, 1)
+    RECIPE.replacen("inputs = { town = \"town\", walks = \"walkers\" }", &with, 1)
 }
 
 #[test]
@@ -135,13 +135,13 @@ fn what_contradicts_itself_is_refused_with_the_way_out() {
     check_refusal("companions_too_many", &accompanied(3), &[]);
     check_refusal("occlusion_contradiction", RECIPE, &["stages.expert.occlusion.min_s=9"]);
     let other =
-        |objective: &str| RECIPE.replacen("paths = \"walkers\" }", &format!("paths = \"walkers\" }}\n{objective}"), 1);
+        |objective: &str| RECIPE.replacen("walks = \"walkers\" }", &format!("walks = \"walkers\" }}\n{objective}"), 1);
     check_refusal("companions_of_a_baseline", &accompanied(1), &["stages.expert.planner=astar"]);
     check_refusal("inspect_with_paths", &other("objective = \"inspect\""), &[]);
     check_refusal("unknown_objective", &other("objective = \"race\""), &[]);
     let rounds = |waypoints: &str| {
         let objective = format!("}}\nobjective = \"patrol\"\npatrol.waypoints = {waypoints}");
-        RECIPE.replacen(", paths = \"walkers\" }", &objective, 1)
+        RECIPE.replacen(", walks = \"walkers\" }", &objective, 1)
     };
     check_refusal("patrol_too_fast", &rounds("[[0, 0, 20, 0], [90, 0, 20, 5]]"), &[]);
     check_refusal("patrol_short_waypoint", &rounds("[[0, 0, 20], [90, 0, 20, 5]]"), &[]);

@@ -14,11 +14,11 @@ source = "street.xodr"
 use = "pedestrians"
 inputs.town = "town"
 count = 3
-steps = 12
+frames = 12
 
 [stages.expert]
-use = "muco"
-inputs = { town = "town", paths = "walkers" }
+use = "plan"
+inputs = { town = "town", walks = "walkers" }
 
 [stages.perturbed]
 use = "perturb"

@@ -12,7 +12,7 @@ use cosfly_stage::{Source, parameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// An expert as a recipe describes it: parameters of a `muco` stage.
+/// An expert as a recipe describes it: parameters of a `plan` stage.
 #[derive(Clone, Debug, Default)]
 pub struct RecipeExpert {
     /// Weights, objective and aim.
@@ -21,7 +21,7 @@ pub struct RecipeExpert {
     pub plugins: ExpertPlugins,
 }
 
-/// The pilot of a `muco` stage.
+/// The pilot of a `plan` stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 struct Pilot {

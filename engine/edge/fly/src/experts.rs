@@ -199,6 +199,6 @@ fn unknown(trajectory: &str, names: &[String]) -> Box<Diagnostic> {
         (Some(near), _) => diagnostic.hint(format!("did you mean `{near}`?")),
         (None, [first, .., last]) => diagnostic.hint(format!("its trajectories are `{first}` ... `{last}`")),
         (None, [only]) => diagnostic.hint(format!("its only trajectory is `{only}`")),
-        (None, []) => diagnostic.hint("trajectories come from stages that plan flights, such as `use = \"muco\"`"),
+        (None, []) => diagnostic.hint("trajectories come from stages that plan flights, such as `use = \"plan\"`"),
     }
 }

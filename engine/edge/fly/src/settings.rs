@@ -2,9 +2,8 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_drone::models::{self, DroneModel, MODELS};
-use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings};
+use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, SuiteTable};
 use cosfly_recipe::Recipe;
-use serde::Deserialize;
 
 /// What a suite says of the drone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,21 +20,6 @@ pub struct FlySettings {
     pub latency_ms: u32,
 }
 
-/// The table as written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Given {
-    drone: Option<String>,
-    #[serde(default)]
-    wind_mps: f64,
-    #[serde(default)]
-    gusts: bool,
-    #[serde(default)]
-    blackouts: u32,
-    #[serde(default)]
-    latency_ms: u32,
-}
-
 impl Default for FlySettings {
     fn default() -> Self {
         Self { drone: MODELS[0], wind_mps: 0.0, gusts: false, blackouts: 0, latency_ms: 0 }
@@ -43,37 +27,23 @@ impl Default for FlySettings {
 }
 
 impl FlySettings {
-    /// The table `[tool.fly]` of a recipe.
+    /// The table `[tool.fly]` of a recipe, whose keys and ranges the recipe's reader has checked.
     ///
     /// # Errors
-    /// `fly-settings` where a key or a value is not allowed.
+    /// `fly-settings` where the values do not fit together.
     pub fn of(recipe: &Recipe) -> Result<Self> {
         let Some(table) = recipe.tool.get("fly") else { return Ok(Self::default()) };
         let refused = |message: String| {
             let message = format!("[tool.fly] of `{}`: {message}", recipe.path.display());
-            let drones = MODELS.iter().map(|model| model.name).collect::<Vec<_>>().join(", ");
-            let allowed = format!(
-                "allowed are drone ({drones}), wind_mps (0 to 30), gusts (true or false), \
-                           blackouts (0 to 10) and latency_ms (0 to 5000)"
-            );
-            Diagnostic::new("fly-settings", Fault::Recipe, message).hint(allowed)
+            Diagnostic::new("fly-settings", Fault::Recipe, message)
+                .hint("choose a quadrotor, such as drone = \"pelican\"")
         };
-        let given: Given = serde_json::from_value(table.clone()).map_err(|error| refused(error.to_string()))?;
-        let named = |name: &String| models::model(name).map_err(|_| refused(format!("there is no drone `{name}`")));
-        let drone = given.drone.as_ref().map(named).transpose()?.unwrap_or(MODELS[0]);
-        if !(0.0..=30.0).contains(&given.wind_mps) {
-            return Err(refused(format!("wind_mps is {}", given.wind_mps)));
-        }
-        if given.blackouts > 10 {
-            return Err(refused(format!("blackouts is {}", given.blackouts)));
-        }
-        if given.latency_ms > 5000 {
-            return Err(refused(format!("latency_ms is {}", given.latency_ms)));
-        }
+        let given: SuiteTable = serde_json::from_value(table.clone()).map_err(|error| refused(error.to_string()))?;
+        let drone = models::model(&given.drone).map_err(refused)?;
         if drone.parameters.is_none() && (given.wind_mps > 0.0 || given.gusts) {
             return Err(refused("wind does not move a point mass".to_owned()));
         }
-        let Given { wind_mps, gusts, blackouts, latency_ms, .. } = given;
+        let SuiteTable { wind_mps, gusts, blackouts, latency_ms, .. } = given;
         Ok(Self { drone, wind_mps, gusts, blackouts, latency_ms })
     }
 }

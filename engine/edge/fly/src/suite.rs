@@ -66,7 +66,7 @@ pub struct Suite {
 
 /// Whether a stage plans flights behind walkers.
 fn follows(stage: &RecipeStage) -> bool {
-    stage.has_role(StageRole::Plans) && stage.connection("paths").is_some()
+    stage.has_role(StageRole::Plans) && stage.connection("walks").is_some()
 }
 
 impl Suite {
@@ -84,7 +84,7 @@ impl Suite {
         if stages.is_empty() {
             let message = format!("`{}` has no episodes: no stage plans flights behind walkers", recipe.path.display());
             return Err(Diagnostic::new("fly-suite", Fault::Recipe, message).hint(
-                "a suite has a stage with `use = \"muco\"` and `objective = \"track\"`, as recipes/suites have",
+                "a suite has a stage with `use = \"plan\"` and `objective = \"track\"`, as recipes/suites have",
             ));
         }
         for asked in &stages {

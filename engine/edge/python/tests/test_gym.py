@@ -166,7 +166,7 @@ def test_the_suite_names_drone_wind_and_latency():
     # An action takes effect half a second after its observation.
     assert np.abs(flights["windy"][:3, 6:9] - flights["at once"][:3, 6:9]).max() > 0.05
     recipe.write_text(text + "\n[tool.fly]\nlatency_ms = 9000\n")
-    with pytest.raises(cosfly.Error, match="latency_ms is 9000"):
+    with pytest.raises(cosfly.Error, match="latency_ms"):
         gym.make(ID, recipe=recipe)
 
 

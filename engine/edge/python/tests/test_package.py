@@ -53,7 +53,7 @@ def test_run_is_the_command_line(folder):
         files = lambda folder: {path.relative_to(folder): path for path in Path(folder).rglob("*") if path.is_file()}
         ours, theirs = files("data"), files(of_cargo)
         assert ours.keys() == theirs.keys() and all(ours[it].read_bytes() == theirs[it].read_bytes() for it in ours)
-    assert cosfly.plan("small", set={"stages.walkers.steps": 25}).to_run > 0
+    assert cosfly.plan("small", set={"stages.walkers.frames": 25}).to_run > 0
     assert cosfly.why("small", "expert").cached
     assert cosfly.verify("data", progress=False)
 

@@ -1,4 +1,4 @@
-//! Part `companions` of a `muco` stage: the walks that stay nearest to a followed one. An item of its own per flight, so that
+//! Part `companions` of a `plan` stage: the walks that stay nearest to a followed one. An item of its own per flight, so that
 //! one more walker plans no flight anew whose companions stay the same.
 
 use crate::ports::{self, COMPANIONS};
@@ -19,13 +19,13 @@ const NAME: &str = artifacts::COMPANIONS.blob;
 /// The part of a stage whose flights have `count` companions each and follow the walks at port `paths`.
 pub fn part(count: u32, paths: InputPort, others: InputPort) -> StagePart {
     let properties = StageProperties {
-        kind: "muco".into(),
+        kind: "plan".into(),
         version: 1,
         parameters: serde_json::json!({ "companions": count }),
         sources: vec![],
         inputs: vec![ports::town(), paths, others],
         artifact: COMPANIONS,
-        items: ItemRule::PerInput("paths"),
+        items: ItemRule::PerInput("walks"),
         bytes_per_item: 8_000 * u64::from(count),
         files_per_item: 1,
         intermediate: &[],
@@ -67,9 +67,9 @@ impl Stage for CompanionsStage {
 
 impl CompanionsStage {
     fn choose(&self, inputs: &Inputs<'_>) -> Result<Vec<Companion>> {
-        check_same_town(inputs, "paths")?;
+        check_same_town(inputs, "walks")?;
         check_same_town(inputs, "others")?;
-        let own = inputs.one("paths")?;
+        let own = inputs.one("walks")?;
         let track = walk(inputs, own)?;
         let mut others = vec![];
         for artifact in inputs.all("others").iter().filter(|it| it.id != own.id) {

@@ -1,4 +1,4 @@
-//! Several drones behind one walk: part `formation` of a `muco` stage plans them one after the other, each beside those before
+//! Several drones behind one walk: part `formation` of a `plan` stage plans them one after the other, each beside those before
 //! it; the stage itself gives every drone its flight and its aim.
 
 use crate::planning::{Setting, produced};
@@ -23,7 +23,7 @@ const NAME: &str = "formation";
 /// The parts of a stage whose recipe asks for several drones: `inputs` are those of the planning, `properties` those of the
 /// stage itself, and `losses` the parts that order losses.
 pub fn parts(expert: RecipeExpert, properties: StageProperties) -> Vec<StagePart> {
-    let mut planning = StageProperties { items: ItemRule::PerInput("paths"), ..properties.clone() };
+    let mut planning = StageProperties { items: ItemRule::PerInput("walks"), ..properties.clone() };
     planning.role = StageRole::Serves;
     planning.parameters["drones"]["count"] = expert.expert.config.drones.count.into();
     let mut parts = vec![];
@@ -44,7 +44,7 @@ pub fn parts(expert: RecipeExpert, properties: StageProperties) -> Vec<StagePart
     let stage = FormationStage { expert: expert.clone(), properties: planning, is_trial: false };
     parts.push(StagePart { suffix: NAME, stage: Box::new(stage) });
     let mut formed = StageProperties {
-        items: ItemRule::PerVariant { port: "paths", variants: expert.expert.drones() },
+        items: ItemRule::PerVariant { port: "walks", variants: expert.expert.drones() },
         ..properties
     };
     formed.inputs.push(port());
@@ -73,7 +73,7 @@ impl Stage for FormationStage {
         let expert = quotas::ordered(&self.expert, inputs, context)?;
         let Setting { world, around, bodies } = Setting::read(inputs, &expert)?;
         let flown = expert.expert.formation(&world, bodies, Seed(context.seed))?;
-        let walk = inputs.one("paths")?;
+        let walk = inputs.one("walks")?;
         if self.is_trial {
             let followed = traffic::followed(inputs, walk)?;
             let trial = |flown: &Flown| {

@@ -119,7 +119,7 @@ fn nothing_left(rejections: &[Rejection]) -> Box<Diagnostic> {
         .fold(refusal, |refusal, rejection| {
             refusal.because(format!("`{}`: {}", rejection.trajectory_id, rejection.reason))
         })
-        .hint("the planner found no safe view of any target: look at the reasons, loosen the limits of the `muco` stage, or choose other walks (another `seed`) or another town");
+        .hint("the planner found no safe view of any target: look at the reasons, loosen the limits of the `plan` stage, or choose other walks (another `seed`) or another town");
     if rejections.iter().any(|rejection| ["m/s^2", "m/s^3"].iter().any(|unit| rejection.reason.contains(unit))) {
         return refusal.hint("flights of a planner that bounds no acceleration or jerk (`paper.make_flyable = false`, say) are published with `limits.require_kinematics = false`");
     }

@@ -13,10 +13,10 @@ mod inspect;
 mod logs;
 pub mod map;
 mod memo;
-mod muco;
 mod nearby;
 mod pedestrians;
 mod perturb;
+mod plan;
 mod planners;
 mod planning;
 mod plugin;
@@ -33,7 +33,8 @@ mod traffic;
 mod verdict;
 mod world;
 
-use cosfly_stage::{Registry, Stage, StageKind};
+use cosfly_env::SuiteTable;
+use cosfly_stage::{Registry, Stage, StageKind, Tool};
 
 /// All built-in stage kinds, sorted by name.
 pub fn registry() -> Registry {
@@ -47,15 +48,16 @@ pub fn registry_with(others: Vec<Box<dyn StageKind>>) -> Registry {
         Box::new(dataset::Dataset),
         Box::new(inspect::Inspect),
         Box::new(map::Map),
-        Box::new(muco::Muco),
         Box::new(pedestrians::Pedestrians),
         Box::new(perturb::Perturb),
+        Box::new(plan::Plan),
         Box::new(render::Render),
         Box::new(traffic::TrafficKind),
         Box::new(plugin::Wasm),
     ];
     kinds.extend(others);
-    Registry::new(kinds)
+    let fly = Tool { name: "fly", schema: cosfly_stage::parameters::schema_of::<SuiteTable>() };
+    Registry::new(kinds).with_tool(fly)
 }
 
 /// A stage kind of a single part.

@@ -48,7 +48,7 @@ impl StageKind for Pedestrians {
             inputs: self.ports(),
             artifact: WALK,
             items: ItemRule::Count { prefix: "p", count },
-            bytes_per_item: 60 * u64::from(config.steps),
+            bytes_per_item: 60 * u64::from(config.frames),
             files_per_item: 1,
             intermediate: &[],
             asks: None,

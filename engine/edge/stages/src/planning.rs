@@ -27,8 +27,8 @@ impl Setting {
         if expert.expert.objective.objective != Objective::Track {
             return Ok(Self { world, around: Around::default(), bodies: Bodies::default() });
         }
-        check_same_town(inputs, "paths")?;
-        let artifact = inputs.one("paths")?;
+        check_same_town(inputs, "walks")?;
+        let artifact = inputs.one("walks")?;
         let walk = artifacts::WALK.read(inputs, artifact)?;
         let around = traffic::cut_around(inputs, artifact, &walk.track)?;
         let (companions, movers) = (companions::read(inputs)?, around.boxes());

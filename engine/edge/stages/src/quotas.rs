@@ -1,4 +1,4 @@
-//! Parts `trials` and `orders` of a `muco` stage whose recipe orders losses in a share of the flights: every flight is planned
+//! Parts `trials` and `orders` of a `plan` stage whose recipe orders losses in a share of the flights: every flight is planned
 //! with its loss once, and the orders go to flights that succeeded, so that the shares are filled.
 
 use crate::ports::{self, LOSSES, ORDERS};
@@ -23,7 +23,7 @@ pub const ORDERS_PART: &str = "orders";
 pub fn orders_part(config: &OcclusionConfig) -> StagePart {
     let trials = ports::sibling(TRIALS, LOSSES, Fan::Gather, "The trials of all flights.");
     let properties = StageProperties {
-        kind: "muco".into(),
+        kind: "plan".into(),
         version: 3,
         parameters: serde_json::json!({ "share": config.share, "beside_look_alike": config.beside_look_alike }),
         sources: vec![],

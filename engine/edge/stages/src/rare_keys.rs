@@ -22,24 +22,24 @@ const RARE: &[(&str, &str, &str)] = &[
     ("map", "simplify/prune", "false"),
     ("map", "simplify/tolerance_m", "0.7"),
     ("map", "unmarked_crossings", "false"),
-    ("muco", "descent/max_move_m", "0.3"),
-    ("muco", "descent/min_rate", "0.01"),
-    ("muco", "paper/farthest_share", "1.5"),
-    ("muco", "paper/hidden_run_frames", "7"),
-    ("muco", "paper/keyframe_frames", "4"),
-    ("muco", "paper/keyframe_motion", "0.1"),
-    ("muco", "paper/make_flyable", "false"),
-    ("muco", "paper/nearest_share", "0.8"),
-    ("muco", "paper/projection_rounds", "7"),
-    ("muco", "paper/ramp_frames", "9"),
-    ("muco", "paper/search_visibility", "50.0"),
-    ("muco", "paper/side_offset_m", "10.0"),
-    ("muco", "search/absolute_motion", "1.5"),
-    ("muco", "search/azimuths", "48"),
-    ("muco", "search/filter_radius_m", "60.0"),
-    ("muco", "search/keyframe_frames", "2"),
-    ("muco", "search/relative_motion", "1.5"),
-    ("muco", "view/safety_influence_m", "6.0"),
+    ("plan", "descent/max_move_m", "0.3"),
+    ("plan", "descent/min_rate", "0.01"),
+    ("plan", "paper/farthest_share", "1.5"),
+    ("plan", "paper/hidden_run_frames", "7"),
+    ("plan", "paper/keyframe_frames", "4"),
+    ("plan", "paper/keyframe_motion", "0.1"),
+    ("plan", "paper/make_flyable", "false"),
+    ("plan", "paper/nearest_share", "0.8"),
+    ("plan", "paper/projection_rounds", "7"),
+    ("plan", "paper/ramp_frames", "9"),
+    ("plan", "paper/search_visibility", "50.0"),
+    ("plan", "paper/side_offset_m", "10.0"),
+    ("plan", "search/absolute_motion", "1.5"),
+    ("plan", "search/azimuths", "48"),
+    ("plan", "search/filter_radius_m", "60.0"),
+    ("plan", "search/keyframe_frames", "2"),
+    ("plan", "search/relative_motion", "1.5"),
+    ("plan", "view/safety_influence_m", "6.0"),
     ("pedestrians", "speed/deviation_mps", "0.2"),
     ("pedestrians", "speed/mean_mps", "1.2"),
     ("pedestrians", "speed/min_mps", "0.6"),
@@ -118,7 +118,7 @@ fn each_is_accepted_and_changes_the_key() {
 #[test]
 fn the_longest_inspection_is_accepted_and_changes_the_key() {
     let keys =
-        |inspect: Value| keys_of("muco", json!({ "objective": "inspect", "inspect": inspect })).expect("accepted");
+        |inspect: Value| keys_of("plan", json!({ "objective": "inspect", "inspect": inspect })).expect("accepted");
     assert_ne!(keys(json!({ "max_duration_s": 90.0 })), keys(json!({})));
 }
 

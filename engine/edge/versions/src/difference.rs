@@ -302,7 +302,7 @@ mod tests {
             files: Blobs::default(),
             published_by: "dataset".into(),
             definitions: BTreeMap::from([
-                ("expert".to_owned(), definition("muco", json!({"weights": {"visibility": weight}}))),
+                ("expert".to_owned(), definition("plan", json!({"weights": {"visibility": weight}}))),
                 ("dataset".to_owned(), definition("dataset", json!({"splits": {"seed": 0}}))),
             ]),
             tasks,

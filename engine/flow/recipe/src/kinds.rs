@@ -60,7 +60,9 @@ impl<'a> Builder<'a> {
         let parameters = Node { place: stage.place.clone(), value: Value::Table(stage.parameters.clone()) };
         let schema = self.schemas.entry(kind.name()).or_insert_with(|| kind.schema());
         let port_names: Vec<&str> = ports.iter().map(|port| port.name).collect();
-        let subject = Subject { stage: &stage.name, kind: name, place: &stage.place, ports: &port_names };
+        let table = format!("stages.{}", stage.name);
+        let subject =
+            Subject { table: &table, stage: &stage.name, kind: name, place: &stage.place, ports: &port_names };
         let mut wrong = check_parameters(schema, &parameters, &subject, self.texts);
         let built = if wrong.is_empty() && !has_refused(&parameters) {
             match build_kind(kind, &parameters) {
@@ -87,6 +89,10 @@ impl<'a> Builder<'a> {
             return problem
                 .hint("this cosfly was built without plugins; the feature `plugins` adds them")
                 .hint(format!("built-in stage kinds: {}", list(known(), usize::MAX)));
+        }
+        let gone = self.registry.iter().flat_map(StageKind::gone).find(|(former, _)| *former == name);
+        if let Some((_, way_out)) = gone {
+            return problem.hint(*way_out);
         }
         match nearest_name(name, known()) {
             Some(near) => problem.hint(format!("did you mean `{near}`?")),

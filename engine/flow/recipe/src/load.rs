@@ -1,12 +1,12 @@
 //! Reading a recipe: text to tree, overrides, graph, parameters, files, items.
 
-use crate::document::{Problems, Texts};
+use crate::document::{Problems, Texts, table_json};
 use crate::items::{Arranged, ItemReader, Wire};
 use crate::kinds::{Builder, BuiltPart, KnownStage};
 use crate::model::{Recipe, RecipeStage, SourceFile};
 use crate::order::dependency_order;
 use crate::outline::Outline;
-use crate::parameters::Subject;
+use crate::parameters::{Subject, check_parameters};
 use crate::sources::{Neighbours, SourceFinder};
 use crate::wiring::{Wires, Wiring};
 use crate::{for_each, overrides, toml_text};
@@ -70,6 +70,7 @@ fn check(
     let directory = path.parent().unwrap_or(Path::new(""));
     for_each::expand(&mut root, directory, texts, problems)?;
     let outline = Outline::read(root, texts, problems)?;
+    check_tools(&outline, registry, texts, problems);
     let mut builder = Builder::new(registry, texts);
     let known: Vec<Option<KnownStage>> = outline.stages.iter().map(|stage| builder.build(stage, problems)).collect();
     let mut connected = Wiring::new(&outline, &known, registry, texts).connect(problems);
@@ -98,11 +99,22 @@ fn check(
         name: outline.name,
         seed: outline.seed,
         remove_intermediates: outline.remove_intermediates,
-        tool: outline.tool,
+        tool: table_json(&outline.tool),
         path: path.to_path_buf(),
         text: text.into(),
         stages,
     })
+}
+
+/// Checks the tables of commands that the registry knows; others are somebody else's.
+fn check_tools(outline: &Outline, registry: &Registry, texts: &Texts, problems: &mut Problems) {
+    for tool in registry.tools() {
+        if let Some(entry) = outline.tool.get(tool.name) {
+            let table = format!("tool.{}", tool.name);
+            let subject = Subject { table: &table, stage: "", kind: &table, place: &entry.key, ports: &[] };
+            problems.append(&mut check_parameters(&tool.schema, &entry.node, &subject, texts));
+        }
+    }
 }
 
 /// Resolved source files by stage of the outline and part.
@@ -121,7 +133,8 @@ fn find_files(
         let mut of_part = |part: &BuiltPart| {
             let declared = &part.stage.properties().sources;
             let kind = stage.kind.as_ref().map_or("", |(kind, _)| kind);
-            let subject = Subject { stage: &stage.name, kind, place: &stage.place, ports: &[] };
+            let table = format!("stages.{}", stage.name);
+            let subject = Subject { table: &table, stage: &stage.name, kind, place: &stage.place, ports: &[] };
             finder.resolve(declared, (&built.parameters, &subject), problems)
         };
         files.push(built.parts.iter().map(&mut of_part).collect());

@@ -1,15 +1,15 @@
 //! Outline of a recipe, before its stage kinds are looked up: name, seed, stages, kinds and connections.
 
-use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value, list, table_json};
+use crate::document::{Entry, Node, Place, Problems, Table, Texts, Value, list};
 use cosfly_diagnose::nearest_name;
-use serde_json::{Map, Value as Json};
 
 /// A recipe as written, with checked keys.
 pub(crate) struct Outline {
     pub(crate) name: String,
     pub(crate) seed: u64,
     pub(crate) remove_intermediates: bool,
-    pub(crate) tool: Map<String, Json>,
+    /// Tables of other commands, which runs do not read.
+    pub(crate) tool: Table,
     /// Stages in the order of the file.
     pub(crate) stages: Vec<StageOutline>,
 }
@@ -110,16 +110,13 @@ impl Reader<'_> {
         0
     }
 
-    /// Tables of other commands, which runs do not read.
-    fn tool(&mut self, entry: Option<&Entry>) -> Map<String, Json> {
-        let Some(node) = entry.map(|entry| &entry.node) else { return Map::new() };
-        match node.as_table() {
-            Some(table) => table_json(table),
-            None => {
-                self.wrong_type("tool", node, "a table");
-                Map::new()
-            }
-        }
+    fn tool(&mut self, entry: Option<&Entry>) -> Table {
+        let Some(node) = entry.map(|entry| &entry.node) else { return Table::new() };
+        let table = node.as_table().cloned();
+        table.unwrap_or_else(|| {
+            self.wrong_type("tool", node, "a table");
+            Table::new()
+        })
     }
 
     fn intermediates(&mut self, entry: Option<&Entry>) -> bool {

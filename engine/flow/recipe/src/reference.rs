@@ -37,7 +37,7 @@ count = 4
 | `seed` | a whole number, at least `0` | `0` | Root of all randomness. |
 | `intermediates` | `\"keep\"` or `\"remove\"` | `\"keep\"` | Whether packed pictures and other intermediate files are removed from the store as soon as everything that reads them is finished. |
 | `for_each.LIST` | a list, or a pattern of files | | Values that stages are made for; see [Many towns](../guide/many-towns.md). |
-| `tool.fly` | a table | | Drone, air and latency of `cosfly fly`; see [Flying in closed loop](../guide/closed-loop.md#suites-and-episodes). Runs do not read it. |
+| `tool.fly` | a table | | Drone, air and latency of `cosfly fly`; see [below](#toolfly). Runs do not read it. |
 | `stages.NAME` | a table | at least one | A stage; names are `a-z`, `0-9`, `_` and begin with a letter. |
 | `stages.NAME.use` | a string | required | Kind of the stage: one of those below. |
 | `stages.NAME.for_each` | the name of a list, or a list of names | | The stage is made for each value, as `NAME_VALUE`; `{LIST}` or `{LIST.FIELD}` in a parameter is the value. |
@@ -51,9 +51,14 @@ At a port that takes many stages, items are called `STAGE-ITEM`; at the ports of
 /// Text of the reference page in Markdown: inputs and parameters of each kind with type, default, range and meaning.
 pub fn reference(registry: &Registry) -> String {
     let mut page = INTRODUCTION.to_owned();
+    // Writing to a String cannot fail.
     for kind in registry.iter() {
-        // Writing to a String cannot fail.
         let _ = write_kind(kind, &mut page);
+    }
+    for tool in registry.tools() {
+        let doc = tool.schema.get("description").and_then(Value::as_str).unwrap_or_default().replace('\n', " ");
+        let _ = writeln!(page, "\n## `[tool.{}]`\n\n{doc}", tool.name)
+            .and_then(|()| write_parameters(&tool.schema, &mut page));
     }
     page
 }
@@ -68,9 +73,13 @@ fn write_kind(kind: &dyn StageKind, page: &mut String) -> std::fmt::Result {
             writeln!(page, "| `{}` | {} | {} | {} |", port.name, takes(port), fan_words(port.fan), cell(port.doc))?;
         }
     }
-    let schema = kind.schema();
+    write_parameters(&kind.schema(), page)
+}
+
+/// Table of the parameters of a schema.
+fn write_parameters(schema: &Value, page: &mut String) -> std::fmt::Result {
     let mut rows = vec![];
-    collect_rows(&schema, &schema, None, "", 0, &mut rows);
+    collect_rows(schema, schema, None, "", 0, &mut rows);
     if rows.is_empty() {
         return writeln!(page, "\nNo parameters.");
     }

@@ -28,6 +28,10 @@ pub fn schema(registry: &Registry) -> Value {
         add_definitions(kind, &mut definitions);
     }
     offers.push(json!({}));
+    let mut tools = Map::new();
+    for tool in registry.tools() {
+        tools.insert(tool.name.to_owned(), without_meta(tool.schema.clone()));
+    }
     definitions.insert("stage".to_owned(), stage(&uses, &rules, &offers));
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -67,6 +71,7 @@ pub fn schema(registry: &Registry) -> Value {
             "tool": {
                 "type": "object",
                 "description": "Tables of other commands, which runs do not read: `[tool.fly]` for `cosfly fly`.",
+                "properties": tools,
                 "additionalProperties": { "type": "object" },
             },
             "stages": {
@@ -81,6 +86,14 @@ pub fn schema(registry: &Registry) -> Value {
         "additionalProperties": false,
         "$defs": definitions,
     })
+}
+
+/// A schema without what only a whole document has.
+fn without_meta(mut schema: Value) -> Value {
+    for key in ["$schema", "title", "x-gone"] {
+        schema.as_object_mut().map(|table| table.remove(key));
+    }
+    schema
 }
 
 /// Schema of a stage: what `use` may be, the rule of each kind, and what editors may offer.

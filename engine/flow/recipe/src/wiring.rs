@@ -5,7 +5,7 @@ use crate::kinds::{KnownStage, kinds_that_make};
 use crate::order::Reads;
 use crate::outline::{InputOutline, Outline, StageOutline};
 use cosfly_diagnose::{Diagnostic, nearest_name};
-use cosfly_stage::{InputPort, Registry, Takes};
+use cosfly_stage::{InputPort, Registry, StageKind, Takes};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -114,6 +114,11 @@ impl<'a> Wiring<'a> {
         let Some(port) = ports.iter().find(|port| port.name == input.port) else {
             let message = format!("`{}` is not an input of `{kind}`", input.port);
             let problem = self.texts.problem("recipe-unknown-port", &input.place, message);
+            let gone = self.registry.get(kind).map_or(&[][..], StageKind::gone);
+            if let Some((_, way_out)) = gone.iter().find(|(former, _)| *former == input.port) {
+                problems.push(problem.hint(*way_out));
+                return;
+            }
             let problem = match nearest_name(&input.port, ports.iter().map(|port| port.name)) {
                 Some(near) => problem.hint(format!("did you mean `{near}`?")),
                 None => problem,

@@ -16,6 +16,11 @@ pub trait StageKind: Send + Sync {
     /// Every port that a recipe may connect, for any parameters; for editors and the reference. The ports of the built
     /// parts together are a subset of them, apart from ports between siblings.
     fn ports(&self) -> Vec<InputPort>;
+    /// Former words of recipes for the kind itself and for its inputs, each with the way out. Former parameters stand in the schema
+    /// (`x-gone`).
+    fn gone(&self) -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
     /// Builds the stage, or its parts in dependency order, the stage itself (with the empty suffix) last. Paths go into
     /// [`crate::StageProperties::sources`] as they are written.
     ///
@@ -33,16 +38,36 @@ pub struct StagePart {
     pub stage: Box<dyn Stage>,
 }
 
-/// Stage kinds that a binary offers, by name.
+/// Table `[tool.NAME]` of recipes: settings of a command, which runs do not read.
+pub struct Tool {
+    /// Name.
+    pub name: &'static str,
+    /// JSON Schema of the table (an object), with descriptions, defaults and ranges.
+    pub schema: serde_json::Value,
+}
+
+/// Stage kinds and tools that a binary offers, by name.
 #[derive(Default)]
 pub struct Registry {
     kinds: BTreeMap<&'static str, Box<dyn StageKind>>,
+    tools: Vec<Tool>,
 }
 
 impl Registry {
     /// Creates a registry of `kinds`; a later kind replaces an earlier one of the same name.
     pub fn new(kinds: Vec<Box<dyn StageKind>>) -> Self {
-        Self { kinds: kinds.into_iter().map(|kind| (kind.name(), kind)).collect() }
+        Self { kinds: kinds.into_iter().map(|kind| (kind.name(), kind)).collect(), tools: vec![] }
+    }
+
+    /// The same with tables of a tool.
+    pub fn with_tool(mut self, tool: Tool) -> Self {
+        self.tools.push(tool);
+        self
+    }
+
+    /// All tools.
+    pub fn tools(&self) -> &[Tool] {
+        &self.tools
     }
 
     /// Kind called `name`.

@@ -22,7 +22,7 @@ pub use answers::{Answers, Asks, Spent};
 pub use artifact::{Artifact, BlobSource, Decoded, Inputs, Ports};
 pub use blobs::Blobs;
 pub use event::{RunEvent, Work};
-pub use kind::{Registry, StageKind, StagePart};
+pub use kind::{Registry, StageKind, StagePart, Tool};
 pub use name::{ItemId, ItemName, StageName};
 pub use properties::{
     Fan, InputPort, ItemRule, PortSource, ReadSchema, Resources, Sees, Settle, Source, SourceCheck, StageProperties,

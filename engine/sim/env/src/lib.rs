@@ -18,6 +18,7 @@ pub mod policies;
 mod reward;
 mod score;
 mod settings;
+mod suite;
 
 #[cfg(test)]
 mod tests;
@@ -32,3 +33,4 @@ pub use policies::Policy;
 pub use reward::Reward;
 pub use score::{End, EpisodeScore};
 pub use settings::{Blackouts, DroneSettings, EnvironmentSettings, FieldOfView, RewardWeights};
+pub use suite::{MOST_LATENCY_MS, MOST_WIND_MPS, SuiteTable};

@@ -35,7 +35,7 @@ impl Objective {
 #[serde(default, deny_unknown_fields)]
 pub struct ObjectiveConfig {
     /// Purpose of flights: `track` follows a walker each (the default), `inspect` covers the facades of buildings,
-    /// `patrol` meets timed waypoints, `plugin` is what a plugin says. The last three take no `inputs.paths`.
+    /// `patrol` meets timed waypoints, `plugin` is what a plugin says. The last three take no `inputs.walks`.
     pub objective: Objective,
     /// Inspection of buildings; `objective = "inspect"` only.
     pub inspect: InspectConfig,

@@ -7,13 +7,14 @@ use serde::{Deserialize, Serialize};
 /// Simulated pedestrians: number, length of the walks, manner of walking.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-gone" = { "steps": "write `frames`, as in stage `traffic`" }))]
 pub struct PedestrianConfig {
     /// Number of pedestrian paths. Default 4.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub count: u64,
     /// Frames of each path. Default 200.
     #[schemars(range(min = 2, max = 100_000))]
-    pub steps: u32,
+    pub frames: u32,
     /// Time between frames, seconds. Default 0.5.
     #[schemars(range(min = 0.01, max = 10.0))]
     pub dt_s: f64,
@@ -49,7 +50,7 @@ impl Default for PedestrianConfig {
     fn default() -> Self {
         Self {
             count: 4,
-            steps: 200,
+            frames: 200,
             dt_s: 0.5,
             speed: SpeedConfig::default(),
             turn_slowdown_m: 1.0,
@@ -175,11 +176,11 @@ impl PedestrianConfig {
             PedestrianConfigRule::within(path, value, min, max)?;
         }
         PedestrianConfigRule::within(&["min_route_m"], self.min_route_m, 1.0, 10_000.0)?;
-        PedestrianConfigRule::within(&["steps"], f64::from(self.steps), 2.0, 100_000.0)?;
-        let duration_s = f64::from(self.steps) * self.dt_s;
+        PedestrianConfigRule::within(&["frames"], f64::from(self.frames), 2.0, 100_000.0)?;
+        let duration_s = f64::from(self.frames) * self.dt_s;
         if duration_s > 86_400.0 {
-            let message = format!("`steps` x `dt_s` is `{duration_s}` s; it must not be more than a day, `86400` s");
-            return Err(PedestrianConfigRule { path: vec!["steps"], message });
+            let message = format!("`frames` x `dt_s` is `{duration_s}` s; it must not be more than a day, `86400` s");
+            return Err(PedestrianConfigRule { path: vec!["frames"], message });
         }
         PedestrianConfigRule::in_order(&["speed", "min_mps"], self.speed.min_mps, "max_mps", self.speed.max_mps)?;
         PedestrianConfigRule::in_order(&["stops", "min_s"], self.stops.min_s, "max_s", self.stops.max_s)?;

@@ -160,8 +160,8 @@ pub(crate) fn frames(
 ) -> Option<Vec<MotionFrame>> {
     let timeline = timeline(path, speeds, stops);
     let mut next = 1;
-    let mut frames = Vec::with_capacity(config.steps as usize);
-    for frame in 0..config.steps {
+    let mut frames = Vec::with_capacity(config.frames as usize);
+    for frame in 0..config.frames {
         let time_s = f64::from(frame) * config.dt_s;
         while next < timeline.len() && timeline[next].0 <= time_s {
             next += 1;
@@ -238,7 +238,7 @@ mod tests {
     #[test]
     fn stops_last_as_long_as_asked_and_do_not_move() {
         let (path, mut config) = (straight(60.0), quiet());
-        config.steps = 120;
+        config.frames = 120;
         let speeds = knot_speeds(&path, &config, 1.0, seed());
         let stops = [
             Stop { at_m: 10.2, duration_s: 4.0 },

@@ -36,7 +36,7 @@ pub fn walk(grid: &WalkableGrid, config: &PedestrianConfig, seed: Seed) -> Resul
     config.check()?;
     let person = Person::drawn(config, seed);
     let fastest_mps = (person.cruise_mps * (1.0 + config.speed_noise)).min(config.speed.max_mps);
-    let needed_m = fastest_mps * config.dt_s * f64::from(config.steps) + 1.0;
+    let needed_m = fastest_mps * config.dt_s * f64::from(config.frames) + 1.0;
     let mut chain = GoalChain::new(grid, config, seed)?;
     let mut wanted_m = SPARE * needed_m;
     let mut points = vec![];
@@ -186,7 +186,7 @@ mod tests {
     /// The law of a walk, on the exact ground and the exact obstacles.
     fn check_walk(town: &cosfly_domain::Town, grid: &WalkableGrid, config: &PedestrianConfig, walked: &PedestrianPath) {
         let track = &walked.track;
-        assert_eq!((track.len(), track.dt_s), (config.steps as usize, config.dt_s));
+        assert_eq!((track.len(), track.dt_s), (config.frames as usize, config.dt_s));
         assert_eq!((walked.ground.len(), walked.standing.len()), (track.len(), track.len()));
         for (i, state) in track.states.iter().enumerate() {
             let feet = state.feet_in_world;
@@ -295,7 +295,7 @@ mod tests {
         let mut config = PedestrianConfig { steps: 37, dt_s: 0.1, ..PedestrianConfig::default() };
         let grid = WalkableGrid::build(&town, &config).unwrap();
         check_walk(&town, &grid, &config, &walk(&grid, &config, seed(0)).unwrap());
-        config.steps = 2000;
+        config.frames = 2000;
         config.dt_s = 0.5;
         check_walk(&town, &grid, &config, &walk(&grid, &config, seed(0)).unwrap());
     }

@@ -10,7 +10,7 @@ use crate::exit;
 use clap::{Parser, Subcommand, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_drone::models::{self, DroneModel};
-use cosfly_env::{DroneSettings, EnvironmentSettings};
+use cosfly_env::{DroneSettings, EnvironmentSettings, MOST_LATENCY_MS, MOST_WIND_MPS};
 use cosfly_fly::flight::Latency;
 use cosfly_fly::pilot::Place;
 use cosfly_fly::results::{Card, EnvironmentCard, Folder, KeptCard, LogChoice, SuiteCard, beside};
@@ -135,13 +135,13 @@ fn latency(text: &str) -> Result<LatencyChoice, String> {
     if text == "measured" {
         return Ok(LatencyChoice::Measured);
     }
-    let number = text.parse().ok().filter(|number| *number <= 5000);
-    number.map(LatencyChoice::Milliseconds).ok_or_else(|| "it must be 0 to 5000, or `measured`".to_owned())
+    let number = text.parse().ok().filter(|number| *number <= MOST_LATENCY_MS);
+    number.map(LatencyChoice::Milliseconds).ok_or_else(|| format!("it must be 0 to {MOST_LATENCY_MS}, or `measured`"))
 }
 
 fn wind(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|number| (0.0..=30.0).contains(number));
-    number.ok_or_else(|| "it must be 0 to 30".to_owned())
+    let number = text.parse().ok().filter(|number| (0.0..=MOST_WIND_MPS).contains(number));
+    number.ok_or_else(|| format!("it must be 0 to {MOST_WIND_MPS}"))
 }
 
 /// Name that can be that of a folder.

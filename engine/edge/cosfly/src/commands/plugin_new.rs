@@ -106,7 +106,7 @@ fn write(arguments: &Arguments, name: &str) -> cosfly_diagnose::Result<Appeared>
         PluginKind::Objective => (
             include_str!("../../../../../plugins/templates/objective.rs.txt"),
             "objective",
-            "    [stages.expert]\n    use = \"muco\"\n    inputs.town = \"town\"\n    objective = \"plugin\"\n\n    [stages.expert.plugin]\n    use = \"wasm:NAME.wasm\"\n    count = 1\n",
+            "    [stages.expert]\n    use = \"plan\"\n    inputs.town = \"town\"\n    objective = \"plugin\"\n\n    [stages.expert.plugin]\n    use = \"wasm:NAME.wasm\"\n    count = 1\n",
         ),
         PluginKind::Stage => (
             include_str!("../../../../../plugins/templates/stage.rs.txt"),

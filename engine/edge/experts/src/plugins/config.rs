@@ -11,7 +11,7 @@ pub const PREFIX: &str = "wasm:";
 /// Stands for the file in parameters that go into keys: its content is there instead.
 const CONTENT: &str = "wasm:(content)";
 
-/// Plugins of a `muco` stage.
+/// Plugins of a `plan` stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ExpertPlugins {

@@ -1,4 +1,4 @@
-//! Plugins in recipes: cost terms and objectives of `muco` stages, and stages of their own.
+//! Plugins in recipes: cost terms and objectives of `plan` stages, and stages of their own.
 //!
 //! * [`config`]: plugins as recipes name them; it exists with and without the feature `plugins`.
 //! * [`tables`]: checks of the declarations of plugins that are stages.

@@ -109,7 +109,7 @@ fn ready(setting: &Setting, role: Role, path: Option<&PathBuf>) -> Result<Ready>
     Ok(Ready { plugin, params })
 }
 
-/// Plugins of a `muco` stage, or the plugin that is a stage itself.
+/// Plugins of a `plan` stage, or the plugin that is a stage itself.
 #[derive(Clone, Default)]
 pub struct Plugins {
     terms: Vec<(Ready, String, f64)>,

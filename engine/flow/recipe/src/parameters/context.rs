@@ -7,6 +7,8 @@ use serde_json::Value as Json;
 
 /// Stage whose parameters are checked, for messages.
 pub(crate) struct Subject<'a> {
+    /// Name of the table that is checked, such as `stages.frames`.
+    pub(crate) table: &'a str,
     /// Name of the stage in the recipe.
     pub(crate) stage: &'a str,
     /// Kind of the stage.
@@ -37,9 +39,9 @@ impl Context<'_> {
         self.texts.problem(code, place, format!("`{}` {}", self.name(path), rest.as_ref()))
     }
 
-    /// Path of a value; the stage's own table has the stage's name.
+    /// Path of a value; the whole table has its name.
     pub(super) fn name(&self, path: &[String]) -> String {
-        if path.is_empty() { format!("stages.{}", self.subject.stage) } else { path.join(".") }
+        if path.is_empty() { self.subject.table.to_owned() } else { path.join(".") }
     }
 
     /// Error of a value of the wrong type: the given and the expected type.

@@ -53,7 +53,7 @@ pub fn town_of_recipe(
 
 /// Index of the first stage that plans flights behind walkers.
 fn planner_of(recipe: &Recipe) -> Result<usize, Refusals> {
-    let follows = |stage: &RecipeStage| stage.has_role(StageRole::Plans) && stage.connection("paths").is_some();
+    let follows = |stage: &RecipeStage| stage.has_role(StageRole::Plans) && stage.connection("walks").is_some();
     recipe.stages.iter().position(follows).ok_or_else(|| {
         let message = format!("`{}` has no stage that plans flights behind walkers", recipe.name);
         one(Diagnostic::new("bench-no-planner", Fault::Recipe, message))
@@ -62,7 +62,7 @@ fn planner_of(recipe: &Recipe) -> Result<usize, Refusals> {
 
 /// Name of the recipe stage that makes the planner's walks, where it has a `count`.
 fn walkers_of<'r>(recipe: &'r Recipe, registry: &Registry, planner: usize) -> Option<&'r str> {
-    let upstream = &recipe.stages[*recipe.stages[planner].connection("paths")?.upstreams.first()?];
+    let upstream = &recipe.stages[*recipe.stages[planner].connection("walks")?.upstreams.first()?];
     let is_counted = registry.get(&upstream.kind)?.schema()["properties"]["count"].is_object();
     is_counted.then_some(upstream.name.recipe_name())
 }
@@ -82,7 +82,7 @@ fn ground(
         None => return Err(unfinished("town")),
     };
     let mut tracks = Vec::new();
-    for blobs in arrived(planner, summary, "paths")? {
+    for blobs in arrived(planner, summary, "walks")? {
         tracks.push(artifacts::WALK.decode(&store.read(&blobs[artifacts::WALK.blob])?)?.track);
     }
     let index = GroundIndex::new(&town);

@@ -15,8 +15,8 @@ use cosfly_town::GroundIndex;
 pub fn flown(ground: &Ground, frames: usize, count: u64) -> Vec<Vec<View>> {
     let town = &ground.town;
     let steps = u32::try_from(frames).unwrap_or(u32::MAX);
-    let least = PedestrianConfig::default().steps;
-    let config = PedestrianConfig { steps: steps.max(least), ..PedestrianConfig::default() };
+    let least = PedestrianConfig::default().frames;
+    let config = PedestrianConfig { frames: steps.max(least), ..PedestrianConfig::default() };
     let Ok(grid) = WalkableGrid::build(town, &config) else { return vec![] };
     let exact = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
     let index = GroundIndex::new(town);

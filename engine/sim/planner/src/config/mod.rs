@@ -1,4 +1,4 @@
-//! Parameters of the `muco` stage: one file per table of the recipe, with defaults, ranges and contradictions.
+//! Parameters of the `plan` stage: one file per table of the recipe, with defaults, ranges and contradictions.
 
 pub mod descent;
 pub mod drones;

@@ -1,4 +1,4 @@
-//! `muco`: expert trajectories from the multi-constraint optimiser.
+//! `plan`: expert trajectories, from the multi-constraint optimiser (MuCO) or from another planner.
 
 use crate::planning::{Setting, produced};
 use crate::ports::{self, TRAJECTORY, WALK};
@@ -20,16 +20,20 @@ use cosfly_stage::{
 };
 use std::sync::Arc;
 
-/// Stage kind `muco`.
-pub struct Muco;
+/// Stage kind `plan`.
+pub struct Plan;
 
-impl StageKind for Muco {
+impl StageKind for Plan {
     fn name(&self) -> &'static str {
-        "muco"
+        "plan"
     }
 
     fn doc(&self) -> &'static str {
         "Plans expert drone trajectories behind pedestrians, around buildings or along waypoints: cost terms, a safe corridor, a certificate."
+    }
+
+    fn gone(&self) -> &'static [(&'static str, &'static str)] {
+        &[("muco", "the kind is called `plan` now"), ("paths", "the input is called `walks` now")]
     }
 
     fn schema(&self) -> serde_json::Value {
@@ -38,7 +42,7 @@ impl StageKind for Muco {
 
     fn ports(&self) -> Vec<InputPort> {
         let optional = |port| InputPort { optional: true, ..port };
-        vec![ports::town(), optional(paths()), optional(others())]
+        vec![ports::town(), optional(walks()), optional(others())]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
@@ -46,8 +50,8 @@ impl StageKind for Muco {
         let count = expert.expert.config.targets.companions;
         let (mut parts, inputs, items) = match expert.count() {
             None => {
-                let ports = vec![ports::town(), paths(), companions::port(count == 0)];
-                (vec![companions::part(count, paths(), others())], ports, ItemRule::PerInput("paths"))
+                let ports = vec![ports::town(), walks(), companions::port(count == 0)];
+                (vec![companions::part(count, walks(), others())], ports, ItemRule::PerInput("walks"))
             }
             Some(count) => (vec![], vec![ports::town()], ItemRule::Count { prefix: "f", count }),
         };
@@ -82,32 +86,32 @@ impl StageKind for Muco {
                 role: StageRole::Serves,
                 ..properties
             };
-            let trial = MucoStage { expert: expert.clone(), properties: trial, is_trial: true };
+            let trial = PlanStage { expert: expert.clone(), properties: trial, is_trial: true };
             parts.push(StagePart { suffix: quotas::TRIALS, stage: Box::new(trial) });
             parts.push(quotas::orders_part(&occlusion));
             main.inputs.push(quotas::port());
         }
-        parts.push(StagePart { suffix: "", stage: Box::new(MucoStage { expert, properties: main, is_trial: false }) });
+        parts.push(StagePart { suffix: "", stage: Box::new(PlanStage { expert, properties: main, is_trial: false }) });
         Ok(parts)
     }
 }
 
-fn paths() -> InputPort {
-    ports::each("paths", WALK, false, "The walks to follow, one trajectory each; `objective = \"track\"` needs them.")
+fn walks() -> InputPort {
+    ports::each("walks", WALK, false, "The walks to follow, one trajectory each; `objective = \"track\"` needs them.")
 }
 
 fn others() -> InputPort {
     ports::gather("others", WALK, false, "The walks that companions are taken from; `targets.companions` needs them.")
 }
 
-struct MucoStage {
+struct PlanStage {
     expert: RecipeExpert,
     properties: StageProperties,
     /// Whether the flights are planned only to learn whether they can lose their targets.
     is_trial: bool,
 }
 
-impl Stage for MucoStage {
+impl Stage for PlanStage {
     fn properties(&self) -> &StageProperties {
         &self.properties
     }
@@ -123,7 +127,7 @@ impl Stage for MucoStage {
             Err(reason) => Flown::none(&reason),
         };
         if self.is_trial {
-            let followed = traffic::followed(inputs, inputs.one("paths")?)?;
+            let followed = traffic::followed(inputs, inputs.one("walks")?)?;
             let occlusion = &expert.expert.config.occlusion;
             let trial = Trial::of(&outcome, occlusion, &world.exact, &around, followed.as_ref());
             artifacts::LOSSES.put(outputs, &trial)?;
@@ -131,7 +135,7 @@ impl Stage for MucoStage {
         }
         artifacts::FLIGHT.put(outputs, &outcome)?;
         link_town(inputs, outputs)?;
-        if let Some(walk) = inputs.all("paths").first() {
+        if let Some(walk) = inputs.all("walks").first() {
             traffic::put_around(walk, &around, outputs)?;
         }
         let mut produced = produced(&outcome);
