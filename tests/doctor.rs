@@ -61,7 +61,7 @@ fn the_stage_inspect_lets_sound_flights_pass_and_leaves_out_imperfect_families()
     let tables = |street: &Street| tree_digests(&street.dataset().join("data/frames"));
     assert_eq!(tables(&street), tables(&plain), "what is kept passes as it is");
     // Targets in the exact middle of these tiny pictures fall between the pixels' centres.
-    let exact = "use = \"plan\"\naim = { framing_deg = 0.0, tremor_deg = 0.0, lag_s = 0.0, lag_spread_s = 0.0 }";
+    let exact = "use = \"plan\"\naim = { framing_deg = 0.0, tremor_deg = 0.0, lag_s = 0.0, lag_deviation_s = 0.0 }";
     let strict = RECIPE.replace("use = \"plan\"", exact).replace("width = 96\nheight = 54", "width = 72\nheight = 41");
     let strict = inspected_in(&strict, "");
     let printed = cosfly(&["run", "recipe.toml"]).within(strict.path()).run_ok();
@@ -72,7 +72,7 @@ fn the_stage_inspect_lets_sound_flights_pass_and_leaves_out_imperfect_families()
 
 #[test]
 fn a_quota_that_no_flight_meets_is_refused() {
-    let street = inspected("quotas = [{ share = 0.2, from_s = 30.0, to_s = 40.0 }]");
+    let street = inspected("quotas = [{ share = 0.2, min_s = 30.0, max_s = 40.0 }]");
     let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run();
     assert_eq!(printed.code, Some(3), "{}", printed.stderr);
     assert!(printed.stderr.contains("no flight loses its target for 30 to 40 s"), "{}", printed.stderr);

@@ -35,16 +35,17 @@ impl Default for InspectConfig {
 /// A share of flights with a loss of a certain length, such as 20 % with one of 2 to 4 s.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("x-gone" = { "from_s": "write `min_s`", "to_s": "write `max_s`" }))]
 pub struct LossQuota {
     /// Share that is wanted.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: f64,
     /// Shortest loss, seconds.
     #[schemars(range(min = 0.0))]
-    pub from_s: f64,
+    pub min_s: f64,
     /// Longest loss, seconds.
     #[schemars(range(min = 0.0))]
-    pub to_s: f64,
+    pub max_s: f64,
 }
 
 /// Reasons why items are left out, by name.
@@ -89,7 +90,7 @@ impl Family {
     }
 
     fn meets(&self, quota: &LossQuota) -> bool {
-        self.losses_s.iter().any(|lost| *lost >= quota.from_s && *lost <= quota.to_s)
+        self.losses_s.iter().any(|lost| *lost >= quota.min_s && *lost <= quota.max_s)
     }
 }
 
@@ -132,9 +133,9 @@ fn decide(families: &[Family], config: &InspectConfig) -> Result<Verdict> {
     let mut kept: Vec<&Family> = perfect.into_iter().chain(kept.iter().copied()).collect();
     for quota in &config.quotas {
         let members = kept.iter().filter(|family| family.meets(quota)).count();
-        let (from_s, to_s, percent) = (quota.from_s, quota.to_s, 100.0 * quota.share);
+        let (min_s, max_s, percent) = (quota.min_s, quota.max_s, 100.0 * quota.share);
         if members == 0 && quota.share > 0.0 && !kept.is_empty() {
-            let message = format!("no flight loses its target for {from_s} to {to_s} s; {percent} % are wanted");
+            let message = format!("no flight loses its target for {min_s} to {max_s} s; {percent} % are wanted");
             return Err(Diagnostic::new("inspect-quota", Fault::Recipe, message)
                 .hint("lower the quota's share, widen its times, or make more flights"));
         }
@@ -146,7 +147,7 @@ fn decide(families: &[Family], config: &InspectConfig) -> Result<Verdict> {
                 surplus -= 1;
                 leave(
                     family,
-                    &format!("the quota: {percent} % of the flights are to lose their target for {from_s} to {to_s} s"),
+                    &format!("the quota: {percent} % of the flights are to lose their target for {min_s} to {max_s} s"),
                 );
             }
             !goes
@@ -187,13 +188,13 @@ mod tests {
     fn a_quota_leaves_out_as_many_as_it_must() {
         let families = families(10, |at, family| family.losses_s = if at < 2 { vec![3.0] } else { vec![0.5] });
         let quota = |share: f64| InspectConfig {
-            quotas: vec![LossQuota { share, from_s: 2.0, to_s: 4.0 }],
+            quotas: vec![LossQuota { share, min_s: 2.0, max_s: 4.0 }],
             ..InspectConfig::default()
         };
         assert!(decide(&families, &quota(0.2)).unwrap().is_empty());
         assert_eq!(decide(&families, &quota(0.5)).unwrap().len(), 12, "2 of 4 families are half");
         let config = InspectConfig {
-            quotas: vec![LossQuota { share: 0.1, from_s: 8.0, to_s: 9.0 }],
+            quotas: vec![LossQuota { share: 0.1, min_s: 8.0, max_s: 9.0 }],
             ..InspectConfig::default()
         };
         assert_eq!(decide(&families, &config).unwrap_err().code, "inspect-quota");

@@ -37,8 +37,8 @@ impl StageKind for Inspect {
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let config: InspectConfig = parameters::read(given)?;
-        if let Some(at) = config.quotas.iter().position(|quota| quota.from_s > quota.to_s) {
-            return Err(parameters::refused_at(&format!("quotas[{at}]"), "`from_s` is more than `to_s`"));
+        if let Some(at) = config.quotas.iter().position(|quota| quota.min_s > quota.max_s) {
+            return Err(parameters::refused_at(&format!("quotas[{at}]"), "`min_s` is more than `max_s`"));
         }
         let mut inputs = self.ports();
         inputs.push(verdict::port());

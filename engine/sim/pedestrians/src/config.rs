@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Simulated pedestrians: number, length of the walks, manner of walking.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-#[schemars(extend("x-gone" = { "steps": "write `frames`, as in stage `traffic`" }))]
+#[schemars(extend("x-gone" = { "speed_noise": "write `speed_variation_share`", "steps": "write `frames`, as in stage `traffic`" }))]
 pub struct PedestrianConfig {
     /// Number of pedestrian paths. Default 4.
     #[schemars(range(min = 1, max = 1_000_000))]
@@ -25,7 +25,7 @@ pub struct PedestrianConfig {
     pub turn_slowdown_m: f64,
     /// Random variation of the speed, as a share of it. Default 0.1.
     #[schemars(range(min = 0.0, max = 0.9))]
-    pub speed_noise: f64,
+    pub speed_variation_share: f64,
     /// Random stops.
     pub stops: StopConfig,
     /// Body height.
@@ -54,7 +54,7 @@ impl Default for PedestrianConfig {
             dt_s: 0.5,
             speed: SpeedConfig::default(),
             turn_slowdown_m: 1.0,
-            speed_noise: 0.1,
+            speed_variation_share: 0.1,
             stops: StopConfig::default(),
             height: HeightRange::default(),
             radius: RadiusRange::default(),
@@ -160,7 +160,7 @@ impl PedestrianConfig {
             (&["speed", "min_mps"], self.speed.min_mps, 0.05, 10.0),
             (&["speed", "max_mps"], self.speed.max_mps, 0.05, 10.0),
             (&["turn_slowdown_m"], self.turn_slowdown_m, 0.0, 100.0),
-            (&["speed_noise"], self.speed_noise, 0.0, 0.9),
+            (&["speed_variation_share"], self.speed_variation_share, 0.0, 0.9),
             (&["stops", "per_100m"], self.stops.per_100m, 0.0, 50.0),
             (&["stops", "min_s"], self.stops.min_s, 0.0, 3600.0),
             (&["stops", "max_s"], self.stops.max_s, 0.0, 3600.0),

@@ -91,7 +91,7 @@ pub(crate) fn knot_speeds(path: &ArcPath, config: &PedestrianConfig, cruise_mps:
             let inner = s_m >= KNOT_M && s_m + KNOT_M <= path.length_m();
             let curvature =
                 if inner { menger_curvature(path.at(s_m - KNOT_M), path.at(s_m), path.at(s_m + KNOT_M)) } else { 0.0 };
-            let vary = 1.0 + config.speed_noise * noise.uniform(-1.0, 1.0);
+            let vary = 1.0 + config.speed_variation_share * noise.uniform(-1.0, 1.0);
             (cruise_mps / (1.0 + config.turn_slowdown_m * curvature) * vary)
                 .clamp(config.speed.min_mps, config.speed.max_mps)
         })
@@ -193,7 +193,7 @@ mod tests {
     }
 
     fn quiet() -> PedestrianConfig {
-        let mut config = PedestrianConfig { speed_noise: 0.0, ..PedestrianConfig::default() };
+        let mut config = PedestrianConfig { speed_variation_share: 0.0, ..PedestrianConfig::default() };
         config.stops.per_100m = 0.0;
         config
     }

@@ -35,7 +35,7 @@ const ROUNDS: usize = 6;
 pub fn walk(grid: &WalkableGrid, config: &PedestrianConfig, seed: Seed) -> Result<PedestrianPath, PedestrianError> {
     config.check()?;
     let person = Person::drawn(config, seed);
-    let fastest_mps = (person.cruise_mps * (1.0 + config.speed_noise)).min(config.speed.max_mps);
+    let fastest_mps = (person.cruise_mps * (1.0 + config.speed_variation_share)).min(config.speed.max_mps);
     let needed_m = fastest_mps * config.dt_s * f64::from(config.frames) + 1.0;
     let mut chain = GoalChain::new(grid, config, seed)?;
     let mut wanted_m = SPARE * needed_m;
@@ -292,7 +292,7 @@ mod tests {
     #[test]
     fn other_steps_and_time_steps_are_kept_exactly() {
         let town = streets();
-        let mut config = PedestrianConfig { steps: 37, dt_s: 0.1, ..PedestrianConfig::default() };
+        let mut config = PedestrianConfig { frames: 37, dt_s: 0.1, ..PedestrianConfig::default() };
         let grid = WalkableGrid::build(&town, &config).unwrap();
         check_walk(&town, &grid, &config, &walk(&grid, &config, seed(0)).unwrap());
         config.frames = 2000;

@@ -63,7 +63,7 @@ fn odd_ground_gives_a_walk_on_it_or_an_error() {
     for item in 0..300 {
         let town = odd_town(&mut stream);
         let config = PedestrianConfig {
-            steps: 60,
+            frames: 60,
             min_route_m: 5.0,
             grid_m: stream.uniform(0.2, 1.5),
             edge_distance_m: stream.uniform(0.0, 2.0),

@@ -105,7 +105,7 @@ fn broken_files_are_refused_with_their_line() {
         ("0,1,0,0\n", "the file has no track with time"),
         (
             "0,1,0,0\n1,1,90,0\n",
-            "no two points of a track follow each other at `fastest_mps`, 8, or less; the first jump is at 90.0 m/s, of `1` (line 2)",
+            "no two points of a track follow each other at `max_speed_mps`, 8, or less; the first jump is at 90.0 m/s, of `1` (line 2)",
         ),
         ("1 2 3 4 5 6 7 8\n1 2 3\n", "a row of an `obsmat` file has 8 numbers; this one has 3 (line 2)"),
         ("1 x 3 4 5 6 7 8\n", "`x` in column `id` is not a finite number (line 1)"),
@@ -192,8 +192,8 @@ fn what_is_odd_is_counted_and_said() {
         [warnings, people.notes()].concat(),
         [
             "1 points at the time of the point before are left out",
-            "tracks are parted at 1 jumps, the first of `a` at 29.0 m/s (line 4); `fastest_mps` is 8",
-            "tracks are parted at 1 gaps longer than `longest_gap_s`, 30 s",
+            "tracks are parted at 1 jumps, the first of `a` at 29.0 m/s (line 4); `max_speed_mps` is 8",
+            "tracks are parted at 1 gaps longer than `max_gap_s`, 30 s",
             "1 tracks of one point are left out",
             "recorded people leave the town: 4 of their frames are left out",
             "1 recorded people cross the town's things in 3 frames, the first is `a` at (0.0, 0.0)",
@@ -270,13 +270,13 @@ fn people_of_zara_and_of_the_university_walk_in_a_field_and_none_overlap() {
 fn a_real_hike_is_read_and_its_points_without_time_are_counted() {
     let Some(path) = shared_input("gpx/korita-zbevnica.gpx") else { return };
     let bytes = std::fs::read(path).unwrap();
-    let config = RecordedConfig { longest_gap_s: 300.0, ..RecordedConfig::default() };
+    let config = RecordedConfig { max_gap_s: 300.0, ..RecordedConfig::default() };
     let recording = Recording::read(&bytes, &config).unwrap();
     let points: usize = recording.tracks.iter().map(|track| track.points.len()).sum();
     println!("{} tracks, {points} points, {:?}", recording.tracks.len(), recording.warnings);
     assert!(recording.is_geographic && points > 450);
     assert!(recording.warnings[0].ends_with("points without a time are left out"));
-    let short = RecordedConfig { longest_gap_s: 1.0, ..RecordedConfig::default() };
+    let short = RecordedConfig { max_gap_s: 1.0, ..RecordedConfig::default() };
     let error = Recording::read(&bytes, &short).unwrap_err();
-    assert!(error.hint.contains("longest_gap_s"), "{error:?}");
+    assert!(error.hint.contains("max_gap_s"), "{error:?}");
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Simulated vehicles: number, kinds, manner of driving, parked cars.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-gone" = { "speed_deviation": "write `speed_deviation_share`" }))]
 pub struct VehicleConfig {
     /// Number of vehicles that drive when the flight begins. Where the lanes have room for fewer, there are fewer, with a note.
     /// Default 60.
@@ -19,7 +20,7 @@ pub struct VehicleConfig {
     pub speed_share: f64,
     /// Standard deviation of that share between drivers. Default 0.08.
     #[schemars(range(min = 0.0, max = 0.3))]
-    pub speed_deviation: f64,
+    pub speed_deviation_share: f64,
     /// Time gap that drivers keep to the vehicle ahead, seconds. Default 1.4.
     #[schemars(range(min = 0.5, max = 5.0))]
     pub headway_s: f64,
@@ -61,7 +62,7 @@ impl Default for VehicleConfig {
             count: 60,
             mix: MixConfig::default(),
             speed_share: 0.95,
-            speed_deviation: 0.08,
+            speed_deviation_share: 0.08,
             headway_s: 1.4,
             parked_share: 0.3,
             area_m: None,
@@ -83,7 +84,7 @@ impl VehicleConfig {
     pub fn validate(&self) -> Result<(), VehicleConfigRule> {
         within(&["count"], f64::from(self.count), 0.0, 5_000.0)?;
         within(&["speed_share"], self.speed_share, 0.2, 1.5)?;
-        within(&["speed_deviation"], self.speed_deviation, 0.0, 0.3)?;
+        within(&["speed_deviation_share"], self.speed_deviation_share, 0.0, 0.3)?;
         within(&["headway_s"], self.headway_s, 0.5, 5.0)?;
         within(&["parked_share"], self.parked_share, 0.0, 1.0)?;
         let MixConfig { cars, vans, trucks, buses, motorcycles, bicycles } = self.mix;

@@ -43,7 +43,7 @@ pub(crate) fn driving(
         let mut random = own.stream("start");
         let kind = draw_kind(&config.mix, &mut random);
         let size_m = size_m(kind, &mut random);
-        let speed_share = random.normal(config.speed_share, config.speed_deviation).clamp(0.2, 1.5);
+        let speed_share = random.normal(config.speed_share, config.speed_deviation_share).clamp(0.2, 1.5);
         let looks = own.child("looks", 0);
         let plan = BodyPlan { source: String::new(), kind, size_m, looks, group: None };
         for _ in 0..TRIES {

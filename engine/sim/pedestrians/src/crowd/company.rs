@@ -125,9 +125,9 @@ impl Company {
         }
         self.until_stop_m -= people[0].velocity_mps.length() * step_s;
         if self.until_stop_m <= 0.0 && people.iter().all(|person| self.may_stand(person, grid)) {
-            let length_s = config.stops.median_s * real::exp(config.stops.spread * self.stream.normal(0.0, 1.0));
+            let length_s = config.stops.median_s * real::exp(config.stops.log_deviation * self.stream.normal(0.0, 1.0));
             let slowing_s = self.cruise_mps / config.braking_mps2;
-            self.activity = Activity::Standing { until_s: time_s + slowing_s + length_s.min(config.stops.longest_s) };
+            self.activity = Activity::Standing { until_s: time_s + slowing_s + length_s.min(config.stops.max_s) };
             self.until_stop_m = self.way_to_stop_m(config);
         }
     }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 /// People who walk the town together: number, manner of walking, groups, stops.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-gone" = { "speed_noise": "write `speed_deviation_share`", "unevenness_mps": "write `step_deviation_mps`" }))]
 pub struct CrowdConfig {
     /// Number of people. Default 100.
     #[schemars(range(min = 0, max = 20_000))]
@@ -15,10 +16,10 @@ pub struct CrowdConfig {
     pub speed: SpeedConfig,
     /// Random variation of a person's own speed, standard deviation as a share of it. Default 0.06.
     #[schemars(range(min = 0.0, max = 0.5))]
-    pub speed_noise: f64,
+    pub speed_deviation_share: f64,
     /// Irregularity of the steps: standard deviation of the velocity along and across the way, m/s. Default 0.1.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub unevenness_mps: f64,
+    pub step_deviation_mps: f64,
     /// Deceleration before a stop and acceleration after it, m/s2. Default 1.1.
     #[schemars(range(min = 0.1, max = 5.0))]
     pub braking_mps2: f64,
@@ -54,8 +55,8 @@ impl Default for CrowdConfig {
         Self {
             count: 100,
             speed: lone.speed,
-            speed_noise: 0.06,
-            unevenness_mps: 0.1,
+            speed_deviation_share: 0.06,
+            step_deviation_mps: 0.1,
             braking_mps2: 1.1,
             side: SideConfig::default(),
             groups: GroupConfig::default(),
@@ -119,6 +120,7 @@ impl Default for GroupConfig {
 /// Stops, never on a crossing or a carriageway. Their lengths are lognormal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-gone" = { "longest_s": "write `max_s`", "spread": "write `log_deviation`" }))]
 pub struct CrowdStopConfig {
     /// Mean number of stops in 100 m of walk. Default 0.8.
     #[schemars(range(min = 0.0, max = 50.0))]
@@ -128,10 +130,10 @@ pub struct CrowdStopConfig {
     pub median_s: f64,
     /// Spread of the lengths: standard deviation of their natural logarithm. Default 1.
     #[schemars(range(min = 0.0, max = 3.0))]
-    pub spread: f64,
+    pub log_deviation: f64,
     /// Longest stop, seconds. Default 120.
     #[schemars(range(min = 0.1, max = 3600.0))]
-    pub longest_s: f64,
+    pub max_s: f64,
     /// Share of the people, or of their groups, who stand in one place for all frames. Default 0.02.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub standing_share: f64,
@@ -139,7 +141,7 @@ pub struct CrowdStopConfig {
 
 impl Default for CrowdStopConfig {
     fn default() -> Self {
-        Self { per_100m: 0.8, median_s: 2.2, spread: 1.0, longest_s: 120.0, standing_share: 0.02 }
+        Self { per_100m: 0.8, median_s: 2.2, log_deviation: 1.0, max_s: 120.0, standing_share: 0.02 }
     }
 }
 
@@ -173,8 +175,8 @@ impl CrowdConfig {
         PedestrianConfigRule::within(&["count"], f64::from(self.count), 0.0, 20_000.0)?;
         self.body_and_grid().check()?;
         let numbers: [(&'static [&'static str], f64, f64, f64); 17] = [
-            (&["speed_noise"], self.speed_noise, 0.0, 0.5),
-            (&["unevenness_mps"], self.unevenness_mps, 0.0, 1.0),
+            (&["speed_deviation_share"], self.speed_deviation_share, 0.0, 0.5),
+            (&["step_deviation_mps"], self.step_deviation_mps, 0.0, 1.0),
             (&["braking_mps2"], self.braking_mps2, 0.1, 5.0),
             (&["side", "mean_m"], self.side.mean_m, -3.0, 3.0),
             (&["side", "deviation_m"], self.side.deviation_m, 0.0, 3.0),
@@ -184,8 +186,8 @@ impl CrowdConfig {
             (&["groups", "abreast_m"], self.groups.abreast_m, 0.3, 3.0),
             (&["stops", "per_100m"], self.stops.per_100m, 0.0, 50.0),
             (&["stops", "median_s"], self.stops.median_s, 0.1, 3600.0),
-            (&["stops", "spread"], self.stops.spread, 0.0, 3.0),
-            (&["stops", "longest_s"], self.stops.longest_s, 0.1, 3600.0),
+            (&["stops", "log_deviation"], self.stops.log_deviation, 0.0, 3.0),
+            (&["stops", "max_s"], self.stops.max_s, 0.1, 3600.0),
             (&["stops", "standing_share"], self.stops.standing_share, 0.0, 1.0),
             (&["ground_cost", "crossing"], self.ground_cost.crossing, 1.0, 1000.0),
             (&["ground_cost", "shoulder"], self.ground_cost.shoulder, 1.0, 1000.0),
@@ -196,7 +198,7 @@ impl CrowdConfig {
         }
         PedestrianConfigRule::within(&["gap_s"], self.gap_s, 0.0, 60.0)?;
         self.groups.check()?;
-        PedestrianConfigRule::in_order(&["stops", "median_s"], self.stops.median_s, "longest_s", self.stops.longest_s)
+        PedestrianConfigRule::in_order(&["stops", "median_s"], self.stops.median_s, "max_s", self.stops.max_s)
     }
 
     /// Body sizes, speeds and grid, as the pedestrians who walk alone have them.
@@ -253,7 +255,7 @@ mod tests {
         );
         assert_eq!(
             refused(|it| it.stops.median_s = 200.0),
-            "`median_s` is `200`; it must not be more than `longest_s`, which is `120`"
+            "`median_s` is `200`; it must not be more than `max_s`, which is `120`"
         );
         assert_eq!(
             refused(|it| it.radius.min_m = 1.0),

@@ -78,7 +78,7 @@ impl Person {
             company,
             looks: seed.child("looks", 0),
             sway_m: stream.normal(0.0, config.side.drift_m),
-            tempo: stream.normal(0.0, config.speed_noise),
+            tempo: stream.normal(0.0, config.speed_deviation_share),
             blocked_s: 0.0,
             uneven_mps: DVec2::ZERO,
             stream,
@@ -105,9 +105,9 @@ impl Person {
             *value = *value * kept + deviation * (1.0 - kept * kept).sqrt() * self.stream.normal(0.0, 1.0);
         };
         wander(&mut self.sway_m, config.side.drift_m, config.side.drift_s);
-        wander(&mut self.tempo, config.speed_noise, TEMPO_S);
-        wander(&mut self.uneven_mps.x, config.unevenness_mps, UNEVEN_S);
-        wander(&mut self.uneven_mps.y, config.unevenness_mps, UNEVEN_S);
+        wander(&mut self.tempo, config.speed_deviation_share, TEMPO_S);
+        wander(&mut self.uneven_mps.x, config.step_deviation_mps, UNEVEN_S);
+        wander(&mut self.uneven_mps.y, config.step_deviation_mps, UNEVEN_S);
     }
 
     /// Direction of the way on from the straight one: who is blocked goes to the right, as the others do to theirs.

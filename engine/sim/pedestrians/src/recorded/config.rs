@@ -35,6 +35,7 @@ impl RecordedFormat {
 /// Recorded people: format, clock, place in the town, bodies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-gone" = { "fastest_mps": "write `max_speed_mps`", "longest_gap_s": "write `max_gap_s`" }))]
 pub struct RecordedConfig {
     /// Format of the file. Without it, the content decides.
     pub format: Option<RecordedFormat>,
@@ -54,10 +55,10 @@ pub struct RecordedConfig {
     pub y_is_left: bool,
     /// Nobody is faster, m/s: at a jump the track is parted, and the person is two people. Default 8.
     #[schemars(range(min = 0.1, max = 100.0))]
-    pub fastest_mps: f64,
+    pub max_speed_mps: f64,
     /// Longest time between two points of one track, seconds: at a longer gap the track is parted. Default 30.
     #[schemars(range(min = 0.01, max = 3600.0))]
-    pub longest_gap_s: f64,
+    pub max_gap_s: f64,
     /// Body height.
     pub height: HeightRange,
     /// Body radius seen from above, at most: where two recorded people come nearer, their radii are smaller.
@@ -73,8 +74,8 @@ impl Default for RecordedConfig {
             origin_m: [0.0, 0.0],
             turn_deg: 0.0,
             y_is_left: true,
-            fastest_mps: 8.0,
-            longest_gap_s: 30.0,
+            max_speed_mps: 8.0,
+            max_gap_s: 30.0,
             height: HeightRange::default(),
             radius: RadiusRange::default(),
         }
@@ -94,8 +95,8 @@ impl RecordedConfig {
             (&["origin_m"], self.origin_m[0], -far_m, far_m),
             (&["origin_m"], self.origin_m[1], -far_m, far_m),
             (&["turn_deg"], self.turn_deg, -360.0, 360.0),
-            (&["fastest_mps"], self.fastest_mps, 0.1, 100.0),
-            (&["longest_gap_s"], self.longest_gap_s, 0.01, 3600.0),
+            (&["max_speed_mps"], self.max_speed_mps, 0.1, 100.0),
+            (&["max_gap_s"], self.max_gap_s, 0.01, 3600.0),
             (&["height", "min_m"], self.height.min_m, 0.5, 3.0),
             (&["height", "max_m"], self.height.max_m, 0.5, 3.0),
             (&["radius", "min_m"], self.radius.min_m, 0.05, 2.0),

@@ -54,8 +54,8 @@ impl Counts {
     fn nothing_left(&self, config: &RecordedConfig, all_are_timed: bool) -> RecordedError {
         if let Some((id, speed_mps, line)) = &self.first_jump {
             let message = format!(
-                "no two points of a track follow each other at `fastest_mps`, {}, or less; the first jump is at {speed_mps:.1} m/s, of `{id}`",
-                config.fastest_mps
+                "no two points of a track follow each other at `max_speed_mps`, {}, or less; the first jump is at {speed_mps:.1} m/s, of `{id}`",
+                config.max_speed_mps
             );
             return RecordedError::new(message)
                 .at(*line)
@@ -63,7 +63,7 @@ impl Counts {
         }
         let hint = match (self.gaps > 0, all_are_timed) {
             (true, _) => {
-                "all points are farther apart in time than `longest_gap_s`: set it higher, or `rate_hz = 1000` for times in milliseconds"
+                "all points are farther apart in time than `max_gap_s`: set it higher, or `rate_hz = 1000` for times in milliseconds"
             }
             (false, true) => "the file needs at least one person with two points",
             (false, false) => "tracks need a time for each point",
@@ -79,14 +79,13 @@ impl Counts {
         if let Some((id, speed_mps, line)) = &self.first_jump {
             let place = if *line > 0 { format!(" (line {line})") } else { String::new() };
             warnings.push(format!(
-                "tracks are parted at {} jumps, the first of `{id}` at {speed_mps:.1} m/s{place}; `fastest_mps` is {}",
-                self.jumps, config.fastest_mps
+                "tracks are parted at {} jumps, the first of `{id}` at {speed_mps:.1} m/s{place}; `max_speed_mps` is {}",
+                self.jumps, config.max_speed_mps
             ));
         }
         if self.gaps > 0 {
-            let longest_s = config.longest_gap_s;
-            warnings
-                .push(format!("tracks are parted at {} gaps longer than `longest_gap_s`, {longest_s} s", self.gaps));
+            let longest_s = config.max_gap_s;
+            warnings.push(format!("tracks are parted at {} gaps longer than `max_gap_s`, {longest_s} s", self.gaps));
         }
         if self.lone > 0 {
             warnings.push(format!("{} tracks of one point are left out", self.lone));
@@ -118,11 +117,11 @@ fn part(
                 continue;
             }
             let speed_mps = distance_m(before.at, point.at, is_geographic) / passed_s;
-            if speed_mps > config.fastest_mps {
+            if speed_mps > config.max_speed_mps {
                 counts.jumps += 1;
                 counts.first_jump.get_or_insert((track.id.clone(), speed_mps, point.line));
                 parts.push(vec![]);
-            } else if passed_s > config.longest_gap_s {
+            } else if passed_s > config.max_gap_s {
                 counts.gaps += 1;
                 parts.push(vec![]);
             }

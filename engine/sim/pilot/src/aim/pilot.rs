@@ -34,7 +34,7 @@ pub fn aimed(
         slow.zip(wander(tremor, config.tremor_deg.to_radians(), TREMOR_S)).map(|(slow, quick)| slow + quick)
     };
     let (across, upwards) = (axis("framing across", "tremor across"), axis("framing upwards", "tremor upwards"));
-    let lags = wander("lag", config.lag_spread_s, LAG_WANDERS_S);
+    let lags = wander("lag", config.lag_deviation_s, LAG_WANDERS_S);
     let largest_step_rad = config.max_rate_deg_s.to_radians() * dt_s;
     let mut poses: Vec<Pose> = Vec::with_capacity(positions.len());
     let errors = across.zip(upwards).zip(lags).enumerate().skip(first_frame);

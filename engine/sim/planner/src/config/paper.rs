@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 /// those of `view` and `limits`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-gone" = { "nearest_share": "write `min_distance_share`", "farthest_share": "write `max_distance_share`" }))]
 pub struct PaperConfig {
     /// Frames between searched viewpoints (paper: 5 to 10). Default 5.
     #[schemars(range(min = 1, max = 20))]
@@ -17,10 +18,10 @@ pub struct PaperConfig {
     /// Least horizontal distance that is searched, as a share of the standard one, which is the best distance times
     /// the cosine of the best pitch (paper: 0.7). Default 0.7.
     #[schemars(range(min = 0.1, max = 3.0))]
-    pub nearest_share: f64,
+    pub min_distance_share: f64,
     /// Largest horizontal distance that is searched, as a share of the standard one (paper: 1.2). Default 1.2.
     #[schemars(range(min = 0.1, max = 3.0))]
-    pub farthest_share: f64,
+    pub max_distance_share: f64,
     /// Weight of visibility while viewpoints are searched (the paper says only "optimal"). Default 60.
     #[schemars(range(min = 0.0, max = 1_000_000.0))]
     pub search_visibility: f64,
@@ -50,8 +51,8 @@ impl Default for PaperConfig {
         Self {
             keyframe_frames: 5,
             rear_sector_deg: 60.0,
-            nearest_share: 0.7,
-            farthest_share: 1.2,
+            min_distance_share: 0.7,
+            max_distance_share: 1.2,
             search_visibility: 60.0,
             keyframe_motion: 0.02,
             hidden_run_frames: 5,
@@ -69,8 +70,8 @@ impl PaperConfig {
         for (name, value, low, high) in [
             ("keyframe_frames", f64::from(self.keyframe_frames), 1.0, 20.0),
             ("rear_sector_deg", self.rear_sector_deg, 0.0, 180.0),
-            ("nearest_share", self.nearest_share, 0.1, 3.0),
-            ("farthest_share", self.farthest_share, 0.1, 3.0),
+            ("min_distance_share", self.min_distance_share, 0.1, 3.0),
+            ("max_distance_share", self.max_distance_share, 0.1, 3.0),
             ("search_visibility", self.search_visibility, 0.0, 1e6),
             ("keyframe_motion", self.keyframe_motion, 0.0, 1000.0),
             ("hidden_run_frames", f64::from(self.hidden_run_frames), 1.0, 1000.0),
@@ -85,12 +86,12 @@ impl PaperConfig {
                 ));
             }
         }
-        if self.nearest_share > self.farthest_share {
-            let (nearest, farthest) = (self.nearest_share, self.farthest_share);
+        if self.min_distance_share > self.max_distance_share {
+            let (nearest, farthest) = (self.min_distance_share, self.max_distance_share);
             let rule = format!(
-                "`paper.nearest_share` is {nearest}; it must not be above `paper.farthest_share`, which is {farthest}"
+                "`paper.min_distance_share` is {nearest}; it must not be above `paper.max_distance_share`, which is {farthest}"
             );
-            return Err(("nearest_share".to_owned(), rule));
+            return Err(("min_distance_share".to_owned(), rule));
         }
         Ok(())
     }
@@ -112,6 +113,6 @@ mod tests {
         };
         check(&|c| c.keyframe_frames = 0, "keyframe_frames");
         check(&|c| c.rear_sector_deg = f64::NAN, "rear_sector_deg");
-        check(&|c| c.nearest_share = 1.3, "nearest_share");
+        check(&|c| c.min_distance_share = 1.3, "min_distance_share");
     }
 }

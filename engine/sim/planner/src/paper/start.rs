@@ -83,7 +83,7 @@ impl<'a> ViewpointSearch<'a> {
         let view = problem.view;
         let costs = PlaceCosts { weights: config.resolved_weights(), view };
         let standard_m = view.distance_m * real::cos(view.pitch_deg.to_radians());
-        let ring_m = (paper.nearest_share * standard_m, paper.farthest_share * standard_m);
+        let ring_m = (paper.min_distance_share * standard_m, paper.max_distance_share * standard_m);
         let sector = paper.rear_sector_deg.to_radians();
         let mut candidates = Vec::new();
         for azimuth in 0..AZIMUTHS {

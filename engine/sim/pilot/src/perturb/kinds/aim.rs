@@ -22,7 +22,7 @@ fn coarse_aim(config: &FlyableConfig) -> AimConfig {
         framing_s: 5.0,
         tremor_deg: 1.0,
         lag_s: config.aim_lag_s,
-        lag_spread_s: 0.4 * config.aim_lag_s,
+        lag_deviation_s: 0.4 * config.aim_lag_s,
         max_deg: 3.0 * config.aim_deg,
         max_rate_deg_s: config.max_rate_deg_s,
     }
