@@ -79,6 +79,18 @@ fn runs_into_one_folder_and_a_new_store_take_turns() {
 }
 
 #[test]
+fn runs_into_one_folder_from_different_stores_all_end_whole() {
+    let street = Street::new();
+    let run = "run recipe.toml --quiet --jobs 1 --set stages.walkers.count=1";
+    for printed in at_once(street.path(), |number| words(&format!("{run} --store store{number}"))) {
+        assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+    }
+    cosfly(&words(&format!("{run} --store store0 --out alone"))).within(street.path()).run_ok();
+    assert_eq!(tree_digests(&street.dataset()), tree_digests(&street.path().join("alone")));
+    assert_eq!(left_over(&street.path().join("out")), [""; 0]);
+}
+
+#[test]
 fn what_is_made_of_a_dataset_is_whole() {
     let street = Street::new();
     let place = |name: &str| street.path().join(name);

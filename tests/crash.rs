@@ -25,6 +25,34 @@ fn jobs_and_repetition_change_no_byte() {
     assert_eq!(one, tree_digests(&street.path().join("again")));
 }
 
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_a_run_within_seconds_in_the_middle_of_an_item_and_the_next_run_goes_on() {
+    let street = Street::new();
+    // A walk of hours: it takes minutes to simulate and to plan behind.
+    let endless = [
+        "run",
+        "recipe.toml",
+        "--out",
+        "out",
+        "--set",
+        "stages.walkers.count=1",
+        "--set",
+        "stages.walkers.frames=40000",
+    ];
+    let mut running = cosfly(&endless).within(street.path()).spawn();
+    std::thread::sleep(Duration::from_secs(4));
+    assert!(running.try_wait().expect("a state").is_none(), "it is at work");
+    let asked = Instant::now();
+    let sent = std::process::Command::new("kill").args(["-INT", &running.id().to_string()]).status().expect("a signal");
+    assert!(sent.success());
+    let ended = running.wait().expect("an end");
+    assert_eq!(ended.code(), Some(130));
+    // Two seconds are promised; a busy machine gets more.
+    assert!(asked.elapsed() < Duration::from_secs(10), "{:?}", asked.elapsed());
+    run(&street, "out", &[]);
+}
+
 /// Finished items of a store with their times of publication.
 fn finished(store: &std::path::Path) -> BTreeMap<String, std::time::SystemTime> {
     let mut found = BTreeMap::new();

@@ -148,7 +148,7 @@ fn servers_that_are_no_policies_are_named_and_waited_for_only_where_it_helps() {
     let street = Street::new();
     for (answer, words) in [
         (Some(&b"HTTP/1.1 301 Moved\r\nLocation: http://elsewhere/\r\n\r\n"[..]), "redirects are not followed"),
-        (Some(b"HTTP/1.1 401 Unauthorized\r\n\r\n"), "give its key with COSFLY_API_KEY"),
+        (Some(b"HTTP/1.1 401 Unauthorized\r\n\r\n"), "give its key with COSFLY_API_KEY or `--api-key-file`"),
         (Some(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n"), "404"),
         (Some(b"\x00\xff\xfenot HTTP at all\r\n\r\n"), "does not speak as a WebSocket"),
         (Some(b"HTTP/1.1 503 Service Unavailable\r\n\r\n"), "503"),
@@ -185,6 +185,19 @@ fn keys_are_in_no_error_no_row_and_no_page() {
         let printed = run(cosfly(&["fly", "recipe.toml", "--policy", address]).within(street.path()));
         assert_eq!(printed.code, Some(3), "{}", printed.stderr);
         assert!(!printed.stderr.contains(key) && printed.stderr.contains("COSFLY_API_KEY"), "{}", printed.stderr);
+    }
+    // No option takes the key: other users read options in the list of processes.
+    let printed = run(cosfly(&["fly", "recipe.toml", "--policy", "hold", "--api-key", key]).within(street.path()));
+    assert_eq!(printed.code, Some(2), "{}", printed.stderr);
+    assert!(!printed.stderr.contains(key) && printed.stderr.contains("--api-key-file"), "{}", printed.stderr);
+    for (content, words) in
+        [(Some("one\ntwo\n"), "is not a file with a key"), (Some(" \n"), "on one line"), (None, "key.txt")]
+    {
+        let file = street.path().join("key.txt");
+        let _ = content.map_or_else(|| std::fs::remove_file(&file), |text| std::fs::write(&file, text));
+        let asked = ["fly", "recipe.toml", "--policy", "hold", "--api-key-file", "key.txt"];
+        let printed = run(cosfly(&asked).within(street.path()));
+        assert!(printed.code != Some(0) && printed.stderr.contains(words), "{words}: {}", printed.stderr);
     }
     script(&street, "echo my key is $COSFLY_API_KEY >&2; exit 1");
     let printed = fly_into(&street, "out", &[]);

@@ -5,9 +5,11 @@
 //! * [`ParameterError`]: an invalid parameter whose place in a file is not known yet.
 //! * [`visible_text`]: foreign text, made harmless for a terminal.
 //! * [`nearest_name`]: the known name most similar to a mistyped one.
+//! * [`contained`]: work of a library that may panic on damaged bytes.
 //! * [`plausible`]: the rule for numbers from outside.
 //! * [`Stop`]: the flag by which the user ends long work.
 
+mod contained;
 mod diagnostic;
 mod excerpt;
 mod nearest;
@@ -17,6 +19,7 @@ mod print;
 mod stop;
 mod visible;
 
+pub use contained::contained;
 pub use diagnostic::{Diagnostic, Fault, Label, Result};
 pub use nearest::nearest_name;
 pub use parameter::ParameterError;

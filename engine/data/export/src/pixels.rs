@@ -1,6 +1,6 @@
 //! Colour images decoded and made smaller; labels, ids and depths encoded as pictures and as NumPy files.
 
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, contained};
 use cosfly_domain::channels::Element;
 use cosfly_domain::{Channel, ChannelImage};
 use cosfly_images::read::decoded;
@@ -43,6 +43,10 @@ pub fn smaller_size([width, height]: [u32; 2], most: u32) -> [u32; 2] {
 
 /// Pixels of an 8-bit PNG file with its width and height.
 pub fn decode_png(file: &[u8]) -> Result<(Vec<u8>, [u32; 2]), String> {
+    contained(|| png_pixels(file)).unwrap_or_else(|| Err("it holds what no encoder writes".to_owned()))
+}
+
+fn png_pixels(file: &[u8]) -> Result<(Vec<u8>, [u32; 2]), String> {
     let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().map_err(|error| error.to_string())?;
     let mut pixels = vec![0; reader.output_buffer_size().ok_or("it is too large")?];
     let info = reader.next_frame(&mut pixels).map_err(|error| error.to_string())?;

@@ -1,7 +1,7 @@
 //! Pictures from image files, whole or scaled.
 
 use crate::jpeg::{Decoded, decode};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, contained};
 use std::io::Cursor;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
@@ -47,17 +47,33 @@ pub fn picture(file: &[u8], format: &str, size: Option<[usize; 2]>) -> Result<Pi
 /// The reason, in words.
 pub fn decoded(file: &[u8], format: &str) -> Result<Picture, String> {
     match format {
-        "jpeg" => jpeg(file),
-        "png" => png(file),
+        "jpeg" => by_library(|| jpeg(file)),
+        "png" => by_library(|| png(file)),
         other => Err(format!("`{other}` is not a known format")),
     }
+}
+
+/// Width and height that a PNG file states, pixels; nothing of it is unpacked.
+///
+/// # Errors
+/// The reason, in words.
+pub fn png_size(file: &[u8]) -> Result<[usize; 2], String> {
+    by_library(|| {
+        let reader = png::Decoder::new(Cursor::new(file)).read_info().map_err(|error| error.to_string())?;
+        Ok([reader.info().width as usize, reader.info().height as usize])
+    })
+}
+
+/// What a library reads, which may panic on damaged files.
+fn by_library<T>(read: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    contained(read).unwrap_or_else(|| Err("it holds what no encoder writes".to_owned()))
 }
 
 /// A picture of at least the wanted size; its area is averaged while the file is decoded.
 fn scaled_jpeg(file: &[u8], size: [usize; 2]) -> Result<Picture, String> {
     match decode(file, size) {
         Some(Decoded { size, rgb }) => Ok(Picture { size, rgb }),
-        None => jpeg(file),
+        None => by_library(|| jpeg(file)),
     }
 }
 
@@ -182,6 +198,9 @@ mod tests {
         let mut file = vec![];
         crate::rgb::png(&rgb, 32, 16, &mut file).unwrap();
         assert_eq!(picture(&file, "png", None).unwrap(), Picture { size: [32, 16], rgb: rgb.clone() });
+        let data_at = file.windows(4).position(|four| four == b"IDAT").unwrap();
+        assert_eq!(png_size(&file[..data_at + 4]), Ok([32, 16]), "the head alone is read");
+        assert!(decoded(&file[..data_at + 4], "png").is_err());
         crate::rgb::jpeg(&rgb, 32, 16, 95, &mut file).unwrap();
         let read = picture(&file, "jpeg", None).unwrap();
         assert!(read.rgb.iter().zip(&rgb).all(|(a, b)| a.abs_diff(*b) < 24));

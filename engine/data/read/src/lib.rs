@@ -5,7 +5,6 @@
 
 mod captions;
 pub mod columns;
-mod contained;
 mod damage;
 mod dataset;
 pub mod drawn_ground;

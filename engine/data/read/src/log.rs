@@ -1,11 +1,11 @@
 //! The log of one flight, read frame by frame through its index.
 
 use super::damage::damaged;
-use super::records::RECORD_LIMIT;
+use super::records::{NO_WRITER, RECORD_LIMIT};
 use ::mcap::Summary;
 use ::mcap::sans_io::indexed_reader::{IndexedReadEvent, IndexedReader, IndexedReaderOptions};
 use ::mcap::sans_io::summary_reader::{SummaryReadEvent, SummaryReader, SummaryReaderOptions};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::{Diagnostic, Fault, Result, contained};
 use cosfly_domain::channels::{ChannelSource, Element};
 use cosfly_domain::{Channel, ChannelImage, channels};
 use cosfly_frames::{DQuat, DVec3};
@@ -151,15 +151,23 @@ impl LogReader {
             .with_record_length_limit(RECORD_LIMIT);
         let path = &self.path;
         let unreadable = |error: ::mcap::McapError| damaged(path, "a part of it cannot be read", error);
-        let mut reader = IndexedReader::new_with_options(&self.summary, options).map_err(unreadable)?;
+        let panicked = || damaged(path, "a part of it cannot be read", NO_WRITER);
+        let bytes =
+            self.file.metadata().map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?;
+        let reader = contained(|| IndexedReader::new_with_options(&self.summary, options));
+        let mut reader = reader.ok_or_else(panicked)?.map_err(unreadable)?;
         let mut chunk = vec![];
-        while let Some(event) = reader.next_event() {
+        while let Some(event) = contained(|| reader.next_event()).ok_or_else(panicked)? {
             match event.map_err(unreadable)? {
                 IndexedReadEvent::ReadChunkRequest { offset, length } => {
+                    if offset.saturating_add(length as u64) > bytes.len() {
+                        return Err(damaged(path, "a part of it cannot be read", "a chunk lies beyond its end"));
+                    }
                     chunk.resize(length, 0);
                     let read = self.file.seek(SeekFrom::Start(offset)).and_then(|_| self.file.read_exact(&mut chunk));
                     read.map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?;
-                    reader.insert_chunk_record_data(offset, &chunk).map_err(unreadable)?;
+                    let inserted = contained(|| reader.insert_chunk_record_data(offset, &chunk));
+                    inserted.ok_or_else(panicked)?.map_err(unreadable)?;
                 }
                 IndexedReadEvent::Message { header, data } => {
                     let topic = self.summary.channels.get(&header.channel_id).map_or("", |channel| &channel.topic);
@@ -181,7 +189,8 @@ pub(super) fn summary(path: &Path) -> Result<(File, Summary)> {
     let size = file.metadata().map_err(refused)?.len();
     let options = SummaryReaderOptions::default().with_file_size(size).with_record_length_limit(RECORD_LIMIT);
     let mut reader = SummaryReader::new_with_options(options);
-    while let Some(event) = reader.next_event() {
+    let panicked = || damaged(path, "its index cannot be read", NO_WRITER);
+    while let Some(event) = contained(|| reader.next_event()).ok_or_else(panicked)? {
         match event.map_err(|error| damaged(path, "its index cannot be read", error))? {
             SummaryReadEvent::ReadRequest(wanted) => {
                 let read = file.read(reader.insert(wanted)).map_err(refused)?;

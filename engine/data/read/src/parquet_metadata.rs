@@ -1,9 +1,9 @@
 //! Metadata and rows of Parquet files. The library panics on negative places and lengths of columns: they are refused before.
 //! It panics on damaged pages, too: these panics are contained.
 
-use crate::contained::contained;
 use arrow_array::RecordBatch;
 use arrow_schema::ArrowError;
+use cosfly_diagnose::contained;
 use parquet::arrow::arrow_reader::{
     ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder,
 };
@@ -16,8 +16,7 @@ use std::fs::File;
 /// # Errors
 /// The file is not Parquet, or its columns lie outside of it.
 pub fn load(file: &File) -> Result<ArrowReaderMetadata> {
-    let damaged = || ParquetError::General("its metadata is damaged".to_owned());
-    let metadata = contained(|| ArrowReaderMetadata::load(file, ArrowReaderOptions::new())).ok_or_else(damaged)??;
+    let metadata = metadata_of(file, ArrowReaderOptions::new())?;
     let end = i64::try_from(file.metadata()?.len()).unwrap_or(i64::MAX);
     for column in metadata.metadata().row_groups().iter().flat_map(|group| group.columns()) {
         let starts = [Some(column.data_page_offset()), column.dictionary_page_offset()];
@@ -38,7 +37,12 @@ pub fn load(file: &File) -> Result<ArrowReaderMetadata> {
 /// As of [`load`].
 pub fn load_with_pages(file: &File) -> Result<ArrowReaderMetadata> {
     load(file)?;
-    ArrowReaderMetadata::load(file, ArrowReaderOptions::new().with_offset_index_policy(PageIndexPolicy::Optional))
+    metadata_of(file, ArrowReaderOptions::new().with_offset_index_policy(PageIndexPolicy::Optional))
+}
+
+fn metadata_of(file: &File, options: ArrowReaderOptions) -> Result<ArrowReaderMetadata> {
+    let damaged = || ParquetError::General("its metadata is damaged".to_owned());
+    contained(|| ArrowReaderMetadata::load(file, options)).ok_or_else(damaged)?
 }
 
 /// Rows of a file up to its end or the first fault.

@@ -34,7 +34,7 @@ Environment:
   COSFLY_STORE    place of the store, where `--store` is not given
   COSFLY_CACHE    folder for caches of stores in buckets [default: the folder for temporary files]
   COSFLY_HQ       the command of HyperQueue [default: `hq` on the PATH]
-  COSFLY_API_KEY  key of a policy's server, where `--api-key` is not given
+  COSFLY_API_KEY  key of a policy's server, where `--api-key-file` is not given
   COSFLY_SIMD     plain, avx2 or avx512 [default: the best of the processor]; all give the same bytes
   NO_COLOR        no colours";
 

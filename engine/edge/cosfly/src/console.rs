@@ -1,5 +1,6 @@
 //! The seam: surroundings of a command. The terminal is one; a program that embeds the command line brings its own.
 
+use crate::interrupt::Deadline;
 use crate::output;
 use crate::progress::Bar;
 use crate::reporter::Reporter;
@@ -35,6 +36,11 @@ pub trait Console: Sync {
     /// The flag that stops a command that has nothing to keep, within a second. A terminal ends the process instead.
     fn stop(&self) -> Stop;
 
+    /// Until it is dropped, ends the process two seconds after [`Self::cancelled`] was set. None where the process is not ours.
+    fn deadline(&self) -> Option<Deadline> {
+        None
+    }
+
     /// Whether messages have colours.
     fn colour(&self) -> bool;
 
@@ -67,6 +73,10 @@ impl Console for Terminal {
 
     fn stop(&self) -> Stop {
         Stop::default()
+    }
+
+    fn deadline(&self) -> Option<Deadline> {
+        Some(Deadline::begin())
     }
 
     fn colour(&self) -> bool {

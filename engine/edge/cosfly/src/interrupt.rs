@@ -1,7 +1,14 @@
-//! Ctrl-C and termination signals set one flag; a second one ends the process at once.
+//! Ctrl-C and termination signals set one flag; a second one ends the process at once, and so does a [`Deadline`].
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
+
+/// Time for tasks that look at the flag to end, and for finished ones to be published.
+const GRACE: Duration = Duration::from_millis(1500);
+/// Pause between two looks at the flag.
+const LOOK: Duration = Duration::from_millis(50);
 
 static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
@@ -18,4 +25,29 @@ pub fn flag() -> Arc<AtomicBool> {
         });
         flag
     }))
+}
+
+/// Ends the process soon after the flag was set: one long task, such as a plan, does not look at it. The store survives that; only
+/// unfinished items are lost. Dropped, it does nothing any more.
+#[derive(Debug)]
+pub struct Deadline {
+    _over: Sender<()>,
+}
+
+impl Deadline {
+    /// Begins to look at the flag.
+    pub fn begin() -> Self {
+        let (over, is_over) = channel();
+        let flag = flag();
+        std::thread::spawn(move || {
+            let mut stopped_at = None;
+            while is_over.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                if flag.load(Ordering::SeqCst) && stopped_at.get_or_insert_with(Instant::now).elapsed() >= GRACE {
+                    eprintln!("stopped: items that were not finished are made again");
+                    std::process::exit(i32::from(crate::exit::STOPPED));
+                }
+            }
+        });
+        Self { _over: over }
+    }
 }

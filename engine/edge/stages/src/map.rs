@@ -45,7 +45,7 @@ impl StageKind for Map {
         let (config, files) = checked(given)?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 13,
+            version: 14,
             parameters: canonical(&config)?,
             sources: sources(files),
             inputs: self.ports(),

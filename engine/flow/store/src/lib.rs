@@ -64,6 +64,7 @@ mod side_by_side;
 mod sink;
 mod spare;
 mod store;
+mod turn;
 mod write_through;
 
 pub use blobs::digest_of_file;

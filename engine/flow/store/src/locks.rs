@@ -70,7 +70,7 @@ impl Drop for TaskLock {
 }
 
 #[cfg(unix)]
-fn is_still_there(file: &File, path: &Path) -> bool {
+pub(crate) fn is_still_there(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     match (file.metadata(), fs::metadata(path)) {
         (Ok(held), Ok(named)) => held.ino() == named.ino() && held.dev() == named.dev(),
@@ -79,7 +79,7 @@ fn is_still_there(file: &File, path: &Path) -> bool {
 }
 
 #[cfg(not(unix))]
-fn is_still_there(_file: &File, path: &Path) -> bool {
+pub(crate) fn is_still_there(_file: &File, path: &Path) -> bool {
     path.exists()
 }
 

@@ -10,6 +10,7 @@ use crate::places::check_out_folder;
 use crate::side_by_side::{PER_THREAD, side_by_side};
 use crate::spare::Spare;
 use crate::store::Store;
+use crate::turn::Turn;
 use cosfly_blobs::BlobRef;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
@@ -49,7 +50,7 @@ pub fn materialise(store: &Store, blobs: &Blobs, folder: &Path) -> Result<Materi
     let result = |changed| Materialised { version, files: blobs.len() as u64, bytes, changed };
     let folder = std::path::absolute(folder).map_err(|error| refused(folder, &error))?;
     let folder = behind_link(folder)?;
-    let _turn = take_turn(store, &folder)?;
+    let _turn = (take_turn(store, &folder)?, Turn::beside(&folder));
     let marker = fs::read(folder.join(VERSION_FILE)).ok();
     let marker = marker.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
     let new_marker = marker_of(&version, blobs);
@@ -172,7 +173,7 @@ fn has_size(path: &Path, bytes: u64) -> bool {
     fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_file() && metadata.len() == bytes)
 }
 
-/// Lock of a folder: two processes that write it take turns.
+/// Lock of a folder in the store: two processes that write it take turns. [`Turn`] is for those with another store.
 fn take_turn(store: &Store, folder: &Path) -> Result<File> {
     let name = format!("out-{}", Digest::of(folder.as_os_str().as_encoded_bytes()));
     let path = store.root().join("locks").join(name);
@@ -339,6 +340,31 @@ mod tests {
             std::os::unix::fs::symlink(root.path().join(name), &link).unwrap();
             assert_eq!(materialise(&store, &same, &link).unwrap_err().code, "out-not-ours", "{name}");
         }
+    }
+
+    #[test]
+    fn runs_with_different_stores_into_one_folder_both_end_whole() {
+        let root = tempfile::tempdir().unwrap();
+        let out = root.path().join("made/out");
+        let texts = ["one", "two", "three"];
+        std::thread::scope(|scope| {
+            for text in texts {
+                let store = Store::open(&root.path().join(text)).unwrap();
+                let out = &out;
+                scope.spawn(move || {
+                    for round in 0..20 {
+                        let files: Vec<(String, String)> =
+                            (0..8).map(|file| (file.to_string(), format!("{text}{round}"))).collect();
+                        let files: Vec<(&str, &str)> = files.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+                        materialise(&store, &artifact(&store, &files), out).unwrap();
+                    }
+                });
+            }
+        });
+        let held: BTreeSet<String> =
+            (0..8).map(|file| fs::read_to_string(out.join(file.to_string())).unwrap()).collect();
+        assert!(held.len() == 1 && texts.iter().any(|text| held.contains(&format!("{text}19"))), "{held:?}");
+        assert_eq!(fs::read_dir(out.parent().unwrap()).unwrap().count(), 1, "nothing is left beside");
     }
 
     #[test]

@@ -5,6 +5,7 @@
 
 mod bare_streets;
 mod buildings;
+mod carved;
 mod elements;
 mod frame;
 mod heights;

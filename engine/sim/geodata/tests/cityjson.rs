@@ -89,6 +89,27 @@ fn trees_are_templates_at_their_place_and_scale() {
 }
 
 #[test]
+fn trees_of_absurd_size_are_told_of() {
+    let top_m = |text: &str| {
+        let (town, warnings) = read(text).unwrap();
+        let top_m = heights_m(&town, ObstacleKind::TreeCrown)[0].1 - 1.0;
+        (top_m, warnings.iter().any(|warning| warning.contains("1 trees are lower") && warning.contains("`tree`")))
+    };
+    let scaled = |factor: &str| {
+        top_m(&with("[2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2,", &format!("[2, 0, 0, 0, 0, 2, 0, 0, 0, 0, {factor},")))
+    };
+    assert_eq!(scaled("20"), (80.0, false));
+    assert_eq!(scaled("200"), (120.0, true));
+    let stated = |height: &str| {
+        let text = with("[2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2,", "[2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0.01,");
+        let attributes = format!("\"SolitaryVegetationObject\", \"attributes\": {{\"height\": {height}}},");
+        top_m(&text.replacen("\"SolitaryVegetationObject\",", &attributes, 1))
+    };
+    assert_eq!(stated("15"), (15.0, false));
+    assert_eq!(stated("9000"), (8.0, true), "the usual height");
+}
+
+#[test]
 fn feet_become_metres() {
     let text = PLACE.replace("EPSG/0/7415", "EPSG/0/2263");
     let (town, _) = read(&text).unwrap();

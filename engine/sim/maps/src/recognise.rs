@@ -26,8 +26,13 @@ const RELATIVES: &[(IsIt, &str)] = &[
         "the file is GeoJSON: take an extract of OpenStreetMap, or CityJSON, of the same place",
     ),
     (
-        |head| head.starts_with(b"b3dm") || holds(head, "\"geometricError\""),
-        "the file is of 3D Tiles: export the tiles as GLB",
+        |head| is_tile(head) && holds(head, "RTC_CENTER"),
+        "the file is a tile of 3D Tiles whose corners count from its `RTC_CENTER`, which a GLB that is taken out of it lacks: export the \
+         tiles together as GLB, in metres along the axes of a plan",
+    ),
+    (
+        |head| is_tile(head) || holds(head, "\"geometricError\""),
+        "the file is of 3D Tiles: export the tiles together as GLB, in metres along the axes of a plan",
     ),
     (|head| head.starts_with(b"ISO-10303-21"), "the file is IFC: export it as GLB, OBJ or CityJSON"),
     (
@@ -51,6 +56,10 @@ const RELATIVES: &[(IsIt, &str)] = &[
          (its rows) and a `property double` for each column, the first three x, y, z",
     ),
 ];
+
+fn is_tile(head: &[u8]) -> bool {
+    [b"b3dm", b"i3dm", b"pnts", b"cmpt"].iter().any(|magic| head.starts_with(*magic))
+}
 
 fn holds(head: &[u8], word: &str) -> bool {
     head.windows(word.len()).any(|window| window == word.as_bytes())

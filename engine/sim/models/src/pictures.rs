@@ -1,5 +1,6 @@
 //! Pictures of glTF files: PNG or JPEG, as rows of red, green and blue.
 
+use cosfly_diagnose::contained;
 use cosfly_town::MapError;
 use std::io::Cursor;
 use zune_jpeg::JpegDecoder;
@@ -32,11 +33,16 @@ pub fn read(bytes: &[u8], number: usize) -> Result<Picture, MapError> {
         error.hint("models take PNG and JPEG pictures of at most 8,192 pixels a side")
     };
     let picture = match bytes {
-        [0x89, b'P', b'N', b'G', ..] => read_png(bytes),
-        [0xff, 0xd8, ..] => read_jpeg(bytes),
+        [0x89, b'P', b'N', b'G', ..] => by_library(|| read_png(bytes)),
+        [0xff, 0xd8, ..] => by_library(|| read_jpeg(bytes)),
         _ => Err("it is neither PNG nor JPEG".into()),
     };
     picture.map_err(refused)
+}
+
+/// What a library reads, which may panic on damaged files.
+fn by_library(read: impl FnOnce() -> Result<Picture, String>) -> Result<Picture, String> {
+    contained(read).unwrap_or_else(|| Err("it holds what no encoder writes".to_owned()))
 }
 
 fn check_size(width: usize, height: usize) -> Result<(), String> {

@@ -1,7 +1,6 @@
 //! `LAS`: point clouds of surveys, plain (LAS) or compressed (LAZ), versions 1.0 to 1.4, point formats 0 to 10.
 
 pub mod compressed;
-mod contained;
 pub mod header;
 pub mod projection;
 mod records;

@@ -96,7 +96,7 @@ pub fn town_of(
         let error = MapError::new("the scene leaves no open ground to walk on");
         return Err(error.hint("name the meshes to walk on `sidewalk`; check `up_axis` and `unit_m`"));
     }
-    add_terrain(&mut meshes, &obstacles, USUAL_MARGIN_M)?;
+    warnings.extend(add_terrain(&mut meshes, &obstacles, USUAL_MARGIN_M)?);
     let town = Town {
         name: "town".to_owned(),
         origin: world.origin(None),

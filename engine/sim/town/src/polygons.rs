@@ -21,7 +21,7 @@ pub fn twice_area_m2(outline: &[DVec2]) -> f64 {
 }
 
 /// The part of `outline` on the inner side of a line through `point` (where `inward` points).
-fn clipped_by_line(outline: &[DVec2], point: DVec2, inward: DVec2) -> Vec<DVec2> {
+pub fn clipped_by_line(outline: &[DVec2], point: DVec2, inward: DVec2) -> Vec<DVec2> {
     let depth = |p: DVec2| (p - point).dot(inward);
     let mut out = Vec::with_capacity(outline.len() + 2);
     for i in 0..outline.len() {

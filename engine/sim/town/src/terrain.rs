@@ -14,7 +14,9 @@ pub const USUAL_MARGIN_M: f64 = 60.0;
 const BELOW_ROADS_M: f64 = 0.11;
 /// Cells along one side that are aimed at; 2 to 4 m wide in towns of usual size.
 const AIMED_CELLS: f64 = 400.0;
-/// Most cells along one side.
+/// Widest cells of towns of usual size, metres.
+const WIDEST_CELL_M: f64 = 4.0;
+/// Most cells along one side: towns longer than 3.2 km have wider cells.
 const MOST_CELLS: f64 = 800.0;
 /// Cells along the side of a block, which is one large cell where neither roads nor feet bind it.
 const BLOCK: usize = 4;
@@ -50,12 +52,17 @@ pub fn beside(cell: usize, columns: usize, rows: usize) -> impl Iterator<Item = 
     .flatten()
 }
 
-/// Adds the terrain (synthetic, label Terrain) under all meshes made so far, and `margin_m` beyond them and `obstacles`.
+/// Adds the terrain (synthetic, label Terrain) under all meshes made so far, and `margin_m` beyond them and `obstacles`. Gives
+/// a warning where its cells are wider than usual.
 ///
 /// # Errors
 /// Roads and pavements of absurd area.
-pub fn add_terrain(builder: &mut MeshBuilder, obstacles: &[Obstacle], margin_m: f64) -> Result<(), MapError> {
-    let Some(mut grid) = HeightGrid::around(builder.meshes(), obstacles, margin_m) else { return Ok(()) };
+pub fn add_terrain(
+    builder: &mut MeshBuilder,
+    obstacles: &[Obstacle],
+    margin_m: f64,
+) -> Result<Option<String>, MapError> {
+    let Some(mut grid) = HeightGrid::around(builder.meshes(), obstacles, margin_m) else { return Ok(None) };
     let mut samples = 0.0;
     for mesh in builder.meshes().filter(|mesh| mesh.label != SemanticLabel::RoadLine) {
         for triangle in &mesh.triangles {
@@ -78,7 +85,7 @@ pub fn add_terrain(builder: &mut MeshBuilder, obstacles: &[Obstacle], margin_m: 
     }
     let heights_m = grid.solved();
     grid.add_mesh(builder, heights_m);
-    Ok(())
+    Ok(grid.coarseness())
 }
 
 /// Whether a triangle is a kerb's face or a skirt: what lies above it binds the terrain, not its lower edge.
@@ -131,11 +138,23 @@ impl HeightGrid {
         }
         let (low, high) = (low - margin_m, high + margin_m);
         let longest_m = (high - low).max_element();
-        let cell_m = (longest_m / AIMED_CELLS).clamp(2.0, 4.0).max(longest_m / MOST_CELLS);
+        let cell_m = (longest_m / AIMED_CELLS).clamp(2.0, WIDEST_CELL_M).max(longest_m / MOST_CELLS);
         let cells = |side_m: f64| ((side_m / cell_m).ceil() as usize).next_multiple_of(BLOCK);
         let [columns, rows] = (high - low).to_array().map(|side_m| cells(side_m).max(BLOCK) + 1);
         let count = columns * rows;
         Some(Self { low, cell_m, columns, rows, ceiling_m: vec![f64::INFINITY; count], feet: vec![(0.0, 0); count] })
+    }
+
+    /// Says how coarse the cells are where they are wider than usual.
+    fn coarseness(&self) -> Option<String> {
+        let longest_km = 1e-3 * self.cell_m * (self.columns.max(self.rows) - 1) as f64;
+        (self.cell_m > WIDEST_CELL_M).then(|| {
+            format!(
+                "the map is {longest_km:.1} km long, so the land beside its roads has cells of {:.1} m instead of {WIDEST_CELL_M} m: it \
+                 follows roads and feet of things less closely. Cut the file into pieces of at most 3 km",
+                self.cell_m
+            )
+        })
     }
 
     /// The four vertices of the cell at a point.
@@ -312,5 +331,25 @@ impl HeightGrid {
         };
         let triangles = triangles.into_iter().map(|triangle| triangle.map(&mut number_of)).collect();
         (vertices, triangles)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_domain::OrientedBox;
+
+    #[test]
+    fn long_maps_say_how_coarse_their_land_is_and_others_say_nothing() {
+        let house = |x: f64| Obstacle {
+            shape: OrientedBox::from_corners(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 10.0, 10.0, 6.0)),
+            kind: ObstacleKind::Building,
+            object_id: 1,
+            synthetic: false,
+        };
+        let warning = |far_m: f64| add_terrain(&mut MeshBuilder::default(), &[house(0.0), house(far_m)], 0.0).unwrap();
+        assert_eq!(warning(3180.0), None);
+        let words = warning(6390.0).unwrap();
+        assert!(words.contains("6.4 km long") && words.contains("cells of 8.0 m instead of 4 m"), "{words}");
     }
 }

@@ -82,28 +82,32 @@ fn shared(episodes: &[Trace], what: &str, key: &dyn Fn(&Trace) -> String, flags:
     }
 }
 
-/// Finds equal walks in one place under two names.
+/// Finds equal walks in one place under two names, walked the same way or back.
 fn same_ways(episodes: &[Trace], flags: &mut Vec<Flag>) {
     let mut starts: BTreeMap<(&str, i64, i64), Vec<usize>> = BTreeMap::new();
     let mut named = 0;
     for (at, episode) in episodes.iter().enumerate() {
         let Some(start) = episode.way.first() else { continue };
-        let [x, y] = [start[0], start[1]].map(|it| (f64::from(it) / SAME_M).floor() as i64);
         if named == NAMED {
             break;
         }
-        let near = (-1..=1).flat_map(|i| (-1..=1).map(move |j| (x + i, y + j)));
-        let near = near.filter_map(|(x, y)| starts.get(&(episode.place.as_str(), x, y))).flatten();
-        let twin = near.copied().find(|other| {
-            let other_one = &episodes[*other];
-            let split_differs = episode.split.is_some() && other_one.split != episode.split;
-            split_differs && other_one.group != episode.group && is_same(&episode.way, &other_one.way)
+        let back: Vec<[f32; 3]> = episode.way.iter().rev().copied().collect();
+        let twin = [(&episode.way, ""), (&back, " back")].into_iter().find_map(|(way, direction)| {
+            let (x, y) = cell_of(way.first()?);
+            let near = (-1..=1).flat_map(|i| (-1..=1).map(move |j| (x + i, y + j)));
+            let mut near = near.filter_map(|(x, y)| starts.get(&(episode.place.as_str(), x, y))).flatten();
+            let is_twin = |other: &&usize| {
+                let other = &episodes[**other];
+                let split_differs = episode.split.is_some() && other.split != episode.split;
+                split_differs && other.group != episode.group && is_same(way, &other.way)
+            };
+            near.find(is_twin).map(|other| (*other, direction))
         });
-        if let Some(other) = twin {
+        if let Some((other, direction)) = twin {
             named += 1;
             let (a, b) = (&episodes[other], episode);
             let message = format!(
-                "its target walks the way of `{}`, which is in `{}`; this one is in `{}`",
+                "its target walks the way of `{}`{direction}, which is in `{}`; this one is in `{}`",
                 a.id,
                 a.split.as_deref().unwrap_or_default(),
                 b.split.as_deref().unwrap_or_default()
@@ -111,6 +115,7 @@ fn same_ways(episodes: &[Trace], flags: &mut Vec<Flag>) {
             flags.push(Flag::damage("split-leak", &b.id, message));
         }
         // Flights of one split behind one walk are alike: the first stands for all.
+        let (x, y) = cell_of(start);
         let others = starts.entry((episode.place.as_str(), x, y)).or_default();
         let is_known = |other: &usize| {
             let other = &episodes[*other];
@@ -122,6 +127,11 @@ fn same_ways(episodes: &[Trace], flags: &mut Vec<Flag>) {
     }
 }
 
+fn cell_of(point: &[f32; 3]) -> (i64, i64) {
+    let [x, y] = [point[0], point[1]].map(|it| (f64::from(it) / SAME_M).floor() as i64);
+    (x, y)
+}
+
 fn way(episode: &ExaminedEpisode) -> Vec<DVec3> {
     let count = episode.moments.len();
     let points = (0..POINTS).map(|at| at * count.saturating_sub(1) / (POINTS - 1));
@@ -131,4 +141,30 @@ fn way(episode: &ExaminedEpisode) -> Vec<DVec3> {
 fn is_same(a: &[[f32; 3]], b: &[[f32; 3]]) -> bool {
     let vector = |point: &[f32; 3]| DVec3::from_array(point.map(f64::from));
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| vector(a).distance(vector(b)) <= SAME_M)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trace(id: &str, split: &str, way: Vec<[f32; 3]>) -> Trace {
+        let (id, group) = (id.to_owned(), id.to_owned());
+        Trace { id, split: Some(split.to_owned()), group, place: "town".to_owned(), town: String::new(), way }
+    }
+
+    #[test]
+    fn a_walk_in_two_splits_is_found_in_both_directions_and_beside_it_none_is() {
+        let way = |from: f32, to: f32, y: f32| -> Vec<[f32; 3]> {
+            (0..POINTS).map(|at| [from + (to - from) * at as f32 / (POINTS - 1) as f32, y, 0.0]).collect()
+        };
+        let found = |other: Vec<[f32; 3]>, split: &str| {
+            let flags = of_all(&[trace("a", "train", way(3.0, 60.0, 5.0)), trace("b", split, other)]);
+            flags.into_iter().map(|flag| flag.message).collect::<Vec<String>>()
+        };
+        assert!(found(way(3.4, 60.4, 5.5), "test")[0].starts_with("its target walks the way of `a`, which"));
+        assert!(found(way(60.4, 3.4, 5.5), "test")[0].starts_with("its target walks the way of `a` back, which"));
+        assert!(found(way(60.4, 3.4, 5.5), "train").is_empty());
+        assert!(found(way(3.0, 60.0, 7.0), "test").is_empty());
+        assert!(found(way(60.0, 3.0, 7.0), "test").is_empty());
+    }
 }

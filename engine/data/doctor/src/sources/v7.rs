@@ -7,7 +7,7 @@ use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_domain::Camera;
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Pose};
-use cosfly_images::read::decoded;
+use cosfly_images::read::{decoded, png_size};
 use cosfly_read::drawn_ground::SeenGround;
 use serde_json::Value;
 use std::fs;
@@ -232,9 +232,12 @@ fn looks(trace: &Path, episode: &mut ExaminedEpisode, flags: &mut Vec<Flag>) {
 /// Height of the drawn ground around the target's feet over them, where the frame has labels.
 fn rise_m(episode: &ExaminedEpisode, frame: usize, depth_m: &[f32], folder: &Path) -> Option<f64> {
     let (camera, moment) = (episode.camera.as_ref()?, episode.moments.get(frame)?);
-    let labels = decoded(&fs::read(folder.join("instance.png")).ok()?, "png").ok()?;
-    let is_whole = labels.size == [camera.width, camera.height].map(|side| side as usize)
-        && depth_m.len() == labels.size[0] * labels.size[1];
+    let file = fs::read(folder.join("instance.png")).ok()?;
+    let size = [camera.width, camera.height].map(|side| side as usize);
+    if png_size(&file).ok()? != size || depth_m.len() != size[0] * size[1] {
+        return None;
+    }
+    let labels = decoded(&file, "png").ok()?;
     let ground = SeenGround {
         camera,
         pose: &moment.camera,
@@ -242,7 +245,7 @@ fn rise_m(episode: &ExaminedEpisode, frame: usize, depth_m: &[f32], folder: &Pat
         label: &|at| labels.rgb.get(3 * at).copied(),
     };
     let feet = moment.target_in_world? - DVec3::Z * (0.5 * episode.target_height_m);
-    if is_whole { ground.rise_m(feet, episode.target_height_m) } else { None }
+    ground.rise_m(feet, episode.target_height_m)
 }
 
 /// Folder of a frame of a trace.

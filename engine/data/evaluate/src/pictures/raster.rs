@@ -1,7 +1,8 @@
 //! Predicted pictures: depth as 16-bit PNG or NumPy array, labels as 8-bit PNG or NumPy array.
 
+use cosfly_diagnose::contained;
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Seek};
 use std::path::Path;
 
 /// Kind and words of what is wrong with a file.
@@ -26,12 +27,15 @@ pub enum Content {
     Labels,
 }
 
-/// Content of the picture at `path`; `None` when it cannot be told.
+/// Content of the picture at `path`, by its head alone; `None` when it cannot be told.
 pub fn content(path: &Path) -> Option<Content> {
-    match read(path, None).ok()? {
-        Raster::Depth16(_) | Raster::Floats(_) => Some(Content::Depth),
-        Raster::Bytes(_) => Some(Content::Labels),
-    }
+    let mut file = BufReader::new(File::open(path).ok()?);
+    let is_depth = if is_numpy(path) {
+        matches!(header(&mut file).ok()?.0.as_str(), "<u2" | "<f2" | "<f4" | "<f8")
+    } else {
+        contained(|| channel(file, None))?.ok()?.1 == png::BitDepth::Sixteen
+    };
+    Some(if is_depth { Content::Depth } else { Content::Labels })
 }
 
 /// Depth in metres of a picture of `size` (width, height). `per_metre` is what whole numbers count a metre as; the
@@ -86,10 +90,22 @@ fn check(size: [u64; 2], expected: Option<[u64; 2]>) -> Result<(), Refusal> {
 fn read(path: &Path, expected: Option<[u64; 2]>) -> Result<Raster, Refusal> {
     let unreadable = |error: &dyn std::fmt::Display| ("unreadable", format!("it cannot be read: {error}"));
     let file = File::open(path).map_err(|error| unreadable(&error))?;
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npy")) {
-        return numpy(BufReader::new(file), expected);
+    let file = BufReader::new(file);
+    if is_numpy(path) {
+        return numpy(file, expected);
     }
-    let mut reader = png::Decoder::new(BufReader::new(file)).read_info().map_err(|error| unreadable(&error))?;
+    // The library may panic on damaged files.
+    contained(|| one_channel(file, expected)).unwrap_or_else(|| Err(unreadable(&"no encoder writes what it holds")))
+}
+
+fn is_numpy(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npy"))
+}
+
+/// Reader of a PNG file of one channel and the size `expected`, after its head, and the bits of a pixel.
+fn channel<R: BufRead + Seek>(file: R, expected: Option<[u64; 2]>) -> Result<(png::Reader<R>, png::BitDepth), Refusal> {
+    let unreadable = |error: &dyn std::fmt::Display| ("unreadable", format!("it cannot be read: {error}"));
+    let reader = png::Decoder::new(file).read_info().map_err(|error| unreadable(&error))?;
     let (info_size, colour, depth) = {
         let info = reader.info();
         ([u64::from(info.width), u64::from(info.height)], info.color_type, info.bit_depth)
@@ -98,15 +114,21 @@ fn read(path: &Path, expected: Option<[u64; 2]>) -> Result<Raster, Refusal> {
     if !matches!(colour, png::ColorType::Grayscale | png::ColorType::Indexed) {
         return Err(("format", "it is a colour picture; one channel was expected".into()));
     }
-    let mut bytes = vec![0; reader.output_buffer_size().ok_or_else(|| unreadable(&"it is too large"))?];
-    reader.next_frame(&mut bytes).map_err(|error| unreadable(&error))?;
     match depth {
-        png::BitDepth::Sixteen => {
-            Ok(Raster::Depth16(bytes.as_chunks::<2>().0.iter().map(|pair| u16::from_be_bytes(*pair)).collect()))
-        }
-        png::BitDepth::Eight => Ok(Raster::Bytes(bytes)),
+        png::BitDepth::Eight | png::BitDepth::Sixteen => Ok((reader, depth)),
         other => Err(("format", format!("it has {} bits a pixel; 8 or 16 were expected", other as u8))),
     }
+}
+
+fn one_channel(file: impl BufRead + Seek, expected: Option<[u64; 2]>) -> Result<Raster, Refusal> {
+    let unreadable = |error: &dyn std::fmt::Display| ("unreadable", format!("it cannot be read: {error}"));
+    let (mut reader, depth) = channel(file, expected)?;
+    let mut bytes = vec![0; reader.output_buffer_size().ok_or_else(|| unreadable(&"it is too large"))?];
+    reader.next_frame(&mut bytes).map_err(|error| unreadable(&error))?;
+    if depth == png::BitDepth::Eight {
+        return Ok(Raster::Bytes(bytes));
+    }
+    Ok(Raster::Depth16(bytes.as_chunks::<2>().0.iter().map(|pair| u16::from_be_bytes(*pair)).collect()))
 }
 
 /// A NumPy array of two dimensions, or more of which the others are 1.
@@ -219,6 +241,23 @@ mod tests {
             assert!(why.contains(expected), "{why}");
         }
         assert!(numpy(&b"PK"[..], None).is_err());
+    }
+
+    #[test]
+    fn size_and_content_of_a_picture_are_known_before_its_pixels_are_unpacked() {
+        let mut file = vec![];
+        let mut encoder = png::Encoder::new(&mut file, 3, 2);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder.set_depth(png::BitDepth::Sixteen);
+        encoder.write_header().unwrap().write_image_data(&[1; 12]).unwrap();
+        let whole = one_channel(std::io::Cursor::new(&file), Some([3, 2])).unwrap();
+        assert!(matches!(whole, Raster::Depth16(values) if values == [257; 6]));
+        let data_at = file.windows(4).position(|four| four == b"IDAT").unwrap();
+        file.truncate(data_at + 4);
+        let head = |expected| channel(std::io::Cursor::new(&file), expected).map(|(_, depth)| depth);
+        assert_eq!(head(None).unwrap(), png::BitDepth::Sixteen);
+        assert_eq!(head(Some([2, 3])).unwrap_err().0, "size");
+        assert_eq!(one_channel(std::io::Cursor::new(&file), Some([3, 2])).err().unwrap().0, "unreadable");
     }
 
     #[test]

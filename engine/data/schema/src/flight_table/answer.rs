@@ -7,10 +7,9 @@ use arrow_array::{Array, RecordBatch};
 use arrow_ipc::reader::StreamReader;
 use arrow_ipc::{MessageHeader, root_as_message};
 use arrow_schema::DataType;
-use cosfly_diagnose::plausible;
+use cosfly_diagnose::{contained, plausible};
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
-use std::panic::AssertUnwindSafe;
 
 /// Most rows of an answer.
 pub const MOST_ROWS: usize = 1_000_000;
@@ -74,8 +73,7 @@ pub fn read_answer(
     check_framing(answer, &rows)?;
     // The Arrow reader may panic on malformed streams, which must not end the run.
     let read = || decode(answer, gives);
-    let batch =
-        std::panic::catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| Err(unreadable("it is damaged")))?;
+    let batch = contained(read).unwrap_or_else(|| Err(unreadable("it is damaged")))?;
     check_rows(batch.num_rows() as u64, &rows)?;
     let columns = batch.columns().iter().zip(gives);
     let columns: Vec<Values> = columns.map(|(array, column)| values(array, column)).collect::<Result<_, _>>()?;

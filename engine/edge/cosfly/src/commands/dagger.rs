@@ -105,11 +105,13 @@ impl Command for Arguments {
             let message = "labels are velocities; a policy of other actions cannot be labelled";
             return Err(Diagnostic::new("dagger-actions", Fault::Recipe, message).hint("leave `--actions` out").into());
         }
+        let manners = self.asked.manners()?;
         check_out_folder(&self.store.folder(), out)?;
         let store = self.store.open()?;
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let suite = {
+            let _deadline = console.deadline();
             let progress = console.run_progress(self.json);
             Suite::make(&recipe, &store, &options, &*progress)?
         };
@@ -119,7 +121,7 @@ impl Command for Arguments {
         let card = self.card(&suite, &settings, &place, name, onto.as_ref())?;
         let folder = LabelFolder::open(out, &card, self.onto.as_deref())?;
         let mixture = Mixture { by_expert: self.expert_share, seed: Seed::of_item(recipe.seed, "dagger", name) };
-        let (cancelled, manners) = (console.cancelled(), self.asked.manners());
+        let cancelled = console.cancelled();
         let policy = self.name.clone().unwrap_or_else(|| place.name());
         let (recipe, store, suite, place, manners) = (&recipe, &store, &suite, &place, &manners);
         let (policy, cancelled) = (policy.as_str(), &*cancelled);

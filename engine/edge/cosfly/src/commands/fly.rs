@@ -175,6 +175,7 @@ impl Command for Arguments {
             return Err(Diagnostic::new("fly-policy", Fault::Recipe, message).hint("leave it out").into());
         }
         check_names(&places)?;
+        let manners = self.asked.manners()?;
         let recipe = recipe.load(console)?;
         let settings = self.settings(&FlySettings::of(&recipe)?)?;
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join("fly").join(&recipe.name));
@@ -183,6 +184,7 @@ impl Command for Arguments {
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let suite = {
+            let _deadline = console.deadline();
             let progress = console.run_progress(self.quiet);
             Suite::make(&recipe, &store, &options, &*progress)?
         };
@@ -193,7 +195,6 @@ impl Command for Arguments {
             let card = self.card(&suite, place, &name, &settings);
             let folder = Folder::open(&out.join(&name), &card)?;
             let cancelled = console.cancelled();
-            let manners = self.asked.manners();
             let (shard, suite) = (self.shard, &suite);
             let latency = self.latency();
             let order =

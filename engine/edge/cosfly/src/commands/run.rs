@@ -78,7 +78,10 @@ impl Command for Arguments {
             Place::Hq => {
                 elsewhere::deliver(&recipe, &store, wanted, &out, options, &self.cluster, (&*progress, console))
             }
-            _ => deliver(&recipe, &store, wanted, &out, &options, &*progress),
+            _ => {
+                let _deadline = console.deadline();
+                deliver(&recipe, &store, wanted, &out, &options, &*progress)
+            }
         };
         drop(progress);
         let delivery = delivery?;

@@ -31,7 +31,7 @@ impl Place {
         if has_secret(text) {
             let message = format!("`{}` holds a name, a password or a key", without_secrets(text));
             return Err(refused(message).hint(
-                "give the key of a server in the environment variable COSFLY_API_KEY, or with `--api-key`; it is written nowhere",
+                "give the key of a server in the environment variable COSFLY_API_KEY or in a file with `--api-key-file`; it is written nowhere",
             ));
         }
         if text.starts_with("ws://") {

@@ -101,7 +101,7 @@ impl SocketPilot {
                 let status = response.status();
                 let advice = match status.as_u16() {
                     300..=399 => "; redirects are not followed: give the address where the policy is",
-                    401 | 403 => "; give its key with COSFLY_API_KEY",
+                    401 | 403 => "; give its key with COSFLY_API_KEY or `--api-key-file`",
                     _ => "",
                 };
                 let why = format!("the server answers with the status {status}, not as a WebSocket{advice}");

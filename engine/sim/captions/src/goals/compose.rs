@@ -11,8 +11,8 @@ use cosfly_domain::Colour;
 use cosfly_random::{RandomStream, Seed};
 use std::ops::Range;
 
-/// A move within so many frames of the end of a crossing is `after the crossing`.
-const RIGHT_AFTER_FRAMES: usize = 10;
+/// A move within this time of the end of a crossing is `after the crossing`, seconds.
+const RIGHT_AFTER_S: f64 = 5.0;
 
 /// Words of templates that say that somebody walks, in both languages.
 const OF_A_WALK: &[&str] =
@@ -24,6 +24,7 @@ pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
     plans.extend(steps::steps(course, &mut seed.stream("steps")));
     plans.extend(pick::dialogues(course, &mut seed.stream("dialogues")));
     plans.extend(pick::negatives(course, &plans, &mut seed.stream("negatives")));
+    let right_after = course.frames_in(RIGHT_AFTER_S);
     let mut goals = vec![];
     for (number, plan) in plans.iter().enumerate() {
         for language in Language::ALL {
@@ -32,7 +33,7 @@ pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
                 grain: plan.grain,
                 language,
                 frames: plan.frames.clone(),
-                lines: lines(plan, language, words),
+                lines: lines(plan, right_after, language, words),
                 said: plan.said.clone(),
                 wrong: plan.wrong,
             });
@@ -41,14 +42,18 @@ pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
     goals
 }
 
-fn lines(plan: &Plan, language: Language, words: &mut RandomStream) -> Vec<String> {
-    let wording = match language {
+fn lines(plan: &Plan, right_after: usize, language: Language, words: &mut RandomStream) -> Vec<String> {
+    let wording = wording(language);
+    match &plan.mistaken {
+        Some(mistaken) => dialogue(plan, mistaken, right_after, language, words),
+        None => vec![sentence(plan, right_after, wording, words)],
+    }
+}
+
+fn wording(language: Language) -> &'static Wording {
+    match language {
         Language::Zh => &chinese::WORDING,
         Language::En => &english::WORDING,
-    };
-    match &plan.mistaken {
-        Some(mistaken) => dialogue(plan, mistaken, wording, language, words),
-        None => vec![sentence(plan, wording, words)],
     }
 }
 
@@ -61,12 +66,12 @@ fn metres_of(said: &[Said]) -> Option<u32> {
 }
 
 /// One or several sentences with everything that is said.
-fn sentence(plan: &Plan, wording: &Wording, words: &mut RandomStream) -> String {
+fn sentence(plan: &Plan, right_after: usize, wording: &Wording, words: &mut RandomStream) -> String {
     let wear = wear_of(&plan.said);
     let templates = if wear.is_some() { wording.flights } else { wording.steps };
     let stands = plan.said.iter().any(|it| it.claim == Claim::Stands);
     let template = one_of(words, &without(templates, Some(OF_A_WALK).filter(|_| stands)));
-    let predicates = told_in_order(predicates(&plan.said, wording, words), wording, words);
+    let predicates = told_in_order(predicates(&plan.said, right_after, wording, words), wording, words);
     let keep = one_of(words, wording.keeps).replace("{d}", &metres_of(&plan.said).unwrap_or(0).to_string());
     let text = (wording.finished)(template, &predicates, &keep);
     wear.map_or(text.clone(), |wear| text.replace("[w]", &(wording.target)(&wear, words)))
@@ -89,14 +94,19 @@ fn told_in_order(parts: Vec<(String, Range<usize>)>, wording: &Wording, words: &
 }
 
 /// What the target does, in order; a move after landmarks may be told by the last of them.
-fn predicates(said: &[Said], wording: &Wording, words: &mut RandomStream) -> Vec<(String, Range<usize>)> {
+fn predicates(
+    said: &[Said],
+    right_after: usize,
+    wording: &Wording,
+    words: &mut RandomStream,
+) -> Vec<(String, Range<usize>)> {
     let told: Vec<&Said> = said.iter().filter(|it| !matches!(it.claim, Claim::Wears(_) | Claim::Distance(_))).collect();
     let mut parts: Vec<(String, Range<usize>)> = vec![];
     let mut at = 0;
     while at < told.len() {
         let is_move = |it: &&Said| matches!(it.claim, Claim::Turns(_));
         match (&told[at].claim, told.get(at + 1)) {
-            (claim, Some(next)) if is_anchor(told[at], next) && is_move(next) => {
+            (claim, Some(next)) if is_anchor(told[at], next, right_after) && is_move(next) => {
                 let action = (wording.predicate)(next, words);
                 parts.push(((wording.anchored)(claim, &action, words), told[at].frames.start..next.frames.end));
                 at += 2;
@@ -110,12 +120,12 @@ fn predicates(said: &[Said], wording: &Wording, words: &mut RandomStream) -> Vec
     parts
 }
 
-/// Whether what is next is told by something before it: the last of some landmarks, or a crossing right before.
-fn is_anchor(said: &Said, next: &Said) -> bool {
+/// Whether what is next is told by something before it: the last of some landmarks, or a crossing at most so many frames before.
+fn is_anchor(said: &Said, next: &Said, right_after: usize) -> bool {
     let after = next.frames.start.checked_sub(said.frames.end);
     match said.claim {
         Claim::Passes(_) => after.is_some(),
-        Claim::Crosses => after.is_some_and(|frames| frames <= RIGHT_AFTER_FRAMES),
+        Claim::Crosses => after.is_some_and(|frames| frames <= right_after),
         _ => false,
     }
 }
@@ -123,10 +133,11 @@ fn is_anchor(said: &Said, next: &Said) -> bool {
 fn dialogue(
     plan: &Plan,
     mistaken: &Claim,
-    wording: &Wording,
+    right_after: usize,
     language: Language,
     words: &mut RandomStream,
 ) -> Vec<String> {
+    let wording = wording(language);
     let patterns = (wording.dialogue)(plan.wrong.unwrap_or(Subject::Clothes));
     // Of more than two people nobody is `the other one`.
     let is_of_two = |lines: &[&str; 3]| lines.iter().any(|line| line.contains("other one") || line.contains("另一个"));
@@ -174,7 +185,7 @@ fn dialogue(
             );
         }
         wrong => {
-            let own = told_in_order(predicates(&plan.said, wording, words), wording, words);
+            let own = told_in_order(predicates(&plan.said, right_after, wording, words), wording, words);
             put("{m}", &own);
             put("{n}", &(wording.predicate)(&Said { claim: wrong.clone(), frames: plan.frames.clone() }, words));
         }

@@ -12,12 +12,10 @@ use std::ops::Range;
 
 /// Slower than this is standing, m/s.
 const STANDING_MPS: f64 = 0.05;
-/// Shorter pauses, and shorter times out of sight, are not worth a word, seconds.
+/// Shorter pauses, and shorter times out of sight or partly hidden, are not worth a word, seconds.
 const LEAST_S: f64 = 1.0;
 /// A target that moves less than this in all stands, metres.
 const LEAST_WALK_M: f64 = 1.0;
-/// Fewest frames in a row of a target that is partly hidden.
-const PARTLY_FRAMES: usize = 2;
 
 /// Frames in a row in which something hides the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,6 +109,11 @@ impl<'a> Course<'a> {
         self.flight.states.len()
     }
 
+    /// Frames that a time takes, at least one.
+    pub(super) fn frames_in(&self, time_s: f64) -> usize {
+        ((time_s / self.flight.dt_s).round() as usize).max(1)
+    }
+
     /// Whether the way around a frame leads to a side so much that people may call it a turn.
     pub(super) fn leads(&self, frame: usize, to: TurnKind) -> bool {
         self.path.leads(frame, to)
@@ -164,14 +167,14 @@ impl<'a> Course<'a> {
             let behind = hidden.behind.and_then(|id| self.flight.hiders.iter().find(|it| it.0 == id)).map(|it| it.1);
             let behind = behind.filter(|hider| is_named(*hider));
             let claim = match (hidden.is_whole, behind) {
-                (true, _) if length_s < LEAST_S - 1e-9 => return None,
+                _ if length_s < LEAST_S - 1e-9 => return None,
                 (true, None) if !hidden.is_outside => return None,
                 (true, behind) => Claim::Lost {
                     behind: behind.filter(|_| !hidden.is_outside),
                     seconds: length_s.round() as u32,
                     found: hidden.frames.end < self.len(),
                 },
-                (false, Some(hider)) if hidden.frames.len() >= PARTLY_FRAMES => Claim::PartlyHidden(hider),
+                (false, Some(hider)) => Claim::PartlyHidden(hider),
                 (false, _) => return None,
             };
             Some(Said { claim, frames: hidden.frames.clone() })

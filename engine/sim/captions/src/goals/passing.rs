@@ -16,8 +16,8 @@ const BORDER: f64 = 1.4;
 /// A landmark is beside the target where it is this little before or behind, and at least so far to a side, metres.
 const ABREAST_M: f64 = 1.0;
 const LEAST_ASIDE_M: f64 = 0.5;
-/// Around the ends of a stretch, in frames, nothing may be beside the target: nobody can say whether it counts.
-const EDGE_FRAMES: usize = 2;
+/// Around the ends of a stretch nothing may be beside the target for this long, seconds: nobody can say whether it counts.
+const EDGE_S: f64 = 1.0;
 /// More are not counted at a glance.
 const MOST: usize = 6;
 /// A landmark begins at most this far above or below the feet, metres.
@@ -40,7 +40,7 @@ struct Beside {
 /// Numbers of landmarks that the target passes in the frames, by kind and side; the best first. Only what nobody could dispute.
 pub(super) fn passed(course: &Course<'_>, frames: &Range<usize>) -> Vec<Said> {
     let mut found: Vec<Said> = vec![];
-    let beside = all_beside(course, frames);
+    let (beside, edge) = (all_beside(course, frames), course.frames_in(EDGE_S));
     for kind in LandmarkKind::ALL {
         let of_kind: Vec<&Beside> = beside.iter().filter(|(key, _)| key.0 == kind).map(|(_, it)| it).collect();
         for side in [OnSide::Left, OnSide::Right] {
@@ -49,8 +49,8 @@ pub(super) fn passed(course: &Course<'_>, frames: &Range<usize>) -> Vec<Said> {
             let is_clear = |it: &&&Beside| {
                 (it.left == 0) != (it.right == 0)
                     && it.least_m <= reach_m(kind)
-                    && it.first >= frames.start + EDGE_FRAMES
-                    && it.last + EDGE_FRAMES < frames.end
+                    && it.first >= frames.start + edge
+                    && it.last + edge < frames.end
             };
             if (1..=MOST).contains(&there.len()) && there.iter().all(is_clear) {
                 let frames = frames.clone();

@@ -15,6 +15,12 @@ const WALKS_MPS: f64 = 0.3;
 /// Shares of the frames in which somebody beside the target is seen beside it: with it, and not with it.
 const WITH_SHARE: f64 = 0.7;
 const APART_SHARE: f64 = 0.3;
+/// The target must walk for at least this long beside others, seconds.
+const LEAST_WITH_S: f64 = 3.0;
+/// Time before and after somebody passes the target in which both walk so, seconds: people who go the same way pass one another
+/// slowly.
+const PASSING_S: f64 = 0.5;
+const PASSING_SLOWLY_S: f64 = 3.0;
 /// Most people whom a text counts.
 const MOST_WITH: usize = 6;
 /// Who comes towards the target walks against its direction by at least this angle, degrees, and passes it at most this far
@@ -29,7 +35,7 @@ const PASSES_M: f64 = 1.0;
 pub(super) fn walks_with(course: &Course<'_>, frames: &Range<usize>) -> Option<Said> {
     let walked = |frame: usize| course.flight.states[frame].speed_mps >= WALKS_MPS;
     let walking = frames.clone().filter(|frame| walked(*frame)).count();
-    if walking < 6 || 10 * walking < 8 * frames.len() {
+    if walking < course.frames_in(LEAST_WITH_S) || 10 * walking < 8 * frames.len() {
         return None;
     }
     let share = |neighbour: &Neighbour, factor: f64| {
@@ -96,8 +102,7 @@ fn passing(
         let is_turned = if manner == Manner::Towards { turned_deg >= AGAINST_DEG } else { turned_deg <= WITH_DEG };
         is_turned && it.state.speed_mps >= WALKS_MPS && state.speed_mps >= WALKS_MPS
     };
-    // People who go the same way pass one another slowly.
-    let more = if manner == Manner::FromAhead { 6 } else { 1 };
+    let more = course.frames_in(if manner == Manner::FromAhead { PASSING_SLOWLY_S } else { PASSING_S });
     let around = &seen[at.saturating_sub(more)..(at + 2 + more).min(seen.len())];
     let is_through = around.first().is_some_and(|it| ahead_m(it) >= PASSES_M)
         && around.last().is_some_and(|it| ahead_m(it) <= -PASSES_M);

@@ -173,3 +173,36 @@ fn a_flight_of_one_frame_and_one_without_people_have_goals_without_a_panic() {
         }
     }
 }
+
+#[test]
+fn what_is_said_depends_on_times_and_not_on_numbers_of_frames() {
+    const FINER: usize = 5;
+    let coarse = states();
+    let fine: Vec<TargetState> = (0..coarse.len() * FINER)
+        .map(|frame| {
+            let (at, before) = (coarse[frame / FINER], coarse[(frame / FINER).saturating_sub(1)]);
+            let share = (frame % FINER + 1) as f64 / FINER as f64;
+            TargetState { feet_in_world: before.feet_in_world.lerp(at.feet_in_world, share), ..at }
+        })
+        .collect();
+    let partly =
+        |frames: std::ops::Range<usize>| Hidden { frames, behind: Some(9), is_outside: false, is_whole: false };
+    let (mut of_coarse, mut of_fine) = (flight(&coarse), Flight { dt_s: 0.1, ..flight(&fine) });
+    // Partly hidden for a second, and for half of one.
+    of_coarse.hidden = vec![partly(20..22), partly(30..31)];
+    of_fine.hidden = vec![partly(100..110), partly(150..155)];
+    let town = town();
+    let told = |course: &Course<'_>, scale: usize| -> Vec<Vec<String>> {
+        let frames = |from: usize, to: usize| scale * from..scale * to;
+        let claims = |said: Vec<super::claim::Said>| said.into_iter().map(|it| format!("{:?}", it.claim)).collect();
+        vec![
+            claims(course.sights(&frames(0, 98))),
+            claims(surroundings(course, &frames(0, 48))),
+            claims(surroundings(course, &frames(0, 37))),
+            claims(surroundings(course, &frames(0, 5))),
+        ]
+    };
+    let expected = told(&Course::of(&of_coarse, &town), 1);
+    assert_eq!(expected[0], ["PartlyHidden(Body(Van))"]);
+    assert_eq!(told(&Course::of(&of_fine, &town), FINER), expected);
+}

@@ -21,23 +21,44 @@ const BUSH_M: f64 = 3.0;
 const BRANCHES_M: f64 = 2.0;
 /// Height of a tree of which the file gives the place only, metres.
 const USUAL_TREE_M: f64 = 8.0;
+/// Lowest and highest tree, thinnest and widest crown by its radius, metres: the highest known tree has 116 m.
+const HEIGHTS_M: [f64; 2] = [0.5, 120.0];
+const RADII_M: [f64; 2] = [0.2, 20.0];
 
-/// Trunk and crown of a tree; true when sizes are assumed.
-pub(super) fn tree(
-    shape: &Shape,
-    attributes: Option<&Attributes>,
-    space: &Space,
-    object_id: u32,
-) -> Option<(Vec<(ObstacleKind, OrientedBox)>, bool)> {
+/// A tree as boxes.
+pub(super) struct Tree {
+    /// Trunk and crown.
+    pub(super) boxes: Vec<(ObstacleKind, OrientedBox)>,
+    /// Whether its size is assumed: the file gives its place only.
+    pub(super) is_assumed: bool,
+    /// Whether the file gives it a size that no tree has.
+    pub(super) is_absurd: bool,
+}
+
+/// Trunk and crown of a tree.
+pub(super) fn tree(shape: &Shape, attributes: Option<&Attributes>, space: &Space, object_id: u32) -> Option<Tree> {
     let (low, high) = shape.bounds()?;
     let size = high - low;
+    let mut is_absurd = false;
+    let mut believed = |stated_m: f64, [least, most]: [f64; 2]| {
+        let is_believed = (least..=most).contains(&stated_m);
+        is_absurd |= !is_believed;
+        is_believed.then_some(stated_m)
+    };
+    let (is_drawn_high, seen_m) = (size.z >= 0.5, 0.25 * (size.x + size.y));
     let stated_m = attributes.and_then(Attributes::height).map(|height| space.length_m(height));
-    let is_assumed = size.z < 0.5 && stated_m.is_none();
-    let height_m = if size.z >= 0.5 { size.z } else { stated_m.unwrap_or(USUAL_TREE_M) }.clamp(0.5, 120.0);
-    let crown_m = attributes.and_then(Attributes::crown_diameter).map(|diameter| 0.5 * space.length_m(diameter));
-    let seen_m = 0.25 * (size.x + size.y);
-    let radius_m =
-        if seen_m > 0.2 { seen_m } else { crown_m.unwrap_or((0.2 * height_m).clamp(1.0, 4.5)) }.clamp(0.2, 20.0);
+    let is_assumed = !is_drawn_high && stated_m.is_none();
+    let height_m = if is_drawn_high {
+        believed(size.z, HEIGHTS_M).unwrap_or(HEIGHTS_M[1])
+    } else {
+        stated_m.and_then(|stated_m| believed(stated_m, HEIGHTS_M)).unwrap_or(USUAL_TREE_M)
+    };
+    let radius_m = if seen_m > 0.2 {
+        believed(seen_m, RADII_M).unwrap_or(RADII_M[1])
+    } else {
+        let stated_m = attributes.and_then(Attributes::crown_diameter).map(|diameter| 0.5 * space.length_m(diameter));
+        stated_m.and_then(|stated_m| believed(stated_m, RADII_M)).unwrap_or((0.2 * height_m).clamp(1.0, 4.5))
+    };
     let foot = (0.5 * (low + high)).with_z(low.z);
     let base_m = 0.35 * height_m;
     let upright = |foot: DVec3, half_m: f64, height_m: f64| OrientedBox {
@@ -49,7 +70,7 @@ pub(super) fn tree(
     let crown = upright(foot + base_m * DVec3::Z, radius_m, height_m - base_m);
     let crowns = crown_boxes(&crown, object_id).map(|shape| (ObstacleKind::TreeCrown, shape));
     let boxes = core::iter::once((ObstacleKind::TreeTrunk, trunk)).chain(crowns).collect();
-    Some((boxes, is_assumed))
+    Some(Tree { boxes, is_assumed, is_absurd })
 }
 
 /// Boxes under faces that rise from the ground; [`of_height`] makes plants of them.

@@ -67,6 +67,7 @@ struct Tally {
     repeated: Count,
     storeys: usize,
     bare_trees: usize,
+    absurd_trees: Count,
     stands: usize,
     coarse: CoarseThings,
 }
@@ -120,7 +121,7 @@ impl Parts {
             match part {
                 Part::Building => self.add_building(id, object, shape, object_id),
                 Part::Solid(kind) => self.add_solid(kind, &shape, object_id),
-                Part::Tree => self.add_tree(object, &shape, object_id),
+                Part::Tree => self.add_tree(object, &shape, (id, object_id)),
                 Part::Plants => self.add_plants(&shape, object_id)?,
                 Part::Ground(label, kind) => {
                     let is_underside = undersides(&shape.faces);
@@ -219,11 +220,12 @@ impl Parts {
         }
     }
 
-    fn add_tree(&mut self, object: &CityObject, shape: &Shape, object_id: u32) {
+    fn add_tree(&mut self, object: &CityObject, shape: &Shape, (id, object_id): (&str, u32)) {
         let tree = plants::tree(shape, object.attributes.as_ref(), &self.space, object_id);
-        if let Some((boxes, is_assumed)) = tree {
-            self.tally.bare_trees += usize::from(is_assumed);
-            for (kind, shape) in boxes {
+        if let Some(tree) = tree {
+            self.tally.bare_trees += usize::from(tree.is_assumed);
+            self.tally.absurd_trees.note(usize::from(tree.is_absurd), id);
+            for (kind, shape) in tree.boxes {
                 self.push(kind, object_id, [shape]);
             }
         }
@@ -262,13 +264,14 @@ impl Parts {
                  single trees need `SolitaryVegetationObject`"
             ));
         }
-        terrain::add_terrain(&mut self.ground.meshes, &self.obstacles, terrain::USUAL_MARGIN_M)?;
+        let coarseness = terrain::add_terrain(&mut self.ground.meshes, &self.obstacles, terrain::USUAL_MARGIN_M)?;
         let surfaces = self.ground.meshes.finish();
         let mut walkable = self.ground.walkable;
         if !walkable.iter().any(|polygon| polygon.kind != WalkableKind::Road) {
             notes.push(add_open_ground(&mut walkable, &self.obstacles, &surfaces));
         }
         let mut warnings = self.tally.warnings();
+        warnings.extend(coarseness);
         warnings.extend(unit_warning(self.space.units_m[0], self.space.reference_system.as_deref()));
         if self.space.lacks_transform {
             warnings
@@ -305,6 +308,11 @@ impl Tally {
             ),
             (&self.without_shape, "objects without a usable shape are left out"),
             (&self.unknown, "objects of kinds that are not read are left out"),
+            (
+                &self.absurd_trees,
+                "trees are lower than 0.5 m, higher than 120 m or wider than 40 m: stated sizes are assumed instead, and drawn ones cut to \
+                 these limits",
+            ),
             (&self.repeated, "objects are in the file again under the same name and are left out"),
         ];
         let counted = all.into_iter().filter(|(count, _)| count.count > 0);

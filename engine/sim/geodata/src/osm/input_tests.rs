@@ -238,6 +238,40 @@ fn paths_cross_streets_or_end_at_their_kerbs() {
 }
 
 #[test]
+fn areas_for_people_are_cut_by_carriageways_and_joined_by_crossings() {
+    // A square of 220 m by 130 m; a street, 10 m wide, leads through its middle from west to east.
+    let nodes = [(11, -18, 0), (12, 18, 0), (21, -10, -6), (22, 10, -6), (23, 10, 6), (24, -10, 6)];
+    let square = |tags: &[(&str, &str)]| way(2, &[21, 22, 23, 24, 21], tags);
+    let street = |class: &str| way(1, &[11, 12], &[("highway", class), ("width", "10")]);
+    let plaza = square(&[("highway", "pedestrian"), ("area", "yes")]);
+    let (town, _) = read(osm(&nodes, &(street("residential") + &plaza)).as_bytes()).unwrap();
+    for x in [-9.0, -5.0, 5.0, 9.0] {
+        assert_eq!(ground_at(&town, (x, 0.2)), [], "{x}: the carriageway");
+        assert_eq!(ground_at(&town, (x, 0.6)), [WalkableKind::Plaza], "{x}: north of it");
+        assert_eq!(ground_at(&town, (x, -5.0)), [WalkableKind::Plaza], "{x}: south of it");
+    }
+    assert_eq!(ground_at(&town, (0.0, 0.1)), [WalkableKind::Crossing], "people cross in the middle");
+    let area_m2: f64 = town
+        .walkable
+        .iter()
+        .filter(|one| one.kind == WalkableKind::Plaza)
+        .map(|one| 0.5 * cosfly_town::polygons::twice_area_m2(&one.plan()).abs())
+        .sum();
+    assert!((area_m2 - 222.6 * (132.7 - 10.0)).abs() < 40.0, "{area_m2}");
+    assert!(town.synthetic.notes.iter().any(|note| note.starts_with("1 areas for people are cut")));
+    // A street that people share, an area that crosses the street, and an island in it stay whole.
+    for (class, tags) in [
+        ("living_street", &[("highway", "pedestrian"), ("area", "yes")][..]),
+        ("residential", &[("area:highway", "crossing")]),
+        ("residential", &[("area:highway", "traffic_island")]),
+    ] {
+        let (town, _) = read(osm(&nodes, &(street(class) + &square(tags))).as_bytes()).unwrap();
+        assert!(!ground_at(&town, (5.0, 0.2)).is_empty(), "{class} {tags:?}");
+        assert!(!town.synthetic.notes.iter().any(|note| note.contains("are cut where")));
+    }
+}
+
+#[test]
 fn streets_that_forbid_walking_and_the_sides_between_carriageways_get_no_invented_pavement() {
     let nodes = [(11, -18, 0), (12, 18, 0), (21, -18, 1), (22, 18, 1), (31, -18, 9), (32, 18, 9)];
     let one = [("highway", "secondary"), ("oneway", "yes"), ("width", "6")];

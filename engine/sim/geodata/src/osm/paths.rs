@@ -1,5 +1,6 @@
 //! Ground for people: paths, pedestrian areas, crossings, pavements.
 
+use super::carved::Carriageways;
 use super::elements::{Elements, Way};
 use super::frame::Frame;
 use super::options::OsmOptions;
@@ -10,7 +11,7 @@ use super::strip::{add_surface, strips, walkable};
 use super::tags::Tags;
 use crate::slabs::{Trapezoid, trapezoids};
 use cosfly_domain::{SemanticLabel, WalkableKind, WalkablePolygon};
-use cosfly_frames::DVec2;
+use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::MapError;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::polygons::twice_area_m2;
@@ -137,8 +138,17 @@ pub fn read(
             }
         }
     }
+    let carriageways = Carriageways::new(roads);
+    let mut cut = [0; 2];
     for area in areas(elements, frame, |tags| kind_of_area(tags).is_some(), problems) {
-        out.add_area(&area, frame, meshes, problems);
+        let crossings = out.add_area(&area, frame, &carriageways, meshes, problems);
+        cut = [cut[0] + usize::from(crossings.is_some()), cut[1] + crossings.unwrap_or(0)];
+    }
+    if cut[0] > 0 {
+        out.notes.push(format!(
+            "{} areas for people are cut where carriageways lead over them; {} crossings, {CROSSING_M} m wide, join their parts",
+            cut[0], cut[1]
+        ));
     }
     out.add_crossing_nodes(elements, frame, roads, meshes);
     let area_m2: f64 = out.walkable.iter().map(|polygon| 0.5 * twice_area_m2(&polygon.plan()).abs()).sum();
@@ -212,12 +222,43 @@ impl Paths {
         }
     }
 
-    fn add_area(&mut self, area: &Area<'_>, frame: &Frame, meshes: &mut MeshBuilder, problems: &mut Problems) {
-        let Some(kind) = kind_of_area(area.tags) else { return };
-        if !add_ground(meshes, label(kind), (area, height_m(kind)), frame, problems) {
-            return;
+    /// Ground over an area. Where carriageways lead over it they cut it, and crossings join its parts; gives their number then.
+    fn add_area(
+        &mut self,
+        area: &Area<'_>,
+        frame: &Frame,
+        carriageways: &Carriageways<'_>,
+        meshes: &mut MeshBuilder,
+        problems: &mut Problems,
+    ) -> Option<usize> {
+        let kind = kind_of_area(area.tags)?;
+        let ground = pieces_of(area, frame, problems);
+        if ground.is_empty() {
+            return None;
         }
-        // One outline with bridges to the holes, which run the other way round.
+        let is_over_streets = kind == WalkableKind::Crossing || area.tags.is("area:highway", &["traffic_island"]);
+        let Some(pieces) = carriageways.cut(&ground).filter(|_| !is_over_streets) else {
+            ground.iter().for_each(|piece| add_trapezoid(meshes, label(kind), piece, height_m(kind)));
+            self.add_outline(area, kind, frame);
+            return None;
+        };
+        for piece in pieces {
+            let vertices: Vec<(DVec3, DVec2)> =
+                piece.iter().map(|corner| (corner.extend(height_m(kind)), *corner)).collect();
+            let fan: Vec<[u32; 3]> = (2..piece.len() as u32).map(|corner| [0, corner - 1, corner]).collect();
+            meshes.polygon(label(kind), false, &vertices, &fan);
+            let outline_in_world = vertices.into_iter().map(|(corner, _)| corner).collect();
+            self.walkable.push(WalkablePolygon { kind, outline_in_world, synthetic: false });
+        }
+        let crossings = carriageways.ways_across(area, CROSSING_REACH_M);
+        for line in &crossings {
+            self.add_strips(line, WalkableKind::Crossing, CROSSING_M, true, meshes);
+        }
+        Some(crossings.len())
+    }
+
+    /// One outline around an area with bridges to its holes, which run the other way round.
+    fn add_outline(&mut self, area: &Area<'_>, kind: WalkableKind, frame: &Frame) {
         let oriented = |ring: &[DVec2], is_positive: bool| {
             let mut ring = ring.to_vec();
             if (twice_area_m2(&ring) > 0.0) != is_positive {
@@ -310,6 +351,15 @@ pub fn add_ground(
     frame: &Frame,
     problems: &mut Problems,
 ) -> bool {
+    let pieces = pieces_of(area, frame, problems);
+    for piece in &pieces {
+        add_trapezoid(meshes, label, piece, height_m);
+    }
+    !pieces.is_empty()
+}
+
+/// The pieces of an area with holes inside the extract; none where there are absurdly many, which is a problem.
+fn pieces_of(area: &Area<'_>, frame: &Frame, problems: &mut Problems) -> Vec<Trapezoid> {
     let clipped: Vec<Vec<DVec2>> = area
         .rings()
         .iter()
@@ -317,14 +367,10 @@ pub fn add_ground(
         .filter(|ring| ring.len() >= 3)
         .collect();
     let rings: Vec<&[DVec2]> = clipped.iter().map(Vec::as_slice).collect();
-    let Some(pieces) = trapezoids(&rings) else {
+    trapezoids(&rings).unwrap_or_else(|| {
         problems.too_crooked.add(area.source);
-        return false;
-    };
-    for piece in &pieces {
-        add_trapezoid(meshes, label, piece, height_m);
-    }
-    !pieces.is_empty()
+        Vec::new()
+    })
 }
 
 /// Adds a piece of ground at a height.

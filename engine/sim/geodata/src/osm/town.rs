@@ -51,7 +51,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     notes.append(&mut paths.notes);
     notes.push(one_level(elements));
     notes.push(passages.note());
-    terrain::add_terrain(&mut meshes, &obstacles, terrain::USUAL_MARGIN_M)?;
+    let coarseness = terrain::add_terrain(&mut meshes, &obstacles, terrain::USUAL_MARGIN_M)?;
     let surfaces = meshes.finish();
     if paths.walkable.is_empty() {
         notes.push(add_open_ground(&mut paths.walkable, &obstacles, &surfaces));
@@ -73,6 +73,7 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     };
     let mut warnings = warnings(elements, &problems, &buildings, &of_things);
     warnings.extend(bare_streets);
+    warnings.extend(coarseness);
     Ok((town, warnings))
 }
 

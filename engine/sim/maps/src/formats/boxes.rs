@@ -267,7 +267,7 @@ impl Document {
             meshes.polygon(label(ground.kind), false, &vertices, &triangles);
             walkable.push(polygon);
         }
-        terrain::add_terrain(&mut meshes, &obstacles, options.terrain_margin_m)?;
+        let coarseness = terrain::add_terrain(&mut meshes, &obstacles, options.terrain_margin_m)?;
         let town = Town {
             name: "town".to_owned(),
             origin: world.origin(None),
@@ -277,7 +277,7 @@ impl Document {
             synthetic: Synthetic { notes: tally.notes(), ..Synthetic::default() },
             ..Town::default()
         };
-        Ok((town, tally.warnings()))
+        Ok((town, tally.warnings().into_iter().chain(coarseness).collect()))
     }
 
     fn obstacles(&self, world: &WorldFromMap) -> Result<(Vec<Obstacle>, Tally), MapError> {

@@ -73,10 +73,9 @@ pub struct CloudBuilder {
 impl CloudBuilder {
     /// Adds a point; noise and points that are nowhere are counted.
     pub fn push(&mut self, point_in_map: DVec3, class: u8) {
-        let is_somewhere =
-            point_in_map.truncate().abs().max_element() <= FARTHEST_M && point_in_map.z.abs() <= HIGHEST_M;
-        // Also false for numbers that are none.
-        if !is_somewhere {
+        let farthest = DVec3::new(FARTHEST_M, FARTHEST_M, HIGHEST_M);
+        // Each number is compared: the largest of a vector passes over those that are none.
+        if !point_in_map.abs().cmple(farthest).all() {
             self.absurd += 1;
             return;
         }
@@ -185,5 +184,22 @@ impl Cloud {
     /// All points in the world, metres.
     pub fn points(&self) -> impl Iterator<Item = DVec3> {
         (0..self.len()).map(|index| self.point(index))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_with_one_coordinate_that_is_no_number_are_left_out() {
+        let mut cloud = CloudBuilder::default();
+        for (axis, odd) in [(0, f64::NAN), (1, f64::NAN), (2, f64::NAN), (0, 1.1e8), (1, -f64::INFINITY), (2, 2e5)] {
+            let mut point = DVec3::new(3.0, 4.0, 5.0);
+            point[axis] = odd;
+            cloud.push(point, class::UNCLASSIFIED);
+        }
+        cloud.push(DVec3::new(1e8, -1e8, 1e5), class::UNCLASSIFIED);
+        assert_eq!((cloud.absurd, cloud.positions.len()), (6, 1));
     }
 }

@@ -61,7 +61,7 @@ pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<St
     }
     let mut meshes = MeshBuilder::default();
     survey.relief.add_mesh(&mut meshes, |at| label(&survey, at));
-    add_terrain(&mut meshes, &obstacles, USUAL_MARGIN_M)?;
+    warnings.extend(add_terrain(&mut meshes, &obstacles, USUAL_MARGIN_M)?);
     let town = Town {
         name: "town".to_owned(),
         origin: cloud.world.origin(cloud.geo_reference.clone()),

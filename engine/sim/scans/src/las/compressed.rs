@@ -1,8 +1,8 @@
 //! LAZ: chunks of compressed points, unpacked side by side. Sizes and counts are checked before anything is allocated.
 
-use super::contained::contained;
 use super::header::Header;
 use super::records::{Points, Record};
+use cosfly_diagnose::contained;
 use cosfly_town::MapError;
 use laz::laszip::ChunkTable;
 use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor};

@@ -2,15 +2,19 @@
 
 use crate::arguments::count;
 use clap::{Args, ValueEnum};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_env::pictures::{Channel, PictureFormat};
 use cosfly_fly::pilot::{ActionKind, Manners, Place, source_of};
 use cosfly_fly::results::{PicturesCard, PolicyCard};
 use cosfly_render::PictureLook;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Greatest depth in pictures, metres.
 const FARTHEST_M: f32 = 200.0;
+
+/// Environment variable with the key of a server.
+const KEY_VARIABLE: &str = "COSFLY_API_KEY";
 
 /// How a policy is asked.
 #[derive(Args, Debug)]
@@ -43,10 +47,9 @@ pub struct PolicyArguments {
     /// Time for which a policy that is absent, or a module that is being loaded, is waited for, seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
     wait_s: f64,
-    /// Key that a server gets as `Authorization: Api-Key KEY`; other users of the machine see it in the list of processes unless it comes
-    /// from the environment
-    #[arg(long, value_name = "KEY", env = "COSFLY_API_KEY", hide_env_values = true)]
-    api_key: Option<String>,
+    /// File with the key that a server gets as `Authorization: Api-Key KEY` [default: the environment variable COSFLY_API_KEY]
+    #[arg(long, value_name = "FILE")]
+    api_key_file: Option<PathBuf>,
     /// Command of Python, for policies in Python
     #[arg(long, value_name = "COMMAND", default_value = "python3")]
     python: PathBuf,
@@ -87,7 +90,18 @@ impl PolicyArguments {
     }
 
     /// How the policy is asked.
-    pub fn manners(&self) -> Manners {
+    ///
+    /// # Errors
+    /// A file without a key.
+    pub fn manners(&self) -> Result<Manners> {
+        let api_key = match &self.api_key_file {
+            Some(file) => Some(key_of(file)?),
+            None => std::env::var(KEY_VARIABLE).ok().filter(|key| !key.is_empty()),
+        };
+        Ok(Manners { api_key, ..self.without_key() })
+    }
+
+    fn without_key(&self) -> Manners {
         Manners {
             actions: self.actions.into(),
             every: u32::try_from(self.every).unwrap_or(u32::MAX),
@@ -95,7 +109,7 @@ impl PolicyArguments {
             prompt: self.prompt.clone(),
             timeout: Duration::from_secs_f64(self.timeout_s),
             wait: Duration::from_secs_f64(self.wait_s),
-            api_key: self.api_key.clone(),
+            api_key: None,
             python: self.python.clone(),
         }
     }
@@ -122,7 +136,7 @@ impl PolicyArguments {
             Place::Socket(_) => "socket",
             Place::Python { .. } => "python",
         };
-        let manners = self.manners();
+        let manners = self.without_key();
         let is_baseline = matches!(place, Place::Baseline(_));
         PolicyCard {
             name: name.to_owned(),
@@ -138,17 +152,31 @@ impl PolicyArguments {
     }
 }
 
-fn channel(text: &str) -> Result<Channel, String> {
+/// The key in a file: its only line.
+fn key_of(file: &Path) -> Result<String> {
+    let text = std::fs::read_to_string(file)
+        .map_err(|error| Diagnostic::io(format!("read the key in `{}`", file.display()), &error))?;
+    let key = text.trim();
+    if key.is_empty() || key.lines().count() > 1 {
+        let message = format!("`{}` is not a file with a key", file.display());
+        return Err(Diagnostic::new("fly-policy", Fault::Recipe, message).hint(
+            "put the key into it, on one line and alone, or give it in the environment variable COSFLY_API_KEY",
+        ));
+    }
+    Ok(key.to_owned())
+}
+
+fn channel(text: &str) -> std::result::Result<Channel, String> {
     let names: Vec<&str> = Channel::ALL.iter().map(|(name, _)| *name).collect();
     Channel::named(text).ok_or_else(|| format!("allowed are {}", names.join(", ")))
 }
 
-fn look(text: &str) -> Result<PictureLook, String> {
+fn look(text: &str) -> std::result::Result<PictureLook, String> {
     let names = PictureLook::ALL.map(|(name, _)| name);
     PictureLook::named(text).ok_or_else(|| format!("allowed are {}", names.join(", ")))
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+fn seconds(text: &str) -> std::result::Result<f64, String> {
     let number: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
     if (0.001..=86_400.0).contains(&number) { Ok(number) } else { Err("it must be 0.001 to 86400".to_owned()) }
 }

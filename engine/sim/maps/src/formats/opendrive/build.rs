@@ -90,7 +90,8 @@ fn build(
     }
     parts.pave_between_lanes();
     parts.add_crossings(options);
-    terrain::add_terrain(&mut parts.meshes, &parts.obstacles.obstacles, terrain::USUAL_MARGIN_M)?;
+    let coarseness = terrain::add_terrain(&mut parts.meshes, &parts.obstacles.obstacles, terrain::USUAL_MARGIN_M)?;
+    parts.warnings.extend(coarseness);
     parts.finish(network)
 }
 

@@ -20,8 +20,25 @@ pub fn contained<T>(work: impl FnOnce() -> T) -> Option<T> {
             }
         }));
     });
-    IS_CONTAINED.set(true);
+    let was_contained = IS_CONTAINED.replace(true);
     let result = catch_unwind(AssertUnwindSafe(work));
-    IS_CONTAINED.set(false);
+    IS_CONTAINED.set(was_contained);
     result.ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_that_panics_gives_nothing_and_work_around_it_goes_on() {
+        assert_eq!(contained(|| 3), Some(3));
+        let around = contained(|| {
+            let inner: Option<u8> = contained(|| panic!("damaged"));
+            assert!(IS_CONTAINED.get() && inner.is_none());
+            4
+        });
+        assert_eq!(around, Some(4));
+        assert!(!IS_CONTAINED.get());
+    }
 }
