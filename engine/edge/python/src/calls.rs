@@ -1,10 +1,10 @@
 //! Calls of the command line from Python.
 
 use crate::console::{Embedded, Stopped};
-use crate::errors::exception;
+use crate::errors::{BadValue, exception};
 use cosfly::Refusal;
 use cosfly_diagnose::{Diagnostic, Fault};
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::ffi::OsString;
 use std::panic::AssertUnwindSafe;
@@ -73,7 +73,7 @@ pub fn call(
             let mut state = console.state();
             Ok((code, std::mem::take(&mut state.printed), std::mem::take(&mut state.messages)))
         }
-        Ok(Err(Refusal::Arguments(error))) => Err(PyValueError::new_err(error.to_string())),
+        Ok(Err(Refusal::Arguments(error))) => Err(BadValue::new_err(error.to_string())),
         Ok(Err(Refusal::Work(refusals))) => Err(exception(py, &refusals)),
         Err(payload) if payload.is::<Stopped>() => Err(pyo3::exceptions::PyKeyboardInterrupt::new_err(())),
         Err(_) => Err(PyRuntimeError::new_err("internal error of cosfly: please report it, with the message above")),

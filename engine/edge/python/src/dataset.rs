@@ -1,13 +1,12 @@
 //! A published dataset: its tables, and random access to the images of its logs.
 
-use crate::errors::raised;
+use crate::errors::{OutOfRange, raised};
 use crate::images::{Image, channel, checked};
 use crate::table::Table;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::Channel;
 use cosfly_domain::channels::rgb;
 use cosfly_load::{FlightSource, LoadedFlight};
-use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::path::PathBuf;
@@ -90,9 +89,7 @@ impl Reader {
             let flight = self.flight(*trajectory)?;
             if *frame >= flight.frames {
                 let (id, frames) = (&flight.id, flight.frames);
-                return Err(PyIndexError::new_err(format!(
-                    "frame {frame} is beyond `{id}`, which has {frames} frames"
-                )));
+                return Err(OutOfRange::new_err(format!("frame {frame} is beyond `{id}`, which has {frames} frames")));
             }
         }
         let jobs: Vec<_> = known.iter().flat_map(|it| frames.iter().map(|frame| (*it, *frame))).collect();
@@ -121,7 +118,7 @@ impl Reader {
     fn flight(&self, trajectory: usize) -> PyResult<&LoadedFlight> {
         let all = self.0.flights();
         let message = || format!("trajectory {trajectory} is beyond the dataset, which has {} trajectories", all.len());
-        all.get(trajectory).ok_or_else(|| PyIndexError::new_err(message()))
+        all.get(trajectory).ok_or_else(|| OutOfRange::new_err(message()))
     }
 
     /// Images of all jobs in their order.

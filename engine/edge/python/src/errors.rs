@@ -7,6 +7,10 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::path::PathBuf;
 
+pyo3::import_exception!(cosfly._errors, BadValue);
+pyo3::import_exception!(cosfly._errors, NotFound);
+pyo3::import_exception!(cosfly._errors, OutOfRange);
+
 /// The exception for some diagnostics; the first one decides its code.
 pub fn exception(py: Python<'_>, refusals: &[Box<Diagnostic>]) -> PyErr {
     let build = || -> PyResult<PyErr> {

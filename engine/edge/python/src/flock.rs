@@ -1,7 +1,7 @@
 //! Environments of `cosfly.gym`: a suite, and many environments over its episodes, stepped with the GIL released.
 
 use crate::calls::on_own_threads;
-use crate::errors::exception;
+use crate::errors::{BadValue, exception};
 use cosfly::Refusal;
 use cosfly_diagnose::Diagnostic;
 use cosfly_domain::Weather;
@@ -14,7 +14,7 @@ use cosfly_render::PictureLook;
 use cosfly_runner::RunOptions;
 use cosfly_store::Store;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -54,13 +54,13 @@ impl PyFlock {
             "next_step" => Autoreset::NextStep,
             "same_step" => Autoreset::SameStep,
             "disabled" => Autoreset::Disabled,
-            other => return Err(PyValueError::new_err(format!("`{other}` is no mode of autoreset"))),
+            other => return Err(BadValue::new_err(format!("`{other}` is no mode of autoreset"))),
         };
         let made = py.detach(|| on_own_threads(|| made(&recipe, &overrides, &store)));
         let (tasks, suite) = match made {
             Ok(made) => made,
             Err(Refusal::Work(refusals)) => return Err(exception(py, &refusals)),
-            Err(Refusal::Arguments(error)) => return Err(PyValueError::new_err(error.to_string())),
+            Err(Refusal::Arguments(error)) => return Err(BadValue::new_err(error.to_string())),
         };
         let suite = suite.environment();
         let latency_s = latency_s.unwrap_or(suite.latency_s);
@@ -68,7 +68,7 @@ impl PyFlock {
         let flock = VectorEnvironment::new(tasks, count, settings, mode, has_experts);
         let flock = if is_team { flock.as_team() } else { flock };
         let channel = |name: &String| {
-            Channel::named(name).ok_or_else(|| PyValueError::new_err(format!("`{name}` is no channel of pictures")))
+            Channel::named(name).ok_or_else(|| BadValue::new_err(format!("`{name}` is no channel of pictures")))
         };
         let channels: Vec<Channel> = channels.iter().map(channel).collect::<PyResult<_>>()?;
         if channels.is_empty() {
@@ -77,7 +77,7 @@ impl PyFlock {
         let weather = weather.map(preset).transpose()?;
         let look = PictureLook::named(look).ok_or_else(|| {
             let known = PictureLook::ALL.map(|(name, _)| name).join(", ");
-            PyValueError::new_err(format!("look is `{look}`; it is one of {known}"))
+            BadValue::new_err(format!("look is `{look}`; it is one of {known}"))
         })?;
         let format = PictureFormat { width: size.0, height: size.1, channels, farthest_m, weather, look };
         let flock = flock.with_pictures(format, threads).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
@@ -97,15 +97,15 @@ impl PyFlock {
 
     /// One step of all environments.
     fn step(&mut self, py: Python<'_>, actions: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
-        let given = actions.as_slice().map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let given = actions.as_slice().map_err(|error| BadValue::new_err(error.to_string()))?;
         if let Some(wrong) = wrong_number(given, ACTIONS) {
             let message = format!("actions have {wrong}; the action space has 12 m/s and 60 degrees/s at most");
-            return Err(PyValueError::new_err(message));
+            return Err(BadValue::new_err(message));
         }
         let (rows, rest) = given.as_chunks::<ACTIONS>();
         if rows.len() != self.flock.len() || !rest.is_empty() {
             let message = format!("actions must have the shape ({}, {ACTIONS})", self.flock.len());
-            return Err(PyValueError::new_err(message));
+            return Err(BadValue::new_err(message));
         }
         let rows: Vec<[f32; ACTIONS]> = rows.iter().map(|row| row.map(|number| number as f32)).collect();
         let flock = &mut self.flock;
@@ -162,7 +162,7 @@ impl PyFlock {
         if number < self.flock.len() {
             Ok(self.flock.planned_steps(number))
         } else {
-            Err(PyValueError::new_err(format!("there is no environment {number}")))
+            Err(BadValue::new_err(format!("there is no environment {number}")))
         }
     }
 
@@ -172,7 +172,7 @@ impl PyFlock {
         if number < flock.len() && py.detach(|| flock.begin_episode(number, name)) {
             Ok(())
         } else {
-            Err(PyValueError::new_err(format!("there is no environment {number} or no episode `{name}`")))
+            Err(BadValue::new_err(format!("there is no environment {number} or no episode `{name}`")))
         }
     }
 
@@ -181,7 +181,7 @@ impl PyFlock {
         if number < self.flock.len() {
             Ok(self.flock.episode(number))
         } else {
-            Err(PyValueError::new_err(format!("there is no environment {number}")))
+            Err(BadValue::new_err(format!("there is no environment {number}")))
         }
     }
 }
@@ -190,7 +190,7 @@ impl PyFlock {
 fn preset(name: &str) -> PyResult<Weather> {
     cosfly_materials::presets::preset(name).ok_or_else(|| {
         let presets = cosfly_materials::presets::PRESETS.join(", ");
-        PyValueError::new_err(format!("weather is `{name}`; it is one of {presets}"))
+        BadValue::new_err(format!("weather is `{name}`; it is one of {presets}"))
     })
 }
 

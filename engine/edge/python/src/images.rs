@@ -1,6 +1,6 @@
 //! Images of a log as pixels, whole or scaled.
 
-use crate::errors::raised;
+use crate::errors::{BadValue, raised};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::channels::Element;
 use cosfly_domain::{Channel, channels};
@@ -8,7 +8,6 @@ use cosfly_images::false_colours::{palette_image, picture_on_request};
 use cosfly_images::read::{self, Picture};
 use cosfly_read::StoredImage;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// Pixels of an image.
@@ -124,7 +123,7 @@ pub fn shown(py: Python<'_>, channel: &str, pixels: &[u8], width: u32, height: u
             ids.flat_map(|id| [id.wrapping_mul(97), id.wrapping_mul(57), id.wrapping_mul(151)].map(|it| it as u8))
                 .collect()
         }
-        _ => return Err(PyValueError::new_err(format!("{} bytes are no image of {width} x {height}", pixels.len()))),
+        _ => return Err(BadValue::new_err(format!("{} bytes are no image of {width} x {height}", pixels.len()))),
     };
     let mut file = vec![];
     raised(py, cosfly_images::rgb::png(&rgb, width, height, &mut file))?;
@@ -138,7 +137,7 @@ pub fn shown(py: Python<'_>, channel: &str, pixels: &[u8], width: u32, height: u
 pub fn checked(size: Option<(usize, usize)>) -> PyResult<Option<[usize; 2]>> {
     match size {
         Some((width, height)) if [width, height].iter().any(|side| !(1..=16_384).contains(side)) => {
-            Err(PyValueError::new_err(format!("the size is {width} x {height}; sides are from 1 to 16384 pixels")))
+            Err(BadValue::new_err(format!("the size is {width} x {height}; sides are from 1 to 16384 pixels")))
         }
         size => Ok(size.map(|(width, height)| [width, height])),
     }

@@ -1,6 +1,7 @@
 """What must be an exception with the words of the command line, and never a crash of the interpreter."""
 
 import os
+import pickle
 import shutil
 import signal
 import subprocess
@@ -138,3 +139,32 @@ def test_forks_in_the_middle_go_on():
         signal.alarm(120)  # a child that waits for threads forever is ended
         os._exit(0 if work() == expected else 1)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+
+
+def test_wrong_arguments_raise_the_one_exception_and_pythons_own(tmp_path):
+    data = cosfly.Dataset("data", windows=True)
+    pack = cosfly.pack("data", tmp_path / "pack", size=(80, 45), progress=False)
+    wrong = {
+        ValueError: [
+            lambda: cosfly.Dataset("data", split="nobody"),
+            lambda: cosfly.Dataset("data", role="pilot"),
+            lambda: cosfly.Dataset("data", size=(0, 4)),
+            lambda: data.town("nowhere"),
+            lambda: cosfly.run("small", set={"--no-such": 1}, stage=7, progress=False),
+            lambda: cosfly.evaluate("data", frames="sideways"),
+        ],
+        TypeError: [lambda: data[1.5], lambda: cosfly.run({"name": object()}, progress=False)],
+        KeyError: [lambda: data.trajectory("expert-p99999"), lambda: data.table("frames")["no_such_column"]],
+        IndexError: [lambda: data[10**6]],
+        FileExistsError: [lambda: cosfly.pack("data", tmp_path / "pack", size=(80, 45), progress=False)],
+        FileNotFoundError: [lambda: cosfly.Pack(tmp_path / "no-pack", "data")],
+    }
+    assert pack
+    for pythons, calls in wrong.items():
+        for number, call in enumerate(calls):
+            with pytest.raises(cosfly.Error) as caught:
+                call()
+            error = caught.value
+            assert isinstance(error, pythons) or error.problems, (pythons, number, error)
+            assert error.code and not str(error).startswith("'"), (pythons, number, error)
+            assert str(pickle.loads(pickle.dumps(error))) == str(error)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _cosfly, _toml
+from ._errors import BadValue
 from ._show import Bars
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -63,7 +64,7 @@ class Made:
         from ._dataset import Dataset
 
         if self.out is None:
-            raise ValueError(f"the run is {self.outcome}, so there is no dataset; `messages` says why")
+            raise BadValue(f"the run is {self.outcome}, so there is no dataset; `messages` says why")
         return Dataset(self.out, **options)
 
     def _repr_html_(self) -> str:

@@ -14,6 +14,7 @@ import numpy as np
 from . import _cosfly
 from ._calls import PathLike
 from ._cosfly import Reader, Table
+from ._errors import BadType, BadValue, NotFound, OutOfRange
 from ._show import Frame, Town, Trajectory
 
 ROLES = ("expert", "perturbed")
@@ -82,13 +83,13 @@ class Dataset:
         self._opened: Tuple[int, Optional[Reader]] = (-1, None)
         self.threads = _whole("threads", threads, 1)
         if split not in (None, "train", "val", "test"):
-            raise ValueError(f"the split is {split!r}; splits are 'train', 'val' and 'test'")
+            raise BadValue(f"the split is {split!r}; splits are 'train', 'val' and 'test'")
         if role not in (None, *ROLES):
-            raise ValueError(f"the role is {role!r}; roles are 'expert' and 'perturbed'")
+            raise BadValue(f"the role is {role!r}; roles are 'expert' and 'perturbed'")
         self.identity = self._reader.identity
         ids = self._reader.trajectory_ids
         if split and not any(self._reader.splits):
-            raise ValueError(f"the data in {self.path} state no splits; leave out `split`")
+            raise BadValue(f"the data in {self.path} state no splits; leave out `split`")
         self._number = {name: number for number, name in enumerate(ids)}
         self._counts = self._reader.frames
         self.trajectory_ids: List[str] = [name for name, of in zip(ids, self._reader.splits) if split in (None, of)]
@@ -119,11 +120,11 @@ class Dataset:
         """A town of a dataset of cosfly, the first by default; notebooks show its plan."""
         table = self.table("trajectories")
         if "town" not in table.columns:
-            raise ValueError(f"the data in {self.path} state no town that could be drawn")
+            raise BadValue(f"the data in {self.path} state no town that could be drawn")
         for of, trajectory_id in zip(table["town"], table["trajectory_id"]):
             if name in (None, of):
                 return Town(self, of, trajectory_id)
-        raise ValueError(f"there is no town {name!r}; the towns are {', '.join(sorted(set(table['town'])))}")
+        raise BadValue(f"there is no town {name!r}; the towns are {', '.join(sorted(set(table['town'])))}")
 
     def size_of(self, trajectory_id: str) -> Tuple[int, int]:
         """Width and height of the images of a trajectory as they are stored, pixels."""
@@ -189,7 +190,7 @@ class Dataset:
         for name, frame in frames:
             number, asked = self._number_of(name), operator.index(frame)
             if not 0 <= asked < self._counts[number]:
-                raise IndexError(f"frame {asked} of {name!r}, which has the frames 0 to {self._counts[number] - 1}")
+                raise OutOfRange(f"frame {asked} of {name!r}, which has the frames 0 to {self._counts[number] - 1}")
             places.append((number, asked))
         return places
 
@@ -197,7 +198,7 @@ class Dataset:
         number = self._number.get(trajectory_id)
         if number is None:
             near = difflib.get_close_matches(str(trajectory_id), self._number, 3) or list(self._number)[:3]
-            raise KeyError(f"{self.path} has no trajectory {trajectory_id!r}; it has {', '.join(near)} ...")
+            raise NotFound(f"{self.path} has no trajectory {trajectory_id!r}; it has {', '.join(near)} ...")
         return number
 
     def _windows_index(self) -> List[Tuple[str, int]]:
@@ -231,7 +232,7 @@ class Dataset:
                 found.setdefault(name, text)
         if not found and self.trajectory_ids:
             languages = ", ".join(sorted({str(of) for of in table["language"]}))
-            raise ValueError(f"no caption is in {language!r}; the languages are {languages or 'not stated: there are no captions'}")
+            raise BadValue(f"no caption is in {language!r}; the languages are {languages or 'not stated: there are no captions'}")
         return found
 
     def _frame(self, number: int) -> Sample:
@@ -329,12 +330,12 @@ class Loader:
         other = [name for name in mine if name in state and state[name] != mine[name]]
         if other:
             told = ", ".join(f"{name} {state[name]!r}, here {mine[name]!r}" for name in other)
-            raise ValueError(f"the state is of other batches: {told}; make the loader as it was, or begin anew")
+            raise BadValue(f"the state is of other batches: {told}; make the loader as it was, or begin anew")
         if "dataset" not in state:
             warnings.warn("the state was taken by an older cosfly and does not say of which dataset it is", stacklevel=2)
         epoch, batch, seed = (_whole(name, state[name], 0) for name in ("epoch", "batch", "seed"))
         if batch > len(self):
-            raise ValueError(f"the state is at batch {batch}; an epoch has {len(self)} batches")
+            raise BadValue(f"the state is at batch {batch}; an epoch has {len(self)} batches")
         self.epoch, self.batch, self.seed = epoch, batch, seed
 
 
@@ -343,9 +344,9 @@ def numbered(what: str, index: Any, count: int) -> int:
     try:
         number = operator.index(index)
     except TypeError:
-        raise TypeError(f"a {what} is chosen by a whole number, not by {index!r} ({type(index).__name__})") from None
+        raise BadType(f"a {what} is chosen by a whole number, not by {index!r} ({type(index).__name__})") from None
     if not -count <= number < count:
-        raise IndexError(f"{what} {number} of {count}")
+        raise OutOfRange(f"{what} {number} of {count}")
     return number % count
 
 
@@ -353,7 +354,7 @@ def _shard(shard: Tuple[int, int]) -> Tuple[int, int]:
     """Number of a shard and of all shards."""
     first, count = (_whole("shard", part, 0) for part in shard)
     if not first < count:
-        raise ValueError(f"the shard is {shard}; it must be (k, n) with 0 <= k < n")
+        raise BadValue(f"the shard is {shard}; it must be (k, n) with 0 <= k < n")
     return first, count
 
 
@@ -362,9 +363,9 @@ def _whole(name: str, value: Any, least: int) -> int:
     try:
         number = operator.index(value)
     except TypeError:
-        raise TypeError(f"`{name}` is {value!r}; it must be a whole number") from None
+        raise BadType(f"`{name}` is {value!r}; it must be a whole number") from None
     if number < least:
-        raise ValueError(f"`{name}` is {number}; it must be at least {least}")
+        raise BadValue(f"`{name}` is {number}; it must be at least {least}")
     return number
 
 

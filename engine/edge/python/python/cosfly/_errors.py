@@ -31,11 +31,14 @@ class Error(Exception):
             for it in problems
         )
 
+    def __str__(self) -> str:
+        return str(self.args[0])
+
     @property
     def code(self) -> str:
-        """Code of the first problem."""
+        """Code of the first problem; of a wrong argument ``argument``."""
         found = re.search(r"error\[([a-z0-9-]+)\]", str(self))
-        return self.problems[0].code if self.problems else found[1] if found else "unknown"
+        return self.problems[0].code if self.problems else found[1] if found else "argument"
 
     @property
     def hints(self) -> Tuple[str, ...]:
@@ -49,4 +52,28 @@ class Error(Exception):
 
     def __reduce__(self):
         problems = [dict(code=p.code, message=p.message, hints=p.hints, place=p.place) for p in self.problems]
-        return Error, (str(self), problems)
+        return type(self), (str(self), problems)
+
+
+class BadValue(Error, ValueError):
+    """An argument with a value that is not allowed."""
+
+
+class BadType(Error, TypeError):
+    """An argument of a type that is not allowed."""
+
+
+class NotFound(Error, KeyError):
+    """A name that a dataset does not have."""
+
+
+class OutOfRange(Error, IndexError):
+    """A number beyond the end of what it counts."""
+
+
+class AlreadyThere(Error, FileExistsError):
+    """A folder that would be written is there already."""
+
+
+class NotThere(Error, FileNotFoundError):
+    """A file or folder that is read is not there."""

@@ -16,6 +16,7 @@ import numpy as np
 from . import _cosfly
 from ._calls import PathLike, Progress
 from ._dataset import Dataset
+from ._errors import AlreadyThere, BadValue, NotThere, OutOfRange
 from ._show import Bars
 
 FORMAT = "cosfly-pack-2"
@@ -41,7 +42,7 @@ def pack(
     """
     out, frames = Path(out), Dataset(dataset, channels=channels, size=size, threads=threads or os.cpu_count() or 1)
     if os.path.lexists(out):
-        raise FileExistsError(f"{out} is there already; choose another folder")
+        raise AlreadyThere(f"{out} is there already; choose another folder")
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         scratch = Path(tempfile.mkdtemp(prefix=".cosfly-pack-", dir=out.parent))
@@ -114,7 +115,7 @@ class Pack(Dataset):
         if channel not in self._frames:
             path = self.pack_path / f"{channel}.npy"
             if not path.exists():
-                raise ValueError(f"{self.pack_path} has no channel {channel!r}")
+                raise BadValue(f"{self.pack_path} has no channel {channel!r}")
             self._frames[channel] = Frames(path, self._seal)
             width, height = self.size or (0, 0)
             expected = (sum(self._counts), height, width)
@@ -124,7 +125,7 @@ class Pack(Dataset):
 
     def _images(self, frames: Any, channels: Sequence[str], size: Any) -> Dict[str, Any]:
         if size is not None and tuple(size) != self.size:
-            raise ValueError(f"the pack {self.pack_path} has pictures of {self.size}; another size takes another pack")
+            raise BadValue(f"the pack {self.pack_path} has pictures of {self.size}; another size takes another pack")
         self._places(frames)
         places = [self._first[name] + int(frame) for name, frame in frames]
         return {channel: self._stacked(places, channel) for channel in channels}
@@ -160,7 +161,7 @@ class Frames:
     def read(self, first: int, count: int) -> np.ndarray:
         """Pictures ``first`` to ``first + count``, as one array."""
         if not 0 <= first <= self.count - count:
-            raise IndexError(f"{self.path} has {self.count} frames, not {first + count}")
+            raise OutOfRange(f"{self.path} has {self.count} frames, not {first + count}")
         made = np.empty((count, *self.shape), self.dtype)
         whole = memoryview(made).cast("B")
         try:
@@ -221,16 +222,16 @@ def _about(pack: Path) -> Tuple[Dict[str, Any], str]:
         text = path.read_bytes()
         about = json.loads(text.decode())
     except FileNotFoundError:
-        raise FileNotFoundError(f"{pack} is no training pack: it has no pack.json; `cosfly.pack` writes one") from None
+        raise NotThere(f"{pack} is no training pack: it has no pack.json; `cosfly.pack` writes one") from None
     except OSError as error:
         raise _refused(f"read `{path}`", error) from None
     except ValueError:
         raise _cosfly.damaged_pack(os.fspath(path), "it is not JSON") from None
     form = about.get("format") if isinstance(about, dict) else None
     if form == "cosfly-pack-1":
-        raise ValueError(f"{pack} was made by an older cosfly and does not say of which dataset; `cosfly.pack` makes a new pack")
+        raise BadValue(f"{pack} was made by an older cosfly and does not say of which dataset; `cosfly.pack` makes a new pack")
     if form != FORMAT:
-        raise ValueError(f"{pack} has the format {form!r}; this version reads {FORMAT!r}")
+        raise BadValue(f"{pack} has the format {form!r}; this version reads {FORMAT!r}")
     kinds = {"dataset": dict, "size": list, "channels": list, "first_frame": dict}
     wrong = [name for name, kind in kinds.items() if not isinstance(about.get(name), kind)]
     if wrong or not {"identity", "path"} <= about["dataset"].keys():

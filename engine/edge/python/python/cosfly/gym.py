@@ -24,6 +24,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from ._cosfly import VectorEnvironment
+from ._errors import BadValue
 from ._gym import register
 
 _LARGEST = (12, 12, 12, 60, 60)
@@ -47,11 +48,11 @@ def _rows(actions: Any, shape: tuple[int, ...]) -> np.ndarray:
     try:
         rows = np.asarray(actions)
     except Exception as error:
-        raise ValueError(f"actions are no array of numbers: {error}") from error
+        raise BadValue(f"actions are no array of numbers: {error}") from error
     if rows.dtype.kind not in "fiu":
-        raise ValueError(f"actions are of type {rows.dtype}; they are numbers, such as float32")
+        raise BadValue(f"actions are of type {rows.dtype}; they are numbers, such as float32")
     if rows.shape != shape:
-        raise ValueError(f"actions have the shape {rows.shape}; it is {shape}")
+        raise BadValue(f"actions have the shape {rows.shape}; it is {shape}")
     return np.ascontiguousarray(rows, dtype=np.float64)
 
 
@@ -60,7 +61,7 @@ def _seed(seed: Any) -> int | None:
     if seed is None:
         return None
     if isinstance(seed, (bool, np.bool_)) or not isinstance(seed, (int, np.integer)) or seed < 0:
-        raise ValueError(f"a seed is {seed!r}; it is a whole number from 0 on")
+        raise BadValue(f"a seed is {seed!r}; it is a whole number from 0 on")
     return int(seed) % 2**64
 
 
@@ -97,11 +98,11 @@ class _Observations:
     def __post_init__(self) -> None:
         known = ("state", "depth", "mask", "semantic", "instance", "rgb")
         if not self.names or not set(self.names) <= set(known) or len(set(self.names)) < len(self.names):
-            raise ValueError(f"obs is {self.names}; it names one or several of {', '.join(known)}, each once")
+            raise BadValue(f"obs is {self.names}; it names one or several of {', '.join(known)}, each once")
         if not all(8 <= side <= _LARGEST_SIZE for side in self.size):
-            raise ValueError(f"size is {self.size}; the sides of pictures are 8 to {_LARGEST_SIZE} pixels")
+            raise BadValue(f"size is {self.size}; the sides of pictures are 8 to {_LARGEST_SIZE} pixels")
         if not 1.0 <= self.max_depth_m <= 1e6:
-            raise ValueError(f"max_depth_m is {self.max_depth_m}; it is 1 to 1000000 m")
+            raise BadValue(f"max_depth_m is {self.max_depth_m}; it is 1 to 1000000 m")
 
     @property
     def channels(self) -> list[str]:
@@ -150,13 +151,13 @@ def _flock(
     is_team: bool = False,
 ) -> tuple[VectorEnvironment, _Observations]:
     if isinstance(overrides, str):
-        raise ValueError(f"overrides is {overrides!r}; it is a list, such as ['stages.walkers.count=8']")
+        raise BadValue(f"overrides is {overrides!r}; it is a list, such as ['stages.walkers.count=8']")
     if threads is not None and not 1 <= operator.index(threads) <= 1024:
-        raise ValueError(f"threads is {threads}; it is 1 to 1024")
+        raise BadValue(f"threads is {threads}; it is 1 to 1024")
     width, height = (size, size) if isinstance(size, (int, np.integer)) else size
     observations = _Observations(tuple(obs), (int(width), int(height)), float(max_depth_m))
     if not 0.01 <= step_s <= 1.0 or not 0.0 <= (latency_s or 0.0) <= 5.0:
-        raise ValueError(f"step_s is {step_s} (0.01 to 1 s) and latency_s is {latency_s} (0 to 5 s)")
+        raise BadValue(f"step_s is {step_s} (0.01 to 1 s) and latency_s is {latency_s} (0 to 5 s)")
     place = os.fspath(store if store is not None else os.environ.get("COSFLY_STORE") or ".cosfly")
     flock = VectorEnvironment(
         os.fspath(recipe), list(overrides), place, count, step_s, latency_s, _MODES[mode], expert_action,
@@ -198,7 +199,7 @@ class TrackVector(VectorEnv):
     ) -> None:
         mode = AutoresetMode(autoreset_mode)
         if isinstance(num_envs, bool) or not 1 <= operator.index(num_envs) <= _MOST_ENVIRONMENTS:
-            raise ValueError(f"num_envs is {num_envs}; it is 1 to {_MOST_ENVIRONMENTS}")
+            raise BadValue(f"num_envs is {num_envs}; it is 1 to {_MOST_ENVIRONMENTS}")
         self.num_envs = num_envs = int(num_envs)
         self.metadata = {**type(self).metadata, "autoreset_mode": mode}
         self._mode = mode
@@ -225,7 +226,7 @@ class TrackVector(VectorEnv):
         else:
             seeds = [_seed(one) for one in seed]
         if len(seeds) != self.num_envs:
-            raise ValueError(f"{len(seeds)} seeds for {self.num_envs} environments")
+            raise BadValue(f"{len(seeds)} seeds for {self.num_envs} environments")
         if not self._is_reset and not all(chosen):
             raise ResetNeeded("the first reset is of all environments: leave reset_mask out")
         drawn = self._streams.drawn
@@ -244,7 +245,7 @@ class TrackVector(VectorEnv):
             return [True] * self.num_envs
         chosen = np.asarray(mask)
         if chosen.dtype != np.bool_ or chosen.shape != (self.num_envs,) or not chosen.any():
-            raise ValueError(
+            raise BadValue(
                 f"reset_mask is {chosen.dtype} of shape {chosen.shape}; it has a truth value for each of the {self.num_envs} "
                 "environments, and one at least is true"
             )

@@ -19,6 +19,7 @@ from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode
 from pettingzoo import ParallelEnv
 
+from ._errors import BadValue
 from .gym import _flock, _is_info, _rows, _seed, _Streams, action_space
 
 _OTHER = 7
@@ -46,7 +47,7 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
         latency_s: float | None = None,
     ) -> None:
         if isinstance(num_drones, bool) or not 1 <= operator.index(num_drones) <= 64:
-            raise ValueError(f"num_drones is {num_drones}; it is 1 to 64")
+            raise BadValue(f"num_drones is {num_drones}; it is 1 to 64")
         self._flock, self._observations = _flock(
             recipe, num_drones, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, size=size,
             max_depth_m=max_depth_m, weather=weather, look=look, threads=threads, step_s=step_s, latency_s=latency_s,
@@ -99,13 +100,13 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
         flying = list(self.agents)
         missing, unknown = [it for it in flying if it not in actions], [it for it in actions if it not in self._numbers]
         if missing or unknown:
-            raise ValueError(f"actions are of {sorted(map(str, actions))}; they are of the drones that fly: {flying}")
+            raise BadValue(f"actions are of {sorted(map(str, actions))}; they are of the drones that fly: {flying}")
         rows = np.zeros((len(self.possible_agents), 5), dtype=np.float64)
         for agent in flying:
             try:
                 rows[self._numbers[agent]] = _rows(actions[agent], (5,))
             except ValueError as error:
-                raise ValueError(f"{agent}: {error}") from None
+                raise BadValue(f"{agent}: {error}") from None
         self._flock.step(rows)
         told = self._told()
         number = self._numbers
