@@ -1,57 +1,8 @@
 //! [`Body`]: one person or vehicle and its track.
 
-use crate::OrientedBox;
+use crate::{BodyKind, OrientedBox};
 use cosfly_frames::{DVec3, Seed, TargetState};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// Kinds of bodies that move.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum BodyKind {
-    /// A person on foot.
-    Pedestrian,
-    /// A bicycle with its rider.
-    Bicycle,
-    /// A motorcycle with its rider.
-    Motorcycle,
-    /// A passenger car.
-    Car,
-    /// A van.
-    Van,
-    /// A lorry.
-    Truck,
-    /// A bus.
-    Bus,
-    /// A drone: another one behind the same target. No traffic has drones, so recipes cannot name the kind.
-    #[schemars(skip)]
-    Drone,
-}
-
-impl BodyKind {
-    /// Kinds that walk and drive, in the order of their declaration: those of traffic.
-    pub const ON_THE_GROUND: [Self; 7] =
-        [Self::Pedestrian, Self::Bicycle, Self::Motorcycle, Self::Car, Self::Van, Self::Truck, Self::Bus];
-
-    /// Name in recipes and tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pedestrian => "pedestrian",
-            Self::Bicycle => "bicycle",
-            Self::Motorcycle => "motorcycle",
-            Self::Car => "car",
-            Self::Van => "van",
-            Self::Truck => "truck",
-            Self::Bus => "bus",
-            Self::Drone => "drone",
-        }
-    }
-
-    /// Whether the body is a person on foot.
-    pub fn is_person(self) -> bool {
-        self == Self::Pedestrian
-    }
-}
 
 /// The properties of a body that do not change.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,6 +4,7 @@
 
 mod around;
 mod body;
+mod body_kind;
 mod camera;
 pub mod channels;
 mod frame_images;
@@ -24,7 +25,8 @@ mod view;
 mod weather;
 
 pub use around::{Around, Followed};
-pub use body::{Body, BodyKind, BodyPlan};
+pub use body::{Body, BodyPlan};
+pub use body_kind::{BodyKind, BodyKindRow, BodyWords, Driving};
 pub use camera::{Camera, Mount};
 pub use channels::{Channel, ChannelImage, ChannelSet};
 pub use frame_images::FrameImages;

@@ -20,6 +20,23 @@ use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// Settings of environments: attributes of Python's `EnvConfig`.
+#[derive(FromPyObject)]
+struct EnvConfig {
+    recipe: PathBuf,
+    changes: Vec<String>,
+    place: PathBuf,
+    step_s: f64,
+    latency_s: Option<f64>,
+    expert_action: bool,
+    channels: Vec<String>,
+    sides: (u32, u32),
+    max_depth_m: f32,
+    weather: Option<String>,
+    look: String,
+    threads: usize,
+}
+
 /// Environments over the episodes of a recipe.
 #[pyclass(name = "VectorEnvironment")]
 pub struct PyFlock {
@@ -30,57 +47,42 @@ pub struct PyFlock {
 impl PyFlock {
     /// Makes the episodes that the store lacks, and `count` environments over them.
     #[new]
-    #[pyo3(signature = (recipe, overrides, store, count, step_s, latency_s, mode, has_experts, channels, size, farthest_m, weather, look, threads, is_team))]
-    #[expect(clippy::too_many_arguments, reason = "Python's class names them")]
-    fn new(
-        py: Python<'_>,
-        recipe: PathBuf,
-        overrides: Vec<String>,
-        store: PathBuf,
-        count: usize,
-        step_s: f64,
-        latency_s: Option<f64>,
-        mode: &str,
-        has_experts: bool,
-        channels: Vec<String>,
-        size: (u32, u32),
-        farthest_m: f32,
-        weather: Option<&str>,
-        look: &str,
-        threads: usize,
-        is_team: bool,
-    ) -> PyResult<Self> {
+    fn new(py: Python<'_>, config: EnvConfig, count: usize, mode: &str, is_team: bool) -> PyResult<Self> {
         let mode = match mode {
             "next_step" => Autoreset::NextStep,
             "same_step" => Autoreset::SameStep,
             "disabled" => Autoreset::Disabled,
             other => return Err(BadValue::new_err(format!("`{other}` is no mode of autoreset"))),
         };
-        let made = py.detach(|| on_own_threads(|| made(&recipe, &overrides, &store)));
+        let made = py.detach(|| on_own_threads(|| made(&config.recipe, &config.changes, &config.place)));
         let (tasks, suite) = match made {
             Ok(made) => made,
             Err(Refusal::Work(refusals)) => return Err(exception(py, &refusals)),
             Err(Refusal::Arguments(error)) => return Err(BadValue::new_err(error.to_string())),
         };
         let suite = suite.environment();
-        let latency_s = latency_s.unwrap_or(suite.latency_s);
-        let settings = cosfly_env::EnvironmentSettings { step_s, latency_s, ..suite };
-        let flock = VectorEnvironment::new(tasks, count, settings, mode, has_experts);
+        let latency_s = config.latency_s.unwrap_or(suite.latency_s);
+        let settings = cosfly_env::EnvironmentSettings { step_s: config.step_s, latency_s, ..suite };
+        let flock = VectorEnvironment::new(tasks, count, settings, mode, config.expert_action);
         let flock = if is_team { flock.as_team() } else { flock };
         let channel = |name: &String| {
             Channel::named(name).ok_or_else(|| BadValue::new_err(format!("`{name}` is no channel of pictures")))
         };
-        let channels: Vec<Channel> = channels.iter().map(channel).collect::<PyResult<_>>()?;
+        let channels: Vec<Channel> = config.channels.iter().map(channel).collect::<PyResult<_>>()?;
         if channels.is_empty() {
             return Ok(Self { flock });
         }
-        let weather = weather.map(preset).transpose()?;
-        let look = PictureLook::named(look).ok_or_else(|| {
+        let weather = config.weather.as_deref().map(preset).transpose()?;
+        let look = PictureLook::named(&config.look).ok_or_else(|| {
             let known = PictureLook::ALL.map(|(name, _)| name).join(", ");
-            BadValue::new_err(format!("look is `{look}`; it is one of {known}"))
+            BadValue::new_err(format!("look is `{}`; it is one of {known}", config.look))
         })?;
-        let format = PictureFormat { width: size.0, height: size.1, channels, farthest_m, weather, look };
-        let flock = flock.with_pictures(format, threads).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let (width, height) = config.sides;
+        let farthest_m = config.max_depth_m;
+        let format = PictureFormat { width, height, channels, farthest_m, weather, look };
+        let flock = flock
+            .with_pictures(format, config.threads.min(count))
+            .map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         Ok(Self { flock })
     }
 

@@ -131,7 +131,7 @@ def test_forks_in_the_middle_go_on():
         cosfly.evaluate("data", out=f"forked/{os.getpid()}")
         cosfly.export("data", "coco", f"forked/{os.getpid()}-coco", progress=False)
         assert cosfly.run("small", out=f"forked/{os.getpid()}-data", progress=False).outcome == "complete"
-        return cosfly.Dataset("data", size=(32, 18), threads=4)[5]["rgb"].sum()
+        return cosfly.Dataset("data", size=(32, 18), jobs=4)[5]["rgb"].sum()
 
     expected = work()
     child = os.fork()

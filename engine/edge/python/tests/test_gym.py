@@ -46,8 +46,8 @@ def test_the_checker_finds_nothing_in_pictures(obs):
 @pytest.mark.parametrize("mode", list(AutoresetMode))
 def test_pictures_do_not_depend_on_threads_or_on_who_is_beside(mode):
     obs = ("state", "depth", "mask", "semantic", "instance", "rgb")
-    many = make_vec(mode, num_envs=5, obs=obs, size=(64, 40), threads=2, expert_action=True)
-    few = make_vec(mode, num_envs=2, obs=obs, size=(64, 40), threads=1, expert_action=True)
+    many = make_vec(mode, num_envs=5, obs=obs, size=(64, 40), jobs=2, expert_action=True)
+    few = make_vec(mode, num_envs=2, obs=obs, size=(64, 40), jobs=1, expert_action=True)
     (first, info), (other, _) = many.reset(seed=[7, 8, 9, 7, 3]), few.reset(seed=[3, 7])
     assert many.observation_space.contains(first) and first["depth"].shape == (5, 40, 64)
     finals = 0
@@ -131,7 +131,7 @@ def test_the_expert_tracks_and_the_terms_add_up():
 def test_colours_show_the_weather_of_the_recipe_unless_another_is_named():
     night, pictures = ['stages.frames.weathers=["HardRainNight"]'], {}
     for name, named in (("own", {}), ("noon", {"weather": "ClearNoon"}), ("full", {"look": "full"})):
-        envs = make_vec(num_envs=2, obs=("rgb",), size=48, overrides=night, **named)
+        envs = make_vec(num_envs=2, obs=("rgb",), size=48, set=night, **named)
         pictures[name] = envs.reset(seed=1)[0].astype(float)
     assert pictures["own"].mean() < pictures["noon"].mean() - 20
     assert np.abs(pictures["own"] - pictures["full"]).mean() > 2
@@ -268,10 +268,10 @@ def test_calls_that_make_no_sense_are_refused():
             cosfly.gym.TrackVector("small/recipe.toml", number)
     with pytest.raises(TypeError):
         cosfly.gym.TrackVector("small/recipe.toml", 1.5)
-    with pytest.raises(ValueError, match="threads"):
-        cosfly.gym.TrackVector("small/recipe.toml", 1, threads=0)
+    with pytest.raises(ValueError, match="jobs"):
+        cosfly.gym.TrackVector("small/recipe.toml", 1, jobs=0)
     with pytest.raises(ValueError, match="it is a list"):
-        cosfly.gym.TrackVector("small/recipe.toml", 1, overrides="a=b")
+        cosfly.gym.TrackVector("small/recipe.toml", 1, set="a=b")
     envs = cosfly.gym.TrackVector("small/recipe.toml", 3)
     with pytest.raises(gym.error.ResetNeeded):
         envs.step(np.zeros((3, 5)))

@@ -188,7 +188,7 @@ def test_the_expert_answers_batches():
     place = [row["drone_x_m"], row["drone_y_m"], row["drone_z_m"]]
     states = [{"trajectory": "expert-p00000", "frame": 4, "position": np.array(place), "horizon_s": 2}] * 3
     states.append({"trajectory": "expert-p00000", "frame": 4, "position": [float("nan"), 0, 0]})
-    answers = expert.plan_from(states, threads=2)
+    answers = expert.plan_from(states, jobs=2)
     assert [answer.planned for answer in answers] == [True, True, True, False]
     assert answers[0].poses.shape[1] == 5 and np.allclose(answers[0].poses[0, :3], place, atol=1e-6)
     assert "position" in answers[3].error

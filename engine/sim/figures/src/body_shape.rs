@@ -59,15 +59,7 @@ impl BodyShape {
     /// CARLA's label of a region of the body. Vans are cars; riders have a label of their own; drones are dynamic things.
     pub fn label(&self, region: Region) -> SemanticLabel {
         let Self::Vehicle { kind, .. } = self else { return SemanticLabel::Pedestrian };
-        match kind {
-            _ if region.is_of_people() => SemanticLabel::Rider,
-            BodyKind::Bicycle => SemanticLabel::Bicycle,
-            BodyKind::Motorcycle => SemanticLabel::Motorcycle,
-            BodyKind::Truck => SemanticLabel::Truck,
-            BodyKind::Bus => SemanticLabel::Bus,
-            BodyKind::Drone => SemanticLabel::Dynamic,
-            BodyKind::Car | BodyKind::Van | BodyKind::Pedestrian => SemanticLabel::Car,
-        }
+        if region.is_of_people() { SemanticLabel::Rider } else { kind.row().label }
     }
 
     /// Half the diagonal of a vehicle's box, metres; 0 for people, whose extent every bound counts in.

@@ -4,7 +4,7 @@ use crate::body_shape::BodyShape;
 use crate::build::{Build, Hair};
 use crate::umbrella;
 use crate::vehicles::Livery;
-use cosfly_domain::{Bag, BodyKind, Outfit, Traits};
+use cosfly_domain::{Bag, Outfit, Traits};
 use cosfly_domain::{Colour, Dye};
 use cosfly_frames::{RandomStream, Seed};
 
@@ -39,7 +39,7 @@ pub enum Pattern {
 /// What texts may say of a body: clothes of a person or rider; of another vehicle, its paint for top and trousers.
 pub fn outfit_of(body: BodyShape, seed: &Seed) -> Outfit {
     match body {
-        BodyShape::Vehicle { kind, .. } if !matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle) => {
+        BodyShape::Vehicle { kind, .. } if !kind.row().is_dressed => {
             let paint = Livery::draw(seed).paint;
             Outfit { top: paint, trousers: paint, backpack: false, umbrella: false, traits: None }
         }

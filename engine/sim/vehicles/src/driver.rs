@@ -1,9 +1,9 @@
 //! Acceleration of a driver: the intelligent driver model, bends, people on crossings.
 
-use crate::kinds::Limits;
 use crate::network::{Crossing, Network};
 use crate::outlines::{LEVEL_M, to_outline};
 use crate::route::Route;
+use cosfly_domain::Driving;
 use cosfly_frames::DVec2;
 use cosfly_town::polygons::contains;
 use cosfly_world::{Present, Snapshot};
@@ -31,7 +31,7 @@ const BEFORE_CROSSING_M: f64 = 1.0;
 pub(crate) struct Driver<'a> {
     pub network: &'a Network,
     pub route: &'a Route,
-    pub limits: &'a Limits,
+    pub limits: &'a Driving,
     /// Share of the speed limit that the driver takes.
     pub speed_share: f64,
     pub headway_s: f64,
@@ -65,7 +65,7 @@ impl Driver<'_> {
     /// Acceleration, m/s^2. `near` is room for a list.
     pub fn acceleration(&self, everybody: &Snapshot, near: &mut Vec<Present>) -> f64 {
         let wanted_mps = self.wanted_mps().max(0.5);
-        let Limits { accelerate_mps2, brake_mps2, .. } = *self.limits;
+        let Driving { accelerate_mps2, brake_mps2, .. } = *self.limits;
         let free = match self.speed_mps / wanted_mps {
             share if share <= 1.0 => accelerate_mps2 * (1.0 - share * share * share * share),
             _ => ((wanted_mps - self.speed_mps) / TOO_FAST_S).max(-1.5 * brake_mps2),
@@ -94,7 +94,7 @@ impl Driver<'_> {
 
     /// Speed by limits and bends, m/s.
     fn wanted_mps(&self) -> f64 {
-        let Limits { top_mps, brake_mps2, sideways_mps2, .. } = *self.limits;
+        let Driving { top_mps, brake_mps2, sideways_mps2, .. } = *self.limits;
         let look_m = self.look_m();
         // Drivers do not slow down at once: they begin so much earlier than they need.
         let early_m = 2.0 * TOO_FAST_S * self.speed_mps;

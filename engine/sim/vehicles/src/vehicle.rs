@@ -1,9 +1,9 @@
 //! [`Vehicle`]: one simulated vehicle, where it is and what it does.
 
-use crate::kinds::{Limits, limits};
+use crate::kinds::driving;
 use crate::network::Network;
 use crate::route::Route;
-use cosfly_domain::{BodyKind, BodyPlan};
+use cosfly_domain::{BodyKind, BodyPlan, Driving};
 use cosfly_frames::{RandomStream, TargetState};
 
 /// Room that a vehicle needs beside itself on its lane, metres.
@@ -12,7 +12,7 @@ pub(crate) const BESIDE_M: f64 = 0.25;
 /// One vehicle.
 pub(crate) struct Vehicle {
     pub plan: BodyPlan,
-    pub limits: Limits,
+    pub limits: &'static Driving,
     pub speed_share: f64,
     pub route: Route,
     pub passage: Passage,
@@ -36,7 +36,7 @@ impl Vehicle {
     /// A vehicle that stands on the first lane of a route.
     pub fn new(network: &Network, plan: BodyPlan, route: Route, way_m: f64, doing: Doing) -> Self {
         Self {
-            limits: limits(plan.kind),
+            limits: driving(plan.kind),
             speed_share: 1.0,
             passage: Passage::default(),
             random: plan.looks.stream("route"),

@@ -206,7 +206,7 @@ fn driver_of<'a>(vehicle: &'a Vehicle, network: &'a Network, number: u32, headwa
     Driver {
         network,
         route: &vehicle.route,
-        limits: &vehicle.limits,
+        limits: vehicle.limits,
         speed_share: vehicle.speed_share,
         headway_s,
         number,

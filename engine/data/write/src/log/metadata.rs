@@ -2,7 +2,7 @@
 
 use crate::frame_pack::PackHeader;
 use cosfly_domain::channels::instance;
-use cosfly_domain::{BodyKind, Obstacle, SemanticLabel, TARGET_INSTANCE, Town, object_instance};
+use cosfly_domain::{BodyKindRow, Obstacle, SemanticLabel, TARGET_INSTANCE, Town, object_instance};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{DepthEncoding, OtherPerson, RenderedTrajectory};
 use std::collections::BTreeMap;
@@ -159,18 +159,9 @@ fn instances(town: &Town, record: &RenderedTrajectory) -> BTreeMap<String, Strin
         (id(object_instance(group[0].object_id)), value)
     };
     let person = |person: &OtherPerson| {
-        let (what, label) = match person.kind {
-            BodyKind::Pedestrian => ("person", SemanticLabel::Pedestrian),
-            BodyKind::Bicycle => ("bicycle", SemanticLabel::Bicycle),
-            BodyKind::Motorcycle => ("motorcycle", SemanticLabel::Motorcycle),
-            BodyKind::Car => ("car", SemanticLabel::Car),
-            BodyKind::Van => ("van", SemanticLabel::Car),
-            BodyKind::Truck => ("truck", SemanticLabel::Truck),
-            BodyKind::Bus => ("bus", SemanticLabel::Bus),
-            BodyKind::Drone => ("drone", SemanticLabel::Dynamic),
-        };
+        let BodyKindRow { noun, label, .. } = person.kind.row();
         let label = label.id();
-        let value = format!("{what} label {label} of walk {}, {:.2} m high", person.walk_id, person.height_m);
+        let value = format!("{noun} label {label} of walk {}, {:.2} m high", person.walk_id, person.height_m);
         (id(person.instance), value)
     };
     let fixed = [(0, "ground and sky"), (TARGET_INSTANCE, "the target")];

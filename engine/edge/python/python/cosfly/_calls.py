@@ -279,7 +279,7 @@ def verify(
         sample=sample, resume=resume, jobs=jobs, regenerate=regenerate, recipe=recipe, store=store
     )
     arguments = ["verify", os.fspath(dataset), "--json", *options]
-    _, text, _ = _call(arguments + _settings(set), b"", progress)
+    _, text, _ = _call(arguments + settings(set), b"", progress)
     return Check(**json.loads(text))
 
 
@@ -340,10 +340,10 @@ def _with_recipe(
     more: Sequence[str] = (),
 ) -> Tuple[int, str, List[str]]:  # fmt: skip
     given, text = ("-", _toml.dumps(recipe)) if isinstance(recipe, Mapping) else (os.fspath(recipe), "")
-    return _call([*command, given, *more, *_settings(changes), *options], text.encode(), progress)
+    return _call([*command, given, *more, *settings(changes), *options], text.encode(), progress)
 
 
-def _settings(changes: Settings) -> List[str]:
+def settings(changes: Settings) -> List[str]:
     if isinstance(changes, Mapping):
         # Texts stay bare, as on the command line; other values are TOML.
         changes = [f"{key}={it if isinstance(it, str) else _toml.value_text(it)}" for key, it in changes.items()]

@@ -35,24 +35,7 @@ class Table:
 class VectorEnvironment:
     """Environments over the episodes of a recipe; see :mod:`cosfly.gym`."""
 
-    def __init__(
-        self,
-        recipe: str,
-        overrides: Sequence[str],
-        store: str,
-        count: int,
-        step_s: float,
-        latency_s: Optional[float],
-        mode: str,
-        has_experts: bool,
-        channels: Sequence[str],
-        size: Tuple[int, int],
-        farthest_m: float,
-        weather: str | None,
-        look: str,
-        threads: int,
-        is_team: bool,
-    ) -> None: ...
+    def __init__(self, config: Any, count: int, mode: str, is_team: bool) -> None: ...
     def reset(self, seeds: Sequence[Optional[int]], mask: Optional[Sequence[bool]]) -> None: ...
     def seed(self, seeds: Sequence[Optional[int]]) -> None: ...
     def step(self, actions: npt.NDArray[np.float64]) -> None: ...

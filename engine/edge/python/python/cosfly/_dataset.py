@@ -58,7 +58,7 @@ class Dataset:
     tables that are asked for later raise :class:`cosfly.Error` (``dataset-changed``), in worker processes, too: open it again.
 
     ``split`` is ``train``, ``val``, ``test`` or None for all; ``role`` is ``expert``, ``perturbed`` or None for both;
-    ``size`` is (width, height); ``threads`` decode the pictures of one call.
+    ``size`` is (width, height); ``jobs`` threads decode the pictures of one call.
     """
 
     identity: str = ""
@@ -75,13 +75,13 @@ class Dataset:
         size: Optional[Tuple[int, int]] = None,
         columns: Sequence[str] = (),
         captions: Optional[str] = None,
-        threads: int = 1,
+        jobs: int = 1,
     ):
         self.path = Path(path)
         self.split, self.windows, self.role = split, windows, role
         self.channels, self.size = tuple(channels), size
         self._opened: Tuple[int, Optional[Reader]] = (-1, None)
-        self.threads = _whole("threads", threads, 1)
+        self.jobs = _whole("jobs", jobs, 1)
         if split not in (None, "train", "val", "test"):
             raise BadValue(f"the split is {split!r}; splits are 'train', 'val' and 'test'")
         if role not in (None, *ROLES):
@@ -182,7 +182,7 @@ class Dataset:
     def _images(
         self, frames: Sequence[Tuple[str, int]], channels: Sequence[str], size: Optional[Tuple[int, int]]
     ) -> Dict[str, List[np.ndarray]]:
-        return self._reader.images(self._places(frames), list(channels), size, self.threads)
+        return self._reader.images(self._places(frames), list(channels), size, self.jobs)
 
     def _places(self, frames: Sequence[Tuple[str, int]]) -> List[Tuple[int, int]]:
         """Numbers of trajectories and frames, which exist."""
@@ -281,7 +281,7 @@ class Loader:
 
     Iterating gives the rest of the current epoch; the next iteration gives the next epoch. ``state_dict()`` and
     ``load_state_dict()`` keep the place. Arrays are stacked, other values become lists. ``shard=(rank, world_size)``
-    splits every epoch between processes; ``threads`` decode pictures side by side.
+    splits every epoch between processes; ``jobs`` threads decode pictures side by side.
     """
 
     def __init__(

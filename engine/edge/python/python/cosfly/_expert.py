@@ -12,7 +12,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence
 import numpy as np
 
 from . import _cosfly
-from ._calls import PathLike, Settings, _options, _settings
+from ._calls import PathLike, Settings, _options, settings
 
 
 @dataclass(frozen=True)
@@ -42,9 +42,9 @@ class Expert:
     """The expert of a finished recipe: run the recipe first, with the same settings and store."""
 
     def __init__(self, recipe: PathLike, *, set: Settings = None, store: Optional[PathLike] = None):
-        self._arguments = ["ask-expert", os.fspath(recipe), "--batch", *_settings(set), *_options(store=store)]
+        self._arguments = ["ask-expert", os.fspath(recipe), "--batch", *settings(set), *_options(store=store)]
 
-    def plan_from(self, states: Sequence[Mapping[str, Any]], *, threads: Optional[int] = None) -> List[Answer]:
+    def plan_from(self, states: Sequence[Mapping[str, Any]], *, jobs: Optional[int] = None) -> List[Answer]:
         """Ask about states, in their order, over all cores.
 
         A state is a dictionary: ``trajectory`` (id), ``frame``, ``position`` (x, y, z in the world frame, metres), and
@@ -54,8 +54,8 @@ class Expert:
         lines = [json.dumps({key: _plain(value) for key, value in state.items()}) for state in states]
         if not lines:
             return []
-        threads = max(1, min(threads or os.cpu_count() or 1, math.ceil(len(lines) / 4)))
-        size = math.ceil(len(lines) / threads)
+        jobs = max(1, min(jobs or os.cpu_count() or 1, math.ceil(len(lines) / 4)))
+        size = math.ceil(len(lines) / jobs)
         parts = [lines[start : start + size] for start in range(0, len(lines), size)]
         if len(parts) == 1:
             return self._ask(parts[0])

@@ -30,7 +30,7 @@ def pack(
     *,
     size: Tuple[int, int] = (224, 126),
     channels: Sequence[str] = ("rgb", "depth"),
-    threads: Optional[int] = None,
+    jobs: Optional[int] = None,
     progress: Progress = True,
 ) -> "Pack":
     """Write a training pack: every frame of a dataset at ``size`` (width, height), one ``<channel>.npy`` per channel.
@@ -40,7 +40,7 @@ def pack(
     frame, and the identity of the dataset: :class:`cosfly.Pack` refuses labels of another one. The folder appears when it
     is whole.
     """
-    out, frames = Path(out), Dataset(dataset, channels=channels, size=size, threads=threads or os.cpu_count() or 1)
+    out, frames = Path(out), Dataset(dataset, channels=channels, size=size, jobs=jobs or os.cpu_count() or 1)
     if os.path.lexists(out):
         raise AlreadyThere(f"{out} is there already; choose another folder")
     try:

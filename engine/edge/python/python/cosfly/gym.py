@@ -12,8 +12,7 @@ from __future__ import annotations
 import operator
 import os
 import secrets
-from dataclasses import dataclass
-from typing import Any, Callable, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 import gymnasium
 import numpy as np
@@ -24,8 +23,14 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from ._cosfly import VectorEnvironment
+from ._env_config import OBSERVATIONS, EnvConfig
 from ._errors import BadValue
 from ._gym import register
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._env_config import EnvOptions
 
 _LARGEST = (12, 12, 12, 60, 60)
 _MODES = {
@@ -33,7 +38,6 @@ _MODES = {
     AutoresetMode.SAME_STEP: "same_step",
     AutoresetMode.DISABLED: "disabled",
 }
-_LARGEST_SIZE = 2048
 _MOST_ENVIRONMENTS = 65536
 
 
@@ -87,26 +91,11 @@ class _Streams:
         return begun
 
 
-@dataclass
 class _Observations:
-    """What observations hold: their names, the size of pictures (width, height), the greatest depth."""
+    """Observations of a configuration: their space, and their values in what a flock tells."""
 
-    names: tuple[str, ...]
-    size: tuple[int, int]
-    max_depth_m: float
-
-    def __post_init__(self) -> None:
-        known = ("state", "depth", "mask", "semantic", "instance", "rgb")
-        if not self.names or not set(self.names) <= set(known) or len(set(self.names)) < len(self.names):
-            raise BadValue(f"obs is {self.names}; it names one or several of {', '.join(known)}, each once")
-        if not all(8 <= side <= _LARGEST_SIZE for side in self.size):
-            raise BadValue(f"size is {self.size}; the sides of pictures are 8 to {_LARGEST_SIZE} pixels")
-        if not 1.0 <= self.max_depth_m <= 1e6:
-            raise BadValue(f"max_depth_m is {self.max_depth_m}; it is 1 to 1000000 m")
-
-    @property
-    def channels(self) -> list[str]:
-        return [name for name in self.names if name != "state"]
+    def __init__(self, config: EnvConfig) -> None:
+        self.names, self.size, self.max_depth_m = tuple(config.obs), config.sides, config.max_depth_m
 
     def space(self, state: spaces.Space[Any] | None = None) -> spaces.Space[Any]:
         width, height = self.size
@@ -133,41 +122,12 @@ class _Observations:
 
 
 def _flock(
-    recipe: str | os.PathLike[str],
-    count: int,
-    mode: AutoresetMode,
-    *,
-    overrides: Sequence[str],
-    store: str | os.PathLike[str] | None,
-    obs: Sequence[str],
-    size: int | tuple[int, int],
-    max_depth_m: float,
-    weather: str | None,
-    look: str,
-    threads: int | None,
-    step_s: float,
-    latency_s: float | None,
-    expert_action: bool,
-    is_team: bool = False,
+    config: EnvConfig, count: int, mode: AutoresetMode, is_team: bool = False
 ) -> tuple[VectorEnvironment, _Observations]:
-    if isinstance(overrides, str):
-        raise BadValue(f"overrides is {overrides!r}; it is a list, such as ['stages.walkers.count=8']")
-    if threads is not None and not 1 <= operator.index(threads) <= 1024:
-        raise BadValue(f"threads is {threads}; it is 1 to 1024")
-    width, height = (size, size) if isinstance(size, (int, np.integer)) else size
-    observations = _Observations(tuple(obs), (int(width), int(height)), float(max_depth_m))
-    if not 0.01 <= step_s <= 1.0 or not 0.0 <= (latency_s or 0.0) <= 5.0:
-        raise BadValue(f"step_s is {step_s} (0.01 to 1 s) and latency_s is {latency_s} (0 to 5 s)")
-    place = os.fspath(store if store is not None else os.environ.get("COSFLY_STORE") or ".cosfly")
-    flock = VectorEnvironment(
-        os.fspath(recipe), list(overrides), place, count, step_s, latency_s, _MODES[mode], expert_action,
-        observations.channels, observations.size, observations.max_depth_m, weather, look,
-        min(count, threads if threads is not None else os.cpu_count() or 1), is_team,
-    )  # fmt: skip
-    return flock, observations
+    return VectorEnvironment(config, count, _MODES[mode], is_team), _Observations(config)
 
 
-_NOT_INFO = {"features", "rewards", "terminated", "truncated", "depth", "mask", "semantic", "instance", "rgb"}
+_NOT_INFO = {"features", "rewards", "terminated", "truncated", *OBSERVATIONS}
 
 
 def _is_info(name: str) -> bool:
@@ -184,18 +144,8 @@ class TrackVector(VectorEnv):
         recipe: str | os.PathLike[str],
         num_envs: int = 1,
         *,
-        overrides: Sequence[str] = (),
-        store: str | os.PathLike[str] | None = None,
-        obs: Sequence[str] = ("state",),
-        size: int | tuple[int, int] = 84,
-        max_depth_m: float = 200.0,
-        weather: str | None = None,
-        look: str = "simple",
-        threads: int | None = None,
-        step_s: float = 0.1,
-        latency_s: float | None = None,
-        expert_action: bool = False,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        **options: Unpack[EnvOptions],
     ) -> None:
         mode = AutoresetMode(autoreset_mode)
         if isinstance(num_envs, bool) or not 1 <= operator.index(num_envs) <= _MOST_ENVIRONMENTS:
@@ -203,10 +153,7 @@ class TrackVector(VectorEnv):
         self.num_envs = num_envs = int(num_envs)
         self.metadata = {**type(self).metadata, "autoreset_mode": mode}
         self._mode = mode
-        self._flock, self._observations = _flock(
-            recipe, num_envs, mode, overrides=overrides, store=store, obs=obs, size=size, max_depth_m=max_depth_m,
-            weather=weather, look=look, threads=threads, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
-        )  # fmt: skip
+        self._flock, self._observations = _flock(EnvConfig.of(recipe, options), num_envs, mode)
         self.single_observation_space, self.single_action_space = self._observations.space(), action_space()
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(action_space(), num_envs)
@@ -285,22 +232,10 @@ class Track(gymnasium.Env):
     def __init__(
         self,
         recipe: str | os.PathLike[str],
-        *,
-        overrides: Sequence[str] = (),
-        store: str | os.PathLike[str] | None = None,
-        obs: Sequence[str] = ("state",),
-        size: int | tuple[int, int] = 84,
-        max_depth_m: float = 200.0,
-        weather: str | None = None,
-        look: str = "simple",
-        step_s: float = 0.1,
-        latency_s: float | None = None,
-        expert_action: bool = False,
+        **options: Unpack[EnvOptions],
     ) -> None:
-        self._flock, self._observations = _flock(
-            recipe, 1, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, size=size,
-            max_depth_m=max_depth_m, weather=weather, look=look, threads=1, step_s=step_s, latency_s=latency_s, expert_action=expert_action,
-        )  # fmt: skip
+        config = EnvConfig.of(recipe, options)
+        self._flock, self._observations = _flock(config, 1, AutoresetMode.DISABLED)
         self.observation_space, self.action_space = self._observations.space(), action_space()
         self._streams, self._is_reset = _Streams(1), False
 

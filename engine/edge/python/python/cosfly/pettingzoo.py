@@ -11,7 +11,7 @@ from __future__ import annotations
 import operator
 import os
 from copy import deepcopy
-from typing import Any, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from gymnasium import spaces
@@ -19,8 +19,14 @@ from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode
 from pettingzoo import ParallelEnv
 
+from ._env_config import EnvConfig
 from ._errors import BadValue
 from .gym import _flock, _is_info, _rows, _seed, _Streams, action_space
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._env_config import EnvOptions
 
 _OTHER = 7
 
@@ -34,25 +40,12 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
         self,
         recipe: str | os.PathLike[str],
         num_drones: int = 2,
-        *,
-        overrides: Sequence[str] = (),
-        store: str | os.PathLike[str] | None = None,
-        obs: Sequence[str] = ("state",),
-        size: int | tuple[int, int] = 84,
-        max_depth_m: float = 200.0,
-        weather: str | None = None,
-        look: str = "simple",
-        threads: int | None = None,
-        step_s: float = 0.1,
-        latency_s: float | None = None,
+        **options: Unpack[EnvOptions],
     ) -> None:
         if isinstance(num_drones, bool) or not 1 <= operator.index(num_drones) <= 64:
             raise BadValue(f"num_drones is {num_drones}; it is 1 to 64")
-        self._flock, self._observations = _flock(
-            recipe, num_drones, AutoresetMode.DISABLED, overrides=overrides, store=store, obs=obs, size=size,
-            max_depth_m=max_depth_m, weather=weather, look=look, threads=threads, step_s=step_s, latency_s=latency_s,
-            expert_action=False, is_team=True,
-        )  # fmt: skip
+        config = EnvConfig.of(recipe, options)
+        self._flock, self._observations = _flock(config, num_drones, AutoresetMode.DISABLED, is_team=True)
         self.render_mode = None
         self.possible_agents = [f"drone_{number}" for number in range(num_drones)]
         self.agents: list[str] = []

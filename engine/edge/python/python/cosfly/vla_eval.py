@@ -8,15 +8,21 @@ velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's pa
 from __future__ import annotations
 
 import os
-from typing import Any, Sequence
+from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
 from vla_eval.benchmarks.base import StepBenchmark, StepResult
 from vla_eval.specs import DimSpec
 
+from ._env_config import EnvConfig
 from ._errors import BadValue
 from ._outcome import Outcome
 from .gym import Track
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._env_config import EnvOptions
 
 PROMPT = "Follow the person and keep them in view."
 
@@ -35,23 +41,17 @@ class TrackBenchmark(StepBenchmark):
         self,
         recipe: str | os.PathLike[str],
         *,
-        overrides: Sequence[str] = (),
-        store: str | os.PathLike[str] | None = None,
         prompt: str = PROMPT,
         pictures: Sequence[str] = (),
-        size: int = 84,
-        step_s: float = 0.1,
-        latency_s: float | None = None,
+        **options: Unpack[EnvOptions],
     ) -> None:
         super().__init__()
         self._pictures = tuple(pictures)
-        self._env = Track(
-            recipe, overrides=overrides, store=store, obs=("state", *self._pictures), size=size, step_s=step_s,
-            latency_s=latency_s,
-        )  # fmt: skip
+        config = EnvConfig.of(recipe, {**options, "obs": ("state", *self._pictures)})
+        self._env = Track(recipe, **{**options, "obs": config.obs})
         self._suite = os.path.splitext(os.path.basename(os.fspath(recipe)))[0]
-        self._prompt, self._step_s = prompt, step_s
-        self._outcome = Outcome(1, step_s)
+        self._prompt, self._step_s = prompt, config.step_s
+        self._outcome = Outcome(1, config.step_s)
 
     def get_tasks(self) -> list[dict[str, Any]]:
         return [{"name": name, "suite": self._suite} for name in self._env.episodes()]

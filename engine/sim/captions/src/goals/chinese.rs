@@ -8,7 +8,7 @@ use crate::facts::Wear;
 use crate::sight::{LandmarkKind, OnSide};
 use crate::wording::one_of;
 use cosfly_claims::TurnKind;
-use cosfly_domain::{BodyKind, ObstacleKind};
+use cosfly_domain::ObstacleKind;
 use cosfly_random::RandomStream;
 
 /// The wordings of the language.
@@ -234,14 +234,7 @@ fn hider_words(hider: Hider) -> &'static str {
         Hider::Object(ObstacleKind::Bridge) => "一座桥",
         Hider::Object(ObstacleKind::Car) => "一辆停着的汽车",
         Hider::Object(_) => "别的东西",
-        Hider::Body(BodyKind::Pedestrian) => "另一个人",
-        Hider::Body(BodyKind::Bicycle) => "一个骑自行车的人",
-        Hider::Body(BodyKind::Motorcycle) => "一个骑摩托车的人",
-        Hider::Body(BodyKind::Car) => "一辆汽车",
-        Hider::Body(BodyKind::Van) => "一辆面包车",
-        Hider::Body(BodyKind::Truck) => "一辆卡车",
-        Hider::Body(BodyKind::Bus) => "一辆公交车",
-        Hider::Body(BodyKind::Drone) => "另一架无人机",
+        Hider::Body(kind) => kind.row().words.one_in_chinese,
     }
 }
 

@@ -8,7 +8,7 @@ use crate::facts::Wear;
 use crate::sight::{LandmarkKind, OnSide};
 use crate::wording::one_of;
 use cosfly_claims::TurnKind;
-use cosfly_domain::{BodyKind, Colour, ObstacleKind};
+use cosfly_domain::{Colour, ObstacleKind};
 use cosfly_random::RandomStream;
 
 /// The wordings of the language.
@@ -334,14 +334,7 @@ fn hider_words(hider: Hider) -> &'static str {
         Hider::Object(ObstacleKind::Bridge) => "a bridge",
         Hider::Object(ObstacleKind::Car) => "a parked car",
         Hider::Object(_) => "something",
-        Hider::Body(BodyKind::Pedestrian) => "another person",
-        Hider::Body(BodyKind::Bicycle) => "a cyclist",
-        Hider::Body(BodyKind::Motorcycle) => "a motorcyclist",
-        Hider::Body(BodyKind::Car) => "a car",
-        Hider::Body(BodyKind::Van) => "a van",
-        Hider::Body(BodyKind::Truck) => "a lorry",
-        Hider::Body(BodyKind::Bus) => "a bus",
-        Hider::Body(BodyKind::Drone) => "another drone",
+        Hider::Body(kind) => kind.row().words.one_in_english,
     }
 }
 

@@ -3,21 +3,13 @@
 use super::phrase::{Phrase, Property};
 use crate::chinese::colour;
 use crate::part::Part;
-use cosfly_domain::BodyKind;
+use cosfly_domain::{BodyKind, BodyKindRow};
 
 /// `画面左侧正在行走、穿红色上衣、蓝色裤子、背着背包的人`.
 pub(super) fn text(phrase: &Phrase) -> String {
     let of = &phrase.of;
-    let (noun, is_dressed) = match of.kind {
-        BodyKind::Pedestrian => ("人", true),
-        BodyKind::Bicycle => ("骑自行车的人", true),
-        BodyKind::Motorcycle => ("骑摩托车的人", true),
-        BodyKind::Car => ("汽车", false),
-        BodyKind::Van => ("面包车", false),
-        BodyKind::Truck => ("卡车", false),
-        BodyKind::Bus => ("公交车", false),
-        BodyKind::Drone => ("无人机", false),
-    };
+    let BodyKindRow { is_dressed, words: names, .. } = of.kind.row();
+    let (noun, is_dressed) = (names.chinese, *is_dressed);
     let mut said: Vec<String> = vec![];
     if phrase.names(Property::Motion) {
         said.push(motion(of.kind, of.moves() == Some(true)).to_owned());

@@ -3,21 +3,13 @@
 use super::phrase::{Phrase, Property};
 use crate::english::article;
 use crate::part::Part;
-use cosfly_domain::BodyKind;
+use cosfly_domain::{BodyKind, BodyKindRow};
 
 /// `the walking person in a red top and blue trousers with a backpack on the left of the picture`.
 pub(super) fn text(phrase: &Phrase) -> String {
     let of = &phrase.of;
-    let (noun, is_dressed) = match of.kind {
-        BodyKind::Pedestrian => ("person", true),
-        BodyKind::Bicycle => ("cyclist", true),
-        BodyKind::Motorcycle => ("motorcyclist", true),
-        BodyKind::Car => ("car", false),
-        BodyKind::Van => ("van", false),
-        BodyKind::Truck => ("lorry", false),
-        BodyKind::Bus => ("bus", false),
-        BodyKind::Drone => ("drone", false),
-    };
+    let BodyKindRow { is_dressed, words: names, .. } = of.kind.row();
+    let (noun, is_dressed) = (names.english, *is_dressed);
     let (top, trousers) = (of.top.name(), of.trousers.name());
     let mut words = vec!["the".to_owned()];
     if phrase.names(Property::Motion) {

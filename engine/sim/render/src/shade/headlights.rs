@@ -1,6 +1,5 @@
 //! Lamps of vehicles at night: white light on what is ahead, red light on the ground behind.
 
-use cosfly_domain::BodyKind;
 use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, real, simd_kernel};
@@ -32,13 +31,7 @@ struct Lamps {
 impl Lamps {
     fn of(body: &BodyShape) -> Option<Self> {
         let BodyShape::Vehicle { kind, .. } = body else { return None };
-        match kind {
-            BodyKind::Pedestrian | BodyKind::Drone => None,
-            BodyKind::Bicycle => Some(Self { strength: 0.35, scale: 0.4 }),
-            BodyKind::Motorcycle | BodyKind::Car | BodyKind::Van | BodyKind::Truck | BodyKind::Bus => {
-                Some(Self { strength: 1.0, scale: 1.0 })
-            }
-        }
+        kind.row().lamps.map(|[strength, scale]| Self { strength, scale })
     }
 }
 
@@ -106,6 +99,7 @@ simd_kernel! {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_domain::BodyKind;
     use cosfly_frames::{DVec3, Seed, TargetState};
 
     fn car(heading_rad: f64, kind: BodyKind) -> Walker {

@@ -45,20 +45,6 @@ const WORDS: [(&str, BodyKind); 23] = [
     ("veh", BodyKind::Car),
 ];
 
-/// Sizes of SUMO's classes, metres. People are cylinders as wide as their shoulders.
-fn class_size_m(kind: BodyKind) -> [f64; 3] {
-    match kind {
-        BodyKind::Pedestrian => [0.478, 0.478, 1.719],
-        BodyKind::Bicycle => [1.6, 0.65, 1.7],
-        BodyKind::Motorcycle => [2.2, 0.9, 1.5],
-        BodyKind::Car => [5.0, 1.8, 1.5],
-        BodyKind::Van => [6.5, 2.16, 2.86],
-        BodyKind::Truck => [7.1, 2.4, 2.4],
-        BodyKind::Bus => [12.0, 2.5, 3.4],
-        BodyKind::Drone => [0.6, 0.6, 0.2],
-    }
-}
-
 /// Kind of a type by the words in its name.
 fn kind_by_words(name: &str) -> Option<BodyKind> {
     let lower = name.to_lowercase();
@@ -72,15 +58,15 @@ pub(super) fn kind_of(name: &str, is_person: bool, types: &BTreeMap<String, FcdT
     // Types of a distribution are called `type@distribution`.
     let stated = types.get(name).or_else(|| types.get(name.split('@').next().unwrap_or(name)));
     if let Some(FcdType { kind, size_m }) = stated {
-        return Some((*kind, DVec3::from_array(size_m.unwrap_or(class_size_m(*kind)))));
+        return Some((*kind, DVec3::from_array(size_m.unwrap_or(kind.row().class_size_m))));
     }
     let kind = if is_person { Some(BodyKind::Pedestrian) } else { kind_by_words(name) }?;
-    Some((kind, DVec3::from_array(class_size_m(kind))))
+    Some((kind, DVec3::from_array(kind.row().class_size_m)))
 }
 
 /// A passenger car, which vehicles of unknown types are.
 pub(super) fn passenger_car() -> (BodyKind, DVec3) {
-    (BodyKind::Car, DVec3::from_array(class_size_m(BodyKind::Car)))
+    (BodyKind::Car, DVec3::from_array(BodyKind::Car.row().class_size_m))
 }
 
 #[cfg(test)]

@@ -1,0 +1,120 @@
+"""Settings of environments, the same for gymnasium, PettingZoo, LeRobot and vla-eval."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import operator
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Mapping, Sequence
+
+from ._calls import settings
+from ._errors import BadType, BadValue
+
+if TYPE_CHECKING:
+    from typing import TypedDict
+
+    class EnvOptions(TypedDict, total=False):
+        """The fields of :class:`EnvConfig` but for the recipe, as keyword arguments."""
+
+        set: Mapping[str, Any] | Sequence[str]
+        store: str | os.PathLike[str] | None
+        obs: Sequence[str]
+        size: int | tuple[int, int]
+        max_depth_m: float
+        weather: str | None
+        look: str
+        jobs: int | None
+        step_s: float
+        latency_s: float | None
+        expert_action: bool
+
+
+OBSERVATIONS = ("state", "depth", "mask", "semantic", "instance", "rgb")
+_LARGEST_SIZE = 2048
+_FORMER = {"overrides": "set", "threads": "jobs"}
+
+
+@dataclass(frozen=True)
+class EnvConfig:
+    """Settings of an environment over the episodes of a recipe."""
+
+    recipe: str | os.PathLike[str]
+    """The recipe, or a folder with a ``recipe.toml``."""
+    set: Mapping[str, Any] | Sequence[str] = ()
+    """Changes to values of the recipe, as of :func:`cosfly.run`."""
+    store: str | os.PathLike[str] | None = None
+    """Folder of the store; else that of ``COSFLY_STORE``, else ``.cosfly``."""
+    obs: Sequence[str] = ("state",)
+    """Observations: ``state`` (16 numbers) and channels of pictures. One alone is an array, several are a dictionary."""
+    size: int | tuple[int, int] = 84
+    """Width and height of pictures, pixels; one number is both."""
+    max_depth_m: float = 200.0
+    """Greatest depth in pictures, metres."""
+    weather: str | None = None
+    """Weather of pictures; else that of the recipe's pictures."""
+    look: str = "simple"
+    """Look of colours: ``simple`` or ``full``."""
+    jobs: int | None = None
+    """Threads that draw pictures; else one per core."""
+    step_s: float = 0.1
+    """Time from one action to the next, seconds."""
+    latency_s: float | None = None
+    """Time from an observation to the effect of its action, seconds; else that of the recipe."""
+    expert_action: bool = False
+    """Whether ``info`` has the expert's action."""
+
+    def __post_init__(self) -> None:
+        if isinstance(self.set, str):
+            raise BadValue(f"set is {self.set!r}; it is a dictionary, or a list such as ['stages.walkers.count=8']")
+        if self.jobs is not None and not 1 <= operator.index(self.jobs) <= 1024:
+            raise BadValue(f"jobs is {self.jobs}; it is 1 to 1024")
+        names = tuple(self.obs)
+        if not names or not {*names} <= {*OBSERVATIONS} or len({*names}) < len(names):
+            raise BadValue(f"obs is {names}; it names one or several of {', '.join(OBSERVATIONS)}, each once")
+        if not all(8 <= side <= _LARGEST_SIZE for side in self.sides):
+            raise BadValue(f"size is {self.sides}; the sides of pictures are 8 to {_LARGEST_SIZE} pixels")
+        if not 1.0 <= self.max_depth_m <= 1e6:
+            raise BadValue(f"max_depth_m is {self.max_depth_m}; it is 1 to 1000000 m")
+        if not 0.01 <= self.step_s <= 1.0 or not 0.0 <= (self.latency_s or 0.0) <= 5.0:
+            raise BadValue(f"step_s is {self.step_s} (0.01 to 1 s) and latency_s is {self.latency_s} (0 to 5 s)")
+
+    @classmethod
+    def of(cls, recipe: str | os.PathLike[str], options: Mapping[str, Any]) -> EnvConfig:
+        """The settings in keyword arguments; other names are refused with the nearest one."""
+        known = [field.name for field in dataclasses.fields(cls) if field.name != "recipe"]
+        for name in options:
+            if name not in known:
+                near = _FORMER.get(name) or next(iter(difflib.get_close_matches(name, known, 1)), None)
+                advice = f"did you mean `{near}`?" if near else f"the settings are {', '.join(known)}"
+                raise BadType(f"environments have no setting `{name}`; {advice}")
+        return cls(recipe, **options)
+
+    # What the extension module reads.
+
+    @property
+    def sides(self) -> tuple[int, int]:
+        """Width and height of pictures, pixels."""
+        width, height = self.size if isinstance(self.size, (tuple, list)) else (self.size, self.size)
+        return int(width), int(height)
+
+    @property
+    def channels(self) -> list[str]:
+        """Channels of pictures."""
+        return [name for name in self.obs if name != "state"]
+
+    @property
+    def changes(self) -> list[str]:
+        """Changes to the recipe, as the command line takes them."""
+        return settings(self.set)[1::2]
+
+    @property
+    def place(self) -> str:
+        """Folder of the store."""
+        return os.fspath(self.store if self.store is not None else os.environ.get("COSFLY_STORE") or ".cosfly")
+
+    @property
+    def threads(self) -> int:
+        """Number of threads that draw pictures."""
+        return self.jobs if self.jobs is not None else os.cpu_count() or 1
