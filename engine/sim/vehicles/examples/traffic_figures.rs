@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             in_solid_things(&town, &traffic)
         );
         println!("  {} stand for the last minute", stuck(&traffic));
-        for kind in BodyKind::ON_THE_GROUND {
+        for kind in BodyKind::ON_THE_GROUND.iter().copied() {
             figures(&traffic, kind);
         }
         traffic.notes.iter().for_each(|note| println!("  {note}"));

@@ -182,7 +182,8 @@ impl TrafficConfig {
         }
         let mut types = self.sumo.iter().flat_map(|sumo| &sumo.options.types);
         if let Some((name, _)) = types.find(|(_, it)| it.kind == BodyKind::Drone) {
-            let known = BodyKind::ON_THE_GROUND.map(|kind| format!("`{}`", kind.name())).join(", ");
+            let known =
+                BodyKind::ON_THE_GROUND.iter().map(|kind| format!("`{}`", kind.name())).collect::<Vec<_>>().join(", ");
             let message = format!("type `{name}` is a `drone`, which no traffic has; its kind must be one of {known}");
             return Err(PedestrianConfigRule { path: vec!["sumo", "options", "types"], message });
         }

@@ -1,0 +1,26 @@
+//! Row of kind `bicycle`.
+
+use super::row::{BodyKindRow, BodyWords, Driving};
+use crate::SemanticLabel;
+
+pub(super) static ROW: BodyKindRow = BodyKindRow {
+    name: "bicycle",
+    noun: "bicycle",
+    label: SemanticLabel::Bicycle,
+    is_dressed: true,
+    class_size_m: [1.6, 0.65, 1.7],
+    driving: Some(Driving {
+        sizes_m: [[1.7, 1.85], [0.58, 0.68], [1.65, 1.85]],
+        top_mps: 5.5,
+        accelerate_mps2: 0.9,
+        brake_mps2: 1.8,
+        sideways_mps2: 1.6,
+    }),
+    lamps: Some([0.35, 0.4]),
+    words: BodyWords {
+        english: "cyclist",
+        one_in_english: "a cyclist",
+        chinese: "骑自行车的人",
+        one_in_chinese: "一个骑自行车的人",
+    },
+};

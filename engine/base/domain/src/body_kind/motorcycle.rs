@@ -1,0 +1,26 @@
+//! Row of kind `motorcycle`.
+
+use super::row::{BodyKindRow, BodyWords, Driving};
+use crate::SemanticLabel;
+
+pub(super) static ROW: BodyKindRow = BodyKindRow {
+    name: "motorcycle",
+    noun: "motorcycle",
+    label: SemanticLabel::Motorcycle,
+    is_dressed: true,
+    class_size_m: [2.2, 0.9, 1.5],
+    driving: Some(Driving {
+        sizes_m: [[2.0, 2.25], [0.75, 0.9], [1.55, 1.7]],
+        top_mps: 40.0,
+        accelerate_mps2: 2.2,
+        brake_mps2: 2.5,
+        sideways_mps2: 2.5,
+    }),
+    lamps: Some([1.0, 1.0]),
+    words: BodyWords {
+        english: "motorcyclist",
+        one_in_english: "a motorcyclist",
+        chinese: "骑摩托车的人",
+        one_in_chinese: "一个骑摩托车的人",
+    },
+};

@@ -1,0 +1,53 @@
+//! [`BodyKindRow`]: what is the same of all bodies of a kind.
+
+use crate::SemanticLabel;
+
+/// What is the same of all bodies of a kind.
+#[derive(Debug)]
+pub struct BodyKindRow {
+    /// Name in recipes and tables.
+    pub name: &'static str,
+    /// Noun in logs.
+    pub noun: &'static str,
+    /// CARLA's label of all but a rider.
+    pub label: SemanticLabel,
+    /// Whether a person is seen, whose clothes tell the body from others.
+    pub is_dressed: bool,
+    /// Length, width and height where a source states a class alone, metres: SUMO's. People are cylinders as wide as their shoulders.
+    pub class_size_m: [f64; 3],
+    /// Driving in traffic; none of what does not drive.
+    pub driving: Option<Driving>,
+    /// Strength of the lamps at night, and their reach as a share of that of a car; none without lamps.
+    pub lamps: Option<[f32; 2]>,
+    /// Words in texts.
+    pub words: BodyWords,
+}
+
+/// Sizes and limits of a kind of vehicle in traffic: passenger cars after Treiber's parameters for towns, the others slower in the order of
+/// their mass.
+#[derive(Debug)]
+pub struct Driving {
+    /// Ranges of length, width and height, metres.
+    pub sizes_m: [[f64; 2]; 3],
+    /// Largest speed, m/s.
+    pub top_mps: f64,
+    /// Largest acceleration of a calm driver, m/s^2.
+    pub accelerate_mps2: f64,
+    /// Comfortable braking, m/s^2.
+    pub brake_mps2: f64,
+    /// Sideways acceleration in bends, m/s^2.
+    pub sideways_mps2: f64,
+}
+
+/// Words for a kind of body.
+#[derive(Debug)]
+pub struct BodyWords {
+    /// Noun in English.
+    pub english: &'static str,
+    /// Some body of the kind that is not the target, in English.
+    pub one_in_english: &'static str,
+    /// Noun in Chinese.
+    pub chinese: &'static str,
+    /// Some body of the kind that is not the target, in Chinese.
+    pub one_in_chinese: &'static str,
+}
