@@ -9,14 +9,19 @@ use parquet::arrow::arrow_reader::{
 };
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::PageIndexPolicy;
+use std::collections::BTreeSet;
 use std::fs::File;
 
 /// Metadata of a file.
 ///
 /// # Errors
-/// The file is not Parquet, or its columns lie outside of it.
+/// The file is not Parquet, two of its columns have one name, or its columns lie outside of it.
 pub fn load(file: &File) -> Result<ArrowReaderMetadata> {
     let metadata = metadata_of(file, ArrowReaderOptions::new())?;
+    let mut names = BTreeSet::new();
+    if let Some(twice) = metadata.schema().fields().iter().find(|field| !names.insert(field.name())) {
+        return Err(ParquetError::General(format!("two columns are called `{}`", twice.name())));
+    }
     let end = i64::try_from(file.metadata()?.len()).unwrap_or(i64::MAX);
     for column in metadata.metadata().row_groups().iter().flat_map(|group| group.columns()) {
         let starts = [Some(column.data_page_offset()), column.dictionary_page_offset()];

@@ -55,6 +55,7 @@ fn what_the_reader_copes_with_is_a_warning_with_its_line() {
             with(width, &format!("{width}<width sOffset=\"0\" a=\"2\" b=\"0\" c=\"0\" d=\"0\"/>")),
             "a second `<width>` at",
         ),
+        (with("sOffset=\"0\" a=\"3.5\"", "sOffset=\"0\" a=\"-3.5\""), "widths below 0 count as 0"),
         (with("<lane id=\"2\" type=\"curb\"", "<lane id=\"7\" type=\"curb\""), "lane `2` is missing"),
         (with("<lane id=\"2\" type=\"curb\"", "<lane id=\"1\" type=\"curb\""), "a repeated id"),
         (

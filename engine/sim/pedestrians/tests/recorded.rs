@@ -96,6 +96,11 @@ fn broken_files_are_refused_with_their_line() {
     for (text, expected) in [
         ("t,id,x,y\n0,1,0,0\n1,1,nan,0\n", "`nan` in column `x` is not a finite number (line 3)"),
         ("0,1,0,0\n1,1,0\n", "the row has 3 columns; 4 are needed (line 2)"),
+        ("t,id,x,y\n0,1,0,5,1,5\n", "the row has more columns than the first line, which has 4 (line 2)"),
+        (
+            "frame,id,x,y\n0,1,0,0\n1,1,1,0\n",
+            "the column `frame` counts frames, and nothing says how many there are in a second (line 1)",
+        ),
         ("t;id;x;y\n0;1;10,5;2\n", "`10,5` in column `x` is not a finite number (line 2)"),
         ("0,1,2,1e300\n", "`1e300` in column `y` is no place in metres: it must be between -1e9 and 1e9 (line 1)"),
         ("t,name,x,y\n", "the header has no column `id` (line 1)"),
@@ -159,6 +164,9 @@ fn what_is_there_twice_is_refused_or_said() {
                  <trkpt lat=\"48\" lon=\"11.00001\"><time>2024-05-01T10:00:05Z</time></trkpt></trkseg></trk>";
     let warnings = read(&format!("<gpx>{track}{track}</gpx>")).unwrap().warnings;
     assert!(warnings[0].contains("2 tracks are called `Ada`"), "{warnings:?}");
+    let warnings = |text: &str| read(text).unwrap().warnings;
+    assert_eq!(warnings("0,1,0,0,\n1,1,1,0\n"), ["the file has no header: its columns count as time, id, x, y"]);
+    assert!(warnings("t,id,x,y\n0,1,0,0,\n1,1,1,0\n").is_empty(), "an empty last column is none");
     let error = read("t,id,x,y,x_m\n0,1,0,0,0\n").unwrap_err();
     assert!(error.message.contains("two columns for `x`: `x` and `x_m`"), "{error}");
     let error = read("1e23,1,0,0\n").unwrap_err();
@@ -191,6 +199,7 @@ fn what_is_odd_is_counted_and_said() {
     assert_eq!(
         [warnings, people.notes()].concat(),
         [
+            "the file has no header: its columns count as time, id, x, y",
             "1 points at the time of the point before are left out",
             "tracks are parted at 1 jumps, the first of `a` at 29.0 m/s (line 4); `max_speed_mps` is 8",
             "tracks are parted at 1 gaps longer than `max_gap_s`, 30 s",

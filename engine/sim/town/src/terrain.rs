@@ -150,8 +150,8 @@ impl HeightGrid {
         let longest_km = 1e-3 * self.cell_m * (self.columns.max(self.rows) - 1) as f64;
         (self.cell_m > WIDEST_CELL_M).then(|| {
             format!(
-                "the map is {longest_km:.1} km long, so the land beside its roads has cells of {:.1} m instead of {WIDEST_CELL_M} m: it \
-                 follows roads and feet of things less closely. Cut the file into pieces of at most 3 km",
+                "the map is {longest_km:.1} km long, so the land beside its roads has cells of {:.1} m instead of {WIDEST_CELL_M} m and follows \
+                 roads and feet of things less closely, also in the part that `bounds_m` keeps. Cut the file into pieces of at most 3 km",
                 self.cell_m
             )
         })

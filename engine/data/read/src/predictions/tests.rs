@@ -137,6 +137,9 @@ fn parquet_without_the_columns_is_refused_with_those_it_has() {
     let file = parquet_file(vec![("id", Arc::new(StringArray::from(vec!["a"])) as ArrayRef)]);
     let error = read(file.path()).unwrap_err();
     assert_eq!((error.code, error.hints[0].as_str()), ("predictions-column", "its columns are id"));
+    let texts = || Arc::new(StringArray::from(vec!["a"])) as ArrayRef;
+    let twice = read(parquet_file(vec![("trajectory_id", texts()), ("trajectory_id", texts())]).path()).unwrap_err();
+    assert!(twice.causes.iter().any(|cause| cause.contains("two columns are called `trajectory_id`")), "{twice:?}");
     let bytes = std::fs::read(file.path()).unwrap();
     std::fs::write(file.path(), &bytes[..bytes.len() / 2]).unwrap();
     assert_eq!(read(file.path()).unwrap_err().code, "predictions-damaged");

@@ -151,10 +151,24 @@ impl Bounds {
 /// The least area that holds every area that the file states. Areas of another place, which hold no node and touch none that
 /// does, are not believed.
 fn stated_bounds(elements: &Elements) -> Option<Bounds> {
+    let whole = bounds_with_nodes(elements)?;
+    Some(areas(elements).filter(|bounds| bounds.touches(&whole)).copied().fold(whole, Bounds::and))
+}
+
+/// Number of stated bounds that are no area, and of all where none holds a node. One without nodes beside others may be an empty
+/// download.
+pub fn unbelieved_bounds(elements: &Elements) -> usize {
+    let believed = bounds_with_nodes(elements).map_or(0, |_| areas(elements).count());
+    elements.bounds.len() - believed
+}
+
+fn areas(elements: &Elements) -> impl Iterator<Item = &Bounds> {
+    elements.bounds.iter().filter(|bounds| bounds.is_an_area())
+}
+
+fn bounds_with_nodes(elements: &Elements) -> Option<Bounds> {
     let has_nodes = |bounds: &Bounds| elements.nodes.is_empty() || elements.nodes.iter().any(|node| bounds.holds(node));
-    let areas = || elements.bounds.iter().filter(|bounds| bounds.is_an_area());
-    let whole = areas().filter(|bounds| has_nodes(bounds)).copied().reduce(Bounds::and)?;
-    Some(areas().filter(|bounds| bounds.touches(&whole)).copied().fold(whole, Bounds::and))
+    areas(elements).filter(|bounds| has_nodes(bounds)).copied().reduce(Bounds::and)
 }
 
 /// The area of nearly all nodes.

@@ -54,6 +54,24 @@ fn areas_of_several_downloads_count_together() {
 }
 
 #[test]
+fn bounds_that_are_no_area_or_hold_nothing_are_told_of() {
+    let nodes = [(11, -18, 0), (12, 18, 0)];
+    let street = osm(&nodes, &way(1, &[11, 12], &[("highway", "residential")]));
+    let warned = |bounds: &str| {
+        let text = street.replacen(BOUNDS, bounds, 1);
+        let (_, warnings) = read(text.as_bytes()).unwrap();
+        warnings.iter().any(|warning| warning.starts_with("1 bounds of the file are no area"))
+    };
+    let stated = |south: &str, north: &str| {
+        format!("<bounds minlat=\"{south}\" minlon=\"-0.01\" maxlat=\"{north}\" maxlon=\"0.01\"/>")
+    };
+    assert!(!warned("") && !warned(&stated("-0.01", "0.01")));
+    for (south, north) in [("0.01", "-0.01"), ("nan", "0.01"), ("948", "950"), ("", "0.01"), ("10", "10.1")] {
+        assert!(warned(&stated(south, north)), "{south} to {north}");
+    }
+}
+
+#[test]
 fn of_elements_that_are_there_again_the_highest_version_counts() {
     let versioned = |text: String, version: &str| text.replacen("<way ", &format!("<way version=\"{version}\" "), 1);
     let (first, second) = (versioned(house(8, "5"), "1"), versioned(house(8, "12"), "2"));

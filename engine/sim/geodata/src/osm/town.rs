@@ -1,7 +1,7 @@
 //! From elements to a town.
 
 use super::elements::Elements;
-use super::frame::Frame;
+use super::frame::{Frame, unbelieved_bounds};
 use super::options::OsmOptions;
 use super::passages::Passages;
 use super::rings::{Problems, areas};
@@ -190,7 +190,11 @@ fn warnings(
         (buildings.hidden > 0).then(|| format!("{} buildings lie under the ground and are left out", buildings.hidden));
     let lost = elements.without_place;
     let without_place = (lost > 0).then(|| format!("{lost} nodes have no usable place and are left out"));
+    let unbelieved = unbelieved_bounds(elements);
+    let strange_bounds = (unbelieved > 0)
+        .then(|| format!("{unbelieved} bounds of the file are no area, or hold none of its nodes, and do not count"));
     [
+        strange_bounds,
         elements.repeated.line("elements are in the file more than once; of each the highest version counts"),
         missing.line("ways lack nodes in the file; their whole pieces are kept"),
         without_place,

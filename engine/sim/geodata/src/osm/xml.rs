@@ -110,11 +110,10 @@ impl Reading {
 
     fn bounds(&mut self, tag: &BytesStart<'_>) -> Result<(), MapError> {
         let degrees = |name| Ok::<_, MapError>(attribute(tag, name)?.and_then(|text| text.trim().parse::<f64>().ok()));
-        if let (Some(west), Some(south), Some(east), Some(north)) =
-            (degrees("minlon")?, degrees("minlat")?, degrees("maxlon")?, degrees("maxlat")?)
-        {
-            self.elements.bounds.push(Bounds { low: [west, south], high: [east, north] });
-        }
+        let [west, south, east, north] =
+            [degrees("minlon")?, degrees("minlat")?, degrees("maxlon")?, degrees("maxlat")?]
+                .map(|side| side.unwrap_or(f64::NAN));
+        self.elements.bounds.push(Bounds { low: [west, south], high: [east, north] });
         Ok(())
     }
 

@@ -99,9 +99,11 @@ pub(super) fn read_csv(text: &str, config: &RecordedConfig) -> Result<Recording,
     let mut rows = rows(text).peekable();
     let Some((first_line, first)) = rows.peek().copied() else { return Ok(read.recording()) };
     let separator = [';', ','].into_iter().find(|sign| first.contains(*sign));
+    let width = cells(first, separator).count();
     let mut columns = [0, 1, 2, 3];
-    if cells(first, separator).next().is_some_and(|cell| cell.parse::<f64>().is_err()) {
-        columns = header(first, separator).map_err(|error| error.at(first_line))?;
+    let has_header = cells(first, separator).next().is_some_and(|cell| cell.parse::<f64>().is_err());
+    if has_header {
+        columns = header(first, separator, config).map_err(|error| error.at(first_line))?;
         rows.next();
     }
     let count = columns.iter().max().map_or(0, |last| last + 1);
@@ -111,12 +113,23 @@ pub(super) fn read_csv(text: &str, config: &RecordedConfig) -> Result<Recording,
             let message = format!("the row has {} columns; {count} are needed", cells.len());
             return Err(RecordedError::new(message).at(line).hint("a row is time, id, x, y with commas between"));
         }
+        // Decimals with a comma would move all columns behind them.
+        if self::cells(row, separator).skip(width).any(|cell| !cell.is_empty()) {
+            let message = format!("the row has more columns than the first line, which has {width}");
+            return Err(RecordedError::new(message)
+                .at(line)
+                .hint("write decimals with a point, as in `10.5`, and ids without separators"));
+        }
         let [time, id, x, y] = columns.map(|column| cells[column]);
         let time_s = number(time, "t", line)? / config.rate_hz.unwrap_or(1.0);
         let at = DVec2::new(number(x, "x", line)?, number(y, "y", line)?);
         read.add(id, RecordedPoint { time_s, at, line });
     }
-    Ok(read.recording())
+    let mut recording = read.recording();
+    if !has_header {
+        recording.warnings.push("the file has no header: its columns count as time, id, x, y".to_owned());
+    }
+    Ok(recording)
 }
 
 /// Cells of a row between separators; without one, between white space.
@@ -132,7 +145,7 @@ fn unquoted(cell: &str) -> &str {
 }
 
 /// Places of the columns time, id, x, y in a header.
-fn header(row: &str, separator: Option<char>) -> Result<[usize; 4], RecordedError> {
+fn header(row: &str, separator: Option<char>, config: &RecordedConfig) -> Result<[usize; 4], RecordedError> {
     const NAMES: [&[&str]; 4] = [
         &["t", "time", "time_s", "frame", "frame_id", "timestamp"],
         &[
@@ -169,6 +182,11 @@ fn header(row: &str, separator: Option<char>) -> Result<[usize; 4], RecordedErro
         let place = cells.iter().position(|cell| names.contains(&cell.as_str()));
         *column =
             place.ok_or_else(|| RecordedError::new(format!("the header has no column `{}`", names[0])).hint(hint))?;
+    }
+    let time = &cells[columns[0]];
+    if time.starts_with("frame") && config.rate_hz.is_none() {
+        let message = format!("the column `{time}` counts frames, and nothing says how many there are in a second");
+        return Err(RecordedError::new(message).hint("set `rate_hz`: to 1 where the column holds seconds"));
     }
     Ok(columns)
 }

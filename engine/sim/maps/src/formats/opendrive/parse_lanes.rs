@@ -7,6 +7,9 @@ use cosfly_domain::LaneKind as TrafficKind;
 use cosfly_town::error::MapError;
 use roxmltree::Node;
 
+/// Widths below 0 by less than this are rounding, metres.
+const NO_WIDTH_M: f64 = 0.01;
+
 /// The sections of a road in the order of their start.
 pub(super) fn lane_sections<'d>(
     source: &Source<'d>,
@@ -123,7 +126,10 @@ fn edge_records<'d>(
 ) -> Result<CubicProfile, MapError> {
     let mut records = Vec::new();
     for node in children(lane, name) {
-        source.number(node, "a", limits)?;
+        let start_m = source.number(node, "a", limits)?;
+        if name == "width" && start_m < -NO_WIDTH_M {
+            source.warn(node, &format!("`a` is {start_m}; widths below 0 count as 0"));
+        }
         let cubic = Cubic {
             start_s_m: section_s_m + source.number(node, "sOffset", STATION)?,
             coefficients: source.coefficients(node, "")?,
