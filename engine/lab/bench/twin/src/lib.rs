@@ -1,5 +1,5 @@
 //! `twin`: a plugin that exists natively, too, for `cosfly-lab plugins`.
-#![cfg_attr(not(target_family = "wasm"), expect(dead_code, reason = "a native build has no border that calls it"))]
+#![cfg(target_family = "wasm")]
 use cosfly_plugin::{CostTerm, Metadata, Point, Run, params, per_waypoint};
 
 mod kernels;
