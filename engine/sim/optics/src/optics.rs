@@ -35,9 +35,6 @@ impl Default for Optics {
 }
 
 impl Optics {
-    /// Optics that change nothing.
-    pub const IDEAL: Self = Self { point_spread_px: 0.0, exposure_ev: 0.0, white_balance_k: 6500.0, bloom: 0.0 };
-
     /// Factor of all light.
     pub fn exposure(&self) -> f32 {
         libm::exp2f(self.exposure_ev as f32)

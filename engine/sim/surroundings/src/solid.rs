@@ -251,28 +251,6 @@ impl Solid {
         }
     }
 
-    /// The part of the horizontal ray from `origin` along (`cos`, `sin`) that lies in the box grown by
-    /// `grow_m`, seen from above: distances, metres; empty when the first is larger.
-    pub fn crossing_from_above(&self, origin: DVec3, direction: DVec3, grow_m: f64) -> (f64, f64) {
-        let a = self.to_local(origin);
-        let d = self.turn_to_local(direction);
-        let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
-        for k in 0..2 {
-            let half = self.half[k] + grow_m;
-            if d[k].abs() < 1e-9 {
-                if a[k].abs() > half {
-                    return (1.0, 0.0);
-                }
-                continue;
-            }
-            let inverse = 1.0 / d[k];
-            let (t0, t1) = ((-half - a[k]) * inverse, (half - a[k]) * inverse);
-            enter = enter.max(t0.min(t1));
-            leave = leave.min(t0.max(t1));
-        }
-        (enter, leave)
-    }
-
     /// Centre and bounding radius seen from above.
     pub fn disc_from_above(&self) -> (DVec3, f64) {
         (self.center, real::hypot(self.half.x, self.half.y))

@@ -1,5 +1,5 @@
 //! `twin`: a plugin that exists natively, too, for `cosfly-lab plugins`.
-
+#![cfg(target_family = "wasm")]
 use cosfly_plugin::{CostTerm, Metadata, Point, Run, params, per_waypoint};
 
 mod kernels;
