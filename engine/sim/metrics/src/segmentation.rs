@@ -85,16 +85,6 @@ impl Confusion {
     }
 }
 
-/// Intersection over union of two masks of the same size; 0 when both are empty.
-pub fn mask_iou(a: &[bool], b: &[bool]) -> f64 {
-    let (mut common, mut union) = (0_u64, 0_u64);
-    for (a, b) in a.iter().zip(b) {
-        common += u64::from(*a && *b);
-        union += u64::from(*a || *b);
-    }
-    if union > 0 { common as f64 / union as f64 } else { 0.0 }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,11 +110,5 @@ mod tests {
         let mut sum = Confusion::new(4);
         sum.add_times(&once, 2);
         assert_eq!(sum, twice);
-    }
-
-    #[test]
-    fn masks_overlap_by_their_common_share() {
-        assert_eq!(mask_iou(&[true, true, false], &[false, true, true]), 1.0 / 3.0);
-        assert_eq!(mask_iou(&[false], &[false]), 0.0);
     }
 }
