@@ -1,7 +1,26 @@
 //! Readers of published datasets (trajectories, tables, images in logs) and of predictions of models.
 //!
-//! Columns are requested by their entries in [`cosfly_schema::tables`], so datasets with additional columns can be
-//! read, too.
+//! * [`PublishedDataset`]: a folder with its flights, tables and logs.
+//! * [`read`], [`TableFile`], [`Rows`]: rows of a table by the columns' entries in [`cosfly_schema::tables`], so datasets with additional
+//!   columns can be read, too. [`columns`]: whole columns by name.
+//! * [`LogReader`], [`ImageLog`]: messages and images of a flight's log, in order and at random.
+//! * [`predictions`]: files of models' answers.
+//!
+//! Errors are [`cosfly_diagnose::Diagnostic`]: a caller matches on its code (`dataset-none`, `dataset-changed`), a person reads its text.
+//!
+//! ```
+//! use cosfly_read::PublishedDataset;
+//!
+//! # let folder = tempfile::tempdir().expect("a folder");
+//! # cosfly_sample::write_to_folder(folder.path(), &Default::default(), Default::default()).expect("a dataset");
+//! # let folder = folder.path();
+//! let dataset = PublishedDataset::open(folder).expect("a dataset");
+//! let first = &dataset.flights()[0];
+//! let frames = dataset.row_index("frames").and_then(|index| dataset.frames(&index, first)).expect("table `frames`");
+//! assert_eq!(frames.len(), first.frames);
+//! println!("{} begins at {}", first.trajectory_id, frames[0].pose.position_in_world);
+//! assert_eq!(PublishedDataset::open(&folder.join("elsewhere")).err().map(|error| error.code), Some("dataset-none"));
+//! ```
 
 mod captions;
 pub mod columns;
@@ -41,7 +60,7 @@ pub use instructions::{InstructionReader, InstructionsByFrame};
 pub use log::{LogReader, LoggedFrame, SceneBox};
 pub use objects::{BoxInWorld, PublishedObject};
 pub use picture_column::{PictureColumn, PictureFile};
-pub use records::read_records;
+pub use records::{LogDamage, read_records};
 pub use row_index::RowIndex;
 pub use rows::{Rows, TableFile, Values, read};
 pub use tracks::FlightTrack;

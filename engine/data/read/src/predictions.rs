@@ -7,13 +7,13 @@
 //! | `trajectory_id` | the flight |
 //! | `frame` | first frame of the window |
 //! | `waypoint_deltas` | a list of increments, each an array or an object of dx, dy, dz (m), dpitch, dyaw, droll (degrees); a missing dimension counts as 0 |
-//! | `text` or `prediction` | instead of `waypoint_deltas`: output of a language model, see [`model_text`] |
+//! | `text` or `prediction` | instead of `waypoint_deltas`: output of a language model, text before `</think>` is dropped |
 //! | `boxes` | optional: left, top, right, bottom edge (pixels) of the target in the frame of each waypoint, or null |
 
 pub mod detections;
 mod json_array;
 mod json_lines;
-pub mod model_text;
+mod model_text;
 mod parquet_rows;
 mod rows;
 mod waypoint;

@@ -31,5 +31,6 @@ pub fn log_problem(path: &Path, stop: &Stop) -> Option<String> {
         Ok(file) => file,
         Err(error) => return Some(error.to_string()),
     };
-    read_records(&mut stop.reading(BufReader::new(file)), &mut |_| {}).err().filter(|_| !stop.is_asked())
+    let damage = read_records(&mut stop.reading(BufReader::new(file)), &mut |_| {}).err();
+    damage.filter(|_| !stop.is_asked()).map(|damage| damage.to_string())
 }

@@ -70,8 +70,8 @@ pub fn check(
         is_ours: false,
     };
     let mut input = known.stop.reading(BufReader::new(input));
-    if let Err(message) = read_records(&mut input, &mut |record| log.record(record)) {
-        log.report.find(file, "", "verify-crc", message);
+    if let Err(damage) = read_records(&mut input, &mut |record| log.record(record)) {
+        log.report.find(file, "", "verify-crc", damage.to_string());
         return;
     }
     log.finish();

@@ -49,8 +49,10 @@ pub const FLIGHT: Kind<PlanOutcome> = Kind::new("trajectory/5", "trajectory");
 pub const NEARBY: Kind<Vec<NearbyPerson>> = Kind::new("nearby/1", "people");
 /// Bodies of traffic near a flight; absent where there is no traffic.
 pub const NEARBY_BODIES: Kind<Vec<NearbyBodies>> = Kind::new("nearby/1", "bodies");
+/// Artifact of a film.
+pub const FRAMES: &str = "frames/2";
 /// Reason why a film has no pictures; absent where it has.
-pub const REJECTION: Kind<Rejection> = Kind::new("frames/2", "rejection");
+pub const REJECTION: Kind<Rejection> = Kind::new(FRAMES, "rejection");
 
 impl<T> Kind<T> {
     /// Values of type `T` in blobs called `blob` of artifacts `artifact`.

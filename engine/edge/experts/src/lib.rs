@@ -2,11 +2,13 @@
 //!
 //! * [`artifacts`]: kinds of artifacts, each with its type, its format version and its blobs; [`codec`]: their encoding.
 //! * [`expert`]: parameters of an expert; [`pictures`]: settings of pictures.
+//! * [`map_files`]: towns read from map files.
 //! * [`plugins`]: plugins in recipes.
 
 pub mod artifacts;
 pub mod codec;
 pub mod expert;
+pub mod map_files;
 pub mod pictures;
 pub mod plugins;
 

@@ -7,8 +7,7 @@ use crate::term_border::TermBorder;
 use crate::town::TownView;
 use cosfly_diagnose::{LARGEST_MAGNITUDE, plausible};
 use cosfly_frames::{DVec3, TargetTrack};
-use cosfly_planner::walk::Walk;
-use cosfly_planner::{CostTerm, TermContext};
+use cosfly_planner::{CostTerm, TermContext, Walk};
 use cosfly_surroundings::visibility::body_points;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

@@ -11,7 +11,7 @@ mod group_notes;
 mod group_splits;
 mod inspect;
 mod logs;
-pub mod map;
+mod map;
 mod memo;
 mod nearby;
 mod pedestrians;

@@ -22,7 +22,7 @@ pub const TRAJECTORY: &str = artifacts::FLIGHT.artifact;
 /// Artifact of the people who are near a flight.
 pub const NEARBY: &str = artifacts::NEARBY.artifact;
 /// Artifact of a rendered trajectory.
-pub const FRAMES: &str = artifacts::REJECTION.artifact;
+pub const FRAMES: &str = artifacts::FRAMES;
 /// Blob of a rendered trajectory: its packed pictures, which its log holds as well.
 pub const PACK: &str = "pack";
 /// Artifact of a trajectory's captions.

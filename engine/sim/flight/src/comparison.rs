@@ -7,8 +7,7 @@ use cosfly_planner::baselines::{Baseline, BaselineInput, BaselinePath, flyable::
 use cosfly_planner::certificate::{certify, term_costs};
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
-use cosfly_planner::walk::Walk;
-use cosfly_planner::{MucoConfig, PlanRequest, WeightedTerm, plan_request};
+use cosfly_planner::{MucoConfig, PlanRequest, Walk, WeightedTerm, plan_request};
 use cosfly_surroundings::exact::ExactMap;
 use cosfly_surroundings::ground::GroundGrid;
 use cosfly_surroundings::local::LocalObstacles;
@@ -187,7 +186,7 @@ impl<'a> Task<'a> {
     }
 
     fn baseline(&self, kind: Baseline) -> Result<BaselinePath, String> {
-        plan_baseline(kind, &self.input(&self.problem()))
+        plan_baseline(kind, &self.input(&self.problem())).map_err(|reason| reason.to_string())
     }
 
     /// One waypoint per frame, or the reason why there are none. The result of A* is given.

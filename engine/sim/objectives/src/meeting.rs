@@ -74,8 +74,8 @@ mod tests {
     use super::*;
     use cosfly_frames::{TargetState, TargetTrack};
     use cosfly_geometry::BoxBvh;
+    use cosfly_planner::Walk;
     use cosfly_planner::config::view::ViewConfig;
-    use cosfly_planner::walk::Walk;
     use cosfly_surroundings::exact::ExactObstacles;
     use cosfly_surroundings::ground::GroundGrid;
 

@@ -1,6 +1,7 @@
 //! The request for a flight: track, map, wishes, start, companions, moving occluders.
 
 use crate::config::muco::MucoConfig;
+use crate::error::PlanError;
 use crate::terms::term::WeightedTerm;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, TargetTrack};
@@ -95,25 +96,28 @@ impl<'a> PlanRequest<'a> {
     /// Checks that the parts of the request fit each other.
     ///
     /// # Errors
-    /// The contradiction, in words.
-    pub fn validate(&self) -> Result<(), String> {
+    /// [`PlanError::Request`] with the contradiction in words.
+    pub fn validate(&self) -> Result<(), PlanError> {
         let frames = self.track.len();
         for (index, companion) in self.companions.iter().enumerate() {
             if companion.len() != frames || companion.dt_s != self.track.dt_s {
-                return Err(format!(
+                return Err(PlanError::Request(format!(
                     "companion {index} has {} frames of {} s; the target has {frames} of {} s",
                     companion.len(),
                     companion.dt_s,
                     self.track.dt_s
-                ));
+                )));
             }
             if let Some(frame) = companion.states.iter().position(|state| !state.feet_in_world.is_finite()) {
-                return Err(format!("companion {index} is not at a finite place at frame {frame}"));
+                return Err(PlanError::Request(format!("companion {index} is not at a finite place at frame {frame}")));
             }
         }
         for (index, places) in self.movers.iter().enumerate() {
             if places.len() != frames {
-                return Err(format!("moving box {index} has {} places; the target has {frames} frames", places.len()));
+                return Err(PlanError::Request(format!(
+                    "moving box {index} has {} places; the target has {frames} frames",
+                    places.len()
+                )));
             }
             let finite = |shape: &OrientedBox| {
                 let sizes = shape.half_extents_m;
@@ -123,33 +127,39 @@ impl<'a> PlanRequest<'a> {
                     && shape.yaw_rad.is_finite()
             };
             if let Some(frame) = places.iter().position(|shape| !finite(shape)) {
-                return Err(format!("moving box {index} is not a finite box at frame {frame}"));
+                return Err(PlanError::Request(format!("moving box {index} is not a finite box at frame {frame}")));
             }
         }
         if let Some(flight) = self.flight.filter(|flight| flight.len() != frames) {
-            return Err(format!("the flight to join has {} waypoints; the target has {frames} frames", flight.len()));
+            return Err(PlanError::Request(format!(
+                "the flight to join has {} waypoints; the target has {frames} frames",
+                flight.len()
+            )));
         }
         self.check_start()
     }
 
-    fn check_start(&self) -> Result<(), String> {
+    fn check_start(&self) -> Result<(), PlanError> {
         let Some(start) = self.start else { return Ok(()) };
         let (at, speed) = (start.position_in_world, start.velocity_in_world.length());
         if !at.is_finite() || !speed.is_finite() {
-            return Err("the start state is not finite".to_owned());
+            return Err(PlanError::Request("the start state is not finite".to_owned()));
         }
         let limits = &self.config.limits;
         if speed > limits.speed_mps {
-            return Err(format!("the start state moves at {speed:.2} m/s; the limit is {} m/s", limits.speed_mps));
+            return Err(PlanError::Request(format!(
+                "the start state moves at {speed:.2} m/s; the limit is {} m/s",
+                limits.speed_mps
+            )));
         }
         let clearance = self.map().nearest(0, at, limits.clearance_m).map_or(limits.clearance_m, |near| near.0);
         let above = at.z - (self.ground)(at.x, at.y);
         let clearance = if above.is_finite() { clearance.min(above) } else { clearance };
         if clearance < limits.clearance_m {
-            return Err(format!(
+            return Err(PlanError::Request(format!(
                 "the start state is {clearance:.2} m from an obstacle or the ground; the limit is {} m",
                 limits.clearance_m
-            ));
+            )));
         }
         Ok(())
     }

@@ -1,36 +1,41 @@
 //! Checks of a target track before it is followed.
 
+use crate::error::PlanError;
 use cosfly_frames::TargetTrack;
 
 /// Coordinates beyond this are refused, metres.
 const FURTHEST_M: f64 = 1e6;
 
 /// The reason why a track cannot be followed at `speed_limit_mps`, naming the frame and the value.
-pub fn check_track(track: &TargetTrack, speed_limit_mps: f64) -> Result<(), String> {
+pub fn check_track(track: &TargetTrack, speed_limit_mps: f64) -> Result<(), PlanError> {
     if track.is_empty() {
-        return Err("the target track has no frame".to_owned());
+        return Err(PlanError::Request("the target track has no frame".to_owned()));
     }
     for (name, value, low, high) in [("time step", track.dt_s, 1e-3, 10.0), ("height", track.height_m, 0.2, 5.0)] {
         if !(value >= low && value <= high) {
-            return Err(format!("the target's {name} is {value}; it must be between {low} and {high}"));
+            return Err(PlanError::Request(format!(
+                "the target's {name} is {value}; it must be between {low} and {high}"
+            )));
         }
     }
     for (frame, state) in track.states.iter().enumerate() {
         let p = state.feet_in_world;
         if !p.is_finite() || !state.heading_rad.is_finite() || !state.speed_mps.is_finite() {
-            return Err(format!("frame {frame}: the target's state is not a finite number ({p})"));
+            return Err(PlanError::Request(format!("frame {frame}: the target's state is not a finite number ({p})")));
         }
         if p.abs().max_element() > FURTHEST_M {
-            return Err(format!("frame {frame}: the target is at {p}, more than {FURTHEST_M} m from the origin"));
+            return Err(PlanError::Request(format!(
+                "frame {frame}: the target is at {p}, more than {FURTHEST_M} m from the origin"
+            )));
         }
     }
     for (i, pair) in track.states.windows(2).enumerate() {
         let speed = pair[1].feet_in_world.distance(pair[0].feet_in_world) / track.dt_s;
         if speed > speed_limit_mps {
             let frame = i + 1;
-            return Err(format!(
+            return Err(PlanError::Request(format!(
                 "frame {frame}: the target moves at {speed:.1} m/s; the drone's limit is {speed_limit_mps} m/s"
-            ));
+            )));
         }
     }
     Ok(())

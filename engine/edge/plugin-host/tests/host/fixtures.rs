@@ -3,8 +3,7 @@
 use cosfly_frames::{DVec3, TargetState, TargetTrack};
 use cosfly_geometry::BoxBvh;
 use cosfly_planner::config::ViewConfig;
-use cosfly_planner::walk::Walk;
-use cosfly_planner::{CostTerm, TermContext};
+use cosfly_planner::{CostTerm, TermContext, Walk};
 use cosfly_plugin_host::{Host, Kind, NoTown, Plugin, PluginError, PluginLimits, PluginTerm};
 use cosfly_surroundings::exact::ExactObstacles;
 use cosfly_surroundings::ground::GroundGrid;

@@ -10,8 +10,7 @@ use cosfly_planner::config::Foresight;
 use cosfly_planner::paper::plan_paper;
 use cosfly_planner::problem::Problem;
 use cosfly_planner::terms::built_in_terms;
-use cosfly_planner::walk::Walk;
-use cosfly_planner::{MucoConfig, PlanRequest, Preset, plan_request};
+use cosfly_planner::{MucoConfig, PlanError, PlanRequest, Preset, Walk, plan_request};
 use cosfly_surroundings::ground::GroundGrid;
 use cosfly_surroundings::local::LocalObstacles;
 
@@ -197,7 +196,7 @@ fn setting_path(setting: &Setting, way: &Way<'_>, config: &MucoConfig) -> Result
 fn baseline_path(
     &Way { ground, track, movers }: &Way<'_>,
     config: &MucoConfig,
-    find: &dyn Fn(&BaselineInput<'_>) -> Result<BaselinePath, String>,
+    find: &dyn Fn(&BaselineInput<'_>) -> Result<BaselinePath, PlanError>,
 ) -> Result<Planned, String> {
     let terms = built_in_terms(&config.resolved_weights());
     let walk = Walk::of(track);
@@ -212,7 +211,7 @@ fn baseline_path(
         ground: &grid,
         config,
     };
-    let found = find(&input)?;
+    let found = find(&input).map_err(|reason| reason.to_string())?;
     let (waypoints, nodes) = (found.waypoints, found.nodes_expanded);
     Ok(Planned { waypoints, nodes, convergence: Vec::new(), lattice_visibility: None })
 }

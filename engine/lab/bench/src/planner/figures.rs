@@ -3,9 +3,8 @@
 use super::contender::Planned;
 use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_geometry::SpatialQuery;
-use cosfly_planner::MucoConfig;
 use cosfly_planner::certificate::Kinematics;
-use cosfly_planner::walk::Walk;
+use cosfly_planner::{MucoConfig, Walk};
 use cosfly_surroundings::visibility::visibility;
 use serde::Serialize;
 

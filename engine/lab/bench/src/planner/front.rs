@@ -9,7 +9,7 @@ use cosfly_frames::{DVec3, Pose, TargetTrack, real};
 use cosfly_metrics::baselines::features::Examples;
 use cosfly_metrics::baselines::{Ridge, View};
 use cosfly_metrics::{WindowShape, errors};
-use cosfly_planner::walk::Walk;
+use cosfly_planner::Walk;
 use cosfly_surroundings::visibility::aim_point;
 use serde::Serialize;
 use std::fmt;

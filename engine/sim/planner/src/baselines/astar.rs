@@ -10,6 +10,7 @@ use super::grid::{Cell, MOVES, VoxelGrid};
 use super::input::BaselinePath;
 use super::queue::RadixQueue;
 use super::sight::Sight;
+use crate::error::PlanError;
 
 /// Node record: cost on arrival, cost of the node, [`Mark`]s and the move that led here. Zero means untouched.
 type Record = [u32; 4];
@@ -36,7 +37,12 @@ struct Search<'a, S: Sight> {
 }
 
 /// The cheapest way through the grid that keeps `keep_m` from obstacles, voxels and moves alike.
-pub fn astar(grid: &VoxelGrid<'_>, sight: &impl Sight, keep_m: f64, influence_m: f64) -> Result<BaselinePath, String> {
+pub fn astar(
+    grid: &VoxelGrid<'_>,
+    sight: &impl Sight,
+    keep_m: f64,
+    influence_m: f64,
+) -> Result<BaselinePath, PlanError> {
     let clearance = ClearanceCache::new(grid, influence_m.max(keep_m));
     let records = vec![[0; 4]; grid.nodes()];
     let mut search = Search { grid, sight, clearance, keep_m, records, queue: RadixQueue::default(), expanded: 0 };
@@ -55,7 +61,7 @@ pub fn astar(grid: &VoxelGrid<'_>, sight: &impl Sight, keep_m: f64, influence_m:
         search.expand(cell, cost);
     }
     let frame = grid.layers[deepest].frame;
-    Err(format!("no free way of voxels leads beyond frame {frame}"))
+    Err(PlanError::NoWay(format!("no free way of voxels leads beyond frame {frame}")))
 }
 
 impl<S: Sight> Search<'_, S> {

@@ -8,6 +8,7 @@ use super::clearance_cache::{ClearanceCache, move_is_free};
 use super::grid::{Cell, MOVES, VoxelGrid};
 use super::input::BaselinePath;
 use super::sight::Sight;
+use crate::error::PlanError;
 
 /// Nodes per layer that live on: as few as lose no visibility against A* in streets.
 pub const WIDTH: usize = 4096;
@@ -30,7 +31,7 @@ pub fn beam(
     keep_m: f64,
     influence_m: f64,
     width: usize,
-) -> Result<BaselinePath, String> {
+) -> Result<BaselinePath, PlanError> {
     let mut clearance = ClearanceCache::new(grid, influence_m.max(keep_m));
     let mut slots = vec![NONE; grid.cells_per_layer()];
     let mut layers: Vec<Vec<Node>> = Vec::with_capacity(grid.layers.len());
@@ -44,7 +45,7 @@ pub fn beam(
         let alive = survivors(grid, sight, &mut clearance, keep_m, reached, width);
         if alive.is_empty() {
             let frame = grid.layers[layer].frame;
-            return Err(format!("no free voxel of the beam was left at frame {frame}"));
+            return Err(PlanError::NoWay(format!("no free voxel of the beam was left at frame {frame}")));
         }
         nodes_expanded += alive.len() as u64;
         reached = successors(grid, sight, &mut clearance, keep_m, &alive, &mut slots);

@@ -3,6 +3,7 @@
 use super::moving_layers::MovingLayers;
 use super::sight::Sight;
 use crate::config::muco::MucoConfig;
+use crate::error::PlanError;
 use crate::problem::Problem;
 use crate::terms::place::PlaceCosts;
 use crate::terms::{length, viewpoint};
@@ -83,9 +84,11 @@ impl<'a> VoxelGrid<'a> {
         ground: &'a GroundGrid,
         config: &MucoConfig,
         options: VoxelOptions,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, PlanError> {
         let (track, view, weights) = (problem.track, problem.view, config.resolved_weights());
-        let Some(first) = track.states.first() else { return Err("the target track has no frame".to_owned()) };
+        let Some(first) = track.states.first() else {
+            return Err(PlanError::Request("the target track has no frame".to_owned()));
+        };
         let origin = DVec3::new(0.0, 0.0, first.feet_in_world.z + view.min_altitude_m);
         let reach = (view.max_radius_m / options.voxel_m).ceil() as i32;
         let levels = ((view.max_altitude_m - view.min_altitude_m) / options.voxel_m).floor() as i32 + 1;
@@ -101,7 +104,9 @@ impl<'a> VoxelGrid<'a> {
         let layers: Vec<Layer> = (0..track.len()).step_by(stride).map(layer).collect();
         let nodes = layers.len() as f64 * f64::from(size[0]) * f64::from(size[1]) * f64::from(size[2]);
         if nodes > MAX_NODES as f64 {
-            return Err(format!("a voxel search would need {nodes:.0} nodes; at most {MAX_NODES} are searched"));
+            return Err(PlanError::Request(format!(
+                "a voxel search would need {nodes:.0} nodes; at most {MAX_NODES} are searched"
+            )));
         }
         let move_m: [f64; MOVES] = core::array::from_fn(|m| {
             options.voxel_m * f64::from(move_step(m).iter().map(|step| step * step).sum::<i32>()).sqrt()

@@ -147,14 +147,14 @@ fn sealed_places_long_tracks_and_broken_ones_are_refused_in_words() {
     let around = OrientedBox::from_corners(DVec3::splat(-600.0), DVec3::splat(600.0));
     with_input(&track, &[around], &config, |input| {
         for baseline in [Baseline::AstarFast, Baseline::Beam] {
-            let reason = plan_baseline(baseline, input).expect_err("no room");
+            let reason = plan_baseline(baseline, input).expect_err("no room").to_string();
             assert!(reason.contains("frame 0"), "{reason}");
         }
     });
     let mut long = track.clone();
     long.states = vec![track.states[0]; 100_000];
     with_input(&long, &[], &config, |input| {
-        assert!(plan_baseline(Baseline::AstarFast, input).expect_err("too long").contains("nodes"));
+        assert!(plan_baseline(Baseline::AstarFast, input).expect_err("too long").to_string().contains("nodes"));
     });
     let mut lost = track.clone();
     lost.states[3].feet_in_world.x = f64::NAN;
@@ -163,7 +163,7 @@ fn sealed_places_long_tracks_and_broken_ones_are_refused_in_words() {
     for (broken, word) in [(lost, "finite"), (leaping, "frame 3")] {
         with_input(&broken, &[], &config, |input| {
             for baseline in Baseline::ALL {
-                let reason = plan_baseline(baseline, input).expect_err("refused");
+                let reason = plan_baseline(baseline, input).expect_err("refused").to_string();
                 assert!(reason.contains(word), "{reason}");
             }
         });

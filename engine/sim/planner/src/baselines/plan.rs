@@ -9,6 +9,7 @@ use super::input::{BaselineInput, BaselinePath};
 use super::lattice_path::lattice_path;
 use super::near_track::near_track;
 use super::sight::Sight;
+use crate::error::PlanError;
 use crate::track_check::check_track;
 use cosfly_domain::OrientedBox;
 use cosfly_geometry::BoxBvh;
@@ -16,8 +17,8 @@ use cosfly_geometry::BoxBvh;
 /// Plans one waypoint per frame.
 ///
 /// # Errors
-/// In words, why there is no path.
-pub fn plan_baseline(kind: Baseline, input: &BaselineInput<'_>) -> Result<BaselinePath, String> {
+/// Why there is no path.
+pub fn plan_baseline(kind: Baseline, input: &BaselineInput<'_>) -> Result<BaselinePath, PlanError> {
     plan_baseline_with(kind, input, VoxelOptions::default())
 }
 
@@ -26,7 +27,7 @@ pub fn plan_baseline_with(
     kind: Baseline,
     input: &BaselineInput<'_>,
     options: VoxelOptions,
-) -> Result<BaselinePath, String> {
+) -> Result<BaselinePath, PlanError> {
     let (keep_m, influence_m) = distances_m(input);
     match kind {
         Baseline::AstarFast => plan_astar(input, options, BoxBvh::build),
@@ -47,7 +48,7 @@ pub fn plan_astar<S: Sight>(
     input: &BaselineInput<'_>,
     options: VoxelOptions,
     tree: impl FnOnce(Vec<OrientedBox>) -> S,
-) -> Result<BaselinePath, String> {
+) -> Result<BaselinePath, PlanError> {
     let (keep_m, influence_m) = distances_m(input);
     let grid = checked_grid(input, options)?;
     astar(&grid, &tree(near_boxes(input)), keep_m, influence_m)
@@ -62,12 +63,12 @@ fn near_boxes(input: &BaselineInput<'_>) -> Vec<OrientedBox> {
     near_track(input.problem.track, input.planning_boxes, input.config.search.filter_radius_m)
 }
 
-fn checked_grid<'a>(input: &BaselineInput<'a>, options: VoxelOptions) -> Result<VoxelGrid<'a>, String> {
+fn checked_grid<'a>(input: &BaselineInput<'a>, options: VoxelOptions) -> Result<VoxelGrid<'a>, PlanError> {
     check(input)?;
     Ok(VoxelGrid::new(input.problem, input.ground, input.config, options)?.among(input.movers, input.config))
 }
 
-fn check(input: &BaselineInput<'_>) -> Result<(), String> {
-    input.config.validate().map_err(|(_, rule)| rule)?;
+fn check(input: &BaselineInput<'_>) -> Result<(), PlanError> {
+    input.config.validate().map_err(|(_, rule)| PlanError::Request(rule))?;
     check_track(input.problem.track, input.config.limits.speed_mps)
 }

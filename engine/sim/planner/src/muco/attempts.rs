@@ -10,6 +10,7 @@ use super::viterbi::SearchSpace;
 use crate::certificate::Measured;
 use crate::config::muco::MucoConfig;
 use crate::config::search::SearchEffort;
+use crate::error::PlanError;
 use crate::found::Found;
 use crate::problem::Problem;
 use cosfly_frames::DVec3;
@@ -79,9 +80,9 @@ pub fn escalate(
     obstacles: &mut LocalObstacles<'_>,
     config: &MucoConfig,
     judge: &mut Judge<'_>,
-) -> Result<Found, String> {
+) -> Result<Found, PlanError> {
     WORKSHOP.with_borrow_mut(|workshop| {
-        let mut reason = String::new();
+        let mut reason = PlanError::NoWay("no effort was made".to_owned());
         let mut kept: Option<Found> = None;
         for (level, effort) in efforts(config).into_iter().enumerate() {
             match attempt(problem, obstacles, config, effort, judge, workshop) {
@@ -145,7 +146,7 @@ fn attempt(
     effort: Effort,
     judge: &mut Judge<'_>,
     workshop: &mut Workshop,
-) -> Result<(Found, f64), String> {
+) -> Result<(Found, f64), PlanError> {
     obstacles.order_losses(Vec::new());
     let head = judge.head;
     let start = search(problem, obstacles, config, effort, head, &mut workshop.search)?;
@@ -163,7 +164,7 @@ fn attempt(
         (waypoints, measured) = judge.make_flyable(obstacles, &start.waypoints, &start.waypoints, pace.thorough);
     }
     if !judge.publishable(&measured) {
-        return Err(measured.certificate.violations.join("; "));
+        return Err(PlanError::Rules(measured.certificate.violations));
     }
     for _ in 0..TOUCH_UPS {
         let seen = measured.certificate.mean_visibility;

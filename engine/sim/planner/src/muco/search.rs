@@ -10,6 +10,7 @@ use super::scan::Scanner;
 use super::start_sector;
 use super::viterbi::{MoveCosts, SearchSpace, Viterbi};
 use crate::config::muco::MucoConfig;
+use crate::error::PlanError;
 use crate::problem::{Problem, frame_number};
 use cosfly_frames::{DVec3, TargetTrack, real};
 use cosfly_surroundings::SeveralTargets;
@@ -62,7 +63,7 @@ pub fn search(
     effort: Effort,
     head: &[DVec3],
     space: &mut SearchSpace,
-) -> Result<Start, String> {
+) -> Result<Start, PlanError> {
     let track = problem.track;
     let lattice = Lattice::new(effort.size, &config.view);
     let stride = effort.layer_frames.max((SHORTEST_LAYER_S / track.dt_s).round() as usize).max(1);
@@ -93,11 +94,11 @@ pub fn search(
     let mut changed = 0;
     for searches in 1..=MAX_SEARCHES {
         let nodes = viterbi.solve(changed).map_err(|layer| {
-            format!(
+            PlanError::NoWay(format!(
                 "no free viewpoint can be reached at frame {}: obstacles leave no room around the target{}",
                 frame_number(problem.first_frame, frames[layer]),
                 if head.is_empty() { "" } else { ", or it is too far to reach from where the drone is" }
-            )
+            ))
         })?;
         let mut waypoints = interpolate(&lattice, track, &frames, &nodes);
         lead_in(head, frames_of_lead_in(head, &config.limits, track.dt_s, &waypoints), &mut waypoints);
@@ -113,7 +114,7 @@ pub fn search(
         }
         changed = first;
     }
-    Err("no way between the free viewpoints was found that keeps out of obstacles".to_owned())
+    Err(PlanError::NoWay("no way between the free viewpoints was found that keeps out of obstacles".to_owned()))
 }
 
 /// Costs are per layer: a layer stands for `stride` frames, in each of which an even move goes 1 / stride of the way.

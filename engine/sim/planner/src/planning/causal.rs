@@ -7,6 +7,7 @@
 use super::causal_losses::Losses;
 use super::stretches::PlanOne;
 use crate::certificate::{certify, publishable};
+use crate::error::PlanError;
 use crate::found::Found;
 use crate::problem::frame_number;
 use crate::request::PlanRequest;
@@ -26,7 +27,7 @@ const MOST_UNSURE_M: f64 = 1.0;
 
 /// Flies behind the target of `request` and plans with `plan_one`, which plans a short request that begins with given waypoints.
 /// `head` are the first waypoints.
-pub(super) fn fly(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &PlanOne<'_>) -> Result<Found, String> {
+pub(super) fn fly(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &PlanOne<'_>) -> Result<Found, PlanError> {
     let (config, frames, dt_s) = (request.config, request.track.len(), request.track.dt_s);
     let count = |time_s: f64| ((time_s / dt_s).round() as usize).max(1);
     let (horizon, stride) = (count(config.causal.horizon_s), count(config.causal.replan_s));
@@ -50,7 +51,7 @@ pub(super) fn fly(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &PlanOne<
             }
             Err(reason) if ahead.is_empty() => {
                 let frame = frame_number(request.first_frame, now);
-                return Err(format!("at frame {frame}, with what is known then: {reason}"));
+                return Err(reason.at(format!("at frame {frame}, with what is known then")));
             }
             // The plan in force goes on; with what is known next, there may be another one.
             Err(_) => {}
@@ -74,8 +75,8 @@ pub(super) fn fly(request: &PlanRequest<'_>, head: &[DVec3], plan_one: &PlanOne<
         let pair = |i: usize| (flown[i], flown[(i + 1).min(frames - 1)]);
         let near = |i: &usize| exact.segment_clearance(*i, pair(*i).0, pair(*i).1, limit_m) < limit_m;
         let place = (0..frames).find(near).map(|i| format!(" at frame {}", frame_number(request.first_frame, i)));
-        let (place, rules) = (place.unwrap_or_default(), certificate.violations.join("; "));
-        return Err(format!("what was predicted did not come about{place}: {rules}"));
+        let place = format!("what was predicted did not come about{}", place.unwrap_or_default());
+        return Err(PlanError::Rules(certificate.violations.clone()).at(place));
     }
     Ok(Found { waypoints: flown, measured, convergence })
 }

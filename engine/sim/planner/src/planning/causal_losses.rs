@@ -3,6 +3,7 @@
 
 use super::stretches::PlanOne;
 use crate::config::muco::MucoConfig;
+use crate::error::PlanError;
 use crate::found::Found;
 use crate::request::PlanRequest;
 use cosfly_domain::Certificate;
@@ -47,7 +48,7 @@ impl Losses {
         head: &[DVec3],
         done: usize,
         plan_one: &PlanOne<'_>,
-    ) -> Result<(Found, usize), String> {
+    ) -> Result<(Found, usize), PlanError> {
         if self.is_due(done) {
             let found = plan_one(&PlanRequest { config: &self.with_one, ..without_terms(part) }, head);
             if let Ok(found) = found

@@ -7,6 +7,7 @@ use super::start::LongerRequest;
 use super::stretches::STRETCH_FRAMES;
 use crate::config::foresight::Foresight;
 use crate::config::muco::MucoConfig;
+use crate::error::PlanError;
 use crate::request::PlanRequest;
 use crate::terms::built_in_terms;
 use crate::terms::term::WeightedTerm;
@@ -55,10 +56,10 @@ pub fn plan_with_terms(
 /// [`plan`] with all that may be asked for.
 pub fn plan_request(request: PlanRequest<'_>) -> PlanOutcome {
     let (track, config) = (request.track, request.config);
-    let checked = config.validate().map_err(|(_, message)| message);
+    let checked = config.validate().map_err(|(_, message)| PlanError::Request(message));
     let checked = checked.and_then(|()| check_track(track, config.limits.speed_mps)).and_then(|()| request.validate());
     if let Err(reason) = checked {
-        return PlanOutcome::Rejected { track: track.clone(), reason };
+        return PlanOutcome::Rejected { track: track.clone(), reason: reason.to_string() };
     }
     // The solver and what follows it ask for the same ground. Parts that are planned one by one have ground of their own.
     let is_whole = track.len() <= STRETCH_FRAMES && config.foresight != Foresight::Causal;
@@ -77,6 +78,6 @@ pub fn plan_request(request: PlanRequest<'_>) -> PlanOutcome {
     };
     match found {
         Ok(found) => publish(&request, &terms, found),
-        Err(reason) => PlanOutcome::Rejected { track: track.clone(), reason },
+        Err(reason) => PlanOutcome::Rejected { track: track.clone(), reason: reason.to_string() },
     }
 }

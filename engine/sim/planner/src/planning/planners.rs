@@ -6,6 +6,7 @@ use crate::baselines::{baseline::Baseline, input::BaselineInput, plan::plan_base
 use crate::config::foresight::Foresight;
 use crate::config::muco::MucoConfig;
 use crate::config::planner::Planner;
+use crate::error::PlanError;
 use crate::found::Found;
 use crate::muco::attempts::{THOROUGH, escalate};
 use crate::muco::judge::Judge;
@@ -50,13 +51,15 @@ pub(super) fn solve(
     terms: &[WeightedTerm],
     built_in: usize,
     head: &[DVec3],
-) -> Result<Found, String> {
+) -> Result<Found, PlanError> {
     let solver = Solver::of(request.config);
     let one = |request: &PlanRequest<'_>, head: &[DVec3]| solve_at_once(solver, request, terms, built_in, head);
     if request.config.foresight == Foresight::Causal {
         return match solver {
             Solver::Muco => fly(request, head, &one),
-            _ => Err("`foresight = \"causal\"` is for `planner = \"muco\"` and presets of its own".to_owned()),
+            _ => Err(PlanError::Request(
+                "`foresight = \"causal\"` is for `planner = \"muco\"` and presets of its own".to_owned(),
+            )),
         };
     }
     // The paper's pipeline needs little memory and no stretches; baselines refuse what is too much for them.
@@ -84,7 +87,7 @@ fn solve_at_once(
     terms: &[WeightedTerm],
     built_in: usize,
     head: &[DVec3],
-) -> Result<Found, String> {
+) -> Result<Found, PlanError> {
     let (track, config) = (request.track, request.config);
     let walk = Walk::of(track);
     let problem = Problem { track, view: &config.view, walk: &walk, terms, built_in, first_frame: request.first_frame };
@@ -118,16 +121,18 @@ fn by_a_baseline(
     problem: &Problem<'_>,
     ground: &GroundGrid,
     judge: &Judge<'_>,
-) -> Result<Found, String> {
+) -> Result<Found, PlanError> {
     if !(judge.head.is_empty() && request.companions.is_empty()) {
-        return Err("baselines know no start states or companions; `planner` must be `muco`".into());
+        return Err(PlanError::Request(
+            "baselines know no start states or companions; `planner` must be `muco`".into(),
+        ));
     }
     let PlanRequest { planning_boxes, exact, movers, config, .. } = *request;
     let input = BaselineInput { problem, planning_boxes, exact, movers, ground, config };
     let waypoints = plan_baseline(kind, &input)?.waypoints;
     let mut measured = judge.measure(&waypoints);
     if !judge.publishable(&measured) {
-        return Err(measured.certificate.violations.join("; "));
+        return Err(PlanError::Rules(measured.certificate.violations));
     }
     measured.certificate.attempts = 1;
     Ok(Found { waypoints, measured, convergence: Vec::new() })
@@ -139,7 +144,7 @@ fn by_the_paper(
     obstacles: &mut LocalObstacles<'_>,
     config: &MucoConfig,
     judge: &mut Judge<'_>,
-) -> Result<Found, String> {
+) -> Result<Found, PlanError> {
     let flight = plan_paper(problem, obstacles, config);
     let (mut waypoints, mut measured) = (flight.waypoints.clone(), judge.measure(&flight.waypoints));
     judge.iterations = flight.iterations;
@@ -148,7 +153,7 @@ fn by_the_paper(
         (waypoints, measured) = judge.make_flyable(obstacles, &flight.waypoints, &flight.waypoints, THOROUGH);
     }
     if !judge.publishable(&measured) {
-        return Err(measured.certificate.violations.join("; "));
+        return Err(PlanError::Rules(measured.certificate.violations));
     }
     measured.certificate.attempts = 1;
     measured.certificate.iterations = judge.iterations;

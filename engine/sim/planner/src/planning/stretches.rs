@@ -5,6 +5,7 @@
 //! longer that is, the more often some place lacks just this effort. Stretches choose theirs one by one.
 
 use crate::certificate::{certify, publishable};
+use crate::error::PlanError;
 use crate::found::Found;
 use crate::problem::frame_number;
 use crate::request::PlanRequest;
@@ -47,7 +48,7 @@ pub(super) const SHORT: [Stretch; 8] = [
 ];
 
 /// Plans a short request that begins with the given waypoints.
-pub(super) type PlanOne<'a> = dyn Fn(&PlanRequest<'_>, &[DVec3]) -> Result<Found, String> + 'a;
+pub(super) type PlanOne<'a> = dyn Fn(&PlanRequest<'_>, &[DVec3]) -> Result<Found, PlanError> + 'a;
 
 /// Plans a long request with `plan_one`, which plans a short one that begins with the given waypoints.
 pub(super) fn plan_stretches(
@@ -55,7 +56,7 @@ pub(super) fn plan_stretches(
     head: &[DVec3],
     division: &Division,
     plan_one: &PlanOne<'_>,
-) -> Result<Found, String> {
+) -> Result<Found, PlanError> {
     let frames = request.track.len();
     let mut way = Way {
         request,
@@ -89,9 +90,9 @@ struct Way<'a> {
 
 impl Way<'_> {
     /// Adds the next stretch, which begins at one of the places that the division tries.
-    fn plan_on(&mut self, division: &Division, plan_one: &PlanOne<'_>) -> Result<(), String> {
+    fn plan_on(&mut self, division: &Division, plan_one: &PlanOne<'_>) -> Result<(), PlanError> {
         let frames = self.request.track.len();
-        let mut refusal = String::new();
+        let mut refusal = None;
         let mut tried: Vec<Range<usize>> = vec![];
         for stretch in division {
             let is_first = self.flown.len() == self.given;
@@ -119,17 +120,16 @@ impl Way<'_> {
                 }
                 Err(reason) => {
                     let number = |frame: usize| frame_number(self.request.first_frame, frame);
-                    if refusal.is_empty() {
-                        refusal = format!("in frames {} to {}: {reason}", number(first), number(end));
-                    }
+                    let place = || format!("in frames {} to {}", number(first), number(end));
+                    refusal.get_or_insert_with(|| reason.at(place()));
                 }
             }
         }
-        Err(refusal)
+        Err(refusal.unwrap_or_else(|| PlanError::NoWay("no stretch of frames goes on".to_owned())))
     }
 
     /// The whole way with its measurements.
-    fn certified(self) -> Result<Found, String> {
+    fn certified(self) -> Result<Found, PlanError> {
         let Self { request, given, flown: waypoints, sum, seen_frames, convergence, .. } = self;
         let exact = request.map();
         let mut measured = certify(request.track, &waypoints, given, exact, request.ground, request.config);
@@ -142,7 +142,7 @@ impl Way<'_> {
         let lost = measured.visibility.iter().filter(|seen| **seen == 0.0).count();
         certificate.occlusion_reached_s = sum.occlusion_reached_s.min(lost as f64 * request.track.dt_s);
         if !publishable(request.config, certificate) {
-            return Err(certificate.violations.join("; "));
+            return Err(PlanError::Rules(certificate.violations.clone()));
         }
         Ok(Found { waypoints, measured, convergence })
     }
@@ -153,7 +153,7 @@ fn plan_stretch(
     frames: Range<usize>,
     (head, losses): (&[DVec3], u32),
     plan_one: &PlanOne<'_>,
-) -> Result<Found, String> {
+) -> Result<Found, PlanError> {
     let mut config = request.config.clone();
     config.occlusion.count = losses;
     let cut = |track: &TargetTrack| TargetTrack { states: track.states[frames.clone()].to_vec(), ..*track };
@@ -204,7 +204,10 @@ mod tests {
     }
 
     /// A planner that flies straight behind, unless what it is to plan is refused.
-    fn flown_unless(refused: impl Fn(Range<usize>) -> bool, losses: u32) -> (Result<Found, String>, Vec<(usize, u32)>) {
+    fn flown_unless(
+        refused: impl Fn(Range<usize>) -> bool,
+        losses: u32,
+    ) -> (Result<Found, PlanError>, Vec<(usize, u32)>) {
         let (track, exact) = (walk(1000), BoxBvh::build(vec![]));
         let mut config = MucoConfig::default();
         config.occlusion.count = losses;
@@ -213,7 +216,7 @@ mod tests {
         let one = |part: &PlanRequest<'_>, head: &[DVec3]| {
             let first = part.first_frame as usize;
             if refused(first..first + part.track.len()) {
-                return Err("it is refused".to_owned());
+                return Err(PlanError::NoWay("it is refused".to_owned()));
             }
             planned.borrow_mut().push((first, part.config.occlusion.count));
             let behind = DVec3::new(-15.0, 0.0, 20.0);
@@ -235,7 +238,7 @@ mod tests {
         assert_eq!(found.waypoints.len(), 1000);
         assert!(found.measured.certificate.holds);
         assert_eq!((planned[0].0, planned.iter().any(|part| (225..240).contains(&part.0))), (0, false));
-        let reason = flown_unless(|part| part.contains(&500), 0).0.err().unwrap();
+        let reason = flown_unless(|part| part.contains(&500), 0).0.err().unwrap().to_string();
         assert!(reason.starts_with("in frames ") && reason.ends_with(": it is refused"), "{reason}");
     }
 

@@ -3,9 +3,8 @@
 use super::candidate::Candidate;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec3;
-use cosfly_geometry::bvh::{Bvh, Visitor};
-use cosfly_geometry::shape::Shape;
 use cosfly_geometry::{Bounds, TurnedBox};
+use cosfly_geometry::{Bvh, Shape, Visitor};
 
 /// A corner may stick out by so much through rounding, metres.
 const ROUNDING_M: f64 = 1e-9;

@@ -4,7 +4,7 @@ use super::candidate::Candidate;
 use cosfly_domain::WalkablePolygon;
 use cosfly_frames::DVec3;
 use cosfly_geometry::Bounds;
-use cosfly_geometry::bvh::{Bvh, Visitor};
+use cosfly_geometry::{Bvh, Visitor};
 
 /// Drops the boxes whose bounds are farther than `radius_m` (seen from above) from the bounds of every polygon. Bounds
 /// make it keep a little more than it must, never less. Without walkable ground nothing is dropped.

@@ -4,7 +4,7 @@ use super::candidate::Candidate;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, real};
 use cosfly_geometry::Bounds;
-use cosfly_geometry::bvh::{Bvh, Visitor};
+use cosfly_geometry::{Bvh, Visitor};
 
 /// Boxes turned by less than this against each other count as parallel, radians.
 const PARALLEL_RAD: f64 = 1e-7;
