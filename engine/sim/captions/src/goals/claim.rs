@@ -166,7 +166,7 @@ impl fmt::Display for Said {
     }
 }
 
-fn turn_name(kind: TurnKind) -> &'static str {
+pub(super) fn turn_name(kind: TurnKind) -> &'static str {
     match kind {
         TurnKind::Left => "left",
         TurnKind::Right => "right",
@@ -174,14 +174,14 @@ fn turn_name(kind: TurnKind) -> &'static str {
     }
 }
 
-fn side_name(side: OnSide) -> &'static str {
+pub(crate) fn side_name(side: OnSide) -> &'static str {
     match side {
         OnSide::Left => "left",
         OnSide::Right => "right",
     }
 }
 
-fn landmark_name(kind: LandmarkKind) -> &'static str {
+pub(crate) fn landmark_name(kind: LandmarkKind) -> &'static str {
     match kind {
         LandmarkKind::TrafficLight => "traffic_light",
         LandmarkKind::Lamp => "lamp",
@@ -193,7 +193,7 @@ fn landmark_name(kind: LandmarkKind) -> &'static str {
 }
 
 /// Name of what hides a target; the kinds that [`is_named`] lets through.
-fn hider_name(hider: Hider) -> &'static str {
+pub(super) fn hider_name(hider: Hider) -> &'static str {
     match hider {
         Hider::Body(kind) => kind.name(),
         Hider::Object(ObstacleKind::Building) => "building",

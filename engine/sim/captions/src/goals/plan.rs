@@ -1,10 +1,8 @@
-//! A goal before it has words, and in words; the seam of the two languages.
+//! A goal before it has words, and in words.
 
 use super::claim::{Claim, Said, Subject};
-use crate::facts::Wear;
 use crate::sight::OnSide;
 use cosfly_claims::{Language, TurnKind};
-use cosfly_random::RandomStream;
 use std::ops::Range;
 
 /// Kind of goal.
@@ -63,22 +61,6 @@ pub(super) struct Plan {
     pub mistaken: Option<Claim>,
     /// Whether a dialogue is about one of two people.
     pub is_other_of_two: bool,
-}
-
-/// The words of a language.
-pub(super) struct Wording {
-    pub flights: &'static [&'static str],
-    pub steps: &'static [&'static str],
-    pub keeps: &'static [&'static str],
-    pub predicate: fn(&Said, &mut RandomStream) -> String,
-    /// A move right after a claim that an action may be told by.
-    pub anchored: fn(&Claim, &str, &mut RandomStream) -> String,
-    /// Several things that overlap in time, and things in order of time.
-    pub together: fn(&[String], &mut RandomStream) -> String,
-    pub joined: fn(&[String], &mut RandomStream) -> String,
-    pub finished: fn(&str, &str, &str) -> String,
-    pub target: fn(&Wear, &mut RandomStream) -> String,
-    pub dialogue: fn(Subject) -> &'static [[&'static str; 3]],
 }
 
 /// The other side.

@@ -2,9 +2,7 @@
 //! that single it out by that.
 
 mod beside;
-mod chinese;
 mod crossings;
-mod english;
 pub mod facts;
 pub mod landmarks;
 mod relation;
