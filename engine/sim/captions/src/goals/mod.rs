@@ -8,7 +8,6 @@ mod claim;
 mod compose;
 mod course;
 mod crossings;
-#[cfg(test)]
 mod passing;
 mod people;
 mod pick;
