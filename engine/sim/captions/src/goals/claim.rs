@@ -7,7 +7,7 @@ use cosfly_domain::{BodyKind, Colour, ObstacleKind};
 use std::fmt;
 use std::ops::Range;
 
-/// What hides a target.
+/// Object or body that hides a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hider {
     /// An object of the town.
@@ -52,7 +52,7 @@ pub enum Claim {
     Crosses,
     /// Out of sight for some seconds, behind something or outside of the picture; seen again or not.
     Lost {
-        /// What hides the target; `None`: it is outside of the picture.
+        /// Object or body that hides the target; `None`: it is outside of the picture.
         behind: Option<Hider>,
         /// Time out of sight, seconds.
         seconds: u32,
@@ -76,13 +76,13 @@ pub enum Claim {
 /// A claim and its frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Said {
-    /// What is said.
+    /// Content.
     pub claim: Claim,
     /// Frames in which it is so; the end is the frame after the last one.
     pub frames: Range<usize>,
 }
 
-/// What a claim is about.
+/// Subject of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Subject {
@@ -113,7 +113,7 @@ impl Subject {
 }
 
 impl Claim {
-    /// What the claim is about.
+    /// Subject of the claim.
     pub fn subject(&self) -> Subject {
         match self {
             Self::Wears(_) => Subject::Clothes,

@@ -99,7 +99,7 @@ fn told_in_order(parts: Vec<(String, Range<usize>)>, speaker: &mut Speaker<'_>) 
     joined(&told, speaker)
 }
 
-/// What the target does, in order; a move after landmarks may be told by the last of them.
+/// Actions of the target, in order; a move after landmarks may be told by the last of them.
 fn predicates(said: &[Said], speaker: &mut Speaker<'_>) -> Vec<(String, Range<usize>)> {
     let told: Vec<&Said> = said.iter().filter(|it| !matches!(it.claim, Claim::Wears(_) | Claim::Distance(_))).collect();
     let mut parts: Vec<(String, Range<usize>)> = vec![];

@@ -44,20 +44,20 @@ pub struct Goal {
     pub frames: Range<usize>,
     /// Lines: the user's first, then by turns the pilot's and the user's.
     pub lines: Vec<String>,
-    /// What the user says in the end; of a negative, one of the claims is false.
+    /// Claims of the user in the end; of a negative, one of the claims is false.
     pub said: Vec<Said>,
-    /// What a negative, or the corrected line of a dialogue, is wrong about.
+    /// Subject of the mistake of a negative, or of the corrected line of a dialogue.
     pub wrong: Option<Subject>,
 }
 
-/// What a goal says, before it has words.
+/// Content of a goal, before it has words.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub grain: Grain,
     pub frames: Range<usize>,
     pub said: Vec<Said>,
     pub wrong: Option<Subject>,
-    /// What the pilot understands, for a dialogue.
+    /// Claim that the pilot understands, for a dialogue.
     pub mistaken: Option<Claim>,
     /// Whether a dialogue is about one of two people.
     pub is_other_of_two: bool,

@@ -3,7 +3,7 @@
 use super::claim::{Claim, Passed, Said, hider_name, landmark_name, side_name, turn_name};
 use crate::messages::{Speaker, fill};
 
-/// What the target does by one claim.
+/// One claim as an action of the target.
 pub(super) fn predicate(said: &Said, speaker: &mut Speaker<'_>) -> String {
     let messages = speaker.messages;
     let hider = |hider| messages.text(&format!("hider[{}]", hider_name(hider)));

@@ -1,4 +1,4 @@
-//! What one picture shows of the target: its way across the picture, its place, people and landmarks around it; and instructions
+//! Facts that one picture shows of the target: its way across the picture, its place, people and landmarks around it; and instructions
 //! that single it out by that.
 
 mod beside;
