@@ -26,7 +26,7 @@ mod weather;
 
 pub use around::{Around, Followed};
 pub use body::{Body, BodyPlan};
-pub use body_kind::{BodyKind, BodyKindRow, BodyWords, Driving};
+pub use body_kind::{BodyKind, BodyKindRow, Driving};
 pub use camera::{Camera, Mount};
 pub use channels::{Channel, ChannelImage, ChannelSet};
 pub use frame_images::FrameImages;

@@ -1,9 +1,11 @@
 //! Captions: facts in, texts in two languages out.
 
 use crate::config::{CaptionConfig, Style};
+use crate::description::description;
 use crate::facts::Facts;
-use crate::wording::{TEMPLATES, approximately, approximately_in_chinese};
-use crate::{chinese, english};
+use crate::instruction::instruction;
+use crate::messages::{Speaker, approximately, messages};
+use crate::wording::TEMPLATES;
 use cosfly_claims::Language;
 use cosfly_random::{RandomStream, Seed};
 use serde::{Deserialize, Serialize};
@@ -31,16 +33,12 @@ pub fn captions(facts: &Facts, config: &CaptionConfig, seed: Seed) -> Vec<Captio
                 // Draws the words again where another template came to the same text.
                 let drawn = (0..MOST_DRAWS).map(|draw| {
                     let words = &mut own.child("words", template as u64).child("draw", draw).stream("choice");
-                    let text = match (language, style) {
-                        (Language::Zh, Style::Instruction) => chinese::instruction(facts, template, words),
-                        (Language::Zh, Style::Description) => chinese::description(facts, template, words),
-                        (Language::En, Style::Instruction) => english::instruction(facts, template, words),
-                        (Language::En, Style::Description) => english::description(facts, template, words),
+                    let speaker = &mut Speaker { messages: messages(language), words };
+                    let text = match style {
+                        Style::Instruction => instruction(facts, template, speaker),
+                        Style::Description => description(facts, template, speaker),
                     };
-                    match language {
-                        Language::Zh => approximately_in_chinese(&text, words),
-                        Language::En => approximately(&text, words),
-                    }
+                    approximately(&text, language, words)
                 });
                 let is_new = |text: &String| captions[first..].iter().all(|it: &Caption| it.text != *text);
                 let text = drawn.into_iter().find(is_new);

@@ -1,4 +1,4 @@
-//! What texts speak of, by their words alone: relations of the target to its surroundings, and intents, what a pilot shall do.
+//! Topics of texts, by their words alone: relations of the target to its surroundings, and intents, what a pilot shall do.
 //!
 //! No facts are needed, so that anyone's texts can be counted. A kind without texts shows what a model cannot learn from them.
 
@@ -195,7 +195,7 @@ const INTENTS: [Kind; 10] = [
     },
 ];
 
-/// Of each kind of relation and of intent, the texts that speak of it.
+/// Texts that speak of each kind of relation and of intent.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Coverage {
     /// Texts by relation; a relation that no text has counts 0.

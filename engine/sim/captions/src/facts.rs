@@ -87,7 +87,7 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// The same facts with the target's clothes.
+    /// These facts with the target's clothes.
     pub fn wearing(self, wear: Option<Wear>) -> Self {
         Self { wear, ..self }
     }

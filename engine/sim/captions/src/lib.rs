@@ -15,22 +15,22 @@
 
 pub mod caption;
 pub mod check;
-mod chinese;
-mod chinese_frames;
 pub mod config;
 pub mod coverage;
+mod description;
 pub mod diversity;
-mod english;
-mod english_frames;
 pub mod facts;
 mod facts_in_words;
 pub mod goals;
+mod instruction;
+mod messages;
 pub mod part;
 pub mod precision;
 pub mod refer;
 pub mod sight;
 pub mod teaching;
 mod turns;
+mod who;
 mod wording;
 
 pub use caption::{Caption, captions};

@@ -24,4 +24,13 @@ impl Part {
             _ => None,
         }
     }
+
+    /// Selector in messages.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Middle => "middle",
+            Self::Right => "right",
+        }
+    }
 }

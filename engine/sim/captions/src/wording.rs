@@ -10,12 +10,6 @@ pub(crate) fn one_of<'a>(words: &mut RandomStream, choices: &[&'a str]) -> &'a s
     choices[words.index(choices.len())]
 }
 
-/// The wordings that have none of some words; all where nobody forbids them.
-pub(crate) fn without<'a>(choices: &[&'a str], forbidden: Option<&[&str]>) -> Vec<&'a str> {
-    let is_free = |choice: &&&str| forbidden.is_none_or(|words| !words.iter().any(|word| choice.contains(word)));
-    choices.iter().filter(is_free).copied().collect()
-}
-
 /// An English text with other words for some of its `about` before numbers.
 pub(crate) fn approximately(text: &str, words: &mut RandomStream) -> String {
     let mut parts = text.split("bout ");

@@ -1,6 +1,6 @@
 //! Row of kind `bicycle`.
 
-use super::row::{BodyKindRow, BodyWords, Driving};
+use super::row::{BodyKindRow, Driving};
 use crate::SemanticLabel;
 
 pub(super) static ROW: BodyKindRow = BodyKindRow {
@@ -17,10 +17,4 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
         sideways_mps2: 1.6,
     }),
     lamps: Some([0.35, 0.4]),
-    words: BodyWords {
-        english: "cyclist",
-        one_in_english: "a cyclist",
-        chinese: "骑自行车的人",
-        one_in_chinese: "一个骑自行车的人",
-    },
 };

@@ -1,6 +1,6 @@
 //! Row of kind `bus`.
 
-use super::row::{BodyKindRow, BodyWords, Driving};
+use super::row::{BodyKindRow, Driving};
 use crate::SemanticLabel;
 
 pub(super) static ROW: BodyKindRow = BodyKindRow {
@@ -17,7 +17,4 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
         sideways_mps2: 1.2,
     }),
     lamps: Some([1.0, 1.0]),
-    words: BodyWords {
-        english: "bus", one_in_english: "a bus", chinese: "公交车", one_in_chinese: "一辆公交车"
-    },
 };

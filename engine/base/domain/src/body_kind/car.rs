@@ -1,6 +1,6 @@
 //! Row of kind `car`.
 
-use super::row::{BodyKindRow, BodyWords, Driving};
+use super::row::{BodyKindRow, Driving};
 use crate::SemanticLabel;
 
 pub(super) static ROW: BodyKindRow = BodyKindRow {
@@ -17,5 +17,4 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
         sideways_mps2: 2.2,
     }),
     lamps: Some([1.0, 1.0]),
-    words: BodyWords { english: "car", one_in_english: "a car", chinese: "汽车", one_in_chinese: "一辆汽车" },
 };

@@ -1,6 +1,6 @@
 //! Row of kind `drone`.
 
-use super::row::{BodyKindRow, BodyWords};
+use super::row::BodyKindRow;
 use crate::SemanticLabel;
 
 pub(super) static ROW: BodyKindRow = BodyKindRow {
@@ -11,10 +11,4 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
     class_size_m: [0.6, 0.6, 0.2],
     driving: None,
     lamps: None,
-    words: BodyWords {
-        english: "drone",
-        one_in_english: "another drone",
-        chinese: "无人机",
-        one_in_chinese: "另一架无人机",
-    },
 };

@@ -14,4 +14,4 @@ mod truck;
 mod van;
 
 pub use kind::BodyKind;
-pub use row::{BodyKindRow, BodyWords, Driving};
+pub use row::{BodyKindRow, Driving};

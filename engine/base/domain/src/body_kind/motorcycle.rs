@@ -1,6 +1,6 @@
 //! Row of kind `motorcycle`.
 
-use super::row::{BodyKindRow, BodyWords, Driving};
+use super::row::{BodyKindRow, Driving};
 use crate::SemanticLabel;
 
 pub(super) static ROW: BodyKindRow = BodyKindRow {
@@ -17,10 +17,4 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
         sideways_mps2: 2.5,
     }),
     lamps: Some([1.0, 1.0]),
-    words: BodyWords {
-        english: "motorcyclist",
-        one_in_english: "a motorcyclist",
-        chinese: "骑摩托车的人",
-        one_in_chinese: "一个骑摩托车的人",
-    },
 };

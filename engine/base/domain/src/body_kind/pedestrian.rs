@@ -1,6 +1,6 @@
 //! Row of kind `pedestrian`.
 
-use super::row::{BodyKindRow, BodyWords};
+use super::row::BodyKindRow;
 use crate::SemanticLabel;
 
 pub(super) static ROW: BodyKindRow = BodyKindRow {
@@ -11,7 +11,4 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
     class_size_m: [0.478, 0.478, 1.719],
     driving: None,
     lamps: None,
-    words: BodyWords {
-        english: "person", one_in_english: "another person", chinese: "人", one_in_chinese: "另一个人"
-    },
 };

@@ -19,8 +19,6 @@ pub struct BodyKindRow {
     pub driving: Option<Driving>,
     /// Strength of the lamps at night, and their reach as a share of that of a car; none without lamps.
     pub lamps: Option<[f32; 2]>,
-    /// Words in texts.
-    pub words: BodyWords,
 }
 
 /// Sizes and limits of a kind of vehicle in traffic: passenger cars after Treiber's parameters for towns, the others slower in the order of
@@ -37,17 +35,4 @@ pub struct Driving {
     pub brake_mps2: f64,
     /// Sideways acceleration in bends, m/s^2.
     pub sideways_mps2: f64,
-}
-
-/// Words for a kind of body.
-#[derive(Debug)]
-pub struct BodyWords {
-    /// Noun in English.
-    pub english: &'static str,
-    /// Some body of the kind that is not the target, in English.
-    pub one_in_english: &'static str,
-    /// Noun in Chinese.
-    pub chinese: &'static str,
-    /// Some body of the kind that is not the target, in Chinese.
-    pub one_in_chinese: &'static str,
 }

@@ -1,6 +1,6 @@
 //! Row of kind `truck`.
 
-use super::row::{BodyKindRow, BodyWords, Driving};
+use super::row::{BodyKindRow, Driving};
 use crate::SemanticLabel;
 
 pub(super) static ROW: BodyKindRow = BodyKindRow {
@@ -17,5 +17,4 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
         sideways_mps2: 1.5,
     }),
     lamps: Some([1.0, 1.0]),
-    words: BodyWords { english: "lorry", one_in_english: "a lorry", chinese: "卡车", one_in_chinese: "一辆卡车" },
 };

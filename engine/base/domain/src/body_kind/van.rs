@@ -1,6 +1,6 @@
 //! Row of kind `van`.
 
-use super::row::{BodyKindRow, BodyWords, Driving};
+use super::row::{BodyKindRow, Driving};
 use crate::SemanticLabel;
 
 pub(super) static ROW: BodyKindRow = BodyKindRow {
@@ -17,7 +17,4 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
         sideways_mps2: 2.0,
     }),
     lamps: Some([1.0, 1.0]),
-    words: BodyWords {
-        english: "van", one_in_english: "a van", chinese: "面包车", one_in_chinese: "一辆面包车"
-    },
 };

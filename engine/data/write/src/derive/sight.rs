@@ -43,7 +43,7 @@ fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<View>
 
 /// Whether people are seen on such a body.
 fn is_somebody(kind: BodyKind) -> bool {
-    matches!(kind, BodyKind::Pedestrian | BodyKind::Bicycle | BodyKind::Motorcycle)
+    kind.row().is_dressed
 }
 
 fn person(state: &TargetState, visible_box: Option<&PixelBox>, pixels: u32, top: Colour) -> Person {

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 /// A text must name a distance and a pitch; whatever else it claims must be true to the step in [`crate::precision`]. Clothes
 /// are judged where the facts know them. The first direction is where the walk sets out, a second one where it ends. Listed
 /// turns must be all turns, in order; a doubtful one may stand among them or not. The text must be in the script of its language.
-/// What the reader's lexicon lacks says nothing; a number that it cannot place is refused.
+/// Words that the reader's lexicon lacks say nothing; a number that it cannot place is refused.
 ///
 /// # Errors
 /// All disagreements, in the order of the text; missing slots come last.

@@ -1,4 +1,4 @@
-//! What is around the target on its way: landmarks, crossings, people, vehicles.
+//! Surroundings of the target on its way: landmarks, crossings, people, vehicles.
 
 use super::claim::Said;
 use super::course::Course;

@@ -7,7 +7,7 @@ use cosfly_domain::{BodyKind, Colour, ObstacleKind};
 use std::fmt;
 use std::ops::Range;
 
-/// What hides a target.
+/// Object or body that hides a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hider {
     /// An object of the town.
@@ -52,7 +52,7 @@ pub enum Claim {
     Crosses,
     /// Out of sight for some seconds, behind something or outside of the picture; seen again or not.
     Lost {
-        /// What hides the target; `None`: it is outside of the picture.
+        /// Object or body that hides the target; `None`: it is outside of the picture.
         behind: Option<Hider>,
         /// Time out of sight, seconds.
         seconds: u32,
@@ -76,13 +76,13 @@ pub enum Claim {
 /// A claim and its frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Said {
-    /// What is said.
+    /// Content.
     pub claim: Claim,
     /// Frames in which it is so; the end is the frame after the last one.
     pub frames: Range<usize>,
 }
 
-/// What a claim is about.
+/// Subject of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Subject {
@@ -113,7 +113,7 @@ impl Subject {
 }
 
 impl Claim {
-    /// What the claim is about.
+    /// Subject of the claim.
     pub fn subject(&self) -> Subject {
         match self {
             Self::Wears(_) => Subject::Clothes,
@@ -166,7 +166,7 @@ impl fmt::Display for Said {
     }
 }
 
-fn turn_name(kind: TurnKind) -> &'static str {
+pub(super) fn turn_name(kind: TurnKind) -> &'static str {
     match kind {
         TurnKind::Left => "left",
         TurnKind::Right => "right",
@@ -174,14 +174,14 @@ fn turn_name(kind: TurnKind) -> &'static str {
     }
 }
 
-fn side_name(side: OnSide) -> &'static str {
+pub(crate) fn side_name(side: OnSide) -> &'static str {
     match side {
         OnSide::Left => "left",
         OnSide::Right => "right",
     }
 }
 
-fn landmark_name(kind: LandmarkKind) -> &'static str {
+pub(crate) fn landmark_name(kind: LandmarkKind) -> &'static str {
     match kind {
         LandmarkKind::TrafficLight => "traffic_light",
         LandmarkKind::Lamp => "lamp",
@@ -193,7 +193,7 @@ fn landmark_name(kind: LandmarkKind) -> &'static str {
 }
 
 /// Name of what hides a target; the kinds that [`is_named`] lets through.
-fn hider_name(hider: Hider) -> &'static str {
+pub(super) fn hider_name(hider: Hider) -> &'static str {
     match hider {
         Hider::Body(kind) => kind.name(),
         Hider::Object(ObstacleKind::Building) => "building",

@@ -2,21 +2,19 @@
 
 use super::claim::{Claim, Said, Subject};
 use super::course::Course;
-use super::plan::{Goal, Plan, Wording};
-use super::{chinese, english, pick, steps};
+use super::plan::{Goal, Plan};
+use super::predicate::{anchored, joined, predicate, together};
+use super::{pick, steps};
 use crate::facts::Wear;
-use crate::wording::{one_of, without};
+use crate::messages::{Messages, Speaker, capital, fill, messages};
+use crate::who::who;
+use crate::wording::one_of;
 use cosfly_claims::Language;
-use cosfly_domain::Colour;
-use cosfly_random::{RandomStream, Seed};
+use cosfly_random::Seed;
 use std::ops::Range;
 
 /// A move within this time of the end of a crossing is `after the crossing`, seconds.
 const RIGHT_AFTER_S: f64 = 5.0;
-
-/// Words of templates that say that somebody walks, in both languages.
-const OF_A_WALK: &[&str] =
-    &["walk", "way", "trip", "pace", "set out", "may go", "will go", "Go with", "走", "路", "途中", "陪"];
 
 /// Goals of a flight, in both languages, in the order of [`Grain::ALL`](super::Grain::ALL).
 pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
@@ -33,7 +31,7 @@ pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
                 grain: plan.grain,
                 language,
                 frames: plan.frames.clone(),
-                lines: lines(plan, right_after, language, words),
+                lines: lines(plan, right_after, &mut Speaker { messages: messages(language), words }),
                 said: plan.said.clone(),
                 wrong: plan.wrong,
             });
@@ -42,18 +40,10 @@ pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
     goals
 }
 
-fn lines(plan: &Plan, right_after: usize, language: Language, words: &mut RandomStream) -> Vec<String> {
-    let wording = wording(language);
+fn lines(plan: &Plan, right_after: usize, speaker: &mut Speaker<'_>) -> Vec<String> {
     match &plan.mistaken {
-        Some(mistaken) => dialogue(plan, mistaken, right_after, language, words),
-        None => vec![sentence(plan, right_after, wording, words)],
-    }
-}
-
-fn wording(language: Language) -> &'static Wording {
-    match language {
-        Language::Zh => &chinese::WORDING,
-        Language::En => &english::WORDING,
+        Some(mistaken) => dialogue(plan, mistaken, right_after, speaker),
+        None => vec![sentence(plan, right_after, speaker)],
     }
 }
 
@@ -66,19 +56,36 @@ fn metres_of(said: &[Said]) -> Option<u32> {
 }
 
 /// One or several sentences with everything that is said.
-fn sentence(plan: &Plan, right_after: usize, wording: &Wording, words: &mut RandomStream) -> String {
+fn sentence(plan: &Plan, right_after: usize, speaker: &mut Speaker<'_>) -> String {
     let wear = wear_of(&plan.said);
-    let templates = if wear.is_some() { wording.flights } else { wording.steps };
+    let templates = if wear.is_some() { "goal-flight" } else { "goal-step" };
     let stands = plan.said.iter().any(|it| it.claim == Claim::Stands);
-    let template = one_of(words, &without(templates, Some(OF_A_WALK).filter(|_| stands)));
-    let predicates = told_in_order(predicates(&plan.said, right_after, wording, words), wording, words);
-    let keep = one_of(words, wording.keeps).replace("{d}", &metres_of(&plan.said).unwrap_or(0).to_string());
-    let text = (wording.finished)(template, &predicates, &keep);
-    wear.map_or(text.clone(), |wear| text.replace("[w]", &(wording.target)(&wear, words)))
+    let template = one_of(speaker.words, &speaker.without(templates, Some("goal-walking").filter(|_| stands)));
+    let predicates = told_in_order(predicates(&plan.said, right_after, speaker), speaker);
+    let metres = metres_of(&plan.said).unwrap_or(0).to_string();
+    let keep = speaker.say("goal-keep", &[("d", &metres)]);
+    let [finite, base] = forms(&predicates, speaker.messages);
+    let text = fill(template, &[("p", &finite), ("b", &base), ("k", &keep), ("K", &capital(&keep))]);
+    let text = capital(&text);
+    wear.map_or_else(|| text.clone(), |wear| fill(&text, &[("w", &target(&wear, speaker))]))
+}
+
+/// The target, by its clothes.
+fn target(wear: &Wear, speaker: &mut Speaker<'_>) -> String {
+    let who = who(Some(wear), speaker);
+    speaker.messages.filled("goal-target", &[("who", &who)])
+}
+
+/// A text with its verbs in the finite and the base form.
+fn forms(text: &str, messages: &Messages) -> [String; 2] {
+    ["finite", "base"].map(|form| {
+        let [be, not] = ["be", "not"].map(|verb| messages.text(&format!("{verb}[{form}]")));
+        fill(text, &[("be", be), ("not", not)])
+    })
 }
 
 /// Things in order of time; those that overlap are told as one.
-fn told_in_order(parts: Vec<(String, Range<usize>)>, wording: &Wording, words: &mut RandomStream) -> String {
+fn told_in_order(parts: Vec<(String, Range<usize>)>, speaker: &mut Speaker<'_>) -> String {
     let mut groups: Vec<(Vec<String>, usize)> = vec![];
     for (text, frames) in parts {
         match groups.last_mut() {
@@ -89,17 +96,12 @@ fn told_in_order(parts: Vec<(String, Range<usize>)>, wording: &Wording, words: &
             _ => groups.push((vec![text], frames.end)),
         }
     }
-    let told: Vec<String> = groups.iter().map(|(texts, _)| (wording.together)(texts, words)).collect();
-    (wording.joined)(&told, words)
+    let told: Vec<String> = groups.iter().map(|(texts, _)| together(texts, speaker)).collect();
+    joined(&told, speaker)
 }
 
-/// What the target does, in order; a move after landmarks may be told by the last of them.
-fn predicates(
-    said: &[Said],
-    right_after: usize,
-    wording: &Wording,
-    words: &mut RandomStream,
-) -> Vec<(String, Range<usize>)> {
+/// Actions of the target, in order; a move after landmarks may be told by the last of them.
+fn predicates(said: &[Said], right_after: usize, speaker: &mut Speaker<'_>) -> Vec<(String, Range<usize>)> {
     let told: Vec<&Said> = said.iter().filter(|it| !matches!(it.claim, Claim::Wears(_) | Claim::Distance(_))).collect();
     let mut parts: Vec<(String, Range<usize>)> = vec![];
     let mut at = 0;
@@ -107,12 +109,12 @@ fn predicates(
         let is_move = |it: &&Said| matches!(it.claim, Claim::Turns(_));
         match (&told[at].claim, told.get(at + 1)) {
             (claim, Some(next)) if is_anchor(told[at], next, right_after) && is_move(next) => {
-                let action = (wording.predicate)(next, words);
-                parts.push(((wording.anchored)(claim, &action, words), told[at].frames.start..next.frames.end));
+                let action = predicate(next, speaker);
+                parts.push((anchored(claim, &action, speaker), told[at].frames.start..next.frames.end));
                 at += 2;
             }
             _ => {
-                parts.push(((wording.predicate)(told[at], words), told[at].frames.clone()));
+                parts.push((predicate(told[at], speaker), told[at].frames.clone()));
                 at += 1;
             }
         }
@@ -130,65 +132,46 @@ fn is_anchor(said: &Said, next: &Said, right_after: usize) -> bool {
     }
 }
 
-fn dialogue(
-    plan: &Plan,
-    mistaken: &Claim,
-    right_after: usize,
-    language: Language,
-    words: &mut RandomStream,
-) -> Vec<String> {
-    let wording = wording(language);
-    let patterns = (wording.dialogue)(plan.wrong.unwrap_or(Subject::Clothes));
+/// Three lines, the last of which corrects the second.
+fn dialogue(plan: &Plan, mistaken: &Claim, right_after: usize, speaker: &mut Speaker<'_>) -> Vec<String> {
+    let messages = speaker.messages;
+    let subject = match plan.wrong.unwrap_or(Subject::Clothes) {
+        Subject::Clothes => "clothes",
+        Subject::Distance => "distance",
+        _ => "moves",
+    };
     // Of more than two people nobody is `the other one`.
-    let is_of_two = |lines: &[&str; 3]| lines.iter().any(|line| line.contains("other one") || line.contains("另一个"));
-    let fitting: Vec<&[&str; 3]> = patterns.iter().filter(|it| plan.is_other_of_two || !is_of_two(it)).collect();
-    let lines = fitting[words.index(fitting.len())];
+    let of_two = Some("dialogue-of-two").filter(|_| !plan.is_other_of_two);
+    let pattern = one_of(speaker.words, &speaker.without(&format!("dialogue[{subject}]"), of_two));
     let wear = wear_of(&plan.said);
     let metres = metres_of(&plan.said);
-    let top = |colour: Colour| match language {
-        Language::En => format!("{} {}", crate::english::article(colour.name()), colour.name()),
-        Language::Zh => crate::chinese::colour(colour).to_owned(),
-    };
-    let trousers = |colour: Colour| match language {
-        Language::En => colour.name().to_owned(),
-        Language::Zh => crate::chinese::colour(colour).to_owned(),
-    };
-    let mut filled: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
-    let mut put = |key: &str, value: &str| filled.iter_mut().for_each(|line| *line = line.replace(key, value));
+    let mut values: Vec<(&str, String)> = vec![];
     if let Some(wear) = &wear {
-        let target = (wording.target)(wear, words);
-        put("{w}", &target);
-        put("{W}", &english::capital(&target));
-        put("{c}", wear.top.name());
-        put("{t}", &top(wear.top));
-        put("{r}", &trousers(wear.trousers));
+        let target = target(wear, speaker);
+        let [top, a_top] = messages.colours(wear.top).map(str::to_owned);
+        let [trousers, _] = messages.colours(wear.trousers).map(str::to_owned);
+        values.extend([("W", capital(&target)), ("w", target), ("c", top), ("t", a_top), ("r", trousers)]);
     }
-    if let Some(metres) = metres {
-        put("{d}", &metres.to_string());
-    }
+    values.extend(metres.map(|metres| ("d", metres.to_string())));
     match mistaken {
         Claim::Wears(other) => {
-            put("{o}", &top(other.top));
-            put("{O}", &english::capital(&top(other.top)));
+            let [_, top] = messages.colours(other.top);
+            values.extend([("o", top.to_owned()), ("O", capital(top))]);
         }
         Claim::Distance(wrong) => {
             let is_closer = metres.is_some_and(|metres| metres < *wrong);
-            put("{x}", &wrong.to_string());
-            put(
-                "{F}",
-                match (language, is_closer) {
-                    (Language::En, true) => "Closer",
-                    (Language::En, false) => "Farther back",
-                    (Language::Zh, true) => "太远了",
-                    (Language::Zh, false) => "太近了",
-                },
-            );
+            let correction = if is_closer { "dialogue-closer" } else { "dialogue-farther" };
+            values.extend([("x", wrong.to_string()), ("F", messages.text(correction).to_owned())]);
         }
         wrong => {
-            let own = told_in_order(predicates(&plan.said, right_after, wording, words), wording, words);
-            put("{m}", &own);
-            put("{n}", &(wording.predicate)(&Said { claim: wrong.clone(), frames: plan.frames.clone() }, words));
+            values.push(("m", told_in_order(predicates(&plan.said, right_after, speaker), speaker)));
+            values.push(("n", predicate(&Said { claim: wrong.clone(), frames: plan.frames.clone() }, speaker)));
         }
     }
-    filled.iter().map(|line| (wording.finished)(line, "", "")).collect()
+    let values: Vec<(&str, &str)> = values.iter().map(|(slot, value)| (*slot, value.as_str())).collect();
+    let finished = |line: &str| {
+        let [finite, _] = forms(&fill(line, &values), messages);
+        capital(&finite)
+    };
+    pattern.split(" | ").map(finished).collect()
 }

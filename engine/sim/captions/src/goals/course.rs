@@ -22,7 +22,7 @@ const LEAST_WALK_M: f64 = 1.0;
 pub struct Hidden {
     /// The frames.
     pub frames: Range<usize>,
-    /// What hides it; `None`: nothing that has a name, or several things.
+    /// Object or body that hides it; `None`: nothing that has a name, or several things.
     pub behind: Option<u32>,
     /// Whether the target is outside of the picture in all of the frames.
     pub is_outside: bool,
@@ -50,7 +50,7 @@ pub struct Neighbour {
     pub samples: Vec<Sample>,
 }
 
-/// What a course is read from.
+/// Data that a course is read from.
 #[derive(Clone, Debug)]
 pub struct Flight<'a> {
     /// Time between frames, seconds.
@@ -65,7 +65,7 @@ pub struct Flight<'a> {
     pub wear: Wear,
     /// Times in which it is hidden, in order.
     pub hidden: Vec<Hidden>,
-    /// What has an instance id, of the ids in `hidden`.
+    /// Objects and bodies by instance id, of the ids in `hidden`.
     pub hiders: Vec<(u32, Hider)>,
     /// Everybody else on foot.
     pub neighbours: Vec<Neighbour>,
@@ -73,7 +73,7 @@ pub struct Flight<'a> {
     pub vehicles: Vec<(BodyKind, Vec<Sample>)>,
 }
 
-/// What can be said of a flight.
+/// Facts that can be said of a flight.
 #[derive(Clone, Debug)]
 pub struct Course<'a> {
     pub(super) flight: &'a Flight<'a>,
@@ -91,7 +91,7 @@ pub struct Course<'a> {
 }
 
 impl<'a> Course<'a> {
-    /// Of a flight in a town.
+    /// Course of a flight in a town.
     pub fn of(flight: &'a Flight<'a>, landmarks: &'a Landmarks) -> Self {
         let feet: Vec<DVec2> = flight.states.iter().map(|state| state.feet_in_world.truncate()).collect();
         let moving: Vec<bool> = flight.states.iter().map(|state| state.speed_mps >= STANDING_MPS).collect();

@@ -1,10 +1,8 @@
-//! A goal before it has words, and in words; the seam of the two languages.
+//! A goal before it has words, and in words.
 
 use super::claim::{Claim, Said, Subject};
-use crate::facts::Wear;
 use crate::sight::OnSide;
 use cosfly_claims::{Language, TurnKind};
-use cosfly_random::RandomStream;
 use std::ops::Range;
 
 /// Kind of goal.
@@ -46,39 +44,23 @@ pub struct Goal {
     pub frames: Range<usize>,
     /// Lines: the user's first, then by turns the pilot's and the user's.
     pub lines: Vec<String>,
-    /// What the user says in the end; of a negative, one of the claims is false.
+    /// Claims of the user in the end; of a negative, one of the claims is false.
     pub said: Vec<Said>,
-    /// What a negative, or the corrected line of a dialogue, is wrong about.
+    /// Subject of the mistake of a negative, or of the corrected line of a dialogue.
     pub wrong: Option<Subject>,
 }
 
-/// What a goal says, before it has words.
+/// Content of a goal, before it has words.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub grain: Grain,
     pub frames: Range<usize>,
     pub said: Vec<Said>,
     pub wrong: Option<Subject>,
-    /// What the pilot understands, for a dialogue.
+    /// Claim that the pilot understands, for a dialogue.
     pub mistaken: Option<Claim>,
     /// Whether a dialogue is about one of two people.
     pub is_other_of_two: bool,
-}
-
-/// The words of a language.
-pub(super) struct Wording {
-    pub flights: &'static [&'static str],
-    pub steps: &'static [&'static str],
-    pub keeps: &'static [&'static str],
-    pub predicate: fn(&Said, &mut RandomStream) -> String,
-    /// A move right after a claim that an action may be told by.
-    pub anchored: fn(&Claim, &str, &mut RandomStream) -> String,
-    /// Several things that overlap in time, and things in order of time.
-    pub together: fn(&[String], &mut RandomStream) -> String,
-    pub joined: fn(&[String], &mut RandomStream) -> String,
-    pub finished: fn(&str, &str, &str) -> String,
-    pub target: fn(&Wear, &mut RandomStream) -> String,
-    pub dialogue: fn(Subject) -> &'static [[&'static str; 3]],
 }
 
 /// The other side.

@@ -1,7 +1,5 @@
 //! Referring phrases: a few properties of the target that nobody else in a picture has.
 
-mod chinese;
-mod english;
 mod phrase;
 mod words;
 

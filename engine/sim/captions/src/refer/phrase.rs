@@ -85,7 +85,7 @@ impl Candidate {
 
     /// Whether a phrase may name a property of the body.
     fn has(&self, property: Property) -> bool {
-        let is_rider = matches!(self.kind, BodyKind::Pedestrian | BodyKind::Bicycle | BodyKind::Motorcycle);
+        let is_rider = self.kind.row().is_dressed;
         match property {
             // Cab and box of a lorry differ in colour.
             Property::Top => self.kind != BodyKind::Truck,

@@ -1,13 +1,61 @@
 //! Referring phrases in words.
 
-use super::phrase::Phrase;
-use super::{chinese, english};
+use super::phrase::{Phrase, Property};
+use crate::messages::{Messages, messages};
+use crate::part::Part;
 use cosfly_claims::Language;
+use cosfly_domain::BodyKind;
 
-/// A phrase in words, such as `the person in a red top, walking`.
+/// A phrase in words, such as `the walking person in a red top`.
 pub fn text(phrase: &Phrase, language: Language) -> String {
-    match language {
-        Language::Zh => chinese::text(phrase),
-        Language::En => english::text(phrase),
+    phrase_in(phrase, messages(language))
+}
+
+fn phrase_in(phrase: &Phrase, messages: &Messages) -> String {
+    let of = &phrase.of;
+    let is_dressed = of.kind.row().is_dressed;
+    let ([top, a_top], [trousers, _]) = (messages.colours(of.top), messages.colours(of.trousers));
+    let colours = [("top", top), ("a-top", a_top), ("trousers", trousers)];
+    let said = |id: &str| messages.filled(id, &colours);
+    let (mut front, mut back) = (vec![], vec![]);
+    if phrase.names(Property::Motion) {
+        front.push(said(motion(of.kind, of.moves() == Some(true))));
+    }
+    match (phrase.names(Property::Top), phrase.names(Property::Trousers)) {
+        (true, _) if !is_dressed => front.push(said("phrase-paint")),
+        (true, true) => back.push(said("phrase-clothes[both]")),
+        (true, false) => back.push(said("phrase-clothes[top]")),
+        (false, true) => back.push(said("phrase-clothes[trousers]")),
+        (false, false) => {}
+    }
+    if phrase.names(Property::Backpack) {
+        back.push(said("phrase-backpack"));
+    }
+    if phrase.names(Property::ShoulderBag) {
+        back.push(said("phrase-shoulder-bag"));
+    }
+    let place = phrase.names(Property::Part).then(|| of.part().unwrap_or(Part::Middle));
+    let id = match (phrase.properties.is_empty(), is_dressed) {
+        (true, true) => "phrase[plain-person]",
+        (true, false) => "phrase[plain-vehicle]",
+        (false, _) => "phrase",
+    };
+    let gap = messages.text("phrase-gap");
+    let values = [
+        ("noun", messages.text(&format!("phrase-noun[{}]", of.kind.name()))),
+        ("place", place.map_or("", |it| messages.text(&format!("phrase-place[{}]", it.name())))),
+        ("front", &front.join(gap)),
+        ("back", &back.join(gap)),
+        ("all", &[front.clone(), back.clone()].concat().join(gap)),
+    ];
+    messages.filled(id, &values)
+}
+
+fn motion(kind: BodyKind, moves: bool) -> &'static str {
+    match (kind, moves) {
+        (BodyKind::Pedestrian, true) => "phrase-motion[walks]",
+        (BodyKind::Pedestrian, false) => "phrase-motion[stands]",
+        (_, true) => "phrase-motion[drives]",
+        (_, false) => "phrase-motion[halts]",
     }
 }

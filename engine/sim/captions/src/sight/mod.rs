@@ -1,10 +1,8 @@
-//! What one picture shows of the target: its way across the picture, its place, people and landmarks around it; and instructions
+//! Facts that one picture shows of the target: its way across the picture, its place, people and landmarks around it; and instructions
 //! that single it out by that.
 
 mod beside;
-mod chinese;
 mod crossings;
-mod english;
 pub mod facts;
 pub mod landmarks;
 mod relation;

@@ -1,0 +1,31 @@
+//! Languages with their tables of messages.
+
+use super::table::Messages;
+use crate::wording;
+use cosfly_claims::Language;
+use cosfly_random::RandomStream;
+use std::sync::LazyLock;
+
+static TABLES: LazyLock<[Messages; Language::ALL.len()]> =
+    LazyLock::new(|| Language::ALL.map(|language| Messages::parse(file(language))));
+
+/// File with the messages of a language.
+fn file(language: Language) -> &'static str {
+    match language {
+        Language::En => include_str!("en.txt"),
+        Language::Zh => include_str!("zh.txt"),
+    }
+}
+
+/// Messages of a language.
+pub(crate) fn messages(language: Language) -> &'static Messages {
+    &TABLES[language as usize]
+}
+
+/// A text with other words for some of its `about` before numbers.
+pub(crate) fn approximately(text: &str, language: Language, words: &mut RandomStream) -> String {
+    match language {
+        Language::En => wording::approximately(text, words),
+        Language::Zh => wording::approximately_in_chinese(text, words),
+    }
+}
