@@ -16,7 +16,7 @@ mod graph;
 mod init;
 mod map;
 mod plan;
-mod plan_from;
+pub mod plan_from;
 #[cfg(feature = "plugins")]
 mod plugin;
 #[cfg(feature = "plugins")]

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import difflib
+import functools
+import inspect
 import re
 from dataclasses import dataclass
-from typing import Optional, Sequence, Tuple
+from typing import Any, Callable, Optional, Sequence, Tuple, TypeVar, cast
+
+Call = TypeVar("Call", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True)
@@ -24,8 +29,10 @@ class Problem:
 class Error(Exception):
     """A call that cannot be carried out; the text is the one that the command line prints."""
 
+    _code = "unknown"
+
     def __init__(self, text: str, problems: Sequence[dict] = ()):
-        super().__init__(text)  # PyTorch gives the text of a worker's error alone
+        Exception.__init__(self, text)  # PyTorch gives the text of a worker's error alone
         self.problems: Tuple[Problem, ...] = tuple(
             Problem(it["code"], it["message"], tuple(it["hints"]), tuple(it["place"]) if it["place"] else None)
             for it in problems
@@ -35,7 +42,7 @@ class Error(Exception):
     def code(self) -> str:
         """Code of the first problem."""
         found = re.search(r"error\[([a-z0-9-]+)\]", str(self))
-        return self.problems[0].code if self.problems else found[1] if found else "unknown"
+        return self.problems[0].code if self.problems else found[1] if found else self._code
 
     @property
     def hints(self) -> Tuple[str, ...]:
@@ -49,4 +56,52 @@ class Error(Exception):
 
     def __reduce__(self):
         problems = [dict(code=p.code, message=p.message, hints=p.hints, place=p.place) for p in self.problems]
-        return Error, (str(self), problems)
+        return type(self), (str(self), problems)
+
+    __str__ = Exception.__str__  # KeyError would quote the text
+
+
+class InvalidValue(Error, ValueError):
+    """A value that is not allowed."""
+
+    _code = "python-value"
+
+
+class WrongType(Error, TypeError):
+    """A value of a type that is not allowed."""
+
+    _code = "python-type"
+
+
+class NotFound(Error, KeyError):
+    """A name that does not exist: of a trajectory, a table's column, a town."""
+
+    _code = "python-name"
+
+
+class OutOfRange(Error, IndexError):
+    """A number beyond the last sample or frame."""
+
+    _code = "python-number"
+
+
+def options(**gone: str) -> Callable[[Call], Call]:
+    """Refuses keywords that a function does not have, with the nearest name; ``gone`` says what former ones are called now."""
+
+    def of(function: Call) -> Call:
+        known = inspect.signature(function).parameters
+        takes_more = any(it.kind is it.VAR_KEYWORD for it in known.values())
+
+        @functools.wraps(function)
+        def call(*values: Any, **given: Any) -> Any:
+            for name in given:
+                if name in gone:
+                    raise WrongType(f"`{name}` is no option any more: use {gone[name]}")
+                if name not in known and not takes_more:
+                    near = difflib.get_close_matches(name, known, 1)
+                    raise WrongType(f"there is no option `{name}`" + (f"; did you mean `{near[0]}`?" if near else ""))
+            return function(*values, **given)
+
+        return cast(Call, call)
+
+    return of

@@ -16,6 +16,7 @@ import numpy as np
 from . import _cosfly
 from ._calls import PathLike, Progress
 from ._dataset import Dataset
+from ._errors import InvalidValue, OutOfRange, options
 from ._show import Bars
 
 FORMAT = "cosfly-pack-2"
@@ -23,13 +24,14 @@ TYPES = {"rgb": np.uint8, "depth": np.float16, "semantic": np.uint8, "instance":
 CHUNK = 64
 
 
+@options(threads="`jobs`")
 def pack(
     dataset: PathLike,
     out: PathLike,
     *,
     size: Tuple[int, int] = (224, 126),
     channels: Sequence[str] = ("rgb", "depth"),
-    threads: Optional[int] = None,
+    jobs: Optional[int] = None,
     progress: Progress = True,
 ) -> "Pack":
     """Write a training pack: every frame of a dataset at ``size`` (width, height), one ``<channel>.npy`` per channel.
@@ -39,9 +41,9 @@ def pack(
     frame, and the identity of the dataset: :class:`cosfly.Pack` refuses labels of another one. The folder appears when it
     is whole.
     """
-    out, frames = Path(out), Dataset(dataset, channels=channels, size=size, threads=threads or os.cpu_count() or 1)
+    out, frames = Path(out), Dataset(dataset, channels=channels, size=size, jobs=jobs or os.cpu_count() or 1)
     if os.path.lexists(out):
-        raise FileExistsError(f"{out} is there already; choose another folder")
+        raise InvalidValue(f"{out} is there already; choose another folder")
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         scratch = Path(tempfile.mkdtemp(prefix=".cosfly-pack-", dir=out.parent))
@@ -94,6 +96,7 @@ class Pack(Dataset):
     """Samples of a dataset whose pictures come from a training pack.
 
     Takes the options of :class:`cosfly.Dataset` but ``size``, and gives the same samples; depth is float16.
+    ``Pack(...).windows()`` are its training windows.
     """
 
     def __init__(self, path: PathLike, dataset: PathLike, **options: Any):
@@ -114,7 +117,7 @@ class Pack(Dataset):
         if channel not in self._frames:
             path = self.pack_path / f"{channel}.npy"
             if not path.exists():
-                raise ValueError(f"{self.pack_path} has no channel {channel!r}")
+                raise InvalidValue(f"{self.pack_path} has no channel {channel!r}")
             self._frames[channel] = Frames(path, self._seal)
             width, height = self.size or (0, 0)
             expected = (sum(self._counts), height, width)
@@ -124,7 +127,7 @@ class Pack(Dataset):
 
     def _images(self, frames: Any, channels: Sequence[str], size: Any) -> Dict[str, Any]:
         if size is not None and tuple(size) != self.size:
-            raise ValueError(f"the pack {self.pack_path} has pictures of {self.size}; another size takes another pack")
+            raise InvalidValue(f"the pack {self.pack_path} has pictures of {self.size}; another size takes another pack")
         self._places(frames)
         places = [self._first[name] + int(frame) for name, frame in frames]
         return {channel: self._stacked(places, channel) for channel in channels}
@@ -160,7 +163,7 @@ class Frames:
     def read(self, first: int, count: int) -> np.ndarray:
         """Pictures ``first`` to ``first + count``, as one array."""
         if not 0 <= first <= self.count - count:
-            raise IndexError(f"{self.path} has {self.count} frames, not {first + count}")
+            raise OutOfRange(f"{self.path} has {self.count} frames, not {first + count}")
         made = np.empty((count, *self.shape), self.dtype)
         whole = memoryview(made).cast("B")
         try:
@@ -221,16 +224,16 @@ def _about(pack: Path) -> Tuple[Dict[str, Any], str]:
         text = path.read_bytes()
         about = json.loads(text.decode())
     except FileNotFoundError:
-        raise FileNotFoundError(f"{pack} is no training pack: it has no pack.json; `cosfly.pack` writes one") from None
+        raise InvalidValue(f"{pack} is no training pack: it has no pack.json; `cosfly.pack` writes one") from None
     except OSError as error:
         raise _refused(f"read `{path}`", error) from None
     except ValueError:
         raise _cosfly.damaged_pack(os.fspath(path), "it is not JSON") from None
     form = about.get("format") if isinstance(about, dict) else None
     if form == "cosfly-pack-1":
-        raise ValueError(f"{pack} was made by an older cosfly and does not say of which dataset; `cosfly.pack` makes a new pack")
+        raise InvalidValue(f"{pack} was made by an older cosfly and does not say of which dataset; `cosfly.pack` makes a new pack")
     if form != FORMAT:
-        raise ValueError(f"{pack} has the format {form!r}; this version reads {FORMAT!r}")
+        raise InvalidValue(f"{pack} has the format {form!r}; this version reads {FORMAT!r}")
     kinds = {"dataset": dict, "size": list, "channels": list, "first_frame": dict}
     wrong = [name for name, kind in kinds.items() if not isinstance(about.get(name), kind)]
     if wrong or not {"identity", "path"} <= about["dataset"].keys():
