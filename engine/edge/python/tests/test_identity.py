@@ -143,7 +143,8 @@ def test_states_of_loaders_say_what_their_batches_are_of(other):
 
 @pytest.mark.parametrize("windows", [False, True])
 def test_samples_are_numbered_as_lists_are(tmp_path, windows):
-    dataset = cosfly.Dataset("data", windows=windows, channels=())
+    dataset = cosfly.Dataset("data", channels=())
+    dataset = dataset.windows() if windows else dataset
     cosfly.pack("data", tmp_path / "pack", size=(64, 36), progress=False)
     pack = cosfly.Pack(tmp_path / "pack", "data", windows=windows)
     flight = dataset.trajectory(dataset.trajectory_ids[0])
