@@ -146,7 +146,8 @@ def test_samples_are_numbered_as_lists_are(tmp_path, windows):
     dataset = cosfly.Dataset("data", channels=())
     dataset = dataset.windows() if windows else dataset
     cosfly.pack("data", tmp_path / "pack", size=(64, 36), progress=False)
-    pack = cosfly.Pack(tmp_path / "pack", "data", windows=windows)
+    pack = cosfly.Pack(tmp_path / "pack", "data")
+    pack = pack.windows() if windows else pack
     flight = dataset.trajectory(dataset.trajectory_ids[0])
     for of in (dataset, pack, flight):
         for wrong in (1.5, 1.0, float("nan"), np.float32(1), np.float64(2), "1", None, slice(0, 2), [0], np.array([0, 1])):
@@ -182,6 +183,7 @@ def test_a_split_without_flights_has_no_samples_and_all_columns():
     if empty is None:
         pytest.skip("the small recipe has flights in all splits")
     for windows in (False, True):
-        dataset = cosfly.Dataset("data", split=empty, windows=windows, channels=(), columns=() if windows else ("drone_x_m",))
+        dataset = cosfly.Dataset("data", split=empty, channels=(), columns=() if windows else ("drone_x_m",))
+        dataset = dataset.windows() if windows else dataset
         assert len(dataset) == 0 and list(dataset) == [] and list(dataset.loader(2)) == []
     assert dataset.table("frames").columns == whole.table("frames").columns

@@ -19,6 +19,7 @@ World frame: CARLA's, left-handed, x forward, y right, z up, metres; angles in d
 :class:`cosfly.Error` with a code, a message, the place in the file and advice.
 """
 
+from importlib import import_module as _import_module
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 from typing import Any as _Any
 
@@ -45,14 +46,14 @@ from ._calls import (
     why,
 )
 from ._cosfly import Table, __version__, decode_rgb
-from ._dataset import Dataset, Loader, Windows
 from ._errors import Error, InvalidValue, NotFound, OutOfRange, Problem, WrongType
-from ._expert import Answer, Expert
-from ._pack import Pack, pack
 from ._show import Frame, Town, Trajectory, rerun
 
 if _TYPE_CHECKING:
     from . import pettingzoo as _pettingzoo
+    from ._dataset import Dataset, Loader, Windows
+    from ._expert import Answer, Expert
+    from ._pack import Pack, pack
 
 __all__ = [
     "Answer", "Dataset", "DoctorResult", "Error", "EvaluateResult", "Expert", "ExportResult", "Frame", "InvalidValue", "Loader",
@@ -66,11 +67,23 @@ _GONE = {
     "Pictures": "PreviewResult", "Plan": "PlanResult", "PlannedStage": "PlanStage", "Stage": "RunStage", "Why": "WhyResult", "eval": "evaluate",
 }  # fmt: skip
 
+_LATE = {
+    # Modules that import numpy, by the names that they give.
+    "Dataset": "_dataset", "Loader": "_dataset", "Windows": "_dataset", "Answer": "_expert", "Expert": "_expert", "Pack": "_pack", "pack": "_pack",
+}  # fmt: skip
+
 if not _TYPE_CHECKING:
 
     def __getattr__(name: str) -> _Any:
+        if name in _LATE:
+            found = getattr(_import_module("." + _LATE[name], __name__), name)
+            globals()[name] = found
+            return found
         hint = f"; it is called cosfly.{_GONE[name]}" if name in _GONE else ""
         raise AttributeError(f"module 'cosfly' has no attribute {name!r}{hint}")
+
+    def __dir__() -> "list[str]":
+        return sorted({*globals(), *__all__})
 
 
 def parallel_env(recipe: _PathLike, num_drones: int = 2, **more: _Any) -> "_pettingzoo.ParallelTrack":

@@ -42,7 +42,7 @@ class Dataset:
     * ``rgb``: uint8, (H, W, 3);
     * ``depth``: float32 metres, planar, infinite for the sky; ``semantic``: uint8, CARLA's labels; ``instance``: uint32;
     * ``trajectory_id``, ``frame``, and each of ``columns`` of table ``frames``;
-    * ``captions`` where ``captions`` is a language: the text of each style, by its name.
+    * ``captions`` where ``captions`` is a language: the text of each style, by its name (``""`` in other layouts).
 
     Foreign layouts give the tables ``trajectories``, ``frames``, ``captions`` and ``windows`` (of the default shape) with
     the columns whose values they hold: v7 has all channels but ``normals``, LeRobot has ``rgb`` alone.
@@ -217,7 +217,8 @@ class Dataset:
     def _read_captions(self, language: str) -> Dict[str, Dict[str, str]]:
         table = self.table("captions")
         found: Dict[str, Dict[str, str]] = {}
-        for name, of, style, text in zip(*(table[it] for it in ("trajectory_id", "language", "style", "text"))):
+        styles = table["style"] if "style" in table.columns else [""] * len(table)  # other layouts state none
+        for name, of, style, text in zip(table["trajectory_id"], table["language"], styles, table["text"]):
             if of == language:
                 found.setdefault(name, {}).setdefault(style, text)
         if not found and self.trajectory_ids:
