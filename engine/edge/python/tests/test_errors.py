@@ -38,6 +38,7 @@ BAD = {
     "a trajectory": (lambda: cosfly.Dataset("data").trajectory("nobody"), cosfly.NotFound),
     "a town": (lambda: cosfly.Dataset("data").town("nowhere"), cosfly.NotFound),
     "a frame": (lambda: cosfly.Dataset("data").frame("expert-p00000", 10**6), cosfly.OutOfRange),
+    "a frame by a fraction": (lambda: cosfly.Dataset("data").frame("expert-p00000", 1.5), cosfly.WrongType),
     "a table": (lambda: cosfly.Dataset("data").table("nothing"), cosfly.Error),
     "an order": (lambda: cosfly.Dataset("data").order(shard=(3, 2)), cosfly.InvalidValue),
     "a loader": (lambda: cosfly.Dataset("data").loader(0), cosfly.InvalidValue),

@@ -167,8 +167,8 @@ def test_samples_are_numbered_as_lists_are(tmp_path, windows):
                 of.frame(name, beyond, channels=("rgb",))
         with pytest.raises(TypeError):
             of.frame(name, 1.5, channels=("rgb",))
-    for wrong in ({"threads": 0}, {"threads": -1}):
-        with pytest.raises(ValueError, match="threads"):
+    for wrong in ({"jobs": 0}, {"jobs": -1}):
+        with pytest.raises(ValueError, match="jobs"):
             cosfly.Dataset("data", **wrong)
     with pytest.raises(TypeError, match="batch_size"):
         dataset.loader(1.5)

@@ -76,7 +76,7 @@ def test_splits_and_tables_are_those_of_the_layout(exports):
     splits = {name: {split: len(cosfly.Dataset(path, split=split)) for split in ("train", "val")} for name, path in
               {"ours": "data", **exports}.items()}  # fmt: skip
     assert splits["lerobot"] == splits["ours"]
-    v7 = cosfly.Dataset(exports["v7"], windows=False)
+    v7 = cosfly.Dataset(exports["v7"])
     assert pa.table(v7.table("trajectories")).num_rows == len(v7.trajectory_ids) and v7.table("trajectories").files == []
     with pytest.raises(cosfly.Error, match="objects") as caught:
         v7.table("objects")

@@ -190,7 +190,7 @@ class Dataset:
         """Numbers of trajectories and frames, which exist."""
         places = []
         for name, frame in frames:
-            number, asked = self._number_of(name), operator.index(frame)
+            number, asked = self._number_of(name), _index("frame", frame)
             if not 0 <= asked < self._counts[number]:
                 raise OutOfRange(f"frame {asked} of {name!r}, which has the frames 0 to {self._counts[number] - 1}")
             places.append((number, asked))
@@ -369,13 +369,17 @@ class Loader:
 
 def numbered(what: str, index: Any, count: int) -> int:
     """Place of an item by its number, as lists have it: whole numbers, from the end where negative."""
-    try:
-        number = operator.index(index)
-    except TypeError:
-        raise WrongType(f"a {what} is chosen by a whole number, not by {index!r} ({type(index).__name__})") from None
+    number = _index(what, index)
     if not -count <= number < count:
         raise OutOfRange(f"{what} {number} of {count}")
     return number % count
+
+
+def _index(what: str, index: Any) -> int:
+    try:
+        return operator.index(index)
+    except TypeError:
+        raise WrongType(f"a {what} is chosen by a whole number, not by {index!r} ({type(index).__name__})") from None
 
 
 def _shard(shard: Tuple[int, int]) -> Tuple[int, int]:
