@@ -72,7 +72,7 @@ impl ExpertBatches<'_> {
     }
 }
 
-/// The refusal of options that are not those of a function.
+/// Options out of their JSON.
 ///
 /// # Errors
 /// `python-value`.
