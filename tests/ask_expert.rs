@@ -66,10 +66,10 @@ fn states_without_a_way_on_are_answered_with_the_reason() {
 fn a_batch_answers_line_by_line_and_names_lines_that_are_no_states() {
     let street = flown_street();
     let lines = [
-        r#"{"trajectory": "perturbed-p00001", "frame": 2, "position": [40, -20, 25], "velocity": [0, 1, 0]}"#,
-        r#"{"trajectory": "expert-p00001", "frame": 2}"#,
-        r#"{"trajectory": "expert-p00009", "frame": 2, "position": [40, -20, 25]}"#,
-        r#"{"trajectory": "expert/p00001", "frame": 2, "position": [40, -20, 25], "velocity": [0, 1, 0]}"#,
+        r#"{"trajectory_id": "perturbed-p00001", "frame": 2, "position_in_world": [40, -20, 25], "velocity_in_world": [0, 1, 0]}"#,
+        r#"{"trajectory_id": "expert-p00001", "frame": 2}"#,
+        r#"{"trajectory_id": "expert-p00009", "frame": 2, "position_in_world": [40, -20, 25]}"#,
+        r#"{"trajectory_id": "expert/p00001", "frame": 2, "position_in_world": [40, -20, 25], "velocity_in_world": [0, 1, 0]}"#,
     ];
     let batch = cosfly(&["ask-expert", "recipe.toml", "--batch"]).within(street.path()).fed(lines.join("\n")).run();
     assert_eq!(batch.code, Some(4), "{}", batch.stderr);
@@ -87,7 +87,7 @@ fn a_batch_answers_line_by_line_and_names_lines_that_are_no_states() {
 #[test]
 fn a_line_that_is_no_text_spoils_no_other_line_and_null_is_as_good_as_nothing() {
     let street = flown_street();
-    let state = r#"{"trajectory": "expert-p00001", "frame": 2, "position": [40, -20, 25], "velocity": null}"#;
+    let state = r#"{"trajectory_id": "expert-p00001", "frame": 2, "position_in_world": [40, -20, 25], "velocity_in_world": null}"#;
     let lines = [state.as_bytes(), b"\xff\xfe", b"", state.as_bytes()].join(&b"\n"[..]);
     let batch = cosfly(&["ask-expert", "recipe.toml", "--batch"]).within(street.path()).fed(lines).run();
     assert_eq!((batch.code, batch.stderr.as_str()), (Some(4), ""));
@@ -101,7 +101,7 @@ fn a_line_that_is_no_text_spoils_no_other_line_and_null_is_as_good_as_nothing() 
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_no_success() {
     let street = flown_street();
-    let state = r#"{"trajectory": "expert-p00001", "frame": 2, "position": [40, -20, 25]}"#;
+    let state = r#"{"trajectory_id": "expert-p00001", "frame": 2, "position_in_world": [40, -20, 25]}"#;
     let batch = cosfly(&["ask-expert", "recipe.toml", "--batch"]).within(street.path()).fed(state);
     for call in [cosfly(&["town"]), cosfly(&["graph", "recipe.toml"]).within(street.path()), batch] {
         let (code, words) = call.run_on_a_full_disk();

@@ -50,7 +50,7 @@ def main():
     parser.add_argument("--trajectories", type=int, default=8)
     options = parser.parse_args()
     rows = {row["trajectory_id"]: row for row in pq.read_table(options.dataset / "data/trajectories").to_pylist()}
-    windows = cosfly.Dataset(options.dataset, windows=True, size=SIZE)
+    windows = cosfly.Dataset(options.dataset, size=SIZE).windows()
     numbers = np.random.default_rng(7).integers(0, len(windows), options.windows)
     places = [(int(number), *windows._index[number]) for number in numbers]
     readers = {}
@@ -80,9 +80,9 @@ def main():
     measure("mcap, Pillow, numpy", plain(False), places)
     measure("mcap, Pillow with scaled decoding, numpy", plain(True), places)
     measure("cosfly.Dataset, from the logs", lambda number, *_: windows[number], places)
-    colours = cosfly.Dataset(options.dataset, windows=True, size=SIZE, channels=("rgb",))
+    colours = cosfly.Dataset(options.dataset, size=SIZE, channels=("rgb",)).windows()
     measure("  rgb alone", lambda number, *_: colours[number], places)
-    depths = cosfly.Dataset(options.dataset, windows=True, size=SIZE, channels=("depth",))
+    depths = cosfly.Dataset(options.dataset, size=SIZE, channels=("depth",)).windows()
     measure("  depth alone", lambda number, *_: depths[number], places)
     files = [windows._reader.rgb_file(windows._number[name], start) for _, name, start in places]
 
@@ -97,7 +97,7 @@ def main():
     scratch = Path(tempfile.mkdtemp())
     try:
         cosfly.pack(options.dataset, scratch / "pack", size=SIZE, progress=False)
-        packed = cosfly.Pack(scratch / "pack", options.dataset, windows=True)
+        packed = cosfly.Pack(scratch / "pack", options.dataset).windows()
         many = [(int(number),) for number in np.random.default_rng(8).integers(0, len(windows), 20 * options.windows)]
         measure("cosfly.Pack", lambda number: packed[number], many)
         few = set(packed.trajectory_ids[: options.trajectories])

@@ -36,7 +36,7 @@ def main():
     rng, began = np.random.default_rng(1), time.time()
     with tempfile.TemporaryDirectory() as scratch:
         cosfly.pack(options.dataset, f"{scratch}/pack", size=(64, 36), progress=False)
-        pack = cosfly.Pack(f"{scratch}/pack", options.dataset, windows=True)
+        pack = cosfly.Pack(f"{scratch}/pack", options.dataset).windows()
         first = None
         for access in range(options.accesses):
             name, frame = dataset._index[rng.integers(len(dataset))]

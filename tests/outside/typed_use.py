@@ -13,16 +13,16 @@ import cosfly.torch
 
 
 def use(folder: Path) -> Optional[float]:
-    made: cosfly.Made = cosfly.run(folder, set={"seed": 3}, jobs=2, progress=False)
+    made: cosfly.RunResult = cosfly.run(folder, set={"seed": 3}, jobs=2, progress=False)
     stages: List[str] = [stage.stage for stage in made.stages if stage.ran > 0]
-    check: cosfly.Check = cosfly.verify(folder)
-    plan: cosfly.Plan = cosfly.plan({"name": "x", "stages": {}})
-    windows = cosfly.Dataset(folder, split="train", windows=True, channels=("rgb",), size=(80, 45))
+    check: cosfly.VerifyResult = cosfly.verify(folder)
+    plan: cosfly.PlanResult = cosfly.plan({"name": "x", "stages": {}})
+    windows: cosfly.Windows = cosfly.Dataset(folder, split="train", channels=("rgb",), size=(80, 45)).windows()
     sample: Dict[str, Any] = windows[0]
     order: npt.NDArray[np.int64] = windows.order(seed=1, shard=(0, 2))
     for batch in windows.loader(8, seed=1):
         print(sorted(batch), sample["rgb"], order[:3], stages, plan.to_run)
-    answers = cosfly.Expert(folder).plan_from([{"trajectory": "a", "frame": 1, "position": [0.0, 1.0, 2.0]}])
+    answers = cosfly.Expert(folder).plan_from([{"trajectory_id": "a", "frame": 1, "position_in_world": [0.0, 1.0, 2.0]}])
     picture = cosfly.decode_rgb(b"", size=(8, 8))
     flight: cosfly.Trajectory = windows.trajectory("expert-p00000")
     frame: cosfly.Frame = flight[3]

@@ -7,6 +7,7 @@ mod command;
 mod commands;
 pub mod console;
 pub mod exit;
+pub mod expert;
 mod gone;
 mod interrupt;
 mod output;

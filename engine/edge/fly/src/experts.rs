@@ -20,7 +20,7 @@ pub const LOOK_AHEAD_S: f64 = 15.0;
 
 /// Experts by the ids of their published trajectories; each town and each flight is made ready once.
 pub struct Experts<'a> {
-    plan: Plan<'a>,
+    plan: Arc<Plan<'a>>,
     store: &'a Store,
     /// By the index of the stage that made the town.
     worlds: BTreeMap<usize, Arc<World>>,
@@ -41,8 +41,8 @@ pub struct KnownFlight {
 
 impl<'a> Experts<'a> {
     /// The experts of `plan`, whose artifacts are in `store`.
-    pub fn new(plan: Plan<'a>, store: &'a Store) -> Self {
-        Self { plan, store, worlds: BTreeMap::new(), flights: BTreeMap::new(), ids: None }
+    pub fn new(plan: impl Into<Arc<Plan<'a>>>, store: &'a Store) -> Self {
+        Self { plan: plan.into(), store, worlds: BTreeMap::new(), flights: BTreeMap::new(), ids: None }
     }
 
     /// The flight of a trajectory: `<stage>-<item>` as it is published, or `<stage>/<item>`; of a twin, its expert's.

@@ -1,10 +1,9 @@
 //! Calls of the command line from Python.
 
 use crate::console::{Embedded, Stopped};
-use crate::errors::{BadValue, exception};
+use crate::errors::{exception_of, internal};
 use cosfly::Refusal;
 use cosfly_diagnose::{Diagnostic, Fault};
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::ffi::OsString;
 use std::panic::AssertUnwindSafe;
@@ -12,7 +11,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// Time between two looks at signals and progress.
-const POLL: Duration = Duration::from_millis(50);
+pub const POLL: Duration = Duration::from_millis(50);
 
 /// The process `cosfly` with the given arguments; returns its exit code.
 #[pyfunction]
@@ -63,7 +62,7 @@ pub fn call(
                 (_, Some(error)) => return Err(error),
                 (Ok(ended), None) => return Ok(ended),
                 (Err(RecvTimeoutError::Disconnected), None) => {
-                    return Err(PyRuntimeError::new_err("the thread of the command is gone"));
+                    return Err(internal(py));
                 }
             }
         }
@@ -73,10 +72,9 @@ pub fn call(
             let mut state = console.state();
             Ok((code, std::mem::take(&mut state.printed), std::mem::take(&mut state.messages)))
         }
-        Ok(Err(Refusal::Arguments(error))) => Err(BadValue::new_err(error.to_string())),
-        Ok(Err(Refusal::Work(refusals))) => Err(exception(py, &refusals)),
+        Ok(Err(refusal)) => Err(exception_of(py, refusal)),
         Err(payload) if payload.is::<Stopped>() => Err(pyo3::exceptions::PyKeyboardInterrupt::new_err(())),
-        Err(_) => Err(PyRuntimeError::new_err("internal error of cosfly: please report it, with the message above")),
+        Err(_) => Err(internal(py)),
     }
 }
 

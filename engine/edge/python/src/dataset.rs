@@ -1,6 +1,6 @@
 //! A published dataset: its tables, and random access to the images of its logs.
 
-use crate::errors::{OutOfRange, raised};
+use crate::errors::{raised, refused};
 use crate::images::{Image, channel, checked};
 use crate::table::Table;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -67,7 +67,7 @@ impl Reader {
 
     /// Names of the channels of a trajectory.
     fn channels(&self, py: Python<'_>, trajectory: usize) -> PyResult<Vec<&'static str>> {
-        self.flight(trajectory)?;
+        self.flight(py, trajectory)?;
         raised(py, self.0.channels(trajectory))
     }
 
@@ -82,14 +82,15 @@ impl Reader {
         size: Option<(usize, usize)>,
         threads: usize,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let size = checked(size)?;
+        let size = checked(py, size)?;
         let known: Result<Vec<&'static Channel>> = channels.iter().map(|name| channel(name)).collect();
         let known = raised(py, known)?;
         for (trajectory, frame) in &frames {
-            let flight = self.flight(*trajectory)?;
+            let flight = self.flight(py, *trajectory)?;
             if *frame >= flight.frames {
                 let (id, frames) = (&flight.id, flight.frames);
-                return Err(OutOfRange::new_err(format!("frame {frame} is beyond `{id}`, which has {frames} frames")));
+                let message = format!("frame {frame} is beyond `{id}`, which has {frames} frames");
+                return Err(refused(py, "OutOfRange", &message));
             }
         }
         let jobs: Vec<_> = known.iter().flat_map(|it| frames.iter().map(|frame| (*it, *frame))).collect();
@@ -106,7 +107,7 @@ impl Reader {
 
     /// The stored file of a colour image, undecoded.
     fn rgb_file(&self, py: Python<'_>, trajectory: usize, frame: usize) -> PyResult<Vec<u8>> {
-        self.flight(trajectory)?;
+        self.flight(py, trajectory)?;
         match raised(py, self.0.image(trajectory, &rgb::CHANNEL, frame))? {
             cosfly_read::StoredImage::File(file, _) => Ok(file.to_vec()),
             cosfly_read::StoredImage::Raw { .. } => Ok(vec![]),
@@ -115,10 +116,10 @@ impl Reader {
 }
 
 impl Reader {
-    fn flight(&self, trajectory: usize) -> PyResult<&LoadedFlight> {
+    fn flight(&self, py: Python<'_>, trajectory: usize) -> PyResult<&LoadedFlight> {
         let all = self.0.flights();
         let message = || format!("trajectory {trajectory} is beyond the dataset, which has {} trajectories", all.len());
-        all.get(trajectory).ok_or_else(|| OutOfRange::new_err(message()))
+        all.get(trajectory).ok_or_else(|| refused(py, "OutOfRange", &message()))
     }
 
     /// Images of all jobs in their order.

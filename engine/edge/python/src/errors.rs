@@ -1,5 +1,6 @@
 //! Diagnostics as exceptions of the class `cosfly.Error`.
 
+use cosfly::Refusal;
 use cosfly_diagnose::{Diagnostic, Fault, Label, render_all};
 use cosfly_secrets::without_secrets;
 use pyo3::exceptions::PyBaseException;
@@ -7,9 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::path::PathBuf;
 
-pyo3::import_exception!(cosfly._errors, BadValue);
-pyo3::import_exception!(cosfly._errors, NotFound);
-pyo3::import_exception!(cosfly._errors, OutOfRange);
+pyo3::import_exception!(cosfly._errors, InvalidValue);
 
 /// The exception for some diagnostics; the first one decides its code.
 pub fn exception(py: Python<'_>, refusals: &[Box<Diagnostic>]) -> PyErr {
@@ -28,6 +27,26 @@ pub fn exception(py: Python<'_>, refusals: &[Box<Diagnostic>]) -> PyErr {
         Ok(PyErr::from_value(class.call1((text, problems))?))
     };
     build().unwrap_or_else(|error| error)
+}
+
+/// The exception for a refusal.
+pub fn exception_of(py: Python<'_>, refusal: Refusal) -> PyErr {
+    match refusal {
+        Refusal::Arguments(error) => refused(py, "InvalidValue", &error.to_string()),
+        Refusal::Work(refusals) => exception(py, &refusals),
+    }
+}
+
+/// The exception of a class of `cosfly._errors`, which is also the one that Python's protocol asks for.
+pub fn refused(py: Python<'_>, class: &str, message: &str) -> PyErr {
+    let build = || PyResult::Ok(PyErr::from_value(py.import("cosfly._errors")?.getattr(class)?.call1((message,))?));
+    build().unwrap_or_else(|error| error)
+}
+
+/// The exception for a fault of cosfly itself.
+pub fn internal(py: Python<'_>) -> PyErr {
+    let message = "internal error of cosfly: please report it, with the message above";
+    exception(py, &[Diagnostic::new("internal-panic", Fault::Bug, message)])
 }
 
 /// File, line and column (from 1) of a label.

@@ -1,7 +1,7 @@
 //! Environments of `cosfly.gym`: a suite, and many environments over its episodes, stepped with the GIL released.
 
 use crate::calls::on_own_threads;
-use crate::errors::{BadValue, exception};
+use crate::errors::{InvalidValue, exception};
 use cosfly::Refusal;
 use cosfly_diagnose::Diagnostic;
 use cosfly_domain::Weather;
@@ -52,13 +52,13 @@ impl PyFlock {
             "next_step" => Autoreset::NextStep,
             "same_step" => Autoreset::SameStep,
             "disabled" => Autoreset::Disabled,
-            other => return Err(BadValue::new_err(format!("`{other}` is no mode of autoreset"))),
+            other => return Err(InvalidValue::new_err(format!("`{other}` is no mode of autoreset"))),
         };
         let made = py.detach(|| on_own_threads(|| made(&config.recipe, &config.changes, &config.place)));
         let (tasks, suite) = match made {
             Ok(made) => made,
             Err(Refusal::Work(refusals)) => return Err(exception(py, &refusals)),
-            Err(Refusal::Arguments(error)) => return Err(BadValue::new_err(error.to_string())),
+            Err(Refusal::Arguments(error)) => return Err(InvalidValue::new_err(error.to_string())),
         };
         let suite = suite.environment();
         let latency_s = config.latency_s.unwrap_or(suite.latency_s);
@@ -66,7 +66,7 @@ impl PyFlock {
         let flock = VectorEnvironment::new(tasks, count, settings, mode, config.expert_action);
         let flock = if is_team { flock.as_team() } else { flock };
         let channel = |name: &String| {
-            Channel::named(name).ok_or_else(|| BadValue::new_err(format!("`{name}` is no channel of pictures")))
+            Channel::named(name).ok_or_else(|| InvalidValue::new_err(format!("`{name}` is no channel of pictures")))
         };
         let channels: Vec<Channel> = config.channels.iter().map(channel).collect::<PyResult<_>>()?;
         if channels.is_empty() {
@@ -75,7 +75,7 @@ impl PyFlock {
         let weather = config.weather.as_deref().map(preset).transpose()?;
         let look = PictureLook::named(&config.look).ok_or_else(|| {
             let known = PictureLook::ALL.map(|(name, _)| name).join(", ");
-            BadValue::new_err(format!("look is `{}`; it is one of {known}", config.look))
+            InvalidValue::new_err(format!("look is `{}`; it is one of {known}", config.look))
         })?;
         let (width, height) = config.sides;
         let farthest_m = config.max_depth_m;
@@ -99,15 +99,15 @@ impl PyFlock {
 
     /// One step of all environments.
     fn step(&mut self, py: Python<'_>, actions: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
-        let given = actions.as_slice().map_err(|error| BadValue::new_err(error.to_string()))?;
+        let given = actions.as_slice().map_err(|error| InvalidValue::new_err(error.to_string()))?;
         if let Some(wrong) = wrong_number(given, ACTIONS) {
             let message = format!("actions have {wrong}; the action space has 12 m/s and 60 degrees/s at most");
-            return Err(BadValue::new_err(message));
+            return Err(InvalidValue::new_err(message));
         }
         let (rows, rest) = given.as_chunks::<ACTIONS>();
         if rows.len() != self.flock.len() || !rest.is_empty() {
             let message = format!("actions must have the shape ({}, {ACTIONS})", self.flock.len());
-            return Err(BadValue::new_err(message));
+            return Err(InvalidValue::new_err(message));
         }
         let rows: Vec<[f32; ACTIONS]> = rows.iter().map(|row| row.map(|number| number as f32)).collect();
         let flock = &mut self.flock;
@@ -164,7 +164,7 @@ impl PyFlock {
         if number < self.flock.len() {
             Ok(self.flock.planned_steps(number))
         } else {
-            Err(BadValue::new_err(format!("there is no environment {number}")))
+            Err(InvalidValue::new_err(format!("there is no environment {number}")))
         }
     }
 
@@ -174,7 +174,7 @@ impl PyFlock {
         if number < flock.len() && py.detach(|| flock.begin_episode(number, name)) {
             Ok(())
         } else {
-            Err(BadValue::new_err(format!("there is no environment {number} or no episode `{name}`")))
+            Err(InvalidValue::new_err(format!("there is no environment {number} or no episode `{name}`")))
         }
     }
 
@@ -183,7 +183,7 @@ impl PyFlock {
         if number < self.flock.len() {
             Ok(self.flock.episode(number))
         } else {
-            Err(BadValue::new_err(format!("there is no environment {number}")))
+            Err(InvalidValue::new_err(format!("there is no environment {number}")))
         }
     }
 }
@@ -192,7 +192,7 @@ impl PyFlock {
 fn preset(name: &str) -> PyResult<Weather> {
     cosfly_materials::presets::preset(name).ok_or_else(|| {
         let presets = cosfly_materials::presets::PRESETS.join(", ");
-        BadValue::new_err(format!("weather is `{name}`; it is one of {presets}"))
+        InvalidValue::new_err(format!("weather is `{name}`; it is one of {presets}"))
     })
 }
 

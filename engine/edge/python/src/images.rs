@@ -1,6 +1,6 @@
 //! Images of a log as pixels, whole or scaled.
 
-use crate::errors::{BadValue, raised};
+use crate::errors::{raised, refused};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::channels::Element;
 use cosfly_domain::{Channel, channels};
@@ -102,7 +102,7 @@ pub fn decode_rgb<'py>(
     size: Option<(usize, usize)>,
 ) -> PyResult<Bound<'py, PyArray3<u8>>> {
     let format = if file.starts_with(b"\x89PNG") { "png" } else { "jpeg" };
-    let size = checked(size)?;
+    let size = checked(py, size)?;
     let picture = py.detach(|| read::picture(file, format, size));
     let Picture { size: [width, height], rgb } = raised(py, picture)?;
     PyArray1::from_vec(py, rgb).reshape([height, width, 3])
@@ -123,7 +123,10 @@ pub fn shown(py: Python<'_>, channel: &str, pixels: &[u8], width: u32, height: u
             ids.flat_map(|id| [id.wrapping_mul(97), id.wrapping_mul(57), id.wrapping_mul(151)].map(|it| it as u8))
                 .collect()
         }
-        _ => return Err(BadValue::new_err(format!("{} bytes are no image of {width} x {height}", pixels.len()))),
+        _ => {
+            let message = format!("{} bytes are no image of {width} x {height}", pixels.len());
+            return Err(refused(py, "InvalidValue", &message));
+        }
     };
     let mut file = vec![];
     raised(py, cosfly_images::rgb::png(&rgb, width, height, &mut file))?;
@@ -134,10 +137,11 @@ pub fn shown(py: Python<'_>, channel: &str, pixels: &[u8], width: u32, height: u
 ///
 /// # Errors
 /// A side that is 0 or above 16,384.
-pub fn checked(size: Option<(usize, usize)>) -> PyResult<Option<[usize; 2]>> {
+pub fn checked(py: Python<'_>, size: Option<(usize, usize)>) -> PyResult<Option<[usize; 2]>> {
     match size {
         Some((width, height)) if [width, height].iter().any(|side| !(1..=16_384).contains(side)) => {
-            Err(BadValue::new_err(format!("the size is {width} x {height}; sides are from 1 to 16384 pixels")))
+            let message = format!("the size is {width} x {height}; sides are from 1 to 16384 pixels");
+            Err(refused(py, "InvalidValue", &message))
         }
         size => Ok(size.map(|(width, height)| [width, height])),
     }

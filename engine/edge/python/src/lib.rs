@@ -6,6 +6,7 @@ mod calls;
 mod console;
 mod dataset;
 mod errors;
+mod expert;
 mod flock;
 mod images;
 mod table;
@@ -27,6 +28,7 @@ fn _cosfly(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(errors::changed_pack, module)?)?;
     module.add_function(wrap_pyfunction!(errors::pack_of_other, module)?)?;
     module.add_class::<dataset::Reader>()?;
+    module.add_class::<expert::ExpertService>()?;
     module.add_class::<flock::PyFlock>()?;
     module.add_class::<table::Table>()
 }

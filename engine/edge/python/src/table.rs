@@ -1,6 +1,6 @@
 //! A table of a dataset: columns as numpy arrays, the whole as an Arrow stream.
 
-use crate::errors::{NotFound, raised};
+use crate::errors::{raised, refused};
 use cosfly_diagnose::Result;
 use cosfly_load::FlightSource;
 use cosfly_read::columns::{Column, TableData};
@@ -53,7 +53,8 @@ impl Table {
     fn __getitem__(&self, py: Python<'_>, name: &str) -> PyResult<Py<PyAny>> {
         let known = self.columns(py)?;
         if !known.iter().any(|column| column == name) {
-            return Err(NotFound::new_err(format!("no column `{name}`; the columns are {}", known.join(", "))));
+            let message = format!("no column `{name}`; the columns are {}", known.join(", "));
+            return Err(refused(py, "NotFound", &message));
         }
         let column = self.read(py, |data| data.column(name))?;
         values(py, column)

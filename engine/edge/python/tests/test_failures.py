@@ -1,7 +1,6 @@
 """What must be an exception with the words of the command line, and never a crash of the interpreter."""
 
 import os
-import pickle
 import shutil
 import signal
 import subprocess
@@ -70,7 +69,7 @@ def test_full_disks_are_refused():
 
 def test_packs_that_change_under_the_reader_are_errors(tmp_path):
     cosfly.pack("data", tmp_path / "pack", size=(80, 45), progress=False)
-    pack = cosfly.Pack(tmp_path / "pack", "data", windows=True)
+    pack = cosfly.Pack(tmp_path / "pack", "data").windows()
     pack[3]
     rgb = tmp_path / "pack/rgb.npy"
     os.truncate(rgb, os.path.getsize(rgb) // 2)
@@ -84,7 +83,7 @@ def test_packs_that_change_under_the_reader_are_errors(tmp_path):
     (tmp_path / "pack/pack.json").write_text("{")
     with pytest.raises(cosfly.Error, match="pack.json"):
         cosfly.Pack(tmp_path / "pack", "data")
-    with pytest.raises(FileNotFoundError, match="cosfly.pack"):
+    with pytest.raises(cosfly.Error, match="cosfly.pack"):
         cosfly.Pack(tmp_path, "data")
 
 
@@ -109,11 +108,11 @@ def test_tables_that_change_under_the_reader_are_errors(tmp_path):
 
 def test_numbers_that_are_none_are_refused():
     expert = cosfly.Expert("small")
-    good = {"trajectory": "expert-p00000", "frame": 4, "position": [0.0, 0.0, 9.0]}
+    good = {"trajectory_id": "expert-p00000", "frame": 4, "position_in_world": [0.0, 0.0, 9.0]}
     for field, value in [
-        ("position", [float("nan"), 0, 0]), ("position", [float("inf"), 0, 0]), ("velocity", np.array([np.nan] * 3)),
+        ("position_in_world", [float("nan"), 0, 0]), ("position_in_world", [float("inf"), 0, 0]), ("velocity_in_world", np.array([np.nan] * 3)),
         ("frame", float("nan")), ("frame", -1), ("frame", 1 << 70), ("horizon_s", float("inf")), ("horizon_s", -1),
-        ("position", []), ("position", None), ("trajectory", "nobody"), ("trajectory", 7),
+        ("position_in_world", []), ("position_in_world", None), ("trajectory_id", "nobody"), ("trajectory_id", 7),
     ]:  # fmt: skip
         [answer] = expert.plan_from([{**good, field: value}])
         assert not answer.planned and answer.error, (field, value, answer)
@@ -139,32 +138,3 @@ def test_forks_in_the_middle_go_on():
         signal.alarm(120)  # a child that waits for threads forever is ended
         os._exit(0 if work() == expected else 1)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
-
-
-def test_wrong_arguments_raise_the_one_exception_and_pythons_own(tmp_path):
-    data = cosfly.Dataset("data", windows=True)
-    pack = cosfly.pack("data", tmp_path / "pack", size=(80, 45), progress=False)
-    wrong = {
-        ValueError: [
-            lambda: cosfly.Dataset("data", split="nobody"),
-            lambda: cosfly.Dataset("data", role="pilot"),
-            lambda: cosfly.Dataset("data", size=(0, 4)),
-            lambda: data.town("nowhere"),
-            lambda: cosfly.run("small", set={"--no-such": 1}, stage=7, progress=False),
-            lambda: cosfly.evaluate("data", frames="sideways"),
-        ],
-        TypeError: [lambda: data[1.5], lambda: cosfly.run({"name": object()}, progress=False)],
-        KeyError: [lambda: data.trajectory("expert-p99999"), lambda: data.table("frames")["no_such_column"]],
-        IndexError: [lambda: data[10**6]],
-        FileExistsError: [lambda: cosfly.pack("data", tmp_path / "pack", size=(80, 45), progress=False)],
-        FileNotFoundError: [lambda: cosfly.Pack(tmp_path / "no-pack", "data")],
-    }
-    assert pack
-    for pythons, calls in wrong.items():
-        for number, call in enumerate(calls):
-            with pytest.raises(cosfly.Error) as caught:
-                call()
-            error = caught.value
-            assert isinstance(error, pythons) or error.problems, (pythons, number, error)
-            assert error.code and not str(error).startswith("'"), (pythons, number, error)
-            assert str(pickle.loads(pickle.dumps(error))) == str(error)

@@ -25,13 +25,13 @@ def other(folder):
 def test_a_pack_is_refused_beside_another_dataset_and_taken_beside_a_copy(tmp_path, other):
     cosfly.pack("data", tmp_path / "pack", size=(64, 36), progress=False)
     with pytest.raises(cosfly.Error) as caught:
-        cosfly.Pack(tmp_path / "pack", other, windows=True)
+        cosfly.Pack(tmp_path / "pack", other).windows()
     assert caught.value.code == "pack-of-other" and "cosfly.pack" in " ".join(caught.value.hints)
     ours, theirs = (cosfly.Dataset(name, channels=()).identity for name in ("data", other))
     for named in ("data", "other", ours[:12], theirs[:12], str(tmp_path / "pack")):
         assert named in str(caught.value), (named, str(caught.value))
     shutil.copytree("data", tmp_path / "copy")
-    assert len(cosfly.Pack(tmp_path / "pack", tmp_path / "copy", windows=True)) > 0
+    assert len(cosfly.Pack(tmp_path / "pack", tmp_path / "copy").windows()) > 0
 
 
 def test_packs_of_an_older_format_and_damaged_ones_say_what_to_do(tmp_path):
@@ -50,10 +50,11 @@ def test_packs_of_an_older_format_and_damaged_ones_say_what_to_do(tmp_path):
         cosfly.Pack(tmp_path / "pack", "data")
 
 
-def made_anew(tmp_path, other, **options):
+def made_anew(tmp_path, other, windows=False, **options):
     """An open dataset whose folder holds another one now."""
     shutil.copytree("data", tmp_path / "live")
     dataset = cosfly.Dataset(tmp_path / "live", size=(64, 36), **options)
+    dataset = dataset.windows() if windows else dataset
     shutil.rmtree(tmp_path / "live")
     shutil.copytree(other, tmp_path / "live")
     return dataset
@@ -99,7 +100,7 @@ def test_a_worker_that_is_forked_later_is_refused(tmp_path, other):
 @FORK
 def test_a_run_into_the_same_folder_is_seen_by_workers_and_one_that_changes_nothing_is_not():
     cosfly.run("small", out="again", progress=False)
-    dataset = cosfly.Dataset("again", windows=True, size=(64, 36))
+    dataset = cosfly.Dataset("again", size=(64, 36)).windows()
     first = dataset[0]
     fork = multiprocessing.get_context("fork")
     cosfly.run("small", out="again", progress=False)
@@ -113,7 +114,7 @@ def test_a_run_into_the_same_folder_is_seen_by_workers_and_one_that_changes_noth
 @FORK
 def test_a_pack_that_was_made_anew_is_refused_in_workers(tmp_path, other):
     cosfly.pack("data", tmp_path / "pack", size=(64, 36), progress=False)
-    pack = cosfly.Pack(tmp_path / "pack", "data", windows=True)
+    pack = cosfly.Pack(tmp_path / "pack", "data").windows()
     shutil.rmtree(tmp_path / "pack")
     cosfly.pack(other, tmp_path / "pack", size=(64, 36), progress=False)
     with multiprocessing.get_context("fork").Pool(1) as pool:
@@ -122,10 +123,10 @@ def test_a_pack_that_was_made_anew_is_refused_in_workers(tmp_path, other):
 
 
 def test_states_of_loaders_say_what_their_batches_are_of(other):
-    windows = cosfly.Dataset("data", windows=True, channels=())
+    windows = cosfly.Dataset("data", channels=()).windows()
     state = windows.loader(4).state_dict()
     for name, loader in [
-        ("dataset", cosfly.Dataset(other, windows=True, channels=()).loader(4)),
+        ("dataset", cosfly.Dataset(other, channels=()).windows().loader(4)),
         ("batch_size", windows.loader(8)),
         ("shards", windows.loader(4, shard=(0, 2))),
         ("shuffle", windows.loader(4, shuffle=False)),
@@ -142,9 +143,11 @@ def test_states_of_loaders_say_what_their_batches_are_of(other):
 
 @pytest.mark.parametrize("windows", [False, True])
 def test_samples_are_numbered_as_lists_are(tmp_path, windows):
-    dataset = cosfly.Dataset("data", windows=windows, channels=())
+    dataset = cosfly.Dataset("data", channels=())
+    dataset = dataset.windows() if windows else dataset
     cosfly.pack("data", tmp_path / "pack", size=(64, 36), progress=False)
-    pack = cosfly.Pack(tmp_path / "pack", "data", windows=windows)
+    pack = cosfly.Pack(tmp_path / "pack", "data")
+    pack = pack.windows() if windows else pack
     flight = dataset.trajectory(dataset.trajectory_ids[0])
     for of in (dataset, pack, flight):
         for wrong in (1.5, 1.0, float("nan"), np.float32(1), np.float64(2), "1", None, slice(0, 2), [0], np.array([0, 1])):
@@ -180,6 +183,7 @@ def test_a_split_without_flights_has_no_samples_and_all_columns():
     if empty is None:
         pytest.skip("the small recipe has flights in all splits")
     for windows in (False, True):
-        dataset = cosfly.Dataset("data", split=empty, windows=windows, channels=(), columns=() if windows else ("drone_x_m",))
+        dataset = cosfly.Dataset("data", split=empty, channels=(), columns=() if windows else ("drone_x_m",))
+        dataset = dataset.windows() if windows else dataset
         assert len(dataset) == 0 and list(dataset) == [] and list(dataset.loader(2)) == []
     assert dataset.table("frames").columns == whole.table("frames").columns

@@ -57,15 +57,15 @@ def test_frames_are_those_of_the_dataset(exports, name, channels):
 
 @pytest.mark.parametrize("name", ["v7", "lerobot"])
 def test_windows_are_cut_as_the_dataset_cuts_them(exports, name):
-    ours = cosfly.Dataset("data", windows=True, channels=("rgb",), size=(40, 24), captions="en")
-    theirs = cosfly.Dataset(exports[name], windows=True, channels=("rgb",), size=(40, 24), captions="en")
+    ours = cosfly.Dataset("data", channels=("rgb",), size=(40, 24), captions="en").windows()
+    theirs = cosfly.Dataset(exports[name], channels=("rgb",), size=(40, 24), captions="en").windows()
     pairs = same_flight(ours, theirs)
     known = {(pairs.get(mine), start): place for place, (mine, start) in enumerate(ours._index)}
     assert len(theirs) == sum(key[0] is not None for key in known) > 10
     for place in range(0, len(theirs), 3):
         b = theirs[place]
         a = ours[known[b["trajectory_id"], b["start_frame"]]]
-        assert a["role"] == b["role"] and b["caption"] and b["rgb"].shape == a["rgb"].shape
+        assert a["role"] == b["role"] and b["captions"] and b["rgb"].shape == a["rgb"].shape
         for column in ("input_steps_in_world", "correction_in_body", "waypoint_deltas_in_body", "waypoint_deltas_in_world", "input_boxes_px"):
             assert np.allclose(a[column], b[column], atol=5e-3), (name, column, place)
     batch = next(iter(theirs.loader(4, seed=1)))
@@ -76,7 +76,7 @@ def test_splits_and_tables_are_those_of_the_layout(exports):
     splits = {name: {split: len(cosfly.Dataset(path, split=split)) for split in ("train", "val")} for name, path in
               {"ours": "data", **exports}.items()}  # fmt: skip
     assert splits["lerobot"] == splits["ours"]
-    v7 = cosfly.Dataset(exports["v7"], windows=False)
+    v7 = cosfly.Dataset(exports["v7"])
     assert pa.table(v7.table("trajectories")).num_rows == len(v7.trajectory_ids) and v7.table("trajectories").files == []
     with pytest.raises(cosfly.Error, match="objects") as caught:
         v7.table("objects")
@@ -144,7 +144,7 @@ def test_lerobot_data_of_others(tmp_path):
     }
     stored = {"observation.images.front": [{"bytes": png(it), "path": None} for it in pixels], "observation.state": state}
     dataset = cosfly.Dataset(lerobot_of_others(tmp_path / "stored", features, stored, "v2.1"), channels=("rgb",), columns=("drone_x_m",), captions="zh")
-    assert len(dataset) == 12 and np.array_equal(dataset[7]["rgb"], pixels[7]) and dataset[7]["caption"] == "跟着行人"
+    assert len(dataset) == 12 and np.array_equal(dataset[7]["rgb"], pixels[7]) and list(dataset[7]["captions"].values()) == ["跟着行人"]
     assert np.isclose(dataset[7]["drone_x_m"], 2.1, atol=1e-6) and len(cosfly.Dataset(tmp_path / "stored", split="val", channels=())) == 6
     # Pictures as files that the table names.
     named = {**stored, "observation.images.front": [{"bytes": None, "path": f"images/{it}.png"} for it in range(12)]}
@@ -171,7 +171,7 @@ def test_lerobot_data_of_others(tmp_path):
         cosfly.Dataset(tmp_path / "video", channels=("rgb",))[0]
     assert "videos" in caught.value.hints[0]
     with pytest.raises(cosfly.Error, match="poses"):
-        cosfly.Dataset(tmp_path / "video", windows=True, channels=())
+        cosfly.Dataset(tmp_path / "video", channels=()).windows()
 
 
 def test_v7_data_of_others(exports, tmp_path):
@@ -188,7 +188,7 @@ def test_v7_data_of_others(exports, tmp_path):
         path.write_text(json.dumps(document))
     dataset = cosfly.Dataset(tmp_path / "data_v7", columns=("drone_x_m",), channels=("rgb", "depth"))
     assert dataset.trajectory_ids == ids and set(dataset[0]) >= {"rgb", "depth", "drone_x_m"}
-    assert len(cosfly.Dataset(tmp_path, windows=True, channels=())) > 0
+    assert len(cosfly.Dataset(tmp_path, channels=()).windows()) > 0
     with pytest.raises(ValueError, match="no splits"):
         cosfly.Dataset(tmp_path, split="train")
     with pytest.raises(ValueError, match="caption"):

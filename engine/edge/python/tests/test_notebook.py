@@ -74,7 +74,7 @@ def test_what_is_not_there_is_named():
         dataset.frame("expert-p0001", 3)
     with pytest.raises(IndexError):
         dataset.trajectory("expert-p00001")[1000]
-    with pytest.raises(ValueError, match="downtown"):
+    with pytest.raises(KeyError, match="downtown"):
         dataset.town("uptown")
     with pytest.raises(ValueError, match="no town"):
         cosfly.Dataset("exports-for-notebook", channels=()).town()

@@ -140,22 +140,22 @@ def test_frames_are_bit_for_bit_those_of_the_log():
 
 
 def test_windows_align_with_their_frames():
-    windows = cosfly.Dataset("data", windows=True, channels=("rgb", "depth"), size=(80, 45), captions="en")
+    windows = cosfly.Dataset("data", channels=("rgb", "depth"), size=(80, 45), captions="en").windows()
     rows = pq.read_table("data/data/windows").to_pylist()
     assert len(windows) == len(rows)
     sample = windows[3]
-    assert sample["rgb"].shape == (5, 45, 80, 3) and sample["depth"].dtype == np.float32 and sample["caption"]
+    assert sample["rgb"].shape == (5, 45, 80, 3) and sample["depth"].dtype == np.float32 and sample["captions"]
     row = next(it for it in rows if it["trajectory_id"] == sample["trajectory_id"] and it["start_frame"] == sample["start_frame"])
     assert np.allclose(sample["waypoint_deltas_in_world"].ravel(), row["waypoint_deltas_in_world"])
     assert np.allclose(sample["input_boxes_px"].ravel(), np.array(row["input_boxes_px"]) / 4)
     alone = windows.frame(sample["trajectory_id"], sample["start_frame"] + 2)
     assert np.array_equal(sample["rgb"][2], alone["rgb"])
-    experts = cosfly.Dataset("data", windows=True, role="expert")
-    assert 0 < len(experts) < len(windows) and experts[0]["role"] == 0
+    experts = cosfly.Dataset("data", role="expert").windows()
+    assert 0 < len(experts) < len(windows) and experts[0]["role"] == "expert"
 
 
 def test_orders_and_loaders_are_deterministic_and_resume():
-    windows = cosfly.Dataset("data", windows=True, channels=())
+    windows = cosfly.Dataset("data", channels=()).windows()
     assert sorted(windows.order(3)) == list(range(len(windows))) and list(windows.order(3)) != list(windows.order(4))
     shards = [set(windows.order(3, 1, (rank, 3)).tolist()) for rank in range(3)]
     assert len(set().union(*shards)) == 3 * len(shards[0])
@@ -173,11 +173,11 @@ def test_orders_and_loaders_are_deterministic_and_resume():
 def test_packs_give_the_same_samples():
     pack = cosfly.pack("data", "packed", size=(80, 45), channels=("rgb", "depth"), progress=False)
     assert len(pack) == len(cosfly.Dataset("data"))
-    windows = cosfly.Pack("packed", "data", windows=True)
-    plain = cosfly.Dataset("data", windows=True, size=(80, 45))
+    windows = cosfly.Pack("packed", "data").windows()
+    plain = cosfly.Dataset("data", size=(80, 45)).windows()
     a, b = windows[5], plain[5]
     assert np.array_equal(a["rgb"], b["rgb"]) and np.allclose(a["depth"], b["depth"], rtol=1e-3)
-    with pytest.raises(FileExistsError):
+    with pytest.raises(cosfly.InvalidValue):
         cosfly.pack("data", "packed", progress=False)
 
 
@@ -186,8 +186,8 @@ def test_the_expert_answers_batches():
     poses = pq.read_table("data/data/frames").to_pylist()
     row = next(it for it in poses if it["trajectory_id"] == "expert-p00000" and it["frame"] == 4)
     place = [row["drone_x_m"], row["drone_y_m"], row["drone_z_m"]]
-    states = [{"trajectory": "expert-p00000", "frame": 4, "position": np.array(place), "horizon_s": 2}] * 3
-    states.append({"trajectory": "expert-p00000", "frame": 4, "position": [float("nan"), 0, 0]})
+    states = [{"trajectory_id": "expert-p00000", "frame": 4, "position_in_world": np.array(place), "horizon_s": 2}] * 3
+    states.append({"trajectory_id": "expert-p00000", "frame": 4, "position_in_world": [float("nan"), 0, 0]})
     answers = expert.plan_from(states, jobs=2)
     assert [answer.planned for answer in answers] == [True, True, True, False]
     assert answers[0].poses.shape[1] == 5 and np.allclose(answers[0].poses[0, :3], place, atol=1e-6)

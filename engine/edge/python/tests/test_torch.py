@@ -23,7 +23,7 @@ TRAINING = """
 import json, os, sys, time
 import cosfly, cosfly.torch
 kill_after, workers = int(sys.argv[1]), int(sys.argv[2])
-windows = cosfly.Dataset("data", windows=True, size=(32, 18))
+windows = cosfly.Dataset("data", size=(32, 18)).windows()
 loader = cosfly.torch.Loader(windows, 3, seed=5, workers=workers)
 if os.path.exists("state.json"):
     loader.load_state_dict(json.load(open("state.json")))
@@ -50,7 +50,7 @@ def samples(loader):
 
 
 def test_data_loaders_take_the_dataset_as_it_is():
-    windows = cosfly.Dataset("data", windows=True, channels=("rgb", "depth", "instance"), size=(32, 18), captions="en")
+    windows = cosfly.Dataset("data", channels=("rgb", "depth", "instance"), size=(32, 18), captions="en").windows()
     order = windows.order(seed=1)
     assert len(windows) > 12
     plain = samples(DataLoader(windows, batch_size=4, sampler=order))
@@ -58,11 +58,11 @@ def test_data_loaders_take_the_dataset_as_it_is():
     assert samples(DataLoader(windows, batch_size=4, sampler=order[8:], num_workers=WORKERS)) == plain[8:]
     batch = next(iter(DataLoader(windows, batch_size=4, shuffle=True, num_workers=WORKERS)))
     assert batch["rgb"].shape == (4, 5, 18, 32, 3) and batch["rgb"].dtype == torch.uint8
-    assert batch["depth"].dtype == torch.float32 and len(batch["caption"]) == 4
+    assert batch["depth"].dtype == torch.float32 and len(batch["captions"]) == 4
 
 
 def test_the_order_is_that_of_the_loader_without_torch():
-    windows = cosfly.Dataset("data", windows=True, size=(32, 18))
+    windows = cosfly.Dataset("data", size=(32, 18)).windows()
     plain = samples(windows.loader(3, seed=5))
     for workers in (0, 1, WORKERS):
         assert samples(cosfly.torch.Loader(windows, 3, seed=5, workers=workers)) == plain
@@ -88,7 +88,7 @@ def test_a_training_that_is_killed_and_resumed_sees_the_same_samples(tmp_path):
 
 
 def test_a_fork_in_the_middle_of_an_epoch_reads_on_in_both_processes():
-    windows = cosfly.Dataset("data", windows=True, size=(32, 18))
+    windows = cosfly.Dataset("data", size=(32, 18)).windows()
     whole = samples(cosfly.torch.Loader(windows, 3, seed=5))
     loader = cosfly.torch.Loader(windows, 3, seed=5, workers=2)
     batches = iter(loader)
@@ -104,7 +104,7 @@ def test_a_fork_in_the_middle_of_an_epoch_reads_on_in_both_processes():
 
 def test_packs_go_through_workers(tmp_path):
     cosfly.pack("data", tmp_path / "pack", size=(32, 18), progress=False)
-    windows = cosfly.Pack(tmp_path / "pack", "data", windows=True)
+    windows = cosfly.Pack(tmp_path / "pack", "data").windows()
     plain = samples(windows.loader(3, seed=5))
     assert samples(cosfly.torch.Loader(windows, 3, seed=5, workers=WORKERS)) == plain
 
@@ -113,7 +113,7 @@ def test_errors_of_workers_name_the_file(tmp_path):
     import shutil
 
     shutil.copytree("data", tmp_path / "data")
-    windows = cosfly.Dataset(tmp_path / "data", windows=True, size=(32, 18))
+    windows = cosfly.Dataset(tmp_path / "data", size=(32, 18)).windows()
     for log in (tmp_path / "data" / "mcap").rglob("*.mcap"):
         log.write_bytes(log.read_bytes()[:5000])
     began = time.time()

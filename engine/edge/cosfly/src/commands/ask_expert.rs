@@ -12,6 +12,7 @@ use cosfly_domain::{Certificate, PlanOutcome, Trajectory};
 use cosfly_fly::experts::{Experts, LOOK_AHEAD_S};
 use cosfly_frames::DVec3;
 use cosfly_planner::StartState;
+use cosfly_store::Store;
 use serde::Serialize;
 use state::State;
 use std::fmt::Write as _;
@@ -30,8 +31,9 @@ Examples:
   cosfly ask-expert recipes/small.toml --batch < states.jsonl > answers.jsonl
 
 A line of a batch is like
-  {\"trajectory\": \"expert-p00000\", \"frame\": 5, \"position\": [60, 60, 24], \"velocity\": [1, 0, 0], \"horizon_s\": 4}
-velocity and horizon_s may be left out. Each answer is one line of JSON, written at once. Places are in the world
+  {\"trajectory_id\": \"expert-p00000\", \"frame\": 5, \"position_in_world\": [60, 60, 24],
+   \"velocity_in_world\": [1, 0, 0], \"horizon_s\": 4}
+velocity_in_world and horizon_s may be left out. Each answer is one line of JSON, written at once. Places are in the world
 frame, metres. `cosfly run` must have made the recipe's trajectories before. Exits with 1 when there is no way on."
 )]
 pub struct Arguments {
@@ -65,21 +67,17 @@ pub struct Arguments {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let recipe = self.recipe.load(console)?;
-        let folder = self.store.folder();
-        if self.store.bucket().is_none() && !folder.exists() {
-            return Err(no_store(&self.recipe.recipe, &folder).into());
-        }
-        let store = self.store.open_to_read()?;
+        let store = opened(&self.recipe, &self.store)?;
         let plan = cosfly_runner::plan(&recipe, &store)?;
         let mut experts = Experts::new(plan, &store);
         let (Some(trajectory), Some(frame), Some(position)) = (&self.trajectory, self.frame, &self.position) else {
             return Ok(batch(&mut experts, console)?);
         };
         let state = State {
-            trajectory: trajectory.clone(),
+            trajectory_id: trajectory.clone(),
             frame,
-            position: triple(position),
-            velocity: (!self.velocity.is_empty()).then(|| triple(&self.velocity)),
+            position_in_world: triple(position),
+            velocity_in_world: (!self.velocity.is_empty()).then(|| triple(&self.velocity)),
             horizon_s: self.horizon_s,
         };
         let answer = answer(&mut experts, &state)?;
@@ -96,7 +94,7 @@ fn from_zero(text: &str) -> Result<usize, String> {
 /// The answer to a state.
 #[derive(Debug, Serialize)]
 struct Answer {
-    trajectory: String,
+    trajectory_id: String,
     frame: usize,
     planned: bool,
     /// Why there is no way on.
@@ -123,7 +121,8 @@ struct Waypoint {
 /// The error of a line of a batch.
 #[derive(Serialize)]
 struct LineError {
-    line: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<usize>,
     error: Refused,
 }
 
@@ -132,6 +131,18 @@ struct Refused {
     code: &'static str,
     message: String,
     hints: Vec<String>,
+}
+
+/// The store of a finished recipe.
+///
+/// # Errors
+/// `ask-expert-unfinished`, or the errors of opening it.
+pub fn opened(recipe: &RecipeArguments, store: &StoreArguments) -> cosfly_diagnose::Result<Store> {
+    let folder = store.folder();
+    if store.bucket().is_none() && !folder.exists() {
+        return Err(no_store(&recipe.recipe, &folder));
+    }
+    store.open_to_read()
 }
 
 /// Refusal of a store that is absent: asking makes none.
@@ -159,31 +170,36 @@ fn batch(experts: &mut Experts<'_>, console: &dyn Console) -> cosfly_diagnose::R
         if line.trim_ascii().is_empty() {
             continue;
         }
-        let text = match State::of_line(&line).and_then(|state| answer(experts, &state)) {
-            Ok(answer) => json_line(&answer),
-            Err(refusal) => {
-                code = code.max(exit::INPUT).max(exit::code_of(&refusal));
-                let hints = refusal.hints.clone();
-                let error = Refused { code: refusal.code, message: refusal.to_string(), hints };
-                json_line(&LineError { line: number, error })
-            }
-        };
+        let (text, code_of_line) = answer_line(experts, &line, Some(number));
+        code = code.max(code_of_line);
         if !console.print(&text)? {
             return Ok(code);
         }
     }
 }
 
+/// Answer to a state as a line of JSON, and its exit code.
+pub fn answer_line(experts: &mut Experts<'_>, line: &[u8], number: Option<usize>) -> (String, u8) {
+    match State::of_line(line).and_then(|state| answer(experts, &state)) {
+        Ok(answer) => (json_line(&answer), exit::SUCCESS),
+        Err(refusal) => {
+            let (hints, code) = (refusal.hints.clone(), exit::INPUT.max(exit::code_of(&refusal)));
+            let error = Refused { code: refusal.code, message: refusal.to_string(), hints };
+            (json_line(&LineError { line: number, error }), code)
+        }
+    }
+}
+
 fn answer(experts: &mut Experts<'_>, state: &State) -> cosfly_diagnose::Result<Answer> {
-    let known = experts.flight(&state.trajectory)?;
+    let known = experts.flight(&state.trajectory_id)?;
     let track = &known.flight.mission.track;
     state.check(track)?;
     let frames_of = |seconds: f64| ((seconds / track.dt_s).ceil() as usize).saturating_add(1);
     let frames = state.horizon_s.map_or(usize::MAX, frames_of);
     let start = StartState {
-        position_in_world: DVec3::from(state.position),
+        position_in_world: DVec3::from(state.position_in_world),
         velocity_in_world: state
-            .velocity
+            .velocity_in_world
             .map_or_else(|| own_velocity(&known.flown, state.frame, track.dt_s), DVec3::from),
     };
     let (mut reason, mut waypoints, mut certificate) = (None, Vec::new(), None);
@@ -197,7 +213,8 @@ fn answer(experts: &mut Experts<'_>, state: &State) -> cosfly_diagnose::Result<A
         PlanOutcome::Rejected { reason: why, .. } => reason = Some(why),
     }
     let planned = certificate.is_some();
-    Ok(Answer { trajectory: state.trajectory.clone(), frame: state.frame, planned, reason, waypoints, certificate })
+    let (trajectory_id, frame) = (state.trajectory_id.clone(), state.frame);
+    Ok(Answer { trajectory_id, frame, planned, reason, waypoints, certificate })
 }
 
 /// Velocity of the published flight in a frame, m/s: backward difference, forward in the first frame; 0 without a flight.
@@ -232,7 +249,7 @@ fn json_line(value: &impl Serialize) -> String {
 fn told(answer: &Answer) -> String {
     let mut text = String::new();
     if let Some(reason) = &answer.reason {
-        let _ = writeln!(text, "no way on from frame {} of `{}`: {reason}", answer.frame, answer.trajectory);
+        let _ = writeln!(text, "no way on from frame {} of `{}`: {reason}", answer.frame, answer.trajectory_id);
     }
     let Some(certificate) = &answer.certificate else { return text };
     let _ = writeln!(text, "frame   time s         x m         y m       z m   yaw deg  pitch deg  visible");

@@ -2,7 +2,7 @@
 //!
 //! To add one, write its file and add two lines here: its `mod` and its entry in [`COMMANDS`].
 
-mod ask_expert;
+pub mod ask_expert;
 mod carla_job;
 mod cluster;
 mod dagger;

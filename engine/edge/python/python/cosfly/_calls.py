@@ -5,25 +5,32 @@ from __future__ import annotations
 import json
 import os
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 from . import _cosfly, _toml
-from ._errors import BadValue
+from ._errors import InvalidValue, WrongType, options
 from ._show import Bars
+
+if TYPE_CHECKING:
+    from ._dataset import Dataset
+
+Result = TypeVar("Result")
 
 PathLike = Union[str, "os.PathLike[str]"]
 Recipe = Union[PathLike, Mapping[str, Any]]
 """The path of a recipe (or of a folder with a ``recipe.toml``), or the recipe itself as a dictionary."""
-Settings = Union[None, Mapping[str, Any], Sequence[str]]
-"""Changes to a recipe: ``{"stages.walkers.count": 8}`` or ``["stages.walkers.count=8"]``."""
+Settings = Optional[Mapping[str, Any]]
+"""Changes to a recipe: ``{"stages.walkers.count": 8}``."""
+Option = Union[None, bool, int, float, str, PathLike, Sequence[str]]
+"""Value of an option of a format."""
 Progress = Union[bool, Callable[[Dict[str, Tuple[int, int]]], None]]
 """True for bars (terminal or notebook), False for none, or a function that gets {name of the work: (done, all)}."""
 
 
 @dataclass(frozen=True)
-class Stage:
+class RunStage:
     """A stage of a finished run."""
 
     stage: str
@@ -41,13 +48,13 @@ class Stage:
 
 
 @dataclass(frozen=True)
-class Made:
+class RunResult:
     """Result of :func:`run`."""
 
     recipe: str
     outcome: str
     """``complete``, ``failed`` or ``stopped``; finished items are kept in the store in any case."""
-    stages: List[Stage]
+    stages: List[RunStage]
     rejected: List[Dict[str, str]]
     """Items without a usable result: stage, item, reason."""
     out: Optional[Path]
@@ -59,12 +66,12 @@ class Made:
     messages: List[str] = field(default_factory=list, repr=False)
     """Warnings and failures, as the command line prints them."""
 
-    def dataset(self, **options: Any) -> "Any":
+    def dataset(self, **options: Any) -> "Dataset":
         """The dataset, as :class:`cosfly.Dataset` with the given options."""
         from ._dataset import Dataset
 
         if self.out is None:
-            raise BadValue(f"the run is {self.outcome}, so there is no dataset; `messages` says why")
+            raise InvalidValue(f"the run is {self.outcome}, so there is no dataset; `messages` says why")
         return Dataset(self.out, **options)
 
     def _repr_html_(self) -> str:
@@ -77,7 +84,7 @@ class Made:
 
 
 @dataclass(frozen=True)
-class PlannedStage:
+class PlanStage:
     """A stage of a plan."""
 
     stage: str
@@ -101,7 +108,7 @@ class PlannedStage:
 
 
 @dataclass(frozen=True)
-class Plan:
+class PlanResult:
     """Result of :func:`plan`."""
 
     to_run: int
@@ -111,11 +118,11 @@ class Plan:
     predicted_bytes: int
     predicted_files: int
     """Files that the run is expected to write."""
-    stages: List[PlannedStage]
+    stages: List[PlanStage]
 
 
 @dataclass(frozen=True)
-class Why:
+class WhyResult:
     """Result of :func:`why`."""
 
     task: str
@@ -127,7 +134,7 @@ class Why:
 
 
 @dataclass(frozen=True)
-class Check:
+class VerifyResult:
     """Result of :func:`verify`."""
 
     sound: bool
@@ -158,7 +165,7 @@ class Check:
 
 
 @dataclass(frozen=True)
-class Doctor:
+class DoctorResult:
     """Result of :func:`doctor`."""
 
     well: bool
@@ -171,7 +178,7 @@ class Doctor:
 
 
 @dataclass(frozen=True)
-class Evaluation:
+class EvaluateResult:
     """Result of :func:`evaluate`."""
 
     report: Dict[str, Any]
@@ -186,10 +193,10 @@ class Evaluation:
 
 
 @dataclass(frozen=True)
-class Pictures:
+class PreviewResult:
     """Result of :func:`preview`."""
 
-    trajectory: str
+    trajectory_id: str
     sheet: Path
     """Contact sheet: colours, depth, labels, the target enlarged (PNG)."""
     clip: Path
@@ -204,7 +211,7 @@ class Pictures:
 
 
 @dataclass(frozen=True)
-class Exported:
+class ExportResult:
     """Result of :func:`export`."""
 
     out: Path
@@ -214,12 +221,14 @@ class Exported:
     remarks: List[str]
 
 
+@options(start="`template`")
 def init(folder: PathLike = "town", template: Optional[str] = None) -> Path:
     """Write a folder to begin with: a recipe, its town, a page. ``template`` is ``town`` or ``small``."""
     _call(["init", os.fspath(folder)] + (["--template", template] if template else []), b"", False)
     return Path(folder)
 
 
+@options(overrides="`set`", threads="`jobs`")
 def run(
     recipe: Recipe,
     *,
@@ -229,35 +238,36 @@ def run(
     stage: Optional[str] = None,
     jobs: Optional[int] = None,
     progress: Progress = True,
-) -> Made:
+) -> RunResult:
     """Make everything that a recipe describes, or only ``stage`` and what it needs. Finished items are never made again, and Ctrl-C keeps them.
 
     Raises :class:`cosfly.Error` where the recipe is wrong. Items that fail do not raise: ``outcome`` is then ``failed``.
     """
-    options = _options(out=out, store=store, stage=stage, jobs=jobs)
-    _, text, messages = _with_recipe(["run", "--json"], recipe, set, options, progress)
+    given = _options(out=out, store=store, stage=stage, jobs=jobs)
+    _, text, messages = _with_recipe(["run", "--json"], recipe, set, given, progress)
     found = json.loads(text)
-    stages = [Stage(**stage) for stage in found.pop("stages")]
-    folder = found.pop("out")
-    return Made(stages=stages, out=Path(folder) if folder else None, messages=messages, **found)
+    stages = [_known(RunStage, stage) for stage in found["stages"]]
+    folder = Path(found["out"]) if found["out"] else None
+    return _known(RunResult, {**found, "stages": stages, "out": folder, "messages": messages})
 
 
-def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = None) -> Plan:
+@options(overrides="`set`")
+def plan(recipe: Recipe, *, set: Settings = None, store: Optional[PathLike] = None) -> PlanResult:
     """What :func:`run` would do, and why."""
     _, text, _ = _with_recipe(["plan", "--json"], recipe, set, _options(store=store), False)
     found = json.loads(text)
-    stages = [PlannedStage(**stage) for stage in found["stages"]]
-    return Plan(
-        found["to_run"], found["predicted_core_s"], found["all_measured"], found["predicted_bytes"], found["predicted_files"], stages
-    )
+    stages = [_known(PlanStage, stage) for stage in found["stages"]]
+    return _known(PlanResult, {**found, "stages": stages})
 
 
-def why(recipe: Recipe, subject: str, *, set: Settings = None, store: Optional[PathLike] = None) -> Why:
+@options(overrides="`set`")
+def why(recipe: Recipe, subject: str, *, set: Settings = None, store: Optional[PathLike] = None) -> WhyResult:
     """Which field or input changed since a stage or an item (``expert/p00003``) was last made."""
     _, text, _ = _with_recipe(["why", "--json"], recipe, set, _options(store=store), False, [subject])
-    return Why(**json.loads(text))
+    return _known(WhyResult, json.loads(text))
 
 
+@options(overrides="`set`", threads="`jobs`")
 def verify(
     dataset: PathLike,
     *,
@@ -269,23 +279,22 @@ def verify(
     set: Settings = None,
     store: Optional[PathLike] = None,
     progress: Progress = True,
-) -> Check:
+) -> VerifyResult:
     """Check a finished dataset: hashes, counts, schemas, reprojection, actions; ``regenerate`` makes flights again.
 
     ``sample`` flights are checked in full instead of all; ``resume`` is a file of notes with which an interrupted check
     goes on.
     """
-    options = _options(
-        sample=sample, resume=resume, jobs=jobs, regenerate=regenerate, recipe=recipe, store=store
-    )
-    arguments = ["verify", os.fspath(dataset), "--json", *options]
-    _, text, _ = _call(arguments + settings(set), b"", progress)
-    return Check(**json.loads(text))
+    given = _options(sample=sample, resume=resume, jobs=jobs, regenerate=regenerate, recipe=recipe, store=store)
+    arguments = ["verify", os.fspath(dataset), "--json", *given, *_settings(set)]
+    _, text, _ = _call(arguments, b"", progress)
+    return _known(VerifyResult, json.loads(text))
 
 
+@options(imperfect="`imperfect_share`, 0 to 1")
 def doctor(
     data: PathLike, *, imperfect_share: float = 0.05, quotas: Sequence[str] = (), progress: Progress = True
-) -> Doctor:
+) -> DoctorResult:
     """Examine anyone's data (cosfly, v7, LeRobot): leaks, signs, units, shifts, frozen frames, limits.
 
     ``imperfect_share`` is the share of imperfect episodes that does no harm, 0 to 1; a quota is like ``"0.2:2-4"``.
@@ -294,45 +303,85 @@ def doctor(
     for quota in quotas:
         arguments += ["--quota", quota]
     code, text, _ = _call(arguments, b"", progress)
-    return Doctor(code == 0, json.loads(text))
+    return DoctorResult(code == 0, json.loads(text))
 
 
+@options(split="`splits`")
 def evaluate(
-    dataset: PathLike, predictions: Optional[PathLike] = None, *, out: Optional[PathLike] = None, **options: Any
-) -> Evaluation:
-    """Score predictions on a dataset, beside baselines; without predictions the baselines alone.
+    dataset: PathLike,
+    predictions: Optional[PathLike] = None,
+    *,
+    out: Optional[PathLike] = None,
+    kind: Optional[str] = None,
+    splits: Sequence[str] = (),
+    frame: Optional[str] = None,
+    origin: Optional[str] = None,
+    anchor: Optional[str] = None,
+    input: Optional[str] = None,
+    history: Optional[int] = None,
+    horizon: Optional[int] = None,
+    stride: Optional[int] = None,
+    missing_as_zero: bool = False,
+    resamples: Optional[int] = None,
+    seed: Optional[int] = None,
+    every: Optional[int] = None,
+    depth_per_metre: Optional[float] = None,
+    max_depth_m: Optional[float] = None,
+    categories: Sequence[int] = (),
+    images: Optional[PathLike] = None,
+) -> EvaluateResult:
+    """Score predictions on a dataset, beside baselines; without predictions the baselines alone. The command is ``cosfly eval``.
 
-    ``options`` are those of ``cosfly eval``, with underscores: ``split="test"``, ``frame="body"``, ``anchor="expert"``,
-    ``missing_as_zero=True``. A list repeats an option.
+    ``frame`` (``world`` or ``body``) gives the axes of increments, ``origin`` (``previous`` or ``current``) the pose that
+    each starts from, ``anchor`` (``input`` or ``expert``) that of the first. ``history``, ``horizon`` and ``stride`` are
+    numbers of frames. ``every`` to ``images`` are for pictures.
     """
     given = [] if predictions is None else [os.fspath(predictions)]
     default = f"{os.path.splitext(given[0])[0]}-evaluation" if given else "baselines-evaluation"
     folder = Path(out) if out is not None else Path(default)
     arguments = ["eval", os.fspath(dataset), *given, "--out", os.fspath(folder), "--json"]
-    code, text, _ = _call(arguments + _options(**options), b"", False)
-    return Evaluation(json.loads(text), folder, code == 0)
+    arguments += _options(
+        kind=kind, split=splits, frame=frame, anchor=anchor, input=input, history=history, horizon=horizon, stride=stride,
+        missing_as_zero=missing_as_zero, resamples=resamples, seed=seed, every=every, depth_per_metre=depth_per_metre,
+        max_depth_m=max_depth_m, category=categories, images=images, origin=origin,
+    )  # fmt: skip
+    code, text, _ = _call(arguments, b"", False)
+    return EvaluateResult(json.loads(text), folder, code == 0)
 
 
-def export(dataset: PathLike, format: str, out: PathLike, *, progress: Progress = True, **options: Any) -> Exported:
-    """Write a dataset in another format. ``options`` are those of ``cosfly export --format``, with underscores."""
+@options(split="`splits`", trajectory="`trajectory_ids`", threads="`jobs`")
+def export(
+    dataset: PathLike,
+    format: str,
+    out: PathLike,
+    *,
+    splits: Sequence[str] = (),
+    trajectory_ids: Sequence[str] = (),
+    jobs: Optional[int] = None,
+    progress: Progress = True,
+    **format_options: Option,
+) -> ExportResult:
+    """Write a dataset in another format. ``format_options`` are those of the format, as the reference of formats has them."""
     arguments = ["export", os.fspath(dataset), "--format", format, "--out", os.fspath(out), "--json"]
-    _, text, _ = _call(arguments + _options(**options), b"", progress)
+    arguments += _options(split=splits, trajectory=trajectory_ids, jobs=jobs, **format_options)
+    _, text, _ = _call(arguments, b"", progress)
     found = json.loads(text)
-    return Exported(Path(found.pop("out")), **found)
+    return _known(ExportResult, {**found, "out": Path(found["out"])})
 
 
+@options(trajectory="`trajectory_id`")
 def preview(
-    dataset: PathLike, trajectory: Optional[str] = None, *, frames: Optional[str] = None,
+    dataset: PathLike, trajectory_id: Optional[str] = None, *, frames: Optional[str] = None,
     out: Optional[PathLike] = None, progress: Progress = True,
-) -> Pictures:  # fmt: skip
+) -> PreviewResult:  # fmt: skip
     """Draw a flight: contact sheet, animated clip, plan of the town with the paths. Notebooks show the result.
 
     ``frames`` is like ``"0,50,100"`` or ``"0..200:10"``; the pictures go to ``out``, beside the dataset by default.
     """
-    arguments = ["preview", os.fspath(dataset), "--json", *_options(trajectory=trajectory, frames=frames, out=out)]
+    arguments = ["preview", os.fspath(dataset), "--json", *_options(trajectory=trajectory_id, frames=frames, out=out)]
     _, text, _ = _call(arguments, b"", progress)
     found = json.loads(text)
-    return Pictures(found["trajectory"], *(Path(path) for path in found["files"]))
+    return PreviewResult(found["trajectory"], *(Path(path) for path in found["files"]))
 
 
 def _with_recipe(
@@ -340,14 +389,25 @@ def _with_recipe(
     more: Sequence[str] = (),
 ) -> Tuple[int, str, List[str]]:  # fmt: skip
     given, text = ("-", _toml.dumps(recipe)) if isinstance(recipe, Mapping) else (os.fspath(recipe), "")
-    return _call([*command, given, *more, *settings(changes), *options], text.encode(), progress)
+    return _call([*command, given, *more, *_settings(changes), *options], text.encode(), progress)
 
 
-def settings(changes: Settings) -> List[str]:
-    if isinstance(changes, Mapping):
-        # Texts stay bare, as on the command line; other values are TOML.
-        changes = [f"{key}={it if isinstance(it, str) else _toml.value_text(it)}" for key, it in changes.items()]
-    return [part for change in changes or () for part in ("--set", change)]
+def settings_of(changes: Settings) -> List[str]:
+    """Changes to a recipe as ``path=value`` each."""
+    if changes is not None and not isinstance(changes, Mapping):
+        raise WrongType(f"`set` is {changes!r}; it must be a dictionary, such as {{'stages.walkers.count': 8}}")
+    # Texts stay bare, as on the command line; other values are TOML.
+    return [f"{key}={it if isinstance(it, str) else _toml.value_text(it)}" for key, it in (changes or {}).items()]
+
+
+def _settings(changes: Settings) -> List[str]:
+    return [part for change in settings_of(changes) for part in ("--set", change)]
+
+
+def _known(kind: Type[Result], found: Mapping[str, Any]) -> Result:
+    """A result with the fields that this version knows."""
+    names = {it.name for it in fields(kind)}  # type: ignore[arg-type]
+    return kind(**{name: value for name, value in found.items() if name in names})
 
 
 def _options(**options: Any) -> List[str]:

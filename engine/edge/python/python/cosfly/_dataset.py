@@ -14,7 +14,7 @@ import numpy as np
 from . import _cosfly
 from ._calls import PathLike
 from ._cosfly import Reader, Table
-from ._errors import BadType, BadValue, NotFound, OutOfRange
+from ._errors import InvalidValue, NotFound, OutOfRange, WrongType, options
 from ._show import Frame, Town, Trajectory
 
 ROLES = ("expert", "perturbed")
@@ -34,18 +34,15 @@ Sample = Dict[str, Any]
 
 
 class Dataset:
-    """Frames or training windows of a dataset, by number.
+    """Frames of a dataset, by number; :meth:`windows` gives its training windows.
 
     ``path`` is a dataset of cosfly, a folder of the published v7 layout, or one of LeRobot (with pictures, not videos; of
     ``cosfly export`` or of others). ``dataset[i]`` is a dictionary. Pictures are read at random, decoded and scaled in Rust:
 
-    * ``rgb``: uint8, (H, W, 3); for windows (frames of the input, H, W, 3);
+    * ``rgb``: uint8, (H, W, 3);
     * ``depth``: float32 metres, planar, infinite for the sky; ``semantic``: uint8, CARLA's labels; ``instance``: uint32;
-    * for windows ``trajectory_id``, ``start_frame``, ``role``, and the columns of table ``windows`` as arrays of rows:
-      steps are dx, dy, dz (m), dpitch, dyaw, droll (degrees); boxes left, top, right, bottom in pixels of the scaled
-      pictures;
-    * for frames ``trajectory_id``, ``frame``, and each of ``columns`` of table ``frames``;
-    * ``caption`` where ``captions`` is a language.
+    * ``trajectory_id``, ``frame``, and each of ``columns`` of table ``frames``;
+    * ``captions`` where ``captions`` is a language: the text of each style, by its name (``""`` in other layouts).
 
     Foreign layouts give the tables ``trajectories``, ``frames``, ``captions`` and ``windows`` (of the default shape) with
     the columns whose values they hold: v7 has all channels but ``normals``, LeRobot has ``rgb`` alone.
@@ -61,15 +58,16 @@ class Dataset:
     ``size`` is (width, height); ``jobs`` threads decode the pictures of one call.
     """
 
+    _unit = "frames"
     identity: str = ""
     """Digest that tells this dataset from others: of cosfly's own, the hash of ``files.parquet``."""
 
+    @options(windows="the method `windows()` of the dataset", threads="`jobs`")
     def __init__(
         self,
         path: PathLike,
         *,
         split: Optional[str] = None,
-        windows: bool = False,
         role: Optional[str] = None,
         channels: Sequence[str] = ("rgb", "depth"),
         size: Optional[Tuple[int, int]] = None,
@@ -78,25 +76,29 @@ class Dataset:
         jobs: int = 1,
     ):
         self.path = Path(path)
-        self.split, self.windows, self.role = split, windows, role
+        self.split, self.role = split, role
         self.channels, self.size = tuple(channels), size
         self._opened: Tuple[int, Optional[Reader]] = (-1, None)
         self.jobs = _whole("jobs", jobs, 1)
         if split not in (None, "train", "val", "test"):
-            raise BadValue(f"the split is {split!r}; splits are 'train', 'val' and 'test'")
+            raise InvalidValue(f"the split is {split!r}; splits are 'train', 'val' and 'test'")
         if role not in (None, *ROLES):
-            raise BadValue(f"the role is {role!r}; roles are 'expert' and 'perturbed'")
+            raise InvalidValue(f"the role is {role!r}; roles are 'expert' and 'perturbed'")
         self.identity = self._reader.identity
         ids = self._reader.trajectory_ids
         if split and not any(self._reader.splits):
-            raise BadValue(f"the data in {self.path} state no splits; leave out `split`")
+            raise InvalidValue(f"the data in {self.path} state no splits; leave out `split`")
         self._number = {name: number for number, name in enumerate(ids)}
         self._counts = self._reader.frames
         self.trajectory_ids: List[str] = [name for name, of in zip(ids, self._reader.splits) if split in (None, of)]
         """Ids of the trajectories of the split."""
         self._columns: Dict[str, Any] = {}
-        self._index = self._windows_index() if windows else self._frames_index(columns)
+        self._index = self._frames_index(columns)
         self._captions = self._read_captions(captions) if captions else {}
+
+    def windows(self) -> "Windows":
+        """The training windows of the dataset, with the same split, role, channels, size and captions."""
+        return Windows(self)
 
     # Tables and frames
 
@@ -120,11 +122,11 @@ class Dataset:
         """A town of a dataset of cosfly, the first by default; notebooks show its plan."""
         table = self.table("trajectories")
         if "town" not in table.columns:
-            raise BadValue(f"the data in {self.path} state no town that could be drawn")
+            raise InvalidValue(f"the data in {self.path} state no town that could be drawn")
         for of, trajectory_id in zip(table["town"], table["trajectory_id"]):
             if name in (None, of):
                 return Town(self, of, trajectory_id)
-        raise BadValue(f"there is no town {name!r}; the towns are {', '.join(sorted(set(table['town'])))}")
+        raise NotFound(f"there is no town {name!r}; the towns are {', '.join(sorted(set(table['town'])))}")
 
     def size_of(self, trajectory_id: str) -> Tuple[int, int]:
         """Width and height of the images of a trajectory as they are stored, pixels."""
@@ -145,7 +147,7 @@ class Dataset:
 
     def __getitem__(self, index: Union[int, np.integer]) -> Sample:
         number = numbered("sample", index, len(self))
-        return self._window(number) if self.windows else self._frame(number)
+        return self._sample(number)
 
     def __iter__(self) -> Iterator[Sample]:
         return (self[index] for index in range(len(self)))
@@ -188,7 +190,7 @@ class Dataset:
         """Numbers of trajectories and frames, which exist."""
         places = []
         for name, frame in frames:
-            number, asked = self._number_of(name), operator.index(frame)
+            number, asked = self._number_of(name), _index("frame", frame)
             if not 0 <= asked < self._counts[number]:
                 raise OutOfRange(f"frame {asked} of {name!r}, which has the frames 0 to {self._counts[number] - 1}")
             places.append((number, asked))
@@ -201,17 +203,6 @@ class Dataset:
             raise NotFound(f"{self.path} has no trajectory {trajectory_id!r}; it has {', '.join(near)} ...")
         return number
 
-    def _windows_index(self) -> List[Tuple[str, int]]:
-        table = self.table("windows")
-        kept = np.ones(len(table), bool) if self.role is None else table["role"] == ROLES.index(self.role)
-        kept = np.flatnonzero(kept)
-        names, starts = table["trajectory_id"], table["start_frame"]
-        self._columns = {"role": table["role"][kept]}
-        for name in WINDOW_LISTS:
-            self._columns[name] = _taken(table[name], kept)
-        self._columns["image_px"] = dict(zip(self._reader.trajectory_ids, self._reader.sizes))
-        return [(names[row], int(starts[row])) for row in kept]
-
     def _frames_index(self, columns: Sequence[str]) -> List[Tuple[str, int]]:
         roles = dict(zip(self.table("trajectories")["trajectory_id"], self.table("trajectories")["role"]))
         names = [name for name in self.trajectory_ids if self.role in (None, ROLES[int(roles[name])])]
@@ -223,19 +214,19 @@ class Dataset:
             self._columns = {name: _taken(table[name], rows) for name in columns}
         return [(name, frame) for name in names for frame in range(frames[name])]
 
-    def _read_captions(self, language: str) -> Dict[str, str]:
+    def _read_captions(self, language: str) -> Dict[str, Dict[str, str]]:
         table = self.table("captions")
-        rows = zip(table["trajectory_id"], table["language"], table["text"])
-        found: Dict[str, str] = {}
-        for name, of, text in rows:
+        found: Dict[str, Dict[str, str]] = {}
+        styles = table["style"] if "style" in table.columns else [""] * len(table)  # other layouts state none
+        for name, of, style, text in zip(table["trajectory_id"], table["language"], styles, table["text"]):
             if of == language:
-                found.setdefault(name, text)
+                found.setdefault(name, {}).setdefault(style, text)
         if not found and self.trajectory_ids:
             languages = ", ".join(sorted({str(of) for of in table["language"]}))
-            raise BadValue(f"no caption is in {language!r}; the languages are {languages or 'not stated: there are no captions'}")
+            raise InvalidValue(f"no caption is in {language!r}; the languages are {languages or 'not stated: there are no captions'}")
         return found
 
-    def _frame(self, number: int) -> Sample:
+    def _sample(self, number: int) -> Sample:
         name, frame = self._index[number]
         images = self._images([(name, frame)], self.channels, self.size) if self.channels else {}
         sample: Sample = {channel: arrays[0] for channel, arrays in images.items()}
@@ -243,7 +234,57 @@ class Dataset:
         sample.update({column: values[number] for column, values in self._columns.items()})
         return self._captioned(sample, name)
 
-    def _window(self, number: int) -> Sample:
+    def _captioned(self, sample: Sample, name: str) -> Sample:
+        if self._captions:
+            sample["captions"] = dict(self._captions.get(name, {}))
+        return sample
+
+    def __repr__(self) -> str:
+        return f"<cosfly.{type(self).__name__} {self.path}: {len(self)} {self._unit} of {len(self.trajectory_ids)} trajectories>"
+
+    def _repr_html_(self) -> str:
+        from ._show import dataset_html
+
+        return dataset_html(self)
+
+
+class Windows(Dataset):
+    """Training windows of a dataset, by number: what :meth:`Dataset.windows` gives.
+
+    ``windows[i]`` is a dictionary: the channels with one picture for each frame of the input (``rgb`` is
+    (frames, H, W, 3)), ``trajectory_id``, ``start_frame``, ``role`` (``expert`` or ``perturbed``), ``captions`` where they
+    were asked for, and the columns of table ``windows`` as arrays of rows: steps are dx, dy, dz (m), dpitch, dyaw, droll
+    (degrees); boxes left, top, right, bottom in pixels of the scaled pictures.
+    """
+
+    _unit = "windows"
+
+    def __init__(self, dataset: Dataset):
+        self.__dict__.update(dataset.__dict__)
+        self.dataset = dataset
+        self._index = self._windows_index()
+
+    @property
+    def _reader(self) -> Reader:
+        return self.dataset._reader
+
+    def _images(
+        self, frames: Sequence[Tuple[str, int]], channels: Sequence[str], size: Optional[Tuple[int, int]]
+    ) -> Dict[str, List[np.ndarray]]:
+        return self.dataset._images(frames, channels, size)
+
+    def _windows_index(self) -> List[Tuple[str, int]]:
+        table = self.table("windows")
+        kept = np.ones(len(table), bool) if self.role is None else table["role"] == ROLES.index(self.role)
+        kept = np.flatnonzero(kept)
+        names, starts = table["trajectory_id"], table["start_frame"]
+        self._columns = {"role": table["role"][kept]}
+        for name in WINDOW_LISTS:
+            self._columns[name] = _taken(table[name], kept)
+        self._columns["image_px"] = dict(zip(self._reader.trajectory_ids, self._reader.sizes))
+        return [(names[row], int(starts[row])) for row in kept]
+
+    def _sample(self, number: int) -> Sample:
         name, start = self._index[number]
         rows: Dict[str, np.ndarray] = {
             column: np.asarray(self._columns[column][number]).reshape(-1, width).astype(np.float32)
@@ -258,22 +299,8 @@ class Dataset:
             width, height = self._columns["image_px"][name]
             across, down = self.size[0] / width, self.size[1] / height
             rows["input_boxes_px"] = rows["input_boxes_px"] * np.array([across, down, across, down], np.float32)
-        sample.update(trajectory_id=name, start_frame=start, role=int(self._columns["role"][number]), **rows)
+        sample.update(trajectory_id=name, start_frame=start, role=ROLES[int(self._columns["role"][number])], **rows)
         return self._captioned(sample, name)
-
-    def _captioned(self, sample: Sample, name: str) -> Sample:
-        if self._captions:
-            sample["caption"] = self._captions.get(name, "")
-        return sample
-
-    def __repr__(self) -> str:
-        what = "windows" if self.windows else "frames"
-        return f"<cosfly.Dataset {self.path}: {len(self)} {what} of {len(self.trajectory_ids)} trajectories>"
-
-    def _repr_html_(self) -> str:
-        from ._show import dataset_html
-
-        return dataset_html(self)
 
 
 class Loader:
@@ -281,9 +308,10 @@ class Loader:
 
     Iterating gives the rest of the current epoch; the next iteration gives the next epoch. ``state_dict()`` and
     ``load_state_dict()`` keep the place. Arrays are stacked, other values become lists. ``shard=(rank, world_size)``
-    splits every epoch between processes; ``jobs`` threads decode pictures side by side.
+    splits every epoch between processes; ``jobs`` of the dataset decode pictures side by side.
     """
 
+    @options()
     def __init__(
         self, dataset: Dataset, batch_size: int = 1, *, seed: int = 0, shuffle: bool = True,
         shard: Tuple[int, int] = (0, 1), drop_last: bool = False,
@@ -320,7 +348,7 @@ class Loader:
         """What the number of a batch means: which samples, in which order, how many at a time."""
         of = self.dataset
         return {
-            "samples": len(of), "dataset": of.identity, "split": of.split, "windows": of.windows, "role": of.role,
+            "samples": len(of), "dataset": of.identity, "split": of.split, "unit": of._unit, "role": of.role,
             "batch_size": self.batch_size, "shuffle": self.shuffle, "shards": self.shard[1],
         }  # fmt: skip
 
@@ -330,31 +358,35 @@ class Loader:
         other = [name for name in mine if name in state and state[name] != mine[name]]
         if other:
             told = ", ".join(f"{name} {state[name]!r}, here {mine[name]!r}" for name in other)
-            raise BadValue(f"the state is of other batches: {told}; make the loader as it was, or begin anew")
+            raise InvalidValue(f"the state is of other batches: {told}; make the loader as it was, or begin anew")
         if "dataset" not in state:
             warnings.warn("the state was taken by an older cosfly and does not say of which dataset it is", stacklevel=2)
         epoch, batch, seed = (_whole(name, state[name], 0) for name in ("epoch", "batch", "seed"))
         if batch > len(self):
-            raise BadValue(f"the state is at batch {batch}; an epoch has {len(self)} batches")
+            raise InvalidValue(f"the state is at batch {batch}; an epoch has {len(self)} batches")
         self.epoch, self.batch, self.seed = epoch, batch, seed
 
 
 def numbered(what: str, index: Any, count: int) -> int:
     """Place of an item by its number, as lists have it: whole numbers, from the end where negative."""
-    try:
-        number = operator.index(index)
-    except TypeError:
-        raise BadType(f"a {what} is chosen by a whole number, not by {index!r} ({type(index).__name__})") from None
+    number = _index(what, index)
     if not -count <= number < count:
         raise OutOfRange(f"{what} {number} of {count}")
     return number % count
+
+
+def _index(what: str, index: Any) -> int:
+    try:
+        return operator.index(index)
+    except TypeError:
+        raise WrongType(f"a {what} is chosen by a whole number, not by {index!r} ({type(index).__name__})") from None
 
 
 def _shard(shard: Tuple[int, int]) -> Tuple[int, int]:
     """Number of a shard and of all shards."""
     first, count = (_whole("shard", part, 0) for part in shard)
     if not first < count:
-        raise BadValue(f"the shard is {shard}; it must be (k, n) with 0 <= k < n")
+        raise InvalidValue(f"the shard is {shard}; it must be (k, n) with 0 <= k < n")
     return first, count
 
 
@@ -363,9 +395,9 @@ def _whole(name: str, value: Any, least: int) -> int:
     try:
         number = operator.index(value)
     except TypeError:
-        raise BadType(f"`{name}` is {value!r}; it must be a whole number") from None
+        raise WrongType(f"`{name}` is {value!r}; it must be a whole number") from None
     if number < least:
-        raise BadValue(f"`{name}` is {number}; it must be at least {least}")
+        raise InvalidValue(f"`{name}` is {number}; it must be at least {least}")
     return number
 
 

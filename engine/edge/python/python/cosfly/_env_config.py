@@ -9,8 +9,8 @@ import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Mapping, Sequence
 
-from ._calls import settings
-from ._errors import BadType, BadValue
+from ._calls import settings_of
+from ._errors import WrongType, InvalidValue
 
 if TYPE_CHECKING:
     from typing import TypedDict
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     class EnvOptions(TypedDict, total=False):
         """The fields of :class:`EnvConfig` but for the recipe, as keyword arguments."""
 
-        set: Mapping[str, Any] | Sequence[str]
+        set: Mapping[str, Any] | None
         store: str | os.PathLike[str] | None
         obs: Sequence[str]
         size: int | tuple[int, int]
@@ -42,7 +42,7 @@ class EnvConfig:
 
     recipe: str | os.PathLike[str]
     """The recipe, or a folder with a ``recipe.toml``."""
-    set: Mapping[str, Any] | Sequence[str] = ()
+    set: Mapping[str, Any] | None = None
     """Changes to values of the recipe, as of :func:`cosfly.run`."""
     store: str | os.PathLike[str] | None = None
     """Folder of the store; else that of ``COSFLY_STORE``, else ``.cosfly``."""
@@ -66,19 +66,18 @@ class EnvConfig:
     """Whether ``info`` has the expert's action."""
 
     def __post_init__(self) -> None:
-        if isinstance(self.set, str):
-            raise BadValue(f"set is {self.set!r}; it is a dictionary, or a list such as ['stages.walkers.count=8']")
+        settings_of(self.set)
         if self.jobs is not None and not 1 <= operator.index(self.jobs) <= 1024:
-            raise BadValue(f"jobs is {self.jobs}; it is 1 to 1024")
+            raise InvalidValue(f"jobs is {self.jobs}; it is 1 to 1024")
         names = tuple(self.obs)
         if not names or not {*names} <= {*OBSERVATIONS} or len({*names}) < len(names):
-            raise BadValue(f"obs is {names}; it names one or several of {', '.join(OBSERVATIONS)}, each once")
+            raise InvalidValue(f"obs is {names}; it names one or several of {', '.join(OBSERVATIONS)}, each once")
         if not all(8 <= side <= _LARGEST_SIZE for side in self.sides):
-            raise BadValue(f"size is {self.sides}; the sides of pictures are 8 to {_LARGEST_SIZE} pixels")
+            raise InvalidValue(f"size is {self.sides}; the sides of pictures are 8 to {_LARGEST_SIZE} pixels")
         if not 1.0 <= self.max_depth_m <= 1e6:
-            raise BadValue(f"max_depth_m is {self.max_depth_m}; it is 1 to 1000000 m")
+            raise InvalidValue(f"max_depth_m is {self.max_depth_m}; it is 1 to 1000000 m")
         if not 0.01 <= self.step_s <= 1.0 or not 0.0 <= (self.latency_s or 0.0) <= 5.0:
-            raise BadValue(f"step_s is {self.step_s} (0.01 to 1 s) and latency_s is {self.latency_s} (0 to 5 s)")
+            raise InvalidValue(f"step_s is {self.step_s} (0.01 to 1 s) and latency_s is {self.latency_s} (0 to 5 s)")
 
     @classmethod
     def of(cls, recipe: str | os.PathLike[str], options: Mapping[str, Any]) -> EnvConfig:
@@ -88,7 +87,7 @@ class EnvConfig:
             if name not in known:
                 near = _FORMER.get(name) or next(iter(difflib.get_close_matches(name, known, 1)), None)
                 advice = f"did you mean `{near}`?" if near else f"the settings are {', '.join(known)}"
-                raise BadType(f"environments have no setting `{name}`; {advice}")
+                raise WrongType(f"environments have no setting `{name}`; {advice}")
         return cls(recipe, **options)
 
     # What the extension module reads.
@@ -107,7 +106,7 @@ class EnvConfig:
     @property
     def changes(self) -> list[str]:
         """Changes to the recipe, as the command line takes them."""
-        return settings(self.set)[1::2]
+        return list(settings_of(self.set))
 
     @property
     def place(self) -> str:

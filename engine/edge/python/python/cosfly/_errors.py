@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import difflib
+import functools
+import inspect
 import re
 from dataclasses import dataclass
-from typing import Optional, Sequence, Tuple
+from typing import Any, Callable, Optional, Sequence, Tuple, TypeVar, cast
+
+Call = TypeVar("Call", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True)
@@ -24,21 +29,20 @@ class Problem:
 class Error(Exception):
     """A call that cannot be carried out; the text is the one that the command line prints."""
 
+    _code = "unknown"
+
     def __init__(self, text: str, problems: Sequence[dict] = ()):
-        super().__init__(text)  # PyTorch gives the text of a worker's error alone
+        Exception.__init__(self, text)  # PyTorch gives the text of a worker's error alone
         self.problems: Tuple[Problem, ...] = tuple(
             Problem(it["code"], it["message"], tuple(it["hints"]), tuple(it["place"]) if it["place"] else None)
             for it in problems
         )
 
-    def __str__(self) -> str:
-        return str(self.args[0])
-
     @property
     def code(self) -> str:
-        """Code of the first problem; of a wrong argument ``argument``."""
+        """Code of the first problem."""
         found = re.search(r"error\[([a-z0-9-]+)\]", str(self))
-        return self.problems[0].code if self.problems else found[1] if found else "argument"
+        return self.problems[0].code if self.problems else found[1] if found else self._code
 
     @property
     def hints(self) -> Tuple[str, ...]:
@@ -54,26 +58,50 @@ class Error(Exception):
         problems = [dict(code=p.code, message=p.message, hints=p.hints, place=p.place) for p in self.problems]
         return type(self), (str(self), problems)
 
-
-class BadValue(Error, ValueError):
-    """An argument with a value that is not allowed."""
+    __str__ = Exception.__str__  # KeyError would quote the text
 
 
-class BadType(Error, TypeError):
-    """An argument of a type that is not allowed."""
+class InvalidValue(Error, ValueError):
+    """A value that is not allowed."""
+
+    _code = "python-value"
+
+
+class WrongType(Error, TypeError):
+    """A value of a type that is not allowed."""
+
+    _code = "python-type"
 
 
 class NotFound(Error, KeyError):
-    """A name that a dataset does not have."""
+    """A name that does not exist: of a trajectory, a table's column, a town."""
+
+    _code = "python-name"
 
 
 class OutOfRange(Error, IndexError):
-    """A number beyond the end of what it counts."""
+    """A number beyond the last sample or frame."""
+
+    _code = "python-number"
 
 
-class AlreadyThere(Error, FileExistsError):
-    """A folder that would be written is there already."""
+def options(**gone: str) -> Callable[[Call], Call]:
+    """Refuses keywords that a function does not have, with the nearest name; ``gone`` says what former ones are called now."""
 
+    def of(function: Call) -> Call:
+        known = inspect.signature(function).parameters
+        takes_more = any(it.kind is it.VAR_KEYWORD for it in known.values())
 
-class NotThere(Error, FileNotFoundError):
-    """A file or folder that is read is not there."""
+        @functools.wraps(function)
+        def call(*values: Any, **given: Any) -> Any:
+            for name in given:
+                if name in gone:
+                    raise WrongType(f"`{name}` is no option any more: use {gone[name]}")
+                if name not in known and not takes_more:
+                    near = difflib.get_close_matches(name, known, 1)
+                    raise WrongType(f"there is no option `{name}`" + (f"; did you mean `{near[0]}`?" if near else ""))
+            return function(*values, **given)
+
+        return cast(Call, call)
+
+    return of

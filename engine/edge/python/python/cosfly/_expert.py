@@ -5,21 +5,21 @@ from __future__ import annotations
 import json
 import math
 import os
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, Dict, List, Mapping, Optional, Sequence
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _cosfly
-from ._calls import PathLike, Settings, _options, settings
+from ._calls import PathLike, Settings, settings_of
+from ._errors import options
 
 
 @dataclass(frozen=True)
 class Answer:
     """The expert's answer to one state."""
 
-    trajectory: str
+    trajectory_id: str
     frame: int
     """Frame of the state; -1 where the state has none that is a number."""
     planned: bool
@@ -39,32 +39,43 @@ class Answer:
 
 
 class Expert:
-    """The expert of a finished recipe: run the recipe first, with the same settings and store."""
+    """The expert of a finished recipe: run the recipe first, with the same settings and store.
 
+    The recipe is planned with the first question; towns and flights that were asked for are kept. A recipe that is run
+    anew takes a new object.
+    """
+
+    @options(overrides="`set`")
     def __init__(self, recipe: PathLike, *, set: Settings = None, store: Optional[PathLike] = None):
-        self._arguments = ["ask-expert", os.fspath(recipe), "--batch", *settings(set), *_options(store=store)]
+        place = None if store is None else os.fspath(store)
+        self._options = json.dumps({"recipe": os.fspath(recipe), "set": settings_of(set), "store": place})
+        self._opened: Tuple[int, Optional[_cosfly.ExpertService]] = (-1, None)
 
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**self.__dict__, "_opened": (-1, None)}
+
+    @options(threads="`jobs`")
     def plan_from(self, states: Sequence[Mapping[str, Any]], *, jobs: Optional[int] = None) -> List[Answer]:
-        """Ask about states, in their order, over all cores.
+        """Ask about states, in their order, over ``jobs`` or all cores.
 
-        A state is a dictionary: ``trajectory`` (id), ``frame``, ``position`` (x, y, z in the world frame, metres), and
-        optionally ``velocity`` (m/s; that of the published flight in this frame unless given) and ``horizon_s``. A state that is not allowed gives an answer with ``error``; only
-        a recipe that was not run raises :class:`cosfly.Error`.
+        A state is a dictionary: ``trajectory_id``, ``frame``, ``position_in_world`` (x, y, z, metres), and optionally
+        ``velocity_in_world`` (m/s; that of the published flight in this frame unless given) and ``horizon_s``. A state
+        that is not allowed gives an answer with ``error``; only a recipe that was not run raises :class:`cosfly.Error`.
         """
         lines = [json.dumps({key: _plain(value) for key, value in state.items()}) for state in states]
         if not lines:
             return []
-        jobs = max(1, min(jobs or os.cpu_count() or 1, math.ceil(len(lines) / 4)))
-        size = math.ceil(len(lines) / jobs)
-        parts = [lines[start : start + size] for start in range(0, len(lines), size)]
-        if len(parts) == 1:
-            return self._ask(parts[0])
-        with ThreadPoolExecutor(len(parts)) as pool:
-            return [answer for part in pool.map(self._ask, parts) for answer in part]
+        parts = max(1, min(jobs or os.cpu_count() or 1, math.ceil(len(lines) / 4)))
+        answers = self._service.answers(lines, parts)
+        return [_answer(json.loads(line), json.loads(asked)) for line, asked in zip(answers, lines)]
 
-    def _ask(self, lines: List[str]) -> List[Answer]:
-        _, text, _ = _cosfly.call(self._arguments, "\n".join(lines).encode() + b"\n")
-        return [_answer(json.loads(line), json.loads(asked)) for line, asked in zip(text.splitlines(), lines)]
+    @property
+    def _service(self) -> _cosfly.ExpertService:
+        process, service = self._opened
+        if service is None or process != os.getpid():  # threads do not survive a fork
+            service = _cosfly.ExpertService(self._options)
+            self._opened = (os.getpid(), service)
+        return service
 
 
 def _plain(value: Any) -> Any:
@@ -78,11 +89,10 @@ def _plain(value: Any) -> Any:
 
 def _answer(found: Dict[str, Any], asked: Dict[str, Any]) -> Answer:
     waypoints = found.get("waypoints") or []
-    position = lambda it: it.get("position_in_world") or it.get("position")
-    poses = [[*position(it), it["pitch_deg"], it["yaw_deg"]] for it in waypoints]
+    poses = [[*it["position_in_world"], it["pitch_deg"], it["yaw_deg"]] for it in waypoints]
     error, frame = found.get("error"), found.get("frame", asked.get("frame"))
     return Answer(
-        trajectory=str(found.get("trajectory", asked.get("trajectory"))),
+        trajectory_id=str(found.get("trajectory_id", asked.get("trajectory_id"))),
         frame=frame if isinstance(frame, int) else -1,
         planned=bool(found.get("planned", False)),
         reason=found.get("reason"),

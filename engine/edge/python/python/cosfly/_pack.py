@@ -16,7 +16,7 @@ import numpy as np
 from . import _cosfly
 from ._calls import PathLike, Progress
 from ._dataset import Dataset
-from ._errors import AlreadyThere, BadValue, NotThere, OutOfRange
+from ._errors import InvalidValue, OutOfRange, options
 from ._show import Bars
 
 FORMAT = "cosfly-pack-2"
@@ -24,6 +24,7 @@ TYPES = {"rgb": np.uint8, "depth": np.float16, "semantic": np.uint8, "instance":
 CHUNK = 64
 
 
+@options(threads="`jobs`")
 def pack(
     dataset: PathLike,
     out: PathLike,
@@ -42,7 +43,7 @@ def pack(
     """
     out, frames = Path(out), Dataset(dataset, channels=channels, size=size, jobs=jobs or os.cpu_count() or 1)
     if os.path.lexists(out):
-        raise AlreadyThere(f"{out} is there already; choose another folder")
+        raise InvalidValue(f"{out} is there already; choose another folder")
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         scratch = Path(tempfile.mkdtemp(prefix=".cosfly-pack-", dir=out.parent))
@@ -95,6 +96,7 @@ class Pack(Dataset):
     """Samples of a dataset whose pictures come from a training pack.
 
     Takes the options of :class:`cosfly.Dataset` but ``size``, and gives the same samples; depth is float16.
+    ``Pack(...).windows()`` are its training windows.
     """
 
     def __init__(self, path: PathLike, dataset: PathLike, **options: Any):
@@ -115,7 +117,7 @@ class Pack(Dataset):
         if channel not in self._frames:
             path = self.pack_path / f"{channel}.npy"
             if not path.exists():
-                raise BadValue(f"{self.pack_path} has no channel {channel!r}")
+                raise InvalidValue(f"{self.pack_path} has no channel {channel!r}")
             self._frames[channel] = Frames(path, self._seal)
             width, height = self.size or (0, 0)
             expected = (sum(self._counts), height, width)
@@ -125,7 +127,7 @@ class Pack(Dataset):
 
     def _images(self, frames: Any, channels: Sequence[str], size: Any) -> Dict[str, Any]:
         if size is not None and tuple(size) != self.size:
-            raise BadValue(f"the pack {self.pack_path} has pictures of {self.size}; another size takes another pack")
+            raise InvalidValue(f"the pack {self.pack_path} has pictures of {self.size}; another size takes another pack")
         self._places(frames)
         places = [self._first[name] + int(frame) for name, frame in frames]
         return {channel: self._stacked(places, channel) for channel in channels}
@@ -222,16 +224,16 @@ def _about(pack: Path) -> Tuple[Dict[str, Any], str]:
         text = path.read_bytes()
         about = json.loads(text.decode())
     except FileNotFoundError:
-        raise NotThere(f"{pack} is no training pack: it has no pack.json; `cosfly.pack` writes one") from None
+        raise InvalidValue(f"{pack} is no training pack: it has no pack.json; `cosfly.pack` writes one") from None
     except OSError as error:
         raise _refused(f"read `{path}`", error) from None
     except ValueError:
         raise _cosfly.damaged_pack(os.fspath(path), "it is not JSON") from None
     form = about.get("format") if isinstance(about, dict) else None
     if form == "cosfly-pack-1":
-        raise BadValue(f"{pack} was made by an older cosfly and does not say of which dataset; `cosfly.pack` makes a new pack")
+        raise InvalidValue(f"{pack} was made by an older cosfly and does not say of which dataset; `cosfly.pack` makes a new pack")
     if form != FORMAT:
-        raise BadValue(f"{pack} has the format {form!r}; this version reads {FORMAT!r}")
+        raise InvalidValue(f"{pack} has the format {form!r}; this version reads {FORMAT!r}")
     kinds = {"dataset": dict, "size": list, "channels": list, "first_frame": dict}
     wrong = [name for name, kind in kinds.items() if not isinstance(about.get(name), kind)]
     if wrong or not {"identity", "path"} <= about["dataset"].keys():

@@ -9,8 +9,6 @@ import sys
 import tempfile
 from typing import Any, Dict, Tuple
 
-import numpy as np
-
 from . import _cosfly
 
 LARGEST_REPORT = 8_000_000
@@ -79,6 +77,8 @@ class Frame(Dict[str, Any]):
 
     def png(self, channel: str) -> bytes:
         """A PNG file: colours as they are, depth warm (near) to cold (far), labels in CARLA's colours, ids in a colour each."""
+        import numpy as np
+
         image = self[channel]
         image = image.astype(np.float32) if image.dtype == np.float16 else image
         return _cosfly.shown(channel, np.ascontiguousarray(image).tobytes(), image.shape[1], image.shape[0])

@@ -6,7 +6,7 @@ import json
 import math
 from typing import Any, Mapping
 
-from ._errors import BadType
+from ._errors import WrongType
 
 
 def dumps(recipe: Mapping[str, Any]) -> str:
@@ -20,7 +20,7 @@ def dumps(recipe: Mapping[str, Any]) -> str:
                     lines.append(f"\n[{_key(key)}.{_key(name)}]")
                     lines += [f"{_key(k)} = {value_text(v)}" for k, v in value.items()]
                 else:
-                    raise BadType(f"`{key}.{name}` must be a table, like stages.town = {{use = 'map'}}")
+                    raise WrongType(f"`{key}.{name}` must be a table, like stages.town = {{use = 'map'}}")
     return "\n".join(lines) + "\n"
 
 
@@ -43,7 +43,7 @@ def value_text(value: Any) -> str:
     if isinstance(value, str) or hasattr(value, "__fspath__"):
         # JSON's escapes of strings are TOML's; DEL alone must be escaped as well.
         return json.dumps(str(value), ensure_ascii=False).replace("\x7f", "\\u007f")
-    raise BadType(f"a recipe cannot hold {value!r}: use numbers, texts, booleans, lists and dictionaries")
+    raise WrongType(f"a recipe cannot hold {value!r}: use numbers, texts, booleans, lists and dictionaries")
 
 
 def _key(key: str) -> str:

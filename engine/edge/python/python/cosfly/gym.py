@@ -24,7 +24,7 @@ from gymnasium.vector.utils import batch_space
 
 from ._cosfly import VectorEnvironment
 from ._env_config import OBSERVATIONS, EnvConfig
-from ._errors import BadValue
+from ._errors import InvalidValue
 from ._gym import register
 
 if TYPE_CHECKING:
@@ -52,11 +52,11 @@ def _rows(actions: Any, shape: tuple[int, ...]) -> np.ndarray:
     try:
         rows = np.asarray(actions)
     except Exception as error:
-        raise BadValue(f"actions are no array of numbers: {error}") from error
+        raise InvalidValue(f"actions are no array of numbers: {error}") from error
     if rows.dtype.kind not in "fiu":
-        raise BadValue(f"actions are of type {rows.dtype}; they are numbers, such as float32")
+        raise InvalidValue(f"actions are of type {rows.dtype}; they are numbers, such as float32")
     if rows.shape != shape:
-        raise BadValue(f"actions have the shape {rows.shape}; it is {shape}")
+        raise InvalidValue(f"actions have the shape {rows.shape}; it is {shape}")
     return np.ascontiguousarray(rows, dtype=np.float64)
 
 
@@ -65,7 +65,7 @@ def _seed(seed: Any) -> int | None:
     if seed is None:
         return None
     if isinstance(seed, (bool, np.bool_)) or not isinstance(seed, (int, np.integer)) or seed < 0:
-        raise BadValue(f"a seed is {seed!r}; it is a whole number from 0 on")
+        raise InvalidValue(f"a seed is {seed!r}; it is a whole number from 0 on")
     return int(seed) % 2**64
 
 
@@ -149,7 +149,7 @@ class TrackVector(VectorEnv):
     ) -> None:
         mode = AutoresetMode(autoreset_mode)
         if isinstance(num_envs, bool) or not 1 <= operator.index(num_envs) <= _MOST_ENVIRONMENTS:
-            raise BadValue(f"num_envs is {num_envs}; it is 1 to {_MOST_ENVIRONMENTS}")
+            raise InvalidValue(f"num_envs is {num_envs}; it is 1 to {_MOST_ENVIRONMENTS}")
         self.num_envs = num_envs = int(num_envs)
         self.metadata = {**type(self).metadata, "autoreset_mode": mode}
         self._mode = mode
@@ -173,7 +173,7 @@ class TrackVector(VectorEnv):
         else:
             seeds = [_seed(one) for one in seed]
         if len(seeds) != self.num_envs:
-            raise BadValue(f"{len(seeds)} seeds for {self.num_envs} environments")
+            raise InvalidValue(f"{len(seeds)} seeds for {self.num_envs} environments")
         if not self._is_reset and not all(chosen):
             raise ResetNeeded("the first reset is of all environments: leave reset_mask out")
         drawn = self._streams.drawn
@@ -192,7 +192,7 @@ class TrackVector(VectorEnv):
             return [True] * self.num_envs
         chosen = np.asarray(mask)
         if chosen.dtype != np.bool_ or chosen.shape != (self.num_envs,) or not chosen.any():
-            raise BadValue(
+            raise InvalidValue(
                 f"reset_mask is {chosen.dtype} of shape {chosen.shape}; it has a truth value for each of the {self.num_envs} "
                 "environments, and one at least is true"
             )

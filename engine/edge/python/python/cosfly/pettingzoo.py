@@ -20,7 +20,7 @@ from gymnasium.vector import AutoresetMode
 from pettingzoo import ParallelEnv
 
 from ._env_config import EnvConfig
-from ._errors import BadValue
+from ._errors import InvalidValue
 from .gym import _flock, _is_info, _rows, _seed, _Streams, action_space
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
         **options: Unpack[EnvOptions],
     ) -> None:
         if isinstance(num_drones, bool) or not 1 <= operator.index(num_drones) <= 64:
-            raise BadValue(f"num_drones is {num_drones}; it is 1 to 64")
+            raise InvalidValue(f"num_drones is {num_drones}; it is 1 to 64")
         config = EnvConfig.of(recipe, options)
         self._flock, self._observations = _flock(config, num_drones, AutoresetMode.DISABLED, is_team=True)
         self.render_mode = None
@@ -93,13 +93,13 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
         flying = list(self.agents)
         missing, unknown = [it for it in flying if it not in actions], [it for it in actions if it not in self._numbers]
         if missing or unknown:
-            raise BadValue(f"actions are of {sorted(map(str, actions))}; they are of the drones that fly: {flying}")
+            raise InvalidValue(f"actions are of {sorted(map(str, actions))}; they are of the drones that fly: {flying}")
         rows = np.zeros((len(self.possible_agents), 5), dtype=np.float64)
         for agent in flying:
             try:
                 rows[self._numbers[agent]] = _rows(actions[agent], (5,))
             except ValueError as error:
-                raise BadValue(f"{agent}: {error}") from None
+                raise InvalidValue(f"{agent}: {error}") from None
         self._flock.step(rows)
         told = self._told()
         number = self._numbers

@@ -15,7 +15,7 @@ from vla_eval.benchmarks.base import StepBenchmark, StepResult
 from vla_eval.specs import DimSpec
 
 from ._env_config import EnvConfig
-from ._errors import BadValue
+from ._errors import InvalidValue
 from ._outcome import Outcome
 from .gym import Track
 
@@ -65,7 +65,7 @@ class TrackBenchmark(StepBenchmark):
         numbers = np.asarray(action.get("actions", action.get("action")), dtype=np.float32)
         numbers = numbers.reshape(-1, numbers.shape[-1])[0] if numbers.ndim else numbers
         if numbers.shape != (5,) or not np.isfinite(numbers).all():
-            raise BadValue(f"an action is five finite numbers, not {action!r:.200}")
+            raise InvalidValue(f"an action is five finite numbers, not {action!r:.200}")
         state, reward, terminated, truncated, info = self._env.step(numbers)
         self._outcome.count(bool(info["tracked"]), reward, terminated, truncated)
         return StepResult(obs=state, reward=reward, done=terminated or truncated, info=info)

@@ -14,20 +14,23 @@ const FASTEST_MPS: f64 = 1000.0;
 /// Values are quoted up to this length.
 const QUOTED_CHARACTERS: usize = 60;
 
-const FIELDS: [&str; 5] = ["trajectory", "frame", "position", "velocity", "horizon_s"];
-const EXAMPLE: &str = "a state is like {\"trajectory\": \"expert-p00000\", \"frame\": 40, \"position\": [x, y, z], \"velocity\": [x, y, z], \"horizon_s\": 4}; velocity and horizon_s may be left out";
+const FIELDS: [&str; 5] = ["trajectory_id", "frame", "position_in_world", "velocity_in_world", "horizon_s"];
+/// Former names of fields and the names that they have now.
+const GONE: [(&str, &str); 3] =
+    [("trajectory", "trajectory_id"), ("position", "position_in_world"), ("velocity", "velocity_in_world")];
+const EXAMPLE: &str = "a state is like {\"trajectory_id\": \"expert-p00000\", \"frame\": 40, \"position_in_world\": [x, y, z], \"velocity_in_world\": [x, y, z], \"horizon_s\": 4}; velocity_in_world and horizon_s may be left out";
 
 /// A drone's state beside a trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     /// Id of the trajectory.
-    pub trajectory: String,
+    pub trajectory_id: String,
     /// Frame of the trajectory.
     pub frame: usize,
     /// Position in the world frame, metres.
-    pub position: [f64; 3],
+    pub position_in_world: [f64; 3],
     /// Velocity in the world frame, m/s; that of the published flight in this frame where it is not given.
-    pub velocity: Option<[f64; 3]>,
+    pub velocity_in_world: Option<[f64; 3]>,
     /// Length of the answer, seconds; to the end of the trajectory where it is not given.
     pub horizon_s: Option<f64>,
 }
@@ -53,7 +56,8 @@ impl State {
         let mut values: [Option<Value>; FIELDS.len()] = Default::default();
         for (name, value) in fields {
             let Some(index) = FIELDS.iter().position(|known| *known == name) else {
-                let near = nearest_name(&name, FIELDS).map(|near| format!("did you mean `{near}`?"));
+                let now = GONE.iter().find(|(before, _)| *before == name).map(|(_, now)| *now);
+                let near = now.or_else(|| nearest_name(&name, FIELDS)).map(|near| format!("did you mean `{near}`?"));
                 return Err((format!("{} is not a field of a state", quoted(&Value::from(name))), near));
             };
             if values[index].replace(value).is_some() {
@@ -64,23 +68,25 @@ impl State {
         let [trajectory, frame, position, velocity, horizon] =
             values.map(|value| value.filter(|value| !value.is_null()));
         let given = |name: &str, value: Option<Value>| value.ok_or_else(|| refused(format!("`{name}` is missing")));
-        let trajectory = match given("trajectory", trajectory)? {
+        let trajectory = match given("trajectory_id", trajectory)? {
             Value::String(id) => id,
-            other => return Err(refused(wrong("trajectory", &other, "the id of a trajectory, a string"))),
+            other => return Err(refused(wrong("trajectory_id", &other, "the id of a trajectory, a string"))),
         };
         let frame = given("frame", frame)?;
         let index = frame.as_u64().and_then(|frame| usize::try_from(frame).ok());
-        let position = given("position", position)?;
-        let place = triple(&position).ok_or_else(|| refused(wrong("position", &position, "three numbers, metres")))?;
-        let still =
-            |value: &Value| triple(value).ok_or_else(|| refused(wrong("velocity", value, "three numbers, m/s")));
+        let position = given("position_in_world", position)?;
+        let place =
+            triple(&position).ok_or_else(|| refused(wrong("position_in_world", &position, "three numbers, metres")))?;
+        let still = |value: &Value| {
+            triple(value).ok_or_else(|| refused(wrong("velocity_in_world", value, "three numbers, m/s")))
+        };
         let seconds =
             |value: &Value| value.as_f64().ok_or_else(|| refused(wrong("horizon_s", value, "a number, seconds")));
         Ok(Self {
-            trajectory,
+            trajectory_id: trajectory,
             frame: index.ok_or_else(|| refused(wrong("frame", &frame, "a whole number from 0 on")))?,
-            position: place,
-            velocity: velocity.as_ref().map(still).transpose()?,
+            position_in_world: place,
+            velocity_in_world: velocity.as_ref().map(still).transpose()?,
             horizon_s: horizon.as_ref().map(seconds).transpose()?,
         })
     }
@@ -93,10 +99,10 @@ impl State {
         let state_refused = |message: String| Err(Diagnostic::new("ask-expert-state", Fault::Input, message));
         let Some(target) = track.states.get(self.frame) else {
             let (frame, frames) = (self.frame, track.len());
-            let message = format!("frame {frame} is beyond `{}`, which has {frames} frames", self.trajectory);
+            let message = format!("frame {frame} is beyond `{}`, which has {frames} frames", self.trajectory_id);
             return Err(Diagnostic::new("ask-expert-frame", Fault::Input, message).hint("frames count from 0"));
         };
-        let (place, velocity) = (self.position, self.velocity.unwrap_or_default());
+        let (place, velocity) = (self.position_in_world, self.velocity_in_world.unwrap_or_default());
         if place.iter().any(|value| plausible(*value).is_err()) {
             return state_refused(format!(
                 "the position is {place:?}; it must be three numbers up to {LARGEST_MAGNITUDE:e}"
@@ -184,13 +190,16 @@ mod tests {
     #[test]
     fn states_are_read_and_what_may_be_left_out_may_be_null() {
         let whole =
-            br#"{"trajectory": "e-p0", "frame": 4, "position": [1, 2.5, 3], "velocity": [0, -1, 0], "horizon_s": 2}"#;
+            br#"{"trajectory_id": "e-p0", "frame": 4, "position_in_world": [1, 2.5, 3], "velocity_in_world": [0, -1, 0], "horizon_s": 2}"#;
         let state = State::of_line(whole).unwrap();
-        assert_eq!((state.frame, state.position, state.velocity), (4, [1.0, 2.5, 3.0], Some([0.0, -1.0, 0.0])));
+        assert_eq!(
+            (state.frame, state.position_in_world, state.velocity_in_world),
+            (4, [1.0, 2.5, 3.0], Some([0.0, -1.0, 0.0]))
+        );
         assert_eq!(state.horizon_s, Some(2.0));
         let null =
-            br#"{"trajectory": "e-p0", "frame": 4, "position": [1, 2.5, 3], "velocity": null, "horizon_s": null}"#;
-        assert_eq!(State::of_line(null).unwrap(), State { velocity: None, horizon_s: None, ..state });
+            br#"{"trajectory_id": "e-p0", "frame": 4, "position_in_world": [1, 2.5, 3], "velocity_in_world": null, "horizon_s": null}"#;
+        assert_eq!(State::of_line(null).unwrap(), State { velocity_in_world: None, horizon_s: None, ..state });
     }
 
     #[test]
@@ -199,13 +208,17 @@ mod tests {
         check_refused(b"[1, 2]", "not a JSON object");
         check_refused(br#"{"frame": 4"#, "ends too early");
         check_refused(br#"{"frame": NaN}"#, "at column 11");
-        check_refused(br#"{"trajectory": "e"}"#, "`frame` is missing");
-        check_refused(br#"{"trajectory": 3}"#, "`trajectory` is `3`");
+        check_refused(br#"{"trajectory_id": "e"}"#, "`frame` is missing");
+        check_refused(br#"{"trajectory_id": 3}"#, "`trajectory_id` is `3`");
         check_refused(br#"{"frame": 4, "frame": 5}"#, "`frame` is there twice");
         check_refused(br#"{"poition": 4}"#, "`\"poition\"` is not a field");
-        let with =
-            |frame: &str, place: &str| format!(r#"{{"trajectory": "e", "frame": {frame}, "position": {place}}}"#);
+        let with = |frame: &str, place: &str| {
+            format!(r#"{{"trajectory_id": "e", "frame": {frame}, "position_in_world": {place}}}"#)
+        };
         check_refused(with("-1", "[1, 2, 3]").as_bytes(), "`frame` is `-1`; it must be a whole number");
-        check_refused(with("1", "[1, 2]").as_bytes(), "`position` is `[1,2]`; it must be three numbers, metres");
+        check_refused(
+            with("1", "[1, 2]").as_bytes(),
+            "`position_in_world` is `[1,2]`; it must be three numbers, metres",
+        );
     }
 }
