@@ -63,7 +63,7 @@ def test_recipes_are_dictionaries_too():
         "name": "dict", "seed": 1,
         "stages": {
             "town": {"use": "map", "source": "small/towns/downtown.xodr"},
-            "walkers": {"use": "pedestrians", "inputs": {"town": "town"}, "count": 1, "steps": 20},
+            "walkers": {"use": "pedestrians", "inputs": {"town": "town"}, "count": 1, "frames": 20},
         },
     }  # fmt: skip
     seen = []
