@@ -10,7 +10,7 @@ const OF_COLUMNS: [&str; 9] =
 /// Other names that begin so: a frame of logs, keys and schema of the release's layout, a key of recipes.
 const OTHERS: [&str; 5] = ["camera_optical", "drone_nav_traj_v7", "drone_pose", "target_stands_out", "target_losses"];
 /// Pictures and texts of the samples of the Python package.
-const OF_SAMPLES: [&str; 5] = ["caption", "depth", "instance", "rgb", "semantic"];
+const OF_SAMPLES: [&str; 6] = ["caption", "captions", "depth", "instance", "rgb", "semantic"];
 /// Pages whose examples index other things than rows of tables.
 const NOT_OF_TABLES: [&str; 7] = [
     "guide/closed-loop.md",

@@ -28,7 +28,7 @@ fn check_map(name: &str, from: &str, to: &str) {
 fn recipe_mistakes_point_at_the_place_and_name_the_way_out() {
     check_recipe("unknown_key", "count = 3", "cuont = 3");
     check_recipe("unknown_kind", "use = \"plan\"", "use = \"mucco\"");
-    check_recipe("wrong_type", "steps = 12", "steps = \"many\"");
+    check_recipe("wrong_type", "frames = 12", "frames = \"many\"");
     check_recipe("out_of_range", "width = 96", "width = 0");
     check_recipe("missing_input", "inputs.town = \"town\"\ncount", "count");
     check_recipe("unknown_stage", "walks = \"walkers\"", "walks = \"walker\"");

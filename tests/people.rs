@@ -10,7 +10,7 @@ use std::path::Path;
 /// The street with a crowd of eight, and all walkers in its pictures.
 fn street() -> Street {
     let crowd =
-        "[stages.crowd]\nuse = \"pedestrians\"\ninputs.town = \"town\"\ncount = 8\nsteps = 8\n\n[stages.frames]";
+        "[stages.crowd]\nuse = \"pedestrians\"\ninputs.town = \"town\"\ncount = 8\nframes = 8\n\n[stages.frames]";
     let changed = RECIPE.replacen("[stages.frames]", crowd, 1).replacen(
         "trajectories = [\"expert\", \"perturbed\"] }\nwidth",
         "trajectories = [\"expert\", \"perturbed\"], others = [\"walkers\", \"crowd\"] }\nwidth",

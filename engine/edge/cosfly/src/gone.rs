@@ -24,8 +24,23 @@ const GONE: &[(&str, &str, &str)] = &[
     ("ask-expert", "--horizon", "write `--horizon-s`"),
 ];
 
+/// The error of a command line with the way out, where it is about a former word. `command` is the first word of the line.
+pub fn explained(command: &str, error: clap::Error) -> clap::Error {
+    match replacement(command, &error) {
+        Some(advice) => clap::Error::raw(error.kind(), format!("{}\n\n  help: {advice}\n", first_line(&error))),
+        None => error,
+    }
+}
+
+/// First line of an error of the command line, without its "error: ".
+fn first_line(error: &clap::Error) -> String {
+    let text = error.to_string();
+    let line = text.lines().next().unwrap_or_default();
+    line.strip_prefix("error: ").unwrap_or(line).to_owned()
+}
+
 /// What to write instead of the word that an error is about, where the word is a former one. `command` is the first word of the line.
-pub fn replacement(command: &str, error: &clap::Error) -> Option<&'static str> {
+fn replacement(command: &str, error: &clap::Error) -> Option<&'static str> {
     let kind = match error.kind() {
         ErrorKind::UnknownArgument => ContextKind::InvalidArg,
         ErrorKind::InvalidSubcommand => ContextKind::InvalidSubcommand,

@@ -59,19 +59,9 @@ pub fn call(arguments: impl IntoIterator<Item = OsString>, console: &dyn Console
     let line: Vec<OsString> = std::iter::once(OsString::from("cosfly")).chain(arguments).collect();
     let matches = cli::cli().try_get_matches_from(&line).map_err(|error| {
         let command = line.get(1).and_then(|word| word.to_str()).unwrap_or_default();
-        Refusal::Arguments(Box::new(match gone::replacement(command, &error) {
-            Some(advice) => clap::Error::raw(error.kind(), format!("{}\n\n  help: {advice}\n", first_line(&error))),
-            None => error,
-        }))
+        Refusal::Arguments(Box::new(gone::explained(command, error)))
     })?;
     command::dispatch(commands::COMMANDS, &matches, console).map_err(|refusals| Refusal::Work(refusals.0))
-}
-
-/// First line of an error of the command line, without its "error: ".
-fn first_line(error: &clap::Error) -> String {
-    let text = error.to_string();
-    let line = text.lines().next().unwrap_or_default();
-    line.strip_prefix("error: ").unwrap_or(line).to_owned()
 }
 
 /// Reads the environment, once per process: the vector level, the user's folder of compiled plugins.

@@ -1,11 +1,11 @@
 //! Messages of all languages as data, and the [`Speaker`] that fills them.
 
 mod languages;
-#[cfg(test)]
-mod laws;
 mod slots;
 mod speaker;
 mod table;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use languages::{approximately, messages};
 pub(crate) use slots::{capital, fill};

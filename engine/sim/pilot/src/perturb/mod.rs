@@ -5,11 +5,13 @@ mod flyable;
 pub mod kinds;
 pub mod mixture;
 mod motion;
+mod sizes;
 mod twin;
 
-pub use config::{FlyableConfig, OffsetRange, PerturbConfig};
+pub use config::PerturbConfig;
 pub use kinds::KINDS;
 pub use mixture::Mixture;
+pub use sizes::{FlyableConfig, JumpSizes, OffsetRange};
 pub use twin::perturb;
 
 #[cfg(test)]

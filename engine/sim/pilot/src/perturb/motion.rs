@@ -1,6 +1,6 @@
 //! Displacements that a drone could fly: a spring that follows, the drift of every twin, waiting times. World frame, metres.
 
-use super::config::FlyableConfig;
+use super::sizes::FlyableConfig;
 use crate::aim::wander::Wander;
 use cosfly_frames::{DVec3, real};
 use cosfly_random::{RandomStream, Seed};

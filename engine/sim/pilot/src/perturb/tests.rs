@@ -1,8 +1,9 @@
 //! Twins: their shares of events, their bounds, their clearance, and what they depend on.
 
-use super::config::{FlyableConfig, PerturbConfig};
+use super::config::PerturbConfig;
 use super::kinds::{Departure, KINDS};
 use super::mixture::Mixture;
+use super::sizes::FlyableConfig;
 use super::twin::{measured, perturb};
 use cosfly_domain::{
     Certificate, FramePerturbation, OrientedBox, Perturbation, PerturbationKind, PlanOutcome, Trajectory,

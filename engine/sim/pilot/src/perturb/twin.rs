@@ -47,7 +47,7 @@ pub fn perturb(
     }
     let kind = config.mixture.draw(&seed);
     let (poses, frames) = match &kind.departure {
-        Departure::FrameByFrame(depart) => depart(expert, map, config, &seed),
+        Departure::FrameByFrame(depart) => depart(expert, map, &config.jumps(), &seed),
         Departure::Flown { offsets, views } => flyable::twin(expert, (*offsets, *views), map, config, &seed),
     };
     let kind = PerturbationKind::named(kind.name);

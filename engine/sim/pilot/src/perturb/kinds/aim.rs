@@ -2,7 +2,7 @@
 
 use super::kind::{Departing, Departure, Kind, no_offsets};
 use crate::aim::{AimConfig, aimed};
-use crate::perturb::config::FlyableConfig;
+use crate::perturb::sizes::FlyableConfig;
 use cosfly_frames::{DVec3, Pose, TargetTrack};
 
 pub(super) const KIND: Kind = Kind {

@@ -1,6 +1,6 @@
 //! Displacements of drone and aim: drawn, and for the drone kept away from obstacles.
 
-use crate::perturb::config::OffsetRange;
+use crate::perturb::sizes::OffsetRange;
 use cosfly_frames::{DVec3, real};
 use cosfly_random::RandomStream;
 use cosfly_surroundings::exact::ExactMap;

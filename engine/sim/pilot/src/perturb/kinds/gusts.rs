@@ -1,8 +1,8 @@
 //! `gusts`: gusts push the drone aside, from which it recovers.
 
 use super::kind::{Departing, Departure, Kind, straight_on};
-use crate::perturb::config::FlyableConfig;
 use crate::perturb::motion::{Spring, waiting_s};
+use crate::perturb::sizes::FlyableConfig;
 use cosfly_frames::{DVec3, real};
 use cosfly_random::RandomStream;
 

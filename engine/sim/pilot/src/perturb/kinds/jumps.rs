@@ -2,7 +2,7 @@
 
 use super::displacement::{Corridor, free_offset, horizontal_offset};
 use super::kind::{Departed, Departure, Kind};
-use crate::perturb::config::PerturbConfig;
+use crate::perturb::sizes::JumpSizes;
 use cosfly_domain::{FramePerturbation, Trajectory};
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_random::{RandomStream, Seed};
@@ -19,15 +19,15 @@ pub(super) const KIND: Kind = Kind {
 const STEEPEST_PITCH_RAD: f64 = 89.9 * (real::PI / 180.0);
 
 /// Poses and events of kind `jumps`.
-fn jumps(expert: &Trajectory, map: ExactMap<'_>, config: &PerturbConfig, seed: &Seed) -> Departed {
+fn jumps(expert: &Trajectory, map: ExactMap<'_>, sizes: &JumpSizes<'_>, seed: &Seed) -> Departed {
     let count = expert.track.len();
     let mut frames = Vec::with_capacity(count);
     let mut poses: Vec<Pose> = Vec::with_capacity(count);
     let (mut position_events, mut rotation_events) = (seed.stream("position event"), seed.stream("rotation event"));
     for frame in 0..count {
         let mut applied = FramePerturbation {
-            position: position_events.chance(config.position_probability),
-            rotation: rotation_events.chance(config.rotation_probability),
+            position: position_events.chance(sizes.position_probability),
+            rotation: rotation_events.chance(sizes.rotation_probability),
             drone_offset_in_world: DVec3::ZERO,
             aim_offset_in_world: DVec3::ZERO,
             pitch_offset_rad: 0.0,
@@ -36,7 +36,7 @@ fn jumps(expert: &Trajectory, map: ExactMap<'_>, config: &PerturbConfig, seed: &
         };
         let before = poses.last().map(|pose| pose.position_in_world);
         let own = seed.child("frame", frame as u64);
-        let pose = perturbed(expert, frame, before, map, config, &own, &mut applied);
+        let pose = perturbed(expert, frame, before, map, sizes, &own, &mut applied);
         poses.push(pose);
         frames.push(applied);
     }
@@ -49,7 +49,7 @@ fn perturbed(
     frame: usize,
     before: Option<DVec3>,
     map: ExactMap<'_>,
-    config: &PerturbConfig,
+    sizes: &JumpSizes<'_>,
     own: &Seed,
     applied: &mut FramePerturbation,
 ) -> Pose {
@@ -58,18 +58,18 @@ fn perturbed(
         let corridor = Corridor {
             map,
             frame,
-            clearance_m: config.clearance_m,
-            lowest_z_m: expert.track.states[frame].feet_in_world.z + config.min_height_m,
+            clearance_m: sizes.clearance_m,
+            lowest_z_m: expert.track.states[frame].feet_in_world.z + sizes.min_height_m,
             before,
             after: expert.poses_in_world.get(frame + 1).map(|pose| pose.position_in_world),
         };
         applied.drone_offset_in_world =
-            free_offset(&corridor, pose.position_in_world, &config.drone_offset, own.stream("drone"));
-        applied.aim_offset_in_world = horizontal_offset(&config.aim_offset, own.stream("aim"));
+            free_offset(&corridor, pose.position_in_world, sizes.drone_offset, own.stream("drone"));
+        applied.aim_offset_in_world = horizontal_offset(sizes.aim_offset, own.stream("aim"));
         pose = displaced(pose, expert, frame, applied);
     }
     if applied.rotation {
-        turn(&mut pose, applied, config, own.stream("rotation"));
+        turn(&mut pose, applied, sizes, own.stream("rotation"));
     }
     pose
 }
@@ -86,8 +86,8 @@ fn displaced(expert_pose: Pose, expert: &Trajectory, frame: usize, applied: &Fra
 
 /// Turns the view by an angle uniform in 0..=max, split into pitch and yaw by a uniform direction. The pitch stops at
 /// [`STEEPEST_PITCH_RAD`]; what was turned is recorded, not what was drawn.
-fn turn(pose: &mut Pose, applied: &mut FramePerturbation, config: &PerturbConfig, mut stream: RandomStream) {
-    let angle = stream.uniform(0.0, config.max_rotation_deg.to_radians());
+fn turn(pose: &mut Pose, applied: &mut FramePerturbation, sizes: &JumpSizes<'_>, mut stream: RandomStream) {
+    let angle = stream.uniform(0.0, sizes.max_rotation_deg.to_radians());
     let (sin, cos) = real::sin_cos(stream.uniform(-real::PI, real::PI));
     let pitch_rad = (pose.pitch_rad + sin * angle).clamp(-STEEPEST_PITCH_RAD, STEEPEST_PITCH_RAD);
     applied.pitch_offset_rad = pitch_rad - pose.pitch_rad;

@@ -1,6 +1,6 @@
 //! [`Kind`]: a kind of perturbation, and what a departure is made from.
 
-use crate::perturb::config::{FlyableConfig, PerturbConfig};
+use crate::perturb::sizes::{FlyableConfig, JumpSizes};
 use cosfly_domain::{FramePerturbation, Trajectory};
 use cosfly_frames::{DVec3, Pose, TargetTrack};
 use cosfly_random::Seed;
@@ -28,7 +28,7 @@ pub type Views = fn(&Departing<'_>, &TargetTrack, &[Pose]) -> Vec<Pose>;
 /// Departure of a twin from its expert.
 pub enum Departure {
     /// Frame by frame, as no drone could fly it.
-    FrameByFrame(fn(&Trajectory, ExactMap<'_>, &PerturbConfig, &Seed) -> Departed),
+    FrameByFrame(fn(&Trajectory, ExactMap<'_>, &JumpSizes<'_>, &Seed) -> Departed),
     /// As a drone could fly it. Displacements are made smaller until clearance, height, speed and acceleration hold; views turn no
     /// faster than `max_rate_deg_s`.
     Flown {

@@ -1,8 +1,8 @@
 //! `search`: losses of the target. The camera stays behind, looks to both sides, and returns.
 
 use super::kind::{Departing, Departure, Kind, no_offsets};
-use crate::perturb::config::FlyableConfig;
 use crate::perturb::motion::waiting_s;
+use crate::perturb::sizes::FlyableConfig;
 use cosfly_frames::{Pose, TargetTrack, real};
 use cosfly_random::RandomStream;
 
