@@ -27,7 +27,10 @@ fn check_map(name: &str, from: &str, to: &str) {
 #[test]
 fn recipe_mistakes_point_at_the_place_and_name_the_way_out() {
     check_recipe("unknown_key", "count = 3", "cuont = 3");
-    check_recipe("unknown_kind", "use = \"plan\"", "use = \"mucco\"");
+    check_recipe("unknown_kind", "use = \"plan\"", "use = \"plann\"");
+    check_recipe("former_kind", "use = \"plan\"", "use = \"muco\"");
+    check_recipe("former_input", "walks = \"walkers\"", "paths = \"walkers\"");
+    check_recipe("former_key", "frames = 12", "steps = 12");
     check_recipe("wrong_type", "frames = 12", "frames = \"many\"");
     check_recipe("out_of_range", "width = 96", "width = 0");
     check_recipe("missing_input", "inputs.town = \"town\"\ncount", "count");
