@@ -1,11 +1,11 @@
 //! LeRobot datasets (v3.0, and v2 where its tables are alike): `meta/info.json`, tables of frames, pictures or videos.
 //!
 //! * [`info`] reads `meta/info.json`.
-//! * [`features`] reads meanings of their numbers.
-//! * [`listed`] reads the rows of `meta/episodes`.
-//! * [`frames`] reads the tables of frames.
-//! * [`actions`] reads meaning of their actions, found by trials.
-//! * [`video`] reads video files, undecoded.
+//! * [`features`]: meanings of their numbers.
+//! * [`listed`]: the rows of `meta/episodes`.
+//! * [`frames`]: the tables of frames.
+//! * [`actions`]: meaning of their actions, found by trials.
+//! * [`video`]: video files, undecoded.
 
 pub mod actions;
 pub mod features;
