@@ -33,7 +33,7 @@ impl StageKind for Plan {
     }
 
     fn gone(&self) -> &'static [(&'static str, &'static str)] {
-        &[("muco", "the kind is called `plan` now"), ("paths", "the input is called `walks` now")]
+        &[("muco", "plan"), ("paths", "walks")]
     }
 
     fn schema(&self) -> serde_json::Value {

@@ -91,8 +91,8 @@ impl<'a> Builder<'a> {
                 .hint(format!("built-in stage kinds: {}", list(known(), usize::MAX)));
         }
         let gone = self.registry.iter().flat_map(StageKind::gone).find(|(former, _)| *former == name);
-        if let Some((_, way_out)) = gone {
-            return problem.hint(*way_out);
+        if let Some((_, now)) = gone {
+            return problem.hint(format!("the kind is called `{now}` now"));
         }
         match nearest_name(name, known()) {
             Some(near) => problem.hint(format!("did you mean `{near}`?")),

@@ -5,7 +5,7 @@ use crate::kinds::{KnownStage, kinds_that_make};
 use crate::order::Reads;
 use crate::outline::{InputOutline, Outline, StageOutline};
 use cosfly_diagnose::{Diagnostic, nearest_name};
-use cosfly_stage::{InputPort, Registry, StageKind, Takes};
+use cosfly_stage::{InputPort, Registry, Takes};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -58,7 +58,7 @@ impl<'a> Wiring<'a> {
                 ports.insert(input.port.clone(), upstreams);
             }
             if let Some(known) = known {
-                let mistyped = mistyped_ports(stage, &known.ports);
+                let mistyped = self.mistyped_ports(stage, &known.ports);
                 let missing = known
                     .ports
                     .iter()
@@ -114,9 +114,8 @@ impl<'a> Wiring<'a> {
         let Some(port) = ports.iter().find(|port| port.name == input.port) else {
             let message = format!("`{}` is not an input of `{kind}`", input.port);
             let problem = self.texts.problem("recipe-unknown-port", &input.place, message);
-            let gone = self.registry.get(kind).map_or(&[][..], StageKind::gone);
-            if let Some((_, way_out)) = gone.iter().find(|(former, _)| *former == input.port) {
-                problems.push(problem.hint(*way_out));
+            if let Some(now) = self.name_of_today(stage, &input.port) {
+                problems.push(problem.hint(format!("the input is called `{now}` now")));
                 return;
             }
             let problem = match nearest_name(&input.port, ports.iter().map(|port| port.name)) {
@@ -202,13 +201,22 @@ impl<'a> Wiring<'a> {
             _ => problem.hint(format!("stage kinds that make `{}`: {}", port.artifact, list(kinds.iter(), 20))),
         }
     }
-}
 
-/// Ports that an unknown name was probably meant to be: they are not reported as missing as well.
-fn mistyped_ports(stage: &StageOutline, ports: &[InputPort]) -> Vec<&'static str> {
-    let names = || ports.iter().map(|port| port.name);
-    let unknown = stage.inputs.iter().filter(|input| names().all(|name| name != input.port));
-    unknown.filter_map(|input| nearest_name(&input.port, names())).collect()
+    /// The name that a former port of a stage's kind has today.
+    fn name_of_today(&self, stage: &StageOutline, port: &str) -> Option<&'static str> {
+        let (kind, _) = stage.kind.as_ref()?;
+        let gone = self.registry.get(kind)?.gone();
+        gone.iter().find(|(former, _)| *former == port).map(|(_, now)| *now)
+    }
+
+    /// Ports that an unknown name was probably meant to be: they are not reported as missing as well.
+    fn mistyped_ports(&self, stage: &StageOutline, ports: &[InputPort]) -> Vec<&'static str> {
+        let names = || ports.iter().map(|port| port.name);
+        let unknown = stage.inputs.iter().filter(|input| names().all(|name| name != input.port));
+        unknown
+            .filter_map(|it| self.name_of_today(stage, &it.port).or_else(|| nearest_name(&it.port, names())))
+            .collect()
+    }
 }
 
 fn sentence(port: &InputPort) -> &str {

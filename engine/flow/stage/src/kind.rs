@@ -16,7 +16,7 @@ pub trait StageKind: Send + Sync {
     /// Every port that a recipe may connect, for any parameters; for editors and the reference. The ports of the built
     /// parts together are a subset of them, apart from ports between siblings.
     fn ports(&self) -> Vec<InputPort>;
-    /// Former words of recipes for the kind itself and for its inputs, each with the way out. Former parameters stand in the schema
+    /// Former names of the kind itself and of its inputs, each with the name of today. Former parameters stand in the schema
     /// (`x-gone`).
     fn gone(&self) -> &'static [(&'static str, &'static str)] {
         &[]

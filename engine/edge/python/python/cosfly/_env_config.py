@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Mapping, Sequence
 
 from ._calls import settings_of
-from ._errors import WrongType, InvalidValue
+from ._errors import InvalidValue, WrongType
 
 if TYPE_CHECKING:
     from typing import TypedDict

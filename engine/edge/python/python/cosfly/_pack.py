@@ -20,7 +20,6 @@ from ._errors import InvalidValue, OutOfRange, options
 from ._show import Bars
 
 FORMAT = "cosfly-pack-2"
-TYPES = {"rgb": np.uint8, "depth": np.float16, "semantic": np.uint8, "instance": np.uint32, "normals": np.uint8}
 CHUNK = 64
 
 
@@ -66,17 +65,21 @@ def pack(
 
 def _write(frames: Dataset, folder: Path, progress: Any) -> None:
     """Writes the files of a pack with plain writes: a full disk is an error of a write, but a crash of a mapped file."""
-    width, height = frames.size or (0, 0)
+    if not len(frames):
+        raise InvalidValue(f"{frames.path} has no frames to pack")
     files = {name: open(folder / f"{name}.npy", "wb") for name in frames.channels}
     try:
-        for name, file in files.items():
-            shape = (len(frames), height, width, *((3,) if name in ("rgb", "normals") else ()))
-            about = {"descr": np.lib.format.dtype_to_descr(np.dtype(TYPES[name])), "fortran_order": False, "shape": shape}
-            np.lib.format.write_array_header_1_0(file, about)
         for start in range(0, len(frames), CHUNK):
             wanted = frames._index[start : start + CHUNK]
             for name, images in frames._images(wanted, frames.channels, frames.size).items():
-                files[name].write(np.stack(images).astype(TYPES[name]).tobytes())
+                # The element of a channel is that of its pictures; numbers are kept in half the bytes.
+                stacked = np.stack(images)
+                stacked = stacked.astype(np.float16) if stacked.dtype == np.float32 else stacked
+                if start == 0:
+                    shape = (len(frames), *stacked.shape[1:])
+                    about = {"descr": np.lib.format.dtype_to_descr(stacked.dtype), "fortran_order": False, "shape": shape}
+                    np.lib.format.write_array_header_1_0(files[name], about)
+                files[name].write(stacked.tobytes())
             if progress:
                 progress({"pack": (start + len(wanted), len(frames))})
     finally:
