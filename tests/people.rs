@@ -56,13 +56,13 @@ fn a_crowd_is_in_pictures_and_tables_and_another_one_plans_nothing_anew() {
     assert_eq!((first["crowd"], first["frames"], first["dataset.logs"]), (8, 6, 6));
     let dataset = street.dataset();
     cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
-    let people = rows(&dataset, "people", "walk_id", "instance");
+    let people = rows(&dataset, "bodies", "body_id", "instance");
     let ids: BTreeMap<&str, i64> = people.iter().map(|(walk, id)| (walk.as_str(), *id)).collect();
     assert!(ids.len() > 3 && people.iter().all(|(walk, id)| ids[walk.as_str()] == *id), "one id in all flights");
     assert_eq!(ids.values().collect::<BTreeSet<_>>().len(), ids.len());
     let objects = rows(&dataset, "objects", "town", "instance").into_iter().map(|(_, id)| id).max();
     assert!(ids.values().all(|id| Some(*id) > objects), "{ids:?} {objects:?}");
-    let followed = rows(&dataset, "people", "trajectory_id", "instance");
+    let followed = rows(&dataset, "bodies", "trajectory_id", "instance");
     for (walk, id) in ids.iter().filter(|(walk, _)| walk.starts_with("walkers-")) {
         let item = walk.trim_start_matches("walkers-");
         assert!(!followed.iter().any(|(flight, seen)| flight.ends_with(item) && seen == id), "{walk} follows itself");
@@ -83,16 +83,16 @@ fn drones_behind_one_walk_are_in_each_others_pictures_under_the_names_of_their_f
     let dataset = street.dataset();
     cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
     let (mut kinds, mut names) = (BTreeSet::new(), BTreeMap::new());
-    let people = rows(&dataset, "people", "kind", "instance");
-    let named = rows(&dataset, "people", "walk_id", "instance").into_iter();
-    for (((kind, _), (walk_id, id)), (flight, _)) in
-        people.into_iter().zip(named).zip(rows(&dataset, "people", "trajectory_id", "instance"))
+    let people = rows(&dataset, "bodies", "kind", "instance");
+    let named = rows(&dataset, "bodies", "body_id", "instance").into_iter();
+    for (((kind, _), (body_id, id)), (flight, _)) in
+        people.into_iter().zip(named).zip(rows(&dataset, "bodies", "trajectory_id", "instance"))
     {
         kinds.insert(kind);
         // The other drone of the same walk, never the own one or that of another walk.
         let own = flight.split_once('-').expect("a stage and an item").1;
-        let other = walk_id.split_once('-').expect("a stage and an item").1;
-        assert!(own != other && own[..6] == other[..6], "{flight} shows {walk_id}");
+        let other = body_id.split_once('-').expect("a stage and an item").1;
+        assert!(own != other && own[..6] == other[..6], "{flight} shows {body_id}");
         assert_eq!(*names.entry(other[7..].to_owned()).or_insert(id), id, "one id in all flights");
     }
     assert_eq!((kinds, names.is_empty()), (BTreeSet::from(["drone".to_owned()]), false));

@@ -39,7 +39,7 @@ fn a_busy_street_is_verified_and_further_flights_change_no_earlier_one() {
     run(folder.path(), "recipes/busy_street.toml", "out", &natural).run_ok();
     let out = folder.path().join("out");
     cosfly(&["verify", out.to_str().expect("UTF-8")]).run_ok();
-    for table in ["bodies", "target_losses", "phrases", "people"] {
+    for table in ["bodies", "target_losses", "phrases"] {
         assert!(out.join("data").join(table).is_dir(), "{table}");
     }
     let more = [natural[0], "stages.street.follow.count=4"];

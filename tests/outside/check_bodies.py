@@ -59,8 +59,8 @@ def main(folder):
     for row in rows(folder, "frames", ["trajectory_id", "frame", "drone_x_m", "drone_y_m", "drone_z_m", "visible_pixels", "in_view", "look_alikes"]):
         frames[row["trajectory_id"]][row["frame"]] = row
     bodies = defaultdict(lambda: defaultdict(dict))
-    for row in rows(folder, "bodies", ["trajectory_id", "frame", "body", "kind", "feet_in_world_m", "heading_deg", "size_m"]):
-        bodies[row["trajectory_id"]][row["frame"]][row["body"]] = row
+    for row in rows(folder, "bodies", ["trajectory_id", "frame", "body_id", "kind", "feet_in_world_m", "heading_deg", "size_m"]):
+        bodies[row["trajectory_id"]][row["frame"]][row["body_id"]] = row
     nearest_two, nearest_flight, overlaps = np.inf, np.inf, 0
     for name, by_frame in bodies.items():
         least = flights[name]["min_clearance_m"]
@@ -75,13 +75,13 @@ def main(folder):
                     nearest_two = min(nearest_two, apart)
                     if apart < -1e-6:
                         overlaps += 1
-                        wrong.append(f"{name} frame {frame}: bodies {listed[i]['body']} and {listed[j]['body']} overlap by {-apart:.3f} m")
+                        wrong.append(f"{name} frame {frame}: bodies {listed[i]['body_id']} and {listed[j]['body_id']} overlap by {-apart:.3f} m")
             here, there = frames[name][frame], frames[name].get(frame + 1)
             place = lambda row: np.array([row[f"drone_{axis}_m"] for axis in "xyz"])
             for share in np.arange(BETWEEN) / BETWEEN if there else [0.0]:
                 drone = place(here) + share * (place(there or here) - place(here))
                 for body in listed:
-                    later = by_frame.get(frame + 1, {}).get(body["body"], body)
+                    later = by_frame.get(frame + 1, {}).get(body["body_id"], body)
                     feet = np.array(body["feet_in_world_m"]) + share * (np.array(later["feet_in_world_m"]) - body["feet_in_world_m"])
                     if np.abs(drone - feet).max() > 40:
                         continue
@@ -89,9 +89,11 @@ def main(folder):
                     apart = to_box(drone, feet, np.radians(body["heading_deg"] + share * turn), body["size_m"])
                     nearest_flight = min(nearest_flight, apart)
                     if apart < least - 0.01:
-                        wrong.append(f"{name} frame {frame}: the drone is {apart:.2f} m from body {body['body']}; the certificate says {least:.2f} m")
+                        wrong.append(f"{name} frame {frame}: the drone is {apart:.2f} m from body {body['body_id']}; the certificate says {least:.2f} m")
     alike = defaultdict(int)
-    for row in rows(folder, "people", ["trajectory_id", "frame", "kind", "top_colour", "trousers_colour", "has_backpack"]):
+    for row in rows(folder, "bodies", ["trajectory_id", "frame", "kind", "top_colour", "trousers_colour", "has_backpack", "visible_pixels"]):
+        if not row["visible_pixels"]:
+            continue
         flight = flights[row["trajectory_id"]]
         own = [flight[f"target_{key}"] for key in ("kind", "top_colour", "trousers_colour", "has_backpack")]
         alike[row["trajectory_id"], row["frame"]] += [row[key] for key in ("kind", "top_colour", "trousers_colour", "has_backpack")] == own

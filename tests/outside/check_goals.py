@@ -3,7 +3,7 @@
     venv/bin/python tests/outside/check_goals.py DATASET_FOLDER [DATASET_FOLDER ...] [--texts FILE] [--least-skeletons N]
 
 Shares no code with cosfly. The words of a goal must say what its column `claims` says, no more and no less, in English and in Chinese.
-Then every claim is judged by brute force over tables `frames`, `people`, `objects` and `trajectories`: all claims of goals that fit, and all but
+Then every claim is judged by brute force over tables `frames`, `bodies`, `objects` and `trajectories`: all claims of goals that fit, and all but
 those of the stated subject of goals that do not. Turns, times, lengths and paces of descriptions are judged by `walk_words.py`. Prints the numbers of goals, claims and skeletons (texts whose slots are blank).
 """
 
@@ -297,8 +297,9 @@ def check(folder, texts):
     frames, people = defaultdict(list), defaultdict(lambda: defaultdict(list))
     for row in table("frames", ["trajectory_id", "frame", *[f"target_{axis}_m" for axis in "xyz"], "target_heading_deg", "target_speed_mps", "distance_m", "visible_pixels", "visible_by_pixels", "occluder_instance", "drone_x_m", "drone_y_m", "drone_z_m", "camera_pitch_deg", "camera_yaw_deg", "camera_roll_deg"]):
         frames[row["trajectory_id"]].append(row)
-    for row in table("people", ["trajectory_id", "frame", "instance", "kind", "feet_in_world_m", "heading_deg", "speed_mps", "top_colour", "trousers_colour", "visible_pixels"]):
-        people[row["trajectory_id"]][row["frame"]].append(row)
+    for row in table("bodies", ["trajectory_id", "frame", "instance", "kind", "feet_in_world_m", "heading_deg", "speed_mps", "top_colour", "trousers_colour", "visible_pixels"]):
+        if row["visible_pixels"]:
+            people[row["trajectory_id"]][row["frame"]].append(row)
     crossings = defaultdict(list)
     for row in table("crossings"):
         crossings[row["trajectory_id"]].append(row)

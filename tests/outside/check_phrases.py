@@ -3,7 +3,7 @@
     venv/bin/python tests/outside/check_phrases.py DATASET_FOLDER [DATASET_FOLDER ...]
 
 Shares no code with cosfly. Every phrase is read from its own words, in English and in Chinese; both must name the same. In the frame in
-which it is given, a phrase must fit the target and no other body of tables `people` and `frames`; in all frames the number of bodies that
+which it is given, a phrase must fit the target and no other body of tables `bodies` and `frames`; in all frames the number of bodies that
 it may fit must be the stated one. Prints how often each property is named.
 """
 
@@ -70,8 +70,9 @@ def check(folder):
     frames, others = defaultdict(dict), defaultdict(list)
     for row in table("frames"):
         frames[row["trajectory_id"]][row["frame"]] = row
-    for row in table("people"):
-        others[row["trajectory_id"], row["frame"]].append(row)
+    for row in table("bodies"):
+        if row["visible_pixels"]:
+            others[row["trajectory_id"], row["frame"]].append(row)
     wrong, named, unique = [], Counter(), Counter()
     phrases = table("phrases")
     for row in phrases:

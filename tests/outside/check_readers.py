@@ -20,7 +20,7 @@ import pyarrow.dataset
 datasets.disable_progress_bars()
 folder, cache = Path(sys.argv[1]).resolve(), sys.argv[2] if len(sys.argv) > 2 else None
 # A number of each table whose sum shows that the rows are the same ones, too.
-SUMS = {"trajectories": "frames", "frames": "drone_x_m", "windows": "start_frame", "people": "frame", "objects": "instance", "pairs": "frames"}
+SUMS = {"trajectories": "frames", "frames": "drone_x_m", "windows": "start_frame", "bodies": "frame", "objects": "instance", "pairs": "frames"}
 
 
 def close(a, b):

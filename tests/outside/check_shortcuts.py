@@ -74,10 +74,11 @@ def seen(folder):
         "trajectory_id", "expert_id", "town", "pedestrian_id", "mcap_path", "target_kind", "target_height_m", "target_top_linear_rgb", "target_has_backpack",
         "target_bag", "target_build", "target_gait", "camera_width_px", "camera_height_px", "camera_focal_px", "camera_cy_px"])}
     people = defaultdict(list)
-    for it in rows(folder, "people", ["trajectory_id", "frame", "walk_id", "kind", "feet_in_world_m", "heading_deg", "height_m",
+    for it in rows(folder, "bodies", ["trajectory_id", "frame", "body_id", "kind", "feet_in_world_m", "heading_deg", "size_m",
                                       "visible_pixels", "visible_box_px",
                                       "top_linear_rgb", "has_backpack", "bag", "build", "gait"]):
-        people[it["trajectory_id"], it["frame"]].append(it)
+        if it["visible_pixels"]:
+            people[it["trajectory_id"], it["frame"]].append({**it, "height_m": it["size_m"][2]})
     frames = []
     for it in rows(folder, "frames", ["trajectory_id", "frame", "visible_pixels", "visible_box_px", "target_x_m", "target_y_m", "target_z_m",
                                       "target_heading_deg"]
@@ -117,7 +118,7 @@ def of_looks(flights, people):
     }
     targets = {(it["town"], it["pedestrian_id"]): [it[f"target_{key}"] for key in ("top_linear_rgb", "height_m", "bag", "build", "gait")]
                for it in flights.values() if it["target_kind"] == "pedestrian"}
-    others = {(flights[name]["town"], it["walk_id"]): [it[key] for key in ("top_linear_rgb", "height_m", "bag", "build", "gait")]
+    others = {(flights[name]["town"], it["body_id"]): [it[key] for key in ("top_linear_rgb", "height_m", "bag", "build", "gait")]
               for (name, _), there in people.items() for it in there if it["kind"] == "pedestrian"}
     if not targets or not others:
         return {"targets": len(targets), "others": len(others), "looks": None}

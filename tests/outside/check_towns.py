@@ -36,10 +36,10 @@ for row in flights:
 # Instance ids are those of the flight's own town.
 objects = {(row["town"], row["instance"]) for row in rows("objects", "town", "instance")}
 assert {town for town, _ in objects} == towns
-people = {(row["trajectory_id"], row["instance"]) for row in rows("people", "trajectory_id", "instance")}
+bodies = {(row["trajectory_id"], row["instance"]) for row in rows("bodies", "trajectory_id", "instance")}
 for row in rows("frames", "trajectory_id", "frame", "occluder_instance"):
     flight, occluder = row["trajectory_id"], row["occluder_instance"]
-    known = occluder == 0 or (town_of[flight], occluder) in objects or (flight, occluder) in people
+    known = occluder == 0 or (town_of[flight], occluder) in objects or (flight, occluder) in bodies
     assert known, f"nothing in {town_of[flight]} is called {occluder}: {row}"
 
 # Seen are the towns of split `train`, and no others.

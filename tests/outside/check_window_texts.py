@@ -3,7 +3,7 @@
     venv/bin/python tests/outside/check_window_texts.py DATASET_FOLDER
 
 Shares no code with cosfly. A claim is found by its words, in English and in Chinese, and judged by the boxes, pixels, places and
-clothes of tables `frames`, `people` and `trajectories` in the last frame of the input, and by the boxes of table `objects`: a
+clothes of tables `frames`, `bodies` and `trajectories` in the last frame of the input, and by the boxes of table `objects`: a
 landmark must be there, be alone there, and rays from the camera must reach it inside of the picture. Prints how often each claim
 occurs.
 """
@@ -239,8 +239,8 @@ def main():
         "trajectory_id", "frame", "drone_x_m", "drone_y_m", "drone_z_m", "camera_pitch_deg", "camera_yaw_deg", "camera_roll_deg", "target_x_m", "target_y_m",
         "target_z_m", "target_heading_deg", "visible_box_px"])}
     people = {}
-    for row in rows("people", ["trajectory_id", "frame", "feet_in_world_m", "heading_deg", "speed_mps", "top_colour", "visible_box_px", "kind"]):
-        if row["kind"] not in ("pedestrian", "bicycle", "motorcycle"):
+    for row in rows("bodies", ["trajectory_id", "frame", "feet_in_world_m", "heading_deg", "speed_mps", "top_colour", "visible_box_px", "kind"]):
+        if row["visible_box_px"] is None or row["kind"] not in ("pedestrian", "bicycle", "motorcycle"):
             continue
         people.setdefault((row["trajectory_id"], row["frame"]), []).append(row)
     boxes = {}

@@ -22,7 +22,7 @@ os.environ.setdefault("HF_HUB_OFFLINE", "1")
 os.environ.setdefault("HF_DATASETS_OFFLINE", "1")
 os.environ.setdefault("HF_HUB_DISABLE_TELEMETRY", "1")
 
-TABLES = ["trajectories", "frames", "waypoints", "captions", "pairs", "people", "windows", "objects", "rejected"]
+TABLES = ["trajectories", "frames", "waypoints", "captions", "pairs", "bodies", "windows", "objects", "rejected"]
 FRAME_TOPICS = [
     "/camera/rgb/image", "/camera/rgb/camera_info", "/camera/rgb/annotations", "/camera/depth/image",
     "/camera/semantic/image", "/camera/instance/image", "/tf", "/drone/pose", "/target/pose", "/target/state",

@@ -4,7 +4,7 @@ use cosfly_diagnose::Result;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_metrics::shortcuts::{Edges, Looks, Seen, ShortcutFigures, Shortcuts};
 use cosfly_read::{PublishedDataset, PublishedFlight, RowIndex};
-use cosfly_schema::tables::{People, Trajectories};
+use cosfly_schema::tables::{Bodies, Trajectories};
 use std::collections::BTreeMap;
 
 /// Figures over all flights; experts alone count for places in the picture. Datasets from before the columns of clothes existed
@@ -16,10 +16,10 @@ pub fn figures(dataset: &PublishedDataset) -> Result<ShortcutFigures> {
     let mut shortcuts = Shortcuts::default();
     add_targets(dataset, &mut shortcuts)?;
     add_others(dataset, &mut shortcuts)?;
-    let mut people = PeopleBoxes::of(dataset)?;
+    let mut boxes = BodyBoxes::of(dataset)?;
     dataset.walk(&|flight| flight.expert_id.is_none(), &mut |flight, rows| {
         let image_px = [flight.camera.width, flight.camera.height].map(f64::from);
-        let mut bodies = people.bodies(flight)?;
+        let mut bodies = boxes.bodies(flight)?;
         let frames = rows.iter().enumerate().filter_map(|(frame, row)| {
             let seen = |body: &SeenBody| body.seen(flight, &row.camera_pose);
             let own = SeenBody {
@@ -63,20 +63,18 @@ fn add_targets(dataset: &PublishedDataset, shortcuts: &mut Shortcuts) -> Result<
 
 /// Looks of the people who are seen.
 fn add_others(dataset: &PublishedDataset, shortcuts: &mut Shortcuts) -> Result<()> {
-    for (_, path) in dataset.files("people")? {
+    for (_, path) in dataset.files("bodies")? {
         cosfly_read::read(&path, &mut |rows| {
             for row in 0..rows.len() {
-                let is_person = rows.get_or(People::kind, row, PERSON.to_owned())? == PERSON;
-                if is_person && rows.has(People::top_linear_rgb) {
-                    let id = rows.get(People::trajectory_id, row)?;
-                    let words = [
-                        rows.get_or(People::bag, row, None)?,
-                        rows.get_or(People::build, row, None)?,
-                        rows.get_or(People::gait, row, None)?,
-                    ];
-                    let top = rows.get(People::top_linear_rgb, row)?;
-                    let looks = looks(top, rows.get(People::height_m, row)?, words);
-                    shortcuts.add_other(&format!("{} {}", town(dataset, &id), rows.get(People::walk_id, row)?), looks);
+                let is_seen = rows.get(Bodies::visible_pixels, row)? > 0;
+                let Some(top) = rows.get(Bodies::top_linear_rgb, row)?.filter(|_| is_seen) else { continue };
+                if rows.get(Bodies::kind, row)? == PERSON {
+                    let id = rows.get(Bodies::trajectory_id, row)?;
+                    let words =
+                        [rows.get(Bodies::bag, row)?, rows.get(Bodies::build, row)?, rows.get(Bodies::gait, row)?];
+                    let [.., height_m] = rows.get(Bodies::size_m, row)?;
+                    let body = format!("{} {}", town(dataset, &id), rows.get(Bodies::body_id, row)?);
+                    shortcuts.add_other(&body, looks(top, height_m, words));
                 }
             }
             Ok(())
@@ -96,9 +94,9 @@ fn looks(top: [f64; 3], height_m: f64, words: [Option<String>; 3]) -> Looks {
 }
 
 /// Bodies that are seen, by frame.
-type Bodies = BTreeMap<u32, Vec<SeenBody>>;
+type SeenBodies = BTreeMap<u32, Vec<SeenBody>>;
 
-/// Kind of people, and of all bodies in tables without kinds.
+/// Kind of people.
 const PERSON: &str = "pedestrian";
 
 /// A body that is seen in a frame.
@@ -125,38 +123,40 @@ impl SeenBody {
 }
 
 /// Bodies that are seen, flight by flight; those of neighbouring flights are read together.
-struct PeopleBoxes<'a> {
+struct BodyBoxes<'a> {
     dataset: &'a PublishedDataset,
     index: RowIndex,
-    known: BTreeMap<usize, Bodies>,
+    known: BTreeMap<usize, SeenBodies>,
 }
 
-impl<'a> PeopleBoxes<'a> {
+impl<'a> BodyBoxes<'a> {
     fn of(dataset: &'a PublishedDataset) -> Result<Self> {
-        Ok(Self { dataset, index: dataset.row_index("people")?, known: BTreeMap::new() })
+        Ok(Self { dataset, index: dataset.row_index("bodies")?, known: BTreeMap::new() })
     }
 
-    fn bodies(&mut self, flight: &PublishedFlight) -> Result<Bodies> {
+    fn bodies(&mut self, flight: &PublishedFlight) -> Result<SeenBodies> {
         let Some(place) = self.dataset.place(&flight.trajectory_id).filter(|it| self.index.has(*it)) else {
-            return Ok(Bodies::new());
+            return Ok(SeenBodies::new());
         };
         if !self.known.contains_key(&place) {
             let wanted = self.index.beside(place);
-            let mut known: BTreeMap<usize, Bodies> = BTreeMap::new();
+            let mut known: BTreeMap<usize, SeenBodies> = BTreeMap::new();
             self.index.visit(&wanted, &mut |rows, _| {
-                let ids = rows.values(People::trajectory_id)?;
-                let (frames, edges) = (rows.values(People::frame)?, rows.values(People::visible_box_px)?);
-                let (feet, heights) = (rows.values(People::feet_in_world_m)?, rows.values(People::height_m)?);
+                let ids = rows.values(Bodies::trajectory_id)?;
+                let (frames, edges) = (rows.values(Bodies::frame)?, rows.values(Bodies::visible_box_px)?);
+                let (feet, sizes) = (rows.values(Bodies::feet_in_world_m)?, rows.values(Bodies::size_m)?);
                 for row in 0..rows.len() {
                     let Some(place) = self.dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) else {
                         continue;
                     };
+                    let Some(edges_px) = edges.at(row)? else { continue };
+                    let [.., height_m] = sizes.at(row)?;
                     let of_frame = known.entry(place).or_default().entry(frames.at(row)?).or_default();
                     of_frame.push(SeenBody {
-                        kind: rows.get_or(People::kind, row, PERSON.to_owned())?,
-                        edges_px: edges.at(row)?.map(f64::from),
+                        kind: rows.get(Bodies::kind, row)?,
+                        edges_px: edges_px.map(f64::from),
                         feet_in_world: DVec3::from_array(feet.at(row)?),
-                        height_m: heights.at(row)?,
+                        height_m,
                     });
                 }
                 Ok(())

@@ -8,7 +8,7 @@ use super::rows::read;
 use super::trajectory::{PublishedFlight, Shared};
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_schema::Split;
-use cosfly_schema::tables::{Pairs, People, Rejected};
+use cosfly_schema::tables::{Bodies, Pairs, Rejected};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -185,18 +185,22 @@ impl PublishedDataset {
         family
     }
 
-    /// Number of bystanders in the pictures of some trajectories, each counted once per trajectory.
+    /// Number of other bodies in the pictures of some trajectories, each counted once per trajectory.
     ///
     /// # Errors
-    /// Damage of table `people`.
+    /// Damage of table `bodies`.
     pub fn others_seen(&self, flights: &[&PublishedFlight]) -> Result<usize> {
         let wanted: BTreeSet<&str> = flights.iter().map(|flight| flight.trajectory_id.as_str()).collect();
         // The rows of a trajectory are together.
         let (mut last, mut seen, mut count) = (String::new(), BTreeSet::new(), 0);
-        for (_, path) in self.files("people")? {
+        for (_, path) in self.files("bodies")? {
             read(&path, &mut |rows| {
-                let (ids, instances) = (rows.values(People::trajectory_id)?, rows.values(People::instance)?);
+                let (ids, instances) = (rows.values(Bodies::trajectory_id)?, rows.values(Bodies::instance)?);
+                let pixels = rows.values(Bodies::visible_pixels)?;
                 for row in (0..rows.len()).filter(|row| wanted.contains(ids.text(*row))) {
+                    if pixels.at(row)? == 0 {
+                        continue;
+                    }
                     if ids.text(row) != last {
                         last = ids.text(row).to_owned();
                         seen.clear();

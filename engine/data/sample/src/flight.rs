@@ -4,7 +4,7 @@ use crate::drawn::{COMPANION, HEIGHT_M, RADIUS_M, ahead_of, look, point};
 use crate::town::town;
 use cosfly_domain::channels::{ALL, SeenPoint};
 use cosfly_domain::{
-    Around, BodyKind, Camera, Certificate, ChannelImage, ChannelSet, FrameImages, FramePerturbation, Lens, Limits,
+    Around, BodyKind, BodyPlan, Camera, Certificate, ChannelImage, ChannelSet, FrameImages, FramePerturbation, Lens, Limits,
     MotionBlur, Mount, Noise, Outfit, Perturbation, PerturbationKind, RollingShutter, Season, SemanticLabel,
     TargetView, TermCost, Trajectory, Weather,
 };
@@ -12,7 +12,7 @@ use cosfly_figures::Clothes;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
 use cosfly_planner::certificate::view_rates_deg_s;
 use cosfly_schema::{
-    CaptionRecord, EncodingConfig, OtherPerson, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
+    CaptionRecord, EncodingConfig, OtherBody, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
 };
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 
@@ -113,7 +113,7 @@ pub fn flight_filmed_by(camera: Camera, pedestrian: usize, role: Role) -> Sample
         let (picture, view, companion) = look(&camera, pose, state, &town);
         images.push(picture);
         views.push(view);
-        let sighting = |view| Sighting { frame: frame as u32, person: 0, state: ahead_of(state), view };
+        let sighting = |view| Sighting { frame: frame as u32, other: 0, state: ahead_of(state), view };
         sightings.extend(companion.map(sighting));
     }
     let trajectory = trajectory(track, poses, role, pedestrian, offset, &views);
@@ -137,12 +137,16 @@ pub fn flight_filmed_by(camera: Camera, pedestrian: usize, role: Role) -> Sample
         views,
         followed: None,
         around: Around::default(),
-        others: vec![OtherPerson {
+        others: vec![OtherBody {
             instance: COMPANION,
-            walk_id: "crowd-p00000".into(),
-            kind: BodyKind::Pedestrian,
-            height_m: HEIGHT_M,
-            radius_m: RADIUS_M,
+            body_id: "crowd-p00000".into(),
+            plan: BodyPlan {
+                source: String::new(),
+                kind: BodyKind::Pedestrian,
+                size_m: DVec3::new(2.0 * RADIUS_M, 2.0 * RADIUS_M, HEIGHT_M),
+                looks: Seed([9; 32]),
+                group: None,
+            },
             outfit: outfit(9),
         }],
         outfit: Some(outfit(pedestrian as u8)),

@@ -24,7 +24,7 @@ pub mod town_layout;
 
 pub use config::{DatasetConfig, DepthEncoding, EncodingConfig, JpegChroma, RgbEncoding};
 pub use record::{
-    CaptionRecord, LogRecord, OtherPerson, PairInfo, PreviewStrip, Rejection, RenderedTrajectory, Role, Sighting,
+    CaptionRecord, LogRecord, OtherBody, PairInfo, PreviewStrip, Rejection, RenderedTrajectory, Role, Sighting,
     TownInfo,
 };
 pub use reference::reference;

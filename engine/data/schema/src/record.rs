@@ -2,7 +2,7 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{
-    Around, BodyKind, Camera, Followed, Lens, MapOrigin, MotionBlur, Mount, Noise, Outfit, PersonView, RollingShutter,
+    Around, BodyKind, BodyPlan, Camera, Followed, Lens, MapOrigin, MotionBlur, Mount, Noise, Outfit, PersonView, RollingShutter,
     Season, Synthetic, TARGET_INSTANCE, TargetView, Town, Trajectory, Weather,
 };
 use cosfly_frames::{Pose, TargetState};
@@ -62,33 +62,29 @@ pub struct PairInfo {
     pub expert_id: String,
 }
 
-/// A bystander: a person or a vehicle.
+/// A body beside the target that pictures may show: a person, a vehicle or another drone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OtherPerson {
+pub struct OtherBody {
     /// Id in instance images: after those of all objects, the same in all flights of a stage.
     pub instance: u32,
-    /// Stage and item of the walk, such as `crowd-p00003`; traffic and number of a body of it, such as `street-b00003`.
-    pub walk_id: String,
-    /// Person or kind of vehicle.
-    pub kind: BodyKind,
-    /// Body height, metres.
-    pub height_m: f64,
-    /// Body radius seen from above, metres.
-    pub radius_m: f64,
-    /// Clothes.
+    /// Stage and item of a walk, such as `crowd-p00003`; traffic and number of a body of it, such as `street-b00003`.
+    pub body_id: String,
+    /// Kind, size and group.
+    pub plan: BodyPlan,
+    /// Clothes of a person or rider, paint of another vehicle.
     pub outfit: Outfit,
 }
 
-/// A frame in which a bystander covers at least one pixel.
+/// A frame in which a body beside the target covers at least one pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sighting {
     /// Number of the frame.
     pub frame: u32,
-    /// Index of the person in [`RenderedTrajectory::others`].
-    pub person: u32,
-    /// Position and motion of the person.
+    /// Index of the body in [`RenderedTrajectory::others`].
+    pub other: u32,
+    /// Position and motion of the body.
     pub state: TargetState,
-    /// Visible pixels of the person.
+    /// Visible pixels of the body.
     pub view: PersonView,
 }
 
@@ -137,9 +133,9 @@ pub struct RenderedTrajectory {
     pub followed: Option<Followed>,
     /// Bodies of traffic around the target, seen or not; none outside of traffic.
     pub around: Around,
-    /// All bystanders, by instance id.
-    pub others: Vec<OtherPerson>,
-    /// Frames in which bystanders are visible, by frame and instance id.
+    /// Bodies beside the target that pictures may show, by instance id.
+    pub others: Vec<OtherBody>,
+    /// Frames in which they are visible, by frame and instance id.
     pub sightings: Vec<Sighting>,
     /// Relation to the expert; set for perturbed flights.
     pub pair: Option<PairInfo>,
@@ -166,11 +162,11 @@ impl RenderedTrajectory {
         self.mount.camera_pose(&self.trajectory.poses_in_world[frame])
     }
 
-    /// Bystanders visible in a frame.
-    pub fn seen_in(&self, frame: usize) -> impl Iterator<Item = (&OtherPerson, &Sighting)> {
+    /// Bodies beside the target that are visible in a frame.
+    pub fn seen_in(&self, frame: usize) -> impl Iterator<Item = (&OtherBody, &Sighting)> {
         let start = self.sightings.partition_point(|sighting| (sighting.frame as usize) < frame);
         let seen = self.sightings[start..].iter().take_while(move |sighting| sighting.frame as usize == frame);
-        seen.map(|sighting| (&self.others[sighting.person as usize], sighting))
+        seen.map(|sighting| (&self.others[sighting.other as usize], sighting))
     }
 
     /// Kind of the target; `None` for a target without a body.
@@ -182,7 +178,7 @@ impl RenderedTrajectory {
     /// Number of visible bystanders in a frame who wear what the target wears: the same colours in words, a backpack or none.
     pub fn look_alikes(&self, frame: usize) -> usize {
         let Some(own) = &self.outfit else { return 0 };
-        let is_alike = |other: &OtherPerson| Some(other.kind) == self.target_kind() && other.outfit.is_like(own);
+        let is_alike = |other: &OtherBody| Some(other.plan.kind) == self.target_kind() && other.outfit.is_like(own);
         self.seen_in(frame).filter(|(other, _)| is_alike(other)).count()
     }
 
@@ -254,22 +250,22 @@ impl RenderedTrajectory {
     }
 
     fn check_others(&self) -> Result<()> {
-        let ids = |pair: &[OtherPerson]| pair[0].instance < pair[1].instance;
+        let ids = |pair: &[OtherBody]| pair[0].instance < pair[1].instance;
         if !(self.others.windows(2).all(ids) && self.others.first().is_none_or(|it| it.instance > TARGET_INSTANCE)) {
-            return Err(self.refusal("its people are not in the order of their ids".into()));
+            return Err(self.refusal("its bodies are not in the order of their ids".into()));
         }
-        let key = |it: &Sighting| (it.frame, it.person);
+        let key = |it: &Sighting| (it.frame, it.other);
         let is_sound = |it: &Sighting| {
-            let person = self.others.get(it.person as usize);
+            let other = self.others.get(it.other as usize);
             (it.frame as usize) < self.len()
-                && person.is_some_and(|person| person.instance == it.view.instance)
+                && other.is_some_and(|other| other.instance == it.view.instance)
                 && it.state.feet_in_world.is_finite()
                 && it.state.heading_rad.is_finite()
                 && it.state.speed_mps.is_finite()
         };
         let is_ordered = self.sightings.windows(2).all(|pair| key(&pair[0]) < key(&pair[1]));
         match self.sightings.iter().find(|it| !is_sound(it)) {
-            Some(it) => Err(self.refusal(format!("frame {} refers to a person who is not in the record", it.frame))),
+            Some(it) => Err(self.refusal(format!("frame {} refers to a body that is not in the record", it.frame))),
             None if !is_ordered => Err(self.refusal("sightings are not in the order of frames".into())),
             None => Ok(()),
         }
@@ -370,7 +366,7 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
     decode("captions", CAPTIONS_MAGIC, bytes)
 }
 
-const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x08";
+const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x09";
 const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x03";
 
 /// Encodes eight bytes of kind and version, then postcard.

@@ -12,6 +12,7 @@ const UMBRELLA_PER_HEIGHT: f64 = 1.25;
 pub const SLACK_PX: f64 = 1.5;
 
 /// The space a walking body may fill: an upright cylinder, with the umbrella.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Point on the ground between the feet, world frame, metres.
     pub feet: DVec3,

@@ -1,6 +1,6 @@
 //! [`FlightRows`]: the rows of a flight, and all that they are compared with.
 
-use crate::people::PersonRow;
+use crate::bodies::PlacedBody;
 use crate::rows::{PlacedFlight, PlacedFrame};
 use crate::tables::{Extent, PairRow};
 use cosfly_read::FlightTrack;
@@ -14,10 +14,10 @@ pub struct FlightRows<'a> {
     pub flight: &'a PlacedFlight,
     /// Rows of table `frames`, in the order of the file.
     pub frames: &'a [PlacedFrame],
-    /// File of table `people`, for findings.
-    pub people_file: &'a str,
-    /// Rows of table `people`.
-    pub people: &'a [PersonRow],
+    /// File of table `bodies`, for findings.
+    pub bodies_file: &'a str,
+    /// Rows of table `bodies`.
+    pub bodies: &'a [PlacedBody],
     /// Instance ids of the town's objects.
     pub objects: Option<&'a BTreeSet<u32>>,
     /// Rows of table `pairs` by the perturbed flight.

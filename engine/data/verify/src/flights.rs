@@ -5,7 +5,7 @@ use super::files::{CheckedFiles, State};
 use super::flight_rows::FlightRows;
 use super::log::{self, Known};
 use super::options::Wanted;
-use super::people::{PeopleIndex, PersonRow};
+use super::bodies::{BodiesIndex, PlacedBody};
 use super::report::VerifyReport;
 use super::resume::ResumeFile;
 use super::rows::{self, PlacedFrame};
@@ -42,7 +42,7 @@ pub struct Flights<'a> {
     pub wanted: &'a Wanted,
     resume: Option<ResumeFile>,
     index: RowIndex,
-    people: PeopleIndex,
+    bodies: BodiesIndex,
 }
 
 /// A flight that was checked.
@@ -59,8 +59,8 @@ struct Checked {
 struct Rows<'a> {
     file: &'a str,
     frames: &'a [PlacedFrame],
-    people_file: &'a str,
-    people: &'a [PersonRow],
+    bodies_file: &'a str,
+    bodies: &'a [PlacedBody],
     expert: Option<&'a FlightTrack>,
 }
 
@@ -79,8 +79,8 @@ impl<'a> Flights<'a> {
             // Damage is found again, and reported, when all columns are read.
             let _ = index.add(folder.join(file), &|id| tables.flights.number(id));
         }
-        let people = PeopleIndex::read(folder, files, &tables.flights, &|number| index.has(number), report);
-        Self { folder, files, tables, wanted, resume, index, people }
+        let bodies = BodiesIndex::read(folder, files, &tables.flights, &|number| index.has(number), report);
+        Self { folder, files, tables, wanted, resume, index, bodies }
     }
 
     /// Tracks of some flights; those whose rows are damaged are left out.
@@ -198,12 +198,12 @@ impl<'a> Flights<'a> {
         let numbers: BTreeSet<usize> = batch.iter().map(|frames| number(frames)).collect();
         let expert = |number: usize| flights.number(flights.at(number).expert_id.as_ref()?);
         let experts = self.tracks(&numbers.iter().filter_map(|number| expert(*number)).collect());
-        let people = self.people.of(&numbers, flights);
+        let bodies = self.bodies.of(&numbers, flights);
         let check = |frames: &Vec<PlacedFrame>| {
             let number = number(frames);
-            let (people_file, people) = people.get(&number).map_or(("", &[][..]), |(file, rows)| (file, rows));
+            let (bodies_file, bodies) = bodies.get(&number).map_or(("", &[][..]), |(file, rows)| (file, rows));
             let expert = expert(number).and_then(|number| experts.get(&number));
-            let checked = self.check_flight(number, &Rows { file, frames, people_file, people, expert });
+            let checked = self.check_flight(number, &Rows { file, frames, bodies_file, bodies, expert });
             count();
             checked
         };
@@ -213,7 +213,7 @@ impl<'a> Flights<'a> {
     /// Checks the rows and the log of a flight.
     fn check_flight(&self, number: usize, rows: &Rows<'_>) -> Result<Checked> {
         self.files.stop.check("verify")?;
-        let (frames, others) = (rows.frames, rows.people);
+        let (frames, others) = (rows.frames, rows.bodies);
         let flight = self.tables.flights.at(number);
         let id = &flight.trajectory_id;
         let mut hasher = blake3::Hasher::new();
@@ -239,8 +239,8 @@ impl<'a> Flights<'a> {
             file: rows.file,
             flight,
             frames,
-            people_file: rows.people_file,
-            people: others,
+            bodies_file: rows.bodies_file,
+            bodies: others,
             objects,
             pairs: &self.tables.pairs,
             extent: self.tables.extents.get(&flight.town),

@@ -1,7 +1,7 @@
 //! The frames of one flight: numbering, times, actions against poses, distances, boxes, occluders, and the row of its pair.
 
 use super::boxes::box_problem;
-use super::people::PersonRow;
+use super::bodies::PlacedBody;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
 use super::tables::{Extent, PairRow, digest};
@@ -90,22 +90,23 @@ pub fn check_town(
     }
 }
 
-/// The occluder of the target is in table `objects`, or a person who is seen in the same frame.
+/// The occluder of the target is in table `objects`, or a body that is seen in the same frame.
 pub fn check_occluders(
     file: &str,
     objects: Option<&BTreeSet<u32>>,
-    others: &[PersonRow],
+    others: &[PlacedBody],
     frames: &[PlacedFrame],
     report: &mut VerifyReport,
 ) {
-    let people: BTreeSet<(u32, u32)> = others.iter().map(|person| (person.frame, person.instance)).collect();
+    let seen = others.iter().filter(|body| body.pixels > 0);
+    let bodies: BTreeSet<(u32, u32)> = seen.filter_map(|body| Some((body.frame, body.instance?))).collect();
     let is_known = |frame: &&PlacedFrame| {
         frame.occluder_instance == 0
             || objects.is_some_and(|ids| ids.contains(&frame.occluder_instance))
-            || people.contains(&(frame.frame, frame.occluder_instance))
+            || bodies.contains(&(frame.frame, frame.occluder_instance))
     };
     if let Some(frame) = frames.iter().find(|frame| !is_known(frame)) {
-        let message = format!("its occluder {} is neither in table `objects` nor in `people`", frame.occluder_instance);
+        let message = format!("its occluder {} is neither in table `objects` nor seen in `bodies`", frame.occluder_instance);
         let place = format!("row {}, `{}` frame {}", frame.row, frame.trajectory_id, frame.frame);
         report.find(file, place, "verify-reference", message);
     }

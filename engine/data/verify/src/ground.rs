@@ -1,6 +1,6 @@
 //! Bodies below drawn ground: what pictures show of the ground around feet, against the feet of the tables.
 
-use super::people::PersonRow;
+use super::bodies::PlacedBody;
 use super::rows::{PlacedFlight, PlacedFrame};
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::DVec3;
@@ -28,7 +28,7 @@ impl BodiesOnGround {
         &mut self,
         flight: &PlacedFlight,
         row: &PlacedFrame,
-        others: &[PersonRow],
+        others: &[PlacedBody],
         [depths, labels]: [&[u8]; 2],
     ) {
         // Lenses that bend and rows that are taken one after the other show places elsewhere.
@@ -55,9 +55,10 @@ impl BodiesOnGround {
             }
         };
         add(TARGET_INSTANCE, row.target.feet_in_world, flight.target_height_m);
-        for person in others {
-            let (feet, height_m) = person.feet_and_height();
-            add(person.instance, feet, height_m);
+        for body in others.iter().filter(|body| body.pixels > 0) {
+            if let Some(instance) = body.instance {
+                add(instance, body.space.feet, body.space.height_m);
+            }
         }
     }
 

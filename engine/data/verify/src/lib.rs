@@ -7,6 +7,7 @@
 //! any number of threads. Beside the flights being checked, memory holds some hundred bytes per flight: names, figures,
 //! digests.
 
+mod bodies;
 mod body;
 mod boxes;
 mod captions;
@@ -22,7 +23,6 @@ mod frames;
 mod ground;
 mod log;
 mod options;
-mod people;
 mod report;
 mod resume;
 mod rows;

@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::captions::Caption;
 use super::ground::BodiesOnGround;
-use super::people::PersonRow;
+use super::bodies::PlacedBody;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
 use ::mcap::records::Record;
@@ -30,17 +30,17 @@ pub struct Known<'a> {
     pub captions: &'a [Caption],
     /// Instance ids of the town's objects.
     pub objects: Option<&'a BTreeSet<u32>>,
-    /// People seen beside the target, by frame.
-    pub others: &'a [PersonRow],
+    /// Bodies around the target, by frame.
+    pub others: &'a [PlacedBody],
     /// Ends the check.
     pub stop: &'a Stop,
 }
 
 impl<'a> Known<'a> {
-    /// The people of a frame.
-    fn others_in(&self, frame: u32) -> &'a [PersonRow] {
-        let first = self.others.partition_point(|person| person.frame < frame);
-        let end = self.others.partition_point(|person| person.frame <= frame);
+    /// The bodies of a frame.
+    fn others_in(&self, frame: u32) -> &'a [PlacedBody] {
+        let first = self.others.partition_point(|body| body.frame < frame);
+        let end = self.others.partition_point(|body| body.frame <= frame);
         self.others.get(first..end).unwrap_or_default()
     }
 }
@@ -168,7 +168,7 @@ impl LogCheck<'_> {
     ) {
         match channel.source {
             ChannelSource::Ids => {
-                let (of_target, problem) = self.people_in(&image, row);
+                let (of_target, problem) = self.bodies_in(&image, row);
                 if let Some(message) = problem {
                     self.find(place, "verify-log", message);
                 }
@@ -207,7 +207,7 @@ impl LogCheck<'_> {
 
     /// The target's pixels in the instance image; and what is wrong with them or with those of others against counts and
     /// boxes of the tables, or ids that are of no object.
-    fn people_in(&self, image: &messages::RawImage, row: &PlacedFrame) -> (Vec<usize>, Option<String>) {
+    fn bodies_in(&self, image: &messages::RawImage, row: &PlacedFrame) -> (Vec<usize>, Option<String>) {
         let bytes = if image.encoding == "32UC1" { 4 } else { 2 };
         let width = self.flight.camera.width as usize;
         let ids: Vec<u32> = image
@@ -226,20 +226,21 @@ impl LogCheck<'_> {
         }
         let of_target = pixels.remove(&TARGET_INSTANCE).unwrap_or_default();
         let (count, found) = (of_target.len() as u32, edges(&of_target, width));
-        for person in self.known.others_in(row.frame) {
-            let seen = pixels.remove(&person.instance).unwrap_or_default();
+        for body in self.known.others_in(row.frame) {
+            let Some(instance) = body.instance else { continue };
+            let seen = pixels.remove(&instance).unwrap_or_default();
             let (count, found) = (seen.len() as u32, edges(&seen, width));
-            if (count, found) != (person.pixels, Some(person.visible_box)) {
+            if (count, found) != (body.pixels, body.visible_box) {
                 let message = format!(
-                    "{count} pixels of id {} in {found:?}; table `people` says {} in {:?}",
-                    person.instance, person.pixels, person.visible_box
+                    "{count} pixels of id {instance} in {found:?}; table `bodies` says {} in {:?}",
+                    body.pixels, body.visible_box
                 );
                 return (of_target, Some(message));
             }
         }
         if let Some((id, seen)) = pixels.first_key_value() {
             let count = seen.len();
-            let message = format!("{count} pixels have the id {id}, which is neither in `objects` nor in `people`");
+            let message = format!("{count} pixels have the id {id}, which is neither in `objects` nor in `bodies`");
             return (of_target, Some(message));
         }
         let problem = (count != row.visible_pixels || found != row.visible_box()).then(|| {

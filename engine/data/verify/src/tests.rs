@@ -198,7 +198,7 @@ fn boxes_of_the_next_frame_are_found() {
 }
 
 #[test]
-fn people_who_are_not_where_their_pixels_are_are_found() {
+fn bodies_that_are_not_where_their_pixels_are_are_found() {
     type Spoil = (&'static str, fn(&mut SampleFlight));
     let spoils: [Spoil; 5] = [
         ("verify-log", |it| it.record.sightings[2].view.pixels += 1),

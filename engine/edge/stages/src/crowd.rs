@@ -2,20 +2,20 @@
 
 use crate::nearby;
 use cosfly_diagnose::Result;
-use cosfly_domain::{BodyId, BodyKind, PersonView, Traffic, largest_object_instance};
+use cosfly_domain::{BodyId, PersonView, Traffic, largest_object_instance};
 use cosfly_experts::artifacts;
 use cosfly_figures::Bystander;
 use cosfly_film::nearby::{NearbyBodies, NearbyPerson};
 use cosfly_film::{Person, Shooting};
 use cosfly_flight::World;
 use cosfly_pedestrians::PedestrianPath;
-use cosfly_schema::{OtherPerson, Sighting};
+use cosfly_schema::{OtherBody, Sighting};
 use cosfly_stage::{Artifact, Inputs};
 
 /// Other people around one flight, by instance id.
 #[derive(Default)]
 pub struct Crowd {
-    members: Vec<(OtherPerson, Person)>,
+    members: Vec<(OtherBody, Person)>,
 }
 
 impl Crowd {
@@ -26,20 +26,14 @@ impl Crowd {
             let blob = nearby::walk_blob(&walk_id);
             let walk = inputs.decoded(artifact, &blob, |bytes| artifacts::WALK.decode(bytes))?;
             let walk: &PedestrianPath = &walk;
-            let person = Person::on(walk)?;
-            let (height_m, radius_m) = person.size_m();
-            let outfit = person.outfit();
-            let kind = BodyKind::Pedestrian;
-            Ok((OtherPerson { instance, walk_id, kind, height_m, radius_m, outfit }, person))
+            Ok(member(instance, walk_id, Person::on(walk)?))
         };
         let mut members: Vec<_> =
             artifacts::NEARBY.read(inputs, artifact)?.into_iter().map(read).collect::<Result<_>>()?;
         for NearbyBodies { instances, around } in artifacts::NEARBY_BODIES.find(inputs, artifact)?.unwrap_or_default() {
             for (instance, (number, body)) in instances.into_iter().zip(around.bodies()) {
-                let person = Person::of(body, around.traffic.dt_s);
-                let ((height_m, radius_m), outfit) = (person.size_m(), person.outfit());
-                let (walk_id, kind) = (Traffic::body_id(&around.traffic.name, number), body.plan.kind);
-                members.push((OtherPerson { instance, walk_id, kind, height_m, radius_m, outfit }, person));
+                let body_id = Traffic::body_id(&around.traffic.name, number);
+                members.push(member(instance, body_id, Person::of(body, around.traffic.dt_s)));
             }
         }
         members.sort_by_key(|(other, _)| other.instance);
@@ -53,9 +47,7 @@ impl Crowd {
             let instance = BodyId::of_drone(number).and_then(|id| id.instance(largest_object));
             let instance = instance.ok_or_else(|| nearby::too_many(flight))?;
             let person = Person::of(&body, dt_s);
-            let ((height_m, radius_m), outfit) = (person.size_m(), person.outfit());
-            let (walk_id, kind) = (body.plan.source, body.plan.kind);
-            self.members.push((OtherPerson { instance, walk_id, kind, height_m, radius_m, outfit }, person));
+            self.members.push(member(instance, body.plan.source, person));
         }
         self.members.sort_by_key(|(other, _)| other.instance);
         Ok(self)
@@ -82,7 +74,7 @@ impl Crowd {
 
     /// Adds all people at a time, seconds from the flight's first frame.
     pub fn at(&self, time_s: f64, list: &mut Vec<Bystander>) {
-        let bystander = |(other, person): &(OtherPerson, Person)| {
+        let bystander = |(other, person): &(OtherBody, Person)| {
             Some(Bystander { walker: person.walker(time_s)?, instance: other.instance })
         };
         list.extend(self.members.iter().filter_map(bystander));
@@ -93,12 +85,16 @@ impl Crowd {
         seen.iter().filter_map(move |view| {
             let place = self.members.binary_search_by_key(&view.instance, |(other, _)| other.instance).ok()?;
             let state = self.members[place].1.state(time_s)?;
-            Some(Sighting { frame: frame as u32, person: place as u32, state, view: *view })
+            Some(Sighting { frame: frame as u32, other: place as u32, state, view: *view })
         })
     }
 
-    /// All people, by instance id.
-    pub fn into_people(self) -> Vec<OtherPerson> {
+    /// All bodies, by instance id.
+    pub fn into_bodies(self) -> Vec<OtherBody> {
         self.members.into_iter().map(|(other, _)| other).collect()
     }
+}
+
+fn member(instance: u32, body_id: String, person: Person) -> (OtherBody, Person) {
+    (OtherBody { instance, body_id, plan: person.plan().clone(), outfit: person.outfit() }, person)
 }

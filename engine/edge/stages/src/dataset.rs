@@ -46,7 +46,7 @@ impl StageKind for Dataset {
         parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
         let whole = StageProperties {
             kind: self.name().into(),
-            version: 14,
+            version: 15,
             parameters,
             sources: vec![],
             inputs: vec![

@@ -36,7 +36,7 @@ const PREVIEWS: &str = "preview-places/1";
 pub fn part(frames: InputPort, captions: InputPort) -> StagePart {
     let properties = StageProperties {
         kind: "dataset".into(),
-        version: 4,
+        version: 5,
         // Logs read no parameter: another title or split rewrites no log.
         parameters: serde_json::json!({}),
         sources: vec![],

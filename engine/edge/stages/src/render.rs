@@ -68,7 +68,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 20,
+            version: 21,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -172,7 +172,7 @@ impl Stage for RenderStage {
             outfit: has_body.then(|| outfit_of(shooting.body, &shooting.clothes_seed)),
             around: Around::clone(&*traffic::around(inputs, artifact)?),
             followed: target,
-            others: crowd.into_people(),
+            others: crowd.into_bodies(),
             sightings: seen.sightings,
             pair,
         };
@@ -212,7 +212,7 @@ fn notes_of(crowd: &Crowd, sightings: &[Sighting]) -> BTreeMap<String, String> {
     if crowd.len() == 0 {
         return BTreeMap::new();
     }
-    let seen: BTreeSet<u32> = sightings.iter().map(|sighting| sighting.person).collect();
+    let seen: BTreeSet<u32> = sightings.iter().map(|sighting| sighting.other).collect();
     let words = format!("{} of {} nearby seen", seen.len(), crowd.len());
     BTreeMap::from([("others".to_owned(), words)])
 }

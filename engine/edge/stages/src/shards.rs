@@ -39,7 +39,7 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
     inputs.extend([ports::group(logs::port()), group_splits::port()]);
     let properties = StageProperties {
         kind: "dataset".into(),
-        version: 8,
+        version: 9,
         parameters: serde_json::json!({
             "windows": canonical["windows"],
             "frames_per_file": canonical["frames_per_file"],

@@ -1,15 +1,19 @@
-//! Table `bodies`: the people and vehicles of traffic around the target, frame by frame, seen or not.
+//! Table `bodies`: people, vehicles and other drones around the target, frame by frame.
 
 use super::column::columns;
+use super::value::Edges;
 use super::{DatasetItem, Table};
-use cosfly_domain::Body;
+use crate::log::messages::edges_px;
+use crate::{OtherBody, RenderedTrajectory, Sighting};
+use cosfly_domain::{BodyPlan, Outfit, Traffic, Traits};
 use cosfly_frames::TargetState;
+use std::collections::BTreeMap;
 
 /// Definition of the table.
 pub fn table() -> Table<DatasetItem> {
-    let doc = "People and vehicles that come within 60 m of the target, frame by frame, visible or not; empty outside of stage `traffic`.";
+    let doc = "People, vehicles and other drones around the target. One row for each frame that shows at least one pixel of a body; bodies of stage `traffic` that come within 60 m of the target also have one for each frame in which they are hidden.";
     let rows = |item: &DatasetItem| item.derived.bodies.len();
-    Table { per_frame: true, ..Table::new("bodies", doc, &["trajectory_id", "frame", "body"], rows, Bodies::COLUMNS) }
+    Table { per_frame: true, ..Table::new("bodies", doc, &["trajectory_id", "frame", "body_id"], rows, Bodies::COLUMNS) }
 }
 
 /// Columns of table `bodies`.
@@ -21,32 +25,116 @@ columns! { Bodies::COLUMNS of DatasetItem;
     /// Split: `train`, `val` or `test`; that of the file.
     split: String = |item, _| item.membership.split.name().to_owned();
     /// Number of the frame, from 0.
-    frame: u32 = |item, i| item.derived.bodies[i].0;
-    /// Number of the body in its traffic, as in `trajectories.target_body`.
-    body: u32 = |item, i| item.record.around.numbers[item.derived.bodies[i].1 as usize];
-    /// Kind: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`.
-    kind: String = |item, i| body(item, i).plan.kind.name().to_owned();
-    /// Name of the traffic and number of the body, as in `people.walk_id`.
-    walk_id: String = |item, i| {
-        cosfly_domain::Traffic::body_id(&item.record.around.traffic.name, item.record.around.numbers[item.derived.bodies[i].1 as usize])
-    };
+    frame: u32 = |item, i| item.derived.bodies[i].frame;
+    /// Id of the body: stage and item of a walk, such as `crowd-p00003`; traffic and number, such as `street-b00003`; the flight
+    /// of another drone, such as `expert-p00003-d2`; the same in all trajectories.
+    body_id: String = |item, i| item.derived.bodies[i].body_id.clone();
+    /// Id in instance images and in `frames.occluder_instance`: greater than those of all objects; null for a body that no
+    /// picture of the trajectory can show.
+    instance: Option<u32> = |item, i| other(item, i).map(|it| it.instance);
+    /// Kind: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck`, `bus` or `drone`.
+    kind: String = |item, i| plan(item, i).kind.name().to_owned();
     /// Number of the group that the body moves with; null where it moves alone.
-    group: Option<u32> = |item, i| body(item, i).plan.group;
-    /// Middle of the body on the ground, world frame: x, y, z.
+    group: Option<u32> = |item, i| plan(item, i).group;
+    /// Middle of the body on the ground, world frame: x, y, z; of a drone, the point below its middle at its lowest part.
     feet_in_world_m: [f64; 3] = |item, i| state(item, i).feet_in_world.to_array();
     /// Direction of travel, positive: x towards y.
     heading_deg: f64 = |item, i| state(item, i).heading_rad.to_degrees();
-    /// Speed along the ground.
+    /// Speed along the ground; 0 while the body stands.
     speed_mps: f64 = |item, i| state(item, i).speed_mps;
     /// Length along the heading, width and height; a person is a cylinder whose length and width are its diameter.
-    size_m: [f64; 3] = |item, i| body(item, i).plan.size_m.to_array();
+    size_m: [f64; 3] = |item, i| plan(item, i).size_m.to_array();
+    /// Colour of the shirt or jacket in words; of a vehicle without a rider, of its paint; null where `instance` is.
+    top_colour: Option<String> = |item, i| outfit(item, i).map(|it| it.top.name.name().to_owned());
+    /// Colour of the shirt or jacket: share of light that it reflects, linear red, green, blue; null where `instance` is.
+    top_linear_rgb: Option<[f64; 3]> = |item, i| outfit(item, i).map(|it| it.top.linear_rgb.map(f64::from));
+    /// Colour of the trousers in words; of a vehicle without a rider, of its paint; null where `instance` is.
+    trousers_colour: Option<String> = |item, i| outfit(item, i).map(|it| it.trousers.name.name().to_owned());
+    /// Whether the person wears a backpack; null where `instance` is.
+    has_backpack: Option<bool> = |item, i| outfit(item, i).map(|it| it.backpack);
+    /// Whether the person holds an open umbrella, a part of the person in pixels and boxes: up to 1.25 times the height of the
+    /// person; null where `instance` is.
+    has_umbrella: Option<bool> = |item, i| outfit(item, i).map(|it| it.umbrella);
+    /// Bag: `none`, `backpack` or `shoulder_bag`; null for vehicles and their riders, and where `instance` is.
+    bag: Option<String> = |item, i| traits(item, i).map(|it| it.bag.name().to_owned());
+    /// Build: `slim`, `medium` or `stout`; null for vehicles and their riders, and where `instance` is.
+    build: Option<String> = |item, i| traits(item, i).map(|it| it.build.name().to_owned());
+    /// Steps: `short`, `medium` or `long`; null for vehicles and their riders, and where `instance` is.
+    gait: Option<String> = |item, i| traits(item, i).map(|it| it.gait.name().to_owned());
+    /// Number of visible pixels; 0 while the body is hidden or outside of the picture.
+    visible_pixels: u32 = |item, i| sighting(item, i).map_or(0, |it| it.view.pixels);
+    /// Left, top, right, bottom edge around the visible pixels; null where there are none.
+    visible_box_px: Option<Edges> = |item, i| {
+        sighting(item, i).map(|it| edges_px(&it.view.visible_box).map(|edge| edge as f32))
+    };
 }
 
-fn body(item: &DatasetItem, i: usize) -> &Body {
-    &item.record.around.traffic.bodies[item.derived.bodies[i].1 as usize]
+/// A row of the table: a body in a frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BodyRow {
+    /// Number of the frame.
+    pub frame: u32,
+    /// Id of the body.
+    pub body_id: String,
+    /// Place in [`RenderedTrajectory::others`]; `None` for a body that no picture can show.
+    other: Option<u32>,
+    /// Place in [`RenderedTrajectory::sightings`]; `None` in frames that do not show the body.
+    sighting: Option<u32>,
+    /// Place in [`RenderedTrajectory::around`]; `None` outside of traffic, and far from the target.
+    around: Option<u32>,
+}
+
+impl BodyRow {
+    /// All rows of a flight, by frame and id of the body.
+    pub fn all(record: &RenderedTrajectory) -> Vec<Self> {
+        let places: BTreeMap<&str, u32> = record.others.iter().map(|it| it.body_id.as_str()).zip(0..).collect();
+        let name = &record.around.traffic.name;
+        let near: Vec<String> = record.around.numbers.iter().map(|number| Traffic::body_id(name, *number)).collect();
+        let mut rows: BTreeMap<(u32, &str), Self> = BTreeMap::new();
+        for (frame, place) in record.around.present() {
+            let id = near[place as usize].as_str();
+            let row = Self { around: Some(place), ..Self::new(frame, id, places.get(id).copied()) };
+            rows.insert((frame, id), row);
+        }
+        for (sighting, seen) in (0..).zip(&record.sightings) {
+            let id = record.others[seen.other as usize].body_id.as_str();
+            let row = rows.entry((seen.frame, id)).or_insert_with(|| Self::new(seen.frame, id, Some(seen.other)));
+            row.sighting = Some(sighting);
+        }
+        rows.into_values().collect()
+    }
+
+    fn new(frame: u32, body_id: &str, other: Option<u32>) -> Self {
+        Self { frame, body_id: body_id.to_owned(), other, sighting: None, around: None }
+    }
+}
+
+fn sighting(item: &DatasetItem, i: usize) -> Option<&Sighting> {
+    item.derived.bodies[i].sighting.map(|place| &item.record.sightings[place as usize])
+}
+
+fn other(item: &DatasetItem, i: usize) -> Option<&OtherBody> {
+    item.derived.bodies[i].other.map(|place| &item.record.others[place as usize])
+}
+
+fn outfit(item: &DatasetItem, i: usize) -> Option<&Outfit> {
+    other(item, i).map(|it| &it.outfit)
+}
+
+fn traits(item: &DatasetItem, i: usize) -> Option<Traits> {
+    outfit(item, i)?.traits
+}
+
+fn plan(item: &DatasetItem, i: usize) -> &BodyPlan {
+    let near = || &near(item, i).expect("a body is in a picture, or around").plan;
+    other(item, i).map_or_else(near, |it| &it.plan)
 }
 
 fn state(item: &DatasetItem, i: usize) -> TargetState {
-    let body = body(item, i);
-    body.states[(item.derived.bodies[i].0 - body.first_frame) as usize]
+    let near = || *near(item, i).and_then(|it| it.state(item.derived.bodies[i].frame)).expect("a body is seen, or present");
+    sighting(item, i).map_or_else(near, |it| it.state)
+}
+
+fn near(item: &DatasetItem, i: usize) -> Option<&cosfly_domain::Body> {
+    item.derived.bodies[i].around.map(|place| &item.record.around.traffic.bodies[place as usize])
 }

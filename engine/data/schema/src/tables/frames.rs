@@ -83,7 +83,7 @@ columns! { Frames::COLUMNS of DatasetItem;
     visible_box_px: Option<Edges> = |item, i| view(item, i).visible_box.as_ref().map(edges);
     /// Left, top, right, bottom edge around the target's pixels without obstacles; null out of view.
     full_box_px: Option<Edges> = |item, i| view(item, i).full_box.as_ref().map(edges);
-    /// Instance id of the obstacle or person that hides most of the target, see tables `objects` and `people`; 0: no
+    /// Instance id of the obstacle or body that hides most of the target, see tables `objects` and `bodies`; 0: no
     /// occluder, or only ground.
     occluder_instance: u32 = |item, i| view(item, i).occluder_instance;
 

@@ -13,7 +13,6 @@ mod frames;
 mod goals;
 mod objects;
 mod pairs;
-mod people;
 mod phrases;
 mod rejected;
 mod table;
@@ -24,7 +23,7 @@ mod waypoints;
 mod windows;
 
 pub use arrow_schema::{hugging_face_features, schema};
-pub use bodies::Bodies;
+pub use bodies::{Bodies, BodyRow};
 pub use captions::Captions;
 pub use column::{AnyColumn, CellProblem, Column};
 pub use crossings::Crossings;
@@ -33,7 +32,6 @@ pub use frames::{Frames, ROLES};
 pub use goals::Goals;
 pub use objects::{ObjectRecord, Objects, kind_name};
 pub use pairs::Pairs;
-pub use people::People;
 pub use phrases::Phrases;
 pub use rejected::Rejected;
 pub use table::{CrossingRow, DatasetItem, Derived, GoalRow, INLINE_SETS, Membership, Need, PhraseRow, Table};
@@ -51,7 +49,6 @@ pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
         waypoints::table(),
         captions::table(),
         pairs::table(),
-        people::table(),
         bodies::table(),
         target_losses::table(),
         phrases::table(),

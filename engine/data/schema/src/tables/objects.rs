@@ -75,7 +75,7 @@ const LABELS: [&str; SemanticLabel::ALL.len()] = {
 /// Definition of the table.
 pub fn table() -> Table<ObjectRecord> {
     let doc = "The boxes behind the instance ids of images and of `frames.occluder_instance`: all obstacles of the town. \
-               Id 0 is ground and sky, 1 the target; ids after those of all objects are people, see table `people`.";
+               Id 0 is ground and sky, 1 the target; ids after those of all objects are of people, vehicles and drones, see table `bodies`.";
     Table::new("objects", doc, &["town", "instance", "part"], |_: &ObjectRecord| 1, Objects::COLUMNS)
 }
 

@@ -1,5 +1,6 @@
 //! Definition of a table: its columns, and the rows of a record.
 
+use super::bodies::BodyRow;
 use super::column::AnyColumn;
 use crate::losses::Loss;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
@@ -45,8 +46,8 @@ pub struct Derived {
     pub goals: Vec<GoalRow>,
     /// Marked crossings around the target's way.
     pub crossings: Vec<CrossingRow>,
-    /// Present bodies around the target, frame by frame: frame number and place among the bodies.
-    pub bodies: Vec<(u32, u32)>,
+    /// Bodies around the target, frame by frame.
+    pub bodies: Vec<BodyRow>,
     /// Instructions of the windows, in English and in Chinese.
     pub instructions: Vec<[String; 2]>,
 }

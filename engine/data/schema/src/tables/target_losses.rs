@@ -25,7 +25,7 @@ columns! { TargetLosses::COLUMNS of DatasetItem;
     end_frame: u32 = |item, i| loss(item, i).frames.end as u32;
     /// Length of the interval, `(end_frame - start_frame) * dt_s`.
     duration_s: f64 = |item, i| loss(item, i).frames.len() as f64 * item.record.dt_s();
-    /// Instance id of what hides the target in most frames, see tables `objects` and `people`; 0: the ground, or the target is
+    /// Instance id of what hides the target in most frames, see tables `objects` and `bodies`; 0: the ground, or the target is
     /// outside of the image.
     cause_instance: u32 = |item, i| loss(item, i).cause_instance;
     /// Number of frames in which the target is outside of the image.

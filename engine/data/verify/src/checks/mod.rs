@@ -7,7 +7,7 @@ mod twins;
 
 use crate::flight_rows::FlightRows;
 use crate::report::VerifyReport;
-use crate::{frames, people, sums};
+use crate::{bodies, frames, sums};
 
 /// A check of a flight: findings go into the report.
 pub type Check = fn(&FlightRows<'_>, &mut VerifyReport);
@@ -17,8 +17,8 @@ pub const OF_FLIGHTS: &[Check] = &[
     |it, report| frames::check_frames(it.file, it.flight, it.frames, report),
     |it, report| sums::check_frames(it.flight, it.frames, report),
     |it, report| labels::compare(it.file, it.flight, it.frames, report),
-    |it, report| people::check(it.people_file, it.flight, it.frames, it.people, it.objects, report),
-    |it, report| frames::check_occluders(it.file, it.objects, it.people, it.frames, report),
+    |it, report| bodies::check(it.bodies_file, it.flight, it.frames, it.bodies, it.objects, report),
+    |it, report| frames::check_occluders(it.file, it.objects, it.bodies, it.frames, report),
     |it, report| frames::check_pair(it.pairs, it.flight, it.frames, report),
     |it, report| frames::check_town(it.file, it.extent, it.flight, it.frames, report),
     twins::check,

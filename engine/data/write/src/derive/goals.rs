@@ -8,7 +8,7 @@ use cosfly_domain::{BodyKind, Outfit, TARGET_INSTANCE, object_instance};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_schema::losses::Loss;
 use cosfly_schema::tables::GoalRow;
-use cosfly_schema::{OtherPerson, RenderedTrajectory, Sighting};
+use cosfly_schema::{OtherBody, RenderedTrajectory, Sighting};
 use std::ops::Range;
 
 /// A target is partly hidden where less than this share of its pixels is visible.
@@ -100,7 +100,7 @@ fn partly(record: &RenderedTrajectory) -> Vec<Hidden> {
 
 fn hider(record: &RenderedTrajectory, landmarks: &Landmarks, instance: u32) -> Option<Hider> {
     if let Ok(at) = record.others.binary_search_by_key(&instance, |other| other.instance) {
-        return Some(Hider::Body(record.others[at].kind));
+        return Some(Hider::Body(record.others[at].plan.kind));
     }
     let object = instance.checked_sub(object_instance(0))?;
     landmarks.kind_of(object).map(Hider::Object)
@@ -108,20 +108,20 @@ fn hider(record: &RenderedTrajectory, landmarks: &Landmarks, instance: u32) -> O
 
 /// Frames that show another body.
 fn samples(record: &RenderedTrajectory, place: usize) -> Vec<Sample> {
-    let own = record.sightings.iter().filter(|it| it.person as usize == place);
+    let own = record.sightings.iter().filter(|it| it.other as usize == place);
     let sample =
         |it: &Sighting| Sample { frame: it.frame as usize, state: it.state, is_clear: it.view.pixels >= CLEAR_PIXELS };
     own.map(sample).collect()
 }
 
 fn neighbours(record: &RenderedTrajectory) -> Vec<Neighbour> {
-    let is_walker = |it: &(usize, &OtherPerson)| it.1.kind == BodyKind::Pedestrian;
+    let is_walker = |it: &(usize, &OtherBody)| it.1.plan.kind == BodyKind::Pedestrian;
     let others = record.others.iter().enumerate().filter(is_walker);
     others.map(|(place, it)| Neighbour { wear: Wear::from(&it.outfit), samples: samples(record, place) }).collect()
 }
 
 fn vehicles(record: &RenderedTrajectory) -> Vec<(BodyKind, Vec<Sample>)> {
-    let is_vehicle = |it: &(usize, &OtherPerson)| !matches!(it.1.kind, BodyKind::Pedestrian | BodyKind::Drone);
+    let is_vehicle = |it: &(usize, &OtherBody)| !matches!(it.1.plan.kind, BodyKind::Pedestrian | BodyKind::Drone);
     let others = record.others.iter().enumerate().filter(is_vehicle);
-    others.map(|(place, it)| (it.kind, samples(record, place))).collect()
+    others.map(|(place, it)| (it.plan.kind, samples(record, place))).collect()
 }

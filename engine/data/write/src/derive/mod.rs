@@ -10,7 +10,7 @@ use cosfly_frames::DVec3;
 use cosfly_metrics::WindowShape;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::losses::Loss;
-use cosfly_schema::tables::{CrossingRow, Derived};
+use cosfly_schema::tables::{BodyRow, CrossingRow, Derived};
 use phrases::Given;
 
 /// A crossing whose box is this near to the target's way is around it, metres.
@@ -35,7 +35,7 @@ pub fn derive(record: &RenderedTrajectory, landmarks: &Landmarks, windows: &Wind
         goals,
         crossings,
         phrases: Given::all(record).iter().map(Given::row).collect(),
-        bodies: record.around.present(),
+        bodies: BodyRow::all(record),
         instructions: windows.starts(record.len()).map(instruction).collect(),
     }
 }

@@ -86,7 +86,7 @@ fn target(record: &RenderedTrajectory, kind: BodyKind, outfit: &Outfit, frame: u
 fn others(record: &RenderedTrajectory, frame: usize) -> Vec<Candidate> {
     let seen = record.seen_in(frame);
     seen.map(|(other, sighting)| {
-        candidate(record, other.kind, &other.outfit, &sighting.state, Some(&sighting.view.visible_box))
+        candidate(record, other.plan.kind, &other.outfit, &sighting.state, Some(&sighting.view.visible_box))
     })
     .collect()
 }

@@ -5,7 +5,7 @@ use cosfly_captions::{Language, Wear};
 use cosfly_domain::{BodyKind, Colour, PixelBox};
 use cosfly_frames::{Seed, TargetState};
 use cosfly_schema::log::messages::edges_px;
-use cosfly_schema::{OtherPerson, RenderedTrajectory, Sighting};
+use cosfly_schema::{OtherBody, RenderedTrajectory, Sighting};
 
 /// The instruction of frame `frame`, of a window that begins at frame `start`; empty for a target that is no person.
 pub fn instruction(
@@ -25,11 +25,11 @@ fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<View>
     let outfit = record.outfit.as_ref().filter(|_| record.target_kind() == Some(BodyKind::Pedestrian))?;
     let states = &record.trajectory.track.states;
     let seen = &record.views[frame];
-    let other = |(person, sighting): (&OtherPerson, &Sighting)| {
+    let other = |(body, sighting): (&OtherBody, &Sighting)| {
         let view = &sighting.view;
         // A rider is somebody, but nobody whom a text counts.
-        let pixels = if person.kind.is_person() { view.pixels } else { 0 };
-        self::person(&sighting.state, Some(&view.visible_box), pixels, person.outfit.top.name)
+        let pixels = if body.plan.kind.is_person() { view.pixels } else { 0 };
+        self::person(&sighting.state, Some(&view.visible_box), pixels, body.outfit.top.name)
     };
     Some(View {
         camera: record.camera_pose(frame),
@@ -37,7 +37,7 @@ fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<View>
         target: person(&states[frame], seen.visible_box.as_ref(), seen.pixels, outfit.top.name),
         wear: Some(Wear::from(outfit)),
         moved_in_world: states[frame].feet_in_world - states[start].feet_in_world,
-        others: record.seen_in(frame).filter(|it| is_somebody(it.0.kind)).map(other).collect(),
+        others: record.seen_in(frame).filter(|it| is_somebody(it.0.plan.kind)).map(other).collect(),
     })
 }
 

@@ -4,7 +4,7 @@ use crate::frame_pack::PackHeader;
 use cosfly_domain::channels::instance;
 use cosfly_domain::{BodyKindRow, Obstacle, SemanticLabel, TARGET_INSTANCE, Town, object_instance};
 use cosfly_schema::tables::kind_name;
-use cosfly_schema::{DepthEncoding, OtherPerson, RenderedTrajectory};
+use cosfly_schema::{DepthEncoding, OtherBody, RenderedTrajectory};
 use std::collections::BTreeMap;
 
 /// Layout of our logs; raised when channels or conventions change.
@@ -158,14 +158,14 @@ fn instances(town: &Town, record: &RenderedTrajectory) -> BTreeMap<String, Strin
         );
         (id(object_instance(group[0].object_id)), value)
     };
-    let person = |person: &OtherPerson| {
-        let BodyKindRow { noun, label, .. } = person.kind.row();
+    let body = |body: &OtherBody| {
+        let BodyKindRow { noun, label, .. } = body.plan.kind.row();
         let label = label.id();
-        let value = format!("{noun} label {label} of walk {}, {:.2} m high", person.walk_id, person.height_m);
-        (id(person.instance), value)
+        let value = format!("{noun} label {label} of body {}, {:.2} m high", body.body_id, body.plan.size_m.z);
+        (id(body.instance), value)
     };
     let fixed = [(0, "ground and sky"), (TARGET_INSTANCE, "the target")];
     let fixed = fixed.map(|(instance, what)| (id(instance), what.to_owned()));
     let groups = obstacles.chunk_by(|a, b| a.object_id == b.object_id);
-    groups.map(entry).chain(record.others.iter().map(person)).chain(fixed).collect()
+    groups.map(entry).chain(record.others.iter().map(body)).chain(fixed).collect()
 }

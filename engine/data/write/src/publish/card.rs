@@ -253,7 +253,7 @@ towards y, positive pitch lifts the nose, positive roll lowers the right side.\n
 one and its centre is at (0.5, 0.5).\n\
 * Depth: planar, along the optical axis, metres, 32-bit float, +inf for sky.\n\
 * Semantic images: CARLA's label ids (0.9.14 and later). Instance images: 0 ground and sky, 1 the target, object id + \
-2 (table `objects`), then people (table `people`).\n\
+2 (table `objects`), then people, vehicles and drones (table `bodies`).\n\
 * Boxes: left, top, right, bottom edges in pixels; right and bottom lie outside.\n\
 * Words in texts: the left of a picture is left of 0.3 of its width, the middle from 0.4 to 0.6, the right beyond 0.7, by the \
 middle of the visible box. A turn to a side is a bend of 60 to 125 degrees within 12 m, by chords of 3 and 5 m; a turn around leads \

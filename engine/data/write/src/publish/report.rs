@@ -118,8 +118,8 @@ fn texts(item: &DatasetItem) -> Vec<TextSketch> {
 fn is_unlike_all(record: &RenderedTrajectory) -> bool {
     let Some(own) = &record.outfit else { return false };
     let own_kind = record.target_kind();
-    let mut seen = record.sightings.iter().map(|it| &record.others[it.person as usize]);
-    seen.all(|it| Some(it.kind) != own_kind || !it.outfit.is_like(own))
+    let mut seen = record.sightings.iter().map(|it| &record.others[it.other as usize]);
+    seen.all(|it| Some(it.plan.kind) != own_kind || !it.outfit.is_like(own))
 }
 
 fn edges(it: &cosfly_domain::PixelBox) -> [f32; 4] {

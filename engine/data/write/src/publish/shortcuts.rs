@@ -15,9 +15,9 @@ pub fn count(record: &RenderedTrajectory, shortcuts: &mut Shortcuts) {
         shortcuts.add_target(&format!("{town} {}", record.pedestrian_id), looks(outfit, track.height_m));
     }
     for sighting in &record.sightings {
-        let other = &record.others[sighting.person as usize];
-        if other.kind.is_person() {
-            shortcuts.add_other(&format!("{town} {}", other.walk_id), looks(&other.outfit, other.height_m));
+        let other = &record.others[sighting.other as usize];
+        if other.plan.kind.is_person() {
+            shortcuts.add_other(&format!("{town} {}", other.body_id), looks(&other.outfit, other.plan.size_m.z));
         }
     }
     if record.role == Role::Perturbed {
@@ -27,9 +27,9 @@ pub fn count(record: &RenderedTrajectory, shortcuts: &mut Shortcuts) {
     let frames = record.views.iter().enumerate().filter_map(|(frame, view)| {
         let pose = record.camera_pose(frame);
         let target = seen(record, &pose, view.visible_box.as_ref()?, (&track.states[frame], track.height_m));
-        let alike = record.seen_in(frame).filter(|(other, _)| Some(other.kind) == kind);
+        let alike = record.seen_in(frame).filter(|(other, _)| Some(other.plan.kind) == kind);
         let others =
-            alike.map(|(other, it)| seen(record, &pose, &it.view.visible_box, (&it.state, other.height_m))).collect();
+            alike.map(|(other, it)| seen(record, &pose, &it.view.visible_box, (&it.state, other.plan.size_m.z))).collect();
         Some((target, others))
     });
     shortcuts.add_flight(image_px, frames);

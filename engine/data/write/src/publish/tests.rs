@@ -92,7 +92,7 @@ fn the_layout_is_the_documented_one() {
             "splits.json",
         ]
     );
-    for table in ["trajectories", "frames", "waypoints", "captions", "pairs", "people", "windows", "rejected"] {
+    for table in ["trajectories", "frames", "waypoints", "captions", "pairs", "bodies", "windows", "rejected"] {
         assert!(files.keys().any(|name| name.starts_with(&format!("data/{table}/"))), "{table}");
     }
 }

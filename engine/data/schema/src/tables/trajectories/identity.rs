@@ -5,7 +5,7 @@ use crate::Role;
 use crate::tables::DatasetItem;
 use crate::tables::column::columns;
 use crate::tables::windows::{self, Scene};
-use cosfly_domain::{Outfit, Traits};
+use cosfly_domain::{Outfit, Traffic, Traits};
 use cosfly_metrics::{Difficulty, WindowFeatures};
 
 columns! { Trajectories::IDENTITY of DatasetItem;
@@ -21,8 +21,8 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     pedestrian_id: String = |item, _| item.record.pedestrian_id.clone();
     /// Kind of the target: `pedestrian`, `bicycle`, `motorcycle`, `car`, `van`, `truck` or `bus`; null for a target without a body.
     target_kind: Option<String> = |item, _| item.record.target_kind().map(|kind| kind.name().to_owned());
-    /// Number of the target among the bodies of its traffic; null outside of stage `traffic`.
-    target_body: Option<u32> = |item, _| item.record.followed.as_ref().map(|followed| followed.number);
+    /// Id of the target as `bodies.body_id` of other trajectories has it; null outside of stage `traffic`.
+    target_body_id: Option<String> = |item, _| item.record.followed.as_ref().map(|it| Traffic::body_id(&it.traffic, it.number));
     /// Colour of the target's shirt or jacket in words, the same in all flights behind the pedestrian unless the recipe says
     /// otherwise; null for a target without a body.
     target_top_colour: Option<String> = |item, _| outfit(item).map(|it| it.top.name.name().to_owned());
