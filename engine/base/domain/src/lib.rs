@@ -49,5 +49,5 @@ pub use trajectory::{
     Certificate, FlightLabel, FramePerturbation, Limits, Perturbation, PerturbationKind, PlanOutcome, TermCost,
     Trajectory,
 };
-pub use view::{PersonView, PixelBox, TargetView};
+pub use view::{BodyView, PixelBox, TargetView};
 pub use weather::Weather;

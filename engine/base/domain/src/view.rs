@@ -48,7 +48,7 @@ pub struct TargetView {
 
 /// Somebody beside the target in one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PersonView {
+pub struct BodyView {
     /// Instance id.
     pub instance: u32,
     /// Visible pixels.

@@ -2,7 +2,7 @@
 
 use cosfly_domain::channels::SeenPoint;
 use cosfly_domain::{
-    Camera, FrameImages, OrientedBox, PersonView, PixelBox, SemanticLabel, TARGET_INSTANCE, TargetView, Town,
+    BodyView, Camera, FrameImages, OrientedBox, PixelBox, SemanticLabel, TARGET_INSTANCE, TargetView, Town,
 };
 use cosfly_frames::{DVec3, Pose, TargetState, real};
 
@@ -32,7 +32,7 @@ pub(crate) fn look(
     pose: &Pose,
     state: &TargetState,
     town: &Town,
-) -> (FrameImages, TargetView, Option<PersonView>) {
+) -> (FrameImages, TargetView, Option<BodyView>) {
     let (width, height) = (camera.width, camera.height);
     let mut images = FrameImages { width, height, ..FrameImages::default() };
     let (mut full, mut visible, mut companion) = (vec![], vec![], vec![]);
@@ -82,7 +82,7 @@ pub(crate) fn look(
         occluder_instance: if visible.len() < full.len() { wall.object_id + 2 } else { 0 },
     };
     let pixels = companion.len() as u32;
-    let companion = bounds(&companion).map(|visible_box| PersonView { instance: COMPANION, pixels, visible_box });
+    let companion = bounds(&companion).map(|visible_box| BodyView { instance: COMPANION, pixels, visible_box });
     (images, view, companion)
 }
 

@@ -4,8 +4,8 @@ use crate::drawn::{COMPANION, HEIGHT_M, RADIUS_M, ahead_of, look, point};
 use crate::town::town;
 use cosfly_domain::channels::{ALL, SeenPoint};
 use cosfly_domain::{
-    Around, BodyKind, BodyPlan, Camera, Certificate, ChannelImage, ChannelSet, FrameImages, FramePerturbation, Lens, Limits,
-    MotionBlur, Mount, Noise, Outfit, Perturbation, PerturbationKind, RollingShutter, Season, SemanticLabel,
+    Around, BodyKind, BodyPlan, Camera, Certificate, ChannelImage, ChannelSet, FrameImages, FramePerturbation, Lens,
+    Limits, MotionBlur, Mount, Noise, Outfit, Perturbation, PerturbationKind, RollingShutter, Season, SemanticLabel,
     TargetView, TermCost, Trajectory, Weather,
 };
 use cosfly_figures::Clothes;

@@ -2,8 +2,8 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{
-    Around, BodyKind, BodyPlan, Camera, Followed, Lens, MapOrigin, MotionBlur, Mount, Noise, Outfit, PersonView, RollingShutter,
-    Season, Synthetic, TARGET_INSTANCE, TargetView, Town, Trajectory, Weather,
+    Around, BodyKind, BodyPlan, BodyView, Camera, Followed, Lens, MapOrigin, MotionBlur, Mount, Noise, Outfit,
+    RollingShutter, Season, Synthetic, TARGET_INSTANCE, TargetView, Town, Trajectory, Weather,
 };
 use cosfly_frames::{Pose, TargetState};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -85,7 +85,7 @@ pub struct Sighting {
     /// Position and motion of the body.
     pub state: TargetState,
     /// Visible pixels of the body.
-    pub view: PersonView,
+    pub view: BodyView,
 }
 
 /// One trajectory with everything computed about it, except for the pixels (see [`cosfly_write::frame_pack`]). The

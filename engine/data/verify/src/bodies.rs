@@ -161,7 +161,9 @@ fn box_problem(flight: &PlacedFlight, frame: &PlacedFrame, body: &PlacedBody) ->
     let seen = match (body.pixels, body.visible_box, body.instance) {
         (0, None, _) => return None,
         (1.., Some(seen), Some(_)) => seen,
-        (pixels, ..) => return Some(format!("{pixels} pixels are seen: with pixels there are a box and an id, without none")),
+        (pixels, ..) => {
+            return Some(format!("{pixels} pixels are seen: with pixels there are a box and an id, without none"));
+        }
     };
     let hull = body.space.hull(flight, &frame.camera_pose)?;
     let fits = seen[0] >= hull[0] - SLACK_PX

@@ -1,11 +1,11 @@
 //! All flights, side by side: table `frames` with the tables beside it, and the log of each flight.
 
+use super::bodies::{BodiesIndex, PlacedBody};
 use super::checks::OF_FLIGHTS;
 use super::files::{CheckedFiles, State};
 use super::flight_rows::FlightRows;
 use super::log::{self, Known};
 use super::options::Wanted;
-use super::bodies::{BodiesIndex, PlacedBody};
 use super::report::VerifyReport;
 use super::resume::ResumeFile;
 use super::rows::{self, PlacedFrame};

@@ -1,7 +1,7 @@
 //! The frames of one flight: numbering, times, actions against poses, distances, boxes, occluders, and the row of its pair.
 
-use super::boxes::box_problem;
 use super::bodies::PlacedBody;
+use super::boxes::box_problem;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
 use super::tables::{Extent, PairRow, digest};
@@ -106,7 +106,8 @@ pub fn check_occluders(
             || bodies.contains(&(frame.frame, frame.occluder_instance))
     };
     if let Some(frame) = frames.iter().find(|frame| !is_known(frame)) {
-        let message = format!("its occluder {} is neither in table `objects` nor seen in `bodies`", frame.occluder_instance);
+        let message =
+            format!("its occluder {} is neither in table `objects` nor seen in `bodies`", frame.occluder_instance);
         let place = format!("row {}, `{}` frame {}", frame.row, frame.trajectory_id, frame.frame);
         report.find(file, place, "verify-reference", message);
     }

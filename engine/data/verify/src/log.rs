@@ -1,9 +1,9 @@
 //! The log of one flight: its own checksums, then its messages against the rows of the tables.
 
+use super::bodies::PlacedBody;
 use super::body::Body;
 use super::captions::Caption;
 use super::ground::BodiesOnGround;
-use super::bodies::PlacedBody;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
 use ::mcap::records::Record;

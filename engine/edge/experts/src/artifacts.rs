@@ -4,7 +4,7 @@ use crate::codec;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Around, Followed, PlanOutcome, Town, Traffic};
-use cosfly_film::nearby::{NearbyBodies, NearbyPerson};
+use cosfly_film::nearby::{NearbyBodies, NearbyWalk};
 use cosfly_flight::formation::Formation;
 use cosfly_flight::losses::Trial;
 use cosfly_flight::{Companion, Flown};
@@ -46,7 +46,7 @@ pub const DRONES: Kind<Formation> = Kind::new("formation/1", "drones");
 /// A planned or changed flight, or the reason why there is none.
 pub const FLIGHT: Kind<PlanOutcome> = Kind::new("trajectory/5", "trajectory");
 /// People who are near a flight, each with a blob of the walk.
-pub const NEARBY: Kind<Vec<NearbyPerson>> = Kind::new("nearby/1", "people");
+pub const NEARBY: Kind<Vec<NearbyWalk>> = Kind::new("nearby/1", "people");
 /// Bodies of traffic near a flight; absent where there is no traffic.
 pub const NEARBY_BODIES: Kind<Vec<NearbyBodies>> = Kind::new("nearby/1", "bodies");
 /// Artifact of a film.

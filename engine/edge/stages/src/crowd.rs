@@ -2,10 +2,10 @@
 
 use crate::nearby;
 use cosfly_diagnose::Result;
-use cosfly_domain::{BodyId, PersonView, Traffic, largest_object_instance};
+use cosfly_domain::{BodyId, BodyView, Traffic, largest_object_instance};
 use cosfly_experts::artifacts;
 use cosfly_figures::Bystander;
-use cosfly_film::nearby::{NearbyBodies, NearbyPerson};
+use cosfly_film::nearby::{NearbyBodies, NearbyWalk};
 use cosfly_film::{Person, Shooting};
 use cosfly_flight::World;
 use cosfly_pedestrians::PedestrianPath;
@@ -22,7 +22,7 @@ impl Crowd {
     /// The people whom part `nearby` of the same stage found; nobody where it is left out.
     pub fn around(inputs: &Inputs<'_>) -> Result<Self> {
         let Some(artifact) = inputs.all(nearby::NAME).first() else { return Ok(Self::default()) };
-        let read = |NearbyPerson { instance, walk_id }: NearbyPerson| {
+        let read = |NearbyWalk { instance, walk_id }: NearbyWalk| {
             let blob = nearby::walk_blob(&walk_id);
             let walk = inputs.decoded(artifact, &blob, |bytes| artifacts::WALK.decode(bytes))?;
             let walk: &PedestrianPath = &walk;
@@ -81,7 +81,7 @@ impl Crowd {
     }
 
     /// Sightings of the people who are seen in a frame.
-    pub fn sightings(&self, frame: usize, time_s: f64, seen: &[PersonView]) -> impl Iterator<Item = Sighting> {
+    pub fn sightings(&self, frame: usize, time_s: f64, seen: &[BodyView]) -> impl Iterator<Item = Sighting> {
         seen.iter().filter_map(move |view| {
             let place = self.members.binary_search_by_key(&view.instance, |(other, _)| other.instance).ok()?;
             let state = self.members[place].1.state(time_s)?;

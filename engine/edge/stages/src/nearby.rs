@@ -10,9 +10,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::PlanOutcome;
 use cosfly_experts::artifacts;
 use cosfly_film::Shooting;
-use cosfly_film::nearby::{
-    Candidate, Candidates, Filming, NearbyBodies, NearbyPerson, Origin, Refused, Scenery, apart,
-};
+use cosfly_film::nearby::{Candidate, Candidates, Filming, NearbyBodies, NearbyWalk, Origin, Refused, Scenery, apart};
 use cosfly_render::{Buildings, RenderConfig};
 use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
@@ -142,7 +140,7 @@ fn put(outputs: &mut dyn OutputSink, near: &[Candidate], stages: &[&[Artifact]])
                 let artifact = &stages[*stage][*item];
                 let walk_id = artifact.name.to_string();
                 outputs.link(&walk_blob(&walk_id), artifact.blobs[artifacts::WALK.blob])?;
-                people.push(NearbyPerson { instance: *instance, walk_id });
+                people.push(NearbyWalk { instance: *instance, walk_id });
             }
             Origin::Body(traffic, number) => NearbyBodies::add(&mut bodies, traffic, *number, *instance),
         }

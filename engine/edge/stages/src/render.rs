@@ -11,7 +11,7 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::{Around, Camera, PlanOutcome, TargetView, Trajectory, largest_object_instance};
 use cosfly_experts::{artifacts, pictures};
-use cosfly_figures::{Bystander, TargetSetup, gait_phase_rad, outfit_of};
+use cosfly_figures::{Bystander, Walker, gait_phase_rad, outfit_of};
 use cosfly_film::body_rays::BodyRays;
 use cosfly_film::shooting::{Shooting, preset};
 use cosfly_film::walks::walked_m;
@@ -262,13 +262,12 @@ impl RenderStage {
                 let moment = |offset_s: f64| {
                     let at = frame as f64 + offset_s / track.dt_s;
                     let state = target_state_at(&track.states, at);
-                    let target = TargetSetup {
+                    let target = Walker {
                         state,
                         height_m: track.height_m,
                         radius_m: track.radius_m,
                         clothes_seed: shooting.clothes_seed,
                         gait_phase_rad: gait_phase_rad(walked_m[frame] + offset_s * state.speed_mps, track.height_m),
-                        visible_by_rays,
                         body: shooting.body,
                     };
                     // A target without extent is a point: it is watched, not drawn.

@@ -167,7 +167,7 @@ fn row(
             scene,
             pose: place.pose,
             horizontal_fov_rad: FOV_RAD,
-            target: Some(place.target.walker()),
+            target: Some(place.target),
             others,
             weather: None,
             look: content.look(),

@@ -4,7 +4,6 @@ use crate::canvas::{Canvas, WIDE};
 use crate::faces::{BODY, DrawnFace};
 use crate::view::View;
 use cosfly_domain::{Camera, Weather};
-use cosfly_figures::{TargetSetup, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_raster::visibility::NO_FACE;
 use cosfly_render::{BodyPart, FoundFace, FoundPicture, FoundSource, FrameSetup, Renderer};
@@ -55,7 +54,7 @@ impl Colours {
             *noon = cosfly_materials::presets::preset(WEATHER);
         }
         let Some(weather) = view.weather.or(noon.as_ref()) else { return };
-        let target = view.target.map(setup_of);
+        let target = view.target;
         let setup = FrameSetup { pose: view.pose, weather, target, others: view.others };
         let picture = FoundPicture { nearest, inverse_depth, faces, parts };
         rgb.copy_from_slice(renderer.colours_of(scene, &setup, &picture));
@@ -110,9 +109,4 @@ fn new_renderer(camera: Camera) -> Renderer {
     let mut renderer = Renderer::new(camera);
     renderer.set_parallel(false);
     renderer
-}
-
-fn setup_of(walker: Walker) -> TargetSetup {
-    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker;
-    TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 1.0, body }
 }

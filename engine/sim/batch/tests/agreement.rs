@@ -6,7 +6,7 @@ mod towns;
 
 use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
 use cosfly_domain::{BodyKind, Camera, Town, Weather, object_instance};
-use cosfly_figures::{BodyShape, TargetSetup, Walker};
+use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer, Scene};
@@ -79,18 +79,6 @@ fn small(scene: &BatchScene, place: &Place, size: u32) -> Pictures {
     pictures
 }
 
-fn setup_of(target: &Walker) -> TargetSetup {
-    TargetSetup {
-        state: target.state,
-        height_m: target.height_m,
-        radius_m: target.radius_m,
-        clothes_seed: target.clothes_seed,
-        gait_phase_rad: target.gait_phase_rad,
-        body: target.body,
-        visible_by_rays: 1.0,
-    }
-}
-
 /// Compares all pixels of places of a town with the large renderer's; at most one in `rare` may differ, on edges, where a
 /// rounding decides.
 fn agrees_with_large(town: &Town, count: usize, people: u32, rare: usize) {
@@ -102,12 +90,8 @@ fn agrees_with_large(town: &Town, count: usize, people: u32, rare: usize) {
         for size in [64u32, 84, 128, 224] {
             let ours = small(&batch, place, size);
             let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad: FOV_RAD });
-            let setup = FrameSetup {
-                pose: place.pose,
-                weather: &weather,
-                target: Some(setup_of(&place.target)),
-                others: &place.others,
-            };
+            let setup =
+                FrameSetup { pose: place.pose, weather: &weather, target: Some(place.target), others: &place.others };
             let images = large.render_parts(&scene, &setup, FrameParts::Ids).images;
             let pixels = images.depth_m.len();
             let count = |differs: &dyn Fn(usize) -> bool| (0..pixels).filter(|pixel| differs(*pixel)).count();

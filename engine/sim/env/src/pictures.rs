@@ -1,5 +1,6 @@
 //! [`Pictures`]: what the cameras of environments see, drawn in batches.
 
+use crate::Episode;
 use crate::environment::Environment;
 use crate::others::BodyAtTime;
 use cosfly_batch::{BatchRenderer, Outputs, View};
@@ -270,24 +271,21 @@ fn drone(environment: &Environment) -> Option<Walker> {
     })
 }
 
-/// Everybody else who is there now. The bodies are the only source of their world beside the drones of a team.
+/// Everybody else who is there now, in a rain.
 pub fn bystanders(environment: &Environment, rain: f64) -> impl Iterator<Item = Bystander> {
-    let episode = environment.episode();
-    episode.others.at(environment.observation().time_s).map(move |present| Bystander {
+    bystanders_at(environment.episode(), environment.observation().time_s, rain)
+}
+
+/// Everybody else who is there at a time, in a rain. The bodies are the only source of their world beside the drones of a team.
+pub fn bystanders_at(episode: &Episode, time_s: f64, rain: f64) -> impl Iterator<Item = Bystander> {
+    episode.others.at(time_s).map(move |present| Bystander {
         walker: walker(&present, rain),
         instance: episode.place.instance(BodyId::of(0, present.mover.number as usize)),
     })
 }
 
 /// Somebody who is there as they are drawn in a rain.
-pub fn walker(BodyAtTime { mover, state, covered_m }: &BodyAtTime<'_>, rain: f64) -> Walker {
-    let plan = &mover.plan;
-    Walker {
-        state: *state,
-        height_m: plan.size_m.z,
-        radius_m: plan.radius_m(),
-        clothes_seed: plan.looks,
-        gait_phase_rad: gait_phase_rad(*covered_m, plan.size_m.z),
-        body: BodyShape::of(plan.kind, plan.size_m).in_rain(rain, &plan.looks),
-    }
+fn walker(BodyAtTime { mover, state, covered_m }: &BodyAtTime<'_>, rain: f64) -> Walker {
+    let dry = Walker::of(&mover.plan, *state, *covered_m);
+    Walker { body: dry.body.in_rain(rain, &mover.plan.looks), ..dry }
 }

@@ -3,7 +3,6 @@
 use cosfly_domain::{Around, Body, BodyId, BodyKind, BodyPlan, Camera, Town, Traffic, WalkableKind};
 use cosfly_env::pictures::{Channel, PictureBatch, PictureFormat, Pictures, bystanders, target};
 use cosfly_env::{Action, Environment, EnvironmentSettings, Episode, FlightSite, Others, Start};
-use cosfly_figures::{TargetSetup, Walker};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_maps::{MapConfig, read_town};
 use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer, Scene};
@@ -84,11 +83,6 @@ fn drawn(environments: &[&Environment], size: u32, threads: usize) -> PictureBat
     album
 }
 
-fn setup_of(walker: Walker) -> TargetSetup {
-    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker;
-    TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 1.0, body }
-}
-
 #[test]
 fn pictures_are_those_of_the_large_renderer_at_the_pose_of_the_environment() {
     let town = downtown();
@@ -103,7 +97,7 @@ fn pictures_are_those_of_the_large_renderer_at_the_pose_of_the_environment() {
             let setup = FrameSetup {
                 pose: environment.camera(),
                 weather: environment.episode().weather.as_ref().unwrap_or(&noon),
-                target: Some(setup_of(target(environment, 0.0))),
+                target: Some(target(environment, 0.0)),
                 others: &others,
             };
             let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad });
@@ -143,7 +137,7 @@ fn full_colours_are_those_of_the_large_renderer_in_the_weather_of_the_episode_or
             Pictures::new(format, 1).draw(&[environment], &mut album, 0);
             let rain = weather(shown).precipitation;
             let others: Vec<_> = bystanders(environment, rain).collect();
-            let target = Some(setup_of(target(environment, rain)));
+            let target = Some(target(environment, rain));
             let setup = FrameSetup { pose: environment.camera(), weather: &weather(shown), target, others: &others };
             let horizontal_fov_rad = environment.settings().lens.horizontal_deg.to_radians();
             let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad });

@@ -5,14 +5,9 @@ use crate::body_shape::BodyShape;
 use crate::build::{Arm, Hair, head_size};
 use crate::frustum::{FigurePart, FigureTriangle, Ring, Surface, around, ring};
 use crate::region::Region;
-use crate::walker::{TargetSetup, Walker};
+use crate::walker::Walker;
 use crate::{umbrella, vehicles};
 use cosfly_frames::{DVec3, real};
-
-/// The figure's surface as bare triangles, for rays.
-pub fn target_triangles(target: &TargetSetup) -> Vec<[DVec3; 3]> {
-    walker_triangles(&target.walker())
-}
 
 /// Somebody's surface as bare triangles, for rays.
 pub fn walker_triangles(walker: &Walker) -> Vec<[DVec3; 3]> {
@@ -276,14 +271,13 @@ mod tests {
     use crate::walker::gait_phase_rad;
     use cosfly_frames::{Seed, TargetState};
 
-    fn walking(phase: f64) -> TargetSetup {
-        TargetSetup {
+    fn walking(phase: f64) -> Walker {
+        Walker {
             state: TargetState { feet_in_world: DVec3::new(5.0, -3.0, 0.5), heading_rad: 1.0, speed_mps: 1.4 },
             height_m: 1.75,
             radius_m: 0.3,
             clothes_seed: Seed([3; 32]),
             gait_phase_rad: phase,
-            visible_by_rays: 1.0,
             body: BodyShape::default(),
         }
     }
@@ -292,7 +286,7 @@ mod tests {
     fn the_figure_fills_its_height_and_stays_near_its_cylinder() {
         for step in 0..12 {
             let target = walking(f64::from(step) * 0.55);
-            let corners: Vec<DVec3> = target_triangles(&target).into_iter().flatten().collect();
+            let corners: Vec<DVec3> = walker_triangles(&target).into_iter().flatten().collect();
             let top = corners.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
             let low = corners.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
             assert!((2.1..2.2501).contains(&top) && (low - 0.5).abs() < 1e-9, "{low} to {top}");
@@ -304,7 +298,7 @@ mod tests {
     #[test]
     fn normals_point_out_of_every_part() {
         let mut triangles = Vec::new();
-        let walker = walking(0.7).walker();
+        let walker = walking(0.7);
         figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
         assert!(triangles.len() > 300 && triangles.iter().all(|t| (t.normal_in_world.length() - 1.0).abs() < 1e-9));
     }

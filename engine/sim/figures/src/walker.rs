@@ -1,40 +1,8 @@
 //! People and vehicles that a picture shows: where they are, how they move, what draws their looks.
 
 use crate::body_shape::BodyShape;
+use cosfly_domain::BodyPlan;
 use cosfly_frames::{Seed, TargetState, real};
-
-/// The target of one frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TargetSetup {
-    /// Position, heading and speed.
-    pub state: TargetState,
-    /// Body height, metres.
-    pub height_m: f64,
-    /// Body radius seen from above, metres.
-    pub radius_m: f64,
-    /// Draws its clothes, skin and build.
-    pub clothes_seed: Seed,
-    /// Phase of the gait, radians; see [`gait_phase_rad`].
-    pub gait_phase_rad: f64,
-    /// Share of body points that unoccluded rays reach; copied into the picture's view of the target.
-    pub visible_by_rays: f64,
-    /// Shape of the body.
-    pub body: BodyShape,
-}
-
-impl TargetSetup {
-    /// The target as one of the people in the picture.
-    pub fn walker(&self) -> Walker {
-        Walker {
-            state: self.state,
-            height_m: self.height_m,
-            radius_m: self.radius_m,
-            clothes_seed: self.clothes_seed,
-            gait_phase_rad: self.gait_phase_rad,
-            body: self.body,
-        }
-    }
-}
 
 /// Somebody in the picture: a person, or a vehicle with its rider.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +22,19 @@ pub struct Walker {
 }
 
 impl Walker {
+    /// The figure of a body that has covered `covered_m` metres since its first state.
+    pub fn of(plan: &BodyPlan, state: TargetState, covered_m: f64) -> Self {
+        let height_m = plan.size_m.z;
+        Self {
+            state,
+            height_m,
+            radius_m: plan.radius_m(),
+            clothes_seed: plan.looks,
+            gait_phase_rad: gait_phase_rad(covered_m, height_m),
+            body: BodyShape::of(plan.kind, plan.size_m),
+        }
+    }
+
     /// Whether there is a body to draw.
     pub fn has_body(&self) -> bool {
         let numbers = [self.radius_m, self.state.heading_rad, self.state.speed_mps, self.gait_phase_rad];

@@ -2,7 +2,7 @@
 //! people in double precision, without any code of the renderer, so that its pixels can be compared with it.
 
 use cosfly_domain::Camera;
-use cosfly_figures::{Bystander, TargetSetup, Walker, target_triangles, walker_triangles};
+use cosfly_figures::{Bystander, Walker, walker_triangles};
 use cosfly_frames::{DVec3, Pose};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 
@@ -35,19 +35,18 @@ impl BodyRays {
         others: &[Bystander],
         camera: &Camera,
         pose: &Pose,
-        target: &TargetSetup,
+        target: &Walker,
     ) -> Option<f64> {
         let in_image = |corner: DVec3| camera.project(pose, corner).map(|(u, v, depth_m)| [u, v, 1.0 / depth_m]);
         let seen = |[a, b, c]: [DVec3; 3]| Some([in_image(a)?, in_image(b)?, in_image(c)?]);
-        let triangles: Vec<[Corner; 3]> = target_triangles(target).into_iter().filter_map(seen).collect();
+        let triangles: Vec<[Corner; 3]> = walker_triangles(target).into_iter().filter_map(seen).collect();
         let grid = Grid::around(&triangles, camera)?;
         self.nearness.clear();
         self.nearness.resize(grid.columns * grid.rows, 0.0);
         triangles.iter().for_each(|triangle| grid.meet(triangle, &mut self.nearness));
         self.nearness_of_others.clear();
         self.nearness_of_others.resize(grid.columns * grid.rows, 0.0);
-        let walker = target.walker();
-        let is_before = |other: &&Bystander| is_before(&other.walker, pose.position_in_world, &walker);
+        let is_before = |other: &&Bystander| is_before(&other.walker, pose.position_in_world, target);
         for other in others.iter().filter(is_before) {
             let triangles = walker_triangles(&other.walker).into_iter().filter_map(seen);
             triangles.for_each(|triangle| grid.meet(&triangle, &mut self.nearness_of_others));
@@ -160,14 +159,13 @@ mod tests {
 
     const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.2 };
 
-    fn target() -> TargetSetup {
-        TargetSetup {
+    fn target() -> Walker {
+        Walker {
             state: TargetState { feet_in_world: DVec3::ZERO, heading_rad: 0.4, speed_mps: 1.3 },
             height_m: 1.8,
             radius_m: 0.3,
             clothes_seed: Seed([1; 32]),
             gait_phase_rad: 0.5,
-            visible_by_rays: 1.0,
             body: BodyShape::default(),
         }
     }
@@ -194,7 +192,7 @@ mod tests {
     fn somebody_before_the_body_hides_it_and_somebody_behind_does_not() {
         let pose = Pose::looking_at(DVec3::new(20.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
         let share = |x: f64, y: f64| {
-            let mut walker = target().walker();
+            let mut walker = target();
             walker.state.feet_in_world = DVec3::new(x, y, 0.0);
             let other = [Bystander { walker, instance: 9 }];
             BodyRays::default().visible_share(&BoxBvh::build(vec![]), &other, &CAMERA, &pose, &target()).unwrap()
@@ -213,8 +211,8 @@ mod tests {
         let pose = Pose::looking_at(DVec3::new(20.0, 0.0, 0.9), DVec3::new(0.0, 0.0, 0.9));
         let size_m = DVec3::new(12.0, 2.5, 3.1);
         let bus = BodyShape::Vehicle { kind: cosfly_domain::BodyKind::Bus, size_m };
-        let share = |target: &TargetSetup, x: f64, y: f64| {
-            let mut walker = Walker { body: bus, ..self::target().walker() };
+        let share = |target: &Walker, x: f64, y: f64| {
+            let mut walker = Walker { body: bus, ..self::target() };
             (walker.state.feet_in_world, walker.state.heading_rad) =
                 (DVec3::new(x, y, 0.0), 0.5 * cosfly_frames::real::PI);
             let other = [Bystander { walker, instance: 9 }];
@@ -225,7 +223,7 @@ mod tests {
             [share(&target(), 6.0, 5.0), share(&target(), -6.0, 5.0), share(&target(), 6.0, 8.0)],
             [0.0, 1.0, 1.0]
         );
-        let followed = TargetSetup { body: bus, ..target() };
+        let followed = Walker { body: bus, ..target() };
         let half = share(&followed, 8.0, 6.0);
         assert!((0.2..0.8).contains(&half), "{half}");
     }

@@ -4,7 +4,7 @@ use crate::body_rays::BodyRays;
 use crate::shooting::Shooting;
 use crate::walks::Person;
 use cosfly_domain::{Around, Followed, Trajectory};
-use cosfly_figures::{Bystander, TargetSetup, Walker};
+use cosfly_figures::Bystander;
 use cosfly_frames::Seed;
 use cosfly_geometry::BoxBvh;
 
@@ -24,13 +24,8 @@ pub fn hidden(flight: &Trajectory, boxes: &BoxBvh, around: &Around, followed: Op
         let Some(walker) = target.walker(time_s) else { return false };
         let about = others.iter().filter_map(|other| Some(Bystander { walker: other.walker(time_s)?, instance: 1 }));
         let about: Vec<Bystander> = about.collect();
-        let seen = rays.visible_share(boxes, &about, &camera, &flight.poses_in_world[frame], &setup(walker));
+        let seen = rays.visible_share(boxes, &about, &camera, &flight.poses_in_world[frame], &walker);
         seen.is_none_or(|share| share == 0.0)
     };
     (0..track.states.len()).map(|frame| flight.visibility[frame] <= MOST_SEEN && is_hidden(frame)).collect()
-}
-
-fn setup(walker: Walker) -> TargetSetup {
-    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker;
-    TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 0.0, body }
 }

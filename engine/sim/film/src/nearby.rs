@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// A person who is near a flight.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct NearbyPerson {
+pub struct NearbyWalk {
     /// Id in instance images (see [`BodyId`]).
     pub instance: u32,
     /// Stage and item of the walk, such as `crowd-p00003`.

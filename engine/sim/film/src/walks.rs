@@ -4,7 +4,7 @@ use crate::looks::walk_seed;
 use crate::shooting::Shooting;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Body, BodyKind, BodyPlan, Followed, Outfit};
-use cosfly_figures::{BodyShape, Walker, gait_phase_rad, outfit_of};
+use cosfly_figures::{BodyShape, Walker, outfit_of};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_optics::target_state_at;
 use cosfly_pedestrians::PedestrianPath;
@@ -84,19 +84,11 @@ impl Person {
 
     /// State and looks at a time, seconds from the flight's first frame; `None` where the person is absent.
     pub fn walker(&self, time_s: f64) -> Option<Walker> {
-        let track = &self.track;
         let step = self.step(time_s)?;
         let first = step as usize;
-        let last = (first + 1).min(track.len() - 1);
+        let last = (first + 1).min(self.track.len() - 1);
         let walked_m = self.walked_m[first] + (self.walked_m[last] - self.walked_m[first]) * (step - first as f64);
-        Some(Walker {
-            state: self.state(time_s)?,
-            height_m: track.height_m,
-            radius_m: track.radius_m,
-            clothes_seed: self.plan.looks,
-            gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
-            body: self.body,
-        })
+        Some(Walker { body: self.body, ..Walker::of(&self.plan, self.state(time_s)?, walked_m) })
     }
 
     /// True where the person walks through a target with a body.

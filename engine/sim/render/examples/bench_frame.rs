@@ -10,7 +10,7 @@ mod small_town;
 mod traffic;
 
 use cosfly_domain::Town;
-use cosfly_figures::{BodyShape, Bystander, TargetSetup};
+use cosfly_figures::{BodyShape, Bystander, Walker};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
 use cosfly_maps::MapConfig;
 use cosfly_render::{FrameParts, FrameSetup, RenderConfig, Renderer, Scene, Stages};
@@ -118,16 +118,15 @@ fn cpu_ns(started: Instant) -> u64 {
 }
 
 /// A follower behind and above a target that walks along a street.
-fn frame(index: u32, middle: DVec3, away: DVec3) -> (Pose, TargetSetup) {
+fn frame(index: u32, middle: DVec3, away: DVec3) -> (Pose, Walker) {
     let (sin, cos) = real::sin_cos(0.01 * f64::from(index));
     let feet = middle + DVec3::new(0.2 * f64::from(index), 0.0, 0.0);
-    let target = TargetSetup {
+    let target = Walker {
         state: TargetState { feet_in_world: feet, heading_rad: 0.1, speed_mps: 1.4 },
         height_m: 1.75,
         radius_m: 0.3,
         clothes_seed: Seed([9; 32]),
         gait_phase_rad: 0.4 * f64::from(index),
-        visible_by_rays: 1.0,
         body: BodyShape::default(),
     };
     let turned = DVec3::new(cos * away.x - sin * away.y, sin * away.x + cos * away.y, away.z);

@@ -8,7 +8,7 @@ mod crowd;
 mod small_town;
 
 use cosfly_domain::{Season, Town, WalkableKind};
-use cosfly_figures::{BodyShape, TargetSetup};
+use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::MapConfig;
 use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
@@ -39,13 +39,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let camera = RenderConfig::default().camera();
     let mut renderer = Renderer::new(camera);
     let feet = if map.is_some() { pavement_near_the_middle(&town) } else { DVec3::new(-8.0, 13.5, 0.14) };
-    let target = TargetSetup {
+    let target = Walker {
         state: TargetState { feet_in_world: feet, heading_rad: 0.1, speed_mps: 1.4 },
         height_m: 1.75,
         radius_m: 0.3,
         clothes_seed: Seed([9; 32]),
         gait_phase_rad: 1.2,
-        visible_by_rays: 1.0,
         body: BodyShape::default(),
     };
     let views = [

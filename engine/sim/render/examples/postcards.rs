@@ -1,7 +1,7 @@
 //! The book's pictures: one town at noon, sunset, in rain, fog, at night, in dust and in winter: `postcards OUT_DIR TOWN.xodr`.
 
 use cosfly_domain::{Season, Town, WalkableKind, Weather};
-use cosfly_figures::{BodyShape, Bystander, TargetSetup, Walker, gait_phase_rad};
+use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
 use cosfly_maps::MapConfig;
 use cosfly_render::{FrameSetup, RenderConfig, Renderer, Scene};
@@ -50,13 +50,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, preset, change, [back, aside, up]) in POSTCARDS {
         let mut weather = cosfly_materials::presets::preset(preset).ok_or("no such preset")?;
         change(&mut weather);
-        let target = TargetSetup {
+        let target = Walker {
             state,
             height_m: 1.75,
             radius_m: 0.3,
             clothes_seed: Seed([9; 32]),
             gait_phase_rad: 1.2,
-            visible_by_rays: 1.0,
             body: BodyShape::default(),
         };
         let offset = DVec3::new(back * cos - aside * sin, back * sin + aside * cos, up);

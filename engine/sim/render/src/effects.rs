@@ -13,8 +13,8 @@ use crate::renderer::Renderer;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use crate::target_view;
-use cosfly_domain::{Camera, ChannelImage, FrameImages, Lens, MotionBlur, Noise, PersonView, RollingShutter, Weather};
-use cosfly_figures::{Bystander, TargetSetup};
+use cosfly_domain::{BodyView, Camera, ChannelImage, FrameImages, Lens, MotionBlur, Noise, RollingShutter, Weather};
+use cosfly_figures::{Bystander, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{Pose, Seed};
 use cosfly_optics::{Exposure, add_noise};
@@ -27,7 +27,7 @@ pub struct Moment {
     /// The camera's pose.
     pub pose: Pose,
     /// The followed target, if there is one.
-    pub target: Option<TargetSetup>,
+    pub target: Option<Walker>,
 }
 
 /// One picture to take.
@@ -58,7 +58,7 @@ pub struct Effects {
     occluders: Vec<u32>,
     mask: Vec<bool>,
     bystanders: Vec<Bystander>,
-    seen: Vec<PersonView>,
+    seen: Vec<BodyView>,
 }
 
 impl Effects {
@@ -132,9 +132,8 @@ impl Effects {
             }
         }
         add_noise(&self.noise, &mut self.images.rgb, &shot.noise_seed);
-        let mut view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
-        view.visible_by_rays = (shot.moment)(0.0).target.map_or(0.0, |target| target.visible_by_rays);
-        target_view::measure_people(Level::best(), &self.images, bystanders, &mut self.seen);
+        let view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
+        target_view::measure_bodies(Level::best(), &self.images, bystanders, &mut self.seen);
         RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered, others: &self.seen }
     }
 }

@@ -1,6 +1,6 @@
 //! One rendered frame: views of the target and of other people.
 
-use cosfly_domain::{FrameImages, PersonView, TargetView};
+use cosfly_domain::{BodyView, FrameImages, TargetView};
 
 /// A finished frame; the images belong to the renderer and are overwritten by its next frame.
 pub struct RenderedFrame<'a> {
@@ -11,5 +11,5 @@ pub struct RenderedFrame<'a> {
     /// Indices of the pixels that the target would cover without obstacles, ascending.
     pub target_pixels: &'a [u32],
     /// Views of the others, by instance id; those of whom no pixel is seen are left out.
-    pub others: &'a [PersonView],
+    pub others: &'a [BodyView],
 }

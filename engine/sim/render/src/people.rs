@@ -69,7 +69,7 @@ impl People {
         self.members.clear();
         self.triangles.clear();
         self.looks.clear();
-        if let Some(target) = setup.target.as_ref().map(|target| target.walker()).filter(Walker::has_body) {
+        if let Some(target) = setup.target.filter(Walker::has_body) {
             let body = Bounds::new(&target);
             let height_px = body.height_px(&target, eye, screen);
             self.add(target, TARGET_INSTANCE, true, body.reach(eye, screen, far), height_px, Built::ForPicture);
@@ -109,7 +109,7 @@ impl People {
                 *found = Some(0);
             }
         }
-        let target = setup.target.as_ref().map(|target| (target.walker(), TARGET_INSTANCE));
+        let target = setup.target.map(|target| (target, TARGET_INSTANCE));
         let others = setup.others.iter().map(|other| Some((other.walker, other.instance)));
         for (who, body) in core::iter::once(target).chain(others).enumerate() {
             let Some((walker, instance)) = body.filter(|(walker, _)| walker.has_body()) else { continue };

@@ -18,7 +18,7 @@ use crate::shade::smooth;
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
 use cosfly_domain::{
-    Camera, ChannelImage, ChannelSet, FrameImages, PersonView, SemanticLabel, TARGET_INSTANCE, TargetView,
+    BodyView, Camera, ChannelImage, ChannelSet, FrameImages, SemanticLabel, TARGET_INSTANCE, TargetView,
 };
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
@@ -57,7 +57,7 @@ pub struct Renderer {
     occluders: Vec<u32>,
     covered: Vec<u32>,
     view: TargetView,
-    others: Vec<PersonView>,
+    others: Vec<BodyView>,
     runs: SeenRuns,
     level: Level,
     look: PictureLook,
@@ -203,12 +203,11 @@ impl Renderer {
                 on_request::draw(&mut self.images, &self.nearest.face, &self.faces, &eye, &self.screen);
             }
             watch.lap(3);
-            if let Some(target) = &setup.target {
+            if setup.target.is_some() {
                 target_view::covered_pixels(&self.alone, self.screen.width, &mut self.covered);
                 self.view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
-                self.view.visible_by_rays = target.visible_by_rays;
             }
-            target_view::measure_people(self.level, &self.images, setup.others, &mut self.others);
+            target_view::measure_bodies(self.level, &self.images, setup.others, &mut self.others);
             watch.lap(4);
         }
         if parts == FrameParts::All && self.look == PictureLook::Full {

@@ -1,6 +1,6 @@
 //! Visible part of people in a frame, counted in pixels; of the target, against the target drawn alone.
 
-use cosfly_domain::{FrameImages, PersonView, PixelBox, TARGET_INSTANCE, TargetView};
+use cosfly_domain::{BodyView, FrameImages, PixelBox, TARGET_INSTANCE, TargetView};
 use cosfly_figures::Bystander;
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
@@ -26,7 +26,7 @@ pub(crate) fn covered_pixels(alone: &Visibility, width: usize, covered: &mut Vec
 }
 
 /// View of the target in `images`, when it would cover the pixels `covered` without obstacles; `visible_by_rays` is
-/// left 0. `occluders` is scratch.
+/// left 0: rays are of another room. `occluders` is scratch.
 pub fn measure(images: &FrameImages, covered: &[u32], occluders: &mut Vec<u32>) -> TargetView {
     let width = images.width.max(1);
     let (mut visible, mut full) = (Extent::default(), Extent::default());
@@ -54,7 +54,7 @@ pub fn measure(images: &FrameImages, covered: &[u32], occluders: &mut Vec<u32>) 
 }
 
 /// Views of `others` in `images`, by instance id.
-pub(crate) fn measure_people(level: Level, images: &FrameImages, others: &[Bystander], views: &mut Vec<PersonView>) {
+pub(crate) fn measure_bodies(level: Level, images: &FrameImages, others: &[Bystander], views: &mut Vec<BodyView>) {
     views.clear();
     // People's ids come after those of objects: most pixels are told by one comparison.
     let ids = others.iter().map(|other| other.instance);
@@ -85,7 +85,7 @@ simd_kernel! {
     }
 }
 
-fn add_pixel(views: &mut Vec<PersonView>, instance: u32, u: u32, v: u32) {
+fn add_pixel(views: &mut Vec<BodyView>, instance: u32, u: u32, v: u32) {
     // The person seen last comes first in the search.
     match views.iter_mut().rev().find(|view| view.instance == instance) {
         Some(view) => {
@@ -94,7 +94,7 @@ fn add_pixel(views: &mut Vec<PersonView>, instance: u32, u: u32, v: u32) {
         }
         None => {
             let visible_box = PixelBox { u_min: u, v_min: v, u_max: u, v_max: v };
-            views.push(PersonView { instance, pixels: 1, visible_box });
+            views.push(BodyView { instance, pixels: 1, visible_box });
         }
     }
 }

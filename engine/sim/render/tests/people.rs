@@ -3,10 +3,10 @@
 mod small_town;
 
 use cosfly_domain::{
-    BodyKind, Camera, FrameImages, Lens, MotionBlur, Noise, PersonView, PixelBox, RollingShutter, SemanticLabel,
+    BodyKind, BodyView, Camera, FrameImages, Lens, MotionBlur, Noise, PixelBox, RollingShutter, SemanticLabel,
     SurfaceMesh, TARGET_INSTANCE, TargetView, Weather,
 };
-use cosfly_figures::{BodyShape, Bystander, Clothes, TargetSetup, Walker, walker_triangles};
+use cosfly_figures::{BodyShape, Bystander, Clothes, Walker, walker_triangles};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
 use cosfly_render::{Buildings, Effects, FrameSetup, Moment, Outlook, Renderer, Scene, Shot};
@@ -31,9 +31,8 @@ fn walker(feet: DVec3, seed: u8) -> Walker {
     }
 }
 
-fn target(feet: DVec3) -> TargetSetup {
-    let Walker { state, height_m, radius_m, clothes_seed, gait_phase_rad, body } = walker(feet, 2);
-    TargetSetup { state, height_m, radius_m, clothes_seed, gait_phase_rad, visible_by_rays: 0.5, body }
+fn target(feet: DVec3) -> Walker {
+    walker(feet, 2)
 }
 
 fn crowd(random: &mut RandomStream, around: DVec3, count: u32) -> Vec<Bystander> {
@@ -47,7 +46,7 @@ fn crowd(random: &mut RandomStream, around: DVec3, count: u32) -> Vec<Bystander>
 struct Drawn {
     images: FrameImages,
     view: TargetView,
-    others: Vec<PersonView>,
+    others: Vec<BodyView>,
 }
 
 fn draw(renderer: &mut Renderer, scene: &Scene, setup: &FrameSetup<'_>) -> Drawn {
@@ -114,11 +113,11 @@ fn vehicles_and_riders_are_where_rays_meet_them_with_the_labels_of_their_kinds()
         let others = traffic(&mut random, DVec3::ZERO, 15);
         let turn = 1.3 * f64::from(round);
         let away = DVec3::new(24.0 * real::cos(turn), 24.0 * real::sin(turn), 7.0 + 5.0 * f64::from(round));
-        let followed = TargetSetup { body: others[round as usize].walker.body, ..target(DVec3::ZERO) };
+        let followed = Walker { body: others[round as usize].walker.body, ..target(DVec3::ZERO) };
         let pose = Pose::looking_at(away, DVec3::ZERO);
         let setup = FrameSetup { pose, weather: &noon(), target: Some(followed), others: &others };
         let Drawn { images, view, others: views } = draw(&mut Renderer::new(CAMERA), &scene, &setup);
-        let mut drawn: Vec<_> = vec![(followed.walker(), TARGET_INSTANCE)];
+        let mut drawn: Vec<_> = vec![(followed, TARGET_INSTANCE)];
         drawn.extend(others.iter().map(|other| (other.walker, other.instance)));
         let (mut triangles, mut labels) = (vec![], vec![]);
         for (walker, instance) in &drawn {
@@ -163,7 +162,7 @@ fn people_are_where_rays_meet_them_and_all_channels_agree() {
         };
         let Drawn { images, others: views, .. } = draw(&mut Renderer::new(CAMERA), &scene, &setup);
         let mut triangles: Vec<_> =
-            walker_triangles(&target(feet).walker()).into_iter().map(|corners| (corners, TARGET_INSTANCE)).collect();
+            walker_triangles(&target(feet)).into_iter().map(|corners| (corners, TARGET_INSTANCE)).collect();
         for other in &others {
             triangles.extend(walker_triangles(&other.walker).into_iter().map(|corners| (corners, other.instance)));
         }
@@ -185,7 +184,7 @@ fn people_are_where_rays_meet_them_and_all_channels_agree() {
             .iter()
             .filter_map(|other| {
                 let (pixels, visible_box) = pixels_of(&images, other.instance)?;
-                Some(PersonView { instance: other.instance, pixels, visible_box })
+                Some(BodyView { instance: other.instance, pixels, visible_box })
             })
             .collect();
         assert!(views == counted && counted.len() > 8);
@@ -237,8 +236,8 @@ fn people_throw_shadows_like_the_target_also_from_outside_of_the_picture() {
             roll_rad: 0.0,
         };
         let somebody = target(feet);
-        let other = [Bystander { walker: somebody.walker(), instance: FIRST }];
-        let mut picture = |target: Option<TargetSetup>, others: &[Bystander]| {
+        let other = [Bystander { walker: somebody, instance: FIRST }];
+        let mut picture = |target: Option<Walker>, others: &[Bystander]| {
             draw(&mut renderer, &scene, &FrameSetup { pose, weather: &weather, target, others })
         };
         let (nobody, as_target, as_other) = (picture(None, &[]), picture(Some(somebody), &[]), picture(None, &other));
@@ -355,7 +354,7 @@ fn through_a_lens_and_blurred_people_move_and_keep_their_ids() {
         let sharp = film(lens, MotionBlur::default(), 3.0);
         let [still, moved] = [0.0, 3.0].map(|speed_mps| film(lens, blur, speed_mps));
         let (pixels, visible_box) = pixels_of(&sharp.images, FIRST).expect("in view");
-        assert_eq!(sharp.others, [PersonView { instance: FIRST, pixels, visible_box }]);
+        assert_eq!(sharp.others, [BodyView { instance: FIRST, pixels, visible_box }]);
         assert!(sharp.images.instance == moved.images.instance && sharp.others == moved.others);
         assert!(still.images.rgb != moved.images.rgb && still.view == moved.view);
     }

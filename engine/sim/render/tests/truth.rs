@@ -7,7 +7,7 @@ use cosfly_domain::{
     Camera, Obstacle, ObstacleKind, OrientedBox, PixelBox, SemanticLabel, SurfaceMesh, TARGET_INSTANCE, TargetView,
     Town, Weather,
 };
-use cosfly_figures::{BodyShape, TargetSetup, target_triangles};
+use cosfly_figures::{BodyShape, Walker, walker_triangles};
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState};
 use cosfly_models::{Model, ModelFit, ModelKind};
 use cosfly_render::{FrameSetup, Renderer, Scene, SceneModel};
@@ -20,19 +20,18 @@ fn camera(width: u32, height: u32) -> Camera {
     Camera { width, height, horizontal_fov_rad: 1.4 }
 }
 
-fn walker(feet: DVec3) -> TargetSetup {
-    TargetSetup {
+fn walker(feet: DVec3) -> Walker {
+    Walker {
         state: TargetState { feet_in_world: feet, heading_rad: 0.4, speed_mps: 1.3 },
         height_m: 1.8,
         radius_m: 0.3,
         clothes_seed: Seed([2; 32]),
         gait_phase_rad: 0.8,
-        visible_by_rays: 0.5,
         body: BodyShape::default(),
     }
 }
 
-fn draw(scene: &Scene, camera: Camera, pose: Pose, target: Option<TargetSetup>) -> (FrameImages, TargetView) {
+fn draw(scene: &Scene, camera: Camera, pose: Pose, target: Option<Walker>) -> (FrameImages, TargetView) {
     let mut renderer = Renderer::new(camera);
     let frame = renderer.render(scene, &FrameSetup { pose, weather: &noon(), target, others: &[] });
     (frame.images.clone(), frame.target_view)
@@ -59,11 +58,11 @@ fn cast(triangles: &[([DVec3; 3], u8, u32)], origin: DVec3, ray: DVec3) -> Optio
 }
 
 /// Compares every `stride`-th pixel with a ray; returns (compared, off by more than the tolerance, wrong ids).
-fn compare(scene: &Scene, camera: Camera, pose: Pose, target: Option<TargetSetup>, stride: usize) -> [usize; 3] {
+fn compare(scene: &Scene, camera: Camera, pose: Pose, target: Option<Walker>, stride: usize) -> [usize; 3] {
     let (images, _) = draw(scene, camera, pose, target);
     let mut triangles: Vec<_> = scene.triangles().iter().map(|t| (t.corners_in_world, t.label, t.instance)).collect();
     if let Some(target) = &target {
-        triangles.extend(target_triangles(target).iter().map(|corners| (*corners, 12, TARGET_INSTANCE)));
+        triangles.extend(walker_triangles(target).iter().map(|corners| (*corners, 12, TARGET_INSTANCE)));
     }
     let mut counts = [0; 3];
     for pixel in (0..images.depth_m.len()).step_by(stride) {
@@ -206,7 +205,7 @@ fn a_target_behind_the_camera_is_not_in_view() {
     let pose = Pose::looking_at(DVec3::new(0.0, 0.0, 5.0), DVec3::new(10.0, 0.0, 5.0));
     let (_, view) = draw(&scene, camera(320, 180), pose, Some(walker(DVec3::new(-8.0, 0.0, 0.0))));
     assert!(!view.in_view && view.pixels == 0 && view.full_box.is_none() && view.visible_box.is_none());
-    assert_eq!((view.visible_by_pixels, view.visible_by_rays), (0.0, 0.5));
+    assert_eq!(view.visible_by_pixels, 0.0);
 }
 
 #[test]

@@ -13,7 +13,10 @@ use std::collections::BTreeMap;
 pub fn table() -> Table<DatasetItem> {
     let doc = "People, vehicles and other drones around the target. One row for each frame that shows at least one pixel of a body; bodies of stage `traffic` that come within 60 m of the target also have one for each frame in which they are hidden.";
     let rows = |item: &DatasetItem| item.derived.bodies.len();
-    Table { per_frame: true, ..Table::new("bodies", doc, &["trajectory_id", "frame", "body_id"], rows, Bodies::COLUMNS) }
+    Table {
+        per_frame: true,
+        ..Table::new("bodies", doc, &["trajectory_id", "frame", "body_id"], rows, Bodies::COLUMNS)
+    }
 }
 
 /// Columns of table `bodies`.
@@ -131,7 +134,8 @@ fn plan(item: &DatasetItem, i: usize) -> &BodyPlan {
 }
 
 fn state(item: &DatasetItem, i: usize) -> TargetState {
-    let near = || *near(item, i).and_then(|it| it.state(item.derived.bodies[i].frame)).expect("a body is seen, or present");
+    let near =
+        || *near(item, i).and_then(|it| it.state(item.derived.bodies[i].frame)).expect("a body is seen, or present");
     sighting(item, i).map_or_else(near, |it| it.state)
 }
 

@@ -28,8 +28,9 @@ pub fn count(record: &RenderedTrajectory, shortcuts: &mut Shortcuts) {
         let pose = record.camera_pose(frame);
         let target = seen(record, &pose, view.visible_box.as_ref()?, (&track.states[frame], track.height_m));
         let alike = record.seen_in(frame).filter(|(other, _)| Some(other.plan.kind) == kind);
-        let others =
-            alike.map(|(other, it)| seen(record, &pose, &it.view.visible_box, (&it.state, other.plan.size_m.z))).collect();
+        let others = alike
+            .map(|(other, it)| seen(record, &pose, &it.view.visible_box, (&it.state, other.plan.size_m.z)))
+            .collect();
         Some((target, others))
     });
     shortcuts.add_flight(image_px, frames);

@@ -4,10 +4,10 @@ use super::window::telling;
 use crate::log::Line;
 use crate::suite::Task;
 use cosfly_diagnose::Result;
-use cosfly_domain::{BodyId, Camera, PixelBox};
-use cosfly_env::pictures::walker;
-use cosfly_env::{BodyAtTime, EnvironmentSettings};
-use cosfly_figures::{Bystander, TargetSetup, gait_phase_rad};
+use cosfly_domain::{Camera, PixelBox};
+use cosfly_env::EnvironmentSettings;
+use cosfly_env::pictures::bystanders_at;
+use cosfly_figures::{Bystander, Walker, gait_phase_rad};
 use cosfly_plot::canvas::Canvas;
 use cosfly_preview::{ClipShot, LoggedFrame, clip as encoded};
 use cosfly_render::{FrameSetup, Renderer, Scene};
@@ -40,18 +40,16 @@ pub fn clip(task: &Task, settings: &EnvironmentSettings, steps: &[Line]) -> Resu
 fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> ClipShot {
     let (track, shooting) = (&task.episode.target, &task.shooting);
     let state = task.episode.target_at(line.time_s);
-    let target = TargetSetup {
+    let target = Walker {
         state,
         height_m: track.height_m,
         radius_m: track.radius_m,
         clothes_seed: shooting.clothes_seed,
         gait_phase_rad: gait_phase_rad(task.episode.walked_m(line.time_s), track.height_m),
-        visible_by_rays: line.visible,
         body: shooting.body.in_rain(shooting.weather.precipitation, &shooting.clothes_seed),
     };
     let rain = shooting.weather.precipitation;
-    let others: Vec<Bystander> =
-        task.episode.others.at(line.time_s).map(|present| bystander(task, &present, rain)).collect();
+    let others: Vec<Bystander> = bystanders_at(&task.episode, line.time_s, rain).collect();
     let setup = FrameSetup { pose: line.pose(), weather: &shooting.weather, target: Some(target), others: &others };
     let drawn = renderer.render(scene, &setup);
     let (images, view) = (drawn.images, drawn.target_view);
@@ -76,10 +74,4 @@ fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> Cli
     };
     let rgb = Canvas { width: images.width as usize, height: images.height as usize, rgb: images.rgb.clone() };
     ClipShot { logged, rgb }
-}
-
-/// Somebody beside the target, as the renderer draws them.
-fn bystander(task: &Task, present: &BodyAtTime<'_>, rain: f64) -> Bystander {
-    let instance = task.episode.place.instance(BodyId::of(0, present.mover.number as usize));
-    Bystander { walker: walker(present, rain), instance }
 }

@@ -2,7 +2,7 @@
 
 use super::views::{Ground, View};
 use cosfly_domain::PlanOutcome;
-use cosfly_figures::{BodyShape, TargetSetup, gait_phase_rad};
+use cosfly_figures::{BodyShape, Walker, gait_phase_rad};
 use cosfly_frames::TargetState;
 use cosfly_geometry::BoxBvh;
 use cosfly_pedestrians::{PedestrianConfig, WalkableGrid, walk};
@@ -32,13 +32,12 @@ pub fn flown(ground: &Ground, frames: usize, count: u64) -> Vec<Vec<View>> {
                 let shown = flight.poses_in_world.iter().zip(&track.states).zip(walked_m);
                 let view = |((pose, state), walked_m): ((&_, &TargetState), f64)| View {
                     pose: *pose,
-                    target: TargetSetup {
+                    target: Walker {
                         state: *state,
                         height_m: track.height_m,
                         radius_m: track.radius_m,
                         clothes_seed: seed,
                         gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
-                        visible_by_rays: 1.0,
                         body: BodyShape::default(),
                     },
                 };

@@ -4,7 +4,7 @@ use cosfly_domain::{
     Camera, MapOrigin, Obstacle, ObstacleKind, OrientedBox, SemanticLabel, SimplificationReport, SurfaceMesh,
     Synthetic, Town, WalkableKind,
 };
-use cosfly_figures::{BodyShape, TargetSetup, gait_phase_rad};
+use cosfly_figures::{BodyShape, Walker, gait_phase_rad};
 use cosfly_frames::{DVec2, DVec3, Pose, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::generate::{GenerateConfig, generate_town};
@@ -41,7 +41,7 @@ pub struct View {
     /// Pose of the camera.
     pub pose: Pose,
     /// Target in the view.
-    pub target: TargetSetup,
+    pub target: Walker,
 }
 
 impl Ground {
@@ -155,13 +155,12 @@ fn follower(tree: &BoxBvh, feet: DVec3, index: usize) -> View {
     let chest = feet + DVec3::new(0.0, 0.0, 0.7 * HEIGHT_M);
     let turn = (0..8).map(|i| i + index).find(|turn| !tree.blocked(from(*turn), chest)).unwrap_or(index);
     let state = TargetState { feet_in_world: feet, heading_rad: 0.6 * index as f64, speed_mps: 1.4 };
-    let target = TargetSetup {
+    let target = Walker {
         state,
         height_m: HEIGHT_M,
         radius_m: 0.3,
         clothes_seed: Seed([9; 32]),
         gait_phase_rad: gait_phase_rad(0.7 * index as f64, HEIGHT_M),
-        visible_by_rays: 1.0,
         body: BodyShape::default(),
     };
     View { pose: Pose::looking_at(from(turn), chest), target }
