@@ -1,7 +1,8 @@
-//! Laws of the house, read from the source: circles of files, lengths, purity of `sim`, edges between crates.
+//! Laws of the house, read from the source: circles of files, lengths, purity of `sim`, edges between crates, public interfaces.
 
 mod circles;
 pub mod edges;
+mod interfaces;
 mod lengths;
 mod modules;
 mod purity;

@@ -61,6 +61,23 @@ impl Crate {
         own
     }
 
+    /// The root, and the modules that others reach through `pub mod`; not those that documentation hides.
+    pub fn public_modules(&self) -> BTreeSet<usize> {
+        let (mut found, mut left) = (BTreeSet::from([0]), vec![0]);
+        while let Some(module) = left.pop() {
+            let tokens = &self.modules[module].tokens;
+            let text = |at: usize| tokens.get(at).map_or("", |token| token.text.as_str());
+            for at in (0..tokens.len()).filter(|at| text(*at) == "pub" && text(*at + 1) == "mod") {
+                let is_hidden = at >= 4 && text(at - 1) == "]" && text(at - 3) == "hidden";
+                if let Some(child) = self.modules[module].children.get(text(at + 2)).filter(|_| !is_hidden) {
+                    found.insert(*child);
+                    left.push(*child);
+                }
+            }
+        }
+        found
+    }
+
     /// For each module, the modules in other files that its text names.
     pub fn edges(&self) -> Vec<BTreeSet<usize>> {
         (0..self.modules.len()).map(|module| self.edges_of(module)).collect()

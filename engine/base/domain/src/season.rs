@@ -16,9 +16,17 @@ pub enum Season {
 }
 
 impl Season {
+    /// All seasons.
+    #[rustfmt::skip] // an entry per line
+    pub const ALL: &[Self] = &[
+        Self::Summer,
+        Self::Autumn,
+        Self::Winter,
+    ];
+
     /// The season of a name, if there is one.
     pub fn named(name: &str) -> Option<Self> {
-        [Self::Summer, Self::Autumn, Self::Winter].into_iter().find(|season| season.name() == name)
+        Self::ALL.iter().copied().find(|season| season.name() == name)
     }
 
     /// The name in recipes and tables.

@@ -261,7 +261,7 @@ mod tests {
             &mut four,
             SemanticLabel::Roads,
             (grid.tables(), &grid.frame()),
-            crate::season::lawn(Season::Summer),
+            crate::season::row(Season::Summer).lawn,
             noise,
         );
         core::array::from_fn(|k| get(&four[0].albedo, k))

@@ -9,6 +9,7 @@ use super::pattern::{NoiseTexture, Noises, draw, least, lerp, most, share, smoot
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use crate::parts::SceneBox;
+use crate::season;
 use cosfly_domain::{ObstacleKind, Season};
 use cosfly_frames::simd_kernel;
 
@@ -83,12 +84,13 @@ impl Leaves {
         let species = if draw(seed, 8) < 0.03 { common } else { (draw(seed, 7) * common as f32) as usize % common };
         let [green, late] = [SPECIES, AUTUMN].map(|leaves| leaves[species]).map(|[r, g, b]| Vec3::new(r, g, b));
         let is_evergreen = species == EVERGREEN || (b.kind == ObstacleKind::Bush && draw(seed, 11) < EVERGREEN_BUSHES);
-        let is_bare = season == Season::Winter && !is_evergreen;
-        let leaves = match season {
+        let look = season::row(season);
+        let is_bare = look.is_bare && !is_evergreen;
+        let leaves = match look.turned {
+            _ if is_bare => twigs(seed),
             // Trees of a town turn one after the other.
-            Season::Autumn => green.lerp(late, share(1.4 * draw(seed, 9) - 0.1)),
-            Season::Winter if is_bare => twigs(seed),
-            Season::Summer | Season::Winter => green,
+            Some([slope, offset]) => green.lerp(late, share(slope * draw(seed, 9) + offset)),
+            None => green * look.leaf,
         };
         Some(Self {
             middle,

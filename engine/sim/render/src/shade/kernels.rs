@@ -90,7 +90,7 @@ pub(super) fn run_kernels(
                 blocks,
                 *label,
                 (grid.tables(), &grid.frame()),
-                cosfly_materials::season::lawn(seen.scene.season),
+                cosfly_materials::season::row(seen.scene.season).lawn,
                 noise,
             );
             if *label == SemanticLabel::SideWalks {

@@ -80,7 +80,7 @@ impl Outskirts {
         let [low, high] = grid.bounds_m();
         let half_m = [0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])];
         let longer_m = most(half_m[0], half_m[1]);
-        let [wood, hills] = cosfly_materials::season::woods(season);
+        let [wood, hills] = cosfly_materials::season::row(season).woods;
         Self {
             center: [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])],
             half_m,
@@ -88,7 +88,7 @@ impl Outskirts {
             // Rings around a long town are not rounder than this: far from its ends they would be thin.
             round: half_m.map(|half| least(longer_m / most(half, 1.0), 4.0)),
             ground_m: grid.border_m(),
-            lawn: cosfly_materials::season::lawn(season),
+            lawn: cosfly_materials::season::row(season).lawn,
             wood,
             hills,
         }

@@ -227,7 +227,7 @@ fn places(parts: &[Part; GRAINS], season: Season) -> Places {
         texel_m: TEXEL_M as f32,
         corner_m: (frame.corner * frame.texels_m).as_vec2().to_array(),
         grains,
-        gaps: cosfly_materials::season::gaps(season),
+        gaps: cosfly_materials::season::row(season).gaps,
         used,
     }
 }

@@ -8,7 +8,7 @@ use cosfly_domain::Weather;
 columns! { Trajectories::WEATHER of DatasetItem;
     /// CARLA's preset on which the numbers are based.
     weather_preset: String = |item, _| item.record.weather.name.clone();
-    /// Season of trees and lawns in the pictures: `summer`, `autumn` or `winter`.
+    /// Season of trees and lawns in the pictures, such as `summer`.
     season: String = |item, _| item.record.season.name().into();
 }
 
