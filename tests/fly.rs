@@ -2,6 +2,7 @@
 
 use crate::street::Street;
 use crate::support::{cosfly, tree_digests};
+use cosfly_fly::bundle::Bundle;
 use serde_json::Value;
 
 fn fly(street: &Street, out: &str, more: &[&str]) -> Value {
@@ -187,5 +188,83 @@ fn dagger_adds_rounds_and_says_what_is_new() {
     ] {
         let printed = cosfly(&[&["dagger", "recipe.toml"], arguments].concat()).within(street.path()).run();
         assert!(printed.code != Some(0) && printed.stderr.contains(words), "{arguments:?}: {}", printed.stderr);
+    }
+}
+
+#[test]
+fn a_result_is_one_file_whose_actions_come_to_the_same_rows() {
+    let street = Street::new();
+    let at = |name: &str| street.path().join(name);
+    let verify = |file: &str, more: &[&str]| {
+        cosfly(&[&["fly", "verify", file, "recipe.toml"], more].concat()).within(street.path()).run()
+    };
+    for (out, policy, more) in [
+        ("plain", "follow", &[][..]),
+        ("late", "random", &["--latency-ms", "250"]),
+        ("measured", "follow", &["--latency-ms", "measured"]),
+        ("windy", "expert", &["--drone", "pelican", "--wind-mps", "3", "--gusts", "--logs", "none"]),
+    ] {
+        fly(&street, out, &[&["--policy", policy, "--clips", "0"], more].concat());
+        cosfly(&["fly", "bundle", &format!("{out}/{policy}")]).within(street.path()).run_ok();
+        let same = verify(&format!("{out}/{policy}.jsonl.zst"), &[]);
+        assert_eq!(same.code, Some(0), "{out}: {}{}", same.stdout, same.stderr);
+        assert!(same.stdout.contains("come out the same, byte for byte"), "{}", same.stdout);
+    }
+    // Somebody changed an action, or a score.
+    let bundle = Bundle::read(&at("plain/follow.jsonl.zst")).expect("a bundle");
+    assert!(bundle.card.policy.prompt.is_empty());
+    let changed = |name: &str, change: &dyn Fn(&mut Bundle)| {
+        let mut other = bundle.clone();
+        change(&mut other);
+        std::fs::write(at(name), other.bytes().expect("bytes")).expect("written");
+        let printed = verify(name, &[]);
+        (printed.code, printed.stdout + &printed.stderr)
+    };
+    let last = bundle.episodes[0].steps.len() - 1;
+    let (code, text) = changed("action", &|it| {
+        let action = it.episodes[0].steps[4].action.as_mut().expect("an action");
+        action.velocity_mps.x += 0.25;
+    });
+    assert!(code == Some(1) && text.contains("step 5 comes out differently"), "{text}");
+    let (code, text) = changed("score", &|it| it.episodes[0].row.score.visible_sum += 1.0);
+    assert!(code == Some(1) && text.contains("the row is not"), "{text}");
+    let (code, text) = changed("longer", &|it| {
+        let step = it.episodes[0].steps[last].clone();
+        it.episodes[0].steps.push(step);
+    });
+    assert!(code == Some(1) && text.contains("it ends after"), "{text}");
+    let (code, text) = changed("twice", &|it| it.episodes[1] = it.episodes[0].clone());
+    assert!(code == Some(4) && text.contains("stands in it twice"), "{text}");
+    let (code, text) = changed("huge", &|it| {
+        it.episodes[0].steps[2].action.as_mut().expect("an action").velocity_mps.y = 1e9;
+    });
+    assert!(code == Some(4) && text.contains("step 3"), "{text}");
+    let (code, text) = changed("other", &|it| it.card.suite.hash = "0".repeat(64));
+    assert!(code == Some(4) && text.contains("of another suite"), "{text}");
+    let printed = verify("plain/follow.jsonl.zst", &["--set", "seed=99"]);
+    assert!(printed.code == Some(4) && printed.stderr.contains("of another suite"), "{}", printed.stderr);
+    refused(&street, &["bundle", "nowhere"], 4, "is no finished result");
+}
+
+#[test]
+fn damaged_files_of_results_are_refused_wherever_the_damage_is() {
+    let street = Street::new();
+    fly(&street, "plain", &["--policy", "hold", "--clips", "0"]);
+    cosfly(&["fly", "bundle", "plain/hold", "--out", "hold.zst"]).within(street.path()).run_ok();
+    let whole = std::fs::read(street.path().join("hold.zst")).expect("a file");
+    let made = Bundle::of_bytes(&whole).expect("whole");
+    assert_eq!(made.bytes().expect("bytes"), whole, "the same bytes");
+    for round in 0..1000 {
+        let mut bytes = whole.clone();
+        let place = round * 7919 % bytes.len();
+        match round % 3 {
+            0 => bytes[place] ^= 1 << (round % 8),
+            1 => bytes.truncate(place),
+            _ => _ = bytes.remove(place),
+        }
+        // A flip in the head of the frame may change nothing.
+        if let Ok(read) = Bundle::of_bytes(&bytes) {
+            assert_eq!(read, made, "round {round}");
+        }
     }
 }

@@ -5,7 +5,7 @@ use crate::pilot::{Asked, Failure, Pilot};
 use crate::suite::Task;
 use cosfly_drone::Sensed;
 use cosfly_drone::quadrotor::TrackingError;
-use cosfly_env::{Environment, EnvironmentSettings, EpisodeScore};
+use cosfly_env::{Action, Environment, EnvironmentSettings, EpisodeScore};
 use cosfly_frames::DVec3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -101,7 +101,12 @@ pub fn fly(task: &Task, settings: EnvironmentSettings, latency: Latency, pilot: 
         if let Err(reason) = pilot.begin(&Environment::new(Arc::clone(&task.episode), settings), &task.knowledge) {
             return Attempt::Gone(reason);
         }
-        match attempt_at(task, settings, latency, pilot) {
+        let mut ask = |environment: &Environment| {
+            let asked_at = (latency == Latency::Measured).then(Instant::now);
+            let action = pilot.act(environment)?;
+            Ok((action, asked_at.map(|asked_at| asked_at.elapsed().as_secs_f64())))
+        };
+        match fly_by(task, settings, &mut ask) {
             Ok(flown) => {
                 return match flown.row.policy_failure {
                     Some(reason) if !pilot.has_answered() => Attempt::Unanswered(reason),
@@ -114,28 +119,32 @@ pub fn fly(task: &Task, settings: EnvironmentSettings, latency: Latency, pilot: 
     }
 }
 
-/// Flies an episode that the policy has begun.
-fn attempt_at(
+/// An action, and the time that it took where latencies are measured, seconds.
+pub type Given = (Action, Option<f64>);
+
+/// Flies an episode by the actions that `ask` gives.
+///
+/// # Errors
+/// The reason of [`Failure::Gone`].
+pub fn fly_by(
     task: &Task,
     settings: EnvironmentSettings,
-    latency: Latency,
-    pilot: &mut Asked<'_>,
+    ask: &mut dyn FnMut(&Environment) -> Result<Given, Failure>,
 ) -> Result<Flown, String> {
     let mut environment = Environment::new(Arc::clone(&task.episode), settings);
     let mut policy_failure = None;
     let mut steps: Vec<Line> = Vec::new();
     while environment.score().end.is_none() && policy_failure.is_none() && environment.score().planned_steps > 0 {
-        let asked_at = (latency == Latency::Measured).then(Instant::now);
-        let asked = environment.wants_action().then(|| pilot.act(&environment)).transpose();
-        let action = match asked {
-            Ok(action) => action,
+        let asked = environment.wants_action().then(|| ask(&environment)).transpose();
+        let given = match asked {
+            Ok(given) => given,
             Err(Failure::Gone(reason)) => return Err(reason),
             Err(Failure::Answer(reason)) => {
                 policy_failure = Some(format!("at step {}: {reason}", environment.observation().step));
                 break;
             }
         };
-        let taken_s = action.and(asked_at).map(|asked_at| asked_at.elapsed().as_secs_f64());
+        let (action, taken_s) = given.map_or((None, None), |(action, taken_s)| (Some(action), taken_s));
         let step = environment.step_late(action.as_ref(), taken_s.unwrap_or(settings.latency_s));
         let line = Line::of(&environment, action.as_ref(), &step.reward, step.end);
         steps.push(Line { latency_s: taken_s, ..line });

@@ -8,8 +8,11 @@
 //! * [`vector`]: many environments stepped together, for learners.
 //! * [`experts`]: the experts of a recipe, asked again; [`dagger`]: what they say where a policy came.
 //! * [`results`]: the folder: card, rows, logs, tables with intervals; [`compare`]: two of them side by side.
+//! * [`bundle`]: a result as one file; [`again`]: its actions, flown again.
 //! * [`pictures`]: logs that play in Foxglove, clips, the page.
 
+pub mod again;
+pub mod bundle;
 pub mod compare;
 pub mod crew;
 pub mod dagger;

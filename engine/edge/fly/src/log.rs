@@ -35,6 +35,9 @@ pub struct Line {
     /// (m/s), yaw and pitch rate (degrees/s); or thrust and rates, or speeds of rotors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub action: Option<Vec<f64>>,
+    /// The action as it was flown, in radians: with it the step can be flown again to the bit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flown: Option<Action>,
     /// Time that the policy took for it, where latencies are measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub latency_s: Option<f64>,
@@ -63,6 +66,7 @@ impl Line {
             tracked: seen.tracked,
             attitude_xyzw: environment.attitude_xyzw(),
             action: action.map(|action| action.row(seen.yaw_rad)),
+            flown: action.copied(),
             latency_s: None,
             reward: reward.terms(),
             end,

@@ -1,6 +1,7 @@
 //! [`Gimbal`]: yaw and pitch of the camera, within limits of rate and angle.
 
 use cosfly_frames::{DVec3, Pose, real};
+use serde::{Deserialize, Serialize};
 
 /// Limits of a gimbal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +36,8 @@ impl GimbalLimits {
 }
 
 /// Wanted rates of the view.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ViewRates {
     /// Radians/s; positive: x towards y.
     pub yaw_rad_s: f64,

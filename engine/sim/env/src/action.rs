@@ -2,9 +2,11 @@
 
 use cosfly_drone::{VelocityCommand, ViewRates};
 use cosfly_frames::{DVec3, real};
+use serde::{Deserialize, Serialize};
 
 /// Axes of the velocity of an action.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Axes {
     /// x ahead of the camera on the level, y right, z up.
     #[default]
@@ -14,7 +16,8 @@ pub enum Axes {
 }
 
 /// Input that moves the drone.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Drive {
     /// Velocity and acceleration of the action.
     #[default]
@@ -31,15 +34,20 @@ pub enum Drive {
 }
 
 /// Action of a policy, in force until the next one.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Action {
     /// Input that moves the drone.
+    #[serde(skip_serializing_if = "is_default")]
     pub drive: Drive,
     /// Axes of velocity and acceleration.
+    #[serde(skip_serializing_if = "is_default")]
     pub axes: Axes,
     /// Wanted velocity, m/s.
+    #[serde(skip_serializing_if = "is_zero")]
     pub velocity_mps: DVec3,
     /// Acceleration with which the wanted velocity changes, m/s^2; zero where it stays.
+    #[serde(skip_serializing_if = "is_zero")]
     pub acceleration_mps2: DVec3,
     /// Turns of the camera.
     pub view: ViewRates,
@@ -69,6 +77,19 @@ impl Action {
     /// Action of six numbers: speeds of the rotors, rev/min; yaw and pitch rate of the camera, degrees/s.
     pub fn of_rotors([a, b, c, d, view_yaw, view_pitch]: [f64; 6]) -> Self {
         Self { drive: Drive::Rotors([a, b, c, d]), ..Self::of_numbers([0.0, 0.0, 0.0, view_yaw, view_pitch]) }
+    }
+
+    /// All numbers of the action, in the units of its fields.
+    pub fn all_numbers(&self) -> Vec<f64> {
+        let drive = match self.drive {
+            Drive::Velocity => vec![],
+            Drive::ThrustAndRates { weights, rates_rad_s } => {
+                vec![weights, rates_rad_s.x, rates_rad_s.y, rates_rad_s.z]
+            }
+            Drive::Rotors(rotors_rpm) => rotors_rpm.to_vec(),
+        };
+        let [velocity, acceleration] = [self.velocity_mps, self.acceleration_mps2].map(|it| it.to_array());
+        [&drive[..], &velocity, &acceleration, &[self.view.yaw_rad_s, self.view.pitch_rad_s]].concat()
     }
 
     /// The numbers of an action of a drone with this yaw, in the form of its drive.
@@ -105,6 +126,15 @@ impl Action {
             acceleration_in_world: in_world(self.acceleration_mps2),
         }
     }
+}
+
+/// Whether a vector is zero to the bit: -0 is kept.
+fn is_zero(vector: &DVec3) -> bool {
+    vector.to_array().iter().all(|number| number.to_bits() == 0)
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// Turns a vector from the axes of a heading into the world's.

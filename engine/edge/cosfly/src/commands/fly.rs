@@ -1,7 +1,9 @@
 //! `cosfly fly`: flies the episodes of a suite with policies, in closed loop, and scores them.
 
+mod bundle;
 mod compare;
 pub mod policy;
+mod verify;
 
 use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
@@ -36,6 +38,8 @@ Examples:
   cosfly fly recipes/suites/street.toml --policy ws://127.0.0.1:8000 --name mine --latency-ms 57
   cosfly fly recipes/suites/street.toml --policy python:my_policy:act
   cosfly fly compare out/fly/street/follow out/fly/street/mine
+  cosfly fly bundle out/fly/street/mine
+  cosfly fly verify out/fly/street/mine.jsonl.zst recipes/suites/street.toml
 
 A policy is a server that speaks openpi's wire, a function in Python, or a baseline: causal, constant-velocity, expert,
 follow, hold, random. It gets a map with `state` (16 numbers), `prompt`, `episode`, `step` and `time_s`, and answers with a
@@ -101,6 +105,8 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Other {
     Compare(compare::Arguments),
+    Bundle(bundle::Arguments),
+    Verify(verify::Arguments),
 }
 
 /// Episodes with logs for Foxglove.
@@ -162,8 +168,11 @@ fn shard(text: &str) -> Result<Shard, String> {
 
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
-        if let Some(Other::Compare(arguments)) = &self.other {
-            return arguments.run(console);
+        match &self.other {
+            Some(Other::Compare(arguments)) => return arguments.run(console),
+            Some(Other::Bundle(arguments)) => return arguments.run(console),
+            Some(Other::Verify(arguments)) => return arguments.run(console),
+            None => {}
         }
         let Some(recipe) = &self.recipe else {
             let message = "a suite is missing: `cosfly fly SUITE --policy POLICY`";

@@ -1,9 +1,12 @@
 //! [`Card`]: what was evaluated, and how.
 
+use super::folder::differences;
 use crate::flight::Latency;
+use crate::settings::FlySettings;
 use crate::suite::Suite;
+use cosfly_drone::models;
 use cosfly_env::pictures::{Channel, PictureFormat};
-use cosfly_env::{Blackouts, EnvironmentSettings, RewardWeights};
+use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, RewardWeights};
 use cosfly_render::PictureLook;
 use serde::{Deserialize, Serialize};
 
@@ -180,6 +183,23 @@ impl EnvironmentCard {
             give_up_s: settings.give_up_s,
             reward_weights: settings.weights,
         }
+    }
+}
+
+impl EnvironmentCard {
+    /// The settings that the card is of, flown on a suite with these settings.
+    ///
+    /// # Errors
+    /// What differs, in words, where no options of this cosfly give such a card.
+    pub fn settings(&self, suite: &FlySettings) -> Result<EnvironmentSettings, String> {
+        let plain = suite.environment();
+        let model = models::model(&self.drone)?;
+        let drone = DroneSettings { model, wind_mps: self.wind_mps, gusts: self.gusts, ..plain.drone };
+        let settings = EnvironmentSettings { step_s: self.step_s, latency_s: self.latency_s, drone, ..plain };
+        let latency = if self.latency_is_measured { Latency::Measured } else { Latency::Simulated };
+        let value = |card: &Self| serde_json::to_value(card).unwrap_or_default();
+        let differ = differences("environment", &value(self), &value(&Self::new(&settings, latency)));
+        if differ.is_empty() { Ok(settings) } else { Err(differ.join("; ")) }
     }
 }
 

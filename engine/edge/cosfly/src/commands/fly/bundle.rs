@@ -1,0 +1,46 @@
+//! `cosfly fly bundle`: a result of `cosfly fly` as one file.
+
+use crate::command::Outcome;
+use crate::console::Console;
+use crate::exit;
+use clap::Args;
+use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_fly::bundle::Bundle;
+use cosfly_whole::write_file;
+use std::path::PathBuf;
+
+/// Make a result one file that anyone can fly again: card, rows, actions of every step
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Example:
+  cosfly fly bundle out/fly/street/mine
+
+The file is JSON lines in zstd (`zstdcat` shows them): the card, a line for each episode, a digest. Texts of the task and of failures are
+left out. `cosfly fly verify FILE SUITE` flies the actions again.")]
+pub struct Arguments {
+    /// Folder of a finished result
+    #[arg(value_name = "RESULT")]
+    result: PathBuf,
+    /// The file [default: RESULT.jsonl.zst]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// Does the work.
+    pub fn run(&self, console: &dyn Console) -> Outcome {
+        let bundle = Bundle::of(&self.result)?;
+        let bytes = bundle.bytes()?;
+        let path = self.out.clone().unwrap_or_else(|| {
+            let mut name = self.result.file_name().unwrap_or_default().to_owned();
+            name.push(".jsonl.zst");
+            self.result.with_file_name(name)
+        });
+        let written: Result<()> =
+            write_file(&path, &bytes).map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error));
+        written?;
+        let (shown, episodes, size_mb) = (path.display(), bundle.episodes.len(), bytes.len() as f64 / 1e6);
+        console.print(&format!("{shown}: {episodes} episodes, {size_mb:.2} MB\n"))?;
+        Ok(exit::SUCCESS)
+    }
+}

@@ -1,0 +1,90 @@
+//! [`fly_again`]: the actions of a bundle, flown again.
+
+use crate::bundle::{Bundle, EpisodeRecord};
+use crate::flight::{Flown, fly_by};
+use crate::pilot::Failure;
+use crate::suite::{Suite, Task};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_env::{Environment, EnvironmentSettings};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Sender, channel};
+
+/// Flies all episodes of a bundle by their actions, and gives for each that does not come to the same row the first step that
+/// differs, in words. `progress` gets the numbers of finished and of all episodes.
+///
+/// # Errors
+/// `fly-bundle` for a bundle of another suite; `fly-stopped`.
+pub fn fly_again(
+    bundle: &Bundle,
+    suite: &Suite,
+    settings: EnvironmentSettings,
+    jobs: usize,
+    cancelled: &AtomicBool,
+    progress: &dyn Fn(u64, u64),
+) -> Result<Vec<String>> {
+    let records: BTreeMap<&str, &EpisodeRecord> =
+        bundle.episodes.iter().map(|record| (record.row.episode.as_str(), record)).collect();
+    let unknown = suite.tasks.iter().find(|task| !records.contains_key(task.episode.name.as_str()));
+    if let Some(task) = unknown {
+        let message = format!("the bundle has no episode `{}` of the suite `{}`", task.episode.name, suite.name);
+        return Err(Diagnostic::new("fly-bundle", Fault::Input, message));
+    }
+    let one = |done: &mut Sender<()>, task: &Task| {
+        if cancelled.load(Ordering::Relaxed) {
+            return None;
+        }
+        let found = difference(task, settings, records[task.episode.name.as_str()]);
+        // Nobody listens any more: nothing is shown.
+        _ = done.send(());
+        Some(found)
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
+    let pool = pool.map_err(|error| Diagnostic::new("fly-threads", Fault::Machine, error.to_string()))?;
+    let (done, heard) = channel();
+    let found: Option<Vec<Option<String>>> = std::thread::scope(|scope| {
+        let flown = scope.spawn(|| pool.install(|| suite.tasks.par_iter().map_with(done, one).collect()));
+        heard.iter().zip(1..).for_each(|((), count)| progress(count, suite.tasks.len() as u64));
+        flown.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    });
+    let found = found.ok_or_else(|| {
+        let message = "stopped before all episodes were flown again";
+        Diagnostic::new("fly-stopped", Fault::Stopped, message).hint("run the same command again")
+    })?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// The first step, or the row, in which an episode differs from its record, in words.
+fn difference(task: &Task, settings: EnvironmentSettings, record: &EpisodeRecord) -> Option<String> {
+    let name = &task.episode.name;
+    let flown = match by_record(task, settings, record) {
+        Ok(flown) => flown,
+        Err(rule) => return Some(format!("`{name}`: {rule}")),
+    };
+    let again = EpisodeRecord::of(&flown.row, &flown.steps);
+    let step = again.steps.iter().zip(&record.steps).position(|(ours, theirs)| ours != theirs);
+    if let Some(step) = step {
+        return Some(format!("`{name}`: step {} comes out differently", step + 1));
+    }
+    if again.steps.len() != record.steps.len() {
+        let (ours, theirs) = (again.steps.len(), record.steps.len());
+        return Some(format!("`{name}`: it ends after {ours} steps, in the record after {theirs}"));
+    }
+    let (ours, theirs) = (again.row_text(), record.row_text());
+    (ours != theirs).then(|| format!("`{name}`: all steps are equal, the row is not: {ours} instead of {theirs}"))
+}
+
+fn by_record(task: &Task, settings: EnvironmentSettings, record: &EpisodeRecord) -> std::result::Result<Flown, String> {
+    fly_by(task, settings, &mut |environment: &Environment| {
+        let step = environment.observation().step;
+        match record.steps.get(step as usize) {
+            // The policy failed here: the row says so.
+            None => Err(Failure::Answer(String::new())),
+            Some(kept) => match kept.action {
+                Some(action) => Ok((action, kept.latency_s)),
+                None => Err(Failure::Gone(format!("step {} has no action where one is asked for", step + 1))),
+            },
+        }
+    })
+}
