@@ -3,6 +3,7 @@
 //! The Python half of the package (`python/cosfly`) gives these functions their types, documentation and names.
 
 mod calls;
+mod channels;
 mod console;
 mod dataset;
 mod errors;
@@ -20,6 +21,7 @@ fn _cosfly(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(calls::main, module)?)?;
     module.add_function(wrap_pyfunction!(calls::call, module)?)?;
+    module.add_function(wrap_pyfunction!(channels::channels, module)?)?;
     module.add_function(wrap_pyfunction!(images::decode_rgb, module)?)?;
     module.add_function(wrap_pyfunction!(images::shown, module)?)?;
     module.add_function(wrap_pyfunction!(errors::damaged_pack, module)?)?;
