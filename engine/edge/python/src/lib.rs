@@ -19,6 +19,8 @@ use pyo3::prelude::*;
 fn _cosfly(module: &Bound<'_, PyModule>) -> PyResult<()> {
     cosfly::prepare().map_err(pyo3::exceptions::PyValueError::new_err)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("STATE", cosfly_env::Observation::NAMES)?;
+    module.add("ACTION", cosfly_env::Action::NAMES)?;
     module.add_function(wrap_pyfunction!(calls::main, module)?)?;
     module.add_function(wrap_pyfunction!(calls::call, module)?)?;
     module.add_function(wrap_pyfunction!(channels::channels, module)?)?;

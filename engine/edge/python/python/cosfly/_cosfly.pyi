@@ -6,6 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 __version__: str
+STATE: List[str]
+ACTION: List[str]
 
 def main(arguments: Sequence[str]) -> int: ...
 def call(

@@ -3,7 +3,8 @@
 An environment flies the episodes of a recipe, as `cosfly fly` does; each draws its episodes from a seed of its own: the one that is
 given, else one of the system's entropy, which `info["seed"]` and `np_random_seed` tell so that a run can be repeated.
 Observations are 16 numbers (`obs=("state",)`), pictures (the names in `CHANNELS`, which tells the meaning of each), or several of them
-as a dictionary. Actions are five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's page "Policies of fly" defines them, its page "Results of fly" the terms of the reward, which
+as a dictionary. Actions are five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). `STATE` and `ACTION` name
+the numbers with their units. The book's page "Policies of fly" defines them, its page "Results of fly" the terms of the reward, which
 `info` has as `reward_...`.
 """
 
@@ -22,6 +23,7 @@ from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
+from . import _cosfly
 from ._cosfly import VectorEnvironment
 from ._env_config import CHANNELS, OBSERVATIONS, EnvConfig
 from ._errors import InvalidValue
@@ -31,6 +33,11 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._env_config import EnvOptions
+
+STATE: tuple[str, ...] = tuple(_cosfly.STATE)
+"""Names of the numbers of `state`, each with its unit; vectors are along the heading of the camera."""
+ACTION: tuple[str, ...] = tuple(_cosfly.ACTION)
+"""Names of the numbers of an action, each with its unit."""
 
 _LARGEST = (12, 12, 12, 60, 60)
 _MODES = {
