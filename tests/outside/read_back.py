@@ -28,8 +28,8 @@ FRAME_TOPICS = [
     "/camera/semantic/image", "/camera/instance/image", "/tf", "/drone/pose", "/target/pose", "/target/state",
 ]
 # Channels that a recipe may ask for: encoding and bytes of a pixel.
-ON_REQUEST = {"/camera/normals/image": ("rgb8", 3)}
-PREVIEW_TOPICS = ["/camera/rgb/preview", "/camera/depth/preview", "/camera/semantic/preview", "/camera/normals/preview"]
+ON_REQUEST = {"/camera/mask/image": ("mono8", 1), "/camera/normals/image": ("rgb8", 3)}
+PREVIEW_TOPICS = [f"/camera/{name}/preview" for name in ("rgb", "depth", "semantic", "mask", "normals")]
 ONCE_TOPICS = ["/drone/path", "/target/path", "/scene"]
 
 

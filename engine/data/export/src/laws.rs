@@ -207,7 +207,10 @@ fn channels_on_request_are_files_of_every_export_of_pictures() {
     });
     let tar = shards.iter().find(|(path, _)| path.extension().is_some_and(|it| it == "tar")).unwrap().1;
     assert!(tar.windows(12).any(|name| name == b".normals.png"));
-    assert!(folder.keys().any(|path| path.components().any(|part| part.as_os_str() == "normals")));
+    assert!(tar.windows(9).any(|name| name == b".mask.png"));
+    for kind in ["mask", "normals"] {
+        assert!(folder.keys().any(|path| path.components().any(|part| part.as_os_str() == kind)), "{kind}");
+    }
     for files in [shards, folder] {
         let card = String::from_utf8_lossy(&files[Path::new("README.md")]).into_owned();
         assert!(card.contains("unit normals"), "{card}");

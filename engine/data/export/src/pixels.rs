@@ -139,20 +139,25 @@ pub fn gzip(file: &[u8]) -> Result<Vec<u8>> {
     packed.map_err(|error| Diagnostic::new("image-encode", Fault::Bug, "could not compress an image").because(error))
 }
 
-/// Ending of files of a channel on request: three bytes a pixel are PNG, numbers NumPy files.
+/// Ending of files of a channel on request: bytes are PNG, numbers NumPy files.
 pub fn ending_on_request(channel: &Channel) -> &'static str {
     if channel.element() == Element::Float { "npy" } else { "png" }
 }
 
 /// File of a channel on request.
 pub fn file_on_request(image: &ChannelImage, [width, height]: [u32; 2]) -> Result<Vec<u8>> {
-    if image.channel.element() == Element::Float {
-        let numbers = image.bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number));
-        return Ok(npy(&numbers.collect::<Vec<_>>(), [width, height]));
+    match image.channel.element() {
+        Element::Float => {
+            let numbers = image.bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number));
+            Ok(npy(&numbers.collect::<Vec<_>>(), [width, height]))
+        }
+        Element::Flag => gray8_png(&image.bytes, [width, height]),
+        _ => {
+            let mut file = vec![];
+            rgb_png(&image.bytes, width, height, &mut file)?;
+            Ok(file)
+        }
     }
-    let mut file = vec![];
-    rgb_png(&image.bytes, width, height, &mut file)?;
-    Ok(file)
 }
 
 #[cfg(test)]

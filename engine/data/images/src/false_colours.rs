@@ -10,14 +10,17 @@ pub fn palette_image(semantic: &[u8]) -> Vec<u8> {
     semantic.iter().flat_map(|&id| palette[usize::from(id)]).collect()
 }
 
-/// Stored pixels of a channel on request as a picture: numbers in colours as [`depth_preview`] has them, bytes as they
-/// are. 3 bytes a pixel.
+/// Stored pixels of a channel on request as a picture: numbers in colours as [`depth_preview`] has them, 1 white and 0 black,
+/// three bytes as they are. 3 bytes a pixel.
 pub fn picture_on_request(channel: &Channel, bytes: &[u8]) -> Vec<u8> {
-    if channel.element() != Element::Float {
-        return bytes.to_vec();
+    match channel.element() {
+        Element::Float => {
+            let numbers = bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number));
+            depth_preview(&numbers.collect::<Vec<f32>>())
+        }
+        Element::Flag => bytes.iter().flat_map(|flag| [if *flag == 0 { 0 } else { 255 }; 3]).collect(),
+        _ => bytes.to_vec(),
     }
-    let numbers: Vec<f32> = bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number)).collect();
-    depth_preview(&numbers)
 }
 
 /// Nearest and farthest depth that previews tell apart, metres.

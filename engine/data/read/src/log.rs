@@ -244,7 +244,7 @@ impl LoggedFrame {
                 let (ids, _) = image.data.as_chunks::<4>();
                 self.instance = ids.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect();
             }
-            ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
+            ChannelSource::Target | ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
                 self.on_request.push(ChannelImage { channel, bytes: image.data.to_vec() });
             }
             ChannelSource::Colour => {}

@@ -186,7 +186,7 @@ impl LogCheck<'_> {
                 self.labels = Some((frame, image));
             }
             ChannelSource::Depth => self.depth = Some((frame, image)),
-            ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
+            ChannelSource::Target | ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
                 let mut pixels = image.data.chunks_exact(channel.bytes_on_request());
                 if let Some(at) = pixels.position(|pixel| !(channel.is_value)(pixel)) {
                     self.find(place, "verify-pixels", format!("pixel {at} holds no value of `{}`", channel.name));

@@ -150,9 +150,11 @@ fn channels_on_request_are_sound_until_a_pixel_holds_no_value_or_a_frame_has_non
     flights[0].draw_on_request();
     let normals = flights[0].images[2].on_request.iter_mut().find(|image| image.channel.name == "normals");
     normals.unwrap().bytes[3..6].fill(255);
+    let mask = flights[0].images[3].on_request.iter_mut().find(|image| image.channel.name == "mask");
+    mask.unwrap().bytes[2] = 2;
     let report = verify(published(flights).path(), &Options::default(), &mut |_, _| {}).unwrap();
     let messages: Vec<&str> = report.findings.iter().map(|finding| finding.message.as_str()).collect();
-    assert_eq!(messages, ["pixel 1 holds no value of `normals`"]);
+    assert_eq!(messages, ["pixel 1 holds no value of `normals`", "pixel 2 holds no value of `mask`"]);
 }
 
 #[test]

@@ -4,8 +4,8 @@ use crate::calls::on_own_threads;
 use crate::errors::{InvalidValue, exception};
 use cosfly::Refusal;
 use cosfly_diagnose::Diagnostic;
-use cosfly_domain::Weather;
-use cosfly_env::pictures::{Channel, PictureFormat};
+use cosfly_domain::{ChannelSet, Weather, channels};
+use cosfly_env::pictures::{PictureBatch, PictureFormat, Pixels};
 use cosfly_fly::pilot::wrong_number;
 use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::{Suite, Task};
@@ -65,10 +65,10 @@ impl PyFlock {
         let settings = cosfly_env::EnvironmentSettings { step_s: config.step_s, latency_s, ..suite };
         let flock = VectorEnvironment::new(tasks, count, settings, mode, config.expert_action);
         let flock = if is_team { flock.as_team() } else { flock };
-        let channel = |name: &String| {
-            Channel::named(name).ok_or_else(|| InvalidValue::new_err(format!("`{name}` is no channel of pictures")))
-        };
-        let channels: Vec<Channel> = config.channels.iter().map(channel).collect::<PyResult<_>>()?;
+        if let Some(unknown) = config.channels.iter().find(|name| channels::called(name).is_none()) {
+            return Err(InvalidValue::new_err(format!("there is no channel `{unknown}`")));
+        }
+        let channels = ChannelSet::of(|channel| config.channels.iter().any(|name| name == channel.name));
         if channels.is_empty() {
             return Ok(Self { flock });
         }
@@ -130,15 +130,9 @@ impl PyFlock {
         told.set_item("tracked", PyArray1::from_slice(py, &outputs.tracked))?;
         told.set_item("look_alikes", PyArray1::from_slice(py, &outputs.look_alikes))?;
         if let Some(format) = self.flock.format() {
-            let shape = [self.flock.len(), format.height as usize, format.width as usize];
-            for (prefix, album) in [("", &outputs.album), ("last_", &outputs.last_album)] {
-                put_pictures(&told, (prefix, "depth"), &album.depth_m, &shape)?;
-                put_pictures(&told, (prefix, "semantic"), &album.semantic, &shape)?;
-                put_pictures(&told, (prefix, "instance"), &album.instance, &shape)?;
-                put_pictures(&told, (prefix, "mask"), &album.mask, &shape)?;
-                let [count, height, width] = shape;
-                put_pictures(&told, (prefix, "rgb"), &album.rgb, &[count, height, width, 3])?;
-            }
+            let size = [self.flock.len(), format.height as usize, format.width as usize];
+            put_pictures(&told, "", &outputs.album, size)?;
+            put_pictures(&told, "last_", &outputs.last_album, size)?;
         }
         if !outputs.beside.is_empty() {
             told.set_item("beside", PyArray2::from_vec2(py, &outputs.beside)?)?;
@@ -196,17 +190,24 @@ fn preset(name: &str) -> PyResult<Weather> {
     })
 }
 
-/// Adds a channel as an array of (environment, row, column), and colour, where the album has it.
-fn put_pictures<T: numpy::Element>(
+/// Adds each channel of an album as an array of (environment, row, column), and value where a pixel has three.
+fn put_pictures(
     told: &Bound<'_, PyDict>,
-    (prefix, name): (&str, &str),
-    pixels: &[T],
-    shape: &[usize],
+    prefix: &str,
+    album: &PictureBatch,
+    [count, height, width]: [usize; 3],
 ) -> PyResult<()> {
-    if pixels.is_empty() {
-        return Ok(());
+    let (py, shape) = (told.py(), [count, height, width, 3]);
+    for (channel, pixels) in album.channels() {
+        let shape = if channel.element().parts() == 1 { &shape[..3] } else { &shape[..] };
+        let array = match pixels {
+            Pixels::Bytes(bytes) => PyArray1::from_slice(py, bytes).reshape(shape)?.into_any(),
+            Pixels::Floats(floats) => PyArray1::from_slice(py, floats).reshape(shape)?.into_any(),
+            Pixels::Ids(ids) => PyArray1::from_slice(py, ids).reshape(shape)?.into_any(),
+        };
+        told.set_item(format!("{prefix}{}", channel.name), array)?;
     }
-    told.set_item(format!("{prefix}{name}"), PyArray1::from_slice(told.py(), pixels).reshape(shape)?)
+    Ok(())
 }
 
 /// Episodes, and what their recipe says of the drone.

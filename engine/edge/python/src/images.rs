@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 pub enum Pixels {
     /// Colours or other bytes: three per pixel.
     Bytes(Vec<u8>),
-    /// Labels: one byte per pixel.
+    /// Labels, or 0 and 1: one byte per pixel.
     Labels(Vec<u8>),
     /// Depth, metres.
     Depth(Vec<f32>),
@@ -46,7 +46,7 @@ impl Image {
                 let from = [width as usize, height as usize];
                 let size = size.unwrap_or(from);
                 let pixels = match (channel.element(), pixel_bytes) {
-                    (Element::Label, 1) => {
+                    (Element::Label | Element::Flag, 1) => {
                         Pixels::Labels(read::sampled(data.as_chunks::<1>().0, from, size).into_flattened())
                     }
                     (Element::Float, 4) => Pixels::Depth(numbers(&data, from, size, f32::from_le_bytes)),
@@ -115,7 +115,7 @@ pub fn shown(py: Python<'_>, channel: &str, pixels: &[u8], width: u32, height: u
     let (count, channel) = (width as usize * height as usize, raised(py, self::channel(channel))?);
     let rgb = match (channel.element(), pixels.len().checked_div(count)) {
         (_, Some(3)) => pixels.to_vec(),
-        (Element::Float, Some(4)) => picture_on_request(channel, pixels),
+        (Element::Float, Some(4)) | (Element::Flag, Some(1)) => picture_on_request(channel, pixels),
         (Element::Label, Some(1)) => palette_image(pixels),
         (Element::Id, Some(4)) => {
             let ids = pixels.as_chunks::<4>().0.iter().map(|id| u32::from_le_bytes(*id));

@@ -3,6 +3,7 @@
 //! The Python half of the package (`python/cosfly`) gives these functions their types, documentation and names.
 
 mod calls;
+mod channels;
 mod console;
 mod dataset;
 mod errors;
@@ -18,8 +19,11 @@ use pyo3::prelude::*;
 fn _cosfly(module: &Bound<'_, PyModule>) -> PyResult<()> {
     cosfly::prepare().map_err(pyo3::exceptions::PyValueError::new_err)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("STATE", cosfly_env::Observation::NAMES)?;
+    module.add("ACTION", cosfly_env::Action::NAMES)?;
     module.add_function(wrap_pyfunction!(calls::main, module)?)?;
     module.add_function(wrap_pyfunction!(calls::call, module)?)?;
+    module.add_function(wrap_pyfunction!(channels::channels, module)?)?;
     module.add_function(wrap_pyfunction!(images::decode_rgb, module)?)?;
     module.add_function(wrap_pyfunction!(images::shown, module)?)?;
     module.add_function(wrap_pyfunction!(errors::damaged_pack, module)?)?;

@@ -14,6 +14,7 @@ import cosfly  # noqa: E402
 import cosfly.gym  # noqa: E402, F401 (registers the environments, as the installed package does by itself)
 
 ID = "cosfly/Track-v0"
+ALL = ("state", *cosfly.gym.CHANNELS)
 
 
 def make_vec(mode=AutoresetMode.NEXT_STEP, num_envs=4, **more):
@@ -32,7 +33,7 @@ def test_the_checker_finds_nothing():
         check_env(gym.make(ID, recipe="small/recipe.toml").unwrapped, skip_render_check=True)
 
 
-@pytest.mark.parametrize("obs", [("depth",), ("rgb",), ("state", "depth", "mask", "semantic", "instance", "rgb")])
+@pytest.mark.parametrize("obs", [("depth",), ("rgb",), ALL])
 def test_the_checker_finds_nothing_in_pictures(obs):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -43,9 +44,23 @@ def test_the_checker_finds_nothing_in_pictures(obs):
         check_env(gym.make(ID, recipe="small/recipe.toml", obs=obs, size=48).unwrapped, skip_render_check=True)
 
 
+def test_channels_are_those_of_datasets():
+    dataset = cosfly.Dataset("data", channels=("rgb", "depth", "semantic", "instance"))
+    for name, image in dataset.frame(dataset.trajectory_ids[0], 0).items():
+        channel = cosfly.gym.CHANNELS[name]
+        assert image.dtype == channel.dtype and image.shape[2:] == ((channel.values,) if channel.values > 1 else ())
+    space = make_vec(num_envs=1, obs=ALL, size=(16, 8), max_depth_m=50.0).single_observation_space
+    assert {name: (box.dtype, box.shape) for name, box in space.items() if name != "state"} == {
+        name: (np.dtype(it.dtype), (8, 16) if it.values == 1 else (8, 16, it.values))
+        for name, it in cosfly.gym.CHANNELS.items()
+    }
+    assert (space["depth"].high == 50.0).all() and (space["mask"].high == 1).all()
+    assert all(channel.doc.endswith(".") for channel in cosfly.gym.CHANNELS.values())
+
+
 @pytest.mark.parametrize("mode", list(AutoresetMode))
 def test_pictures_do_not_depend_on_threads_or_on_who_is_beside(mode):
-    obs = ("state", "depth", "mask", "semantic", "instance", "rgb")
+    obs = ALL
     many = make_vec(mode, num_envs=5, obs=obs, size=(64, 40), jobs=2, expert_action=True)
     few = make_vec(mode, num_envs=2, obs=obs, size=(64, 40), jobs=1, expert_action=True)
     (first, info), (other, _) = many.reset(seed=[7, 8, 9, 7, 3]), few.reset(seed=[3, 7])
@@ -138,7 +153,7 @@ def test_colours_show_the_weather_of_the_recipe_unless_another_is_named():
 
 
 def test_what_is_not_there_is_refused():
-    with pytest.raises(ValueError, match="state, depth"):
+    with pytest.raises(ValueError, match="state, rgb, depth"):
         make_vec(obs=("thermal",))
     with pytest.raises(ValueError, match="ClearNoon"):
         make_vec(obs=("rgb",), weather="Frogs")

@@ -228,8 +228,7 @@ impl Drawn {
                 depth_m: Some(&mut self.depth_m),
                 semantic: Some(&mut self.semantic),
                 instance: Some(&mut self.instance),
-                target_mask: None,
-                rgb: None,
+                ..Outputs::default()
             },
             _ => Outputs { rgb: Some(&mut self.rgb), ..Outputs::default() },
         }

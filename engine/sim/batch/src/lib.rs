@@ -20,6 +20,7 @@ mod figures;
 mod ground;
 mod hidden;
 mod lanes;
+mod on_request;
 mod outputs;
 mod painter;
 mod raster;
@@ -29,6 +30,7 @@ mod scene;
 mod view;
 mod zorder;
 
+pub use on_request::OnRequest;
 pub use outputs::Outputs;
 pub use renderer::BatchRenderer;
 pub use scene::BatchScene;

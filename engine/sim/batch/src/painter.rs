@@ -10,6 +10,7 @@ use crate::faces::{DrawnFace, SKY};
 use crate::ground::{FAR_OFF_PX, Ground, Pack, Polygon, SeenPack};
 use crate::hidden::Hidden;
 use crate::lanes::Candidate;
+use crate::on_request;
 use crate::outputs::Outputs;
 use crate::raster::{HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_lane, draw_polygon, draw_within};
 use crate::resolve::resolve;
@@ -90,6 +91,9 @@ impl Painter {
         if outputs.has_geometry() {
             self.draw_figures(&eye, view.figures);
             resolve(self.level, &self.canvas, &self.faces, outputs);
+        }
+        if !outputs.on_request.is_empty() {
+            on_request::draw(&eye, &self.canvas, &self.faces, &mut outputs.on_request);
         }
     }
 

@@ -73,7 +73,7 @@ fn small(scene: &BatchScene, place: &Place, size: u32) -> Pictures {
         semantic: Some(&mut pictures.semantic),
         instance: Some(&mut pictures.instance),
         target_mask: Some(&mut pictures.target_mask),
-        rgb: None,
+        ..Outputs::default()
     };
     BatchRenderer::new(size, size).render(&[view], outputs);
     pictures

@@ -45,6 +45,7 @@ fn draw(renderer: &mut BatchRenderer, views: &[View<'_>]) -> Pictures {
         instance: Some(&mut instance),
         target_mask: Some(&mut target_mask),
         rgb: Some(&mut rgb),
+        ..Outputs::default()
     };
     renderer.render(views, outputs);
     Pictures { depth_m: depth_m.into_iter().map(f32::to_bits).collect(), semantic, instance, target_mask, rgb }

@@ -54,6 +54,10 @@ pub struct Action {
 }
 
 impl Action {
+    /// Names of the five numbers of [`Self::of_numbers`], each with its unit.
+    pub const NAMES: [&'static str; 5] =
+        ["velocity_ahead_mps", "velocity_right_mps", "velocity_up_mps", "yaw_rate_deg_s", "pitch_rate_deg_s"];
+
     /// Action of five numbers: velocity ahead, right and up, m/s; yaw rate (positive: to the right) and pitch rate
     /// (positive: up), degrees/s.
     pub fn of_numbers([ahead, right, up, yaw_deg_s, pitch_deg_s]: [f64; 5]) -> Self {

@@ -45,6 +45,26 @@ pub struct Observation {
 }
 
 impl Observation {
+    /// Names of [`Self::features`], each with its unit.
+    pub const NAMES: [&'static str; FEATURES] = [
+        "target_ahead_m",
+        "target_right_m",
+        "target_up_m",
+        "target_velocity_ahead_mps",
+        "target_velocity_right_mps",
+        "target_velocity_up_mps",
+        "velocity_ahead_mps",
+        "velocity_right_mps",
+        "velocity_up_mps",
+        "acceleration_ahead_mps2",
+        "acceleration_right_mps2",
+        "acceleration_up_mps2",
+        "camera_pitch_rad",
+        "above_ground_m",
+        "is_tracked",
+        "sighting_age_s",
+    ];
+
     /// The observation as numbers, lengths in metres, vectors along the axes of the heading (ahead, right, up):
     /// 0-2 place of the sighted target's feet from the drone, 3-5 its velocity (m/s), 6-8 velocity of the drone (m/s),
     /// 9-11 its acceleration (m/s^2), 12 pitch of the camera (radians), 13 height above ground, 14 whether the target is tracked

@@ -1,143 +1,20 @@
 //! [`Pictures`]: what the cameras of environments see, drawn in batches.
 
+mod album;
+mod format;
+
 use crate::Episode;
 use crate::environment::Environment;
 use crate::others::BodyAtTime;
-use cosfly_batch::{BatchRenderer, Outputs, View};
+use cosfly_batch::{BatchRenderer, View};
+use cosfly_domain::channels::rgb;
 use cosfly_domain::{BodyId, BodyKind, Weather};
 use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
 use cosfly_frames::{DVec3, TargetState};
-use cosfly_render::PictureLook;
 use std::ops::Range;
 
-/// A channel of pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Channel {
-    /// Planar depth along the optical axis, metres, up to [`PictureFormat::farthest_m`], which the sky has.
-    Depth,
-    /// CARLA's label ids.
-    Semantic,
-    /// Ids of objects, people and vehicles: 0 for ground and sky, 1 for the target.
-    Instance,
-    /// 1 where the target is seen, 0 elsewhere.
-    Mask,
-    /// Red, green and blue.
-    Rgb,
-}
-
-impl Channel {
-    /// All channels, by name.
-    pub const ALL: [(&'static str, Self); 5] = [
-        ("depth", Self::Depth),
-        ("semantic", Self::Semantic),
-        ("instance", Self::Instance),
-        ("mask", Self::Mask),
-        ("rgb", Self::Rgb),
-    ];
-
-    /// The channel of a name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find_map(|(known, channel)| (known == name).then_some(channel))
-    }
-}
-
-/// Content of pictures: size, channels, colours.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PictureFormat {
-    /// Columns. Pixels are square; pictures are as wide as the environment's lens.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// Channels.
-    pub channels: Vec<Channel>,
-    /// Greatest depth, metres.
-    pub farthest_m: f32,
-    /// Weather of colours; each episode's own where there is none.
-    pub weather: Option<Weather>,
-    /// Look of colours.
-    pub look: PictureLook,
-}
-
-impl PictureFormat {
-    /// Pixels of a picture.
-    pub fn pixels(&self) -> usize {
-        self.width as usize * self.height as usize
-    }
-}
-
-/// Pictures of several environments, one after the other, row by row from the top left pixel. Channels that the format lacks are
-/// empty.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PictureBatch {
-    pixels: usize,
-    /// [`Channel::Depth`].
-    pub depth_m: Vec<f32>,
-    /// [`Channel::Semantic`].
-    pub semantic: Vec<u8>,
-    /// [`Channel::Instance`].
-    pub instance: Vec<u32>,
-    /// [`Channel::Mask`].
-    pub mask: Vec<u8>,
-    /// [`Channel::Rgb`], three elements a pixel.
-    pub rgb: Vec<u8>,
-}
-
-impl PictureBatch {
-    /// Room for `count` pictures.
-    pub fn new(format: &PictureFormat, count: usize) -> Self {
-        let length = |channel| if format.channels.contains(&channel) { count * format.pixels() } else { 0 };
-        Self {
-            pixels: format.pixels(),
-            depth_m: vec![0.0; length(Channel::Depth)],
-            semantic: vec![0; length(Channel::Semantic)],
-            instance: vec![0; length(Channel::Instance)],
-            mask: vec![0; length(Channel::Mask)],
-            rgb: vec![0; 3 * length(Channel::Rgb)],
-        }
-    }
-
-    /// Copies the picture of one environment from another album of the same format.
-    pub fn copy(&mut self, other: &Self, number: usize) {
-        let part = number * self.pixels..(number + 1) * self.pixels;
-        copy_part(&mut self.depth_m, &other.depth_m, &part);
-        copy_part(&mut self.semantic, &other.semantic, &part);
-        copy_part(&mut self.instance, &other.instance, &part);
-        copy_part(&mut self.mask, &other.mask, &part);
-        copy_part(&mut self.rgb, &other.rgb, &(3 * part.start..3 * part.end));
-    }
-
-    /// Fills a picture with zeros.
-    fn wipe(&mut self, number: usize) {
-        let part = number * self.pixels..(number + 1) * self.pixels;
-        fill_part(&mut self.depth_m, &part);
-        fill_part(&mut self.semantic, &part);
-        fill_part(&mut self.instance, &part);
-        fill_part(&mut self.mask, &part);
-        fill_part(&mut self.rgb, &(3 * part.start..3 * part.end));
-    }
-
-    fn outputs(&mut self, part: Range<usize>) -> Outputs<'_> {
-        Outputs {
-            depth_m: self.depth_m.get_mut(part.clone()),
-            semantic: self.semantic.get_mut(part.clone()),
-            instance: self.instance.get_mut(part.clone()),
-            target_mask: self.mask.get_mut(part.clone()),
-            rgb: self.rgb.get_mut(3 * part.start..3 * part.end),
-        }
-    }
-}
-
-fn fill_part<T: Copy + Default>(channel: &mut [T], part: &Range<usize>) {
-    if let Some(part) = channel.get_mut(part.clone()) {
-        part.fill(T::default());
-    }
-}
-
-fn copy_part<T: Copy>(to: &mut [T], from: &[T], part: &Range<usize>) {
-    if let (Some(to), Some(from)) = (to.get_mut(part.clone()), from.get(part.clone())) {
-        to.copy_from_slice(from);
-    }
-}
+pub use album::{PictureBatch, Pixels};
+pub use format::PictureFormat;
 
 /// Draws what the cameras of environments see. A picture depends on its environment and the format alone.
 pub struct Pictures {
@@ -200,7 +77,7 @@ impl Pictures {
             }));
             ranges.push(start..bystanders.len());
         }
-        let has_colours = format.channels.contains(&Channel::Rgb);
+        let has_colours = format.channels.contains(&rgb::CHANNEL);
         let views: Vec<View<'_>> = (environments.iter().zip(&*ranges))
             .map(|(environment, range)| View {
                 scene: environment.episode().place.scene(has_colours),
@@ -215,10 +92,8 @@ impl Pictures {
             .collect();
         let pixels = format.pixels();
         let part = first * pixels..(first + views.len()) * pixels;
-        renderer.render(&views, album.outputs(part.clone()));
-        for depth_m in album.depth_m.get_mut(part).into_iter().flatten() {
-            *depth_m = depth_m.min(format.farthest_m);
-        }
+        renderer.render(&views, album.outputs(&part));
+        album.cut_depth(&part, format.farthest_m);
         for number in (first..).zip(environments).filter_map(|(number, one)| one.is_blind().then_some(number)) {
             album.wipe(number);
         }

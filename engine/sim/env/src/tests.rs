@@ -3,7 +3,7 @@
 use crate::policies::{BASELINES, Knowledge, baseline};
 use crate::{
     Action, Axes, Blackouts, DroneSettings, End, Environment, EnvironmentSettings, Episode, EpisodeScore, FlightSite,
-    Others, Reward, Start,
+    Observation, Others, Reward, Start,
 };
 use cosfly_domain::{Around, Body, BodyKind, BodyPlan, OrientedBox, PlanOutcome, Traffic, Trajectory};
 use cosfly_drone::models::MODELS;
@@ -161,6 +161,28 @@ fn an_action_takes_effect_after_the_latency_and_meanwhile_none_is_asked_for() {
         }
         assert_eq!((count, first), (asked, Some(moves)), "{latency_s}");
     }
+}
+
+#[test]
+fn numbers_of_observations_and_actions_are_what_their_names_say() {
+    let mut environment = Environment::new(standing(vec![], 4), EnvironmentSettings::default());
+    let set =
+        |name: &str, value: f64| Action::of_numbers(Action::NAMES.map(|own| if own == name { value } else { 0.0 }));
+    let turned = |action: Action| [action.view.yaw_rad_s, action.view.pitch_rad_s].map(f64::to_degrees);
+    assert!(turned(set("yaw_rate_deg_s", 9.0))[0] > 8.9 && turned(set("pitch_rate_deg_s", 9.0))[1] > 8.9);
+    assert_eq!(set("velocity_right_mps", 3.0).velocity_mps, 3.0 * DVec3::Y);
+    for _ in 0..5 {
+        environment.step(Some(&set("pitch_rate_deg_s", -9.0)));
+    }
+    let (seen, features) = (environment.observation(), environment.observation().features());
+    let named = |name: &str| features[Observation::NAMES.iter().position(|own| *own == name).expect("a name")];
+    assert_eq!(named("camera_pitch_rad"), seen.pitch_rad);
+    assert_eq!(named("above_ground_m"), seen.above_ground_m);
+    assert_eq!((named("is_tracked"), named("sighting_age_s")), (f64::from(seen.tracked), 0.0));
+    let way = seen.along_heading(seen.sighting.target.feet_in_world - seen.motion.position_in_world);
+    assert_eq!(["target_ahead_m", "target_right_m", "target_up_m"].map(named), way.to_array());
+    assert_eq!(named("velocity_up_mps"), seen.motion.velocity_in_world.z);
+    assert_eq!(named("acceleration_up_mps2"), seen.motion.acceleration_in_world.z);
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! Pictures of environments: as the large renderer draws them from the same place, whoever else is drawn beside them.
 
-use cosfly_domain::{Around, Body, BodyId, BodyKind, BodyPlan, Camera, Town, Traffic, WalkableKind};
-use cosfly_env::pictures::{Channel, PictureBatch, PictureFormat, Pictures, bystanders, target};
+use cosfly_domain::channels::{self, depth, instance, mask, rgb, semantic};
+use cosfly_domain::{Around, Body, BodyId, BodyKind, BodyPlan, Camera, ChannelSet, Town, Traffic, WalkableKind};
+use cosfly_domain::{Channel, FrameImages};
+use cosfly_env::pictures::{PictureBatch, PictureFormat, Pictures, Pixels, bystanders, target};
 use cosfly_env::{Action, Environment, EnvironmentSettings, Episode, FlightSite, Others, Start};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_maps::{MapConfig, read_town};
@@ -65,7 +67,7 @@ fn environments(town: &Town, count: usize) -> Vec<Environment> {
 }
 
 fn format(size: u32) -> PictureFormat {
-    let channels = Channel::ALL.map(|(_, channel)| channel).to_vec();
+    let channels = ChannelSet::of(|_| true);
     PictureFormat {
         width: size,
         height: size,
@@ -73,6 +75,43 @@ fn format(size: u32) -> PictureFormat {
         farthest_m: FARTHEST_M,
         weather: None,
         look: PictureLook::Simple,
+    }
+}
+
+fn bytes<'a>(album: &'a PictureBatch, channel: &Channel) -> &'a [u8] {
+    album.of(channel).expect("all channels were asked for").bytes()
+}
+
+fn depths_m(album: &PictureBatch) -> &[f32] {
+    album.of(&depth::CHANNEL).expect("all channels were asked for").floats()
+}
+
+fn ids(album: &PictureBatch) -> &[u32] {
+    album.of(&instance::CHANNEL).expect("all channels were asked for").ids()
+}
+
+/// Whether a pixel of a channel is that of a large picture, but for roundings.
+fn is_same(channel: &Channel, ours: &Pixels, large: &FrameImages, pixel: usize) -> bool {
+    let parts = channel.element().parts();
+    let near = |theirs: &[u8], most: u8| {
+        let own = &ours.bytes()[parts * pixel..parts * (pixel + 1)];
+        own.iter().zip(theirs).all(|(ours, theirs)| ours.abs_diff(*theirs) <= most)
+    };
+    let near_m = |theirs_m: f32| (ours.floats()[pixel] - theirs_m).abs() <= 1e-3 + 1e-5 * theirs_m;
+    match channel.name {
+        "depth" => near_m(large.depth_m[pixel].min(FARTHEST_M)),
+        "semantic" => ours.bytes()[pixel] == large.semantic[pixel],
+        "instance" => ours.ids()[pixel] == large.instance[pixel],
+        "rgb" => near(&large.rgb[3 * pixel..3 * (pixel + 1)], 2),
+        name => {
+            let theirs = large.on_request.iter().find(|image| image.channel.name == name).expect("it was asked for");
+            let size = channel.bytes_on_request();
+            let theirs = &theirs.bytes[size * pixel..size * (pixel + 1)];
+            match (ours, <[u8; 4]>::try_from(theirs).map(f32::from_le_bytes)) {
+                (Pixels::Floats(floats), Ok(number)) => floats[pixel] == number || near_m(number),
+                _ => near(theirs, 1),
+            }
+        }
     }
 }
 
@@ -102,18 +141,14 @@ fn pictures_are_those_of_the_large_renderer_at_the_pose_of_the_environment() {
             };
             let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad });
             large.set_look(PictureLook::Simple);
+            large.set_channels(&ChannelSet::of(|_| true));
             let images = large.render_parts(&scene, &setup, FrameParts::All).images;
             let pixels = images.depth_m.len();
-            let differs = |pixel: &usize| {
-                let (ours_m, theirs_m) = (ours.depth_m[*pixel], images.depth_m[*pixel].min(FARTHEST_M));
-                (ours_m - theirs_m).abs() > 1e-3 + 1e-5 * theirs_m
-                    || ours.semantic[*pixel] != images.semantic[*pixel]
-                    || ours.instance[*pixel] != images.instance[*pixel]
-                    || ours.mask[*pixel] != u8::from(images.instance[*pixel] == 1)
-                    || (0..3).any(|k| ours.rgb[3 * pixel + k].abs_diff(images.rgb[3 * pixel + k]) > 2)
-            };
-            let wrong = (0..pixels).filter(differs).count();
-            assert!(wrong <= pixels.div_ceil(1000), "{number}, {size} px: {wrong} of {pixels}");
+            assert!(ours.channels().map(|(channel, _)| channel).eq(channels::ALL.iter().copied()));
+            for (channel, ours) in ours.channels() {
+                let wrong = (0..pixels).filter(|pixel| !is_same(channel, ours, images, *pixel)).count();
+                assert!(wrong <= pixels.div_ceil(1000), "{number}, {size} px, {}: {wrong} of {pixels}", channel.name);
+            }
             let is_body = |id: &u32| others.iter().any(|other| other.instance == *id);
             others_seen += images.instance.iter().filter(|id| is_body(id)).count();
         }
@@ -130,7 +165,7 @@ fn full_colours_are_those_of_the_large_renderer_in_the_weather_of_the_episode_or
         for (asked, shown) in [(None, ["ClearNoon", "WetSunset"][number % 2]), (Some("HardRainNight"), "HardRainNight")]
         {
             let size = [84, 128][number / 2];
-            let channels = vec![Channel::Rgb];
+            let channels = ChannelSet::of(|channel| *channel == rgb::CHANNEL);
             let asked = asked.map(weather);
             let format = PictureFormat { channels, weather: asked, look: PictureLook::Full, ..format(size) };
             let mut album = PictureBatch::new(&format, 1);
@@ -141,9 +176,11 @@ fn full_colours_are_those_of_the_large_renderer_in_the_weather_of_the_episode_or
             let setup = FrameSetup { pose: environment.camera(), weather: &weather(shown), target, others: &others };
             let horizontal_fov_rad = environment.settings().lens.horizontal_deg.to_radians();
             let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad });
-            let rgb = &large.render_parts(&scene, &setup, FrameParts::All).images.rgb;
-            let wrong = (album.rgb.iter().zip(rgb)).filter(|(ours, theirs)| ours.abs_diff(**theirs) > 2).count();
-            assert!(wrong <= rgb.len().div_ceil(500), "{number}, {shown}: {wrong} of {}", rgb.len());
+            let colours = &large.render_parts(&scene, &setup, FrameParts::All).images.rgb;
+            let wrong = (bytes(&album, &rgb::CHANNEL).iter().zip(colours))
+                .filter(|(ours, theirs)| ours.abs_diff(**theirs) > 2)
+                .count();
+            assert!(wrong <= colours.len().div_ceil(500), "{number}, {shown}: {wrong} of {}", colours.len());
         }
     }
 }
@@ -163,7 +200,8 @@ fn a_picture_is_the_same_alone_and_in_any_batch_on_any_number_of_threads() {
     let mut copied = PictureBatch::new(&format(84), all.len());
     (0..all.len()).for_each(|number| copied.copy(&together, number));
     assert_eq!(copied, together);
-    assert!(together.mask.contains(&1) && together.depth_m.iter().all(|depth| *depth <= FARTHEST_M));
+    assert!(bytes(&together, &mask::CHANNEL).contains(&1));
+    assert!(depths_m(&together).iter().all(|depth_m| *depth_m <= FARTHEST_M));
 }
 
 #[test]
@@ -190,15 +228,15 @@ fn drones_of_a_team_are_in_each_others_pictures_and_nobodys_own() {
     let album = drawn_by(1);
     assert_eq!(drawn_by(2), album);
     let seen = |own: usize, other: u32| {
-        let ids = album.instance[own * pixels..(own + 1) * pixels].iter();
+        let ids = self::ids(&album)[own * pixels..(own + 1) * pixels].iter();
         ids.filter(|id| **id == instance(other)).count()
     };
     let sees = |own: usize, other: u32| seen(own, other) > 0;
     assert!(sees(0, 1) && sees(2, 0), "those ahead");
     assert!([(0, 0), (0, 2), (1, 0), (1, 1), (1, 2), (2, 2)].iter().all(|(own, other)| !sees(*own, *other)));
-    let at = album.instance[..pixels].iter().position(|id| *id == instance(1)).expect("the second drone");
+    let at = ids(&album)[..pixels].iter().position(|id| *id == instance(1)).expect("the second drone");
     let way_m = 0.15 * (from - feet - DVec3::Z).length();
-    assert!((f64::from(album.depth_m[at]) - way_m).abs() < 0.6 && album.semantic[at] == 21);
+    assert!((f64::from(depths_m(&album)[at]) - way_m).abs() < 0.6 && bytes(&album, &semantic::CHANNEL)[at] == 21);
     let alone = drawn(&[&first], 128, 1);
-    assert!(!alone.instance.contains(&instance(1)));
+    assert!(!ids(&alone).contains(&instance(1)));
 }

@@ -1,5 +1,6 @@
 //! The entry of a channel: name, meaning, element type, and how a pixel is drawn and checked.
 
+use crate::TARGET_INSTANCE;
 use cosfly_frames::DVec3;
 
 /// A channel: one image per frame.
@@ -29,9 +30,11 @@ pub enum ChannelSource {
     Labels,
     /// Instance ids; part of every frame.
     Ids,
-    /// A number for each pixel, drawn where a recipe asks for the channel.
+    /// Whether the pixel is of the target, drawn where somebody asks for the channel.
+    Target,
+    /// A number for each pixel, drawn where somebody asks for the channel.
     Number(fn(&SeenPoint) -> f32),
-    /// Three bytes for each pixel, drawn where a recipe asks for the channel.
+    /// Three bytes for each pixel, drawn where somebody asks for the channel.
     Bytes(fn(&SeenPoint) -> [u8; 3]),
 }
 
@@ -46,6 +49,8 @@ pub enum Element {
     Label,
     /// An instance id, two or four bytes.
     Id,
+    /// 0 or 1, one byte.
+    Flag,
     /// Three bytes.
     Bytes,
 }
@@ -76,13 +81,14 @@ impl Channel {
             ChannelSource::Depth | ChannelSource::Number(_) => Element::Float,
             ChannelSource::Labels => Element::Label,
             ChannelSource::Ids => Element::Id,
+            ChannelSource::Target => Element::Flag,
             ChannelSource::Bytes(_) => Element::Bytes,
         }
     }
 
-    /// Whether the channel is drawn only where a recipe asks for it.
+    /// Whether the channel is drawn only where a recipe or an environment asks for it.
     pub fn is_on_request(&self) -> bool {
-        matches!(self.source, ChannelSource::Number(_) | ChannelSource::Bytes(_))
+        matches!(self.source, ChannelSource::Target | ChannelSource::Number(_) | ChannelSource::Bytes(_))
     }
 
     /// Whether a log may hold small pictures of the channel: of all but ids, whose numbers are no picture.
@@ -93,6 +99,7 @@ impl Channel {
     /// Writes the stored bytes of one pixel of a channel on request; `pixel` has [`Self::bytes_on_request`] bytes.
     pub fn draw(&self, point: &SeenPoint, pixel: &mut [u8]) {
         match self.source {
+            ChannelSource::Target => pixel.fill(u8::from(point.instance == TARGET_INSTANCE)),
             ChannelSource::Number(number) => pixel.copy_from_slice(&number(point).to_le_bytes()),
             ChannelSource::Bytes(three) => pixel.copy_from_slice(&three(point)),
             ChannelSource::Colour | ChannelSource::Depth | ChannelSource::Labels | ChannelSource::Ids => {}
@@ -102,9 +109,20 @@ impl Channel {
     /// Bytes of a pixel of a channel on request; 0 for the channels of every frame.
     pub fn bytes_on_request(&self) -> usize {
         match self.source {
+            ChannelSource::Target => 1,
             ChannelSource::Number(_) => 4,
             ChannelSource::Bytes(_) => 3,
             _ => 0,
+        }
+    }
+}
+
+impl Element {
+    /// Number of values in a pixel.
+    pub fn parts(self) -> usize {
+        match self {
+            Self::Colour | Self::Bytes => 3,
+            Self::Float | Self::Label | Self::Id | Self::Flag => 1,
         }
     }
 }

@@ -25,9 +25,19 @@ impl ChannelSet {
         self.0.iter().copied()
     }
 
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Whether a channel is among them.
+    pub fn contains(&self, channel: &Channel) -> bool {
+        self.iter().any(|own| own == channel)
+    }
+
     /// The first channel of every frame that is not among them.
     pub fn missing(&self) -> Option<&'static Channel> {
-        Self::default().iter().find(|channel| !self.0.contains(channel))
+        Self::default().iter().find(|channel| !self.contains(channel))
     }
 }
 

@@ -6,6 +6,7 @@ mod channel_set;
 pub mod depth;
 mod image;
 pub mod instance;
+pub mod mask;
 pub mod normals;
 pub mod rgb;
 pub mod semantic;
@@ -22,6 +23,7 @@ pub static ALL: &[&Channel] = &[
     &semantic::CHANNEL,
     &instance::CHANNEL,
     // On request, sorted by name.
+    &mask::CHANNEL,
     &normals::CHANNEL,
 ];
 

@@ -18,7 +18,7 @@ pub fn formats(channel: &Channel) -> &'static [RawFormat] {
     match channel.element() {
         Element::Colour => &[],
         Element::Float => &[RawFormat { encoding: "32FC1", pixel_bytes: 4 }],
-        Element::Label => &[RawFormat { encoding: "mono8", pixel_bytes: 1 }],
+        Element::Label | Element::Flag => &[RawFormat { encoding: "mono8", pixel_bytes: 1 }],
         Element::Id => {
             &[RawFormat { encoding: "16UC1", pixel_bytes: 2 }, RawFormat { encoding: "32UC1", pixel_bytes: 4 }]
         }

@@ -172,7 +172,7 @@ fn preview_doc(channel: &Channel) -> Option<String> {
         Element::Colour => Some("small colour image.".into()),
         Element::Float => Some(format!("{} in logarithmic colours.", channel.name)),
         Element::Label => Some("labels as palette PNG.".into()),
-        Element::Bytes => Some(format!("{} as PNG.", channel.name)),
+        Element::Flag | Element::Bytes => Some(format!("{} as PNG.", channel.name)),
         Element::Id => None,
     }
 }

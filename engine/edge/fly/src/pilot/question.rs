@@ -2,7 +2,7 @@
 
 use super::manners::Manners;
 use crate::wire::{self, Field};
-use cosfly_env::pictures::{Channel, PictureBatch, Pictures};
+use cosfly_env::pictures::{PictureBatch, Pictures, Pixels};
 use cosfly_env::{Environment, FEATURES};
 
 /// Asks for actions. Owns what draws the pictures.
@@ -36,17 +36,15 @@ impl Question {
         pictures.draw(&[environment], album, 0);
         let format = pictures.format();
         let [rows, columns] = [format.height as usize, format.width as usize];
-        let (shape, coloured) = ([rows, columns], [rows, columns, 3]);
-        let asked = Channel::ALL.into_iter().filter(|(_, channel)| format.channels.contains(channel));
-        fields.extend(asked.map(|(name, channel)| {
-            let field = match channel {
-                Channel::Depth => Field::Floats(&album.depth_m, &shape),
-                Channel::Semantic => Field::Bytes(&album.semantic, &shape),
-                Channel::Instance => Field::Ids(&album.instance, &shape),
-                Channel::Mask => Field::Bytes(&album.mask, &shape),
-                Channel::Rgb => Field::Bytes(&album.rgb, &coloured),
+        let shape = [rows, columns, 3];
+        fields.extend(album.channels().map(|(channel, pixels)| {
+            let shape = if channel.element().parts() == 1 { &shape[..2] } else { &shape[..] };
+            let field = match pixels {
+                Pixels::Bytes(bytes) => Field::Bytes(bytes, shape),
+                Pixels::Floats(floats) => Field::Floats(floats, shape),
+                Pixels::Ids(ids) => Field::Ids(ids, shape),
             };
-            (name, field)
+            (channel.name, field)
         }));
         wire::encode(&fields)
     }

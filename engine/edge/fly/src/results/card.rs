@@ -4,8 +4,9 @@ use super::folder::differences;
 use crate::flight::Latency;
 use crate::settings::FlySettings;
 use crate::suite::Suite;
+use cosfly_domain::channels::rgb;
 use cosfly_drone::models;
-use cosfly_env::pictures::{Channel, PictureFormat};
+use cosfly_env::pictures::PictureFormat;
 use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, RewardWeights};
 use cosfly_render::PictureLook;
 use serde::{Deserialize, Serialize};
@@ -96,13 +97,12 @@ pub struct PicturesCard {
 impl PicturesCard {
     /// The card of a format.
     pub fn of(format: &PictureFormat) -> Self {
-        let asked = Channel::ALL.into_iter().filter(|(_, channel)| format.channels.contains(channel));
         Self {
-            channels: asked.map(|(name, _)| name.to_owned()).collect(),
+            channels: format.channels.iter().map(|channel| channel.name.to_owned()).collect(),
             width: format.width,
             height: format.height,
             farthest_m: format.farthest_m,
-            look: format.channels.contains(&Channel::Rgb).then_some(format.look),
+            look: format.channels.contains(&rgb::CHANNEL).then_some(format.look),
         }
     }
 }

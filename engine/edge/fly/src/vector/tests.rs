@@ -1,7 +1,8 @@
 //! Laws of vector environments: seeds, modes of autoreset, pictures.
 
 use super::*;
-use cosfly_env::pictures::Channel;
+use cosfly_domain::channels::{depth, mask};
+use cosfly_domain::{Channel, ChannelSet};
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Action, Episode, FlightSite, Start};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
@@ -78,12 +79,20 @@ fn episodes_end_and_begin_as_each_mode_says() {
     }
 }
 
+fn depths(album: &PictureBatch) -> &[f32] {
+    album.of(&depth::CHANNEL).expect("depth was asked for").floats()
+}
+
+fn bytes<'a>(album: &'a PictureBatch, channel: &Channel) -> &'a [u8] {
+    album.of(channel).expect("the channel was asked for").bytes()
+}
+
 #[test]
 fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_mode() {
     let format = || PictureFormat {
         width: 160,
         height: 120,
-        channels: vec![Channel::Depth, Channel::Mask],
+        channels: ChannelSet::of(|channel| [&depth::CHANNEL, &mask::CHANNEL].contains(&channel)),
         farthest_m: 99.0,
         weather: None,
         look: PictureLook::Simple,
@@ -98,7 +107,7 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
         let alone = |many: &VectorEnvironment, number: usize| {
             let mut album = PictureBatch::new(&format(), 1);
             Pictures::new(format(), 1).draw(&[&many.members[number].environment], &mut album, 0);
-            (album.depth_m, album.mask)
+            album
         };
         let (mut ended, mut is_seen) = (0, false);
         for step in 0..60 {
@@ -107,19 +116,20 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
             both.iter_mut().for_each(|many| many.step(&[action; 3]));
             let [one, other] = &both;
             assert_eq!(one.outputs.album, other.outputs.album);
-            is_seen |= one.outputs.album.mask.contains(&1);
+            is_seen |= bytes(&one.outputs.album, &mask::CHANNEL).contains(&1);
             let pixels = format().pixels();
             for (number, mut environment) in before.into_iter().enumerate() {
                 let part = number * pixels..(number + 1) * pixels;
                 let album = &one.outputs.album;
-                let (depth_m, mask) = alone(one, number);
-                assert!(album.depth_m[part.clone()] == depth_m && album.mask[part.clone()] == mask);
+                let alone = alone(one, number);
+                assert_eq!(depths(album)[part.clone()], *depths(&alone));
+                assert_eq!(bytes(album, &mask::CHANNEL)[part.clone()], *bytes(&alone, &mask::CHANNEL));
                 if mode == Autoreset::SameStep && one.outputs.truncated[number] {
                     ended += 1;
                     environment.step(Some(&Action::of_numbers(action.map(f64::from))));
                     let mut last = PictureBatch::new(&format(), 1);
                     Pictures::new(format(), 1).draw(&[&environment], &mut last, 0);
-                    assert!(one.outputs.last_album.depth_m[part] == last.depth_m);
+                    assert_eq!(depths(&one.outputs.last_album)[part], *depths(&last));
                 }
             }
         }

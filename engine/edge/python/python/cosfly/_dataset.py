@@ -45,7 +45,7 @@ class Dataset:
     * ``captions`` where ``captions`` is a language: the text of each style, by its name (``""`` in other layouts).
 
     Foreign layouts give the tables ``trajectories``, ``frames``, ``captions`` and ``windows`` (of the default shape) with
-    the columns whose values they hold: v7 has all channels but ``normals``, LeRobot has ``rgb`` alone.
+    the columns whose values they hold: v7 has ``rgb``, ``depth``, ``semantic`` and ``instance``, LeRobot ``rgb`` alone.
 
     Scaled colours are the mean over each pixel's area; other channels are sampled at the middle of each pixel. Without
     ``size`` all channels are bit for bit what the files hold. The object is map-style: ``torch.utils.data.DataLoader``

@@ -7,8 +7,9 @@ import difflib
 import operator
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Sequence
 
+from . import _cosfly
 from ._calls import settings_of
 from ._errors import InvalidValue, WrongType
 
@@ -31,7 +32,27 @@ if TYPE_CHECKING:
         expert_action: bool
 
 
-OBSERVATIONS = ("state", "depth", "mask", "semantic", "instance", "rgb")
+
+class Channel(NamedTuple):
+    """A channel of pictures: name, type and meaning are those of datasets."""
+
+    name: str
+    """Name in ``obs``, in recipes and in datasets."""
+    dtype: str
+    """Type of the values, as numpy calls it."""
+    values: int
+    """Values of a pixel: 1, or 3 in the last axis of a picture."""
+    least: float
+    """Least value."""
+    greatest: float | None
+    """Greatest value; None where it is ``max_depth_m``."""
+    doc: str
+    """Meaning with unit and frame."""
+
+
+CHANNELS: dict[str, Channel] = {facts[0]: Channel(*facts) for facts in _cosfly.channels()}
+"""All channels of pictures, by name."""
+OBSERVATIONS = ("state", *CHANNELS)
 _LARGEST_SIZE = 2048
 _FORMER = {"overrides": "set", "threads": "jobs"}
 
@@ -47,7 +68,7 @@ class EnvConfig:
     store: str | os.PathLike[str] | None = None
     """Folder of the store; else that of ``COSFLY_STORE``, else ``.cosfly``."""
     obs: Sequence[str] = ("state",)
-    """Observations: ``state`` (16 numbers) and channels of pictures. One alone is an array, several are a dictionary."""
+    """Observations: ``state`` (16 numbers) and names of :data:`CHANNELS`. One alone is an array, several are a dictionary."""
     size: int | tuple[int, int] = 84
     """Width and height of pictures, pixels; one number is both."""
     max_depth_m: float = 200.0

@@ -2,9 +2,10 @@
 
 An environment flies the episodes of a recipe, as `cosfly fly` does; each draws its episodes from a seed of its own: the one that is
 given, else one of the system's entropy, which `info["seed"]` and `np_random_seed` tell so that a run can be repeated.
-Observations are 16 numbers (`obs=("state",)`), pictures (`depth`, `mask`, `semantic`, `instance`, `rgb`), or several of them as a
-dictionary. Actions are five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's page "Policies of
-fly" defines them, its page "Results of fly" the terms of the reward, which `info` has as `reward_...`.
+Observations are 16 numbers (`obs=("state",)`), pictures (the names in `CHANNELS`, which tells the meaning of each), or several of them
+as a dictionary. Actions are five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). `STATE` and `ACTION` name
+the numbers with their units. The book's page "Policies of fly" defines them, its page "Results of fly" the terms of the reward, which
+`info` has as `reward_...`.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from __future__ import annotations
 import operator
 import os
 import secrets
-from typing import TYPE_CHECKING, Any, Callable, Sequence
+from typing import TYPE_CHECKING, Any, Sequence
 
 import gymnasium
 import numpy as np
@@ -22,8 +23,9 @@ from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
+from . import _cosfly
 from ._cosfly import VectorEnvironment
-from ._env_config import OBSERVATIONS, EnvConfig
+from ._env_config import CHANNELS, OBSERVATIONS, EnvConfig
 from ._errors import InvalidValue
 from ._gym import register
 
@@ -31,6 +33,11 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._env_config import EnvOptions
+
+STATE: tuple[str, ...] = tuple(_cosfly.STATE)
+"""Names of the numbers of `state`, each with its unit; vectors are along the heading of the camera."""
+ACTION: tuple[str, ...] = tuple(_cosfly.ACTION)
+"""Names of the numbers of an action, each with its unit."""
 
 _LARGEST = (12, 12, 12, 60, 60)
 _MODES = {
@@ -99,17 +106,17 @@ class _Observations:
 
     def space(self, state: spaces.Space[Any] | None = None) -> spaces.Space[Any]:
         width, height = self.size
-        known: dict[str, Callable[[], spaces.Space[Any]]] = {
-            "state": lambda: state or spaces.Box(-np.inf, np.inf, (16,), np.float32),
-            "depth": lambda: spaces.Box(0, self.max_depth_m, (height, width), np.float32),
-            "mask": lambda: spaces.Box(0, 1, (height, width), np.uint8),
-            "semantic": lambda: spaces.Box(0, 255, (height, width), np.uint8),
-            "instance": lambda: spaces.Box(0, 2**32 - 1, (height, width), np.uint32),
-            "rgb": lambda: spaces.Box(0, 255, (height, width, 3), np.uint8),
-        }
-        if len(self.names) == 1:
-            return known[self.names[0]]()
-        return spaces.Dict({name: known[name]() for name in self.names})
+
+        def of(name: str) -> spaces.Space[Any]:
+            if name == "state":
+                return state or spaces.Box(-np.inf, np.inf, (16,), np.float32)
+            channel = CHANNELS[name]
+            greatest = self.max_depth_m if channel.greatest is None else channel.greatest
+            shape = (height, width) if channel.values == 1 else (height, width, channel.values)
+            kind: Any = np.dtype(channel.dtype).type
+            return spaces.Box(kind(channel.least), kind(greatest), shape, kind)
+
+        return of(self.names[0]) if len(self.names) == 1 else spaces.Dict({name: of(name) for name in self.names})
 
     def of(self, told: dict[str, Any], prefix: str = "", number: int | None = None) -> Any:
         """The observations in what a flock tells: of all environments, or of one."""

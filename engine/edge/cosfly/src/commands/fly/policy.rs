@@ -1,9 +1,11 @@
 //! Arguments about a policy: how it is asked, and what its card says.
 
 use crate::arguments::count;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_env::pictures::{Channel, PictureFormat};
+use cosfly_domain::{Channel, ChannelSet, channels};
+use cosfly_env::pictures::PictureFormat;
 use cosfly_fly::pilot::{ActionKind, Manners, Place, source_of};
 use cosfly_fly::results::{PicturesCard, PolicyCard};
 use cosfly_render::PictureLook;
@@ -29,8 +31,8 @@ pub struct PolicyArguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = count())]
     every: usize,
     /// Pictures in observations, for policies behind a socket or in Python (repeatable)
-    #[arg(long, value_name = "CHANNEL", value_parser = channel, value_delimiter = ',')]
-    obs: Vec<Channel>,
+    #[arg(long, value_name = "CHANNEL", value_parser = channel(), value_delimiter = ',')]
+    obs: Vec<&'static Channel>,
     /// Width and height of pictures in observations, pixels
     #[arg(long, value_name = "PX", default_value_t = 84, value_parser = clap::value_parser!(u32).range(16..=512))]
     size_px: u32,
@@ -115,8 +117,7 @@ impl PolicyArguments {
     }
 
     fn pictures(&self) -> Option<PictureFormat> {
-        let mut channels = self.obs.clone();
-        channels.dedup();
+        let channels = ChannelSet::of(|channel| self.obs.contains(&channel));
         let (width, height) = (self.size_px, self.size_px);
         let look = self.look;
         (!channels.is_empty()).then_some(PictureFormat {
@@ -166,9 +167,10 @@ fn key_of(file: &Path) -> Result<String> {
     Ok(key.to_owned())
 }
 
-fn channel(text: &str) -> std::result::Result<Channel, String> {
-    let names: Vec<&str> = Channel::ALL.iter().map(|(name, _)| *name).collect();
-    Channel::named(text).ok_or_else(|| format!("allowed are {}", names.join(", ")))
+/// A channel of the list, by its name.
+fn channel() -> impl TypedValueParser<Value = &'static Channel> {
+    let values = channels::ALL.iter().map(|channel| PossibleValue::new(channel.name).help(channel.doc));
+    PossibleValuesParser::new(values).try_map(|name| channels::called(&name).ok_or("there is no such channel"))
 }
 
 fn look(text: &str) -> std::result::Result<PictureLook, String> {

@@ -1,0 +1,26 @@
+//! The list of channels for Python.
+
+use cosfly_domain::Channel;
+use cosfly_domain::channels::{ChannelSource, Element};
+use pyo3::prelude::*;
+
+/// A channel for Python: name, type of numpy, values of a pixel, least and greatest value, documentation. The greatest value is
+/// absent where it is the environment's greatest depth.
+type ChannelFacts = (&'static str, &'static str, usize, f64, Option<f64>, &'static str);
+
+/// All channels of pictures.
+#[pyfunction]
+pub fn channels() -> Vec<ChannelFacts> {
+    let facts = |channel: &&'static Channel| {
+        let element = channel.element();
+        let (kind, least, greatest) = match element {
+            Element::Colour | Element::Label | Element::Bytes => ("uint8", 0.0, Some(255.0)),
+            Element::Flag => ("uint8", 0.0, Some(1.0)),
+            Element::Id => ("uint32", 0.0, Some(f64::from(u32::MAX))),
+            Element::Float if matches!(channel.source, ChannelSource::Depth) => ("float32", 0.0, None),
+            Element::Float => ("float32", f64::NEG_INFINITY, Some(f64::INFINITY)),
+        };
+        (channel.name, kind, element.parts(), least, greatest, channel.doc)
+    };
+    cosfly_domain::channels::ALL.iter().map(facts).collect()
+}
