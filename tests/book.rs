@@ -7,15 +7,17 @@ use std::path::{Path, PathBuf};
 /// Beginnings of names that only columns have.
 const OF_COLUMNS: [&str; 9] =
     ["camera_", "drone_", "occluder_", "split_", "subset_", "synthetic_", "target_", "visible_", "weather_"];
-/// Other names that begin so: a frame of logs, keys and schema of the release's layout, a key of recipes.
-const OTHERS: [&str; 5] = ["camera_optical", "drone_nav_traj_v7", "drone_pose", "target_stands_out", "target_losses"];
+/// Other names that begin so: frames of bags and logs, keys and schema of the release's layout, a key of recipes.
+const OTHERS: [&str; 6] =
+    ["camera_link", "camera_optical", "drone_nav_traj_v7", "drone_pose", "target_stands_out", "target_losses"];
 /// Pictures and texts of the samples of the Python package.
 const OF_SAMPLES: [&str; 6] = ["caption", "captions", "depth", "instance", "rgb", "semantic"];
 /// Pages whose examples index other things than rows of tables.
-const NOT_OF_TABLES: [&str; 7] = [
+const NOT_OF_TABLES: [&str; 8] = [
     "guide/closed-loop.md",
     "guide/dagger.md",
     "guide/environments.md",
+    "guide/trackers.md",
     "frameworks/jax.md",
     "frameworks/lerobot.md",
     "frameworks/llama-factory.md",

@@ -12,7 +12,7 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-fn published() -> (tempfile::TempDir, PublishedDataset) {
+pub(crate) fn published() -> (tempfile::TempDir, PublishedDataset) {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("sample");
     sample::write_to_folder(&folder, &DatasetConfig::default(), EncodingConfig::default()).unwrap();
@@ -33,7 +33,7 @@ fn export(dataset: &PublishedDataset, name: &str, out: &Path) -> Result<Vec<Stri
     export_with(dataset, name, options(name), &Choice::default(), out)
 }
 
-fn export_with(
+pub(crate) fn export_with(
     dataset: &PublishedDataset,
     name: &str,
     options: Map<String, Value>,
@@ -47,7 +47,7 @@ fn export_with(
     Ok(remarks)
 }
 
-fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+pub(crate) fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(next) = folders.pop() {
@@ -168,7 +168,8 @@ fn options_of_other_formats_and_values_out_of_range_are_refused() {
     };
     let text = refused("v7", json!({"every": 2}));
     assert!(
-        text.contains("`v7` has no option `--every`") && text.contains("`coco`, `imagefolder`, `webdataset`"),
+        text.contains("`v7` has no option `--every`")
+            && text.contains("an option of `coco`, `imagefolder`, `lasot`, `mot`"),
         "{text}"
     );
     let text = refused("v7", json!({"town": ["street"]}));

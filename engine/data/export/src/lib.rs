@@ -8,6 +8,8 @@
 //! * [`folder`]: the folder that an export becomes, whole or not at all.
 //! * [`card`]: the `README.md` of an export.
 //! * [`pixels`]: colour images decoded, ids and depths encoded.
+//! * [`sequence`]: pictures numbered from 1, for trackers.
+//! * [`single_target`]: such sequences of the target alone.
 //! * [`media`]: names of picture files.
 //! * [`carla_job`]: published flights as a job for a CARLA server.
 //! * [`sample_text`]: the facts of a frame as JSON.
@@ -22,7 +24,9 @@ pub mod option;
 pub mod pixels;
 pub mod prepare;
 pub mod sample_text;
+pub mod sequence;
 pub mod shared_options;
+pub mod single_target;
 pub mod source;
 
 pub use folder::{OutFolder, Written};
@@ -34,3 +38,5 @@ pub use source::{Choice, Source};
 
 #[cfg(test)]
 mod laws;
+#[cfg(test)]
+mod sequence_laws;

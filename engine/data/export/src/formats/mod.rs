@@ -5,7 +5,10 @@
 
 mod coco;
 mod image_folder;
+mod lasot;
 mod lerobot;
+mod mot;
+mod otb;
 pub(crate) mod v7;
 mod vlm;
 mod webdataset;
@@ -16,7 +19,10 @@ use crate::format::Export;
 pub static FORMATS: &[Export] = &[
     Export::of::<coco::Coco>(),
     Export::of::<image_folder::ImageFolder>(),
+    Export::of::<lasot::LaSot>(),
     Export::of::<lerobot::LeRobot>(),
+    Export::of::<mot::Mot>(),
+    Export::of::<otb::Otb>(),
     Export::of::<v7::V7>(),
     Export::of::<vlm::Vlm>(),
     Export::of::<webdataset::WebDataset>(),
