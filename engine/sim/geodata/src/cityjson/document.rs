@@ -81,13 +81,13 @@ pub(super) struct CityObject {
     pub(super) parents: Vec<String>,
 }
 
-/// What is read of an object's or a surface's attributes. Values of a wrong type count as missing.
+/// Attributes of an object or a surface, as far as they are read. Values of a wrong type count as missing.
 #[derive(Debug, Default, Deserialize)]
 pub(super) struct Attributes {
     function: Option<Value>,
     class: Option<Value>,
     usage: Option<Value>,
-    /// Of Dutch base maps.
+    /// Kind in Dutch base maps.
     bgt_type: Option<Value>,
     #[serde(rename = "measuredHeight")]
     measured_height: Option<Value>,
@@ -104,7 +104,7 @@ pub(super) struct Geometry {
     #[serde(default)]
     pub(super) boundaries: Boundaries,
     semantics: Option<Semantics>,
-    /// Of a `GeometryInstance`.
+    /// Number of the template of a `GeometryInstance`.
     pub(super) template: Option<usize>,
     #[serde(rename = "transformationMatrix")]
     pub(super) matrix: Option<Vec<f64>>,

@@ -9,7 +9,7 @@ use cosfly_frames::DVec3;
 use cosfly_town::crown::crown_boxes;
 use cosfly_town::solids::Solid;
 
-/// Of stands of plants.
+/// Steps of stands of plants.
 const STAND: Steps = Steps { height_m: 3.0, most_of_foot: 4, most_of_layer: 3 };
 /// Side of the squares in which they are cut, metres.
 const PIECE_M: f64 = 12.0;

@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Most boxes of one file.
 const MOST_OBSTACLES: usize = 500_000;
-/// Of walls, furniture and other things.
+/// Steps of walls, furniture and other things.
 const OTHER: Steps = Steps { height_m: 1.0, most_of_foot: 8, most_of_layer: 4 };
 /// Side of the squares in which these things are cut, metres.
 const PIECE_M: f64 = 8.0;
@@ -57,7 +57,7 @@ struct Parts {
     tally: Tally,
 }
 
-/// What was left out or assumed: how often, and the first object.
+/// Objects left out, or with something assumed: how often, and the first one.
 #[derive(Default)]
 struct Tally {
     broken_faces: Count,

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// Most nodes, ways, relations and references between them in one file; a city of millions has fewer.
 const MOST_PARTS: usize = 40_000_000;
-/// The same of a small file, and for each byte of it: packed files have one for each four bytes or so.
+/// Most parts of a small file, and of each byte of it: packed files have one for each four bytes or so.
 const MOST_PARTS_OF_ANY: usize = 2_000_000;
 const MOST_PARTS_OF_A_BYTE: usize = 2;
 /// Units of a coordinate in one degree.
@@ -44,7 +44,7 @@ pub struct Elements {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Rank(u64);
 
-/// What an element is.
+/// Kind of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A point.
@@ -109,7 +109,7 @@ pub struct Member {
     pub is_way: bool,
     /// Number of the element.
     pub id: i64,
-    /// What it is in the relation.
+    /// Role that it has in the relation.
     pub role: Role,
 }
 
@@ -142,7 +142,7 @@ impl Role {
 }
 
 impl Elements {
-    /// Of a file of a size.
+    /// No elements yet, of a file of `bytes` bytes, which limit how many may come.
     pub fn of_file(bytes: usize) -> Self {
         let most_parts = (MOST_PARTS_OF_ANY + MOST_PARTS_OF_A_BYTE * bytes).min(MOST_PARTS);
         Self { most_parts, ..Self::default() }

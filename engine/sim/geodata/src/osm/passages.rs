@@ -59,7 +59,7 @@ pub struct Passages {
 /// A layer of a building between two heights, metres.
 #[derive(Debug)]
 pub struct Layer {
-    /// What is solid.
+    /// Solid plan without the passage, world frame.
     pub regions: Vec<PlanRegion>,
     /// Lower end.
     pub base_m: f64,
@@ -172,7 +172,7 @@ impl Passages {
         layers
     }
 
-    /// What became of the passages, in words.
+    /// Note on the passages, as a sentence: how many are open, and how many not.
     pub fn note(&self) -> String {
         let closed = self.closed.difference(&self.open).count();
         let [people_m, vehicles_m] = CLEAR_M;

@@ -59,7 +59,7 @@ impl Area<'_> {
     }
 }
 
-/// What could not be used, or only in part.
+/// Areas that could not be used, or only in part.
 #[derive(Debug, Default)]
 pub struct Problems {
     /// Rings that lack nodes or ways.

@@ -127,7 +127,7 @@ fn whole_extract(frame: &Frame) -> WalkablePolygon {
     WalkablePolygon { kind: WalkableKind::Plaza, outline_in_world, synthetic: true }
 }
 
-/// What becomes of bridges and tunnels, in words.
+/// Note on bridges and tunnels, as a sentence.
 fn one_level(elements: &Elements) -> String {
     let is_way = |tags: &Tags| tags.has("highway") || tags.has("railway");
     let count = |counts: &dyn Fn(&Tags) -> bool| {
@@ -142,7 +142,7 @@ fn one_level(elements: &Elements) -> String {
     )
 }
 
-/// What is not from the file, in words.
+/// Notes on things that are not from the file, as sentences.
 fn notes(buildings: &buildings::Buildings, things: &Things<'_>, options: &OsmOptions) -> Vec<String> {
     let mut notes = Vec::new();
     let mut add = |count: usize, line: String| {
