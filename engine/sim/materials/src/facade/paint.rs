@@ -33,7 +33,7 @@ simd_kernel! {
     }
 }
 
-/// What the blocks of a group share.
+/// Values that the blocks of a group share.
 struct Group<'a> {
     facade: &'a Facade,
     place: &'a BoxFace,
