@@ -65,7 +65,7 @@ impl Columns {
     /// The finished cloud, with a word on the unit and the frame that were assumed.
     ///
     /// # Errors
-    /// As [`CloudBuilder::finish`].
+    /// Those of [`CloudBuilder::finish`].
     pub fn finish(&self, cloud: CloudBuilder, asked_m: Option<f64>) -> Result<Cloud, MapError> {
         let mut warnings = Vec::new();
         if asked_m.is_none() {
