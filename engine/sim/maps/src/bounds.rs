@@ -58,7 +58,7 @@ impl Bounds {
         format!("bounds_m = [{low_x}, {low_y}, {high_x}, {high_y}]")
     }
 
-    /// The same, wider on each side.
+    /// Rectangle wider by `by_m` on each side, metres.
     #[must_use]
     pub fn grown(&self, by_m: f64) -> Self {
         Self { low: self.low - by_m, high: self.high + by_m }
