@@ -80,7 +80,7 @@ impl Crowd {
         Self::beside(grid, config, clock, seed, &[])
     }
 
-    /// The same, apart from bodies that are there in the first frame: their places in plan and radii, metres.
+    /// Crowd apart from bodies that are there in the first frame: their places in plan and radii, metres.
     ///
     /// # Errors
     /// See [`Crowd::new`].
