@@ -13,7 +13,7 @@ use crate::passes::ids::{Run, for_each_bit};
 pub(crate) struct Smoother {
     /// Bit c: pixels c and c + 1 of the row differ.
     right: Vec<u64>,
-    /// The same in the row below.
+    /// Bit c: pixels c and c + 1 of the row below differ.
     right_below: Vec<u64>,
     /// And above.
     right_above: Vec<u64>,
