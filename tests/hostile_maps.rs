@@ -83,6 +83,11 @@ fn elements_that_come_twice_or_are_unknown_are_named_with_their_line() {
         ("end_header", "element vertex 3\nend_header", "line 7 of the head is `element vertex 3`; there is an element"),
         ("format ascii 1.0", "format ascii 1.0\nformat binary_little_endian 1.0", "line 3 of the head"),
         ("property float z", "property float z\nproperty float z", "several numbers called `z`"),
+        (
+            "property float z",
+            "property float z\nproperty uchar class\nproperty uchar class",
+            "several numbers called `class`",
+        ),
         ("element", "elment", "line 3 of the head is `elment vertex 1`; known are"),
     ] {
         check_refused("changed.ply", ply.replacen(from, to, 1).as_bytes(), words);

@@ -22,7 +22,7 @@ pub struct BodyPlan {
 /// One person, vehicle or drone and its track.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Body {
-    /// What does not change.
+    /// Properties that do not change.
     pub plan: BodyPlan,
     /// Frame of the first state; before it and after the last state the body is absent.
     pub first_frame: u32,

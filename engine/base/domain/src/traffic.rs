@@ -18,7 +18,7 @@ pub struct Traffic {
     pub frames: u32,
     /// People and vehicles.
     pub bodies: Vec<Body>,
-    /// What was assumed or left out, in words, for the dataset card.
+    /// Assumptions and omissions, in words, for the dataset card.
     pub notes: Vec<String>,
 }
 

@@ -9,7 +9,7 @@ const SECRET_NAMES: [&str; 6] = ["KEY", "TOKEN", "SECRET", "PASSW", "CREDENTIAL"
 const SHORTEST_OF_ENVIRONMENT: usize = 8;
 /// Shortest secret that is given, bytes: shorter ones occur in any text.
 const SHORTEST: usize = 4;
-/// What is shown in the place of a secret.
+/// Text in the place of a secret.
 const HIDDEN: &str = "***";
 
 /// Secrets that are hidden wherever a text repeats them.

@@ -17,7 +17,7 @@ pub struct NewFolder {
     mark: Option<File>,
 }
 
-/// What came of a folder that was made.
+/// Outcome for a folder that was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Appeared {
     /// It is at its place.

@@ -134,7 +134,7 @@ pub fn examine_texts(
     Ok(Examination { shortcuts, dataset, ..tally.summed(layout, flags, notes) })
 }
 
-/// What is kept of the episodes: each is checked when it is read, and gone before the next.
+/// Tally of the episodes: each is checked when it is read, and gone before the next.
 struct Tally<'a> {
     quotas: &'a [Quota],
     flags: Vec<Flag>,

@@ -1,4 +1,4 @@
-//! What gives the targets of a dataset of cosfly away: their place and size in the picture, and their looks.
+//! Shortcuts to the targets of a dataset of cosfly: their place and size in the picture, and their looks.
 
 use cosfly_diagnose::Result;
 use cosfly_frames::{DVec3, Pose};

@@ -53,7 +53,7 @@ pub struct TextVerdict {
     pub language: String,
     /// The text.
     pub text: String,
-    /// What is not true of it.
+    /// Claims that are not true of it.
     pub contradictions: Vec<String>,
 }
 
@@ -101,7 +101,7 @@ impl GivenTexts {
     }
 }
 
-/// What is kept of the texts of all episodes.
+/// Tally of the texts of all episodes.
 #[derive(Default)]
 pub(crate) struct TextTally {
     texts: [Vec<String>; 2],

@@ -12,9 +12,9 @@ use std::collections::BTreeMap;
 /// Tallies of a method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MethodTallies {
-    /// Of all windows, one tally per cluster.
+    /// Tallies of all windows, one per cluster.
     pub overall: Vec<Tally>,
-    /// Of each stratum: tallies of the clusters that have a window in it.
+    /// Tallies of each stratum, for the clusters that have a window in it.
     pub strata: [Vec<Tally>; COUNT],
     /// Mean distance from the truth at each waypoint, metres.
     pub by_step_m: Vec<f64>,

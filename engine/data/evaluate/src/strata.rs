@@ -46,7 +46,7 @@ pub fn memberships(
     part.par_iter().map(of_flight).collect()
 }
 
-/// Of every flight whether a flight of split `train` is in a town of the same ground plan.
+/// Whether a flight of split `train` is in a town of the same ground plan, for every flight.
 pub fn is_seen(flights: &Flights) -> Vec<bool> {
     let train = flights.rows.iter().filter(|row| row.split == "train");
     let seen: BTreeMap<&str, &TownLayout> =

@@ -98,7 +98,7 @@ impl Flights {
         Ok(tracks)
     }
 
-    /// The same flights with the tracks of at least these and their experts.
+    /// Flights with the tracks of at least these and their experts.
     ///
     /// # Errors
     /// Damage of the dataset.

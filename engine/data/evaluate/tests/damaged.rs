@@ -23,7 +23,7 @@ const LARGEST_PICTURE: usize = 200_000;
 /// Largest memory of the whole run, kB.
 #[cfg(target_os = "linux")]
 const MOST_MEMORY_KB: u64 = 1_000_000;
-/// What is put in the place of numbers and between them.
+/// Texts in the place of numbers and between them.
 const PIECES: &[&str] = &[
     "NaN",
     "-Infinity",

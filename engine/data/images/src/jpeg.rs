@@ -37,7 +37,7 @@ const STEPS: [[u16; 64]; 2] = [
 /// Resolution of the colours of a JPEG file beside that of its brightness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Chroma {
-    /// The same (4:4:4).
+    /// Full resolution (4:4:4).
     Full,
     /// Half in both directions (4:2:0).
     Half,

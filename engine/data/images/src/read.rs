@@ -64,7 +64,7 @@ pub fn png_size(file: &[u8]) -> Result<[usize; 2], String> {
     })
 }
 
-/// What a library reads, which may panic on damaged files.
+/// Result of a library, which may panic on damaged files.
 fn by_library<T>(read: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     contained(read).unwrap_or_else(|| Err("it holds what no encoder writes".to_owned()))
 }

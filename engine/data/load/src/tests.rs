@@ -1,4 +1,4 @@
-//! The same flights from all layouts.
+//! Flights that are the same from all layouts.
 
 use crate::{FlightSource, LoadedFlight, open};
 use cosfly_domain::{Channel, channels};

@@ -1,6 +1,6 @@
 //! Pictures of a published flight: a contact sheet, an animated clip and a plan, from its tables and its log alone.
 //!
-//! The same dataset gives the same bytes on every machine.
+//! Bytes depend on the dataset alone, on every machine.
 
 mod clip;
 mod ground;

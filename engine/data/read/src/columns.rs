@@ -84,7 +84,7 @@ impl TableData {
     /// Values of column `name`.
     ///
     /// # Errors
-    /// As of [`column`].
+    /// Those of [`column`].
     pub fn column(&self, name: &str) -> Result<Column> {
         match self {
             Self::Files(files) => column(files, name),
@@ -98,7 +98,7 @@ impl TableData {
     /// The table as one stream.
     ///
     /// # Errors
-    /// As of [`stream`].
+    /// Those of [`stream`].
     pub fn stream(&self) -> Result<ArrowStream> {
         match self {
             Self::Files(files) => stream(files),

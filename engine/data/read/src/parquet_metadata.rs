@@ -39,7 +39,7 @@ pub fn load(file: &File) -> Result<ArrowReaderMetadata> {
 /// Metadata of a file, with the places of pages where it has them, so that one row can be read.
 ///
 /// # Errors
-/// As of [`load`].
+/// Those of [`load`].
 pub fn load_with_pages(file: &File) -> Result<ArrowReaderMetadata> {
     load(file)?;
     metadata_of(file, ArrowReaderOptions::new().with_offset_index_policy(PageIndexPolicy::Optional))
@@ -80,7 +80,7 @@ impl Iterator for Batches {
 /// Reader of a file.
 ///
 /// # Errors
-/// As of [`load`].
+/// Those of [`load`].
 pub fn builder(file: File) -> Result<ParquetRecordBatchReaderBuilder<File>> {
     let metadata = load(&file)?;
     Ok(ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata))

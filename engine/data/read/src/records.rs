@@ -9,7 +9,7 @@ use std::io::Read;
 /// Longest record that is read; a raw depth image of the largest camera fits.
 pub(crate) const RECORD_LIMIT: usize = 1 << 30;
 
-/// What is wrong with bytes on which the library panics.
+/// Problem of bytes on which the library panics.
 pub(crate) const NO_WRITER: &str = "it holds what no writer writes";
 
 /// The reason why a log cannot be read to its end.

@@ -1,4 +1,4 @@
-//! What the page tells of flights: figures over all of them, and sketches of a few. Parts can be merged, so that a page is made
+//! Figures of the page over all flights, and sketches of a few. Parts can be merged, so that a page is made
 //! from summaries of many files; memory is bounded by the number of towns, not of flights.
 
 use crate::name_hash::hash;

@@ -315,7 +315,7 @@ pub enum RgbEncoding {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JpegChroma {
-    /// The same (4:4:4).
+    /// Full resolution (4:4:4).
     Full,
     /// Half in both directions (4:2:0).
     Half,

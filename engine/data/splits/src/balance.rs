@@ -63,7 +63,7 @@ impl Balance {
         }
     }
 
-    /// What a user should know before training, one sentence each: walks that chain, shares that were missed by more than
+    /// Warnings for a user before training, one sentence each: walks that chain, shares that were missed by more than
     /// chance and why, flights left out.
     pub fn warnings(&self) -> Vec<String> {
         let mut said = vec![];

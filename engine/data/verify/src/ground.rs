@@ -13,7 +13,7 @@ pub struct BodiesOnGround {
     bodies: BTreeMap<u32, Rises>,
 }
 
-/// What the frames show of the ground around the feet of one body.
+/// Rises of the ground around the feet of one body, as the frames show it.
 #[derive(Default)]
 struct Rises {
     seen: usize,

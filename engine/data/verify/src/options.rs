@@ -1,4 +1,4 @@
-//! What is checked, and how.
+//! Options of a check: its parts and its manner.
 
 use super::flight_list::FlightList;
 use cosfly_diagnose::Stop;

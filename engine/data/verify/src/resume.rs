@@ -87,7 +87,7 @@ impl ResumeFile {
         Some([metadata.len(), u64::try_from(changed.as_nanos()).ok()?])
     }
 
-    /// What an earlier check found of a flight, if it was sound and its log is as it was.
+    /// Findings of an earlier check of a flight, if it was sound and its log is as it was.
     pub fn known(&self, id: &str, log: [u64; 2]) -> Option<VerifyReport> {
         let line = self.known.get(id).filter(|line| line.log == log)?;
         let [bytes, frames, boxes, labels, gaps] = line.counts;

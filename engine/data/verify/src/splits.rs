@@ -7,7 +7,7 @@ use cosfly_splits as splits;
 use cosfly_splits::{facts_of_dataset, policy};
 use std::path::Path;
 
-/// What the lint of the splits found; `Err` where `splits.json` cannot be read, `None` where the tables cannot.
+/// Findings of the lint of the splits; `Err` where `splits.json` cannot be read, `None` where the tables cannot.
 pub type Linted = Result<Option<Leaky>, String>;
 
 /// Leaks, and flights in another split than `splits.json` promises for their town.

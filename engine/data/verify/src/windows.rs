@@ -35,7 +35,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
     windows.check_counts(report);
 }
 
-/// Of every flight whether split `train` has flights in its town.
+/// Whether split `train` has flights in the town of a flight, for every flight.
 fn seen(flights: &FlightList) -> Vec<bool> {
     let mut layouts: BTreeMap<&str, (&TownLayout, bool)> = BTreeMap::new();
     for flight in flights.iter() {
@@ -189,7 +189,7 @@ struct Cut<'a> {
 }
 
 impl Windows<'_> {
-    /// What is wrong with a window, `count` others of whose flight come before.
+    /// Problem of a window, `count` others of whose flight come before.
     fn mismatch(
         &self,
         window: &WindowRow,

@@ -30,7 +30,7 @@ pub fn gather(flights: usize, of_flight: &dyn Fn(usize) -> Result<Vec<Extra>>) -
 /// Summaries over the flights of both: each plugin gave of all of them, and the same.
 ///
 /// # Errors
-/// As [`gather`].
+/// Those of [`gather`].
 pub fn merged(first: Vec<ExtraSummary>, second: Vec<ExtraSummary>) -> Result<Vec<ExtraSummary>> {
     let other = |all: &[ExtraSummary], name: &str| all.iter().position(|it| it.source.name == name);
     if let Some(alone) = second.iter().find(|it| other(&first, &it.source.name).is_none()) {

@@ -39,7 +39,8 @@ fn first_line(error: &clap::Error) -> String {
     line.strip_prefix("error: ").unwrap_or(line).to_owned()
 }
 
-/// What to write instead of the word that an error is about, where the word is a former one. `command` is the first word of the line.
+/// Replacement of the word that an error is about, where the word is a former one. `command` is the first word of the
+/// line.
 fn replacement(command: &str, error: &clap::Error) -> Option<&'static str> {
     let kind = match error.kind() {
         ErrorKind::UnknownArgument => ContextKind::InvalidArg,

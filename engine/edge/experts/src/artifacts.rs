@@ -37,7 +37,7 @@ pub const COMPANIONS: Kind<Vec<Companion>> = Kind::new("companions/1", "companio
 pub const TRAFFIC: Kind<Traffic> = Kind::new("traffic/1", "bodies");
 /// Bodies around the target of a flight.
 pub const AROUND: Kind<Around> = Kind::new("around/1", "around");
-/// What came of ordering a loss of the target.
+/// Outcome of ordering a loss of the target.
 pub const LOSSES: Kind<Trial> = Kind::new("losses/1", "trial");
 /// Flights of all drones behind a walk; a blob for each, of this type.
 pub const FORMATION: Kind<Flown> = Kind::new("formation/1", "");
@@ -88,7 +88,7 @@ impl<T: DeserializeOwned> Kind<T> {
     /// Value in the blob of an artifact.
     ///
     /// # Errors
-    /// As [`Self::decode`]; a blob that is not there.
+    /// Those of [`Self::decode`]; a blob that is not there.
     pub fn read(&self, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<T> {
         self.decode(&inputs.read(artifact, self.blob)?)
     }
@@ -96,17 +96,17 @@ impl<T: DeserializeOwned> Kind<T> {
     /// Value in the blob of an artifact; `None` where there is no such blob.
     ///
     /// # Errors
-    /// As [`Self::decode`].
+    /// Those of [`Self::decode`].
     pub fn find(&self, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Option<T>> {
         self.is_in(artifact).then(|| self.read(inputs, artifact)).transpose()
     }
 }
 
 impl<T: DeserializeOwned + Any + Send + Sync> Kind<T> {
-    /// As [`Self::read`], decoded once for all tasks that share it.
+    /// Value of [`Self::read`], decoded once for all tasks that share it.
     ///
     /// # Errors
-    /// As [`Self::read`].
+    /// Those of [`Self::read`].
     pub fn shared(&self, inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Arc<T>> {
         inputs.decoded(artifact, self.blob, |bytes| self.decode(bytes))
     }

@@ -18,7 +18,7 @@ pub struct ReadMap {
     pub town: Town,
     /// Warnings of the reader.
     pub warnings: Vec<String>,
-    /// What the town lacks, and the options that help.
+    /// Options that bring something which the town lacks, as sentences.
     pub advice: Vec<String>,
 }
 

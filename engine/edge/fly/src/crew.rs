@@ -12,7 +12,7 @@ const MOST_UNANSWERED: usize = 3;
 /// Pause between two looks.
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// What came of an episode.
+/// Outcome of an episode.
 pub enum Step {
     /// It is kept.
     Kept,
@@ -22,7 +22,7 @@ pub enum Step {
     Gone(String),
 }
 
-/// What came of all episodes.
+/// Outcome of all episodes.
 #[derive(Debug, Default)]
 pub struct Crewed {
     /// Episodes that are kept.
@@ -41,7 +41,7 @@ pub struct Shifts<'a> {
     pub first: &'a FirstAnswer,
 }
 
-/// What all threads know.
+/// Board that all threads read and write.
 #[derive(Default)]
 struct Board {
     due: VecDeque<usize>,

@@ -71,7 +71,7 @@ pub struct Flown {
     pub row: Row,
     /// The steps.
     pub steps: Vec<Line>,
-    /// What sensors measured, by time.
+    /// Samples of the sensors, by time.
     pub sensed: Vec<Sensed>,
 }
 
@@ -80,11 +80,11 @@ pub struct Flown {
 pub enum Latency {
     /// That of the settings, in simulated time.
     Simulated,
-    /// What the clock says; rows and logs differ from run to run.
+    /// Time of the clock; rows and logs differ from run to run.
     Measured,
 }
 
-/// What came of an episode.
+/// Outcome of an episode.
 pub enum Attempt {
     /// It was flown; the policy may have ended it by its fault.
     Flown(Box<Flown>),

@@ -25,7 +25,7 @@ impl Shard {
     pub const WHOLE: Self = Self { index: 0, of: 1 };
 }
 
-/// What is flown, and how.
+/// Order to fly a suite: episodes, policy and settings.
 pub struct Order<'a> {
     /// Episodes.
     pub suite: &'a Suite,
@@ -45,7 +45,7 @@ pub struct Order<'a> {
     pub cancelled: &'a AtomicBool,
 }
 
-/// What came of it.
+/// Outcome of an order.
 #[derive(Debug, Default)]
 pub struct Outcome {
     /// Rows of all episodes that the folder has now, in the order of the suite.

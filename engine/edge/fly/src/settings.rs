@@ -5,7 +5,7 @@ use cosfly_drone::models::{self, DroneModel, MODELS};
 use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, SuiteTable};
 use cosfly_recipe::Recipe;
 
-/// What a suite says of the drone.
+/// Settings of the drone in a suite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlySettings {
     /// Model.

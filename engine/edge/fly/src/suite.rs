@@ -25,7 +25,7 @@ pub const ENVIRONMENT_VERSION: u32 = 2;
 pub struct Task {
     /// The episode.
     pub episode: Arc<Episode>,
-    /// What baselines may know.
+    /// Knowledge that baselines may have.
     pub knowledge: Knowledge,
     /// Mean visibility that the certificate of the expert's flight states.
     pub certified_visibility: f64,

@@ -18,7 +18,7 @@ pub use team::BESIDE;
 /// Terms of a reward.
 pub const TERMS: usize = Reward::NAMES.len();
 
-/// What a step fills, one entry or row per environment.
+/// Results of a step, one entry or row per environment.
 #[derive(Clone, Debug, Default)]
 pub struct Outputs {
     /// Features of the observations; of the next episode where one began.
@@ -43,7 +43,7 @@ pub struct Outputs {
     pub look_alikes: Vec<u32>,
     /// The expert's actions for the observations, where they are asked for.
     pub expert_actions: Vec<[f32; ACTIONS]>,
-    /// Of a team: [`BESIDE`] numbers on each other drone.
+    /// [`BESIDE`] numbers on each other drone of a team.
     pub beside: Vec<Vec<f32>>,
 }
 
@@ -109,15 +109,15 @@ impl VectorEnvironment {
         Self { shared, members, outputs, studio: None }
     }
 
-    /// The same drones as a team: all fly the same episode at the same time, which the first draws, each from a start of its own, and
-    /// they can hit each other.
+    /// Drones as a team: all fly the same episode at the same time, which the first draws, each from its own start,
+    /// and they can hit each other.
     pub fn as_team(mut self) -> Self {
         self.shared.is_team = true;
         self.outputs.beside = vec![vec![]; self.len()];
         self
     }
 
-    /// The same environments with pictures in their observations, drawn on `threads` threads: their number changes no byte.
+    /// Environments with pictures in their observations, drawn on `threads` threads: their number changes no byte.
     ///
     /// # Errors
     /// Threads that cannot be started.
@@ -147,12 +147,12 @@ impl VectorEnvironment {
         &self.shared.settings
     }
 
-    /// What their pictures hold, where there are any.
+    /// Format of their pictures, where there are any.
     pub fn format(&self) -> Option<&PictureFormat> {
         self.studio.as_ref().map(|studio| studio.pictures.format())
     }
 
-    /// What the last reset or step gave.
+    /// Results of the last reset or step.
     pub fn outputs(&self) -> &Outputs {
         &self.outputs
     }

@@ -14,7 +14,7 @@ const TOLD_ALIKE: u64 = 3;
 /// Payload of a panic that ends a command without a flag of its own after Ctrl-C.
 pub struct Stopped;
 
-/// What a command has done so far.
+/// State of a command so far.
 #[derive(Default)]
 pub struct State {
     /// Printed result.

@@ -57,7 +57,7 @@ impl ExpertService {
     }
 }
 
-/// What a thread sends; a signal sets `is_cancelled` and ends the wait.
+/// Value that a thread sends; a signal sets `is_cancelled` and ends the wait.
 fn waited<T: Send>(py: Python<'_>, mut from: Receiver<T>, is_cancelled: &AtomicBool) -> PyResult<T> {
     loop {
         let waited = &mut from;

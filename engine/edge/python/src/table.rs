@@ -21,7 +21,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// What was read of the table, unless its folder holds another dataset by now.
+    /// Values read of the table, unless its folder holds another dataset by now.
     fn read<T: Send>(&self, py: Python<'_>, read: impl FnOnce(&TableData) -> Result<T> + Send) -> PyResult<T> {
         let found = py.detach(|| {
             let found = read(&self.data);

@@ -98,7 +98,7 @@ impl StageKind for Caption {
     }
 }
 
-/// What a flight asks of a teacher.
+/// Questions of a flight to a teacher.
 fn asks(config: &CaptionConfig, teacher: &TeacherConfig) -> Asks {
     let questions = 2 * config.styles.len() as u64 * u64::from(config.variants_per_style);
     Asks {

@@ -40,7 +40,7 @@ impl Crowd {
         Ok(Self { members })
     }
 
-    /// The same with the other drones behind the target of `flight`, which have the names of their flights.
+    /// Crowd with the other drones behind the target of `flight`, which have the names of their flights.
     pub fn and_drones(mut self, inputs: &Inputs<'_>, flight: &Artifact, world: &World, dt_s: f64) -> Result<Self> {
         let largest_object = largest_object_instance(&world.town);
         for (number, body) in artifacts::DRONES.find(inputs, flight)?.unwrap_or_default().bodies(dt_s) {
@@ -53,7 +53,7 @@ impl Crowd {
         Ok(self)
     }
 
-    /// The same, dressed for the weather of a flight.
+    /// Crowd dressed for the weather of a flight.
     pub fn dressed_for(mut self, shooting: &Shooting) -> Self {
         for (other, person) in &mut self.members {
             person.dress_for(shooting);

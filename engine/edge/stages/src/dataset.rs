@@ -133,7 +133,7 @@ impl Stage for DatasetStage {
     }
 }
 
-/// What belongs to the dataset as a whole.
+/// Parts that belong to the dataset as a whole.
 struct Whole<'a> {
     inputs: &'a Inputs<'a>,
     towns: PublishedTowns,

@@ -1,4 +1,4 @@
-//! What the flights of an item are planned among, and what is told of them.
+//! Surroundings among which the flights of an item are planned, and the notes on them.
 
 use crate::world::{check_same_town, world};
 use crate::{companions, traffic};
@@ -10,7 +10,7 @@ use cosfly_objectives::Objective;
 use cosfly_stage::{Inputs, Produced};
 use std::sync::Arc;
 
-/// What the flights of an item are planned among.
+/// Surroundings among which the flights of an item are planned.
 pub struct Setting {
     /// The town.
     pub world: Arc<World>,

@@ -89,7 +89,7 @@ fn table(path: &str, value: Value) -> Value {
     path.rsplit('/').fold(value, |inner, key| json!({ key: inner }))
 }
 
-/// What parameters give to the keys of a stage's parts.
+/// Keys that the parts of a stage get from parameters.
 fn keys_of(kind: &str, mut given: Value) -> Result<Vec<Value>, String> {
     for (_, name, value) in NEEDED.iter().filter(|it| it.0 == kind) {
         given[*name] = (*value).into();

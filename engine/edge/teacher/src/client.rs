@@ -21,7 +21,7 @@ pub struct Client {
     secrets: Secrets,
 }
 
-/// What came of a request.
+/// Outcome of a request.
 pub enum Sent {
     /// An answer of the protocol.
     Came(Envelope),
@@ -63,7 +63,7 @@ impl Client {
     /// Sends a request; `idempotency_key` is its name for servers that answer a repeated request with the first one's answer.
     ///
     /// # Errors
-    /// What a repetition does not help against: no server there, a wrong key, a refused request.
+    /// Faults that a repetition does not help against: no server there, a wrong key, a refused request.
     pub fn send(&self, body: &[u8], idempotency_key: &str) -> Result<Sent> {
         let mut request = self.agent.post(&self.url).header("content-type", "application/json");
         request = request.header("idempotency-key", idempotency_key);

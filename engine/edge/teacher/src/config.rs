@@ -62,7 +62,7 @@ pub struct BudgetConfig {
     /// Price of a million tokens of answers. Default 0.
     #[schemars(range(min = 0.0))]
     pub output_price: f64,
-    /// What happens to texts beyond the budget. Default `stop`.
+    /// Fate of texts beyond the budget. Default `stop`.
     pub when_spent: WhenSpent,
 }
 
@@ -96,7 +96,7 @@ pub enum JsonMode {
     Schema,
     /// `response_format` with any JSON object.
     Object,
-    /// The same with a key `schema`, as the server of the Python package `llama-cpp-python` takes it.
+    /// `response_format` with JSON and a key `schema`, for the server of the Python package `llama-cpp-python`.
     ObjectSchema,
     /// No `response_format`; the question still asks for JSON.
     Text,
@@ -115,7 +115,7 @@ pub enum Frames {
     Clip,
 }
 
-/// What happens to texts beyond the budget.
+/// Fate of texts beyond the budget.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WhenSpent {

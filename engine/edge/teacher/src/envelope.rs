@@ -7,7 +7,7 @@ pub const MOST_BYTES: u64 = 1 << 20;
 /// Longer texts are cut: no answer that could be accepted is as long.
 const MOST_TEXT: usize = 16 << 10;
 
-/// What a server sent.
+/// Response of a server, taken apart.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Envelope {
     pub content: String,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Answer {
-    /// What the model wrote; empty where it was too long to be read.
+    /// Text of the model; empty where it was too long to be read.
     pub content: String,
     /// Model, as the recipe names it.
     pub model: String,
@@ -27,7 +27,7 @@ pub struct Answer {
     pub unix_s: u64,
 }
 
-/// What is kept under a key.
+/// Record kept under a key.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Record {

@@ -15,7 +15,7 @@ use std::time::Duration;
 /// An environment variable that holds something in every test.
 const KEY_VARIABLE: &str = "CARGO_MANIFEST_DIR";
 
-/// What the server does with a request.
+/// Deed of the server on a request.
 #[derive(Clone, Copy, Debug)]
 enum Deed {
     Answer(&'static str),

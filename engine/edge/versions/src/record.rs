@@ -108,7 +108,7 @@ struct Logs {
 }
 
 impl Logs {
-    /// Of the recipe's dataset stage number `dataset`.
+    /// Record of the recipe's dataset stage number `dataset`.
     fn of(recipe: &Recipe, dataset: usize) -> Self {
         let stage = logs_of(&recipe.stages[dataset]);
         let position = recipe.position(stage.as_str());

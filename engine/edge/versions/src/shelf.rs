@@ -139,7 +139,7 @@ fn read(path: &Path) -> Result<Version> {
     }
 }
 
-/// What tells whether a manifest can be read; all else is passed over.
+/// Keys that tell whether a manifest can be read; all else is passed over.
 #[derive(Deserialize)]
 struct Head {
     schema: Option<Value>,

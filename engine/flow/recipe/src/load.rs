@@ -30,7 +30,7 @@ pub fn load(path: &Path, overrides: &[String], registry: &Registry) -> Result<Re
 /// path.
 ///
 /// # Errors
-/// As [`load`].
+/// Those of [`load`].
 pub fn read(
     path: &Path,
     text: &str,

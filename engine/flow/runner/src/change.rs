@@ -72,7 +72,7 @@ pub enum Change {
         /// Stages that are connected.
         new: Vec<String>,
     },
-    /// The same stages are connected, with more, fewer or other items.
+    /// Items of the connected stages: more, fewer or others; the stages are as before.
     Items {
         /// Port.
         port: String,
@@ -131,7 +131,7 @@ pub fn definition_difference(old: &Value, new: &Value) -> Vec<Change> {
     definition_changes(old, &new.to_string())
 }
 
-/// As [`definition_difference`], with the new definition as text.
+/// Changes as in [`definition_difference`], with the new definition as text.
 pub(crate) fn definition_changes(old: &Value, new_json: &str) -> Vec<Change> {
     let new: Value = serde_json::from_str(new_json).unwrap_or_default();
     let pair = |key: &str| (old[key] != new[key]).then(|| (old[key].clone(), new[key].clone()));

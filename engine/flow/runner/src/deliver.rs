@@ -24,7 +24,7 @@ pub struct Delivery {
 /// with several items are in one folder per item. A run that failed elsewhere still delivers a finished stage.
 ///
 /// # Errors
-/// As [`crate::run`] and [`materialise`].
+/// Those of [`crate::run`] and [`materialise`].
 pub fn deliver(
     recipe: &Recipe,
     store: &Store,

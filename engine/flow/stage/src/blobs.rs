@@ -88,7 +88,7 @@ fn shared(names: Vec<String>) -> Arc<[String]> {
 /// Lists of names that a thread remembers.
 const MOST_RECENT: usize = 8;
 
-/// As [`shared`], without a copy of the names where this thread had the same list not long ago.
+/// List as of [`shared`], without a copy of the names where this thread had the same list not long ago.
 fn recent(names: &[&str]) -> Arc<[String]> {
     thread_local! {
         static RECENT: RefCell<Vec<Arc<[String]>>> = const { RefCell::new(Vec::new()) };

@@ -59,7 +59,7 @@ impl Registry {
         Self { kinds: kinds.into_iter().map(|kind| (kind.name(), kind)).collect(), tools: vec![] }
     }
 
-    /// The same with tables of a tool.
+    /// Registry with the tables of a tool.
     pub fn with_tool(mut self, tool: Tool) -> Self {
         self.tools.push(tool);
         self

@@ -70,7 +70,7 @@ pub struct Fleet {
     pub batches: bool,
 }
 
-/// What the simulation shows.
+/// Figures that the simulation shows.
 #[derive(Clone, Debug)]
 pub struct FleetFigures {
     /// Commands.

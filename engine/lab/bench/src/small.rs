@@ -33,7 +33,7 @@ pub struct SmallOptions {
     pub has_colours: bool,
 }
 
-/// What pictures show.
+/// Content of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Content {
@@ -68,7 +68,7 @@ impl Content {
 pub struct SmallRow {
     /// Side of the pictures, pixels.
     pub size: u32,
-    /// What the pictures show.
+    /// Content of the pictures.
     pub content: Content,
     /// CPU time of a picture in the large renderer, milliseconds.
     pub large_ms: f64,

@@ -16,7 +16,7 @@ use std::time::Instant;
 /// Measures readers of datasets
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// What is measured
+    /// Reader to measure
     reader: Reader,
     /// Folder of the dataset
     dir: PathBuf,

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 /// Distance between the places along an edge where polygons are compared, metres.
 const STEP_M: f64 = 0.1;
-/// The same within surfaces, metres.
+/// Distance between such places within surfaces, metres.
 const INSIDE_STEP_M: f64 = 0.5;
 /// Most places along an edge.
 const MOST_STEPS: f64 = 300.0;

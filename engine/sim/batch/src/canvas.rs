@@ -74,7 +74,7 @@ impl Canvas {
     }
 }
 
-/// What is nearer than another by this share hides it: a margin for rounding and for the lift of coplanar faces.
+/// Share by which something is nearer than what it hides: a margin for rounding and for the lift of coplanar faces.
 pub const NEARER: f32 = 1.000_05;
 
 impl Part {

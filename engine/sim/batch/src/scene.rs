@@ -22,7 +22,7 @@ impl BatchScene {
         Self::without_colours(town, &GroundIndex::new(town)).with_colours(town, seed)
     }
 
-    /// The same with what colours need.
+    /// Scene with all that colours need.
     pub fn with_colours(self, town: &Town, seed: Seed) -> Self {
         Self { large: Some(Scene::new(town, seed)), ..self }
     }

@@ -1,4 +1,4 @@
-//! The same bytes for any batch, any order, any number of threads, and any vector instructions.
+//! Bytes of batches do not depend on batch, order, number of threads or vector instructions.
 
 mod towns;
 

@@ -1,4 +1,4 @@
-//! What a text can claim of a flight.
+//! Claims that a text can make of a flight.
 
 use crate::compass::Compass;
 use crate::turn::TurnKind;

@@ -7,7 +7,7 @@ use cosfly_domain::Colour;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-/// What a phrase means.
+/// Meaning of a phrase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Concept {
     /// A number in words, or a part of one: `twenty`, `hundred`, `百`.

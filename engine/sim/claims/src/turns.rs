@@ -47,7 +47,7 @@ pub(crate) fn listed(claims: Vec<Claim>) -> Vec<Claim> {
     claims.into_iter().flat_map(of).collect()
 }
 
-/// What is done so many times, by the word behind or before the repetition, which takes the tokens from `at` to `end`. Gives the
+/// Claim of a repetition, by the word behind or before it; the repetition takes the tokens `at` to `end`. Gives the
 /// place behind what was read.
 pub(crate) fn repetition(
     sentence: Sentence<'_>,

@@ -2,7 +2,7 @@
 //!
 //! An [`Episode`] is a town, the track of a target, whoever else moves ([`Others`]), and a start. An [`Environment`] flies it: each step takes an [`Action`] and
 //! gives an [`Observation`], a [`Reward`] by named terms, and the [`End`] where there is one; [`EpisodeScore`] is the outcome so far.
-//! What happens depends on the episode, the [`EnvironmentSettings`] and the actions alone. Steps allocate nothing.
+//! Steps depend on the episode, the [`EnvironmentSettings`] and the actions alone, and allocate nothing.
 //!
 //! A [`Policy`] answers observations; [`policies`] are the baselines. [`pictures`] draws what the cameras see.
 

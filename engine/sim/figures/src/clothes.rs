@@ -36,7 +36,7 @@ pub enum Pattern {
     Checks([f32; 3]),
 }
 
-/// What texts may say of a body: clothes of a person or rider; of another vehicle, its paint for top and trousers.
+/// Outfit of a body, for texts: clothes of a person or rider; of another vehicle, its paint for top and trousers.
 pub fn outfit_of(body: BodyShape, seed: &Seed) -> Outfit {
     match body {
         BodyShape::Vehicle { kind, .. } if !kind.row().is_dressed => {

@@ -93,7 +93,7 @@ impl<'a> Candidates<'a> {
     /// Adds walk number `item` of stage number `stage`. `Some` is the reason why that cannot be.
     ///
     /// # Errors
-    /// As [`Person::on`].
+    /// Those of [`Person::on`].
     pub fn add_walk(&mut self, stage: usize, item: usize, walk: &PedestrianPath) -> Result<Option<Refused>> {
         let track = &walk.track;
         if track.is_empty() || !(track.dt_s > 0.0 && track.dt_s.is_finite()) {

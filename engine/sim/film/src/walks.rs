@@ -53,7 +53,7 @@ impl Person {
         Self { walked_m: walked_m(&track.states), track, first_s, comes_and_goes: true, plan, body: shape }
     }
 
-    /// What does not change of the person.
+    /// Properties of the person that do not change.
     pub fn plan(&self) -> &BodyPlan {
         &self.plan
     }
@@ -115,7 +115,7 @@ impl Person {
     }
 }
 
-/// What does not change of somebody on a track.
+/// Properties of somebody on a track that do not change.
 fn pedestrian(track: &TargetTrack, looks: Seed) -> BodyPlan {
     let size_m = DVec3::new(2.0 * track.radius_m, 2.0 * track.radius_m, track.height_m);
     BodyPlan { source: String::new(), kind: BodyKind::Pedestrian, size_m, looks, group: None }

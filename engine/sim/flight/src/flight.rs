@@ -47,7 +47,7 @@ pub struct Flight {
     pub mission: Mission,
     companion_ids: Vec<String>,
     companions: Vec<TargetTrack>,
-    /// What moves; the last ones are the other drones.
+    /// Boxes that move, one list per mover; the last movers are the other drones.
     movers: Vec<Vec<OrientedBox>>,
     /// Number of other drones.
     drones: usize,
@@ -87,7 +87,7 @@ impl Flight {
         Ok(Self::drawn_or_behind((config, objective), world, bodies, seed, plugins, drawn))
     }
 
-    /// As [`Self::of`], with the reference that a plugin drew.
+    /// Flight of [`Self::of`], with the reference that a plugin drew.
     fn drawn_or_behind(
         (config, objective): (&MucoConfig, &ObjectiveConfig),
         world: &World,
@@ -133,7 +133,7 @@ impl Flight {
         })
     }
 
-    /// The same flight with a pilot who aims at the walker as `aim` says; flights that follow nobody stay as they are.
+    /// Flight with a pilot who aims at the walker as `aim` says; flights that follow nobody stay as they are.
     pub fn aiming(mut self, aim: &AimConfig) -> Self {
         self.aim = matches!(self.purpose, Purpose::Walker).then(|| aim.clone());
         self

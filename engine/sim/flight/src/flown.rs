@@ -1,4 +1,4 @@
-//! What came of planning a flight.
+//! Outcome of planning a flight.
 
 use crate::flight::Flight;
 use crate::world::World;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What came of a flight, with notes by name and warnings.
+/// Outcome of a flight, with notes by name and warnings.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Flown {
     /// The flight, or the reason why there is none.

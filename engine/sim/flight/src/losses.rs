@@ -19,7 +19,7 @@ const IN_PICTURE_COS: f64 = 0.9;
 /// frame sooner or later than rays.
 const FRAMES_BESIDE: usize = 3;
 
-/// What came of ordering a loss.
+/// Outcome of ordering a loss.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Trial {
     /// Whether the target is lost for as long as ordered, by its points and by its whole figure.
@@ -29,7 +29,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Of a flight planned with the loss among the boxes of a town.
+    /// Trial of a flight planned with the loss among the boxes of a town.
     pub fn of(
         outcome: &PlanOutcome,
         ordered: &OcclusionConfig,
@@ -61,7 +61,7 @@ impl Trial {
         Self { is_lost, beside_look_alike }
     }
 
-    /// Of several drones behind one walk: all of them lose the target.
+    /// Trial of several drones behind one walk: all of them lose the target.
     pub fn of_all(trials: impl Iterator<Item = Self>) -> Self {
         let both = |one: Self, other: Self| Self {
             is_lost: one.is_lost && other.is_lost,

@@ -5,6 +5,7 @@
 
 mod boundaries;
 mod document;
+mod doubts;
 mod faces;
 mod ground;
 mod layers;

@@ -32,7 +32,7 @@ pub struct Datum {
 }
 
 impl Datum {
-    /// Of satellites: WGS84, ETRS89, NAD83, all within a metre of each other.
+    /// Datum of satellites: WGS84, ETRS89, NAD83, all within a metre of each other.
     pub const SATELLITES: Self = Self { ellipsoid: WGS84, to_wgs84: [0.0; 7] };
 
     /// By the name of the ellipsoid and of the datum in a PROJ text; none for other names.

@@ -19,6 +19,7 @@ mod pbf;
 mod rings;
 mod roads;
 mod sea;
+mod stated;
 mod strip;
 mod tags;
 mod tally;

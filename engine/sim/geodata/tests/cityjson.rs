@@ -89,6 +89,40 @@ fn trees_are_templates_at_their_place_and_scale() {
 }
 
 #[test]
+fn attributes_that_are_not_believed_are_told_of_with_what_is_taken() {
+    let shed = |attributes: &str| read(&with("\"measuredHeight\": 3.5", attributes)).unwrap();
+    let tops_m = |town: &Town| heights_m(town, ObstacleKind::Building).into_iter().map(|(_, top_m)| top_m - 1.0);
+    let (town, warnings) = shed("\"measuredHeight\": \"tall\", \"storeysAboveGround\": 2");
+    assert!(tops_m(&town).any(|top_m| (top_m - 6.0).abs() < 1e-9));
+    let line = "1 buildings have a `measuredHeight` that is no height of 0.5 to 1500 m and counts as missing; the first one is \
+                `tall` of `shed`";
+    assert_eq!(warnings, [line]);
+    for (attributes, told) in [
+        ("\"height\": -3", "`height` that is no height of 0.5 to 1500 m and counts as missing; the first one is `-3`"),
+        ("\"height\": [9]", "the first one is `[9]` of `shed`"),
+        ("\"storeysAboveGround\": 9999", "`storeysAboveGround` that is no number of storeys up to 500"),
+    ] {
+        let (town, warnings) = shed(attributes);
+        assert_eq!(tops_m(&town).count(), 1, "the shed is left out");
+        assert!(warnings.len() == 2 && warnings[0].contains("without a believable `measuredHeight`"), "{warnings:?}");
+        assert!(warnings[1].contains(told), "{warnings:?}");
+    }
+    let (_, warnings) = read(&with("\"lod\": \"2.2\"", "\"lod\": \"fine\"")).unwrap();
+    assert!(
+        warnings[0].starts_with("1 shapes have a `lod` that is no number and counts as 0; the first one is `fine`")
+    );
+    let flat = with("[2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2,", "[0.01, 0, 0, 0, 0, 0.01, 0, 0, 0, 0, 0.01,");
+    let attributes = "\"SolitaryVegetationObject\", \"attributes\": {\"height\": \"x\", \"crownDiameter\": -1},";
+    let (_, warnings) = read(&flat.replacen("\"SolitaryVegetationObject\",", attributes, 1)).unwrap();
+    for (name, value) in [("crownDiameter", "-1"), ("height", "x")] {
+        let line = format!(
+            "1 trees have a `{name}` that is no number above 0 and counts as missing; the first one is `{value}`"
+        );
+        assert!(warnings.iter().any(|warning| warning.starts_with(&line)), "{warnings:?}");
+    }
+}
+
+#[test]
 fn trees_of_absurd_size_are_told_of() {
     let top_m = |text: &str| {
         let (town, warnings) = read(text).unwrap();

@@ -1,4 +1,4 @@
-//! What a town lacks and an option of the stage `map` brings.
+//! Options of the stage `map` that bring something which a town lacks.
 
 use crate::MapConfig;
 use crate::bounds::Bounds;

@@ -52,13 +52,13 @@ impl Bounds {
         (all.low.is_finite() && all.high.is_finite()).then_some(all)
     }
 
-    /// As the parameter `bounds_m` has them, by whole metres outwards.
+    /// Text of the rectangle as the parameter `bounds_m` has it, by whole metres outwards.
     pub fn written(&self) -> String {
         let ([low_x, low_y], [high_x, high_y]) = (self.low.floor().to_array(), self.high.ceil().to_array());
         format!("bounds_m = [{low_x}, {low_y}, {high_x}, {high_y}]")
     }
 
-    /// The same, wider on each side.
+    /// Rectangle wider by `by_m` on each side, metres.
     #[must_use]
     pub fn grown(&self, by_m: f64) -> Self {
         Self { low: self.low - by_m, high: self.high + by_m }

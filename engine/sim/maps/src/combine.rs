@@ -60,7 +60,7 @@ pub enum Heights {
     /// The lowest point of each thing stands on the ground of the town, where there is ground.
     #[default]
     Ground,
-    /// As in the file.
+    /// Heights stay those of the file.
     File,
 }
 

@@ -29,7 +29,7 @@ pub fn read_town(bytes: &[u8], config: &MapConfig, seed: Seed) -> Result<(Town, 
 /// [`read_town`] of several files: the first is the town's own, the others are those of [`MapConfig::more`].
 ///
 /// # Errors
-/// As [`read_town`], with the number of the file; a number of files that is not that of the configuration.
+/// Those of [`read_town`], with the number of the file; a number of files that is not that of the configuration.
 pub fn read_town_of(files: &[&[u8]], config: &MapConfig, seed: Seed) -> Result<(Town, Vec<String>), (usize, MapError)> {
     let [first, more @ ..] = files else { return Err((0, MapError::new("no map file is given"))) };
     if more.len() != config.more.len() {

@@ -97,3 +97,23 @@ fn a_box_has_a_kind_or_a_label() {
         assert!(error.message.contains(expected), "{error}");
     }
 }
+
+#[test]
+fn boxes_and_ground_that_are_there_again_are_counted_and_kept() {
+    let one = |more: &str| format!("{{\"kind\": \"wall\", \"center_m\": [1, 2, 3], \"size_m\": [4, 5, 6]{more}}}");
+    let ground = "{\"kind\": \"plaza\", \"outline_m\": [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]]}";
+    let read = |boxes: &[String], walkable: &[&str]| {
+        let (boxes, walkable) = (boxes.join(","), walkable.join(","));
+        let text = format!("{{\"format\": \"cosfly-boxes/1\", \"boxes\": [{boxes}], \"walkable\": [{walkable}]}}");
+        let seed = cosfly_frames::Seed::of_item(1, "town", "town");
+        cosfly_maps::read_town(text.as_bytes(), &cosfly_maps::MapConfig::default(), seed).unwrap()
+    };
+    let differ = [one(""), one(", \"yaw_deg\": 1"), one(", \"roll_deg\": 1"), one("").replace("wall", "fence")];
+    assert_eq!(read(&differ, &[ground]).1, Vec::<String>::new());
+    let again = [one(", \"yaw_deg\": 1"), one(""), one(", \"yaw_deg\": -0.0"), one(", \"object\": 7")];
+    let (town, warnings) = read(&again, &[ground, ground]);
+    assert_eq!((town.obstacles.len(), town.walkable.len()), (4, 2));
+    assert!(warnings[0].starts_with("2 entries of `boxes` are there again, the first one `boxes[2]` as `boxes[1]`"));
+    assert!(warnings[1].starts_with("1 entries of `walkable` are there again, the first one `walkable[1]`"));
+    assert!(warnings.len() == 2 && warnings.iter().all(|warning| warning.contains("all are kept")), "{warnings:?}");
+}

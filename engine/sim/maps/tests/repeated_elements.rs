@@ -6,6 +6,8 @@ use cosfly_town::MapError;
 
 const STREET: &str = include_str!("../src/formats/opendrive/every_feature.xodr");
 
+const TREE: &str = "<object id=\"30\" type=\"tree\" s=\"25\" t=\"-8.5\" zOffset=\"0\" radius=\"0.2\" height=\"10\"/>\n";
+
 fn with(from: &str, to: &str) -> String {
     assert!(STREET.contains(from), "`{from}` is in the test file");
     STREET.replacen(from, to, 1)
@@ -64,6 +66,37 @@ fn what_the_reader_copes_with_is_a_warning_with_its_line() {
         ),
         (with("<planView>", "<planViews/><planView>"), "`<planViews>` in `<road>` is no element that is read"),
         (with("<planView>", "<include file=\"more.xml\"/><planView>"), "the file `more.xml` is not followed"),
+        (
+            with("<object id=\"4\"", &format!("{TREE}{}<object id=\"4\"", TREE.replace("id=\"30\"", "id=\"31\""))),
+            "the `<object>` of line 56 is there again; both are read",
+        ),
+        (with("sOffset=\"0\" inner=\"0.12\"", "sOffset=\"10\" inner=\"0.12\""), "a second `<height>` at the same"),
+        (
+            with("type=\"driving\"><width sOffset=\"0\" a=\"4\" b=\"0.01\" c=\"0\" d=\"0\"/>", "type=\"driving\">"),
+            "it is 0 m wide",
+        ),
+        (
+            with("<height sOffset=\"0\"", "<speed max=\"fast\"/><height sOffset=\"0\""),
+            "no limit of 0.5 to 150 m/s; it counts as",
+        ),
+        (with("<height sOffset=\"0\"", "<speed max=\"999\" unit=\"mph\"/><height sOffset=\"0\""), "`max` is `999`"),
+        (with("<height sOffset=\"0\"", "<speed max=\"9\" unit=\"kmh\"/><height sOffset=\"0\""), "m/s is assumed"),
+        (
+            with("<height sOffset=\"0\"", "<speed max=\"9\"/><speed max=\"8\"/><height sOffset=\"0\""),
+            "a second `<speed>`",
+        ),
+        (
+            with(
+                "<planView>",
+                "<type s=\"0\"><speed max=\"9\"/></type><type s=\"0\"><speed max=\"8\"/></type><planView>",
+            ),
+            "a second `<type>` at the same `s` has another limit",
+        ),
+        (with("width=\"8\" height=\"15\"", "width=\"-8\" height=\"15\""), "`width` is -8 m; a size below 0 counts as"),
+        (
+            with("height=\"0.6\" width=\"0.6\"", "height=\"60\" width=\"0.6\""),
+            "`height` is 60 m; a plate or light is at most 5 m",
+        ),
         (with("+proj=tmerc", "+proj=tmerc +units=us-ft"), "`+units=us-ft` is not read"),
         (
             with("</geoReference>", "</geoReference><userData code=\"geoOffset\" value=\"393706 5815132\"/>"),
@@ -74,6 +107,13 @@ fn what_the_reader_copes_with_is_a_warning_with_its_line() {
         let said = warnings.iter().find(|warning| warning.contains(expected));
         let said = said.unwrap_or_else(|| panic!("`{expected}` in {warnings:?}"));
         assert!(said.starts_with("line "), "{said}");
+    }
+    // Limits in words and sizes that are unknown are nothing to say.
+    for (from, to) in [
+        ("<height sOffset=\"0\"", "<speed max=\"no limit\"/><speed sOffset=\"5\" max=\"8\"/><height sOffset=\"0\""),
+        ("width=\"8\" height=\"15\"", "width=\"-1\" height=\"15\""),
+    ] {
+        assert_eq!(read(&with(from, to)).unwrap().1, Vec::<String>::new(), "{to}");
     }
     // The same record twice, and other programs' data, are nothing to say.
     let same = with(width, &format!("{width}{width}<userData code=\"colour\" value=\"3\"/>"));

@@ -28,7 +28,7 @@ macro_rules! paint_all {
     };
 }
 
-/// The same where a pattern of wide patches is told once for the pixels of a four.
+/// Pixels painted where a pattern of wide patches is told once for the pixels of a four.
 macro_rules! paint_patches {
     ($shared:ident, $blocks:ident, $middle:ident => $patches:expr,
      $point:ident, $patch:ident, $noise:ident at $per_m:expr => $albedo:expr) => {

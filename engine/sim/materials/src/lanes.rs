@@ -37,7 +37,7 @@ pub struct Stage {
     pub inverse: StageRow,
     /// Change per pixel to the right.
     pub across: StageRow,
-    /// And down.
+    /// Change per pixel downwards.
     pub down: StageRow,
     /// Unit normal of the face, any side.
     pub normal: [StageRow; 3],
@@ -103,7 +103,7 @@ pub struct Shared {
     pub middle: Lane3,
     /// Size of a pixel along the face's own horizontal, metres.
     pub along_m: Lane,
-    /// And along its vertical.
+    /// Size of a pixel along the face's own vertical, metres.
     pub up_m: Lane,
     /// Size of a pixel averaged over directions, metres.
     pub footprint_m: Lane,

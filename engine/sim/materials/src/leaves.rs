@@ -27,7 +27,7 @@ const SPECIES: [[f32; 3]; 10] = [
     [0.075, 0.045, 0.040],
 ];
 
-/// The same leaves in autumn; olives stay green.
+/// Colours of these leaves in autumn, linear RGB; olives stay green.
 const AUTUMN: [[f32; 3]; 10] = [
     [0.230, 0.150, 0.040],
     [0.330, 0.240, 0.040],

@@ -1,5 +1,5 @@
-//! What towns are made of, as pictures show it: walls, roofs, ground, leaves and things, each drawn from a seed, and the light
-//! on them. No camera and no picture: a material is a kernel that answers for sixteen points at a time.
+//! Materials of towns, as pictures show them: walls, roofs, ground, leaves and things, each drawn from a seed, and the
+//! light on them. No camera and no picture: a material is a kernel that answers for sixteen points at a time.
 //!
 //! [`parts`] are the boxes and ground of a town that carry materials; [`roof_steps`] and [`roof_edges`] say which of their
 //! faces make one roof. [`facade`], [`ground`], [`kerbs`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`]

@@ -26,9 +26,9 @@ pub struct SceneBox {
     pub label: u8,
     /// Instance id.
     pub instance: u32,
-    /// The same for all boxes of one thing.
+    /// Seed shared by all boxes of one thing.
     pub seed: u32,
-    /// The same for all boxes of a town.
+    /// Seed shared by all boxes of a town.
     pub town: u32,
     /// Middle and half size of the whole crown that a crown's box belongs to; of the box itself for other kinds.
     pub whole: [Vec3; 2],

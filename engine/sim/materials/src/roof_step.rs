@@ -3,7 +3,7 @@
 /// Place of a box in a building with a pitched roof.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoofStep {
-    /// What the upright faces show, in the order of the faces of boxes.
+    /// Looks of the upright faces, in the order of the faces of boxes.
     pub sides: [Side; 4],
     /// Slope of the upper face; none where it is level.
     pub top: Option<TopSlope>,
@@ -11,7 +11,7 @@ pub struct RoofStep {
     pub wall_m: [f64; 2],
 }
 
-/// What an upright face shows.
+/// Look of an upright face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Side {
     /// A wall of its own.

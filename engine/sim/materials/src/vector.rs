@@ -24,7 +24,7 @@ impl Vec3 {
         Self { x, y, z }
     }
 
-    /// The same number three times.
+    /// Vector of one number three times.
     #[inline(always)]
     pub const fn splat(value: f32) -> Self {
         Self::new(value, value, value)
@@ -42,7 +42,7 @@ impl Vec3 {
         self + (other - self) * t
     }
 
-    /// The same direction, nearly unit length even for nearly nothing.
+    /// Vector of this direction, nearly unit length even for nearly nothing.
     #[inline(always)]
     pub fn unit(self) -> Self {
         self * (1.0 / (self.dot(self) + 1e-12).sqrt())

@@ -20,7 +20,7 @@ struct Face {
 type Answer = (Vec3, Vec3, f32, f32);
 
 impl Face {
-    /// What a kernel answers for sixteen places.
+    /// Answers of a kernel for sixteen places.
     fn looks(self, places: [Vec3; WIDE], kernel: impl Fn(&[Shared], &mut [Block])) -> [Answer; WIDE] {
         let (mut shared, mut four) = (Shared::EMPTY, [const { Block::EMPTY }; FOUR]);
         for (k, place) in places.into_iter().enumerate() {

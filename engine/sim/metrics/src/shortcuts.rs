@@ -31,7 +31,7 @@ pub struct Seen {
     pub height_m: f64,
 }
 
-/// What can be seen of a person wherever they are in a picture.
+/// Looks of a person that can be seen wherever they are in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Looks {
     /// Colour of the top, linear RGB.

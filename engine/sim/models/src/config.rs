@@ -64,7 +64,7 @@ impl ModelKind {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ModelFit {
-    /// As long, wide and high as the box: picture and box agree.
+    /// Length, width and height of the box: picture and box agree.
     #[default]
     Fill,
     /// The largest size at which the model keeps its shape and lies within the box, on its ground.

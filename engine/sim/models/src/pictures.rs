@@ -40,7 +40,7 @@ pub fn read(bytes: &[u8], number: usize) -> Result<Picture, MapError> {
     picture.map_err(refused)
 }
 
-/// What a library reads, which may panic on damaged files.
+/// Picture that a library reads, which may panic on damaged files.
 fn by_library(read: impl FnOnce() -> Result<Picture, String>) -> Result<Picture, String> {
     contained(read).unwrap_or_else(|| Err("it holds what no encoder writes".to_owned()))
 }

@@ -53,7 +53,7 @@ impl Mission {
         request
     }
 
-    /// The same mission from `frame` on, at most `frames` long.
+    /// Part of the mission from `frame` on, at most `frames` long.
     pub fn part(&self, frame: usize, frames: usize) -> Self {
         let end = frame.saturating_add(frames).min(self.track.len());
         let states = self.track.states.get(frame..end).unwrap_or_default().to_vec();

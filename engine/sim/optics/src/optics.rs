@@ -1,4 +1,4 @@
-//! What lens and sensor make of light: point spread, exposure, white balance, bloom.
+//! Effects of lens and sensor on light: point spread, exposure, white balance, bloom.
 //!
 //! Exposure and white balance scale light before the tone curve. Point spread and bloom mix neighbouring pixels of the
 //! finished colours; depth and ids stay as sampled at pixel centres.

@@ -33,7 +33,7 @@ use surroundings::Surroundings;
 /// Time in which people adapt their velocity, seconds.
 const RELAXATION_S: f64 = 0.5;
 
-/// The same on a road before a vehicle, seconds.
+/// Time in which they do on a road before a vehicle, seconds.
 const ESCAPE_S: f64 = 0.2;
 
 /// Haste of the searches for routes: a metre of pavement beside an edge costs about so much.
@@ -80,7 +80,7 @@ impl Crowd {
         Self::beside(grid, config, clock, seed, &[])
     }
 
-    /// The same, apart from bodies that are there in the first frame: their places in plan and radii, metres.
+    /// Crowd apart from bodies that are there in the first frame: their places in plan and radii, metres.
     ///
     /// # Errors
     /// See [`Crowd::new`].

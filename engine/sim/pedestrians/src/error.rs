@@ -12,7 +12,7 @@ pub struct PedestrianConfigRule {
 }
 
 impl PedestrianConfigRule {
-    /// The same rule, for the config within a table.
+    /// Rule for the config within a table.
     pub fn within_table(mut self, table: &'static str) -> Self {
         self.path.insert(0, table);
         self

@@ -67,7 +67,7 @@ impl<G: Deref<Target = WalkableGrid>> RouteSearch<G> {
         }
     }
 
-    /// The same search with a factor on the bound of the way left.
+    /// Search with a factor on the bound of the way left.
     pub fn with_haste(self, haste: f32) -> Self {
         Self { haste, ..self }
     }

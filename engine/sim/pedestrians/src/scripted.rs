@@ -99,7 +99,7 @@ fn impossible(person: &ScriptedPerson, waypoint: usize, problem: String) -> Pede
     PedestrianError::Config(PedestrianConfigRule { path: vec!["route"], message })
 }
 
-/// What is wrong with a place off the ground: the nearest one that is not.
+/// Problem of a place off the ground, in words: the nearest place that is on it.
 fn off_ground(at: DVec2, grid: &WalkableGrid) -> String {
     let places = (0..grid.len() as u32).map(|node| grid.center(node));
     let nearest = places.min_by(|a, b| (*a - at).length().total_cmp(&(*b - at).length())).unwrap_or(at);

@@ -1,4 +1,4 @@
-//! What hides what, told for whole shapes: the frame so far in tiles of pixels.
+//! Hiding of shapes by others, told for whole shapes: the frame so far in tiles of pixels.
 
 use crate::visibility::Visibility;
 use cosfly_frames::simd_kernel;

@@ -23,7 +23,7 @@ impl<'a> Bytes<'a> {
     /// An array of `N` bytes.
     ///
     /// # Errors
-    /// As [`Self::slice`].
+    /// Those of [`Self::slice`].
     pub fn array<const N: usize>(self, start: u64, what: &str) -> Result<[u8; N], MapError> {
         let mut out = [0; N];
         out.copy_from_slice(self.slice(start, N as u64, what)?);
@@ -33,7 +33,7 @@ impl<'a> Bytes<'a> {
     /// A little-endian number of two bytes.
     ///
     /// # Errors
-    /// As [`Self::slice`].
+    /// Those of [`Self::slice`].
     pub fn u16(self, start: u64, what: &str) -> Result<u16, MapError> {
         self.array(start, what).map(u16::from_le_bytes)
     }
@@ -41,7 +41,7 @@ impl<'a> Bytes<'a> {
     /// A little-endian number of four bytes.
     ///
     /// # Errors
-    /// As [`Self::slice`].
+    /// Those of [`Self::slice`].
     pub fn u32(self, start: u64, what: &str) -> Result<u32, MapError> {
         self.array(start, what).map(u32::from_le_bytes)
     }
@@ -49,7 +49,7 @@ impl<'a> Bytes<'a> {
     /// A little-endian number of eight bytes.
     ///
     /// # Errors
-    /// As [`Self::slice`].
+    /// Those of [`Self::slice`].
     pub fn u64(self, start: u64, what: &str) -> Result<u64, MapError> {
         self.array(start, what).map(u64::from_le_bytes)
     }
@@ -57,7 +57,7 @@ impl<'a> Bytes<'a> {
     /// A little-endian real number of eight bytes.
     ///
     /// # Errors
-    /// As [`Self::slice`].
+    /// Those of [`Self::slice`].
     pub fn f64(self, start: u64, what: &str) -> Result<f64, MapError> {
         self.array(start, what).map(f64::from_le_bytes)
     }

@@ -91,7 +91,7 @@ struct Element {
     properties: Vec<(String, Property)>,
 }
 
-/// What a row holds under a name.
+/// Property that a row holds under a name.
 #[derive(Clone, Copy, Debug)]
 enum Property {
     Number(Scalar),

@@ -166,7 +166,7 @@ struct Cover {
     sums: Vec<u16>,
 }
 
-/// What a block of a level may stand over.
+/// Cells that a block of a level may stand over.
 struct Layer {
     /// Cells by row.
     allowed: Vec<u64>,

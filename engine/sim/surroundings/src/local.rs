@@ -46,7 +46,7 @@ struct Focus {
     near: Vec<u32>,
     /// Places in the frame's moving boxes of those that may stand between waypoint and body.
     moving_between: Vec<u32>,
-    /// The same for those that may be nearer than the safety influence radius.
+    /// Places in them of those that may be nearer than the safety influence radius.
     moving_near: Vec<u32>,
 }
 
@@ -109,7 +109,7 @@ impl<'a> LocalObstacles<'a> {
         self.with_drones(movers, OtherDrones::default(), 0.0)
     }
 
-    /// The same where some of them are drones and flights keep `clearance_m` from all others.
+    /// Obstacles among which some are drones, where flights keep `clearance_m` (metres) from all others.
     pub fn with_drones(mut self, movers: &[Vec<OrientedBox>], drones: OtherDrones, clearance_m: f64) -> Self {
         if movers.is_empty() {
             return self;

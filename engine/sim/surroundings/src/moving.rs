@@ -32,7 +32,7 @@ pub struct OtherDrones {
 }
 
 impl OtherDrones {
-    /// What a flight keeps from mover number `index` of `movers` beyond the `clearance_m` that it keeps from all, metres.
+    /// Distance from mover number `index` of `movers` that a flight keeps beyond the `clearance_m` of all, metres.
     pub fn beyond_m(&self, index: usize, movers: usize, clearance_m: f64) -> f64 {
         let is_drone = index + self.count >= movers;
         if is_drone { (self.separation_m - DRONE_HALF_M - clearance_m).max(0.0) } else { 0.0 }
@@ -63,7 +63,7 @@ impl Moving {
         Self { here: solid, step, is_target: solid.signed_distance(middle).0 <= 0.0, growth_m }
     }
 
-    /// The same box, of which flights keep further away by `more_m`.
+    /// Box of which flights keep further away by `more_m`, metres.
     pub fn kept_from(mut self, more_m: f64) -> Self {
         self.growth_m += DVec3::splat(more_m);
         self
@@ -137,7 +137,7 @@ impl Encounter<'_> {
         self.between(0.0, 1.0, MOST_HALVINGS, within_m)
     }
 
-    /// The same for the times between two shares of the way.
+    /// Smallest distance for the times between two shares of the way, metres.
     fn between(&self, start: f64, end: f64, halvings: u32, within_m: f64) -> f64 {
         let turn_rad = real::wrap_angle_rad(self.next.yaw_rad - self.here.yaw_rad);
         let middle = 0.5 * (start + end);

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SeveralTargets {
-    /// As much as possible of all together.
+    /// Mean visibility of all together.
     #[default]
     Mean,
-    /// As much as possible of the one that is seen least.
+    /// Visibility of the one that is seen least.
     Minimum,
 }

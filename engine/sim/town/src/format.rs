@@ -81,7 +81,7 @@ impl Format {
     /// See [`MapFormat::read`].
     ///
     /// # Errors
-    /// As [`MapFormat::read`], and options that do not belong to this format.
+    /// Those of [`MapFormat::read`], and options that do not belong to this format.
     pub fn read(&self, bytes: &[u8], options: &FormatOptions) -> Result<(Town, Vec<String>), MapError> {
         (self.read)(bytes, options)
     }

@@ -14,7 +14,7 @@ use cosfly_world::{Clock, Population, Present, Snapshot};
 
 /// Vehicles keep this distance from each other when they move, metres.
 const APART_M: f64 = 0.05;
-/// And this one from people and other bodies, beyond the way that these can go in a step, metres.
+/// Distance that they keep from people and other bodies, beyond the way that these can go in a step, metres.
 const APART_FROM_OTHERS_M: f64 = 0.3;
 /// People may go this fast in a step, m/s.
 const PEOPLE_MPS: f64 = 2.5;

@@ -33,7 +33,7 @@ pub struct LookAlikeConfig {
     pub crossing_s: Option<f64>,
 }
 
-/// What seeds of looks say, as the pictures show it.
+/// Clothes by the seeds of looks, as the pictures show them.
 #[derive(Clone, Copy)]
 pub struct Wardrobe<'a> {
     /// Whether two seeds give the same clothes in words.

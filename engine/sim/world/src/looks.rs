@@ -95,7 +95,7 @@ impl LooksConfig {
         Ok(())
     }
 
-    /// What person number `place` is to have of each trait: exactly the shares in every long run of people.
+    /// Traits that person number `place` is to have: exactly the shares in every long run of people.
     fn ordered(&self, place: u32, seed: &Seed) -> [Option<usize>; 3] {
         self.orders().map(|(name, shares, base)| {
             let mut at = (radical_inverse(place, base) + seed.stream(name).unit()).fract();

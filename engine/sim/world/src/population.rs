@@ -33,7 +33,7 @@ impl Clock {
 /// The bodies of all populations are numbered through; the first number of each is given to [`Population::begin`]. A state of the
 /// next moment may depend on the snapshot of the present one, on the population's own memory and on seeds, on nothing else.
 pub trait Population {
-    /// What does not change, one entry per body that is ever present.
+    /// Properties that do not change, one entry per body that is ever present.
     fn plans(&self) -> Vec<BodyPlan>;
 
     /// Learns the number of the first own body.
@@ -47,7 +47,7 @@ pub trait Population {
     /// Moves on by one step; `time_s` is the present time since frame 0, `everybody` holds all bodies at that time.
     fn step(&mut self, time_s: f64, step_s: f64, everybody: &Snapshot);
 
-    /// What was assumed or left out, in words.
+    /// Assumptions and omissions, in words.
     fn notes(&self) -> Vec<String> {
         vec![]
     }
@@ -56,7 +56,7 @@ pub trait Population {
 /// Steps populations together and records every frame. `check` is called before each frame and may stop the simulation.
 ///
 /// # Errors
-/// What `check` returns.
+/// Those of `check`.
 pub fn simulate<E>(
     populations: &mut [Box<dyn Population>],
     clock: Clock,

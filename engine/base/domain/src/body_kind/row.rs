@@ -2,7 +2,7 @@
 
 use crate::SemanticLabel;
 
-/// What is the same of all bodies of a kind.
+/// Properties that all bodies of a kind have in common.
 #[derive(Debug)]
 pub struct BodyKindRow {
     /// Name in recipes and tables.

@@ -13,7 +13,7 @@ const RECENT: usize = 64;
 /// Number of pairs that are named.
 const NAMED: usize = 5;
 
-/// What is kept of an episode to find leaks.
+/// Traces of an episode that show leaks.
 pub struct Trace {
     id: String,
     split: Option<String>,

@@ -11,7 +11,7 @@ const FROZEN_S: f64 = 3.0;
 const ABSURD_MPS: f64 = 45.0;
 /// Distance between two displaced poses of a perturbed flight that states no displacement, metres: twice the paper's 3 m.
 const DISPLACED_APART_M: f64 = 6.0;
-/// The same, as a multiple of the upper quartile of the flight's steps: displacements of most frames are no jumps of one.
+/// Least such distance in upper quartiles of the flight's steps: displacements of most frames are no jumps of one.
 const USUAL_STEPS: f64 = 3.0;
 /// Way of a target, metres, from which a target and a drone in one place are a repeated frame; shorter ones may be rounding.
 const NOTICEABLE_M: f64 = 0.05;

@@ -44,7 +44,7 @@ pub fn episodes(folder: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Rea
 /// Reads the numbers of all episodes; pictures and videos are not looked at.
 ///
 /// # Errors
-/// As of [`episodes`].
+/// Those of [`episodes`].
 pub fn motions(folder: &Path) -> Result<Read> {
     read(folder, false, &mut |_, _| {})
 }

@@ -61,7 +61,7 @@ pub fn episodes(
 /// Reads the documents of all traces; pictures are not looked at.
 ///
 /// # Errors
-/// As of [`episodes`].
+/// Those of [`episodes`].
 pub fn motions(root: &Path) -> Result<(Vec<ExaminedEpisode>, Vec<Flag>)> {
     let mut episodes = vec![];
     let flags = read(root, false, &mut |episode| episodes.push(episode), &mut |_, _| {})?;

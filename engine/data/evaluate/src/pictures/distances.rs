@@ -19,7 +19,7 @@ pub struct Ratio {
 }
 
 impl Ratio {
-    /// Of one frame, up to `most_m` of true depth.
+    /// Sums of one frame, up to `most_m` of true depth, metres.
     pub fn of(predicted_m: &[f32], true_m: &[f32], most_m: f64) -> Self {
         let mut sum = Self::default();
         for (predicted, truth) in predicted_m.iter().zip(true_m) {

@@ -375,7 +375,7 @@ fn notes(
     notes
 }
 
-/// What is said of predicted pixels that are neither depths nor labels.
+/// Note on predicted pixels that are neither depths nor labels.
 fn nonsense_note(nonsense: &Nonsense, is_depth: bool, settings: &PictureSettings) -> Option<String> {
     let Nonsense { pixels, frames, first } = nonsense;
     let first = first.as_ref().map_or(String::new(), |path| format!("; the first is in `{path}`"));

@@ -30,7 +30,7 @@ pub struct FrameKinds {
 }
 
 impl FrameKinds {
-    /// Of all flights.
+    /// Kinds of the frames of all flights.
     pub fn new(flights: &Flights) -> Self {
         let weathers: BTreeSet<&str> = flights.rows.iter().map(|row| row.weather.as_str()).collect();
         let weathers: Vec<&str> = weathers.into_iter().collect();

@@ -24,7 +24,7 @@ pub struct PictureEvaluation {
     pub frames: FrameFacts,
     /// Definitions.
     pub metrics: Vec<Metric>,
-    /// Of all scored frames.
+    /// Scores of all scored frames.
     pub scores: Scores,
     /// Kinds of frames in the order of tables.
     #[serde(skip)]
@@ -91,7 +91,7 @@ pub struct FrameFacts {
     pub missing: BTreeMap<String, String>,
     /// How many these are.
     pub without_prediction: usize,
-    /// What was predicted in them and is neither a depth nor a label.
+    /// Predicted pixels in them that are neither depths nor labels.
     pub nonsense: Nonsense,
 }
 

@@ -27,7 +27,7 @@ pub struct Evaluation {
     pub metrics: Vec<Metric>,
     /// Predictions first, then baselines.
     pub methods: Vec<MethodReport>,
-    /// The same methods with increments that start at the other pose: input's or expert's.
+    /// Results of these methods with increments that start at the other pose: input's or expert's.
     pub other_anchor: AnchorReport,
     /// Remarks for the reader, such as baselines that are left out.
     pub notes: Vec<String>,

@@ -32,7 +32,7 @@ impl Ours {
     /// Opens the dataset in `folder`.
     ///
     /// # Errors
-    /// As of [`PublishedDataset::open`].
+    /// Those of [`PublishedDataset::open`].
     fn open(folder: &Path) -> Result<Self> {
         let dataset = PublishedDataset::open(folder)?;
         let flights = dataset.flights().iter().map(|flight| LoadedFlight {

@@ -25,7 +25,7 @@ pub struct PackedFrame {
 /// Message records of a log, compressed with zstd.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PackedChunk {
-    /// As they are stored.
+    /// Bytes as they are stored.
     pub stored: Bytes,
     /// CRC-32 of them.
     pub stored_crc: u32,

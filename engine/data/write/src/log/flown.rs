@@ -17,7 +17,7 @@ const CHUNK_STEPS: usize = 100;
 
 /// A closed-loop flight.
 pub struct FlownFlight<'a> {
-    /// What the log says of itself, as metadata.
+    /// Metadata of the log, by name.
     pub about: &'a BTreeMap<String, String>,
     /// The town.
     pub town: &'a Town,
@@ -62,9 +62,9 @@ pub struct FlownStep {
     pub others: Vec<OrientedBox>,
     /// Attitude of a quadrotor in the `map` frame: x, y, z, w.
     pub attitude_xyzw: Option<[f64; 4]>,
-    /// What sensors measured since the step before, by time.
+    /// Samples of the sensors since the step before, by time.
     pub sensed: Vec<SensedSample>,
-    /// What happened in the step, and whether it is a fault.
+    /// Events of the step, and whether each is a fault.
     pub events: Vec<(bool, String)>,
 }
 

@@ -23,7 +23,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Rows kept together in tables of plugins.
 const EXTRA_ROWS_PER_GROUP: usize = 50_000;
 
-/// What a dataset has to know of one group of walks.
+/// Facts that a dataset has to know of one group of walks.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Shard {
     /// Figures of its flights.

@@ -1,4 +1,4 @@
-//! What gives the targets of rendered flights away: counted flight by flight.
+//! Shortcuts to the targets of rendered flights, counted flight by flight.
 
 use cosfly_domain::{BodyKind, Outfit, PixelBox, Traits};
 use cosfly_frames::{DVec3, Pose, TargetState};

@@ -37,7 +37,7 @@ pub trait GroupSource {
     }
 }
 
-/// What belongs to the dataset as a whole.
+/// Source of the parts that belong to the dataset as a whole.
 pub trait DatasetSource {
     /// Boxes behind the instance ids of all images, town by town.
     fn objects(&self) -> Result<Vec<ObjectRecord>>;

@@ -51,7 +51,7 @@ pub fn write_dataset(
     Ok(summary)
 }
 
-/// What all groups together have.
+/// Sums over all groups.
 #[derive(Default)]
 pub struct Shards {
     summary: Summary,

@@ -147,7 +147,7 @@ pub struct Setting {
     pub params: Map<String, Value>,
     /// Limits: memory, time, instructions.
     pub limits: PluginLimits,
-    /// Of the file, if that is to be checked.
+    /// SHA-256 of the file, if it is to be checked.
     pub sha256: Option<String>,
 }
 

@@ -149,7 +149,7 @@ impl Plugins {
         Ok(Self { other: Some(ready(setting, Role::Stage(Makes::default()), paths.first())?), ..Self::default() })
     }
 
-    /// The same, for the item `item`.
+    /// Plugins for the item `item`.
     pub fn for_item(self, item: String) -> Self {
         Self { item: Some(item), ..self }
     }

@@ -3,7 +3,7 @@
 use super::folder::{LabelCard, RoundCard};
 use std::fmt::Write as _;
 
-/// What a version has that another has not, in words.
+/// Rounds and labels that a version has and another has not, in words.
 pub fn told(old: Option<&LabelCard>, new: &LabelCard) -> String {
     let mut text = String::new();
     let before = old.map_or(&[][..], |old| &old.rounds);

@@ -55,7 +55,7 @@ pub struct Mixture {
     pub seed: Seed,
 }
 
-/// What came of an episode.
+/// Outcome of an episode.
 pub enum Attempt {
     /// It was flown and labelled.
     Flown(Rollout),

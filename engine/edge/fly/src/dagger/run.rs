@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// What is flown, and how.
+/// Task of a round: suite, policy and settings.
 pub struct Round<'a> {
     /// Recipe of the suite.
     pub recipe: &'a Recipe,
@@ -40,7 +40,7 @@ pub struct Round<'a> {
     pub cancelled: &'a AtomicBool,
 }
 
-/// What came of it.
+/// Outcome of a round.
 #[derive(Debug, Default)]
 pub struct Flown {
     /// Episodes flown by this call.

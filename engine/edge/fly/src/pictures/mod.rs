@@ -1,4 +1,4 @@
-//! What people look at: logs that play in Foxglove, clips, the page.
+//! Pictures for people: logs that play in Foxglove, clips, the page.
 
 mod clip;
 mod mcap;

@@ -30,7 +30,7 @@ pub enum ActionKind {
     /// Rows of six numbers, one per frame of the dataset: dx, dy, dz (m), dpitch, dyaw, droll (degrees) from the pose before,
     /// along the world's axes.
     DeltasInWorld,
-    /// As [`Self::DeltasInWorld`], along the axes of the pose before: ahead, right, up.
+    /// Rows as of [`Self::DeltasInWorld`], along the axes of the pose before: ahead, right, up.
     DeltasInBody,
 }
 
@@ -73,7 +73,7 @@ impl Answer {
     /// Reads the answer to the present observation.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// Problem of the answer, in words.
     pub fn read(message: &Value, environment: &Environment, kind: ActionKind) -> Result<Self, String> {
         let given = ["actions", "action"].into_iter().find_map(|name| wire::entry(message, name));
         let given = given.ok_or_else(|| format!("the answer is {} without `actions`", wire::kind(message)))?;

@@ -38,7 +38,7 @@ impl Manners {
         self.shown(&text).chars().take(kept).collect()
     }
 
-    /// The same, cut at its beginning: what tracebacks end with.
+    /// Text of a policy cut at its beginning: tracebacks end with their reason.
     pub(super) fn end_of(&self, text: &str, kept: usize) -> String {
         let last = |text: &str, count: usize| {
             let skipped = text.chars().count().saturating_sub(count);

@@ -19,7 +19,7 @@ const PASSED_ON: usize = 64 << 10;
 /// Time for its last words once it ended: a child of its own may hold the pipe open for ever.
 const LAST_WORDS: Duration = Duration::from_millis(500);
 
-/// What comes from a process.
+/// Messages of a process, and its end.
 pub enum Told {
     /// A message.
     Bytes(Vec<u8>),
@@ -97,7 +97,7 @@ impl Process {
         _ = self.questions.try_send(question);
     }
 
-    /// What it tells next.
+    /// Next message of the process.
     ///
     /// # Errors
     /// [`Silence`].

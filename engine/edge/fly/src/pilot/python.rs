@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// Characters of a traceback's end that are kept.
 const KEPT: usize = 300;
-/// The same where the policy cannot be loaded: nothing else tells why.
+/// Characters that are kept where the policy cannot be loaded: nothing else tells why.
 const KEPT_OF_LOADING: usize = 800;
 
 /// A function in Python. Its process serves all episodes of a thread; a policy that answers too late gets a new one.

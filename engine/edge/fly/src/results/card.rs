@@ -11,7 +11,8 @@ use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, RewardWeights};
 use cosfly_render::PictureLook;
 use serde::{Deserialize, Serialize};
 
-/// What was evaluated, and how. Rows of two results are comparable where `suite`, `episodes` and `environment` are equal.
+/// Task and settings of an evaluation. Rows of two results are comparable if `suite`, `episodes` and `environment` are
+/// equal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Card {
@@ -21,7 +22,7 @@ pub struct Card {
     pub policy: PolicyCard,
     /// Settings of the environment.
     pub environment: EnvironmentCard,
-    /// What is kept beside rows and tables.
+    /// Files that are kept beside rows and tables.
     pub kept: KeptCard,
     /// Version of cosfly.
     pub cosfly: String,
@@ -89,7 +90,7 @@ pub struct PicturesCard {
     width: u32,
     height: u32,
     farthest_m: f32,
-    /// Of colours, where there are any.
+    /// Look of the colours, where there are any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     look: Option<PictureLook>,
 }
@@ -107,7 +108,7 @@ impl PicturesCard {
     }
 }
 
-/// What is kept beside rows and tables.
+/// Files that are kept beside rows and tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeptCard {

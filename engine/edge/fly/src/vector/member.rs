@@ -20,7 +20,7 @@ pub enum Autoreset {
     Disabled,
 }
 
-/// What all environments share.
+/// Parts that all environments share.
 pub(super) struct Shared {
     pub(super) tasks: Arc<[Task]>,
     pub(super) settings: EnvironmentSettings,

@@ -85,7 +85,7 @@ fn nearest_m(from: DVec3, to: DVec3) -> f64 {
     from.lerp(to, share).length()
 }
 
-/// What a drone is told of each other one, in the order of their numbers: whether it flies (0 or 1), its place from the drone
+/// Numbers on each other drone, in the order of their numbers: whether it flies (0 or 1), its place from the drone
 /// (metres) and its velocity (m/s), both ahead, right and up; zeros of one that does not fly.
 pub(super) fn beside(members: &[VectorMember], number: usize) -> Vec<f32> {
     let own = members[number].environment.observation();

@@ -24,7 +24,7 @@ pub enum Type {
 pub struct Function {
     pub name: &'static str,
     params: &'static [(&'static str, Type)],
-    /// Of a function that cannot fail, the answer; of one that can, what it answers where it does not.
+    /// Answer of a function that cannot fail; of one that can, the answer where it does not.
     answer: Option<Type>,
     can_fail: bool,
 }

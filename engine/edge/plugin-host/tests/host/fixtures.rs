@@ -55,7 +55,7 @@ impl TermText {
         wat::parse_str(self.text()).expect("the fixture is WebAssembly text")
     }
 
-    /// The same as a component, where it can be made one.
+    /// Bytes of the module as a component, where it can be made one.
     pub fn component(&self) -> Option<Vec<u8>> {
         component(self.bytes())
     }

@@ -7,7 +7,7 @@ fn refusal(text: &TermText) -> PluginError {
     text.costs(&flight(6)).expect_err("the plugin is hostile")
 }
 
-/// As the module that it is, and as a component, where it can be made one.
+/// Check of the module as it is, and as a component, where it can be made one.
 fn check(text: TermText, function: Option<&str>, words: &str) {
     let of_component = text.component().map(|bytes| {
         let costs = load(&bytes).and_then(|plugin| costs_of(&plugin, &flight(6)));

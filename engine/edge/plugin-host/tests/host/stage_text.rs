@@ -14,7 +14,7 @@ pub struct StageText {
     pub name: &'static str,
     /// The columns that it says it reads.
     pub reads: Vec<Column>,
-    /// And gives.
+    /// Columns that it says it gives.
     pub gives: Vec<Column>,
     /// The bytes that `run` answers.
     pub answer: Vec<u8>,

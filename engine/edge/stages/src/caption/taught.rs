@@ -8,7 +8,7 @@ use cosfly_stage::{Answers, TaskContext};
 use cosfly_teacher::{Question, Reply, Teacher};
 use std::collections::BTreeSet;
 
-/// What the texts of a flight are made of.
+/// Sources of the texts of a flight.
 pub struct Class<'a> {
     pub teacher: &'a Teacher,
     pub facts: &'a Facts,

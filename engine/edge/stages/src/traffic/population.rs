@@ -22,7 +22,7 @@ const NET_HEAD_BYTES: u64 = 64 * 1024;
 pub struct Populations {
     /// In the order of their numbers.
     pub all: Vec<Box<dyn Population>>,
-    /// What was left out.
+    /// Omissions, in words.
     pub notes: Vec<String>,
 }
 

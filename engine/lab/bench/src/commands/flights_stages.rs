@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// Artifact of a walk of these toys.
 const WALK: &str = "toy_walk/1";
 
-/// What a toy makes.
+/// Product of a toy.
 #[derive(Clone, Copy, PartialEq)]
 enum Makes {
     Town,

@@ -23,13 +23,13 @@ use std::sync::atomic::AtomicBool;
 pub enum Step {
     /// The first run, into an empty store
     First,
-    /// The same run again
+    /// An unchanged run again
     Nothing,
     /// A run with another title of the dataset
     Title,
     /// A run with one flight more in a hundred
     More,
-    /// The same run again, after all others
+    /// An unchanged run again, after all others
     Again,
     /// `cosfly verify`
     Verify,
@@ -41,7 +41,7 @@ pub enum Step {
     Lint,
     /// `cosfly eval`
     Eval,
-    /// What `cosfly dataset tag` does, twice: for two versions
+    /// Tags as by `cosfly dataset tag`, for two versions
     Tag,
     /// `cosfly dataset list`
     List,
@@ -78,7 +78,7 @@ pub struct Figures {
     pub memory_mb: u64,
     /// Bytes of the dataset, where the step made it.
     pub dataset_bytes: Option<u64>,
-    /// What was done.
+    /// Step that was measured.
     pub what: String,
 }
 

@@ -16,7 +16,7 @@ const TOLERANCE_CODES: f64 = 10.0;
 /// Depths that differ by a greater share belong to other surfaces.
 const SAME_DEPTH: f64 = 0.01;
 
-/// What was counted for pixels of a kind.
+/// Counts for pixels of a kind.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct SteadyRow {
     /// Town, weather and label.

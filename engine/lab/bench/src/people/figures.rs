@@ -58,7 +58,7 @@ pub struct Figures {
     pub in_groups: f64,
     /// Distance to the nearest one of those whom somebody is together with: median and 95 %, metres.
     pub apart_m: [f64; 2],
-    /// Of the pairs that come within 3 m, share that ever come below 0.4 m.
+    /// Share of the pairs that come within 3 m that ever come below 0.4 m.
     pub close_pairs: f64,
 }
 
@@ -165,7 +165,7 @@ impl Samples {
     }
 }
 
-/// What two people did together.
+/// Time that two people had together.
 #[derive(Default)]
 struct Pair {
     near: usize,

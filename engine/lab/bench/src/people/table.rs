@@ -11,7 +11,7 @@ use std::fmt;
 pub struct PeopleTable {
     /// Figures of each set of tracks.
     pub sets: Vec<Figures>,
-    /// What the simulations cost and whether they keep their laws.
+    /// Costs of the simulations, and whether they keep their laws.
     pub crowds: Vec<Crowded>,
     /// Speed by density in a ring of pavement.
     pub density: Vec<DensityRow>,

@@ -19,7 +19,7 @@ use cosfly_surroundings::local::LocalObstacles;
 pub enum Contender {
     /// Cosfly's planner with its default preset.
     Cosfly,
-    /// The same, knowing only the past of target and movers.
+    /// Planner of cosfly that knows only the past of target and movers.
     Causal,
     /// Cosfly's planner with another of its presets.
     Preset(Preset),
@@ -126,7 +126,7 @@ impl Contender {
         self.plan_among(&[], ground, track, config)
     }
 
-    /// The same among boxes that move, of which the paper's pipeline alone does not know.
+    /// Plan of one path among boxes that move, of which the paper's pipeline alone does not know.
     pub fn plan_among(
         self,
         movers: &[Vec<OrientedBox>],
@@ -150,7 +150,7 @@ impl Contender {
     }
 }
 
-/// What one flight is planned on.
+/// Ground, walk and boxes that one flight is planned on.
 struct Way<'a> {
     ground: &'a Ground,
     track: &'a TargetTrack,

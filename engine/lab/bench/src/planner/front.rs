@@ -41,7 +41,7 @@ pub struct FrontRow {
     pub visibility: f64,
     /// Mean error of the ridge 2.5 s ahead, given poses and the target's places, metres; `None` for fewer than two flights.
     pub ridge_m: Option<f64>,
-    /// The same given poses alone, metres.
+    /// Mean error of the ridge given poses alone, metres.
     pub ridge_of_poses_m: Option<f64>,
     /// Largest yaw rate, degrees per second.
     pub yaw_rate_deg_s: f64,

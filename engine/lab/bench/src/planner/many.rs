@@ -72,7 +72,7 @@ pub struct ManyReport {
     pub planning_wall_s: f64,
     /// CPU time of all planning threads, seconds.
     pub planning_cpu_s: f64,
-    /// The same for the same paths with nothing that moves, seconds; 0 where nothing moves.
+    /// CPU time of planning the same paths with nothing that moves, seconds; 0 where nothing moves.
     pub still_cpu_s: f64,
     /// Number of boxes that move around each walker.
     pub movers: usize,
@@ -80,7 +80,7 @@ pub struct ManyReport {
     pub min_moving_m: f64,
     /// Speed relative to the paper's 25 minutes for 6,000 trajectories.
     pub times_paper: f64,
-    /// The same by CPU time instead of wall time, as on an idle machine.
+    /// Speed relative to the paper's by CPU time instead of wall time, as on an idle machine.
     pub times_paper_undisturbed: f64,
     /// Mean visibility over all flights, by the planner's tree.
     pub visibility: f64,

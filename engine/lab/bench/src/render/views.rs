@@ -92,7 +92,7 @@ impl Ground {
         Self { name, town, scene, camera, views }
     }
 
-    /// The same places seen from straight above, so many metres over the target, turned every way.
+    /// Views of these places from straight above, so many metres over the target, turned every way.
     pub fn from_above(mut self, height_m: f64) -> Self {
         for (index, view) in self.views.iter_mut().enumerate() {
             let position_in_world = view.target.state.feet_in_world + height_m * DVec3::Z;

@@ -25,7 +25,7 @@ const NEAR_M: f64 = 6.0;
 const BESIDE_M: f64 = 0.7;
 /// Largest distance across the way, metres.
 const ASIDE_M: f64 = 1.8;
-/// Of people who are near only if all limits are so much wider, nobody can say whether they are near: nothing is said then.
+/// Factor on all limits: where people are near only by wider ones, nobody can say whether they are, and no text does.
 const BORDER: f64 = 1.3;
 /// The nearest person is nearer than all others by this factor at least.
 const NEARER: f64 = 1.25;

@@ -81,13 +81,13 @@ pub(super) struct CityObject {
     pub(super) parents: Vec<String>,
 }
 
-/// What is read of an object's or a surface's attributes. Values of a wrong type count as missing.
+/// Attributes of an object or a surface, as far as they are read. Values of a wrong type count as missing.
 #[derive(Debug, Default, Deserialize)]
 pub(super) struct Attributes {
     function: Option<Value>,
     class: Option<Value>,
     usage: Option<Value>,
-    /// Of Dutch base maps.
+    /// Kind in Dutch base maps.
     bgt_type: Option<Value>,
     #[serde(rename = "measuredHeight")]
     measured_height: Option<Value>,
@@ -104,7 +104,7 @@ pub(super) struct Geometry {
     #[serde(default)]
     pub(super) boundaries: Boundaries,
     semantics: Option<Semantics>,
-    /// Of a `GeometryInstance`.
+    /// Number of the template of a `GeometryInstance`.
     pub(super) template: Option<usize>,
     #[serde(rename = "transformationMatrix")]
     pub(super) matrix: Option<Vec<f64>>,
@@ -182,6 +182,11 @@ impl Document {
 }
 
 impl Geometry {
+    /// The level of detail as it stands, if it is no number.
+    pub(super) fn unread_lod(&self) -> Option<&Value> {
+        self.lod.as_ref().filter(|lod| number(lod).is_none())
+    }
+
     /// Level of detail, 0 when it is missing.
     pub(super) fn lod(&self) -> f64 {
         self.lod.as_ref().and_then(number).unwrap_or(0.0)
@@ -200,6 +205,16 @@ impl Geometry {
 }
 
 impl Attributes {
+    /// Heights as they stand, by name.
+    pub(super) fn heights(&self) -> [(&'static str, Option<&Value>); 2] {
+        [("measuredHeight", self.measured_height.as_ref()), ("height", self.height.as_ref())]
+    }
+
+    /// The number of storeys and the diameter of the crown as they stand, by name.
+    pub(super) fn other_numbers(&self) -> [(&'static str, Option<&Value>); 2] {
+        [("storeysAboveGround", self.storeys.as_ref()), ("crownDiameter", self.crown_diameter.as_ref())]
+    }
+
     /// Height of a building or plant, metres or the file's unit, with the storeys as the second choice.
     pub(super) fn height(&self) -> Option<f64> {
         [&self.measured_height, &self.height].into_iter().flatten().find_map(number).filter(|height| *height > 0.0)

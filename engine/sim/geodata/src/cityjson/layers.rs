@@ -14,11 +14,11 @@ pub(super) struct Steps {
     pub(super) height_m: f64,
     /// Boxes of the lowest layer that are not yet many: with more it may stand over its faces by up to half a metre.
     pub(super) most_of_foot: usize,
-    /// The same of each other layer.
+    /// Boxes of each other layer that are not yet many.
     pub(super) most_of_layer: usize,
 }
 
-/// Of buildings and their roofs.
+/// Steps of buildings and their roofs.
 pub(super) const BUILDING: Steps = Steps { height_m: 1.0, most_of_foot: MOST, most_of_layer: 48 };
 /// Heights of corners that are closer make one layer, metres.
 const CLOSE_M: f64 = 0.25;

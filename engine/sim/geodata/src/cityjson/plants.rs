@@ -8,8 +8,9 @@ use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_frames::DVec3;
 use cosfly_town::crown::crown_boxes;
 use cosfly_town::solids::Solid;
+use serde_json::Value;
 
-/// Of stands of plants.
+/// Steps of stands of plants.
 const STAND: Steps = Steps { height_m: 3.0, most_of_foot: 4, most_of_layer: 3 };
 /// Side of the squares in which they are cut, metres.
 const PIECE_M: f64 = 12.0;
@@ -26,17 +27,24 @@ const HEIGHTS_M: [f64; 2] = [0.5, 120.0];
 const RADII_M: [f64; 2] = [0.2, 20.0];
 
 /// A tree as boxes.
-pub(super) struct Tree {
+pub(super) struct Tree<'a> {
     /// Trunk and crown.
     pub(super) boxes: Vec<(ObstacleKind, OrientedBox)>,
     /// Whether its size is assumed: the file gives its place only.
     pub(super) is_assumed: bool,
     /// Whether the file gives it a size that no tree has.
     pub(super) is_absurd: bool,
+    /// Attributes that are asked for and no number above 0, by name.
+    pub(super) unread: Vec<(&'static str, Option<&'a Value>)>,
 }
 
 /// Trunk and crown of a tree.
-pub(super) fn tree(shape: &Shape, attributes: Option<&Attributes>, space: &Space, object_id: u32) -> Option<Tree> {
+pub(super) fn tree<'a>(
+    shape: &Shape,
+    attributes: Option<&'a Attributes>,
+    space: &Space,
+    object_id: u32,
+) -> Option<Tree<'a>> {
     let (low, high) = shape.bounds()?;
     let size = high - low;
     let mut is_absurd = false;
@@ -48,6 +56,7 @@ pub(super) fn tree(shape: &Shape, attributes: Option<&Attributes>, space: &Space
     let (is_drawn_high, seen_m) = (size.z >= 0.5, 0.25 * (size.x + size.y));
     let stated_m = attributes.and_then(Attributes::height).map(|height| space.length_m(height));
     let is_assumed = !is_drawn_high && stated_m.is_none();
+    let mut unread: Vec<_> = attributes.filter(|_| is_assumed).into_iter().flat_map(Attributes::heights).collect();
     let height_m = if is_drawn_high {
         believed(size.z, HEIGHTS_M).unwrap_or(HEIGHTS_M[1])
     } else {
@@ -57,6 +66,8 @@ pub(super) fn tree(shape: &Shape, attributes: Option<&Attributes>, space: &Space
         believed(seen_m, RADII_M).unwrap_or(RADII_M[1])
     } else {
         let stated_m = attributes.and_then(Attributes::crown_diameter).map(|diameter| 0.5 * space.length_m(diameter));
+        let crowns = attributes.filter(|_| stated_m.is_none()).map(Attributes::other_numbers);
+        unread.extend(crowns.map(|[_, crown]| crown));
         stated_m.and_then(|stated_m| believed(stated_m, RADII_M)).unwrap_or((0.2 * height_m).clamp(1.0, 4.5))
     };
     let foot = (0.5 * (low + high)).with_z(low.z);
@@ -70,7 +81,7 @@ pub(super) fn tree(shape: &Shape, attributes: Option<&Attributes>, space: &Space
     let crown = upright(foot + base_m * DVec3::Z, radius_m, height_m - base_m);
     let crowns = crown_boxes(&crown, object_id).map(|shape| (ObstacleKind::TreeCrown, shape));
     let boxes = core::iter::once((ObstacleKind::TreeTrunk, trunk)).chain(crowns).collect();
-    Some(Tree { boxes, is_assumed, is_absurd })
+    Some(Tree { boxes, is_assumed, is_absurd, unread })
 }
 
 /// Boxes under faces that rise from the ground; [`of_height`] makes plants of them.

@@ -17,7 +17,7 @@ const WIDEST_M: f64 = 100_000.0;
 /// Most faces of one object; a building of the finest level has some ten thousand.
 pub(super) const MOST_FACES: usize = 500_000;
 
-/// What the vertices of all documents share.
+/// Frame, units and templates that the vertices of all documents share.
 pub(super) struct Space {
     transform: Transform,
     /// Length of the units of plan and height, metres.

@@ -1,6 +1,7 @@
 //! The parts of a file put together.
 
 use super::document::{Attributes, CityObject, Document, documents};
+use super::doubts::Doubts;
 use super::faces::Face;
 use super::ground::Ground;
 use super::layers::{BUILDING, Steps, layered, pieces};
@@ -17,7 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Most boxes of one file.
 const MOST_OBSTACLES: usize = 500_000;
-/// Of walls, furniture and other things.
+/// Steps of walls, furniture and other things.
 const OTHER: Steps = Steps { height_m: 1.0, most_of_foot: 8, most_of_layer: 4 };
 /// Side of the squares in which these things are cut, metres.
 const PIECE_M: f64 = 8.0;
@@ -25,6 +26,9 @@ const PIECE_M: f64 = 8.0;
 const STOREY_M: f64 = 3.0;
 /// A shape lower than this has no height of its own, metres.
 const FLAT_M: f64 = 0.3;
+/// What is wrong with heights and storeys that are not believed.
+const NO_HEIGHT: &str = "no height of 0.5 to 1500 m and counts as missing";
+const NO_STOREYS: &str = "no number of storeys up to 500 and counts as missing";
 /// Most objects from a part up to its building.
 const MOST_GENERATIONS: usize = 16;
 
@@ -57,7 +61,7 @@ struct Parts {
     tally: Tally,
 }
 
-/// What was left out or assumed: how often, and the first object.
+/// Objects left out, or with something assumed: how often, and the first one.
 #[derive(Default)]
 struct Tally {
     broken_faces: Count,
@@ -70,6 +74,7 @@ struct Tally {
     absurd_trees: Count,
     stands: usize,
     coarse: CoarseThings,
+    doubts: Doubts,
 }
 
 #[derive(Default)]
@@ -106,6 +111,9 @@ impl Parts {
             if part == Part::Nothing {
                 self.tally.unknown.note(1, id);
                 continue;
+            }
+            for geometry in object.geometry.iter().flatten() {
+                self.tally.doubts.note(["shapes", "lod", "no number and counts as 0"], geometry.unread_lod(), id);
             }
             let shape = self.space.shape(object, document);
             self.tally.broken_faces.note(shape.broken, id);
@@ -161,7 +169,7 @@ impl Parts {
             shape.faces.into_iter().zip(shape.sources).filter(|(_, source)| !name(*source).is_some_and(is_indoors));
         if high.z - low.z < FLAT_M || shape.lod == 0.0 && high.z - low.z < 1.0 {
             let faces: Vec<Face> = outside.map(|(face, _)| face).collect();
-            let Some(height_m) = self.stated_height_m(object) else { return self.tally.without_height.note(1, id) };
+            let Some(height_m) = self.stated_height_m(id, object) else { return self.tally.without_height.note(1, id) };
             let roof: Vec<Face> = faces.iter().map(|face| raised(face, low.z + height_m)).collect();
             return self.push_solid(ObstacleKind::Building, object_id, layered(&faces, &roof, low.z, BUILDING));
         }
@@ -199,14 +207,21 @@ impl Parts {
         self.push_solid(ObstacleKind::Building, object_id, solid);
     }
 
-    fn stated_height_m(&mut self, object: &CityObject) -> Option<f64> {
+    fn stated_height_m(&mut self, id: &str, object: &CityObject) -> Option<f64> {
         let attributes = object.attributes.as_ref()?;
         if let Some(height_m) = attributes.height().map(|height| self.space.length_m(height)).filter(is_believed) {
             return Some(height_m);
         }
-        let height_m = attributes.storeys().map(|storeys| STOREY_M * storeys).filter(is_believed)?;
-        self.tally.storeys += 1;
-        Some(height_m)
+        for (name, value) in attributes.heights() {
+            self.tally.doubts.note(["buildings", name, NO_HEIGHT], value, id);
+        }
+        let height_m = attributes.storeys().map(|storeys| STOREY_M * storeys).filter(is_believed);
+        if height_m.is_none() {
+            let [(name, value), _] = attributes.other_numbers();
+            self.tally.doubts.note(["buildings", name, NO_STOREYS], value, id);
+        }
+        self.tally.storeys += usize::from(height_m.is_some());
+        height_m
     }
 
     fn add_solid(&mut self, kind: ObstacleKind, shape: &Shape, object_id: u32) {
@@ -225,6 +240,9 @@ impl Parts {
         if let Some(tree) = tree {
             self.tally.bare_trees += usize::from(tree.is_assumed);
             self.tally.absurd_trees.note(usize::from(tree.is_absurd), id);
+            for (name, value) in tree.unread {
+                self.tally.doubts.note(["trees", name, "no number above 0 and counts as missing"], value, id);
+            }
             for (kind, shape) in tree.boxes {
                 self.push(kind, object_id, [shape]);
             }
@@ -317,7 +335,7 @@ impl Tally {
         ];
         let counted = all.into_iter().filter(|(count, _)| count.count > 0);
         let lines = counted.map(|(count, text)| format!("{} {text}, the first one of `{}`", count.count, count.first));
-        lines.chain(self.coarse.warnings()).collect()
+        lines.chain(self.doubts.warnings()).chain(self.coarse.warnings()).collect()
     }
 }
 

@@ -50,7 +50,7 @@ const WALLS: &[&str] = &["muur", "wall", "mauer"];
 const FENCES: &[&str] = &["fence", "hek", "zaun", "railing"];
 const LAMPS: &[&str] = &["lamp", "lantern", "light", "lichtmast"];
 
-/// What an object of this kind is, `attributes` telling more.
+/// Part of a town that an object of this kind is, `attributes` telling more.
 pub(super) fn part_of(kind: &str, attributes: Option<&Attributes>) -> Part {
     let says = |words: &[&str]| attributes.is_some_and(|attributes| says_one_of(attributes, words));
     match kind {

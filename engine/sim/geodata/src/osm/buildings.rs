@@ -6,6 +6,7 @@ use super::heights::{heights, rectangle_around};
 use super::options::OsmOptions;
 use super::passages::Passages;
 use super::rings::{Area, Problems, Source, areas, closes};
+use super::stated::Doubts;
 use super::tags::Tags;
 use super::tally::Tally;
 use crate::slabs::inner_point;
@@ -40,8 +41,6 @@ pub struct Buildings {
     pub of_default_height: usize,
     /// Buildings and parts whose roof's rise is a guess.
     pub of_guessed_rise: usize,
-    /// Buildings and parts whose stated height none can have, or is in words.
-    pub of_unreadable_height: Tally,
     /// Lines with the tags of a building that do not close.
     pub open: Tally,
     /// Left out because they lie under the ground.
@@ -86,21 +85,22 @@ pub fn read(
             parts_of.entry(*parent).or_default().push(part);
         }
     }
+    let doubts = &mut problems.doubts;
     for (index, outline) in outlines.iter().enumerate() {
         let own: Vec<&Area<'_>> = parts_of.get(&index).into_iter().flatten().map(|part| &parts[*part]).collect();
         let id = out.next(next_id);
         if covered_share(outline, &own) >= REPLACING_SHARE {
             out.replaced += 1;
         } else {
-            out.add(outline, id, options, passages)?;
+            out.add(outline, id, options, passages, doubts)?;
         }
         for part in own {
-            out.add(part, id, options, passages)?;
+            out.add(part, id, options, passages, doubts)?;
         }
     }
     for (part, _) in parts.iter().zip(&parents).filter(|(_, parent)| parent.is_none()) {
         let id = out.next(next_id);
-        out.add(part, id, options, passages)?;
+        out.add(part, id, options, passages, doubts)?;
     }
     out.parts = parts.len();
     let members: BTreeSet<i64> = elements
@@ -144,14 +144,12 @@ impl Buildings {
         object_id: u32,
         options: &OsmOptions,
         passages: &mut Passages,
+        doubts: &mut Doubts,
     ) -> Result<(), MapError> {
-        let (sides_m, longer_yaw_rad) = rectangle_around(&area.outer);
-        let heights = heights(area.tags, sides_m, longer_yaw_rad, options);
+        let sides = rectangle_around(&area.outer);
+        let heights = heights(area.tags, sides, options, area.source, doubts);
         self.of_default_height += usize::from(heights.is_default);
         self.of_guessed_rise += usize::from(heights.is_rise_guessed);
-        if heights.is_unreadable {
-            self.of_unreadable_height.add(area.source);
-        }
         let footprint = Footprint { outer: area.outer.clone(), holes: area.holes.clone() };
         let mut base_m = heights.base_m;
         let mut solids = Vec::new();

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// Most nodes, ways, relations and references between them in one file; a city of millions has fewer.
 const MOST_PARTS: usize = 40_000_000;
-/// The same of a small file, and for each byte of it: packed files have one for each four bytes or so.
+/// Most parts of a small file, and of each byte of it: packed files have one for each four bytes or so.
 const MOST_PARTS_OF_ANY: usize = 2_000_000;
 const MOST_PARTS_OF_A_BYTE: usize = 2;
 /// Units of a coordinate in one degree.
@@ -44,7 +44,7 @@ pub struct Elements {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Rank(u64);
 
-/// What an element is.
+/// Kind of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A point.
@@ -109,7 +109,7 @@ pub struct Member {
     pub is_way: bool,
     /// Number of the element.
     pub id: i64,
-    /// What it is in the relation.
+    /// Role that it has in the relation.
     pub role: Role,
 }
 
@@ -142,7 +142,7 @@ impl Role {
 }
 
 impl Elements {
-    /// Of a file of a size.
+    /// No elements yet, of a file of `bytes` bytes, which limit how many may come.
     pub fn of_file(bytes: usize) -> Self {
         let most_parts = (MOST_PARTS_OF_ANY + MOST_PARTS_OF_A_BYTE * bytes).min(MOST_PARTS);
         Self { most_parts, ..Self::default() }
@@ -203,6 +203,20 @@ impl Elements {
             .hint("cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH`"))
     }
 
+    /// Elements that state a key again with another value; the first value counts.
+    pub fn of_repeated_tags(&self) -> Tally {
+        let mut tally = Tally::default();
+        let mut check = |tags: &Tags, name: core::fmt::Arguments<'_>| {
+            if tags.has_repeated {
+                tally.add(name);
+            }
+        };
+        self.node_tags.iter().for_each(|(id, tags)| check(tags, format_args!("node {id}")));
+        self.ways.iter().for_each(|way| check(&way.tags, format_args!("way {}", way.id)));
+        self.relations.iter().for_each(|it| check(&it.tags, format_args!("relation {}", it.id)));
+        tally
+    }
+
     /// Sorts by id, so that the order of the file does not matter. Of several elements with one id the one of the highest
     /// version stays, of one version the first; none where a later version is gone.
     pub fn sort(&mut self) {
@@ -214,8 +228,12 @@ impl Elements {
             of_kind.into_iter().collect() // the last of several has the highest rank
         };
         let mut settle = Settle { repeated: &mut self.repeated };
-        let same_place = |a: &Node, b: &Node| (a.lon, a.lat) == (b.lon, b.lat);
-        settle.one_of_each(&mut self.nodes, &gone_as_of(Kind::Node), |node| (node.id, node.rank), same_place, "node");
+        let mut tags: Vec<(Rank, &Tags)> =
+            self.tag_ranks.iter().copied().zip(self.node_tags.iter().map(|(_, tags)| tags)).collect();
+        tags.sort_unstable_by_key(|(rank, _)| *rank);
+        let tags_of = |node: &Node| tags.binary_search_by_key(&node.rank, |(rank, _)| *rank).ok().map(|at| tags[at].1);
+        let same_node = |a: &Node, b: &Node| (a.lon, a.lat) == (b.lon, b.lat) && tags_of(a) == tags_of(b);
+        settle.one_of_each(&mut self.nodes, &gone_as_of(Kind::Node), |node| (node.id, node.rank), same_node, "node");
         let same_way = |a: &Way, b: &Way| (&a.nodes, &a.tags) == (&b.nodes, &b.tags);
         settle.one_of_each(&mut self.ways, &gone_as_of(Kind::Way), |way| (way.id, way.rank), same_way, "way");
         let same_relation = |a: &Relation, b: &Relation| (&a.members, &a.tags) == (&b.members, &b.tags);

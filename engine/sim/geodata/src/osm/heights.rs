@@ -1,7 +1,9 @@
 //! [`Heights`] of a building or a part of one, from its tags.
 
 use super::options::OsmOptions;
-use super::tags::{HIGHEST_M, Tags};
+use super::rings::Source;
+use super::stated::{Base, Doubts, Quantity};
+use super::tags::{HIGHEST_M, Tags, length_m, number};
 use cosfly_frames::{DVec2, real};
 use cosfly_town::solids::Roof;
 
@@ -27,6 +29,35 @@ const SMALL: &[&str] = &[
 /// Thickness of a canopy that states no lower edge, metres.
 const CANOPY_M: f64 = 0.5;
 
+/// Height of the upper end above the ground.
+const HEIGHT: Quantity = Quantity::length(
+    "buildings",
+    &["height", "building:height", "est_height"],
+    [LOWEST_M, HIGHEST_M],
+    "it counts as missing",
+);
+/// Number of storeys, which counts where no height is stated.
+const STOREYS: Quantity = Quantity::storeys("buildings", &["building:levels"], "it counts as missing");
+/// Lower end.
+const BASE: Base = Base::of("buildings");
+/// Height of the roof: stated, by storeys, by its slope in degrees.
+const ROOF_HEIGHT: Quantity = roof(&["roof:height"], [0.0, HIGHEST_M], ["length", " m"]);
+const ROOF_STOREYS: Quantity = roof(&["roof:levels"], [0.0, HIGHEST_M], ["number", ""]);
+const ROOF_ANGLE: Quantity = roof(&["roof:angle"], [1.0, 79.99], ["slope", " degrees"]);
+/// Bearing towards which a roof slopes, degrees.
+const ROOF_DIRECTION: Quantity = Quantity {
+    read: bearing_deg,
+    noun: ["bearing", " degrees"],
+    ..Quantity::number("roofs", &["roof:direction"], [-360.0, 360.0], "their ridge is along the longer side")
+};
+
+const fn roof(keys: &'static [&'static str], range: [f64; 2], noun: [&'static str; 2]) -> Quantity {
+    let is_length = matches!(noun[0].as_bytes(), b"length");
+    let read = if is_length { length_m } else { number };
+    let is_word = |text: &str| text == "0";
+    Quantity { read, noun, is_word, ..Quantity::number("roofs", keys, range, "it counts as missing") }
+}
+
 /// Where a building begins and ends above the ground, metres, and what is not from the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Heights {
@@ -40,21 +71,24 @@ pub struct Heights {
     pub is_default: bool,
     /// Whether the rise of the roof is a guess.
     pub is_rise_guessed: bool,
-    /// Whether a height is stated that no building has, or in words.
-    pub is_unreadable: bool,
 }
 
 /// Heights from tags. `sides_m` are the longer and the shorter side of the rectangle around the outline, `longer_yaw_rad`
-/// is the direction of the longer one.
-pub fn heights(tags: &Tags, sides_m: [f64; 2], longer_yaw_rad: f64, options: &OsmOptions) -> Heights {
+/// is the direction of the longer one. Values that are not believed are counted for `source`.
+pub fn heights(
+    tags: &Tags,
+    (sides_m, longer_yaw_rad): ([f64; 2], f64),
+    options: &OsmOptions,
+    source: Source,
+    doubts: &mut Doubts,
+) -> Heights {
     let kind = tags.get("building").or(tags.get("building:part")).unwrap_or_default();
     let within = |height: &f64| (LOWEST_M..=HIGHEST_M).contains(height);
-    const HEIGHTS: [&str; 3] = ["height", "building:height", "est_height"];
-    let stated_m = tags.length_m(&HEIGHTS).filter(within);
-    let is_unreadable = stated_m.is_none() && HEIGHTS.iter().any(|key| tags.get(key).is_some());
-    let storeys = tags.storeys("building:levels").filter(|levels| (0.0..=200.0).contains(levels));
+    let stated_m = doubts.read(tags, &HEIGHT, source);
+    let storeys = if stated_m.is_none() { doubts.read(tags, &STOREYS, source) } else { None };
     let shape = RoofShape::of(tags.get("roof:shape").unwrap_or_default());
-    let stated_rise_m = stated_rise_m(tags, sides_m, options).filter(|rise| (0.0..=HIGHEST_M).contains(rise));
+    let stated_rise_m =
+        stated_rise_m(tags, sides_m, options, source, doubts).filter(|rise| (0.0..=HIGHEST_M).contains(rise));
     let is_rise_guessed = shape != RoofShape::Flat && stated_rise_m.is_none();
     let usual_rise_m = if shape == RoofShape::Flat { 0.0 } else { (0.35 * sides_m[1]).clamp(1.0, 5.0) };
     let rise_m = stated_rise_m.unwrap_or(usual_rise_m);
@@ -68,7 +102,10 @@ pub fn heights(tags: &Tags, sides_m: [f64; 2], longer_yaw_rad: f64, options: &Os
     let is_default = top_m.is_none();
     let top_m = top_m.unwrap_or_else(default_m);
 
-    let stated_base_m = tags.base_m(options.storey_height_m);
+    let stated_base_m = BASE.read_m(tags, options.storey_height_m, source, doubts);
+    if stated_base_m.is_some_and(|base_m| base_m > top_m - 0.1) {
+        BASE.add_as_too_high(tags, source, doubts);
+    }
     let canopy_m = (kind == "roof").then_some(top_m - CANOPY_M);
     let base_m = stated_base_m.or(canopy_m).filter(|base| (0.0..=top_m - 0.1).contains(base)).unwrap_or(0.0);
     // A guess leaves most of the height to the walls.
@@ -77,13 +114,14 @@ pub fn heights(tags: &Tags, sides_m: [f64; 2], longer_yaw_rad: f64, options: &Os
     let (eaves_m, roof) = match shape {
         RoofShape::Flat => (top_m, Roof::Flat),
         _ if rise_m <= 0.0 => (top_m, Roof::Flat),
-        RoofShape::Gabled => {
-            (top_m - rise_m, Roof::Gabled { rise_m, ridge_yaw_rad: ridge_yaw_rad(tags, longer_yaw_rad) })
-        }
+        RoofShape::Gabled => (
+            top_m - rise_m,
+            Roof::Gabled { rise_m, ridge_yaw_rad: ridge_yaw_rad(tags, longer_yaw_rad, source, doubts) },
+        ),
         RoofShape::Hipped => (top_m - rise_m, Roof::Hipped { rise_m }),
     };
     let is_rise_guessed = is_rise_guessed && roof != Roof::Flat;
-    Heights { base_m, eaves_m, roof, is_default, is_rise_guessed, is_unreadable }
+    Heights { base_m, eaves_m, roof, is_default, is_rise_guessed }
 }
 
 /// Shapes of roofs as far as boxes tell them apart. Roofs that bulge beyond planes (domes, mansards) and slanted ones count
@@ -105,22 +143,32 @@ impl RoofShape {
     }
 }
 
-fn stated_rise_m(tags: &Tags, sides_m: [f64; 2], options: &OsmOptions) -> Option<f64> {
-    let of_storeys = || Some(tags.number("roof:levels").filter(|levels| *levels > 0.0)? * options.storey_height_m);
-    let of_angle = || {
-        let angle_deg = tags.number("roof:angle").filter(|angle| (1.0..80.0).contains(angle))?;
-        Some(0.5 * sides_m[1] * real::tan(angle_deg.to_radians()))
-    };
-    tags.length_m(&["roof:height"]).or_else(of_storeys).or_else(of_angle)
+fn stated_rise_m(
+    tags: &Tags,
+    sides_m: [f64; 2],
+    options: &OsmOptions,
+    source: Source,
+    doubts: &mut Doubts,
+) -> Option<f64> {
+    let stated_m = doubts.read(tags, &ROOF_HEIGHT, source);
+    if tags.readable(&ROOF_HEIGHT).is_some() {
+        return stated_m;
+    }
+    let storeys = doubts.read(tags, &ROOF_STOREYS, source).filter(|storeys| *storeys > 0.0);
+    if let Some(storeys) = storeys {
+        return Some(storeys * options.storey_height_m);
+    }
+    let angle_deg = doubts.read(tags, &ROOF_ANGLE, source)?;
+    Some(0.5 * sides_m[1] * real::tan(angle_deg.to_radians()))
 }
 
 /// Direction of the ridge in the world (x towards y), where the tags state it.
-fn ridge_yaw_rad(tags: &Tags, longer_yaw_rad: f64) -> Option<f64> {
+fn ridge_yaw_rad(tags: &Tags, longer_yaw_rad: f64, source: Source, doubts: &mut Doubts) -> Option<f64> {
     if tags.is("roof:orientation", &["across"]) {
         return Some(longer_yaw_rad + real::FRAC_PI_2);
     }
     // A roof slopes towards its direction, a bearing clockwise from north; the ridge lies across it. x is east, y south.
-    let bearing_deg = bearing_deg(tags.get("roof:direction")?)?;
+    let bearing_deg = doubts.read(tags, &ROOF_DIRECTION, source)?;
     Some(real::wrap_angle_rad(bearing_deg.to_radians()))
 }
 
@@ -161,9 +209,15 @@ mod tests {
     use super::*;
 
     fn of(pairs: &[(&str, &str)]) -> Heights {
-        let mut tags = Tags::default();
+        told_of(pairs).0
+    }
+
+    fn told_of(pairs: &[(&str, &str)]) -> (Heights, Vec<String>) {
+        let (mut tags, mut doubts) = (Tags::default(), Doubts::default());
         pairs.iter().for_each(|(key, value)| tags.add(key, value));
-        heights(&tags, [20.0, 10.0], 0.3, &OsmOptions::default())
+        let sides = ([20.0, 10.0], 0.3);
+        let found = heights(&tags, sides, &OsmOptions::default(), Source::Way(7), &mut doubts);
+        (found, doubts.warnings().collect())
     }
 
     fn check(pairs: &[(&str, &str)], base_m: f64, eaves_m: f64, roof: Roof) {
@@ -203,14 +257,38 @@ mod tests {
     #[test]
     fn heights_that_no_building_has_count_as_unreadable() {
         for value in ["1e23", "99999999999999999999", "-12", "0", "tall", "12 parsecs", "NaN"] {
-            let found = of(&[("building", "yes"), ("height", value)]);
-            assert!(found.is_unreadable && found.is_default && found.eaves_m == 8.0, "{value}: {found:?}");
-            let found = of(&[("building", "yes"), ("height", "9"), ("min_height", value)]);
-            assert!(!found.is_unreadable && found.base_m == 0.0, "{value}: {found:?}");
+            let (found, warnings) = told_of(&[("building", "yes"), ("height", value)]);
+            assert!(found.is_default && found.eaves_m == 8.0, "{value}: {found:?}");
+            let line =
+                format!("`height` that is no length of 0.5 to 1000 m, such as `{value}`; it counts as missing (way 7)");
+            assert_eq!(warnings, [format!("1 buildings state a {line}")]);
         }
         for (value, metres) in [("12 ft", 3.6576), ("5'6\"", 1.6764), ("1234 cm", 12.34)] {
-            let found = of(&[("building", "yes"), ("height", value)]);
-            assert!(!found.is_unreadable && (found.eaves_m - metres).abs() < 1e-9, "{value}: {found:?}");
+            let (found, warnings) = told_of(&[("building", "yes"), ("height", value)]);
+            assert!(warnings.is_empty() && (found.eaves_m - metres).abs() < 1e-9, "{value}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn other_heights_that_are_not_believed_are_told_of() {
+        let building = [("building", "yes"), ("height", "9"), ("roof:shape", "gabled")];
+        for (key, value, told) in [
+            ("min_height", "-1", "is no length of 0 to 1000 m, such as `-1`; they begin at the ground"),
+            ("min_height", "9", "is no height below their upper end, such as `9`; they begin at the ground"),
+            ("min_level", "five", "is no number of 0 to 200, such as `five`; they begin at the ground"),
+            ("roof:height", "flat", "is no length of 0 to 1000 m, such as `flat`; it counts as missing"),
+            ("roof:levels", "-1", "is no number of 0 to 1000, such as `-1`; it counts as missing"),
+            ("roof:angle", "90", "is no slope of 1 to 79.99 degrees, such as `90`; it counts as missing"),
+            ("roof:direction", "up", "is no bearing of -360 to 360 degrees, such as `up`; their ridge is along"),
+        ] {
+            let (found, warnings) = told_of(&[&building[..], &[(key, value)]].concat());
+            assert_eq!((found.base_m, found.eaves_m), (0.0, 5.5), "{key}={value}");
+            assert!(warnings.len() == 1 && warnings[0].contains(&format!("`{key}` that {told}")), "{warnings:?}");
+        }
+        let (found, warnings) = told_of(&[("building", "yes"), ("building:levels", "three")]);
+        assert!(found.is_default && warnings[0].contains("`building:levels` that is no number of 0 to 200"));
+        for (key, value) in [("building:levels", "three"), ("roof:levels", "0"), ("roof:angle", "0")] {
+            assert!(told_of(&[&building[..], &[(key, value)]].concat()).1.is_empty(), "{key}={value} is not asked for");
         }
     }
 

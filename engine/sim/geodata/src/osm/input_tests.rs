@@ -85,6 +85,21 @@ fn of_elements_that_are_there_again_the_highest_version_counts() {
     assert_eq!((tops_m(&town), warnings), (vec![12.0], Vec::new()));
     let (town, warnings) = read(osm(&SQUARE, &(house(8, "7") + &house(8, "9"))).as_bytes()).unwrap();
     assert_eq!((tops_m(&town), warnings.len()), (vec![7.0], 1));
+    // So do a node with other tags, and a key with another value.
+    let lamp = |tag: &str| format!("<node id=\"20\" lat=\"0.0015\" lon=\"0.001\">{tag}</node>");
+    let (bare, tagged) = (lamp(""), lamp("<tag k=\"highway\" v=\"street_lamp\"/>"));
+    for (rest, count) in [(tagged.clone() + &bare, 1), (bare.clone() + &tagged, 0), (tagged.clone() + &tagged, 1)] {
+        let (town, warnings) = read(osm(&SQUARE, &(house(8, "5") + &rest)).as_bytes()).unwrap();
+        assert_eq!(town.obstacles.iter().filter(|one| one.kind == ObstacleKind::Lamp).count(), count);
+        let is_told = warnings.iter().any(|warning| warning.contains("more than once") && warning.contains("node 20"));
+        assert_eq!(is_told, rest.contains(&bare), "{warnings:?}");
+    }
+    let twice = house(8, "5").replace("</way>", "<tag k=\"height\" v=\"9\"/></way>");
+    let (town, warnings) = read(osm(&SQUARE, &twice).as_bytes()).unwrap();
+    assert_eq!(
+        (tops_m(&town), warnings),
+        (vec![5.0], vec!["1 elements state a key twice; the first value counts (way 8)".to_owned()])
+    );
     // A node that moved takes its tags along.
     let tree = |version: u8, lon: &str, tag: &str| {
         format!("<node id=\"20\" version=\"{version}\" lat=\"0.0015\" lon=\"{lon}\">{tag}</node>")
@@ -197,10 +212,16 @@ fn barriers_begin_where_they_are_said_to_and_nothing_from_a_roof_stands_on_the_g
         (&[("level", "4"), ("min_height", "12")], (12.0, 13.5)),
         (&[("layer", "1")], (0.0, 1.5)),
         (&[("level", "0;1")], (0.0, 1.5)),
-        (&[("height", "1e23"), ("min_height", "-3")], (0.0, 1.5)),
     ] {
-        assert_eq!(fence(tags), (vec![span], Vec::new()), "{tags:?}");
+        let (spans, warnings) = fence(tags);
+        assert_eq!(spans, [span], "{tags:?}");
+        let is_told = tags[0] == ("height", "1.2");
+        assert_eq!(warnings.len(), usize::from(is_told), "{tags:?}: {warnings:?}");
     }
+    let (spans, warnings) = fence(&[("height", "1e23"), ("min_height", "-3")]);
+    assert_eq!(spans, [(0.0, 1.5)]);
+    assert!(warnings[0].contains("`height` that is no length of 0.2 to 300 m, such as `1e23`"), "{warnings:?}");
+    assert!(warnings[1].contains("`min_height` that is no length of 0 to 1000 m, such as `-3`"), "{warnings:?}");
     for tags in [("location", "roof"), ("location", "rooftop"), ("level", "2"), ("level", "3-5")] {
         let (spans, warnings) = fence(&[tags]);
         assert!(spans.is_empty(), "{tags:?}");
@@ -346,4 +367,58 @@ fn entities_of_a_file_are_not_expanded() {
     let text = osm(&SQUARE, &way(8, &RING, &[("building", "&b;")]));
     refused((bomb.to_owned() + &text).as_bytes(), "attribute `v` is not readable");
     refused("<osm/><osm/>".as_bytes(), "a second `<osm>`");
+}
+
+#[test]
+fn numbers_that_are_not_believed_are_told_of_with_what_is_taken() {
+    let nodes = [(11, -18, 0), (12, 18, 0), (21, -18, 5), (22, 18, 5), (31, 5, -9)];
+    let read_street = |tags: &[(&str, &str)]| {
+        let street = [&[("highway", "residential"), ("sidewalk", "both")], tags].concat();
+        let rest = way(1, &[11, 12], &street) + &way(2, &[21, 22], &[("highway", "footway")]);
+        read(osm(&nodes, &rest).as_bytes()).unwrap()
+    };
+    let (plain, none) = read_street(&[]);
+    assert_eq!(none, Vec::<String>::new());
+    for (key, value, told) in [
+        ("width", "wide", "is no length of 2 to 60 m, such as `wide`; their lanes, of the usual width, make"),
+        ("width", "0.5", "is no length of 2 to 60 m, such as `0.5`"),
+        ("width", "", "is no length of 2 to 60 m, such as ``"),
+        ("lanes", "many", "is no number of 1 to 12, such as `many`; they have the usual number of their kind"),
+        ("lanes", "0", "is no number of 1 to 12, such as `0`"),
+        ("lanes:forward", "-1", "is no number of 1 to 8, such as `-1`; half of all lanes lead there"),
+        ("lanes:backward", "99", "is no number of 1 to 8, such as `99`; the other lanes lead there"),
+        ("maxspeed", "fast", "is no speed of 1 to 100 m/s, such as `fast`; the usual limit counts"),
+        ("maxspeed", "999", "is no speed of 1 to 100 m/s, such as `999`"),
+        ("layer", "up", "is no number, such as `up`; it counts as missing"),
+        ("level", "ground", "is no number, such as `ground`; it counts as missing"),
+    ] {
+        let (town, warnings) = read_street(&[(key, value)]);
+        assert!(town == plain, "{key}={value}: the usual value is taken");
+        let line = format!(" state a `{key}` that {told}");
+        assert!(warnings.len() == 1 && warnings[0].contains(&line), "{key}={value}: {warnings:?}");
+        assert!(warnings[0].starts_with("1 ") && warnings[0].ends_with("(way 1)"), "{warnings:?}");
+    }
+    let (_, warnings) = read_street(&[("lanes", "10")]);
+    assert!(warnings.len() == 1 && warnings[0].contains("is no number of 1 to 8, such as `10`; as many as fit"));
+    for (key, value) in
+        [("width", "7"), ("lanes", "2"), ("maxspeed", "DE:urban"), ("maxspeed", "none"), ("level", "0;1")]
+    {
+        assert_eq!(read_street(&[(key, value)]).1, none, "{key}={value}");
+    }
+    let path = |width: &str| way(2, &[21, 22], &[("highway", "footway"), ("width", width)]);
+    let (_, warnings) =
+        read(osm(&nodes, &(path("900") + &path("900").replace("id=\"2\"", "id=\"3\""))).as_bytes()).unwrap();
+    let line = "2 paths state a `width` that is no length of 1.2 to 30 m, such as `900`; they have the usual width of their \
+                kind (way 2, way 3)";
+    assert_eq!(warnings, [line]);
+    let tree = "<node id=\"40\" lat=\"0.0015\" lon=\"0.001\"><tag k=\"natural\" v=\"tree\"/>\
+                <tag k=\"height\" v=\"0.5\"/><tag k=\"diameter_crown\" v=\"99\"/></node>";
+    let row = way(4, &[11, 12], &[("natural", "tree_row"), ("height", "300")]);
+    let (_, warnings) = read(osm(&nodes, &(path("2") + tree + &row)).as_bytes()).unwrap();
+    let [crown, height] = &warnings[..] else { panic!("{warnings:?}") };
+    assert!(
+        crown.contains("`diameter_crown` that is no length of 0.5 to 30 m, such as `99`")
+            && crown.contains("(node 40)")
+    );
+    assert!(height.contains("`height` that is no length of 1 to 80 m") && height.contains("(node 40, way 4)"));
 }

@@ -1,6 +1,7 @@
 //! Lanes of vehicles on streets, and ways through junctions between them.
 
-use super::roads::{ROAD_HEIGHT_M, Road};
+use super::roads::{self, ROAD_HEIGHT_M, Road};
+use super::stated::{Doubts, Quantity};
 use super::strip::{moved_left, thinned};
 use super::tags::{Tags, speed_mps};
 use cosfly_domain::{Lane, LaneKind};
@@ -13,6 +14,24 @@ const NARROWEST_M: f64 = 2.2;
 const BIKING_M: f64 = 1.5;
 /// Limit on streets that state none, m/s: 50 km/h; and in living streets, 10 km/h.
 const USUAL_LIMITS_MPS: [f64; 2] = [50.0 / 3.6, 10.0 / 3.6];
+/// Lanes that are driven: all of a street, in the direction of the way, and against it.
+const DRIVEN: [Quantity; 3] = [
+    driven(&["lanes"], "as many as fit in their width are driven"),
+    driven(&["lanes:forward"], "half of all lanes lead there"),
+    driven(&["lanes:backward"], "the other lanes lead there"),
+];
+/// Speed limit, m/s.
+const LIMIT: Quantity = Quantity {
+    read: speed_mps,
+    noun: ["speed", " m/s"],
+    is_word: is_word_of_limit,
+    ..Quantity::number(
+        "streets",
+        &["maxspeed"],
+        [1.0, 100.0],
+        "the usual limit counts: 50 km/h, in living streets 10 km/h",
+    )
+};
 /// Room for turns beyond the widest street at a junction, metres.
 const TURN_M: f64 = 3.0;
 /// Length that is rounded off where two pieces of a street meet, metres.
@@ -38,6 +57,15 @@ struct Piece {
 
 type Node = [u64; 2];
 
+const fn driven(keys: &'static [&'static str], instead: &'static str) -> Quantity {
+    Quantity::number("streets", keys, [1.0, 8.0], instead)
+}
+
+/// Whether a limit is one in words: none, one on signs that change, or that of a kind of street in a country (`DE:urban`).
+fn is_word_of_limit(text: &str) -> bool {
+    ["none", "signals", "variable", "implicit"].contains(&text) || text.contains(':')
+}
+
 /// The lanes that lead to a junction or away from it, from the kerb inwards.
 struct Bundle {
     piece: usize,
@@ -46,8 +74,8 @@ struct Bundle {
 }
 
 /// The lanes of streets. Alleys and car parks have none, and narrow streets with traffic in both directions have none.
-pub fn lanes(roads: &[Road<'_>], left_hand: bool) -> Vec<Lane> {
-    let pieces = pieces(roads);
+pub fn lanes(roads: &[Road<'_>], left_hand: bool, doubts: &mut Doubts) -> Vec<Lane> {
+    let pieces = pieces(roads, doubts);
     let widest = widest_at(&pieces);
     let mut lanes: Vec<Lane> = vec![];
     let mut into: BTreeMap<Node, Vec<Bundle>> = BTreeMap::new();
@@ -114,10 +142,10 @@ impl Aside<'_> {
 }
 
 /// Streets cut where others meet them.
-fn pieces(roads: &[Road<'_>]) -> Vec<Piece> {
+fn pieces(roads: &[Road<'_>], doubts: &mut Doubts) -> Vec<Piece> {
     let key = |point: DVec2| [point.x.to_bits(), point.y.to_bits()];
     let mut uses: BTreeMap<Node, usize> = BTreeMap::new();
-    let driven: Vec<(&Road<'_>, Piece)> = roads.iter().filter_map(|road| Some((road, layout(road)?))).collect();
+    let driven: Vec<(&Road<'_>, Piece)> = roads.iter().filter_map(|road| Some((road, layout(road, doubts)?))).collect();
     for point in driven.iter().flat_map(|(road, _)| &road.pieces).flatten() {
         *uses.entry(key(*point)).or_default() += 1;
     }
@@ -145,23 +173,27 @@ fn pieces(roads: &[Road<'_>]) -> Vec<Piece> {
 }
 
 /// Lanes of a street, without its line; `None` where vehicles do not drive.
-fn layout(road: &Road<'_>) -> Option<Piece> {
+fn layout(road: &Road<'_>, doubts: &mut Doubts) -> Option<Piece> {
     let tags = &road.way.tags;
     if tags.is("highway", &["service", "escape", "raceway", "bus_guideway", "busway"]) {
         return None;
     }
     let is_oneway = road.is_oneway;
-    let count = |key: &str| tags.number(key).filter(|lanes| (1.0..=8.0).contains(lanes)).map(|lanes| lanes as usize);
+    let name = format_args!("way {}", road.way.id);
+    let mut count = |lanes: &Quantity| doubts.read(tags, lanes, name).map(|lanes| lanes as usize);
+    let [all, forward, backward] = &DRIVEN;
+    // A number that gives no width either is told of there.
+    let stated = tags.stated(&roads::LANES).and_then(|_| count(all));
     let bikes = bikes(tags, is_oneway);
     let bikes_m = bikes.iter().filter(|has| **has).count() as f64 * BIKING_M;
     let drivable_m = 2.0 * road.half_width_m - bikes_m;
-    let all = count("lanes").unwrap_or((drivable_m / 3.0).floor().max(1.0) as usize);
+    let all = stated.unwrap_or((drivable_m / 3.0).floor().max(1.0) as usize);
     let lanes = match is_oneway {
         true => [all, 0],
         false => {
             let all = all.max(2);
-            let forward = count("lanes:forward").unwrap_or(all.div_ceil(2)).min(all - 1);
-            [forward, count("lanes:backward").unwrap_or(all - forward)]
+            let forward = count(forward).unwrap_or(all.div_ceil(2)).min(all - 1);
+            [forward, count(backward).unwrap_or(all - forward)]
         }
     };
     let lane_m = match is_oneway {
@@ -170,13 +202,14 @@ fn layout(road: &Road<'_>) -> Option<Piece> {
     };
     // Bicycles beside the lanes take their room on both sides alike.
     let usual = USUAL_LIMITS_MPS[usize::from(tags.is("highway", &["living_street"]))];
+    let limit_mps = doubts.read(tags, &LIMIT, name).unwrap_or(usual);
     (lane_m >= NARROWEST_M).then(|| Piece {
         points: vec![],
         lanes,
         bikes,
         lane_m: lane_m.min(4.0),
         half_width_m: road.half_width_m,
-        limit_mps: tags.get("maxspeed").and_then(speed_mps).unwrap_or(usual),
+        limit_mps,
         ends: [[0; 2]; 2],
     })
 }

@@ -5,6 +5,7 @@ use super::frame::Frame;
 use super::paths;
 use super::rings::Area;
 use super::roads::{Road, lines_of};
+use super::stated::{Doubts, Quantity};
 use super::tags::Tags;
 use cosfly_frames::DVec2;
 use cosfly_town::regions::PlanRegion;
@@ -30,6 +31,14 @@ const MOST_SAMPLES: f64 = 256.0;
 const MOST_STRETCHES: usize = 16;
 /// Side of a cell of the index, metres.
 const CELL_M: f64 = 32.0;
+
+/// Clear height of a passage; lower ones are made as high as the lowest.
+const CLEAR: Quantity = Quantity {
+    is_word: |text| ["default", "none", "unsigned", "below_default", "no_sign", "no_indications"].contains(&text),
+    ..Quantity::length("passages", &["maxheight", "height"], [1.0, HIGHEST_M], "they have the usual height")
+};
+const HIGH_ENOUGH: Quantity =
+    Quantity { range: [LOWEST_M, HIGHEST_M], instead: "they are as high as the lowest", ..CLEAR };
 
 /// A straight stretch of a passage.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +68,7 @@ pub struct Passages {
 /// A layer of a building between two heights, metres.
 #[derive(Debug)]
 pub struct Layer {
-    /// What is solid.
+    /// Solid plan without the passage, world frame.
     pub regions: Vec<PlanRegion>,
     /// Lower end.
     pub base_m: f64,
@@ -75,22 +84,32 @@ fn is_passage(tags: &Tags) -> bool {
     is_on_the_ground && (tags.is("tunnel", &["building_passage"]) || is_covered)
 }
 
+/// Clear height that a way states, metres.
+fn clear_m(way: &Way, doubts: &mut Doubts) -> Option<f64> {
+    let name = format_args!("way {}", way.id);
+    let stated_m = doubts.read(&way.tags, &CLEAR, name);
+    if stated_m.is_some_and(|stated_m| stated_m < LOWEST_M) {
+        doubts.add(&way.tags, &HIGH_ENOUGH, name);
+    }
+    stated_m
+}
+
 impl Passages {
     /// The passages of an extract.
-    pub fn read(elements: &Elements, frame: &Frame, roads: &[Road<'_>]) -> Self {
+    pub fn read(elements: &Elements, frame: &Frame, roads: &[Road<'_>], doubts: &mut Doubts) -> Self {
         let mut passages = Self::default();
         for way in elements.ways.iter().filter(|way| is_passage(&way.tags)) {
             let Some(width_m) = paths::usual_width_m(&way.tags) else { continue };
-            passages.add(way, &lines_of(elements, frame, &way.nodes), 0.5 * width_m, CLEAR_M[0]);
+            let lines = lines_of(elements, frame, &way.nodes);
+            passages.add(way, &lines, 0.5 * width_m, clear_m(way, doubts), CLEAR_M[0]);
         }
         for road in roads.iter().filter(|road| is_passage(&road.way.tags)) {
-            passages.add(road.way, &road.pieces, road.half_width_m, CLEAR_M[1]);
+            passages.add(road.way, &road.pieces, road.half_width_m, clear_m(road.way, doubts), CLEAR_M[1]);
         }
         passages
     }
 
-    fn add(&mut self, way: &Way, pieces: &[Vec<DVec2>], half_width_m: f64, usual_m: f64) {
-        let stated_m = way.tags.length_m(&["maxheight", "height"]).filter(|height| (1.0..=HIGHEST_M).contains(height));
+    fn add(&mut self, way: &Way, pieces: &[Vec<DVec2>], half_width_m: f64, stated_m: Option<f64>, usual_m: f64) {
         let clear_m = stated_m.unwrap_or(usual_m).max(LOWEST_M);
         let half_m = half_width_m + SPARE_M;
         for piece in pieces {
@@ -172,7 +191,7 @@ impl Passages {
         layers
     }
 
-    /// What became of the passages, in words.
+    /// Note on the passages, as a sentence: how many are open, and how many not.
     pub fn note(&self) -> String {
         let closed = self.closed.difference(&self.open).count();
         let [people_m, vehicles_m] = CLEAR_M;

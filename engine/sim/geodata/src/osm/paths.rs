@@ -7,6 +7,7 @@ use super::options::OsmOptions;
 use super::pavements::{self, LONGEST_CROSSING_M, PAVEMENT_M, runs};
 use super::rings::{Area, Problems, areas};
 use super::roads::{LINE_MARGIN_M, Road, RoadIndex, is_shared_street, lines};
+use super::stated::Quantity;
 use super::strip::{add_surface, strips, walkable};
 use super::tags::Tags;
 use crate::slabs::{Trapezoid, trapezoids};
@@ -27,6 +28,9 @@ const CROSSING_M: f64 = 3.0;
 const CROSSING_REACH_M: f64 = 1.5;
 /// Stripes of a marked crossing: width of a stripe, metres.
 const STRIPE_M: f64 = 0.5;
+
+/// Width of a path.
+const WIDTH: Quantity = Quantity::length("paths", &["width"], [1.2, 30.0], "they have the usual width of their kind");
 
 /// The ground for people of an extract.
 #[derive(Debug, Default)]
@@ -70,13 +74,9 @@ fn usual(tags: &Tags) -> Option<(WalkableKind, f64)> {
     }
 }
 
-fn stated_width_m(tags: &Tags) -> Option<f64> {
-    tags.length_m(&["width"]).filter(|width| (1.2..=30.0).contains(width))
-}
-
 /// Width of the ground along a way, metres; none where people do not walk.
 pub fn usual_width_m(tags: &Tags) -> Option<f64> {
-    usual(tags).map(|(_, usual_m)| stated_width_m(tags).unwrap_or(usual_m))
+    usual(tags).map(|(_, usual_m)| tags.stated(&WIDTH).unwrap_or(usual_m))
 }
 
 /// Kind of the ground of an area; none where it is not for people.
@@ -118,13 +118,18 @@ pub fn read(
     let arms = arms(elements);
     for way in elements.ways.iter().filter(|way| is_path(way)) {
         let Some((kind, usual_m)) = usual(&way.tags) else { continue };
-        let width_m = stated_width_m(&way.tags).unwrap_or(usual_m);
+        let pieces = lines(elements, frame, way, &mut length_m)?;
         out.nodes.extend(&way.nodes);
         let ends = [way.nodes.first(), way.nodes.last()].map(|id| {
             let alone = id.filter(|id| arms.get(*id) == Some(&1) && !is_crossing_node(elements, **id));
             alone.and_then(|id| frame.position(elements, *id))
         });
-        for piece in lines(elements, frame, way, &mut length_m)? {
+        if pieces.is_empty() {
+            continue;
+        }
+        let stated_m = problems.doubts.read(&way.tags, &WIDTH, format_args!("way {}", way.id));
+        let width_m = stated_m.unwrap_or(usual_m);
+        for piece in pieces {
             let ends_alone = [piece.first(), piece.last()].map(|end| end.is_some() && ends.contains(&end.copied()));
             let path = Path { line: &piece, kind, width_m, is_marked: is_marked(&way.tags), ends_alone };
             out.add_path(&path, &index, meshes);

@@ -89,7 +89,7 @@ pub(super) struct PrimitiveGroup {
     pub relations: Vec<PackedRelation>,
 }
 
-/// What is known of an element's history.
+/// History of a way or relation, or of a plain node, as far as it is read.
 #[derive(Clone, Copy, PartialEq, Message)]
 pub(super) struct Info {
     #[prost(int32, optional, tag = "1")]
@@ -98,7 +98,7 @@ pub(super) struct Info {
     pub visible: Option<bool>,
 }
 
-/// The same of dense nodes, by column.
+/// Histories of dense nodes, one column per field.
 #[derive(Clone, PartialEq, Message)]
 pub(super) struct DenseInfo {
     #[prost(int32, repeated, tag = "1")]

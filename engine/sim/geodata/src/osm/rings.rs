@@ -2,6 +2,7 @@
 
 use super::elements::{Elements, Relation, Role, Way};
 use super::frame::Frame;
+use super::stated::Doubts;
 use super::tags::Tags;
 use super::tally::Tally;
 use core::fmt;
@@ -59,9 +60,11 @@ impl Area<'_> {
     }
 }
 
-/// What could not be used, or only in part.
+/// Areas that could not be used, or only in part.
 #[derive(Debug, Default)]
 pub struct Problems {
+    /// Values that are not believed.
+    pub doubts: Doubts,
     /// Rings that lack nodes or ways.
     pub incomplete: Tally,
     /// Rings without area.

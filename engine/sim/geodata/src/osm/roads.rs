@@ -2,6 +2,7 @@
 
 use super::elements::{Elements, Way};
 use super::frame::Frame;
+use super::stated::{Doubts, Quantity};
 use super::strip::{add_surface, strips};
 use super::tags::Tags;
 use cosfly_domain::SemanticLabel;
@@ -25,6 +26,12 @@ const DASH_M: [f64; 2] = [3.0, 6.0];
 const HALF_DASH_M: f64 = 0.07;
 /// Side of a cell of the index, metres.
 const CELL_M: f64 = 16.0;
+
+/// Width of a carriageway, and number of its lanes.
+const WIDTH: Quantity =
+    Quantity::length("streets", &["width"], [2.0, 60.0], "their lanes, of the usual width, make them as wide");
+pub const LANES: Quantity =
+    Quantity::number("streets", &["lanes"], [1.0, 12.0], "they have the usual number of their kind");
 
 /// A carriageway inside the extract.
 #[derive(Debug)]
@@ -64,7 +71,7 @@ pub fn is_shared_street(tags: &Tags) -> bool {
 ///
 /// # Errors
 /// Absurdly many metres of them.
-pub fn read<'e>(elements: &'e Elements, frame: &Frame) -> Result<Vec<Road<'e>>, MapError> {
+pub fn read<'e>(elements: &'e Elements, frame: &Frame, doubts: &mut Doubts) -> Result<Vec<Road<'e>>, MapError> {
     let mut roads = Vec::new();
     let mut length_m = 0.0;
     for way in &elements.ways {
@@ -72,18 +79,20 @@ pub fn read<'e>(elements: &'e Elements, frame: &Frame) -> Result<Vec<Road<'e>>, 
         if !way.tags.is_on_the_ground() || way.tags.is("area", &["yes"]) {
             continue;
         }
+        let pieces = lines(elements, frame, way, &mut length_m)?;
+        if pieces.is_empty() {
+            continue;
+        }
         let is_oneway = way.tags.is("oneway", &["yes", "1", "-1"]) || way.tags.is("junction", &["roundabout"]);
         let usual_lanes = if is_oneway && !has_middle_line { 1.0 } else { lanes };
-        let stated_lanes = way.tags.number("lanes").filter(|lanes| (1.0..=12.0).contains(lanes));
-        let stated_m = way.tags.length_m(&["width"]).filter(|width| (2.0..=60.0).contains(width));
+        let name = format_args!("way {}", way.id);
+        let stated_lanes = doubts.read(&way.tags, &LANES, name);
+        let stated_m = doubts.read(&way.tags, &WIDTH, name);
         // A single lane of a minor street is wider: cars stand in it.
         let spare_m = if is_oneway && !has_middle_line && lanes > 1.0 { 1.25 } else { 0.0 };
         let width_m = stated_m.unwrap_or(stated_lanes.unwrap_or(usual_lanes) * lane_m + spare_m);
-        let pieces = lines(elements, frame, way, &mut length_m)?;
         let has_middle_line = has_middle_line && !is_oneway && stated_lanes.unwrap_or(lanes) >= 2.0;
-        if !pieces.is_empty() {
-            roads.push(Road { way, pieces, half_width_m: 0.5 * width_m, is_oneway, has_middle_line });
-        }
+        roads.push(Road { way, pieces, half_width_m: 0.5 * width_m, is_oneway, has_middle_line });
     }
     Ok(roads)
 }

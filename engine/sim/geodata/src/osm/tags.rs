@@ -74,28 +74,32 @@ const LONGEST_VALUE: usize = 255;
 
 /// Tags of one element, sorted by key.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tags(Vec<(&'static str, Box<str>)>);
+pub struct Tags {
+    pairs: Vec<(&'static str, Box<str>)>,
+    /// Whether a key came again with another value.
+    pub has_repeated: bool,
+}
 
 impl Tags {
     /// Takes a tag if its key is known; the first of several with one key stays.
     pub fn add(&mut self, key: &str, value: &str) {
         let Ok(known) = KEYS.binary_search(&key) else { return };
-        if let Err(place) = self.0.binary_search_by_key(&KEYS[known], |(key, _)| key)
-            && value.len() <= LONGEST_VALUE
-        {
-            self.0.insert(place, (KEYS[known], value.into()));
+        match self.pairs.binary_search_by_key(&KEYS[known], |(key, _)| key) {
+            Ok(place) => self.has_repeated |= *self.pairs[place].1 != *value,
+            Err(place) if value.len() <= LONGEST_VALUE => self.pairs.insert(place, (KEYS[known], value.into())),
+            Err(_) => {}
         }
     }
 
     /// Whether no known tag is there.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.pairs.is_empty()
     }
 
     /// The value of a key.
     pub fn get(&self, key: &str) -> Option<&str> {
         debug_assert!(KEYS.contains(&key), "{key}");
-        self.0.iter().find(|(own, _)| *own == key).map(|(_, value)| &**value)
+        self.pairs.iter().find(|(own, _)| *own == key).map(|(_, value)| &**value)
     }
 
     /// Whether the value of a key is one of some.
@@ -108,20 +112,9 @@ impl Tags {
         self.get(key).is_some_and(|value| value != "no")
     }
 
-    /// Length under the first of `keys` that states a readable one, metres.
-    pub fn length_m(&self, keys: &[&str]) -> Option<f64> {
-        keys.iter().find_map(|key| length_m(self.get(key)?))
-    }
-
     /// Number under a key.
     pub fn number(&self, key: &str) -> Option<f64> {
-        number(self.get(key)?.trim())
-    }
-
-    /// Number of storeys under a key: of a list or a range (`3;4`, `2-3`) the larger one.
-    pub fn storeys(&self, key: &str) -> Option<f64> {
-        let numbers = self.get(key)?.split([';', '-']).map(|part| number(part.trim()));
-        numbers.reduce(|a, b| Some(a?.max(b?)))?
+        number(self.get(key)?)
     }
 
     /// Whether the thing lies under the ground or inside a house.
@@ -152,35 +145,35 @@ impl Tags {
         !self.is_hidden() && !self.is_upstairs()
     }
 
-    /// Least and greatest number of a list or a range (`0;1`, `-2--1`, `3`); `None` where one is unreadable.
     fn range(&self, key: &str) -> Option<(f64, f64)> {
-        let mut range: Option<(f64, f64)> = None;
-        for part in self.get(key)?.split(';') {
-            let part = part.trim();
-            // A minus behind a digit is a hyphen.
-            let hyphen =
-                part.bytes().enumerate().skip(1).find(|(at, byte)| *byte == b'-' && part.as_bytes()[at - 1] != b'-');
-            let ends = hyphen.map_or((part, part), |(at, _)| (&part[..at], &part[at + 1..]));
-            let (first, last) = (number(ends.0.trim())?, number(ends.1.trim())?);
-            let (low, high) = range.unwrap_or((first, first));
-            range = Some((low.min(first).min(last), high.max(first).max(last)));
-        }
-        range
-    }
-
-    /// Lower end of a thing that does not begin at the ground, metres: stated, or by its lowest storey.
-    pub fn base_m(&self, storey_m: f64) -> Option<f64> {
-        let storey = || {
-            let levels = ["building:min_level", "min_level"].iter().find_map(|key| self.number(key));
-            Some(levels.filter(|level| (0.0..=200.0).contains(level))? * storey_m)
-        };
-        let stated_m = self.length_m(&["min_height", "building:min_height"]).or_else(storey);
-        stated_m.filter(|base_m| (0.0..=HIGHEST_M).contains(base_m))
+        range(self.get(key)?)
     }
 }
 
+/// Least and greatest number of a list or a range (`0;1`, `-2--1`, `3`); `None` where one is unreadable.
+pub fn range(text: &str) -> Option<(f64, f64)> {
+    let mut range: Option<(f64, f64)> = None;
+    for part in text.split(';') {
+        let part = part.trim();
+        // A minus behind a digit is a hyphen.
+        let hyphen =
+            part.bytes().enumerate().skip(1).find(|(at, byte)| *byte == b'-' && part.as_bytes()[at - 1] != b'-');
+        let ends = hyphen.map_or((part, part), |(at, _)| (&part[..at], &part[at + 1..]));
+        let (first, last) = (number(ends.0)?, number(ends.1)?);
+        let (low, high) = range.unwrap_or((first, first));
+        range = Some((low.min(first).min(last), high.max(first).max(last)));
+    }
+    range
+}
+
+/// Number of storeys: of a list or a range (`3;4`, `2-3`) the larger one.
+pub fn storeys(text: &str) -> Option<f64> {
+    text.split([';', '-']).map(number).reduce(|a, b| Some(a?.max(b?)))?
+}
+
 /// A decimal number; a comma may stand for the point.
-fn number(text: &str) -> Option<f64> {
+pub fn number(text: &str) -> Option<f64> {
+    let text = text.trim();
     let plain = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || b"+-.,".contains(&byte));
     let value: f64 = plain.then(|| text.replace(',', ".").parse().ok())??;
     value.is_finite().then_some(value)
@@ -268,9 +261,7 @@ mod tests {
         for (text, storeys) in
             [("3", Some(3.0)), ("3.5", Some(3.5)), ("3;4", Some(4.0)), ("2-3", Some(3.0)), ("five", None), ("-1", None)]
         {
-            let mut tags = Tags::default();
-            tags.add("building:levels", text);
-            assert_eq!(tags.storeys("building:levels"), storeys, "{text}");
+            assert_eq!(super::storeys(text), storeys, "{text}");
         }
     }
 
@@ -286,10 +277,13 @@ mod tests {
     fn known_tags_are_kept_and_the_first_of_two_stays() {
         assert!(KEYS.is_sorted());
         let mut tags = Tags::default();
-        for (key, value) in [("name", "x"), ("height", "3 m"), ("building", "yes"), ("height", "9"), ("area", "no")] {
+        for (key, value) in [("name", "x"), ("height", "3 m"), ("building", "yes"), ("area", "no"), ("height", "3 m")] {
             tags.add(key, value);
         }
-        assert_eq!((tags.length_m(&["height"]), tags.get("building")), (Some(3.0), Some("yes")));
+        assert!(!tags.has_repeated, "the same again is nothing to speak of");
+        tags.add("height", "9");
+        assert!(tags.has_repeated);
+        assert_eq!((tags.get("height"), tags.get("building")), (Some("3 m"), Some("yes")));
         assert!(tags.has("building") && !tags.has("area") && !tags.has("layer"));
     }
 

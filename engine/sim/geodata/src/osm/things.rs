@@ -4,6 +4,7 @@ use super::buildings::MOST_BOXES;
 use super::elements::{Elements, Way};
 use super::frame::Frame;
 use super::roads::lines;
+use super::stated::{Base, Doubts, EVERY, Quantity};
 use super::tags::Tags;
 use super::tally::Tally;
 use core::fmt::Display;
@@ -22,6 +23,22 @@ const MOST_OPENINGS: usize = 200;
 /// Half the opening of a barrier at a gate or a path, metres.
 const HALF_OPENING_M: f64 = 1.5;
 
+/// Lower end of a thing, and its upper end above the ground.
+const BASE: Base = Base::of("things");
+const TOP: Quantity = Quantity::length("things", &["height"], [0.2, 300.0], USUAL);
+const TOP_ABOVE_BASE: Quantity = Quantity { range: EVERY, noun: ["height above their lower end", ""], ..TOP };
+/// Height of a tree above its foot, and diameter of its crown.
+const TREE: Quantity = Quantity::length("trees", &["height"], [1.0, 80.0], USUAL);
+const CROWN: Quantity = Quantity::length("trees", &["diameter_crown"], [0.5, 30.0], USUAL);
+const USUAL: &str = "the usual one is assumed";
+
+/// Height of a tree and radius of its crown, metres, as far as they are stated.
+#[derive(Clone, Copy, Debug, Default)]
+struct TreeSize {
+    height_m: Option<f64>,
+    crown_m: Option<f64>,
+}
+
 /// Boxes of things, and what is not from the file.
 #[derive(Debug)]
 pub struct Things<'i> {
@@ -37,6 +54,8 @@ pub struct Things<'i> {
     pub upstairs: Tally,
     /// Barriers with more openings than are made.
     pub closed: Tally,
+    /// Values that are not believed.
+    pub doubts: Doubts,
     storey_m: f64,
     next_id: &'i mut u32,
 }
@@ -91,6 +110,7 @@ pub fn read<'i>(
         trees_of_rows: 0,
         upstairs: Tally::default(),
         closed: Tally::default(),
+        doubts: Doubts::default(),
         storey_m,
         next_id,
     };
@@ -98,7 +118,8 @@ pub fn read<'i>(
         let Some(at) = frame.position(elements, *id).filter(|at| frame.holds(*at, MARGIN_M)) else { continue };
         if tags.is("natural", &["tree"]) {
             if let Some(base_m) = out.base_m(tags, format_args!("node {id}")) {
-                out.add_tree(*id as u64, at, base_m, tags);
+                let size = out.tree_size(tags, base_m, format_args!("node {id}"));
+                out.add_tree(*id as u64, at, base_m, size);
             }
         } else if let Some((kind, width_m, height_m)) = upright(tags)
             && let Some(span_m) = out.span_m(tags, height_m, format_args!("node {id}"))
@@ -111,8 +132,9 @@ pub fn read<'i>(
     for way in elements.ways.iter().filter(|way| !way.tags.is_hidden()) {
         if way.tags.is("natural", &["tree_row"]) {
             let Some(base_m) = out.base_m(&way.tags, format_args!("way {}", way.id)) else { continue };
+            let size = out.tree_size(&way.tags, base_m, format_args!("way {}", way.id));
             for piece in lines(elements, frame, way, &mut length_m)? {
-                out.add_tree_row(way, &piece, base_m);
+                out.add_tree_row(way, &piece, base_m, size);
             }
         } else if let Some((kind, thickness_m, height_m)) = along(&way.tags) {
             let Some(span_m) = out.span_m(&way.tags, height_m, format_args!("way {}", way.id)) else { continue };
@@ -136,10 +158,6 @@ pub fn read<'i>(
     Ok(out)
 }
 
-fn stated_height_m(tags: &Tags) -> Option<f64> {
-    tags.length_m(&["height"]).filter(|height| (0.2..=300.0).contains(height))
-}
-
 /// Where a barrier is open.
 fn openings(elements: &Elements, frame: &Frame, way: &Way, passages: &BTreeSet<i64>) -> Vec<DVec2> {
     let is_open = |id: i64| {
@@ -153,8 +171,8 @@ fn openings(elements: &Elements, frame: &Frame, way: &Way, passages: &BTreeSet<i
 impl Things<'_> {
     /// Height above the ground at which a thing begins, metres; `None`, counted, for one on a roof or an upper storey that
     /// does not say how high that is.
-    fn base_m(&mut self, tags: &Tags, name: impl Display) -> Option<f64> {
-        let base_m = tags.base_m(self.storey_m);
+    fn base_m(&mut self, tags: &Tags, name: impl Display + Copy) -> Option<f64> {
+        let base_m = BASE.read_m(tags, self.storey_m, name, &mut self.doubts);
         if base_m.is_none() && tags.is_upstairs() {
             self.upstairs.add(name);
             return None;
@@ -164,10 +182,24 @@ impl Things<'_> {
 
     /// Lower and upper end of a thing of a usual height, metres. Stated heights are those of the upper end above the ground;
     /// one that is below the lower end is not believed.
-    fn span_m(&mut self, tags: &Tags, usual_m: f64, name: impl Display) -> Option<[f64; 2]> {
+    fn span_m(&mut self, tags: &Tags, usual_m: f64, name: impl Display + Copy) -> Option<[f64; 2]> {
         let base_m = self.base_m(tags, name)?;
-        let top_m = stated_height_m(tags).filter(|top_m| *top_m > base_m);
+        let stated_m = self.doubts.read(tags, &TOP, name);
+        let top_m = stated_m.filter(|top_m| *top_m > base_m);
+        if stated_m.is_some() && top_m.is_none() {
+            self.doubts.add(tags, &TOP_ABOVE_BASE, name);
+        }
         Some([base_m, top_m.unwrap_or(base_m + usual_m)])
+    }
+
+    /// Size that the tags of a tree, or of a row, state.
+    fn tree_size(&mut self, tags: &Tags, base_m: f64, name: impl Display + Copy) -> TreeSize {
+        let [low, high] = TREE.range;
+        let height_m = tags.stated(&TOP).map(|top_m| top_m - base_m).filter(|height| (low..=high).contains(height));
+        if height_m.is_none() {
+            self.doubts.add(tags, &TREE, name);
+        }
+        TreeSize { height_m, crown_m: self.doubts.read(tags, &CROWN, name).map(|width| 0.5 * width) }
     }
 
     fn next(&mut self) -> u32 {
@@ -196,7 +228,7 @@ impl Things<'_> {
     /// A tree that the file does not state, flagged as synthetic.
     pub fn add_assumed_tree(&mut self, number: u64, at: DVec2) {
         let (first, trees, unknown) = (self.obstacles.len(), self.trees, self.trees_of_assumed_height);
-        self.add_tree(number, at, 0.0, &Tags::default());
+        self.add_tree(number, at, 0.0, TreeSize::default());
         (self.trees, self.trees_of_assumed_height) = (trees, unknown);
         self.obstacles[first..].iter_mut().for_each(|one| one.synthetic = true);
     }
@@ -208,15 +240,13 @@ impl Things<'_> {
         self.obstacles.iter_mut().rev().take(1).for_each(|one| one.synthetic = true);
     }
 
-    /// A trunk and a crown. `number` draws what the tags do not state.
-    fn add_tree(&mut self, number: u64, at: DVec2, base_m: f64, tags: &Tags) {
+    /// A trunk and a crown. `number` draws what `size` does not state.
+    fn add_tree(&mut self, number: u64, at: DVec2, base_m: f64, size: TreeSize) {
         self.trees += 1;
-        let stated_m = stated_height_m(tags).map(|top_m| top_m - base_m).filter(|height| (1.0..=80.0).contains(height));
-        self.trees_of_assumed_height += usize::from(stated_m.is_none());
+        self.trees_of_assumed_height += usize::from(size.height_m.is_none());
         let mut stream = Seed([0; 32]).child("tree", number).stream("height");
-        let height_m = stated_m.unwrap_or_else(|| stream.uniform(6.0, 10.0));
-        let stated_crown_m = tags.length_m(&["diameter_crown"]).filter(|width| (0.5..=30.0).contains(width));
-        let crown_m = stated_crown_m.map_or((0.2 * height_m).clamp(1.0, 4.5), |width| 0.5 * width);
+        let height_m = size.height_m.unwrap_or_else(|| stream.uniform(6.0, 10.0));
+        let crown_m = size.crown_m.unwrap_or((0.2 * height_m).clamp(1.0, 4.5));
         let (trunk_m, crown_foot_m) = ((0.015 * height_m).clamp(0.08, 0.4), 0.35 * height_m);
         let id = self.next();
         self.add_box(ObstacleKind::TreeTrunk, id, at, DVec2::splat(trunk_m), 0.0, [base_m, base_m + crown_foot_m]);
@@ -230,7 +260,7 @@ impl Things<'_> {
         self.obstacles.extend(crown_boxes(&space, id).map(one));
     }
 
-    fn add_tree_row(&mut self, way: &Way, line: &[DVec2], base_m: f64) {
+    fn add_tree_row(&mut self, way: &Way, line: &[DVec2], base_m: f64, size: TreeSize) {
         let mut left_m = 0.0;
         for pair in line.windows(2) {
             let length_m = pair[0].distance(pair[1]);
@@ -241,7 +271,7 @@ impl Things<'_> {
                     way.id as u64 ^ (self.trees_of_rows as u64) << 40,
                     pair[0].lerp(pair[1], at_m / length_m.max(1e-9)),
                     base_m,
-                    &way.tags,
+                    size,
                 );
                 at_m += TREE_SPACING_M;
             }

@@ -28,8 +28,8 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     let mut problems = Problems::default();
     let mut meshes = MeshBuilder::default();
     let mut next_id = 0;
-    let roads = roads::read(elements, &frame)?;
-    let mut passages = Passages::read(elements, &frame, &roads);
+    let roads = roads::read(elements, &frame, &mut problems.doubts)?;
+    let mut passages = Passages::read(elements, &frame, &roads, &mut problems.doubts);
     let mut buildings = buildings::read(elements, &frame, options, &mut passages, &mut next_id, &mut problems)?;
     let mut paths = paths::read(elements, &frame, &roads, options, &mut meshes, &mut problems)?;
     let mut things = things::read(elements, &frame, &paths.nodes, options.storey_height_m, &mut next_id)?;
@@ -45,6 +45,8 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
     }
     let mut notes = notes(&buildings, &things, options);
     let of_things = [std::mem::take(&mut things.upstairs), std::mem::take(&mut things.closed)];
+    let doubts_of_things = std::mem::take(&mut things.doubts);
+    problems.doubts.add_levels(elements);
     let mut obstacles: Vec<Obstacle> = std::mem::take(&mut buildings.obstacles);
     obstacles.extend(things.obstacles);
     notes.extend(plants);
@@ -66,12 +68,13 @@ pub fn town(elements: &Elements, options: &OsmOptions) -> Result<(Town, Vec<Stri
         origin: MapOrigin { geo_reference: Some(frame.projection.proj_text()), ..MapOrigin::default() },
         obstacles,
         walkable: paths.walkable,
-        lanes: lanes::lanes(&roads, options.left_hand_traffic),
+        lanes: lanes::lanes(&roads, options.left_hand_traffic, &mut problems.doubts),
         surfaces,
         synthetic: Synthetic { notes, ..Synthetic::default() },
         ..Town::default()
     };
     let mut warnings = warnings(elements, &problems, &buildings, &of_things);
+    warnings.extend(problems.doubts.warnings().chain(doubts_of_things.warnings()));
     warnings.extend(bare_streets);
     warnings.extend(coarseness);
     Ok((town, warnings))
@@ -127,7 +130,7 @@ fn whole_extract(frame: &Frame) -> WalkablePolygon {
     WalkablePolygon { kind: WalkableKind::Plaza, outline_in_world, synthetic: true }
 }
 
-/// What becomes of bridges and tunnels, in words.
+/// Note on bridges and tunnels, as a sentence.
 fn one_level(elements: &Elements) -> String {
     let is_way = |tags: &Tags| tags.has("highway") || tags.has("railway");
     let count = |counts: &dyn Fn(&Tags) -> bool| {
@@ -142,7 +145,7 @@ fn one_level(elements: &Elements) -> String {
     )
 }
 
-/// What is not from the file, in words.
+/// Notes on things that are not from the file, as sentences.
 fn notes(buildings: &buildings::Buildings, things: &Things<'_>, options: &OsmOptions) -> Vec<String> {
     let mut notes = Vec::new();
     let mut add = |count: usize, line: String| {
@@ -196,6 +199,7 @@ fn warnings(
     [
         strange_bounds,
         elements.repeated.line("elements are in the file more than once; of each the highest version counts"),
+        elements.of_repeated_tags().line("elements state a key twice; the first value counts"),
         missing.line("ways lack nodes in the file; their whole pieces are kept"),
         without_place,
         problems.incomplete.line("areas lack nodes or ways in the file; their whole rings are kept"),
@@ -203,9 +207,6 @@ fn warnings(
         problems.crossed.line("rings cross themselves; they are filled by the even-odd rule"),
         problems.too_long.line("rings have too many corners and are left out"),
         buildings.open.line("buildings do not close and are left out"),
-        buildings
-            .of_unreadable_height
-            .line("buildings state a height that none can have, or in words; it counts as missing"),
         buildings.far.line("buildings lie far outside the bounds of the file and are left out"),
         hidden,
         (problems.coast_ends > 0).then(|| {

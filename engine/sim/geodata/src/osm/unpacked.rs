@@ -49,7 +49,7 @@ impl<'b> Unpacked<'b> {
         self.piece = 0;
     }
 
-    /// As much of the beginning as can be unpacked, at most `most` bytes.
+    /// Beginning of the unpacked text, as long as it can be unpacked, at most `most` bytes.
     pub fn head(bytes: &'b [u8], most: usize) -> Vec<u8> {
         let mut head = Vec::new();
         // A cut file is an error at its end only; what came before counts.

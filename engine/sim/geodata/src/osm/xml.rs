@@ -57,7 +57,7 @@ fn broken(message: String, at: u64) -> MapError {
     located(MapError::new(message), at)
 }
 
-/// The same at a place; with the usual advice where it has none of its own.
+/// Error with a place, a byte of the text, and the usual advice where it has none of its own.
 fn located(mut error: MapError, at: u64) -> MapError {
     error.message = format!("{} (byte {at} of the text)", error.message);
     if error.hints.is_empty() {
@@ -117,7 +117,7 @@ impl Reading {
         Ok(())
     }
 
-    /// As osmosis writes it: south, west, north, east.
+    /// Bound in the words of osmosis: `box="south,west,north,east"`, degrees.
     fn bound(&mut self, tag: &BytesStart<'_>) -> Result<(), MapError> {
         let text = attribute(tag, "box")?.unwrap_or_default();
         let sides: Vec<f64> = text.split(',').filter_map(|side| side.trim().parse().ok()).collect();

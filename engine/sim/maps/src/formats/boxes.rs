@@ -3,6 +3,7 @@
 //! Frame of the file: right-handed, x east, y north, z up, metres; yaw counter-clockwise from x, degrees.
 
 mod labels;
+mod repeats;
 
 use cosfly_domain::{
     Obstacle, ObstacleKind, OrientedBox, SemanticLabel, Synthetic, Town, WalkableKind, WalkablePolygon,
@@ -15,6 +16,7 @@ use cosfly_town::text::{decoded, refused_json};
 use cosfly_town::world::WorldFromMap;
 use cosfly_town::{MapError, terrain};
 use labels::{Label, Part, Tally};
+use repeats::Repeats;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -277,7 +279,14 @@ impl Document {
             synthetic: Synthetic { notes: tally.notes(), ..Synthetic::default() },
             ..Town::default()
         };
-        Ok((town, tally.warnings().into_iter().chain(coarseness).collect()))
+        Ok((town, tally.warnings().into_iter().chain(self.repeats()).chain(coarseness).collect()))
+    }
+
+    /// Lines on boxes and polygons that are there again.
+    fn repeats(&self) -> impl Iterator<Item = String> {
+        let boxes = Repeats::of(self.boxes.iter().map(SolidBox::key)).map(|it| it.warning("boxes"));
+        let walkable = Repeats::of(self.walkable.iter().map(Ground::key)).map(|it| it.warning("walkable"));
+        [boxes, walkable].into_iter().flatten()
     }
 
     fn obstacles(&self, world: &WorldFromMap) -> Result<(Vec<Obstacle>, Tally), MapError> {
@@ -321,6 +330,13 @@ impl Document {
 }
 
 impl SolidBox {
+    /// Kind, place, size and turn: whatever the object, boxes that share them are in one place.
+    fn key(&self) -> ([Option<u8>; 2], [u64; 9]) {
+        let ([x, y, z], [length, width, height]) = (self.center_m.map(|it| it.0), self.size_m.map(|it| it.0));
+        let numbers = [x, y, z, length, width, height, self.yaw_deg.0, self.pitch_deg.0, self.roll_deg.0];
+        ([self.kind.map(|kind| kind.0 as u8), self.label.map(|label| label as u8)], numbers.map(key_of))
+    }
+
     /// Half the size of the box that encloses this one when it is pitched and rolled, along the axes that its yaw turns.
     fn half_extents_m(&self) -> DVec3 {
         let half = 0.5 * DVec3::from_array(self.size_m.map(|side| side.0));
@@ -335,7 +351,17 @@ impl SolidBox {
     }
 }
 
+/// A number as a key; both zeros are one.
+fn key_of(number: f64) -> u64 {
+    (number + 0.0).to_bits()
+}
+
 impl Ground {
+    fn key(&self) -> (u8, Vec<u64>) {
+        let numbers = self.outline_m.iter().flatten().map(|coordinate| key_of(coordinate.0));
+        (self.kind as u8, numbers.collect())
+    }
+
     fn polygon(&self, world: &WorldFromMap) -> WalkablePolygon {
         let outline_in_world = self.outline_m.iter().map(|corner| world.point(vector(corner))).collect();
         WalkablePolygon { kind: self.kind, outline_in_world, synthetic: false }

@@ -27,6 +27,7 @@ pub mod plan_view;
 pub mod polynomial;
 mod quadrature;
 mod refuges;
+mod repeats;
 mod road_ends;
 pub mod road_geometry;
 mod road_map;

@@ -49,7 +49,7 @@ impl Default for GenerateConfig {
 }
 
 impl GenerateConfig {
-    /// The same with every value inside its range and no range upside down, so that generation cannot fail.
+    /// Configuration with every value inside its range and no range upside down, so that generation cannot fail.
     pub fn clamped(&self) -> Self {
         let finite = |value: f64, low: f64, high: f64| if value.is_nan() { low } else { value.clamp(low, high) };
         let min_spacing_m = finite(self.min_spacing_m, 60.0, 300.0);

@@ -62,7 +62,7 @@ pub struct StreetSpace {
 }
 
 impl StreetSpace {
-    /// Of all streets and turns.
+    /// Space of all streets and turns.
     pub fn new(network: &Network, turns: &[Turn]) -> Self {
         let mut discs = Vec::new();
         for street in &network.streets {

@@ -79,7 +79,7 @@ pub struct Thing {
     pub footprint: Footprint,
     /// From the ground to its top, metres.
     pub height_m: f64,
-    /// Of a tree.
+    /// Crown of a tree; none for other things.
     pub crown: Option<Crown>,
 }
 

@@ -1,6 +1,6 @@
 //! Numbers of draws: which of the independent numbers of a seed decides what. A number stays what it is: pictures depend on it.
 
-/// Of a building: its family, the colour of its walls, and how bright that is.
+/// Draws of a building: its family, the colour of its walls, and how bright that is.
 pub const FAMILY: u32 = 0;
 pub const WALL: u32 = 1;
 pub const BRIGHTNESS: u32 = 2;
@@ -24,18 +24,18 @@ pub const TILES: u32 = 21;
 pub const TILES_AGAIN: u32 = 22;
 pub const TILES_BRIGHTNESS: u32 = 23;
 
-/// Of a window: its curtains, whether it is lit at night, the warmth of its light.
+/// Draws of a window: its curtains, whether it is lit at night, the warmth of its light.
 pub const CURTAINS: u32 = 3;
 pub const LIT: u32 = 7;
 pub const WARMTH: u32 = 9;
 
-/// Of a shop: its window, whether it is open at night, how bright it is then, whether it has an awning.
+/// Draws of a shop: its window, whether it is open at night, how bright it is then, whether it has an awning.
 pub const SHOP_WINDOW: u32 = 1;
 pub const OPEN: u32 = 5;
 pub const GLOW: u32 = 6;
 pub const AWNING: u32 = 8;
 
-/// Of a square of a flat roof: length, kind, width, place and height of the thing on it.
+/// Draws of a square of a flat roof: length, kind, width, place and height of the thing on it.
 pub const THING_LENGTH: u32 = 1;
 pub const THING_KIND: u32 = 2;
 pub const THING_WIDTH: u32 = 3;

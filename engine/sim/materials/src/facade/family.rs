@@ -4,7 +4,7 @@ use super::draws;
 use crate::pattern::{draw, hash, one_if};
 use crate::vector::Vec3;
 
-/// What a family's houses have in common. Pairs are the lowest and highest value to draw.
+/// Looks that a family's houses have in common. Pairs are the lowest and highest value to draw.
 pub(super) struct Family {
     /// Wall colours, linear RGB.
     walls: &'static [[f32; 3]],

@@ -11,7 +11,7 @@ use cosfly_frames::simd_kernel;
 
 /// Shadows within windows fade until pixels are as large as this, metres.
 const FINE_M: f32 = 0.2;
-/// And balconies until they are as large as this, metres.
+/// Balconies fade until pixels are as large as this, metres.
 const COARSE_M: f32 = 0.8;
 
 simd_kernel! {
@@ -33,7 +33,7 @@ simd_kernel! {
     }
 }
 
-/// What the blocks of a group share.
+/// Values that the blocks of a group share.
 struct Group<'a> {
     facade: &'a Facade,
     place: &'a BoxFace,

@@ -89,7 +89,7 @@ impl Facade {
         }
     }
 
-    /// The same wall without anything in it: a gable.
+    /// Wall of this kind without anything in it: a gable.
     pub fn bare(self) -> Self {
         let bare = Self { window: [0.5; 2], shops: false, balconies: 0.0, ledge: 0.0, joint: 0.0, ..self };
         // No cornice.

@@ -12,7 +12,7 @@ fn turned(offset: DVec3, yaw_rad: f64) -> DVec3 {
     DVec3::new(c * offset.x + s * offset.y, c * offset.y - s * offset.x, offset.z)
 }
 
-/// What a trained baseline knows of the target.
+/// Knowledge that a trained baseline has of the target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Known {
     /// Its true place in the world: no sensor of a drone gives it, and no model sees it.
@@ -88,7 +88,7 @@ pub fn waypoints_of(current: &Pose, outcomes: &[f64]) -> Vec<Pose> {
 /// Features and true outcomes of training windows, row by row.
 #[derive(Clone, Debug, Default)]
 pub struct Examples {
-    /// What features say of the target.
+    /// Knowledge of the target behind the features.
     pub known: Known,
     /// Numbers in a row of features.
     pub width: usize,

@@ -45,7 +45,7 @@ impl Ridge {
         Some(Self { known: examples.known, scaling, width, depth, weights: right })
     }
 
-    /// What it knows of the target.
+    /// Knowledge that it has of the target.
     pub fn known(&self) -> Known {
         self.known
     }

@@ -31,7 +31,7 @@ const STUCK_S: f64 = 12.0;
 const TURNING_BACK_NODES: usize = 6;
 const TURNING_BACK_REFUSALS: usize = 6;
 
-/// What a company does.
+/// Activity of a company.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Activity {
     /// Walks along the route.

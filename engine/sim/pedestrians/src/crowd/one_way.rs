@@ -10,7 +10,7 @@ const AHEAD_M: u32 = 240;
 const LEG_M: u32 = 6;
 
 impl Crowd {
-    /// The same people, who come along the direction that `along` gives for a place, a unit vector, and go on in it for
+    /// Crowd of these people, who come along the direction that `along` gives for a place, a unit vector, and go on for
     /// 240 m; then they choose goals as others do.
     #[must_use]
     pub fn coming(mut self, along: &dyn Fn(DVec2) -> DVec2) -> Self {

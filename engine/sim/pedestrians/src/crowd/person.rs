@@ -129,7 +129,7 @@ impl Person {
         }
     }
 
-    /// What does not change.
+    /// Properties that do not change.
     pub fn plan(&self, group: Option<u32>) -> BodyPlan {
         BodyPlan {
             source: String::new(),

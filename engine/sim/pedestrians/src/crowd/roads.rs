@@ -32,7 +32,7 @@ const LOOK_S: f64 = 4.0;
 const KEEP_M: f64 = 0.6;
 const NEAR_M: f64 = 0.1;
 
-/// What a person may do on the way.
+/// Right that a person has on the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Right {
     /// Walk on.
@@ -45,7 +45,7 @@ pub(crate) enum Right {
     Escape(DVec2),
 }
 
-/// What the vehicles let a person do who walks `ahead` (a unit vector).
+/// Right that the vehicles leave to a person who walks `ahead` (a unit vector).
 pub(crate) fn right(
     grid: &WalkableGrid,
     config: &CrowdConfig,

@@ -18,7 +18,7 @@ impl RecordedError {
         Self { message: message.into(), line: None, hint: String::new() }
     }
 
-    /// The same at a line; 0 is none.
+    /// Error with a line of the file, from 1; 0 is none.
     pub(crate) fn at(mut self, line: u32) -> Self {
         self.line = (line > 0).then_some(line);
         self

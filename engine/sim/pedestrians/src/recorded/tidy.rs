@@ -1,4 +1,4 @@
-//! What is checked in every format: time runs forward, nobody jumps, gaps part a track.
+//! Checks of every format: time runs forward, nobody jumps, gaps part a track.
 
 use super::{RecordedConfig, RecordedError, RecordedPoint, RecordedTrack, Recording};
 use cosfly_frames::{DVec2, real};

@@ -29,6 +29,6 @@ pub struct Recording {
     pub tracks: Vec<RecordedTrack>,
     /// Whether places are longitudes and latitudes.
     pub is_geographic: bool,
-    /// What was left out, in words.
+    /// Parts left out, in words.
     pub warnings: Vec<String>,
 }

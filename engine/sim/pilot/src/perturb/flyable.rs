@@ -79,7 +79,7 @@ fn straight_views(expert: &Trajectory, offsets: &[DVec3]) -> Vec<Pose> {
     expert.poses_in_world.iter().zip(&expert.track.states).zip(offsets).map(view).collect()
 }
 
-/// The same places with views that turn by a step at most from frame to frame.
+/// Poses at the wanted places with views that turn by a step at most from frame to frame, world frame.
 fn turned_in_time(wanted: &[Pose], largest_step_rad: f64) -> Vec<Pose> {
     let mut poses: Vec<Pose> = Vec::with_capacity(wanted.len());
     for pose in wanted {

@@ -1,10 +1,10 @@
-//! What the expert knows of the future.
+//! Knowledge of the future that the expert has.
 
 use super::ranges::Range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What the expert knows of the future of its target and of all that moves.
+/// Knowledge that the expert has of the future of its target and of all that moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Foresight {

@@ -39,7 +39,7 @@ pub struct MucoConfig {
     pub targets: TargetsConfig,
     /// Losing the target on purpose.
     pub occlusion: OcclusionConfig,
-    /// What the expert knows of the future of its target and of all that moves: `expected` (all of it, the default) or
+    /// Knowledge of the expert about the future of its target and of all that moves: `expected` (all, the default) or
     /// `causal` (nothing: it plans again and again as it flies).
     pub foresight: Foresight,
     /// The planning of `foresight = "causal"`.

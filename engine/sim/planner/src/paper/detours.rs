@@ -8,7 +8,7 @@ use cosfly_surroundings::Surroundings;
 const STRETCH_FRAMES: usize = 12;
 /// A stretch this many times longer than its chord is a detour ("high-curvature").
 const DETOUR_RATIO: f64 = 1.5;
-/// And only if it is this much longer, metres.
+/// Length that a detour has beyond its chord at least, metres.
 const DETOUR_EXTRA_M: f64 = 4.0;
 
 /// Replaces detours by their chords; returns how many. A chord that is less safe or sees less than the detour is not

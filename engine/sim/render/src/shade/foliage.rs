@@ -17,9 +17,9 @@ use cosfly_materials::vector::Vec3;
 
 /// Gaps reach this far into a crown, metres.
 const REACH_M: f32 = 0.6;
-/// And no farther than this share of its half width.
+/// Share of a half width that gaps reach at most.
 const REACH_SHARE: f32 = 0.28;
-/// And no farther than this, pixels.
+/// Pixels that gaps reach at most.
 const MOST_PX: f32 = 20.0;
 /// Reach of crowns without leaves, metres.
 const BARE_REACH_M: f32 = 1.2;

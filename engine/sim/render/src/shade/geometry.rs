@@ -16,7 +16,7 @@ pub struct View {
     pub corner: Vec3,
     /// Change of the direction per pixel to the right.
     pub across: Vec3,
-    /// And down.
+    /// Change of the direction per pixel downwards.
     pub down: Vec3,
     /// Differs from frame to frame.
     pub seed: u32,

@@ -13,13 +13,13 @@ use crate::passes::ids::{Run, for_each_bit};
 pub(crate) struct Smoother {
     /// Bit c: pixels c and c + 1 of the row differ.
     right: Vec<u64>,
-    /// The same in the row below.
+    /// Bit c: pixels c and c + 1 of the row below differ.
     right_below: Vec<u64>,
-    /// And above.
+    /// Bit c: pixels c and c + 1 of the row above differ.
     right_above: Vec<u64>,
     /// Bit c: pixel c differs from the one below.
     below: Vec<u64>,
-    /// And from the one above.
+    /// Bit c: pixel c differs from the one above.
     above: Vec<u64>,
     /// For every column with an upright border that goes on: its first row and the step there.
     first: Vec<(u32, Step)>,

@@ -18,7 +18,7 @@ const OVERHANG_M: f64 = 2.5;
 const EAVES: usize = 2;
 /// Distance of a column's foot above ground that was seen in its cell, metres.
 const ABOVE_GROUND_M: f64 = 0.1;
-/// Of the eight cells around one in which nothing was seen, so many of a building make it a notch, over which boxes may stand.
+/// Number of the eight cells around an unseen one that must be of a building to make it a notch, which boxes may cover.
 const NOTCH: usize = 3;
 /// Cells at the edge over which the direction of a wall is felt.
 const EDGE_REACH: usize = 2;

@@ -28,7 +28,7 @@ const LEAST_SHARE: f64 = 0.001;
 /// Smallest roof, square metres.
 const SMALLEST_ROOF_M2: f64 = 16.0;
 
-/// What the classes of a file leave open.
+/// Questions that the classes of a file leave open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
     /// Which points are buildings and which plants.
@@ -40,7 +40,7 @@ pub enum Unknown {
 }
 
 impl Unknown {
-    /// What the classes of a cloud leave open; none where both are there.
+    /// Questions that the classes of a cloud leave open; none where both are there.
     pub fn of(cloud: &Cloud) -> Option<Self> {
         let has = |known: fn(&u8) -> bool| {
             let count = cloud.classes.par_iter().filter(|class| known(class)).count();

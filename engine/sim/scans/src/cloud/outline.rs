@@ -3,7 +3,7 @@
 use crate::grid::Grid;
 use crate::window_cover::Column;
 
-/// Of eight neighbours, so many make a cell without points a roof, and so few make it none.
+/// Numbers of the eight neighbours: so many make a cell without points a roof, and so few make it none.
 const MOST_AND_FEW: [usize; 2] = [5, 3];
 
 /// Cells without points are roof where most around are, and as high as these in the mean.

@@ -29,7 +29,7 @@ pub mod class {
     pub const HIGH_NOISE: u8 = 18;
 }
 
-/// What to do with coordinates in degrees.
+/// Advice on coordinates in degrees.
 pub const PROJECT_FIRST: &str =
     "project the cloud first, for instance with `pdal translate` and `filters.reprojection`";
 /// Narrower clouds may be in degrees.
@@ -56,7 +56,7 @@ pub struct Cloud {
     pub world: WorldFromMap,
     /// The file's projection, in its own words.
     pub geo_reference: Option<String>,
-    /// What the user should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 

@@ -26,11 +26,16 @@ impl Columns {
     pub fn find<'n>(names: impl Iterator<Item = &'n str> + Clone) -> Result<Self, MapError> {
         let column =
             |wanted: &[&str]| names.clone().position(|name| wanted.iter().any(|one| name.eq_ignore_ascii_case(one)));
-        let coordinate = |name: &str| {
+        let check = |name: &str| {
             if names.clone().filter(|own| own.eq_ignore_ascii_case(name)).count() > 1 {
                 let error = MapError::new(format!("the points have several numbers called `{name}`"));
-                return Err(error.hint("export the cloud with one of each coordinate"));
+                return Err(error.hint("export the cloud with one number of each name"));
             }
+            Ok(())
+        };
+        CLASSES.iter().chain([&CARLA_LABELS]).try_for_each(|name| check(name))?;
+        let coordinate = |name: &str| {
+            check(name)?;
             column(&[name]).ok_or_else(|| MapError::new(format!("the points have no number called `{name}`")))
         };
         Ok(Self {
@@ -65,7 +70,7 @@ impl Columns {
     /// The finished cloud, with a word on the unit and the frame that were assumed.
     ///
     /// # Errors
-    /// As [`CloudBuilder::finish`].
+    /// Those of [`CloudBuilder::finish`].
     pub fn finish(&self, cloud: CloudBuilder, asked_m: Option<f64>) -> Result<Cloud, MapError> {
         let mut warnings = Vec::new();
         if asked_m.is_none() {

@@ -1,4 +1,4 @@
-//! What is neither building nor plant: cars, walls, masts, bridges, as boxes around the points of each cell.
+//! Things that are neither building nor plant: cars, walls, masts, bridges, as boxes around the points of each cell.
 
 use super::class;
 use super::numbers::next_id;
@@ -34,7 +34,7 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
     volumes
 }
 
-/// What stands over a cell, and the number of its points.
+/// Column of points over a cell that `belongs` accepts, and their number.
 fn column(survey: &Survey<'_>, cell: usize, belongs: fn(u8) -> bool) -> (Option<Column>, usize) {
     let (mut ground_m, mut ends, mut count) = (f64::NEG_INFINITY, [f64::INFINITY, f64::NEG_INFINITY], 0);
     for point in survey.points_of(cell) {

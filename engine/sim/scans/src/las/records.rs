@@ -14,7 +14,7 @@ pub(super) struct Points<'a> {
     pub(super) left_out: usize,
 }
 
-/// What the town's builder takes from the record of a point.
+/// Values that the town's builder takes from the record of a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Record {
     pub(super) position: [i32; 3],

@@ -1,4 +1,4 @@
-//! What an object or node of a file is: by the words in its name, else by its size.
+//! Kinds of objects and nodes of a file: by the words in their names, else by their size.
 
 use super::parts::{Part, bounds};
 use super::whole::{in_groups, in_one_thing};
@@ -8,13 +8,13 @@ use cosfly_frames::DVec3;
 /// One thing of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thing {
-    /// What it is.
+    /// Kind.
     pub kind: Kind,
     /// Its triangles; each part of something solid hangs together.
     pub parts: Vec<Part>,
 }
 
-/// What a thing is.
+/// Kind of a thing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// Ground; walkable where it is a pavement.

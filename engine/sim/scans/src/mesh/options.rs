@@ -4,7 +4,7 @@ use cosfly_frames::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What to do with coordinates that count from the centre of the Earth.
+/// Advice on coordinates that count from the centre of the Earth.
 pub const IN_A_PLAN: &str = "export the file with the axes of a plan: x to the east, y up, z to the south, metres";
 
 /// Axis of a file that points up.

@@ -104,7 +104,7 @@ pub struct PartBuilder {
 }
 
 impl PartBuilder {
-    /// Of a file with some bytes.
+    /// Builder for a file of `bytes` bytes, which limit the elements that may come.
     pub fn of_file(bytes: usize) -> Self {
         let most = (ELEMENTS_OF_ANY_FILE + bytes / BYTES_OF_ELEMENT).min(MOST_ELEMENTS);
         Self { parts: Vec::new(), left: most, broken: 0 }

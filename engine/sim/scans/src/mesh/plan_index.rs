@@ -18,7 +18,7 @@ pub struct PlanIndex {
 }
 
 impl PlanIndex {
-    /// Of triangles, known by their numbers.
+    /// Index of triangles, known by their numbers.
     pub fn of(triangles: &[[DVec3; 3]]) -> Self {
         let ends = || triangles.iter().map(bounds);
         let low = ends().map(|[low, _]| low.truncate()).fold(DVec2::INFINITY, DVec2::min);

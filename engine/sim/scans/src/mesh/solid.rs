@@ -50,7 +50,7 @@ impl CellBudget {
         boxes
     }
 
-    /// What the user should know: parts whose boxes are coarser than asked for.
+    /// Warning of parts whose boxes are coarser than asked for.
     pub fn warning(&self) -> Option<String> {
         let Self { voxel_m, wider, widest_m, .. } = self;
         (*wider > 0).then(|| {
@@ -184,7 +184,7 @@ fn clip(one: &mut OrientedBox, low: DVec3, high: DVec3) {
     one.half_extents_m = 0.5 * (to - from);
 }
 
-/// What triangles leave in cells.
+/// Marks that triangles leave in cells.
 struct Cells {
     /// Heights that the surface spans within a cell.
     pieces: Vec<Vec<Column>>,

@@ -18,7 +18,7 @@ const MOST_WALLS: usize = 6000;
 /// Rectangles whose union contains the plan and stands over it by at most `tolerance_m`; `None` where that would take more
 /// than `most`.
 ///
-/// What is left is a list of convex pieces. From the middle of the largest one rectangles grow in several directions; the
+/// The rest is a list of convex pieces. From the middle of the largest one rectangles grow in several directions; the
 /// one that covers most of what is left is kept, cut to that.
 pub(super) fn cover(plan: &Plan, tolerance_m: f64, most: usize) -> Option<Vec<TurnedRectangle>> {
     let frame = Frame::turned(*plan.angles_rad.first()?);

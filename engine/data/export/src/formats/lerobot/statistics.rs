@@ -19,7 +19,7 @@ pub struct Statistics {
     picture_count: u64,
 }
 
-/// What is known of a feature.
+/// Statistics of a feature.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figures {
     /// [`FIGURES`] of each of its numbers.

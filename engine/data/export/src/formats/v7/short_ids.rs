@@ -12,7 +12,7 @@ const LARGE_TOWN: u32 = 1 << 15;
 pub struct ShortIds(BTreeMap<u32, u16>);
 
 impl ShortIds {
-    /// Of the ids in pictures: those of 16 bits stay, the others get the largest numbers that are free. None where there are more
+    /// Short ids of the ids in pictures: those of 16 bits stay, the others get the largest free numbers. None for more
     /// things than numbers.
     pub fn of(ids: &BTreeSet<u32>) -> Option<Self> {
         let is_free = |number: &u16| !ids.contains(&u32::from(*number));
@@ -21,7 +21,8 @@ impl ShortIds {
         large.map(|id| Some((*id, free.next()?))).collect::<Option<_>>().map(Self)
     }
 
-    /// Of all pictures of a flight's frames, which are read for this where `largest_object`, the largest id of an object, asks for it.
+    /// Short ids of all frames of a flight, which are read for this where `largest_object`, the largest id,
+    /// asks for it.
     ///
     /// # Errors
     /// Damage of the log, or more things than numbers.

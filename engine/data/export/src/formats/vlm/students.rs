@@ -20,7 +20,7 @@ pub const ABLATIONS: [(&str, Shown); 4] = [
 /// Pictures of a flight beside a text.
 const PICTURES: usize = 4;
 
-/// What the files of the sets are, beside them.
+/// Guide to the files of the sets, beside them.
 pub const GUIDE: &str = "\
 # Sets for students
 

@@ -69,7 +69,7 @@ enum ActionChoice {
     Rotors,
     /// Six numbers a frame of the dataset: dx, dy, dz (m), dpitch, dyaw, droll (degrees), along the world's axes
     DeltasWorld,
-    /// As before, along the axes of the body that moves
+    /// Six numbers as for `deltas-world`, along the axes of the body that moves
     DeltasBody,
 }
 
@@ -130,7 +130,7 @@ impl PolicyArguments {
         })
     }
 
-    /// What a card says of the policy at a place.
+    /// Card of the policy at a place.
     pub fn card(&self, place: &Place, name: &str) -> PolicyCard {
         let kind = match place {
             Place::Baseline(_) => "baseline",

@@ -1,4 +1,4 @@
-//! What boxes with a label of CARLA's `CityObjectLabel` become.
+//! Kinds of things that boxes with a label of CARLA's `CityObjectLabel` become.
 
 use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_frames::DVec3;

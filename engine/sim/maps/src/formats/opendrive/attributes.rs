@@ -34,7 +34,7 @@ pub(super) const CURVATURE: Limits = Limits { low: -1e3, high: 1e3, unit: " 1/m"
 pub(super) const COEFFICIENT: Limits = Limits { low: -1e8, high: 1e8, unit: "" };
 
 impl Limits {
-    /// The same size, either sign: polynomials dip below zero where a lane ends.
+    /// Limits of this size with either sign: polynomials dip below zero where a lane ends.
     pub(super) const fn into_signed(self) -> Self {
         Self { low: -self.high, ..self }
     }

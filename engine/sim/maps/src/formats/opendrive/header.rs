@@ -7,7 +7,7 @@ use cosfly_town::error::MapError;
 use cosfly_town::remarks::speaks_of_a_place;
 use roxmltree::Node;
 
-/// What the header says of the whole file.
+/// Statements of the header about the whole file.
 #[derive(Debug, Default)]
 pub(super) struct Header {
     pub(super) name: Option<String>,

@@ -74,7 +74,7 @@ struct Site<'a> {
 }
 
 impl Site<'_> {
-    /// What bounds an island at a place; `None` for grass and holes.
+    /// Ground that bounds an island at a place; `None` for grass and holes.
     fn closed(&self, at: DVec2, height_m: f64) -> Option<Closed> {
         let near = self.ground.ground_seen(at.extend(height_m), LEVEL_M);
         if let Some(near) = near.filter(|near| near.label != SemanticLabel::Terrain) {

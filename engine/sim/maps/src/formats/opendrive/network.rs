@@ -248,7 +248,7 @@ pub struct ObjectSize {
     pub width_m: f64,
     /// Upwards.
     pub height_m: f64,
-    /// Of a round object.
+    /// Radius of a round object, metres.
     pub radius_m: f64,
 }
 

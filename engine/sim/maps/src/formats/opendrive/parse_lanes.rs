@@ -91,6 +91,9 @@ fn lane<'d>(source: &Source<'d>, node: Node<'d, 'd>, section_s_m: f64) -> Result
         .ok_or_else(|| source.refuse(node, format!("`id` is `{id_text}`; a lane's id is a whole number up to 1000")))?;
     let widths = edge_records(source, node, "width", section_s_m, SIZE.into_signed())?;
     let borders = edge_records(source, node, "border", section_s_m, OFFSET)?;
+    if widths.is_empty() && borders.is_empty() {
+        source.warn(node, "the lane has neither `<width>` nor `<border>`; it is 0 m wide");
+    }
     let edge =
         if widths.is_empty() && !borders.is_empty() { LaneEdge::Border(borders) } else { LaneEdge::Width(widths) };
     let mut heights = children(node, "height")
@@ -103,13 +106,17 @@ fn lane<'d>(source: &Source<'d>, node: Node<'d, 'd>, section_s_m: f64) -> Result
         })
         .collect::<Result<Vec<_>, MapError>>()?;
     heights.sort_by(|a, b| a.s_m.total_cmp(&b.s_m));
+    let has_other = |pair: &[LaneHeight]| pair[0].s_m == pair[1].s_m && pair[0] != pair[1];
+    if heights.windows(2).any(has_other) {
+        source.warn(node, "a second `<height>` at the same `sOffset`; the last one counts");
+    }
     let level = matches!(node.attribute("level"), Some("true" | "1"));
     let type_name = node.attribute("type");
     Ok(Lane {
         id,
         kind: kind(type_name),
         traffic: type_name.and_then(traffic),
-        speed_limit_mps: child(node, "speed").and_then(speed_limit_mps),
+        speed_limit_mps: speed_limit_mps(source, node),
         level,
         edge,
         heights,
@@ -149,15 +156,36 @@ fn traffic(type_name: &str) -> Option<TrafficKind> {
     }
 }
 
-/// The limit of a `<speed>`, m/s; `None` where it states no number.
-pub(super) fn speed_limit_mps(speed: Node) -> Option<f64> {
-    let max = speed.attribute("max")?.trim().parse::<f64>().ok()?;
-    let unit_mps = match speed.attribute("unit") {
+/// The limit of the `<speed>` of a lane or of a road's type, m/s; `None` where it states none. One that is not believed is a
+/// warning.
+pub(super) fn speed_limit_mps<'d>(source: &Source<'d>, parent: Node<'d, 'd>) -> Option<f64> {
+    let mut all = children(parent, "speed");
+    let speed = all.next()?;
+    let value = |node: Node<'d, 'd>, name: &str| node.attribute(name).map(str::trim);
+    let limit = |node| [value(node, "max"), value(node, "unit")];
+    let is_other =
+        |other: &Node<'d, 'd>| value(*other, "sOffset") == value(speed, "sOffset") && limit(*other) != limit(speed);
+    if let Some(second) = all.find(is_other) {
+        source.warn(second, "a second `<speed>` at the same place; the first one counts");
+    }
+    let [max, unit] = limit(speed);
+    let unit_mps = match unit {
         Some("km/h") => 1.0 / 3.6,
         Some("mph") => 0.44704,
-        _ => 1.0,
+        Some("m/s") | None => 1.0,
+        Some(other) => {
+            let shown: String = other.chars().take(40).collect();
+            source.warn(speed, &format!("`unit` is `{shown}`, not `m/s`, `km/h` or `mph`; m/s is assumed"));
+            1.0
+        }
     };
-    Some(max * unit_mps).filter(|limit| (0.5..=150.0).contains(limit))
+    let max = max.filter(|max| !["no limit", "undefined"].contains(max))?;
+    let limit_mps = max.parse().ok().map(|max: f64| max * unit_mps).filter(|limit| (0.5..=150.0).contains(limit));
+    if limit_mps.is_none() {
+        let shown: String = max.chars().take(40).collect();
+        source.warn(speed, &format!("`max` is `{shown}`, no limit of 0.5 to 150 m/s; it counts as missing"));
+    }
+    limit_mps
 }
 
 fn kind(type_name: Option<&str>) -> LaneKind {

@@ -5,6 +5,9 @@ use super::network::{Corner, Crown, ObjectSize, Outline, Repeat, RoadObject, Roa
 use cosfly_town::error::MapError;
 use roxmltree::Node;
 
+/// Widest and highest plate or light of a signal, metres; larger ones are made as large.
+pub(super) const LARGEST_PLATE_M: f64 = 5.0;
+
 /// The objects of a road; `<objectReference>`s, tunnels and bridges are not things of their own.
 pub(super) fn objects<'d>(
     source: &Source<'d>,
@@ -17,7 +20,7 @@ pub(super) fn objects<'d>(
 
 fn object<'d>(source: &Source<'d>, node: Node<'d, 'd>, road_length_m: f64) -> Result<RoadObject, MapError> {
     let at = position(source, node, "zOffset", road_length_m)?;
-    let size = |name| source.optional_number(node, name, LOOSE_SIZE).map(|value| value.unwrap_or(0.0).max(0.0));
+    let size = |name| Ok::<_, MapError>(loose_size_m(source, node, name)?.unwrap_or(0.0));
     let size = ObjectSize {
         length_m: size("length")?,
         width_m: size("width")?,
@@ -67,6 +70,15 @@ fn position<'d>(
     })
 }
 
+/// A size that may be missing, metres. Below 0 it is unknown and counts as 0; other numbers than -1 are a warning then.
+fn loose_size_m<'d>(source: &Source<'d>, node: Node<'d, 'd>, name: &str) -> Result<Option<f64>, MapError> {
+    let size_m = source.optional_number(node, name, LOOSE_SIZE)?;
+    if let Some(size_m) = size_m.filter(|size_m| *size_m < 0.0 && *size_m != -1.0) {
+        source.warn(node, &format!("`{name}` is {size_m} m; a size below 0 counts as unknown"));
+    }
+    Ok(size_m.map(|size_m| size_m.max(0.0)))
+}
+
 fn user_data<'d>(source: &Source<'d>, node: Node<'d, 'd>, code: &str) -> Result<Option<f64>, MapError> {
     let found = children(node, "userData").find(|data| data.attribute("code") == Some(code));
     found.map_or(Ok(None), |data| source.optional_number(data, "value", OFFSET))
@@ -80,18 +92,18 @@ fn repeat<'d>(
 ) -> Result<Repeat, MapError> {
     let start_s_m = source.optional_number(node, "s", STATION)?.unwrap_or(at.s_m).max(0.0);
     let length_m = source.number(node, "length", LENGTH)?;
-    let pair = |start: &str, end: &str, limits, default: f64| -> Result<[f64; 2], MapError> {
-        let first = source.optional_number(node, start, limits)?;
-        let last = source.optional_number(node, end, limits)?;
-        Ok([first.or(last).unwrap_or(default), last.or(first).unwrap_or(default)])
+    let either = |[first, last]: [Option<f64>; 2], default: f64| {
+        [first.or(last).unwrap_or(default), last.or(first).unwrap_or(default)]
     };
+    let offset_m = |name| source.optional_number(node, name, OFFSET);
+    let size_m = |name| loose_size_m(source, node, name);
     Ok(Repeat {
         s_m: [start_s_m, start_s_m + length_m],
         distance_m: source.optional_number(node, "distance", LENGTH)?.unwrap_or(0.0),
-        t_m: pair("tStart", "tEnd", OFFSET, at.t_m)?,
-        z_offset_m: pair("zOffsetStart", "zOffsetEnd", OFFSET, at.z_offset_m)?,
-        width_m: pair("widthStart", "widthEnd", LOOSE_SIZE, size.width_m)?.map(|width_m| width_m.max(0.0)),
-        height_m: pair("heightStart", "heightEnd", LOOSE_SIZE, size.height_m)?.map(|height_m| height_m.max(0.0)),
+        t_m: either([offset_m("tStart")?, offset_m("tEnd")?], at.t_m),
+        z_offset_m: either([offset_m("zOffsetStart")?, offset_m("zOffsetEnd")?], at.z_offset_m),
+        width_m: either([size_m("widthStart")?, size_m("widthEnd")?], size.width_m),
+        height_m: either([size_m("heightStart")?, size_m("heightEnd")?], size.height_m),
     })
 }
 
@@ -103,11 +115,7 @@ fn outline<'d>(
 ) -> Result<Outline, MapError> {
     let mut corners = Vec::new();
     for corner in node.children().filter(Node::is_element) {
-        let height_m = || {
-            source
-                .optional_number(corner, "height", LOOSE_SIZE)
-                .map(|height| height.unwrap_or(object_height_m).max(0.0))
-        };
+        let height_m = || loose_size_m(source, corner, "height").map(|height| height.unwrap_or(object_height_m));
         corners.push(match corner.tag_name().name() {
             "cornerRoad" => Corner::Road { at: position(source, corner, "dz", road_length_m)?, height_m: height_m()? },
             "cornerLocal" => Corner::Local {
@@ -135,7 +143,13 @@ pub(super) fn signals<'d>(
 
 fn signal<'d>(source: &Source<'d>, node: Node<'d, 'd>, road_length_m: f64) -> Result<RoadSignal, MapError> {
     let at = position(source, node, "zOffset", road_length_m)?;
-    let size = |name| source.optional_number(node, name, LOOSE_SIZE).map(|value| value.unwrap_or(0.0).max(0.0));
+    let size = |name| {
+        let size_m = loose_size_m(source, node, name)?.unwrap_or(0.0);
+        if size_m > LARGEST_PLATE_M {
+            source.warn(node, &format!("`{name}` is {size_m} m; a plate or light is at most {LARGEST_PLATE_M} m"));
+        }
+        Ok::<_, MapError>(size_m)
+    };
     let turned = if node.attribute("orientation") == Some("-") { cosfly_frames::real::PI } else { 0.0 };
     Ok(RoadSignal {
         id: node.attribute("id").unwrap_or_default().to_owned(),

@@ -1,12 +1,12 @@
 //! `<header>`, `<road>`, `<planView>`, `<elevationProfile>` and `<lateralProfile>` into the model.
 
-use super::attributes::{ANGLE, COEFFICIENT, COORDINATE, CURVATURE, LENGTH, STATION, Source, child, children};
+use super::attributes::{ANGLE, COEFFICIENT, COORDINATE, CURVATURE, LENGTH, STATION, Source, children};
 use super::network::{Road, RoadNetwork, ShapeSection};
 use super::parse_lanes::{lane_sections, speed_limit_mps};
 use super::parse_objects::{objects, signals};
 use super::plan_view::{Curve, PlanElement, PlanPoint};
 use super::polynomial::{Cubic, CubicProfile};
-use super::{header, unread};
+use super::{header, repeats, unread};
 use cosfly_frames::DVec2;
 use cosfly_town::error::MapError;
 use roxmltree::Node;
@@ -17,6 +17,7 @@ pub(super) fn network(source: &Source<'_>) -> Result<RoadNetwork, MapError> {
     let root = source.document.root_element();
     let header = header::read(source, root)?;
     unread::warn(source, root);
+    repeats::warn(source, root);
     let mut lines: BTreeMap<&str, u32> = BTreeMap::new();
     let mut roads = Vec::new();
     for node in children(root, "road") {
@@ -77,8 +78,12 @@ fn road<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Road, MapError> {
 fn speed_limits<'d>(source: &Source<'d>, road: Node<'d, 'd>) -> Result<Vec<(f64, f64)>, MapError> {
     let mut limits = vec![];
     for node in children(road, "type") {
-        if let Some(limit) = child(node, "speed").and_then(speed_limit_mps) {
-            limits.push((source.optional_number(node, "s", STATION)?.unwrap_or(0.0), limit));
+        if let Some(limit_mps) = speed_limit_mps(source, node) {
+            let s_m = source.optional_number(node, "s", STATION)?.unwrap_or(0.0);
+            if limits.iter().any(|&(other_m, other_mps)| other_m == s_m && other_mps != limit_mps) {
+                source.warn(node, "a second `<type>` at the same `s` has another limit; this one counts");
+            }
+            limits.push((s_m, limit_mps));
         }
     }
     limits.sort_by(|a, b| a.0.total_cmp(&b.0));

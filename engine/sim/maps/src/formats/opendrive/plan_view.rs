@@ -217,7 +217,7 @@ mod tests {
         PlanElement { start_s_m: 2.0, length_m, start, curve }
     }
 
-    /// The same curve by many small straight steps along the heading.
+    /// Place at `s_m` of the curve, by many small straight steps along the heading, metres.
     fn walked(element: &PlanElement, s_m: f64) -> DVec2 {
         let steps = 40_000;
         let step_m = (s_m - element.start_s_m) / f64::from(steps);

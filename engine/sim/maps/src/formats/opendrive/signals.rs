@@ -2,6 +2,7 @@
 
 use super::network::{Road, RoadSignal};
 use super::objects::ObstacleBuilder;
+use super::parse_objects::LARGEST_PLATE_M;
 use cosfly_domain::ObstacleKind;
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::world::WorldFromMap;
@@ -41,7 +42,7 @@ fn add_signal(
     } else {
         (ObstacleKind::TrafficSign, [0.6, 0.6], 0.05)
     };
-    let or_usual = |given_m: f64, usual_m: f64| if given_m > 0.0 { given_m.min(5.0) } else { usual_m };
+    let or_usual = |given_m: f64, usual_m: f64| if given_m > 0.0 { given_m.min(LARGEST_PLATE_M) } else { usual_m };
     let (width_m, height_m) = (or_usual(signal.width_m, usual_m[0]), or_usual(signal.height_m, usual_m[1]));
     let foot = road.point(signal.at.s_m, signal.at.t_m, 0.0);
     let heading_rad = road.plan_point(signal.at.s_m).heading_rad + signal.heading_rad;

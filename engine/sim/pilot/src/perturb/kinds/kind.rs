@@ -29,8 +29,8 @@ pub type Views = fn(&Departing<'_>, &TargetTrack, &[Pose]) -> Vec<Pose>;
 pub enum Departure {
     /// Frame by frame, as no drone could fly it.
     FrameByFrame(fn(&Trajectory, ExactMap<'_>, &JumpSizes<'_>, &Seed) -> Departed),
-    /// As a drone could fly it. Displacements are made smaller until clearance, height, speed and acceleration hold; views turn no
-    /// faster than `max_rate_deg_s`.
+    /// Displaced as a drone could fly. Displacements shrink until clearance, height, speed and acceleration hold; views
+    /// turn no faster than `max_rate_deg_s`.
     Flown {
         /// Displacements beside the drift that every such twin has; `no_offsets` for none.
         offsets: Offsets,
@@ -39,7 +39,7 @@ pub enum Departure {
     },
 }
 
-/// What displacements and views of a twin depend on.
+/// Values that displacements and views of a twin depend on.
 #[derive(Clone, Copy)]
 pub struct Departing<'a> {
     /// Positions of the expert, one per frame, world frame, metres.
