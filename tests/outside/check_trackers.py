@@ -28,8 +28,9 @@ def rows_of(table, without=()):
 frames, people, flights = defaultdict(dict), defaultdict(list), {row["trajectory_id"]: row for row in rows_of("trajectories")}
 for row in rows_of("frames", ["preview"]):
     frames[row["trajectory_id"]][row["frame"]] = row
-for row in rows_of("people"):
-    people[row["trajectory_id"], row["frame"]].append(row)
+for row in rows_of("bodies"):
+    if row["visible_pixels"]:
+        people[row["trajectory_id"], row["frame"]].append(row)
 
 
 def box(edges):

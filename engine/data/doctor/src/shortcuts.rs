@@ -1,11 +1,11 @@
 //! Shortcuts to the targets of a dataset of cosfly: their place and size in the picture, and their looks.
 
 use cosfly_diagnose::Result;
+use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::{DVec3, Pose};
-use cosfly_metrics::shortcuts::{Edges, Looks, Seen, ShortcutFigures, Shortcuts};
-use cosfly_read::{PublishedDataset, PublishedFlight, RowIndex};
+use cosfly_metrics::shortcuts::{Looks, Seen, ShortcutFigures, Shortcuts};
+use cosfly_read::{PublishedDataset, PublishedFlight, SeenBody, SightingReader};
 use cosfly_schema::tables::{Bodies, Trajectories};
-use std::collections::BTreeMap;
 
 /// Figures over all flights; experts alone count for places in the picture. Datasets from before the columns of clothes existed
 /// have figures of places alone.
@@ -16,20 +16,23 @@ pub fn figures(dataset: &PublishedDataset) -> Result<ShortcutFigures> {
     let mut shortcuts = Shortcuts::default();
     add_targets(dataset, &mut shortcuts)?;
     add_others(dataset, &mut shortcuts)?;
-    let mut boxes = BodyBoxes::of(dataset)?;
+    let mut sightings = SightingReader::of(dataset)?;
     dataset.walk(&|flight| flight.expert_id.is_none(), &mut |flight, rows| {
         let image_px = [flight.camera.width, flight.camera.height].map(f64::from);
-        let mut bodies = boxes.bodies(flight)?;
-        let frames = rows.iter().enumerate().filter_map(|(frame, row)| {
-            let seen = |body: &SeenBody| body.seen(flight, &row.camera_pose);
+        let bodies = dataset.place(&flight.trajectory_id).map_or(Ok(&[][..]), |place| sightings.at(dataset, place))?;
+        let frames = (0..).zip(rows).filter_map(|(frame, row)| {
+            let seen = |body: &SeenBody| seen(body, flight, &row.camera_pose);
             let own = SeenBody {
+                frame,
+                instance: TARGET_INSTANCE,
                 kind: flight.target_kind.clone()?,
-                edges_px: row.visible_box_px?.map(f64::from),
                 feet_in_world: row.target.feet_in_world,
                 height_m: flight.target_height_m,
+                visible_box_px: row.visible_box_px?,
             };
-            let others = bodies.remove(&(frame as u32)).unwrap_or_default();
-            Some((seen(&own), others.iter().filter(|other| other.kind == own.kind).map(seen).collect()))
+            let start = bodies.partition_point(|other| other.frame < frame);
+            let others = bodies[start..].iter().take_while(|other| other.frame == frame);
+            Some((seen(&own), others.filter(|other| other.kind == own.kind).map(seen).collect()))
         });
         shortcuts.add_flight(image_px, frames);
         Ok(())
@@ -93,76 +96,18 @@ fn looks(top: [f64; 3], height_m: f64, words: [Option<String>; 3]) -> Looks {
     Looks::of_words(top, height_m, [&bag, &build, &gait])
 }
 
-/// Bodies that are seen, by frame.
-type SeenBodies = BTreeMap<u32, Vec<SeenBody>>;
-
 /// Kind of people.
 const PERSON: &str = "pedestrian";
 
-/// A body that is seen in a frame.
-struct SeenBody {
-    kind: String,
-    edges_px: Edges,
-    feet_in_world: DVec3,
-    height_m: f64,
-}
-
-impl SeenBody {
-    /// The body as the camera sees it; crown and feet of people only.
-    fn seen(&self, flight: &PublishedFlight, camera_pose: &Pose) -> Seen {
-        let is_person = self.kind == PERSON;
-        let row = |point| flight.camera.project(camera_pose, point).filter(|_| is_person).map(|(_, row, _)| row);
-        let crown = row(self.feet_in_world + self.height_m * DVec3::Z);
-        Seen {
-            edges_px: self.edges_px,
-            crown_and_feet_px: crown.zip(row(self.feet_in_world)).map(|(crown, feet)| [crown, feet]),
-            distance_m: (self.feet_in_world - camera_pose.position_in_world).length(),
-            height_m: self.height_m,
-        }
-    }
-}
-
-/// Bodies that are seen, flight by flight; those of neighbouring flights are read together.
-struct BodyBoxes<'a> {
-    dataset: &'a PublishedDataset,
-    index: RowIndex,
-    known: BTreeMap<usize, SeenBodies>,
-}
-
-impl<'a> BodyBoxes<'a> {
-    fn of(dataset: &'a PublishedDataset) -> Result<Self> {
-        Ok(Self { dataset, index: dataset.row_index("bodies")?, known: BTreeMap::new() })
-    }
-
-    fn bodies(&mut self, flight: &PublishedFlight) -> Result<SeenBodies> {
-        let Some(place) = self.dataset.place(&flight.trajectory_id).filter(|it| self.index.has(*it)) else {
-            return Ok(SeenBodies::new());
-        };
-        if !self.known.contains_key(&place) {
-            let wanted = self.index.beside(place);
-            let mut known: BTreeMap<usize, SeenBodies> = BTreeMap::new();
-            self.index.visit(&wanted, &mut |rows, _| {
-                let ids = rows.values(Bodies::trajectory_id)?;
-                let (frames, edges) = (rows.values(Bodies::frame)?, rows.values(Bodies::visible_box_px)?);
-                let (feet, sizes) = (rows.values(Bodies::feet_in_world_m)?, rows.values(Bodies::size_m)?);
-                for row in 0..rows.len() {
-                    let Some(place) = self.dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) else {
-                        continue;
-                    };
-                    let Some(edges_px) = edges.at(row)? else { continue };
-                    let [.., height_m] = sizes.at(row)?;
-                    let of_frame = known.entry(place).or_default().entry(frames.at(row)?).or_default();
-                    of_frame.push(SeenBody {
-                        kind: rows.get(Bodies::kind, row)?,
-                        edges_px: edges_px.map(f64::from),
-                        feet_in_world: DVec3::from_array(feet.at(row)?),
-                        height_m,
-                    });
-                }
-                Ok(())
-            })?;
-            self.known = known;
-        }
-        Ok(self.known.remove(&place).unwrap_or_default())
+/// A body as the camera sees it; crown and feet of people only.
+fn seen(body: &SeenBody, flight: &PublishedFlight, camera_pose: &Pose) -> Seen {
+    let is_person = body.kind == PERSON;
+    let row = |point| flight.camera.project(camera_pose, point).filter(|_| is_person).map(|(_, row, _)| row);
+    let crown = row(body.feet_in_world + body.height_m * DVec3::Z);
+    Seen {
+        edges_px: body.visible_box_px.map(f64::from),
+        crown_and_feet_px: crown.zip(row(body.feet_in_world)).map(|(crown, feet)| [crown, feet]),
+        distance_m: (body.feet_in_world - camera_pose.position_in_world).length(),
+        height_m: body.height_m,
     }
 }

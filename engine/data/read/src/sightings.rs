@@ -4,10 +4,11 @@
 use super::dataset::PublishedDataset;
 use super::row_index::RowIndex;
 use cosfly_diagnose::Result;
-use cosfly_schema::tables::{Edges, People};
+use cosfly_frames::DVec3;
+use cosfly_schema::tables::{Bodies, Edges};
 use std::collections::BTreeMap;
 
-/// A body that a frame shows: a row of table `people`.
+/// A body that a frame shows: a row of table `bodies`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenBody {
     /// Number of the frame, from 0.
@@ -16,6 +17,10 @@ pub struct SeenBody {
     pub instance: u32,
     /// Kind, such as `pedestrian`.
     pub kind: String,
+    /// Middle of the body on the ground, world frame, metres.
+    pub feet_in_world: DVec3,
+    /// Height of the body, metres.
+    pub height_m: f64,
     /// Edges around the visible pixels: left, top, right, bottom.
     pub visible_box_px: Edges,
 }
@@ -27,12 +32,12 @@ pub struct SightingReader {
 }
 
 impl SightingReader {
-    /// A reader of table `people`.
+    /// A reader of table `bodies`.
     ///
     /// # Errors
     /// Damage of the table.
     pub fn of(dataset: &PublishedDataset) -> Result<Self> {
-        Ok(Self { index: dataset.row_index("people")?, known: BTreeMap::new() })
+        Ok(Self { index: dataset.row_index("bodies")?, known: BTreeMap::new() })
     }
 
     /// Bodies of the trajectory at a place in [`PublishedDataset::flights`] of the same dataset, by frame and id.
@@ -45,16 +50,22 @@ impl SightingReader {
             let wanted = self.index.beside(place);
             let known = &mut self.known;
             self.index.visit(&wanted, &mut |rows, _| {
-                let ids = rows.values(People::trajectory_id)?;
+                let ids = rows.values(Bodies::trajectory_id)?;
                 for row in 0..rows.len() {
                     let Some(place) = dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) else {
                         continue;
                     };
+                    // A row without a box or an id is of a hidden body.
+                    let seen = (rows.get(Bodies::instance, row)?, rows.get(Bodies::visible_box_px, row)?);
+                    let (Some(instance), Some(visible_box_px)) = seen else { continue };
+                    let [.., height_m] = rows.get(Bodies::size_m, row)?;
                     known.entry(place).or_default().push(SeenBody {
-                        frame: rows.get(People::frame, row)?,
-                        instance: rows.get(People::instance, row)?,
-                        kind: rows.get_or(People::kind, row, "pedestrian".to_owned())?,
-                        visible_box_px: rows.get(People::visible_box_px, row)?,
+                        frame: rows.get(Bodies::frame, row)?,
+                        instance,
+                        kind: rows.get(Bodies::kind, row)?,
+                        feet_in_world: DVec3::from_array(rows.get(Bodies::feet_in_world_m, row)?),
+                        height_m,
+                        visible_box_px,
                     });
                 }
                 Ok(())

@@ -42,6 +42,7 @@ mod tests {
             yaw_deg: 0.0,
             pitch_deg: 0.0,
             attitude_xyzw: None,
+            flown: None,
             latency_s: None,
             target_in_world: [0.0; 3],
             visible: 1.0,
