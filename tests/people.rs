@@ -32,7 +32,7 @@ fn made(street: &Street, overrides: &[&str]) -> BTreeMap<String, u64> {
 }
 
 /// A text and an integer of every row of a table.
-fn rows(dataset: &Path, table: &str, text: &str, number: &str) -> Vec<(String, i64)> {
+pub fn rows(dataset: &Path, table: &str, text: &str, number: &str) -> Vec<(String, i64)> {
     let mut rows = vec![];
     let folder = std::fs::read_dir(dataset.join("data").join(table)).expect("the table");
     for file in folder.map(|entry| entry.expect("readable").path()) {

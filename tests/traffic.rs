@@ -1,5 +1,6 @@
 //! Traffic through the real binary: the shipped recipe, smaller, is verified; its bytes depend on nothing but the recipe.
 
+use crate::people;
 use crate::support::{Call, cosfly, tree_digests};
 use std::path::Path;
 
@@ -82,7 +83,8 @@ fn a_filter_hands_on_the_bodies_around_a_flight() {
         run(folder.path(), recipe, out, &changes).run_ok();
         let out = folder.path().join(out);
         cosfly(&["verify", out.to_str().expect("UTF-8")]).run_ok();
-        tree_digests(&out.join("data/bodies"))
+        // Flights differ by the name of their stage, and pictures with them.
+        people::rows(&out, "bodies", "body_id", "frame")
     };
     assert_eq!(rows("recipes/busy_street.toml", "plain"), rows(path.to_str().expect("UTF-8"), "kept"));
 }

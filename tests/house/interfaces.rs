@@ -173,6 +173,7 @@ fn joined(tokens: &[Token]) -> String {
         let is_tight = ["(", "[", "&", "<", "::", ".", "'", "!"].contains(&before)
             || [")", "]", ",", ";", ":", "::", ".", ">", "?", "(", "<"].contains(&token.text.as_str())
             || line.is_empty();
+        let is_tight = is_tight && !(token.text == "(" && [",", ":", "->"].contains(&before));
         if !is_tight {
             line.push(' ');
         }

@@ -5,6 +5,7 @@
 
 mod arrow_schema;
 mod bodies;
+mod body_row;
 mod captions;
 mod column;
 mod crossings;
@@ -23,7 +24,8 @@ mod waypoints;
 mod windows;
 
 pub use arrow_schema::{hugging_face_features, schema};
-pub use bodies::{Bodies, BodyRow};
+pub use bodies::Bodies;
+pub use body_row::BodyRow;
 pub use captions::Captions;
 pub use column::{AnyColumn, CellProblem, Column};
 pub use crossings::Crossings;

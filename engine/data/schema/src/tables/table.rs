@@ -1,6 +1,6 @@
 //! Definition of a table: its columns, and the rows of a record.
 
-use super::bodies::BodyRow;
+use super::body_row::BodyRow;
 use super::column::AnyColumn;
 use crate::losses::Loss;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
