@@ -66,15 +66,15 @@ fn drawn_cameras_with_lens_blur_and_noise_pass_every_check_of_the_dataset() {
 }
 
 #[test]
-fn normals_are_logged_checked_shown_and_exported_where_a_recipe_asks_for_them() {
-    let street = street("channels = [\"normals\", \"rgb\", \"depth\", \"semantic\", \"instance\"]");
+fn channels_on_request_are_logged_checked_shown_and_exported_where_a_recipe_asks_for_them() {
+    let street = street("channels = [\"normals\", \"rgb\", \"depth\", \"semantic\", \"instance\", \"mask\"]");
     cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
     let dataset = street.dataset();
     let folder = dataset.to_str().expect("UTF-8");
     cosfly(&["verify", folder]).within(street.path()).run_ok();
     cosfly(&["preview", folder]).within(street.path()).run_ok();
     let card = std::fs::read_to_string(dataset.join("README.md")).expect("a card");
-    assert!(card.contains("Channel `normals`: unit normals"), "{card}");
+    assert!(card.contains("Channel `normals`: unit normals") && card.contains("Channel `mask`: 1 where"), "{card}");
     cosfly(&["export", folder, "--format", "imagefolder", "--out", "pictures"]).within(street.path()).run_ok();
     let card = std::fs::read_to_string(street.path().join("pictures/README.md")).expect("a card");
     assert!(card.contains("`normals`: unit normals"), "{card}");

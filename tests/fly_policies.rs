@@ -58,6 +58,26 @@ fn good_until(count: u32, then: &str) -> String {
 }
 
 #[test]
+fn observations_have_every_channel_of_the_list_that_is_asked_for() {
+    let street = Street::new();
+    script(&street, &always(HOLD).replace(">/dev/null", ">seen.bin"));
+    let names: Vec<&str> = cosfly_domain::channels::ALL.iter().map(|channel| channel.name).collect();
+    let printed = fly_into(&street, "seen", &["--obs", &names.join(","), "--size-px", "16", "--jobs", "1"]);
+    assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+    let seen = std::fs::read(street.path().join("seen.bin")).expect("the last observation");
+    for name in &names {
+        // A text of msgpack: its length, then its bytes.
+        let key = [&[0xa0 | name.len() as u8][..], name.as_bytes()].concat();
+        assert!(seen.windows(key.len()).any(|bytes| bytes == key), "{name}");
+    }
+    let card = std::fs::read_to_string(street.path().join("seen/mine/card.json")).expect("a card");
+    assert!(names.iter().all(|name| card.contains(&format!("\"{name}\""))), "{card}");
+    let refused = fly_into(&street, "other", &["--obs", "sound"]);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(names.iter().all(|name| refused.stderr.contains(name)), "{}", refused.stderr);
+}
+
+#[test]
 fn before_the_first_right_answer_nothing_is_an_episode_and_the_same_command_flies_later() {
     let street = Street::new();
     for (text, words) in [
