@@ -45,16 +45,17 @@ impl SightingReader {
             let wanted = self.index.beside(place);
             let known = &mut self.known;
             self.index.visit(&wanted, &mut |rows, _| {
-                let ids = rows.values(People::trajectory_id)?;
+                let (ids, frames) = (rows.values(People::trajectory_id)?, rows.values(People::frame)?);
+                let (instances, boxes) = (rows.values(People::instance)?, rows.values(People::visible_box_px)?);
                 for row in 0..rows.len() {
                     let Some(place) = dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) else {
                         continue;
                     };
                     known.entry(place).or_default().push(SeenBody {
-                        frame: rows.get(People::frame, row)?,
-                        instance: rows.get(People::instance, row)?,
+                        frame: frames.at(row)?,
+                        instance: instances.at(row)?,
                         kind: rows.get_or(People::kind, row, "pedestrian".to_owned())?,
-                        visible_box_px: rows.get(People::visible_box_px, row)?,
+                        visible_box_px: boxes.at(row)?,
                     });
                 }
                 Ok(())
