@@ -37,6 +37,8 @@ pub use prepare::{flag, joined_options, on_threads, prepare};
 pub use source::{Choice, Source};
 
 #[cfg(test)]
+mod bag_laws;
+#[cfg(test)]
 mod laws;
 #[cfg(test)]
 mod sequence_laws;

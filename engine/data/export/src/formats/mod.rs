@@ -9,6 +9,7 @@ mod lasot;
 mod lerobot;
 mod mot;
 mod otb;
+mod ros2;
 pub(crate) mod v7;
 mod vlm;
 mod webdataset;
@@ -23,6 +24,7 @@ pub static FORMATS: &[Export] = &[
     Export::of::<lerobot::LeRobot>(),
     Export::of::<mot::Mot>(),
     Export::of::<otb::Otb>(),
+    Export::of::<ros2::Ros2>(),
     Export::of::<v7::V7>(),
     Export::of::<vlm::Vlm>(),
     Export::of::<webdataset::WebDataset>(),

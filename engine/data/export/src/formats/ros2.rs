@@ -1,0 +1,250 @@
+//! ROS 2: a bag per flight, with the frames of REP 103 and REP 105.
+//!
+//! The left-handed world becomes the right-handed frame `map` by [`right_handed`] and nowhere else.
+
+mod bag;
+mod cdr;
+mod definitions;
+mod messages;
+
+use crate::card::Card;
+use crate::folder::OutFolder;
+use crate::format::Format;
+use crate::media::{FOLDER_LIMIT, ending};
+use crate::shared_options::{InstructionOptions, PictureOptions};
+use crate::source::{Episode, Source};
+use bag::{Bag, Topic};
+use cosfly_diagnose::Result;
+use cosfly_domain::TARGET_INSTANCE;
+use cosfly_frames::{DQuat, DVec3, Pose, real};
+use cosfly_read::{LoggedFrame, SeenBody, SightingReader};
+use cosfly_schema::log::{frame_time_ns, messages::feet_pose, right_handed};
+use messages::{Detected, Header, Motion, OPTICAL, Placed};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Bags.
+pub struct Ros2;
+
+/// Options of `ros2`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct Options {
+    #[serde(flatten)]
+    pictures: PictureOptions,
+    #[serde(flatten)]
+    instructions: InstructionOptions,
+}
+
+/// Time of the first frame, nanoseconds. Time 0 means in ROS that there is no time.
+const START_NS: u64 = 1_000_000_000;
+
+impl Format for Ros2 {
+    const NAME: &'static str = "ros2";
+    const DOC: &'static str = "ROS 2: a bag per flight with pictures, depth, labels, transforms, odometry, detections";
+    type Options = Options;
+
+    fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+        let mut bodies = SightingReader::of(source.dataset)?;
+        let mut number = 0;
+        source.each_flight(&mut |episode| {
+            let flight = episode.flight;
+            let folder = format!("{}/{:03}/{}", flight.split, number / FOLDER_LIMIT, flight.trajectory_id);
+            number += 1;
+            let place = source.dataset.place(&flight.trajectory_id).unwrap_or_default();
+            let recording = Recording::of(episode, bodies.at(source.dataset, place)?);
+            let mut bag = Bag::begin(out, folder)?;
+            recording.write_once(&mut bag, source, episode.instruction(options.instructions.language))?;
+            recording.write_frames(&mut bag, options.pictures.every)?;
+            bag.finish()
+        })?;
+        let body = BODY.replace("SPLIT", source.splits().first().copied().unwrap_or_default());
+        Card { format: "ROS 2", front_matter: "task_categories:\n- robotics\n".into(), body }.write(source, out)?;
+        Ok(vec![])
+    }
+}
+
+/// A flight in the frames of ROS.
+struct Recording<'a> {
+    episode: &'a Episode<'a>,
+    bodies: &'a [SeenBody],
+    /// Places of `base_link` in `map`.
+    drone: Vec<Placed>,
+    /// Places of `target` in `map`; none where nobody is followed.
+    target: Vec<Placed>,
+}
+
+/// Pictures of a frame as messages.
+struct Pictures {
+    colours: Vec<u8>,
+    depths: Vec<u8>,
+    labels: Vec<u8>,
+}
+
+impl Pictures {
+    fn of(time_ns: u64, logged: &LoggedFrame) -> Self {
+        let header = Header { time_ns, frame: OPTICAL };
+        let size = [logged.width, logged.height];
+        let format = if ending(&logged.rgb_format) == "png" { "png" } else { "jpeg" };
+        let depths: Vec<u8> = logged.depth_m.iter().flat_map(|depth_m| depth_m.to_le_bytes()).collect();
+        Self {
+            colours: messages::compressed_image(header, format, &logged.rgb_file),
+            depths: messages::image(header, size, "32FC1", &depths),
+            labels: messages::image(header, size, "mono8", &logged.semantic),
+        }
+    }
+}
+
+/// Time of a frame, nanoseconds.
+fn time_ns(dt_s: f64, frame: usize) -> u64 {
+    START_NS + frame_time_ns(dt_s, frame)
+}
+
+impl<'a> Recording<'a> {
+    fn of(episode: &'a Episode<'a>, bodies: &'a [SeenBody]) -> Self {
+        let followed = if episode.flight.target_kind.is_some() { &episode.frames[..] } else { &[] };
+        Self {
+            episode,
+            bodies,
+            drone: episode.frames.iter().map(|row| in_map(&row.pose)).collect(),
+            target: followed.iter().map(|row| in_map(&feet_pose(&row.target))).collect(),
+        }
+    }
+
+    /// Transforms that stay, the town and the instruction.
+    fn write_once(&self, bag: &mut Bag<'_>, source: &Source<'_>, instruction: &str) -> Result<()> {
+        let flight = self.episode.flight;
+        let still = Placed { position: DVec3::ZERO, rotation: DQuat::IDENTITY };
+        let turned = |rotation: DQuat| Placed { rotation, ..still };
+        let mut list = vec![("map", "odom", still), ("camera_link", OPTICAL, turned(right_handed::BODY_FROM_OPTICAL))];
+        if let (false, Some(row)) = (flight.mount.levelled, self.episode.frames.first()) {
+            list.push(("base_link", "camera_link", turned(camera_rotation(&flight.mount, &row.pose))));
+        }
+        bag.write(Topic::TfStatic, START_NS, &messages::transforms(START_NS, &list))?;
+        let boxes = source.dataset.log(flight)?.scene()?;
+        bag.write(Topic::Town, START_NS, &messages::markers(Header { time_ns: START_NS, frame: "map" }, &boxes))?;
+        bag.write(Topic::Instruction, START_NS, &messages::string(instruction))
+    }
+
+    fn write_frames(&self, bag: &mut Bag<'_>, every: usize) -> Result<()> {
+        let dt_s = self.episode.flight.dt_s;
+        let make = |frame: usize, logged: LoggedFrame| Ok(Pictures::of(time_ns(dt_s, frame), &logged));
+        self.episode.each_picture(&self.episode.every_nth_frame(every), make, |frame, pictures| {
+            self.write_motion(bag, frame)?;
+            let (time_ns, flight) = (time_ns(dt_s, frame), self.episode.flight);
+            let header = Header { time_ns, frame: OPTICAL };
+            let info = messages::camera_info(header, &flight.camera, &flight.lens);
+            bag.write(Topic::CameraInfo, time_ns, &info)?;
+            bag.write(Topic::Image, time_ns, &pictures.colours)?;
+            bag.write(Topic::DepthInfo, time_ns, &info)?;
+            bag.write(Topic::Depth, time_ns, &pictures.depths)?;
+            bag.write(Topic::Labels, time_ns, &pictures.labels)?;
+            bag.write(Topic::Detections, time_ns, &messages::detections(time_ns, &self.detected(frame)))
+        })
+    }
+
+    /// Clock, transforms and odometry.
+    fn write_motion(&self, bag: &mut Bag<'_>, frame: usize) -> Result<()> {
+        let flight = self.episode.flight;
+        let time_ns = time_ns(flight.dt_s, frame);
+        bag.write(Topic::Clock, time_ns, &messages::clock(time_ns))?;
+        let mut list = vec![("odom", "base_link", self.drone[frame])];
+        if flight.mount.levelled {
+            let rotation = camera_rotation(&flight.mount, &self.episode.frames[frame].pose);
+            list.push(("base_link", "camera_link", Placed { position: DVec3::ZERO, rotation }));
+        }
+        list.extend(self.target.get(frame).map(|placed| ("map", "target", *placed)));
+        bag.write(Topic::Tf, time_ns, &messages::transforms(time_ns, &list))?;
+        let odometry = |parent, child, places: &[Placed]| {
+            let header = Header { time_ns, frame: parent };
+            messages::odometry(header, child, &places[frame], &motion(places, frame, flight.dt_s))
+        };
+        bag.write(Topic::Odometry, time_ns, &odometry("odom", "base_link", &self.drone))?;
+        if self.target.is_empty() {
+            return Ok(());
+        }
+        bag.write(Topic::TargetOdometry, time_ns, &odometry("map", "target", &self.target))
+    }
+
+    /// The target, then the other bodies of a frame.
+    fn detected(&self, frame: usize) -> Vec<Detected<'_>> {
+        let kind = self.episode.flight.target_kind.as_deref().unwrap_or_default();
+        let target = self.episode.frames[frame].visible_box_px;
+        let target = target.map(|edges_px| Detected { kind, instance: TARGET_INSTANCE, edges_px });
+        let number = frame as u32;
+        let start = self.bodies.partition_point(|body| body.frame < number);
+        let others = self.bodies[start..].iter().take_while(|body| body.frame == number);
+        let others = others.map(|it| Detected { kind: &it.kind, instance: it.instance, edges_px: it.visible_box_px });
+        target.into_iter().chain(others).collect()
+    }
+}
+
+/// Place of a body with this world-frame pose in `map`; its axes are x ahead, y left, z up.
+fn in_map(pose: &Pose) -> Placed {
+    let position = right_handed::map_from_world_point(pose.position_in_world);
+    Placed { position, rotation: right_handed::map_from_body(pose) }
+}
+
+/// Rotation from the axes of `camera_link` to those of `base_link`.
+fn camera_rotation(mount: &cosfly_domain::Mount, drone: &Pose) -> DQuat {
+    right_handed::body_from_optical(mount, drone) * right_handed::BODY_FROM_OPTICAL.inverse()
+}
+
+/// Motion from a frame to the next one; in the last frame, from the one before.
+fn motion(places: &[Placed], frame: usize, dt_s: f64) -> Motion {
+    let from = frame.min(places.len().saturating_sub(2));
+    let Some([start, end]) = places.get(from..).and_then(|rest| rest.first_chunk()) else { return Motion::default() };
+    let turn = start.rotation.inverse() * end.rotation;
+    let turn = if turn.w < 0.0 { -turn } else { turn };
+    let axis = DVec3::new(turn.x, turn.y, turn.z);
+    let (sine, body) = (axis.length(), places[frame].rotation);
+    let rate = if sine > 0.0 { axis * (2.0 * real::atan2(sine, turn.w) / (sine * dt_s)) } else { DVec3::ZERO };
+    Motion { linear: body.inverse() * ((end.position - start.position) / dt_s), angular: rate }
+}
+
+const BODY: &str = "\
+```
+<split>/<thousands of flights>/<flight>/metadata.yaml
+<split>/<thousands of flights>/<flight>/<flight>_0.mcap
+```
+
+```sh
+ros2 bag play SPLIT/000/FLIGHT
+```
+
+```python
+from pathlib import Path
+import numpy
+from rosbags.highlevel import AnyReader
+
+for bag in sorted(Path(\"SPLIT\").glob(\"*/*\")):
+    with AnyReader([bag]) as reader:
+        for connection, time_ns, raw in reader.messages():
+            message = reader.deserialize(raw, connection.msgtype)
+            if connection.topic == \"/camera/depth/image_raw\":
+                depth_m = numpy.frombuffer(message.data, numpy.float32).reshape(message.height, message.width)
+            if connection.topic == \"/detections\":
+                boxes = {found.id: (found.bbox.center.position, found.bbox.size_x, found.bbox.size_y) for found in message.detections}
+```
+
+A folder is a bag: MCAP, messages of ROS 2 Humble and later in CDR, with their definitions. Topics whose last message stays
+(`transient_local`) are marked with *.
+
+| topic | type | content |
+| --- | --- | --- |
+| `/tf_static`* | `tf2_msgs/TFMessage` | `map` to `odom` (the same: nothing drifts), `camera_link` to `camera_optical_frame`, `base_link` to `camera_link` |
+| `/tf` | `tf2_msgs/TFMessage` | `odom` to `base_link`, `map` to `target`; `base_link` to `camera_link` where the mount keeps the camera level |
+| `/clock` | `rosgraph_msgs/Clock` | the time of the frame; the first one is at 1 s, because time 0 means \"no time\" |
+| `/odom`, `/target/odom` | `nav_msgs/Odometry` | true pose; motion to the next frame, along the body's axes |
+| `/camera/image_raw/compressed` | `sensor_msgs/CompressedImage` | the colours, as in the dataset's log |
+| `/camera/depth/image_raw` | `sensor_msgs/Image` | `32FC1`, metres along the optical axis; infinity is the sky |
+| `/camera/semantic/image_raw` | `sensor_msgs/Image` | `mono8`, CARLA's labels |
+| `/camera/camera_info`, `/camera/depth/camera_info` | `sensor_msgs/CameraInfo` | the pinhole, `plumb_bob` with the lens's k1, k2 |
+| `/detections` | `vision_msgs/Detection2DArray` | boxes around visible pixels, with the body's kind; `id` is the dataset's instance id, 1 the target. No poses |
+| `/town`* | `visualization_msgs/MarkerArray` | boxes of obstacles near the flight |
+| `/instruction`* | `std_msgs/String` | what the drone is told |
+
+Frames are those of REP 103 and REP 105: x ahead, y left, z up, right-handed; the optical frame is x right, y down, z ahead. A point
+(x, y, z) of the dataset's left-handed world is (x, -y, z) in `map`; yaw and pitch change their sign. The origin of `target` is
+between its feet. In pictures the middle of the top-left pixel is (0, 0), so that an edge of the dataset's tables is half a pixel
+less here. Covariances are zero. Flights of a dataset have no inertial unit and no satellite receiver, so there are no `/imu` and `/fix`.
+";

@@ -1,0 +1,243 @@
+"""Reads bags of a dataset with rosbags, mcap-ros2-support and Rerun, and compares them with the dataset's tables. The frames are
+computed here anew: from CARLA's left-handed angles, by matrices, without a line of cosfly.
+
+python check_ros2.py DATASET EXPORT
+"""
+
+import glob
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as parquet
+from mcap_ros2.reader import read_ros2_messages
+from rosbags.highlevel import AnyReader
+from rosbags.typesys import Stores, get_typestore
+
+dataset, export = Path(sys.argv[1]), Path(sys.argv[2])
+MIRROR = np.diag([1.0, -1.0, 1.0])
+# Columns: right, down and ahead of a camera whose axes are x ahead, y right, z up.
+OPTICAL = np.array([[0.0, 0, 1], [1, 0, 0], [0, -1, 0]])
+LATCHED = {"/tf_static", "/town", "/instruction"}
+
+
+def rows_of(table, without=()):
+    for path in sorted(glob.glob(str(dataset / f"data/{table}/*.parquet"))):
+        yield from parquet.read_table(path).drop(list(without)).to_pylist()
+
+
+frames, people = defaultdict(dict), defaultdict(list)
+flights = {row["trajectory_id"]: row for row in rows_of("trajectories")}
+for row in rows_of("frames", ["preview"]):
+    frames[row["trajectory_id"]][row["frame"]] = row
+for row in rows_of("people"):
+    people[row["trajectory_id"], row["frame"]].append(row)
+objects = defaultdict(set)
+for row in rows_of("objects"):
+    x, y, z = row["center_in_world_m"]
+    objects[row["town"]].add(tuple(np.round([x, -y, z, *row["size_m"]], 6)))
+
+
+def world_from_body(pitch_deg, yaw_deg, roll_deg):
+    """CARLA's: columns ahead, right, up."""
+    (sp, sy, sr), (cp, cy, cr) = (f(np.radians([pitch_deg, yaw_deg, roll_deg])) for f in (np.sin, np.cos))
+    return np.array([
+        [cp * cy, cy * sp * sr - sy * cr, -cy * sp * cr - sy * sr],
+        [cp * sy, sy * sp * sr + cy * cr, -sy * sp * cr + cy * sr],
+        [sp, -cp * sr, cp * cr],
+    ])
+
+
+def matrix(q):
+    x, y, z, w = q.x, q.y, q.z, q.w
+    assert abs(x * x + y * y + z * z + w * w - 1) < 1e-9
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ])
+
+
+def turn(vector):
+    """The rotation by a vector's length around it."""
+    angle = np.linalg.norm(vector)
+    if angle == 0:
+        return np.eye(3)
+    x, y, z = vector / angle
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+def xyz(message):
+    return np.array([message.x, message.y, message.z])
+
+
+def nanoseconds(stamp):
+    return stamp.sec * 10**9 + stamp.nanosec
+
+
+class Tree:
+    """Transforms: child -> parent, rotation, place."""
+
+    def __init__(self):
+        self.edges = {}
+
+    def add(self, message):
+        for it in message.transforms:
+            self.edges[it.child_frame_id] = it.header.frame_id, matrix(it.transform.rotation), xyz(it.transform.translation)
+
+    def in_map(self, frame):
+        rotation, place = np.eye(3), np.zeros(3)
+        while frame != "map":
+            frame, r, t = self.edges[frame]
+            rotation, place = r @ rotation, r @ place + t
+        return rotation, place
+
+
+def check_tree(tree, row):
+    drone = MIRROR @ world_from_body(row["drone_pitch_deg"], row["drone_yaw_deg"], row["drone_roll_deg"]) @ MIRROR
+    place = MIRROR @ [row["drone_x_m"], row["drone_y_m"], row["drone_z_m"]]
+    rotation, found = tree.in_map("base_link")
+    assert np.allclose(rotation, drone, atol=1e-9) and np.allclose(found, place, atol=1e-9)
+    # The optical frame is right-handed in the mirrored world: right, down and ahead of the camera.
+    camera = MIRROR @ world_from_body(row["camera_pitch_deg"], row["camera_yaw_deg"], row["camera_roll_deg"]) @ OPTICAL
+    rotation, found = tree.in_map("camera_optical_frame")
+    assert np.allclose(rotation, camera, atol=1e-7) and np.allclose(found, place, atol=1e-9) and np.linalg.det(rotation) > 0
+    rotation, found = tree.in_map("target")
+    assert np.allclose(found, MIRROR @ [row["target_x_m"], row["target_y_m"], row["target_z_m"]], atol=1e-9)
+    assert np.allclose(rotation, turn([0, 0, -np.radians(row["target_heading_deg"])]), atol=1e-9)
+
+
+def check_motion(message, after, dt_s):
+    """Motion leads from a pose to the next one."""
+    pose, next_pose = message.pose.pose, after.pose.pose
+    rotation, twist = matrix(pose.orientation), message.twist.twist
+    assert np.allclose(xyz(pose.position) + rotation @ xyz(twist.linear) * dt_s, xyz(next_pose.position), atol=1e-9)
+    assert np.allclose(rotation @ turn(xyz(twist.angular) * dt_s), matrix(next_pose.orientation), atol=1e-9)
+
+
+def check_detections(message, row, others):
+    expected = {str(body["instance"]): (body["kind"], body["visible_box_px"]) for body in others}
+    if row["visible_box_px"]:
+        expected["1"] = flights[row["trajectory_id"]]["target_kind"], row["visible_box_px"]
+    assert {found.id for found in message.detections} == set(expected)
+    for found in message.detections:
+        kind, (left, top, right, bottom) = expected[found.id]
+        center, (result,) = found.bbox.center.position, found.results
+        assert (found.bbox.size_x, found.bbox.size_y) == (right - left, bottom - top) and result.hypothesis.class_id == kind
+        assert (center.x + 0.5, center.y + 0.5) == ((left + right) / 2, (top + bottom) / 2)
+
+
+def check_geometry(of, tree, row):
+    """Pixels of the target, back in the map, are where the target is; a bent lens is left out."""
+    flight, info = flights[row["trajectory_id"]], of["/camera/camera_info"]
+    depth, labels = of["/camera/depth/image_raw"], of["/camera/semantic/image_raw"]
+    assert (depth.encoding, labels.encoding, depth.step, labels.step) == ("32FC1", "mono8", 4 * depth.width, labels.width)
+    depth = np.frombuffer(bytes(depth.data), np.float32).reshape(depth.height, depth.width)
+    labels = np.frombuffer(bytes(labels.data), np.uint8).reshape(depth.shape)
+    assert np.isinf(depth[labels == 11]).all() and list(info.d[2:]) == [0, 0, 0]
+    if row["visible_pixels"] < 30 or flight["target_kind"] != "pedestrian" or info.d[0] or info.d[1]:
+        return 0
+    left, top, right, bottom = (int(edge) for edge in row["visible_box_px"])
+    v, u = np.nonzero(labels[top:bottom, left:right] == 12)
+    v, u = v + top, u + left
+    z = depth[v, u].astype(float)
+    rays = np.linalg.inv(np.array(info.k).reshape(3, 3)) @ np.array([u, v, np.ones(len(u))])
+    rotation, place = tree.in_map("camera_optical_frame")
+    points = (rotation @ (rays * z)).T + place
+    away = np.median(points, axis=0) - tree.in_map("target")[1]
+    assert np.hypot(*away[:2]) < 0.6 and 0 < away[2] < flight["target_height_m"], away
+    return 1
+
+
+def check_bag(bag):
+    id = bag.name
+    known, flight = frames[id], flights[id]
+    by_time, latched, seen = defaultdict(dict), {}, 0
+    with AnyReader([bag]) as reader:
+        for connection in reader.connections:
+            qualities = connection.ext.offered_qos_profiles
+            assert [int(it.durability) for it in qualities] == ([1] if connection.topic in LATCHED else []), (connection.topic, qualities)
+        for connection, time_ns, raw in reader.messages():
+            message = reader.deserialize(raw, connection.msgtype)
+            (latched if connection.topic in LATCHED else by_time[time_ns])[connection.topic] = message
+    assert len(by_time) == len(known)
+    tree, before = Tree(), None
+    tree.add(latched["/tf_static"])
+    for (time_ns, of), (frame, row) in zip(sorted(by_time.items()), sorted(known.items())):
+        assert time_ns == 10**9 + round(row["time_s"] * 1e9) == nanoseconds(of["/clock"].clock)
+        assert all(nanoseconds(message.header.stamp) == time_ns for message in of.values() if hasattr(message, "header"))
+        tree.add(of["/tf"])
+        check_tree(tree, row)
+        if before:
+            for topic in ("/odom", "/target/odom"):
+                check_motion(before[topic], of[topic], flight["dt_s"])
+        assert np.array_equal(xyz(of["/odom"].pose.pose.position), tree.in_map("base_link")[1])
+        check_detections(of["/detections"], row, people[id, frame])
+        seen += check_geometry(of, tree, row)
+        before = of
+    for marker in latched["/town"].markers:
+        box = tuple(np.round([*xyz(marker.pose.position), *xyz(marker.scale)], 6))
+        assert marker.type == 1 and marker.header.frame_id == "map" and box in objects[flight["town"]], box
+    assert latched["/instruction"].data
+    return len(by_time), seen, len(latched["/town"].markers)
+
+
+def plain(message):
+    """A message of either reader as numbers, texts and lists."""
+    if isinstance(message, np.ndarray):
+        return message.tobytes() if message.dtype == np.uint8 else message.tolist()
+    if isinstance(message, (bytes, bytearray, memoryview)):
+        return bytes(message)
+    if isinstance(message, (list, tuple)):
+        return [plain(item) for item in message]
+    names = getattr(message, "__dataclass_fields__", None) or getattr(message, "__slots__", None)
+    if names is None:
+        return message
+    return {name: plain(getattr(message, name)) for name in names if name != "__msgtype__"}
+
+
+def both_readers_agree(bag):
+    (file,) = bag.glob("*.mcap")
+    with AnyReader([bag]) as reader:
+        ours = [(it.topic, plain(reader.deserialize(raw, it.msgtype))) for it, _, raw in reader.messages()]
+    theirs = [(it.channel.topic, plain(it.ros_msg)) for it in read_ros2_messages(str(file))]
+    key = lambda item: (item[0], str(item[1])[:200])
+    assert sorted(ours, key=key) == sorted(theirs, key=key)
+    return len(ours)
+
+
+def definitions_are_those_of_ros(bag):
+    """By the hash that ROS 2 compares types with; rosbags has no `vision_msgs` of its own."""
+    ros, names = get_typestore(Stores.ROS2_HUMBLE), set()
+    with AnyReader([bag]) as reader:
+        for name in {connection.msgtype for connection in reader.connections} & set(ros.fielddefs):
+            assert reader.typestore.hash_rihs01(name) == ros.hash_rihs01(name), name
+            names.add(name)
+    assert len(names) == 8, names
+    return len(names)
+
+
+def rerun_imports(bag):
+    """The importer of Rerun knows the types: it makes pictures, depths and transforms of them."""
+    (file,), rerun = bag.glob("*.mcap"), Path(sys.executable).with_name("rerun")
+    subprocess.run([rerun, "analytics", "disable"], capture_output=True)
+    with tempfile.TemporaryDirectory() as place:
+        recording = str(Path(place) / "bag.rrd")
+        subprocess.run([rerun, "mcap", "convert", str(file), "-o", recording], check=True, capture_output=True)
+        printed = subprocess.run([rerun, "rrd", "print", "-vv", recording], check=True, capture_output=True, text=True).stdout
+    for word in ("EncodedImage", "DepthImage", "Transform3D", "Pinhole"):
+        assert word in printed, word
+    return "EncodedImage, DepthImage, Transform3D, Pinhole"
+
+
+bags = sorted(path.parent for path in export.glob("*/*/*/metadata.yaml"))
+assert {bag.name for bag in bags} == set(flights)
+total = np.sum([check_bag(bag) for bag in bags], axis=0)
+print(f"{len(bags)} bags, {total[0]} frames, {total[1]} with the target found in the depths, {total[2]} markers")
+print(f"rosbags and mcap-ros2-support agree in {both_readers_agree(bags[0])} messages")
+print(f"{definitions_are_those_of_ros(bags[0])} definitions have the hashes of ROS 2 Humble")
+print(f"Rerun imports {rerun_imports(bags[0])}")
