@@ -1,6 +1,6 @@
 //! Buildings and their parts as boxes.
 
-use super::elements::{Elements, Relation, Role, Way};
+use super::elements::{CUT_OUT, Elements, Relation, Role, Way};
 use super::frame::Frame;
 use super::heights::{heights, rectangle_around};
 use super::options::OsmOptions;
@@ -175,8 +175,7 @@ fn check_count(boxes: usize, source: Source) -> Result<(), MapError> {
     if boxes <= MOST_BOXES {
         return Ok(());
     }
-    Err(MapError::new(format!("the file gives more than {MOST_BOXES} solid boxes (at {source})"))
-        .hint("cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH`"))
+    Err(MapError::new(format!("the file gives more than {MOST_BOXES} solid boxes (at {source})")).hint(CUT_OUT))
 }
 
 /// The outline that each part belongs to: by a relation of type `building`, else by its place.

@@ -10,6 +10,9 @@ const MOST_PARTS: usize = 40_000_000;
 /// Most parts of a small file, and of each byte of it: packed files have one for each four bytes or so.
 const MOST_PARTS_OF_ANY: usize = 2_000_000;
 const MOST_PARTS_OF_A_BYTE: usize = 2;
+/// Advice on files that are too large.
+pub const CUT_OUT: &str =
+    "cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH FILE -o NEW.osm.pbf`";
 /// Units of a coordinate in one degree.
 pub const UNITS_PER_DEGREE: f64 = 1e7;
 
@@ -200,7 +203,7 @@ impl Elements {
         let most = self.most_parts;
         let why = if most < MOST_PARTS { ", more than a file of its size can have" } else { "" };
         Err(MapError::new(format!("the file has more than {most} nodes, ways, members and references{why}"))
-            .hint("cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH`"))
+            .hint(CUT_OUT))
     }
 
     /// Elements that state a key again with another value; the first value counts.

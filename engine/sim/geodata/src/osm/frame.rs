@@ -1,6 +1,6 @@
 //! [`Frame`]: the area of an extract and the plan positions of its nodes.
 
-use super::elements::{Bounds, Elements, Node, UNITS_PER_DEGREE};
+use super::elements::{Bounds, CUT_OUT, Elements, Node, UNITS_PER_DEGREE};
 use crate::projection::TransverseMercator;
 use cosfly_frames::DVec2;
 use cosfly_town::MapError;
@@ -63,9 +63,7 @@ impl Frame {
                     elements.bounds.len()
                 ))
             };
-            return Err(
-                error.hint("cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH`")
-            );
+            return Err(error.hint(CUT_OUT));
         }
         frame.positions = elements.nodes.iter().map(|node| frame.position_of_node(node)).collect();
         Ok(frame)

@@ -1,6 +1,6 @@
 //! Carriageways: their widths, their surfaces, and what lies on one.
 
-use super::elements::{Elements, Way};
+use super::elements::{CUT_OUT, Elements, Way};
 use super::frame::Frame;
 use super::stated::{Doubts, Quantity};
 use super::strip::{add_surface, strips};
@@ -110,7 +110,7 @@ pub fn lines(elements: &Elements, frame: &Frame, way: &Way, length_m: &mut f64) 
             LONGEST_M / 1000.0,
             way.id
         ))
-        .hint("cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH`"));
+        .hint(CUT_OUT));
     }
     Ok(pieces)
 }

@@ -1,7 +1,7 @@
 //! Trees, lamps, masts and barriers as boxes.
 
 use super::buildings::MOST_BOXES;
-use super::elements::{Elements, Way};
+use super::elements::{CUT_OUT, Elements, Way};
 use super::frame::Frame;
 use super::roads::lines;
 use super::stated::{Base, Doubts, EVERY, Quantity};
@@ -152,7 +152,7 @@ pub fn read<'i>(
                 "the file gives more than {MOST_BOXES} solid boxes (at way {})",
                 way.id
             ))
-            .hint("cut the area that you need out of it: `osmium extract --bbox WEST,SOUTH,EAST,NORTH`"));
+            .hint(CUT_OUT));
         }
     }
     Ok(out)
