@@ -50,17 +50,18 @@ impl SightingReader {
             let wanted = self.index.beside(place);
             let known = &mut self.known;
             self.index.visit(&wanted, &mut |rows, _| {
-                let ids = rows.values(Bodies::trajectory_id)?;
+                let (ids, frames) = (rows.values(Bodies::trajectory_id)?, rows.values(Bodies::frame)?);
+                let (instances, boxes) = (rows.values(Bodies::instance)?, rows.values(Bodies::visible_box_px)?);
                 for row in 0..rows.len() {
                     let Some(place) = dataset.place(ids.text(row)).filter(|it| wanted.contains(it)) else {
                         continue;
                     };
                     // A row without a box or an id is of a hidden body.
-                    let seen = (rows.get(Bodies::instance, row)?, rows.get(Bodies::visible_box_px, row)?);
+                    let seen = (instances.at(row)?, boxes.at(row)?);
                     let (Some(instance), Some(visible_box_px)) = seen else { continue };
                     let [.., height_m] = rows.get(Bodies::size_m, row)?;
                     known.entry(place).or_default().push(SeenBody {
-                        frame: rows.get(Bodies::frame, row)?,
+                        frame: frames.at(row)?,
                         instance,
                         kind: rows.get(Bodies::kind, row)?,
                         feet_in_world: DVec3::from_array(rows.get(Bodies::feet_in_world_m, row)?),
