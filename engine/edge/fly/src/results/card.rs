@@ -1,6 +1,6 @@
 //! [`Card`]: what was evaluated, and how.
 
-use super::folder::differences;
+use super::differences::differences;
 use crate::flight::Latency;
 use crate::settings::FlySettings;
 use crate::suite::Suite;

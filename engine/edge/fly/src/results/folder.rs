@@ -1,13 +1,12 @@
 //! [`Folder`]: the folder of a result; rows and logs appear in it whole or not at all.
 
 use super::card::Card;
+use super::differences::differences;
 use super::report;
 use crate::flight::{Flown, Row};
 use crate::log::{self, Line};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_whole::{Appeared, NewFolder, write_file};
-use serde_json::Value;
-use std::collections::BTreeSet;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -205,25 +204,6 @@ impl Folder {
     fn write(&self, name: &str, bytes: &[u8]) -> Result<()> {
         let path = self.path.join(name);
         write_file(&path, bytes).map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error))
-    }
-}
-
-/// Entries in which two cards differ, in words, the kept one first.
-pub fn differences(name: &str, kept: &Value, asked: &Value) -> Vec<String> {
-    match (kept, asked) {
-        _ if kept == asked => vec![],
-        (Value::Object(ours), Value::Object(theirs)) => {
-            let names: BTreeSet<&String> = ours.keys().chain(theirs.keys()).collect();
-            let of = |key: &String| {
-                let inside = if name.is_empty() { key.clone() } else { format!("{name}.{key}") };
-                differences(&inside, ours.get(key).unwrap_or(&Value::Null), theirs.get(key).unwrap_or(&Value::Null))
-            };
-            names.into_iter().flat_map(of).collect()
-        }
-        _ => {
-            let shown = |value: &Value| if value.is_null() { "nothing".to_owned() } else { value.to_string() };
-            vec![format!("`{name}` was {} and is {} now", shown(kept), shown(asked))]
-        }
     }
 }
 

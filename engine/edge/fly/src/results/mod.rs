@@ -1,11 +1,13 @@
 //! The result of an evaluation: a folder with a card, a row and logs per episode, tables, clips and a page.
 
 mod card;
+mod differences;
 mod folder;
 mod metrics;
 mod report;
 
 pub use card::{Card, EnvironmentCard, KeptCard, LogChoice, PicturesCard, PolicyCard, SuiteCard};
-pub use folder::{Folder, differences};
+pub use differences::differences;
+pub use folder::Folder;
 pub use metrics::{METRICS, Metric, Summary, mean_of, strata, summary};
 pub use report::{beside, cell, ending, markdown, scores, worst};
