@@ -6,7 +6,7 @@ use super::flight_list::FlightList;
 use super::report::VerifyReport;
 use super::rows::{self, PlacedFlight, PlacedFrame, split_of};
 use cosfly_domain::BodyKind;
-use cosfly_frames::DVec3;
+use cosfly_frames::{DVec3, real};
 use cosfly_read::RowIndex;
 use cosfly_schema::tables::Bodies;
 use rayon::prelude::*;
@@ -107,7 +107,7 @@ impl BodiesIndex {
                         feet: DVec3::from_array(rows.get(Bodies::feet_in_world_m, row)?),
                         height_m,
                         // A circle around the outline of a vehicle.
-                        radius_m: if is_person { 0.5 * length_m } else { 0.5 * length_m.hypot(width_m) },
+                        radius_m: if is_person { 0.5 * length_m } else { 0.5 * real::hypot(length_m, width_m) },
                         has_umbrella: rows.get(Bodies::has_umbrella, row)?.unwrap_or(false),
                     },
                 });
