@@ -212,12 +212,12 @@ def both_readers_agree(bag):
 
 def definitions_are_those_of_ros(bag):
     """By the hash that ROS 2 compares types with; rosbags has no `vision_msgs` of its own."""
-    ros, names = get_typestore(Stores.ROS2_HUMBLE), set()
+    ros = get_typestore(Stores.ROS2_HUMBLE)
     with AnyReader([bag]) as reader:
-        for name in {connection.msgtype for connection in reader.connections} & set(ros.fielddefs):
+        names = set(reader.typestore.fielddefs) & set(ros.fielddefs)
+        for name in names:
             assert reader.typestore.hash_rihs01(name) == ros.hash_rihs01(name), name
-            names.add(name)
-    assert len(names) == 8, names
+    assert "visualization_msgs/msg/Marker" in names
     return len(names)
 
 
