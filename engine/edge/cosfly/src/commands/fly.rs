@@ -104,8 +104,8 @@ pub struct Arguments {
 /// Other work with results.
 #[derive(Debug, Subcommand)]
 enum Other {
-    Compare(compare::Arguments),
     Bundle(bundle::Arguments),
+    Compare(compare::Arguments),
     Verify(verify::Arguments),
 }
 
