@@ -160,7 +160,7 @@ def check_bag(bag):
     with AnyReader([bag]) as reader:
         for connection in reader.connections:
             qualities = connection.ext.offered_qos_profiles
-            assert [int(it.durability) for it in qualities] == ([1] if connection.topic in LATCHED else []), (connection.topic, qualities)
+            assert [int(getattr(it.durability, "value", it.durability)) for it in qualities] == ([1] if connection.topic in LATCHED else []), (connection.topic, qualities)
         for connection, time_ns, raw in reader.messages():
             message = reader.deserialize(raw, connection.msgtype)
             (latched if connection.topic in LATCHED else by_time[time_ns])[connection.topic] = message

@@ -3,9 +3,13 @@
 use std::fs::{self, File};
 use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Name of the file that marks an unfinished folder. Its maker holds a lock on it: an unlocked one is a leftover.
 const MARK: &str = ".cosfly-unfinished";
+
+/// Number of the next draft of this process.
+static NEXT: AtomicUsize = AtomicUsize::new(0);
 
 /// A folder in the making. Dropped before [`Self::appear`], it is removed; what a killed process left is removed by the next one
 /// that makes a folder at the same place.
@@ -40,11 +44,12 @@ impl NewFolder {
         fs::create_dir_all(parent)?;
         let prefix = format!(".{}.unfinished", name.to_string_lossy());
         remove_leftovers(parent, &prefix);
-        let mut number = 0;
         let draft = loop {
+            // No name twice: who still looks at a draft of ours finds nothing, not the next one.
+            let number = NEXT.fetch_add(1, Ordering::Relaxed);
             let draft = parent.join(format!("{prefix}-{}-{number}", std::process::id()));
             match fs::create_dir(&draft) {
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
                 made => break made.map(|()| draft)?,
             }
         };
@@ -94,7 +99,9 @@ impl NewFolder {
     pub fn appear(mut self) -> Result<Appeared> {
         match fs::remove_file(self.draft.join(MARK)) {
             Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
-            _ => self.mark = None,
+            // Elsewhere the lock stays until the folder has its name: who opened the mark before must not take the draft for a leftover.
+            _ if cfg!(windows) => self.mark = None,
+            _ => {}
         }
         let renamed = fs::rename(&self.draft, &self.target).or_else(|error| {
             // Some systems do not replace an empty folder.
@@ -121,8 +128,10 @@ fn remove_leftovers(parent: &Path, prefix: &str) {
         if !entry.file_name().to_string_lossy().starts_with(prefix) {
             continue;
         }
-        let Ok(mark) = File::open(entry.path().join(MARK)) else { continue };
-        if mark.try_lock().is_ok() {
+        let path = entry.path().join(MARK);
+        let Ok(mark) = File::open(&path) else { continue };
+        // A mark that is gone by now was of a folder that has its name.
+        if mark.try_lock().is_ok() && path.exists() {
             let _ = fs::remove_dir_all(entry.path());
         }
     }

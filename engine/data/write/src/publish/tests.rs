@@ -118,7 +118,7 @@ fn the_card_keeps_the_configs_of_tables_without_rows_and_says_which_they_are() {
     let folder = tempfile::tempdir().unwrap();
     sample::write_flights(folder.path(), &DatasetConfig::default(), EncodingConfig::default(), experts).unwrap();
     let card = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
-    assert!(card.contains("# tables: frames, trajectories, waypoints, captions, people, phrases, goals\n"), "{card}");
+    assert!(card.contains("# tables: frames, trajectories, waypoints, captions, bodies, phrases, goals\n"), "{card}");
     // A loader that was written for a dataset with pairs finds the config in this one, too.
     let configs: Vec<&str> = card.lines().filter_map(|line| line.strip_prefix("- config_name: ")).collect();
     let all = cosfly_schema::tables::of_trajectories();

@@ -90,7 +90,7 @@ def _write(frames: Dataset, folder: Path, progress: Any) -> None:
         places[name], first = first, first + frames._counts[frames._number_of(name)]
     about = {
         "format": FORMAT, "dataset": {"identity": frames.identity, "path": os.fspath(frames.path)},
-        "size": [width, height], "channels": list(frames.channels), "first_frame": places,
+        "size": list(frames.size or (0, 0)), "channels": list(frames.channels), "first_frame": places,
     }  # fmt: skip
     (folder / "pack.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
 
