@@ -4,6 +4,7 @@ computed here anew: from CARLA's left-handed angles, by matrices, without a line
 python check_ros2.py DATASET EXPORT
 """
 
+import dataclasses
 import glob
 import subprocess
 import sys
@@ -139,7 +140,7 @@ def check_geometry(of, tree, row):
     depth = np.frombuffer(bytes(depth.data), np.float32).reshape(depth.height, depth.width)
     labels = np.frombuffer(bytes(labels.data), np.uint8).reshape(depth.shape)
     assert np.isinf(depth[labels == 11]).all() and list(info.d[2:]) == [0, 0, 0]
-    if row["visible_pixels"] < 30 or flight["target_kind"] != "pedestrian" or info.d[0] or info.d[1]:
+    if row["visible_pixels"] < 8 or flight["target_kind"] != "pedestrian" or info.d[0] or info.d[1]:
         return 0
     left, top, right, bottom = (int(edge) for edge in row["visible_box_px"])
     v, u = np.nonzero(labels[top:bottom, left:right] == 12)
@@ -160,7 +161,7 @@ def check_bag(bag):
     with AnyReader([bag]) as reader:
         for connection in reader.connections:
             qualities = connection.ext.offered_qos_profiles
-            assert [int(getattr(it.durability, "value", it.durability)) for it in qualities] == ([1] if connection.topic in LATCHED else []), (connection.topic, qualities)
+            assert [it.durability.value for it in qualities] == ([1] if connection.topic in LATCHED else []), (connection.topic, qualities)
         for connection, time_ns, raw in reader.messages():
             message = reader.deserialize(raw, connection.msgtype)
             (latched if connection.topic in LATCHED else by_time[time_ns])[connection.topic] = message
@@ -194,10 +195,14 @@ def plain(message):
         return bytes(message)
     if isinstance(message, (list, tuple)):
         return [plain(item) for item in message]
-    names = getattr(message, "__dataclass_fields__", None) or getattr(message, "__slots__", None)
-    if names is None:
+    if dataclasses.is_dataclass(message):
+        names = [field.name for field in dataclasses.fields(message)]
+    elif hasattr(message, "__slots__"):
+        names = message.__slots__
+    else:
         return message
-    return {name: plain(getattr(message, name)) for name in names if name != "__msgtype__"}
+    # Constants are not content.
+    return {name: plain(getattr(message, name)) for name in names if not name.isupper() and name != "__msgtype__"}
 
 
 def both_readers_agree(bag):
@@ -205,8 +210,9 @@ def both_readers_agree(bag):
     with AnyReader([bag]) as reader:
         ours = [(it.topic, plain(reader.deserialize(raw, it.msgtype))) for it, _, raw in reader.messages()]
     theirs = [(it.channel.topic, plain(it.ros_msg)) for it in read_ros2_messages(str(file))]
-    key = lambda item: (item[0], str(item[1])[:200])
-    assert sorted(ours, key=key) == sorted(theirs, key=key)
+    # Of one topic in the order of their times.
+    by_topic = [sorted(messages, key=lambda item: item[0]) for messages in (ours, theirs)]
+    assert by_topic[0] == by_topic[1]
     return len(ours)
 
 
@@ -237,6 +243,7 @@ def rerun_imports(bag):
 bags = sorted(path.parent for path in export.glob("*/*/*/metadata.yaml"))
 assert {bag.name for bag in bags} == set(flights)
 total = np.sum([check_bag(bag) for bag in bags], axis=0)
+assert total[1], "no picture shows enough of the target"
 print(f"{len(bags)} bags, {total[0]} frames, {total[1]} with the target found in the depths, {total[2]} markers")
 print(f"rosbags and mcap-ros2-support agree in {both_readers_agree(bags[0])} messages")
 print(f"{definitions_are_those_of_ros(bags[0])} definitions have the hashes of ROS 2 Humble")

@@ -51,7 +51,7 @@ impl Format for Mot {
         }
         list.write(out)?;
         let split = source.splits().first().copied().unwrap_or_default();
-        let body = format!("{}\n{}", BODY.replace("SPLIT", split), sequence::CARD);
+        let body = format!("{}\n{}", BODY.replace("NAME_OF_SPLIT", split), sequence::CARD);
         Card { format: "MOTChallenge", front_matter: "task_categories:\n- object-detection\n".into(), body }
             .write(source, out)?;
         Ok(vec![])
@@ -121,8 +121,8 @@ import configparser
 from pathlib import Path
 import numpy
 
-for name in Path(\"seqmaps/SPLIT.txt\").read_text().split()[1:]:
-    folder = Path(\"SPLIT\") / name
+for name in Path(\"seqmaps/NAME_OF_SPLIT.txt\").read_text().split()[1:]:
+    folder = Path(\"NAME_OF_SPLIT\") / name
     info = configparser.ConfigParser()
     info.read(folder / \"seqinfo.ini\")
     rows = numpy.loadtxt(folder / \"gt/gt.txt\", delimiter=\",\", ndmin=2).reshape(-1, 9)
@@ -139,16 +139,16 @@ from pathlib import Path
 import tempfile
 import trackeval
 
-names = Path(\"seqmaps/SPLIT.txt\").read_text().split()[1:]
+names = Path(\"seqmaps/NAME_OF_SPLIT.txt\").read_text().split()[1:]
 with tempfile.TemporaryDirectory() as trackers:
     results = Path(trackers) / \"truth/data\"
     results.mkdir(parents=True)
     for name in names:
-        lines = [line.split(\",\") for line in Path(f\"SPLIT/{name}/gt/gt.txt\").read_text().splitlines()]
+        lines = [line.split(\",\") for line in Path(f\"NAME_OF_SPLIT/{name}/gt/gt.txt\").read_text().splitlines()]
         lines = [\",\".join([*line[:6], \"1\", \"-1\", \"-1\", \"-1\"]) for line in lines if line[7] == \"1\"]
         (results / f\"{name}.txt\").write_text(\"\".join(line + \"\\n\" for line in lines))
     quiet = {\"PRINT_CONFIG\": False}
-    data = {\"GT_FOLDER\": \"SPLIT\", \"SEQMAP_FILE\": \"seqmaps/SPLIT.txt\", \"SKIP_SPLIT_FOL\": True, \"TRACKERS_FOLDER\": trackers, **quiet}
+    data = {\"GT_FOLDER\": \"NAME_OF_SPLIT\", \"SEQMAP_FILE\": \"seqmaps/NAME_OF_SPLIT.txt\", \"SKIP_SPLIT_FOL\": True, \"TRACKERS_FOLDER\": trackers, **quiet}
     config = {\"PRINT_RESULTS\": False, \"TIME_PROGRESS\": False, \"OUTPUT_SUMMARY\": False, \"OUTPUT_DETAILED\": False,
               \"PLOT_CURVES\": False, \"BREAK_ON_ERROR\": True, **quiet}
     dataset = trackeval.datasets.MotChallenge2DBox(data)
