@@ -34,8 +34,9 @@ frames, people = defaultdict(dict), defaultdict(list)
 flights = {row["trajectory_id"]: row for row in rows_of("trajectories")}
 for row in rows_of("frames", ["preview"]):
     frames[row["trajectory_id"]][row["frame"]] = row
-for row in rows_of("people"):
-    people[row["trajectory_id"], row["frame"]].append(row)
+for row in rows_of("bodies"):
+    if row["visible_pixels"]:
+        people[row["trajectory_id"], row["frame"]].append(row)
 objects = defaultdict(set)
 for row in rows_of("objects"):
     x, y, z = row["center_in_world_m"]
