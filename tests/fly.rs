@@ -244,6 +244,8 @@ fn a_result_is_one_file_whose_actions_come_to_the_same_rows() {
     let printed = verify("plain/follow.jsonl.zst", &["--set", "seed=99"]);
     assert!(printed.code == Some(4) && printed.stderr.contains("of another suite"), "{}", printed.stderr);
     refused(&street, &["bundle", "nowhere"], 4, "is no finished result");
+    refused(&street, &["verify", "plain/follow", "recipe.toml"], 4, "is a folder");
+    refused(&street, &["verify", "nowhere", "recipe.toml"], 4, "does not exist");
 }
 
 #[test]

@@ -65,7 +65,9 @@ def main(folder):
     for name, by_frame in bodies.items():
         least = flights[name]["min_clearance_m"]
         for frame, present in by_frame.items():
-            listed = list(present.values())
+            # Other drones fly above whoever walks and drives.
+            flying = [it for it in present.values() if it["kind"] == "drone"]
+            listed = [it for it in present.values() if it["kind"] != "drone"]
             places = np.array([it["feet_in_world_m"][:2] for it in listed])
             reach = np.array([np.hypot(*it["size_m"][:2]) / 2 for it in listed])
             for i in range(len(listed)):
@@ -80,7 +82,7 @@ def main(folder):
             place = lambda row: np.array([row[f"drone_{axis}_m"] for axis in "xyz"])
             for share in np.arange(BETWEEN) / BETWEEN if there else [0.0]:
                 drone = place(here) + share * (place(there or here) - place(here))
-                for body in listed:
+                for body in listed + flying:
                     later = by_frame.get(frame + 1, {}).get(body["body_id"], body)
                     feet = np.array(body["feet_in_world_m"]) + share * (np.array(later["feet_in_world_m"]) - body["feet_in_world_m"])
                     if np.abs(drone - feet).max() > 40:

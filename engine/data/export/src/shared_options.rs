@@ -28,6 +28,17 @@ pub struct InstructionOptions {
     pub language: Language,
 }
 
+/// Pictures of some frames, and instructions.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+pub struct PictureAndTextOptions {
+    /// Pictures.
+    #[serde(flatten)]
+    pub pictures: PictureOptions,
+    /// Instructions.
+    #[serde(flatten)]
+    pub instructions: InstructionOptions,
+}
+
 /// Language of instructions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

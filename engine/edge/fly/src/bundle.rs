@@ -139,6 +139,13 @@ impl Bundle {
     /// `fly-bundle` for any other file, with the line; errors of the file system.
     pub fn read(path: &Path) -> Result<Self> {
         let shown = path.display();
+        if path.is_dir() || !path.exists() {
+            let (what, hint) = match path.is_dir() {
+                true => ("is a folder", format!("`cosfly fly bundle {shown}` makes the file of a result")),
+                false => ("does not exist", "give the file that `cosfly fly bundle` made".to_owned()),
+            };
+            return Err(Diagnostic::new("fly-bundle", Fault::Input, format!("`{shown}` {what}")).hint(hint));
+        }
         let bytes = std::fs::read(path).map_err(|error| Diagnostic::io(format!("read {shown}"), &error))?;
         Self::of_bytes(&bytes).map_err(|rule| {
             Diagnostic::new("fly-bundle", Fault::Input, format!("`{shown}` is no whole bundle of `cosfly fly bundle`"))

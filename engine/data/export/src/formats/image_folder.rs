@@ -6,32 +6,21 @@ use crate::format::Format;
 use crate::media::{ending, picture_path};
 use crate::pixels::{depth_png, ending_on_request, file_on_request, gray8_png};
 use crate::sample_text::frame_facts;
-use crate::shared_options::{InstructionOptions, PictureOptions};
+use crate::shared_options::PictureAndTextOptions;
 use crate::source::Source;
 use cosfly_diagnose::Result;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use serde_json::json;
 use std::io::Write;
 
 /// Picture files with a line of facts for each.
 pub struct ImageFolder;
 
-/// Options of `imagefolder`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-pub struct Options {
-    #[serde(flatten)]
-    pictures: PictureOptions,
-    #[serde(flatten)]
-    instructions: InstructionOptions,
-}
-
 impl Format for ImageFolder {
     const NAME: &'static str = "imagefolder";
     const DOC: &'static str = "ImageFolder: files of colours, depth and labels with a line of facts for each frame";
-    type Options = Options;
+    type Options = PictureAndTextOptions;
 
-    fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+    fn write(options: &PictureAndTextOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         for split in source.splits() {
             write_split(options, source, out, split)?;
         }
@@ -48,7 +37,7 @@ impl Format for ImageFolder {
     }
 }
 
-fn write_split(options: &Options, source: &Source<'_>, out: &OutFolder, split: &str) -> Result<()> {
+fn write_split(options: &PictureAndTextOptions, source: &Source<'_>, out: &OutFolder, split: &str) -> Result<()> {
     let name = format!("{split}/metadata.jsonl");
     let mut file = out.create(&name)?;
     let mut number = 0;

@@ -4,32 +4,21 @@ use crate::card::Card;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::sequence::{self, Sequence, SequenceList, box_text};
-use crate::shared_options::{InstructionOptions, PictureOptions};
+use crate::shared_options::PictureAndTextOptions;
 use crate::single_target::{self, each_sequence, is_seen, target_word};
 use crate::source::{Episode, Source};
 use cosfly_diagnose::Result;
 use cosfly_read::FrameRow;
-use schemars::JsonSchema;
-use serde::Deserialize;
 
 /// Sequences for trackers of single targets, with words.
 pub struct LaSot;
 
-/// Options of `lasot`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-pub struct Options {
-    #[serde(flatten)]
-    pictures: PictureOptions,
-    #[serde(flatten)]
-    instructions: InstructionOptions,
-}
-
 impl Format for LaSot {
     const NAME: &'static str = "lasot";
     const DOC: &'static str = "LaSOT: pictures of each flight, the target's box, occlusion and absence, a sentence";
-    type Options = Options;
+    type Options = PictureAndTextOptions;
 
-    fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+    fn write(options: &PictureAndTextOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         let mut list = SequenceList::default();
         // Readers cut a name at its dash.
         let name = |number, episode: &Episode<'_>| format!("{}-{number}", target_word(episode));

@@ -11,7 +11,7 @@ use crate::card::Card;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{FOLDER_LIMIT, ending};
-use crate::shared_options::{InstructionOptions, PictureOptions};
+use crate::shared_options::PictureAndTextOptions;
 use crate::source::{Episode, Source};
 use bag::{Bag, Topic};
 use cosfly_diagnose::Result;
@@ -20,20 +20,9 @@ use cosfly_frames::{DQuat, DVec3, Pose, real};
 use cosfly_read::{LoggedFrame, SeenBody, SightingReader};
 use cosfly_schema::log::{frame_time_ns, messages::feet_pose, right_handed};
 use messages::{Detected, Header, Motion, OPTICAL, Placed};
-use schemars::JsonSchema;
-use serde::Deserialize;
 
 /// Bags.
 pub struct Ros2;
-
-/// Options of `ros2`.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-pub struct Options {
-    #[serde(flatten)]
-    pictures: PictureOptions,
-    #[serde(flatten)]
-    instructions: InstructionOptions,
-}
 
 /// Time of the first frame, nanoseconds. Time 0 means in ROS that there is no time.
 const START_NS: u64 = 1_000_000_000;
@@ -41,9 +30,9 @@ const START_NS: u64 = 1_000_000_000;
 impl Format for Ros2 {
     const NAME: &'static str = "ros2";
     const DOC: &'static str = "ROS 2: a bag per flight with pictures, depth, labels, transforms, odometry, detections";
-    type Options = Options;
+    type Options = PictureAndTextOptions;
 
-    fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+    fn write(options: &PictureAndTextOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         let mut bodies = SightingReader::of(source.dataset)?;
         let mut number = 0;
         source.each_flight(&mut |episode| {

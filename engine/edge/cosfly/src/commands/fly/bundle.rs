@@ -7,6 +7,7 @@ use clap::Args;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_fly::bundle::Bundle;
 use cosfly_whole::write_file;
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
 /// Make a result one file that anyone can fly again: card, rows, actions of every step
@@ -32,7 +33,7 @@ impl Arguments {
         let bundle = Bundle::of(&self.result)?;
         let bytes = bundle.bytes()?;
         let path = self.out.clone().unwrap_or_else(|| {
-            let mut name = self.result.file_name().unwrap_or_default().to_owned();
+            let mut name = self.result.file_name().unwrap_or(OsStr::new("result")).to_owned();
             name.push(".jsonl.zst");
             self.result.with_file_name(name)
         });
