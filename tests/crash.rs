@@ -40,7 +40,14 @@ fn ctrl_c_ends_a_run_within_seconds_in_the_middle_of_an_item_and_the_next_run_go
         "--set",
         "stages.walkers.frames=40000",
     ];
-    let mut running = cosfly(&endless).within(street.path()).spawn();
+    stops_soon(cosfly(&endless).within(street.path()));
+    run(&street, "out", &[]);
+}
+
+/// Sends Ctrl-C to a call that would take minutes, and expects its end.
+#[cfg(unix)]
+fn stops_soon(call: crate::support::Call) {
+    let mut running = call.spawn();
     std::thread::sleep(Duration::from_secs(4));
     assert!(running.try_wait().expect("a state").is_none(), "it is at work");
     let asked = Instant::now();
@@ -50,7 +57,23 @@ fn ctrl_c_ends_a_run_within_seconds_in_the_middle_of_an_item_and_the_next_run_go
     assert_eq!(ended.code(), Some(130));
     // Two seconds are promised; a busy machine gets more.
     assert!(asked.elapsed() < Duration::from_secs(10), "{:?}", asked.elapsed());
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_the_regeneration_of_a_flight_and_leaves_nothing_behind() {
+    let street = Street::new();
     run(&street, "out", &[]);
+    let scratch = street.path().join("scratch");
+    std::fs::create_dir(&scratch).expect("writable");
+    // Anew, the walk takes hours.
+    let endless = [
+        &["verify", "out", "--regenerate", "1", "--recipe", "recipe.toml"][..],
+        &["--set", "stages.walkers.count=1", "--set", "stages.walkers.frames=40000"],
+    ];
+    let scratch_text = scratch.to_str().expect("UTF-8");
+    stops_soon(cosfly(&endless.concat()).within(street.path()).with("TMPDIR", scratch_text));
+    assert_eq!(std::fs::read_dir(&scratch).expect("readable").count(), 0, "the store of the flight is gone");
 }
 
 /// Finished items of a store with their times of publication.

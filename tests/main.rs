@@ -1,5 +1,6 @@
 //! End-to-end tests through the real binary: runs, resume, determinism, diagnostics, snapshots, repository rules.
 
+mod advice;
 mod ask_expert;
 mod at_once;
 mod book;

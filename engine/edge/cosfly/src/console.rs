@@ -1,6 +1,6 @@
 //! The seam: surroundings of a command. The terminal is one; a program that embeds the command line brings its own.
 
-use crate::interrupt::Deadline;
+pub use crate::interrupt::{Deadline, remove_scratch};
 use crate::output;
 use crate::progress::Bar;
 use crate::reporter::Reporter;
@@ -8,6 +8,7 @@ use crate::{interrupt, reporter};
 use cosfly_diagnose::{Result, Stop};
 use cosfly_stage::RunEvent;
 use std::io::BufRead;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -36,8 +37,9 @@ pub trait Console: Sync {
     /// The flag that stops a command that has nothing to keep, within a second. A terminal ends the process instead.
     fn stop(&self) -> Stop;
 
-    /// Until it is dropped, ends the process two seconds after [`Self::cancelled`] was set. None where the process is not ours.
-    fn deadline(&self) -> Option<Deadline> {
+    /// Until it is dropped, ends the process two seconds after [`Self::cancelled`] was set, and removes the folder `scratch`
+    /// of the command before. None where the process is not ours: who ends such a command early removes the folder.
+    fn deadline(&self, _scratch: Option<&Path>) -> Option<Deadline> {
         None
     }
 
@@ -75,8 +77,8 @@ impl Console for Terminal {
         Stop::default()
     }
 
-    fn deadline(&self) -> Option<Deadline> {
-        Some(Deadline::begin())
+    fn deadline(&self, scratch: Option<&Path>) -> Option<Deadline> {
+        Some(Deadline::begin(scratch))
     }
 
     fn colour(&self) -> bool {

@@ -1,5 +1,6 @@
 //! Ctrl-C and termination signals set one flag; a second one ends the process at once, and so does a [`Deadline`].
 
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, OnceLock};
@@ -7,7 +8,9 @@ use std::time::{Duration, Instant};
 
 /// Time for tasks that look at the flag to end, and for finished ones to be published.
 const GRACE: Duration = Duration::from_millis(1500);
-/// Pause between two looks at the flag.
+/// Most attempts to remove a folder that other threads still write to.
+const ATTEMPTS: usize = 20;
+/// Pause between two looks at the flag, and between two attempts.
 const LOOK: Duration = Duration::from_millis(50);
 
 static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
@@ -35,19 +38,32 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// Begins to look at the flag.
-    pub fn begin() -> Self {
+    /// Begins to look at the flag. The folder `scratch` is removed before the process ends.
+    pub fn begin(scratch: Option<&Path>) -> Self {
         let (over, is_over) = channel();
         let flag = flag();
+        let scratch = scratch.map(Path::to_owned);
         std::thread::spawn(move || {
             let mut stopped_at = None;
             while is_over.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 if flag.load(Ordering::SeqCst) && stopped_at.get_or_insert_with(Instant::now).elapsed() >= GRACE {
+                    scratch.iter().for_each(|folder| remove_scratch(folder));
                     eprintln!("stopped: items that were not finished are made again");
                     std::process::exit(i32::from(crate::exit::STOPPED));
                 }
             }
         });
         Self { _over: over }
+    }
+}
+
+/// Removes a folder that other threads may still write to.
+pub fn remove_scratch(folder: &Path) {
+    for _ in 0..ATTEMPTS {
+        let _ = std::fs::remove_dir_all(folder);
+        if !folder.exists() {
+            return;
+        }
+        std::thread::sleep(LOOK);
     }
 }

@@ -14,7 +14,7 @@ use cosfly_runner::{Plan, RunOptions, RunOutcome, run};
 use cosfly_stage::{BlobSource, Blobs, RunEvent, StageRole};
 use cosfly_store::Store;
 use serde::de::DeserializeOwned;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
@@ -69,6 +69,13 @@ fn follows(stage: &RecipeStage) -> bool {
     stage.has_role(StageRole::Plans) && stage.connection("walks").is_some()
 }
 
+/// Names of the stages whose walks the stages number `stages` plan behind.
+fn walkers<'r>(recipe: &'r Recipe, stages: &[usize]) -> Vec<&'r str> {
+    let connections = stages.iter().filter_map(|stage| recipe.stages[*stage].connection("walks"));
+    let upstreams: BTreeSet<usize> = connections.flat_map(|it| it.upstreams.iter().copied()).collect();
+    upstreams.into_iter().map(|stage| recipe.stages[stage].name.as_str()).collect()
+}
+
 impl Suite {
     /// Makes what a recipe's experts need, and reads their flights as episodes.
     ///
@@ -101,11 +108,12 @@ impl Suite {
             Reader { plan: cosfly_runner::plan(recipe, store)?, store, places: BTreeMap::new() }.read(&stages)?;
         if suite.tasks.is_empty() {
             let message = format!("`{}` has no episode: the expert found no flight", recipe.path.display());
+            let walks = walkers(recipe, &stages).join("`, `");
             return Err(Diagnostic::new("fly-suite", Fault::Recipe, message)
                 .because(format!("none behind {} walks", suite.rejected))
-                .hint(
-                    "`cosfly run` on the recipe says why; more walks (`--set stages.walkers.count=...`) may have some",
-                ));
+                .hint(format!(
+                    "`cosfly run` on the recipe says why; more walks may have some: a larger `count` of `{walks}`"
+                )));
         }
         Ok(suite)
     }

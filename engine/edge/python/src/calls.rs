@@ -7,11 +7,14 @@ use cosfly_diagnose::{Diagnostic, Fault};
 use pyo3::prelude::*;
 use std::ffi::OsString;
 use std::panic::AssertUnwindSafe;
+use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Time between two looks at signals and progress.
 pub const POLL: Duration = Duration::from_millis(50);
+/// Time for work that looks at the flag to end after Ctrl-C, and for finished items to be published.
+const GRACE: Duration = Duration::from_millis(1500);
 
 /// The process `cosfly` with the given arguments; returns its exit code.
 #[pyfunction]
@@ -21,6 +24,9 @@ pub fn main(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
 
 /// Runs a command and returns its exit code, its output and its messages. `progress` is called with a dictionary from the
 /// name of the work to the number of finished and of all parts.
+///
+/// After Ctrl-C the call ends within two seconds. One long task, such as a plan, does not look at the flag: its thread goes
+/// on alone to the end of the task, publishes nothing more, and ends.
 #[pyfunction]
 #[pyo3(signature = (arguments, input = Vec::new(), progress = None))]
 pub fn call(
@@ -29,44 +35,47 @@ pub fn call(
     input: Vec<u8>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(u8, String, Vec<String>)> {
-    let console = Embedded::new(input);
+    let console = Arc::new(Embedded::new(input));
     let (send, mut receive) = channel();
-    let ended = std::thread::scope(|scope| {
-        let console = &console;
-        scope.spawn(move || {
-            let work = AssertUnwindSafe(|| on_own_threads(|| cosfly::call(arguments, console)));
-            let _ = send.send(std::panic::catch_unwind(work));
+    let own = Arc::clone(&console);
+    std::thread::spawn(move || {
+        let work = AssertUnwindSafe(|| on_own_threads(|| cosfly::call(arguments, &*own)));
+        let _ = send.send(std::panic::catch_unwind(work));
+    });
+    let mut shown = Default::default();
+    let mut interruption: Option<(PyErr, Instant)> = None;
+    let ended = loop {
+        let waited = &mut receive;
+        let ended = py.detach(move || waited.recv_timeout(POLL));
+        let polled = py.check_signals().and_then(|()| match &progress {
+            Some(progress) if interruption.is_none() => {
+                let now = console.state().progress.clone();
+                if now == shown {
+                    return Ok(());
+                }
+                shown = now.clone();
+                progress.call1(py, (now,)).map(drop)
+            }
+            _ => Ok(()),
         });
-        let mut shown = Default::default();
-        let mut interruption = None;
-        loop {
-            let waited = &mut receive;
-            let ended = py.detach(move || waited.recv_timeout(POLL));
-            let polled = py.check_signals().and_then(|()| match &progress {
-                Some(progress) => {
-                    let now = console.state().progress.clone();
-                    if now == shown {
-                        return Ok(());
-                    }
-                    shown = now.clone();
-                    progress.call1(py, (now,)).map(drop)
-                }
-                None => Ok(()),
-            });
-            if let Err(error) = polled {
-                console.cancel();
-                interruption.get_or_insert(error);
-            }
-            match (ended, interruption) {
-                (Err(RecvTimeoutError::Timeout), waiting) => interruption = waiting,
-                (_, Some(error)) => return Err(error),
-                (Ok(ended), None) => return Ok(ended),
-                (Err(RecvTimeoutError::Disconnected), None) => {
-                    return Err(internal(py));
-                }
-            }
+        if let Err(error) = polled {
+            console.cancel();
+            interruption.get_or_insert((error, Instant::now()));
         }
-    })?;
+        match (ended, interruption) {
+            (Err(RecvTimeoutError::Timeout), None) => interruption = None,
+            (Err(RecvTimeoutError::Timeout), Some((error, since))) if since.elapsed() < GRACE => {
+                interruption = Some((error, since));
+            }
+            (Err(RecvTimeoutError::Timeout), Some((error, _))) => {
+                console.abandon();
+                return Err(error);
+            }
+            (_, Some((error, _))) => return Err(error),
+            (Ok(ended), None) => break ended,
+            (Err(RecvTimeoutError::Disconnected), None) => return Err(internal(py)),
+        }
+    };
     match ended {
         Ok(Ok(code)) => {
             let mut state = console.state();

@@ -1,10 +1,11 @@
 //! Surroundings of a command within Python: output is collected, progress is polled, Ctrl-C stops the work.
 
-use cosfly::console::{Console, Progress, RunProgress};
+use cosfly::console::{Console, Deadline, Progress, RunProgress, remove_scratch};
 use cosfly_diagnose::{Diagnostic, Result, Stop, render};
 use cosfly_stage::{RunEvent, StageName};
 use std::collections::BTreeMap;
 use std::io::{BufRead, Cursor};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -24,6 +25,8 @@ pub struct State {
     /// Finished and all parts by the name of the work.
     pub progress: BTreeMap<String, [u64; 2]>,
     failures: BTreeMap<(StageName, &'static str), u64>,
+    /// Folder for what the command needs while it works.
+    scratch: Option<PathBuf>,
 }
 
 /// Surroundings of one call.
@@ -42,6 +45,12 @@ impl Embedded {
     /// Asks the command to stop.
     pub fn cancel(&self) {
         self.cancelled.store(true, Ordering::SeqCst);
+    }
+
+    /// Leaves the command alone, whose thread goes on: its scratch folder is removed.
+    pub fn abandon(&self) {
+        let scratch = self.state().scratch.take();
+        scratch.iter().for_each(|folder| remove_scratch(folder));
     }
 
     /// Output, messages and progress.
@@ -79,6 +88,11 @@ impl Console for Embedded {
 
     fn stop(&self) -> Stop {
         Stop::of(Arc::clone(&self.cancelled))
+    }
+
+    fn deadline(&self, scratch: Option<&Path>) -> Option<Deadline> {
+        self.state().scratch = scratch.map(Path::to_owned);
+        None
     }
 
     fn colour(&self) -> bool {

@@ -94,6 +94,28 @@ def test_ctrl_c_stops_and_keeps_finished_items():
     assert time.time() - began < 60 and not Path("long").exists()
 
 
+@pytest.mark.parametrize("work", ["run", "regenerate"])
+def test_ctrl_c_acts_in_the_middle_of_an_item(work):
+    """In a process of its own: a walk of hours, whose thread ends with the process. Two seconds are promised; a busy machine gets more."""
+    endless = {"stages.walkers.count": 1, "stages.walkers.frames": 40000}
+    call = {
+        "run": f"cosfly.run('small', set={endless}, out='endless', progress=False)",
+        "regenerate": f"cosfly.verify('data', regenerate=1, recipe='small', set={endless}, progress=False)",
+    }[work]
+    program = f"""
+import signal, threading, time, cosfly
+sent = []
+threading.Timer(5.0, lambda: (sent.append(time.time()), signal.raise_signal(signal.SIGINT))).start()
+try:
+    {call}
+except KeyboardInterrupt:
+    print(time.time() - sent[0], flush=True)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and float(done.stdout) < 5.0, done
+    assert not Path("endless").exists()
+
+
 @pytest.mark.parametrize("work", ["verify", "doctor"])
 def test_ctrl_c_acts_in_the_middle_of_a_flight(work):
     """The dataset is checked again and again until a signal hits it at work; each call must end soon after its signal."""

@@ -109,5 +109,5 @@ fn differing((own, track): (&Artifact, &TargetTrack), (other, walk): (&Artifact,
         track.dt_s
     );
     Diagnostic::new("companions-differ", Fault::Recipe, message)
-        .hint("connect `inputs.others` to walkers with the same `steps` and `dt_s`")
+        .hint("connect `inputs.others` to walkers with the same `frames` and `dt_s`")
 }

@@ -106,9 +106,9 @@ impl Expansion<'_> {
         let problem = self.texts.problem("recipe-unknown-list", place, format!("`[for_each]` has no list `{name}`"));
         match nearest_name(name, self.lists.names()) {
             Some(near) => problem.hint(format!("did you mean `{near}`?")),
-            None if self.lists.names().next().is_none() => problem.hint(
-                "write the list before the stages: `[for_each]` with `town = [\"towns/a.xodr\", \"towns/b.xodr\"]`",
-            ),
+            None if self.lists.names().next().is_none() => {
+                problem.hint(format!("write the list: `[for_each]` with `{name} = [\"FIRST\", \"SECOND\"]`"))
+            }
             None => problem.hint(format!("lists of the recipe: {}", list(self.lists.names(), 40))),
         }
     }

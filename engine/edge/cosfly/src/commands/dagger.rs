@@ -111,7 +111,7 @@ impl Command for Arguments {
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let suite = {
-            let _deadline = console.deadline();
+            let _deadline = console.deadline(None);
             let progress = console.run_progress(self.json);
             Suite::make(&recipe, &store, &options, &*progress)?
         };
@@ -127,8 +127,9 @@ impl Command for Arguments {
         let (policy, cancelled) = (policy.as_str(), &*cancelled);
         let round = Round { recipe, store, suite, place, manners, settings, mixture, name, policy, jobs, cancelled };
         let progress = console.progress("dagger", "episodes");
+        let deadline = console.deadline(None);
         let flown = run(&round, &folder, &*progress)?;
-        drop(progress);
+        drop((progress, deadline));
         if let Some(problem) = &flown.gone {
             console.tell(&cosfly_diagnose::render(problem, console.colour()));
             return Ok(exit::FOUND_PROBLEMS);

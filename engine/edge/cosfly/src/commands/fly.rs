@@ -193,7 +193,7 @@ impl Command for Arguments {
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let suite = {
-            let _deadline = console.deadline();
+            let _deadline = console.deadline(None);
             let progress = console.run_progress(self.quiet);
             Suite::make(&recipe, &store, &options, &*progress)?
         };
@@ -209,8 +209,9 @@ impl Command for Arguments {
             let order =
                 Order { suite, place, manners: &manners, settings, latency, shard, jobs, cancelled: &cancelled };
             let progress = console.progress("fly", "episodes");
+            let deadline = console.deadline(None);
             let outcome = run(&order, &card, &folder, &*progress)?;
-            drop(progress);
+            drop((progress, deadline));
             if let Some(problem) = &outcome.gone {
                 console.tell(&cosfly_diagnose::render(problem, console.colour()));
                 code = exit::FOUND_PROBLEMS;

@@ -79,7 +79,7 @@ impl Command for Arguments {
                 elsewhere::deliver(&recipe, &store, wanted, &out, options, &self.cluster, (&*progress, console))
             }
             _ => {
-                let _deadline = console.deadline();
+                let _deadline = console.deadline(None);
                 deliver(&recipe, &store, wanted, &out, &options, &*progress)
             }
         };

@@ -56,7 +56,7 @@ impl Command for Arguments {
         let options =
             RunOptions { jobs: usize::from(self.jobs), cancelled: console.cancelled(), ..RunOptions::default() };
         let mut failures = Vec::new();
-        let _deadline = console.deadline();
+        let _deadline = console.deadline(None);
         for end in run_tasks(&store, &cosfly_stages::registry(), &plans, &options)? {
             match end {
                 Ok(Work::Ran) => console.print("ran\n")?,

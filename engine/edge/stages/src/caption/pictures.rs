@@ -39,7 +39,7 @@ pub fn of(inputs: &Inputs<'_>, frames: Frames) -> Result<Vec<Vec<u8>>> {
     if strip.is_empty() {
         let message = "the pictures at port `frames` have no small pictures for a teacher";
         return Err(Diagnostic::new("teacher-pictures", Fault::Recipe, message)
-            .hint("switch the previews of the `render` stage on, or set `teacher.frames = \"none\"`"));
+            .hint("set `encoding.previews = true` in the `render` stage, or `teacher.frames = \"none\"` here"));
     }
     let chosen = chosen(frames, strip.len(), record.dt_s());
     Ok(chosen.into_iter().map(|frame| std::mem::take(&mut strip[frame])).collect())

@@ -229,8 +229,7 @@ fn lists_that_are_not_there_or_not_used() {
     4 | for_each = "town"
       |            ^^^^^^
       |
-      = help: write the list before the stages: `[for_each]` with `town = ["towns/a.xodr",
-              "towns/b.xodr"]`
+      = help: write the list: `[for_each]` with `town = ["FIRST", "SECOND"]`
     "#);
 }
 

@@ -20,6 +20,7 @@ pub fn regenerated(dir: &Path, number: usize, recipe: &Recipe, console: &dyn Con
     let scratch = tempfile::tempdir()
         .map_err(|error| Diagnostic::io("make a folder for the store of regenerated flights", &error))?;
     let store = scratch.path().join("store");
+    let _deadline = console.deadline(Some(scratch.path()));
     let found = regenerate(dir, number, recipe, &cosfly_stages::registry(), &store, &console.cancelled())?;
     let mut text = String::new();
     for flight in &found {
