@@ -6,8 +6,9 @@ use crate::support::cosfly;
 /// Runs a call that is refused with some advice; gives its messages in one line, however their lines are broken.
 fn refused(street: &Street, arguments: &[&str], advice: &str) -> String {
     let printed = cosfly(arguments).within(street.path()).run();
-    let said = printed.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(printed.code != Some(0) && said.contains(advice), "`{advice}` in {}", printed.stderr);
+    let said = format!("{} {}", printed.stdout, printed.stderr);
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(printed.code != Some(0) && said.contains(advice), "`{advice}` in {said}");
     said
 }
 
@@ -60,7 +61,8 @@ fn a_dataset_is_scored_exported_and_made_again_as_the_refusals_say() {
     let row =
         said.split("a row that fits is ").nth(1).and_then(|rest| rest.split_inclusive('}').next()).expect("a row");
     std::fs::write(&predictions, format!("{row}\n")).expect("writable");
-    helps(&street, &score);
+    refused(&street, &score, "`--missing-as-zero` counts them as standing still");
+    helps(&street, &[&score[..], &["--missing-as-zero"]].concat());
 
     refused(&street, &["eval", "out", "--history", "20"], "a shorter `--history` or `--horizon` needs fewer frames");
     helps(&street, &["eval", "out", "--history", "2", "--horizon", "2"]);

@@ -48,7 +48,7 @@ impl Arguments {
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let suite = {
-            let _deadline = console.deadline();
+            let _deadline = console.deadline(None);
             Suite::make(&recipe, &self.store.open()?, &options, &*console.run_progress(true))?
         };
         let (ours, theirs) = (suite.digest.to_string(), &bundle.card.suite.hash);
