@@ -31,6 +31,7 @@ mod preview;
 mod processors;
 mod promises;
 mod repository;
+mod sensors;
 mod several_towns;
 mod shared;
 mod snapshots;

@@ -193,7 +193,7 @@ fn extra_set(kept: &ExtraSummary) -> Value {
     };
     json!({
         "@type": "cr:FileSet", "@id": id, "name": id, "encodingFormat": format, "includes": includes,
-        "description": format!("Given by the plugin `{}` {}: {}", kept.source.plugin, kept.source.version, kept.source.summary),
+        "description": format!("Given by the {}: {}", kept.source.origin(), kept.source.summary),
     })
 }
 
@@ -227,14 +227,14 @@ fn extra_record_set(source: &ExtraSource) -> Value {
     fields.extend(extras::columns_of(source).iter().map(field));
     let id = |column: &str| json!({"@id": format!("{name}/{column}")});
     let key = match source.shape {
-        ExtraShape::Rows => json!([id("trajectory_id"), id("row")]),
+        shape if shape.has_rows() => json!([id("trajectory_id"), id("row")]),
         _ => id("trajectory_id"),
     };
     json!({
         "@type": "cr:RecordSet",
         "@id": name,
         "name": name,
-        "description": format!("Given by the plugin `{}` {}: {}", source.plugin, source.version, source.summary),
+        "description": format!("Given by the {}: {}", source.origin(), source.summary),
         "key": key,
         "field": fields,
     })

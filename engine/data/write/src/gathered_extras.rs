@@ -1,4 +1,4 @@
-//! Collects what plugins gave of all flights: the same from each, under names of its own.
+//! Collects what plugins and sensors gave of all flights: the same from each, under names of its own.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_schema::extras::{Extra, ExtraSource, ExtraSummary};
@@ -52,16 +52,16 @@ pub fn merged(first: Vec<ExtraSummary>, second: Vec<ExtraSummary>) -> Result<Vec
 fn conflict(known: &ExtraSource, other: &ExtraSource, is_twice: bool) -> Box<Diagnostic> {
     let name = &known.name;
     let (what, hint) = if is_twice || known.plugin != other.plugin {
-        ("two stages give", "let one plugin give it another name, or connect one of them only")
+        ("two stages give", "let one of them give it another name (a sensor: `table`), or connect one of them only")
     } else {
-        ("its flights differ in", "the plugin must declare the same for every flight")
+        ("its flights differ in", "each flight needs the same declaration")
     };
-    let message = format!("{what} `{name}`: plugin `{}` and plugin `{}`", known.plugin, other.plugin);
+    let message = format!("{what} `{name}`: {} and {}", known.origin(), other.origin());
     Diagnostic::new("dataset-extras", Fault::Recipe, message).hint(hint)
 }
 
 fn not_of_all(source: &ExtraSource) -> Box<Diagnostic> {
-    let message = format!("plugin `{}` gave `{}` of some flights only", source.plugin, source.name);
+    let message = format!("{} gave `{}` of some flights only", source.origin(), source.name);
     Diagnostic::new("dataset-extras", Fault::Recipe, message)
         .hint("let its stage read the frames that the dataset has, `inputs.frames`")
 }

@@ -97,7 +97,7 @@ fn captions(fan: Fan) -> InputPort {
 }
 
 fn extras() -> InputPort {
-    let doc = "What plugins made of the same frames (`makes = \"extras\"`): annotations, tables, files.";
+    let doc = "Extras of the same frames: what plugins made (`makes = \"extras\"`), readings of sensors (`use = \"sense\"`).";
     InputPort { optional: true, ..ports::gather("extras", EXTRAS, true, doc) }
 }
 

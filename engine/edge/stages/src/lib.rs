@@ -28,6 +28,7 @@ mod quotas;
 mod rare_keys;
 mod rejections;
 mod render;
+mod sense;
 mod shards;
 mod traffic;
 mod verdict;
@@ -52,6 +53,7 @@ pub fn registry_with(others: Vec<Box<dyn StageKind>>) -> Registry {
         Box::new(perturb::Perturb),
         Box::new(plan::Plan),
         Box::new(render::Render),
+        Box::new(sense::Sense),
         Box::new(traffic::TrafficKind),
         Box::new(plugin::Wasm),
     ];

@@ -182,14 +182,14 @@ fn extras(plugins: &Plugins, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink) 
     let source = tables::source_of(&declared, plugins.told()).ok_or_else(|| wrong("it makes no extras".to_owned()))?;
     let rows = match source.shape {
         ExtraShape::Annotation => 1..=1,
-        ExtraShape::Rows => 0..=MOST_ROWS,
+        ExtraShape::Rows | ExtraShape::Readings => 0..=MOST_ROWS,
         ExtraShape::Files => 0..=MOST_FILES,
     };
     let values = flight_table::read_answer(&answered.answer, &source.columns, rows).map_err(wrong)?;
     let count = values.first().map_or(0, flight_table::Values::len).to_string();
     let notes = match source.shape {
         ExtraShape::Annotation => BTreeMap::new(),
-        ExtraShape::Rows => BTreeMap::from([("rows".to_owned(), count)]),
+        ExtraShape::Rows | ExtraShape::Readings => BTreeMap::from([("rows".to_owned(), count)]),
         ExtraShape::Files => BTreeMap::from([("files".to_owned(), count)]),
     };
     outputs.put(EXTRA, &codec::encode(EXTRAS, &Extra { source, values })?)?;

@@ -1,11 +1,11 @@
-//! Output of a plugin, for one flight and for a dataset.
+//! Output of a plugin or a sensor, for one flight and for a dataset.
 
 use crate::flight_table::{DeclaredColumn, Values};
 use crate::tables;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Form of a plugin's output for one flight.
+/// Form of the output for one flight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ExtraShape {
     /// One row of a table.
@@ -14,9 +14,18 @@ pub enum ExtraShape {
     Rows,
     /// Files.
     Files,
+    /// Rows of a table, one for each reading of a sensor.
+    Readings,
 }
 
-/// Output of one plugin for one flight.
+impl ExtraShape {
+    /// Whether a flight may have several rows.
+    pub fn has_rows(self) -> bool {
+        matches!(self, Self::Rows | Self::Readings)
+    }
+}
+
+/// Output of one plugin or sensor for one flight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Extra {
     /// Plugin and declaration of the output.
@@ -25,7 +34,7 @@ pub struct Extra {
     pub values: Vec<Values>,
 }
 
-/// Plugin and declaration of an output, the same for all flights.
+/// Plugin or sensor and declaration of an output, the same for all flights.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ExtraSource {
     /// Name of the table or the folder.
@@ -34,15 +43,23 @@ pub struct ExtraSource {
     pub shape: ExtraShape,
     /// Declared columns.
     pub columns: Vec<DeclaredColumn>,
-    /// Name of the plugin.
+    /// Name of the plugin or of the sensor.
     pub plugin: String,
-    /// Version of the plugin.
+    /// Its version.
     pub version: String,
-    /// Description of the plugin.
+    /// Its description.
     pub summary: String,
 }
 
-/// Output of one plugin for all flights of a dataset.
+impl ExtraSource {
+    /// Origin of the output in words, such as "plugin `viewpoint` 1.0.0".
+    pub fn origin(&self) -> String {
+        let giver = if self.shape == ExtraShape::Readings { "sensor" } else { "plugin" };
+        format!("{giver} `{}` {}", self.plugin, self.version)
+    }
+}
+
+/// Output of one plugin or sensor for all flights of a dataset.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ExtraSummary {
     /// Plugin and declaration of the output.

@@ -1,7 +1,7 @@
-//! Outputs of plugins beside the dataset's own tables: annotations of flights, tables of rows, files.
+//! Outputs of plugins and sensors beside the dataset's own tables: annotations of flights, tables of rows, files.
 //!
-//! * [`Extra`]: output of one plugin for one flight, between its stage and the dataset.
-//! * [`ExtraSummary`]: output of one plugin for all flights of a dataset, for card, manifest and checks.
+//! * [`Extra`]: output of one plugin or sensor for one flight, between its stage and the dataset.
+//! * [`ExtraSummary`]: output of one plugin or sensor for all flights of a dataset, for card, manifest and checks.
 
 mod extra;
 mod table;

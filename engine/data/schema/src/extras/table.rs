@@ -1,6 +1,6 @@
 //! Tables of plugins as Parquet: the flight, the row number where there may be several rows, then the declared columns.
 
-use super::extra::{Extra, ExtraShape, ExtraSource};
+use super::extra::{Extra, ExtraSource};
 use crate::flight_table::{ColumnKind, DeclaredColumn, Values};
 use arrow_array::{ArrayRef, BinaryArray, BooleanArray, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub fn columns_of(source: &ExtraSource) -> Vec<DeclaredColumn> {
     let own = |name: &str, kind, doc: &str| DeclaredColumn { name: name.to_owned(), kind, doc: doc.to_owned() };
     let mut columns = vec![own("trajectory_id", ColumnKind::Text, "the flight")];
-    if source.shape == ExtraShape::Rows {
+    if source.shape.has_rows() {
         columns.push(own("row", ColumnKind::Integer, "number of the row among those of the flight, from 0"));
     }
     columns.extend(source.columns.iter().cloned());
@@ -37,7 +37,7 @@ pub fn schema_of(source: &ExtraSource) -> Arc<Schema> {
 pub fn write_batch(trajectory_id: &str, extra: &Extra) -> Result<RecordBatch, ArrowError> {
     let rows = extra.values.first().map_or(0, Values::len);
     let mut arrays: Vec<ArrayRef> = vec![Arc::new(StringArray::from(vec![trajectory_id; rows]))];
-    if extra.source.shape == ExtraShape::Rows {
+    if extra.source.shape.has_rows() {
         arrays.push(Arc::new(Int64Array::from_iter_values(0..rows as i64)));
     }
     arrays.extend(extra.values.iter().map(|values| -> ArrayRef {

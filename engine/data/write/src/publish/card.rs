@@ -274,8 +274,9 @@ fn table_section<S>(table: &Table<S>) -> String {
 /// A table or a folder that a plugin gave.
 fn extra_section(kept: &ExtraSummary) -> String {
     let source = &kept.source;
+    let giver = if source.shape == ExtraShape::Readings { "sensor" } else { "plugin" };
     let mut text = format!(
-        "### {}\n\nGiven by the plugin {} {}: {}",
+        "### {}\n\nGiven by the {giver} {} {}: {}",
         markdown(&source.name),
         markdown_code(&source.plugin),
         markdown(&source.version),

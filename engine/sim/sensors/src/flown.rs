@@ -1,0 +1,83 @@
+//! A flight, and the readings of a sensor along it.
+
+use crate::place::Place;
+use crate::sensor::{Moment, Sensor};
+use cosfly_flight::World;
+use cosfly_frames::{DVec3, Pose, Seed};
+use cosfly_optics::pose_at;
+
+/// A flight that carries a sensor.
+#[derive(Clone, Copy)]
+pub struct Flown<'a> {
+    /// Town around the drone.
+    pub world: &'a World,
+    /// Pose of the drone in each frame.
+    pub poses_in_world: &'a [Pose],
+    /// Time between frames, seconds.
+    pub dt_s: f64,
+    /// Where the sensor sits.
+    pub place: Place,
+    /// Readings a second from the first frame on; `None` for one in each frame.
+    pub rate_hz: Option<f64>,
+    /// Seed of the noise.
+    pub seed: Seed,
+}
+
+/// One reading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading<'a> {
+    /// Frame at the time of the reading, or the last one before it.
+    pub frame: usize,
+    /// Time since the first frame, seconds.
+    pub time_s: f64,
+    /// Numbers in the order of the sensor's quantities.
+    pub values: &'a [f64],
+}
+
+impl Flown<'_> {
+    /// Number of readings.
+    pub fn readings(&self) -> usize {
+        let frames = self.poses_in_world.len();
+        match self.rate_hz {
+            Some(rate_hz) if frames > 0 => {
+                // Half a microsecond keeps the last one where the times meet.
+                (((frames - 1) as f64 * self.dt_s + 5e-7) * rate_hz) as usize + 1
+            }
+            _ => frames,
+        }
+    }
+
+    /// Reads a sensor at every moment, in their order. Between frames the drone moves evenly.
+    pub fn read(&self, sensor: &Sensor, each: &mut dyn FnMut(Reading<'_>)) {
+        let step_s = self.rate_hz.map_or(self.dt_s, f64::recip);
+        let mut values = vec![0.0; sensor.quantities.len()];
+        for index in 0..self.readings() {
+            let time_s = index as f64 * step_s;
+            let at = time_s / self.dt_s;
+            let moment = Moment {
+                time_s,
+                sensor_in_world: self.sensor_at(at),
+                velocity_in_world: self.velocity_at(at),
+                world: self.world,
+                seed: self.seed.child("reading", index as u64),
+            };
+            (sensor.read)(&moment, &mut values);
+            // A microsecond before a frame is that frame.
+            each(Reading { frame: (at + 1e-6) as usize, time_s, values: &values });
+        }
+    }
+
+    /// Pose of the sensor at a frame number, which may lie between two frames.
+    fn sensor_at(&self, at: f64) -> Pose {
+        let last = (self.poses_in_world.len() - 1) as f64;
+        self.place.on(&pose_at(self.poses_in_world, at.clamp(0.0, last)))
+    }
+
+    /// Mean velocity over the time of a frame around a frame number; over its inner half at both ends of the flight.
+    fn velocity_at(&self, at: f64) -> DVec3 {
+        let last = (self.poses_in_world.len() - 1) as f64;
+        let (before, after) = ((at - 0.5).max(0.0), (at + 0.5).min(last));
+        let way = self.sensor_at(after).position_in_world - self.sensor_at(before).position_in_world;
+        way / ((after - before) * self.dt_s).max(1e-9)
+    }
+}

@@ -1,0 +1,28 @@
+//! Sensors that are no cameras: numbers at moments of a flight.
+//!
+//! * [`ALL`]: the sensors, one file and one entry each; stage `sense` finds them here by name.
+//! * [`Flown`]: a flight with a place for a sensor, which is read along it.
+
+mod config;
+mod flown;
+mod laser_altimeter;
+mod place;
+mod sensor;
+#[cfg(test)]
+mod tests;
+
+pub use config::SenseConfig;
+pub use flown::{Flown, Reading};
+pub use place::Place;
+pub use sensor::{Moment, Quantity, Sensor};
+
+/// All sensors, sorted by name.
+pub static ALL: &[&Sensor] = &[
+    // Each has a file of its own.
+    &laser_altimeter::SENSOR,
+];
+
+/// The sensor called `name`.
+pub fn called(name: &str) -> Option<&'static Sensor> {
+    ALL.iter().copied().find(|sensor| sensor.name == name)
+}
