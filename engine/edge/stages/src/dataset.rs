@@ -97,7 +97,8 @@ fn captions(fan: Fan) -> InputPort {
 }
 
 fn extras() -> InputPort {
-    let doc = "Extras of the same frames: what plugins made (`makes = \"extras\"`), readings of sensors (`use = \"sense\"`).";
+    let doc =
+        "Extras of the same frames: what plugins made (`makes = \"extras\"`), readings of sensors (`use = \"sense\"`).";
     InputPort { optional: true, ..ports::gather("extras", EXTRAS, true, doc) }
 }
 
