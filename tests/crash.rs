@@ -68,7 +68,7 @@ fn ctrl_c_ends_the_regeneration_of_a_flight_and_leaves_nothing_behind() {
     std::fs::create_dir(&scratch).expect("writable");
     // Anew, the walk takes hours.
     let endless = [
-        &["verify", "out", "--regenerate", "1", "--recipe", "recipe.toml"][..],
+        &["verify", "out", "--regenerate", "1", "--recipe", "."][..], // the folder of the recipe
         &["--set", "stages.walkers.count=1", "--set", "stages.walkers.frames=40000"],
     ];
     let scratch_text = scratch.to_str().expect("UTF-8");

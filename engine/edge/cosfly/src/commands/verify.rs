@@ -2,7 +2,7 @@
 
 mod regenerate;
 
-use crate::arguments::StoreArguments;
+use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome, Refusals};
 use crate::console::Console;
 use crate::exit;
@@ -45,7 +45,7 @@ pub struct Arguments {
     /// Number of flights to make again from the recipe, in an empty store, and to compare byte by byte
     #[arg(long, value_name = "N")]
     regenerate: Option<u16>,
-    /// The recipe for `--regenerate` [default: the recipe of the named version that has these files]
+    /// The recipe for `--regenerate`, or a folder with a recipe.toml [default: that of the named version that has these files]
     #[arg(long, value_name = "RECIPE", requires = "regenerate")]
     recipe: Option<PathBuf>,
     /// Change a value of the recipe (repeatable)
@@ -72,7 +72,7 @@ impl Command for Arguments {
         let mut text = told(&report);
         let (mut wrong, mut regenerated_flights) = (0, None);
         if let Some(number) = self.regenerate {
-            let (more, found) = regenerated(&self.dir, usize::from(number), &self.recipe()?, console)?;
+            let (more, found) = regenerated(&self.dir, usize::from(number), &self.recipe(console)?, console)?;
             text += &more;
             wrong = found;
             regenerated_flights = Some(more);
@@ -84,9 +84,9 @@ impl Command for Arguments {
 
 impl Arguments {
     /// The given recipe, else that of the named version.
-    fn recipe(&self) -> Result<Recipe, Refusals> {
-        match &self.recipe {
-            Some(path) => Ok(cosfly_recipe::load(path, &self.overrides, &cosfly_stages::registry())?),
+    fn recipe(&self, console: &dyn Console) -> Result<Recipe, Refusals> {
+        match self.recipe.clone() {
+            Some(recipe) => RecipeArguments { recipe, overrides: self.overrides.clone() }.load(console),
             None => recipe_of_version(&self.dir, &self.store.with_versions()?),
         }
     }
