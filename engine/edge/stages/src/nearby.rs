@@ -95,8 +95,10 @@ impl Stage for NearbyStage {
         let town = inputs.one("town")?.blobs[artifacts::TOWN.blob].digest;
         let buildings = self.buildings.get(town, || -> Result<_> { Ok(Buildings::of(&world.town)) })?;
         let scenery = Scenery { buildings: &buildings, lowest_m: world.town.min_in_world.z };
-        let shooting = Shooting::of(&self.config, &flight, target.as_ref(), context.id.item.variant())?;
-        let filming = Filming { config: &self.config, shooting: &shooting, scenery, flight: &flight };
+        let film = context.id.item.variant().filter(|_| !self.config.films().is_empty());
+        let config = self.config.of_camera(film);
+        let shooting = Shooting::of(&config, &flight, target.as_ref(), film)?;
+        let filming = Filming { config: &config, shooting: &shooting, scenery, flight: &flight };
         let near = filming.near(candidates, &|| context.check_cancelled())?;
         let all = near.len();
         let mut near = apart(near, &flight, target.as_ref());

@@ -13,7 +13,7 @@ use cosfly_domain::{Around, Camera, PlanOutcome, TargetView, Trajectory, largest
 use cosfly_experts::{artifacts, pictures};
 use cosfly_figures::{Bystander, Walker, gait_phase_rad, outfit_of};
 use cosfly_film::body_rays::BodyRays;
-use cosfly_film::shooting::{Shooting, preset};
+use cosfly_film::Shooting;
 use cosfly_film::walks::walked_m;
 use cosfly_flight::World;
 use cosfly_frames::{Pose, Seed};
@@ -57,10 +57,12 @@ impl StageKind for Render {
             hint: Some(problem.hint),
             ..parameters::refused_at(&problem.path, problem.message)
         })?;
-        let pixels = u64::from(config.width) * u64::from(config.height);
-        let items = match config.paired_weathers {
-            true => ItemRule::PerVariant { port: "trajectories", variants: config.weathers.clone() },
-            false => ItemRule::PerInput("trajectories"),
+        let films = config.films();
+        let cameras = films.iter().map(|name| config.of_camera(Some(name)).camera()).chain([config.camera()]);
+        let pixels = cameras.map(|camera| u64::from(camera.width) * u64::from(camera.height)).max().unwrap_or_default();
+        let items = match films.is_empty() {
+            false => ItemRule::PerVariant { port: "trajectories", variants: films },
+            true => ItemRule::PerInput("trajectories"),
         };
         let sources = props::take_sources(&mut config);
         // Models and leaves change no body around a flight.
@@ -130,6 +132,8 @@ impl Stage for RenderStage {
                 return reject(outputs, rejection);
             }
         };
+        let film = context.id.item.variant().filter(|_| !self.config.films().is_empty());
+        let config = self.config.of_camera(film);
         let town_digest = inputs.one("town")?.blobs[artifacts::TOWN.blob].digest;
         // Buildings look the same in every flight through the town.
         let scene = self.scene.get(town_digest, || -> Result<_> {
@@ -137,17 +141,16 @@ impl Stage for RenderStage {
             Ok(Scene::with_models(&world.town, Seed(town_digest.0), &models).in_season(self.config.season))
         })?;
         let target = traffic::followed(inputs, artifact)?;
-        let shooting = Shooting::of(&self.config, &trajectory, target.as_ref(), context.id.item.variant())?;
-        let preset = preset(&self.config, context.id.item.variant());
+        let shooting = Shooting::of(&config, &trajectory, target.as_ref(), film)?;
         let crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
         let crowd = crowd.dressed_for(&shooting);
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
-        let seen = self.draw(outputs, context, &place, &trajectory, &shooting)?;
+        let seen = self.draw(outputs, context, &place, &trajectory, (&config, &shooting))?;
         let notes = notes_of(&crowd, &seen.sightings);
         let pair = trajectory.perturbation.as_ref().map(|twin| {
             let expert = ItemName::own(twin.expert_item.as_str());
-            // The expert is published in the same weather.
-            PairInfo { expert_id: preset.map_or(expert.clone(), |preset| expert.with_variant(preset)).to_string() }
+            // The expert is published in the same weather, by the same camera.
+            PairInfo { expert_id: film.map_or(expert.clone(), |film| expert.with_variant(film)).to_string() }
         });
         let has_body = trajectory.track.radius_m > 0.0;
         let record = RenderedTrajectory {
@@ -159,11 +162,11 @@ impl Stage for RenderStage {
             town: TownInfo::of(&world.town, town_digest),
             trajectory,
             camera: shooting.camera,
-            lens: self.config.lens,
+            lens: config.lens,
             mount: shooting.mount,
-            motion_blur: self.config.motion_blur,
-            rolling_shutter: self.config.rolling_shutter,
-            noise: self.config.noise,
+            motion_blur: config.motion_blur,
+            rolling_shutter: config.rolling_shutter,
+            noise: config.noise,
             weather: shooting.weather,
             season: scene.season(),
             seed: Seed(context.seed).as_u64(),
@@ -227,6 +230,7 @@ struct Place<'a> {
 /// A camera with its effects and renderer.
 struct Rig {
     camera: Camera,
+    config: RenderConfig,
     effects: Effects,
     renderer: Renderer,
 }
@@ -240,14 +244,14 @@ impl RenderStage {
         context: &TaskContext,
         place: &Place<'_>,
         trajectory: &Trajectory,
-        shooting: &Shooting,
+        (config, shooting): (&RenderConfig, &Shooting),
     ) -> Result<SeenPeople> {
         let Place { scene, world, crowd } = *place;
-        let mut rig = self.take_rig(shooting.camera);
+        let mut rig = self.take_rig(config, shooting.camera);
         let Camera { width, height, .. } = shooting.camera;
         let largest_instance = largest_object_instance(&world.town).max(crowd.largest_instance());
         let header = PackHeader {
-            channels: self.config.channels.clone(),
+            channels: config.channels.clone(),
             ..PackHeader::new(width, height, largest_instance, self.encoding, trajectory.track.dt_s)
         };
         let track = &trajectory.track;
@@ -295,20 +299,20 @@ impl RenderStage {
         Ok(seen)
     }
 
-    fn take_rig(&self, camera: Camera) -> Rig {
+    fn take_rig(&self, config: &RenderConfig, camera: Camera) -> Rig {
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(position) = idle.iter().position(|rig| rig.camera == camera) {
+        if let Some(position) = idle.iter().position(|rig| rig.camera == camera && rig.config == *config) {
             return idle.swap_remove(position);
         }
         // Another camera: its buffers replace those of one that is not in use.
         idle.pop();
         drop(idle);
-        let effects = self.config.effects(camera);
+        let effects = config.effects(camera);
         let mut renderer = Renderer::new(effects.ideal_camera());
-        renderer.set_look(self.config.look);
-        renderer.set_optics(self.config.optics);
-        renderer.set_channels(&self.config.channels);
-        Rig { camera, effects, renderer }
+        renderer.set_look(config.look);
+        renderer.set_optics(config.optics);
+        renderer.set_channels(&config.channels);
+        Rig { camera, config: config.clone(), effects, renderer }
     }
 }
 

@@ -68,6 +68,6 @@ impl Shooting {
 }
 
 /// Weather preset that a paired rendering names its item after: the variant of the item.
-pub fn preset<'a>(config: &RenderConfig, variant: Option<&'a str>) -> Option<&'a str> {
+fn preset<'a>(config: &RenderConfig, variant: Option<&'a str>) -> Option<&'a str> {
     variant.filter(|_| config.paired_weathers)
 }

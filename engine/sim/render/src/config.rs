@@ -1,5 +1,6 @@
 //! Parameters of a recipe's pictures: renderer, camera, effects, weathers.
 
+use crate::cameras::{CameraConfig, GimbalConfig};
 use crate::effects::Effects;
 use crate::look::PictureLook;
 use cosfly_domain::{Camera, ChannelSet, Lens, MotionBlur, Mount, Noise, RollingShutter, Season, Weather};
@@ -9,6 +10,7 @@ use cosfly_models::ModelConfig;
 use cosfly_optics::Optics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// Hint at the key that chose between two renderers.
@@ -39,6 +41,10 @@ pub struct RenderConfig {
     /// flights behind it share it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fov_range_deg: Option<[f64; 2]>,
+    /// Cameras of the drone by name: each films every flight, with keys of its own in the place of the stage's. The films are
+    /// named `<trajectory>-<camera>`; weather, clothes and everything else are the same. Left out: one camera.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub cameras: BTreeMap<String, CameraConfig>,
     /// Turn of the camera against the drone; drawn once per walk, the same for all of its flights and frames.
     pub gimbal: GimbalConfig,
     /// Point spread, exposure and white balance of the camera, and bloom of lamps; of colours in the full look.
@@ -82,6 +88,7 @@ impl Default for RenderConfig {
             height: 720,
             fov_deg: 90.0,
             fov_range_deg: None,
+            cameras: BTreeMap::new(),
             gimbal: GimbalConfig::default(),
             optics: Optics::default(),
             lens: Lens::default(),
@@ -95,25 +102,6 @@ impl Default for RenderConfig {
             season: None,
             models: vec![],
         }
-    }
-}
-
-/// Ranges of the camera's turn against the drone.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct GimbalConfig {
-    /// Lowest and highest turn upwards, degrees, -90 to 90.
-    pub pitch_range_deg: [f64; 2],
-    /// Lowest and highest turn to the right, degrees, -180 to 180.
-    pub yaw_range_deg: [f64; 2],
-    /// Holds the horizon level in the pictures whatever the drone's tilt, as gimbals do: the turns add to the drone's yaw and
-    /// pitch. `false`: the camera is turned in the drone's body frame, and the horizon tilts with it.
-    pub levelled: bool,
-}
-
-impl Default for GimbalConfig {
-    fn default() -> Self {
-        Self { pitch_range_deg: [0.0; 2], yaw_range_deg: [0.0; 2], levelled: true }
     }
 }
 
@@ -171,6 +159,7 @@ impl RenderConfig {
         check_range("gimbal.pitch_range_deg", self.gimbal.pitch_range_deg, [-90.0, 90.0])?;
         check_range("gimbal.yaw_range_deg", self.gimbal.yaw_range_deg, [-180.0, 180.0])?;
         self.check_effects()?;
+        self.check_cameras()?;
         for (index, model) in self.models.iter().enumerate() {
             if !(-360.0..=360.0).contains(&model.turn_deg) {
                 let message = format!("the turn is `{}`", model.turn_deg);
@@ -278,6 +267,53 @@ impl RenderConfig {
     /// Effects on ideal pictures of `camera`.
     pub fn effects(&self, camera: Camera) -> Effects {
         Effects::new(camera, self.lens, self.motion_blur, self.rolling_shutter, self.noise)
+    }
+}
+
+impl RenderConfig {
+    /// The settings of one camera; those of the stage where there is no such camera.
+    pub fn of_camera(&self, name: Option<&str>) -> Self {
+        let mut config = Self { cameras: BTreeMap::new(), ..self.clone() };
+        let Some(camera) = name.and_then(|name| self.cameras.get(name)) else { return config };
+        let CameraConfig { width, height, fov_deg, gimbal, lens, motion_blur, rolling_shutter, noise } = camera.clone();
+        config.width = width.unwrap_or(config.width);
+        config.height = height.unwrap_or(config.height);
+        config.fov_range_deg = config.fov_range_deg.filter(|_| fov_deg.is_none());
+        config.fov_deg = fov_deg.unwrap_or(config.fov_deg);
+        config.gimbal = gimbal.unwrap_or(config.gimbal);
+        config.lens = lens.unwrap_or(config.lens);
+        config.motion_blur = motion_blur.unwrap_or(config.motion_blur);
+        config.rolling_shutter = rolling_shutter.unwrap_or(config.rolling_shutter);
+        config.noise = noise.unwrap_or(config.noise);
+        config
+    }
+
+    /// Names of the films of one flight: cameras, or weathers where they are paired; none where there is one film.
+    pub fn films(&self) -> Vec<String> {
+        if self.paired_weathers { self.weathers.clone() } else { self.cameras.keys().cloned().collect() }
+    }
+
+    /// Checks the cameras, each with its own settings.
+    pub(crate) fn check_cameras(&self) -> Result<(), ConfigProblem> {
+        let problem = |path: String, message: String, hint: &str| Err(ConfigProblem { path, message, hint: hint.into() });
+        if self.paired_weathers && !self.cameras.is_empty() {
+            let hint = "write one recipe for each weather, or one for each camera";
+            return problem("cameras".into(), "`cameras` and `paired_weathers` both name the films of a flight".into(), hint);
+        }
+        for name in self.cameras.keys() {
+            let is_word = name.starts_with(|first: char| first.is_ascii_lowercase())
+                && name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_')
+                && name.len() <= 32;
+            if !is_word {
+                let hint = "a camera is named by a lower-case letter, then lower-case letters, digits and `_`, 32 at most";
+                return problem(format!("cameras.{name}"), format!("the name is `{name}`"), hint);
+            }
+            self.of_camera(Some(name)).validate().map_err(|found| ConfigProblem {
+                path: format!("cameras.{name}.{}", found.path),
+                ..found
+            })?;
+        }
+        Ok(())
     }
 }
 
@@ -398,5 +434,35 @@ mod tests {
         assert!(rain.precipitation > noon.precipitation);
         let drawn = config.draw_weather(&seed);
         assert_eq!(config.weather_called(&drawn.name, &seed), drawn);
+    }
+
+    fn with_camera(name: &str, camera: CameraConfig) -> RenderConfig {
+        RenderConfig { cameras: BTreeMap::from([(name.to_owned(), camera)]), ..RenderConfig::default() }
+    }
+
+    #[test]
+    fn a_camera_has_its_own_keys_and_the_stages_where_it_has_none() {
+        let down = GimbalConfig { pitch_range_deg: [-90.0; 2], ..GimbalConfig::default() };
+        let mut config = with_camera("down", CameraConfig { width: Some(320), gimbal: Some(down), ..CameraConfig::default() });
+        config.noise.gaussian = 2.0;
+        config.validate().expect("a camera");
+        let own = config.of_camera(Some("down"));
+        assert_eq!((own.width, own.height, own.noise.gaussian, own.gimbal), (320, 720, 2.0, down));
+        assert_eq!(config.of_camera(None), RenderConfig { cameras: BTreeMap::new(), ..config.clone() });
+        assert_eq!((config.films(), RenderConfig::default().films()), (vec!["down".to_owned()], vec![]));
+        // A field of view of its own takes the place of a range.
+        let ranged = RenderConfig { fov_range_deg: Some([60.0, 100.0]), ..with_camera("tele", CameraConfig { fov_deg: Some(20.0), ..CameraConfig::default() }) };
+        let tele = ranged.of_camera(Some("tele"));
+        assert_eq!((tele.fov_deg, tele.fov_range_deg), (20.0, None));
+    }
+
+    #[test]
+    fn cameras_are_refused_with_their_path() {
+        let path = |config: &RenderConfig| config.validate().expect_err("refused").path;
+        assert_eq!(path(&with_camera("Down", CameraConfig::default())), "cameras.Down");
+        assert_eq!(path(&with_camera("", CameraConfig::default())), "cameras.");
+        let wide = CameraConfig { lens: Some(Lens { k1: -0.9, k2: 0.0 }), ..CameraConfig::default() };
+        assert_eq!(path(&with_camera("wide", wide)), "cameras.wide.lens");
+        assert_eq!(path(&RenderConfig { paired_weathers: true, ..with_camera("down", CameraConfig::default()) }), "cameras");
     }
 }

@@ -7,6 +7,7 @@
 
 mod body_bounds;
 mod buildings;
+mod cameras;
 pub mod config;
 pub mod effects;
 mod faces;
@@ -30,7 +31,8 @@ mod target_view;
 
 pub use body_bounds::LEAST_HEIGHT_PX;
 pub use buildings::Buildings;
-pub use config::{ConfigProblem, GimbalConfig, RenderConfig};
+pub use cameras::{CameraConfig, GimbalConfig};
+pub use config::{ConfigProblem, RenderConfig};
 pub use effects::{Effects, Moment, Shot};
 pub use found::{BodyPart, FoundFace, FoundPicture, FoundSource};
 pub use frame::RenderedFrame;

@@ -1,0 +1,57 @@
+//! Keys of a camera: its turn against the drone, and what one of several cameras has in the place of the stage's keys.
+
+use cosfly_domain::{Lens, MotionBlur, Noise, RollingShutter};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A camera among several: what is left out is as the stage says.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct CameraConfig {
+    /// Image width, pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 16, max = 7680))]
+    pub width: Option<u32>,
+    /// Image height, pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 16, max = 4320))]
+    pub height: Option<u32>,
+    /// Horizontal field of view, degrees; in the place of `fov_range_deg`, too.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 5, max = 150))]
+    pub fov_deg: Option<f64>,
+    /// Turn of the camera against the drone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gimbal: Option<GimbalConfig>,
+    /// Distortion of the lens.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lens: Option<Lens>,
+    /// Motion blur of colour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion_blur: Option<MotionBlur>,
+    /// Rows that are taken one after the other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rolling_shutter: Option<RollingShutter>,
+    /// Sensor noise on colour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub noise: Option<Noise>,
+}
+
+/// Ranges of the camera's turn against the drone.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct GimbalConfig {
+    /// Lowest and highest turn upwards, degrees, -90 to 90.
+    pub pitch_range_deg: [f64; 2],
+    /// Lowest and highest turn to the right, degrees, -180 to 180.
+    pub yaw_range_deg: [f64; 2],
+    /// Holds the horizon level in the pictures whatever the drone's tilt, as gimbals do: the turns add to the drone's yaw and
+    /// pitch. `false`: the camera is turned in the drone's body frame, and the horizon tilts with it.
+    pub levelled: bool,
+}
+
+impl Default for GimbalConfig {
+    fn default() -> Self {
+        Self { pitch_range_deg: [0.0; 2], yaw_range_deg: [0.0; 2], levelled: true }
+    }
+}
