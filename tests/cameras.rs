@@ -10,6 +10,13 @@ fn street(lines: &str) -> Street {
     Street::with(&changed, &map())
 }
 
+/// The street with tables of `cameras` in its render stage.
+fn filmed_by(cameras: &str) -> Street {
+    let changed = RECIPE.replacen("height = 54\n", &format!("height = 54\n{cameras}\n"), 1);
+    assert_ne!(changed, RECIPE);
+    Street::with(&changed, &map())
+}
+
 /// Numbers of runs per stage.
 fn ran(street: &Street, arguments: &[&str], stage: &str) -> u64 {
     let all = [&["run", "recipe.toml", "--json"][..], arguments].concat();
@@ -18,6 +25,49 @@ fn ran(street: &Street, arguments: &[&str], stage: &str) -> u64 {
     let stages = summary["stages"].as_array().expect("stages");
     let found = stages.iter().find(|it| it["stage"] == stage).expect("the stage");
     found["ran"].as_u64().expect("a count")
+}
+
+#[test]
+fn several_cameras_film_every_flight_at_the_same_moments() {
+    let street = filmed_by(
+        "[stages.frames.cameras.front]\n[stages.frames.cameras.down]\nwidth = 64\nheight = 64\nfov_deg = 120.0\n\
+         gimbal = { pitch_range_deg = [-90, -90], yaw_range_deg = [0, 0] }",
+    );
+    assert_eq!(ran(&street, &[], "frames"), 12);
+    let dataset = street.dataset();
+    cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+    cosfly(&["doctor", dataset.to_str().expect("UTF-8")]).within(street.path()).run();
+    // A row for each flight and camera.
+    let of = |name: &str| column(&dataset, "trajectories", name);
+    let (ids, flights, cameras) = (of("trajectory_id"), of("flight_id"), of("camera_name"));
+    let (widths, pitches, experts) = (of("camera_width_px"), of("camera_mount_pitch_deg"), of("expert_id"));
+    assert_eq!(ids.len(), 12);
+    for at in 0..ids.len() {
+        let camera = cameras[at].trim_matches('"');
+        assert_eq!(ids[at].trim_matches('"'), format!("{}-{camera}", flights[at].trim_matches('"')));
+        let expected = if camera == "down" { ("64", -90.0) } else { ("96", 0.0) };
+        assert_eq!((widths[at].as_str(), pitches[at].parse::<f64>().expect("a number")), expected, "{camera}");
+        // Twins are paired within their camera.
+        let expert = experts[at].trim_matches('"');
+        assert!(["", "null"].contains(&expert) || expert.ends_with(camera), "{expert} of {camera}");
+    }
+    // All cameras of a flight have its texts.
+    let captioned = column(&dataset, "captions", "trajectory_id");
+    assert!(ids.iter().all(|id| captioned.contains(id)));
+}
+
+#[test]
+fn cameras_that_cannot_be_are_refused_with_their_key() {
+    for (lines, words) in [
+        ("[stages.frames.cameras.Down]\nwidth = 64", "lower-case letter"),
+        ("[stages.frames.cameras.down]\nwidth = 8", "`width` is `8`"),
+        ("[stages.frames.cameras.down]\nlens = { k1 = -0.9 }", "the corners of a field of view"),
+        ("paired_weathers = true\n[stages.frames.cameras.down]", "both name the films of a flight"),
+    ] {
+        let printed = cosfly(&["run", "recipe.toml"]).within(filmed_by(lines).path()).run();
+        let said = printed.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(printed.code == Some(3) && said.contains(words), "{lines}: {}", printed.stderr);
+    }
 }
 
 #[test]

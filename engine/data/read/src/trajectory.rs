@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub struct PublishedFlight {
     /// Id, unique in the dataset.
     pub trajectory_id: String,
-    /// Name of the flight, the same for all weathers of a paired rendering.
+    /// Name of the flight, the same for all weathers of a paired rendering, and for all cameras.
     pub flight_id: String,
     /// Expert of a perturbed trajectory.
     pub expert_id: Option<String>,
@@ -40,6 +40,8 @@ pub struct PublishedFlight {
     pub frames: usize,
     /// Time between frames, seconds.
     pub dt_s: f64,
+    /// Name of the camera, where several film each flight.
+    pub camera_name: Option<String>,
     /// Ideal camera of all frames, without its lens.
     pub camera: Camera,
     /// Distortion of the lens.
@@ -101,6 +103,7 @@ impl PublishedFlight {
             weather_numbers: Arc::new(weather_numbers),
             frames: rows.get(Trajectories::frames, row)? as usize,
             dt_s: rows.get(Trajectories::dt_s, row)?,
+            camera_name: rows.get_or(Trajectories::camera_name, row, None)?,
             camera: Camera {
                 width: rows.get(Trajectories::camera_width_px, row)?,
                 height: rows.get(Trajectories::camera_height_px, row)?,

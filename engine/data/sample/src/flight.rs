@@ -124,6 +124,7 @@ pub fn flight_filmed_by(camera: Camera, pedestrian: usize, role: Role) -> Sample
         pedestrian_id: format!("p{pedestrian:05}"),
         town: TownInfo::of(&town, "0".repeat(64)),
         trajectory,
+        camera_name: None,
         camera,
         lens: Lens::default(),
         mount: Mount::default(),

@@ -94,7 +94,8 @@ pub struct Sighting {
 pub struct RenderedTrajectory {
     /// Id, unique in the dataset: letters, digits, `.`, `_` and `-`, such as `expert-p00000`.
     pub trajectory_id: String,
-    /// Id of the flight in the pictures: the trajectory id without the weather that a paired rendering appends.
+    /// Id of the flight in the pictures: the trajectory id without the weather or the camera that is appended
+    /// where several films are made of it.
     pub flight_id: String,
     /// Expert or perturbed.
     pub role: Role,
@@ -104,6 +105,8 @@ pub struct RenderedTrajectory {
     pub town: TownInfo,
     /// Poses, target track, costs, certificate, perturbation.
     pub trajectory: Trajectory,
+    /// Name of the camera, where several film each flight.
+    pub camera_name: Option<String>,
     /// Ideal camera of all frames, without its lens.
     pub camera: Camera,
     /// Distortion of the lens.

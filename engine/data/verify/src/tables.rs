@@ -150,14 +150,15 @@ fn read_objects(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, re
     }
 }
 
-/// Rows of the same flight are in different weathers, else one of them is there twice.
+/// Rows of the same flight are in different weathers or by different cameras, else one of them is there twice.
 fn check_weathers(small: &SmallTables, report: &mut VerifyReport) {
-    let mut seen: BTreeMap<(&str, &str), &str> = BTreeMap::new();
+    let mut seen: BTreeMap<(&str, &str, Option<&str>), &str> = BTreeMap::new();
     for flight in small.flights.iter() {
         let id = &flight.trajectory_id;
-        if let Some(first) = seen.insert((&flight.flight_id, &flight.weather), id) {
+        let film = (flight.flight_id.as_str(), flight.weather.as_str(), flight.camera_name.as_deref());
+        if let Some(first) = seen.insert(film, id) {
             let place = format!("row {}, `{id}`", flight.place.1);
-            let message = format!("it shows flight `{}` in the same weather as `{first}`", flight.flight_id);
+            let message = format!("it shows flight `{}` in the same weather and by the same camera as `{first}`", flight.flight_id);
             report.find(&flight.place.0, place, "verify-duplicate", message);
         }
     }

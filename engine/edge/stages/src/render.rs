@@ -70,7 +70,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 21,
+            version: 22,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -161,6 +161,7 @@ impl Stage for RenderStage {
             pedestrian_id: walker(&artifact.id.item).to_string(),
             town: TownInfo::of(&world.town, town_digest),
             trajectory,
+            camera_name: film.filter(|_| !self.config.cameras.is_empty()).map(str::to_owned),
             camera: shooting.camera,
             lens: config.lens,
             mount: shooting.mount,

@@ -5,6 +5,8 @@ use crate::tables::DatasetItem;
 use crate::tables::column::columns;
 
 columns! { Trajectories::CAMERA of DatasetItem;
+    /// Name of the camera, where several film each flight (`cameras` of the stage `render`); null for a single one.
+    camera_name: Option<String> = |item, _| item.record.camera_name.clone();
     /// Width of the images.
     camera_width_px: u32 = |item, _| item.record.camera.width;
     /// Height of the images.

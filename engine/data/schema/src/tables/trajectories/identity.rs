@@ -11,7 +11,8 @@ use cosfly_metrics::{Difficulty, WindowFeatures};
 columns! { Trajectories::IDENTITY of DatasetItem;
     /// Name of the trajectory, unique in the dataset.
     trajectory_id: String = |item, _| item.record.trajectory_id.clone();
-    /// Name of the flight: rows with the same name have the same poses, target and ids in different weathers.
+    /// Name of the flight: rows with the same name have the same poses, target and ids in different weathers or by
+    /// different cameras.
     flight_id: String = |item, _| item.record.flight_id.clone();
     /// Expert or perturbed trajectory.
     role: Role = |item, _| item.record.role;
