@@ -83,7 +83,7 @@ pub fn weather_numbers(record: &RenderedTrajectory) -> [(&'static str, f64); 14]
 
 fn camera(record: &RenderedTrajectory) -> BTreeMap<String, String> {
     let camera = &record.camera;
-    entries([
+    let mut all = entries([
         ("width_px", camera.width.to_string()),
         ("height_px", camera.height.to_string()),
         ("horizontal_fov_deg", camera.horizontal_fov_rad.to_degrees().to_string()),
@@ -97,7 +97,9 @@ fn camera(record: &RenderedTrajectory) -> BTreeMap<String, String> {
         ("readout_s", record.rolling_shutter.readout_s.to_string()),
         ("noise_gaussian", record.noise.gaussian.to_string()),
         ("noise_shot", record.noise.shot.to_string()),
-    ])
+    ]);
+    all.extend(record.camera_name.iter().map(|name| ("name".to_owned(), name.clone())));
+    all
 }
 
 fn conventions(header: &PackHeader) -> BTreeMap<String, String> {
