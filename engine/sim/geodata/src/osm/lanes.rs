@@ -1,7 +1,7 @@
 //! Lanes of vehicles on streets, and ways through junctions between them.
 
 use super::roads::{self, ROAD_HEIGHT_M, Road};
-use super::stated::{Doubts, Quantity};
+use super::stated::{Doubts, EVERY, Quantity};
 use super::strip::{moved_left, thinned};
 use super::tags::{Tags, speed_mps};
 use cosfly_domain::{Lane, LaneKind};
@@ -192,8 +192,18 @@ fn layout(road: &Road<'_>, doubts: &mut Doubts) -> Option<Piece> {
         true => [all, 0],
         false => {
             let all = all.max(2);
-            let forward = count(forward).unwrap_or(all.div_ceil(2)).min(all - 1);
-            [forward, count(backward).unwrap_or(all - forward)]
+            let [there, back] = [count(forward), count(backward)];
+            let lanes = there.unwrap_or(all.div_ceil(2)).min(all - 1);
+            if there.is_some_and(|there| there > lanes) {
+                let less = Quantity { noun: ["number below that of all lanes", ""], instead: "all lanes but one lead there", ..*forward };
+                doubts.add(tags, &Quantity { range: EVERY, ..less }, name);
+            }
+            let room = all - lanes;
+            if back.is_some_and(|back| back > room) {
+                let rest = Quantity { noun: ["number that all lanes leave room for", ""], instead: "the lanes are narrower", ..*backward };
+                doubts.add(tags, &Quantity { range: EVERY, ..rest }, name);
+            }
+            [lanes, back.unwrap_or(room)]
         }
     };
     let lane_m = match is_oneway {

@@ -221,6 +221,8 @@ fn marks<'d>(source: &Source<'d>, lane: Node<'d, 'd>, section_s_m: f64) -> Resul
 }
 
 const DEFAULT_LINE_WIDTH_M: f64 = 0.12;
+/// Least and greatest width of painted lines, metres.
+const LINE_WIDTHS_M: [f64; 2] = [0.05, 1.0];
 /// Dashes of towns where the file gives no pattern.
 const DEFAULT_DASH: Dash = Dash { length_m: 3.0, space_m: 6.0 };
 
@@ -235,6 +237,11 @@ fn paint<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Option<Paint>, M
         // Kerbs, grass and edges carry no paint; `botts dots` are too small to see from the air.
         _ => return Ok(None),
     };
+    let [least_m, most_m] = LINE_WIDTHS_M;
+    let drawn_m = width_m.unwrap_or(DEFAULT_LINE_WIDTH_M).clamp(least_m, most_m);
+    if let Some(width_m) = width_m.filter(|width_m| *width_m != drawn_m) {
+        source.warn(node, &format!("`width` is `{width_m}`, no line of {least_m} to {most_m} m; {drawn_m} m are drawn"));
+    }
     let line = child(node, "type").and_then(|kind| child(kind, "line"));
     let own_dash = match line {
         Some(line) => Some(Dash {
@@ -245,7 +252,7 @@ fn paint<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Option<Paint>, M
     };
     let usable = own_dash.filter(|dash| dash.length_m >= 0.1 && dash.space_m >= 0.1);
     Ok(Some(Paint {
-        width_m: width_m.unwrap_or(DEFAULT_LINE_WIDTH_M).clamp(0.05, 1.0),
+        width_m: drawn_m,
         dash: dashed.then(|| usable.unwrap_or(DEFAULT_DASH)),
         double,
     }))
