@@ -60,7 +60,7 @@ fn several_cameras_film_every_flight_at_the_same_moments() {
 fn cameras_that_cannot_be_are_refused_with_their_key() {
     for (lines, words) in [
         ("[stages.frames.cameras.Down]\nwidth = 64", "lower-case letter"),
-        ("[stages.frames.cameras.down]\nwidth = 8", "`width` is `8`"),
+        ("[stages.frames.cameras.down]\nwidth = 8", "`cameras.down.width` is `8`"),
         ("[stages.frames.cameras.down]\nlens = { k1 = -0.9 }", "the corners of a field of view"),
         ("paired_weathers = true\n[stages.frames.cameras.down]", "both name the films of a flight"),
     ] {
