@@ -20,9 +20,12 @@ fn the_readme_counts_what_the_first_recipe_makes() {
         value.trim().parse::<u32>().ok()
     };
     assert_eq!((number("walkers", "count"), number("crowd", "people.count")), (Some(4), Some(300)));
+    assert_eq!(number("crowd", "vehicles.count"), Some(60));
     assert_eq!(number("walkers", "frames"), Some(200));
     assert_eq!((number("frames", "width"), number("frames", "height")), (Some(1280), Some(720)));
-    for promise in ["four targets among three hundred bystanders", "200 frames of 1280x720 per trajectory"] {
+    for promise in
+        ["four targets among three hundred bystanders and sixty vehicles", "200 frames of 1280x720 per trajectory"]
+    {
         assert!(readme().contains(promise), "README.md says `{promise}` no more: change this test, too");
         let started = text("book/src/guide/getting-started.md").split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(started.contains(promise), "getting-started.md says `{promise}` no more");

@@ -109,6 +109,11 @@ const OPTICS: &[(&str, &str)] = &[
         "camera_readout_s",
         "Rolling shutter, seconds from the top row to the bottom row, the middle at the time of the frame",
     ),
+    ("camera_point_spread_px", "Blur of lens and sensor, standard deviation, pixels"),
+    ("camera_sharpening", "Sharpening by the image processor, 0 to 1"),
+    ("camera_contrast", "Steepness of the tone curve, 0 to 1"),
+    ("camera_exposure_ev", "Exposure beyond the one that suits the weather, stops"),
+    ("camera_white_balance_k", "Temperature that is rendered as white, kelvin"),
     ("camera_noise_gaussian", "Noise of colours, deviation everywhere, steps of 8 bits"),
     ("camera_noise_shot", "Noise that falls with the root of brightness, deviation at white, steps of 8 bits"),
 ];

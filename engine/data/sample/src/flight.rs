@@ -5,8 +5,8 @@ use crate::town::town;
 use cosfly_domain::channels::{ALL, SeenPoint};
 use cosfly_domain::{
     Around, BodyKind, BodyPlan, Camera, Certificate, ChannelImage, ChannelSet, FrameImages, FramePerturbation, Lens,
-    Limits, MotionBlur, Mount, Noise, Outfit, Perturbation, PerturbationKind, RollingShutter, Season, SemanticLabel,
-    TargetView, TermCost, Trajectory, Weather,
+    Limits, MotionBlur, Mount, Noise, Optics, Outfit, Perturbation, PerturbationKind, RollingShutter, Season,
+    SemanticLabel, TargetView, TermCost, Trajectory, Weather,
 };
 use cosfly_figures::Clothes;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
@@ -131,6 +131,7 @@ pub fn flight_filmed_by(camera: Camera, pedestrian: usize, role: Role) -> Sample
         motion_blur: MotionBlur::default(),
         rolling_shutter: RollingShutter::default(),
         noise: Noise::default(),
+        optics: Optics::IDEAL,
         weather: weather(),
         season: Season::Summer,
         seed: 0x0123_4567_89ab_cdef,

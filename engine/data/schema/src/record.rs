@@ -2,7 +2,7 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{
-    Around, BodyKind, BodyPlan, BodyView, Camera, Followed, Lens, MapOrigin, MotionBlur, Mount, Noise, Outfit,
+    Around, BodyKind, BodyPlan, BodyView, Camera, Followed, Lens, MapOrigin, MotionBlur, Mount, Noise, Optics, Outfit,
     RollingShutter, Season, Synthetic, TARGET_INSTANCE, TargetView, Town, Trajectory, Weather,
 };
 use cosfly_frames::{Pose, TargetState};
@@ -119,6 +119,8 @@ pub struct RenderedTrajectory {
     pub rolling_shutter: RollingShutter,
     /// Noise of the sensor.
     pub noise: Noise,
+    /// Lens, sensor and image processor.
+    pub optics: Optics,
     /// Weather of all frames.
     pub weather: Weather,
     /// Season of trees and lawns in the pictures.

@@ -50,7 +50,7 @@ pub const NEARBY: Kind<Vec<NearbyWalk>> = Kind::new("nearby/1", "people");
 /// Bodies of traffic near a flight; absent where there is no traffic.
 pub const NEARBY_BODIES: Kind<Vec<NearbyBodies>> = Kind::new("nearby/1", "bodies");
 /// Artifact of a film.
-pub const FRAMES: &str = "frames/3";
+pub const FRAMES: &str = "frames/4";
 /// Reason why a film has no pictures; absent where it has.
 pub const REJECTION: Kind<Rejection> = Kind::new(FRAMES, "rejection");
 

@@ -12,8 +12,8 @@ use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::{Around, Camera, PlanOutcome, TargetView, Trajectory, largest_object_instance};
 use cosfly_experts::{artifacts, pictures};
 use cosfly_figures::{Bystander, Walker, gait_phase_rad, outfit_of};
-use cosfly_film::body_rays::BodyRays;
 use cosfly_film::Shooting;
+use cosfly_film::body_rays::BodyRays;
 use cosfly_film::walks::walked_m;
 use cosfly_flight::World;
 use cosfly_frames::{Pose, Seed};
@@ -70,7 +70,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 22,
+            version: 23,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -167,7 +167,8 @@ impl Stage for RenderStage {
             mount: shooting.mount,
             motion_blur: config.motion_blur,
             rolling_shutter: config.rolling_shutter,
-            noise: config.noise,
+            noise: shooting.noise,
+            optics: shooting.optics,
             weather: shooting.weather,
             season: scene.season(),
             seed: Seed(context.seed).as_u64(),
@@ -249,6 +250,8 @@ impl RenderStage {
     ) -> Result<SeenPeople> {
         let Place { scene, world, crowd } = *place;
         let mut rig = self.take_rig(config, shooting.camera);
+        rig.renderer.set_optics(shooting.optics);
+        rig.effects.set_noise(shooting.noise);
         let Camera { width, height, .. } = shooting.camera;
         let largest_instance = largest_object_instance(&world.town).max(crowd.largest_instance());
         let header = PackHeader {
@@ -311,7 +314,6 @@ impl RenderStage {
         let effects = config.effects(camera);
         let mut renderer = Renderer::new(effects.ideal_camera());
         renderer.set_look(config.look);
-        renderer.set_optics(config.optics);
         renderer.set_channels(&config.channels);
         Rig { camera, config: config.clone(), effects, renderer }
     }

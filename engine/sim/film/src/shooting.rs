@@ -2,7 +2,7 @@
 
 use crate::looks::walk_seed;
 use cosfly_diagnose::Result;
-use cosfly_domain::{Camera, Followed, Mount, Trajectory, Weather};
+use cosfly_domain::{Camera, Followed, Mount, Noise, Optics, Trajectory, Weather};
 use cosfly_figures::{BodyShape, clothes_seed_of_target};
 use cosfly_frames::{Pose, Seed};
 use cosfly_render::RenderConfig;
@@ -13,6 +13,10 @@ pub struct Shooting {
     pub camera: Camera,
     /// Turn of the camera against the drone.
     pub mount: Mount,
+    /// Lens, sensor and image processor.
+    pub optics: Optics,
+    /// Noise of the sensor.
+    pub noise: Noise,
     /// Weather, with the azimuth of its sun drawn.
     pub weather: Weather,
     /// Seed of the clothes of the followed walker, or of the paint of a followed vehicle.
@@ -41,19 +45,30 @@ impl Shooting {
             None => config.draw_weather(&walk_seed),
         };
         let (camera, mount) = (config.draw_camera(&walk_seed), config.draw_mount(&walk_seed));
+        let (optics, noise) = (config.optics.draw(&walk_seed), config.draw_noise(&walk_seed, &weather));
         let looks = followed.map_or(walk_seed, |followed| followed.plan.looks);
         let clothes_seed = clothes_seed_of_target(&looks, config.target_stands_out);
         let body = followed.map_or(BodyShape::default(), |it| BodyShape::of(it.plan.kind, it.plan.size_m));
         let rain = if config.paired_weathers { 0.0 } else { weather.precipitation };
-        Ok(Self { camera, mount, body: body.in_rain(rain, &clothes_seed), weather, clothes_seed, rain })
+        let body = body.in_rain(rain, &clothes_seed);
+        Ok(Self { camera, mount, optics, noise, weather, clothes_seed, body, rain })
     }
 
     /// The default camera under a clear sky, behind a person with these looks.
     pub fn plain(looks: Seed) -> Self {
         let config = RenderConfig { weathers: vec!["ClearNoon".to_owned()], ..RenderConfig::default() };
         let (weather, clothes_seed) = (config.draw_weather(&looks), clothes_seed_of_target(&looks, 0.0));
-        let (camera, mount) = (config.camera(), Mount::default());
-        Self { camera, mount, weather, clothes_seed, body: BodyShape::default(), rain: 0.0 }
+        let (camera, mount, optics) = (config.camera(), Mount::default(), cosfly_optics::middle());
+        Self {
+            camera,
+            mount,
+            optics,
+            noise: Noise::default(),
+            weather,
+            clothes_seed,
+            body: BodyShape::default(),
+            rain: 0.0,
+        }
     }
 
     /// The shape of somebody else with these looks in the weather of the flight.

@@ -1,4 +1,4 @@
-//! Lens, shutter and sensor of a camera, on finished pictures: point spread, exposure, white balance, bloom, motion blur,
+//! Lens, shutter and sensor of a camera, on finished pictures: point spread, sharpening, exposure, white balance, bloom, motion blur,
 //! a rolling shutter, noise. Nothing here knows a town.
 
 mod bloom;
@@ -6,7 +6,9 @@ mod motion_blur;
 mod noise;
 mod optics;
 mod point_spread;
+mod settings;
 
 pub use motion_blur::{Exposure, pose_at, target_state_at};
 pub use noise::add_noise;
-pub use optics::{Glass, Optics};
+pub use optics::{Glass, exposure, gains};
+pub use settings::{OpticsConfig, OpticsPreset, middle};

@@ -2,35 +2,63 @@
 
 use cosfly_domain::Noise;
 use cosfly_frames::Seed;
+use cosfly_frames::simd::Level;
+use cosfly_frames::simd_kernel;
 
-/// Standard deviation of the sum of four uniform 16-bit numbers: 65536 / sqrt(3).
-const SUM_DEVIATION: f32 = 37_837.227;
-/// Mean of their sum.
-const SUM_MEAN: i32 = 2 * 65535;
+/// Standard deviation of the sum of four uniform bytes: sqrt(4 (256^2 - 1) / 12).
+const SUM_DEVIATION: f32 = 147.80;
+/// Mean of that sum.
+const MEAN: i32 = 2 * 255;
+/// Codes that are moved together.
+const BLOCK: usize = 32;
+/// Distance of the numbers of neighbouring codes, before they are mixed.
+const STRIDE: u32 = 0x9e37_79b9;
 
 /// Adds noise to sRGB codes: nearly normal (sums of four uniform numbers), independent per channel and pixel.
-pub fn add_noise(noise: &Noise, rgb: &mut [u8], seed: &Seed) {
+pub fn add_noise(level: Level, noise: &Noise, rgb: &mut [u8], seed: &Seed) {
     if noise.is_none() {
         return;
     }
-    let scales: [f32; 256] = core::array::from_fn(|code| {
-        let variance = noise.gaussian * noise.gaussian + noise.shot * noise.shot * code as f64 / 255.0;
-        variance.sqrt() as f32 / SUM_DEVIATION
-    });
-    let base = seed.stream("noise").bits();
-    for (index, code) in rgb.iter_mut().enumerate() {
-        let bits = mixed(base.wrapping_add((index as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)));
-        let sum: i32 = [0, 16, 32, 48].iter().map(|shift| ((bits >> shift) & 0xffff) as i32).sum();
-        let noisy = f32::from(*code) + scales[usize::from(*code)] * (sum - SUM_MEAN) as f32;
-        *code = (noisy + 0.5).clamp(0.0, 255.0) as u8;
+    let unit = 1.0 / (SUM_DEVIATION * SUM_DEVIATION);
+    let everywhere = (noise.gaussian * noise.gaussian) as f32 * unit;
+    let per_code = (noise.shot * noise.shot / 255.0) as f32 * unit;
+    grain(level, seed.stream("noise").bits() as u32, everywhere, per_code, rgb);
+}
+
+simd_kernel! {
+    /// Moves each code by its own number; variances are in units of the sum's.
+    fn grain(base: u32, everywhere: f32, per_code: f32, rgb: &mut [u8]) {
+        let (blocks, rest) = rgb.as_chunks_mut::<BLOCK>();
+        let mut first = base;
+        for block in &mut *blocks {
+            *block = moved(*block, first, everywhere, per_code);
+            first = first.wrapping_add(STRIDE.wrapping_mul(BLOCK as u32));
+        }
+        let mut last = [0; BLOCK];
+        last[..rest.len()].copy_from_slice(rest);
+        rest.copy_from_slice(&moved(last, first, everywhere, per_code)[..rest.len()]);
     }
 }
 
-/// The finaliser of SplitMix64.
-fn mixed(mut bits: u64) -> u64 {
-    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    bits ^ (bits >> 31)
+/// A block of codes with noise: the number of code `i` comes from `first + i * STRIDE`.
+#[inline(always)]
+fn moved(codes: [u8; BLOCK], first: u32, everywhere: f32, per_code: f32) -> [u8; BLOCK] {
+    core::array::from_fn(|index| {
+        let bits = mixed(first.wrapping_add((index as u32).wrapping_mul(STRIDE)));
+        let sum = (bits & 0xff) + ((bits >> 8) & 0xff) + ((bits >> 16) & 0xff) + (bits >> 24);
+        let value = f32::from(codes[index]);
+        let moved = (everywhere + per_code * value).sqrt() * (sum as i32 - MEAN) as f32;
+        // The lowest bits of a float from 2^23 on are its whole number.
+        ((value + moved).clamp(0.0, 255.0) + 8_388_608.0).to_bits() as u8
+    })
+}
+
+/// A bijection of 32 bits in which every bit depends on all others.
+#[inline(always)]
+fn mixed(mut bits: u32) -> u32 {
+    bits = (bits ^ (bits >> 16)).wrapping_mul(0x7feb_352d);
+    bits = (bits ^ (bits >> 15)).wrapping_mul(0x846c_a68b);
+    bits ^ (bits >> 16)
 }
 
 #[cfg(test)]
@@ -39,7 +67,7 @@ mod tests {
 
     fn deviation(noise: Noise, code: u8) -> (f64, f64) {
         let mut rgb = vec![code; 90_000];
-        add_noise(&noise, &mut rgb, &Seed([3; 32]));
+        add_noise(Level::best(), &noise, &mut rgb, &Seed([3; 32]));
         let mean = rgb.iter().map(|code| f64::from(*code)).sum::<f64>() / rgb.len() as f64;
         let variance = rgb.iter().map(|code| (f64::from(*code) - mean).powi(2)).sum::<f64>() / rgb.len() as f64;
         (mean, variance.sqrt())
@@ -64,10 +92,21 @@ mod tests {
         let noise = Noise { gaussian: 2.0, shot: 0.0 };
         let with = |seed: u8| {
             let mut rgb = vec![128; 300];
-            add_noise(&noise, &mut rgb, &Seed([seed; 32]));
+            add_noise(Level::best(), &noise, &mut rgb, &Seed([seed; 32]));
             rgb
         };
         assert_eq!(with(1), with(1));
         assert_ne!(with(1), with(2));
+    }
+
+    #[test]
+    fn all_levels_give_the_same_bytes() {
+        let noise = Noise { gaussian: 1.3, shot: 2.7 };
+        let with = |level: Level| {
+            let mut rgb: Vec<u8> = (0..1001).map(|i| (i * 37) as u8).collect();
+            add_noise(level, &noise, &mut rgb, &Seed([5; 32]));
+            rgb
+        };
+        assert!(Level::available().into_iter().all(|level| with(level) == with(Level::PLAIN)));
     }
 }

@@ -1,6 +1,7 @@
 //! Keys of a camera: its turn against the drone, and what one of several cameras has in the place of the stage's keys.
 
 use cosfly_domain::{Lens, MotionBlur, Noise, RollingShutter};
+use cosfly_optics::OpticsConfig;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +24,9 @@ pub struct CameraConfig {
     /// Turn of the camera against the drone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gimbal: Option<GimbalConfig>,
+    /// Lens, sensor and image processor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub optics: Option<OpticsConfig>,
     /// Distortion of the lens.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lens: Option<Lens>,

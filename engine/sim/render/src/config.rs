@@ -7,7 +7,7 @@ use cosfly_domain::{Camera, ChannelSet, Lens, MotionBlur, Mount, Noise, RollingS
 use cosfly_frames::Seed;
 use cosfly_materials::weather::WeatherRanges;
 use cosfly_models::ModelConfig;
-use cosfly_optics::Optics;
+use cosfly_optics::OpticsConfig;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -47,16 +47,17 @@ pub struct RenderConfig {
     pub cameras: BTreeMap<String, CameraConfig>,
     /// Turn of the camera against the drone; drawn once per walk, the same for all of its flights and frames.
     pub gimbal: GimbalConfig,
-    /// Point spread, exposure and white balance of the camera, and bloom of lamps; of colours in the full look.
-    pub optics: Optics,
+    /// Lens, sensor and image processor; of colours in the full look. Left out: a drone's camera, drawn per walk.
+    pub optics: OpticsConfig,
     /// Distortion of the lens; the focal length is that of the undistorted camera.
     pub lens: Lens,
     /// Motion blur of colour.
     pub motion_blur: MotionBlur,
     /// Rows that are taken one after the other, in all channels.
     pub rolling_shutter: RollingShutter,
-    /// Sensor noise on colour.
-    pub noise: Noise,
+    /// Sensor noise on colour; left out: in the full look drawn per walk as `optics.preset` says, more in the dark.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub noise: Option<Noise>,
     /// Probability that a followed person wears a colour that stands out from asphalt, pavement and grass, beyond the quarter
     /// of all people who do. Default 0: everybody's clothes are drawn from one palette and stay the same in all flights, so
     /// that colour does not tell whom the drone follows; above 0 people may change clothes when followed.
@@ -90,11 +91,11 @@ impl Default for RenderConfig {
             fov_range_deg: None,
             cameras: BTreeMap::new(),
             gimbal: GimbalConfig::default(),
-            optics: Optics::default(),
+            optics: OpticsConfig::default(),
             lens: Lens::default(),
             motion_blur: MotionBlur::default(),
             rolling_shutter: RollingShutter::default(),
-            noise: Noise::default(),
+            noise: None,
             target_stands_out: 0.0,
             weathers: weathers.map(str::to_owned).to_vec(),
             paired_weathers: false,
@@ -197,18 +198,25 @@ impl RenderConfig {
             let message = format!("the value is `{value}`");
             Err(ConfigProblem { path: path.into(), message, hint: format!("allowed are {low} to {high}") })
         };
-        in_range("optics.point_spread_px", self.optics.point_spread_px, [0.0, 1.2])?;
-        in_range("optics.exposure_ev", self.optics.exposure_ev, [-4.0, 4.0])?;
-        in_range("optics.white_balance_k", self.optics.white_balance_k, [2500.0, 10_000.0])?;
-        in_range("optics.bloom", self.optics.bloom, [0.0, 2.0])?;
+        let optics = &self.optics;
+        for (path, value, bounds) in [
+            ("optics.point_spread_px", optics.point_spread_px, [0.0, 1.2]),
+            ("optics.sharpening", optics.sharpening, [0.0, 1.0]),
+            ("optics.contrast", optics.contrast, [0.0, 1.0]),
+            ("optics.exposure_ev", optics.exposure_ev, [-4.0, 4.0]),
+            ("optics.white_balance_k", optics.white_balance_k, [2500.0, 10_000.0]),
+            ("optics.bloom", optics.bloom, [0.0, 2.0]),
+            ("noise.gaussian", self.noise.map(|noise| noise.gaussian), [0.0, 64.0]),
+            ("noise.shot", self.noise.map(|noise| noise.shot), [0.0, 64.0]),
+        ] {
+            value.map_or(Ok(()), |value| in_range(path, value, bounds))?;
+        }
         in_range("lens.k1", self.lens.k1, [-1.0, 1.0])?;
         in_range("lens.k2", self.lens.k2, [-1.0, 1.0])?;
         in_range("motion_blur.shutter_s", self.motion_blur.shutter_s, [0.0, 0.5])?;
         in_range("motion_blur.samples", f64::from(self.motion_blur.samples), [3.0, 65.0])?;
         in_range("rolling_shutter.readout_s", self.rolling_shutter.readout_s, [0.0, 0.5])?;
         in_range("rolling_shutter.strips", f64::from(self.rolling_shutter.strips), [2.0, 256.0])?;
-        in_range("noise.gaussian", self.noise.gaussian, [0.0, 64.0])?;
-        in_range("noise.shot", self.noise.shot, [0.0, 64.0])?;
         let widest_deg = self.fov_range_deg.map_or(self.fov_deg, |range| range[1]);
         let widest = Camera { horizontal_fov_rad: widest_deg.to_radians(), ..self.camera() };
         if self.lens.widening(&widest).is_none_or(|widening| widening > 3.0) {
@@ -244,6 +252,15 @@ impl RenderConfig {
         }
     }
 
+    /// The sensor's noise on all flights behind one walk, in this weather.
+    pub fn draw_noise(&self, walk_seed: &Seed, weather: &Weather) -> Noise {
+        match (self.noise, self.look) {
+            (Some(noise), _) => noise,
+            (None, PictureLook::Simple) => Noise::default(),
+            (None, PictureLook::Full) => self.optics.draw_noise(walk_seed, weather.sun_altitude_angle),
+        }
+    }
+
     /// The weather of all flights behind one walk: a preset from the list, an azimuth of the sun, and what the ranges say.
     /// Names that are no preset (which [`Self::validate`] refuses) count as `ClearNoon`.
     pub fn draw_weather(&self, walk_seed: &Seed) -> Weather {
@@ -266,7 +283,7 @@ impl RenderConfig {
 
     /// Effects on ideal pictures of `camera`.
     pub fn effects(&self, camera: Camera) -> Effects {
-        Effects::new(camera, self.lens, self.motion_blur, self.rolling_shutter, self.noise)
+        Effects::new(camera, self.lens, self.motion_blur, self.rolling_shutter)
     }
 }
 
@@ -275,16 +292,18 @@ impl RenderConfig {
     pub fn of_camera(&self, name: Option<&str>) -> Self {
         let mut config = Self { cameras: BTreeMap::new(), ..self.clone() };
         let Some(camera) = name.and_then(|name| self.cameras.get(name)) else { return config };
-        let CameraConfig { width, height, fov_deg, gimbal, lens, motion_blur, rolling_shutter, noise } = camera.clone();
+        let CameraConfig { width, height, fov_deg, gimbal, optics, lens, motion_blur, rolling_shutter, noise } =
+            camera.clone();
         config.width = width.unwrap_or(config.width);
         config.height = height.unwrap_or(config.height);
         config.fov_range_deg = config.fov_range_deg.filter(|_| fov_deg.is_none());
         config.fov_deg = fov_deg.unwrap_or(config.fov_deg);
         config.gimbal = gimbal.unwrap_or(config.gimbal);
+        config.optics = optics.unwrap_or(config.optics);
         config.lens = lens.unwrap_or(config.lens);
         config.motion_blur = motion_blur.unwrap_or(config.motion_blur);
         config.rolling_shutter = rolling_shutter.unwrap_or(config.rolling_shutter);
-        config.noise = noise.unwrap_or(config.noise);
+        config.noise = noise.or(config.noise);
         config
     }
 
@@ -295,23 +314,28 @@ impl RenderConfig {
 
     /// Checks the cameras, each with its own settings.
     pub(crate) fn check_cameras(&self) -> Result<(), ConfigProblem> {
-        let problem = |path: String, message: String, hint: &str| Err(ConfigProblem { path, message, hint: hint.into() });
+        let problem =
+            |path: String, message: String, hint: &str| Err(ConfigProblem { path, message, hint: hint.into() });
         if self.paired_weathers && !self.cameras.is_empty() {
             let hint = "write one recipe for each weather, or one for each camera";
-            return problem("cameras".into(), "`cameras` and `paired_weathers` both name the films of a flight".into(), hint);
+            return problem(
+                "cameras".into(),
+                "`cameras` and `paired_weathers` both name the films of a flight".into(),
+                hint,
+            );
         }
         for name in self.cameras.keys() {
             let is_word = name.starts_with(|first: char| first.is_ascii_lowercase())
                 && name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_')
                 && name.len() <= 32;
             if !is_word {
-                let hint = "a camera is named by a lower-case letter, then lower-case letters, digits and `_`, 32 at most";
+                let hint =
+                    "a camera is named by a lower-case letter, then lower-case letters, digits and `_`, 32 at most";
                 return problem(format!("cameras.{name}"), format!("the name is `{name}`"), hint);
             }
-            self.of_camera(Some(name)).validate().map_err(|found| ConfigProblem {
-                path: format!("cameras.{name}.{}", found.path),
-                ..found
-            })?;
+            self.of_camera(Some(name))
+                .validate()
+                .map_err(|found| ConfigProblem { path: format!("cameras.{name}.{}", found.path), ..found })?;
         }
         Ok(())
     }
@@ -375,10 +399,13 @@ mod tests {
             ),
             (RenderConfig { lens: Lens { k1: -0.9, k2: 0.0 }, ..good.clone() }, "lens"),
             (
-                RenderConfig { optics: Optics { white_balance_k: f64::NAN, ..Optics::default() }, ..good.clone() },
+                RenderConfig {
+                    optics: OpticsConfig { white_balance_k: Some(f64::NAN), ..OpticsConfig::default() },
+                    ..good.clone()
+                },
                 "optics.white_balance_k",
             ),
-            (RenderConfig { noise: Noise { gaussian: -1.0, shot: 0.0 }, ..good.clone() }, "noise.gaussian"),
+            (RenderConfig { noise: Some(Noise { gaussian: -1.0, shot: 0.0 }), ..good.clone() }, "noise.gaussian"),
             (
                 RenderConfig {
                     weather: WeatherRanges { cloudiness: Some([0.0, 120.0]), ..WeatherRanges::default() },
@@ -443,15 +470,19 @@ mod tests {
     #[test]
     fn a_camera_has_its_own_keys_and_the_stages_where_it_has_none() {
         let down = GimbalConfig { pitch_range_deg: [-90.0; 2], ..GimbalConfig::default() };
-        let mut config = with_camera("down", CameraConfig { width: Some(320), gimbal: Some(down), ..CameraConfig::default() });
-        config.noise.gaussian = 2.0;
+        let mut config =
+            with_camera("down", CameraConfig { width: Some(320), gimbal: Some(down), ..CameraConfig::default() });
+        config.noise = Some(Noise { gaussian: 2.0, shot: 0.0 });
         config.validate().expect("a camera");
         let own = config.of_camera(Some("down"));
-        assert_eq!((own.width, own.height, own.noise.gaussian, own.gimbal), (320, 720, 2.0, down));
+        assert_eq!((own.width, own.height, own.noise, own.gimbal), (320, 720, config.noise, down));
         assert_eq!(config.of_camera(None), RenderConfig { cameras: BTreeMap::new(), ..config.clone() });
         assert_eq!((config.films(), RenderConfig::default().films()), (vec!["down".to_owned()], vec![]));
         // A field of view of its own takes the place of a range.
-        let ranged = RenderConfig { fov_range_deg: Some([60.0, 100.0]), ..with_camera("tele", CameraConfig { fov_deg: Some(20.0), ..CameraConfig::default() }) };
+        let ranged = RenderConfig {
+            fov_range_deg: Some([60.0, 100.0]),
+            ..with_camera("tele", CameraConfig { fov_deg: Some(20.0), ..CameraConfig::default() })
+        };
         let tele = ranged.of_camera(Some("tele"));
         assert_eq!((tele.fov_deg, tele.fov_range_deg), (20.0, None));
     }
@@ -463,6 +494,9 @@ mod tests {
         assert_eq!(path(&with_camera("", CameraConfig::default())), "cameras.");
         let wide = CameraConfig { lens: Some(Lens { k1: -0.9, k2: 0.0 }), ..CameraConfig::default() };
         assert_eq!(path(&with_camera("wide", wide)), "cameras.wide.lens");
-        assert_eq!(path(&RenderConfig { paired_weathers: true, ..with_camera("down", CameraConfig::default()) }), "cameras");
+        assert_eq!(
+            path(&RenderConfig { paired_weathers: true, ..with_camera("down", CameraConfig::default()) }),
+            "cameras"
+        );
     }
 }

@@ -1,5 +1,5 @@
-//! Effects of a real camera on an ideal picture: lens distortion, motion blur, a rolling shutter, sensor noise. All off by
-//! default.
+//! Effects of a real camera on an ideal picture: lens distortion, motion blur, a rolling shutter, sensor noise. All off at
+//! first.
 //!
 //! Colour goes through the blur (a mean of light over the shutter), then the lens (bilinear), then the sensor (noise).
 //! Depth, ids and channels on request are those of the middle of the shutter, seen through the lens at the nearest sample:
@@ -64,13 +64,13 @@ pub struct Effects {
 impl Effects {
     /// The effects of a camera whose finished pictures have the size and field of view of `camera`. The field of view is
     /// that of the ideal camera without the lens: its focal length stays the same.
-    pub fn new(camera: Camera, lens: Lens, blur: MotionBlur, rolling: RollingShutter, noise: Noise) -> Self {
+    pub fn new(camera: Camera, lens: Lens, blur: MotionBlur, rolling: RollingShutter) -> Self {
         let lens = (!lens.is_none()).then(|| LensMap::new(camera, lens));
         Self {
             camera,
             blur,
             rolling,
-            noise,
+            noise: Noise::default(),
             lens,
             exposure: Exposure::default(),
             rolled: FrameImages::default(),
@@ -82,6 +82,11 @@ impl Effects {
             bystanders: vec![],
             seen: vec![],
         }
+    }
+
+    /// Adds this noise from now on; none at first.
+    pub fn set_noise(&mut self, noise: Noise) {
+        self.noise = noise;
     }
 
     /// The ideal camera that the renderer has to draw with: wider than the finished picture where the lens needs it.
@@ -98,8 +103,10 @@ impl Effects {
 
     /// Takes a picture with `renderer`, which draws with [`Self::ideal_camera`].
     pub fn film<'a>(&'a mut self, renderer: &'a mut Renderer, scene: &Scene, shot: &Shot<'_>) -> RenderedFrame<'a> {
-        if self.lens.is_none() && self.blur.is_none() && self.rolling.is_none() && self.noise.is_none() {
-            return renderer.render(scene, &setup(shot, 0.0, &mut self.bystanders));
+        let noise = self.noise;
+        let grain = |rgb: &mut [u8]| add_noise(Level::best(), &noise, rgb, &shot.noise_seed);
+        if self.lens.is_none() && self.blur.is_none() && self.rolling.is_none() {
+            return renderer.render_retouched(scene, &setup(shot, 0.0, &mut self.bystanders), grain);
         }
         let strips = self.rolling.strips(self.ideal_camera().height as usize);
         let Self { blur, exposure, rolled, rolled_target, bystanders, .. } = self;
@@ -131,7 +138,7 @@ impl Effects {
                 lens.bend_pixels(rolled_target, &mut self.mask, &mut self.covered);
             }
         }
-        add_noise(&self.noise, &mut self.images.rgb, &shot.noise_seed);
+        grain(&mut self.images.rgb);
         let view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
         target_view::measure_bodies(Level::best(), &self.images, bystanders, &mut self.seen);
         RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered, others: &self.seen }

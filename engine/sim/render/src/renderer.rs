@@ -18,12 +18,12 @@ use crate::shade::smooth;
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
 use cosfly_domain::{
-    BodyView, Camera, ChannelImage, ChannelSet, FrameImages, SemanticLabel, TARGET_INSTANCE, TargetView,
+    BodyView, Camera, ChannelImage, ChannelSet, FrameImages, Optics, SemanticLabel, TARGET_INSTANCE, TargetView,
 };
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 use cosfly_materials::parts::BOX_FACES;
-use cosfly_optics::{Glass, Optics};
+use cosfly_optics::Glass;
 use cosfly_raster::eye::Eye;
 use cosfly_raster::nearer::Nearer;
 use cosfly_raster::visibility::{PlaneOnScreen, Screen, Visibility};
@@ -73,7 +73,7 @@ impl Renderer {
     pub fn new(camera: Camera) -> Self {
         let screen = Screen::new(&camera);
         let pixels = screen.width * screen.height;
-        Self {
+        let mut renderer = Self {
             camera,
             screen,
             images: FrameImages {
@@ -103,9 +103,11 @@ impl Renderer {
             parallel: false,
             shader: Shader::new(&screen),
             smoother: smooth::Smoother::default(),
-            optics: Optics::default(),
+            optics: Optics::IDEAL,
             glass: Glass::default(),
-        }
+        };
+        renderer.set_optics(cosfly_optics::middle());
+        renderer
     }
 
     /// The camera it draws with.
@@ -127,7 +129,7 @@ impl Renderer {
         self.shader.set_look(look);
     }
 
-    /// Takes colours of the full look through these optics from now on; the default ones at first.
+    /// Takes colours of the full look through these optics from now on; a middling drone's at first.
     pub fn set_optics(&mut self, optics: Optics) {
         self.optics = optics;
         self.shader.set_optics(&optics);
@@ -168,6 +170,18 @@ impl Renderer {
         let mut watch = Stopwatch::new(Some(now));
         self.draw(scene, setup, FrameParts::All, &mut watch);
         (self.finished(), watch.stages())
+    }
+
+    /// Draws all channels, and gives the colours to `retouch` before anybody sees them.
+    pub fn render_retouched(
+        &mut self,
+        scene: &Scene,
+        setup: &FrameSetup<'_>,
+        retouch: impl FnOnce(&mut [u8]),
+    ) -> RenderedFrame<'_> {
+        self.draw(scene, setup, FrameParts::All, &mut Stopwatch::new(None));
+        retouch(&mut self.images.rgb);
+        self.finished()
     }
 
     fn finished(&self) -> RenderedFrame<'_> {

@@ -44,7 +44,8 @@ fn film_rolling(
     let scene = Scene::new(&small_town::small_town(3, 5), Seed([1; 32]));
     let weather =
         Weather { sun_azimuth_angle: 200.0, ..cosfly_materials::presets::preset("ClearNoon").expect("a preset") };
-    let mut effects = Effects::new(CAMERA, lens, blur, rolling, noise);
+    let mut effects = Effects::new(CAMERA, lens, blur, rolling);
+    effects.set_noise(noise);
     let mut renderer = Renderer::new(effects.ideal_camera());
     let shot = Shot { weather: &weather, moment: &moment, others: &|_, _| {}, noise_seed: Seed([noise_seed; 32]) };
     let frame = effects.film(&mut renderer, &scene, &shot);
@@ -165,7 +166,8 @@ fn a_film_looks_at_its_moments_and_at_no_other() {
         (MotionBlur::default(), rolling, 4),
         (blur, rolling, 12),
     ] {
-        let mut effects = Effects::new(camera, Lens::default(), blur, rolling, Noise { gaussian: 1.0, shot: 0.0 });
+        let mut effects = Effects::new(camera, Lens::default(), blur, rolling);
+        effects.set_noise(Noise { gaussian: 1.0, shot: 0.0 });
         let (moments_s, asked) = (effects.moments_s(), RefCell::new(vec![]));
         let others = |offset_s: f64, _: &mut Vec<Bystander>| asked.borrow_mut().push(offset_s);
         let shot = Shot { weather: &weather, moment: &moment, others: &others, noise_seed: Seed([2; 32]) };

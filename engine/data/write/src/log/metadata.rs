@@ -95,6 +95,12 @@ fn camera(record: &RenderedTrajectory) -> BTreeMap<String, String> {
         ("mount_levelled", record.mount.levelled.to_string()),
         ("shutter_s", record.motion_blur.shutter_s.to_string()),
         ("readout_s", record.rolling_shutter.readout_s.to_string()),
+        ("point_spread_px", record.optics.point_spread_px.to_string()),
+        ("sharpening", record.optics.sharpening.to_string()),
+        ("contrast", record.optics.contrast.to_string()),
+        ("exposure_ev", record.optics.exposure_ev.to_string()),
+        ("white_balance_k", record.optics.white_balance_k.to_string()),
+        ("bloom", record.optics.bloom.to_string()),
         ("noise_gaussian", record.noise.gaussian.to_string()),
         ("noise_shot", record.noise.shot.to_string()),
     ]);

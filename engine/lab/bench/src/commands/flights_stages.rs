@@ -103,7 +103,7 @@ impl StageKind for Toy {
             Makes::Town => ("town/1", ItemRule::One, StageRole::World),
             Makes::Walks => (WALK, ItemRule::Count { prefix: "p", count }, StageRole::World),
             Makes::Twins => (WALK, ItemRule::PerInput("walks"), StageRole::Changes),
-            Makes::Films => ("frames/3", ItemRule::PerInput("walks"), StageRole::Films),
+            Makes::Films => ("frames/4", ItemRule::PerInput("walks"), StageRole::Films),
         };
         let properties = StageProperties {
             kind: self.name.to_owned(),

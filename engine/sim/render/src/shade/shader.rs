@@ -9,10 +9,9 @@ use crate::passes::ids::{Band, SeenRuns};
 use crate::people::People;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
-use cosfly_domain::FrameImages;
+use cosfly_domain::{FrameImages, Optics};
 use cosfly_frames::simd::Level;
 use cosfly_materials::vector::Vec3;
-use cosfly_optics::Optics;
 use cosfly_raster::eye::Eye;
 use cosfly_raster::visibility::{Screen, Visibility};
 use std::sync::{Mutex, PoisonError};
@@ -43,8 +42,9 @@ impl Shader {
 
     /// Exposes and balances colours like this from now on.
     pub fn set_optics(&mut self, optics: &Optics) {
-        self.setting.exposure = optics.exposure();
-        let [red, green, blue] = optics.gains();
+        self.setting.exposure = cosfly_optics::exposure(optics);
+        let [red, green, blue] = cosfly_optics::gains(optics);
+        self.setting.tone.set_contrast(optics.contrast as f32);
         self.setting.tone.gains = Vec3::new(red, green, blue);
     }
 

@@ -13,13 +13,25 @@ const WHITE: f32 = 8.0;
 /// The tone curve as a table.
 pub struct ToneCurve {
     bytes: [u32; ENTRIES],
+    contrast: f32,
     /// Factors of red, green and blue before the curve.
     pub gains: Vec3,
 }
 
 impl ToneCurve {
-    /// Computes the table.
+    /// The film curve.
     pub fn new() -> Self {
+        Self::with_contrast(0.0)
+    }
+
+    /// The film curve, steepened by the share `contrast` of an S; gains stay.
+    pub fn set_contrast(&mut self, contrast: f32) {
+        if contrast != self.contrast {
+            *self = Self { gains: self.gains, ..Self::with_contrast(contrast) };
+        }
+    }
+
+    fn with_contrast(contrast: f32) -> Self {
         let bytes = (0..ENTRIES)
             .map(|i| {
                 // The middle of the lights that have this place.
@@ -30,10 +42,11 @@ impl ToneCurve {
                 let gentle = bright * (1.0 + bright / (4.0 * WHITE * WHITE)) / (1.0 + bright);
                 let y = (0.65 * filmic + 0.35 * gentle).clamp(0.0, 1.0);
                 let srgb = if y <= 0.003_130_8 { 12.92 * y } else { 1.055 * libm::powf(y, 1.0 / 2.4) - 0.055 };
-                (255.0 * srgb + 0.5) as u32
+                let steep = srgb * srgb * (3.0 - 2.0 * srgb);
+                (255.0 * (srgb + contrast * (steep - srgb)) + 0.5) as u32
             })
             .collect();
-        Self { bytes: *fixed_size(bytes), gains: Vec3::splat(1.0) }
+        Self { bytes: *fixed_size(bytes), contrast, gains: Vec3::splat(1.0) }
     }
 
     /// The byte for linear light, exposed. The bits of a float grow nearly like its logarithm.
@@ -58,7 +71,10 @@ mod tests {
 
     #[test]
     fn brighter_light_is_never_a_darker_byte() {
-        let curve = ToneCurve::new();
+        let mut curve = ToneCurve::new();
+        curve.set_contrast(1.0);
+        assert!(curve.bytes.windows(2).all(|pair| pair[0] <= pair[1]));
+        curve.set_contrast(0.0);
         assert!(curve.bytes.windows(2).all(|pair| pair[0] <= pair[1]));
         assert_eq!((curve.bytes[0], curve.bytes[ENTRIES - 1]), (0, 255));
         assert_eq!((curve.byte(0.0), curve.byte(-1.0), curve.byte(f32::NAN), curve.byte(1e9)), (0, 0, 0, 255));
