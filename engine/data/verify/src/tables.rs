@@ -158,7 +158,10 @@ fn check_weathers(small: &SmallTables, report: &mut VerifyReport) {
         let film = (flight.flight_id.as_str(), flight.weather.as_str(), flight.camera_name.as_deref());
         if let Some(first) = seen.insert(film, id) {
             let place = format!("row {}, `{id}`", flight.place.1);
-            let message = format!("it shows flight `{}` in the same weather and by the same camera as `{first}`", flight.flight_id);
+            let message = format!(
+                "it shows flight `{}` in the same weather and by the same camera as `{first}`",
+                flight.flight_id
+            );
             report.find(&flight.place.0, place, "verify-duplicate", message);
         }
     }

@@ -295,23 +295,28 @@ impl RenderConfig {
 
     /// Checks the cameras, each with its own settings.
     pub(crate) fn check_cameras(&self) -> Result<(), ConfigProblem> {
-        let problem = |path: String, message: String, hint: &str| Err(ConfigProblem { path, message, hint: hint.into() });
+        let problem =
+            |path: String, message: String, hint: &str| Err(ConfigProblem { path, message, hint: hint.into() });
         if self.paired_weathers && !self.cameras.is_empty() {
             let hint = "write one recipe for each weather, or one for each camera";
-            return problem("cameras".into(), "`cameras` and `paired_weathers` both name the films of a flight".into(), hint);
+            return problem(
+                "cameras".into(),
+                "`cameras` and `paired_weathers` both name the films of a flight".into(),
+                hint,
+            );
         }
         for name in self.cameras.keys() {
             let is_word = name.starts_with(|first: char| first.is_ascii_lowercase())
                 && name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_')
                 && name.len() <= 32;
             if !is_word {
-                let hint = "a camera is named by a lower-case letter, then lower-case letters, digits and `_`, 32 at most";
+                let hint =
+                    "a camera is named by a lower-case letter, then lower-case letters, digits and `_`, 32 at most";
                 return problem(format!("cameras.{name}"), format!("the name is `{name}`"), hint);
             }
-            self.of_camera(Some(name)).validate().map_err(|found| ConfigProblem {
-                path: format!("cameras.{name}.{}", found.path),
-                ..found
-            })?;
+            self.of_camera(Some(name))
+                .validate()
+                .map_err(|found| ConfigProblem { path: format!("cameras.{name}.{}", found.path), ..found })?;
         }
         Ok(())
     }
@@ -443,7 +448,8 @@ mod tests {
     #[test]
     fn a_camera_has_its_own_keys_and_the_stages_where_it_has_none() {
         let down = GimbalConfig { pitch_range_deg: [-90.0; 2], ..GimbalConfig::default() };
-        let mut config = with_camera("down", CameraConfig { width: Some(320), gimbal: Some(down), ..CameraConfig::default() });
+        let mut config =
+            with_camera("down", CameraConfig { width: Some(320), gimbal: Some(down), ..CameraConfig::default() });
         config.noise.gaussian = 2.0;
         config.validate().expect("a camera");
         let own = config.of_camera(Some("down"));
@@ -451,7 +457,10 @@ mod tests {
         assert_eq!(config.of_camera(None), RenderConfig { cameras: BTreeMap::new(), ..config.clone() });
         assert_eq!((config.films(), RenderConfig::default().films()), (vec!["down".to_owned()], vec![]));
         // A field of view of its own takes the place of a range.
-        let ranged = RenderConfig { fov_range_deg: Some([60.0, 100.0]), ..with_camera("tele", CameraConfig { fov_deg: Some(20.0), ..CameraConfig::default() }) };
+        let ranged = RenderConfig {
+            fov_range_deg: Some([60.0, 100.0]),
+            ..with_camera("tele", CameraConfig { fov_deg: Some(20.0), ..CameraConfig::default() })
+        };
         let tele = ranged.of_camera(Some("tele"));
         assert_eq!((tele.fov_deg, tele.fov_range_deg), (20.0, None));
     }
@@ -463,6 +472,9 @@ mod tests {
         assert_eq!(path(&with_camera("", CameraConfig::default())), "cameras.");
         let wide = CameraConfig { lens: Some(Lens { k1: -0.9, k2: 0.0 }), ..CameraConfig::default() };
         assert_eq!(path(&with_camera("wide", wide)), "cameras.wide.lens");
-        assert_eq!(path(&RenderConfig { paired_weathers: true, ..with_camera("down", CameraConfig::default()) }), "cameras");
+        assert_eq!(
+            path(&RenderConfig { paired_weathers: true, ..with_camera("down", CameraConfig::default()) }),
+            "cameras"
+        );
     }
 }

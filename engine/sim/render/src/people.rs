@@ -58,8 +58,8 @@ pub(crate) struct People {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Built {
     ForPicture,
-    /// Those of people are not: their shadows are drawn from the parts of their figures.
-    ForShadow,
+    /// Of vehicles alone: their triangles tell how light falls on them, and shadows of people are drawn from the parts of their figures.
+    OfVehicles,
     Never,
 }
 
@@ -123,10 +123,11 @@ impl People {
                 let height_px = bounds.height_px(&walker, eye, screen);
                 let reach = bounds.reach(eye, screen, far);
                 self.found[who] = Some(self.members.len() as u32);
-                self.add(walker, instance, true, reach, height_px, Built::ForShadow);
+                self.add(walker, instance, true, reach, height_px, Built::OfVehicles);
             } else if self.found[who].is_some() {
                 self.found[who] = Some(self.members.len() as u32);
-                self.add(walker, instance, true, Reach::NOWHERE, 0.0, Built::Never);
+                let built = if drawn.is_some() { Built::OfVehicles } else { Built::Never };
+                self.add(walker, instance, true, Reach::NOWHERE, 0.0, built);
             }
         }
         let found = &self.found;
@@ -140,7 +141,7 @@ impl People {
         let first = self.triangles.len();
         let clothes = *self.wardrobe.clothes(&walker.clothes_seed);
         let is_person = walker.body.is_person();
-        if built == Built::ForPicture || built == Built::ForShadow && !is_person {
+        if built == Built::ForPicture || built == Built::OfVehicles && !is_person {
             figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);
         }
         let triangles = first..self.triangles.len();

@@ -12,15 +12,6 @@ pub struct Livery {
     pub paint: Dye,
     /// Colour of a lorry's box.
     pub cargo: Dye,
-    /// Build of a car.
-    pub(crate) body: CarBody,
-}
-
-/// Builds of cars.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CarBody {
-    Saloon,
-    Hatchback,
 }
 
 /// Paints with their shares: those of new cars in the world in the early 2020s, by the yearly reports of paint makers.
@@ -56,8 +47,7 @@ impl Livery {
         let (paint, other) = (draw(), draw());
         // Most boxes of lorries are white.
         let cargo = if stream.chance(0.6) { PAINTS[0].1 } else { other };
-        let body = if stream.chance(0.45) { CarBody::Saloon } else { CarBody::Hatchback };
-        Self { paint, cargo, body }
+        Self { paint, cargo }
     }
 
     /// Colours of all regions, linear RGB; those of people are black.

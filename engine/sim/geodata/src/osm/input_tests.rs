@@ -399,7 +399,10 @@ fn numbers_that_are_not_believed_are_told_of_with_what_is_taken() {
         assert!(warnings[0].starts_with("1 ") && warnings[0].ends_with("(way 1)"), "{warnings:?}");
     }
     for (tags, told) in [
-        ([("lanes", "3"), ("lanes:forward", "4")], "`lanes:forward` that is no number below that of all lanes, such as `4`"),
+        (
+            [("lanes", "3"), ("lanes:forward", "4")],
+            "`lanes:forward` that is no number below that of all lanes, such as `4`",
+        ),
         ([("lanes", "2"), ("lanes:backward", "3")], "`lanes:backward` that is no number that all lanes leave room for"),
     ] {
         let (_, warnings) = read_street(&tags);

@@ -195,12 +195,20 @@ fn layout(road: &Road<'_>, doubts: &mut Doubts) -> Option<Piece> {
             let [there, back] = [count(forward), count(backward)];
             let lanes = there.unwrap_or(all.div_ceil(2)).min(all - 1);
             if there.is_some_and(|there| there > lanes) {
-                let less = Quantity { noun: ["number below that of all lanes", ""], instead: "all lanes but one lead there", ..*forward };
+                let less = Quantity {
+                    noun: ["number below that of all lanes", ""],
+                    instead: "all lanes but one lead there",
+                    ..*forward
+                };
                 doubts.add(tags, &Quantity { range: EVERY, ..less }, name);
             }
             let room = all - lanes;
             if back.is_some_and(|back| back > room) {
-                let rest = Quantity { noun: ["number that all lanes leave room for", ""], instead: "the lanes are narrower", ..*backward };
+                let rest = Quantity {
+                    noun: ["number that all lanes leave room for", ""],
+                    instead: "the lanes are narrower",
+                    ..*backward
+                };
                 doubts.add(tags, &Quantity { range: EVERY, ..rest }, name);
             }
             [lanes, back.unwrap_or(room)]

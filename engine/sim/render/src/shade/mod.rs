@@ -7,6 +7,7 @@
 mod bands;
 mod body_shadow;
 mod cloth;
+mod curve;
 mod face_material;
 pub mod foliage;
 pub mod geometry;

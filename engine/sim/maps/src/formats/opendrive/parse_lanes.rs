@@ -240,7 +240,8 @@ fn paint<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Option<Paint>, M
     let [least_m, most_m] = LINE_WIDTHS_M;
     let drawn_m = width_m.unwrap_or(DEFAULT_LINE_WIDTH_M).clamp(least_m, most_m);
     if let Some(width_m) = width_m.filter(|width_m| *width_m != drawn_m) {
-        source.warn(node, &format!("`width` is `{width_m}`, no line of {least_m} to {most_m} m; {drawn_m} m are drawn"));
+        source
+            .warn(node, &format!("`width` is `{width_m}`, no line of {least_m} to {most_m} m; {drawn_m} m are drawn"));
     }
     let line = child(node, "type").and_then(|kind| child(kind, "line"));
     let own_dash = match line {
@@ -251,9 +252,5 @@ fn paint<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Option<Paint>, M
         None => None,
     };
     let usable = own_dash.filter(|dash| dash.length_m >= 0.1 && dash.space_m >= 0.1);
-    Ok(Some(Paint {
-        width_m: drawn_m,
-        dash: dashed.then(|| usable.unwrap_or(DEFAULT_DASH)),
-        double,
-    }))
+    Ok(Some(Paint { width_m: drawn_m, dash: dashed.then(|| usable.unwrap_or(DEFAULT_DASH)), double }))
 }
