@@ -5,7 +5,7 @@ use crate::far_light::FarLight;
 use crate::found::BodyPart;
 use crate::setup::FrameSetup;
 use cosfly_domain::TARGET_INSTANCE;
-use cosfly_figures::{BodyShape, Clothes, FigureTriangle, Livery, Region, Walker, Wardrobe, figure};
+use cosfly_figures::{BodyShape, Clothes, FigureTriangle, Fittings, Livery, Region, Walker, Wardrobe, figure};
 use cosfly_frames::{DVec3, real};
 use cosfly_materials::vector::Vec3;
 use cosfly_raster::eye::Eye;
@@ -17,6 +17,8 @@ use std::ops::Range;
 pub(crate) struct Person {
     pub walker: Walker,
     pub clothes: Clothes,
+    /// Of a vehicle.
+    pub fittings: Fittings,
     /// Linear RGB, indexed by [`Region`].
     pub colours: [[f32; 3]; Region::COUNT],
     /// To the right of the body, unit length.
@@ -155,6 +157,7 @@ impl People {
         self.members.push(Person {
             walker,
             clothes,
+            fittings: Fittings::of(&walker),
             colours,
             side_in_world,
             instance,

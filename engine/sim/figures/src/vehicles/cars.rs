@@ -1,6 +1,6 @@
 //! Cars and vans from the rows of their shapes.
 
-use super::model::Model;
+use super::model::{Model, SHEET_M};
 use super::shapes::{CARS, Section, Shape, VANS};
 use super::shell::{MOST_SECTIONS, POINTS, Shell};
 use super::wheels::{Axle, turn_rad};
@@ -29,14 +29,15 @@ pub(super) fn shape(kind: BodyKind, size_m: DVec3, looks: &mut RandomStream) -> 
 
 /// A car or van; `phase_rad` turns its wheels.
 pub(super) fn car(model: &mut Model<'_>, shape: &Shape, phase_rad: f64, looks: &mut RandomStream) {
-    shell(model, shape).draw(model);
-    ends(model, shape);
-    mirrors(model, shape);
+    let mut shell = shell(model, shape);
     if shape.rails && looks.chance(0.6) {
         rails(model, shape);
-    } else if looks.chance(0.3) {
-        roof_window(model, shape);
+    } else if looks.chance(0.25) {
+        roof_window(&mut shell, shape);
     }
+    shell.draw(model);
+    ends(model, shape);
+    mirrors(model, shape);
     let radius_m = shape.wheel * model.size_m.z;
     let turn_rad = turn_rad(phase_rad, model.size_m.z, radius_m);
     for x in shape.axles {
@@ -68,8 +69,9 @@ pub(super) fn shell(model: &Model<'_>, shape: &Shape) -> Shell {
         before = over;
         let bend = |[x, y, z]: [f64; 3]| {
             let w = half_width(shape, section.x);
-            let x = (x + bow * (1.0 - (y / w) * (y / w))).clamp(-0.5, 0.5);
-            model.size_m * DVec3::new(x, y, z)
+            let x_m = (x + bow * (1.0 - (y / w) * (y / w))) * model.size_m.x;
+            let most_m = 0.5 * model.size_m.x - SHEET_M;
+            DVec3::new(x_m.clamp(-most_m, most_m), y * model.size_m.y, z * model.size_m.z)
         };
         shell.points[number] = outline(shape, section).map(bend);
         let sill = if shape.cladding { Region::Trim } else { Region::Paint };
@@ -108,19 +110,19 @@ fn outline(shape: &Shape, section: &Section) -> [[f64; 3]; POINTS] {
 /// Grille, air intake, plates.
 fn ends(model: &mut Model<'_>, shape: &Shape) {
     let (Some(tail), Some(nose)) = (shape.sections.first(), shape.sections.last()) else { return };
-    let foot = shape.foot + 0.05;
+    let foot = shape.foot + 0.045;
     let reach = 1.0 - shape.narrow - 0.12;
     model.cross_panel(Region::Trim, [[0.5, foot + 0.01], [0.5, foot + 0.075]], [-reach, reach], END);
     model.cross_panel(Region::Plate, [[0.5, foot + 0.085], [0.5, foot + 0.15]], [-0.28, 0.28], END);
     let grille = [[0.5, foot + 0.16], [0.5, nose.shoulder.max(foot + 0.2)]];
     model.cross_panel(Region::Trim, grille, [-0.8 * reach, 0.8 * reach], END);
-    model.cross_panel(Region::Trim, [[-0.5, foot], [-0.5, foot + 0.06]], [-reach, reach], END);
+    model.cross_panel(Region::Trim, [[-0.5, foot - 0.004], [-0.5, foot + 0.075]], [-reach, reach], END);
     let plate = (tail.shoulder - 0.10).max(foot + 0.07);
     model.cross_panel(Region::Plate, [[-0.5, plate], [-0.5, plate + 0.065]], [-0.28, 0.28], END);
 }
 
 /// Mirrors beside the windscreen.
-fn mirrors(model: &mut Model<'_>, shape: &Shape) {
+pub(super) fn mirrors(model: &mut Model<'_>, shape: &Shape) {
     let Some(cowl) = cowl(shape) else { return };
     let size_m = model.size_m;
     let back_m = cowl.x * size_m.x - 0.42;
@@ -141,7 +143,7 @@ fn mirrors(model: &mut Model<'_>, shape: &Shape) {
 }
 
 /// The foot of the windscreen.
-fn cowl(shape: &Shape) -> Option<&Section> {
+pub(super) fn cowl(shape: &Shape) -> Option<&Section> {
     let pane = shape.sections.iter().rposition(|section| section.regions[2] == Region::Glass)?;
     shape.sections.get(pane + 1)
 }
@@ -166,23 +168,13 @@ fn rails(model: &mut Model<'_>, shape: &Shape) {
 }
 
 /// A pane in the roof above the seats.
-fn roof_window(model: &mut Model<'_>, shape: &Shape) {
-    let Some([first, last]) = roof_ends(shape) else { return };
-    let size_m = model.size_m;
-    let (back, front) = ((first + 0.15).min(last - 0.1), last - 0.035);
-    let height = |x: f64| {
-        let mut pairs = shape.sections.windows(2);
-        let pair = pairs.find(|pair| pair[0].roofed && pair[1].roofed && (pair[0].x..=pair[1].x).contains(&x));
-        pair.map_or(1.0, |pair| {
-            let t = (x - pair[0].x) / (pair[1].x - pair[0].x).max(1e-9);
-            pair[0].top + t * (pair[1].top - pair[0].top)
-        })
-    };
-    let y_m = 0.5 * shape.tumble * SHEET * size_m.y;
-    let at = |x: f64, y_m: f64| DVec3::new(x * size_m.x, y_m, (height(x) - 0.07 * shape.drop) * size_m.z + 0.004);
-    let middle = 0.5 * (back + front);
-    for [from, to] in [[back, middle], [middle, front]] {
-        let corners = [at(from, -y_m), at(to, -y_m), at(to, y_m), at(from, y_m)];
-        model.face(Region::Glass, &corners.map(|corner| corner.min(size_m.with_x(corner.x))), DVec3::ZERO);
+fn roof_window(shell: &mut Shell, shape: &Shape) {
+    // Sheet stays above the windscreen.
+    let rows = shape.sections.windows(2).zip(&mut shell.regions);
+    for (pair, regions) in rows.filter(|(pair, _)| pair[0].roofed && pair[1].roofed && pair[0].x > -0.25) {
+        if pair[0].regions[2] == Region::Paint && pair[1].regions[2] != Region::Glass {
+            regions[5] = Region::Glass;
+            regions[6] = Region::Glass;
+        }
     }
 }

@@ -3,7 +3,9 @@
 mod cars;
 mod coaches;
 mod drones;
+mod fittings;
 mod livery;
+mod lorries;
 mod model;
 mod riders;
 mod shapes;
@@ -13,5 +15,6 @@ mod tests;
 mod vehicle;
 mod wheels;
 
+pub use fittings::Fittings;
 pub use livery::Livery;
 pub(crate) use vehicle::add;

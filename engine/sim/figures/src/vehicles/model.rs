@@ -8,7 +8,7 @@ use cosfly_frames::{DVec3, real};
 /// Panels such as windows lie this far before the sheet, metres.
 const PANEL_M: f64 = 0.004;
 /// Sheet ends this far before both ends of the box, metres: lamps lie on it.
-const SHEET_M: f64 = 0.006;
+pub(super) const SHEET_M: f64 = 0.006;
 /// Most corners of an outline.
 const MOST_CORNERS: usize = 12;
 /// Sides of a wheel.
@@ -55,6 +55,23 @@ impl<'a> Model<'a> {
             part: region as u32,
         };
         self.triangles.push(triangle);
+    }
+
+    /// A face of four corners with the normals of the surface there, outward; own axes, metres.
+    pub fn round(&mut self, region: Region, corners: [(DVec3, DVec3); 4]) {
+        for [i, j, k] in [[0, 1, 2], [0, 2, 3]] {
+            let (points, normals) = ([i, j, k].map(|n| corners[n].0), [i, j, k].map(|n| corners[n].1));
+            let flat = (points[1] - points[0]).cross(points[2] - points[0]).normalize_or_zero();
+            let outward = if flat.dot(normals[0]) < 0.0 { -flat } else { flat };
+            self.triangle(region, points, outward, normals);
+        }
+    }
+
+    /// A level panel: from and to shares of the length at a share of the height, over a share of the width either way.
+    pub fn cross_top(&mut self, region: Region, [from, to]: [f64; 2], height: f64, half_width: f64) {
+        let at = |x: f64, y: f64| self.size_m * DVec3::new(x, y, height);
+        let corners = [at(from, -half_width), at(to, -half_width), at(to, half_width), at(from, half_width)];
+        self.face(region, &corners, DVec3::ZERO);
     }
 
     /// A flat convex face before another one: moved away from `inside` by a few millimetres, but not out of the box.

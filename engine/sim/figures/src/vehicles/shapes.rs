@@ -18,12 +18,12 @@ pub(super) struct Section {
 }
 
 /// A bonnet, a boot or a bed.
-const fn deck(x: f64, shoulder: f64, top: f64, regions: [Region; 3]) -> Section {
+pub(super) const fn deck(x: f64, shoulder: f64, top: f64, regions: [Region; 3]) -> Section {
     Section { x, shoulder, top, roofed: false, regions }
 }
 
 /// A roof.
-const fn roof(x: f64, shoulder: f64, top: f64, regions: [Region; 3]) -> Section {
+pub(super) const fn roof(x: f64, shoulder: f64, top: f64, regions: [Region; 3]) -> Section {
     Section { x, shoulder, top, roofed: true, regions }
 }
 
@@ -59,7 +59,8 @@ macro_rules! car {
     ($($tail:expr),+ ; $cowl:expr, $shoulder:expr, $top:expr, $edge:expr) => {
         &[
             $($tail,)+
-            deck($cowl, $shoulder, $top, [P, P, P]),
+            deck($cowl, $shoulder, $top, [P, P, T]),
+            deck($cowl + 0.018, $shoulder, $top - 0.004, [P, P, P]),
             deck(0.5 * ($cowl + 0.44), $shoulder - 0.015, $top - 0.03, [P, P, P]),
             deck(0.44, $edge + 0.02, $edge + 0.075, [H, P, P]),
             deck(0.484, $edge - 0.04, $edge, [H, P, P]),
@@ -337,7 +338,8 @@ const VAN: &[Section] = &[
     roof(0.10, 0.45, 1.0, [P, P, P]),
     roof(0.135, 0.45, 1.0, [P, G, P]),
     roof(0.215, 0.45, 0.96, [P, G, G]),
-    deck(0.375, 0.435, 0.475, [P, P, P]),
+    deck(0.375, 0.435, 0.475, [P, P, T]),
+    deck(0.388, 0.43, 0.469, [P, P, P]),
     deck(0.455, 0.38, 0.415, [H, P, P]),
     deck(0.49, 0.33, 0.355, [H, P, P]),
     deck(0.5, 0.26, 0.28, [P, P, P]),
@@ -355,7 +357,8 @@ const MINIBUS: &[Section] = &[
     roof(0.105, 0.46, 1.0, [P, T, P]),
     roof(0.13, 0.46, 1.0, [P, G, P]),
     roof(0.215, 0.455, 0.96, [P, G, G]),
-    deck(0.375, 0.435, 0.475, [P, P, P]),
+    deck(0.375, 0.435, 0.475, [P, P, T]),
+    deck(0.388, 0.43, 0.469, [P, P, P]),
     deck(0.455, 0.38, 0.415, [H, P, P]),
     deck(0.49, 0.33, 0.355, [H, P, P]),
     deck(0.5, 0.26, 0.28, [P, P, P]),

@@ -1,7 +1,7 @@
 //! Triangles of a vehicle with its rider, by its kind.
 
 use super::model::Model;
-use super::{cars, coaches, drones, riders};
+use super::{cars, coaches, drones, lorries, riders};
 use crate::Clothes;
 use crate::frustum::FigureTriangle;
 use crate::walker::Walker;
@@ -23,9 +23,10 @@ pub fn add(
     let phase_rad = walker.gait_phase_rad;
     match kind {
         BodyKind::Bicycle => riders::bicycle(&mut model, clothes, phase_rad),
+        BodyKind::Motorcycle if looks.chance(0.4) => riders::scooter(&mut model, clothes),
         BodyKind::Motorcycle => riders::motorcycle(&mut model, clothes),
-        BodyKind::Truck => coaches::truck(&mut model, phase_rad),
-        BodyKind::Bus => coaches::bus(&mut model, phase_rad),
+        BodyKind::Truck => lorries::lorry(&mut model, phase_rad, &mut looks),
+        BodyKind::Bus => coaches::bus(&mut model, phase_rad, &mut looks),
         BodyKind::Drone => drones::quadrotor(&mut model),
         BodyKind::Car | BodyKind::Van | BodyKind::Pedestrian => {
             let shape = cars::shape(kind, size_m, &mut looks);
