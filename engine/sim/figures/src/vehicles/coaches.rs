@@ -19,7 +19,7 @@ const CITY: Shape = Shape {
     foot: 0.09,
     tumble: 0.965,
     drop: 0.075,
-    narrow: 0.06,
+    narrow: 0.01,
     axles: [-0.24, 0.27],
     wheel: 0.155,
     cladding: true,
@@ -52,7 +52,7 @@ const COACH: Shape = Shape {
     foot: 0.085,
     tumble: 0.93,
     drop: 0.085,
-    narrow: 0.09,
+    narrow: 0.01,
     axles: [-0.26, 0.275],
     wheel: 0.15,
     sections: &[

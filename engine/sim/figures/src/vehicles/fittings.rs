@@ -29,6 +29,8 @@ pub struct Fittings {
     pub seats: [f64; 2],
     /// How dirty the vehicle is, 0..=1.
     pub dirt: f64,
+    /// Whether the paint has flakes of metal: it is darker where it is seen along.
+    pub flakes: bool,
 }
 
 /// A place that no body reaches.
@@ -39,6 +41,7 @@ impl Fittings {
     pub fn of(walker: &Walker) -> Self {
         let mut looks = walker.clothes_seed.stream("dirt");
         let dirt = looks.unit() * looks.unit();
+        let flakes = looks.chance(0.7);
         let bare = Self {
             size_m: DVec3::ONE,
             doors: [NOWHERE; 3],
@@ -49,6 +52,7 @@ impl Fittings {
             bumper: NOWHERE,
             seats: [NOWHERE; 2],
             dirt,
+            flakes,
         };
         match walker.body {
             BodyShape::Vehicle { kind: kind @ (BodyKind::Car | BodyKind::Van), size_m } => {

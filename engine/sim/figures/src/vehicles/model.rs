@@ -155,6 +155,25 @@ impl<'a> Model<'a> {
         }
     }
 
+    /// A wheel in the middle plane whose rim is closed.
+    pub fn solid_wheel(&mut self, x_m: f64, radius_m: DVec3, width_m: f64) {
+        let at = |share: f64, y_m: f64| {
+            rim(0.0, 1.0, share, y_m).map(|p| DVec3::new(x_m + p.x * radius_m.x, p.y, radius_m.z * p.z))
+        };
+        let half_m = 0.5 * width_m;
+        let middle = DVec3::new(x_m, 0.0, radius_m.z);
+        let sides = [at(1.0, -half_m), at(1.0, half_m)];
+        for k in 0..SPOKES {
+            let next = (k + 1) % SPOKES;
+            self.face(Region::Tyre, &[sides[0][k], sides[0][next], sides[1][next], sides[1][k]], middle);
+        }
+        for (side, sign) in sides.iter().zip([-1.0, 1.0]) {
+            self.face(Region::Tyre, side, middle);
+            self.face(Region::Metal, &at(0.66, sign * (half_m + PANEL_M)), middle);
+            self.face(Region::Trim, &at(0.30, sign * (half_m + 2.0 * PANEL_M)), middle);
+        }
+    }
+
     /// A square bar between two points, metres.
     pub fn bar(&mut self, region: Region, from: DVec3, to: DVec3, thick_m: f64) {
         let along = (to - from).normalize_or_zero();

@@ -64,15 +64,23 @@ pub(super) fn bicycle(model: &mut Model<'_>, clothes: &Clothes, phase_rad: f64) 
 pub(super) fn motorcycle(model: &mut Model<'_>, clothes: &Clothes) {
     let stretch = model.size_m / MOTORCYCLE_M;
     let at = |x_m: f64, z_m: f64| [x_m / MOTORCYCLE_M.x, z_m / MOTORCYCLE_M.z];
-    let radius_m = 0.32;
+    let radius_m = 0.31;
     let axle_m = 1.05 - radius_m;
     for sign in [-1.0, 1.0] {
-        model.spoked_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.13 * stretch.y);
+        model.solid_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.16 * stretch.y);
     }
-    let narrow = [0.17, 0.17];
-    model.hull(Region::Trim, &[at(-0.42, 0.22), at(0.34, 0.22), at(0.42, 0.56), at(-0.50, 0.56)], narrow);
-    model.hull(Region::Paint, &[at(-0.10, 0.55), at(0.50, 0.55), at(0.42, 0.88), at(0.02, 0.88)], [0.22, 0.18]);
-    model.hull(Region::Trim, &[at(-0.72, 0.56), at(0.0, 0.56), at(0.0, 0.78), at(-0.68, 0.80)], [0.18, 0.16]);
+    // Engine, exhausts, tank, seat, tail, fairing, mudguards, screen.
+    model.hull(Region::Metal, &[at(-0.30, 0.20), at(0.26, 0.20), at(0.34, 0.54), at(-0.38, 0.54)], [0.19, 0.17]);
+    model.hull(Region::Paint, &[at(-0.06, 0.54), at(0.34, 0.56), at(0.36, 0.80), at(0.04, 0.88)], [0.24, 0.18]);
+    model.hull(Region::Trim, &[at(-0.78, 0.58), at(0.0, 0.56), at(0.02, 0.76), at(-0.70, 0.82)], [0.20, 0.17]);
+    model.hull(Region::Paint, &[at(-0.98, 0.70), at(-0.62, 0.56), at(-0.60, 0.78), at(-0.92, 0.82)], [0.16, 0.12]);
+    model.hull(Region::Paint, &[at(0.30, 0.34), at(0.52, 0.50), at(0.64, 0.80), at(0.40, 0.94)], [0.27, 0.20]);
+    model.hull(Region::Paint, &[at(0.50, 0.60), at(0.98, 0.58), at(0.88, 0.67), at(0.58, 0.67)], [0.11, 0.11]);
+    model.hull(Region::Glass, &[at(0.46, 0.90), at(0.56, 0.90), at(0.42, 1.10), at(0.38, 1.08)], [0.15, 0.13]);
+    for sign in [-1.0, 1.0] {
+        let pipe = [[-0.95, 0.36], [-0.05, 0.24]].map(|[x, z]| stretch * DVec3::new(x, 0.17 * sign, z));
+        model.bar(Region::Metal, pipe[0], pipe[1], 0.09 * stretch.min_element());
+    }
     let fork = stretch * DVec3::new(0.48, 0.0, 0.90);
     let axle = stretch * DVec3::new(axle_m, 0.0, radius_m);
     let thick_m = 0.05 * stretch.min_element();
@@ -84,8 +92,8 @@ pub(super) fn motorcycle(model: &mut Model<'_>, clothes: &Clothes) {
         thick_m,
     );
     handlebar(model, 0.40 * stretch.x, 0.98 * stretch.z, 0.7 * thick_m);
-    lamp(model, Region::HeadLamp, 0.53, [0.76, 0.90]);
-    lamp(model, Region::TailLamp, -0.73, [0.68, 0.76]);
+    lamp(model, Region::HeadLamp, 0.645, [0.70, 0.84]);
+    lamp(model, Region::TailLamp, -0.97, [0.70, 0.79]);
     let foot = [0.02, 0.17];
     let seat = Seat {
         hip: [-0.13, 0.50],
@@ -106,7 +114,7 @@ pub(super) fn scooter(model: &mut Model<'_>, clothes: &Clothes) {
     let radius_m = 0.24;
     let axle_m = 1.05 - radius_m;
     for sign in [-1.0, 1.0] {
-        model.spoked_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.12 * stretch.y);
+        model.solid_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.14 * stretch.y);
     }
     model.hull(Region::Paint, &[at(-0.98, 0.40), at(-0.30, 0.22), at(-0.22, 0.62), at(-0.90, 0.64)], [0.22, 0.18]);
     model.hull(Region::Trim, &[at(-0.36, 0.20), at(0.42, 0.20), at(0.42, 0.28), at(-0.36, 0.28)], [0.20, 0.20]);

@@ -38,6 +38,8 @@ pub(super) struct Coach {
     half_length_m: f32,
     seats: [f32; 2],
     dirt: f32,
+    /// Share of light lost where paint is seen along.
+    flakes: f32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +87,7 @@ impl Coach {
             half_length_m: (0.5 * size_m.x) as f32,
             seats: fittings.seats.map(along_m),
             dirt: fittings.dirt as f32,
+            flakes: if fittings.flakes { 0.45 } else { 0.0 },
         }
     }
 
@@ -155,6 +158,11 @@ simd_kernel! {
 #[inline(always)]
 fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTexture) {
     for (shared, four) in groups(shared, blocks) {
+        let mut flakes = [0.0; WIDE];
+        for (k, flakes) in flakes.iter_mut().enumerate() {
+            let facing = share(-get(&shared.ray, k).unit().dot(get(&shared.normal, k)));
+            *flakes = 1.0 + look.flakes * (facing - 0.7);
+        }
         for block in four {
             for k in 0..WIDE {
                 let point = block.point(shared, k);
@@ -167,7 +175,7 @@ fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTex
                 let specks = noise.clumps(own.x * 40.0, (own.z + own.y) * 40.0, point.footprint_m * 40.0);
                 let dust = look.dirt * (0.75 * low2 + 0.10) * (0.4 + 1.2 * specks);
                 let aside = 1.0 - upward;
-                let shade = (1.0 - 0.8 * gap) * (1.0 - aside * (0.16 + 0.50 * low2));
+                let shade = (1.0 - 0.8 * gap) * (1.0 - aside * (0.16 + 0.50 * low2)) * flakes[k];
                 set(&mut block.albedo, k, look.colour.lerp(DUST, share(dust)) * shade);
                 set(&mut block.emission, k, look.emission);
                 block.mirror[k] = look.mirror * (1.0 - gap) * (1.0 - 0.7 * share(dust));
