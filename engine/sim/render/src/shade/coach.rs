@@ -1,5 +1,6 @@
 //! Sheet, glass and rubber of vehicles: gaps of doors and lids, seats behind the glass, dirt near the road.
 
+use super::geometry::View;
 use crate::people::Person;
 use cosfly_figures::Region;
 use cosfly_frames::simd_kernel;
@@ -22,6 +23,9 @@ pub(super) struct Coach {
     mirror: f32,
     emission: Vec3,
     kind: Kind,
+    /// The camera, metres, and the size of a pixel at a distance of 1.
+    eye: Vec3,
+    pixel: f32,
     /// The middle of the box's foot, its own axes, and its size, metres.
     feet: Vec3,
     along: Vec3,
@@ -51,7 +55,7 @@ enum Kind {
 
 impl Coach {
     /// The look of a region of a vehicle; `night` is 1 when lamps are lit.
-    pub(super) fn new(person: &Person, region: Region, night: f32) -> Self {
+    pub(super) fn new(person: &Person, region: Region, night: f32, view: &View) -> Self {
         let [r, g, b] = person.colours[region as usize];
         let colour = Vec3::new(r, g, b);
         let (mirror, glow, kind) = match region {
@@ -73,6 +77,8 @@ impl Coach {
             mirror,
             emission: colour * (glow * night),
             kind,
+            eye: view.position,
+            pixel: view.pixel(),
             feet: person.walker.state.feet_in_world.into(),
             along: Vec3::new(side.y, -side.x, 0.0),
             side,
@@ -158,21 +164,23 @@ simd_kernel! {
 #[inline(always)]
 fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTexture) {
     for (shared, four) in groups(shared, blocks) {
-        let mut flakes = [0.0; WIDE];
-        for (k, flakes) in flakes.iter_mut().enumerate() {
+        let (mut flakes, mut footprint_m) = ([0.0; WIDE], [0.0; WIDE]);
+        for k in 0..WIDE {
             let facing = share(-get(&shared.ray, k).unit().dot(get(&shared.normal, k)));
-            *flakes = 1.0 + look.flakes * (facing - 0.7);
+            flakes[k] = 1.0 + look.flakes * (facing - 0.7);
+            let way = get(&shared.middle, k) - look.eye;
+            footprint_m[k] = look.pixel * way.dot(way).sqrt() / (0.4 + 0.6 * facing);
         }
         for block in four {
             for k in 0..WIDE {
                 let point = block.point(shared, k);
                 let own = look.own(point.world);
                 let upward = share((point.normal.z - 0.35) * 3.0);
-                let gap = look.gaps(own, upward, point.footprint_m);
+                let gap = look.gaps(own, upward, footprint_m[k]);
                 // The road takes light from what is low, and gives dust to it.
                 let low = share(1.0 - own.z * 1.25);
                 let low2 = low * low;
-                let specks = noise.clumps(own.x * 40.0, (own.z + own.y) * 40.0, point.footprint_m * 40.0);
+                let specks = noise.clumps(own.x * 40.0, (own.z + own.y) * 40.0, footprint_m[k] * 40.0);
                 let dust = look.dirt * (0.75 * low2 + 0.10) * (0.4 + 1.2 * specks);
                 let aside = 1.0 - upward;
                 let shade = (1.0 - 0.8 * gap) * (1.0 - aside * (0.16 + 0.50 * low2)) * flakes[k];

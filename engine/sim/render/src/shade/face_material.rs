@@ -26,7 +26,7 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
             let look = &seen.people.looks[look as usize];
             let person = seen.people.members.get(look.person as usize);
             let Some(person) = person else { return (Material::Sky, flat) };
-            (Material::Coach(Coach::new(person, look.region, setting.light.night)), flat)
+            (Material::Coach(Coach::new(person, look.region, setting.light.night, &setting.view)), flat)
         }
         FaceSource::Box { index, face } | FaceSource::Crown { index, face } => {
             let (b, face) = (&seen.scene.boxes[index as usize], usize::from(face));
