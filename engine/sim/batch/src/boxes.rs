@@ -141,7 +141,7 @@ impl SolidBox {
                 numbers[entries] = faces.len() as f32;
                 // Faces 0, 2 and 4 look along the axes' negative directions; a way is positive behind the lower face.
                 let number = self.first_face + 2 * axis as u32 + u32::from(ways[axis] < 0.0);
-                faces.push(DrawnFace { plane, instance: self.instance, number, label: self.label });
+                faces.push(DrawnFace { plane, instance: self.instance, number, triangle: 0, label: self.label });
                 entries += 1;
             }
         }

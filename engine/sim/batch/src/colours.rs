@@ -100,7 +100,8 @@ fn number_of(face: usize, faces: &[DrawnFace], numbers: &mut [u32], seen: &mut V
             part if part >= BODY => FoundSource::Body(part - BODY),
             number => FoundSource::Town(number),
         };
-        seen.push(FoundFace { plane: drawn.plane, of, label: drawn.label, instance: drawn.instance });
+        let DrawnFace { plane, triangle, label, instance, .. } = *drawn;
+        seen.push(FoundFace { plane, of, triangle, label, instance });
     }
     *number
 }

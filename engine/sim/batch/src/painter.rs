@@ -298,7 +298,7 @@ fn plane_through(eye: &Eye, corners: &[DVec3; 3]) -> Option<Linear> {
 
 fn ground_face(eye: &Eye, polygon: &Polygon) -> Option<DrawnFace> {
     let plane: Linear = eye.plane(polygon.normal_in_world, polygon.offset_m)?;
-    Some(DrawnFace { plane, instance: 0, number: polygon.number, label: polygon.label })
+    Some(DrawnFace { plane, instance: 0, number: polygon.number, triangle: 0, label: polygon.label })
 }
 
 /// Lowest and highest coordinates of points.

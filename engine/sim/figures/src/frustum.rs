@@ -46,6 +46,8 @@ pub struct FigureTriangle {
     pub corners_in_world: [DVec3; 3],
     /// Away from the part's inside, unit length.
     pub normal_in_world: DVec3,
+    /// Normals of the surface at the corners, as light sees it: those of a vehicle's sheet differ from the triangle's own.
+    pub corner_normals: [[f32; 3]; 3],
     /// The ends of its part's middle line: the part is round around it.
     pub middle_in_world: [DVec3; 2],
     /// Material.
@@ -105,6 +107,7 @@ impl Surface<'_> {
                 self.triangles.push(FigureTriangle {
                     corners_in_world,
                     normal_in_world: outward,
+                    corner_normals: [outward.as_vec3().to_array(); 3],
                     middle_in_world,
                     region,
                     person: self.person,

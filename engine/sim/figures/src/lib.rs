@@ -21,6 +21,6 @@ pub use clothes::{Clothes, Pattern, clothes_seed_of_target, outfit_of};
 pub use figure::{FigureParts, MOST_PARTS, figure, walker_triangles};
 pub use frustum::{FigurePart, FigureTriangle, Ring, SIDES};
 pub use region::Region;
-pub use vehicles::Livery;
+pub use vehicles::{Fittings, Livery};
 pub use walker::{Bystander, Walker, gait_phase_rad, pedal_phase_rad};
 pub use wardrobe::Wardrobe;

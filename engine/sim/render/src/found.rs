@@ -28,6 +28,8 @@ pub struct FoundFace {
     pub plane: [f64; 3],
     /// Owner of the face.
     pub of: FoundSource,
+    /// Number of a vehicle's triangle in its figure; any for other faces.
+    pub triangle: u32,
     /// CARLA label id.
     pub label: u8,
     /// Instance id.
@@ -90,7 +92,7 @@ impl Adoption<'_> {
                 let focal_px = self.screen.focal_px;
                 let in_body = DVec3::new(center, across * focal_px, -down * focal_px);
                 let normal = (self.eye.world_from_body * in_body).normalize_or_zero();
-                (FaceSource::Figure { look: look as u32, first_face, is_cloth }, normal)
+                (FaceSource::Figure { look: look as u32, first_face, triangle: face.triangle, is_cloth }, normal)
             }
         };
         let normal = normal.as_vec3().to_array();

@@ -5,7 +5,7 @@ use crate::far_light::FarLight;
 use crate::found::BodyPart;
 use crate::setup::FrameSetup;
 use cosfly_domain::TARGET_INSTANCE;
-use cosfly_figures::{BodyShape, Clothes, FigureTriangle, Livery, Region, Walker, Wardrobe, figure};
+use cosfly_figures::{BodyShape, Clothes, FigureTriangle, Fittings, Livery, Region, Walker, Wardrobe, figure};
 use cosfly_frames::{DVec3, real};
 use cosfly_materials::vector::Vec3;
 use cosfly_raster::eye::Eye;
@@ -17,6 +17,8 @@ use std::ops::Range;
 pub(crate) struct Person {
     pub walker: Walker,
     pub clothes: Clothes,
+    /// Of a vehicle.
+    pub fittings: Fittings,
     /// Linear RGB, indexed by [`Region`].
     pub colours: [[f32; 3]; Region::COUNT],
     /// To the right of the body, unit length.
@@ -58,8 +60,8 @@ pub(crate) struct People {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Built {
     ForPicture,
-    /// Those of people are not: their shadows are drawn from the parts of their figures.
-    ForShadow,
+    /// Of vehicles alone: their triangles tell how light falls on them, and shadows of people are drawn from the parts of their figures.
+    OfVehicles,
     Never,
 }
 
@@ -123,10 +125,11 @@ impl People {
                 let height_px = bounds.height_px(&walker, eye, screen);
                 let reach = bounds.reach(eye, screen, far);
                 self.found[who] = Some(self.members.len() as u32);
-                self.add(walker, instance, true, reach, height_px, Built::ForShadow);
+                self.add(walker, instance, true, reach, height_px, Built::OfVehicles);
             } else if self.found[who].is_some() {
                 self.found[who] = Some(self.members.len() as u32);
-                self.add(walker, instance, true, Reach::NOWHERE, 0.0, Built::Never);
+                let built = if drawn.is_some() { Built::OfVehicles } else { Built::Never };
+                self.add(walker, instance, true, Reach::NOWHERE, 0.0, built);
             }
         }
         let found = &self.found;
@@ -140,7 +143,7 @@ impl People {
         let first = self.triangles.len();
         let clothes = *self.wardrobe.clothes(&walker.clothes_seed);
         let is_person = walker.body.is_person();
-        if built == Built::ForPicture || built == Built::ForShadow && !is_person {
+        if built == Built::ForPicture || built == Built::OfVehicles && !is_person {
             figure(&walker, &clothes, self.members.len() as u32, &mut self.triangles);
         }
         let triangles = first..self.triangles.len();
@@ -154,6 +157,7 @@ impl People {
         self.members.push(Person {
             walker,
             clothes,
+            fittings: Fittings::of(&walker),
             colours,
             side_in_world,
             instance,

@@ -20,6 +20,7 @@ use crate::target_view;
 use cosfly_domain::{
     BodyView, Camera, ChannelImage, ChannelSet, FrameImages, Optics, SemanticLabel, TARGET_INSTANCE, TargetView,
 };
+use cosfly_figures::Region;
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
 use cosfly_materials::parts::BOX_FACES;
@@ -324,11 +325,12 @@ impl Renderer {
         if !setup.others.is_empty() {
             self.people.gather(setup, eye, &self.screen, far, &self.nearer);
         }
-        let mut part = None;
-        let mut first_face = 0;
         for person in self.people.members.iter().filter(|person| person.is_seen) {
             let is_target = person.instance == TARGET_INSTANCE;
-            for index in person.triangles.clone() {
+            // Look and first face of the parts of vehicles, whose faces come in any order, and of the last part of somebody.
+            let mut parts = [None; Region::COUNT];
+            let mut last = (u32::MAX, (0, 0));
+            for (triangle_number, index) in (0..).zip(person.triangles.clone()) {
                 let triangle = &self.people.triangles[index];
                 // Most backs are told without turning them.
                 let towards = triangle.normal_in_world.dot(eye.position_in_world - triangle.corners_in_world[0]);
@@ -341,18 +343,28 @@ impl Renderer {
                     && let Some(plane) = PlaneOnScreen::new(&self.screen, normal, corners[0])
                 {
                     let number = self.faces.len() as u32;
-                    if part != Some((triangle.person, triangle.part)) {
-                        (part, first_face) = (Some((triangle.person, triangle.part)), number);
+                    let is_cloth = triangle.region.is_of_people();
+                    let known = if is_cloth {
+                        (last.0 == triangle.part).then_some(last.1)
+                    } else {
+                        parts[triangle.region as usize]
+                    };
+                    let (look, first_face) = known.unwrap_or((self.people.looks.len() as u32, number));
+                    if known.is_none() {
                         let (person, region) = (triangle.person, triangle.region);
                         let middle_in_world = triangle.middle_in_world;
                         self.people.looks.push(PartLook { person, region, middle_in_world });
+                    }
+                    if is_cloth {
+                        last = (triangle.part, (look, first_face));
+                    } else {
+                        parts[triangle.region as usize] = Some((look, first_face));
                     }
                     self.nearest.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
                     if is_target {
                         self.alone.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
                     }
-                    let (look, is_cloth) = (self.people.looks.len() as u32 - 1, triangle.region.is_of_people());
-                    let source = FaceSource::Figure { look, first_face, is_cloth };
+                    let source = FaceSource::Figure { look, first_face, triangle: triangle_number, is_cloth };
                     let label = person.walker.body.label(triangle.region).id();
                     let normal = triangle.normal_in_world.as_vec3().to_array();
                     self.faces.push(DrawnFace { plane, normal, source, label, instance: person.instance });

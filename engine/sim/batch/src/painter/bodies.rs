@@ -84,14 +84,22 @@ impl Painter {
         let mut triangles = core::mem::take(&mut self.vehicle);
         triangles.clear();
         figure(walker, self.wardrobe.clothes(&walker.clothes_seed), 0, &mut triangles);
-        let (mut part, mut number) = (None, NO_FACE);
-        for triangle in &triangles {
-            if part != Some(triangle.part) {
-                part = Some(triangle.part);
-                number = self.body_part(who, triangle.region, || triangle.middle_in_world);
+        // Parts of the vehicle, whose faces come in any order, and the last part of a rider.
+        let mut numbers = [None; Region::COUNT];
+        let mut last = (u32::MAX, NO_FACE);
+        for (at, triangle) in (0..).zip(&triangles) {
+            let is_rider = triangle.region.is_of_people();
+            let known =
+                if is_rider { (last.0 == triangle.part).then_some(last.1) } else { numbers[triangle.region as usize] };
+            let number = known.unwrap_or_else(|| self.body_part(who, triangle.region, || triangle.middle_in_world));
+            if is_rider {
+                last = (triangle.part, number);
+            } else {
+                numbers[triangle.region as usize] = Some(number);
             }
             let label = walker.body.label(triangle.region).id();
-            self.draw_triangle(eye, &triangle.corners_in_world, DrawnFace { instance, label, number, ..SKY });
+            let face = DrawnFace { instance, label, number, triangle: at, ..SKY };
+            self.draw_triangle(eye, &triangle.corners_in_world, face);
         }
         self.vehicle = triangles;
     }

@@ -12,20 +12,11 @@ pub struct Livery {
     pub paint: Dye,
     /// Colour of a lorry's box.
     pub cargo: Dye,
-    /// Build of a car.
-    pub(crate) body: CarBody,
-}
-
-/// Builds of cars.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CarBody {
-    Saloon,
-    Hatchback,
 }
 
 /// Paints with their shares: those of new cars in the world in the early 2020s, by the yearly reports of paint makers.
 const PAINTS: [(f64, Dye); 14] = [
-    (0.33, Dye::new(Colour::White, [0.72, 0.72, 0.70])),
+    (0.33, Dye::new(Colour::White, [0.64, 0.64, 0.63])),
     (0.20, Dye::new(Colour::Black, [0.018, 0.018, 0.020])),
     (0.10, Dye::new(Colour::Grey, [0.13, 0.135, 0.14])),
     (0.06, Dye::new(Colour::Grey, [0.25, 0.26, 0.27])),
@@ -56,8 +47,7 @@ impl Livery {
         let (paint, other) = (draw(), draw());
         // Most boxes of lorries are white.
         let cargo = if stream.chance(0.6) { PAINTS[0].1 } else { other };
-        let body = if stream.chance(0.45) { CarBody::Saloon } else { CarBody::Hatchback };
-        Self { paint, cargo, body }
+        Self { paint, cargo }
     }
 
     /// Colours of all regions, linear RGB; those of people are black.
@@ -71,9 +61,9 @@ impl Livery {
             (Region::Trim, [0.014; 3]),
             (Region::Glass, [0.020, 0.023, 0.025]),
             (Region::Tyre, [0.012; 3]),
-            (Region::Metal, if is_light { [0.30; 3] } else { [0.22, 0.225, 0.23] }),
+            (Region::Metal, if is_light { [0.30; 3] } else { [0.26, 0.265, 0.27] }),
             (Region::Plate, [0.62, 0.62, 0.58]),
-            (Region::HeadLamp, [0.70, 0.70, 0.66]),
+            (Region::HeadLamp, [0.34, 0.35, 0.36]),
             (Region::TailLamp, [0.42, 0.015, 0.015]),
         ] {
             colours[region as usize] = colour;

@@ -8,11 +8,11 @@ use cosfly_frames::{DVec3, real};
 /// Panels such as windows lie this far before the sheet, metres.
 const PANEL_M: f64 = 0.004;
 /// Sheet ends this far before both ends of the box, metres: lamps lie on it.
-const SHEET_M: f64 = 0.006;
+pub(super) const SHEET_M: f64 = 0.006;
 /// Most corners of an outline.
 const MOST_CORNERS: usize = 12;
 /// Sides of a wheel.
-const SPOKES: usize = 12;
+pub(super) const SPOKES: usize = 12;
 
 /// A vehicle while it is built. Own axes: x forward, y right, z up, metres, from the middle of the box's foot.
 pub(super) struct Model<'a> {
@@ -32,24 +32,46 @@ impl<'a> Model<'a> {
         Self { size_m, feet: walker.state.feet_in_world, forward, right, person, triangles }
     }
 
-    fn in_world(&self, point: DVec3) -> DVec3 {
-        self.feet + self.forward * point.x + self.right * point.y + DVec3::Z * point.z
-    }
-
     /// A flat convex face whose outside is away from `inside`; own axes, metres.
     pub fn face(&mut self, region: Region, corners: &[DVec3], inside: DVec3) {
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
         let outward = if normal.dot(corners[0] - inside) < 0.0 { -normal } else { normal };
-        let normal_in_world = self.forward * outward.x + self.right * outward.y + DVec3::Z * outward.z;
-        let first = self.in_world(corners[0]);
         for pair in corners[1..].windows(2) {
-            let corners_in_world = [first, self.in_world(pair[0]), self.in_world(pair[1])];
-            // All faces of a region are shaded together.
-            let part = region as u32;
-            let middle_in_world = [self.feet; 2];
-            let (person, triangles) = (self.person, &mut *self.triangles);
-            triangles.push(FigureTriangle { corners_in_world, normal_in_world, middle_in_world, region, person, part });
+            self.triangle(region, [corners[0], pair[0], pair[1]], outward, [outward; 3]);
         }
+    }
+
+    /// A triangle with its outward normal and those of the surface at its corners, unit length; own axes, metres.
+    pub fn triangle(&mut self, region: Region, corners: [DVec3; 3], normal: DVec3, corner_normals: [DVec3; 3]) {
+        let turned = |v: DVec3| self.forward * v.x + self.right * v.y + DVec3::Z * v.z;
+        let triangle = FigureTriangle {
+            corners_in_world: corners.map(|corner| self.feet + turned(corner)),
+            normal_in_world: turned(normal),
+            corner_normals: corner_normals.map(|normal| turned(normal).as_vec3().to_array()),
+            middle_in_world: [self.feet; 2],
+            region,
+            person: self.person,
+            // All faces of a region are shaded together.
+            part: region as u32,
+        };
+        self.triangles.push(triangle);
+    }
+
+    /// A face of four corners with the normals of the surface there, outward; own axes, metres.
+    pub fn round(&mut self, region: Region, corners: [(DVec3, DVec3); 4]) {
+        for [i, j, k] in [[0, 1, 2], [0, 2, 3]] {
+            let (points, normals) = ([i, j, k].map(|n| corners[n].0), [i, j, k].map(|n| corners[n].1));
+            let flat = (points[1] - points[0]).cross(points[2] - points[0]).normalize_or_zero();
+            let outward = if flat.dot(normals[0]) < 0.0 { -flat } else { flat };
+            self.triangle(region, points, outward, normals);
+        }
+    }
+
+    /// A level panel: from and to shares of the length at a share of the height, over a share of the width either way.
+    pub fn cross_top(&mut self, region: Region, [from, to]: [f64; 2], height: f64, half_width: f64) {
+        let at = |x: f64, y: f64| self.size_m * DVec3::new(x, y, height);
+        let corners = [at(from, -half_width), at(to, -half_width), at(to, half_width), at(from, half_width)];
+        self.face(region, &corners, DVec3::ZERO);
     }
 
     /// A flat convex face before another one: moved away from `inside` by a few millimetres, but not out of the box.
@@ -113,23 +135,6 @@ impl<'a> Model<'a> {
         self.panel(region, &corners, DVec3::new(0.0, 0.0, corners[0].z.min(corners[2].z)));
     }
 
-    /// A wheel on either side: x of its middle in metres, its radius and width in metres.
-    pub fn wheels(&mut self, x_m: f64, radius_m: f64, width_m: f64) {
-        let outer_m = 0.5 * self.size_m.y;
-        for sign in [-1.0, 1.0] {
-            let at = |share: f64, y_m: f64| rim(x_m, radius_m, share, sign * y_m);
-            let face_m = outer_m - 0.003;
-            let (near, far, hub) = (at(1.0, face_m), at(1.0, face_m - width_m), at(0.62, outer_m));
-            let inside = DVec3::new(x_m, sign * (face_m - 0.5 * width_m), radius_m);
-            for k in 0..SPOKES {
-                let next = (k + 1) % SPOKES;
-                self.face(Region::Tyre, &[near[k], near[next], far[next], far[k]], inside);
-            }
-            self.face(Region::Tyre, &near, inside);
-            self.face(Region::Metal, &hub, inside);
-        }
-    }
-
     /// An open wheel in the middle plane: x of its middle, radius and width in metres; elliptic where the box is.
     pub fn spoked_wheel(&mut self, x_m: f64, radius_m: DVec3, width_m: f64) {
         let at = |share: f64, y_m: f64| {
@@ -147,6 +152,25 @@ impl<'a> Model<'a> {
             // The inside of the rim looks to the hub.
             let beyond = 2.0 * inner[k] - middle;
             self.face(Region::Metal, &[inner[k], inner[next], inner_right[next], inner_right[k]], beyond);
+        }
+    }
+
+    /// A wheel in the middle plane whose rim is closed.
+    pub fn solid_wheel(&mut self, x_m: f64, radius_m: DVec3, width_m: f64) {
+        let at = |share: f64, y_m: f64| {
+            rim(0.0, 1.0, share, y_m).map(|p| DVec3::new(x_m + p.x * radius_m.x, p.y, radius_m.z * p.z))
+        };
+        let half_m = 0.5 * width_m;
+        let middle = DVec3::new(x_m, 0.0, radius_m.z);
+        let sides = [at(1.0, -half_m), at(1.0, half_m)];
+        for k in 0..SPOKES {
+            let next = (k + 1) % SPOKES;
+            self.face(Region::Tyre, &[sides[0][k], sides[0][next], sides[1][next], sides[1][k]], middle);
+        }
+        for (side, sign) in sides.iter().zip([-1.0, 1.0]) {
+            self.face(Region::Tyre, side, middle);
+            self.face(Region::Metal, &at(0.66, sign * (half_m + PANEL_M)), middle);
+            self.face(Region::Trim, &at(0.30, sign * (half_m + 2.0 * PANEL_M)), middle);
         }
     }
 
@@ -180,7 +204,7 @@ impl<'a> Model<'a> {
 }
 
 /// Corners of a wheel's rim, the first at the ground.
-fn rim(x_m: f64, radius_m: f64, share: f64, y_m: f64) -> [DVec3; SPOKES] {
+pub(super) fn rim(x_m: f64, radius_m: f64, share: f64, y_m: f64) -> [DVec3; SPOKES] {
     core::array::from_fn(|k| {
         let (sin, cos) = real::sin_cos(real::TAU * k as f64 / SPOKES as f64);
         DVec3::new(x_m + share * radius_m * sin, y_m, radius_m * (1.0 - share * cos))

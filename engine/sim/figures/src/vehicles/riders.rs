@@ -20,6 +20,8 @@ struct Seat {
     feet: [[f64; 2]; 2],
     /// Half the distance between the feet.
     half_stand: f64,
+    /// Whether a helmet covers the head.
+    helmet: bool,
 }
 
 /// A bicycle; `phase_rad` turns its pedals.
@@ -53,6 +55,7 @@ pub(super) fn bicycle(model: &mut Model<'_>, clothes: &Clothes, phase_rad: f64) 
         half_grip: 0.145,
         feet,
         half_stand: 0.060,
+        helmet: false,
     };
     rider(&mut model.rider(BICYCLE_M), &seat, forearm(clothes));
 }
@@ -61,15 +64,23 @@ pub(super) fn bicycle(model: &mut Model<'_>, clothes: &Clothes, phase_rad: f64) 
 pub(super) fn motorcycle(model: &mut Model<'_>, clothes: &Clothes) {
     let stretch = model.size_m / MOTORCYCLE_M;
     let at = |x_m: f64, z_m: f64| [x_m / MOTORCYCLE_M.x, z_m / MOTORCYCLE_M.z];
-    let radius_m = 0.32;
+    let radius_m = 0.31;
     let axle_m = 1.05 - radius_m;
     for sign in [-1.0, 1.0] {
-        model.spoked_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.13 * stretch.y);
+        model.solid_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.16 * stretch.y);
     }
-    let narrow = [0.17, 0.17];
-    model.hull(Region::Trim, &[at(-0.42, 0.22), at(0.34, 0.22), at(0.42, 0.56), at(-0.50, 0.56)], narrow);
-    model.hull(Region::Paint, &[at(-0.10, 0.55), at(0.50, 0.55), at(0.42, 0.88), at(0.02, 0.88)], [0.22, 0.18]);
-    model.hull(Region::Trim, &[at(-0.72, 0.56), at(0.0, 0.56), at(0.0, 0.78), at(-0.68, 0.80)], [0.18, 0.16]);
+    // Engine, exhausts, tank, seat, tail, fairing, mudguards, screen.
+    model.hull(Region::Metal, &[at(-0.30, 0.20), at(0.26, 0.20), at(0.34, 0.54), at(-0.38, 0.54)], [0.19, 0.17]);
+    model.hull(Region::Paint, &[at(-0.06, 0.54), at(0.34, 0.56), at(0.36, 0.80), at(0.04, 0.88)], [0.24, 0.18]);
+    model.hull(Region::Trim, &[at(-0.78, 0.58), at(0.0, 0.56), at(0.02, 0.76), at(-0.70, 0.82)], [0.20, 0.17]);
+    model.hull(Region::Paint, &[at(-0.98, 0.70), at(-0.62, 0.56), at(-0.60, 0.78), at(-0.92, 0.82)], [0.16, 0.12]);
+    model.hull(Region::Paint, &[at(0.30, 0.34), at(0.52, 0.50), at(0.64, 0.80), at(0.40, 0.94)], [0.27, 0.20]);
+    model.hull(Region::Paint, &[at(0.50, 0.60), at(0.98, 0.58), at(0.88, 0.67), at(0.58, 0.67)], [0.11, 0.11]);
+    model.hull(Region::Glass, &[at(0.46, 0.90), at(0.56, 0.90), at(0.42, 1.10), at(0.38, 1.08)], [0.15, 0.13]);
+    for sign in [-1.0, 1.0] {
+        let pipe = [[-0.95, 0.36], [-0.05, 0.24]].map(|[x, z]| stretch * DVec3::new(x, 0.17 * sign, z));
+        model.bar(Region::Metal, pipe[0], pipe[1], 0.09 * stretch.min_element());
+    }
     let fork = stretch * DVec3::new(0.48, 0.0, 0.90);
     let axle = stretch * DVec3::new(axle_m, 0.0, radius_m);
     let thick_m = 0.05 * stretch.min_element();
@@ -81,13 +92,8 @@ pub(super) fn motorcycle(model: &mut Model<'_>, clothes: &Clothes) {
         thick_m,
     );
     handlebar(model, 0.40 * stretch.x, 0.98 * stretch.z, 0.7 * thick_m);
-    let lamp = |region: Region, model: &mut Model<'_>, x: f64, z: [f64; 2]| {
-        let corners = [[-0.08, z[0]], [0.08, z[0]], [0.08, z[1]], [-0.08, z[1]]];
-        let corners = corners.map(|[y, z]| stretch * DVec3::new(x, y, z));
-        model.face(region, &corners, DVec3::new(0.0, 0.0, corners[0].z));
-    };
-    lamp(Region::HeadLamp, model, 0.53, [0.76, 0.90]);
-    lamp(Region::TailLamp, model, -0.73, [0.68, 0.76]);
+    lamp(model, Region::HeadLamp, 0.645, [0.70, 0.84]);
+    lamp(model, Region::TailLamp, -0.97, [0.70, 0.79]);
     let foot = [0.02, 0.17];
     let seat = Seat {
         hip: [-0.13, 0.50],
@@ -96,8 +102,49 @@ pub(super) fn motorcycle(model: &mut Model<'_>, clothes: &Clothes) {
         half_grip: 0.19,
         feet: [foot; 2],
         half_stand: 0.12,
+        helmet: true,
     };
     rider(&mut model.rider(MOTORCYCLE_M), &seat, forearm(clothes));
+}
+
+/// A scooter: a board for the feet behind a shield.
+pub(super) fn scooter(model: &mut Model<'_>, clothes: &Clothes) {
+    let stretch = model.size_m / MOTORCYCLE_M;
+    let at = |x_m: f64, z_m: f64| [x_m / MOTORCYCLE_M.x, z_m / MOTORCYCLE_M.z];
+    let radius_m = 0.24;
+    let axle_m = 1.05 - radius_m;
+    for sign in [-1.0, 1.0] {
+        model.solid_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.14 * stretch.y);
+    }
+    model.hull(Region::Paint, &[at(-0.98, 0.40), at(-0.30, 0.22), at(-0.22, 0.62), at(-0.90, 0.64)], [0.22, 0.18]);
+    model.hull(Region::Trim, &[at(-0.36, 0.20), at(0.42, 0.20), at(0.42, 0.28), at(-0.36, 0.28)], [0.20, 0.20]);
+    model.hull(Region::Paint, &[at(0.34, 0.24), at(0.46, 0.24), at(0.62, 0.86), at(0.50, 0.92)], [0.26, 0.22]);
+    model.hull(Region::Paint, &[at(0.56, 0.42), at(0.98, 0.46), at(0.90, 0.54), at(0.58, 0.54)], [0.10, 0.10]);
+    model.hull(Region::Trim, &[at(-0.86, 0.64), at(-0.14, 0.62), at(-0.16, 0.74), at(-0.80, 0.76)], [0.18, 0.15]);
+    let thick_m = 0.05 * stretch.min_element();
+    let (top, axle) = (stretch * DVec3::new(0.50, 0.0, 0.92), stretch * DVec3::new(axle_m, 0.0, radius_m));
+    model.bar(Region::Metal, top, axle, thick_m);
+    handlebar(model, 0.46 * stretch.x, 0.98 * stretch.z, 0.7 * thick_m);
+    lamp(model, Region::HeadLamp, 0.635, [0.76, 0.86]);
+    lamp(model, Region::TailLamp, -0.965, [0.50, 0.58]);
+    let seat = Seat {
+        hip: [-0.20, 0.50],
+        shoulder: [-0.13, 0.80],
+        hand: [0.25, 0.625],
+        half_grip: 0.19,
+        feet: [[0.14, 0.18]; 2],
+        half_stand: 0.08,
+        helmet: true,
+    };
+    rider(&mut model.rider(MOTORCYCLE_M), &seat, forearm(clothes));
+}
+
+/// A lamp in the middle plane at `x` and between two heights, in metres of a motorcycle's usual box.
+fn lamp(model: &mut Model<'_>, region: Region, x: f64, [low, high]: [f64; 2]) {
+    let stretch = model.size_m / MOTORCYCLE_M;
+    let corners = [[-0.08, low], [0.08, low], [0.08, high], [-0.08, high]];
+    let corners = corners.map(|[y, z]| stretch * DVec3::new(x, y, z));
+    model.face(region, &corners, DVec3::new(0.0, 0.0, corners[0].z));
 }
 
 /// A bar across the whole width.
@@ -114,6 +161,7 @@ fn forearm(clothes: &Clothes) -> Region {
 /// Somebody who sits; the head reaches the top of the box.
 fn rider(body: &mut Surface<'_>, seat: &Seat, forearm: Region) {
     let ([hip_x, hip_z], [neck_x, neck_z]) = (seat.hip, seat.shoulder);
+    let (head, face) = if seat.helmet { (Region::Hair, 1.3) } else { (Region::Skin, 1.0) };
     body.part(
         ring(hip_x - 0.02, 0.0, hip_z - 0.05, 0.085, 0.065),
         ring(hip_x + 0.01, 0.0, hip_z + 0.05, 0.090, 0.066),
@@ -135,9 +183,9 @@ fn rider(body: &mut Surface<'_>, seat: &Seat, forearm: Region) {
         Region::Skin,
     );
     body.part(
-        ring(neck_x + 0.035, 0.0, 0.87, 0.038, 0.046),
-        ring(neck_x + 0.03, 0.0, 0.945, 0.052, 0.058),
-        Region::Skin,
+        ring(neck_x + 0.035, 0.0, 0.87, face * 0.038, face * 0.046),
+        ring(neck_x + 0.03, 0.0, 0.945, face * 0.052, face * 0.058),
+        head,
     );
     body.part(
         ring(neck_x + 0.015, 0.0, 0.905, 0.056, 0.060),

@@ -1,5 +1,8 @@
 //! Models and boxes agree.
 
+use super::cars;
+use super::model::Model;
+use super::shapes::{CARS, VANS};
 use crate::Clothes;
 use crate::body_shape::BodyShape;
 use crate::figure::figure;
@@ -11,6 +14,9 @@ use cosfly_frames::{DVec3, Seed, TargetState};
 
 /// No corner is farther outside of the box than this, and every side of the box has a corner as near, metres.
 const BOUND_M: f64 = 0.01;
+
+/// Most triangles of a car or van.
+const MOST_TRIANGLES: usize = 1000;
 
 const KINDS: [(BodyKind, [f64; 3], SemanticLabel); 7] = [
     (BodyKind::Bicycle, [1.8, 0.65, 1.75], SemanticLabel::Bicycle),
@@ -81,6 +87,52 @@ fn faces_look_outward_and_have_the_labels_of_their_kind() {
             });
             assert_eq!(wrong.count(), 0, "{kind:?}");
         }
+    }
+}
+
+#[test]
+fn every_shape_stays_in_its_box_is_round_and_has_few_triangles() {
+    const SIZES_M: [[f64; 3]; 3] = [[3.6, 1.66, 1.42], [4.85, 1.9, 1.68], [5.9, 2.05, 2.55]];
+    for (number, shape) in CARS.iter().chain(&VANS).enumerate() {
+        let share: f64 = shape.sections.windows(2).map(|pair| f64::from(u8::from(pair[0].x < pair[1].x))).sum();
+        assert_eq!(share as usize + 1, shape.sections.len(), "{number}: from tail to nose");
+        for size_m in SIZES_M.map(DVec3::from_array) {
+            let mut walker = vehicle(BodyKind::Car, size_m, 0);
+            walker.state.feet_in_world = DVec3::ZERO;
+            let mut triangles = vec![];
+            let mut looks = walker.clothes_seed.stream("shape");
+            cars::car(&mut Model::new(&walker, size_m, 0, &mut triangles), shape, 1.3, &mut looks);
+            assert!(triangles.len() <= MOST_TRIANGLES, "{number}: {} triangles", triangles.len());
+            for triangle in &triangles {
+                for corner in triangle.corners_in_world {
+                    let half = 0.5 * size_m + 1e-9;
+                    let inside = corner.x.abs() <= half.x && corner.y.abs() <= half.y;
+                    assert!(inside && (-1e-9..=size_m.z + 1e-9).contains(&corner.z), "{number}: {corner}");
+                }
+                for [x, y, z] in triangle.corner_normals.map(|normal| normal.map(f64::from)) {
+                    let normal = DVec3::new(x, y, z);
+                    let cosine = normal.dot(triangle.normal_in_world);
+                    assert!((normal.length() - 1.0).abs() < 1e-5 && cosine > 0.5, "{number}: {cosine}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn cars_of_all_sizes_have_several_shapes() {
+    for (kind, least) in [(BodyKind::Car, 7), (BodyKind::Van, 3)] {
+        let sizes_m = kind.row().driving.as_ref().expect("it drives").sizes_m;
+        let mut drawn = std::collections::BTreeSet::new();
+        for number in 0..400 {
+            let mut random = Seed([4; 32]).child("size", number).stream("size");
+            let size_m = DVec3::from_array(sizes_m.map(|[low, high]| random.uniform(low, high)));
+            let shape = cars::shape(kind, size_m, &mut Seed([5; 32]).child("car", number).stream("shape"));
+            let fits = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
+            assert!(fits(shape.lengths_m, size_m.x) && fits(shape.heights_m, size_m.z), "{kind:?} {size_m}");
+            drawn.insert(std::ptr::from_ref(shape) as usize);
+        }
+        assert!(drawn.len() >= least, "{kind:?}: {}", drawn.len());
     }
 }
 

@@ -1,8 +1,7 @@
 //! Triangles of a vehicle with its rider, by its kind.
 
-use super::livery::Livery;
 use super::model::Model;
-use super::{coaches, drones, riders};
+use super::{cars, coaches, drones, lorries, riders};
 use crate::Clothes;
 use crate::frustum::FigureTriangle;
 use crate::walker::Walker;
@@ -20,13 +19,18 @@ pub fn add(
     triangles: &mut Vec<FigureTriangle>,
 ) {
     let mut model = Model::new(walker, size_m, person, triangles);
+    let mut looks = walker.clothes_seed.stream("shape");
+    let phase_rad = walker.gait_phase_rad;
     match kind {
-        BodyKind::Bicycle => riders::bicycle(&mut model, clothes, walker.gait_phase_rad),
+        BodyKind::Bicycle => riders::bicycle(&mut model, clothes, phase_rad),
+        BodyKind::Motorcycle if looks.chance(0.4) => riders::scooter(&mut model, clothes),
         BodyKind::Motorcycle => riders::motorcycle(&mut model, clothes),
-        BodyKind::Van => coaches::van(&mut model),
-        BodyKind::Truck => coaches::truck(&mut model),
-        BodyKind::Bus => coaches::bus(&mut model),
+        BodyKind::Truck => lorries::lorry(&mut model, phase_rad, &mut looks),
+        BodyKind::Bus => coaches::bus(&mut model, phase_rad, &mut looks),
         BodyKind::Drone => drones::quadrotor(&mut model),
-        BodyKind::Car | BodyKind::Pedestrian => coaches::car(&mut model, Livery::draw(&walker.clothes_seed).body),
+        BodyKind::Car | BodyKind::Van | BodyKind::Pedestrian => {
+            let shape = cars::shape(kind, size_m, &mut looks);
+            cars::car(&mut model, shape, phase_rad, &mut looks);
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Bands of rows: pixels gathered by face, taken through the kernels, put back.
 
 use super::cloth::{Cloth, Cloths, put_cloth};
+use super::curve::Curve;
 use super::face_material::{axes_of, even_colour, material_of};
 use super::foliage::{self, crown_of};
 use super::geometry::FaceAxes;
@@ -53,6 +54,8 @@ pub(crate) struct Worker {
     /// Groups that have runs.
     present: Vec<u32>,
     pieces: Vec<Piece>,
+    /// Pieces of faces that are not flat to light.
+    curves: Vec<(usize, Curve)>,
     /// Numbers of the people who may darken something in the band, with the pixels where they may; and of those among the pieces.
     near_band: Vec<(u32, [i32; 4])>,
     near: Vec<u32>,
@@ -141,6 +144,7 @@ impl Worker {
             first: Vec::new(),
             present: Vec::new(),
             pieces: Vec::with_capacity(FOURS),
+            curves: Vec::new(),
             near_band: Vec::new(),
             near: Vec::new(),
         }
@@ -214,12 +218,14 @@ impl Worker {
             let colour = (group == EVEN).then(|| even_colour(seen, run.face));
             let crown = if group == CROWNS { crown_of(seen, run.face) } else { None };
             let kerb = if group == PAVEMENT { Some(kerb_of(seen, run.face)) } else { None };
+            let curve = if let Material::Coach(_) = material { Curve::of(seen, run.face) } else { None };
             if crown.is_some() {
                 axes = axes_of(seen, run.face);
             }
             while start < end {
                 let length = (end - start).min(LANES - lanes);
                 let (u, v) = center_of(band, start);
+                self.curves.extend(curve.map(|curve| (self.pieces.len(), curve)));
                 self.pieces.push(Piece {
                     start,
                     lane: lanes,
@@ -286,6 +292,10 @@ impl Worker {
         let groups = lanes.div_ceil(FOUR * WIDE);
         self.find_near(setting.level);
         fill(setting.level, &self.pieces, &mut self.stage);
+        for (number, curve) in &self.curves {
+            let piece = &self.pieces[*number];
+            curve.bend(&setting.view, &mut self.stage, piece.lane / FOUR, piece.length.div_ceil(FOUR));
+        }
         let Self { stage, cloths, crowns, kerbs, colours, shared, blocks, near, .. } = &mut *self;
         let staged = Staged { stage, cloths, crowns, kerbs, colours };
         let blocks = (&mut shared[..groups], &mut blocks[..FOUR * groups]);
@@ -295,6 +305,7 @@ impl Worker {
         }
         put_back(setting.level, &self.pieces, &self.blocks[..FOUR * groups], &mut self.developed, &mut self.picture);
         self.pieces.clear();
+        self.curves.clear();
     }
 }
 

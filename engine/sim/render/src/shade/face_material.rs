@@ -1,7 +1,8 @@
 //! Materials, colours and axes of the faces that a frame shows.
 
+use super::coach::Coach;
 use super::geometry::FaceAxes;
-use super::material::{Coach, FLAT, Material, box_axes, box_material};
+use super::material::{FLAT, Material, box_axes, box_material};
 use super::setting::{Seen, Setting};
 use super::skin::Painted;
 use crate::faces::FaceSource;
@@ -24,8 +25,8 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
         FaceSource::Figure { look, .. } => {
             let look = &seen.people.looks[look as usize];
             let person = seen.people.members.get(look.person as usize);
-            let [r, g, b] = person.map_or([0.0; 3], |person| person.colours[look.region as usize]);
-            (Material::Coach(Coach::new(look.region, Vec3::new(r, g, b), setting.light.night)), flat)
+            let Some(person) = person else { return (Material::Sky, flat) };
+            (Material::Coach(Coach::new(person, look.region, setting.light.night, &setting.view)), flat)
         }
         FaceSource::Box { index, face } | FaceSource::Crown { index, face } => {
             let (b, face) = (&seen.scene.boxes[index as usize], usize::from(face));

@@ -1,9 +1,11 @@
 //! Which kernels pixels of a material go through, in both looks.
 
 use super::cloth::{Cloths, cloth};
+use super::coach::coach;
 use super::geometry::{open, place, points};
 use super::headlights::shine;
-use super::material::{Material, coach};
+use super::lighting::Mirror;
+use super::material::Material;
 use super::setting::{Seen, Setting};
 use super::skin::painted;
 use super::{lighting, simple};
@@ -62,8 +64,10 @@ pub(super) fn run_kernels(
                 BodyShape::Person { .. } => contact(level, shared, feet, walker.radius_m.clamp(0.1, 2.0) as f32),
                 BodyShape::Vehicle { size_m, .. } => {
                     let (sin, cos) = real::sin_cos(walker.state.heading_rad);
-                    let half_m = 0.5 * size_m.truncate().as_vec2();
-                    contact_below(level, shared, feet, [cos as f32, sin as f32], half_m.to_array());
+                    // Two-wheelers touch the ground along a line.
+                    let width = if size_m.y < 1.0 { 0.15 } else { 1.0 };
+                    let half_m = [0.5 * size_m.x as f32, 0.5 * width * size_m.y as f32];
+                    contact_below(level, shared, feet, [cos as f32, sin as f32], half_m);
                 }
             }
         }
@@ -102,7 +106,7 @@ pub(super) fn run_kernels(
         Material::Tiles(slope) => tiles(level, shared, blocks, slope, noise),
         Material::Thing(thing) => things(level, shared, blocks, thing, noise),
         Material::Cloth => cloth(level, shared, blocks, cloths, noise),
-        Material::Coach(look) => coach(level, blocks, look),
+        Material::Coach(look) => coach(level, shared, blocks, look, noise),
         Material::Skin(look) => painted(shared, blocks, look, &seen.scene.props.textures),
     }
     lighting::arriving(level, shared, light, setting.haze);
@@ -120,7 +124,12 @@ pub(super) fn run_kernels(
     }
     let is_shiny = is_wet || answers.shiny;
     if is_shiny {
-        lighting::mirrored(level, shared, light, is_wet, (grid.tables(), &grid.frame()));
+        let mirror = match material {
+            _ if is_wet => Mirror::FILM,
+            Material::Coach(_) => Mirror::COAT,
+            _ => Mirror::PANE,
+        };
+        lighting::mirrored(level, shared, light, mirror, (grid.tables(), &grid.frame()));
     }
     lighting::develop(level, shared, blocks, light, &setting.tone, answers.glows && light.night > 0.0, is_shiny);
 }

@@ -24,6 +24,26 @@ pub struct Answers {
     pub glows: bool,
 }
 
+/// How a surface mirrors.
+#[derive(Clone, Copy, Debug)]
+pub struct Mirror {
+    /// Share of light at right angles, and how much more where it grazes.
+    from_above: f32,
+    along: f32,
+    /// Strength of the sun's image, and how small it is: 0 to 1.
+    image: f32,
+    sharp: f32,
+}
+
+impl Mirror {
+    /// A film of water: it mirrors more along it than from above.
+    pub const FILM: Self = Self { from_above: 0.26, along: 2.0, image: 1.6, sharp: 0.0 };
+    /// Panes and paint of houses and things.
+    pub const PANE: Self = Self { from_above: 0.30, along: 0.9, image: 1.6, sharp: 0.0 };
+    /// The smooth coat over the paint of vehicles, and their glass: as much as its optics say.
+    pub const COAT: Self = Self { from_above: 0.0, along: 1.0, image: 24.0, sharp: 1.0 };
+}
+
 simd_kernel! {
     /// Wet ground: darker, and a mirror where water stands.
     pub fn wet(shared: &[Shared], blocks: &mut [Block], light: &Light, noise: &NoiseTexture) {
@@ -64,11 +84,10 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// Sky, houses across the street and lamps as flat surfaces mirror them; `film` tells a film of water from glass and paint.
-    pub fn mirrored(shared: &mut [Shared], light: &Light, film: bool, grid: (&GridTables, &GridFrame)) {
+    /// Sky, houses across the street and lamps as surfaces mirror them.
+    pub fn mirrored(shared: &mut [Shared], light: &Light, mirror: Mirror, grid: (&GridTables, &GridFrame)) {
         let (light, tables, frame) = (*light, grid.0, *grid.1);
-        // Water mirrors more along it than from above.
-        let [from_above, along] = if film { [0.26, 2.0] } else { [0.30, 0.9] };
+        let Mirror { from_above, along, image, sharp } = mirror;
         for shared in shared.iter_mut() {
             for k in 0..WIDE {
                 let (ray, normal) = (get(&shared.ray, k), get(&shared.normal, k));
@@ -97,7 +116,9 @@ simd_kernel! {
                 let toward = most(out.dot(light.to_sun), 0.0);
                 let toward4 = toward * toward * toward * toward;
                 let toward16 = toward4 * toward4 * toward4 * toward4;
-                shared.glint[k] = toward16 * toward16 * toward16 * toward16 * 1.6;
+                let toward64 = toward16 * toward16 * toward16 * toward16;
+                let sharper = toward64 * toward64 * toward64 * toward64;
+                shared.glint[k] = (toward64 + (sharper - toward64) * sharp) * image;
             }
         }
     }

@@ -1,13 +1,12 @@
 //! Materials of drawn faces.
 
+use super::coach::Coach;
 use super::geometry::FaceAxes;
 use super::lighting::Answers;
 use super::skin::Painted;
 use cosfly_domain::{ObstacleKind, SemanticLabel};
-use cosfly_figures::Region;
-use cosfly_frames::simd_kernel;
 use cosfly_materials::facade::{BoxFace, Facade, Roof, Tiles};
-use cosfly_materials::lanes::{Block, Stage, WIDE, set};
+use cosfly_materials::lanes::Stage;
 use cosfly_materials::light::Light;
 use cosfly_materials::parts::{BOX_FACES, SceneBox};
 use cosfly_materials::roof_step::Side;
@@ -140,44 +139,6 @@ impl Material {
                 _ => matt,
             },
             Self::Sky | Self::Even | Self::Cloth | Self::Leaves | Self::Skin(_) | Self::Tiles(_) => matt,
-        }
-    }
-}
-
-/// A part of a vehicle: flat, of one colour.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Coach {
-    pub(super) colour: Vec3,
-    mirror: f32,
-    emission: Vec3,
-}
-
-impl Coach {
-    /// The look of a region of a vehicle; `night` is 1 when lamps are lit.
-    pub(super) fn new(region: Region, colour: Vec3, night: f32) -> Self {
-        let (mirror, glow) = match region {
-            Region::Paint => (0.16, 0.0),
-            Region::Cargo => (0.04, 0.0),
-            Region::Glass => (0.46, 0.0),
-            Region::Metal => (0.30, 0.0),
-            Region::HeadLamp => (0.25, 2.4),
-            Region::TailLamp => (0.20, 1.1),
-            _ => (0.0, 0.0),
-        };
-        Self { colour, mirror, emission: colour * (glow * night) }
-    }
-}
-
-simd_kernel! {
-    /// Sheet, glass and rubber.
-    pub(super) fn coach(blocks: &mut [Block], look: &Coach) {
-        let Coach { colour, mirror, emission } = *look;
-        for block in blocks.iter_mut() {
-            for k in 0..WIDE {
-                set(&mut block.albedo, k, colour);
-                set(&mut block.emission, k, emission);
-            }
-            block.mirror = [mirror; WIDE];
         }
     }
 }

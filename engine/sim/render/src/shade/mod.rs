@@ -7,6 +7,8 @@
 mod bands;
 mod body_shadow;
 mod cloth;
+mod coach;
+mod curve;
 mod face_material;
 pub mod foliage;
 pub mod geometry;

@@ -1,0 +1,180 @@
+//! Cars and vans from the rows of their shapes.
+
+use super::model::{Model, SHEET_M};
+use super::shapes::{CARS, Section, Shape, VANS};
+use super::shell::{MOST_SECTIONS, POINTS, Shell};
+use super::wheels::{Axle, turn_rad};
+use crate::region::Region;
+use cosfly_domain::BodyKind;
+use cosfly_frames::{DVec3, RandomStream};
+
+/// Half the width of the sheet, in widths: mirrors and wheels reach farther.
+const SHEET: f64 = 0.486;
+/// Half the width of panels at both ends, in half widths.
+const END: [f64; 2] = [0.494, 0.494];
+
+/// The shape of a car or van of a size: one of those that fit, drawn by their shares.
+pub(super) fn shape(kind: BodyKind, size_m: DVec3, looks: &mut RandomStream) -> &'static Shape {
+    let all: &'static [Shape] = if kind == BodyKind::Van { &VANS } else { &CARS };
+    let is_within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
+    let fits = |it: &&Shape| is_within(it.lengths_m, size_m.x) && is_within(it.heights_m, size_m.z);
+    let total: f64 = all.iter().filter(fits).map(|it| it.share).sum();
+    let mut left = total * looks.unit();
+    let drawn = all.iter().filter(fits).find(|it| {
+        left -= it.share;
+        left < 0.0
+    });
+    drawn.unwrap_or(&all[0])
+}
+
+/// A car or van; `phase_rad` turns its wheels.
+pub(super) fn car(model: &mut Model<'_>, shape: &Shape, phase_rad: f64, looks: &mut RandomStream) {
+    let mut shell = shell(model, shape);
+    if shape.rails && looks.chance(0.6) {
+        rails(model, shape);
+    } else if looks.chance(0.25) {
+        roof_window(&mut shell, shape);
+    }
+    shell.draw(model);
+    ends(model, shape);
+    mirrors(model, shape);
+    let radius_m = shape.wheel * model.size_m.z;
+    let turn_rad = turn_rad(phase_rad, model.size_m.z, radius_m);
+    for x in shape.axles {
+        let arch_from_m = Some(shape.foot * model.size_m.z);
+        model.axle(&Axle { x_m: x * model.size_m.x, radius_m, arch_from_m, turn_rad });
+    }
+}
+
+/// Half the width of the sheet, in widths: both ends are rounded.
+fn half_width(shape: &Shape, x: f64) -> f64 {
+    let t = ((x.abs() - 0.3) / 0.2).clamp(0.0, 1.0);
+    let (t2, t4) = (t * t, t * t * t * t);
+    SHEET * (1.0 - 0.06 * t2 - shape.narrow * t4 * t4 * t2)
+}
+
+/// Cross-sections of a shape.
+pub(super) fn shell(model: &Model<'_>, shape: &Shape) -> Shell {
+    let mut shell = Shell {
+        points: [[DVec3::ZERO; POINTS]; MOST_SECTIONS],
+        regions: [[Region::Paint; POINTS - 1]; MOST_SECTIONS],
+        count: shape.sections.len().min(MOST_SECTIONS),
+    };
+    let mut before = Region::Paint;
+    for (number, section) in shape.sections.iter().enumerate().take(MOST_SECTIONS) {
+        let [low, side, over] = section.regions;
+        // Panes across the car are bent outwards.
+        let is_pane = over == Region::Glass || before == Region::Glass;
+        let bow = if is_pane { 0.018 * section.x.signum() } else { 0.0 };
+        before = over;
+        let bend = |[x, y, z]: [f64; 3]| {
+            let w = half_width(shape, section.x);
+            let x_m = (x + bow * (1.0 - (y / w) * (y / w))) * model.size_m.x;
+            let most_m = 0.5 * model.size_m.x - SHEET_M;
+            DVec3::new(x_m.clamp(-most_m, most_m), y * model.size_m.y, z * model.size_m.z)
+        };
+        shell.points[number] = outline(shape, section).map(bend);
+        let sill = if shape.cladding { Region::Trim } else { Region::Paint };
+        let pillar = if over == Region::Trim { Region::Paint } else { side_of_roof(over) };
+        shell.regions[number] = [sill, Region::Paint, low, side, pillar, over, over];
+    }
+    shell
+}
+
+/// The edge between side and roof: pillars beside panes are painted.
+fn side_of_roof(over: Region) -> Region {
+    if over == Region::Glass { Region::Paint } else { over }
+}
+
+/// Points of the right half of a cross-section from sill to roof, in box sizes.
+fn outline(shape: &Shape, section: &Section) -> [[f64; 3]; POINTS] {
+    let Section { x, shoulder, top, roofed, .. } = *section;
+    let w = half_width(shape, x);
+    // Both ends rise above the ground.
+    let rise = ((x.abs() - 0.38) / 0.12).clamp(0.0, 1.0);
+    let foot = shape.foot + 0.045 * rise * rise;
+    let at = |y: f64, z: f64| [x, y * w, z];
+    let height = shoulder - foot;
+    let lower = [at(0.94, foot), at(0.985, foot + 0.26 * height), at(1.0, foot + 0.6 * height), at(0.955, shoulder)];
+    let upper = if roofed {
+        let drop = shape.drop;
+        let edge = shape.tumble;
+        [at(edge, top - drop), at(0.92 * edge, top - 0.35 * drop), at(0.55 * edge, top - 0.08 * drop), at(0.0, top)]
+    } else {
+        let drop = top - shoulder;
+        [at(0.90, top - 0.45 * drop), at(0.76, top - 0.14 * drop), at(0.4, top - 0.03 * drop), at(0.0, top)]
+    };
+    core::array::from_fn(|k| if k < 4 { lower[k] } else { upper[k - 4] })
+}
+
+/// Grille, air intake, plates.
+fn ends(model: &mut Model<'_>, shape: &Shape) {
+    let (Some(tail), Some(nose)) = (shape.sections.first(), shape.sections.last()) else { return };
+    let foot = shape.foot + 0.045;
+    let reach = 1.0 - shape.narrow - 0.12;
+    model.cross_panel(Region::Trim, [[0.5, foot + 0.01], [0.5, foot + 0.075]], [-reach, reach], END);
+    model.cross_panel(Region::Plate, [[0.5, foot + 0.085], [0.5, foot + 0.15]], [-0.28, 0.28], END);
+    let grille = [[0.5, foot + 0.16], [0.5, nose.shoulder.max(foot + 0.2)]];
+    model.cross_panel(Region::Trim, grille, [-0.8 * reach, 0.8 * reach], END);
+    model.cross_panel(Region::Trim, [[-0.5, foot - 0.004], [-0.5, foot + 0.075]], [-reach, reach], END);
+    let plate = (tail.shoulder - 0.10).max(foot + 0.07);
+    model.cross_panel(Region::Plate, [[-0.5, plate], [-0.5, plate + 0.065]], [-0.28, 0.28], END);
+}
+
+/// Mirrors beside the windscreen.
+pub(super) fn mirrors(model: &mut Model<'_>, shape: &Shape) {
+    let Some(cowl) = cowl(shape) else { return };
+    let size_m = model.size_m;
+    let back_m = cowl.x * size_m.x - 0.42;
+    let (low_m, high_m) = (cowl.shoulder * size_m.z + 0.01, cowl.shoulder * size_m.z + 0.15);
+    for sign in [-1.0, 1.0] {
+        let at = |x_m: f64, y: f64, z_m: f64| DVec3::new(x_m, sign * y * size_m.y, z_m);
+        let (inner, outer) = (0.44, 0.5);
+        let rear = [(inner, low_m), (outer, low_m + 0.03), (outer, high_m), (inner, high_m)];
+        let rear = rear.map(|(y, z_m)| at(back_m, y, z_m));
+        let front = rear.map(|point| point + DVec3::X * 0.12);
+        let inside = 0.5 * (rear[0] + front[2]);
+        model.face(Region::Trim, &rear, inside);
+        model.face(Region::Paint, &front, inside);
+        for k in 0..3 {
+            model.face(Region::Paint, &[rear[k], rear[k + 1], front[k + 1], front[k]], inside);
+        }
+    }
+}
+
+/// The foot of the windscreen.
+pub(super) fn cowl(shape: &Shape) -> Option<&Section> {
+    let pane = shape.sections.iter().rposition(|section| section.regions[2] == Region::Glass)?;
+    shape.sections.get(pane + 1)
+}
+
+/// First and last place of the roof.
+fn roof_ends(shape: &Shape) -> Option<[f64; 2]> {
+    let mut roof = shape.sections.iter().filter(|section| section.roofed).map(|section| section.x);
+    let first = roof.next()?;
+    Some([first, roof.next_back()?])
+}
+
+/// Bars along both edges of the roof.
+fn rails(model: &mut Model<'_>, shape: &Shape) {
+    let Some([first, last]) = roof_ends(shape) else { return };
+    let size_m = model.size_m;
+    let y_m = 0.9 * shape.tumble * SHEET * size_m.y;
+    let (z_m, thick_m) = (0.993 * size_m.z - 0.02, 0.035);
+    for sign in [-1.0, 1.0] {
+        let at = |x: f64| DVec3::new(x * size_m.x, sign * y_m, z_m);
+        model.bar(Region::Trim, at(first + 0.03), at(last - 0.03), thick_m);
+    }
+}
+
+/// A pane in the roof above the seats.
+fn roof_window(shell: &mut Shell, shape: &Shape) {
+    // Sheet stays above the windscreen.
+    let rows = shape.sections.windows(2).zip(&mut shell.regions);
+    for (pair, regions) in rows.filter(|(pair, _)| pair[0].roofed && pair[1].roofed && pair[0].x > -0.25) {
+        if pair[0].regions[2] == Region::Paint && pair[1].regions[2] != Region::Glass {
+            regions[5] = Region::Glass;
+            regions[6] = Region::Glass;
+        }
+    }
+}

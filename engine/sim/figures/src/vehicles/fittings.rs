@@ -1,0 +1,86 @@
+//! What is seen on and through the sheet of a vehicle without being a shape: gaps of doors and lids, seats, dirt.
+
+use super::cars;
+use super::shapes::Shape;
+use crate::body_shape::BodyShape;
+use crate::region::Region;
+use crate::walker::Walker;
+use cosfly_domain::BodyKind;
+use cosfly_frames::DVec3;
+
+/// Places of gaps and seats, shares of the box: x forward of its middle, z up from its foot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fittings {
+    /// Size of the box, metres.
+    pub size_m: DVec3,
+    /// Gaps of the doors, from the front.
+    pub doors: [f64; 3],
+    /// Lower and upper end of those gaps.
+    pub door_heights: [f64; 2],
+    /// Both ends of the bonnet.
+    pub bonnet: [f64; 2],
+    /// Both ends of the boot's lid.
+    pub boot: [f64; 2],
+    /// Gutters of the roof, from the middle, shares of the width.
+    pub gutter: f64,
+    /// Upper edge of the bumpers.
+    pub bumper: f64,
+    /// Backs of the rows of seats.
+    pub seats: [f64; 2],
+    /// How dirty the vehicle is, 0..=1.
+    pub dirt: f64,
+    /// Whether the paint has flakes of metal: it is darker where it is seen along.
+    pub flakes: bool,
+}
+
+/// A place that no body reaches.
+const NOWHERE: f64 = 9.0;
+
+impl Fittings {
+    /// Those of a body.
+    pub fn of(walker: &Walker) -> Self {
+        let mut looks = walker.clothes_seed.stream("dirt");
+        let dirt = looks.unit() * looks.unit();
+        let flakes = looks.chance(0.7);
+        let bare = Self {
+            size_m: DVec3::ONE,
+            doors: [NOWHERE; 3],
+            door_heights: [0.0; 2],
+            bonnet: [NOWHERE; 2],
+            boot: [-NOWHERE; 2],
+            gutter: NOWHERE,
+            bumper: NOWHERE,
+            seats: [NOWHERE; 2],
+            dirt,
+            flakes,
+        };
+        match walker.body {
+            BodyShape::Vehicle { kind: kind @ (BodyKind::Car | BodyKind::Van), size_m } => {
+                let shape = cars::shape(kind, size_m, &mut walker.clothes_seed.stream("shape"));
+                Self { size_m, ..bare.with(shape) }
+            }
+            BodyShape::Vehicle { size_m, .. } => Self { size_m, ..bare },
+            BodyShape::Person { .. } => bare,
+        }
+    }
+
+    fn with(self, shape: &Shape) -> Self {
+        let Some(cowl) = cars::cowl(shape) else { return self };
+        let pillar = shape.sections.iter().rfind(|section| section.regions[1] == Region::Trim);
+        let middle = pillar.map_or(cowl.x - 0.26, |section| section.x + 0.01);
+        let panes = shape.sections.iter().find(|section| section.regions[1] == Region::Glass);
+        let rear = panes.map_or(NOWHERE, |section| section.x.max(shape.axles[0] + 0.075));
+        let boot = shape.sections.iter().find(|it| it.regions[2] == Region::Glass && !it.roofed && it.x > -0.44);
+        let has_rear = rear < middle - 0.08;
+        Self {
+            doors: [cowl.x - 0.045, middle, if has_rear { rear } else { NOWHERE }],
+            door_heights: [shape.foot + 0.07, cowl.shoulder],
+            bonnet: [cowl.x, 0.45],
+            boot: boot.map_or([-NOWHERE; 2], |section| [-0.462, section.x - 0.012]),
+            gutter: 0.415 * shape.tumble,
+            bumper: shape.foot + 0.24,
+            seats: [middle, if has_rear { middle - 0.19 } else { NOWHERE }],
+            ..self
+        }
+    }
+}

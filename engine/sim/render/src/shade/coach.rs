@@ -1,0 +1,220 @@
+//! Sheet, glass and rubber of vehicles: gaps of doors and lids, seats behind the glass, dirt near the road.
+
+use super::geometry::View;
+use crate::people::Person;
+use cosfly_figures::Region;
+use cosfly_frames::simd_kernel;
+use cosfly_materials::lanes::{Block, Shared, WIDE, get, groups, set};
+use cosfly_materials::pattern::{NoiseTexture, Noises, least, most, share};
+use cosfly_materials::vector::Vec3;
+
+/// Half the width of a gap between two panels of sheet, metres.
+const HALF_GAP_M: f32 = 0.006;
+/// Dust of roads.
+const DUST: Vec3 = Vec3::new(0.17, 0.15, 0.125);
+/// Light that comes into a cabin and out of it again.
+const BEHIND_GLASS: f32 = 0.30;
+
+/// A region of a vehicle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coach {
+    pub(super) colour: Vec3,
+    /// Multiple of what a smooth coat mirrors.
+    mirror: f32,
+    emission: Vec3,
+    kind: Kind,
+    /// The camera, metres, and the size of a pixel at a distance of 1.
+    eye: Vec3,
+    pixel: f32,
+    /// The middle of the box's foot, its own axes, and its size, metres.
+    feet: Vec3,
+    along: Vec3,
+    side: Vec3,
+    half_width_m: f32,
+    height_m: f32,
+    /// Places along, metres; heights of the gaps of doors.
+    doors: [f32; 3],
+    door_heights: [f32; 2],
+    bonnet: [f32; 2],
+    boot: [f32; 2],
+    gutter_m: f32,
+    bumper_m: f32,
+    half_length_m: f32,
+    seats: [f32; 2],
+    dirt: f32,
+    /// Share of light lost where paint is seen along.
+    flakes: f32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Sheet,
+    Glass,
+    Other,
+}
+
+impl Coach {
+    /// The look of a region of a vehicle; `night` is 1 when lamps are lit.
+    pub(super) fn new(person: &Person, region: Region, night: f32, view: &View) -> Self {
+        let [r, g, b] = person.colours[region as usize];
+        let colour = Vec3::new(r, g, b);
+        let (mirror, glow, kind) = match region {
+            Region::Paint => (1.0, 0.0, Kind::Sheet),
+            Region::Cargo => (0.5, 0.0, Kind::Other),
+            Region::Glass => (1.7, 0.0, Kind::Glass),
+            Region::Metal => (4.0, 0.0, Kind::Other),
+            Region::HeadLamp => (1.6, 2.4, Kind::Other),
+            Region::TailLamp => (1.0, 1.1, Kind::Other),
+            Region::Trim => (0.3, 0.0, Kind::Other),
+            _ => (0.0, 0.0, Kind::Other),
+        };
+        let fittings = &person.fittings;
+        let size_m = fittings.size_m;
+        let side = person.side_in_world;
+        let along_m = |x: f64| (x * size_m.x) as f32;
+        Self {
+            colour,
+            mirror,
+            emission: colour * (glow * night),
+            kind,
+            eye: view.position,
+            pixel: view.pixel(),
+            feet: person.walker.state.feet_in_world.into(),
+            along: Vec3::new(side.y, -side.x, 0.0),
+            side,
+            half_width_m: (0.5 * size_m.y) as f32,
+            height_m: size_m.z as f32,
+            doors: fittings.doors.map(along_m),
+            door_heights: fittings.door_heights.map(|z| (z * size_m.z) as f32),
+            bonnet: fittings.bonnet.map(along_m),
+            boot: fittings.boot.map(along_m),
+            gutter_m: (fittings.gutter * size_m.y) as f32,
+            bumper_m: (fittings.bumper * size_m.z) as f32,
+            half_length_m: (0.5 * size_m.x) as f32,
+            seats: fittings.seats.map(along_m),
+            dirt: fittings.dirt as f32,
+            flakes: if fittings.flakes { 0.45 } else { 0.0 },
+        }
+    }
+
+    /// A place in the vehicle's own axes, metres.
+    #[inline(always)]
+    fn own(&self, world: Vec3) -> Vec3 {
+        let away = world - self.feet;
+        Vec3::new(away.dot(self.along), away.dot(self.side), away.z)
+    }
+
+    /// Share of a pixel that gaps of doors and lids, gutters and handles take; `upward` is 1 on top and 0 on the sides.
+    #[inline(always)]
+    fn gaps(&self, own: Vec3, upward: f32, footprint_m: f32) -> f32 {
+        let reach = HALF_GAP_M + 0.5 * footprint_m;
+        let most_of_it = 2.0 * HALF_GAP_M / reach;
+        let line = |away_m: f32| share(1.0 - away_m.abs() / (2.0 * reach)) * most_of_it;
+        let within = |value: f32, [low, high]: [f32; 2]| share((value - low) / reach) * share((high - value) / reach);
+        let [first, second, third] = self.doors;
+        let upright = most(most(line(own.x - first), line(own.x - second)), line(own.x - third));
+        let doors = upright * within(own.z, self.door_heights);
+        let last = if third < first { third } else { second };
+        let below = line(own.z - self.door_heights[0]) * within(own.x, [last, first]);
+        let behind = most(within(own.x, [second + 0.05, second + 0.22]), within(own.x, [third + 0.05, third + 0.22]));
+        let grip_m = self.door_heights[1] - 0.10;
+        let handles = behind * within(own.z, [grip_m - 0.018, grip_m + 0.018]);
+        let ends = line(own.z - self.bumper_m) * share((own.x.abs() - 0.86 * self.half_length_m) / reach);
+        let aside = most(most(doors, below), most(handles, ends));
+        let (edge_m, across) = (0.70 * self.half_width_m, own.y.abs());
+        let lid = |[back, front]: [f32; 2], end: f32| {
+            most(
+                line(across - edge_m) * within(own.x, [back, front]),
+                line(own.x - end) * share((edge_m - across) / reach),
+            )
+        };
+        let lids = most(lid(self.bonnet, self.bonnet[1]), lid(self.boot, self.boot[0]));
+        let gutters = line(across - self.gutter_m) * share((own.z - 0.88 * self.height_m) / reach);
+        aside * (1.0 - upward) + most(lids, gutters) * upward
+    }
+
+    /// Light sent back from seats behind glass: where a ray meets their upper ends.
+    #[inline(always)]
+    fn seats(&self, own: Vec3, ray: Vec3) -> f32 {
+        let top_m = 0.56 * self.height_m;
+        let fall = most(-ray.z, 0.12);
+        let step = least(most(own.z - top_m, 0.0) / fall, 1.6);
+        let (x, y) = (own.x + ray.dot(self.along) * step, own.y + ray.dot(self.side) * step);
+        let row = |at: f32| share(1.0 - ((x - at).abs() - 0.10) * 9.0);
+        let across = y.abs() / self.half_width_m;
+        let place = share((across - 0.10) * 12.0) * share((0.74 - across) * 12.0);
+        let seat = most(row(self.seats[0]), row(self.seats[1])) * place;
+        let board = share((x - self.doors[0] + 0.35) * 6.0);
+        0.018 + 0.085 * seat + 0.030 * board
+    }
+}
+
+simd_kernel! {
+    /// Shades a region.
+    pub(super) fn coach(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTexture) {
+        let look = *look;
+        match look.kind {
+            Kind::Sheet => sheet(shared, blocks, &look, noise),
+            Kind::Glass => glass(shared, blocks, &look),
+            Kind::Other => even(blocks, &look),
+        }
+    }
+}
+
+#[inline(always)]
+fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTexture) {
+    for (shared, four) in groups(shared, blocks) {
+        let (mut flakes, mut footprint_m) = ([0.0; WIDE], [0.0; WIDE]);
+        for k in 0..WIDE {
+            let facing = share(-get(&shared.ray, k).unit().dot(get(&shared.normal, k)));
+            flakes[k] = 1.0 + look.flakes * (facing - 0.7);
+            let way = get(&shared.middle, k) - look.eye;
+            footprint_m[k] = look.pixel * way.dot(way).sqrt() / (0.4 + 0.6 * facing);
+        }
+        for block in four {
+            for k in 0..WIDE {
+                let point = block.point(shared, k);
+                let own = look.own(point.world);
+                let upward = share((point.normal.z - 0.35) * 3.0);
+                let gap = look.gaps(own, upward, footprint_m[k]);
+                // The road takes light from what is low, and gives dust to it.
+                let low = share(1.0 - own.z * 1.25);
+                let low2 = low * low;
+                let specks = noise.clumps(own.x * 40.0, (own.z + own.y) * 40.0, footprint_m[k] * 40.0);
+                let dust = look.dirt * (0.75 * low2 + 0.10) * (0.4 + 1.2 * specks);
+                let aside = 1.0 - upward;
+                let shade = (1.0 - 0.8 * gap) * (1.0 - aside * (0.16 + 0.50 * low2)) * flakes[k];
+                set(&mut block.albedo, k, look.colour.lerp(DUST, share(dust)) * shade);
+                set(&mut block.emission, k, look.emission);
+                block.mirror[k] = look.mirror * (1.0 - gap) * (1.0 - 0.7 * share(dust));
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn glass(shared: &[Shared], blocks: &mut [Block], look: &Coach) {
+    for (shared, four) in groups(shared, blocks) {
+        for block in four {
+            for k in 0..WIDE {
+                let own = look.own(get(&block.world, k));
+                let ray = get(&shared.ray, k).unit();
+                let inside = look.seats(own, ray) * BEHIND_GLASS;
+                set(&mut block.albedo, k, look.colour * 0.3 + Vec3::splat(inside));
+                set(&mut block.emission, k, look.emission);
+                block.mirror[k] = look.mirror;
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn even(blocks: &mut [Block], look: &Coach) {
+    for block in blocks.iter_mut() {
+        for k in 0..WIDE {
+            set(&mut block.albedo, k, look.colour);
+            set(&mut block.emission, k, look.emission);
+        }
+        block.mirror = [look.mirror; WIDE];
+    }
+}
