@@ -3,7 +3,7 @@
 mod small_town;
 
 use cosfly_domain::channels::normals;
-use cosfly_domain::{Camera, ChannelSet, FrameImages, Lens, MotionBlur, Noise, RollingShutter, SemanticLabel, Weather};
+use cosfly_domain::{Camera, ChannelSet, FrameImages, Lens, MotionBlur, RollingShutter, SemanticLabel, Weather};
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_render::{Effects, FrameSetup, Moment, Renderer, Scene, Shot};
 
@@ -78,7 +78,7 @@ fn lens_and_rolling_shutter_carry_the_channels_along() {
         pose.position_in_world.x += 5.0 * offset_s;
         Moment { pose, target: None }
     };
-    let mut effects = Effects::new(CAMERA, lens, MotionBlur::default(), rolling, Noise::default());
+    let mut effects = Effects::new(CAMERA, lens, MotionBlur::default(), rolling);
     let mut renderer = Renderer::new(effects.ideal_camera());
     renderer.set_channels(&ChannelSet::of(|_| true));
     for noise_seed in [Seed([1; 32]), Seed([2; 32])] {

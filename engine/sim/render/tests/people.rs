@@ -3,8 +3,8 @@
 mod small_town;
 
 use cosfly_domain::{
-    BodyKind, BodyView, Camera, FrameImages, Lens, MotionBlur, Noise, PixelBox, RollingShutter, SemanticLabel,
-    SurfaceMesh, TARGET_INSTANCE, TargetView, Weather,
+    BodyKind, BodyView, Camera, FrameImages, Lens, MotionBlur, PixelBox, RollingShutter, SemanticLabel, SurfaceMesh,
+    TARGET_INSTANCE, TargetView, Weather,
 };
 use cosfly_figures::{BodyShape, Bystander, Clothes, Walker, walker_triangles};
 use cosfly_frames::simd::Level;
@@ -343,7 +343,7 @@ fn through_a_lens_and_blurred_people_move_and_keep_their_ids() {
     };
     let blur = MotionBlur { shutter_s: 0.1, samples: 5 };
     let film = |lens: Lens, blur: MotionBlur, speed_mps: f64| {
-        let mut effects = Effects::new(CAMERA, lens, blur, RollingShutter::default(), Noise::default());
+        let mut effects = Effects::new(CAMERA, lens, blur, RollingShutter::default());
         let mut renderer = Renderer::new(effects.ideal_camera());
         let weather = noon();
         let shot = Shot { weather: &weather, moment: &moment, others: &others(speed_mps), noise_seed: Seed([1; 32]) };
