@@ -60,7 +60,7 @@ pub(crate) struct People {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Built {
     ForPicture,
-    /// Of vehicles alone: their triangles tell how light falls on them, and shadows of people are drawn from the parts of their figures.
+    /// Of vehicles alone, as light falls on their triangles; shadows of people are drawn from the parts of figures.
     OfVehicles,
     Never,
 }

@@ -1,4 +1,4 @@
-//! Lorries: a cab and a box, a tipping body or a tank. Outlines are shares of length (forward of the middle) and height.
+//! Lorries: a cab and a box, a tipping body or a tank. Outlines are shares of length (ahead of the middle) and height.
 
 use super::cars::{mirrors, shell};
 use super::coaches::{axles, lamps};

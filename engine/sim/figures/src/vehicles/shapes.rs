@@ -1,4 +1,4 @@
-//! Shapes of cars and vans: one row each. Lengths are shares of the box: x of its length forward of the middle, z of its height.
+//! Shapes of cars and vans, a row each: x is a share of the length ahead of the middle, z a share of the height.
 
 use crate::region::Region;
 use Region::{Glass as G, HeadLamp as H, Paint as P, TailLamp as R, Trim as T};
@@ -130,7 +130,7 @@ pub(super) const CARS: [Shape; 8] = [
         tumble: 0.78,
         drop: 0.075,
         narrow: 0.23,
-        axles: [-0.282, 0.318],
+        axles: [-0.282, 0.317],
         wheel: 0.215,
         cladding: false,
         rails: true,
@@ -151,7 +151,7 @@ pub(super) const CARS: [Shape; 8] = [
     // An off-road car.
     Shape {
         share: 0.36,
-        lengths_m: [4.0, 9.0],
+        lengths_m: [3.9, 9.0],
         heights_m: [1.53, 9.0],
         foot: 0.155,
         tumble: 0.81,
@@ -285,7 +285,7 @@ pub(super) const VANS: [Shape; 3] = [
         tumble: 0.90,
         drop: 0.05,
         narrow: 0.12,
-        axles: [-0.30, 0.318],
+        axles: [-0.30, 0.317],
         wheel: 0.152,
         cladding: true,
         rails: false,
@@ -300,7 +300,7 @@ pub(super) const VANS: [Shape; 3] = [
         tumble: 0.89,
         drop: 0.055,
         narrow: 0.13,
-        axles: [-0.30, 0.318],
+        axles: [-0.30, 0.317],
         wheel: 0.152,
         cladding: false,
         rails: false,

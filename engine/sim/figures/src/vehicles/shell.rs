@@ -1,4 +1,4 @@
-//! The sheet and glass of a vehicle: a grid of points from sill to roof and from tail to nose, mirrored, with smooth normals.
+//! Sheet and glass of a vehicle: a grid of points from sill to roof and tail to nose, mirrored, with smooth normals.
 
 use super::model::Model;
 use crate::region::Region;
@@ -43,8 +43,10 @@ impl Shell {
                         let flat = (corners[k] - corners[i]).cross(corners[j] - corners[i]) * side;
                         if flat.length_squared() > 1e-12 {
                             let corners = [corners[i], corners[j], corners[k]];
-                            let normals = [smooth[i], smooth[j], smooth[k]];
-                            model.triangle(self.regions[along][up], corners, flat.normalize(), normals);
+                            let flat = flat.normalize();
+                            // Where sheet is warped, a triangle is flat.
+                            let bent = |n: usize| if smooth[n].dot(flat) > 0.4 { smooth[n] } else { flat };
+                            model.triangle(self.regions[along][up], corners, flat, [i, j, k].map(bent));
                         }
                     }
                 }
