@@ -19,14 +19,9 @@ from PIL import Image
 
 LEAST_PX, LEAST_SIDE_PX, HEIGHTS = 12, 64, 5
 OVERLAP, SCORE = 0.4, 0.3
-# COCO's classes that are right for a kind of body, counted from 0.
-ROAD = {2, 5, 7}
-RIGHT = {"pedestrian": {0}, "car": ROAD, "van": ROAD, "truck": ROAD, "bus": ROAD, "motorcycle": {1, 3}, "bicycle": {1, 3}}
-COCO = """person,bicycle,car,motorcycle,airplane,bus,train,truck,boat,traffic light,fire hydrant,stop sign,parking meter,bench,bird,cat,
-dog,horse,sheep,cow,elephant,bear,zebra,giraffe,backpack,umbrella,handbag,tie,suitcase,frisbee,skis,snowboard,sports ball,kite,
-baseball bat,baseball glove,skateboard,surfboard,tennis racket,bottle,wine glass,cup,fork,knife,spoon,bowl,banana,apple,sandwich,orange,
-broccoli,carrot,hot dog,pizza,donut,cake,chair,couch,potted plant,bed,dining table,toilet,tv,laptop,mouse,remote,keyboard,cell phone,
-microwave,oven,toaster,sink,refrigerator,book,clock,vase,scissors,teddy bear,hair drier,toothbrush""".replace("\n", "").split(",")
+# COCO's classes that are right for a kind of body.
+ROAD, CYCLES = {"car", "bus", "truck"}, {"bicycle", "motorcycle"}
+RIGHT = {"pedestrian": {"person"}, "car": ROAD, "van": ROAD, "truck": ROAD, "bus": ROAD, "motorcycle": CYCLES, "bicycle": CYCLES}
 
 
 @dataclass
@@ -45,13 +40,13 @@ class Crop:
 
     def score(self, network):
         """Score of the best box of a right class that overlaps the target's; 0 without one."""
-        right = [row[4] for row in self.answer[network] if int(row[5]) in RIGHT[self.kind] and overlap(row, self.box) > OVERLAP]
+        right = [row[4] for row in self.answer[network] if row[5] in RIGHT[self.kind] and overlap(row, self.box) > OVERLAP]
         return max(right, default=0.0)
 
     def named(self):
         """Class of CenterNet's best box over the target, whatever its score."""
         over = [row for row in self.answer["centernet"] if overlap(row, self.box) > OVERLAP]
-        return COCO[int(max(over, key=lambda row: row[4])[5])] if over else "nothing"
+        return max(over, key=lambda row: row[4])[5] if over else "nothing"
 
     def reduced(self, factor):
         """The same crop from a picture reduced by a whole factor, by the mean of areas."""
@@ -84,38 +79,40 @@ def rows_of(dataset, table):
 
 def size_of(height_px):
     """Name of the bin of a target's height."""
-    for top in (20, 40, 75, 130):
-        if height_px < top:
-            return f"below {top} px"
-    return "130 px and more"
+    edges = (LEAST_PX, 30, 60, 120, 240)
+    low = max(edge for edge in edges if edge <= height_px)
+    return f"from {low:03} px"
 
 
-def crops_of_dataset(dataset, visible, per_flight, by_camera, where):
-    """Crops of the targets of a dataset, at most `per_flight` of a film, evenly over it, and the first picture of each."""
-    frames = {}
-    for row in rows_of(dataset, "frames"):
+def evenly(rows, most):
+    """At most so many of the rows, evenly over them."""
+    return [rows[index] for index in np.unique(np.linspace(0, len(rows) - 1, min(most, len(rows))).round().astype(int))]
+
+
+def is_seen(row, film, visible):
+    """Whether a frame shows that share of the target, large enough and away from the picture's edge."""
+    left, top, right, bottom = row["visible_box_px"] or (0, 0, 0, 0)
+    edge = min(left, top, film["camera_width_px"] - right, film["camera_height_px"] - bottom)
+    return row["visible_by_pixels"] >= visible and bottom - top >= LEAST_PX and edge > 3
+
+
+def crops_of_dataset(dataset, visible, per_film, by_camera, where):
+    """Crops of the targets of a dataset, at most `per_film` of a flight and camera, and the first picture of each."""
+    frames, crops, kept = {}, [], {}
+    for row in sorted(rows_of(dataset, "frames"), key=lambda row: row["frame"]):
         frames.setdefault(row["trajectory_id"], []).append(row)
-    crops, kept = [], {}
     for film in sorted(rows_of(dataset, "trajectories"), key=lambda row: row["trajectory_id"]):
-        within = (3, 3, film["camera_width_px"] - 3, film["camera_height_px"] - 3)
-        good = []
-        for row in sorted(frames[film["trajectory_id"]], key=lambda row: row["frame"]):
-            box = row["visible_box_px"]
-            if box is None or row["visible_by_pixels"] < visible or box[3] - box[1] < LEAST_PX:
-                continue
-            if min(box[0] - within[0], box[1] - within[1], within[2] - box[2], within[3] - box[3]) > 0:
-                good.append(row)
-        chosen = {good[index]["frame"]: good[index] for index in np.linspace(0, len(good) - 1, min(per_flight, len(good))).round().astype(int)}
+        seen = [row for row in frames[film["trajectory_id"]] if is_seen(row, film, visible)]
+        chosen = {row["frame"]: row for row in evenly(seen, per_film)}
         for number, picture in pictures_of_log(Path(dataset) / film["mcap_path"], chosen):
             row = chosen[number]
-            found = cut(picture, row["visible_box_px"])
+            found, high = cut(picture, row["visible_box_px"]), row["visible_box_px"][3] - row["visible_box_px"][1]
             if found is None:
                 continue
-            high = row["visible_box_px"][3] - row["visible_box_px"][1]
             size = film["camera_name"] if by_camera else size_of(high)
-            pitch = "steep" if row["camera_pitch_deg"] < -60 else "middle" if row["camera_pitch_deg"] < -45 else "flat"
+            pitch = "below -60" if row["camera_pitch_deg"] < -60 else "-60 to -45" if row["camera_pitch_deg"] < -45 else "above -45"
             name = (where, film["trajectory_id"], number)
-            groups = {"town": film["town"], "weather": film["weather_preset"], "pitch": pitch, "crowd": film["flight_id"].split("-")[0]}
+            groups = {"weather": film["weather_preset"], "crowd": film["flight_id"].split("-")[0], "pitch": pitch, "town": film["town"]}
             crops.append(Crop(size, film["target_kind"] or "pedestrian", f"{where} {film['flight_id']}", *found, high, name, groups))
             kept.setdefault(film["trajectory_id"], (name, picture))
     return crops, dict(kept.values())
@@ -133,16 +130,14 @@ def crops_of_frames(folder, boxes, kind, first, count):
     """Crops of real frames, `count` evenly over the sequence: line i of `boxes` (left,top,width,height) belongs to the picture `first + i`
     of the sorted folder. Ten stretches of the sequence count as flights."""
     pictures = sorted(path for path in Path(folder).iterdir() if path.suffix.lower() in (".jpg", ".jpeg", ".png"))
-    lines = Path(boxes).read_text().replace("\t", ",").split()
+    lines = [[float(part) for part in line.split(",")] for line in Path(boxes).read_text().replace("\t", ",").split()]
+    good = [index for index, line in enumerate(lines) if line[3] >= LEAST_PX and index + first < len(pictures)]
     crops, kept = [], {}
-    for index in np.unique(np.linspace(0, len(lines) - 1, min(count, len(lines))).round().astype(int)):
-        left, top, wide, high = (float(part) for part in lines[index].split(","))
-        if not high >= LEAST_PX or index + first >= len(pictures):
-            continue
-        picture = Image.open(pictures[index + first]).convert("RGB")
+    for index in evenly(good, count):
+        left, top, wide, high = lines[index]
+        name, picture = (str(folder), kind, index), Image.open(pictures[index + first]).convert("RGB")
         found = cut(picture, (left, top, left + wide, top + high))
         if found is not None:
-            name = (str(folder), kind, int(index))
             crops.append(Crop("as filmed", kind, f"stretch {10 * index // len(lines)}", *found, high, name))
             kept[name] = picture
     return crops, kept
@@ -195,11 +190,9 @@ def slopes(picture):
 
 
 def measures_of(pictures, most):
-    """BRISQUE and slopes of at most so many pictures, evenly chosen."""
-    names = sorted(pictures)
-    chosen = [names[index] for index in np.unique(np.linspace(0, len(names) - 1, min(most, len(names))).round().astype(int))]
+    """BRISQUE and slopes of at most so many pictures, rows of numbers."""
     natural = BRISQUE(url=False)
-    return {name: (float(natural.score(np.asarray(pictures[name]))), *slopes(pictures[name])) for name in chosen}
+    return np.array([(natural.score(np.asarray(pictures[name])), *slopes(pictures[name])) for name in evenly(sorted(pictures), most)])
 
 
 def frechet(a, real):

@@ -4,8 +4,8 @@
 //
 // NODE_MODULES has the packages that judge_pictures.py installs. Standard input: one square after the other, each the 512 x 512 x 3
 // bytes of CenterNet's input, then the 416 x 416 x 3 bytes of NanoDet's, rows of red, green, blue. Standard output: a line of JSON for
-// each: `centernet` and `nanodet`, lists of [left, top, right, bottom, score, class] with sides as shares of the square and COCO's
-// classes from 0; `features`, the mean of CenterNet's backbone over the square, 112 numbers.
+// each: `centernet` and `nanodet`, lists of [left, top, right, bottom, score, class] with edges as shares of the square and COCO's names
+// of classes; `features`, the mean of CenterNet's backbone over the square, 88 numbers.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
@@ -16,6 +16,11 @@ const tf = require("@tensorflow/tfjs-core");
 const { loadGraphModel } = require("@tensorflow/tfjs-converter");
 const wasm = require("@tensorflow/tfjs-backend-wasm");
 
+const COCO = `person,bicycle,car,motorcycle,airplane,bus,train,truck,boat,traffic light,fire hydrant,stop sign,parking meter,bench,bird,cat,dog,
+horse,sheep,cow,elephant,bear,zebra,giraffe,backpack,umbrella,handbag,tie,suitcase,frisbee,skis,snowboard,sports ball,kite,baseball bat,
+baseball glove,skateboard,surfboard,tennis racket,bottle,wine glass,cup,fork,knife,spoon,bowl,banana,apple,sandwich,orange,broccoli,carrot,
+hot dog,pizza,donut,cake,chair,couch,potted plant,bed,dining table,toilet,tv,laptop,mouse,remote,keyboard,cell phone,microwave,oven,toaster,
+sink,refrigerator,book,clock,vase,scissors,teddy bear,hair drier,toothbrush`.replaceAll("\n", "").split(",");
 const CENTERNET = { side: 512, boxes: "tower_0/detections", features: "tower_0/MobilenetV3/expanded_conv_11/project/BatchNorm/FusedBatchNorm" };
 const NANODET = { side: 416, strides: [8, 16, 32], bins: 11, classes: 80, least: 0.05 };
 
@@ -38,7 +43,7 @@ function centernet(model, bytes) {
     const input = tf.tensor(Float32Array.from(bytes), [1, side, side, 3]);
     const [found, features] = model.execute(input, [CENTERNET.boxes, CENTERNET.features]);
     const rows = tf.reshape(found, [-1, 6]).arraySync().filter((row) => row[4] > 0.01);
-    return [rows.map(([x0, y0, x1, y1, score, kind]) => [x0 / side, y0 / side, x1 / side, y1 / side, score, kind]), tf.mean(features, [0, 1, 2]).arraySync()];
+    return [rows.map(([x0, y0, x1, y1, score, kind]) => [x0 / side, y0 / side, x1 / side, y1 / side, score, COCO[kind]]), tf.mean(features, [0, 1, 2]).arraySync()];
   });
 }
 
@@ -58,7 +63,7 @@ function nanodet(model, bytes) {
         const cell = Math.floor(index / classes);
         const [left, top, right, bottom] = [0, 1, 2, 3].map((edge) => (stride / side) * expectation(distances, (4 * cell + edge) * bins, bins));
         const [x, y] = [((cell % cells) + 0.5) / cells, (Math.floor(cell / cells) + 0.5) / cells];
-        found.push([x - left, y - top, x + right, y + bottom, scores[index], index % classes]);
+        found.push([x - left, y - top, x + right, y + bottom, scores[index], COCO[index % classes]]);
       }
       return found;
     });

@@ -19,7 +19,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from judge_crops import RIGHT, SCORE, Networks, crops_of_dataset, crops_of_frames, frechet, measures_of
+from judge_crops import RIGHT, SCORE, Networks, crops_of_dataset, crops_of_frames, evenly, frechet, measures_of
 from PIL import Image, ImageDraw
 
 HOUSE = Path(__file__).resolve().parents[2]
@@ -31,45 +31,42 @@ NETWORKS = {"centernet": "CenterNet", "nanodet": "NanoDet"}
 KINDS = list(RIGHT)[1:]
 # Height in pixels of a person of 1.75 m at 28 m, 45 degrees down, for each pixel of focal length.
 PERSON = 1.75 * math.cos(math.radians(45)) / 28
-FRAMES, DT_S, VISIBLE = 6, 3.0, {"people": 0.9, "vehicles": 0.8}
+CLOCK, VISIBLE = "frames = 6\ndt_s = 3.0", {"people": 0.9, "vehicles": 0.8}
+MIX = "{ cars = 0.4, vans = 0.15, trucks = 0.12, buses = 0.08, motorcycles = 0.1, bicycles = 0.15 }"
+MOST_MEASURED = 24
 
 
 def recipe(what, town, options):
-    """Recipe of a run: half of the people walk alone, the others amid a crowd; vehicles of each kind drive amid people."""
+    """Recipe of a run and the names of its plans: half of the people walk alone, half amid others; vehicles drive amid people."""
     sizes = options.sizes if what == "people" else options.vehicle_sizes
-    cameras = {f"px{size:03}": math.degrees(2 * math.atan(640 * PERSON / size)) for size in sizes}
-    filmed = ", ".join(f"{name} = {{ fov_deg = {degrees:.3f} }}" for name, degrees in cameras.items())
-    half = options.flights // 2
-    stages, films = [f'town]\nuse = "map"\nsource = "{town}"'], {}
-    clock = f"frames = {FRAMES}\ndt_s = {DT_S}"
-    if what == "people":
-        stages.append(f'walkers]\nuse = "pedestrians"\ninputs.town = "town"\ncount = {half}\n{clock}')
-        films["alone"] = ("walkers", "")
-        count, kinds, most = options.flights - half, '"pedestrian"', ""
-    else:
-        count, kinds = options.flights, ", ".join(f'"{kind}"' for kind in KINDS)
-        most = "vehicles.mix = { cars = 0.4, vans = 0.15, trucks = 0.12, buses = 0.08, motorcycles = 0.1, bicycles = 0.15 }\n"
-    stages.append(f'street]\nuse = "traffic"\ninputs.town = "town"\n{clock}\npeople.count = 250\nvehicles.count = 60\n{most}'
-                  f"follow = {{ count = {count}, kinds = [{kinds}] }}")
-    films["amid"] = ("street", 'others = "street"')
-    for name, (walks, others) in films.items():
+    degrees = {f"px{size:03}": math.degrees(2 * math.atan(640 * PERSON / size)) for size in sizes}
+    cameras = ", ".join(f"{name} = {{ fov_deg = {value:.3f} }}" for name, value in degrees.items())
+    alone = options.flights // 2 if what == "people" else 0
+    kinds, mix = (["pedestrian"], "") if what == "people" else (KINDS, f"vehicles.mix = {MIX}\n")
+    stages = [f'town]\nuse = "map"\nsource = "{town}"',
+              f'street]\nuse = "traffic"\ninputs.town = "town"\n{CLOCK}\npeople.count = 250\nvehicles.count = 60\n{mix}'
+              f"follow = {{ count = {options.flights - alone}, kinds = {json.dumps(kinds)} }}"]
+    plans = {"amid": ("street", ', others = "street"')}
+    if alone:
+        stages.append(f'walkers]\nuse = "pedestrians"\ninputs.town = "town"\ncount = {alone}\n{CLOCK}')
+        plans["alone"] = ("walkers", "")
+    for name, (walks, others) in plans.items():
         stages.append(f'{name}]\nuse = "plan"\ninputs = {{ town = "town", walks = "{walks}" }}\naim.framing_deg = 3.0')
-        inputs = ", ".join(filter(None, ['town = "town"', f'trajectories = "{name}"', others]))
-        stages.append(f'pictures_{name}]\nuse = "render"\ninputs = {{ {inputs} }}\nweathers = {json.dumps(options.weathers)}\n'
-                      f"encoding.previews = false\ncameras = {{ {filmed} }}")
-    pictures = json.dumps([f"pictures_{name}" for name in films])
-    stages.append(f'dataset]\nuse = "dataset"\ninputs = {{ town = "town", frames = {pictures} }}\nname = "judge"')
-    return f'name = "judge"\nseed = {options.seed}\n' + "".join(f"\n[stages.{stage}\n" for stage in stages), list(films)
+        stages.append(f'pictures_{name}]\nuse = "render"\ninputs = {{ town = "town", trajectories = "{name}"{others} }}\n'
+                      f"weathers = {json.dumps(options.weathers)}\nencoding.previews = false\ncameras = {{ {cameras} }}")
+    frames = json.dumps([f"pictures_{name}" for name in plans])
+    stages.append(f'dataset]\nuse = "dataset"\ninputs = {{ town = "town", frames = {frames} }}\nname = "judge"')
+    return f'name = "judge"\nseed = {options.seed}\n' + "".join(f"\n[stages.{stage}\n" for stage in stages), list(plans)
 
 
 def dataset_of(what, town, options):
-    text, films = recipe(what, (options.base / town).resolve(), options)
-    name = f"{what}-{Path(town).name.split('.')[0]}"
+    text, plans = recipe(what, town, options)
+    name = f"{what}-{town.stem}"
     path, out = options.work / f"{name}.toml", options.work / "datasets" / name
     path.write_text(text)
     command = [options.cosfly, "run", path, "--out", out, "--store", options.work / "store", "--quiet"]
     for key, value in (pair.split("=", 1) for pair in options.set):
-        keys = [key] if key.startswith("stages.") else [f"stages.pictures_{film}.{key}" for film in films]
+        keys = [key] if key.startswith("stages.") else [f"stages.pictures_{plan}.{key}" for plan in plans]
         command += [part for key in keys for part in ("--set", f"{key}={value}")]
     shutil.rmtree(out, ignore_errors=True)
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
@@ -87,7 +84,7 @@ def sets_of(options):
         crops, pictures = [], {}
         for town in options.towns:
             dataset = dataset_of(what, town, options)
-            found = crops_of_dataset(dataset, VISIBLE[what], options.crops_per_film, what == "people", f"{what} {Path(town).name}")
+            found = crops_of_dataset(dataset, VISIBLE[what], options.crops_per_film, what == "people", f"{what} {town.name}")
             crops += found[0]
             pictures |= found[1]
             shutil.rmtree(dataset)
@@ -109,9 +106,13 @@ def interval(values, flights, rng, statistic=np.mean, resamples=1000):
     return float(statistic(values)), *(float(edge) for edge in np.percentile(drawn, [2.5, 97.5]))
 
 
+def height_of(crops):
+    return float(np.median([crop.height_px for crop in crops]))
+
+
 def row_of(crops, rng):
     """Numbers of a row of the table."""
-    row = {"crops": len(crops), "flights": len({crop.flight for crop in crops}), "px": float(np.median([crop.height_px for crop in crops]))}
+    row = {"crops": len(crops), "flights": len({crop.flight for crop in crops}), "px": height_of(crops)}
     for network in NETWORKS:
         if network == "nanodet" and any(crop.kind != "pedestrian" for crop in crops):
             continue
@@ -151,32 +152,29 @@ def print_rows(rows):
         print(f"| {name} | {row['crops']} ({row['flights']}) | {row['px']:.0f} | {said(row, 'centernet')} | {said(row, 'nanodet')} | {named} |")
 
 
-def naturalness(name, crops, pictures, options):
+def naturalness(name, crops, pictures):
     """BRISQUE and slopes of whole pictures, by camera."""
     rows, sizes = {}, {crop.picture: crop.size for crop in crops if "/" not in crop.size}
-    for size in sorted(set(sizes.values())):
-        found = measures_of({key: picture for key, picture in pictures.items() if sizes.get(key) == size}, options.most_pictures)
-        if found:
-            numbers = np.array(list(found.values()))
-            rows[f"{name}, {size}"] = [len(found), *np.percentile(numbers[:, 0], [25, 50, 75]), *np.median(numbers[:, 1:], axis=0)]
+    for size in sorted({sizes[key] for key in pictures}):
+        numbers = measures_of({key: picture for key, picture in pictures.items() if sizes[key] == size}, MOST_MEASURED)
+        rows[f"{name}, {size}"] = [len(numbers), *np.percentile(numbers[:, 0], [25, 50, 75]), *np.median(numbers[:, 1:], axis=0)]
     return rows
 
 
 def distances(sets):
-    """Frechet distance of the squares of people to the real ones of about the same height; of a half of those to the other half."""
-    real = {name: crops for name, (crops, _) in sets.items() if name.startswith("real") and crops[0].kind == "pedestrian"}
+    """Frechet distance of squares of people to real ones of about the same height, beside that of one half of those to the other."""
+    sizes = {}
+    for name, (crops, _) in sets.items():
+        for crop in crops:
+            if crop.kind == "pedestrian":
+                sizes.setdefault((name.startswith("real"), f"{name}, {crop.size}"), []).append(crop)
     rows = {}
-    for real_name, theirs in real.items():
-        for size in sorted({crop.size for crop in theirs}):
-            same = [crop for crop in theirs if crop.size == size]
-            features = [crop.answer["features"] for crop in same]
-            half, high = len(features) // 2, np.median([crop.height_px for crop in same])
-            rows[f"{real_name}, {size}: its second half to its first"] = (half, frechet(features[half:], features[:half]))
-            for name, (crops, _) in sets.items():
-                for ours in sorted({crop.size for crop in crops}) if name not in real else []:
-                    near = [crop for crop in crops if crop.size == ours and crop.kind == "pedestrian"]
-                    if near and abs(math.log(np.median([crop.height_px for crop in near]) / high)) < 0.35:
-                        rows[f"{name}, {ours}: to {real_name}, {size}"] = (len(near), frechet([crop.answer["features"] for crop in near], features))
+    for (_, name), theirs in filter(lambda entry: entry[0][0], sizes.items()):
+        features, half = [crop.answer["features"] for crop in theirs], len(theirs) // 2
+        rows[f"{name}: its second half to its first"] = (len(theirs) - half, frechet(features[half:], features[:half]))
+        for (is_real, other), ours in sizes.items():
+            if not is_real and abs(math.log(height_of(ours) / height_of(theirs))) < 0.25:
+                rows[f"{other}: to {name}"] = (len(ours), frechet([crop.answer["features"] for crop in ours], features))
     return rows
 
 
@@ -185,7 +183,7 @@ def sheets(name, crops, folder):
     folder.mkdir(parents=True, exist_ok=True)
     for kind, size in sorted({(crop.kind, crop.size) for crop in crops}):
         same = [crop for crop in crops if (crop.kind, crop.size) == (kind, size)]
-        shown = [same[index] for index in np.unique(np.linspace(0, len(same) - 1, min(48, len(same))).astype(int))]
+        shown = evenly(same, 48)
         sheet = Image.new("RGB", (8 * 184, math.ceil(len(shown) / 8) * 200), "white")
         for place, crop in enumerate(shown):
             x, y = place % 8 * 184, place // 8 * 200
@@ -211,33 +209,32 @@ def install(folder):
 
 def options_of():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cosfly", default="cosfly", help="the program [default: cosfly]")
-    parser.add_argument("--only", choices=["people", "vehicles", "real"], help="judge these alone")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
-                        help="a key of the stage `render`, such as optics.point_spread_px=0.4, or of the recipe, stages.NAME.KEY (repeatable)")
-    parser.add_argument("--label", default="ours", help="name of our rows")
-    parser.add_argument("--flights", type=int, default=12, help="flights a town, people and vehicles each [default: 12]")
-    parser.add_argument("--crops-per-film", type=int, default=3, help="most crops of a flight and camera [default: 3]")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--towns", nargs="+", default=[], help="map files in the place of the three of cosfly")
-    parser.add_argument("--weathers", nargs="+", default=WEATHERS)
-    parser.add_argument("--sizes", nargs="+", type=int, default=[30, 60, 90], help="heights of people, pixels, one camera each")
-    parser.add_argument("--vehicle-sizes", nargs="+", type=int, default=[30, 90], help="cameras for vehicles, by the height of people in them")
-    parser.add_argument("--boxes-of", type=Path, metavar="DATASET", help="judge the targets of this dataset; makes no pictures")
-    parser.add_argument("--real", nargs="+", action="append", default=[], metavar="FOLDER BOXES [KIND [FIRST]]",
-                        help="real frames, a file of lines left,top,width,height, the target's kind, the number of the first line's picture")
-    parser.add_argument("--real-crops", type=int, default=200, help="most crops of each folder of real frames [default: 200]")
-    parser.add_argument("--most-pictures", type=int, default=40, help="pictures of a set and camera that are measured [default: 40]")
-    parser.add_argument("--work", type=Path, help="folder for networks, store and answers; kept [default: one that goes]")
-    parser.add_argument("--networks", type=Path, help="folder of the networks' packages [default: WORK/networks]")
-    parser.add_argument("--crops", type=Path, metavar="FOLDER", help="write sheets of the squares there, PNG")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the numbers there")
+    add = parser.add_argument
+    add("--cosfly", default="cosfly", help="the program [default: cosfly]")
+    add("--only", choices=["people", "vehicles", "real"], help="judge these alone")
+    add("--set", action="append", default=[], metavar="KEY=VALUE",
+        help="a key of the stage `render`, such as optics.point_spread_px=0.4, or of the recipe, stages.NAME.KEY (repeatable)")
+    add("--label", default="ours", help="name of our rows")
+    add("--flights", type=int, default=12, help="flights a town, of people and of vehicles [default: 12]")
+    add("--crops-per-film", type=int, default=3, help="most crops of a flight and camera [default: 3]")
+    add("--seed", type=int, default=1)
+    add("--towns", nargs="+", default=[], help="map files in the place of the three of cosfly")
+    add("--weathers", nargs="+", default=WEATHERS)
+    add("--sizes", nargs="+", type=int, default=[30, 60, 90], help="heights of people, pixels, one camera each")
+    add("--vehicle-sizes", nargs="+", type=int, default=[20, 45], help="cameras for vehicles, by the height of people in them")
+    add("--boxes-of", type=Path, metavar="DATASET", help="judge the targets of this dataset; makes no pictures")
+    add("--real", nargs="+", action="append", default=[], metavar="FOLDER BOXES [KIND [FIRST]]",
+        help="real frames, a file of lines left,top,width,height, the target's kind, the number of the first line's picture")
+    add("--real-crops", type=int, default=200, help="most crops of each folder of real frames [default: 200]")
+    add("--work", type=Path, help="folder for store and answers, kept [default: one that goes]")
+    add("--networks", type=Path, help="folder of the networks' packages [default: WORK/networks]")
+    add("--crops", type=Path, metavar="FOLDER", help="write sheets of the squares there, PNG")
+    add("--json", type=Path, metavar="FILE", help="write the numbers there")
     options = parser.parse_args()
     for pair in options.set:
         if "=" not in pair:
             parser.error(f"--set `{pair}` has no `=`; write KEY=VALUE, such as optics.point_spread_px=0.4")
-    options.base = Path.cwd() if options.towns else HOUSE
-    options.towns = options.towns or TOWNS
+    options.towns = [Path(town).resolve() for town in options.towns] or [HOUSE / town for town in TOWNS]
     return options
 
 
@@ -254,7 +251,7 @@ def judge(options):
         rows = tables_of(name, crops, rng)
         print_rows(rows)
         report["rows"] |= rows
-        report["pictures"] |= naturalness(name, crops, pictures, options)
+        report["pictures"] |= naturalness(name, crops, pictures)
         if options.crops:
             sheets(name, crops, options.crops)
     print("\n| pictures | number | BRISQUE, quartiles | slope: all | slope: high band |\n|---|---|---|---|---|")
