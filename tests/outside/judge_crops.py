@@ -130,7 +130,13 @@ def crops_of_frames(folder, boxes, kind, first, count):
     """Crops of real frames, `count` evenly over the sequence: line i of `boxes` (left,top,width,height) belongs to the picture `first + i`
     of the sorted folder. Ten stretches of the sequence count as flights."""
     pictures = sorted(path for path in Path(folder).iterdir() if path.suffix.lower() in (".jpg", ".jpeg", ".png"))
-    lines = [[float(part) for part in line.split(",")] for line in Path(boxes).read_text().replace("\t", ",").split()]
+    lines = []
+    for number, line in enumerate(Path(boxes).read_text().split(), 1):
+        try:
+            lines.append([float(part) for part in line.split(",")])
+            assert len(lines[-1]) == 4
+        except (ValueError, AssertionError):
+            raise SystemExit(f"judge_pictures: {boxes}:{number}: `{line}` is no box; write left,top,width,height in pixels") from None
     good = [index for index, line in enumerate(lines) if line[3] >= LEAST_PX and index + first < len(pictures)]
     crops, kept = [], {}
     for index in evenly(good, count):

