@@ -141,10 +141,11 @@ def crops_of_frames(folder, boxes, kind, first, count):
     crops, kept = [], {}
     for index in evenly(good, count):
         left, top, wide, high = lines[index]
-        name, picture = (str(folder), kind, index), Image.open(pictures[index + first]).convert("RGB")
-        found = cut(picture, (left, top, left + wide, top + high))
+        name, picture = (Path(boxes).stem, index), Image.open(pictures[index + first]).convert("RGB")
+        found, size = cut(picture, (left, top, left + wide, top + high)), "as filmed" if kind == "pedestrian" else size_of(high)
         if found is not None:
-            crops.append(Crop("as filmed", kind, f"stretch {10 * index // len(lines)}", *found, high, name))
+            flight = f"{name[0]} {10 * index // len(lines)}"
+            crops.append(Crop(size, kind, flight, *found, high, name, {"sequence": name[0]}))
             kept[name] = picture
     return crops, kept
 

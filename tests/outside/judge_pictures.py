@@ -95,7 +95,10 @@ def sets_of(options):
         kind, first = more[0] if more else "pedestrian", int(more[1]) if len(more) > 1 else 0
         if kind not in RIGHT:
             raise SystemExit(f"judge_pictures: `{kind}` is no kind; use one of {', '.join(RIGHT)}")
-        sets[f"real, {Path(folder).name}"] = crops_of_frames(folder, boxes, kind, first, options.real_crops)
+        crops, pictures = sets.setdefault("real, people" if kind == "pedestrian" else "real, vehicles", ([], {}))
+        found = crops_of_frames(folder, boxes, kind, first, options.real_crops)
+        crops += found[0]
+        pictures |= found[1]
     for crops, _ in sets.values():
         large = [crop for crop in crops if crop.size in ("px090", "as filmed") and crop.kind == "pedestrian"]
         crops += [crop.reduced(factor) for factor in (2, 3) for crop in large]
@@ -132,11 +135,11 @@ def tables_of(name, crops, rng):
     rows = {}
     for kind, size in sorted({(crop.kind, crop.size) for crop in crops}, key=lambda key: (list(RIGHT).index(key[0]), key[1])):
         rows[f"{name}: {kind}, {size}"] = row_of([crop for crop in crops if (crop.kind, crop.size) == (kind, size)], rng)
-    filmed = [crop for crop in crops if crop.groups and "/" not in crop.size]
+    filmed = [crop for crop in crops if "/" not in crop.size]
     kinds = sorted({crop.kind for crop in filmed}, key=list(RIGHT).index)
     for kind in kinds if len(kinds) > 1 else []:
         rows[f"{name}: {kind}, all sizes"] = row_of([crop for crop in filmed if crop.kind == kind], rng)
-    for group in ("weather", "crowd", "pitch", "town"):
+    for group in filmed[0].groups:
         for value in sorted({crop.groups[group] for crop in filmed}):
             rows[f"{name}: {group} {value}"] = row_of([crop for crop in filmed if crop.groups[group] == value], rng)
     return rows
