@@ -164,7 +164,7 @@ class Networks:
         squares = b"".join(crop.square.resize((side, side), Image.Resampling.BILINEAR).tobytes() for side in (512, 416))
         name = hashlib.blake2b(squares, digest_size=16).hexdigest()
         if name not in self.answers:
-            self.process.stdin.write(squares)
+            self.process.stdin.write(bytes([crop.kind == "pedestrian"]) + squares)
             self.process.stdin.flush()
             line = self.process.stdout.readline()
             if not line:

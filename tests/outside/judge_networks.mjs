@@ -2,10 +2,10 @@
 //
 //     node judge_networks.mjs NODE_MODULES < squares > answers
 //
-// NODE_MODULES has the packages that judge_pictures.py installs. Standard input: one square after the other, each the 512 x 512 x 3
-// bytes of CenterNet's input, then the 416 x 416 x 3 bytes of NanoDet's, rows of red, green, blue. Standard output: a line of JSON for
-// each: `centernet` and `nanodet`, lists of [left, top, right, bottom, score, class] with edges as shares of the square and COCO's names
-// of classes; `features`, the mean of CenterNet's backbone over the square, 88 numbers.
+// NODE_MODULES has the packages that judge_pictures.py installs. Standard input: one square after the other, each a byte (1: NanoDet is
+// asked, too), the 512 x 512 x 3 bytes of CenterNet's input and the 416 x 416 x 3 of NanoDet's, rows of red, green, blue. Standard output:
+// a line of JSON for each: `centernet` and `nanodet`, lists of [left, top, right, bottom, score, class] with edges as shares of the square
+// and COCO's names of classes; `features`, the mean of CenterNet's backbone over the square, 88 numbers.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
@@ -43,7 +43,8 @@ function centernet(model, bytes) {
     const input = tf.tensor(Float32Array.from(bytes), [1, side, side, 3]);
     const [found, features] = model.execute(input, [CENTERNET.boxes, CENTERNET.features]);
     const rows = tf.reshape(found, [-1, 6]).arraySync().filter((row) => row[4] > 0.01);
-    return [rows.map(([x0, y0, x1, y1, score, kind]) => [x0 / side, y0 / side, x1 / side, y1 / side, score, COCO[kind]]), tf.mean(features, [0, 1, 2]).arraySync()];
+    const boxes = rows.map(([x0, y0, x1, y1, score, kind]) => [x0 / side, y0 / side, x1 / side, y1 / side, score, COCO[kind]]);
+    return [boxes, tf.mean(features, [0, 1, 2]).arraySync()];
   });
 }
 
@@ -82,14 +83,14 @@ wasm.setThreadsCount(1); // the same sums in the same order, everywhere
 await tf.setBackend("wasm");
 await tf.ready();
 const models = { centernet: await network("centernet"), nanodet: await network("nanodet") };
-const sizes = [3 * CENTERNET.side ** 2, 3 * NANODET.side ** 2];
+const [middle, end] = [1 + 3 * CENTERNET.side ** 2, 1 + 3 * CENTERNET.side ** 2 + 3 * NANODET.side ** 2];
 let pending = Buffer.alloc(0);
 for await (const chunk of process.stdin) {
   pending = Buffer.concat([pending, chunk]);
-  while (pending.length >= sizes[0] + sizes[1]) {
-    const [boxes, features] = centernet(models.centernet, pending.subarray(0, sizes[0]));
-    const answer = { centernet: boxes, nanodet: nanodet(models.nanodet, pending.subarray(sizes[0], sizes[0] + sizes[1])), features };
-    pending = pending.subarray(sizes[0] + sizes[1]);
-    process.stdout.write(JSON.stringify(answer) + "\n");
+  while (pending.length >= end) {
+    const [boxes, features] = centernet(models.centernet, pending.subarray(1, middle));
+    const people = pending[0] === 1 ? nanodet(models.nanodet, pending.subarray(middle, end)) : [];
+    process.stdout.write(JSON.stringify({ centernet: boxes, nanodet: people, features }) + "\n");
+    pending = pending.subarray(end);
   }
 }

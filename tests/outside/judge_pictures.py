@@ -159,7 +159,7 @@ def distances(sets):
         for crop in crops:
             if crop.kind == "pedestrian":
                 sizes.setdefault((name.startswith("real"), f"{name}, {crop.size}"), []).append(crop)
-    rows = {}
+    rows, sizes = {}, {key: crops for key, crops in sizes.items() if len(crops) >= 20}
     for (_, name), theirs in filter(lambda entry: entry[0][0], sizes.items()):
         features, half = [crop.answer["features"] for crop in theirs], len(theirs) // 2
         rows[f"{name}: its second half to its first"] = (len(theirs) - half, frechet(features[half:], features[:half]))
