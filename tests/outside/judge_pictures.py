@@ -144,8 +144,8 @@ def print_rows(rows):
 
 
 def naturalness(name, crops, pictures):
-    """BRISQUE and slopes of whole pictures, by camera."""
-    rows, sizes = {}, {crop.picture: crop.size for crop in crops if "/" not in crop.size}
+    """BRISQUE and slopes of whole pictures, by camera or sequence."""
+    rows, sizes = {}, {crop.picture: crop.groups.get("sequence", crop.size) for crop in crops if "/" not in crop.size}
     for size in sorted({sizes[key] for key in pictures}):
         numbers = measures_of({key: picture for key, picture in pictures.items() if sizes[key] == size}, MOST_MEASURED)
         rows[f"{name}, {size}"] = [len(numbers), *np.percentile(numbers[:, 0], [25, 50, 75]), *np.median(numbers[:, 1:], axis=0)]
