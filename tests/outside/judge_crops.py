@@ -199,7 +199,8 @@ def slopes(picture):
 def measures_of(pictures, most):
     """BRISQUE and slopes of at most so many pictures, rows of numbers."""
     natural = BRISQUE(url=False)
-    return np.array([(natural.score(np.asarray(pictures[name])), *slopes(pictures[name])) for name in evenly(sorted(pictures), most)])
+    numbers = [(natural.score(np.asarray(pictures[name])), *slopes(pictures[name])) for name in evenly(sorted(pictures), most)]
+    return np.round(numbers, 6)  # the last digits hang on the threads of OpenCV
 
 
 def frechet(a, real):
@@ -207,4 +208,4 @@ def frechet(a, real):
     a, b = (np.asarray(rows) / (np.std(real, axis=0) + 1e-9) for rows in (a, real))
     both = np.linalg.eigvals(np.cov(a.T) @ np.cov(b.T)).real
     means = ((a.mean(axis=0) - b.mean(axis=0)) ** 2).sum()
-    return float(means + np.trace(np.cov(a.T)) + np.trace(np.cov(b.T)) - 2 * np.sqrt(np.clip(both, 0, None)).sum())
+    return round(float(means + np.trace(np.cov(a.T)) + np.trace(np.cov(b.T)) - 2 * np.sqrt(np.clip(both, 0, None)).sum()), 3)
