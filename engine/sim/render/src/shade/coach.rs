@@ -1,8 +1,8 @@
 //! Sheet, glass and rubber of vehicles: gaps of doors and lids, seats behind the glass, dirt near the road.
 
 use super::geometry::View;
-use crate::people::Person;
-use cosfly_figures::Region;
+use cosfly_figures::{Fittings, Region};
+use cosfly_frames::DVec3;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::lanes::{Block, Shared, WIDE, get, groups, set};
 use cosfly_materials::pattern::{NoiseTexture, Noises, least, most, share};
@@ -54,10 +54,15 @@ enum Kind {
 }
 
 impl Coach {
-    /// The look of a region of a vehicle; `night` is 1 when lamps are lit.
-    pub(super) fn new(person: &Person, region: Region, night: f32, view: &View) -> Self {
-        let [r, g, b] = person.colours[region as usize];
-        let colour = Vec3::new(r, g, b);
+    /// The look of a region of a vehicle at `place`: its feet in the world, and the unit vector to its right. `night` is 1 when
+    /// lamps are lit.
+    pub(super) fn new(
+        (region, colour): (Region, Vec3),
+        fittings: &Fittings,
+        (feet, side): (DVec3, Vec3),
+        night: f32,
+        view: &View,
+    ) -> Self {
         let (mirror, glow, kind) = match region {
             Region::Paint => (1.0, 0.0, Kind::Sheet),
             Region::Cargo => (0.5, 0.0, Kind::Other),
@@ -68,9 +73,7 @@ impl Coach {
             Region::Trim => (0.3, 0.0, Kind::Other),
             _ => (0.0, 0.0, Kind::Other),
         };
-        let fittings = &person.fittings;
         let size_m = fittings.size_m;
-        let side = person.side_in_world;
         let along_m = |x: f64| (x * size_m.x) as f32;
         Self {
             colour,
@@ -79,7 +82,7 @@ impl Coach {
             kind,
             eye: view.position,
             pixel: view.pixel(),
-            feet: person.walker.state.feet_in_world.into(),
+            feet: feet.into(),
             along: Vec3::new(side.y, -side.x, 0.0),
             side,
             half_width_m: (0.5 * size_m.y) as f32,

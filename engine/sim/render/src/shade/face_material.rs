@@ -26,7 +26,11 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
             let look = &seen.people.looks[look as usize];
             let person = seen.people.members.get(look.person as usize);
             let Some(person) = person else { return (Material::Sky, flat) };
-            (Material::Coach(Coach::new(person, look.region, setting.light.night, &setting.view)), flat)
+            let [red, green, blue] = person.colours[look.region as usize];
+            let sheet = (look.region, Vec3::new(red, green, blue));
+            let place = (person.walker.state.feet_in_world, person.side_in_world);
+            let coach = Coach::new(sheet, &person.fittings, place, setting.light.night, &setting.view);
+            (Material::Coach(coach), flat)
         }
         FaceSource::Box { index, face } | FaceSource::Crown { index, face } => {
             let (b, face) = (&seen.scene.boxes[index as usize], usize::from(face));
