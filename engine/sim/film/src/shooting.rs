@@ -58,7 +58,7 @@ impl Shooting {
     pub fn plain(looks: Seed) -> Self {
         let config = RenderConfig { weathers: vec!["ClearNoon".to_owned()], ..RenderConfig::default() };
         let (weather, clothes_seed) = (config.draw_weather(&looks), clothes_seed_of_target(&looks, 0.0));
-        let (camera, mount, optics) = (config.camera(), Mount::default(), cosfly_optics::middle());
+        let (camera, mount, optics) = (config.camera(), Mount::default(), cosfly_optics::of_mean_drone());
         Self {
             camera,
             mount,

@@ -11,4 +11,4 @@ mod settings;
 pub use motion_blur::{Exposure, pose_at, target_state_at};
 pub use noise::add_noise;
 pub use optics::{Glass, exposure, gains};
-pub use settings::{OpticsConfig, OpticsPreset, middle};
+pub use settings::{OpticsConfig, OpticsPreset, of_mean_drone};

@@ -22,29 +22,31 @@ pub fn add_noise(level: Level, noise: &Noise, rgb: &mut [u8], seed: &Seed) {
     let unit = 1.0 / (SUM_DEVIATION * SUM_DEVIATION);
     let everywhere = (noise.gaussian * noise.gaussian) as f32 * unit;
     let per_code = (noise.shot * noise.shot / 255.0) as f32 * unit;
-    grain(level, seed.stream("noise").bits() as u32, everywhere, per_code, rgb);
+    // Two keys: with one alone, the grain of one picture would be that of another, moved by some pixels.
+    let keys = seed.stream("noise").bits();
+    grain(level, [keys as u32, (keys >> 32) as u32], everywhere, per_code, rgb);
 }
 
 simd_kernel! {
     /// Moves each code by its own number; variances are in units of the sum's.
-    fn grain(base: u32, everywhere: f32, per_code: f32, rgb: &mut [u8]) {
+    fn grain([base, key]: [u32; 2], everywhere: f32, per_code: f32, rgb: &mut [u8]) {
         let (blocks, rest) = rgb.as_chunks_mut::<BLOCK>();
         let mut first = base;
         for block in &mut *blocks {
-            *block = moved(*block, first, everywhere, per_code);
+            *block = moved(*block, first, key, everywhere, per_code);
             first = first.wrapping_add(STRIDE.wrapping_mul(BLOCK as u32));
         }
         let mut last = [0; BLOCK];
         last[..rest.len()].copy_from_slice(rest);
-        rest.copy_from_slice(&moved(last, first, everywhere, per_code)[..rest.len()]);
+        rest.copy_from_slice(&moved(last, first, key, everywhere, per_code)[..rest.len()]);
     }
 }
 
-/// A block of codes with noise: the number of code `i` comes from `first + i * STRIDE`.
+/// A block of codes with noise: the number of code `i` comes from `first + i * STRIDE` and `key`.
 #[inline(always)]
-fn moved(codes: [u8; BLOCK], first: u32, everywhere: f32, per_code: f32) -> [u8; BLOCK] {
+fn moved(codes: [u8; BLOCK], first: u32, key: u32, everywhere: f32, per_code: f32) -> [u8; BLOCK] {
     core::array::from_fn(|index| {
-        let bits = mixed(first.wrapping_add((index as u32).wrapping_mul(STRIDE)));
+        let bits = mixed(first.wrapping_add((index as u32).wrapping_mul(STRIDE)), key);
         let sum = (bits & 0xff) + ((bits >> 8) & 0xff) + ((bits >> 16) & 0xff) + (bits >> 24);
         let value = f32::from(codes[index]);
         let moved = (everywhere + per_code * value).sqrt() * (sum as i32 - MEAN) as f32;
@@ -53,10 +55,10 @@ fn moved(codes: [u8; BLOCK], first: u32, everywhere: f32, per_code: f32) -> [u8;
     })
 }
 
-/// A bijection of 32 bits in which every bit depends on all others.
+/// A bijection of 32 bits, another one for each key, in which every bit depends on all others.
 #[inline(always)]
-fn mixed(mut bits: u32) -> u32 {
-    bits = (bits ^ (bits >> 16)).wrapping_mul(0x7feb_352d);
+fn mixed(mut bits: u32, key: u32) -> u32 {
+    bits = (bits ^ (bits >> 16)).wrapping_mul(0x7feb_352d) ^ key;
     bits = (bits ^ (bits >> 15)).wrapping_mul(0x846c_a68b);
     bits ^ (bits >> 16)
 }
@@ -97,6 +99,19 @@ mod tests {
         };
         assert_eq!(with(1), with(1));
         assert_ne!(with(1), with(2));
+    }
+
+    #[test]
+    fn the_grain_of_a_picture_is_not_that_of_another_moved_by_pixels() {
+        // Pictures whose first keys are neighbours, as they are among a few thousand pictures.
+        let noise = |first: u32, key: u32| {
+            let mut rgb = vec![128; 4 * BLOCK];
+            grain(Level::best(), [first, key], 1e-3, 0.0, &mut rgb);
+            rgb
+        };
+        let (a, b) = (noise(7, 1), noise(7_u32.wrapping_add(STRIDE), 2));
+        let same = a[1..].iter().zip(&b).filter(|(a, b)| a == b).count();
+        assert!(same < a.len() / 4, "{same} of {} codes are the same", a.len());
     }
 
     #[test]

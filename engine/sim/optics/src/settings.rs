@@ -125,8 +125,8 @@ impl OpticsConfig {
     }
 }
 
-/// The camera of pictures that no recipe describes: the middle of `drone`.
-pub fn middle() -> Optics {
+/// The camera of pictures that no recipe describes: each number is the middle of the range of [`OpticsPreset::Drone`].
+pub fn of_mean_drone() -> Optics {
     let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
     Optics {
         point_spread_px: middle(DRONE.point_spread_px),

@@ -107,7 +107,7 @@ impl Renderer {
             optics: Optics::IDEAL,
             glass: Glass::default(),
         };
-        renderer.set_optics(cosfly_optics::middle());
+        renderer.set_optics(cosfly_optics::of_mean_drone());
         renderer
     }
 
