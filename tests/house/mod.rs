@@ -3,7 +3,7 @@
 mod circles;
 pub mod edges;
 mod interfaces;
-mod lengths;
+pub mod lengths;
 mod modules;
 mod purity;
-mod tokens;
+pub mod tokens;

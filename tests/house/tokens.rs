@@ -11,6 +11,8 @@ pub struct Token {
     pub line: usize,
     /// Its last line: literal texts may have several.
     pub last_line: usize,
+    /// The whole of a literal text, as it stands in the file; else empty.
+    pub literal: String,
 }
 
 impl Token {
@@ -23,6 +25,38 @@ impl Token {
 pub fn tokens_of_file(file: &Path) -> Vec<Token> {
     let text = std::fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     without_tests(&tokens(&text))
+}
+
+/// The literal texts of a file without those of tests, as the program has them.
+pub fn texts_of_file(file: &Path) -> Vec<String> {
+    tokens_of_file(file)
+        .iter()
+        .filter(|token| !token.literal.is_empty())
+        .map(|token| unescaped(&token.literal))
+        .collect()
+}
+
+/// What a literal text stands for: quotes and marks gone, escaped signs and broken lines put together.
+fn unescaped(literal: &str) -> String {
+    let start = literal.find('"').map_or(0, |quote| quote + 1);
+    let inner = literal[start..].trim_end_matches('#').trim_end_matches('"');
+    if literal[..start].contains('r') {
+        return inner.to_owned();
+    }
+    let (mut text, mut rest) = (String::new(), inner);
+    while let Some(at) = rest.find('\\') {
+        text.push_str(&rest[..at]);
+        let after = &rest[at + 1..];
+        rest = match after.chars().next() {
+            Some('\n') => after.trim_start(),
+            Some(sign) => {
+                text.push(if sign == 'n' { '\n' } else { sign });
+                &after[sign.len_utf8()..]
+            }
+            None => "",
+        };
+    }
+    text + rest
 }
 
 /// The tokens of a text.
@@ -38,7 +72,8 @@ fn tokens(text: &str) -> Vec<Token> {
             let is_text = piece.ends_with(['"', '#']) && piece.len() > 1 || piece.starts_with('\'');
             let kept = if is_text { &piece[..1] } else { piece };
             let kept = if is_text && kept.starts_with(char::is_alphabetic) { "\"" } else { kept };
-            found.push(Token { text: kept.to_owned(), line, last_line });
+            let literal = if kept == "\"" { piece.to_owned() } else { String::new() };
+            found.push(Token { text: kept.to_owned(), line, last_line, literal });
         }
         (at, line) = (end, last_line);
     }

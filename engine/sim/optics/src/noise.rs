@@ -29,9 +29,9 @@ pub fn add_noise(level: Level, noise: &Noise, rgb: &mut [u8], seed: &Seed) {
 
 simd_kernel! {
     /// Moves each code by its own number; variances are in units of the sum's.
-    fn grain([base, key]: [u32; 2], everywhere: f32, per_code: f32, rgb: &mut [u8]) {
+    fn grain(keys: [u32; 2], everywhere: f32, per_code: f32, rgb: &mut [u8]) {
         let (blocks, rest) = rgb.as_chunks_mut::<BLOCK>();
-        let mut first = base;
+        let [mut first, key] = keys;
         for block in &mut *blocks {
             *block = moved(*block, first, key, everywhere, per_code);
             first = first.wrapping_add(STRIDE.wrapping_mul(BLOCK as u32));

@@ -140,6 +140,84 @@ fn broken_files_are_refused_with_their_line() {
     assert_eq!(error.to_string(), "the file is not UTF-8 text (line 2)");
 }
 
+/// A text that is refused with some advice; then the text and the settings that the advice asks for, which are read.
+#[test]
+fn the_advice_of_refusals_helps() {
+    let plain = RecordedConfig::default();
+    let rate = |rate_hz: f64| RecordedConfig { rate_hz: Some(rate_hz), ..RecordedConfig::default() };
+    let frames = "frame,id,x,y\n0,1,0,0\n25,1,1,0\n";
+    let at_noon = |time: &str, lat: &str| {
+        format!(
+            "<gpx><trk><trkseg>\n<trkpt lat=\"{lat}\" lon=\"0\"><time>{time}</time></trkpt>\n\
+             <trkpt lat=\"1\" lon=\"0\"><time>2024-05-01T12:00:05Z</time></trkpt></trkseg></trk></gpx>"
+        )
+    };
+    let right = at_noon("2010-10-03T09:36:30Z", "1");
+    let line = |times: &str| {
+        format!(
+            "{{\"type\":\"Feature\",\"properties\":{{\"coordTimes\":{times}}},\
+             \"geometry\":{{\"type\":\"LineString\",\"coordinates\":[[0,0],[0,1e-5]]}}}}"
+        )
+    };
+    for (text, advice, mended, config) in [
+        ("t;id;x;y\n0;1;10,5;2\n1;1;10,6;2\n", "as in `10.5`", "t;id;x;y\n0;1;10.5;2\n1;1;10.6;2\n", plain.clone()),
+        ("t,id,x,y\n0,1,0,5,1,5\n", "as in `10.5`", "t,id,x,y\n0,1,0.5,1.5\n1,1,0.5,1.6\n", plain.clone()),
+        ("0,1,0,0\n1,1,0\n", "time, id, x, y with commas", "0,1,0,0\n1,1,0,0.5\n", plain.clone()),
+        (
+            "t,id,x,y\n0,1,0,0\n1,1,nan,0\n2,1,1,0\n",
+            "leave out the rows",
+            "t,id,x,y\n0,1,0,0\n2,1,1,0\n",
+            plain.clone(),
+        ),
+        ("0,1,2,0\n1,1,2,1\n2,1,2,1e300\n", "leave out broken rows", "0,1,2,0\n1,1,2,1\n", plain.clone()),
+        (frames, "set `rate_hz`", frames, rate(25.0)),
+        (
+            "t,name,x,y\n0,1,0,0\n1,1,0,1\n",
+            "name the columns `t`, `id`, `x`, `y`",
+            "t,id,x,y\n0,1,0,0\n1,1,0,1\n",
+            plain.clone(),
+        ),
+        (
+            "t,id,x,x_m,y\n",
+            "rename the one that is not to be read",
+            "t,id,x,seen_x,y\n0,1,0,9,0\n1,1,0,9,1\n",
+            plain.clone(),
+        ),
+        (
+            "0,1,0,0\n2,1,1,1\n1,1,0,0\n",
+            "sort the points of each person by time",
+            "0,1,0,0\n1,1,0,0\n2,1,1,1\n",
+            plain.clone(),
+        ),
+        ("0,1,0,0\n1,1,90,0\n", "`rate_hz` is for times in frames", "0,1,0,0\n1,1,90,0\n", rate(0.05)),
+        ("0,1,0,0\n", "at least one person with two points", "0,1,0,0\n1,1,1,0\n", plain.clone()),
+        ("0,1,0,0\n400,1,1,0\n800,1,2,0\n", "`rate_hz = 1000`", "0,1,0,0\n400,1,1,0\n800,1,2,0\n", rate(1000.0)),
+        (&at_noon("noon", "1"), "times look like `2010-10-03T09:36:30Z`", &right, plain.clone()),
+        (&at_noon("2010-10-03T09:36:30Z", "91"), "`lat` and `lon` in degrees", &right, plain.clone()),
+        (&line("[1]"), "one time per vertex in `coordTimes`", &line("[1, 2]"), plain.clone()),
+    ] {
+        let error = Recording::read(text.as_bytes(), &RecordedConfig::default()).expect_err(text);
+        assert!(error.hint.contains(advice), "`{advice}` in `{}`", error.hint);
+        let read = Recording::read(mended.as_bytes(), &config);
+        assert!(read.is_ok(), "`{advice}`: {read:?}");
+    }
+}
+
+#[test]
+fn the_advice_about_times_and_places_helps() {
+    let (town, clock) = (field(50.0, 0.0), Clock::new(4, 0.5, 0.1));
+    let text = "100,1,0,0\n101,1,1,0\n900,2,0,0\n901,2,1,0\n";
+    let place = |text: &str, config: &RecordedConfig| {
+        Recording::read(text.as_bytes(), config).unwrap().placed(&town, config, clock, seed())
+    };
+    let late = RecordedConfig { start_s: 50.0, ..RecordedConfig::default() };
+    assert!(place(text, &late).unwrap_err().hint.contains("change `start_s`"));
+    assert!(place(text, &RecordedConfig { start_s: 800.0, ..RecordedConfig::default() }).is_ok());
+    let away = text.replace(",0,0", ",9000,0").replace(",1,0", ",9001,0");
+    assert!(place(&away, &RecordedConfig::default()).unwrap_err().hint.contains("check `origin_m`"));
+    assert!(place(&away, &RecordedConfig { origin_m: [-9000.0, 0.0], ..RecordedConfig::default() }).is_ok());
+}
+
 #[test]
 fn what_is_there_twice_is_refused_or_said() {
     let read = |text: &str| Recording::read(text.as_bytes(), &RecordedConfig::default());

@@ -115,6 +115,30 @@ fn what_cannot_be_used_is_refused_at_its_line() {
 }
 
 #[test]
+fn the_advice_of_refusals_helps() {
+    let late = file(&step(500.0, &vehicle("a", 100.0, 50.0, 0.0)));
+    let begin = |begin_s: f64| read_with(&late, &FcdConfig { begin_s, ..config() }, Clock::new(3, 1.0, 1.0));
+    assert!(begin(0.0).unwrap_err().hint.unwrap().contains("set `begin_s` to a time with traffic"));
+    assert_eq!(begin(500.0).unwrap().bodies().len(), 1);
+
+    let mut town = town();
+    town.origin.geo_reference = Some("+proj=utm +zone=33 +datum=WGS84".into());
+    (town.min_in_world, town.max_in_world) = (DVec3::splat(-1e7), DVec3::splat(1e7));
+    let net = NetLocation { offset_m: DVec2::ZERO, projection: Some("+proj=utm +zone=33 +datum=WGS84".into()) };
+    let read_as = |text: &str, geo: bool| {
+        let place = FcdProjection::new(&town, &net, geo).unwrap();
+        read(text.as_bytes(), &place, &FcdConfig { geo, ..config() }, Clock::new(3, 1.0, 1.0), Seed([1; 32]))
+    };
+    let option = "<!-- generated\n<fcd-output.geo value=\"true\"/>\n-->";
+    let degrees = file(&step(0.0, &vehicle("a", 13.4, 52.4, 0.0))).replace("<!-- generated -->", option);
+    assert!(read_as(&degrees, false).unwrap_err().hint.unwrap().contains("set `geo = true`"));
+    assert_eq!(read_as(&degrees, true).unwrap().bodies().len(), 1);
+    let metres = file(&step(0.0, &vehicle("a", 393_806.0, 5_815_232.0, 0.0)));
+    assert!(read_as(&metres, true).unwrap_err().hint.unwrap().contains("leave out `geo`"));
+    assert_eq!(read_as(&metres, false).unwrap().bodies().len(), 1);
+}
+
+#[test]
 fn degrees_are_told_from_metres_by_the_file_and_by_its_speeds() {
     let refusal = |text: &str, geo: bool| {
         let mut town = town();
