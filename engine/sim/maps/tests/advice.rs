@@ -170,3 +170,37 @@ fn other_formats_are_told_by_their_content() {
         assert_eq!(error.hints.len(), 1, "{:?}", error.hints);
     }
 }
+
+#[test]
+fn scenes_in_centimetres_are_read_once_their_unit_is_given() {
+    // Ground of 400 m with a house of 10 m in the middle; heights are along y, as OBJ has them.
+    let mut text = "o sidewalk\n".to_owned();
+    for [x, z] in [[-200.0, -200.0], [200.0, -200.0], [200.0, 200.0], [-200.0, 200.0]] {
+        text += &format!("v {} 0 {}\n", 100.0 * x, 100.0 * z);
+    }
+    text += "f 1 2 3 4\no building\n";
+    for y in [0.0, 10.0] {
+        for [x, z] in [[-5.0, -5.0], [5.0, -5.0], [5.0, 5.0], [-5.0, 5.0]] {
+            text += &format!("v {} {} {}\n", 100.0 * x, 100.0 * y, 100.0 * z);
+        }
+    }
+    text += "f 5 6 7 8\nf 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n";
+    let error = read(&[text.as_bytes()], &json!({})).unwrap_err();
+    assert!(error.hints.iter().any(|hint| hint.contains("with `unit_m`: 0.01 for centimetres")), "{error:?}");
+    let (town, ..) = read(&[text.as_bytes()], &json!({ "options": { "unit_m": 0.01 } })).unwrap();
+    assert!(houses(&town) > 0 && !town.walkable.is_empty());
+
+    let cloud = |unit: f32| {
+        let bytes: Vec<u8> = points().iter().flatten().flat_map(|value| (unit * value).to_le_bytes()).collect();
+        let properties: String = ["x", "y", "z"].iter().map(|name| format!("property float {name}\n")).collect();
+        let head = format!(
+            "ply\nformat binary_little_endian 1.0\nelement vertex {}\n{properties}end_header\n",
+            points().len()
+        );
+        [head.as_bytes(), &bytes].concat()
+    };
+    let error = read(&[&cloud(1e3)], &json!({})).unwrap_err();
+    assert!(error.hints.iter().any(|hint| hint.contains("the length of its unit with `unit_m`")), "{error:?}");
+    let (town, ..) = read(&[&cloud(1e3)], &json!({ "options": { "unit_m": 0.001 } })).unwrap();
+    assert!(houses(&town) > 0);
+}

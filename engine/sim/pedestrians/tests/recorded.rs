@@ -152,7 +152,7 @@ fn the_advice_of_refusals_helps() {
              <trkpt lat=\"1\" lon=\"0\"><time>2024-05-01T12:00:05Z</time></trkpt></trkseg></trk></gpx>"
         )
     };
-    let right = at_noon("2010-10-03T09:36:30Z", "1");
+    let right = at_noon("2024-05-01T12:00:00Z", "1");
     let line = |times: &str| {
         format!(
             "{{\"type\":\"Feature\",\"properties\":{{\"coordTimes\":{times}}},\
@@ -193,7 +193,7 @@ fn the_advice_of_refusals_helps() {
         ("0,1,0,0\n", "at least one person with two points", "0,1,0,0\n1,1,1,0\n", plain.clone()),
         ("0,1,0,0\n400,1,1,0\n800,1,2,0\n", "`rate_hz = 1000`", "0,1,0,0\n400,1,1,0\n800,1,2,0\n", rate(1000.0)),
         (&at_noon("noon", "1"), "times look like `2010-10-03T09:36:30Z`", &right, plain.clone()),
-        (&at_noon("2010-10-03T09:36:30Z", "91"), "`lat` and `lon` in degrees", &right, plain.clone()),
+        (&at_noon("2024-05-01T12:00:00Z", "91"), "`lat` and `lon` in degrees", &right, plain.clone()),
         (&line("[1]"), "one time per vertex in `coordTimes`", &line("[1, 2]"), plain.clone()),
     ] {
         let error = Recording::read(text.as_bytes(), &RecordedConfig::default()).expect_err(text);

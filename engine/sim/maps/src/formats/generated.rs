@@ -93,6 +93,9 @@ mod tests {
         let error = refusal("\"columns\": 4", "\"columns\": 400");
         assert_eq!(error.message, "`town.columns` is 400, out of its range");
         assert_eq!(error.hints, ["the nearest allowed value is 12"]);
+        let followed =
+            String::from_utf8(Generated::EXAMPLE.to_vec()).unwrap().replace("\"columns\": 4", "\"columns\": 12");
+        assert!(Generated::read(followed.as_bytes(), &GeneratedOptions {}).is_ok());
         assert!(refusal("\"max_spacing_m\": 75", "\"max_spacing_m\": 50").message.contains("`town.max_spacing_m`"));
         let error = refusal("\"rows\"", "\"row\"");
         assert!(error.message.contains("unknown field `row`"), "{error}");
