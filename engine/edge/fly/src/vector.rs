@@ -1,86 +1,38 @@
 //! [`VectorEnvironment`]: many environments that are stepped together, for learners.
 
 mod member;
+mod outputs;
 mod team;
 #[cfg(test)]
 mod tests;
 
 use crate::suite::Task;
 use cosfly_env::pictures::{PictureBatch, PictureFormat, Pictures};
-use cosfly_env::{End, Environment, EnvironmentSettings, FEATURES, Reward};
+use cosfly_env::{Environment, EnvironmentSettings, Reward};
 use member::{Shared, VectorMember, stream_of};
+use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError};
 use std::sync::Arc;
+use std::time::Instant;
 
 pub use member::{ACTIONS, Autoreset};
+pub use outputs::{Outputs, TERMS};
 pub use team::BESIDE;
 
-/// Terms of a reward.
-pub const TERMS: usize = Reward::NAMES.len();
+/// Fewest environments that one thread steps: below, handing them over takes longer.
+const FEWEST_A_THREAD: usize = 32;
 
-/// Results of a step, one entry or row per environment.
-#[derive(Clone, Debug, Default)]
-pub struct Outputs {
-    /// Features of the observations; of the next episode where one began.
-    pub features: Vec<[f32; FEATURES]>,
-    /// Features of the last observation of the episode that ended in this step; else those of `features`.
-    pub last_features: Vec<[f32; FEATURES]>,
-    /// Pictures of the observations, where they are asked for.
-    pub album: PictureBatch,
-    /// In [`Autoreset::SameStep`], the last pictures of the episodes that ended in this step; the others are old.
-    pub last_album: PictureBatch,
-    /// Weighted rewards.
-    pub rewards: Vec<f64>,
-    /// Terms of the rewards, unweighted.
-    pub terms: Vec<[f64; TERMS]>,
-    /// Whether the episode ended in a collision or a loss.
-    pub terminated: Vec<bool>,
-    /// Whether the target's track is over.
-    pub truncated: Vec<bool>,
-    /// Whether the target is tracked.
-    pub tracked: Vec<bool>,
-    /// Bodies in the picture that may be taken for the target.
-    pub look_alikes: Vec<u32>,
-    /// The expert's actions for the observations, where they are asked for.
-    pub expert_actions: Vec<[f32; ACTIONS]>,
-    /// [`BESIDE`] numbers on each other drone of a team.
-    pub beside: Vec<Vec<f32>>,
-}
-
-/// Pictures of a vector environment, and the threads that draw them.
-struct PicturePool {
-    pictures: Pictures,
-    pool: Option<ThreadPool>,
-}
-
-impl PicturePool {
-    /// Draws the pictures of some environments that follow each other from number `first` on.
-    fn draw(&mut self, members: &[VectorMember], album: &mut PictureBatch, first: usize) {
-        let environments: Vec<&Environment> = members.iter().map(|member| &member.environment).collect();
-        self.work(|pictures| pictures.draw(&environments, album, first));
-    }
-
-    /// Draws the pictures of a whole team.
-    fn draw_team(&mut self, members: &[VectorMember], album: &mut PictureBatch) {
-        let environments: Vec<&Environment> = members.iter().map(|member| &member.environment).collect();
-        self.work(|pictures| pictures.draw_team(&environments, album));
-    }
-
-    fn work(&mut self, draw: impl FnOnce(&mut Pictures) + Send) {
-        let pictures = &mut self.pictures;
-        match &self.pool {
-            Some(pool) => pool.install(|| draw(pictures)),
-            None => draw(pictures),
-        }
-    }
-}
+/// Bytes that one thread copies at a time.
+const COPIED_AT_ONCE: usize = 1 << 17;
 
 /// Many environments that are stepped together. Each draws its episodes from a seed of its own: what one does changes no other.
 pub struct VectorEnvironment {
     shared: Shared,
     members: Vec<VectorMember>,
     outputs: Outputs,
-    studio: Option<PicturePool>,
+    pictures: Option<Pictures>,
+    pool: Option<ThreadPool>,
+    shared_s: f64,
 }
 
 impl VectorEnvironment {
@@ -94,19 +46,8 @@ impl VectorEnvironment {
     ) -> Self {
         let shared = Shared { tasks, settings, mode, has_experts, is_team: false };
         let members: Vec<VectorMember> = (0..count).map(|number| VectorMember::new(number, &shared)).collect();
-        let outputs = Outputs {
-            features: vec![[0.0; FEATURES]; count],
-            last_features: vec![[0.0; FEATURES]; count],
-            rewards: vec![0.0; count],
-            terms: vec![[0.0; TERMS]; count],
-            terminated: vec![false; count],
-            truncated: vec![false; count],
-            tracked: vec![false; count],
-            look_alikes: vec![0; count],
-            expert_actions: vec![[0.0; ACTIONS]; if has_experts { count } else { 0 }],
-            ..Outputs::default()
-        };
-        Self { shared, members, outputs, studio: None }
+        let outputs = Outputs::new(count);
+        Self { shared, members, outputs, pictures: None, pool: None, shared_s: 0.0 }
     }
 
     /// Drones as a team: all fly the same episode at the same time, which the first draws, each from its own start,
@@ -117,19 +58,56 @@ impl VectorEnvironment {
         self
     }
 
-    /// Environments with pictures in their observations, drawn on `threads` threads: their number changes no byte.
+    /// Environments that are stepped and drawn on `threads` threads: their number changes no byte.
     ///
     /// # Errors
     /// Threads that cannot be started.
-    pub fn with_pictures(mut self, format: PictureFormat, threads: usize) -> Result<Self, ThreadPoolBuildError> {
+    pub fn on_threads(mut self, threads: usize) -> Result<Self, ThreadPoolBuildError> {
         let build = || rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool = (threads > 1).then(build).transpose()?;
+        self.pool = (threads > 1).then(build).transpose()?;
+        Ok(self)
+    }
+
+    /// Environments with pictures in their observations, drawn on the threads that [`Self::on_threads`] has set before.
+    pub fn with_pictures(mut self, format: PictureFormat) -> Self {
         self.outputs.album = PictureBatch::new(&format, self.len());
         if self.shared.mode == Autoreset::SameStep {
             self.outputs.last_album = self.outputs.album.clone();
         }
-        self.studio = Some(PicturePool { pictures: Pictures::new(format, threads), pool });
-        Ok(self)
+        self.pictures = Some(Pictures::new(format, self.threads()));
+        self
+    }
+
+    /// Threads that step and draw.
+    pub fn threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
+    }
+
+    /// Copies values of many environments, on the threads where there are many values.
+    pub fn copy<T: Copy + Send + Sync>(&self, to: &mut [T], from: &[T]) {
+        match self.pool.as_ref().filter(|_| size_of_val(from) > 2 * COPIED_AT_ONCE) {
+            Some(pool) => pool.install(|| {
+                let length = COPIED_AT_ONCE / size_of::<T>().max(1);
+                let pieces = to.par_chunks_mut(length).zip(from.par_chunks(length));
+                pieces.for_each(|(to, from)| to.copy_from_slice(from));
+            }),
+            None => to.copy_from_slice(from),
+        }
+    }
+
+    /// Seconds that all calls so far spent in work that is shared between the threads.
+    pub fn shared_s(&self) -> f64 {
+        self.shared_s
+    }
+
+    /// Times at which ended episodes are followed by the next ones.
+    pub fn mode(&self) -> Autoreset {
+        self.shared.mode
+    }
+
+    /// Whether the expert's actions are asked for.
+    pub fn has_experts(&self) -> bool {
+        self.shared.has_experts
     }
 
     /// Number of environments.
@@ -149,7 +127,7 @@ impl VectorEnvironment {
 
     /// Format of their pictures, where there are any.
     pub fn format(&self) -> Option<&PictureFormat> {
-        self.studio.as_ref().map(|studio| studio.pictures.format())
+        self.pictures.as_ref().map(Pictures::format)
     }
 
     /// Results of the last reset or step.
@@ -182,8 +160,7 @@ impl VectorEnvironment {
         let member = &mut self.members[number];
         member.begin_task(&self.shared, task);
         (member.reward, member.end) = (Reward::default(), None);
-        self.outputs.tell(number, member);
-        self.outputs.last_features[number] = self.outputs.features[number];
+        self.outputs.row(number).tell_whole(member);
         self.draw(|chosen| chosen == number);
         true
     }
@@ -198,7 +175,7 @@ impl VectorEnvironment {
     }
 
     /// Begins an episode in each environment that `chosen` names; where there is a seed, its draws begin anew.
-    pub fn reset(&mut self, seeds: &[Option<u64>], chosen: impl Fn(usize) -> bool) {
+    pub fn reset(&mut self, seeds: &[Option<u64>], chosen: impl Fn(usize) -> bool + Sync) {
         if self.shared.is_team {
             let Some(first) = self.members.first_mut() else { return };
             if let Some(seed) = seeds.first().copied().flatten() {
@@ -213,16 +190,15 @@ impl VectorEnvironment {
                 member.stream = stream_of(seed);
             }
             member.begin_anew(&self.shared);
-            self.outputs.tell(number, member);
-            self.outputs.last_features[number] = self.outputs.features[number];
+            self.outputs.row(number).tell_whole(member);
         }
         self.draw(chosen);
     }
 
     /// Moves every environment on by one step, with one action of [`cosfly_env::Action::of_numbers`] each.
-    pub fn step(&mut self, actions: &[[f32; ACTIONS]]) {
+    pub fn step(&mut self, actions: &[[f64; ACTIONS]]) {
         let before = if self.shared.is_team { team::places(&self.members) } else { vec![] };
-        self.members.iter_mut().zip(actions).for_each(|(member, action)| member.step(action, &self.shared));
+        self.fly(actions);
         if self.shared.is_team {
             team::meet(&mut self.members, &before, &self.shared);
         }
@@ -246,11 +222,34 @@ impl VectorEnvironment {
         self.draw(|_| true);
     }
 
-    fn tell_all(&mut self) {
-        for (number, member) in self.members.iter().enumerate() {
-            self.outputs.tell(number, member);
-            self.outputs.last_features[number] = self.outputs.features[number];
+    /// Moves every environment on by one step.
+    fn fly(&mut self, actions: &[[f64; ACTIONS]]) {
+        let began = Instant::now();
+        let Self { shared, members, pool, .. } = self;
+        // As exact as the action space.
+        let step = |(member, action): (&mut VectorMember, &[f64; ACTIONS])| {
+            member.step(&action.map(|number| number as f32), shared);
+        };
+        match pool.as_ref().filter(|_| members.len() >= 2 * FEWEST_A_THREAD) {
+            Some(pool) => pool.install(|| {
+                members.par_iter_mut().zip(actions).with_min_len(FEWEST_A_THREAD).for_each(step);
+            }),
+            None => members.iter_mut().zip(actions).for_each(step),
         }
+        self.shared_s += began.elapsed().as_secs_f64();
+    }
+
+    fn tell_all(&mut self) {
+        let began = Instant::now();
+        let Self { members, outputs, pool, .. } = self;
+        match pool.as_ref().filter(|_| members.len() >= 2 * FEWEST_A_THREAD) {
+            Some(pool) => pool.install(|| {
+                let rows = members.par_iter().zip(outputs.rows()).with_min_len(FEWEST_A_THREAD);
+                rows.for_each(|(member, mut row)| row.tell_whole(member));
+            }),
+            None => (0..).zip(&*members).for_each(|(number, member)| outputs.row(number).tell_whole(member)),
+        }
+        self.shared_s += began.elapsed().as_secs_f64();
         for (number, told) in self.outputs.beside.iter_mut().enumerate() {
             *told = team::beside(&self.members, number);
         }
@@ -261,43 +260,35 @@ impl VectorEnvironment {
         for (number, member) in self.members.iter_mut().enumerate().filter(|(_, member)| member.is_due) {
             self.outputs.last_album.copy(&self.outputs.album, number);
             member.begin(&self.shared);
-            self.outputs.tell(number, member);
+            self.outputs.row(number).tell(member);
         }
         let ended: Vec<bool> = self.members.iter().map(|member| member.end.is_some()).collect();
         self.draw(|number| ended[number]);
     }
 
     /// Draws the pictures of the chosen environments, neighbours together.
-    fn draw(&mut self, chosen: impl Fn(usize) -> bool) {
-        let Some(studio) = &mut self.studio else { return };
-        if self.shared.is_team {
-            studio.draw_team(&self.members, &mut self.outputs.album);
-            return;
-        }
-        let mut first = 0;
-        while first < self.members.len() {
-            let end = (first..self.members.len()).find(|number| !chosen(*number)).unwrap_or(self.members.len());
-            if end > first {
-                studio.draw(&self.members[first..end], &mut self.outputs.album, first);
+    fn draw(&mut self, chosen: impl Fn(usize) -> bool + Sync) {
+        let Self { shared, members, outputs, pictures: Some(pictures), pool, shared_s } = self else { return };
+        let environments: Vec<&Environment> = members.iter().map(|member| &member.environment).collect();
+        let began = Instant::now();
+        let album = &mut outputs.album;
+        let mut draw = || {
+            if shared.is_team {
+                return pictures.draw_team(&environments, album);
             }
-            first = end + 1;
+            let mut first = 0;
+            while first < environments.len() {
+                let end = (first..environments.len()).find(|number| !chosen(*number)).unwrap_or(environments.len());
+                if end > first {
+                    pictures.draw(&environments[first..end], album, first);
+                }
+                first = end + 1;
+            }
+        };
+        match pool {
+            Some(pool) => pool.install(draw),
+            None => draw(),
         }
-    }
-}
-
-impl Outputs {
-    /// Fills what is told of the present state of an environment and of its last step.
-    fn tell(&mut self, number: usize, member: &VectorMember) {
-        let observation = member.environment.observation();
-        self.features[number] = observation.features().map(|feature| feature as f32);
-        self.tracked[number] = observation.tracked;
-        self.look_alikes[number] = member.environment.look_alikes() as u32;
-        self.rewards[number] = member.reward.sum(&member.environment.settings().weights);
-        self.terms[number] = member.reward.terms();
-        self.terminated[number] = matches!(member.end, Some(End::Collision | End::Lost));
-        self.truncated[number] = member.end == Some(End::Finished);
-        if let Some(told) = self.expert_actions.get_mut(number) {
-            *told = member.expert_action;
-        }
+        *shared_s += began.elapsed().as_secs_f64();
     }
 }

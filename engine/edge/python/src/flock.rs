@@ -9,14 +9,14 @@ use cosfly_env::pictures::{PictureBatch, PictureFormat, Pixels};
 use cosfly_fly::pilot::wrong_number;
 use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::{Suite, Task};
-use cosfly_fly::vector::{ACTIONS, Autoreset, VectorEnvironment};
+use cosfly_fly::vector::{ACTIONS, Autoreset, TERMS, VectorEnvironment};
 use cosfly_render::PictureLook;
 use cosfly_runner::RunOptions;
 use cosfly_store::Store;
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PySlice};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -41,6 +41,8 @@ struct EnvConfig {
 #[pyclass(name = "VectorEnvironment")]
 pub struct PyFlock {
     flock: VectorEnvironment,
+    /// Arrays that every call of [`Self::outputs`] without copies fills and gives.
+    kept: Option<Py<PyDict>>,
 }
 
 #[pymethods]
@@ -65,12 +67,14 @@ impl PyFlock {
         let settings = cosfly_env::EnvironmentSettings { step_s: config.step_s, latency_s, ..suite };
         let flock = VectorEnvironment::new(tasks, count, settings, mode, config.expert_action);
         let flock = if is_team { flock.as_team() } else { flock };
+        let flock =
+            flock.on_threads(config.threads.min(count)).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         if let Some(unknown) = config.channels.iter().find(|name| channels::called(name).is_none()) {
             return Err(InvalidValue::new_err(format!("there is no channel `{unknown}`")));
         }
         let channels = ChannelSet::of(|channel| config.channels.iter().any(|name| name == channel.name));
         if channels.is_empty() {
-            return Ok(Self { flock });
+            return Ok(Self { flock, kept: None });
         }
         let weather = config.weather.as_deref().map(preset).transpose()?;
         let look = PictureLook::named(&config.look).ok_or_else(|| {
@@ -80,10 +84,7 @@ impl PyFlock {
         let (width, height) = config.sides;
         let farthest_m = config.max_depth_m;
         let format = PictureFormat { width, height, channels, farthest_m, weather, look };
-        let flock = flock
-            .with_pictures(format, config.threads.min(count))
-            .map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-        Ok(Self { flock })
+        Ok(Self { flock: flock.with_pictures(format), kept: None })
     }
 
     /// Begins episodes: of all environments, or of those that `mask` chooses.
@@ -109,43 +110,27 @@ impl PyFlock {
             let message = format!("actions must have the shape ({}, {ACTIONS})", self.flock.len());
             return Err(InvalidValue::new_err(message));
         }
-        let rows: Vec<[f32; ACTIONS]> = rows.iter().map(|row| row.map(|number| number as f32)).collect();
         let flock = &mut self.flock;
-        py.detach(|| flock.step(&rows));
+        py.detach(|| flock.step(rows));
         Ok(())
     }
 
-    /// Copies of what the last reset or step gave, by name.
-    fn outputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (outputs, told) = (self.flock.outputs(), PyDict::new(py));
-        let rows = |rows: &[[f32; cosfly_env::FEATURES]]| {
-            let rows: Vec<Vec<f32>> = rows.iter().map(|row| row.to_vec()).collect();
-            PyArray2::from_vec2(py, &rows)
+    /// Results of the last reset or step, by name: in arrays of their own, or in the arrays of the calls before.
+    fn outputs<'py>(&mut self, py: Python<'py>, copy: bool) -> PyResult<Bound<'py, PyDict>> {
+        let told = match self.kept.as_ref().filter(|_| !copy) {
+            Some(kept) => kept.bind(py).clone(),
+            None => PyDict::new(py),
         };
-        told.set_item("features", rows(&outputs.features)?)?;
-        told.set_item("last_features", rows(&outputs.last_features)?)?;
-        told.set_item("rewards", PyArray1::from_slice(py, &outputs.rewards))?;
-        told.set_item("terminated", PyArray1::from_slice(py, &outputs.terminated))?;
-        told.set_item("truncated", PyArray1::from_slice(py, &outputs.truncated))?;
-        told.set_item("tracked", PyArray1::from_slice(py, &outputs.tracked))?;
-        told.set_item("look_alikes", PyArray1::from_slice(py, &outputs.look_alikes))?;
-        if let Some(format) = self.flock.format() {
-            let size = [self.flock.len(), format.height as usize, format.width as usize];
-            put_pictures(&told, "", &outputs.album, size)?;
-            put_pictures(&told, "last_", &outputs.last_album, size)?;
-        }
-        if !outputs.beside.is_empty() {
-            told.set_item("beside", PyArray2::from_vec2(py, &outputs.beside)?)?;
-        }
-        for (at, name) in cosfly_env::Reward::NAMES.iter().enumerate() {
-            let term: Vec<f64> = outputs.terms.iter().map(|terms| terms[at]).collect();
-            told.set_item(format!("reward_{name}"), PyArray1::from_vec(py, term))?;
-        }
-        if !outputs.expert_actions.is_empty() {
-            let rows: Vec<Vec<f32>> = outputs.expert_actions.iter().map(|row| row.to_vec()).collect();
-            told.set_item("expert_action", PyArray2::from_vec2(py, &rows)?)?;
+        self.put_all(&told)?;
+        if !copy && self.kept.is_none() {
+            self.kept = Some(told.clone().unbind());
         }
         Ok(told)
+    }
+
+    /// Seconds that all calls so far spent in work that is shared between the threads.
+    fn shared_s(&self) -> f64 {
+        self.flock.shared_s()
     }
 
     /// Names of all episodes.
@@ -190,24 +175,85 @@ fn preset(name: &str) -> PyResult<Weather> {
     })
 }
 
-/// Adds each channel of an album as an array of (environment, row, column), and value where a pixel has three.
-fn put_pictures(
-    told: &Bound<'_, PyDict>,
-    prefix: &str,
-    album: &PictureBatch,
-    [count, height, width]: [usize; 3],
-) -> PyResult<()> {
-    let (py, shape) = (told.py(), [count, height, width, 3]);
-    for (channel, pixels) in album.channels() {
-        let shape = if channel.element().parts() == 1 { &shape[..3] } else { &shape[..] };
-        let array = match pixels {
-            Pixels::Bytes(bytes) => PyArray1::from_slice(py, bytes).reshape(shape)?.into_any(),
-            Pixels::Floats(floats) => PyArray1::from_slice(py, floats).reshape(shape)?.into_any(),
-            Pixels::Ids(ids) => PyArray1::from_slice(py, ids).reshape(shape)?.into_any(),
-        };
-        told.set_item(format!("{prefix}{}", channel.name), array)?;
+impl PyFlock {
+    /// Puts all results into arrays of a dictionary: new ones where it lacks them.
+    fn put_all(&self, told: &Bound<'_, PyDict>) -> PyResult<()> {
+        let (outputs, count) = (self.flock.outputs(), self.flock.len());
+        self.put(told, "features", outputs.features.as_flattened(), &[count, cosfly_env::FEATURES])?;
+        if self.flock.mode() == Autoreset::SameStep {
+            self.put(told, "last_features", outputs.last_features.as_flattened(), &[count, cosfly_env::FEATURES])?;
+        }
+        self.put(told, "rewards", &outputs.rewards, &[count])?;
+        self.put(told, "terminated", &outputs.terminated, &[count])?;
+        self.put(told, "truncated", &outputs.truncated, &[count])?;
+        self.put(told, "tracked", &outputs.tracked, &[count])?;
+        self.put(told, "look_alikes", &outputs.look_alikes, &[count])?;
+        if let Some(format) = self.flock.format() {
+            let size = [count, format.height as usize, format.width as usize, 3];
+            self.put_pictures(told, "", &outputs.album, size)?;
+            self.put_pictures(told, "last_", &outputs.last_album, size)?;
+        }
+        if !outputs.beside.is_empty() {
+            let width = outputs.beside[0].len();
+            self.put(told, "beside", &outputs.beside.concat(), &[count, width])?;
+        }
+        if self.flock.has_experts() {
+            self.put(told, "expert_action", outputs.expert_actions.as_flattened(), &[count, ACTIONS])?;
+        }
+        self.put(told, "last_terms", outputs.terms.as_flattened(), &[count, TERMS])?;
+        for (at, name) in cosfly_env::Reward::NAMES.iter().enumerate() {
+            let name = format!("reward_{name}");
+            if !told.contains(&name)? {
+                let column = (PySlice::full(told.py()), at);
+                told.set_item(name, told.as_any().get_item("last_terms")?.get_item(column)?)?;
+            }
+        }
+        Ok(())
     }
-    Ok(())
+
+    /// Puts the channels of an album as arrays of (environment, row, column), and value where a pixel has three.
+    fn put_pictures(
+        &self,
+        told: &Bound<'_, PyDict>,
+        prefix: &str,
+        album: &PictureBatch,
+        size: [usize; 4],
+    ) -> PyResult<()> {
+        for (channel, pixels) in album.channels() {
+            let shape = if channel.element().parts() == 1 { &size[..3] } else { &size[..] };
+            let name = format!("{prefix}{}", channel.name);
+            match pixels {
+                Pixels::Bytes(bytes) => self.put(told, &name, bytes, shape)?,
+                Pixels::Floats(floats) => self.put(told, &name, floats, shape)?,
+                Pixels::Ids(ids) => self.put(told, &name, ids, shape)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts values into the array of a name, which is made where it is missing.
+    fn put<T: Element + Copy + Send + Sync>(
+        &self,
+        told: &Bound<'_, PyDict>,
+        name: &str,
+        values: &[T],
+        shape: &[usize],
+    ) -> PyResult<()> {
+        let py = told.py();
+        let array = match told.get_item(name)? {
+            Some(array) => array.cast_into::<PyArrayDyn<T>>()?,
+            None => {
+                let array = PyArrayDyn::zeros(py, shape, false);
+                told.set_item(name, &array)?;
+                array
+            }
+        };
+        let mut array =
+            array.try_readwrite().map_err(|_| InvalidValue::new_err(format!("the array `{name}` is read-only")))?;
+        let to = array.as_slice_mut().map_err(|error| InvalidValue::new_err(error.to_string()))?;
+        py.detach(|| self.flock.copy(to, values));
+        Ok(())
+    }
 }
 
 /// Episodes, and what their recipe says of the drone.

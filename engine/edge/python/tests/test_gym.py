@@ -79,6 +79,35 @@ def test_pictures_do_not_depend_on_threads_or_on_who_is_beside(mode):
     assert (finals > 0) == (mode == AutoresetMode.SAME_STEP)
 
 
+def test_without_copies_the_same_arrays_have_the_same_values():
+    for mode in (AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP):
+        apart, kept = (make_vec(mode, 4, obs=("state", "depth"), size=16, expert_action=True, copy=it) for it in (True, False))
+        (wanted, _), (first, told) = apart.reset(seed=3), kept.reset(seed=3)
+        ended = 0
+        for _ in range(90):
+            wanted, *rest, info = apart.step(np.zeros((4, 5)))
+            given, *other, told = kept.step(np.zeros((4, 5)))
+            assert all(given[name] is first[name] and np.array_equal(given[name], wanted[name]) for name in wanted)
+            assert all(np.array_equal(one, two) for one, two in zip(rest, other))
+            names = [name for name in info if name.startswith("reward_") or name in ("tracked", "expert_action")]
+            assert len(names) == 8 and all(np.array_equal(info[name], told[name]) for name in names)
+            if "final_obs" in info:
+                number = int(np.flatnonzero(info["_final_obs"])[0])
+                assert np.array_equal(info["final_obs"][number]["depth"], told["final_obs"][number]["depth"])
+                assert not np.shares_memory(told["final_obs"][number]["state"], given["state"])
+                ended += 1
+        assert ended > 0 or mode == AutoresetMode.NEXT_STEP
+
+
+def test_steps_do_not_depend_on_threads():
+    alone, beside = (make_vec(num_envs=200, jobs=jobs) for jobs in (1, 3))
+    assert np.array_equal(alone.reset(seed=3)[0], beside.reset(seed=3)[0])
+    for step in range(60):
+        actions = np.full((200, 5), 0.1 * step)
+        one, two = alone.step(actions), beside.step(actions)
+        assert all(np.array_equal(a, b) for a, b in zip(one[:4], two[:4]))
+
+
 def test_pictures_show_the_target_where_it_is_tracked():
     envs = make_vec(num_envs=2, obs=("depth", "mask"), size=256, expert_action=True)
     observations, info = envs.reset(seed=1)

@@ -11,7 +11,7 @@ use cosfly_domain::channels::rgb;
 use cosfly_domain::{BodyId, BodyKind, Weather};
 use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
 use cosfly_frames::{DVec3, TargetState};
-use std::ops::Range;
+use rayon::prelude::*;
 
 pub use album::{PictureBatch, Pixels};
 pub use format::PictureFormat;
@@ -20,16 +20,16 @@ pub use format::PictureFormat;
 pub struct Pictures {
     format: PictureFormat,
     renderer: BatchRenderer,
-    bystanders: Vec<Bystander>,
-    /// The bystanders of each view.
-    ranges: Vec<Range<usize>>,
+    threads: usize,
+    /// Everybody else in each view.
+    bystanders: Vec<Vec<Bystander>>,
 }
 
 impl Pictures {
     /// Up to `threads` pictures are drawn at a time, on the rayon pool that calls [`Self::draw`]; the number changes no byte.
     pub fn new(format: PictureFormat, threads: usize) -> Self {
         let renderer = BatchRenderer::on_threads(format.width, format.height, threads);
-        Self { format, renderer, bystanders: vec![], ranges: vec![] }
+        Self { format, renderer, threads, bystanders: vec![] }
     }
 
     /// Content of the pictures.
@@ -43,7 +43,7 @@ impl Pictures {
     /// # Panics
     /// Where the album has no room for all pictures.
     pub fn draw(&mut self, environments: &[&Environment], album: &mut PictureBatch, first: usize) {
-        self.draw_beside(environments, |_| None, album, first);
+        self.draw_beside(environments, &[], album, first);
     }
 
     /// Pictures of drones of a team, each of which sees the others that fly.
@@ -52,39 +52,40 @@ impl Pictures {
     /// Where the album has no room for all pictures.
     pub fn draw_team(&mut self, environments: &[&Environment], album: &mut PictureBatch) {
         let drones: Vec<Option<Walker>> = environments.iter().map(|environment| drone(environment)).collect();
-        self.draw_beside(environments, |number| drones.get(number).copied().flatten(), album, 0);
+        self.draw_beside(environments, &drones, album, 0);
     }
 
-    /// Draws pictures with drones of their numbers, each of which all environments see but its own.
+    /// Draws pictures with the drones of a team, each of which all environments see but its own.
     fn draw_beside(
         &mut self,
         environments: &[&Environment],
-        drone: impl Fn(usize) -> Option<Walker>,
+        drones: &[Option<Walker>],
         album: &mut PictureBatch,
         first: usize,
     ) {
-        let Self { format, renderer, bystanders, ranges } = self;
-        bystanders.clear();
-        ranges.clear();
-        for (own, environment) in environments.iter().enumerate() {
-            let start = bystanders.len();
-            let rain = rain(format, environment);
-            bystanders.extend(self::bystanders(environment, rain));
-            let others = (0..environments.len()).filter(|number| *number != own);
-            bystanders.extend(others.filter_map(|number| {
+        let Self { format, renderer, threads, bystanders } = self;
+        bystanders.resize_with(environments.len().max(bystanders.len()), Vec::new);
+        let fill = |(own, (environment, seen)): (usize, (&&Environment, &mut Vec<Bystander>))| {
+            seen.clear();
+            seen.extend(self::bystanders(environment, rain(format, environment)));
+            let others = drones.iter().enumerate().filter(|(number, _)| *number != own);
+            seen.extend(others.filter_map(|(number, walker)| {
                 let instance = environment.episode().place.instance(BodyId::of_drone(number as u32));
-                drone(number).map(|walker| Bystander { walker, instance })
+                walker.map(|walker| Bystander { walker, instance })
             }));
-            ranges.push(start..bystanders.len());
+        };
+        match *threads {
+            0 | 1 => environments.iter().zip(&mut *bystanders).enumerate().for_each(fill),
+            _ => environments.par_iter().zip(&mut *bystanders).enumerate().for_each(fill),
         }
         let has_colours = format.channels.contains(&rgb::CHANNEL);
-        let views: Vec<View<'_>> = (environments.iter().zip(&*ranges))
-            .map(|(environment, range)| View {
+        let views: Vec<View<'_>> = (environments.iter().zip(&*bystanders))
+            .map(|(environment, others)| View {
                 scene: environment.episode().place.scene(has_colours),
                 pose: environment.camera(),
                 horizontal_fov_rad: environment.settings().lens.horizontal_deg.to_radians(),
                 target: Some(target(environment, rain(format, environment))),
-                others: &bystanders[range.clone()],
+                others,
                 weather: weather(format, environment),
                 look: format.look,
                 figures: &[],
@@ -93,7 +94,7 @@ impl Pictures {
         let pixels = format.pixels();
         let part = first * pixels..(first + views.len()) * pixels;
         renderer.render(&views, album.outputs(&part));
-        album.cut_depth(&part, format.farthest_m);
+        album.cut_depth(&part, format.farthest_m, *threads);
         for number in (first..).zip(environments).filter_map(|(number, one)| one.is_blind().then_some(number)) {
             album.wipe(number);
         }

@@ -42,7 +42,7 @@ fn many(mode: Autoreset) -> VectorEnvironment {
 fn equal_seeds_fly_equal_episodes_beside_any_others() {
     let mut many = many(Autoreset::SameStep);
     for step in 0..200 {
-        many.step(&[[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, step as f32, 0.0, 9.0], [1.0, 0.0, 0.0, 0.0, 0.0]]);
+        many.step(&[[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, f64::from(step), 0.0, 9.0], [1.0, 0.0, 0.0, 0.0, 0.0]]);
         let outputs = many.outputs();
         assert_eq!(outputs.features[0], outputs.features[2]);
         assert_eq!((outputs.rewards[0], many.episode(0)), (outputs.rewards[2], many.episode(2)));
@@ -100,7 +100,7 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
     for mode in [Autoreset::NextStep, Autoreset::SameStep, Autoreset::Disabled] {
         let mut both = [1, 2].map(|threads| {
             let many = VectorEnvironment::new(tasks(), 3, EnvironmentSettings::default(), mode, false);
-            let mut many = many.with_pictures(format(), threads).expect("threads");
+            let mut many = many.on_threads(threads).expect("threads").with_pictures(format());
             many.reset(&[Some(5), Some(6), Some(7)], |_| true);
             many
         });
@@ -112,7 +112,7 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
         let (mut ended, mut is_seen) = (0, false);
         for step in 0..60 {
             let before: Vec<_> = (0..3).map(|number| both[0].members[number].environment.clone()).collect();
-            let action = [0.3, 0.1, 0.0, step as f32 % 7.0, 0.0];
+            let action = [0.3, 0.1, 0.0, f64::from(step) % 7.0, 0.0];
             both.iter_mut().for_each(|many| many.step(&[action; 3]));
             let [one, other] = &both;
             assert_eq!(one.outputs.album, other.outputs.album);
@@ -126,7 +126,7 @@ fn pictures_are_those_of_the_observations_for_any_number_of_threads_and_in_each_
                 assert_eq!(bytes(album, &mask::CHANNEL)[part.clone()], *bytes(&alone, &mask::CHANNEL));
                 if mode == Autoreset::SameStep && one.outputs.truncated[number] {
                     ended += 1;
-                    environment.step(Some(&Action::of_numbers(action.map(f64::from))));
+                    environment.step(Some(&Action::of_numbers(action.map(|number| f64::from(number as f32)))));
                     let mut last = PictureBatch::new(&format(), 1);
                     Pictures::new(format(), 1).draw(&[&environment], &mut last, 0);
                     assert_eq!(depths(&one.outputs.last_album)[part], *depths(&last));
@@ -168,7 +168,7 @@ fn drones_of_a_team_that_meet_collide_and_are_out_of_the_way_of_others() {
             let environment = &many.members[one].environment;
             let (own, goal) = (environment.observation(), many.members[other].environment.observation());
             let way = own.along_heading(goal.motion.position_in_world - own.motion.position_in_world) * 5.0;
-            [way.x as f32, way.y as f32, way.z as f32, 0.0, 0.0]
+            [way.x, way.y, way.z, 0.0, 0.0]
         };
         let actions = [toward(0, 1), toward(1, 0), [0.0; ACTIONS]];
         many.step(&actions);

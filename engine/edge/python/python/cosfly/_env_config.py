@@ -78,7 +78,7 @@ class EnvConfig:
     look: str = "simple"
     """Look of colours: ``simple`` or ``full``."""
     jobs: int | None = None
-    """Threads that draw pictures; else one per core."""
+    """Threads that step and draw; else one per core."""
     step_s: float = 0.1
     """Time from one action to the next, seconds."""
     latency_s: float | None = None
@@ -136,5 +136,5 @@ class EnvConfig:
 
     @property
     def threads(self) -> int:
-        """Number of threads that draw pictures."""
+        """Number of threads that step and draw."""
         return self.jobs if self.jobs is not None else os.cpu_count() or 1

@@ -118,12 +118,13 @@ class _Observations:
 
         return of(self.names[0]) if len(self.names) == 1 else spaces.Dict({name: of(name) for name in self.names})
 
-    def of(self, told: dict[str, Any], prefix: str = "", number: int | None = None) -> Any:
+    def of(self, told: dict[str, Any], prefix: str = "", number: int | None = None, copy: bool = False) -> Any:
         """The observations in what a flock tells: of all environments, or of one."""
 
         def value(name: str) -> Any:
             values = told[prefix + ("features" if name == "state" else name)]
-            return values if number is None else values[number]
+            values = values if number is None else values[number]
+            return values.copy() if copy else values
 
         return value(self.names[0]) if len(self.names) == 1 else {name: value(name) for name in self.names}
 
@@ -152,8 +153,11 @@ class TrackVector(VectorEnv):
         num_envs: int = 1,
         *,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        copy: bool = True,
         **options: Unpack[EnvOptions],
     ) -> None:
+        """Environments over the episodes of a recipe. With ``copy=False`` every reset and step fills and gives the same arrays: keep
+        what is needed of them before the next call."""
         mode = AutoresetMode(autoreset_mode)
         if isinstance(num_envs, bool) or not 1 <= operator.index(num_envs) <= _MOST_ENVIRONMENTS:
             raise InvalidValue(f"num_envs is {num_envs}; it is 1 to {_MOST_ENVIRONMENTS}")
@@ -165,6 +169,7 @@ class TrackVector(VectorEnv):
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(action_space(), num_envs)
         self._streams, self._is_reset = _Streams(num_envs), False
+        self._copy, self._kept = bool(copy), None
 
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
@@ -189,10 +194,9 @@ class TrackVector(VectorEnv):
             self._np_random, self._np_random_seed = seeding.np_random(self._streams.drawn)
         self._flock.reset(begun, chosen)
         self._is_reset = True
-        told = self._flock.outputs()
-        info = self._info(told)
+        told, observations, info = self._told()
         info["seed"], info["_seed"] = np.array(self._streams.seeds, dtype=np.uint64), np.ones(self.num_envs, dtype=bool)
-        return self._observations.of(told), info
+        return observations, info
 
     def _chosen(self, mask: Any) -> list[bool]:
         if mask is None:
@@ -209,15 +213,25 @@ class TrackVector(VectorEnv):
         if not self._is_reset:
             raise ResetNeeded("reset() begins the episodes before the first step()")
         self._flock.step(_rows(actions, (self.num_envs, len(_LARGEST))))
-        told = self._flock.outputs()
-        info = self._info(told)
-        ended = told["terminated"] | told["truncated"]
-        if self._mode == AutoresetMode.SAME_STEP and ended.any():
-            final = np.empty(self.num_envs, dtype=object)
-            for number in np.flatnonzero(ended):
-                final[number] = self._observations.of(told, "last_", number)
-            info["final_obs"], info["_final_obs"] = final, ended
-        return self._observations.of(told), told["rewards"], told["terminated"], told["truncated"], info
+        told, observations, info = self._told()
+        if self._mode == AutoresetMode.SAME_STEP:
+            ended = told["terminated"] | told["truncated"]
+            if ended.any():
+                final = np.empty(self.num_envs, dtype=object)
+                for number in np.flatnonzero(ended):
+                    final[number] = self._observations.of(told, "last_", number, copy=not self._copy)
+                info["final_obs"], info["_final_obs"] = final, ended
+        return observations, told["rewards"], told["terminated"], told["truncated"], info
+
+    def _told(self) -> tuple[dict[str, Any], Any, dict[str, Any]]:
+        """What the flock tells, the observations in it, and the infos in a dictionary of their own."""
+        told = self._flock.outputs(self._copy)
+        if self._copy:
+            return told, self._observations.of(told), self._info(told)
+        if self._kept is None:  # the arrays stay the same
+            self._kept = self._observations.of(told), self._info(told)
+        observations, info = self._kept
+        return told, observations, dict(info)
 
     def _info(self, told: dict[str, Any]) -> dict[str, Any]:
         info: dict[str, Any] = {}
@@ -229,6 +243,11 @@ class TrackVector(VectorEnv):
     def episode(self, number: int) -> str:
         """Name of the episode that an environment flies."""
         return self._flock.episode(number)
+
+    @property
+    def shared_s(self) -> float:
+        """Seconds that all calls so far spent in work that is shared between the threads."""
+        return self._flock.shared_s()
 
 
 class Track(gymnasium.Env):
@@ -261,7 +280,7 @@ class Track(gymnasium.Env):
             self._flock.seed(begun)
             self._flock.begin_episode(0, episode)
         self._is_reset = True
-        told = self._flock.outputs()
+        told = self._flock.outputs(True)
         info = self._info(told)
         known = self._streams.seeds[0]
         if known is not None and known < 2**63:  # what arrays of infos hold
@@ -272,7 +291,7 @@ class Track(gymnasium.Env):
         if not self._is_reset:
             raise ResetNeeded("reset() begins an episode before the first step()")
         self._flock.step(_rows(action, (len(_LARGEST),)).reshape(1, -1))
-        told = self._flock.outputs()
+        told = self._flock.outputs(True)
         ended = bool(told["terminated"][0]), bool(told["truncated"][0])
         return self._observations.of(told, number=0), float(told["rewards"][0]), *ended, self._info(told)
 

@@ -121,7 +121,7 @@ class ParallelTrack(ParallelEnv):  # type: ignore[misc]
         """Nothing is left open."""
 
     def _told(self) -> dict[str, Any]:
-        told = self._flock.outputs()
+        told = self._flock.outputs(True)
         told["features"] = np.concatenate([told["features"], told.pop("beside")], axis=1)
         return told
 

@@ -4,6 +4,7 @@ use super::format::PictureFormat;
 use cosfly_batch::{OnRequest, Outputs};
 use cosfly_domain::Channel;
 use cosfly_domain::channels::{ChannelSource, Element};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Pixels of a channel, picture after picture, each row by row from the top left pixel.
@@ -57,10 +58,15 @@ impl PictureBatch {
     }
 
     /// Sets depths beyond the farthest to the farthest, metres, in a range of pixels.
-    pub(super) fn cut_depth(&mut self, part: &Range<usize>, farthest_m: f32) {
+    pub(super) fn cut_depth(&mut self, part: &Range<usize>, farthest_m: f32, threads: usize) {
+        let cut = |depths_m: &mut [f32]| depths_m.iter_mut().for_each(|depth_m| *depth_m = depth_m.min(farthest_m));
         for (channel, pixels) in &mut self.channels {
             if let (ChannelSource::Depth, Pixels::Floats(depths_m)) = (channel.source, pixels) {
-                depths_m[part.clone()].iter_mut().for_each(|depth_m| *depth_m = depth_m.min(farthest_m));
+                let depths_m = &mut depths_m[part.clone()];
+                match threads {
+                    0 | 1 => cut(depths_m),
+                    _ => depths_m.par_chunks_mut(self.pixels.max(1)).for_each(cut),
+                }
             }
         }
     }
