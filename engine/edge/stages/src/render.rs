@@ -70,7 +70,7 @@ impl StageKind for Render {
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 24,
+            version: 25,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
