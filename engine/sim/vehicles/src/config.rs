@@ -24,7 +24,7 @@ pub struct VehicleConfig {
     /// Time gap that drivers keep to the vehicle ahead, seconds. Default 1.4.
     #[schemars(range(min = 0.5, max = 5.0))]
     pub headway_s: f64,
-    /// Share of the kerbs of calm streets along which cars are parked: beside lanes where the street has room, else in kerb lanes,
+    /// Share of the kerbs of streets with pavements along which cars are parked: beside lanes where there is room, else in kerb lanes,
     /// which are closed to traffic. Default 0.3.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub parked_share: f64,

@@ -7,9 +7,7 @@ use cosfly_domain::LaneKind;
 use cosfly_frames::Seed;
 use std::collections::BTreeSet;
 
-/// No car is parked on streets with a higher limit, m/s.
-const CALM_MPS: f64 = 18.0;
-/// Nor on those with more lanes in a direction.
+/// No car is parked on streets with more lanes in a direction.
 const MOST_LANES: usize = 2;
 /// A way through a junction has at most so many lanes one after the other.
 const MOST_IN_JUNCTION: usize = 8;
@@ -33,7 +31,8 @@ impl Parking {
         let before = network.predecessors();
         for number in 0..network.lanes.len() as u32 {
             let lane = &network.lanes[number as usize];
-            if !seed.child("parking", u64::from(number)).stream("parking").chance(share) || !is_calm(network, number) {
+            let is_drawn = seed.child("parking", u64::from(number)).stream("parking").chance(share);
+            if !is_drawn || !is_at_kerb(network, number) || !paved.is_street(network, lane, 0.5 * lane.length_m) {
                 continue;
             }
             if paved.has_room_beside(network, lane, 0.5 * lane.length_m) {
@@ -57,8 +56,8 @@ impl Parking {
     }
 }
 
-/// Whether a lane is at the kerb of a street on which cars are parked.
-fn is_calm(network: &Network, number: u32) -> bool {
+/// Whether a lane is at the kerb of a way that is no large one.
+fn is_at_kerb(network: &Network, number: u32) -> bool {
     let lane = &network.lanes[number as usize];
     let mut inner = network.inner_neighbour(number);
     let mut lanes = 1;
@@ -69,7 +68,6 @@ fn is_calm(network: &Network, number: u32) -> bool {
     lane.kind == LaneKind::Driving
         && !lane.in_junction
         && lane.length_m > 3.0 * FROM_ENDS_M
-        && lane.limit_mps < CALM_MPS
         && lanes <= MOST_LANES
         && network.outer_neighbour(number).is_none()
 }

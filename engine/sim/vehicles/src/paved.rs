@@ -11,6 +11,8 @@ use cosfly_town::polygons::PolygonIndex;
 const CAR_M: f64 = 1.9;
 /// The kerb is looked for so far beyond a lane's edge, in steps of so much, metres.
 const KERB_M: [f64; 2] = [6.0, 0.1];
+/// A street's pavement begins this far beyond a lane's edge at most, metres.
+const PAVEMENT_M: f64 = 9.0;
 /// Ground that is higher or lower belongs to another street, metres.
 const LEVEL_M: f64 = 1.0;
 /// Distance between the places of a footprint that are looked up, metres.
@@ -45,6 +47,15 @@ impl Paved {
         let away_m = (1..=(most_m / step_m) as u32).map(|step| edge_m + f64::from(step) * step_m);
         let paved = away_m.take_while(|away_m| self.height_m(middle + (*away_m * to_kerb).extend(0.0)).is_some());
         paved.last().unwrap_or(edge_m)
+    }
+
+    /// Whether people walk beside the street: motorways have no pavements.
+    pub fn is_street(&self, network: &Network, lane: &Drive, way_m: f64) -> bool {
+        let (middle, along) = lane.at(way_m);
+        let to_kerb = network.kerb * along.perp();
+        let mut away_m =
+            (0..=(PAVEMENT_M / SPACING_M) as u32).map(|step| 0.5 * lane.width_m + f64::from(step) * SPACING_M);
+        away_m.any(|away_m| self.walked.at(middle.truncate() + away_m * to_kerb).next().is_some())
     }
 
     /// Whether a car stands beside a lane without narrowing it.
