@@ -7,8 +7,6 @@ use cosfly_domain::LaneKind;
 use cosfly_frames::Seed;
 use std::collections::BTreeSet;
 
-/// No car is parked on streets with more lanes in a direction.
-const MOST_LANES: usize = 2;
 /// A way through a junction has at most so many lanes one after the other.
 const MOST_IN_JUNCTION: usize = 8;
 
@@ -56,19 +54,12 @@ impl Parking {
     }
 }
 
-/// Whether a lane is at the kerb of a way that is no large one.
+/// Whether a lane is at a kerb, and long enough for cars.
 fn is_at_kerb(network: &Network, number: u32) -> bool {
     let lane = &network.lanes[number as usize];
-    let mut inner = network.inner_neighbour(number);
-    let mut lanes = 1;
-    while let Some(next) = inner.filter(|_| lanes <= MOST_LANES) {
-        lanes += 1;
-        inner = network.inner_neighbour(next);
-    }
     lane.kind == LaneKind::Driving
         && !lane.in_junction
         && lane.length_m > 3.0 * FROM_ENDS_M
-        && lanes <= MOST_LANES
         && network.outer_neighbour(number).is_none()
 }
 

@@ -2,7 +2,7 @@
 
 use crate::network::{Drive, Network};
 use crate::parked::{FROM_KERB_M, ROOM_M};
-use cosfly_domain::{OrientedBox, SemanticLabel, Town};
+use cosfly_domain::{OrientedBox, SemanticLabel, Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_town::GroundIndex;
 use cosfly_town::polygons::PolygonIndex;
@@ -13,6 +13,8 @@ const CAR_M: f64 = 1.9;
 const KERB_M: [f64; 2] = [6.0, 0.1];
 /// A street's pavement begins this far beyond a lane's edge at most, metres.
 const PAVEMENT_M: f64 = 9.0;
+/// Limit of calm streets, m/s: 50 km/h.
+const CALM_MPS: f64 = 14.0;
 /// Ground that is higher or lower belongs to another street, metres.
 const LEVEL_M: f64 = 1.0;
 /// Distance between the places of a footprint that are looked up, metres.
@@ -22,12 +24,18 @@ const SPACING_M: f64 = 0.6;
 pub(crate) struct Paved {
     carriageway: GroundIndex,
     walked: PolygonIndex,
+    /// Pavements that nobody invented.
+    pavements: PolygonIndex,
 }
 
 impl Paved {
     pub fn new(town: &Town) -> Self {
         let carriageway = GroundIndex::of_surfaces(&town.surfaces, |mesh| mesh.label == SemanticLabel::Roads);
-        Self { carriageway, walked: PolygonIndex::new(town.walkable.iter().map(|area| area.plan()).collect()) }
+        let of = |keep: &dyn Fn(&WalkablePolygon) -> bool| {
+            PolygonIndex::new(town.walkable.iter().filter(|area| keep(area)).map(WalkablePolygon::plan).collect())
+        };
+        let pavements = of(&|area| area.kind == WalkableKind::Sidewalk && !area.synthetic);
+        Self { carriageway, walked: of(&|_| true), pavements }
     }
 
     /// Height of carriageway on which nobody walks, near a point.
@@ -49,13 +57,13 @@ impl Paved {
         paved.last().unwrap_or(edge_m)
     }
 
-    /// Whether people walk beside the street: motorways have no pavements.
+    /// Whether a lane is of a street of a town: a pavement is beside it, or nobody drives fast there.
     pub fn is_street(&self, network: &Network, lane: &Drive, way_m: f64) -> bool {
         let (middle, along) = lane.at(way_m);
         let to_kerb = network.kerb * along.perp();
-        let mut away_m =
-            (0..=(PAVEMENT_M / SPACING_M) as u32).map(|step| 0.5 * lane.width_m + f64::from(step) * SPACING_M);
-        away_m.any(|away_m| self.walked.at(middle.truncate() + away_m * to_kerb).next().is_some())
+        let away_m = |step: u32| 0.5 * lane.width_m + f64::from(step) * SPACING_M;
+        let is_pavement = |step: u32| self.pavements.at(middle.truncate() + away_m(step) * to_kerb).next().is_some();
+        lane.limit_mps <= CALM_MPS || (0..=(PAVEMENT_M / SPACING_M) as u32).any(is_pavement)
     }
 
     /// Whether a car stands beside a lane without narrowing it.
