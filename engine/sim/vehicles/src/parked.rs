@@ -6,8 +6,8 @@
 use crate::kinds::size_m;
 use crate::network::Network;
 use crate::outlines::{Solid, to_outline};
-use crate::parking::Parking;
-use crate::paved::Paved;
+use crate::parking::{FROM_ENDS_M, Parking};
+use crate::paved::{FROM_KERB_M, Paved, ROOM_M};
 use crate::route::Route;
 use crate::start::is_free;
 use crate::vehicle::{Doing, Vehicle};
@@ -18,14 +18,8 @@ use std::collections::BTreeMap;
 
 /// Distance between parked cars: least and most, metres.
 const BETWEEN_M: [f64; 2] = [0.8, 2.2];
-/// No car is parked so near to the end of a lane or to a crossing, metres.
-pub(crate) const FROM_ENDS_M: f64 = 6.0;
-/// Distance from the kerb, metres.
-pub(crate) const FROM_KERB_M: f64 = 0.2;
 /// Share of the places that are taken.
 const TAKEN: f64 = 0.75;
-/// Distance between a parked car and the middle of a lane that stays open, metres.
-pub(crate) const ROOM_M: f64 = 1.55;
 /// Most parked cars of a town.
 const MOST: usize = 2_000;
 

@@ -1,12 +1,13 @@
 //! Kerbs along which cars are parked, and what that does to the lanes there.
 
 use crate::network::{Drive, Network};
-use crate::parked::FROM_ENDS_M;
 use crate::paved::Paved;
 use cosfly_domain::LaneKind;
 use cosfly_frames::Seed;
 use std::collections::BTreeSet;
 
+/// No car is parked so near to the end of a lane or to a crossing, metres.
+pub(crate) const FROM_ENDS_M: f64 = 6.0;
 /// A way through a junction has at most so many lanes one after the other.
 const MOST_IN_JUNCTION: usize = 8;
 

@@ -1,12 +1,15 @@
 //! Carriageway on which nobody walks: where cars may be parked beside lanes.
 
 use crate::network::{Drive, Network};
-use crate::parked::{FROM_KERB_M, ROOM_M};
 use cosfly_domain::{OrientedBox, SemanticLabel, Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_town::GroundIndex;
 use cosfly_town::polygons::PolygonIndex;
 
+/// Distance from the kerb, metres.
+pub(crate) const FROM_KERB_M: f64 = 0.2;
+/// Distance between a parked car and the middle of a lane that stays open, metres.
+pub(crate) const ROOM_M: f64 = 1.55;
 /// Width of a car for which a lane must have room, metres.
 const CAR_M: f64 = 1.9;
 /// The kerb is looked for so far beyond a lane's edge, in steps of so much, metres.
