@@ -192,8 +192,7 @@ simd_kernel! {
                 places.seed[k] = place.seed;
                 strongest = most(strongest, places.strength[k]);
             }
-            // Not a number is not above either.
-            if !(strongest > 0.0) {
+            if strongest <= 0.0 {
                 continue;
             }
             for block in four {
@@ -265,7 +264,7 @@ mod tests {
     #[test]
     fn cells_know_the_place_in_their_lane() {
         let lane = bend();
-        let wear = LaneWear::new(&[lane.clone()], 3);
+        let wear = LaneWear::new(core::slice::from_ref(&lane), 3);
         let mut way_m = 0.0;
         for pair in lane.middle_in_world.windows(2) {
             let along = (pair[1] - pair[0]).truncate().normalize();
