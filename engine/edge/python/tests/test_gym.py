@@ -84,7 +84,7 @@ def test_without_copies_the_same_arrays_have_the_same_values():
         apart, kept = (make_vec(mode, 4, obs=("state", "depth"), size=16, expert_action=True, copy=it) for it in (True, False))
         (wanted, _), (first, told) = apart.reset(seed=3), kept.reset(seed=3)
         ended = 0
-        for _ in range(90):
+        for _ in range(150):
             wanted, *rest, info = apart.step(np.zeros((4, 5)))
             given, *other, told = kept.step(np.zeros((4, 5)))
             assert all(given[name] is first[name] and np.array_equal(given[name], wanted[name]) for name in wanted)

@@ -24,7 +24,7 @@ impl BatchScene {
 
     /// Scene with all that colours need.
     pub fn with_colours(self, town: &Town, seed: Seed) -> Self {
-        Self { large: Some(Scene::new(town, seed)), ..self }
+        Self { large: Some(Scene::of_boxes(town, seed)), ..self }
     }
 
     /// Prepares a town with the index of its ground for all channels but colours: a small part of the memory.

@@ -35,6 +35,11 @@ impl Walker {
         }
     }
 
+    /// Whether a vehicle has not moved yet, as parked ones never do: its lamps are off.
+    pub fn is_parked(&self) -> bool {
+        !self.body.is_person() && self.state.speed_mps == 0.0 && self.gait_phase_rad == 0.0
+    }
+
     /// Whether there is a body to draw.
     pub fn has_body(&self) -> bool {
         let numbers = [self.radius_m, self.state.heading_rad, self.state.speed_mps, self.gait_phase_rad];

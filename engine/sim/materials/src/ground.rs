@@ -105,7 +105,15 @@ simd_kernel! {
             }
             SemanticLabel::Water => {
                 paint_all!(shared, blocks, point => Vec3::new(0.02, 0.05, 0.06));
-                blocks.iter_mut().for_each(|block| block.mirror = [0.9; WIDE]);
+                for (shared, four) in groups(shared, blocks) {
+                    for block in four {
+                        for k in 0..WIDE {
+                            let wave = waves(&block.point(shared, k), noise);
+                            block.mirror[k] = 0.62 + 0.5 * wave;
+                            block.sunlight[k] *= glitter(wave, shared.footprint_m[k]);
+                        }
+                    }
+                }
             }
             _ => {
                 paint_patches!(shared, blocks, middle => {
@@ -204,6 +212,23 @@ fn paint(point: &SurfacePoint, worn: NoiseLevel, noise: &NoiseTexture) -> Vec3 {
     let worn = smoothstep(0.62, 0.86, noise.clumps_at(x * 9.0, y * 9.0, worn));
     Vec3::splat(0.70).lerp(Vec3::splat(0.15), 0.75 * worn)
 }
+
+/// Height of small waves, 0..=1.
+#[inline(always)]
+fn waves(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
+    let (x, y, size) = (point.world.x, point.world.y, point.footprint_m);
+    0.65 * noise.clumps(x * 2.6, y * 4.1, size * 4.1) + 0.35 * noise.rough(x * 8.7 + 40.0, y * 6.9, size * 8.7)
+}
+
+/// Share of the sun's image that waves send to the camera: some facets of them, and their mean where pixels are larger.
+#[inline(always)]
+fn glitter(wave: f32, size: f32) -> f32 {
+    let facets = smoothstep(0.54, 0.66, wave);
+    lerp(facets, GLITTER, smoothstep(0.05, 0.5, size))
+}
+
+/// Mean share of water that glitters.
+const GLITTER: f32 = 0.16;
 
 #[inline(always)]
 fn stains(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {

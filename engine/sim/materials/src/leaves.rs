@@ -51,11 +51,11 @@ const EVERGREEN_BUSHES: f32 = 0.6;
 const ASIDE_M: f32 = 1.2;
 
 /// Ground below bare crowns, linear RGB.
-const BELOW: Vec3 = Vec3::new(0.155, 0.15, 0.127);
+const BELOW: Vec3 = Vec3::new(0.150, 0.137, 0.106);
 
 /// Twigs of a bare crown, linear RGB.
 fn twigs(seed: u32) -> Vec3 {
-    Vec3::new(0.108, 0.096, 0.074).lerp(Vec3::new(0.096, 0.093, 0.082), draw(seed, 10))
+    Vec3::new(0.115, 0.091, 0.064).lerp(Vec3::new(0.102, 0.088, 0.070), draw(seed, 10))
 }
 
 /// A crown.
@@ -294,12 +294,12 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
     let small = small * crown.through;
     // Every clump of leaves faces its own way.
     let turn = Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big);
-    let bent = (out + turn * 1.5).lerp(Vec3::new(0.0, 0.0, 1.0), 0.3 * bare);
-    let deep = smoothstep(-0.42, 0.42, 0.9 * big + 1.5 * small);
+    let bent = (out + turn * 2.4).lerp(Vec3::new(0.0, 0.0, 1.0), 0.3 * bare);
+    let deep = smoothstep(-0.46, 0.40, 1.3 * big + 0.9 * small);
     // Light shines through leaves at the rim of a clump: they are yellower there.
     let through = Vec3::new(0.11, 0.115, 0.02) * crown.through;
     let tint = crown.tint.lerp(crown.tint * 0.6 + through, 0.5 * (small + 0.5) * deep);
-    let tint = (tint * (0.50 + 0.95 * deep)).lerp(BELOW, open * (0.5 + 0.25 * deep));
+    let tint = (tint * (0.58 + 0.80 * deep)).lerp(BELOW, open * (0.5 + 0.25 * deep));
     // Darker below, where the crown shades itself.
     let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z + bare);
     let openness = lerp((0.55 + 0.55 * deep) * shade, 0.85, 0.5 * open);
@@ -321,7 +321,7 @@ impl OnMap {
     #[inline(always)]
     fn place(&self, world: Vec3) -> (f32, f32, f32) {
         let out = ((world - self.middle) * self.shrink).unit();
-        let scale = 42.0 / (1.0 + out.z.abs());
+        let scale = 30.0 / (1.0 + out.z.abs());
         (out.x * self.half.x * scale, out.y * self.half.y * scale, scale)
     }
 }

@@ -19,6 +19,7 @@ mod kerb_lines;
 mod look;
 mod outlook;
 pub mod outside;
+mod parked;
 mod passes;
 mod people;
 mod props;

@@ -4,8 +4,10 @@ use crate::body_bounds::{Bounds, Reach};
 use crate::far_light::FarLight;
 use crate::found::BodyPart;
 use crate::setup::FrameSetup;
-use cosfly_domain::TARGET_INSTANCE;
-use cosfly_figures::{BodyShape, Clothes, FigureTriangle, Fittings, Livery, Region, Walker, Wardrobe, figure};
+use cosfly_domain::{ObstacleKind, SemanticLabel, TARGET_INSTANCE};
+use cosfly_figures::{
+    BodyShape, Bystander, Clothes, FigureTriangle, Fittings, Livery, Region, Walker, Wardrobe, figure,
+};
 use cosfly_frames::{DVec3, real};
 use cosfly_materials::vector::Vec3;
 use cosfly_raster::eye::Eye;
@@ -24,6 +26,8 @@ pub(crate) struct Person {
     /// To the right of the body, unit length.
     pub side_in_world: Vec3,
     pub instance: u32,
+    /// Label of all parts of a thing of the town; others have those of their bodies.
+    pub town_label: Option<SemanticLabel>,
     /// Triangles of the figure among those of all, where they are needed.
     pub triangles: Range<usize>,
     /// Whether the body itself may be seen.
@@ -78,9 +82,9 @@ impl People {
         }
     }
 
-    /// Adds everybody else who may matter to the picture; `drawn` is what may hide them.
-    pub fn gather(&mut self, setup: &FrameSetup<'_>, eye: &Eye, screen: &Screen, far: FarLight, drawn: &Nearer) {
-        for other in setup.others.iter().filter(|other| other.walker.has_body()) {
+    /// Adds those who may matter to the picture; `drawn` is what may hide them.
+    pub fn gather(&mut self, bodies: &[Bystander], (eye, screen): (&Eye, &Screen), far: FarLight, drawn: &Nearer) {
+        for other in bodies.iter().filter(|other| other.walker.has_body()) {
             let body = Bounds::new(&other.walker);
             let may_matter = body.may_matter(&other.walker, eye, screen, far);
             if !may_matter || body.with_shadow(far).is_hidden(eye, screen, drawn) {
@@ -90,6 +94,13 @@ impl People {
             let is_seen = body.is_in_view(eye, screen) && !body.is_hidden(eye, screen, drawn);
             self.add(other.walker, other.instance, is_seen, body.reach(eye, screen, far), height_px, Built::ForPicture);
         }
+    }
+
+    /// Adds the cars of the town that may matter to the picture.
+    pub fn gather_parked(&mut self, cars: &[Bystander], seen_by: (&Eye, &Screen), far: FarLight, drawn: &Nearer) {
+        let first = self.members.len();
+        self.gather(cars, seen_by, far, drawn);
+        self.members[first..].iter_mut().for_each(|car| car.town_label = Some(ObstacleKind::Car.label()));
     }
 
     /// Takes over those whose parts were found in a picture; with `drawn`, all who may darken what it shows, too.
@@ -161,6 +172,7 @@ impl People {
             colours,
             side_in_world,
             instance,
+            town_label: None,
             triangles,
             is_seen,
             reach,

@@ -203,7 +203,7 @@ impl Renderer {
         self.others.clear();
         self.draw_boxes(scene, &eye);
         self.draw_props(scene, &eye);
-        self.draw_people(&eye, setup);
+        self.draw_people(scene, &eye, setup);
         watch.lap(0);
         self.draw_ground(scene, &eye);
         watch.lap(1);
@@ -316,15 +316,14 @@ impl Renderer {
         }
     }
 
-    /// People into the frame, and the target alone into its own buffer.
-    fn draw_people(&mut self, eye: &Eye, setup: &FrameSetup<'_>) {
+    /// People, vehicles and cars of the town into the frame, and the target alone into its own buffer.
+    fn draw_people(&mut self, scene: &Scene, eye: &Eye, setup: &FrameSetup<'_>) {
         let far = FarLight::of(setup.weather);
         self.people.begin(setup, eye, &self.screen, far);
         // What hides people hides the ground, too; that they hide some of it themselves is not worth another look.
         self.nearer.measure(&self.nearest);
-        if !setup.others.is_empty() {
-            self.people.gather(setup, eye, &self.screen, far, &self.nearer);
-        }
+        self.people.gather(setup.others, (eye, &self.screen), far, &self.nearer);
+        self.people.gather_parked(&scene.parked, (eye, &self.screen), far, &self.nearer);
         for person in self.people.members.iter().filter(|person| person.is_seen) {
             let is_target = person.instance == TARGET_INSTANCE;
             // Look and first face of the parts of vehicles, whose faces come in any order, and of the last part of somebody.
@@ -365,7 +364,7 @@ impl Renderer {
                         self.alone.draw_polygon(&self.screen, &corners, &plane, 0.0, number);
                     }
                     let source = FaceSource::Figure { look, first_face, triangle: triangle_number, is_cloth };
-                    let label = person.walker.body.label(triangle.region).id();
+                    let label = person.town_label.unwrap_or_else(|| person.walker.body.label(triangle.region)).id();
                     let normal = triangle.normal_in_world.as_vec3().to_array();
                     self.faces.push(DrawnFace { plane, normal, source, label, instance: person.instance });
                 }

@@ -2,14 +2,17 @@
 
 use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::kerb_lines::kerb_lines;
+use crate::parked::{leave_out, parked_cars};
 use crate::props::{Props, SceneModel};
 use crate::shade::material::colour_of;
 use crate::shade::outskirts::Outskirts;
 use crate::shade::sun_tiles::SunMaps;
 use cosfly_domain::{ObstacleKind, Season, Town};
+use cosfly_figures::{Bystander, Clothes, figure};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_materials::grid::LightGrid;
 use cosfly_materials::kerbs::{KerbLine, tone_of_town};
+use cosfly_materials::lane_wear::LaneWear;
 use cosfly_materials::leaves::Leaves;
 use cosfly_materials::parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox, boxes_of, join_crowns};
 use cosfly_materials::pattern::{NoiseTexture, noise_texture};
@@ -39,8 +42,12 @@ pub struct Scene {
     face_ends: Vec<u32>,
     pub(crate) noise: Box<NoiseTexture>,
     pub(crate) grid: LightGrid,
+    /// Wear of its carriageways.
+    pub(crate) wear: LaneWear,
     pub(crate) outskirts: Outskirts,
     pub(crate) props: Props,
+    /// Cars of the town as vehicles.
+    pub(crate) parked: Vec<Bystander>,
     /// Shadows of everything above, drawn as views need them.
     pub(crate) sun_maps: SunMaps,
     /// Tells scenes of one process apart; buffers that outlive a frame remember it.
@@ -64,8 +71,17 @@ impl Scene {
         Self::with_models(town, seed, &[])
     }
 
+    /// Prepares a town whose cars are boxes like all other things: the scene of the faces of [`Self::faces_of`].
+    pub fn of_boxes(town: &Town, seed: Seed) -> Self {
+        Self::of(town, seed, &[], |_| vec![])
+    }
+
     /// Prepares a town some of whose things are drawn by models.
     pub fn with_models(town: &Town, seed: Seed, models: &[SceneModel]) -> Self {
+        Self::of(town, seed, models, |props| parked_cars(town, props, seed))
+    }
+
+    fn of(town: &Town, seed: Seed, models: &[SceneModel], cars: impl FnOnce(&Props) -> Vec<Bystander>) -> Self {
         let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
         let mut boxes = boxes_of(town, look_seed);
         join_crowns(&mut boxes);
@@ -80,6 +96,8 @@ impl Scene {
         let outskirts = Outskirts::of(&grid, season);
         let props = Props::new(town, models, look_seed);
         props.replace(&mut boxes);
+        let parked = cars(&props);
+        leave_out(&parked, &mut boxes);
         static SCENES: AtomicU64 = AtomicU64::new(0);
         let identity = SCENES.fetch_add(1, Ordering::Relaxed);
         let ends = clusters.iter().scan((BOX_FACES.len() * boxes.len()) as u32, |end, cluster| {
@@ -99,8 +117,10 @@ impl Scene {
             face_ends,
             noise,
             grid,
+            wear: LaneWear::new(&town.lanes, look_seed),
             outskirts,
             props,
+            parked,
             sun_maps: SunMaps::default(),
             identity,
         }
@@ -136,7 +156,7 @@ impl Scene {
     }
 
     /// Every triangle that the renderer draws except the target's, for casting the same rays
-    /// (box faces as two triangles; only their outside is drawn, models and ground are seen from both sides).
+    /// (box faces and cars as triangles whose outside alone is drawn; models and ground are seen from both sides).
     pub fn triangles(&self) -> Vec<SceneTriangle> {
         let mut triangles = Vec::new();
         for b in &self.boxes {
@@ -152,6 +172,15 @@ impl Scene {
                 corners_in_world: triangle.corners_in_world,
                 label: prop.label,
                 instance: prop.instance,
+            }));
+        }
+        let mut figures = vec![];
+        for car in &self.parked {
+            figure(&car.walker, &Clothes::draw(&car.walker.clothes_seed), 0, &mut figures);
+            triangles.extend(figures.drain(..).map(|triangle| SceneTriangle {
+                corners_in_world: triangle.corners_in_world,
+                label: ObstacleKind::Car.label().id(),
+                instance: car.instance,
             }));
         }
         for cluster in &self.clusters {

@@ -13,6 +13,8 @@ mod kinds;
 mod network;
 mod outlines;
 mod parked;
+mod parking;
+mod paved;
 mod route;
 mod start;
 mod vehicle;

@@ -118,19 +118,37 @@ impl Network {
         for number in 0..network.lanes.len() {
             let lane = &network.lanes[number];
             let ends = lane.successors.is_empty() && !lane.in_junction;
-            let beside = [1.0, -1.0].map(|side| ends && network.beside(number as u32, side).is_some());
+            let beside = [1.0, -1.0].map(|side| ends && network.beside(number as u32, side, 1.0).is_some());
             network.lanes[number].is_exit = ends && beside == [false; 2];
         }
         network.measure();
         network
     }
 
-    /// Closes lanes to traffic: no way leads into them any more.
+    /// Closes lanes to traffic: no way leads into them any more, nor into ways through junctions that led nowhere else.
     pub fn close(&mut self, closed: &[u32]) {
-        for lane in &mut self.lanes {
-            lane.successors.retain(|next| closed.binary_search(next).is_err());
+        let mut gone: BTreeSet<u32> = closed.iter().copied().collect();
+        while !gone.is_empty() {
+            let mut cut_off = BTreeSet::new();
+            for (number, lane) in (0u32..).zip(&mut self.lanes) {
+                let before = lane.successors.len();
+                lane.successors.retain(|next| !gone.contains(next));
+                if lane.in_junction && lane.successors.is_empty() && before > 0 {
+                    cut_off.insert(number);
+                }
+            }
+            gone = cut_off;
         }
         self.measure();
+    }
+
+    /// For each lane, those that it follows.
+    pub fn predecessors(&self) -> Vec<Vec<u32>> {
+        let mut before = vec![vec![]; self.lanes.len()];
+        for (number, lane) in (0u32..).zip(&self.lanes) {
+            lane.successors.iter().for_each(|next| before[*next as usize].push(number));
+        }
+        before
     }
 
     /// Measures how far each lane leads: the longest way ahead grows from the ends of lanes backwards.
@@ -154,15 +172,21 @@ impl Network {
 
     /// The lane beside another one in the same direction, away from the kerb.
     pub fn inner_neighbour(&self, number: u32) -> Option<u32> {
-        self.beside(number, -self.kerb)
+        self.beside(number, -self.kerb, 1.0)
+    }
+
+    /// The lane beside another one in the other direction, away from the kerb.
+    pub fn opposite_neighbour(&self, number: u32) -> Option<u32> {
+        self.beside(number, -self.kerb, -1.0)
     }
 
     /// The lane beside another one in the same direction, towards the kerb.
     pub fn outer_neighbour(&self, number: u32) -> Option<u32> {
-        self.beside(number, self.kerb)
+        self.beside(number, self.kerb, 1.0)
     }
 
-    fn beside(&self, number: u32, side: f64) -> Option<u32> {
+    /// The lane on a side of another one, in the same direction (1) or against it (-1).
+    fn beside(&self, number: u32, side: f64, sense: f64) -> Option<u32> {
         let own = &self.lanes[number as usize];
         let (middle, along) = own.at(0.5 * own.length_m);
         let place = middle.truncate() + side * own.width_m * along.perp();
@@ -170,7 +194,7 @@ impl Network {
             let (other, direction) = lane.at(0.5 * lane.length_m);
             lane.kind == own.kind
                 && !lane.in_junction
-                && direction.dot(along) > 0.9
+                && sense * direction.dot(along) > 0.9
                 && (lane.length_m - own.length_m).abs() < 5.0 + 0.1 * own.length_m
                 && (other.truncate() - place).length() < 1.5
         };

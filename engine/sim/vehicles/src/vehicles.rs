@@ -6,6 +6,8 @@ use crate::error::VehicleError;
 use crate::junctions::{Junctions, stop_m};
 use crate::network::Network;
 use crate::outlines::{blocked_lanes, meet};
+use crate::parking::Parking;
+use crate::paved::Paved;
 use crate::vehicle::{Doing, Vehicle};
 use crate::{parked, start};
 use cosfly_domain::{BodyPlan, Town};
@@ -48,11 +50,12 @@ impl Vehicles {
             return Err(VehicleError::NoLanes { town: town.name.clone() });
         }
         let mut network = Network::new(town);
-        let parking = parked::parking_lanes(&network, config.parked_share, seed);
-        network.close(&parking);
+        let paved = Paved::new(town);
+        let parking = Parking::new(&network, &paved, config.parked_share, seed);
+        network.close(&parking.taken);
         let blocked = blocked_lanes(&mut network, town);
         network.close(&blocked);
-        let closed: Vec<u32> = parking.iter().chain(&blocked).copied().collect();
+        let closed: Vec<u32> = parking.taken.iter().chain(&blocked).copied().collect();
         let mut vehicles = start::driving(&network, town, config, &closed, seed);
         if vehicles.is_empty() && config.count > 0 {
             return Err(VehicleError::NoRoom { lanes: town.lanes.len(), asked: config.count });
@@ -65,7 +68,7 @@ impl Vehicles {
             notes.push(format!("{} lanes are closed: solid things stand on them", blocked.len()));
         }
         let driving = vehicles.len();
-        parked::park(&network, town, &parking, config.area_m, seed, &mut vehicles);
+        parked::park(&network, town, (&parking, &paved), config.area_m, seed, &mut vehicles);
         notes.push(format!("{driving} vehicles drive, {} are parked", vehicles.len() - driving));
         let mut junctions = Junctions::new(&network);
         vehicles.iter().filter(|vehicle| vehicle.drives()).for_each(|vehicle| junctions.begin(vehicle));

@@ -52,7 +52,7 @@ impl StageKind for TrafficKind {
         let sources = config.take_sources();
         let properties = |parameters, inputs, artifact, items, bytes_per_item| StageProperties {
             kind: self.name().into(),
-            version: 7,
+            version: 8,
             parameters,
             sources: vec![],
             inputs,

@@ -3,6 +3,7 @@
 mod cars;
 mod coaches;
 mod drones;
+mod fit;
 mod fittings;
 mod livery;
 mod lorries;

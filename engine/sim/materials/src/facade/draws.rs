@@ -24,8 +24,9 @@ pub const TILES: u32 = 21;
 pub const TILES_AGAIN: u32 = 22;
 pub const TILES_BRIGHTNESS: u32 = 23;
 
-/// Draws of a window: its curtains, whether it is lit at night, the warmth of its light.
+/// Draws of a window: its curtains, how its pane leans, whether it is lit at night, the warmth of its light.
 pub const CURTAINS: u32 = 3;
+pub const PANE: u32 = 4;
 pub const LIT: u32 = 7;
 pub const WARMTH: u32 = 9;
 

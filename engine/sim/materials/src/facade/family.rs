@@ -45,6 +45,9 @@ pub(super) const SIGNS: [Vec3; 8] = [
     Vec3::new(0.05, 0.25, 0.32),
 ];
 
+/// Their mean.
+pub(super) const MEAN_SIGN: Vec3 = Vec3::new(0.24, 0.19, 0.17);
+
 const PLASTER: &[[f32; 3]] = &[
     [0.62, 0.52, 0.36],
     [0.66, 0.60, 0.50],

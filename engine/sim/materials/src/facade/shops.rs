@@ -2,9 +2,9 @@
 
 use super::box_face::Slant;
 use super::draws;
-use super::family::SIGNS;
+use super::family::{MEAN_SIGN, SIGNS};
 use super::wall::Facade;
-use crate::pattern::{band, floor_int, hash, least, lerp, one_if, stripes, unit};
+use crate::pattern::{band, floor_int, hash, least, lerp, one_if, smoothstep, stripes, unit};
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;
 
@@ -30,23 +30,26 @@ impl Facade {
         let third = bay * (1.0 / 3.0);
         let unit_number = floor_int(third);
         let shop = hash(unit_number as u32, self.seed ^ 0x5407);
-        let sign = SIGNS[(shop >> 29) as usize & 7];
+        // At a slant a pixel spans several shops.
+        let many = smoothstep(0.10, 0.45, du * (1.0 / 3.0));
+        let sign = SIGNS[(shop >> 29) as usize & 7].lerp(MEAN_SIGN, many);
         let place = floor_int(bay).wrapping_sub(unit_number.wrapping_mul(3));
         let door = one_if(place == ((shop & 0xffff).wrapping_mul(3) >> 16) as i32);
+        let door = lerp(door, 1.0 / 3.0, smoothstep(0.35, 0.9, du));
         let (left, right, low) = (lerp(0.06, 0.28, door), lerp(0.94, 0.72, door), lerp(0.45, 0.02, door));
         let across = stripes(bay, left, right, du);
         let glass = across * band(up_m, low, top - 1.05, dv);
         let sign_share = band(up_m, top - 0.85, top - 0.25, dv) * stripes(third, 0.02, 0.98, du * (1.0 / 3.0));
         let mut look = Look::matt(wall.lerp(sign, sign_share), point.normal);
-        self.glaze(&mut look, glass, hash(shop, draws::SHOP_WINDOW), 1.0, 0.35, night);
+        self.glaze(&mut look, glass, hash(shop, draws::SHOP_WINDOW), 1.0, lerp(0.35, 1.0, many), night);
         look.albedo = look.albedo.lerp(sign * 0.5, 0.55 * glass * door);
         if let Some(night) = night {
-            let open = one_if(unit(hash(shop, draws::OPEN)) < 0.6) * night;
+            let open = lerp(one_if(unit(hash(shop, draws::OPEN)) < 0.6), 0.6, many) * night;
             look.emission += (sign * 1.2 + Vec3::splat(0.03)) * (sign_share * 0.12 * open)
                 + Vec3::new(0.30, 0.21, 0.11) * (glass * (0.06 + 0.22 * unit(hash(shop, draws::GLOW))) * open);
         }
         // An awning: cloth that stands out, and glass in its shade.
-        let has = one_if(unit(hash(shop, draws::AWNING)) < 0.4);
+        let has = lerp(one_if(unit(hash(shop, draws::AWNING)) < 0.4), 0.4, many);
         let (out_along, out_up) = (along_m - 0.5 * AWNING_M * view.along, up_m - 0.5 * AWNING_M * view.up);
         let out_third = out_along * (self.bays_per_m / 3.0);
         let width = stripes(out_third, 0.03, 0.97, du * (1.0 / 3.0));

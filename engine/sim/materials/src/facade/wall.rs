@@ -30,6 +30,8 @@ pub struct Facade {
     pub(super) reveal_m: f32,
     /// Share of a mirror in the glass.
     pub(super) gloss: f32,
+    /// How much its panes differ in what they mirror.
+    pub(super) uneven: f32,
     /// 1 where windows have a bar in the middle.
     pub(super) mullions: f32,
     /// 1 for walls of bricks.
@@ -71,6 +73,8 @@ impl Facade {
             sill: [between(family.sill[0], seed, draws::SILL), between(family.sill[1], seed, draws::LINTEL)],
             reveal_m: family.reveal_m,
             gloss: family.gloss,
+            // Where all is glass, differences show.
+            uneven: if share > 0.8 { 0.55 } else { 0.25 },
             mullions: if family.mullion { 1.0 } else { 0.0 },
             brick: if family.brick { 1.0 } else { 0.0 },
             ledge: family.ledge,

@@ -73,7 +73,9 @@ impl Facade {
         let inside = GLASS.lerp(Vec3::new(0.32, 0.29, 0.24) * (curtains - 0.35), drawn);
         let inside = inside.lerp(Vec3::new(0.09, 0.09, 0.085), mean);
         look.albedo = look.albedo.lerp(inside * shade, share);
-        look.mirror = share * self.gloss * shade;
+        // Panes lean a little: each mirrors another part of the sky.
+        let leans = (unit(hash(cell, draws::PANE)) - 0.5) * (1.0 - mean);
+        look.mirror = share * self.gloss * shade * (1.0 + self.uneven * leans);
         if let Some(night) = night {
             let lit = unit(hash(cell, draws::LIT));
             let one = one_if(lit < 0.30) * (0.12 + 1.3 * lit);

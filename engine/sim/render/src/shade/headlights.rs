@@ -29,15 +29,18 @@ struct Lamps {
 }
 
 impl Lamps {
-    fn of(body: &BodyShape) -> Option<Self> {
-        let BodyShape::Vehicle { kind, .. } = body else { return None };
+    fn of(walker: &Walker) -> Option<Self> {
+        let BodyShape::Vehicle { kind, .. } = walker.body else { return None };
+        if walker.is_parked() {
+            return None;
+        }
         kind.row().lamps.map(|[strength, scale]| Self { strength, scale })
     }
 }
 
 /// How far the lamps of somebody light the ground beyond the body's upright box: towards smaller and larger x and y, metres.
 pub(crate) fn reach_m(walker: &Walker) -> [DVec2; 2] {
-    let Some(lamps) = Lamps::of(&walker.body) else { return [DVec2::ZERO; 2] };
+    let Some(lamps) = Lamps::of(walker) else { return [DVec2::ZERO; 2] };
     let (sin, cos) = real::sin_cos(walker.state.heading_rad);
     let ahead = DVec2::new(cos, sin) * f64::from(AHEAD_M * lamps.scale);
     let aside_m = f64::from(HALF_WIDTH_M + WIDER * AHEAD_M).max(f64::from(BEHIND_M));
@@ -46,7 +49,7 @@ pub(crate) fn reach_m(walker: &Walker) -> [DVec2; 2] {
 
 /// Adds the light of somebody's lamps to what surfaces get.
 pub(super) fn shine(level: Level, shared: &mut [Shared], walker: &Walker, light: &Light) {
-    let (Some(lamps), BodyShape::Vehicle { size_m, .. }) = (Lamps::of(&walker.body), &walker.body) else { return };
+    let (Some(lamps), BodyShape::Vehicle { size_m, .. }) = (Lamps::of(walker), &walker.body) else { return };
     let (sin, cos) = real::sin_cos(walker.state.heading_rad);
     let beam = Beam {
         feet: walker.state.feet_in_world.into(),
@@ -142,9 +145,12 @@ mod tests {
             }
             let at = light_at(&car(heading_rad, BodyKind::Bicycle), "ClearNight", &places[..1]);
             assert!(at[0].x < 0.1, "a bicycle's lamp is weak: {:?}", at[0]);
-            for (kind, weather) in [(BodyKind::Car, "ClearNoon"), (BodyKind::Drone, "ClearNight")] {
-                let at = light_at(&car(heading_rad, kind), weather, &places);
-                assert!(at.iter().all(|lit| *lit == Vec3::splat(0.0)), "{kind:?} {weather}");
+            let mut parked = car(heading_rad, BodyKind::Car);
+            parked.state.speed_mps = 0.0;
+            let [by_day, drone] = [BodyKind::Car, BodyKind::Drone].map(|kind| car(heading_rad, kind));
+            for (walker, weather) in [(by_day, "ClearNoon"), (drone, "ClearNight"), (parked, "ClearNight")] {
+                let at = light_at(&walker, weather, &places);
+                assert!(at.iter().all(|lit| *lit == Vec3::splat(0.0)), "{:?} {weather}", walker.body);
             }
         }
     }

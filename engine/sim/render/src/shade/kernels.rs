@@ -15,6 +15,7 @@ use cosfly_frames::{real, simd_kernel};
 use cosfly_materials::facade::{facade, lift, roofs, tiles};
 use cosfly_materials::ground::ground;
 use cosfly_materials::kerbs::{Kerbs, stones};
+use cosfly_materials::lane_wear::worn;
 use cosfly_materials::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
 use cosfly_materials::leaves::{Crowns, even_leaves, leaves, swell};
 use cosfly_materials::pattern::{most, share};
@@ -97,6 +98,9 @@ pub(super) fn run_kernels(
                 cosfly_materials::season::row(seen.scene.season).lawn,
                 noise,
             );
+            if *label == SemanticLabel::Roads {
+                worn(level, shared, blocks, &seen.scene.wear, noise);
+            }
             if *label == SemanticLabel::SideWalks {
                 stones(level, shared, blocks, kerbs, seen.scene.kerb_tone, noise);
             }
