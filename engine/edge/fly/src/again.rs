@@ -12,14 +12,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
 
 /// Flies all episodes of a bundle by their actions, and gives for each that does not come to the same row the first step that
-/// differs, in words. `progress` gets the numbers of finished and of all episodes.
+/// differs, in words. `settings` are those of each part of the suite. `progress` gets the numbers of finished and of all episodes.
 ///
 /// # Errors
 /// `fly-bundle` for a bundle of another suite; `fly-stopped`.
 pub fn fly_again(
     bundle: &Bundle,
     suite: &Suite,
-    settings: EnvironmentSettings,
+    settings: &[EnvironmentSettings],
     jobs: usize,
     cancelled: &AtomicBool,
     progress: &dyn Fn(u64, u64),
@@ -31,11 +31,16 @@ pub fn fly_again(
         let message = format!("the bundle has no episode `{}` of the suite `{}`", task.episode.name, suite.name);
         return Err(Diagnostic::new("fly-bundle", Fault::Input, message));
     }
+    if bundle.episodes.len() != suite.tasks.len() {
+        let (theirs, ours) = (bundle.episodes.len(), suite.tasks.len());
+        let message = format!("the bundle has {theirs} episodes, the suite `{}` has {ours}", suite.name);
+        return Err(Diagnostic::new("fly-bundle", Fault::Input, message));
+    }
     let one = |done: &mut Sender<()>, task: &Task| {
         if cancelled.load(Ordering::Relaxed) {
             return None;
         }
-        let found = difference(task, settings, records[task.episode.name.as_str()]);
+        let found = difference(task, settings[task.part], records[task.episode.name.as_str()]);
         // Nobody listens any more: nothing is shown.
         _ = done.send(());
         Some(found)

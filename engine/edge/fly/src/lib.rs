@@ -1,6 +1,7 @@
 //! Closed-loop evaluation: a policy flies the episodes of a suite, and the result is a folder of scores and logs.
 //!
 //! * [`suite`]: the episodes of a recipe, with the experts' flights.
+//! * [`benchmark`]: tiers that take episodes from several.
 //! * [`settings`]: what a recipe says of the drone.
 //! * [`pilot`]: policies: baselines, servers behind a WebSocket ([`wire`]), functions in Python.
 //! * [`flight`]: one episode, flown: its row and its steps ([`log`]).
@@ -12,6 +13,7 @@
 //! * [`pictures`]: logs that play in Foxglove, clips, the page.
 
 pub mod again;
+pub mod benchmark;
 pub mod bundle;
 pub mod compare;
 pub mod crew;

@@ -3,13 +3,15 @@
 use super::differences::differences;
 use crate::flight::Latency;
 use crate::settings::FlySettings;
-use crate::suite::Suite;
+use crate::suite::{Part, Suite};
 use cosfly_domain::channels::rgb;
 use cosfly_drone::models;
 use cosfly_env::pictures::PictureFormat;
 use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, RewardWeights};
 use cosfly_render::PictureLook;
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Task and settings of an evaluation. Rows of two results are comparable if `suite`, `episodes` and `environment` are
 /// equal.
@@ -22,6 +24,9 @@ pub struct Card {
     pub policy: PolicyCard,
     /// Settings of the environment.
     pub environment: EnvironmentCard,
+    /// Those of the recipes of a tier that have others, by their names.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub environments: BTreeMap<String, EnvironmentCard>,
     /// Files that are kept beside rows and tables.
     pub kept: KeptCard,
     /// Version of cosfly.
@@ -80,6 +85,14 @@ pub struct PolicyCard {
     /// Pictures in its observations.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pictures: Option<PicturesCard>,
+}
+
+impl PolicyCard {
+    /// Names of what the policy was sent: the state, and pictures.
+    pub fn sent(&self) -> Vec<&str> {
+        let pictures = self.pictures.iter().flat_map(|pictures| &pictures.channels).map(String::as_str);
+        std::iter::once("state").chain(pictures).collect()
+    }
 }
 
 /// Pictures in observations on a card.
@@ -188,11 +201,23 @@ impl EnvironmentCard {
 }
 
 impl EnvironmentCard {
+    /// The card of the settings of the first part of a suite, and those of other parts that differ from it.
+    pub fn of_parts(
+        parts: &[Part],
+        settings: &[EnvironmentSettings],
+        latency: Latency,
+    ) -> (Self, BTreeMap<String, Self>) {
+        let mut cards = parts.iter().zip(settings).map(|(part, settings)| (&part.name, Self::new(settings, latency)));
+        let first = cards.next().map_or_else(|| Self::new(&EnvironmentSettings::default(), latency), |it| it.1);
+        let others = cards.filter(|(_, card)| *card != first).map(|(name, card)| (name.clone(), card)).collect();
+        (first, others)
+    }
+
     /// The settings that the card is of, flown on a suite with these settings.
     ///
     /// # Errors
     /// What differs, in words, where no options of this cosfly give such a card.
-    pub fn settings(&self, suite: &FlySettings) -> Result<EnvironmentSettings, String> {
+    fn settings(&self, suite: &FlySettings) -> Result<EnvironmentSettings, String> {
         let plain = suite.environment();
         let model = models::model(&self.drone)?;
         let drone = DroneSettings { model, wind_mps: self.wind_mps, gusts: self.gusts, ..plain.drone };
@@ -210,23 +235,49 @@ impl Card {
         self.environment.latency_is_measured
     }
 
+    /// Settings of each part of a suite that the card is of.
+    ///
+    /// # Errors
+    /// What differs, in words, where no options of this cosfly give such a card.
+    pub fn settings(&self, parts: &[Part]) -> Result<Vec<EnvironmentSettings>, String> {
+        if let Some(name) = self.environments.keys().find(|name| parts.iter().all(|part| part.name != **name)) {
+            return Err(format!("it has settings for `{name}`, which is no part of the suite"));
+        }
+        let of = |part: &Part| self.environments.get(&part.name).unwrap_or(&self.environment).settings(&part.settings);
+        parts.iter().map(of).collect()
+    }
+
+    /// Settings that rows of two results must have in common: all but latencies.
+    pub fn ground(&self) -> Value {
+        let without =
+            |card: &EnvironmentCard| EnvironmentCard { latency_s: 0.0, latency_is_measured: false, ..card.clone() };
+        let others: BTreeMap<&String, EnvironmentCard> =
+            self.environments.iter().map(|(name, card)| (name, without(card))).collect();
+        let mut ground = serde_json::to_value(without(&self.environment)).unwrap_or_default();
+        if !others.is_empty() {
+            ground["environments"] = serde_json::to_value(others).unwrap_or_default();
+        }
+        ground
+    }
+
+    /// Latency, in words.
+    pub fn latency(&self) -> String {
+        match self.is_measured() {
+            true => "measured".to_owned(),
+            false => format!("{} s", self.environment.latency_s),
+        }
+    }
+
     /// Difference that keeps rows of two results from being compared, in words.
     pub fn incomparable(&self, other: &Self) -> Option<String> {
         let (ours, theirs) = (&self.suite.hash, &other.suite.hash);
         if ours != theirs {
             return Some(format!("their suites differ: `{ours}` and `{theirs}`"));
         }
-        // Latencies may differ.
-        let settings = |card: &Self| {
-            serde_json::to_value(EnvironmentCard {
-                latency_s: 0.0,
-                latency_is_measured: false,
-                ..card.environment.clone()
-            })
-            .unwrap_or_default()
-        };
-        let (ours, theirs) = (settings(self), settings(other));
-        let names = ours.as_object()?.keys().filter(|name| ours[name.as_str()] != theirs[name.as_str()]);
+        let (ours, theirs) = (self.ground(), other.ground());
+        let names: BTreeSet<&String> =
+            [&ours, &theirs].into_iter().filter_map(Value::as_object).flat_map(Map::keys).collect();
+        let names = names.into_iter().filter(|name| ours[name.as_str()] != theirs[name.as_str()]);
         let differ: Vec<String> =
             names.map(|name| format!("{name} is {} and {}", ours[name.as_str()], theirs[name.as_str()])).collect();
         (!differ.is_empty()).then(|| format!("their environments differ: {}", differ.join(", ")))
