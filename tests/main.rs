@@ -20,6 +20,7 @@ mod fly_policies;
 mod fuzzing;
 mod hostile_maps;
 mod house;
+mod leaderboard;
 mod long_walks;
 mod models;
 mod more_walkers;

@@ -18,7 +18,7 @@ use std::path::Path;
 /// Format and version of bundles.
 const FORMAT: &str = "cosfly-result/1";
 /// Largest text of a bundle, bytes.
-const MOST_BYTES: u64 = 1 << 29;
+pub const MOST_BYTES: u64 = 1 << 29;
 /// Strength of the compression.
 const LEVEL: i32 = 9;
 

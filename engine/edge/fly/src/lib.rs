@@ -10,10 +10,12 @@
 //! * [`experts`]: the experts of a recipe, asked again; [`dagger`]: what they say where a policy came.
 //! * [`results`]: the folder: card, rows, logs, tables with intervals; [`compare`]: two of them side by side.
 //! * [`bundle`]: a result as one file; [`again`]: its actions, flown again.
+//! * [`board`]: a folder of them as a leaderboard.
 //! * [`pictures`]: logs that play in Foxglove, clips, the page.
 
 pub mod again;
 pub mod benchmark;
+pub mod board;
 pub mod bundle;
 pub mod compare;
 pub mod crew;
