@@ -3,6 +3,7 @@
 mod advice;
 mod ask_expert;
 mod at_once;
+mod benchmark;
 mod book;
 mod caching;
 mod cameras;

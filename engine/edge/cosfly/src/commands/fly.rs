@@ -45,7 +45,7 @@ Examples:
 
 A policy is a server that speaks openpi's wire, a function in Python, or a baseline: causal, constant-velocity, expert,
 follow, hold, random. It gets a map with `state` (16 numbers), `prompt`, `episode`, `step` and `time_s`, and answers with a
-map whose `actions` are rows of numbers. The result is a folder: card.json, report.html with clips of the worst
+map whose `actions` are rows of numbers. A baseline may be varied: follow:gain=0.5,delay_s=0.3,noise_mps=1. The result is a folder: card.json, report.html with clips of the worst
 episodes, report.md, scores.json, episodes.jsonl, rows and logs. The same command goes on with what a folder lacks. Exits with 1 when a policy
 has given no right answer (then nothing is an episode, and nothing is kept) or went away before all episodes were flown."
 )]

@@ -1,12 +1,11 @@
-//! [`Entry`]: a bundle on a board. [`Found`]: a bundle with its notes, as they lie in a folder.
+//! [`Entry`]: a bundle on a board. [`Found`]: its files, as they lie in a folder.
 
 use super::notes::Notes;
 use super::sees::Sees;
-use crate::bundle::{Bundle, MOST_BYTES};
+use crate::bundle::MOST_BYTES;
 use crate::flight::Row;
 use crate::results::{Card, SuiteCard};
 use cosfly_diagnose::{Diagnostic, Result};
-use cosfly_fingerprint::Digest;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -55,12 +54,10 @@ pub struct Entry {
     pub proof: Proof,
 }
 
-/// A bundle with its notes.
+/// The file of a bundle with its notes.
 pub struct Found {
-    /// The bundle.
-    pub bundle: Bundle,
-    /// Digest of its file.
-    pub digest: Digest,
+    /// Bytes of the file.
+    pub bytes: Vec<u8>,
     /// What its maker says of it.
     pub notes: Notes,
 }
@@ -95,8 +92,7 @@ impl Found {
             }
             None => Notes::default(),
         };
-        let bundle = Bundle::of_bytes(&bytes).map_err(|rule| format!("it is no whole bundle: {rule}"))?;
-        Ok(Self { bundle, digest: Digest::of(&bytes), notes })
+        Ok(Self { bytes, notes })
     }
 }
 

@@ -4,11 +4,14 @@ use super::entry::{Entry, Found, Proof, names};
 use super::sees::Sees;
 use super::standing::{Board, Refused};
 use crate::again::fly_again;
-use crate::results::SuiteCard;
+use crate::bundle::Bundle;
+use crate::flight::Row;
+use crate::results::{Card, SuiteCard};
 use crate::suite::Suite;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_whole::write_file;
+use serde::{Deserialize, Serialize};
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -94,32 +97,43 @@ impl From<Box<Diagnostic>> for Rejection {
     }
 }
 
+/// An entry that was flown again: all that the board needs of its file.
+#[derive(Serialize, Deserialize)]
+struct Kept {
+    card: Card,
+    /// In the order of the suite.
+    rows: Vec<Row>,
+    /// Where episodes come out differently, in words.
+    differ: Vec<String>,
+}
+
 impl Bench<'_> {
     fn entry(&self, folder: &Path, name: &str, flown: &mut usize) -> std::result::Result<Entry, Rejection> {
-        let found = Found::read(folder, name)?;
-        let suite = self.suite(&found)?;
-        let differ = match self.outcome(&found, suite) {
-            Some(differ) => differ,
+        let Found { bytes, notes } = Found::read(folder, name)?;
+        // The same bytes, judged by the same version; its suite is looked at below.
+        let key = format!("{OUTCOMES}\n{}\n{}\n", Digest::of(&bytes), self.cosfly);
+        let place = self.outcomes.join(Digest::of(key.as_bytes()).to_string());
+        let kept = std::fs::read(&place).ok().and_then(|kept| serde_json::from_slice::<Kept>(&kept).ok());
+        let kept = match kept {
+            Some(kept) => kept,
             None => {
+                let bundle = Bundle::of_bytes(&bytes).map_err(|rule| format!("it is no whole bundle: {rule}"))?;
+                let kept = self.fly(bundle)?;
                 *flown += 1;
-                let differ = self.fly(&found, suite)?;
-                self.keep(&found, suite, &differ)?;
-                differ
+                self.keep(&place, &kept)?;
+                kept
             }
         };
-        let Found { bundle, notes, .. } = found;
-        // Rows stand in the order of the suite, whatever their order in the file.
-        let at = |episode: &str| suite.tasks.iter().position(|task| task.episode.name == episode);
-        let mut rows: Vec<_> = bundle.episodes.into_iter().map(|episode| episode.row).collect();
-        rows.sort_by_cached_key(|row| at(&row.episode));
-        let sees = Sees::of(&bundle.card, &notes, &rows)?;
+        let suite = SuiteCard::of(self.suite(&kept.card)?);
+        let Kept { card, rows, differ } = kept;
+        let sees = Sees::of(&card, &notes, &rows)?;
         let proof = if differ.is_empty() { Proof::Reflown } else { Proof::Claimed(differ) };
-        Ok(Entry { file: name.to_owned(), card: bundle.card, suite: SuiteCard::of(suite), rows, notes, sees, proof })
+        Ok(Entry { file: name.to_owned(), card, suite, rows, notes, sees, proof })
     }
 
-    /// The suite of an entry: found by its name, held by its hash.
-    fn suite(&self, found: &Found) -> std::result::Result<&Suite, Rejection> {
-        let (asked, mut hashes) = (&found.bundle.card.suite, vec![]);
+    /// The suite of a card: found by its name, held by its hash.
+    fn suite(&self, card: &Card) -> std::result::Result<&Suite, Rejection> {
+        let (asked, mut hashes) = (&card.suite, vec![]);
         for offer in self.offers.iter().filter(|offer| offer.name == asked.name) {
             let suite = offer.suite()?;
             if suite.digest.to_string() == asked.hash {
@@ -131,7 +145,7 @@ impl Bench<'_> {
             let known: Vec<String> = self.offers.iter().map(|offer| format!("`{}`", offer.name)).collect();
             return Err(format!("it is of the suite `{}`; here are {}", asked.name, known.join(", ")).into());
         }
-        let (hash, theirs): (String, _) = (asked.hash.chars().take(12).collect(), &found.bundle.card.cosfly);
+        let (hash, theirs): (String, _) = (asked.hash.chars().take(12).collect(), &card.cosfly);
         let (ours, name) = (hashes.join(", "), &asked.name);
         Err(format!(
             "it is of another suite: its `{name}` has the hash {hash}, the one here {ours} \
@@ -141,30 +155,24 @@ impl Bench<'_> {
         .into())
     }
 
-    fn fly(&self, found: &Found, suite: &Suite) -> std::result::Result<Vec<String>, Rejection> {
-        let settings = found.bundle.card.settings(&suite.parts);
+    fn fly(&self, bundle: Bundle) -> std::result::Result<Kept, Rejection> {
+        let suite = self.suite(&bundle.card)?;
+        let settings = bundle.card.settings(&suite.parts);
         let settings = settings.map_err(|rule| format!("its environment is not one of this suite: {rule}"))?;
-        let flown = fly_again(&found.bundle, suite, &settings, self.jobs, self.cancelled, &|_, _| ());
-        flown.map_err(|problem| match problem.fault {
+        let flown = fly_again(&bundle, suite, &settings, self.jobs, self.cancelled, &|_, _| ());
+        let differ = flown.map_err(|problem| match problem.fault {
             Fault::Input => Rejection::Entry(problem.message),
             _ => Rejection::Machine(problem),
-        })
+        })?;
+        let at = |row: &Row| suite.tasks.iter().position(|task| task.episode.name == row.episode);
+        let mut rows: Vec<Row> = bundle.episodes.into_iter().map(|episode| episode.row).collect();
+        rows.sort_by_cached_key(at);
+        Ok(Kept { card: bundle.card, rows, differ })
     }
 
-    fn place(&self, found: &Found, suite: &Suite) -> PathBuf {
-        let key = format!("{OUTCOMES}\n{}\n{}\n{}\n", found.digest, suite.digest, self.cosfly);
-        self.outcomes.join(Digest::of(key.as_bytes()).to_string())
-    }
-
-    /// Outcome of the same file on the same suite.
-    fn outcome(&self, found: &Found, suite: &Suite) -> Option<Vec<String>> {
-        serde_json::from_slice(&std::fs::read(self.place(found, suite)).ok()?).ok()
-    }
-
-    fn keep(&self, found: &Found, suite: &Suite, differ: &[String]) -> Result<()> {
-        let place = self.place(found, suite);
-        let text = serde_json::to_string(differ).unwrap_or_default();
-        let written = std::fs::create_dir_all(&self.outcomes).and_then(|()| write_file(&place, text.as_bytes()));
+    fn keep(&self, place: &Path, kept: &Kept) -> Result<()> {
+        let text = serde_json::to_string(kept).unwrap_or_default();
+        let written = std::fs::create_dir_all(&self.outcomes).and_then(|()| write_file(place, text.as_bytes()));
         written.map_err(|error| Diagnostic::io(format!("write {}", place.display()), &error))
     }
 }

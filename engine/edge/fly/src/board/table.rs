@@ -53,7 +53,7 @@ pub fn told(board: &Board) -> String {
             let name = one_line(&it.entry.card.policy.name);
             let (rate, decimals) = (it.rate(), METRICS[0].decimals);
             let (word, sees) = (it.entry.proof.word(), one_line(&it.entry.sees.words));
-            let _ = writeln!(text, "{rank:>4}  {rate:.decimals$}  {word:<8}  {name:<24}  sees {sees}");
+            let _ = writeln!(text, "{rank:>4}  {rate:.decimals$}  {word:<8}  {name} (sees {sees})");
             if let Proof::Claimed(differ) = &it.entry.proof {
                 let first = differ.first().map(|it| one_line(it)).unwrap_or_default();
                 let _ = writeln!(text, "      {} of {} episodes differ: {first}", differ.len(), it.entry.rows.len());
