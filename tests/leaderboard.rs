@@ -45,9 +45,10 @@ fn entries_are_ranked_within_what_was_verified_and_others_are_listed_with_the_re
     assert!(leaderboard(street.path(), &["--jobs", "1"]).stdout.contains("0 flown again by this call"));
     assert_eq!(page(), first, "the same page from kept outcomes");
     // Another store: everything is flown again, on another number of threads.
-    let afresh = leaderboard(street.path(), &["--jobs", "1", "--store", "other"]);
+    let afresh = leaderboard(street.path(), &["--jobs", "1", "--store", "other", "--out", "new/folder/page.html"]);
     assert!(afresh.stdout.contains("3 flown again by this call"), "{}", afresh.stdout);
-    assert_eq!(page(), first, "the same page for any number of threads");
+    let other = std::fs::read(street.path().join("new/folder/page.html")).expect("a page");
+    assert_eq!(other, first, "the same page for any number of threads");
     let make = |name: &str, change: &dyn Fn(&mut Bundle)| {
         let mut other = bundle.clone();
         change(&mut other);
@@ -193,4 +194,56 @@ fn a_tier_flies_verifies_and_ranks_as_a_suite_does() {
     let printed = cosfly(&["fly", "recipe.toml", "--tier", "mini", "--policy", "hold"]).within(street.path()).run();
     assert!(printed.code == Some(3) && printed.stderr.contains("is no benchmark"), "{}", printed.stderr);
     assert!(repository_root().join("recipes/benchmarks/track_1.toml").exists());
+}
+
+/// The same with messages in one line.
+fn words(printed: Printed) -> Printed {
+    Printed { stderr: printed.stderr.split_whitespace().collect::<Vec<_>>().join(" "), ..printed }
+}
+
+#[test]
+fn a_held_out_suite_is_held_against_its_commitment() {
+    let street = Street::new();
+    let printed = cosfly(&["fly", "commit", "recipe.toml"]).within(street.path()).run_ok().stdout;
+    let name = printed.split(".secret.toml").next().expect("a name").to_owned();
+    let at = |name: &str| street.path().join(name);
+    let (secret, published) = (format!("{name}.secret.toml"), format!("{name}.commitment"));
+    assert!(name.starts_with("street_") && at(&secret).exists(), "{printed}");
+    assert_eq!(std::fs::read_to_string(at(".gitignore")).expect("ignored"), "*.secret.toml\n");
+    let fly = |recipe: &str, commitment: &str| {
+        let fly = ["fly", recipe, "--commitment", commitment, "--policy", "hold", "--clips", "0", "--quiet"];
+        words(cosfly(&fly).within(street.path()).run())
+    };
+    let revealed = fly(&secret, &published);
+    assert_eq!(revealed.code, Some(0), "{}", revealed.stderr);
+    let text = std::fs::read_to_string(at(&secret)).expect("a secret");
+    let seed = text.lines().find(|line| line.starts_with("seed")).expect("a seed");
+    std::fs::write(at("other.toml"), text.replace(seed, "seed = 5")).expect("written");
+    let other = fly("other.toml", &published);
+    assert!(other.code == Some(4) && other.stderr.contains("the commitment is"), "{}", other.stderr);
+    // Somebody commits to a seed of their choice.
+    let chosen = std::fs::read(at("other.toml")).expect("a recipe");
+    let chosen = fly("other.toml", &cosfly_fingerprint::Digest::of(&chosen).to_string());
+    assert!(chosen.code == Some(4) && chosen.stderr.contains("do not follow from its nonce"), "{}", chosen.stderr);
+    // The file is the same, its episodes are others.
+    let set =
+        [&["fly", &secret, "--commitment", &published, "--policy", "hold", "--set", "stages.walkers.count=2"][..]]
+            .concat();
+    let fewer = words(cosfly(&set).within(street.path()).run());
+    assert!(fewer.code == Some(4) && fewer.stderr.contains("its episodes are others"), "{}", fewer.stderr);
+    let again = cosfly(&["fly", "commit", &secret]).within(street.path()).run();
+    assert!(again.code == Some(3) && again.stderr.contains("is a held-out suite already"), "{}", again.stderr);
+}
+
+#[test]
+fn the_held_out_suite_that_ships_is_what_was_committed_to() {
+    let folder = repository_root().join("recipes/held_out");
+    let files = std::fs::read_dir(&folder).expect("a folder").map(|file| file.expect("a file").path());
+    let recipe = files.into_iter().find(|path| path.extension().is_some_and(|it| it == "toml")).expect("a recipe");
+    let commitment = recipe.with_extension("commitment");
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let [recipe, commitment] = [recipe, commitment].map(|path| path.display().to_string());
+    let fly = ["fly", &recipe, "--commitment", &commitment, "--policy", "hold", "--clips", "0", "--quiet"];
+    // Where episodes changed on purpose before the first release: `cosfly fly commit recipes/suites/street.toml` makes another one.
+    cosfly(&fly).within(scratch.path()).run_ok();
 }

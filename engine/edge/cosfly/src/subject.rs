@@ -5,6 +5,7 @@ use crate::command::Refusals;
 use crate::console::Console;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fly::benchmark::{Benchmark, Tier};
+use cosfly_fly::held_out;
 use cosfly_fly::suite::{Part, Suite};
 use cosfly_recipe::Recipe;
 use cosfly_runner::RunOptions;
@@ -82,6 +83,24 @@ impl Subject {
     /// `fly-settings`.
     pub fn parts(&self) -> Result<Vec<Part>> {
         self.recipes.iter().map(Part::of).collect()
+    }
+
+    /// Holds a held-out suite against its commitment: a file, or the digits themselves.
+    ///
+    /// # Errors
+    /// `fly-commitment`.
+    pub fn check(&self, suite: &Suite, commitment: &str) -> Result<()> {
+        let (None, [recipe]) = (&self.tier, &self.recipes[..]) else {
+            let message = format!("`{}` is a tier of a benchmark: `--commitment` is of a held-out suite", self.name);
+            return Err(Diagnostic::new("fly-commitment", Fault::Recipe, message));
+        };
+        let is_digest = commitment.len() == 64 && commitment.bytes().all(|digit| digit.is_ascii_hexdigit());
+        let published = match is_digest {
+            true => commitment.to_owned(),
+            false => std::fs::read_to_string(commitment)
+                .map_err(|error| Diagnostic::io(format!("read the commitment `{commitment}`"), &error))?,
+        };
+        held_out::check(recipe, suite, published.trim())
     }
 
     /// Makes the episodes.

@@ -2,6 +2,7 @@
 //!
 //! * [`suite`]: the episodes of a recipe, with the experts' flights.
 //! * [`benchmark`]: tiers that take episodes from several.
+//! * [`held_out`]: suites that are committed to before they are known.
 //! * [`settings`]: what a recipe says of the drone.
 //! * [`pilot`]: policies: baselines, servers behind a WebSocket ([`wire`]), functions in Python.
 //! * [`flight`]: one episode, flown: its row and its steps ([`log`]).
@@ -22,6 +23,7 @@ pub mod crew;
 pub mod dagger;
 pub mod experts;
 pub mod flight;
+pub mod held_out;
 pub mod log;
 pub mod pictures;
 pub mod pilot;

@@ -1,6 +1,7 @@
 //! `cosfly fly`: flies the episodes of a suite with policies, in closed loop, and scores them.
 
 mod bundle;
+mod commit;
 mod compare;
 pub mod policy;
 mod verify;
@@ -62,6 +63,9 @@ pub struct Arguments {
     /// Tier of a benchmark, such as mini
     #[arg(long, value_name = "NAME")]
     tier: Option<String>,
+    /// Hold a held-out suite against its commitment: the file that `cosfly fly commit` wrote, or its 64 digits
+    #[arg(long, value_name = "COMMITMENT")]
+    commitment: Option<String>,
     /// Name of the policy in the result [default: made from its place]
     #[arg(long, value_name = "NAME", value_parser = folder_name)]
     name: Option<String>,
@@ -110,6 +114,7 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Other {
     Bundle(bundle::Arguments),
+    Commit(commit::Arguments),
     Compare(compare::Arguments),
     Verify(verify::Arguments),
 }
@@ -176,6 +181,7 @@ impl Command for Arguments {
         match &self.other {
             Some(Other::Compare(arguments)) => return arguments.run(console),
             Some(Other::Bundle(arguments)) => return arguments.run(console),
+            Some(Other::Commit(arguments)) => return arguments.run(console),
             Some(Other::Verify(arguments)) => return arguments.run(console),
             None => {}
         }
@@ -203,6 +209,9 @@ impl Command for Arguments {
             let progress = console.run_progress(self.quiet);
             subject.make(&store, &options, &*progress)?
         };
+        if let Some(commitment) = &self.commitment {
+            subject.check(&suite, commitment)?;
+        }
         let mut arms = Vec::new();
         let mut code = exit::SUCCESS;
         for place in &places {

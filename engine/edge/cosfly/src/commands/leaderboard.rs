@@ -71,9 +71,7 @@ impl Command for Arguments {
             judge(&self.folder, &bench, &*console.progress("fly again", "entries"))?
         };
         let path = self.out.clone().unwrap_or_else(|| self.folder.join("index.html"));
-        let written: Result<()> = write_file(&path, page(&board, cosfly).as_bytes())
-            .map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error));
-        written?;
+        write(&path, &page(&board, cosfly))?;
         if self.json {
             console.print(&json(&board))?;
         } else {
@@ -95,6 +93,13 @@ impl Arguments {
         }
         Ok(subjects)
     }
+}
+
+/// Writes the page, and makes its folder.
+fn write(path: &Path, page: &str) -> Result<()> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let written = folder.map_or(Ok(()), std::fs::create_dir_all).and_then(|()| write_file(path, page.as_bytes()));
+    written.map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error))
 }
 
 /// The suites and benchmarks that ship, sorted.

@@ -2,13 +2,13 @@
 
 use super::entry::Proof;
 use super::standing::{Board, Contest, Refused, Standing};
-use crate::results::{METRICS, Metric, cell, ending, worst};
+use crate::results::{METRICS, Metric, Summary, cell, ending, worst};
 use cosfly_plot::text::escaped;
 use cosfly_report::{Section, document};
 use std::fmt::Write as _;
 
-/// Metrics that the tables have as columns.
-const COLUMNS: [&str; 6] = ["tracking_rate", "success", "collision", "lost", "policy_failure", "losses"];
+/// Metrics that the tables have as columns, beside the tracking rate.
+const COLUMNS: [&str; 5] = ["success", "collision", "lost", "policy_failure", "losses"];
 /// Episodes that are named for each entry.
 const WORST: usize = 5;
 /// Episodes that come out differently, named for each entry.
@@ -88,10 +88,11 @@ fn table(title: &str, standings: &[Standing], note: &str) -> String {
         let _ = write!(html, "<th scope=\"col\" title=\"{}\">{}</th>", escaped(doc), escaped(name));
     };
     head(&mut html, "policy", "name of the policy, and its rank");
-    columns().for_each(|(_, metric)| head(&mut html, metric.title, metric.doc));
+    head(&mut html, METRICS[0].title, METRICS[0].doc);
     head(&mut html, "behind", "tracking rate minus that of the first");
     head(&mut html, "proof", "what the file proves");
     head(&mut html, "sees", "what the policy sees, as its maker says");
+    columns().for_each(|(_, metric)| head(&mut html, metric.title, metric.doc));
     head(&mut html, "latency", "time from an observation to the effect of the action that answers it");
     head(&mut html, "flown, s", "mean length of the flights, seconds");
     head(&mut html, "licence", "licence of the policy, as its maker says");
@@ -109,7 +110,6 @@ fn line(standing: &Standing) -> String {
         let _ = write!(html, "<br><small>{}</small>", escaped(about));
     }
     html.push_str("</th>");
-    columns().for_each(|(at, metric)| _ = write!(html, "<td>{}</td>", cell(metric, &standing.scores[at])));
     let behind = standing.behind.as_ref().map_or("-".to_owned(), |it| {
         let interval = it.interval.map_or(String::new(), |(low, high)| format!(" [{low:+.3}, {high:+.3}]"));
         format!("{:+.3}{interval}{}", it.difference(), if it.is_clear() { " *" } else { "" })
@@ -118,9 +118,16 @@ fn line(standing: &Standing) -> String {
     let flown_s = steps_s.sum::<f64>() / entry.rows.len().max(1) as f64;
     let _ = write!(
         html,
-        "<td>{behind}</td><td>{}</td><td>{}</td><td>{}</td><td>{flown_s:.1}</td><td>{}</td></tr>",
+        "<td>{}</td><td>{behind}</td><td>{}</td><td>{}</td>",
+        cell(&METRICS[0], &standing.scores[0]),
         entry.proof.word(),
-        escaped(&entry.sees.words),
+        escaped(&entry.sees.words)
+    );
+    let plain = |at: usize| Summary { interval: None, ..standing.scores[at] };
+    columns().for_each(|(at, metric)| _ = write!(html, "<td>{}</td>", cell(metric, &plain(at))));
+    let _ = write!(
+        html,
+        "<td>{}</td><td>{flown_s:.1}</td><td>{}</td></tr>",
         escaped(&entry.card.latency()),
         escaped(entry.notes.licence.as_deref().unwrap_or("-"))
     );
