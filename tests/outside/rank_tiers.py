@@ -65,3 +65,5 @@ for tier in TIERS:
     print(f"| {tier} | {len(episodes[tier])} | {correlation(score[tier], score['full']):.3f} | {apart:.3f} |")
 for name, *numbers in sorted(zip(table, *(score[tier] for tier in TIERS)), key=lambda it: -it[-1]):
     print(f"{name:<44}", *(f"{number:.3f}" for number in numbers))
+worst = min(correlation(score[tier], score["full"]) for tier in TIERS)
+assert len(table) >= 30 and worst >= 0.95, (len(table), worst)
