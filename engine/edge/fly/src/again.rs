@@ -36,11 +36,12 @@ pub fn fly_again(
         let message = format!("the bundle has {theirs} episodes, the suite `{}` has {ours}", suite.name);
         return Err(Diagnostic::new("fly-bundle", Fault::Input, message));
     }
+    let is_measured = bundle.card.is_measured();
     let one = |done: &mut Sender<()>, task: &Task| {
         if cancelled.load(Ordering::Relaxed) {
             return None;
         }
-        let found = difference(task, settings[task.part], records[task.episode.name.as_str()]);
+        let found = difference(task, settings[task.part], is_measured, records[task.episode.name.as_str()]);
         // Nobody listens any more: nothing is shown.
         _ = done.send(());
         Some(found)
@@ -61,9 +62,9 @@ pub fn fly_again(
 }
 
 /// The first step, or the row, in which an episode differs from its record, in words.
-fn difference(task: &Task, settings: EnvironmentSettings, record: &EpisodeRecord) -> Option<String> {
+fn difference(task: &Task, settings: EnvironmentSettings, is_measured: bool, record: &EpisodeRecord) -> Option<String> {
     let name = &task.episode.name;
-    let flown = match by_record(task, settings, record) {
+    let flown = match by_record(task, settings, is_measured, record) {
         Ok(flown) => flown,
         Err(rule) => return Some(format!("`{name}`: {rule}")),
     };
@@ -80,14 +81,20 @@ fn difference(task: &Task, settings: EnvironmentSettings, record: &EpisodeRecord
     (ours != theirs).then(|| format!("`{name}`: all steps are equal, the row is not: {ours} instead of {theirs}"))
 }
 
-fn by_record(task: &Task, settings: EnvironmentSettings, record: &EpisodeRecord) -> std::result::Result<Flown, String> {
+fn by_record(
+    task: &Task,
+    settings: EnvironmentSettings,
+    is_measured: bool,
+    record: &EpisodeRecord,
+) -> std::result::Result<Flown, String> {
     fly_by(task, settings, &mut |environment: &Environment| {
         let step = environment.observation().step;
         match record.steps.get(step as usize) {
             // The policy failed here: the row says so.
             None => Err(Failure::Answer(String::new())),
             Some(kept) => match kept.action {
-                Some(action) => Ok((action, kept.latency_s)),
+                // Latencies that were not measured are those of the card.
+                Some(action) => Ok((action, kept.latency_s.filter(|_| is_measured))),
                 None => Err(Failure::Gone(format!("step {} has no action where one is asked for", step + 1))),
             },
         }

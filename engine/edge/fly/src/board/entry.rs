@@ -7,7 +7,7 @@ use crate::flight::Row;
 use crate::results::{Card, SuiteCard};
 use cosfly_diagnose::{Diagnostic, Result};
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Ending of the files of bundles.
 const BUNDLE: &str = ".jsonl.zst";
@@ -97,7 +97,7 @@ impl Found {
 }
 
 /// Bytes of a file; `None` where there is none.
-fn bytes_of(path: &PathBuf, most: u64) -> std::result::Result<Option<Vec<u8>>, String> {
+fn bytes_of(path: &Path, most: u64) -> std::result::Result<Option<Vec<u8>>, String> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     match path.metadata() {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),

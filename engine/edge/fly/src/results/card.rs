@@ -7,7 +7,7 @@ use crate::suite::{Part, Suite};
 use cosfly_domain::channels::rgb;
 use cosfly_drone::models;
 use cosfly_env::pictures::PictureFormat;
-use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, RewardWeights};
+use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, MOST_LATENCY_MS, MOST_WIND_MPS, RewardWeights};
 use cosfly_render::PictureLook;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -218,6 +218,10 @@ impl EnvironmentCard {
     /// # Errors
     /// What differs, in words, where no options of this cosfly give such a card.
     fn settings(&self, suite: &FlySettings) -> Result<EnvironmentSettings, String> {
+        // A step of a year would be flown for a year.
+        within("step_s", self.step_s, 0.01, 1.0)?;
+        within("latency_s", self.latency_s, 0.0, f64::from(MOST_LATENCY_MS) / 1000.0)?;
+        within("wind_mps", self.wind_mps, 0.0, MOST_WIND_MPS)?;
         let plain = suite.environment();
         let model = models::model(&self.drone)?;
         let drone = DroneSettings { model, wind_mps: self.wind_mps, gusts: self.gusts, ..plain.drone };
@@ -226,6 +230,13 @@ impl EnvironmentCard {
         let value = |card: &Self| serde_json::to_value(card).unwrap_or_default();
         let differ = differences("environment", &value(self), &value(&Self::new(&settings, latency)));
         if differ.is_empty() { Ok(settings) } else { Err(differ.join("; ")) }
+    }
+}
+
+fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), String> {
+    match (low..=high).contains(&value) {
+        true => Ok(()),
+        false => Err(format!("`{name}` is {value}; it must be {low} to {high}")),
     }
 }
 
@@ -281,5 +292,29 @@ impl Card {
         let differ: Vec<String> =
             names.map(|name| format!("{name} is {} and {}", ours[name.as_str()], theirs[name.as_str()])).collect();
         (!differ.is_empty()).then(|| format!("their environments differ: {}", differ.join(", ")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_those_that_options_can_give() {
+        let (suite, latency) = (FlySettings::default(), Latency::Simulated);
+        let card =
+            EnvironmentCard::new(&EnvironmentSettings { step_s: 0.2, latency_s: 0.3, ..suite.environment() }, latency);
+        let settings = card.settings(&suite).expect("settings");
+        assert_eq!((settings.step_s, settings.latency_s), (0.2, 0.3));
+        for (wrong, words) in [
+            (EnvironmentCard { step_s: 1e9, ..card.clone() }, "`step_s` is 1000000000"),
+            (EnvironmentCard { step_s: 0.0, ..card.clone() }, "`step_s` is 0"),
+            (EnvironmentCard { latency_s: -1.0, ..card.clone() }, "`latency_s` is -1"),
+            (EnvironmentCard { wind_mps: 31.0, ..card.clone() }, "`wind_mps` is 31"),
+            (EnvironmentCard { radius_m: 0.0, ..card.clone() }, "`environment.radius_m`"),
+        ] {
+            let found = wrong.settings(&suite).expect_err(words);
+            assert!(found.contains(words), "{found}");
+        }
     }
 }
