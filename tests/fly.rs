@@ -226,6 +226,10 @@ fn a_result_is_one_file_whose_actions_come_to_the_same_rows() {
         action.velocity_mps.x += 0.25;
     });
     assert!(code == Some(1) && text.contains("step 5 comes out differently"), "{text}");
+    let (code, text) = changed("prompt", &|it| it.episodes[0].steps[4].latency_s = Some(0.5));
+    assert!(code == Some(1) && text.contains("step 5 comes out differently"), "{text}");
+    let (code, text) = changed("early", &|it| it.episodes[0].steps[4].latency_s = Some(-0.5));
+    assert!(code == Some(4) && text.contains("its latency is -0.5 s"), "{text}");
     let (code, text) = changed("score", &|it| it.episodes[0].row.score.visible_sum += 1.0);
     assert!(code == Some(1) && text.contains("the row is not"), "{text}");
     let (code, text) = changed("longer", &|it| {

@@ -3,6 +3,7 @@
 mod advice;
 mod ask_expert;
 mod at_once;
+mod benchmark;
 mod book;
 mod caching;
 mod cameras;
@@ -20,6 +21,7 @@ mod fly_policies;
 mod fuzzing;
 mod hostile_maps;
 mod house;
+mod leaderboard;
 mod long_walks;
 mod models;
 mod more_walkers;

@@ -88,7 +88,7 @@ fn is_hidden(letter: char) -> bool {
 }
 
 /// Text without anything hidden, in one line.
-fn one_line(text: &str) -> String {
+pub fn one_line(text: &str) -> String {
     visible_text(text).replace(['\n', '\u{2028}', '\u{2029}'], " ")
 }
 

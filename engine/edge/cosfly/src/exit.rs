@@ -5,7 +5,7 @@ use cosfly_diagnose::{Diagnostic, Fault};
 /// Success.
 pub const SUCCESS: u8 = 0;
 /// `verify` or `doctor` found problems, `ask-expert` found no flight, `eval` met rows that cannot be scored, or a policy
-/// gave `fly` or `dagger` no right answer, or went away.
+/// gave `fly` or `dagger` no right answer, or went away, or `leaderboard` has entries that are refused or come out differently.
 pub const FOUND_PROBLEMS: u8 = 1;
 /// The command line or the environment is invalid (for arguments `clap` exits itself).
 pub const ARGUMENTS: u8 = 2;

@@ -13,6 +13,7 @@ mod interrupt;
 mod output;
 mod progress;
 mod reporter;
+mod subject;
 mod text;
 mod town_names;
 

@@ -12,14 +12,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
 
 /// Flies all episodes of a bundle by their actions, and gives for each that does not come to the same row the first step that
-/// differs, in words. `progress` gets the numbers of finished and of all episodes.
+/// differs, in words. `settings` are those of each part of the suite. `progress` gets the numbers of finished and of all episodes.
 ///
 /// # Errors
 /// `fly-bundle` for a bundle of another suite; `fly-stopped`.
 pub fn fly_again(
     bundle: &Bundle,
     suite: &Suite,
-    settings: EnvironmentSettings,
+    settings: &[EnvironmentSettings],
     jobs: usize,
     cancelled: &AtomicBool,
     progress: &dyn Fn(u64, u64),
@@ -31,11 +31,17 @@ pub fn fly_again(
         let message = format!("the bundle has no episode `{}` of the suite `{}`", task.episode.name, suite.name);
         return Err(Diagnostic::new("fly-bundle", Fault::Input, message));
     }
+    if bundle.episodes.len() != suite.tasks.len() {
+        let (theirs, ours) = (bundle.episodes.len(), suite.tasks.len());
+        let message = format!("the bundle has {theirs} episodes, the suite `{}` has {ours}", suite.name);
+        return Err(Diagnostic::new("fly-bundle", Fault::Input, message));
+    }
+    let is_measured = bundle.card.is_measured();
     let one = |done: &mut Sender<()>, task: &Task| {
         if cancelled.load(Ordering::Relaxed) {
             return None;
         }
-        let found = difference(task, settings, records[task.episode.name.as_str()]);
+        let found = difference(task, settings[task.part], is_measured, records[task.episode.name.as_str()]);
         // Nobody listens any more: nothing is shown.
         _ = done.send(());
         Some(found)
@@ -56,9 +62,9 @@ pub fn fly_again(
 }
 
 /// The first step, or the row, in which an episode differs from its record, in words.
-fn difference(task: &Task, settings: EnvironmentSettings, record: &EpisodeRecord) -> Option<String> {
+fn difference(task: &Task, settings: EnvironmentSettings, is_measured: bool, record: &EpisodeRecord) -> Option<String> {
     let name = &task.episode.name;
-    let flown = match by_record(task, settings, record) {
+    let flown = match by_record(task, settings, is_measured, record) {
         Ok(flown) => flown,
         Err(rule) => return Some(format!("`{name}`: {rule}")),
     };
@@ -75,14 +81,20 @@ fn difference(task: &Task, settings: EnvironmentSettings, record: &EpisodeRecord
     (ours != theirs).then(|| format!("`{name}`: all steps are equal, the row is not: {ours} instead of {theirs}"))
 }
 
-fn by_record(task: &Task, settings: EnvironmentSettings, record: &EpisodeRecord) -> std::result::Result<Flown, String> {
+fn by_record(
+    task: &Task,
+    settings: EnvironmentSettings,
+    is_measured: bool,
+    record: &EpisodeRecord,
+) -> std::result::Result<Flown, String> {
     fly_by(task, settings, &mut |environment: &Environment| {
         let step = environment.observation().step;
         match record.steps.get(step as usize) {
             // The policy failed here: the row says so.
             None => Err(Failure::Answer(String::new())),
             Some(kept) => match kept.action {
-                Some(action) => Ok((action, kept.latency_s)),
+                // Latencies that were not measured are those of the card.
+                Some(action) => Ok((action, kept.latency_s.filter(|_| is_measured))),
                 None => Err(Failure::Gone(format!("step {} has no action where one is asked for", step + 1))),
             },
         }

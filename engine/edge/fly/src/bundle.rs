@@ -18,7 +18,7 @@ use std::path::Path;
 /// Format and version of bundles.
 const FORMAT: &str = "cosfly-result/1";
 /// Largest text of a bundle, bytes.
-const MOST_BYTES: u64 = 1 << 29;
+pub const MOST_BYTES: u64 = 1 << 29;
 /// Strength of the compression.
 const LEVEL: i32 = 9;
 
@@ -85,7 +85,11 @@ impl EpisodeRecord {
             let numbers = it.action.iter().flat_map(Action::all_numbers).chain(it.latency_s).collect::<Vec<f64>>();
             wrong_number(&numbers, numbers.len().max(1)).map(|wrong| format!("step {}: {wrong}", at + 1))
         };
-        self.steps.iter().enumerate().find_map(|(at, step)| number(at, step))
+        let late = |at: usize, it: &StepRecord| {
+            let latency_s = it.latency_s.filter(|latency_s| *latency_s < 0.0)?;
+            Some(format!("step {}: its latency is {latency_s} s; it must be at least 0", at + 1))
+        };
+        self.steps.iter().enumerate().find_map(|(at, step)| number(at, step).or_else(|| late(at, step)))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Two results side by side: differences over the same episodes, with intervals of a paired bootstrap.
 
 use crate::flight::Row;
-use crate::results::{METRICS, mean_of};
+use crate::results::{METRICS, Metric, mean_of};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_metrics::bootstrap::{RESAMPLES, resampled};
 use serde_json::{Map, Value, json};
@@ -41,31 +41,34 @@ impl Difference {
 /// # Errors
 /// `fly-compare` where they have no episode in common.
 pub fn compare(first: &[Row], second: &[Row]) -> Result<Vec<Difference>> {
-    let others: BTreeMap<&str, &Row> = second.iter().map(|row| (row.episode.as_str(), row)).collect();
-    let pairs: Vec<(&Row, &Row)> =
-        first.iter().filter_map(|row| Some((row, *others.get(row.episode.as_str())?))).collect();
+    let pairs = pairs(first, second);
     if pairs.is_empty() {
         return Err(Diagnostic::new("fly-compare", Fault::Input, "the two results have no episode in common"));
     }
-    let of_metric = |metric: &crate::results::Metric| {
-        let both = |(a, b): &(&Row, &Row)| Some([(metric.of)(a)?, (metric.of)(b)?]);
-        pairs.iter().filter_map(both).collect::<Vec<[f64; 2]>>()
-    };
-    let difference = |metric: &crate::results::Metric| {
-        let values = of_metric(metric);
-        if values.is_empty() {
-            return None;
-        }
-        let column = |at: usize| values.iter().map(|pair| Some(pair[at])).collect::<Vec<_>>();
-        let apart: Vec<Option<f64>> = values.iter().map(|pair| Some(pair[1] - pair[0])).collect();
-        let once = vec![1; values.len()];
-        let means = [0, 1].map(|at| mean_of(&column(at), &once).unwrap_or(f64::NAN));
-        let mut intervals =
-            resampled(values.len(), RESAMPLES, SEED, 1, &mut |times| vec![mean_of(&apart, times)]).into_iter();
-        let interval = intervals.next().flatten();
-        Some(Difference { name: metric.name, episodes: values.len(), means, interval })
-    };
-    Ok(METRICS.iter().filter_map(difference).collect())
+    Ok(METRICS.iter().filter_map(|metric| difference(metric, &pairs)).collect())
+}
+
+/// Rows of the episodes that both results have.
+pub fn pairs<'a>(first: &'a [Row], second: &'a [Row]) -> Vec<(&'a Row, &'a Row)> {
+    let others: BTreeMap<&str, &Row> = second.iter().map(|row| (row.episode.as_str(), row)).collect();
+    first.iter().filter_map(|row| Some((row, *others.get(row.episode.as_str())?))).collect()
+}
+
+/// Difference in a metric over pairs of rows; `None` where no pair has it.
+pub fn difference(metric: &Metric, pairs: &[(&Row, &Row)]) -> Option<Difference> {
+    let both = |(a, b): &(&Row, &Row)| Some([(metric.of)(a)?, (metric.of)(b)?]);
+    let values: Vec<[f64; 2]> = pairs.iter().filter_map(both).collect();
+    if values.is_empty() {
+        return None;
+    }
+    let column = |at: usize| values.iter().map(|pair| Some(pair[at])).collect::<Vec<_>>();
+    let apart: Vec<Option<f64>> = values.iter().map(|pair| Some(pair[1] - pair[0])).collect();
+    let once = vec![1; values.len()];
+    let means = [0, 1].map(|at| mean_of(&column(at), &once).unwrap_or(f64::NAN));
+    let mut intervals =
+        resampled(values.len(), RESAMPLES, SEED, 1, &mut |times| vec![mean_of(&apart, times)]).into_iter();
+    let interval = intervals.next().flatten();
+    Some(Difference { name: metric.name, episodes: values.len(), means, interval })
 }
 
 /// The differences, for people.

@@ -33,8 +33,8 @@ pub struct Order<'a> {
     pub place: &'a Place,
     /// How it is asked.
     pub manners: &'a Manners,
-    /// Settings of the environment.
-    pub settings: EnvironmentSettings,
+    /// Settings of the environment, for each part of the suite.
+    pub settings: &'a [EnvironmentSettings],
     /// Time that the policy takes for an action.
     pub latency: Latency,
     /// Episodes to fly.
@@ -72,7 +72,7 @@ pub fn run(order: &Order<'_>, card: &Card, folder: &Folder, progress: &dyn Fn(u6
     let shifts = Shifts { jobs: order.jobs, cancelled: order.cancelled, first: &first };
     let pilot = || Ok(Asked::new(order.place, order.manners, &first));
     let crewed = crew(due, &shifts, progress, pilot, |pilot, at| {
-        Ok(match fly(&tasks[at], order.settings, order.latency, pilot) {
+        Ok(match fly(&tasks[at], order.settings[tasks[at].part], order.latency, pilot) {
             Attempt::Flown(flown) => {
                 keep(order, card, folder, &tasks[at], &flown)?;
                 Step::Kept
@@ -93,7 +93,7 @@ pub fn run(order: &Order<'_>, card: &Card, folder: &Folder, progress: &dyn Fn(u6
 /// Keeps an episode with the logs that the card asks for.
 fn keep(order: &Order<'_>, card: &Card, folder: &Folder, task: &Task, flown: &Flown) -> Result<()> {
     let is_logged = card.kept.logs != LogChoice::None;
-    let mcap = is_logged.then(|| pictures::mcap(task, &order.settings, flown)).transpose()?;
+    let mcap = is_logged.then(|| pictures::mcap(task, &order.settings[task.part], flown)).transpose()?;
     folder.keep(flown, mcap.as_deref())
 }
 
@@ -118,10 +118,11 @@ fn finish(order: &Order<'_>, card: &Card, folder: &Folder, rows: &[Row]) -> Resu
 
 /// The steps of an episode, and its clip.
 fn case<'a>(order: &Order<'_>, folder: &Folder, row: &'a Row) -> Result<Case<'a>> {
-    let (settings, name) = (&order.settings, &row.episode);
+    let name = &row.episode;
     let steps = folder.steps(name)?;
     let mut has_clip = false;
     if let Some(task) = order.suite.tasks.iter().find(|task| task.episode.name == *name) {
+        let settings = &order.settings[task.part];
         has_clip = folder.keep_once(&format!("clips/{name}.gif"), &|| pictures::clip(task, settings, &steps))?;
     }
     Ok(Case { row, steps, has_clip })

@@ -1,5 +1,6 @@
 //! [`Suite`]: the episodes of a recipe, with the experts' flights.
 
+use crate::settings::FlySettings;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::{PlanOutcome, Town};
 use cosfly_env::policies::Knowledge;
@@ -33,6 +34,10 @@ pub struct Task {
     pub scenery: Arc<Scenery>,
     /// Weather, and looks of the target: those of the pictures that the recipe makes of the flight.
     pub shooting: Shooting,
+    /// Number of its part in [`Suite::parts`].
+    pub part: usize,
+    /// Digest of all that the episode is made of, and of the version of the environment.
+    pub digest: Digest,
 }
 
 impl Task {
@@ -40,7 +45,8 @@ impl Task {
     pub fn undrawn(episode: Episode, knowledge: Knowledge, certified_visibility: f64) -> Self {
         let scenery = Arc::new(Scenery { town: Arc::default(), looks: episode.seed });
         let shooting = Shooting::plain(episode.looks);
-        Self { episode: Arc::new(episode), knowledge, certified_visibility, scenery, shooting }
+        let digest = Digest::of(episode.name.as_bytes());
+        Self { episode: Arc::new(episode), knowledge, certified_visibility, scenery, shooting, part: 0, digest }
     }
 }
 
@@ -52,16 +58,37 @@ pub struct Scenery {
     pub looks: Seed,
 }
 
-/// The episodes of a recipe.
+/// The episodes of a recipe, or of a tier of a benchmark.
 pub struct Suite {
-    /// Name of the recipe.
+    /// Name of the recipe or of the tier.
     pub name: String,
     /// Digest of all towns and flights: equal exactly when the episodes are.
     pub digest: Digest,
+    /// The recipe; of a tier, all recipes that it takes episodes from.
+    pub parts: Vec<Part>,
     /// Episodes in the order of the recipe.
     pub tasks: Vec<Task>,
     /// Walks that have no episode because the expert found no flight behind them.
     pub rejected: u64,
+}
+
+/// A recipe in a suite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Name of the recipe.
+    pub name: String,
+    /// Its drone and air.
+    pub settings: FlySettings,
+}
+
+impl Part {
+    /// The part that a recipe is.
+    ///
+    /// # Errors
+    /// `fly-settings`.
+    pub fn of(recipe: &Recipe) -> Result<Self> {
+        Ok(Self { name: recipe.name.clone(), settings: FlySettings::of(recipe)? })
+    }
 }
 
 /// Whether a stage plans flights behind walkers.
@@ -87,6 +114,7 @@ impl Suite {
         options: &RunOptions,
         report: &(dyn Fn(RunEvent) + Sync),
     ) -> Result<Self> {
+        let part = Part::of(recipe)?;
         let stages: Vec<usize> = (0..recipe.stages.len()).filter(|at| follows(&recipe.stages[*at])).collect();
         if stages.is_empty() {
             let message = format!("`{}` has no episodes: no stage plans flights behind walkers", recipe.path.display());
@@ -104,8 +132,8 @@ impl Suite {
                 Diagnostic::new("fly-stopped", Fault::Stopped, "stopped before all episodes were made; they are kept")
             }));
         }
-        let suite =
-            Reader { plan: cosfly_runner::plan(recipe, store)?, store, places: BTreeMap::new() }.read(&stages)?;
+        let reader = Reader { plan: cosfly_runner::plan(recipe, store)?, store, places: BTreeMap::new() };
+        let suite = reader.read(&stages, part)?;
         if suite.tasks.is_empty() {
             let message = format!("`{}` has no episode: the expert found no flight", recipe.path.display());
             let walks = walkers(recipe, &stages).join("`, `");
@@ -127,9 +155,10 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn read(mut self, stages: &[usize]) -> Result<Suite> {
+    fn read(mut self, stages: &[usize], part: Part) -> Result<Suite> {
         let recipe = self.plan.recipe;
-        let (mut tasks, mut rejected, mut listed) = (Vec::new(), 0, format!("environment {ENVIRONMENT_VERSION}\n"));
+        let first = format!("environment {ENVIRONMENT_VERSION}\n");
+        let (mut tasks, mut rejected, mut listed) = (Vec::new(), 0, first.clone());
         for &stage in stages {
             let described = &recipe.stages[stage];
             let broken = |rule: String| Diagnostic::new("fly-suite", Fault::Bug, rule);
@@ -142,6 +171,7 @@ impl Reader<'_> {
             let pictures = pictures_of(recipe, stage).map_err(|error| broken(error.message))?;
             for (item, name) in described.items.iter().enumerate() {
                 let blobs = self.blobs(stage, item)?.clone();
+                let begun = listed.len();
                 for (blob, stored) in blobs.iter() {
                     let _ = writeln!(listed, "{}/{name}/{blob} {}", described.name, stored.digest);
                 }
@@ -172,12 +202,16 @@ impl Reader<'_> {
                     weather: Some(shooting.weather.clone()),
                     seed,
                 };
+                let digest =
+                    Digest::of(format!("{first}{}town {}\n", &listed[begun..], Digest(scenery.looks.0)).as_bytes());
                 let knowledge = Knowledge { flight: waypoints.into(), config: Arc::clone(&config) };
                 let certified_visibility = flight.certificate.mean_visibility;
-                tasks.push(Task { episode: Arc::new(episode), knowledge, certified_visibility, scenery, shooting });
+                let episode = Arc::new(episode);
+                tasks.push(Task { episode, knowledge, certified_visibility, scenery, shooting, part: 0, digest });
             }
         }
-        Ok(Suite { name: recipe.name.clone(), digest: Digest::of(listed.as_bytes()), tasks, rejected })
+        let digest = Digest::of(listed.as_bytes());
+        Ok(Suite { name: recipe.name.clone(), digest, parts: vec![part], tasks, rejected })
     }
 
     fn place(&mut self, at: (usize, usize)) -> Result<(Arc<FlightSite>, Arc<Scenery>)> {

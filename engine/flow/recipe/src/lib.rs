@@ -5,6 +5,7 @@
 //!   `for_each` writes out the stages of lists.
 //! * `outline` -> `kinds` -> `wiring` -> `order` -> `sources` -> `items`: the checks, in this order.
 //! * `parameters`: the parameters of a stage against the JSON Schema of its kind.
+//! * [`table`]: tables in TOML that are no recipes.
 //! * [`schema`], [`reference`], [`graph`]: schema for editors, reference page, drawing of the graph.
 
 mod document;
@@ -19,6 +20,7 @@ mod order;
 mod outline;
 mod overrides;
 mod parameters;
+mod plain;
 mod reference;
 mod schema;
 mod sources;
@@ -28,5 +30,6 @@ mod wiring;
 pub use drawing::{Format, graph};
 pub use load::{load, read};
 pub use model::{Arrival, Connection, ItemNames, Recipe, RecipeStage, SourceFile};
+pub use plain::table;
 pub use reference::reference;
 pub use schema::schema;

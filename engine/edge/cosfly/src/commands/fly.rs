@@ -1,6 +1,7 @@
 //! `cosfly fly`: flies the episodes of a suite with policies, in closed loop, and scores them.
 
 mod bundle;
+mod commit;
 mod compare;
 pub mod policy;
 mod verify;
@@ -9,6 +10,7 @@ use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
+use crate::subject::Subject;
 use clap::{Parser, Subcommand, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_drone::models::{self, DroneModel};
@@ -37,13 +39,14 @@ Examples:
   cosfly fly recipes/suites/street.toml --policy hold --policy follow --policy causal --policy expert
   cosfly fly recipes/suites/street.toml --policy ws://127.0.0.1:8000 --name mine --latency-ms 57
   cosfly fly recipes/suites/street.toml --policy python:my_policy:act
+  cosfly fly recipes/benchmarks/track_1.toml --tier mini --policy follow
   cosfly fly compare out/fly/street/follow out/fly/street/mine
   cosfly fly bundle out/fly/street/mine
   cosfly fly verify out/fly/street/mine.jsonl.zst recipes/suites/street.toml
 
 A policy is a server that speaks openpi's wire, a function in Python, or a baseline: causal, constant-velocity, expert,
 follow, hold, random. It gets a map with `state` (16 numbers), `prompt`, `episode`, `step` and `time_s`, and answers with a
-map whose `actions` are rows of numbers. The result is a folder: card.json, report.html with clips of the worst
+map whose `actions` are rows of numbers. A baseline may be varied: follow:gain=0.5,delay_s=0.3,noise_mps=1. The result is a folder: card.json, report.html with clips of the worst
 episodes, report.md, scores.json, episodes.jsonl, rows and logs. The same command goes on with what a folder lacks. Exits with 1 when a policy
 has given no right answer (then nothing is an episode, and nothing is kept) or went away before all episodes were flown."
 )]
@@ -57,6 +60,12 @@ pub struct Arguments {
     /// The policy: ws://HOST:PORT, python:MODULE:FUNCTION, or the name of a baseline (repeatable)
     #[arg(long, value_name = "POLICY", required = true)]
     policy: Vec<String>,
+    /// Tier of a benchmark, such as mini
+    #[arg(long, value_name = "NAME")]
+    tier: Option<String>,
+    /// Hold a held-out suite against its commitment: the file that `cosfly fly commit` wrote, or its 64 digits
+    #[arg(long, value_name = "COMMITMENT")]
+    commitment: Option<String>,
     /// Name of the policy in the result [default: made from its place]
     #[arg(long, value_name = "NAME", value_parser = folder_name)]
     name: Option<String>,
@@ -105,6 +114,7 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Other {
     Bundle(bundle::Arguments),
+    Commit(commit::Arguments),
     Compare(compare::Arguments),
     Verify(verify::Arguments),
 }
@@ -171,6 +181,7 @@ impl Command for Arguments {
         match &self.other {
             Some(Other::Compare(arguments)) => return arguments.run(console),
             Some(Other::Bundle(arguments)) => return arguments.run(console),
+            Some(Other::Commit(arguments)) => return arguments.run(console),
             Some(Other::Verify(arguments)) => return arguments.run(console),
             None => {}
         }
@@ -185,9 +196,10 @@ impl Command for Arguments {
         }
         check_names(&places)?;
         let manners = self.asked.manners()?;
-        let recipe = recipe.load(console)?;
-        let settings = self.settings(&FlySettings::of(&recipe)?)?;
-        let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join("fly").join(&recipe.name));
+        let subject = Subject::load(recipe, self.tier.as_deref(), console)?;
+        let settings =
+            subject.parts()?.iter().map(|part| self.settings(&part.settings)).collect::<Result<Vec<_>, _>>()?;
+        let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join("fly").join(&subject.name));
         check_out_folder(&self.store.folder(), &out)?;
         let store = self.store.open()?;
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
@@ -195,8 +207,11 @@ impl Command for Arguments {
         let suite = {
             let _deadline = console.deadline(None);
             let progress = console.run_progress(self.quiet);
-            Suite::make(&recipe, &store, &options, &*progress)?
+            subject.make(&store, &options, &*progress)?
         };
+        if let Some(commitment) = &self.commitment {
+            subject.check(&suite, commitment)?;
+        }
         let mut arms = Vec::new();
         let mut code = exit::SUCCESS;
         for place in &places {
@@ -204,7 +219,7 @@ impl Command for Arguments {
             let card = self.card(&suite, place, &name, &settings);
             let folder = Folder::open(&out.join(&name), &card)?;
             let cancelled = console.cancelled();
-            let (shard, suite) = (self.shard, &suite);
+            let (shard, suite, settings) = (self.shard, &suite, &settings[..]);
             let latency = self.latency();
             let order =
                 Order { suite, place, manners: &manners, settings, latency, shard, jobs, cancelled: &cancelled };
@@ -282,11 +297,13 @@ impl Arguments {
         }
     }
 
-    fn card(&self, suite: &Suite, place: &Place, name: &str, settings: &EnvironmentSettings) -> Card {
+    fn card(&self, suite: &Suite, place: &Place, name: &str, settings: &[EnvironmentSettings]) -> Card {
+        let (environment, environments) = EnvironmentCard::of_parts(&suite.parts, settings, self.latency());
         Card {
             suite: SuiteCard::of(suite),
             policy: self.asked.card(place, name),
-            environment: EnvironmentCard::new(settings, self.latency()),
+            environment,
+            environments,
             kept: KeptCard { logs: self.logs.into(), clips: self.clips },
             cosfly: env!("CARGO_PKG_VERSION").to_owned(),
         }

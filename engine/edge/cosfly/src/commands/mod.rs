@@ -15,6 +15,7 @@ mod fly;
 mod gc;
 mod graph;
 mod init;
+mod leaderboard;
 mod map;
 mod plan;
 #[cfg(feature = "plugins")]
@@ -47,6 +48,7 @@ pub const COMMANDS: &[Entry] = &[
     Entry::of::<gc::Arguments>(),
     Entry::of::<graph::Arguments>(),
     Entry::of::<init::Arguments>(),
+    Entry::of::<leaderboard::Arguments>(),
     map::MAP,
     Entry::of::<plan::Arguments>(),
     #[cfg(feature = "plugins")]

@@ -1,25 +1,26 @@
 //! Baselines as pilots.
 
 use super::seam::{Failure, Pilot};
-use cosfly_env::policies::{Knowledge, baseline};
+use cosfly_env::policies::{Knowledge, Variation, baseline};
 use cosfly_env::{Action, Environment, Policy};
 
 /// A baseline.
 pub struct BaselinePilot {
     name: &'static str,
+    variation: Variation,
     policy: Option<Box<dyn Policy + Send + Sync>>,
 }
 
 impl BaselinePilot {
-    /// The baseline of a name.
-    pub fn new(name: &'static str) -> Self {
-        Self { name, policy: None }
+    /// The baseline of a name, with changes.
+    pub fn new(name: &'static str, variation: Variation) -> Self {
+        Self { name, variation, policy: None }
     }
 }
 
 impl Pilot for BaselinePilot {
     fn begin(&mut self, environment: &Environment, knowledge: &Knowledge) -> Result<(), String> {
-        self.policy = baseline(self.name).map(|baseline| (baseline.make)(environment, knowledge));
+        self.policy = baseline(self.name).map(|baseline| self.variation.of(baseline, environment, knowledge));
         Ok(())
     }
 

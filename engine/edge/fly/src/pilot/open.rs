@@ -8,7 +8,7 @@ use super::{baseline, python, socket};
 /// The policy at a place, for one thread.
 pub fn open(place: &Place, manners: &Manners) -> Box<dyn Pilot> {
     match place {
-        Place::Baseline(name) => Box::new(baseline::BaselinePilot::new(name)),
+        Place::Baseline { name, variation } => Box::new(baseline::BaselinePilot::new(name, *variation)),
         Place::Socket(address) => Box::new(socket::SocketPilot::new(address, manners.clone())),
         Place::Python { module, function } => Box::new(python::PythonPilot::new(module, function, manners.clone())),
     }

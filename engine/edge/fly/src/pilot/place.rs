@@ -1,14 +1,19 @@
 //! [`Place`]: where a policy is.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
-use cosfly_env::policies::BASELINES;
+use cosfly_env::policies::{BASELINES, Variation};
 use cosfly_secrets::{has_secret, without_secrets};
 
 /// Where a policy is.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Place {
-    /// One of [`BASELINES`], by its name.
-    Baseline(&'static str),
+    /// One of [`BASELINES`].
+    Baseline {
+        /// Name.
+        name: &'static str,
+        /// Changes to its actions.
+        variation: Variation,
+    },
     /// `ws://HOST:PORT`, a server that speaks openpi's wire.
     Socket(String),
     /// `python:module:function`.
@@ -21,7 +26,7 @@ pub enum Place {
 }
 
 impl Place {
-    /// Reads `ws://HOST:PORT`, `python:module:function` or the name of a baseline.
+    /// Reads `ws://HOST:PORT`, `python:module:function`, or the name of a baseline and changes to it: `follow:gain=0.5`.
     ///
     /// # Errors
     /// `fly-policy`, with what is allowed.
@@ -51,11 +56,13 @@ impl Place {
             };
         }
         let names = || BASELINES.iter().map(|it| it.name);
-        if let Some(baseline) = BASELINES.iter().find(|it| it.name == text) {
-            return Ok(Self::Baseline(baseline.name));
+        let (asked, change) = text.split_once(':').map_or((text, None), |(name, change)| (name, Some(change)));
+        if let Some(baseline) = BASELINES.iter().find(|it| it.name == asked) {
+            let variation = change.map_or(Ok(Variation::NONE), Variation::read).map_err(refused)?;
+            return Ok(Self::Baseline { name: baseline.name, variation });
         }
         let problem = refused(format!("there is no policy `{text}`"));
-        let problem = match nearest_name(text, names()) {
+        let problem = match nearest_name(asked, names()) {
             Some(near) => problem.hint(format!("did you mean `{near}`?")),
             None => problem,
         };
@@ -70,7 +77,10 @@ impl Place {
             text.chars().map(kept).collect::<String>()
         };
         match self {
-            Self::Baseline(name) => (*name).to_owned(),
+            Self::Baseline { name, variation } if *variation == Variation::NONE => (*name).to_owned(),
+            Self::Baseline { name, variation: Variation { delay_s, gain, noise_mps } } => {
+                format!("{name}-gain{gain}-delay{delay_s}-noise{noise_mps}")
+            }
             Self::Socket(address) => safe(address.trim_start_matches("ws://")),
             Self::Python { module, function } => safe(&format!("{module}.{function}")),
         }

@@ -3,13 +3,15 @@
 use super::differences::differences;
 use crate::flight::Latency;
 use crate::settings::FlySettings;
-use crate::suite::Suite;
+use crate::suite::{Part, Suite};
 use cosfly_domain::channels::rgb;
 use cosfly_drone::models;
 use cosfly_env::pictures::PictureFormat;
-use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, RewardWeights};
+use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, MOST_LATENCY_MS, MOST_WIND_MPS, RewardWeights};
 use cosfly_render::PictureLook;
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Task and settings of an evaluation. Rows of two results are comparable if `suite`, `episodes` and `environment` are
 /// equal.
@@ -22,6 +24,9 @@ pub struct Card {
     pub policy: PolicyCard,
     /// Settings of the environment.
     pub environment: EnvironmentCard,
+    /// Those of the recipes of a tier that have others, by their names.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub environments: BTreeMap<String, EnvironmentCard>,
     /// Files that are kept beside rows and tables.
     pub kept: KeptCard,
     /// Version of cosfly.
@@ -80,6 +85,14 @@ pub struct PolicyCard {
     /// Pictures in its observations.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pictures: Option<PicturesCard>,
+}
+
+impl PolicyCard {
+    /// Names of what the policy was sent: the state, and pictures.
+    pub fn sent(&self) -> Vec<&str> {
+        let pictures = self.pictures.iter().flat_map(|pictures| &pictures.channels).map(String::as_str);
+        std::iter::once("state").chain(pictures).collect()
+    }
 }
 
 /// Pictures in observations on a card.
@@ -188,11 +201,27 @@ impl EnvironmentCard {
 }
 
 impl EnvironmentCard {
+    /// The card of the settings of the first part of a suite, and those of other parts that differ from it.
+    pub fn of_parts(
+        parts: &[Part],
+        settings: &[EnvironmentSettings],
+        latency: Latency,
+    ) -> (Self, BTreeMap<String, Self>) {
+        let mut cards = parts.iter().zip(settings).map(|(part, settings)| (&part.name, Self::new(settings, latency)));
+        let first = cards.next().map_or_else(|| Self::new(&EnvironmentSettings::default(), latency), |it| it.1);
+        let others = cards.filter(|(_, card)| *card != first).map(|(name, card)| (name.clone(), card)).collect();
+        (first, others)
+    }
+
     /// The settings that the card is of, flown on a suite with these settings.
     ///
     /// # Errors
     /// What differs, in words, where no options of this cosfly give such a card.
-    pub fn settings(&self, suite: &FlySettings) -> Result<EnvironmentSettings, String> {
+    fn settings(&self, suite: &FlySettings) -> Result<EnvironmentSettings, String> {
+        // A step of a year would be flown for a year.
+        within("step_s", self.step_s, 0.01, 1.0)?;
+        within("latency_s", self.latency_s, 0.0, f64::from(MOST_LATENCY_MS) / 1000.0)?;
+        within("wind_mps", self.wind_mps, 0.0, MOST_WIND_MPS)?;
         let plain = suite.environment();
         let model = models::model(&self.drone)?;
         let drone = DroneSettings { model, wind_mps: self.wind_mps, gusts: self.gusts, ..plain.drone };
@@ -204,10 +233,50 @@ impl EnvironmentCard {
     }
 }
 
+fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), String> {
+    match (low..=high).contains(&value) {
+        true => Ok(()),
+        false => Err(format!("`{name}` is {value}; it must be {low} to {high}")),
+    }
+}
+
 impl Card {
     /// Whether latencies are measured: then rows and logs differ from run to run.
     pub fn is_measured(&self) -> bool {
         self.environment.latency_is_measured
+    }
+
+    /// Settings of each part of a suite that the card is of.
+    ///
+    /// # Errors
+    /// What differs, in words, where no options of this cosfly give such a card.
+    pub fn settings(&self, parts: &[Part]) -> Result<Vec<EnvironmentSettings>, String> {
+        if let Some(name) = self.environments.keys().find(|name| parts.iter().all(|part| part.name != **name)) {
+            return Err(format!("it has settings for `{name}`, which is no part of the suite"));
+        }
+        let of = |part: &Part| self.environments.get(&part.name).unwrap_or(&self.environment).settings(&part.settings);
+        parts.iter().map(of).collect()
+    }
+
+    /// Settings that rows of two results must have in common: all but latencies.
+    pub fn ground(&self) -> Value {
+        let without =
+            |card: &EnvironmentCard| EnvironmentCard { latency_s: 0.0, latency_is_measured: false, ..card.clone() };
+        let others: BTreeMap<&String, EnvironmentCard> =
+            self.environments.iter().map(|(name, card)| (name, without(card))).collect();
+        let mut ground = serde_json::to_value(without(&self.environment)).unwrap_or_default();
+        if !others.is_empty() {
+            ground["environments"] = serde_json::to_value(others).unwrap_or_default();
+        }
+        ground
+    }
+
+    /// Latency, in words.
+    pub fn latency(&self) -> String {
+        match self.is_measured() {
+            true => "measured".to_owned(),
+            false => format!("{} s", self.environment.latency_s),
+        }
     }
 
     /// Difference that keeps rows of two results from being compared, in words.
@@ -216,19 +285,36 @@ impl Card {
         if ours != theirs {
             return Some(format!("their suites differ: `{ours}` and `{theirs}`"));
         }
-        // Latencies may differ.
-        let settings = |card: &Self| {
-            serde_json::to_value(EnvironmentCard {
-                latency_s: 0.0,
-                latency_is_measured: false,
-                ..card.environment.clone()
-            })
-            .unwrap_or_default()
-        };
-        let (ours, theirs) = (settings(self), settings(other));
-        let names = ours.as_object()?.keys().filter(|name| ours[name.as_str()] != theirs[name.as_str()]);
+        let (ours, theirs) = (self.ground(), other.ground());
+        let names: BTreeSet<&String> =
+            [&ours, &theirs].into_iter().filter_map(Value::as_object).flat_map(Map::keys).collect();
+        let names = names.into_iter().filter(|name| ours[name.as_str()] != theirs[name.as_str()]);
         let differ: Vec<String> =
             names.map(|name| format!("{name} is {} and {}", ours[name.as_str()], theirs[name.as_str()])).collect();
         (!differ.is_empty()).then(|| format!("their environments differ: {}", differ.join(", ")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_those_that_options_can_give() {
+        let (suite, latency) = (FlySettings::default(), Latency::Simulated);
+        let card =
+            EnvironmentCard::new(&EnvironmentSettings { step_s: 0.2, latency_s: 0.3, ..suite.environment() }, latency);
+        let settings = card.settings(&suite).expect("settings");
+        assert_eq!((settings.step_s, settings.latency_s), (0.2, 0.3));
+        for (wrong, words) in [
+            (EnvironmentCard { step_s: 1e9, ..card.clone() }, "`step_s` is 1000000000"),
+            (EnvironmentCard { step_s: 0.0, ..card.clone() }, "`step_s` is 0"),
+            (EnvironmentCard { latency_s: -1.0, ..card.clone() }, "`latency_s` is -1"),
+            (EnvironmentCard { wind_mps: 31.0, ..card.clone() }, "`wind_mps` is 31"),
+            (EnvironmentCard { radius_m: 0.0, ..card.clone() }, "`environment.radius_m`"),
+        ] {
+            let found = wrong.settings(&suite).expect_err(words);
+            assert!(found.contains(words), "{found}");
+        }
     }
 }

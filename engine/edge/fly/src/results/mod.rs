@@ -10,4 +10,4 @@ pub use card::{Card, EnvironmentCard, KeptCard, LogChoice, PicturesCard, PolicyC
 pub use differences::differences;
 pub use folder::Folder;
 pub use metrics::{METRICS, Metric, Summary, mean_of, strata, summary};
-pub use report::{beside, cell, ending, markdown, scores, worst};
+pub use report::{beside, cell, ending, markdown, of_summaries, scores, worst};

@@ -22,7 +22,8 @@ pub fn scores(rows: &[Row]) -> Value {
     })
 }
 
-fn of_summaries(summaries: &[Summary]) -> Value {
+/// Metrics, for programs.
+pub fn of_summaries(summaries: &[Summary]) -> Value {
     let entry = |(metric, summary): (&Metric, &Summary)| {
         let interval = summary.interval.map(|(low, high)| [low, high]);
         (metric.name.to_owned(), json!({ "mean": summary.mean, "interval_95": interval, "episodes": summary.count }))

@@ -9,8 +9,10 @@ mod follow;
 mod hold;
 mod plan;
 mod random;
+mod variation;
 
 pub use plan::Plan;
+pub use variation::Variation;
 
 use crate::action::Action;
 use crate::environment::Environment;

@@ -133,12 +133,12 @@ impl PolicyArguments {
     /// Card of the policy at a place.
     pub fn card(&self, place: &Place, name: &str) -> PolicyCard {
         let kind = match place {
-            Place::Baseline(_) => "baseline",
+            Place::Baseline { .. } => "baseline",
             Place::Socket(_) => "socket",
             Place::Python { .. } => "python",
         };
         let manners = self.without_key();
-        let is_baseline = matches!(place, Place::Baseline(_));
+        let is_baseline = matches!(place, Place::Baseline { .. });
         PolicyCard {
             name: name.to_owned(),
             version: self.version.clone(),

@@ -4,12 +4,11 @@ use crate::arguments::{RecipeArguments, StoreArguments};
 use crate::command::Outcome;
 use crate::console::Console;
 use crate::exit;
+use crate::subject::Subject;
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_fly::again::fly_again;
 use cosfly_fly::bundle::Bundle;
-use cosfly_fly::settings::FlySettings;
-use cosfly_fly::suite::Suite;
 use cosfly_runner::RunOptions;
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -42,14 +41,12 @@ impl Arguments {
     /// Does the work.
     pub fn run(&self, console: &dyn Console) -> Outcome {
         let bundle = Bundle::read(&self.file)?;
-        let recipe = self.recipe.load(console)?;
-        let settings = bundle.card.environment.settings(&FlySettings::of(&recipe)?);
-        let settings = settings.map_err(|rule| self.refused("its environment is not one of this suite", &rule))?;
+        let subject = Subject::find(&self.recipe, &bundle.card.suite.name, console)?;
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let suite = {
             let _deadline = console.deadline(None);
-            Suite::make(&recipe, &self.store.open()?, &options, &*console.run_progress(true))?
+            subject.make(&self.store.open()?, &options, &*console.run_progress(true))?
         };
         let (ours, theirs) = (suite.digest.to_string(), &bundle.card.suite.hash);
         if ours != *theirs {
@@ -57,8 +54,10 @@ impl Arguments {
                 format!("its suite `{}` has the hash {theirs}, `{}` has {ours}", bundle.card.suite.name, suite.name);
             return Err(self.refused("it is of another suite", &rule).into());
         }
+        let settings = bundle.card.settings(&suite.parts);
+        let settings = settings.map_err(|rule| self.refused("its environment is not one of this suite", &rule))?;
         let progress = console.progress("fly again", "episodes");
-        let differ = fly_again(&bundle, &suite, settings, jobs, &console.cancelled(), &*progress)?;
+        let differ = fly_again(&bundle, &suite, &settings, jobs, &console.cancelled(), &*progress)?;
         drop(progress);
         let (name, all) = (&bundle.card.policy.name, bundle.episodes.len());
         let mut text = format!("{name}: {} of {all} episodes come out the same, byte for byte\n", all - differ.len());

@@ -1,0 +1,119 @@
+//! `cosfly leaderboard`: a folder of results, flown again, as a page.
+
+use crate::arguments::{RecipeArguments, StoreArguments};
+use crate::command::{Command, Outcome, Refusals};
+use crate::console::Console;
+use crate::exit;
+use crate::subject::Subject;
+use clap::Parser;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fly::board::{Bench, Offer, json, judge, page, told};
+use cosfly_runner::RunOptions;
+use cosfly_whole::write_file;
+use std::path::{Path, PathBuf};
+
+/// Folders with suites and benchmarks, where none is named.
+const SHIPPED: [&str; 2] = ["recipes/benchmarks", "recipes/suites"];
+
+/// Fly a folder of results again, and write them as a page: a leaderboard without a server
+#[derive(Debug, Parser)]
+#[command(
+    name = "leaderboard",
+    after_help = "\
+Examples:
+  cosfly leaderboard results
+  cosfly leaderboard results --suite recipes/suites/street.toml --out public/index.html
+
+Each file NAME.jsonl.zst of `cosfly fly bundle` is an entry; NAME.toml beside it may have `licence`, `link`, `sees` (`world`, or
+`state` and channels) and `about`. Entries whose actions come to the same rows are ranked by their tracking rate; those that know the world stand
+apart. What has not changed is not flown again: outcomes are kept in the store. Exits with 1 when an entry is refused or comes out
+differently."
+)]
+pub struct Arguments {
+    /// Folder with the files of `cosfly fly bundle`
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+    /// Recipe of a suite, or a benchmark, that entries are of (repeatable) [default: those in recipes/benchmarks and recipes/suites]
+    #[arg(long, value_name = "FILE")]
+    suite: Vec<PathBuf>,
+    /// The page [default: FOLDER/index.html]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    store: StoreArguments,
+    /// Episodes at the same time [default: one per core]
+    #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// Print the table as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Command for Arguments {
+    fn run(&self, console: &dyn Console) -> Outcome {
+        if !self.folder.is_dir() {
+            let message = format!("`{}` is no folder", self.folder.display());
+            let refusal = Diagnostic::new("fly-board", Fault::Recipe, message);
+            return Err(refusal.hint("give a folder with files that `cosfly fly bundle` made").into());
+        }
+        let subjects = self.subjects(console)?;
+        let store = self.store.open()?;
+        let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
+        let cancelled = console.cancelled();
+        let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
+        let make = |subject: &Subject| subject.make(&store, &options, &*console.run_progress(true));
+        let offers: Vec<Offer<'_>> =
+            subjects.iter().map(|subject| Offer::new(subject.name.clone(), || make(subject))).collect();
+        let (outcomes, cosfly) = (self.store.folder().join("reflown"), env!("CARGO_PKG_VERSION"));
+        let bench = Bench { offers: &offers, outcomes, cosfly, jobs, cancelled: &cancelled };
+        let board = {
+            let _deadline = console.deadline(None);
+            judge(&self.folder, &bench, &*console.progress("fly again", "entries"))?
+        };
+        let path = self.out.clone().unwrap_or_else(|| self.folder.join("index.html"));
+        write(&path, &page(&board, cosfly))?;
+        if self.json {
+            console.print(&json(&board))?;
+        } else {
+            let page = path.display();
+            console.print(&format!("{}{page}: {} flown again by this call\n", told(&board), board.flown))?;
+        }
+        let is_sound = board.refused.is_empty() && board.claims() == 0;
+        Ok(if is_sound { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
+    }
+}
+
+impl Arguments {
+    /// Suites that entries may be of.
+    fn subjects(&self, console: &dyn Console) -> std::result::Result<Vec<Subject>, Refusals> {
+        let paths = if self.suite.is_empty() { shipped()? } else { self.suite.clone() };
+        let mut subjects = vec![];
+        for recipe in paths {
+            subjects.extend(Subject::all(&RecipeArguments { recipe, overrides: vec![] }, console)?);
+        }
+        Ok(subjects)
+    }
+}
+
+/// Writes the page, and makes its folder.
+fn write(path: &Path, page: &str) -> Result<()> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let written = folder.map_or(Ok(()), std::fs::create_dir_all).and_then(|()| write_file(path, page.as_bytes()));
+    written.map_err(|error| Diagnostic::io(format!("write {}", path.display()), &error))
+}
+
+/// The suites and benchmarks that ship, sorted.
+fn shipped() -> Result<Vec<PathBuf>> {
+    let mut paths = vec![];
+    for folder in SHIPPED {
+        let entries = Path::new(folder).read_dir().map_err(|error| {
+            Diagnostic::new("fly-board", Fault::Recipe, format!("there is no folder `{folder}` here"))
+                .because(error)
+                .hint("name suites or benchmarks: `--suite FILE`")
+        })?;
+        paths.extend(entries.filter_map(|entry| entry.ok().map(|entry| entry.path())));
+    }
+    paths.retain(|path| path.extension().is_some_and(|it| it == "toml"));
+    paths.sort();
+    Ok(paths)
+}

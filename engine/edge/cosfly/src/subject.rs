@@ -1,0 +1,132 @@
+//! [`Subject`]: episodes as commands are given them: a recipe, or a tier of a benchmark.
+
+use crate::arguments::RecipeArguments;
+use crate::command::Refusals;
+use crate::console::Console;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fly::benchmark::{Benchmark, Tier};
+use cosfly_fly::held_out;
+use cosfly_fly::suite::{Part, Suite};
+use cosfly_recipe::Recipe;
+use cosfly_runner::RunOptions;
+use cosfly_stage::RunEvent;
+use cosfly_store::Store;
+use std::path::PathBuf;
+use std::rc::Rc;
+
+/// A recipe, or a tier of a benchmark.
+pub struct Subject {
+    /// Name of the recipe or of the tier.
+    pub name: String,
+    recipes: Rc<Vec<Recipe>>,
+    tier: Option<Tier>,
+}
+
+impl Subject {
+    /// The recipe of a file, or all tiers of the benchmark in it.
+    ///
+    /// # Errors
+    /// All errors of recipes; `fly-benchmark`.
+    pub fn all(arguments: &RecipeArguments, console: &dyn Console) -> std::result::Result<Vec<Self>, Refusals> {
+        let Some(benchmark) = benchmark(arguments)? else { return Ok(vec![Self::of_recipe(arguments.load(console)?)]) };
+        let recipes = recipes(&benchmark, console)?;
+        Ok(benchmark.tiers.values().map(|tier| Self::of_tier(tier, &recipes)).collect())
+    }
+
+    /// The recipe of a file, or a tier of the benchmark in it.
+    ///
+    /// # Errors
+    /// All errors of recipes; `fly-benchmark`.
+    pub fn load(
+        arguments: &RecipeArguments,
+        tier: Option<&str>,
+        console: &dyn Console,
+    ) -> std::result::Result<Self, Refusals> {
+        if let Some(benchmark) = benchmark(arguments)? {
+            let tier = benchmark.tier(tier)?;
+            return Ok(Self::of_tier(tier, &recipes(&benchmark, console)?));
+        }
+        if tier.is_some() {
+            let message = format!("`{}` is no benchmark, so it has no tiers", arguments.recipe.display());
+            let refusal = Diagnostic::new("fly-benchmark", Fault::Recipe, message);
+            return Err(refusal
+                .hint("leave `--tier` out, or give a benchmark such as recipes/benchmarks/track_1.toml")
+                .into());
+        }
+        Ok(Self::of_recipe(arguments.load(console)?))
+    }
+
+    /// The recipe of a file, or of the benchmark in it the tier of a name, else the first: its hash will tell.
+    ///
+    /// # Errors
+    /// All errors of recipes; `fly-benchmark`.
+    pub fn find(arguments: &RecipeArguments, name: &str, console: &dyn Console) -> std::result::Result<Self, Refusals> {
+        let all = Self::all(arguments, console)?;
+        let at = all.iter().position(|subject| subject.name == name).unwrap_or(0);
+        all.into_iter().nth(at).ok_or_else(|| {
+            let message = format!("`{}` has no tiers", arguments.recipe.display());
+            Diagnostic::new("fly-benchmark", Fault::Recipe, message).into()
+        })
+    }
+
+    fn of_recipe(recipe: Recipe) -> Self {
+        Self { name: recipe.name.clone(), recipes: Rc::new(vec![recipe]), tier: None }
+    }
+
+    fn of_tier(tier: &Tier, recipes: &Rc<Vec<Recipe>>) -> Self {
+        Self { name: tier.name.clone(), recipes: Rc::clone(recipes), tier: Some(tier.clone()) }
+    }
+
+    /// The recipes, with their drones and air.
+    ///
+    /// # Errors
+    /// `fly-settings`.
+    pub fn parts(&self) -> Result<Vec<Part>> {
+        self.recipes.iter().map(Part::of).collect()
+    }
+
+    /// Holds a held-out suite against its commitment: a file, or the digits themselves.
+    ///
+    /// # Errors
+    /// `fly-commitment`.
+    pub fn check(&self, suite: &Suite, commitment: &str) -> Result<()> {
+        let (None, [recipe]) = (&self.tier, &self.recipes[..]) else {
+            let message = format!("`{}` is a tier of a benchmark: `--commitment` is of a held-out suite", self.name);
+            return Err(Diagnostic::new("fly-commitment", Fault::Recipe, message));
+        };
+        let is_digest = commitment.len() == 64 && commitment.bytes().all(|digit| digit.is_ascii_hexdigit());
+        let published = match is_digest {
+            true => commitment.to_owned(),
+            false => std::fs::read_to_string(commitment)
+                .map_err(|error| Diagnostic::io(format!("read the commitment `{commitment}`"), &error))?,
+        };
+        held_out::check(recipe, suite, published.trim())
+    }
+
+    /// Makes the episodes.
+    ///
+    /// # Errors
+    /// Those of [`Suite::make`].
+    pub fn make(&self, store: &Store, options: &RunOptions, report: &(dyn Fn(RunEvent) + Sync)) -> Result<Suite> {
+        let suite = |recipe: &Recipe| Suite::make(recipe, store, options, report);
+        match &self.tier {
+            Some(tier) => Ok(tier.of(self.recipes.iter().map(suite).collect::<Result<_>>()?)),
+            None => suite(&self.recipes[0]),
+        }
+    }
+}
+
+fn benchmark(arguments: &RecipeArguments) -> Result<Option<Benchmark>> {
+    let Some(benchmark) = Benchmark::read(&arguments.recipe)? else { return Ok(None) };
+    if arguments.overrides.is_empty() {
+        return Ok(Some(benchmark));
+    }
+    let message = format!("`--set` changes recipes, and `{}` is a benchmark", benchmark.name);
+    let refusal = Diagnostic::new("fly-benchmark", Fault::Recipe, message);
+    Err(refusal.hint("leave `--set` out, or give the recipe of a suite"))
+}
+
+fn recipes(benchmark: &Benchmark, console: &dyn Console) -> std::result::Result<Rc<Vec<Recipe>>, Refusals> {
+    let load = |recipe: &PathBuf| RecipeArguments { recipe: recipe.clone(), overrides: vec![] }.load(console);
+    Ok(Rc::new(benchmark.suites.iter().map(load).collect::<std::result::Result<_, _>>()?))
+}

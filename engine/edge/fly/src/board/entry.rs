@@ -1,0 +1,109 @@
+//! [`Entry`]: a bundle on a board. [`Found`]: its files, as they lie in a folder.
+
+use super::notes::Notes;
+use super::sees::Sees;
+use crate::bundle::MOST_BYTES;
+use crate::flight::Row;
+use crate::results::{Card, SuiteCard};
+use cosfly_diagnose::{Diagnostic, Result};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Ending of the files of bundles.
+const BUNDLE: &str = ".jsonl.zst";
+/// Ending of the files of notes.
+const NOTES: &str = ".toml";
+
+/// What an entry proves.
+///
+/// A third word is kept free: *re-run*, for a policy that was run again on what it says it sees and gave the same actions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Proof {
+    /// The actions were flown again here and came to the same rows, byte for byte.
+    Reflown,
+    /// They came to other rows: the scores are a claim. Where they differ, in words.
+    Claimed(Vec<String>),
+}
+
+impl Proof {
+    /// The word.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Reflown => "re-flown",
+            Self::Claimed(_) => "claimed",
+        }
+    }
+}
+
+/// A bundle on a board.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Name of its file, without the ending.
+    pub file: String,
+    /// Its card.
+    pub card: Card,
+    /// The suite as it is here.
+    pub suite: SuiteCard,
+    /// Its rows, in the order of the suite.
+    pub rows: Vec<Row>,
+    /// What its maker says of it.
+    pub notes: Notes,
+    /// What the policy sees.
+    pub sees: Sees,
+    /// What it proves.
+    pub proof: Proof,
+}
+
+/// The file of a bundle with its notes.
+pub struct Found {
+    /// Bytes of the file.
+    pub bytes: Vec<u8>,
+    /// What its maker says of it.
+    pub notes: Notes,
+}
+
+/// Names of the entries of a folder, sorted: of all files of bundles and of notes, without their endings.
+///
+/// # Errors
+/// Errors of the file system.
+pub fn names(folder: &Path) -> Result<BTreeSet<String>> {
+    let refused = |error: std::io::Error| Diagnostic::io(format!("read {}", folder.display()), &error);
+    let mut names = BTreeSet::new();
+    for entry in folder.read_dir().map_err(refused)? {
+        let name = entry.map_err(refused)?.file_name().to_string_lossy().into_owned();
+        let stem = name.strip_suffix(BUNDLE).or_else(|| name.strip_suffix(NOTES));
+        names.extend(stem.filter(|stem| !stem.is_empty() && !stem.starts_with('.')).map(str::to_owned));
+    }
+    Ok(names)
+}
+
+impl Found {
+    /// Reads an entry of a folder.
+    ///
+    /// # Errors
+    /// What is wrong with its files, in words.
+    pub fn read(folder: &Path, name: &str) -> std::result::Result<Self, String> {
+        let bytes = bytes_of(&folder.join(format!("{name}{BUNDLE}")), MOST_BYTES)?;
+        let bytes = bytes.ok_or_else(|| format!("there is no `{name}{BUNDLE}` beside `{name}{NOTES}`"))?;
+        let notes = match bytes_of(&folder.join(format!("{name}{NOTES}")), 1 << 16)? {
+            Some(notes) => {
+                let text = String::from_utf8(notes).map_err(|_| format!("`{name}{NOTES}` is no text in UTF-8"))?;
+                Notes::of_text(&format!("{name}{NOTES}"), &text)?
+            }
+            None => Notes::default(),
+        };
+        Ok(Self { bytes, notes })
+    }
+}
+
+/// Bytes of a file; `None` where there is none.
+fn bytes_of(path: &Path, most: u64) -> std::result::Result<Option<Vec<u8>>, String> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    match path.metadata() {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(format!("`{name}` cannot be read: {error}")),
+        Ok(about) if !about.is_file() => Err(format!("`{name}` is no file")),
+        Ok(about) if about.len() > most => Err(format!("`{name}` has {} bytes; it may have {most}", about.len())),
+        Ok(_) => std::fs::read(path).map(Some).map_err(|error| format!("`{name}` cannot be read: {error}")),
+    }
+}

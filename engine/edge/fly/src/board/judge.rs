@@ -1,0 +1,178 @@
+//! [`judge`]: flies the entries of a folder again, but for those whose outcome is known.
+
+use super::entry::{Entry, Found, Proof, names};
+use super::sees::Sees;
+use super::standing::{Board, Refused};
+use crate::again::fly_again;
+use crate::bundle::Bundle;
+use crate::flight::Row;
+use crate::results::{Card, SuiteCard};
+use crate::suite::Suite;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::Digest;
+use cosfly_whole::write_file;
+use serde::{Deserialize, Serialize};
+use std::cell::OnceCell;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Version of kept outcomes.
+const OUTCOMES: u32 = 1;
+
+/// A suite that entries may be of. It is made when the first entry names it.
+pub struct Offer<'a> {
+    name: String,
+    make: Box<dyn Fn() -> Result<Suite> + 'a>,
+    made: OnceCell<Suite>,
+}
+
+impl<'a> Offer<'a> {
+    /// The suite of a name.
+    pub fn new(name: String, make: impl Fn() -> Result<Suite> + 'a) -> Self {
+        Self { name, make: Box::new(make), made: OnceCell::new() }
+    }
+
+    fn suite(&self) -> Result<&Suite> {
+        if let Some(made) = self.made.get() {
+            return Ok(made);
+        }
+        let made = (self.make)()?;
+        Ok(self.made.get_or_init(|| made))
+    }
+}
+
+/// What entries are judged with.
+pub struct Bench<'a> {
+    /// Suites that entries may be of.
+    pub offers: &'a [Offer<'a>],
+    /// Folder where outcomes are kept: what has not changed is not flown again.
+    pub outcomes: PathBuf,
+    /// Version of cosfly.
+    pub cosfly: &'static str,
+    /// Threads.
+    pub jobs: usize,
+    /// Set from anywhere to stop.
+    pub cancelled: &'a AtomicBool,
+}
+
+/// Judges all entries of a folder. `progress` gets the numbers of judged and of all entries.
+///
+/// # Errors
+/// Errors of the file system and of suites; `fly-stopped`. What is wrong with an entry is on the board.
+pub fn judge(folder: &Path, bench: &Bench<'_>, progress: &dyn Fn(u64, u64)) -> Result<Board> {
+    let names = names(folder)?;
+    let (mut entries, mut refused, mut flown) = (vec![], vec![], 0);
+    for (name, number) in names.iter().zip(0..) {
+        progress(number, names.len() as u64);
+        if bench.cancelled.load(Ordering::Relaxed) {
+            let message = "stopped; what was flown again is kept";
+            return Err(Diagnostic::new("fly-stopped", Fault::Stopped, message));
+        }
+        match bench.entry(folder, name, &mut flown) {
+            Ok(entry) => entries.push(entry),
+            Err(Rejection::Entry(reason)) => refused.push(Refused { file: name.clone(), reason }),
+            Err(Rejection::Machine(problem)) => return Err(problem),
+        }
+    }
+    Ok(Board::of(entries, refused, flown))
+}
+
+/// Why there is no entry.
+enum Rejection {
+    /// Its files are at fault; in words.
+    Entry(String),
+    /// It is not the entry's fault.
+    Machine(Box<Diagnostic>),
+}
+
+impl From<String> for Rejection {
+    fn from(reason: String) -> Self {
+        Self::Entry(reason)
+    }
+}
+
+impl From<Box<Diagnostic>> for Rejection {
+    fn from(problem: Box<Diagnostic>) -> Self {
+        Self::Machine(problem)
+    }
+}
+
+/// An entry that was flown again: all that the board needs of its file.
+#[derive(Serialize, Deserialize)]
+struct Kept {
+    card: Card,
+    /// In the order of the suite.
+    rows: Vec<Row>,
+    /// Where episodes come out differently, in words.
+    differ: Vec<String>,
+}
+
+impl Bench<'_> {
+    fn entry(&self, folder: &Path, name: &str, flown: &mut usize) -> std::result::Result<Entry, Rejection> {
+        let Found { bytes, notes } = Found::read(folder, name)?;
+        // The same bytes, judged by the same version; its suite is looked at below.
+        let key = format!("{OUTCOMES}\n{}\n{}\n", Digest::of(&bytes), self.cosfly);
+        let place = self.outcomes.join(Digest::of(key.as_bytes()).to_string());
+        let kept = std::fs::read(&place).ok().and_then(|kept| serde_json::from_slice::<Kept>(&kept).ok());
+        let kept = match kept {
+            Some(kept) => kept,
+            None => {
+                let bundle = Bundle::of_bytes(&bytes).map_err(|rule| format!("it is no whole bundle: {rule}"))?;
+                let kept = self.fly(bundle)?;
+                *flown += 1;
+                self.keep(&place, &kept)?;
+                kept
+            }
+        };
+        let suite = SuiteCard::of(self.suite(&kept.card)?);
+        let Kept { card, rows, differ } = kept;
+        let sees = Sees::of(&card, &notes, &rows)?;
+        let proof = if differ.is_empty() { Proof::Reflown } else { Proof::Claimed(differ) };
+        Ok(Entry { file: name.to_owned(), card, suite, rows, notes, sees, proof })
+    }
+
+    /// The suite of a card: found by its name, held by its hash.
+    fn suite(&self, card: &Card) -> std::result::Result<&Suite, Rejection> {
+        let (asked, mut hashes) = (&card.suite, vec![]);
+        for offer in self.offers.iter().filter(|offer| offer.name == asked.name) {
+            let suite = offer.suite()?;
+            if suite.digest.to_string() == asked.hash {
+                return Ok(suite);
+            }
+            hashes.push(suite.digest.short());
+        }
+        if hashes.is_empty() {
+            let known: Vec<String> = self.offers.iter().map(|offer| format!("`{}`", offer.name)).collect();
+            return Err(format!("it is of the suite `{}`; here are {}", asked.name, known.join(", ")).into());
+        }
+        let (hash, theirs): (String, _) = (asked.hash.chars().take(12).collect(), &card.cosfly);
+        let (ours, name) = (hashes.join(", "), &asked.name);
+        Err(format!(
+            "it is of another suite: its `{name}` has the hash {hash}, the one here {ours} \
+             (it was flown with cosfly {theirs}, here is {})",
+            self.cosfly
+        )
+        .into())
+    }
+
+    fn fly(&self, bundle: Bundle) -> std::result::Result<Kept, Rejection> {
+        let suite = self.suite(&bundle.card)?;
+        let settings = bundle.card.settings(&suite.parts);
+        let settings = settings.map_err(|rule| format!("its environment is not one of this suite: {rule}"))?;
+        let flown = fly_again(&bundle, suite, &settings, self.jobs, self.cancelled, &|_, _| ());
+        let differ = flown.map_err(|problem| match problem.fault {
+            Fault::Input => Rejection::Entry(problem.message),
+            _ => Rejection::Machine(problem),
+        })?;
+        let at = |row: &Row| suite.tasks.iter().position(|task| task.episode.name == row.episode);
+        let mut rows: Vec<Row> = bundle.episodes.into_iter().map(|episode| episode.row).collect();
+        rows.sort_by_cached_key(at);
+        Ok(Kept { card: bundle.card, rows, differ })
+    }
+
+    fn keep(&self, place: &Path, kept: &Kept) -> Result<()> {
+        let text = serde_json::to_string(kept).unwrap_or_default();
+        let written = std::fs::create_dir_all(&self.outcomes).and_then(|()| write_file(place, text.as_bytes()));
+        written.map_err(|error| Diagnostic::io(format!("write {}", place.display()), &error))
+    }
+}

@@ -1,0 +1,50 @@
+//! [`Sees`]: what a policy sees, as far as an entry tells.
+
+use super::notes::Notes;
+use crate::flight::Row;
+use crate::results::{Card, METRICS, mean_of};
+
+/// A flight that stays within this distance of the expert's, metres, is the expert's: a policy that sees no future chooses another one.
+const EXPERT_M: f64 = 1.0;
+
+/// What a policy sees, as far as an entry tells.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sees {
+    /// Whether it knows the world: the whole walk, the expert's flight.
+    pub world: bool,
+    /// In words.
+    pub words: String,
+}
+
+impl Sees {
+    /// What the card, the notes and the flights of an entry tell.
+    ///
+    /// # Errors
+    /// What the notes say against the card, in words.
+    pub fn of(card: &Card, notes: &Notes, rows: &[Row]) -> Result<Self, String> {
+        let sent = card.policy.sent();
+        let not_sent = notes.sees.iter().find(|it| *it != "world" && !sent.contains(&it.as_str()));
+        if let Some(name) = not_sent {
+            let sent = sent.join(", ");
+            return Err(format!("its notes say that it sees `{name}`, which it was not sent; it was sent {sent}"));
+        }
+        let is_expert = card.policy.kind == "baseline" && card.policy.name.starts_with("expert");
+        if is_expert || notes.sees.iter().any(|it| it == "world") {
+            return Ok(Self { world: true, words: "world".to_owned() });
+        }
+        if let Some(apart_m) = from_expert_m(rows).filter(|apart_m| *apart_m < EXPERT_M) {
+            let words = format!("world: its flights are the expert's to {apart_m:.2} m");
+            return Ok(Self { world: true, words });
+        }
+        let said: Vec<&str> = notes.sees.iter().map(String::as_str).collect();
+        Ok(Self { world: false, words: if said.is_empty() { sent } else { said }.join(", ") })
+    }
+}
+
+/// Mean distance from the expert's flights in the episodes that were flown for at least half of their length, metres.
+fn from_expert_m(rows: &[Row]) -> Option<f64> {
+    let metric = METRICS.iter().find(|metric| metric.name == "from_expert_m")?;
+    let long = rows.iter().filter(|row| 2 * u64::from(row.score.steps) >= u64::from(row.score.planned_steps));
+    let apart_m: Vec<Option<f64>> = long.map(|row| (metric.of)(row)).collect();
+    mean_of(&apart_m, &vec![1; apart_m.len()])
+}

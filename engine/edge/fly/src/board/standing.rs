@@ -1,0 +1,130 @@
+//! [`Board`]: entries by what they flew, ranked within what was verified.
+
+use super::entry::{Entry, Proof};
+use crate::compare::{Difference, difference, pairs};
+use crate::flight::Row;
+use crate::results::{METRICS, SuiteCard, Summary, strata, summary};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// All entries of a folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Board {
+    /// Entries that flew the same episodes in the same air with the same drone.
+    pub contests: Vec<Contest>,
+    /// Files that are no entries.
+    pub refused: Vec<Refused>,
+    /// Number of entries that were flown again by this call.
+    pub flown: usize,
+}
+
+/// A file that is no entry.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refused {
+    /// Its name, without the ending.
+    pub file: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// Entries that flew the same episodes in the same air with the same drone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contest {
+    /// Suite.
+    pub suite: SuiteCard,
+    /// Settings that all have in common.
+    pub ground: Value,
+    /// Verified entries, the highest tracking rate first.
+    pub ranked: Vec<Standing>,
+    /// Verified entries that know the world: no rank among the others.
+    pub world: Vec<Standing>,
+    /// Entries whose scores are a claim.
+    pub claimed: Vec<Standing>,
+}
+
+/// An entry with its numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Standing {
+    /// The entry.
+    pub entry: Entry,
+    /// Rank among verified entries; equal rates have equal ranks.
+    pub rank: Option<usize>,
+    /// Metrics, in the order of `METRICS`.
+    pub scores: Vec<Summary>,
+    /// Tracking rate, minus that of the first of the ranked, over pairs of episodes.
+    pub behind: Option<Difference>,
+    /// Mean tracking rate by group of episodes.
+    pub groups: Vec<(String, f64)>,
+}
+
+impl Standing {
+    /// Mean tracking rate.
+    pub fn rate(&self) -> f64 {
+        self.scores.first().and_then(|score| score.mean).unwrap_or(0.0)
+    }
+}
+
+impl Board {
+    /// The board of entries.
+    pub fn of(entries: Vec<Entry>, refused: Vec<Refused>, flown: usize) -> Self {
+        let mut contests: BTreeMap<(String, String, String), Vec<Entry>> = BTreeMap::new();
+        for entry in entries {
+            let key = (entry.suite.name.clone(), entry.suite.hash.clone(), entry.card.ground().to_string());
+            contests.entry(key).or_default().push(entry);
+        }
+        Self { contests: contests.into_values().filter_map(Contest::of).collect(), refused, flown }
+    }
+
+    /// Number of entries whose scores are a claim.
+    pub fn claims(&self) -> usize {
+        self.contests.iter().map(|contest| contest.claimed.len()).sum()
+    }
+}
+
+impl Contest {
+    fn of(entries: Vec<Entry>) -> Option<Self> {
+        let (suite, ground) = entries.first().map(|first| (first.suite.clone(), first.card.ground()))?;
+        let mut standings: Vec<Standing> = entries.into_iter().map(standing).collect();
+        standings.sort_by(|a, b| b.rate().total_cmp(&a.rate()).then_with(|| a.entry.file.cmp(&b.entry.file)));
+        let (verified, claimed): (Vec<_>, Vec<_>) =
+            standings.into_iter().partition(|it| it.entry.proof == Proof::Reflown);
+        let (world, mut ranked): (Vec<_>, Vec<_>) = verified.into_iter().partition(|it| it.entry.sees.world);
+        rank(&mut ranked);
+        Some(Self { suite, ground, ranked, world, claimed })
+    }
+}
+
+/// Gives ranks, and the distance from the first.
+fn rank(ranked: &mut [Standing]) {
+    let rates: Vec<f64> = ranked.iter().map(Standing::rate).collect();
+    let Some(first) = ranked.first().map(|first| first.entry.rows.clone()) else { return };
+    for (at, standing) in ranked.iter_mut().enumerate() {
+        standing.rank = rates.iter().position(|rate| rate.total_cmp(&rates[at]).is_eq()).map(|above| above + 1);
+        standing.behind = (at > 0).then(|| difference(&METRICS[0], &pairs(&first, &standing.entry.rows))).flatten();
+    }
+}
+
+fn standing(entry: Entry) -> Standing {
+    let scores = summary(&entry.rows.iter().collect::<Vec<_>>());
+    let groups = groups(&entry.rows);
+    Standing { entry, rank: None, scores, behind: None, groups }
+}
+
+/// Mean tracking rate by stratum of the suite, where there are several, and by thirds of the episodes, from those that the expert's
+/// flights see best.
+fn groups(rows: &[Row]) -> Vec<(String, f64)> {
+    let mean = |rows: &[&Row]| rows.iter().map(|row| row.score.tracking_rate()).sum::<f64>() / rows.len().max(1) as f64;
+    let by_stratum = strata(rows);
+    let several = by_stratum.len() > 1;
+    let mut groups: Vec<(String, f64)> =
+        by_stratum.iter().filter(|_| several).map(|(name, rows)| ((*name).to_owned(), mean(rows))).collect();
+    let mut ordered: Vec<&Row> = rows.iter().collect();
+    let visible = |row: &Row| row.certified_visibility;
+    ordered.sort_by(|a, b| visible(b).total_cmp(&visible(a)).then_with(|| a.episode.cmp(&b.episode)));
+    let end = |third: usize| third * ordered.len() / 3;
+    if ordered.len() >= 3 {
+        let thirds = ["easy third", "middle third", "hard third"].into_iter().zip(0..);
+        groups.extend(thirds.map(|(name, third)| (name.to_owned(), mean(&ordered[end(third)..end(third + 1)]))));
+    }
+    groups
+}

@@ -1,0 +1,103 @@
+//! [`Variation`]: a baseline that acts more weakly, later or less steadily, for studies of benchmarks.
+
+use super::{Baseline, Knowledge, Policy};
+use crate::action::Action;
+use crate::environment::Environment;
+use cosfly_frames::{DVec3, RandomStream};
+use std::collections::VecDeque;
+
+/// Keys of a variation, each with its largest value, sorted.
+const KEYS: [(&str, f64); 3] = [("delay_s", 5.0), ("gain", 10.0), ("noise_mps", 20.0)];
+
+/// Changes to the actions of a baseline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variation {
+    /// Time by which actions come later; before the first the drone stops. Seconds.
+    pub delay_s: f64,
+    /// Factor of velocities and of turns of the camera.
+    pub gain: f64,
+    /// Deviation of the noise in each component of the velocity, m/s.
+    pub noise_mps: f64,
+}
+
+impl Variation {
+    /// No change.
+    pub const NONE: Self = Self { delay_s: 0.0, gain: 1.0, noise_mps: 0.0 };
+
+    /// Reads `KEY=VALUE,...`.
+    ///
+    /// # Errors
+    /// What is allowed, in words.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let mut read = Self::NONE;
+        for pair in text.split(',') {
+            let known = |key: &str| KEYS.iter().find(|known| known.0 == key);
+            let parts = pair.split_once('=').and_then(|(key, value)| Some((known(key)?, value.parse::<f64>().ok()?)));
+            match parts {
+                Some(((key, most), value)) if (0.0..=*most).contains(&value) => match *key {
+                    "delay_s" => read.delay_s = value,
+                    "gain" => read.gain = value,
+                    _ => read.noise_mps = value,
+                },
+                _ => {
+                    let keys = KEYS.map(|(key, most)| format!("{key}=0 to {most}")).join(", ");
+                    return Err(format!("`{pair}` changes nothing of a baseline; allowed are {keys}"));
+                }
+            }
+        }
+        Ok(read)
+    }
+
+    /// The policy of a baseline, changed.
+    pub fn of(
+        &self,
+        baseline: &Baseline,
+        environment: &Environment,
+        knowledge: &Knowledge,
+    ) -> Box<dyn Policy + Send + Sync> {
+        let policy = (baseline.make)(environment, knowledge);
+        if *self == Self::NONE {
+            return policy;
+        }
+        let late = (self.delay_s / environment.settings().step_s).round() as usize;
+        let stream = environment.episode().seed.stream("variation of a policy");
+        Box::new(Varied { policy, change: *self, due: VecDeque::from(vec![Action::default(); late]), stream })
+    }
+}
+
+struct Varied {
+    policy: Box<dyn Policy + Send + Sync>,
+    change: Variation,
+    /// Actions that are on their way.
+    due: VecDeque<Action>,
+    stream: RandomStream,
+}
+
+impl Policy for Varied {
+    fn act(&mut self, environment: &Environment) -> Action {
+        self.due.push_back(self.policy.act(environment));
+        let mut action = self.due.pop_front().unwrap_or_default();
+        let Variation { gain, noise_mps, .. } = self.change;
+        let noise = DVec3::from_array([0.0; 3].map(|mean| self.stream.normal(mean, noise_mps)));
+        action.velocity_mps = gain * action.velocity_mps + noise;
+        action.acceleration_mps2 *= gain;
+        action.view.yaw_rad_s *= gain;
+        action.view.pitch_rad_s *= gain;
+        action
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variations_are_read_and_what_is_wrong_is_told() {
+        let read = Variation::read("gain=0.5,noise_mps=2").expect("a variation");
+        assert_eq!(read, Variation { gain: 0.5, noise_mps: 2.0, delay_s: 0.0 });
+        for text in ["", "gain", "gain=", "gain=-1", "gain=11", "gain=NaN", "lead=1"] {
+            let wrong = Variation::read(text).expect_err(text);
+            assert!(wrong.contains("delay_s=0 to 5, gain=0 to 10, noise_mps=0 to 20"), "{wrong}");
+        }
+    }
+}

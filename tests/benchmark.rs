@@ -1,0 +1,27 @@
+//! The promise of `cosfly_track_1`: nothing changes a byte of an episode within the version.
+
+use crate::support::{cosfly, repository_root};
+
+/// Hash of the tier `mini`.
+const SUITE: &str = "1a06e9dde7dc3b2d93e9abd149b074bc0763eca6fbc8e2dc0460f5c38f733b52";
+/// Digest of the rows of `follow` in it.
+const ROWS: &str = "378076efcd8e318f5425c2bafc30e0049d03406fda9c2c0852d3e43a904c3f1f";
+
+#[test]
+fn no_byte_of_an_episode_of_the_benchmark_has_changed() {
+    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let at = |name: &str| scratch.path().join(name).display().to_string();
+    let benchmark = repository_root().join("recipes/benchmarks/track_1.toml").display().to_string();
+    let fly = ["fly", &benchmark, "--tier", "mini", "--policy", "follow", "--clips", "0", "--logs", "none", "--quiet"];
+    cosfly(&[&fly[..], &["--store", &at("store"), "--out", &at("out")]].concat()).run_ok();
+    let read = |name: &str| std::fs::read_to_string(at(name)).expect("a file of the result");
+    let card: serde_json::Value = serde_json::from_str(&read("out/follow/card.json")).expect("JSON");
+    let rows = read("out/follow/episodes.jsonl");
+    assert_eq!(rows.lines().count(), 52, "episodes of the tier");
+    assert_eq!(
+        (card["suite"]["hash"].as_str(), &*cosfly_fingerprint::Digest::of(rows.as_bytes()).to_string()),
+        (Some(SUITE), ROWS),
+        "episodes of cosfly_track_1 have changed: its results cannot be compared any more. Once released, leave them as they are, or \
+         make another version of the benchmark beside this one"
+    );
+}
