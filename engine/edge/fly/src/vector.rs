@@ -7,7 +7,7 @@ mod tests;
 
 use crate::suite::Task;
 use cosfly_env::pictures::{PictureBatch, PictureFormat, Pictures};
-use cosfly_env::{End, Environment, EnvironmentSettings, FEATURES, Reward};
+use cosfly_env::{End, Environment, EnvironmentSettings, FEATURES, Reward, readings};
 use member::{Shared, VectorMember, stream_of};
 use rayon::{ThreadPool, ThreadPoolBuildError};
 use std::sync::Arc;
@@ -43,6 +43,10 @@ pub struct Outputs {
     pub look_alikes: Vec<u32>,
     /// The expert's actions for the observations, where they are asked for.
     pub expert_actions: Vec<[f32; ACTIONS]>,
+    /// Readings of the sensors that are asked for, the numbers of one behind those of the other.
+    pub readings: Vec<Vec<f32>>,
+    /// Those with `last_features`.
+    pub last_readings: Vec<Vec<f32>>,
     /// [`BESIDE`] numbers on each other drone of a team.
     pub beside: Vec<Vec<f32>>,
 }
@@ -103,6 +107,8 @@ impl VectorEnvironment {
             truncated: vec![false; count],
             tracked: vec![false; count],
             look_alikes: vec![0; count],
+            readings: vec![vec![]; count],
+            last_readings: vec![vec![]; count],
             expert_actions: vec![[0.0; ACTIONS]; if has_experts { count } else { 0 }],
             ..Outputs::default()
         };
@@ -183,7 +189,7 @@ impl VectorEnvironment {
         member.begin_task(&self.shared, task);
         (member.reward, member.end) = (Reward::default(), None);
         self.outputs.tell(number, member);
-        self.outputs.last_features[number] = self.outputs.features[number];
+        self.outputs.keep_last(number);
         self.draw(|chosen| chosen == number);
         true
     }
@@ -214,7 +220,7 @@ impl VectorEnvironment {
             }
             member.begin_anew(&self.shared);
             self.outputs.tell(number, member);
-            self.outputs.last_features[number] = self.outputs.features[number];
+            self.outputs.keep_last(number);
         }
         self.draw(chosen);
     }
@@ -249,7 +255,7 @@ impl VectorEnvironment {
     fn tell_all(&mut self) {
         for (number, member) in self.members.iter().enumerate() {
             self.outputs.tell(number, member);
-            self.outputs.last_features[number] = self.outputs.features[number];
+            self.outputs.keep_last(number);
         }
         for (number, told) in self.outputs.beside.iter_mut().enumerate() {
             *told = team::beside(&self.members, number);
@@ -286,10 +292,18 @@ impl VectorEnvironment {
 }
 
 impl Outputs {
+    /// Keeps the observation of an environment as the last one of its episode so far.
+    fn keep_last(&mut self, number: usize) {
+        self.last_features[number] = self.features[number];
+        self.last_readings[number].clone_from(&self.readings[number]);
+    }
+
     /// Fills what is told of the present state of an environment and of its last step.
     fn tell(&mut self, number: usize, member: &VectorMember) {
         let observation = member.environment.observation();
         self.features[number] = observation.features().map(|feature| feature as f32);
+        let numbers = readings(&member.environment).into_iter().flat_map(|(_, values)| values);
+        self.readings[number] = numbers.map(|value| value as f32).collect();
         self.tracked[number] = observation.tracked;
         self.look_alikes[number] = member.environment.look_alikes() as u32;
         self.rewards[number] = member.reward.sum(&member.environment.settings().weights);

@@ -12,6 +12,7 @@ use cosfly_fly::suite::{Suite, Task};
 use cosfly_fly::vector::{ACTIONS, Autoreset, VectorEnvironment};
 use cosfly_render::PictureLook;
 use cosfly_runner::RunOptions;
+use cosfly_sensors::SensorSet;
 use cosfly_store::Store;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyRuntimeError;
@@ -30,6 +31,7 @@ struct EnvConfig {
     latency_s: Option<f64>,
     expert_action: bool,
     channels: Vec<String>,
+    sensors: Vec<String>,
     sides: (u32, u32),
     max_depth_m: f32,
     weather: Option<String>,
@@ -62,7 +64,11 @@ impl PyFlock {
         };
         let suite = suite.environment();
         let latency_s = config.latency_s.unwrap_or(suite.latency_s);
-        let settings = cosfly_env::EnvironmentSettings { step_s: config.step_s, latency_s, ..suite };
+        if let Some(unknown) = config.sensors.iter().find(|name| cosfly_sensors::called(name).is_none()) {
+            return Err(InvalidValue::new_err(format!("there is no sensor `{unknown}`")));
+        }
+        let sensors = SensorSet::of(|sensor| config.sensors.iter().any(|name| name == sensor.name));
+        let settings = cosfly_env::EnvironmentSettings { step_s: config.step_s, latency_s, sensors, ..suite };
         let flock = VectorEnvironment::new(tasks, count, settings, mode, config.expert_action);
         let flock = if is_team { flock.as_team() } else { flock };
         if let Some(unknown) = config.channels.iter().find(|name| channels::called(name).is_none()) {
@@ -133,6 +139,9 @@ impl PyFlock {
             let size = [self.flock.len(), format.height as usize, format.width as usize];
             put_pictures(&told, "", &outputs.album, size)?;
             put_pictures(&told, "last_", &outputs.last_album, size)?;
+        }
+        for (prefix, rows) in [("", &outputs.readings), ("last_", &outputs.last_readings)] {
+            put_readings(&told, prefix, self.flock.settings().sensors, rows)?;
         }
         if !outputs.beside.is_empty() {
             told.set_item("beside", PyArray2::from_vec2(py, &outputs.beside)?)?;
@@ -206,6 +215,20 @@ fn put_pictures(
             Pixels::Ids(ids) => PyArray1::from_slice(py, ids).reshape(shape)?.into_any(),
         };
         told.set_item(format!("{prefix}{}", channel.name), array)?;
+    }
+    Ok(())
+}
+
+/// Adds the readings of each sensor as an array of (environment, quantity).
+fn put_readings(told: &Bound<'_, PyDict>, prefix: &str, sensors: SensorSet, rows: &[Vec<f32>]) -> PyResult<()> {
+    let mut first = 0;
+    for sensor in sensors.iter() {
+        let end = first + sensor.quantities.len();
+        // Before the first reset there are no readings.
+        let own = rows.iter().map(|row| row.get(first..end).map_or_else(|| vec![0.0; end - first], <[f32]>::to_vec));
+        let own: Vec<Vec<f32>> = own.collect();
+        told.set_item(format!("{prefix}{}", sensor.name), PyArray2::from_vec2(told.py(), &own)?)?;
+        first = end;
     }
     Ok(())
 }
