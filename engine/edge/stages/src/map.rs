@@ -32,8 +32,11 @@ impl StageKind for Map {
     }
 
     fn schema(&self) -> Value {
-        let mut schema = parameters::schema_of::<MapConfig>();
-        let options = options_schema();
+        let mut options = options_schema();
+        // References are to definitions of the whole schema.
+        let definitions = options.as_object_mut().and_then(|table| table.remove("$defs")).unwrap_or_default();
+        let own = parameters::schema_of::<MapConfig>();
+        let mut schema = parameters::merged_into(own, json!({ "$defs": definitions }));
         let gone = |(name, _): (&String, &Value)| (name.clone(), json!(format!("write `options.{name}`")));
         let gone: serde_json::Map<String, Value> =
             options["properties"].as_object().into_iter().flatten().map(gone).collect();
@@ -223,5 +226,7 @@ mod tests {
             assert!(table["properties"]["signals"]["description"].as_str().expect("text").starts_with("OpenDRIVE: "));
         }
         assert_eq!(schema["x-gone"]["signals"], "write `options.signals`");
+        let roofs = schema["properties"]["options"]["properties"]["roofs"]["$ref"].as_str().expect("a reference");
+        assert!(schema.pointer(roofs.trim_start_matches('#')).is_some(), "{roofs}");
     }
 }
