@@ -42,7 +42,8 @@ fn recipe_mistakes_point_at_the_place_and_name_the_way_out() {
     check_recipe("unknown_weather", "width = 96", "weathers = [\"ClearNun\"]\nwidth = 96");
     check_recipe("not_a_number", "seed = 3", "seed = nan");
     check_recipe("town_name", "source", "name = \"Zürich\"\nsource");
-    check_recipe("map_foreign_option", "source", "terrain_margin_m = 20\nsource");
+    check_recipe("map_foreign_option", "source", "options = { terrain_margin_m = 20 }\nsource");
+    check_recipe("map_former_option", "source", "road_marks = false\nsource");
 }
 
 #[test]
@@ -70,7 +71,7 @@ fn broken_maps_name_line_column_and_element() {
 #[test]
 fn a_town_without_pavements_is_refused_on_request_only() {
     let arguments = ["run", "recipe.toml", "--quiet"];
-    let strict = RECIPE.replacen("source", "assume_ground = false\nsource", 1);
+    let strict = RECIPE.replacen("source", "options = { assume_ground = false }\nsource", 1);
     for instead in ["shoulder", "none"] {
         let text = map().replace("type=\"sidewalk\"", &format!("type=\"{instead}\""));
         check_refusal("no_walkable_ground", &Street::with(&strict, &text), &arguments);
@@ -88,7 +89,8 @@ fn a_target_that_nobody_can_reach_is_rejected_in_words() {
 
 #[test]
 fn a_flight_planned_in_one_town_is_not_filmed_in_another() {
-    let other = "[stages.other]\nuse = \"map\"\nsource = \"street.xodr\"\nroad_marks = false\n\n[stages.walkers]";
+    let other =
+        "[stages.other]\nuse = \"map\"\nsource = \"street.xodr\"\noptions.road_marks = false\n\n[stages.walkers]";
     let mixed = RECIPE.replacen("[stages.walkers]", other, 1).replacen(
         "inputs = { town = \"town\", trajectories = [",
         "inputs = { town = \"other\", trajectories = [",

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// The street with two altimeters on the drone, whose readings the dataset has.
 fn street(second: &str) -> Street {
     let stages = format!(
-        "[stages.altitude]\nuse = \"sense\"\nsensor = \"laser_altimeter\"\ninputs = {{ town = \"town\", frames = \"frames\" }}\n\n\
+        "[stages.altitude]\nuse = \"sense\"\nsensor = \"laser_altimeter\"\ninputs = {{ town = \"town\", frames = \"frames\", others = \"walkers\" }}\n\n\
          [stages.nose]\nuse = \"sense\"\nsensor = \"laser_altimeter\"\n{second}\ninputs = {{ town = \"town\", frames = \"frames\" }}\n\n\
          [stages.dataset]"
     );
@@ -43,8 +43,79 @@ fn readings_are_tables_of_a_verified_dataset() {
     assert_eq!(rows.len() % 6, 0);
     assert!(rows.len() > 6 * 100, "{}", rows.len());
     let card = std::fs::read_to_string(dataset.join("README.md")).expect("a card");
-    assert!(card.contains("Given by the sensor `laser_altimeter` 1: A gimballed laser beam"), "{card}");
+    assert!(card.contains("Given by the sensor `laser_altimeter` 2: A gimballed laser beam"), "{card}");
     assert!(card.contains("| `range_m` | float64 | distance to the first thing below"), "{card}");
+}
+
+#[test]
+fn readings_are_in_logs_and_in_exports() {
+    let street = street("table = \"nose_m\"\nrate_hz = 50");
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let dataset = cosfly_read::PublishedDataset::open(&street.dataset()).expect("a dataset");
+    let keys = column(&street.dataset(), "laser_altimeter", "trajectory_id");
+    let values = column(&street.dataset(), "laser_altimeter", "range_m");
+    for flight in dataset.flights() {
+        let mut log = dataset.log(flight).expect("a log");
+        let sensors = log.sensors();
+        let names: Vec<(&str, String)> = sensors.iter().map(|it| (it.name.as_str(), it.quantities.join(" "))).collect();
+        let quantities = "range_m is_hit".to_owned();
+        assert_eq!(names, [("laser_altimeter", quantities.clone()), ("nose_m", quantities)]);
+        // One in each frame, those of the table.
+        let read = log.readings(&sensors[0]).expect("readings");
+        let own = keys.iter().zip(&values).filter(|(id, _)| id.trim_matches('"') == flight.trajectory_id);
+        let own: Vec<f64> = own.map(|(_, value)| value.parse().expect("a number")).collect();
+        assert_eq!(read.iter().map(|(_, numbers)| numbers[0]).collect::<Vec<_>>(), own);
+        let often = log.readings(&sensors[1]).expect("readings");
+        assert!(often.is_sorted_by_key(|it| it.0) && often.windows(2).all(|pair| pair[1].0 - pair[0].0 == 20_000_000));
+    }
+    let out = street.dataset();
+    let export = |format: &str| {
+        let arguments = ["export", out.to_str().expect("UTF-8"), "--format", format, "--out", format];
+        cosfly(&arguments).within(street.path()).run_ok();
+    };
+    export("ros2");
+    export("lerobot");
+    let flight = &dataset.flights()[0];
+    let metadata =
+        street.path().join("ros2").join(&*flight.split).join("000").join(&flight.trajectory_id).join("metadata.yaml");
+    let metadata = std::fs::read_to_string(metadata).expect("a bag");
+    let topic = "name: /sensor/laser_altimeter\n        type: std_msgs/msg/Float64MultiArray";
+    assert!(metadata.contains(topic) && metadata.contains("name: /sensor/nose_m"), "{metadata}");
+    let info = street.path().join("lerobot").join(&*flight.split).join("meta/info.json");
+    let info: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(info).expect("a dataset")).expect("JSON");
+    let names = ["laser_altimeter.range_m", "laser_altimeter.is_hit", "nose_m.range_m", "nose_m.is_hit"];
+    assert_eq!(info["features"]["observation.sensors"]["names"], serde_json::json!(names));
+}
+
+#[test]
+fn flights_of_policies_have_the_readings_that_are_asked_for() {
+    let street = Street::new();
+    let fly = |out: &str, more: &[&str]| {
+        let arguments =
+            [&["fly", "recipe.toml", "--policy", "hold", "--clips", "0", "--quiet", "--out", out], more].concat();
+        cosfly(&arguments).within(street.path()).run_ok();
+        let folder = street.path().join(out).join("hold");
+        let read = |name: String| std::fs::read(folder.join(name)).expect("a file of the result");
+        let card: serde_json::Value = serde_json::from_slice(&read("card.json".into())).expect("JSON");
+        let row = String::from_utf8(read("episodes.jsonl".into())).expect("UTF-8");
+        let row: serde_json::Value = serde_json::from_str(row.lines().next().expect("an episode")).expect("JSON");
+        let episode = row["episode"].as_str().expect("a name");
+        let log = read(format!("logs/{episode}.mcap"));
+        let has_topic = log.windows(23).any(|bytes| bytes == b"/sensor/laser_altimeter");
+        let steps = String::from_utf8(read(format!("logs/{episode}.jsonl"))).expect("UTF-8");
+        (card["policy"]["sensors"].clone(), has_topic, steps)
+    };
+    let (sensors, has_topic, steps) = fly("plain", &[]);
+    assert!(sensors.is_null() && !has_topic && !steps.contains("readings"));
+    let (sensors, has_topic, steps) = fly("sensed", &["--obs", "laser_altimeter"]);
+    assert_eq!((sensors, has_topic), (serde_json::json!(["laser_altimeter"]), true));
+    for line in steps.lines() {
+        let step: serde_json::Value = serde_json::from_str(line).expect("JSON");
+        let (range_m, height_m) = (&step["readings"]["laser_altimeter"][0], &step["position_in_world"][2]);
+        let (range_m, height_m) = (range_m.as_f64().expect("a number"), height_m.as_f64().expect("a number"));
+        assert!(range_m > 0.0 && range_m <= height_m + 0.3, "{line}");
+    }
 }
 
 #[test]

@@ -27,7 +27,10 @@ fn the_small_recipe_makes_a_verified_dataset() {
 
 #[test]
 fn a_map_of_boxes_makes_a_verified_dataset() {
-    check_town(&crate::support::repository_root().join("tests/towns/yard.json"), &["stages.town.terrain_margin_m=30"]);
+    check_town(
+        &crate::support::repository_root().join("tests/towns/yard.json"),
+        &["stages.town.options.terrain_margin_m=30"],
+    );
 }
 
 #[test]

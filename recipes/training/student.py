@@ -21,8 +21,8 @@ def features(state):
     ahead, right, up = state[:, 0], state[:, 1], state[:, 2]
     away = np.hypot(ahead, right)
     bearing, elevation = np.arctan2(right, ahead), np.arctan2(up + 1, away)
-    view = [4 * bearing, 4 * (elevation - state[:, 12]), away / 20 - 1, np.minimum(state[:, 15], 5) / 5]
-    scale = np.array([20, 20, 20, 2, 2, 1, 4, 4, 4, 3, 3, 3, 1, 20, 1, 5], dtype=np.float32)
+    view = [4 * bearing, 4 * (elevation - np.radians(state[:, 12])), away / 20 - 1, np.minimum(state[:, 15], 5) / 5]
+    scale = np.array([20, 20, 20, 2, 2, 1, 4, 4, 4, 3, 3, 3, 57, 20, 1, 5], dtype=np.float32)
     return np.concatenate([state / scale, np.stack(view, axis=1)], axis=1)
 
 

@@ -25,7 +25,7 @@ import cosfly.gym  # noqa: F401 (registers the environments)
 
 SIZE, STEPS, EPOCHS, BATCHES, HIDDEN = 84, 64, 4, 4, 128
 DISCOUNT, TRACE, CLIP, ENTROPY, RATE = 0.97, 0.9, 0.2, 2e-3, 5e-4
-SCALE = np.array([6, 6, 3, 45, 30], np.float32)
+SCALE = np.array([6, 6, 3, 30, 45], np.float32)
 OWN = slice(6, 14)
 # Earlier rounds of labels that are kept.
 LABELS = 24
@@ -58,7 +58,7 @@ class Sight:
         is_seen = mass > 0
         self.last[is_seen] = here[is_seen]
         self.age = np.where(is_seen, 0, np.minimum(self.age + 0.05, 1)).astype(np.float32)
-        own = observations["state"][:, OWN] / np.array([6, 6, 6, 6, 6, 6, 1, 30], np.float32)
+        own = observations["state"][:, OWN] / np.array([6, 6, 6, 6, 6, 6, 57, 30], np.float32)
         few = np.concatenate([self.last, np.stack([self.age, np.minimum(mass, 1), is_seen], 1)], 1)
         return np.concatenate([few, own, depth.reshape(len(own), -1) * 0.2], 1).astype(np.float32)
 

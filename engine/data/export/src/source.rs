@@ -6,6 +6,7 @@ use cosfly_domain::{Channel, channels};
 use cosfly_frames::Pose;
 use cosfly_read::{CaptionReader, FrameRow, LogReader, LoggedFrame, PublishedDataset, PublishedFlight, RowIndex};
 use cosfly_schema::CaptionRecord;
+use cosfly_schema::log::reading::LoggedSensor;
 use rayon::prelude::*;
 use std::cell::{Cell, OnceCell, RefCell};
 use std::collections::BTreeSet;
@@ -51,6 +52,9 @@ pub struct Episode<'a> {
     /// Open logs of the flight that no thread reads now.
     logs: Mutex<Vec<LogReader>>,
 }
+
+/// A sensor that is no camera, and its readings: time since the first frame, nanoseconds, and numbers of the quantities.
+pub type SensorReadings = (LoggedSensor, Vec<(u64, Vec<f64>)>);
 
 impl<'a> Source<'a> {
     /// The flights of `dataset` in `choice`. `progress` is called with the number of frames that are done and of all.
@@ -187,6 +191,15 @@ impl<'a> Source<'a> {
 }
 
 impl Episode<'_> {
+    /// Readings of the flight's sensors that are no cameras.
+    ///
+    /// # Errors
+    /// Damage of the log.
+    pub fn readings(&self) -> Result<Vec<SensorReadings>> {
+        let mut log = self.source.dataset.log(self.flight)?;
+        log.sensors().into_iter().map(|sensor| log.readings(&sensor).map(|all| (sensor, all))).collect()
+    }
+
     /// Reads the pictures of the flight's frames `frames`, calls `make` with them on all cores, and `take` with its results
     /// in the order of `frames`.
     pub fn each_picture<T: Send>(

@@ -10,15 +10,18 @@ use cosfly_domain::channels::{ChannelSource, Element};
 use cosfly_domain::{Channel, ChannelImage, channels};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_schema::log::messages::{MAP_FRAME, OPTICAL_FRAME};
+use cosfly_schema::log::reading::{LoggedSensor, ReadingMessage};
 use cosfly_schema::log::{TargetStateMessage, formats, frame_time_ns, topic};
 use foxglove::messages;
 use prost::Message;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-/// Callback for the topic and bytes of a message; returns what is wrong with it.
-type Visit<'a> = &'a mut dyn FnMut(&str, &[u8]) -> Result<(), String>;
+/// Callback for the topic, time and bytes of a message; returns what is wrong with it.
+type Visit<'a> = &'a mut dyn FnMut(&str, u64, &[u8]) -> Result<(), String>;
 
 /// An open log.
 pub struct LogReader {
@@ -113,7 +116,7 @@ impl LogReader {
         let topics: Vec<String> = images.chain([topic::TF.to_owned(), topic::TARGET_STATE.to_owned()]).collect();
         let topics: Vec<&str> = topics.iter().map(String::as_str).collect();
         let mut found = vec![false; topics.len()];
-        self.messages(time, &topics, &mut |topic, data| {
+        self.messages(time..=time, &topics, &mut |topic, _, data| {
             found[topics.iter().position(|it| *it == topic).unwrap_or(0)] = true;
             logged.take(topic, data)
         })?;
@@ -127,7 +130,7 @@ impl LogReader {
     /// Obstacles near the flight.
     pub fn scene(&mut self) -> Result<Vec<SceneBox>> {
         let mut boxes = vec![];
-        self.messages(0, &[topic::SCENE], &mut |_, data| {
+        self.messages(0..=0, &[topic::SCENE], &mut |_, _, data| {
             let update = messages::SceneUpdate::decode(data).map_err(|error| error.to_string())?;
             for entity in update.entities.iter().filter(|entity| entity.frame_id == MAP_FRAME) {
                 let label = entity.id.rsplit('/').next().unwrap_or_default();
@@ -138,16 +141,37 @@ impl LogReader {
         Ok(boxes)
     }
 
+    /// Sensors that are no cameras, by name.
+    pub fn sensors(&self) -> Vec<LoggedSensor> {
+        let of =
+            |channel: &Arc<::mcap::Channel<'static>>| LoggedSensor::of(&channel.topic, &channel.schema.as_ref()?.data);
+        let mut sensors: Vec<LoggedSensor> = self.summary.channels.values().filter_map(of).collect();
+        sensors.sort_by(|a, b| a.name.cmp(&b.name));
+        sensors
+    }
+
+    /// All readings of a sensor: time since the first frame, nanoseconds, and numbers of its quantities.
+    pub fn readings(&mut self, sensor: &LoggedSensor) -> Result<Vec<(u64, Vec<f64>)>> {
+        let mut readings = vec![];
+        let (name, count) = (sensor.topic_name(), sensor.quantities.len());
+        self.messages(0..=u64::MAX, &[name.as_str()], &mut |_, time_ns, data| {
+            let numbers = ReadingMessage::numbers(count, data).map_err(|error| error.to_string())?;
+            readings.push((time_ns, numbers));
+            Ok(())
+        })?;
+        Ok(readings)
+    }
+
     fn damaged(&self, what: &str) -> Box<Diagnostic> {
         damaged(&self.path, what, "it was written by another program, or incompletely")
     }
 
-    /// Calls `visit` with the messages of `topics` at `time_ns`.
-    fn messages(&mut self, time_ns: u64, topics: &[&str], visit: Visit<'_>) -> Result<()> {
+    /// Calls `visit` with the messages of `topics` at the times `times_ns`, in the order of their times.
+    fn messages(&mut self, times_ns: RangeInclusive<u64>, topics: &[&str], visit: Visit<'_>) -> Result<()> {
         let options = IndexedReaderOptions::new()
             .include_topics(topics.iter().copied())
-            .starting_at(time_ns)
-            .ending_at(time_ns)
+            .starting_at(*times_ns.start())
+            .ending_at(*times_ns.end())
             .with_record_length_limit(RECORD_LIMIT);
         let path = &self.path;
         let unreadable = |error: ::mcap::McapError| damaged(path, "a part of it cannot be read", error);
@@ -171,7 +195,7 @@ impl LogReader {
                 }
                 IndexedReadEvent::Message { header, data } => {
                     let topic = self.summary.channels.get(&header.channel_id).map_or("", |channel| &channel.topic);
-                    visit(topic, data).map_err(|what| {
+                    visit(topic, header.log_time, data).map_err(|what| {
                         let message = format!("`{}` has a message on `{topic}` that cannot be read", path.display());
                         Diagnostic::new("dataset-damaged", Fault::Input, message).because(what)
                     })?;

@@ -104,7 +104,7 @@ pub fn write_flights(
     for flight in &flights {
         let mut bytes = vec![];
         let mut pack = FramePackReader::new(Cursor::new(flight.pack(encoding)))?;
-        let record = write_log(&mut bytes, &flight.record, &mut pack, &flight.captions, &town, &|| Ok(()))?.record;
+        let record = write_log(&mut bytes, &flight.record, &mut pack, &flight.captions, &[], &town, &|| Ok(()))?.record;
         files.push((record, bytes, flight.channels()));
     }
     let published = |(record, bytes, channels): &(LogRecord, Vec<u8>, ChannelSet)| PublishedLog {

@@ -91,7 +91,7 @@ impl ManyFlights {
         let sample = &self.samples[index % self.samples.len()];
         let mut pack = FramePackReader::new(Cursor::new(&self.packs[index % self.samples.len()]))?;
         let mut bytes = vec![];
-        let log = write_log(&mut bytes, &self.record(index), &mut pack, &sample.captions, &town(), &|| Ok(()))?;
+        let log = write_log(&mut bytes, &self.record(index), &mut pack, &sample.captions, &[], &town(), &|| Ok(()))?;
         Ok((PublishedLog { record: log.record, blob: blob_of(&bytes), channels: sample.channels() }, bytes))
     }
 }

@@ -1,5 +1,6 @@
 //! The generated reference page of all tables and topics, from the same lists as schema and card.
 
+use crate::log::reading::TOPICS;
 use crate::log::topics;
 use crate::tables::{self, Table};
 use cosfly_domain::ChannelSet;
@@ -21,6 +22,8 @@ pub fn reference() -> String {
     for topic in topics(&ChannelSet::of(|_| true)) {
         let _ = writeln!(text, "| `{}` | {} |", topic.name, topic.doc);
     }
+    let sensor = "`cosfly.NAME`, a double for each quantity: readings of a sensor, where the dataset has a table `NAME` of them.";
+    let _ = writeln!(text, "| `{TOPICS}NAME` | {sensor} |");
     text
 }
 

@@ -69,9 +69,8 @@ pub fn refusal(error: MapError, path: PathBuf, bytes: &[u8]) -> Box<Diagnostic> 
 ///
 /// # Errors
 /// A name, a range or a shift that no town can have.
-pub fn checked(mut given: Value) -> Result<(MapConfig, Vec<PathBuf>), ParameterError> {
-    let mut config: MapConfig = parameters::take(&mut given)?;
-    config.options = given.as_object().cloned().unwrap_or_default().into();
+pub fn checked(given: Value) -> Result<(MapConfig, Vec<PathBuf>), ParameterError> {
+    let mut config: MapConfig = parameters::read(given)?;
     let fill = &config.fill;
     for (path, low, high) in [
         ("fill.max_height_m", fill.min_height_m, fill.max_height_m),

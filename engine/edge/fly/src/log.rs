@@ -1,9 +1,10 @@
 //! [`Line`]: the state after a step, as logs keep it.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_env::{Action, End, Environment, Reward};
+use cosfly_env::{Action, End, Environment, Reward, readings};
 use cosfly_frames::{DVec3, Pose};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The state after a step. Vectors are in the world frame, metres and m/s.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,7 +33,7 @@ pub struct Line {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub attitude_xyzw: Option<[f64; 4]>,
     /// Numbers of the action, in the form of its kind, where the policy gave one before the step: velocity ahead, right and up
-    /// (m/s), yaw and pitch rate (degrees/s); or thrust and rates, or speeds of rotors.
+    /// (m/s), pitch and yaw rate (degrees/s); or thrust and rates, or speeds of rotors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub action: Option<Vec<f64>>,
     /// The action as it was flown, in radians: with it the step can be flown again to the bit.
@@ -41,6 +42,9 @@ pub struct Line {
     /// Time that the policy took for it, where latencies are measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub latency_s: Option<f64>,
+    /// Readings of the sensors that are asked for, by sensor.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub readings: BTreeMap<String, Vec<f64>>,
     /// Terms of the reward, unweighted, in the order of the card's list.
     pub reward: [f64; 6],
     /// Why the episode ended in this step.
@@ -68,6 +72,7 @@ impl Line {
             action: action.map(|action| action.row(seen.yaw_rad)),
             flown: action.copied(),
             latency_s: None,
+            readings: readings(environment).into_iter().map(|(sensor, it)| (sensor.name.to_owned(), it)).collect(),
             reward: reward.terms(),
             end,
         }

@@ -19,8 +19,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// Version of the environment: raised when an episode's rows change for the same actions.
-pub const ENVIRONMENT_VERSION: u32 = 2;
+/// Version of the environment: raised when an episode's rows change for the same actions, or what a number of its state means.
+pub const ENVIRONMENT_VERSION: u32 = 3;
 
 /// An episode and what baselines may know of it.
 pub struct Task {

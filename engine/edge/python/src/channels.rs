@@ -1,7 +1,8 @@
-//! The list of channels for Python.
+//! The lists of channels and of sensors for Python.
 
 use cosfly_domain::Channel;
 use cosfly_domain::channels::{ChannelSource, Element};
+use cosfly_sensors::Sensor;
 use pyo3::prelude::*;
 
 /// A channel for Python: name, type of numpy, values of a pixel, least and greatest value, documentation. The greatest value is
@@ -23,4 +24,17 @@ pub fn channels() -> Vec<ChannelFacts> {
         (channel.name, kind, element.parts(), least, greatest, channel.doc)
     };
     cosfly_domain::channels::ALL.iter().map(facts).collect()
+}
+
+/// A sensor for Python: name, documentation, names and documentation of its quantities.
+type SensorFacts = (&'static str, &'static str, Vec<(&'static str, &'static str)>);
+
+/// All sensors that are no cameras.
+#[pyfunction]
+pub fn sensors() -> Vec<SensorFacts> {
+    let facts = |sensor: &&'static Sensor| {
+        let quantities = sensor.quantities.iter().map(|quantity| (quantity.name, quantity.doc));
+        (sensor.name, sensor.doc, quantities.collect())
+    };
+    cosfly_sensors::ALL.iter().map(facts).collect()
 }

@@ -12,6 +12,7 @@ use cosfly_fly::suite::{Suite, Task};
 use cosfly_fly::vector::{ACTIONS, Autoreset, TERMS, VectorEnvironment};
 use cosfly_render::PictureLook;
 use cosfly_runner::RunOptions;
+use cosfly_sensors::SensorSet;
 use cosfly_store::Store;
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyRuntimeError;
@@ -30,6 +31,7 @@ struct EnvConfig {
     latency_s: Option<f64>,
     expert_action: bool,
     channels: Vec<String>,
+    sensors: Vec<String>,
     sides: (u32, u32),
     max_depth_m: f32,
     weather: Option<String>,
@@ -64,7 +66,11 @@ impl PyFlock {
         };
         let suite = suite.environment();
         let latency_s = config.latency_s.unwrap_or(suite.latency_s);
-        let settings = cosfly_env::EnvironmentSettings { step_s: config.step_s, latency_s, ..suite };
+        if let Some(unknown) = config.sensors.iter().find(|name| cosfly_sensors::called(name).is_none()) {
+            return Err(InvalidValue::new_err(format!("there is no sensor `{unknown}`")));
+        }
+        let sensors = SensorSet::of(|sensor| config.sensors.iter().any(|name| name == sensor.name));
+        let settings = cosfly_env::EnvironmentSettings { step_s: config.step_s, latency_s, sensors, ..suite };
         let flock = VectorEnvironment::new(tasks, count, settings, mode, config.expert_action);
         let flock = if is_team { flock.as_team() } else { flock };
         let flock =
@@ -193,6 +199,10 @@ impl PyFlock {
             self.put_pictures(told, "", &outputs.album, size)?;
             self.put_pictures(told, "last_", &outputs.last_album, size)?;
         }
+        self.put_readings(told, "", &outputs.readings)?;
+        if self.flock.mode() == Autoreset::SameStep {
+            self.put_readings(told, "last_", &outputs.last_readings)?;
+        }
         if !outputs.beside.is_empty() {
             let width = outputs.beside[0].len();
             self.put(told, "beside", &outputs.beside.concat(), &[count, width])?;
@@ -227,6 +237,20 @@ impl PyFlock {
                 Pixels::Floats(floats) => self.put(told, &name, floats, shape)?,
                 Pixels::Ids(ids) => self.put(told, &name, ids, shape)?,
             }
+        }
+        Ok(())
+    }
+
+    /// Puts the readings of each sensor as an array of (environment, quantity).
+    fn put_readings(&self, told: &Bound<'_, PyDict>, prefix: &str, rows: &[Vec<f32>]) -> PyResult<()> {
+        let mut first = 0;
+        for sensor in self.flock.settings().sensors.iter() {
+            let end = first + sensor.quantities.len();
+            // Before the first reset there are no readings.
+            let own = |row: &Vec<f32>| row.get(first..end).map_or_else(|| vec![0.0; end - first], <[f32]>::to_vec);
+            let own: Vec<f32> = rows.iter().flat_map(own).collect();
+            self.put(told, &format!("{prefix}{}", sensor.name), &own, &[rows.len(), end - first])?;
+            first = end;
         }
         Ok(())
     }

@@ -14,7 +14,7 @@ import cosfly  # noqa: E402
 import cosfly.gym  # noqa: E402, F401 (registers the environments, as the installed package does by itself)
 
 ID = "cosfly/Track-v0"
-ALL = ("state", *cosfly.gym.CHANNELS)
+ALL = ("state", *cosfly.gym.CHANNELS, *cosfly.gym.SENSORS)
 
 
 def make_vec(mode=AutoresetMode.NEXT_STEP, num_envs=4, **more):
@@ -50,12 +50,29 @@ def test_channels_are_those_of_datasets():
         channel = cosfly.gym.CHANNELS[name]
         assert image.dtype == channel.dtype and image.shape[2:] == ((channel.values,) if channel.values > 1 else ())
     space = make_vec(num_envs=1, obs=ALL, size=(16, 8), max_depth_m=50.0).single_observation_space
-    assert {name: (box.dtype, box.shape) for name, box in space.items() if name != "state"} == {
+    assert {name: (box.dtype, box.shape) for name, box in space.items() if name in cosfly.gym.CHANNELS} == {
         name: (np.dtype(it.dtype), (8, 16) if it.values == 1 else (8, 16, it.values))
         for name, it in cosfly.gym.CHANNELS.items()
     }
     assert (space["depth"].high == 50.0).all() and (space["mask"].high == 1).all()
     assert all(channel.doc.endswith(".") for channel in cosfly.gym.CHANNELS.values())
+
+
+@pytest.mark.parametrize("mode", list(AutoresetMode))
+def test_readings_of_sensors_are_observations(mode):
+    envs = make_vec(mode, num_envs=2, obs=("state", "laser_altimeter"))
+    envs.reset(seed=3)
+    for _ in range(20):
+        seen, _, _, _, infos = envs.step(np.zeros((2, 5)))
+        state, (range_m, is_hit) = seen["state"], seen["laser_altimeter"].T
+        # What is below is the ground, or something on it.
+        above = state[:, cosfly.gym.STATE.index("above_ground_m")]
+        assert ((range_m > 0) & (range_m <= above + 0.1) & (is_hit == 1)).all()
+    assert "laser_altimeter" not in infos and "last_laser_altimeter" not in infos
+    alone = make_vec(num_envs=2, obs=("laser_altimeter",))
+    assert alone.single_observation_space.shape == (2,) and alone.reset(seed=3)[0].dtype == np.float32
+    sensor = cosfly.gym.SENSORS["laser_altimeter"]
+    assert list(sensor.quantities) == ["range_m", "is_hit"] and sensor.doc.endswith(".")
 
 
 @pytest.mark.parametrize("mode", list(AutoresetMode))

@@ -34,7 +34,7 @@ def test_vla_eval_flies_all_episodes_with_its_own_orchestrator(tmp_path):
             assert obs["state"].shape == (16,) and "person" in obs["task_description"]
             assert obs["images"]["depth"].shape == (32, 32)
             ahead, right = obs["state"][:2]
-            return {"actions": np.array([0, 0, 0, np.degrees(np.arctan2(right, ahead)), 0], dtype=np.float32)}
+            return {"actions": np.array([0, 0, 0, 0, np.degrees(np.arctan2(right, ahead))], dtype=np.float32)}
 
         def get_action_spec(self):
             return {}

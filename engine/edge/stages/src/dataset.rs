@@ -71,7 +71,7 @@ impl StageKind for Dataset {
         };
         let records = |fan| ports::without_pictures(frames(fan));
         Ok(vec![
-            logs::part(frames(Fan::Each), captions(Fan::Each)),
+            logs::part(frames(Fan::Each), captions(Fan::Each), extras()),
             group_notes::part(&config, records(Fan::Group)),
             group_splits::part(&config, towns()),
             shards::part(&config, [records(Fan::Group), captions(Fan::Group), extras()]),

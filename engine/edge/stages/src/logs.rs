@@ -1,17 +1,19 @@
 //! Part `logs` of a `dataset` stage: one MCAP log per trajectory.
 
-use crate::ports::{self, LOG, PACK};
+use crate::ports::{self, EXTRAS, LOG, PACK};
 use crate::rejections::handed_on;
+use crate::sense::READINGS;
 use crate::world::world_of;
 use cosfly_blobs::{BlobPart, OutputSink, PassingFile};
 use cosfly_captions::{Language, Wear, check_clothes as clothes_in};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::ChannelSet;
 use cosfly_experts::codec;
+use cosfly_schema::extras::Extra;
 use cosfly_schema::record::captions_from_bytes;
 use cosfly_schema::{CaptionRecord, PreviewStrip, RenderedTrajectory};
 use cosfly_stage::{
-    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
+    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Sees, Stage, StagePart, StageProperties,
     StageRole, TaskContext,
 };
 use cosfly_write::{FramePackReader, write_log};
@@ -32,15 +34,18 @@ pub const PREVIEWS_BLOB: &str = "previews";
 /// Kind of the blob.
 const PREVIEWS: &str = "preview-places/1";
 
-/// The part of a stage that meets pictures at `frames` and their captions at `captions`, item by item.
-pub fn part(frames: InputPort, captions: InputPort) -> StagePart {
+/// The part of a stage that meets pictures at `frames`, their captions at `captions` and all that was made of them at `extras`, item by
+/// item.
+pub fn part(frames: InputPort, captions: InputPort, extras: InputPort) -> StagePart {
+    // What plugins made is in no log: another version of a plugin writes no log anew.
+    let extras = InputPort { sees: Sees::Only(&[READINGS]), ..ports::group(extras) };
     let properties = StageProperties {
         kind: "dataset".into(),
-        version: 5,
+        version: 6,
         // Logs read no parameter: another title or split rewrites no log.
         parameters: serde_json::json!({}),
         sources: vec![],
-        inputs: vec![frames, captions],
+        inputs: vec![frames, captions, extras],
         artifact: LOG,
         items: ItemRule::PerInput("frames"),
         bytes_per_item: 0,
@@ -104,13 +109,15 @@ impl Stage for LogStage {
         let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
         let captions = captions_of(inputs, inputs.all("captions").first())?;
         check_clothes(&record, &captions)?;
+        let readings = inputs.all("extras").iter().filter(|artifact| artifact.blobs.contains_key(READINGS));
+        let readings: Vec<Extra> =
+            readings.map(|artifact| codec::decode(EXTRAS, &inputs.read(artifact, READINGS)?)).collect::<Result<_>>()?;
         let world = world_of(inputs, frames)?;
         let mut pack = FramePackReader::new(BufReader::new(PassingFile::new(inputs.open(frames, PACK)?)))?;
         let mut log = None;
         outputs.stream(LOG_BLOB, &mut |file| {
-            let written =
-                write_log(&mut *file, &record, &mut pack, &captions, &world.town, &|| context.check_cancelled())?;
-            log = Some(written);
+            let keep_going = || context.check_cancelled();
+            log = Some(write_log(&mut *file, &record, &mut pack, &captions, &readings, &world.town, &keep_going)?);
             Ok(())
         })?;
         let (log, previews) = log.map(|log| (log.record, log.previews)).unzip();

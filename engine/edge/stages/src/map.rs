@@ -32,8 +32,21 @@ impl StageKind for Map {
     }
 
     fn schema(&self) -> Value {
-        let common = parameters::schema_of::<MapConfig>();
-        FORMATS.iter().fold(common, |all, format| parameters::merged_into(all, named_schema(format)))
+        let mut options = options_schema();
+        // References are to definitions of the whole schema.
+        let definitions = options.as_object_mut().and_then(|table| table.remove("$defs")).unwrap_or_default();
+        let own = parameters::schema_of::<MapConfig>();
+        let mut schema = parameters::merged_into(own, json!({ "$defs": definitions }));
+        let gone = |(name, _): (&String, &Value)| (name.clone(), json!(format!("write `options.{name}`")));
+        let gone: serde_json::Map<String, Value> =
+            options["properties"].as_object().into_iter().flatten().map(gone).collect();
+        schema["x-gone"] = gone.into();
+        for owner in ["/properties", "/$defs/FurtherSource/properties"] {
+            if let Some(properties) = schema.pointer_mut(owner) {
+                properties["options"] = options.clone();
+            }
+        }
+        schema
     }
 
     fn ports(&self) -> Vec<InputPort> {
@@ -70,6 +83,13 @@ fn sources(files: Vec<PathBuf>) -> Vec<Source> {
     files.into_iter().enumerate().map(source).collect()
 }
 
+/// Schema of the options of all formats.
+fn options_schema() -> Value {
+    let none =
+        json!({ "type": "object", "description": "Options of the file's format.", "additionalProperties": false });
+    FORMATS.iter().fold(none, |all, format| parameters::merged_into(all, named_schema(format)))
+}
+
 /// Schema of the options of a format; their descriptions begin with the names of the formats that have them.
 fn named_schema(format: &Format) -> Value {
     let mut schema = format.schema();
@@ -86,12 +106,12 @@ fn named_schema(format: &Format) -> Value {
 const IN_ALL_KEYS: [&str; 6] =
     ["shoulders_as_sidewalks", "signals", "road_marks", "unmarked_crossings", "roofs", "sample_step_m"];
 
-/// Parameters for keys. Any other option at its default is left out, so that a new one moves no key.
+/// Parameters for keys, options among the others. Any other option at its default is left out, so that a new one moves no key.
 fn canonical(config: &MapConfig) -> Result<Value, ParameterError> {
     let filled = |format: &Format, options: &FormatOptions| {
         format.filled(options).map_err(|error| parameters::refused_at("", error.message))
     };
-    let mut all = parameters::canonical(config);
+    let mut all = parameters::canonical(&MapConfig { options: FormatOptions::default(), ..config.clone() });
     for format in FORMATS {
         let (own, defaults) = (filled(format, &config.options)?, filled(format, &FormatOptions::default())?);
         for ((name, value), (_, default)) in own.iter().zip(defaults.iter()) {
@@ -129,7 +149,7 @@ fn without_foreign_options(own: &Format, path: &Path) -> Value {
         let names = foreign.option_names().into_iter().filter(|name| !own_names.contains(name));
         properties.extend(names.map(|name| (name, json!({ "not": {}, "description": reason }))));
     }
-    json!({ "properties": properties })
+    json!({ "properties": { "options": { "properties": properties } } })
 }
 
 struct MapStage {
@@ -186,23 +206,27 @@ mod tests {
     fn options_at_their_defaults_move_no_key() {
         let plain = keys_of(json!({ "source": "town.xodr" }));
         for option in [json!({ "signals": true }), json!({ "sample_step_m": 50 }), json!({ "terrain_margin_m": 60 })] {
-            let mut given = json!({ "source": "town.xodr" });
-            given.as_object_mut().expect("a table").append(&mut option.as_object().expect("a table").clone());
-            assert_eq!(keys_of(given), plain, "{option}");
+            assert_eq!(keys_of(json!({ "source": "town.xodr", "options": option })), plain, "{option}");
         }
         assert_eq!(plain["unmarked_crossings"], true);
         assert_eq!(plain.get("assume_ground"), None);
         assert_eq!(plain.get("terrain_margin_m"), None);
-        let changed = keys_of(json!({ "source": "town.xodr", "terrain_margin_m": 20, "signals": false }));
+        let options = json!({ "terrain_margin_m": 20, "signals": false });
+        let changed = keys_of(json!({ "source": "town.xodr", "options": options }));
         assert_eq!((&changed["terrain_margin_m"], &changed["signals"]), (&json!(20.0), &json!(false)));
     }
 
     #[test]
     fn the_schema_names_the_formats_that_have_an_option_and_no_option_twice() {
-        let common = parameters::schema_of::<MapConfig>()["properties"].as_object().expect("a table").len();
         let options: BTreeSet<String> = FORMATS.iter().flat_map(Format::option_names).collect();
         let schema = Map.schema();
-        assert_eq!(schema["properties"].as_object().expect("a table").len(), common + options.len());
-        assert!(schema["properties"]["signals"]["description"].as_str().expect("text").starts_with("OpenDRIVE: "));
+        let further = &schema["$defs"]["FurtherSource"]["properties"]["options"];
+        for table in [&schema["properties"]["options"], further] {
+            assert!(table["properties"].as_object().expect("a table").keys().eq(&options));
+            assert!(table["properties"]["signals"]["description"].as_str().expect("text").starts_with("OpenDRIVE: "));
+        }
+        assert_eq!(schema["x-gone"]["signals"], "write `options.signals`");
+        let roofs = schema["properties"]["options"]["properties"]["roofs"]["$ref"].as_str().expect("a reference");
+        assert!(schema.pointer(roofs.trim_start_matches('#')).is_some(), "{roofs}");
     }
 }

@@ -114,7 +114,7 @@ impl Stage for NearbyStage {
 }
 
 /// Adds the items of stage number `stage` at port `others`.
-fn add(inputs: &Inputs<'_>, candidates: &mut Candidates<'_>, stage: usize, artifacts: &[Artifact]) -> Result<()> {
+pub fn add(inputs: &Inputs<'_>, candidates: &mut Candidates<'_>, stage: usize, artifacts: &[Artifact]) -> Result<()> {
     if let Some(traffic) = artifacts.first().map_or(Ok(None), |artifact| traffic_of(inputs, artifact))? {
         return candidates.add_traffic(stage, &traffic).map_err(|_| too_many(&artifacts[0]));
     }

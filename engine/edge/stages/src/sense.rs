@@ -1,13 +1,16 @@
 //! `sense`: readings of a sensor that is no camera along every rendered flight, as a table of the dataset.
 
 use crate::plugin::EXTRA;
-use crate::ports::{self, EXTRAS, FRAMES};
+use crate::ports::{self, EXTRAS, FRAMES, WALK};
 use crate::rejections::handed_on;
-use crate::single;
 use crate::world::{check_same_town, world};
+use crate::{nearby, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_experts::codec;
+use cosfly_film::Person;
+use cosfly_film::nearby::{Candidate, Candidates};
+use cosfly_flight::World;
 use cosfly_frames::Seed;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraShape, ExtraSource, check_names};
@@ -18,7 +21,10 @@ use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Blob with readings, for logs: that of [`EXTRA`] once more.
+pub const READINGS: &str = "readings";
 
 /// Stage kind `sense`.
 pub struct Sense;
@@ -29,7 +35,7 @@ impl StageKind for Sense {
     }
 
     fn doc(&self) -> &'static str {
-        "Reads a sensor that is no camera along every rendered flight; the dataset has its readings as a table."
+        "Reads a sensor that is no camera along every rendered flight; the dataset has its readings as a table and in the logs."
     }
 
     fn schema(&self) -> serde_json::Value {
@@ -38,7 +44,12 @@ impl StageKind for Sense {
 
     fn ports(&self) -> Vec<InputPort> {
         let doc = "The rendered flights, one item each.";
-        vec![ports::town(), ports::without_pictures(ports::each("frames", FRAMES, false, doc))]
+        let others = "People and vehicles who are met: the stages that the pictures show; nobody else, when left out.";
+        vec![
+            ports::town(),
+            ports::without_pictures(ports::each("frames", FRAMES, false, doc)),
+            InputPort { optional: true, ..ports::gather("others", WALK, true, others) },
+        ]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
@@ -51,14 +62,14 @@ impl StageKind for Sense {
         canonical["version"] = sensor.version.into();
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 1,
+            version: 2,
             parameters: canonical,
             sources: vec![],
             inputs: self.ports(),
             artifact: EXTRAS,
             items: ItemRule::PerInput("frames"),
             bytes_per_item: 20_000,
-            files_per_item: 1,
+            files_per_item: 2,
             intermediate: &[],
             asks: None,
             role: StageRole::Speaks,
@@ -100,13 +111,18 @@ impl Stage for SenseStage {
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         check_same_town(inputs, "frames")?;
+        check_same_town(inputs, "others")?;
         let frames = inputs.one("frames")?;
         if let Some(rejected) = handed_on(inputs, outputs, frames)? {
             return Ok(rejected);
         }
         let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
+        let world = world(inputs)?;
+        let people = people(inputs, &world, &record)?;
         let flown = Flown {
-            world: &*world(inputs)?,
+            town: &world.exact,
+            ground: &world.ground,
+            bodies: &|time_s, list| list.extend(people.iter().filter_map(|person| person.box_at(time_s))),
             poses_in_world: &record.trajectory.poses_in_world,
             dt_s: record.trajectory.track.dt_s,
             place: self.config.place(),
@@ -127,7 +143,24 @@ impl Stage for SenseStage {
         let notes = BTreeMap::from([("rows".to_owned(), at.len().to_string())]);
         let mut values = vec![Values::Integers(at), Values::Reals(times_s)];
         values.extend(numbers.into_iter().map(Values::Reals));
-        outputs.put(EXTRA, &codec::encode(EXTRAS, &Extra { source: self.source.clone(), values })?)?;
+        let extra = codec::encode(EXTRAS, &Extra { source: self.source.clone(), values })?;
+        outputs.put(EXTRA, &extra)?;
+        outputs.put(READINGS, &extra)?;
         Ok(Produced { notes, ..Produced::default() })
     }
+}
+
+/// Everybody whom sensors may meet: the target, the traffic around it, and those at port `others` who are in the pictures or nobody's way.
+fn people(inputs: &Inputs<'_>, world: &World, record: &RenderedTrajectory) -> Result<Vec<Person>> {
+    let (flight, target) = (&record.trajectory, record.followed.as_ref());
+    let mut candidates = Candidates::new(&world.town, flight, target);
+    for (stage, artifacts) in inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).enumerate() {
+        nearby::add(inputs, &mut candidates, stage, artifacts)?;
+    }
+    let seen: BTreeSet<u32> = record.others.iter().map(|other| other.instance).collect();
+    let others = candidates.sensed(&seen);
+    let around = &record.around;
+    let of_traffic = around.bodies().map(|(_, body)| Person::of(body, around.traffic.dt_s));
+    let target = (flight.track.radius_m > 0.0).then(|| Person::target(&flight.track, target));
+    Ok(others.into_iter().map(Candidate::into_person).chain(of_traffic).chain(target).collect())
 }

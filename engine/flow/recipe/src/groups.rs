@@ -69,6 +69,13 @@ impl Groups {
         groups
     }
 
+    /// A group for each item at a port.
+    pub(crate) fn of_items(done: &[RecipeStage], arrivals: &[Arrival]) -> Self {
+        let own_name = |it: &Arrival| done[it.stage].items[it.item].clone();
+        let leading = arrivals.iter().enumerate().map(|(group, it)| (it.name.clone(), own_name(it), group)).collect();
+        Self { leading, size: 1, names: arrivals.iter().map(|it| it.name.clone()).collect(), ..Self::default() }
+    }
+
     /// Group of the item called `name` at the place `index` of its port; ports mostly have the order of the leading one.
     fn named(&self, index: usize, name: &ItemName) -> Option<usize> {
         match self.leading.get(index) {

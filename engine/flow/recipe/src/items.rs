@@ -53,6 +53,9 @@ impl ItemReader<'_> {
             (ItemRule::Groups { prefix, size, .. }, Some(at)) => {
                 Groups::of(self.done, &arriving[at].arrivals, prefix, *size)
             }
+            (ItemRule::PerInput(_), Some(at)) if wires.iter().any(|wire| wire.port.fan == Fan::Group) => {
+                Groups::of_items(self.done, &arriving[at].arrivals)
+            }
             _ => Groups::default(),
         };
         let items = match &properties.items {

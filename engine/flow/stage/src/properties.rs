@@ -187,7 +187,8 @@ pub enum Fan {
     Broadcast,
     /// All items of the input feed each item of the stage.
     Gather,
-    /// The items of a group feed the stage's item for that group (see [`ItemRule::Groups`]).
+    /// The items of a group feed the stage's item for that group (see [`ItemRule::Groups`]); with [`ItemRule::PerInput`], all items of
+    /// its name.
     Group,
 }
 

@@ -56,11 +56,11 @@ pub struct Action {
 impl Action {
     /// Names of the five numbers of [`Self::of_numbers`], each with its unit.
     pub const NAMES: [&'static str; 5] =
-        ["velocity_ahead_mps", "velocity_right_mps", "velocity_up_mps", "yaw_rate_deg_s", "pitch_rate_deg_s"];
+        ["velocity_ahead_mps", "velocity_right_mps", "velocity_up_mps", "pitch_rate_deg_s", "yaw_rate_deg_s"];
 
-    /// Action of five numbers: velocity ahead, right and up, m/s; yaw rate (positive: to the right) and pitch rate
-    /// (positive: up), degrees/s.
-    pub fn of_numbers([ahead, right, up, yaw_deg_s, pitch_deg_s]: [f64; 5]) -> Self {
+    /// Action of five numbers: velocity ahead, right and up, m/s; pitch rate (positive: up) and yaw rate
+    /// (positive: to the right), degrees/s: the order of poses.
+    pub fn of_numbers([ahead, right, up, pitch_deg_s, yaw_deg_s]: [f64; 5]) -> Self {
         Self {
             velocity_mps: DVec3::new(ahead, right, up),
             view: ViewRates { yaw_rad_s: yaw_deg_s.to_radians(), pitch_rad_s: pitch_deg_s.to_radians() },
@@ -69,18 +69,18 @@ impl Action {
     }
 
     /// Action of six numbers: thrust in multiples of the weight; roll, pitch and yaw rate of the body, degrees/s, positive: right side
-    /// down, nose up, to the right; yaw and pitch rate of the camera, degrees/s.
-    pub fn of_thrust_and_rates([weights, roll, pitch, yaw, view_yaw, view_pitch]: [f64; 6]) -> Self {
+    /// down, nose up, to the right; pitch and yaw rate of the camera, degrees/s.
+    pub fn of_thrust_and_rates([weights, roll, pitch, yaw, view_pitch, view_yaw]: [f64; 6]) -> Self {
         let rates_rad_s = DVec3::new(roll, pitch, yaw) * 1.0_f64.to_radians();
         Self {
             drive: Drive::ThrustAndRates { weights, rates_rad_s },
-            ..Self::of_numbers([0.0, 0.0, 0.0, view_yaw, view_pitch])
+            ..Self::of_numbers([0.0, 0.0, 0.0, view_pitch, view_yaw])
         }
     }
 
-    /// Action of six numbers: speeds of the rotors, rev/min; yaw and pitch rate of the camera, degrees/s.
-    pub fn of_rotors([a, b, c, d, view_yaw, view_pitch]: [f64; 6]) -> Self {
-        Self { drive: Drive::Rotors([a, b, c, d]), ..Self::of_numbers([0.0, 0.0, 0.0, view_yaw, view_pitch]) }
+    /// Action of six numbers: speeds of the rotors, rev/min; pitch and yaw rate of the camera, degrees/s.
+    pub fn of_rotors([a, b, c, d, view_pitch, view_yaw]: [f64; 6]) -> Self {
+        Self { drive: Drive::Rotors([a, b, c, d]), ..Self::of_numbers([0.0, 0.0, 0.0, view_pitch, view_yaw]) }
     }
 
     /// All numbers of the action, in the units of its fields.
@@ -98,7 +98,7 @@ impl Action {
 
     /// The numbers of an action of a drone with this yaw, in the form of its drive.
     pub fn row(&self, yaw_rad: f64) -> Vec<f64> {
-        let view = [self.view.yaw_rad_s, self.view.pitch_rad_s].map(f64::to_degrees);
+        let view = [self.view.pitch_rad_s, self.view.yaw_rad_s].map(f64::to_degrees);
         match self.drive {
             Drive::Velocity => self.numbers(yaw_rad).to_vec(),
             Drive::ThrustAndRates { weights, rates_rad_s } => {
@@ -115,7 +115,7 @@ impl Action {
             Axes::Heading => self.velocity_mps,
             Axes::World => heading_from_world(self.velocity_mps, yaw_rad),
         };
-        let view = [self.view.yaw_rad_s, self.view.pitch_rad_s].map(f64::to_degrees);
+        let view = [self.view.pitch_rad_s, self.view.yaw_rad_s].map(f64::to_degrees);
         [velocity.x, velocity.y, velocity.z, view[0], view[1]]
     }
 

@@ -4,7 +4,8 @@
 //! gives an [`Observation`], a [`Reward`] by named terms, and the [`End`] where there is one; [`EpisodeScore`] is the outcome so far.
 //! Steps depend on the episode, the [`EnvironmentSettings`] and the actions alone, and allocate nothing.
 //!
-//! A [`Policy`] answers observations; [`policies`] are the baselines. [`pictures`] draws what the cameras see.
+//! A [`Policy`] answers observations; [`policies`] are the baselines. [`pictures`] draws what the cameras see, [`readings`] are those of
+//! sensors that are no cameras.
 
 mod action;
 mod craft;
@@ -15,6 +16,7 @@ mod others;
 pub mod pictures;
 mod place;
 pub mod policies;
+mod readings;
 mod reward;
 mod score;
 mod settings;
@@ -30,6 +32,7 @@ pub use observation::{FEATURES, Observation, TargetSighting};
 pub use others::{BodyAtTime, Mover, Others};
 pub use place::FlightSite;
 pub use policies::Policy;
+pub use readings::readings;
 pub use reward::Reward;
 pub use score::{End, EpisodeScore};
 pub use settings::{Blackouts, DroneSettings, EnvironmentSettings, FieldOfView, RewardWeights};

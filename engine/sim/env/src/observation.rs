@@ -59,7 +59,7 @@ impl Observation {
         "acceleration_ahead_mps2",
         "acceleration_right_mps2",
         "acceleration_up_mps2",
-        "camera_pitch_rad",
+        "camera_pitch_deg",
         "above_ground_m",
         "is_tracked",
         "sighting_age_s",
@@ -67,7 +67,7 @@ impl Observation {
 
     /// The observation as numbers, lengths in metres, vectors along the axes of the heading (ahead, right, up):
     /// 0-2 place of the sighted target's feet from the drone, 3-5 its velocity (m/s), 6-8 velocity of the drone (m/s),
-    /// 9-11 its acceleration (m/s^2), 12 pitch of the camera (radians), 13 height above ground, 14 whether the target is tracked
+    /// 9-11 its acceleration (m/s^2), 12 pitch of the camera (degrees), 13 height above ground, 14 whether the target is tracked
     /// (0 or 1), 15 age of the sighting (s).
     pub fn features(&self) -> [f64; FEATURES] {
         let along = |vector: DVec3| self.along_heading(vector).to_array();
@@ -80,7 +80,12 @@ impl Observation {
             features[3 * group..3 * group + 3].copy_from_slice(&vector);
         }
         let age_s = self.time_s - self.sighting.time_s;
-        features[12..].copy_from_slice(&[self.pitch_rad, self.above_ground_m, f64::from(self.tracked), age_s]);
+        features[12..].copy_from_slice(&[
+            self.pitch_rad.to_degrees(),
+            self.above_ground_m,
+            f64::from(self.tracked),
+            age_s,
+        ]);
         features
     }
 

@@ -68,6 +68,11 @@ impl FlightSite {
         body.and_then(|id| id.instance(self.largest_object)).unwrap_or(u32::MAX)
     }
 
+    /// Height of the ground.
+    pub fn ground(&self) -> &GroundIndex {
+        &self.ground
+    }
+
     /// Height of the ground, metres; the town's lowest point (at most 0) where there is none.
     pub fn ground_m(&self, x: f64, y: f64) -> f64 {
         self.ground.ground_height_m(x, y).unwrap_or(self.lowest_m)

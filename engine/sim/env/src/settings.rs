@@ -3,6 +3,7 @@
 use cosfly_drone::models::{DroneModel, MODELS};
 use cosfly_drone::{GimbalLimits, MotionLimits};
 use cosfly_frames::{DVec3, Pose, Seed, real};
+use cosfly_sensors::SensorSet;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -88,6 +89,8 @@ pub struct EnvironmentSettings {
     pub lens: FieldOfView,
     /// Stretches in which the camera sees nothing.
     pub blackouts: Blackouts,
+    /// Sensors that are no cameras.
+    pub sensors: SensorSet,
     /// A target is tracked only where at least this share of it is seen, 0..=1.
     pub least_visible: f64,
     /// A target is tracked only within this distance.
@@ -111,6 +114,7 @@ impl Default for EnvironmentSettings {
             gimbal: GimbalLimits::default(),
             lens: FieldOfView { horizontal_deg: 90.0, aspect: 0.75 },
             blackouts: Blackouts { count: 0, length_s: [2.0, 4.0] },
+            sensors: SensorSet::default(),
             least_visible: 0.5,
             farthest_m: 60.0,
             band_m: (10.0, 40.0),

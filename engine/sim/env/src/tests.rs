@@ -3,13 +3,14 @@
 use crate::policies::{BASELINES, Knowledge, baseline};
 use crate::{
     Action, Axes, Blackouts, DroneSettings, End, Environment, EnvironmentSettings, Episode, EpisodeScore, FlightSite,
-    Observation, Others, Reward, Start,
+    Observation, Others, Reward, Start, readings,
 };
 use cosfly_domain::{Around, Body, BodyKind, BodyPlan, OrientedBox, PlanOutcome, Traffic, Trajectory};
 use cosfly_drone::models::MODELS;
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack, real};
 use cosfly_planner::{MucoConfig, PlanRequest, plan_request};
 use cosfly_scenes::{SceneKind, SeededScene};
+use cosfly_sensors::SensorSet;
 use std::sync::Arc;
 
 /// Episodes behind walkers of a scene with their experts' flights.
@@ -112,11 +113,11 @@ fn the_same_actions_give_the_same_steps_in_a_used_environment_too() {
         assert_eq!(flown(name, &episode, &knowledge, EnvironmentSettings::default()), first, "{name}");
     }
     let mut used = Environment::new(standing(vec![], 5), EnvironmentSettings::default());
-    (0..10).for_each(|_| _ = used.step(Some(&Action::of_numbers([3.0, 1.0, 0.0, 9.0, 2.0]))));
+    (0..10).for_each(|_| _ = used.step(Some(&Action::of_numbers([3.0, 1.0, 0.0, 2.0, 9.0]))));
     used.reset(Arc::clone(&episode));
     let mut fresh = Environment::new(episode, EnvironmentSettings::default());
     for step in 0..50 {
-        let action = Action::of_numbers([f64::from(step % 7), -1.0, 0.2, 3.0, -1.0]);
+        let action = Action::of_numbers([f64::from(step % 7), -1.0, 0.2, -1.0, 3.0]);
         assert_eq!(used.step(Some(&action)), fresh.step(Some(&action)));
     }
 }
@@ -176,7 +177,7 @@ fn numbers_of_observations_and_actions_are_what_their_names_say() {
     }
     let (seen, features) = (environment.observation(), environment.observation().features());
     let named = |name: &str| features[Observation::NAMES.iter().position(|own| *own == name).expect("a name")];
-    assert_eq!(named("camera_pitch_rad"), seen.pitch_rad);
+    assert_eq!(named("camera_pitch_deg"), seen.pitch_rad.to_degrees());
     assert_eq!(named("above_ground_m"), seen.above_ground_m);
     assert_eq!((named("is_tracked"), named("sighting_age_s")), (f64::from(seen.tracked), 0.0));
     let way = seen.along_heading(seen.sighting.target.feet_in_world - seen.motion.position_in_world);
@@ -188,7 +189,7 @@ fn numbers_of_observations_and_actions_are_what_their_names_say() {
 #[test]
 fn a_lost_target_ends_the_episode_and_is_remembered_as_it_was_seen() {
     let mut environment = Environment::new(standing(vec![], 60), EnvironmentSettings::default());
-    let turn = Action::of_numbers([0.0, 0.0, 0.0, 60.0, 0.0]);
+    let turn = Action::of_numbers([0.0, 0.0, 0.0, 0.0, 60.0]);
     for _ in 0..30 {
         environment.step(Some(&turn));
     }
@@ -380,4 +381,29 @@ fn a_blind_camera_tracks_nothing_and_the_target_is_found_again() {
     let score = environment.score();
     assert_eq!((score.losses, score.reacquired, score.end), (2, 2, Some(End::Finished)));
     assert!((40..=80).contains(&blind_steps), "{blind_steps}");
+}
+
+#[test]
+fn sensors_meet_roofs_and_whoever_is_below() {
+    let sensors = SensorSet::of(|sensor| sensor.name == "laser_altimeter");
+    let settings = EnvironmentSettings { sensors, ..EnvironmentSettings::default() };
+    let range_m = |episode: Episode| {
+        let [(sensor, values)] = &readings(&Environment::new(Arc::new(episode), settings))[..] else {
+            panic!("one sensor")
+        };
+        assert_eq!((sensor.name, values.len()), ("laser_altimeter", 2));
+        values[0]
+    };
+    // 20 m above the origin; the target stands 20 m ahead.
+    let plain = Episode::clone(&standing(vec![], 1));
+    assert_eq!(range_m(plain.clone()), 100.0, "flat ground without surfaces is no ground");
+    let roof = OrientedBox::from_corners(DVec3::new(-1.0, -1.0, 0.0), DVec3::new(1.0, 1.0, 8.0));
+    assert_eq!(range_m(Episode::clone(&standing(vec![roof], 1))), 12.0);
+    let start = Start { position_in_world: DVec3::new(20.0, 0.0, 20.0), ..plain.start };
+    let above_target = 20.0 - plain.target.height_m;
+    assert_eq!(range_m(Episode { start, ..plain.clone() }), above_target);
+    let bus = crossing(BodyKind::Bus, DVec3::new(11.0, 2.5, 3.0), DVec3::ZERO, 0.0, 2);
+    let others = Arc::new(Others::new(&around(vec![bus], 2), None));
+    assert_eq!(range_m(Episode { others, ..plain.clone() }), 17.0);
+    assert!(readings(&Environment::new(Arc::new(plain), EnvironmentSettings::default())).is_empty());
 }

@@ -60,7 +60,7 @@ fn environments(town: &Town, count: usize) -> Vec<Environment> {
             seed: Seed([0; 32]),
         };
         let mut environment = Environment::new(Arc::new(episode), EnvironmentSettings::default());
-        (0..3 * number).for_each(|_| _ = environment.step(Some(&Action::of_numbers([1.0, 0.0, 0.0, 2.0, 0.0]))));
+        (0..3 * number).for_each(|_| _ = environment.step(Some(&Action::of_numbers([1.0, 0.0, 0.0, 0.0, 2.0]))));
         environment
     };
     (0..count).map(environment).collect()

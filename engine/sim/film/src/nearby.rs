@@ -11,6 +11,7 @@ use cosfly_optics::pose_at;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::{Buildings, Outlook, RenderConfig};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// A person who is near a flight.
@@ -121,6 +122,35 @@ impl<'a> Candidates<'a> {
 
     fn add(&mut self, instance: u32, origin: Origin, person: Person) {
         self.all.push(Candidate { instance, place: self.all.len(), origin, person });
+    }
+}
+
+/// Distance over the ground within which sensors meet somebody, metres.
+const SENSED_M: f64 = 150.0;
+
+impl Candidates<'_> {
+    /// Those whom sensors along the flight may meet and who keep out of each other's way: first those whom pictures show by these
+    /// instance ids.
+    pub fn sensed(self, seen: &BTreeSet<u32>) -> Vec<Candidate> {
+        let Self { flight, target, mut all, .. } = self;
+        all.retain(|candidate| {
+            let states = candidate.person.states(&flight.track);
+            let is_near = |(state, pose): (&Option<TargetState>, &Pose)| {
+                let away = state.as_ref().map(|state| state.feet_in_world - pose.position_in_world);
+                away.is_some_and(|away| away.truncate().length() < SENSED_M)
+            };
+            states.iter().zip(&flight.poses_in_world).any(is_near)
+        });
+        all.sort_by_key(|candidate| !seen.contains(&candidate.instance));
+        all.iter_mut().zip(0..).for_each(|(candidate, place)| candidate.place = place);
+        apart(all, flight, target)
+    }
+}
+
+impl Candidate {
+    /// The person or vehicle.
+    pub fn into_person(self) -> Person {
+        self.person
     }
 }
 

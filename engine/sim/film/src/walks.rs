@@ -3,7 +3,7 @@
 use crate::looks::walk_seed;
 use crate::shooting::Shooting;
 use cosfly_diagnose::Result;
-use cosfly_domain::{Body, BodyKind, BodyPlan, Followed, Outfit};
+use cosfly_domain::{Body, BodyKind, BodyPlan, Followed, OrientedBox, Outfit};
 use cosfly_figures::{BodyShape, Walker, outfit_of};
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_optics::target_state_at;
@@ -80,6 +80,11 @@ impl Person {
         let state = target_state_at(states, step);
         let is_over = time_s - self.first_s > (states.len() - 1) as f64 * self.track.dt_s;
         Some(TargetState { speed_mps: if is_over { 0.0 } else { state.speed_mps }, ..state })
+    }
+
+    /// Box around the body at a time, seconds from the flight's first frame; `None` where the person is absent.
+    pub fn box_at(&self, time_s: f64) -> Option<OrientedBox> {
+        self.state(time_s).map(|state| self.plan.box_at(&state))
     }
 
     /// State and looks at a time, seconds from the flight's first frame; `None` where the person is absent.

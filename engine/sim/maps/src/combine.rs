@@ -8,7 +8,7 @@ use cosfly_geodata::reference::GeoReference;
 use cosfly_town::{FormatOptions, GroundIndex, MapError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// A further map file, and what the town takes of it.
@@ -36,7 +36,7 @@ pub struct FurtherSource {
     /// Options of the file's format.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Value>")]
-    pub options: Map<String, Value>,
+    pub options: FormatOptions,
 }
 
 /// Part of a town.
@@ -89,8 +89,7 @@ pub(crate) fn add_source(
     bytes: &[u8],
     bounds: Option<&Bounds>,
 ) -> Result<Vec<String>, MapError> {
-    let options = FormatOptions::from(further.options.clone());
-    let (other, mut warnings) = recognise(bytes)?.read(bytes, &options)?;
+    let (other, mut warnings) = recognise(bytes)?.read(bytes, &further.options)?;
     let place = Placement::of(town, &other, further)?;
     let mut taken = taken(other, further, &place).ok_or_else(|| far(further, &place))?;
     if let Some(bounds) = bounds {

@@ -6,6 +6,8 @@ use cosfly_town::FormatOptions;
 use cosfly_town::simplify::SimplifyConfig;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
 
 /// Rules by which a map file becomes a town.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,7 +28,8 @@ pub struct MapConfig {
     pub fill: FillConfig,
     /// Merge, crop and prune of the boxes that the planner sees.
     pub simplify: SimplifyConfig,
-    /// Options of the file's format. They are not part of this struct's schema: each format has one of its own.
-    #[serde(skip)]
+    /// Options of the file's format.
+    #[serde(skip_serializing_if = "FormatOptions::is_empty")]
+    #[schemars(with = "BTreeMap<String, Value>")]
     pub options: FormatOptions,
 }

@@ -2,15 +2,21 @@
 
 use crate::place::Place;
 use crate::sensor::{Moment, Sensor};
-use cosfly_flight::World;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, Pose, Seed};
+use cosfly_geometry::BoxBvh;
 use cosfly_optics::pose_at;
+use cosfly_town::GroundIndex;
 
 /// A flight that carries a sensor.
 #[derive(Clone, Copy)]
 pub struct Flown<'a> {
-    /// Town around the drone.
-    pub world: &'a World,
+    /// Solid boxes of the town around the drone.
+    pub town: &'a BoxBvh,
+    /// Height of the ground.
+    pub ground: &'a GroundIndex,
+    /// Adds the boxes of the people and vehicles that are there at a time, seconds since the first frame.
+    pub bodies: &'a dyn Fn(f64, &mut Vec<OrientedBox>),
     /// Pose of the drone in each frame.
     pub poses_in_world: &'a [Pose],
     /// Time between frames, seconds.
@@ -50,15 +56,19 @@ impl Flown<'_> {
     /// Reads a sensor at every moment, in their order. Between frames the drone moves evenly.
     pub fn read(&self, sensor: &Sensor, each: &mut dyn FnMut(Reading<'_>)) {
         let step_s = self.rate_hz.map_or(self.dt_s, f64::recip);
-        let mut values = vec![0.0; sensor.quantities.len()];
+        let (mut values, mut bodies) = (vec![0.0; sensor.quantities.len()], vec![]);
         for index in 0..self.readings() {
             let time_s = index as f64 * step_s;
             let at = time_s / self.dt_s;
+            bodies.clear();
+            (self.bodies)(time_s, &mut bodies);
             let moment = Moment {
                 time_s,
                 sensor_in_world: self.sensor_at(at),
                 velocity_in_world: self.velocity_at(at),
-                world: self.world,
+                town: self.town,
+                ground: self.ground,
+                bodies: &bodies,
                 seed: self.seed.child("reading", index as u64),
             };
             (sensor.read)(&moment, &mut values);

@@ -2,17 +2,16 @@
 
 use crate::sensor::{Moment, Quantity, Sensor};
 use cosfly_frames::DVec3;
-use cosfly_geometry::SpatialQuery;
 
 /// Range of the beam, metres; that of common laser altimeters for drones.
 const RANGE_M: f64 = 100.0;
 
-/// Distance to the first roof, crown or ground below.
+/// Distance to the first roof, crown, body or ground below.
 pub static SENSOR: Sensor = Sensor {
     name: "laser_altimeter",
-    doc: "A gimballed laser beam straight down, 100 m at most, without noise: it meets the town's boxes and its ground, no \
-          person or vehicle.",
-    version: 1,
+    doc: "A gimballed laser beam straight down, 100 m at most, without noise: it meets the town's boxes, its ground, and people \
+          and vehicles as boxes.",
+    version: 2,
     quantities: &[
         Quantity { name: "range_m", doc: "distance to the first thing below, metres; 100 where nothing is nearer" },
         Quantity { name: "is_hit", doc: "1 where something is within the range, else 0" },
@@ -22,9 +21,8 @@ pub static SENSOR: Sensor = Sensor {
 
 fn read(at: &Moment<'_>, values: &mut [f64]) {
     let from = at.sensor_in_world.position_in_world;
-    let roof_m = at.world.exact.closest_hit(from, -DVec3::Z, RANGE_M).map(|hit| hit.t);
-    let ground_m = at.world.ground.ground_below(from, 0.0).map(|ground| from.z - ground.height_m);
-    let nearest_m = [roof_m, ground_m].into_iter().flatten().fold(f64::INFINITY, f64::min);
+    let ground_m = at.ground.ground_below(from, 0.0).map(|ground| from.z - ground.height_m);
+    let nearest_m = [at.hit_m(-DVec3::Z, RANGE_M), ground_m].into_iter().flatten().fold(f64::INFINITY, f64::min);
     values[0] = nearest_m.min(RANGE_M);
     values[1] = f64::from(u8::from(nearest_m <= RANGE_M));
 }

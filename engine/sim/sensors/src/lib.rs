@@ -1,13 +1,14 @@
 //! Sensors that are no cameras: numbers at moments of a flight.
 //!
-//! * [`ALL`]: the sensors, one file and one entry each; stage `sense` finds them here by name.
-//! * [`Flown`]: a flight with a place for a sensor, which is read along it.
+//! * [`ALL`]: the sensors, one file and one entry each; recipes, environments and policies find them here by name.
+//! * [`Flown`]: a flight with a place for a sensor, which is read along it. [`SensorSet`]: those that an environment reads.
 
 mod config;
 mod flown;
 mod laser_altimeter;
 mod place;
 mod sensor;
+mod set;
 #[cfg(test)]
 mod tests;
 
@@ -15,6 +16,7 @@ pub use config::SenseConfig;
 pub use flown::{Flown, Reading};
 pub use place::Place;
 pub use sensor::{Moment, Quantity, Sensor};
+pub use set::SensorSet;
 
 /// All sensors, sorted by name.
 pub static ALL: &[&Sensor] = &[

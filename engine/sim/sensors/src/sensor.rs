@@ -1,7 +1,9 @@
 //! The entry of a sensor: name, meaning, quantities, and how a moment is read.
 
-use cosfly_flight::World;
+use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, Pose, Seed};
+use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
+use cosfly_town::GroundIndex;
 
 /// A sensor that gives numbers.
 #[derive(Debug)]
@@ -36,8 +38,22 @@ pub struct Moment<'a> {
     pub sensor_in_world: Pose,
     /// Velocity of the sensor, m/s.
     pub velocity_in_world: DVec3,
-    /// Town with its solid boxes and its ground.
-    pub world: &'a World,
+    /// Solid boxes of the town.
+    pub town: &'a BoxBvh,
+    /// Height of the ground.
+    pub ground: &'a GroundIndex,
+    /// Boxes of the people and vehicles that are there now, the target among them.
+    pub bodies: &'a [OrientedBox],
     /// Seed of this reading, for noise.
     pub seed: Seed,
+}
+
+impl Moment<'_> {
+    /// Distance from the sensor along a direction of length 1 to the first box of the town or of a body, metres; `None` beyond `range_m`.
+    pub fn hit_m(&self, direction_in_world: DVec3, range_m: f64) -> Option<f64> {
+        let from = self.sensor_in_world.position_in_world;
+        let town = self.town.closest_hit(from, direction_in_world, range_m);
+        let body = BruteForce::new(self.bodies).closest_hit(from, direction_in_world, range_m);
+        [town, body].into_iter().flatten().map(|hit| hit.t).reduce(f64::min)
+    }
 }

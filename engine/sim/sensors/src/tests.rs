@@ -1,19 +1,37 @@
 //! Laws of all sensors, and the numbers of each.
 
-use crate::{ALL, Flown, Place, Sensor, called};
-use cosfly_domain::Mount;
-use cosfly_flight::World;
+use crate::{ALL, Flown, Place, Sensor, SensorSet, called};
+use cosfly_domain::{Mount, OrientedBox, Town, channels};
 use cosfly_frames::{DVec3, Pose, Seed};
-use cosfly_geometry::SpatialQuery;
+use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::{MapConfig, read_town};
+use cosfly_town::GroundIndex;
 use std::path::Path;
 
 const DT_S: f64 = 0.25;
 
+/// A town, ready for sensors.
+struct World {
+    town: Town,
+    exact: BoxBvh,
+    ground: GroundIndex,
+}
+
 fn world() -> World {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../recipes/towns/downtown.xodr");
     let map = std::fs::read(path).expect("a shipped town");
-    World::new(read_town(&map, &MapConfig::default(), Seed([5; 32])).expect("a map").0)
+    let town = read_town(&map, &MapConfig::default(), Seed([5; 32])).expect("a map").0;
+    let exact = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
+    World { exact, ground: GroundIndex::new(&town), town }
+}
+
+/// A box of 2 m beside the flight's third frame that is there for the first two seconds.
+fn bodies(world: &World) -> impl Fn(f64, &mut Vec<OrientedBox>) {
+    let below = poses(world)[3].position_in_world - 5.0 * DVec3::Z;
+    move |time_s, list| {
+        let shape = OrientedBox::from_corners(below - DVec3::ONE, below + DVec3::ONE);
+        list.extend((time_s <= 2.0).then_some(shape));
+    }
 }
 
 /// A flight across a town, over roofs and streets, that climbs out of the beam's range.
@@ -32,7 +50,9 @@ type Kept = (usize, f64, Vec<f64>);
 
 fn readings(world: &World, poses_in_world: &[Pose], sensor: &Sensor, rate_hz: Option<f64>) -> Vec<Kept> {
     let place = Place { position_in_body: DVec3::new(0.3, 0.0, -0.1), ..Place::default() };
-    let flown = Flown { world, poses_in_world, dt_s: DT_S, place, rate_hz, seed: Seed([3; 32]) };
+    let World { exact: town, ground, .. } = world;
+    let (bodies, seed) = (&bodies(world), Seed([3; 32]));
+    let flown = Flown { town, ground, bodies, poses_in_world, dt_s: DT_S, place, rate_hz, seed };
     let mut all = vec![];
     flown.read(sensor, &mut |it| all.push((it.frame, it.time_s, it.values.to_vec())));
     assert_eq!(all.len(), flown.readings());
@@ -48,7 +68,10 @@ fn names_are_words_and_columns_have_a_meaning() {
             assert!(name.bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'_'), "{name}");
         }
         assert!((1..names.len()).all(|at| !names[at..].contains(&names[at - 1])), "{}: {names:?}", sensor.name);
-        // Columns that the table has of its own.
+        // A name in `obs=` is of one thing; columns that the table has of its own.
+        assert!(
+            channels::called(sensor.name).is_none() && !["state", "prompt", "episode", "step"].contains(&sensor.name)
+        );
         assert!(!["trajectory_id", "row", "split", "frame", "time_s"].iter().any(|own| names.contains(own)));
         assert!(sensor.doc.ends_with('.') && sensor.quantities.iter().all(|it| !it.doc.is_empty()), "{}", sensor.name);
     }
@@ -116,20 +139,36 @@ fn the_beam_ends_at_the_first_thing_below() {
     let poses = poses(&world);
     let sensor = called("laser_altimeter").expect("in the list");
     let place = Place { position_in_body: DVec3::new(0.3, 0.0, -0.1), ..Place::default() };
-    let (mut roofs, mut far) = (0, 0);
-    for (frame, _, values) in readings(&world, &poses, sensor, None) {
+    let (mut roofs, mut far, mut on_bodies) = (0, 0, 0);
+    for (frame, time_s, values) in readings(&world, &poses, sensor, None) {
         let from = place.on(&poses[frame]).position_in_world;
         // Oracle: small steps down, until a box or the ground is reached.
         let ground = |at: DVec3| world.ground.ground_height_m(at.x, at.y).is_some_and(|height_m| at.z <= height_m);
+        let mut about = vec![];
+        bodies(&world)(time_s, &mut about);
+        let about = BoxBvh::build(about);
+        let is_body = |down_m: f64| about.nearest(from - DVec3::Z * down_m, 0.0).is_some();
         let is_solid = |down_m: &f64| {
             let at = from - DVec3::Z * *down_m;
-            ground(at) || world.exact.nearest(at, 0.0).is_some()
+            ground(at) || world.exact.nearest(at, 0.0).is_some() || is_body(*down_m)
         };
         let first = (0..=10_000).map(|step| f64::from(step) * 0.01).find(is_solid);
         assert!((values[0] - first.unwrap_or(100.0)).abs() < 0.011, "frame {frame}: {values:?}, {first:?}");
         assert_eq!(values[1], if first.is_some() { 1.0 } else { 0.0 });
+        on_bodies += usize::from(first.is_some_and(|down_m| is_body(down_m + 0.02)));
         roofs += usize::from(first.is_some_and(|down_m| !ground(from - DVec3::Z * (down_m + 0.02))));
         far += usize::from(first.is_none());
     }
-    assert!(roofs > 0 && far > 0, "{roofs} roofs, {far} out of range");
+    assert!(roofs > 0 && far > 0 && on_bodies > 0, "{roofs} roofs, {on_bodies} on bodies, {far} out of range");
+}
+
+#[test]
+fn a_set_has_the_chosen_sensors_in_the_order_of_the_list() {
+    let all = SensorSet::of(|_| true);
+    assert!(all.iter().map(|it| it.name).eq(ALL.iter().map(|it| it.name)) && ALL.len() <= 64);
+    assert!(SensorSet::default().iter().next().is_none());
+    for sensor in ALL {
+        let one = SensorSet::of(|it| it.name == sensor.name);
+        assert_eq!(one.iter().map(|it| it.name).collect::<Vec<_>>(), [sensor.name]);
+    }
 }

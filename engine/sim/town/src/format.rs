@@ -13,7 +13,7 @@ use serde_json::Value;
 /// refused with an error in bounded time and memory; the same bytes and options give the same town; formats that have
 /// an option of the same name describe it alike.
 pub trait MapFormat {
-    /// Options of the format. A recipe gives them in the table of its stage `map`, beside those of all maps.
+    /// Options of the format. A recipe gives them in the table `options` of its stage `map`.
     type Options: Default + Serialize + DeserializeOwned + JsonSchema;
 
     /// Name in messages and in the reference.

@@ -1,10 +1,11 @@
 //! [`FormatOptions`]: options of map formats by name, as a recipe gives them.
 
-use serde::{Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::{Map, Value};
 
 /// Options of map formats by name. Each format has its own type for them; this one holds those of any format.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct FormatOptions(Map<String, Value>);
 
 impl FormatOptions {
@@ -27,6 +28,11 @@ impl FormatOptions {
     /// Those called by one of `names`.
     pub fn only(&self, names: &[String]) -> Self {
         Self(self.0.iter().filter(|(name, _)| names.contains(name)).map(|(n, v)| (n.clone(), v.clone())).collect())
+    }
+
+    /// Whether none is given.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 
     /// Names and values, sorted by name.

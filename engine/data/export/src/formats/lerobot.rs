@@ -11,10 +11,12 @@ use crate::format::Format;
 use crate::pixels::rgb_of;
 use crate::sample_text::pose_numbers;
 use crate::shared_options::{InstructionOptions, Language};
-use crate::source::{Episode, Source};
+use crate::source::{Episode, SensorReadings, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Pose;
 use cosfly_read::PublishedFlight;
+use cosfly_schema::log::frame_time_ns;
+use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::tables::Table;
 use cosfly_write::table_file::TableWriter;
 use episodes::EpisodeFile;
@@ -43,18 +45,59 @@ impl Format for LeRobot {
     type Options = InstructionOptions;
 
     fn write(options: &InstructionOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
-        let fps = check(source)?;
+        let kind = Kind { fps: check(source)?, sensed: sensed(source)? };
         for split in source.splits() {
-            write_split(options.language, source, out, split, fps)?;
+            write_split(options.language, source, out, split, &kind)?;
         }
         card(&source.splits()).write(source, out)?;
         Ok(vec![])
     }
 }
 
+/// Properties that all episodes share.
+struct Kind {
+    /// Frames per second.
+    fps: u32,
+    /// Names of the numbers of all sensors that are no cameras.
+    sensed: Vec<String>,
+}
+
+/// Names of the numbers of the first flight's sensors.
+fn sensed(source: &Source<'_>) -> Result<Vec<String>> {
+    let Some(flight) = source.flights().next() else { return Ok(vec![]) };
+    Ok(source.dataset.log(flight)?.sensors().iter().flat_map(names_of).collect())
+}
+
+fn names_of(sensor: &LoggedSensor) -> Vec<String> {
+    sensor.quantities.iter().map(|quantity| format!("{}.{quantity}", sensor.name)).collect()
+}
+
+/// The last readings at each frame, those of all sensors one after the other.
+fn sensed_by_frame(episode: &Episode<'_>, kind: &Kind) -> Result<Vec<Vec<f64>>> {
+    let sensors = episode.readings()?;
+    let names: Vec<String> = sensors.iter().flat_map(|(sensor, _)| names_of(sensor)).collect();
+    let begins = |(_, readings): &SensorReadings| readings.first().is_some_and(|(time_ns, _)| *time_ns == 0);
+    if names != kind.sensed || !sensors.iter().all(begins) {
+        let id = &episode.flight.trajectory_id;
+        let message =
+            format!("`{id}` differs from the first flight in its sensors, or lacks readings at its first frame");
+        return Err(Diagnostic::new("export-lerobot", Fault::Input, message)
+            .hint("LeRobot has one list of sensors; choose flights with `--trajectory` or `--split`"));
+    }
+    let at = |frame: usize| {
+        let time_ns = frame_time_ns(episode.flight.dt_s, frame);
+        let last = |(_, readings): &SensorReadings| {
+            let until = readings.partition_point(|(at_ns, _)| *at_ns <= time_ns);
+            readings.get(until.saturating_sub(1)).map_or(vec![], |(_, values)| values.clone())
+        };
+        sensors.iter().flat_map(last).collect()
+    };
+    Ok((0..episode.frames.len()).map(at).collect())
+}
+
 /// Writes the dataset of a split, into a folder of its own: LeRobot reads all episodes of a folder, whatever their split.
-fn write_split(language: Language, source: &Source<'_>, out: &OutFolder, split: &str, fps: u32) -> Result<()> {
-    let table = tables::data();
+fn write_split(language: Language, source: &Source<'_>, out: &OutFolder, split: &str, kind: &Kind) -> Result<()> {
+    let table = tables::data(kind.sensed.len());
     let mut data = DataFiles { out, split, table: &table, file: 0, bytes: 0, open: None };
     let mut statistics = Statistics::default();
     let mut tasks: BTreeMap<String, usize> = BTreeMap::new();
@@ -70,6 +113,10 @@ fn write_split(language: Language, source: &Source<'_>, out: &OutFolder, split: 
         let expert = episode.expert_poses()?;
         let mut own = Statistics::default();
         let rows = rows_of(episode, &expert, [count, index, task_index], &mut [&mut own, &mut statistics])?;
+        let rows = DataRows { readings: sensed_by_frame(episode, kind)?, ..rows };
+        for statistics in [&mut own, &mut statistics].into_iter().filter(|_| !kind.sensed.is_empty()) {
+            rows.readings.iter().for_each(|numbers| statistics.push(tables::SENSORS, numbers));
+        }
         let length = rows.pictures.len();
         let file = data.append(&rows)?;
         let row = EpisodeRow {
@@ -92,7 +139,7 @@ fn write_split(language: Language, source: &Source<'_>, out: &OutFolder, split: 
     let tasks: Vec<TaskRow> = task_names.into_iter().enumerate().map(|(index, task)| TaskRow { index, task }).collect();
     write_table(out, &path("tasks.parquet"), &tables::tasks(), &tasks, &[("pandas", tables::pandas_index())])?;
     out.put(&path("stats.json"), format!("{:#}\n", statistics.to_json()).as_bytes())?;
-    out.put(&path("info.json"), format!("{:#}\n", info(source, split, fps, [count, index, tasks.len()])).as_bytes())
+    out.put(&path("info.json"), format!("{:#}\n", info(source, split, kind, [count, index, tasks.len()])).as_bytes())
 }
 
 /// Checks that all flights have one picture size and one whole number of frames per second; returns that number.
@@ -206,7 +253,7 @@ fn write_table<S>(out: &OutFolder, name: &str, table: &Table<S>, rows: &[S], not
 }
 
 /// The content of `meta/info.json`; `totals` are the numbers of episodes, frames and tasks.
-fn info(source: &Source<'_>, split: &str, fps: u32, totals: [usize; 3]) -> Value {
+fn info(source: &Source<'_>, split: &str, kind: &Kind, totals: [usize; 3]) -> Value {
     let [episodes, frames, tasks] = totals;
     let [width, height] = source.flights().next().map_or([0; 2], |flight| [flight.camera.width, flight.camera.height]);
     let mut features = BTreeMap::from([(
@@ -215,6 +262,10 @@ fn info(source: &Source<'_>, split: &str, fps: u32, totals: [usize; 3]) -> Value
     )]);
     for (name, names) in VECTORS {
         features.insert(name.to_owned(), json!({"dtype": "float32", "shape": [names.len()], "names": names}));
+    }
+    if !kind.sensed.is_empty() {
+        let sensed = json!({"dtype": "float32", "shape": [kind.sensed.len()], "names": kind.sensed});
+        features.insert(tables::SENSORS.into(), sensed);
     }
     features.insert("timestamp".into(), json!({"dtype": "float32", "shape": [1], "names": null}));
     for name in ["frame_index", "episode_index", "index", "task_index"] {
@@ -229,7 +280,7 @@ fn info(source: &Source<'_>, split: &str, fps: u32, totals: [usize; 3]) -> Value
         "chunks_size": CHUNK_FILES,
         "data_files_size_in_mb": FILE_MB,
         "video_files_size_in_mb": 200,
-        "fps": fps,
+        "fps": kind.fps,
         "splits": {split: format!("0:{episodes}")},
         "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
         "video_path": null,
@@ -266,6 +317,7 @@ them and has the statistics of each (`stats/...`), from which LeRobot makes thos
   are differences. The first one leads from this pose to the expert's next pose, the others on along the expert, so that the sum of
   the first k leads to the expert's pose k frames later, from perturbed poses, too. An action is a whole chunk: policies of
   chunks use a chunk of 1, and `action.reshape(5, 6)` has the steps. Behind the end of a flight the expert waits.
+* `observation.sensors`: the last reading of each sensor of the dataset, where it has any; `meta/info.json` names the numbers.
 * `privileged.pose`: the drone's x, y, z, pitch, yaw, roll. `privileged.target`: the place between the person's feet. `privileged.box`:
   left, top, right, bottom edges of what can be seen of the person, pixels; -1 where nothing is. World: CARLA's axes. These are
   labels that no drone has; policies of LeRobot take only features called `observation...` as inputs.

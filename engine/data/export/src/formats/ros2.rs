@@ -12,12 +12,13 @@ use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{FOLDER_LIMIT, ending};
 use crate::shared_options::PictureAndTextOptions;
-use crate::source::{Episode, Source};
+use crate::source::{Episode, SensorReadings, Source};
 use bag::{Bag, Topic};
 use cosfly_diagnose::Result;
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::{DQuat, DVec3, Pose, real};
 use cosfly_read::{LoggedFrame, SeenBody, SightingReader};
+use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::log::{frame_time_ns, messages::feet_pose, right_handed};
 use messages::{Detected, Header, Motion, OPTICAL, Placed};
 
@@ -40,8 +41,10 @@ impl Format for Ros2 {
             let folder = format!("{}/{:03}/{}", flight.split, number / FOLDER_LIMIT, flight.trajectory_id);
             number += 1;
             let place = source.dataset.place(&flight.trajectory_id).unwrap_or_default();
-            let recording = Recording::of(episode, bodies.at(source.dataset, place)?);
-            let mut bag = Bag::begin(out, folder)?;
+            let readings = episode.readings()?;
+            let sensors: Vec<LoggedSensor> = readings.iter().map(|(sensor, _)| sensor.clone()).collect();
+            let recording = Recording::of(episode, bodies.at(source.dataset, place)?, &readings);
+            let mut bag = Bag::begin(out, folder, &sensors)?;
             recording.write_once(&mut bag, source, episode.instruction(options.instructions.language))?;
             recording.write_frames(&mut bag, options.pictures.every)?;
             bag.finish()
@@ -60,6 +63,8 @@ struct Recording<'a> {
     drone: Vec<Placed>,
     /// Places of `target` in `map`; none where nobody is followed.
     target: Vec<Placed>,
+    /// Time, number of the sensor, names of its quantities and values of each reading, by time.
+    readings: Vec<(u64, usize, &'a [String], &'a [f64])>,
 }
 
 /// Pictures of a frame as messages.
@@ -89,13 +94,22 @@ fn time_ns(dt_s: f64, frame: usize) -> u64 {
 }
 
 impl<'a> Recording<'a> {
-    fn of(episode: &'a Episode<'a>, bodies: &'a [SeenBody]) -> Self {
+    fn of(episode: &'a Episode<'a>, bodies: &'a [SeenBody], sensors: &'a [SensorReadings]) -> Self {
+        let mut readings = vec![];
+        for (number, (sensor, all)) in sensors.iter().enumerate() {
+            let at = |(time_ns, values): &'a (u64, Vec<f64>)| {
+                (START_NS + time_ns, number, &sensor.quantities[..], &values[..])
+            };
+            readings.extend(all.iter().map(at));
+        }
+        readings.sort_by_key(|(time_ns, number, ..)| (*time_ns, *number));
         let followed = if episode.flight.target_kind.is_some() { &episode.frames[..] } else { &[] };
         Self {
             episode,
             bodies,
             drone: episode.frames.iter().map(|row| in_map(&row.pose)).collect(),
             target: followed.iter().map(|row| in_map(&feet_pose(&row.target))).collect(),
+            readings,
         }
     }
 
@@ -117,7 +131,11 @@ impl<'a> Recording<'a> {
     fn write_frames(&self, bag: &mut Bag<'_>, every: usize) -> Result<()> {
         let dt_s = self.episode.flight.dt_s;
         let make = |frame: usize, logged: LoggedFrame| Ok(Pictures::of(time_ns(dt_s, frame), &logged));
+        let mut rest = &self.readings[..];
         self.episode.each_picture(&self.episode.every_nth_frame(every), make, |frame, pictures| {
+            let due = rest.partition_point(|(at_ns, ..)| *at_ns <= time_ns(dt_s, frame));
+            write_readings(bag, &rest[..due])?;
+            rest = &rest[due..];
             self.write_motion(bag, frame)?;
             let (time_ns, flight) = (time_ns(dt_s, frame), self.episode.flight);
             let header = Header { time_ns, frame: OPTICAL };
@@ -128,7 +146,8 @@ impl<'a> Recording<'a> {
             bag.write(Topic::Depth, time_ns, &pictures.depths)?;
             bag.write(Topic::Labels, time_ns, &pictures.labels)?;
             bag.write(Topic::Detections, time_ns, &messages::detections(time_ns, &self.detected(frame)))
-        })
+        })?;
+        write_readings(bag, rest)
     }
 
     /// Clock, transforms and odometry.
@@ -165,6 +184,12 @@ impl<'a> Recording<'a> {
         let others = others.map(|it| Detected { kind: &it.kind, instance: it.instance, edges_px: it.visible_box_px });
         target.into_iter().chain(others).collect()
     }
+}
+
+fn write_readings(bag: &mut Bag<'_>, readings: &[(u64, usize, &[String], &[f64])]) -> Result<()> {
+    readings.iter().try_for_each(|(time_ns, number, quantities, values)| {
+        bag.write(Topic::Sensor(*number), *time_ns, &messages::reading(quantities, values))
+    })
 }
 
 /// Place of a body with this world-frame pose in `map`; its axes are x ahead, y left, z up.
@@ -229,6 +254,7 @@ A folder is a bag: MCAP, messages of ROS 2 Humble and later in CDR, with their d
 | `/camera/semantic/image_raw` | `sensor_msgs/Image` | `mono8`, CARLA's labels |
 | `/camera/camera_info`, `/camera/depth/camera_info` | `sensor_msgs/CameraInfo` | the pinhole, `plumb_bob` with the lens's k1, k2 |
 | `/detections` | `vision_msgs/Detection2DArray` | boxes around visible pixels, with the body's kind; `id` is the dataset's instance id, 1 the target. No poses |
+| `/sensor/NAME` | `std_msgs/Float64MultiArray` | readings of each sensor that the dataset has; the label of the only dimension names the quantities |
 | `/town`* | `visualization_msgs/MarkerArray` | boxes of obstacles near the flight |
 | `/instruction`* | `std_msgs/String` | what the drone is told |
 

@@ -35,7 +35,7 @@ pub struct FlownStepMessage {
 }
 
 /// The fields.
-pub const FIELDS: [Field; 10] = [
+pub const FIELDS: [Field<'static>; 10] = [
     ("step", Type::Uint32, false, "steps since the beginning"),
     ("time_s", Type::Double, false, "time since the beginning, seconds"),
     ("tracked", Type::Bool, false, "the target is visible enough, in the picture and near enough"),
@@ -82,7 +82,7 @@ pub struct FixMessage {
 }
 
 /// Names and fields of the messages of sensors.
-pub const SENSORS: [(&str, &[Field]); 3] = [
+pub const SENSORS: [(&str, &[Field<'static>]); 3] = [
     (
         "Inertial",
         &[

@@ -7,6 +7,7 @@ pub mod flown_step;
 pub mod messages;
 mod own_message;
 pub mod raw_format;
+pub mod reading;
 pub mod right_handed;
 pub mod target_state;
 pub mod topic;

@@ -5,11 +5,11 @@ use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet};
 
 /// Name, type, repetition and meaning of a field; its number is its position in the list, from 1.
-pub type Field = (&'static str, Type, bool, &'static str);
+pub type Field<'a> = (&'a str, Type, bool, &'a str);
 
 /// Encoded `FileDescriptorSet` of a message of the package `cosfly`.
-pub fn descriptor_set(name: &str, fields: &[Field]) -> Vec<u8> {
-    let field = |(i, (name, kind, repeated, _)): (usize, &Field)| FieldDescriptorProto {
+pub fn descriptor_set(name: &str, fields: &[Field<'_>]) -> Vec<u8> {
+    let field = |(i, (name, kind, repeated, _)): (usize, &Field<'_>)| FieldDescriptorProto {
         name: Some((*name).into()),
         number: Some(i as i32 + 1),
         label: Some(if *repeated { Label::Repeated } else { Label::Optional } as i32),

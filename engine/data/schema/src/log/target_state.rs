@@ -56,7 +56,7 @@ pub struct TargetStateMessage {
 }
 
 /// The fields.
-pub const FIELDS: [Field; 21] = [
+pub const FIELDS: [Field<'static>; 21] = [
     ("frame", Type::Uint32, false, "frame number, from 0"),
     ("time_s", Type::Double, false, "frame * dt, seconds"),
     ("feet_x_m", Type::Double, false, "ground point between the feet, frame `map`"),

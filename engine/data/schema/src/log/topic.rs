@@ -65,6 +65,8 @@ pub enum Frequency {
     Once,
     /// At time 0, one message for each caption.
     Captions,
+    /// At every reading of a sensor.
+    Readings,
 }
 
 /// A topic of a log.

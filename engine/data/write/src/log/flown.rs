@@ -6,6 +6,7 @@ use cosfly_diagnose::Result;
 use cosfly_domain::{Camera, Lens, Mount, OrientedBox, Town};
 use cosfly_frames::{DQuat, DVec3, Pose, TargetState};
 use cosfly_schema::log::flown_step::{FixMessage, FlownStepMessage, HeightMessage, InertialMessage};
+use cosfly_schema::log::reading::{LoggedSensor, ReadingMessage};
 use cosfly_schema::log::right_handed::map_from_world_point;
 use cosfly_schema::log::{TargetStateMessage, flown_topics, messages, topic};
 use foxglove::messages::{Log, log::Level};
@@ -25,6 +26,8 @@ pub struct FlownFlight<'a> {
     pub camera: Camera,
     /// Height and radius of the target, metres.
     pub target_size_m: [f64; 2],
+    /// Sensors that are no cameras.
+    pub sensors: &'a [LoggedSensor],
     /// States of the target, the whole walk.
     pub walk: &'a [TargetState],
     /// The steps, in the order of their times.
@@ -64,6 +67,8 @@ pub struct FlownStep {
     pub attitude_xyzw: Option<[f64; 4]>,
     /// Samples of the sensors since the step before, by time.
     pub sensed: Vec<SensedSample>,
+    /// Reading of each of the flight's sensors.
+    pub readings: Vec<Vec<f64>>,
     /// Events of the step, and whether each is a fault.
     pub events: Vec<(bool, String)>,
 }
@@ -90,7 +95,9 @@ pub struct SensedSample {
 /// The output cannot be written.
 pub fn write_flown_log(output: &mut dyn Write, flight: &FlownFlight<'_>) -> Result<u64> {
     let has_sensors = flight.steps.iter().any(|step| !step.sensed.is_empty());
-    let mut log = ChannelWriter::new(output, &flown_topics(has_sensors))?;
+    let mut topics = flown_topics(has_sensors);
+    topics.extend(flight.sensors.iter().map(LoggedSensor::topic));
+    let mut log = ChannelWriter::new(output, &topics)?;
     log.metadata("cosfly.flight", flight.about)?;
     let poses: Vec<Pose> = flight.steps.iter().map(|step| step.pose).collect();
     let [height_m, radius_m] = flight.target_size_m;
@@ -123,6 +130,9 @@ fn write_step<W: Write>(log: &mut ChannelWriter<W>, flight: &FlownFlight<'_>, st
     log.write(topic::TARGET_STATE, time, &target_state(flight, step))?;
     log.write(topic::CAMERA, time, &messages::calibration(time, &flight.camera, &Lens::default()))?;
     log.write(topic::STEP, time, &step_message(step))?;
+    for (sensor, values) in flight.sensors.iter().zip(&step.readings) {
+        log.write(&sensor.topic_name(), time, &ReadingMessage(values.clone()))?;
+    }
     step.events.iter().try_for_each(|(is_fault, message)| {
         let level = if *is_fault { Level::Warning } else { Level::Info } as i32;
         let timestamp = Some(messages::timestamp(time));
@@ -221,6 +231,7 @@ mod tests {
                 height_m: Some(20.0),
                 fix: Some((DVec3::Z, DVec3::X)),
             }],
+            readings: vec![vec![f64::from(step), 1.0]],
             events: if step == 150 { vec![(true, "lost".to_owned())] } else { vec![] },
         };
         let steps: Vec<FlownStep> = (1..=250).map(step).collect();
@@ -228,17 +239,23 @@ mod tests {
         let about = BTreeMap::from([("episode".to_owned(), "e".to_owned())]);
         let camera = Camera { width: 64, height: 48, horizontal_fov_rad: 1.5 };
         let target_size_m = [1.7, 0.3];
-        let flight = FlownFlight { about: &about, town: &town, camera, target_size_m, walk: &walk, steps: &steps };
+        let quantities = ["range_m", "is_hit"].map(str::to_owned).to_vec();
+        let sensors = &[LoggedSensor { name: "laser".to_owned(), quantities }];
+        let (about, town, walk, steps) = (&about, &town, &walk, &steps);
+        let flight = FlownFlight { about, town, camera, target_size_m, sensors, walk, steps };
         let written = || {
             let mut bytes = vec![];
             let count = write_flown_log(&mut bytes, &flight).expect("memory takes all bytes");
             (bytes, count)
         };
         let (bytes, count) = written();
-        assert_eq!((count, &bytes), (3 + 10 * 250 + 1, &written().0));
+        assert_eq!((count, &bytes), (3 + 11 * 250 + 1, &written().0));
         let messages: Vec<_> = MessageStream::new(&bytes).expect("a log").map(|it| it.expect("a message")).collect();
         assert_eq!(messages.len() as u64, count);
         let events: Vec<_> = messages.iter().filter(|it| it.channel.topic == topic::EVENTS).collect();
         assert_eq!((events.len(), events[0].log_time), (1, 15_000_000_000));
+        let read = messages.iter().filter(|it| it.channel.topic == "/sensor/laser");
+        let read: Vec<_> = read.map(|it| ReadingMessage::numbers(2, &it.data).expect("a reading")).collect();
+        assert_eq!((read.len(), &read[249]), (250, &vec![250.0, 1.0]));
     }
 }

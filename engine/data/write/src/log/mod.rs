@@ -5,6 +5,7 @@ mod channels;
 mod container;
 mod flown;
 mod metadata;
+mod readings;
 mod scene;
 mod writer;
 

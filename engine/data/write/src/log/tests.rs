@@ -14,7 +14,7 @@ fn log(record: &RenderedTrajectory) -> (Vec<u8>, LogRecord) {
     let pack = flight.pack(EncodingConfig::default());
     let mut bytes = vec![];
     let mut reader = FramePackReader::new(Cursor::new(pack)).unwrap();
-    let log = write_log(&mut bytes, record, &mut reader, &flight.captions, &sample::town(), &|| Ok(())).unwrap();
+    let log = write_log(&mut bytes, record, &mut reader, &flight.captions, &[], &sample::town(), &|| Ok(())).unwrap();
     for (part, frame) in log.previews.iter().zip(0..) {
         let at = part.offset as usize..part.offset as usize + part.bytes as usize;
         assert_eq!(bytes[at], reader.preview_strip().unwrap().jpegs[frame]);
@@ -55,6 +55,7 @@ fn every_frame_has_every_channel_at_its_time() {
             Frequency::EveryFrame | Frequency::Previews => assert_eq!(found, times, "{}", topic.name),
             Frequency::Once => assert_eq!(found, [0], "{}", topic.name),
             Frequency::Captions => assert_eq!(found, [0, 0], "{}", topic.name),
+            Frequency::Readings => unreachable!("a flight without sensors"),
         }
     }
     assert_eq!(log_record.messages, 13 * 5 + 5);
@@ -89,7 +90,7 @@ fn a_pack_of_another_flight_is_refused() {
     record.camera.width = 65;
     let pack = sample::flight(0, Role::Expert).pack(EncodingConfig::default());
     let mut reader = FramePackReader::new(Cursor::new(pack)).unwrap();
-    let error = write_log(&mut vec![], &record, &mut reader, &[], &sample::town(), &|| Ok(())).unwrap_err();
+    let error = write_log(&mut vec![], &record, &mut reader, &[], &[], &sample::town(), &|| Ok(())).unwrap_err();
     assert!(error.message.contains("5 frames of 65 x 48"), "{error}");
 }
 
@@ -118,7 +119,8 @@ fn a_disk_that_fills_up_anywhere_is_an_error_and_no_log() {
     for room in [0, 7, 100, whole / 3, whole - 1] {
         let mut reader = FramePackReader::new(Cursor::new(&pack)).unwrap();
         let mut disk = Disk(room);
-        let outcome = write_log(&mut disk, &flight.record, &mut reader, &flight.captions, &sample::town(), &|| Ok(()));
+        let outcome =
+            write_log(&mut disk, &flight.record, &mut reader, &flight.captions, &[], &sample::town(), &|| Ok(()));
         let error = outcome.expect_err("there is not enough room");
         assert_eq!(error.fault, cosfly_diagnose::Fault::DiskFull, "{room}: {error}");
     }

@@ -1,6 +1,7 @@
 //! Writes the log of one trajectory, frame by frame.
 
 use super::channels::ChannelWriter;
+use super::readings::Readings;
 use super::{metadata, scene};
 use crate::frame_pack::{FramePackReader, PackHeader, PackedFrame};
 use cosfly_blobs::BlobPart;
@@ -10,6 +11,8 @@ use cosfly_domain::channels::rgb;
 use cosfly_fingerprint::Digest;
 use cosfly_fingerprint::sha256::HashingWriter;
 use cosfly_images::previews;
+use cosfly_schema::extras::Extra;
+use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::log::{Frequency, frame_time_ns, messages, topic, topics};
 use cosfly_schema::{CaptionRecord, LogRecord, RenderedTrajectory, RgbEncoding};
 use std::io::{Read, Seek, Write};
@@ -23,13 +26,14 @@ pub struct WrittenLog {
     pub previews: Vec<BlobPart>,
 }
 
-/// Writes the log of `record` with the images of `pack` to `output`, which is only appended to.
+/// Writes the log of `record` with the images of `pack` and the readings of sensors among `extras` to `output`, which is only appended to.
 /// Holds one frame in memory. `keep_going` is asked before every frame and its error ends the work.
 pub fn write_log<R: Read + Seek>(
     output: &mut dyn Write,
     record: &RenderedTrajectory,
     pack: &mut FramePackReader<R>,
     captions: &[CaptionRecord],
+    extras: &[Extra],
     town: &Town,
     keep_going: &dyn Fn() -> Result<()>,
 ) -> Result<WrittenLog> {
@@ -39,6 +43,8 @@ pub fn write_log<R: Read + Seek>(
     let with_previews = pack.header().encoding.previews;
     let mut topics = topics(&pack.header().channels);
     topics.retain(|topic| with_previews || topic.frequency != Frequency::Previews);
+    let mut readings = Readings::of(extras);
+    topics.extend(readings.sensors().map(LoggedSensor::topic));
     let mut log = ChannelWriter::new(&mut hashing, &topics)?;
     for (name, entries) in metadata::records(record, pack.header(), town) {
         log.metadata(name, &entries)?;
@@ -48,6 +54,9 @@ pub fn write_log<R: Read + Seek>(
     for frame in 0..record.len() {
         keep_going()?;
         let images = pack.frame(frame)?;
+        // A reading that rounding puts behind the last frame is one of that frame.
+        let is_last = frame + 1 == record.len();
+        readings.write(&mut log, if is_last { u64::MAX } else { frame_time_ns(record.dt_s(), frame) })?;
         previews.extend(write_frame(&mut log, record, frame, images, pack.header())?);
     }
     let messages = log.finish()?;

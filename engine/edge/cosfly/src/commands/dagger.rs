@@ -116,7 +116,8 @@ impl Command for Arguments {
             Suite::make(&recipe, &store, &options, &*progress)?
         };
         // A label belongs to the state it is for: actions take effect at once.
-        let settings = EnvironmentSettings { latency_s: 0.0, ..FlySettings::of(&recipe)?.environment() };
+        let (latency_s, sensors) = (0.0, self.asked.sensors());
+        let settings = EnvironmentSettings { latency_s, sensors, ..FlySettings::of(&recipe)?.environment() };
         let onto = self.onto.as_deref().map(LabelFolder::card).transpose()?;
         let card = self.card(&suite, &settings, &place, name, onto.as_ref())?;
         let folder = LabelFolder::open(out, &card, self.onto.as_deref())?;

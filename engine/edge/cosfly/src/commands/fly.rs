@@ -287,7 +287,8 @@ impl Arguments {
         if is_point && (drone.wind_mps > 0.0 || drone.gusts) {
             return refused("wind does not move a point mass");
         }
-        Ok(EnvironmentSettings { step_s: seconds(self.step_ms), latency_s, drone, ..suite.environment() })
+        let (step_s, sensors) = (seconds(self.step_ms), self.asked.sensors());
+        Ok(EnvironmentSettings { step_s, latency_s, drone, sensors, ..suite.environment() })
     }
 
     fn latency(&self) -> Latency {

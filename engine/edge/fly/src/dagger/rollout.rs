@@ -23,7 +23,7 @@ pub struct Label {
     pub time_s: f64,
     /// The observation's state.
     pub state: [f32; FEATURES],
-    /// The action that was flown: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s).
+    /// The action that was flown: velocity ahead, right, up (m/s), pitch rate, yaw rate (degrees/s).
     pub action: [f32; 5],
     /// The expert's action; none where there is no way on within the limits.
     pub expert_action: Option<[f32; 5]>,

@@ -10,6 +10,8 @@ use cosfly_drone::Sensed;
 use cosfly_env::{End, EnvironmentSettings, Reward};
 use cosfly_frames::DVec3;
 use cosfly_geometry::SpatialQuery;
+use cosfly_schema::log::reading::LoggedSensor;
+use cosfly_sensors::Sensor;
 use cosfly_write::log::{FlownFlight, FlownStep, SensedSample, write_flown_log};
 use std::collections::BTreeMap;
 
@@ -52,11 +54,17 @@ pub fn mcap(task: &Task, settings: &EnvironmentSettings, flown: &Flown) -> Resul
         horizontal_fov_rad: lens.horizontal_deg.to_radians(),
     };
     let target = &episode.target;
+    let sensor = |it: &Sensor| LoggedSensor {
+        name: it.name.to_owned(),
+        quantities: it.quantities.iter().map(|quantity| quantity.name.to_owned()).collect(),
+    };
+    let sensors: Vec<LoggedSensor> = settings.sensors.iter().map(sensor).collect();
     let flight = FlownFlight {
         about: &about,
         town: &task.scenery.town,
         camera,
         target_size_m: [target.height_m, target.radius_m],
+        sensors: &sensors,
         walk: &target.states,
         steps: &steps,
     };
@@ -84,6 +92,8 @@ fn step(task: &Task, settings: &EnvironmentSettings, line: &Line) -> FlownStep {
         action: line.action.clone().unwrap_or_default(),
         reward: Reward::of_terms(line.reward).sum(&settings.weights),
         reward_terms: line.reward.to_vec(),
+        // By name, as the sensors are.
+        readings: line.readings.values().cloned().collect(),
         events: vec![],
     }
 }

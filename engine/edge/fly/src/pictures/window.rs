@@ -44,6 +44,7 @@ mod tests {
             attitude_xyzw: None,
             flown: None,
             latency_s: None,
+            readings: Default::default(),
             target_in_world: [0.0; 3],
             visible: 1.0,
             in_picture: true,

@@ -24,12 +24,12 @@ pub fn wrong_number(rows: &[f64], columns: usize) -> Option<String> {
 /// Kind of the actions of a policy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ActionKind {
-    /// Rows of five numbers, one per step: velocity ahead, right, up (m/s), yaw rate and pitch rate (degrees/s).
+    /// Rows of five numbers, one per step: velocity ahead, right, up (m/s), pitch rate and yaw rate (degrees/s).
     Velocity,
     /// Rows of six numbers, one per step: collective thrust (multiples of the weight), roll, pitch and yaw rate of a quadrotor,
-    /// yaw and pitch rate of the camera (degrees/s).
+    /// pitch and yaw rate of the camera (degrees/s).
     ThrustAndRates,
-    /// Rows of six numbers, one per step: speeds of a quadrotor's rotors (rev/min), yaw and pitch rate of the camera (degrees/s).
+    /// Rows of six numbers, one per step: speeds of a quadrotor's rotors (rev/min), pitch and yaw rate of the camera (degrees/s).
     Rotors,
     /// Rows of six numbers, one per frame of the dataset: dx, dy, dz (m), dpitch, dyaw, droll (degrees) from the pose before,
     /// along the world's axes.

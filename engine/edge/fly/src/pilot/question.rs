@@ -1,9 +1,9 @@
-//! [`Question`]: the message that asks for an action, with pictures where they are asked for.
+//! [`Question`]: the message that asks for an action, with the pictures and readings that are asked for.
 
 use super::manners::Manners;
 use crate::wire::{self, Field};
 use cosfly_env::pictures::{PictureBatch, Pictures, Pixels};
-use cosfly_env::{Environment, FEATURES};
+use cosfly_env::{Environment, FEATURES, readings};
 
 /// Asks for actions. Owns what draws the pictures.
 pub struct Question {
@@ -25,6 +25,12 @@ impl Question {
     pub fn bytes(&mut self, environment: &Environment) -> Vec<u8> {
         let observation = environment.observation();
         let state = observation.features().map(|feature| feature as f32);
+        let readings: Vec<(&str, Vec<f32>, [usize; 1])> = readings(environment)
+            .into_iter()
+            .map(|(sensor, values)| {
+                (sensor.name, values.iter().map(|value| *value as f32).collect(), [sensor.quantities.len()])
+            })
+            .collect();
         let mut fields = vec![
             ("episode", Field::Text(&environment.episode().name)),
             ("step", Field::Count(u64::from(observation.step))),
@@ -32,6 +38,7 @@ impl Question {
             ("prompt", Field::Text(&self.prompt)),
             ("state", Field::Floats(&state, &[FEATURES])),
         ];
+        fields.extend(readings.iter().map(|(name, values, shape)| (*name, Field::Floats(values, shape))));
         let Some((pictures, album)) = &mut self.pictures else { return wire::encode(&fields) };
         pictures.draw(&[environment], album, 0);
         let format = pictures.format();

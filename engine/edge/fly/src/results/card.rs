@@ -85,6 +85,9 @@ pub struct PolicyCard {
     /// Pictures in its observations.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pictures: Option<PicturesCard>,
+    /// Sensors whose readings are in its observations.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sensors: Vec<String>,
 }
 
 impl PolicyCard {
@@ -187,7 +190,7 @@ impl EnvironmentCard {
             speed_mps: settings.motion.speed_mps,
             acceleration_mps2: settings.motion.acceleration_mps2,
             jerk_mps3: settings.motion.jerk_mps3,
-            view_rate_deg_s: [gimbal.yaw_rate_rad_s, gimbal.pitch_rate_rad_s].map(f64::to_degrees),
+            view_rate_deg_s: [gimbal.pitch_rate_rad_s, gimbal.yaw_rate_rad_s].map(f64::to_degrees),
             pitch_deg: [gimbal.lowest_pitch_rad, gimbal.highest_pitch_rad].map(f64::to_degrees),
             horizontal_field_deg: settings.lens.horizontal_deg,
             aspect: settings.lens.aspect,

@@ -2,7 +2,7 @@
 
 use super::member::{ACTIONS, VectorMember};
 use cosfly_env::pictures::PictureBatch;
-use cosfly_env::{End, FEATURES, Reward};
+use cosfly_env::{End, FEATURES, Reward, readings};
 use rayon::prelude::*;
 
 /// Terms of a reward.
@@ -33,6 +33,10 @@ pub struct Outputs {
     pub look_alikes: Vec<u32>,
     /// The expert's actions for the observations; zeros where they are not asked for.
     pub expert_actions: Vec<[f32; ACTIONS]>,
+    /// Readings of the sensors that are asked for, the numbers of one behind those of the other.
+    pub readings: Vec<Vec<f32>>,
+    /// Those with `last_features`.
+    pub last_readings: Vec<Vec<f32>>,
     /// [`BESIDE`] numbers on each other drone of a team.
     pub beside: Vec<Vec<f32>>,
 }
@@ -50,6 +54,8 @@ impl Outputs {
             tracked: vec![false; count],
             look_alikes: vec![0; count],
             expert_actions: vec![[0.0; ACTIONS]; count],
+            readings: vec![vec![]; count],
+            last_readings: vec![vec![]; count],
             ..Self::default()
         }
     }
@@ -66,6 +72,8 @@ impl Outputs {
             tracked: &mut self.tracked[number],
             look_alikes: &mut self.look_alikes[number],
             expert_action: &mut self.expert_actions[number],
+            readings: &mut self.readings[number],
+            last_readings: &mut self.last_readings[number],
         }
     }
 
@@ -81,22 +89,26 @@ impl Outputs {
             &mut self.tracked,
             &mut self.look_alikes,
             &mut self.expert_actions,
+            &mut self.readings,
+            &mut self.last_readings,
         );
-        columns.into_par_iter().map(
-            |(features, last_features, reward, terms, terminated, truncated, tracked, look_alikes, expert_action)| {
-                Row {
-                    features,
-                    last_features,
-                    reward,
-                    terms,
-                    terminated,
-                    truncated,
-                    tracked,
-                    look_alikes,
-                    expert_action,
-                }
-            },
-        )
+        columns.into_par_iter().map(|row| {
+            let (features, last_features, reward, terms, terminated, truncated, ..) = row;
+            let (.., tracked, look_alikes, expert_action, readings, last_readings) = row;
+            Row {
+                features,
+                last_features,
+                reward,
+                terms,
+                terminated,
+                truncated,
+                tracked,
+                look_alikes,
+                expert_action,
+                readings,
+                last_readings,
+            }
+        })
     }
 }
 
@@ -111,6 +123,8 @@ pub(super) struct Row<'a> {
     tracked: &'a mut bool,
     look_alikes: &'a mut u32,
     expert_action: &'a mut [f32; ACTIONS],
+    readings: &'a mut Vec<f32>,
+    last_readings: &'a mut Vec<f32>,
 }
 
 impl Row<'_> {
@@ -118,6 +132,9 @@ impl Row<'_> {
     pub(super) fn tell(&mut self, member: &VectorMember) {
         let observation = member.environment.observation();
         *self.features = observation.features().map(|feature| feature as f32);
+        let numbers = readings(&member.environment).into_iter().flat_map(|(_, values)| values);
+        self.readings.clear();
+        self.readings.extend(numbers.map(|value| value as f32));
         *self.tracked = observation.tracked;
         *self.look_alikes = member.environment.look_alikes() as u32;
         *self.reward = member.reward.sum(&member.environment.settings().weights);
@@ -131,5 +148,6 @@ impl Row<'_> {
     pub(super) fn tell_whole(&mut self, member: &VectorMember) {
         self.tell(member);
         *self.last_features = *self.features;
+        self.last_readings.clone_from(self.readings);
     }
 }

@@ -50,9 +50,22 @@ class Channel(NamedTuple):
     """Meaning with unit and frame."""
 
 
+class Sensor(NamedTuple):
+    """A sensor that is no camera: name and meaning are those of recipes."""
+
+    name: str
+    """Name in ``obs`` and in recipes."""
+    doc: str
+    """Meaning with its model and its limits."""
+    quantities: dict[str, str]
+    """Names of the numbers of a reading, in their order, each with its meaning."""
+
+
 CHANNELS: dict[str, Channel] = {facts[0]: Channel(*facts) for facts in _cosfly.channels()}
 """All channels of pictures, by name."""
-OBSERVATIONS = ("state", *CHANNELS)
+SENSORS: dict[str, Sensor] = {name: Sensor(name, doc, dict(quantities)) for name, doc, quantities in _cosfly.sensors()}
+"""All sensors that are no cameras, by name."""
+OBSERVATIONS = ("state", *CHANNELS, *SENSORS)
 _LARGEST_SIZE = 2048
 _FORMER = {"overrides": "set", "threads": "jobs"}
 
@@ -68,7 +81,8 @@ class EnvConfig:
     store: str | os.PathLike[str] | None = None
     """Folder of the store; else that of ``COSFLY_STORE``, else ``.cosfly``."""
     obs: Sequence[str] = ("state",)
-    """Observations: ``state`` (16 numbers) and names of :data:`CHANNELS`. One alone is an array, several are a dictionary."""
+    """Observations: ``state`` (16 numbers), names of :data:`CHANNELS` and of :data:`SENSORS`. One alone is an array, several are a
+    dictionary."""
     size: int | tuple[int, int] = 84
     """Width and height of pictures, pixels; one number is both."""
     max_depth_m: float = 200.0
@@ -122,7 +136,12 @@ class EnvConfig:
     @property
     def channels(self) -> list[str]:
         """Channels of pictures."""
-        return [name for name in self.obs if name != "state"]
+        return [name for name in self.obs if name in CHANNELS]
+
+    @property
+    def sensors(self) -> list[str]:
+        """Sensors that are no cameras."""
+        return [name for name in self.obs if name in SENSORS]
 
     @property
     def changes(self) -> list[str]:

@@ -2,9 +2,9 @@
 
 An environment flies the episodes of a recipe, as `cosfly fly` does; each draws its episodes from a seed of its own: the one that is
 given, else one of the system's entropy, which `info["seed"]` and `np_random_seed` tell so that a run can be repeated.
-Observations are 16 numbers (`obs=("state",)`), pictures (the names in `CHANNELS`, which tells the meaning of each), or several of them
-as a dictionary. Actions are five numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). `STATE` and `ACTION` name
-the numbers with their units. The book's page "Policies of fly" defines them, its page "Results of fly" the terms of the reward, which
+Observations are 16 numbers (`obs=("state",)`), pictures (the names in `CHANNELS`, which tells the meaning of each), readings of sensors
+(the names in `SENSORS`), or several of them as a dictionary. Actions are five numbers: velocity ahead, right, up (m/s), pitch rate, yaw
+rate (degrees/s). `STATE` and `ACTION` name the numbers with their units. The book's page "Policies of fly" defines them, its page "Results of fly" the terms of the reward, which
 `info` has as `reward_...`.
 """
 
@@ -25,7 +25,7 @@ from gymnasium.vector.utils import batch_space
 
 from . import _cosfly
 from ._cosfly import VectorEnvironment
-from ._env_config import CHANNELS, OBSERVATIONS, EnvConfig
+from ._env_config import CHANNELS, OBSERVATIONS, SENSORS, EnvConfig
 from ._errors import InvalidValue
 from ._gym import register
 
@@ -110,6 +110,8 @@ class _Observations:
         def of(name: str) -> spaces.Space[Any]:
             if name == "state":
                 return state or spaces.Box(-np.inf, np.inf, (16,), np.float32)
+            if name in SENSORS:
+                return spaces.Box(-np.inf, np.inf, (len(SENSORS[name].quantities),), np.float32)
             channel = CHANNELS[name]
             greatest = self.max_depth_m if channel.greatest is None else channel.greatest
             shape = (height, width) if channel.values == 1 else (height, width, channel.values)

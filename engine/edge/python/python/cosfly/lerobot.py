@@ -3,7 +3,7 @@
 `lerobot-eval --env.discover_packages_path=cosfly.lerobot --env.type=cosfly --env.recipe=recipes/suites/street.toml ...`, or
 `lerobot.envs.factory.make_env(CosflyEnv(recipe=...), n_envs=4)`. Observations have `agent_pos` (16 numbers), which
 LeRobot calls `observation.state`, and with `size` colours as `pixels`, which LeRobot calls `observation.image`; an action is five
-numbers: velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s).
+numbers: velocity ahead, right, up (m/s), pitch rate, yaw rate (degrees/s).
 """
 
 from __future__ import annotations

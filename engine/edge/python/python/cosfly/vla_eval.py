@@ -1,8 +1,8 @@
 """A benchmark for `vla-eval`: `benchmark: "cosfly.vla_eval:TrackBenchmark"`, with `params: {recipe: recipes/suites/street.toml}`.
 
 Each episode of the recipe is a task. Observations have `state` (16 numbers), `task_description` and, on
-request (`pictures: [depth, mask]`), `images`; an action has `actions`:
-velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s). The book's page "Policies of fly" defines them.
+request (`pictures: [depth, mask]`), `images`, and a key for each of `sensors: [laser_altimeter]`; an action has `actions`:
+velocity ahead, right, up (m/s), pitch rate, yaw rate (degrees/s). The book's page "Policies of fly" defines them.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from vla_eval.benchmarks.base import StepBenchmark, StepResult
 from vla_eval.specs import DimSpec
 
-from ._env_config import EnvConfig
+from ._env_config import CHANNELS, SENSORS, EnvConfig
 from ._errors import InvalidValue
 from ._outcome import Outcome
 from .gym import Track
@@ -43,11 +43,15 @@ class TrackBenchmark(StepBenchmark):
         *,
         prompt: str = PROMPT,
         pictures: Sequence[str] = (),
+        sensors: Sequence[str] = (),
         **options: Unpack[EnvOptions],
     ) -> None:
         super().__init__()
-        self._pictures = tuple(pictures)
-        config = EnvConfig.of(recipe, {**options, "obs": ("state", *self._pictures)})
+        self._pictures, self._sensors = tuple(pictures), tuple(sensors)
+        unknown = [name for name in self._pictures if name not in CHANNELS] + [name for name in self._sensors if name not in SENSORS]
+        if unknown:
+            raise InvalidValue(f"pictures and sensors name {unknown}; pictures are {', '.join(CHANNELS)}, sensors are {', '.join(SENSORS)}")
+        config = EnvConfig.of(recipe, {**options, "obs": ("state", *self._pictures, *self._sensors)})
         self._env = Track(recipe, **{**options, "obs": config.obs})
         self._suite = os.path.splitext(os.path.basename(os.fspath(recipe)))[0]
         self._prompt, self._step_s = prompt, config.step_s
@@ -71,10 +75,10 @@ class TrackBenchmark(StepBenchmark):
         return StepResult(obs=state, reward=reward, done=terminated or truncated, info=info)
 
     def make_obs(self, raw_obs: Any, task: dict[str, Any]) -> dict[str, Any]:
-        if not self._pictures:
+        if not isinstance(raw_obs, dict):
             return {"state": raw_obs, "task_description": self._prompt}
-        images = {name: raw_obs[name] for name in self._pictures}
-        return {"images": images, "state": raw_obs["state"], "task_description": self._prompt}
+        told = {"state": raw_obs["state"], "task_description": self._prompt, **{name: raw_obs[name] for name in self._sensors}}
+        return {**told, "images": {name: raw_obs[name] for name in self._pictures}} if self._pictures else told
 
     def get_step_result(self, step_result: StepResult) -> dict[str, Any]:
         outcome = self._outcome
@@ -92,13 +96,18 @@ class TrackBenchmark(StepBenchmark):
         return {"success": "mean", "tracking_rate": "mean", "reward": "mean"}
 
     def get_action_spec(self) -> dict[str, DimSpec]:
-        text = "velocity ahead, right, up (m/s), yaw rate, pitch rate (degrees/s)"
+        text = "velocity ahead, right, up (m/s), pitch rate, yaw rate (degrees/s)"
         return {"actions": DimSpec("actions", 5, "cosfly_velocity", description=text)}
 
     def get_observation_spec(self) -> dict[str, DimSpec]:
         images = {name: DimSpec(name, 0, "image", description="rows, columns") for name in self._pictures}
+        sensors = {
+            name: DimSpec(name, len(SENSORS[name].quantities), "cosfly_sensor", description=", ".join(SENSORS[name].quantities))
+            for name in self._sensors
+        }
         return {
             **images,
+            **sensors,
             "state": DimSpec("state", 16, "cosfly_state", description="the state of `cosfly fly`"),
             "task_description": DimSpec("task_description", 0, "language"),
         }

@@ -145,7 +145,7 @@ fn round(
     let (logged, log_s) = timed(|| -> Result<u64> {
         let mut pack = FramePackReader::new(BufReader::new(StoredFile::open(&pack_path)?))?;
         let mut output = StoredFile::create(&log_path)?;
-        write_log(&mut output, &flight, &mut pack, &[], &ground.town, &|| Ok(()))?;
+        write_log(&mut output, &flight, &mut pack, &[], &[], &ground.town, &|| Ok(()))?;
         output.finish();
         Ok(File::open(&log_path).and_then(|file| file.metadata()).map_or(0, |data| data.len()))
     });

@@ -89,7 +89,7 @@ fn fly(
     let record = flight(ground, weather, shown, views);
     let mut pack = FramePackReader::new(BufReader::new(StoredFile::open(&path("pack"))?))?;
     let mut output = StoredFile::create(&path("mcap"))?;
-    let log = write_log(&mut output, &record, &mut pack, &[], &ground.town, &|| Ok(()))?;
+    let log = write_log(&mut output, &record, &mut pack, &[], &[], &ground.town, &|| Ok(()))?;
     output.finish();
     Ok(log.record.bytes)
 }

@@ -1,8 +1,11 @@
 //! The three tables of LeRobot v3.0: frames, episodes, tasks.
 
 use super::motion::STEPS;
-use cosfly_schema::tables::{AnyColumn, Column, ImageFile, Table};
+use arrow_array::ArrayRef;
+use arrow_array::builder::{FixedSizeListBuilder, Float64Builder};
+use cosfly_schema::tables::{AnyColumn, CellProblem, Column, ImageFile, Kind, Table};
 use serde_json::json;
+use std::sync::Arc;
 
 /// Name of the pictures' feature.
 pub const PICTURE: &str = "observation.images.rgb";
@@ -15,6 +18,8 @@ pub const VECTORS: [(&str, &[&str]); 5] = [
     ("privileged.box", &["left", "top", "right", "bottom"]),
     ("action", &ACTION),
 ];
+/// Name of the feature with the readings of all sensors that are no cameras, where there are any.
+pub const SENSORS: &str = "observation.sensors";
 /// Names of the parts of actions.
 const ACTION: [&str; 6 * STEPS] = [
     "dx_1", "dy_1", "dz_1", "dpitch_1", "dyaw_1", "droll_1", "dx_2", "dy_2", "dz_2", "dpitch_2", "dyaw_2", "droll_2",
@@ -35,6 +40,8 @@ pub struct DataRows {
     pub dt_s: f64,
     /// [`VECTORS`] of every frame.
     pub vectors: Vec<[Vec<f64>; 5]>,
+    /// [`SENSORS`] of every frame.
+    pub readings: Vec<Vec<f64>>,
     /// Picture files.
     pub pictures: Vec<Vec<u8>>,
 }
@@ -69,8 +76,42 @@ pub struct TaskRow {
     pub task: String,
 }
 
-/// A row per frame.
-pub fn data() -> Table<DataRows> {
+/// Column [`SENSORS`] of this many numbers.
+struct SensorColumn(usize);
+
+impl AnyColumn<DataRows> for SensorColumn {
+    fn name(&self) -> &'static str {
+        SENSORS
+    }
+
+    fn unit(&self) -> Option<&'static str> {
+        None
+    }
+
+    fn doc(&self) -> &'static str {
+        ""
+    }
+
+    fn kind(&self) -> Kind {
+        Kind::Reals(self.0)
+    }
+
+    fn nullable(&self) -> bool {
+        false
+    }
+
+    fn array(&self, record: &DataRows, _: usize) -> Result<ArrayRef, CellProblem> {
+        let mut builder = FixedSizeListBuilder::new(Float64Builder::new(), self.0 as i32);
+        for numbers in &record.readings {
+            builder.values().append_slice(numbers);
+            builder.append(true);
+        }
+        Ok(Arc::new(builder.finish()))
+    }
+}
+
+/// A row per frame; with so many numbers of sensors.
+pub fn data(sensed: usize) -> Table<DataRows> {
     const COLUMNS: &[&dyn AnyColumn<DataRows>] = &[
         &Column::named(PICTURE, "", |it: &DataRows, i| ImageFile(it.pictures[i].clone())),
         &Column::named(VECTORS[0].0, "", |it: &DataRows, i| numbers::<8>(&it.vectors[i][0])),
@@ -85,7 +126,12 @@ pub fn data() -> Table<DataRows> {
         &Column::named("task_index", "", |it: &DataRows, _| it.task as u64),
     ];
     let rows = |it: &DataRows| it.pictures.len();
-    Table { rows_per_group: 200, ..Table::new("data", "", &[], rows, COLUMNS) }
+    let mut table = Table { rows_per_group: 200, ..Table::new("data", "", &[], rows, COLUMNS) };
+    if sensed > 0 {
+        // Columns live as long as the program; there are few widths.
+        table.columns.push(Box::leak(Box::new(SensorColumn(sensed))));
+    }
+    table
 }
 
 /// The numbers of a vector, which has `N`.

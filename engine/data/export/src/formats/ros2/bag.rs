@@ -3,6 +3,7 @@
 use super::definitions::whole_definition;
 use crate::folder::OutFolder;
 use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_schema::log::reading::LoggedSensor;
 use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
 use std::collections::BTreeMap;
@@ -10,7 +11,7 @@ use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
 
-/// A topic of every bag.
+/// A topic of a bag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Topic {
     /// Transforms that stay.
@@ -39,11 +40,13 @@ pub enum Topic {
     Labels,
     /// Boxes and ids of bodies.
     Detections,
+    /// Readings of the flight's sensor of this number.
+    Sensor(usize),
 }
 
 use Topic as T;
 
-/// Topics with their names and types, and whether those who come late still get the last message.
+/// Topics of every bag with their names and types, and whether those who come late still get the last message.
 const TOPICS: [(Topic, &str, &str, bool); 13] = [
     (T::TfStatic, "/tf_static", "tf2_msgs/TFMessage", true),
     (T::Town, "/town", "visualization_msgs/MarkerArray", true),
@@ -89,28 +92,35 @@ pub struct Bag<'a> {
     /// Name of the MCAP file in the folder.
     file: String,
     writer: Writer<BufWriter<File>>,
+    /// Topics as [`TOPICS`] has them, and those of the sensors.
+    topics: Vec<(Topic, String, &'static str, bool)>,
     /// Numbers of the channels, and of the messages so far.
     channels: BTreeMap<Topic, (u16, u32)>,
     times_ns: Option<[u64; 2]>,
 }
 
 impl<'a> Bag<'a> {
-    /// Begins the bag in a new folder, named after its last part.
-    pub fn begin(out: &'a OutFolder, folder: String) -> Result<Self> {
+    /// Begins the bag of a flight with these sensors in a new folder, named after its last part.
+    pub fn begin(out: &'a OutFolder, folder: String, sensors: &[LoggedSensor]) -> Result<Self> {
         let file = format!("{}_0.mcap", folder.rsplit('/').next().unwrap_or_default());
         // Threads of the compressor would show in the bytes.
         let options = WriteOptions::new().profile("ros2").library("cosfly").compression_threads(0);
         let output = out.create(&format!("{folder}/{file}"))?;
         let refused = |error: McapError| refusal(out, &folder, &file, error);
         let mut writer = options.create(output).map_err(refused)?;
+        let own = TOPICS.into_iter().map(|(topic, name, kind, is_latched)| (topic, name.to_owned(), kind, is_latched));
+        let of_sensor = |(number, sensor): (usize, &LoggedSensor)| {
+            (Topic::Sensor(number), sensor.topic_name(), "std_msgs/Float64MultiArray", false)
+        };
+        let topics: Vec<_> = own.chain(sensors.iter().enumerate().map(of_sensor)).collect();
         let mut channels = BTreeMap::new();
-        for (topic, name, kind, is_latched) in TOPICS {
+        for (topic, name, kind, is_latched) in &topics {
             let definition = whole_definition(kind);
             let schema = writer.add_schema(&full_name(kind), "ros2msg", definition.as_bytes()).map_err(refused)?;
-            let notes = BTreeMap::from([("offered_qos_profiles".to_owned(), quality(is_latched).to_owned())]);
-            channels.insert(topic, (writer.add_channel(schema, name, "cdr", &notes).map_err(refused)?, 0));
+            let notes = BTreeMap::from([("offered_qos_profiles".to_owned(), quality(*is_latched).to_owned())]);
+            channels.insert(*topic, (writer.add_channel(schema, name, "cdr", &notes).map_err(refused)?, 0));
         }
-        Ok(Self { out, folder, file, writer, channels, times_ns: None })
+        Ok(Self { out, folder, file, writer, topics, channels, times_ns: None })
     }
 
     /// Adds a message.
@@ -144,9 +154,9 @@ impl<'a> Bag<'a> {
              nanoseconds: {duration}\n  starting_time:\n    nanoseconds_since_epoch: {first}\n  \
              message_count: {messages}\n  topics_with_message_count:\n"
         );
-        for (topic, name, kind, is_latched) in TOPICS {
-            let (quality, kind) = (quality(is_latched).replace('\n', "\\n"), full_name(kind));
-            let count = self.channels.get(&topic).map_or(0, |(_, count)| *count);
+        for (topic, name, kind, is_latched) in &self.topics {
+            let (quality, kind) = (quality(*is_latched).replace('\n', "\\n"), full_name(kind));
+            let count = self.channels.get(topic).map_or(0, |(_, count)| *count);
             let _ = write!(
                 text,
                 "    - topic_metadata:\n        name: {name}\n        type: {kind}\n        \

@@ -91,6 +91,18 @@ pub fn string(text: &str) -> Vec<u8> {
     cdr.finish()
 }
 
+/// `std_msgs/Float64MultiArray` of a reading, labelled with the names of its quantities.
+pub fn reading(quantities: &[String], values: &[f64]) -> Vec<u8> {
+    let count = values.len() as u32;
+    let mut cdr = Cdr::new();
+    cdr.u32(1);
+    cdr.text(&quantities.join(","));
+    // Size, stride, offset of the data; the data.
+    [count, count, 0, count].into_iter().for_each(|number| cdr.u32(number));
+    cdr.f64s(values);
+    cdr.finish()
+}
+
 /// `tf2_msgs/TFMessage` of parents, children and their places.
 pub fn transforms(time_ns: u64, list: &[(&'static str, &str, Placed)]) -> Vec<u8> {
     let mut cdr = Cdr::new();

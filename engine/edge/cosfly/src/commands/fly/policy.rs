@@ -9,6 +9,7 @@ use cosfly_env::pictures::PictureFormat;
 use cosfly_fly::pilot::{ActionKind, Manners, Place, source_of};
 use cosfly_fly::results::{PicturesCard, PolicyCard};
 use cosfly_render::PictureLook;
+use cosfly_sensors::{Sensor, SensorSet};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -30,9 +31,9 @@ pub struct PolicyArguments {
     /// Steps after which a policy is asked again; rows of its last answer are flown meanwhile
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = count())]
     every: usize,
-    /// Pictures in observations, for policies behind a socket or in Python (repeatable)
-    #[arg(long, value_name = "CHANNEL", value_parser = channel(), value_delimiter = ',')]
-    obs: Vec<&'static Channel>,
+    /// Pictures and readings of sensors in observations, for policies behind a socket or in Python (repeatable)
+    #[arg(long, value_name = "NAME", value_parser = observed(), value_delimiter = ',')]
+    obs: Vec<Observed>,
     /// Width and height of pictures in observations, pixels
     #[arg(long, value_name = "PX", default_value_t = 84, value_parser = clap::value_parser!(u32).range(16..=512))]
     size_px: u32,
@@ -57,15 +58,22 @@ pub struct PolicyArguments {
     python: PathBuf,
 }
 
+/// A part of observations.
+#[derive(Clone, Copy, Debug)]
+enum Observed {
+    Channel(&'static Channel),
+    Sensor(&'static Sensor),
+}
+
 /// Kind of actions.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum ActionChoice {
-    /// Five numbers a step: velocity ahead, right, up (m/s), yaw and pitch rate (degrees/s)
+    /// Five numbers a step: velocity ahead, right, up (m/s), pitch and yaw rate (degrees/s)
     Velocity,
-    /// Six numbers a step, for quadrotors: thrust (multiples of the weight), roll, pitch, yaw rate of the body, yaw and pitch
+    /// Six numbers a step, for quadrotors: thrust (multiples of the weight), roll, pitch, yaw rate of the body, pitch and yaw
     /// rate of the camera (degrees/s)
     ThrustRates,
-    /// Six numbers a step, for quadrotors: speeds of the rotors (rev/min), yaw and pitch rate of the camera (degrees/s)
+    /// Six numbers a step, for quadrotors: speeds of the rotors (rev/min), pitch and yaw rate of the camera (degrees/s)
     Rotors,
     /// Six numbers a frame of the dataset: dx, dy, dz (m), dpitch, dyaw, droll (degrees), along the world's axes
     DeltasWorld,
@@ -117,7 +125,9 @@ impl PolicyArguments {
     }
 
     fn pictures(&self) -> Option<PictureFormat> {
-        let channels = ChannelSet::of(|channel| self.obs.contains(&channel));
+        let is_asked =
+            |channel: &Channel| self.obs.iter().any(|it| matches!(it, Observed::Channel(own) if *own == channel));
+        let channels = ChannelSet::of(is_asked);
         let (width, height) = (self.size_px, self.size_px);
         let look = self.look;
         (!channels.is_empty()).then_some(PictureFormat {
@@ -128,6 +138,12 @@ impl PolicyArguments {
             weather: None,
             look,
         })
+    }
+
+    /// Sensors whose readings observations carry.
+    pub fn sensors(&self) -> SensorSet {
+        let is = |it: &Observed, sensor: &Sensor| matches!(it, Observed::Sensor(own) if own.name == sensor.name);
+        SensorSet::of(|sensor| self.obs.iter().any(|it| is(it, sensor)))
     }
 
     /// Card of the policy at a place.
@@ -149,6 +165,7 @@ impl PolicyArguments {
             every: manners.every,
             prompt: manners.prompt,
             pictures: manners.pictures.map(|format| PicturesCard::of(&format)),
+            sensors: self.sensors().iter().map(|sensor| sensor.name.to_owned()).collect(),
         }
     }
 }
@@ -167,10 +184,14 @@ fn key_of(file: &Path) -> Result<String> {
     Ok(key.to_owned())
 }
 
-/// A channel of the list, by its name.
-fn channel() -> impl TypedValueParser<Value = &'static Channel> {
-    let values = channels::ALL.iter().map(|channel| PossibleValue::new(channel.name).help(channel.doc));
-    PossibleValuesParser::new(values).try_map(|name| channels::called(&name).ok_or("there is no such channel"))
+/// A channel or a sensor of the lists, by its name.
+fn observed() -> impl TypedValueParser<Value = Observed> {
+    let channels = channels::ALL.iter().map(|channel| PossibleValue::new(channel.name).help(channel.doc));
+    let sensors = cosfly_sensors::ALL.iter().map(|sensor| PossibleValue::new(sensor.name).help(sensor.doc));
+    PossibleValuesParser::new(channels.chain(sensors)).try_map(|name| {
+        let sensor = || cosfly_sensors::called(&name).map(Observed::Sensor);
+        channels::called(&name).map(Observed::Channel).or_else(sensor).ok_or("there is no such channel or sensor")
+    })
 }
 
 fn look(text: &str) -> std::result::Result<PictureLook, String> {

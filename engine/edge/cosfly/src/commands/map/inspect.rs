@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 Examples:
   cosfly map inspect monaco.osm.pbf                        figures, and the plan monaco-plan.png
   cosfly map inspect Town01.xodr --set fill.buildings=true --plan out/town01.png
-  cosfly map inspect tile.laz --set voxel_m=0.5 --json
+  cosfly map inspect tile.laz --set options.voxel_m=0.5 --json
   cosfly map inspect region.osm.pbf --set 'bounds_m=[-500, -500, 500, 500]'   a part of the town
 
 `--set` takes the parameters of the stage `map`; see the page \"Recipe\" of the book."
