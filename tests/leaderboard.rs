@@ -63,6 +63,16 @@ fn entries_are_ranked_within_what_was_verified_and_others_are_listed_with_the_re
         it.episodes.push(more);
         it.card.suite.episodes += 1;
     });
+    make("mixed", &|it| {
+        let other = it.card.environment.clone();
+        it.card.environments.insert("street".to_owned(), other);
+    });
+    make("talkative", &|it| it.episodes[0].row.policy_failure = Some("x".repeat(1000)));
+    make("wordy", &|it| it.card.suite.name = "x".repeat(2000));
+    make("loud", &|it| it.card.policy.name = "x".repeat(1 << 17));
+    make("unheard", &|it| it.card.policy.sensors = vec!["sonar".to_owned()]);
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(at("follow.jsonl.zst"), at("linked.jsonl.zst")).expect("a link");
     make("colours", &|_| ());
     std::fs::write(at("colours.toml"), "sees = \"rgb\"\n").expect("written");
     make("misspelt", &|_| ());
@@ -83,14 +93,21 @@ fn entries_are_ranked_within_what_was_verified_and_others_are_listed_with_the_re
         ("colours", "sees `rgb`, which it was not sent"),
         ("damaged", "no whole bundle"),
         ("elsewhere", "it is of the suite `elsewhere`; here are `street`"),
-        ("folder", "is no file"),
+        ("folder", "no file"),
+        #[cfg(unix)]
+        ("linked", "is a link"),
+        ("loud", "its first line has"),
+        ("mixed", "are not as cosfly writes them"),
+        ("talkative", "a text of more than 300 bytes"),
+        ("unheard", "there is no sensor `sonar`"),
+        ("wordy", "..."),
         ("longer", "has 4 episodes, the suite `street` has 3"),
         ("misspelt", "did you mean `licence`?"),
         ("other", "it is of another suite"),
     ] {
         let refused = board["refused"].as_array().expect("a list").iter().find(|it| it["file"] == file);
         let reason = refused.and_then(|it| it["reason"].as_str()).unwrap_or_else(|| panic!("{file}: {board:#}"));
-        assert!(reason.contains(words), "{file}: {reason}");
+        assert!(reason.contains(words) && reason.len() < 400, "{file}: {reason}");
     }
     let printed = leaderboard(street.path(), &[]);
     assert_eq!(printed.code, Some(1), "{}{}", printed.stdout, printed.stderr);
@@ -103,11 +120,41 @@ fn an_experts_actions_are_no_entry_of_another_name() {
     let mut expert = Bundle::read(&path).expect("a bundle");
     expert.card.policy.name = "mine".to_owned();
     expert.card.policy.kind = "socket".to_owned();
+    expert.card.policy.baseline = None;
     std::fs::write(&path, expert.bytes().expect("bytes")).expect("written");
     let board = table(street.path());
     let world = &board["suites"][0]["knows_world"];
     assert_eq!(files(world), ["expert"], "{board:#}");
-    assert!(world[0]["sees"].as_str().is_some_and(|sees| sees.contains("the expert's to 0.0")), "{board:#}");
+    assert!(
+        world[0]["sees"].as_str().is_some_and(|sees| sees.contains("are the expert's to less than 1 m")),
+        "{board:#}"
+    );
+}
+
+#[test]
+fn a_varied_expert_is_no_entry_of_another_name_and_sensors_are_flown_again() {
+    let (street, _) = board();
+    let fly = ["fly", "recipe.toml", "--out", "more", "--clips", "0", "--logs", "none", "--quiet"];
+    let policies = [
+        &["--policy", "expert:gain=0.5", "--name", "mine"][..],
+        &["--policy", "follow", "--name", "high", "--obs", "laser_altimeter"],
+    ];
+    for policy in policies {
+        cosfly(&[&fly[..], policy].concat()).within(street.path()).run_ok();
+        let (result, file) = (format!("more/{}", policy[3]), format!("board/{}.jsonl.zst", policy[3]));
+        cosfly(&["fly", "bundle", &result, "--out", &file]).within(street.path()).run_ok();
+        cosfly(&["fly", "verify", &file, "recipe.toml"]).within(street.path()).run_ok();
+    }
+    std::fs::write(street.path().join("board/high.toml"), "sees = \"laser_altimeter\"").expect("written");
+    let board = table(street.path());
+    let suite = &board["suites"][0];
+    assert!(files(&suite["knows_world"]).contains(&"mine"), "{board:#}");
+    let high = suite["ranked"].as_array().expect("a list").iter().find(|it| it["file"] == "high");
+    assert_eq!(high.map(|it| &it["sees"]), Some(&"laser_altimeter".into()), "{board:#}");
+    // The name of another baseline does not pass for this one.
+    let other = [&fly[..], &["--policy", "follow", "--name", "mine"]].concat();
+    let refused = cosfly(&other).within(street.path()).run();
+    assert!(refused.code != Some(0) && refused.stderr.contains("policy.baseline"), "{}", refused.stderr);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::street::{RECIPE, Street, map};
 /// The recipe with a second town of the same file behind it.
 fn with_other_town(name: &str) -> String {
     let other = format!(
-        "[stages.other]\nuse = \"map\"\nsource = \"street.xodr\"\nroad_marks = false\n{name}\n[stages.walkers]"
+        "[stages.other]\nuse = \"map\"\nsource = \"street.xodr\"\noptions = {{ road_marks = false }}\n{name}\n[stages.walkers]"
     );
     RECIPE.replacen("[stages.walkers]", &other, 1)
 }
@@ -54,9 +54,9 @@ fn towns_of_pictures_and_tables_agree_once_the_advice_is_followed() {
 #[test]
 fn a_town_without_pavements_is_walked_as_the_refusal_says() {
     let bare = map().replace("type=\"sidewalk\"", "type=\"none\"");
-    let strict = RECIPE.replacen("source", "assume_ground = false\nsource", 1);
+    let strict = RECIPE.replacen("source", "options = { assume_ground = false }\nsource", 1);
     let run = ["run", "recipe.toml", "--quiet", "--stage", "walkers"];
-    refused(&Street::with(&strict, &bare), &run, "leave out `assume_ground = false` in this stage");
+    refused(&Street::with(&strict, &bare), &run, "leave out `options.assume_ground = false`");
     helps(&Street::with(RECIPE, &bare), &run);
 }
 

@@ -128,5 +128,14 @@ fn benchmark(arguments: &RecipeArguments) -> Result<Option<Benchmark>> {
 
 fn recipes(benchmark: &Benchmark, console: &dyn Console) -> std::result::Result<Rc<Vec<Recipe>>, Refusals> {
     let load = |recipe: &PathBuf| RecipeArguments { recipe: recipe.clone(), overrides: vec![] }.load(console);
-    Ok(Rc::new(benchmark.suites.iter().map(load).collect::<std::result::Result<_, _>>()?))
+    let recipes: Vec<Recipe> = benchmark.suites.iter().map(load).collect::<std::result::Result<_, _>>()?;
+    // Names of suites begin those of episodes.
+    let is_twice = |(at, recipe): &(usize, &Recipe)| recipes[..*at].iter().any(|other| other.name == recipe.name);
+    if let Some((_, recipe)) = recipes.iter().enumerate().find(is_twice) {
+        let message = format!("two suites of the benchmark `{}` are called `{}`", benchmark.name, recipe.name);
+        return Err(Diagnostic::new("fly-benchmark", Fault::Recipe, message)
+            .hint("give one of them another `name`")
+            .into());
+    }
+    Ok(Rc::new(recipes))
 }

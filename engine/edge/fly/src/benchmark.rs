@@ -71,6 +71,12 @@ impl Benchmark {
             let episodes = episodes.ok_or_else(|| format!("`tiers.{tier}` must be a whole number from 1 on"))?;
             Ok((tier.clone(), Tier { name: format!("{name}-{tier}"), episodes: episodes as usize }))
         };
+        if suites.is_empty() || tiers.is_empty() {
+            return Err("`suites` and `tiers` have one entry at least".to_owned());
+        }
+        if let Some(twice) = suites.iter().enumerate().find(|(at, suite)| suites[..*at].contains(suite)) {
+            return Err(format!("`suites` has {} twice", twice.1));
+        }
         Ok(Self {
             name: name.to_owned(),
             suites: suites.iter().map(path).collect::<std::result::Result<_, _>>()?,
@@ -183,7 +189,10 @@ mod tests {
         for (text, words) in [
             ("name = \"../x\"\nsuites = []\ntiers = {}", "is no name"),
             ("name = \"x\"\nsuites = [1]\ntiers = {}", "`suites` must be files"),
-            ("name = \"x\"\nsuites = []\ntiers = { mini = 0 }", "`tiers.mini` must be a whole number"),
+            ("name = \"x\"\nsuites = [\"a\"]\ntiers = { mini = 0 }", "`tiers.mini` must be a whole number"),
+            ("name = \"x\"\nsuites = []\ntiers = { mini = 1 }", "one entry at least"),
+            ("name = \"x\"\nsuites = [\"a\"]\ntiers = {}", "one entry at least"),
+            ("name = \"x\"\nsuites = [\"a\", \"a\"]\ntiers = { mini = 1 }", "twice"),
             ("name = \"x\"\nsuite = []\ntiers = {}", "did you mean `suites`?"),
         ] {
             let wrong = read(text).expect_err(text);

@@ -18,7 +18,9 @@ use std::path::Path;
 /// Format and version of bundles.
 const FORMAT: &str = "cosfly-result/1";
 /// Largest text of a bundle, bytes.
-pub const MOST_BYTES: u64 = 1 << 29;
+pub const MOST_BYTES: u64 = 1 << 27;
+/// Largest first line of a bundle, bytes, and largest text in a row.
+const MOST_WORDS: [usize; 2] = [1 << 16, 300];
 /// Strength of the compression.
 const LEVEL: i32 = 9;
 
@@ -89,7 +91,18 @@ impl EpisodeRecord {
             let latency_s = it.latency_s.filter(|latency_s| *latency_s < 0.0)?;
             Some(format!("step {}: its latency is {latency_s} s; it must be at least 0", at + 1))
         };
-        self.steps.iter().enumerate().find_map(|(at, step)| number(at, step).or_else(|| late(at, step)))
+        let unchecked = |at: usize, it: &StepRecord| {
+            (it.check.len() != 8).then(|| format!("step {}: its `check` must have eight digits", at + 1))
+        };
+        if [Some(&self.row.episode), self.row.policy_failure.as_ref()]
+            .into_iter()
+            .flatten()
+            .any(|it| it.len() > MOST_WORDS[1])
+        {
+            return Some(format!("its row has a text of more than {} bytes", MOST_WORDS[1]));
+        }
+        let problem = |(at, step)| number(at, step).or_else(|| late(at, step)).or_else(|| unchecked(at, step));
+        self.steps.iter().enumerate().find_map(problem)
     }
 }
 
@@ -134,6 +147,12 @@ impl Bundle {
         let mut text = json(&Head { format: FORMAT.to_owned(), card: self.card.clone() });
         self.episodes.iter().for_each(|episode| text += &json(episode));
         text += &json(&Tail { blake3: Digest::of(text.as_bytes()).to_string() });
+        if text.len() as u64 > MOST_BYTES {
+            let message =
+                format!("the result has {} MB of steps; a bundle holds {}", text.len() >> 20, MOST_BYTES >> 20);
+            return Err(Diagnostic::new("fly-bundle", Fault::Recipe, message)
+                .hint("fly fewer episodes into a result, such as a tier of a benchmark"));
+        }
         zstd::stream::encode_all(text.as_bytes(), LEVEL).map_err(|error| Diagnostic::io("compress the bundle", &error))
     }
 
@@ -182,6 +201,9 @@ impl Bundle {
     fn of_lines(text: &str) -> std::result::Result<Self, String> {
         let mut lines = text.lines().zip(1..);
         let head = lines.next().map_or("", |it| it.0);
+        if head.len() > MOST_WORDS[0] {
+            return Err(format!("its first line has {} bytes; it may have {}", head.len(), MOST_WORDS[0]));
+        }
         let format = serde_json::from_str::<serde_json::Value>(head).ok();
         let format = format.as_ref().and_then(|head| head["format"].as_str()).unwrap_or("nothing").to_owned();
         if format != FORMAT {

@@ -157,7 +157,8 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn read(mut self, stages: &[usize], part: Part) -> Result<Suite> {
         let recipe = self.plan.recipe;
-        let first = format!("environment {ENVIRONMENT_VERSION}\n");
+        // The seed draws wind and blackouts of episodes.
+        let first = format!("environment {ENVIRONMENT_VERSION}\nseed {}\n", recipe.seed);
         let (mut tasks, mut rejected, mut listed) = (Vec::new(), 0, first.clone());
         for &stage in stages {
             let described = &recipe.stages[stage];

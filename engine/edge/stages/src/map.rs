@@ -57,7 +57,7 @@ impl StageKind for Map {
         let (config, files) = checked(given)?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 14,
+            version: 15,
             parameters: canonical(&config)?,
             sources: sources(files),
             inputs: self.ports(),

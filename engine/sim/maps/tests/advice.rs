@@ -186,7 +186,7 @@ fn scenes_in_centimetres_are_read_once_their_unit_is_given() {
     }
     text += "f 5 6 7 8\nf 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n";
     let error = read(&[text.as_bytes()], &json!({})).unwrap_err();
-    assert!(error.hints.iter().any(|hint| hint.contains("with `unit_m`: 0.01 for centimetres")), "{error:?}");
+    assert!(error.hints.iter().any(|hint| hint.contains("with `options.unit_m`: 0.01 for centimetres")), "{error:?}");
     let (town, ..) = read(&[text.as_bytes()], &json!({ "options": { "unit_m": 0.01 } })).unwrap();
     assert!(houses(&town) > 0 && !town.walkable.is_empty());
 
@@ -200,7 +200,7 @@ fn scenes_in_centimetres_are_read_once_their_unit_is_given() {
         [head.as_bytes(), &bytes].concat()
     };
     let error = read(&[&cloud(1e3)], &json!({})).unwrap_err();
-    assert!(error.hints.iter().any(|hint| hint.contains("the length of its unit with `unit_m`")), "{error:?}");
+    assert!(error.hints.iter().any(|hint| hint.contains("the length of its unit with `options.unit_m`")), "{error:?}");
     let (town, ..) = read(&[&cloud(1e3)], &json!({ "options": { "unit_m": 0.001 } })).unwrap();
     assert!(houses(&town) > 0);
 }

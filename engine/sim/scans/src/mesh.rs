@@ -60,7 +60,7 @@ pub fn town_of(
             (high - low).max_element()
         ));
         return Err(error.hint(
-            "give the length of the file's unit with `unit_m`: 0.01 for centimetres; else export a part of the scene",
+            "give the length of the file's unit with `options.unit_m`: 0.01 for centimetres; else export a part of the scene",
         ));
     }
     if low.z.abs().max(high.z.abs()) > HIGHEST_M {
@@ -74,7 +74,7 @@ pub fn town_of(
     if size.z > size.truncate().min_element() {
         let narrow_m = size.truncate().min_element();
         warnings.push(format!(
-            "the scene is {:.0} m high and {narrow_m:.0} m wide: check `up_axis`, the axis of the file that points up",
+            "the scene is {:.0} m high and {narrow_m:.0} m wide: check `options.up_axis`, the axis of the file that points up",
             size.z
         ));
     }
@@ -94,7 +94,7 @@ pub fn town_of(
     }
     if walkable.is_empty() {
         let error = MapError::new("the scene leaves no open ground to walk on");
-        return Err(error.hint("name the meshes to walk on `sidewalk`; check `up_axis` and `unit_m`"));
+        return Err(error.hint("name the meshes to walk on `sidewalk`; check `options.up_axis` and `options.unit_m`"));
     }
     warnings.extend(add_terrain(&mut meshes, &obstacles, USUAL_MARGIN_M)?);
     let town = Town {
@@ -129,7 +129,7 @@ fn solids_and_surfaces(
                 unnamed += usize::from(!is_named);
                 if obstacles.len() > MOST_BOXES {
                     let error = MapError::new(format!("the meshes need more than {MOST_BOXES} boxes"));
-                    return Err(error.hint("give a larger `voxel_m`, or cut the scene into pieces"));
+                    return Err(error.hint("give a larger `options.voxel_m`, or cut the scene into pieces"));
                 }
             }
         }

@@ -42,7 +42,9 @@ impl LoggedSensor {
 
     /// The sensor of a topic, whose messages have this schema; `None` for other topics.
     pub fn of(topic: &str, schema: &[u8]) -> Option<Self> {
-        let name = topic.strip_prefix(TOPICS)?.to_owned();
+        let is_name =
+            |name: &&str| name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_');
+        let name = topic.strip_prefix(TOPICS).filter(is_name)?.to_owned();
         let file = FileDescriptorSet::decode(schema).ok()?.file.into_iter().next()?;
         let message = file.message_type.into_iter().find(|message| message.name() == name)?;
         let quantities = message.field.iter().map(|field| field.name().to_owned()).collect();

@@ -7,6 +7,7 @@ use crate::exit;
 use crate::subject::Subject;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_fingerprint::Digest;
 use cosfly_fly::board::{Bench, Offer, json, judge, page, told};
 use cosfly_runner::RunOptions;
 use cosfly_whole::write_file;
@@ -65,7 +66,8 @@ impl Command for Arguments {
         let offers: Vec<Offer<'_>> =
             subjects.iter().map(|subject| Offer::new(subject.name.clone(), || make(subject))).collect();
         let (outcomes, cosfly) = (self.store.folder().join("reflown"), env!("CARGO_PKG_VERSION"));
-        let bench = Bench { offers: &offers, outcomes, cosfly, jobs, cancelled: &cancelled };
+        let program = program()?;
+        let bench = Bench { offers: &offers, outcomes, cosfly, program, jobs, cancelled: &cancelled };
         let board = {
             let _deadline = console.deadline(None);
             judge(&self.folder, &bench, &*console.progress("fly again", "entries"))?
@@ -95,6 +97,12 @@ impl Arguments {
     }
 }
 
+/// Digest of the program that runs.
+fn program() -> Result<Digest> {
+    let read = std::env::current_exe().and_then(std::fs::read);
+    read.map(|bytes| Digest::of(&bytes)).map_err(|error| Diagnostic::io("read the program itself", &error))
+}
+
 /// Writes the page, and makes its folder.
 fn write(path: &Path, page: &str) -> Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -113,7 +121,8 @@ fn shipped() -> Result<Vec<PathBuf>> {
         })?;
         paths.extend(entries.filter_map(|entry| entry.ok().map(|entry| entry.path())));
     }
-    paths.retain(|path| path.extension().is_some_and(|it| it == "toml"));
+    let is_suite = |name: &str| name.ends_with(".toml") && !name.ends_with(".secret.toml");
+    paths.retain(|path| path.file_name().and_then(|name| name.to_str()).is_some_and(is_suite));
     paths.sort();
     Ok(paths)
 }

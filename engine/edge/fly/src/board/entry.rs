@@ -99,10 +99,11 @@ impl Found {
 /// Bytes of a file; `None` where there is none.
 fn bytes_of(path: &Path, most: u64) -> std::result::Result<Option<Vec<u8>>, String> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    match path.metadata() {
+    // A link could show what lies elsewhere on this machine.
+    match path.symlink_metadata() {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(format!("`{name}` cannot be read: {error}")),
-        Ok(about) if !about.is_file() => Err(format!("`{name}` is no file")),
+        Ok(about) if !about.is_file() => Err(format!("`{name}` is a link or a folder, no file")),
         Ok(about) if about.len() > most => Err(format!("`{name}` has {} bytes; it may have {most}", about.len())),
         Ok(_) => std::fs::read(path).map(Some).map_err(|error| format!("`{name}` cannot be read: {error}")),
     }

@@ -9,6 +9,7 @@ use crate::flight::Row;
 use crate::results::{Card, SuiteCard};
 use crate::suite::Suite;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_env::EnvironmentSettings;
 use cosfly_fingerprint::Digest;
 use cosfly_whole::write_file;
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Version of kept outcomes.
 const OUTCOMES: u32 = 1;
+/// Most letters of a reason.
+const MOST_LETTERS: usize = 300;
 
 /// A suite that entries may be of. It is made when the first entry names it.
 pub struct Offer<'a> {
@@ -49,6 +52,8 @@ pub struct Bench<'a> {
     pub outcomes: PathBuf,
     /// Version of cosfly.
     pub cosfly: &'static str,
+    /// Digest of the program: outcomes are kept for the very same one.
+    pub program: Digest,
     /// Threads.
     pub jobs: usize,
     /// Set from anywhere to stop.
@@ -70,11 +75,19 @@ pub fn judge(folder: &Path, bench: &Bench<'_>, progress: &dyn Fn(u64, u64)) -> R
         }
         match bench.entry(folder, name, &mut flown) {
             Ok(entry) => entries.push(entry),
-            Err(Rejection::Entry(reason)) => refused.push(Refused { file: name.clone(), reason }),
+            Err(Rejection::Entry(reason)) => refused.push(Refused { file: name.clone(), reason: shortened(&reason) }),
             Err(Rejection::Machine(problem)) => return Err(problem),
         }
     }
     Ok(Board::of(entries, refused, flown))
+}
+
+/// Words that hold texts of a file, at most [`MOST_LETTERS`] of them.
+fn shortened(words: &str) -> String {
+    match words.char_indices().nth(MOST_LETTERS) {
+        Some((end, _)) => format!("{}...", &words[..end]),
+        None => words.to_owned(),
+    }
 }
 
 /// Why there is no entry.
@@ -107,11 +120,16 @@ struct Kept {
     differ: Vec<String>,
 }
 
+/// Settings of each part of a suite that a card is of.
+fn settings(card: &Card, suite: &Suite) -> std::result::Result<Vec<EnvironmentSettings>, String> {
+    card.settings(&suite.parts).map_err(|rule| format!("its environment is not one of this suite: {rule}"))
+}
+
 impl Bench<'_> {
     fn entry(&self, folder: &Path, name: &str, flown: &mut usize) -> std::result::Result<Entry, Rejection> {
         let Found { bytes, notes } = Found::read(folder, name)?;
-        // The same bytes, judged by the same version; its suite is looked at below.
-        let key = format!("{OUTCOMES}\n{}\n{}\n", Digest::of(&bytes), self.cosfly);
+        // The same bytes, judged by the same program; suite and settings are looked at below.
+        let key = format!("{OUTCOMES}\n{}\n{}\n", Digest::of(&bytes), self.program);
         let place = self.outcomes.join(Digest::of(key.as_bytes()).to_string());
         let kept = std::fs::read(&place).ok().and_then(|kept| serde_json::from_slice::<Kept>(&kept).ok());
         let kept = match kept {
@@ -124,7 +142,9 @@ impl Bench<'_> {
                 kept
             }
         };
-        let suite = SuiteCard::of(self.suite(&kept.card)?);
+        let suite = self.suite(&kept.card)?;
+        settings(&kept.card, suite)?;
+        let suite = SuiteCard::of(suite);
         let Kept { card, rows, differ } = kept;
         let sees = Sees::of(&card, &notes, &rows)?;
         let proof = if differ.is_empty() { Proof::Reflown } else { Proof::Claimed(differ) };
@@ -157,8 +177,7 @@ impl Bench<'_> {
 
     fn fly(&self, bundle: Bundle) -> std::result::Result<Kept, Rejection> {
         let suite = self.suite(&bundle.card)?;
-        let settings = bundle.card.settings(&suite.parts);
-        let settings = settings.map_err(|rule| format!("its environment is not one of this suite: {rule}"))?;
+        let settings = settings(&bundle.card, suite)?;
         let flown = fly_again(&bundle, suite, &settings, self.jobs, self.cancelled, &|_, _| ());
         let differ = flown.map_err(|problem| match problem.fault {
             Fault::Input => Rejection::Entry(problem.message),
@@ -167,6 +186,7 @@ impl Bench<'_> {
         let at = |row: &Row| suite.tasks.iter().position(|task| task.episode.name == row.episode);
         let mut rows: Vec<Row> = bundle.episodes.into_iter().map(|episode| episode.row).collect();
         rows.sort_by_cached_key(at);
+        let differ = differ.iter().map(|words| shortened(words)).collect();
         Ok(Kept { card: bundle.card, rows, differ })
     }
 

@@ -51,7 +51,7 @@ impl Notes {
 /// The nearest of the names that are allowed, and all of them.
 fn near(given: &str, allowed: &[&str]) -> String {
     let near = nearest_name(given, allowed.iter().copied());
-    let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+    let near = near.map_or(".".to_owned(), |near| format!("; did you mean `{near}`?"));
     format!("{near} Allowed are {}", allowed.join(", "))
 }
 
@@ -79,6 +79,7 @@ fn seen(name: &str, value: &Value) -> Result<Vec<String>, String> {
     let given: Vec<Value> = value.as_array().cloned().unwrap_or_else(|| vec![value.clone()]);
     let given = given.iter().map(|value| words(name, "sees", value)).collect::<Result<Vec<String>, String>>()?;
     let allowed: Vec<&str> = ["world", "state"].into_iter().chain(channels::ALL.iter().map(|it| it.name)).collect();
+    let allowed: Vec<&str> = allowed.into_iter().chain(cosfly_sensors::ALL.iter().map(|it| it.name)).collect();
     if let Some(wrong) = given.iter().find(|it| !allowed.contains(&it.as_str())) {
         return Err(format!("`sees` of `{name}` has `{wrong}`{}", near(wrong, &allowed)));
     }

@@ -2,9 +2,9 @@
 
 use super::notes::Notes;
 use crate::flight::Row;
-use crate::results::{Card, METRICS, mean_of};
+use crate::results::{Card, METRICS};
 
-/// A flight that stays within this distance of the expert's, metres, is the expert's: a policy that sees no future chooses another one.
+/// A flight that stays within this distance of the expert's on average, metres, is the expert's: a policy that sees no future chooses another one.
 const EXPERT_M: f64 = 1.0;
 
 /// What a policy sees, as far as an entry tells.
@@ -28,12 +28,13 @@ impl Sees {
             let sent = sent.join(", ");
             return Err(format!("its notes say that it sees `{name}`, which it was not sent; it was sent {sent}"));
         }
-        let is_expert = card.policy.kind == "baseline" && card.policy.name.starts_with("expert");
+        let is_expert = card.policy.baseline.as_ref().is_some_and(|baseline| baseline.starts_with("expert"));
         if is_expert || notes.sees.iter().any(|it| it == "world") {
             return Ok(Self { world: true, words: "world".to_owned() });
         }
-        if let Some(apart_m) = from_expert_m(rows).filter(|apart_m| *apart_m < EXPERT_M) {
-            let words = format!("world: its flights are the expert's to {apart_m:.2} m");
+        let (near, long) = near_expert(rows);
+        if 2 * near > long {
+            let words = format!("world: {near} of its flights are the expert's to less than {EXPERT_M} m");
             return Ok(Self { world: true, words });
         }
         let said: Vec<&str> = notes.sees.iter().map(String::as_str).collect();
@@ -41,10 +42,10 @@ impl Sees {
     }
 }
 
-/// Mean distance from the expert's flights in the episodes that were flown for at least half of their length, metres.
-fn from_expert_m(rows: &[Row]) -> Option<f64> {
-    let metric = METRICS.iter().find(|metric| metric.name == "from_expert_m")?;
+/// Numbers of flights that stay near the expert's on average, and of all that were flown for at least half of their length.
+fn near_expert(rows: &[Row]) -> (usize, usize) {
+    let metric = METRICS.iter().find(|metric| metric.name == "from_expert_m");
     let long = rows.iter().filter(|row| 2 * u64::from(row.score.steps) >= u64::from(row.score.planned_steps));
-    let apart_m: Vec<Option<f64>> = long.map(|row| (metric.of)(row)).collect();
-    mean_of(&apart_m, &vec![1; apart_m.len()])
+    let apart_m: Vec<f64> = long.filter_map(|row| (metric?.of)(row)).collect();
+    (apart_m.iter().filter(|apart_m| **apart_m < EXPERT_M).count(), apart_m.len())
 }

@@ -9,6 +9,7 @@ use cosfly_drone::models;
 use cosfly_env::pictures::PictureFormat;
 use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, MOST_LATENCY_MS, MOST_WIND_MPS, RewardWeights};
 use cosfly_render::PictureLook;
+use cosfly_sensors::SensorSet;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::collections::{BTreeMap, BTreeSet};
@@ -88,13 +89,27 @@ pub struct PolicyCard {
     /// Sensors whose readings are in its observations.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sensors: Vec<String>,
+    /// The baseline that it is, with its variation, such as `follow-gain0.5-delay0-noise0`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub baseline: Option<String>,
 }
 
 impl PolicyCard {
-    /// Names of what the policy was sent: the state, and pictures.
+    /// Names of what the policy was sent: the state, pictures, readings of sensors.
     pub fn sent(&self) -> Vec<&str> {
-        let pictures = self.pictures.iter().flat_map(|pictures| &pictures.channels).map(String::as_str);
-        std::iter::once("state").chain(pictures).collect()
+        let pictures = self.pictures.iter().flat_map(|pictures| &pictures.channels);
+        std::iter::once("state").chain(pictures.chain(&self.sensors).map(String::as_str)).collect()
+    }
+
+    /// The sensors.
+    ///
+    /// # Errors
+    /// A name that no sensor has, in words.
+    fn sensors(&self) -> Result<SensorSet, String> {
+        match self.sensors.iter().find(|name| cosfly_sensors::called(name).is_none()) {
+            Some(unknown) => Err(format!("there is no sensor `{unknown}`")),
+            None => Ok(SensorSet::of(|sensor| self.sensors.iter().any(|name| name == sensor.name))),
+        }
     }
 }
 
@@ -257,8 +272,20 @@ impl Card {
         if let Some(name) = self.environments.keys().find(|name| parts.iter().all(|part| part.name != **name)) {
             return Err(format!("it has settings for `{name}`, which is no part of the suite"));
         }
-        let of = |part: &Part| self.environments.get(&part.name).unwrap_or(&self.environment).settings(&part.settings);
-        parts.iter().map(of).collect()
+        let sensors = self.policy.sensors()?;
+        let of = |part: &Part| {
+            let card = self.environments.get(&part.name).unwrap_or(&self.environment);
+            card.settings(&part.settings).map(|settings| EnvironmentSettings { sensors, ..settings })
+        };
+        let settings: Vec<EnvironmentSettings> = parts.iter().map(of).collect::<Result<_, _>>()?;
+        let latency = if self.is_measured() { Latency::Measured } else { Latency::Simulated };
+        // Else the card could say one thing and be flown as another.
+        match EnvironmentCard::of_parts(parts, &settings, latency)
+            == (self.environment.clone(), self.environments.clone())
+        {
+            true => Ok(settings),
+            false => Err("`environment` and `environments` are not as cosfly writes them".to_owned()),
+        }
     }
 
     /// Settings that rows of two results must have in common: all but latencies.
@@ -276,10 +303,13 @@ impl Card {
 
     /// Latency, in words.
     pub fn latency(&self) -> String {
-        match self.is_measured() {
-            true => "measured".to_owned(),
-            false => format!("{} s", self.environment.latency_s),
+        if self.is_measured() {
+            return "measured".to_owned();
         }
+        let all = std::iter::once(&self.environment).chain(self.environments.values());
+        let mut all: Vec<String> = all.map(|card| format!("{} s", card.latency_s)).collect();
+        all.dedup();
+        all.join(", ")
     }
 
     /// Difference that keeps rows of two results from being compared, in words.

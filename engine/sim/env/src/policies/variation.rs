@@ -59,25 +59,30 @@ impl Variation {
         if *self == Self::NONE {
             return policy;
         }
-        let late = (self.delay_s / environment.settings().step_s).round() as usize;
         let stream = environment.episode().seed.stream("variation of a policy");
-        Box::new(Varied { policy, change: *self, due: VecDeque::from(vec![Action::default(); late]), stream })
+        Box::new(Varied { policy, change: *self, given: VecDeque::new(), due: Action::default(), stream })
     }
 }
 
 struct Varied {
     policy: Box<dyn Policy + Send + Sync>,
     change: Variation,
-    /// Actions that are on their way.
-    due: VecDeque<Action>,
+    /// Actions that are on their way, with the times at which they were given, seconds.
+    given: VecDeque<(f64, Action)>,
+    /// The last one that has arrived.
+    due: Action,
     stream: RandomStream,
 }
 
 impl Policy for Varied {
     fn act(&mut self, environment: &Environment) -> Action {
-        self.due.push_back(self.policy.act(environment));
-        let mut action = self.due.pop_front().unwrap_or_default();
-        let Variation { gain, noise_mps, .. } = self.change;
+        let Variation { delay_s, gain, noise_mps } = self.change;
+        let now_s = environment.observation().time_s;
+        self.given.push_back((now_s, self.policy.act(environment)));
+        while let Some((_, action)) = self.given.pop_front_if(|(given_s, _)| *given_s <= now_s - delay_s + 1e-9) {
+            self.due = action;
+        }
+        let mut action = self.due;
         let noise = DVec3::from_array([0.0; 3].map(|mean| self.stream.normal(mean, noise_mps)));
         action.velocity_mps = gain * action.velocity_mps + noise;
         action.acceleration_mps2 *= gain;

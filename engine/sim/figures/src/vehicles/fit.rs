@@ -9,7 +9,7 @@ type Sizes = [[f64; 2]; 3];
 
 /// Kinds by their sizes, the first that fits counts.
 const KINDS: [(BodyKind, Sizes); 4] = [
-    (BodyKind::Car, [[2.6, 5.6], [1.4, 2.35], [1.15, 2.0]]),
+    (BodyKind::Car, [[2.6, 5.6], [1.4, 2.35], [1.15, 1.94]]),
     (BodyKind::Van, [[3.8, 7.4], [1.6, 2.6], [1.7, 3.0]]),
     (BodyKind::Truck, [[5.0, 9.5], [1.9, 3.0], [2.2, 4.2]]),
     (BodyKind::Bus, [[8.5, 19.0], [2.2, 3.1], [2.6, 4.2]]),

@@ -119,9 +119,8 @@ impl CloudBuilder {
         let size = high - low;
         if size.max_element() > WIDEST_M {
             let message = format!("the cloud is {:.0} m across; at most {WIDEST_M} m are read", size.max_element());
-            return Err(
-                MapError::new(message).hint("cut the cloud into tiles, or give the length of its unit with `unit_m`")
-            );
+            return Err(MapError::new(message)
+                .hint("cut the cloud into tiles, or give the length of its unit with `options.unit_m`"));
         }
         self.refuse_degrees([low, high])?;
         if self.absurd > 0 {

@@ -75,7 +75,7 @@ impl Columns {
         let mut warnings = Vec::new();
         if asked_m.is_none() {
             warnings.push(
-                "the file does not state the unit of its coordinates: metres are assumed (`unit_m` tells another)"
+                "the file does not state the unit of its coordinates: metres are assumed (`options.unit_m` tells another)"
                     .to_owned(),
             );
         }

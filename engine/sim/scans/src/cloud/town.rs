@@ -49,7 +49,9 @@ pub fn town_of(mut cloud: Cloud, options: &CloudOptions) -> Result<(Town, Vec<St
     let walkable = open_ground(&obstacles, &survey.relief);
     if walkable.is_empty() {
         let error = MapError::new("the cloud leaves no open ground to walk on");
-        return Err(error.hint("the cloud must show ground; check `unit_m`, or give a smaller `voxel_m`"));
+        return Err(
+            error.hint("the cloud must show ground; check `options.unit_m`, or give a smaller `options.voxel_m`")
+        );
     }
     notes.push(format!(
         "{} plazas on the open ground are invented: a cloud does not say where people walk",

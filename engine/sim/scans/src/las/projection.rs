@@ -77,13 +77,13 @@ impl Projection {
         }
         if let (None, Some(code)) = (self.units.plan_m, self.unknown_unit) {
             let error = MapError::new(format!("the unit of the coordinates has the code {code}, which is not known"));
-            return Err(error.hint("give its length in metres with `unit_m`"));
+            return Err(error.hint("give its length in metres with `options.unit_m`"));
         }
         let plan_m = self.units.plan_m.unwrap_or(1.0);
         let height_m = self.units.height_m.unwrap_or(plan_m);
         if self.units.plan_m.is_none() {
             warnings.push(
-                "the file does not state the unit of its coordinates: metres are assumed (`unit_m` tells another)"
+                "the file does not state the unit of its coordinates: metres are assumed (`options.unit_m` tells another)"
                     .to_owned(),
             );
         }

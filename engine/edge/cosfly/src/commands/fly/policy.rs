@@ -166,6 +166,7 @@ impl PolicyArguments {
             prompt: manners.prompt,
             pictures: manners.pictures.map(|format| PicturesCard::of(&format)),
             sensors: self.sensors().iter().map(|sensor| sensor.name.to_owned()).collect(),
+            baseline: is_baseline.then(|| place.name()),
         }
     }
 }

@@ -333,6 +333,6 @@ fn no_walkable_ground(options: &OpenDriveOptions) -> MapError {
     if options.assume_ground {
         error.hint("add lanes of type `sidewalk` to the map, or use another map: it has no carriageway, either")
     } else {
-        error.hint("leave out `assume_ground = false` in this stage to let pedestrians walk beside the carriageways")
+        error.hint("leave out `options.assume_ground = false` to let pedestrians walk beside the carriageways")
     }
 }
