@@ -224,7 +224,7 @@ fn waves(point: &SurfacePoint, noise: &NoiseTexture) -> f32 {
 #[inline(always)]
 fn glitter(wave: f32, size: f32) -> f32 {
     let facets = smoothstep(0.54, 0.66, wave);
-    lerp(facets, GLITTER, smoothstep(0.05, 0.5, size))
+    lerp(facets, GLITTER, smoothstep(0.02, 0.12, size))
 }
 
 /// Mean share of water that glitters.

@@ -25,7 +25,8 @@ pub struct VehicleConfig {
     #[schemars(range(min = 0.5, max = 5.0))]
     pub headway_s: f64,
     /// Share of the kerbs along which cars are parked, of streets with pavements or a limit of at most 50 km/h: beside lanes where there is
-    /// room, else in kerb lanes, which are closed to traffic. Default 0.3.
+    /// room, else in kerb lanes, which are closed to traffic; a street of one lane each way then has traffic in one direction.
+    /// Default 0.3.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub parked_share: f64,
     /// Vehicles begin within this rectangle of the town: smallest x, smallest y, largest x, largest y in the world frame,

@@ -7,7 +7,7 @@ use crate::kinds::size_m;
 use crate::network::Network;
 use crate::outlines::{Solid, to_outline};
 use crate::parking::{FROM_ENDS_M, Parking};
-use crate::paved::{FROM_KERB_M, Paved, ROOM_M};
+use crate::paved::{FROM_KERB_M, Paved, room_m};
 use crate::route::Route;
 use crate::start::is_free;
 use crate::vehicle::{Doing, Vehicle};
@@ -52,8 +52,11 @@ pub(crate) fn park(
             if middle_m + 0.5 * size_m.x > lane.length_m - FROM_ENDS_M || vehicles.len() - driving >= MOST {
                 break;
             }
-            let is_near_crossing =
-                lane.crossings.iter().any(|it| (it.from_m - FROM_ENDS_M..it.to_m + FROM_ENDS_M).contains(&middle_m));
+            let from_crossing_m = FROM_ENDS_M + 0.5 * size_m.x;
+            let is_near_crossing = lane
+                .crossings
+                .iter()
+                .any(|it| (it.from_m - from_crossing_m..it.to_m + from_crossing_m).contains(&middle_m));
             let edge_m = if is_beside { paved.reach_m(network, lane, middle_m) } else { 0.5 * lane.width_m };
             let aside_m = network.kerb * (edge_m - 0.5 * size_m.y - FROM_KERB_M).max(0.0);
             let plan = BodyPlan { source: String::new(), kind, size_m, looks: own.child("looks", place), group: None };
@@ -81,17 +84,17 @@ pub(crate) fn park(
     }
 }
 
-/// Middle lines of the lanes that stay open, in cells.
+/// Middle lines of the lanes that stay open, in cells, with the room that each needs, metres.
 struct Driven {
-    cells: BTreeMap<[i64; 2], Vec<DVec2>>,
+    cells: BTreeMap<[i64; 2], Vec<(DVec2, f64)>>,
 }
 
 impl Driven {
     fn new(network: &Network, parking: &[u32]) -> Self {
-        let mut cells: BTreeMap<[i64; 2], Vec<DVec2>> = BTreeMap::new();
+        let mut cells: BTreeMap<[i64; 2], Vec<(DVec2, f64)>> = BTreeMap::new();
         let open = (0u32..).zip(&network.lanes).filter(|(number, _)| parking.binary_search(number).is_err());
-        for point in open.flat_map(|(_, lane)| lane.spaced()) {
-            cells.entry(Self::cell(point.truncate())).or_default().push(point.truncate());
+        for (point, room_m) in open.flat_map(|(_, lane)| lane.spaced().map(|point| (point.truncate(), room_m(lane)))) {
+            cells.entry(Self::cell(point)).or_default().push((point, room_m));
         }
         Self { cells }
     }
@@ -106,6 +109,6 @@ impl Driven {
         let [column, row] = Self::cell(vehicle.state.feet_in_world.truncate());
         let around = (-1..=1).flat_map(|x| (-1..=1).map(move |y| [column + x, row + y]));
         let mut points = around.filter_map(|cell| self.cells.get(&cell)).flatten();
-        points.any(|point| to_outline(*point, &body).length() < ROOM_M)
+        points.any(|(point, room_m)| to_outline(*point, &body).length() < *room_m)
     }
 }

@@ -8,8 +8,8 @@ use cosfly_town::polygons::PolygonIndex;
 
 /// Distance from the kerb, metres.
 pub(crate) const FROM_KERB_M: f64 = 0.2;
-/// Distance between a parked car and the middle of a lane that stays open, metres.
-pub(crate) const ROOM_M: f64 = 1.55;
+/// Distance between a parked car and the middle of a lane that stays open, metres: at least this, and all of the lane.
+const ROOM_M: [f64; 2] = [1.55, 0.05];
 /// Width of a car for which a lane must have room, metres.
 const CAR_M: f64 = 1.9;
 /// The kerb is looked for so far beyond a lane's edge, in steps of so much, metres.
@@ -29,6 +29,12 @@ pub(crate) struct Paved {
     walked: PolygonIndex,
     /// Pavements that nobody invented.
     pavements: PolygonIndex,
+}
+
+/// Distance between a parked car and the middle of a lane that stays open, metres.
+pub(crate) fn room_m(lane: &Drive) -> f64 {
+    let [least_m, beyond_m] = ROOM_M;
+    least_m.max(0.5 * lane.width_m + beyond_m)
 }
 
 impl Paved {
@@ -71,7 +77,7 @@ impl Paved {
 
     /// Whether a car stands beside a lane without narrowing it.
     pub fn has_room_beside(&self, network: &Network, lane: &Drive, way_m: f64) -> bool {
-        self.reach_m(network, lane, way_m) >= ROOM_M + CAR_M + FROM_KERB_M
+        self.reach_m(network, lane, way_m) >= room_m(lane) + CAR_M + FROM_KERB_M
     }
 
     /// Height of the ground under the middle of a box that stands on carriageway with all of its footprint.

@@ -89,18 +89,18 @@ fn cars_are_parked_in_most_streets_of_generated_towns() {
             middles.len(),
             traffic.notes
         );
-        assert!(cars.len() > 100 && with_cars * 3 > middles.len() * 2, "{} {with_cars} {}", cars.len(), middles.len());
+        assert!(cars.len() > 80 && with_cars * 3 > middles.len() * 2, "{} {with_cars} {}", cars.len(), middles.len());
     }
 }
 
 #[test]
 fn nobody_leaves_a_town_because_cars_are_parked_in_its_lanes() {
-    for seed in 0..3 {
+    for (seed, parked_share) in [0, 1, 2].into_iter().flat_map(|seed| [0.3, 0.6, 1.0].map(|share| (seed, share))) {
         let town = generated(seed);
-        let traffic = traffic(&town, 60, 1.0);
+        let traffic = traffic(&town, 60, parked_share);
         // Streets of generated towns have no ends.
         let left = traffic.bodies.iter().filter(|body| body.states.len() < traffic.frames as usize).count();
-        assert_eq!(left, 0, "town {seed}: {:?}", traffic.notes);
+        assert_eq!(left, 0, "town {seed}, share {parked_share}: {:?}", traffic.notes);
     }
 }
 
