@@ -188,7 +188,7 @@ mod tests {
         assert!(good.tier(None).is_err() && good.tier(Some("maxi")).is_err());
         for (text, words) in [
             ("name = \"../x\"\nsuites = []\ntiers = {}", "is no name"),
-            ("name = \"x\"\nsuites = [1]\ntiers = {}", "`suites` must be files"),
+            ("name = \"x\"\nsuites = [1]\ntiers = { mini = 1 }", "`suites` must be files"),
             ("name = \"x\"\nsuites = [\"a\"]\ntiers = { mini = 0 }", "`tiers.mini` must be a whole number"),
             ("name = \"x\"\nsuites = []\ntiers = { mini = 1 }", "one entry at least"),
             ("name = \"x\"\nsuites = [\"a\"]\ntiers = {}", "one entry at least"),
