@@ -1,0 +1,21 @@
+//! The viewer: a server on this machine and a page for flights, their pictures and their town.
+//!
+//! * [`Subject`]: what is shown: an index of flights, and the parts of each on request. [`DatasetSubject`] is one.
+//! * [`Server`]: answers requests from this machine that carry the cookie of its session.
+//! * [`export()`]: the page with its data in one file.
+//!
+//! The page is in `assets/`: HTML, style and scripts, without a build step.
+
+mod dataset;
+mod export;
+mod inside;
+mod page;
+mod routes;
+mod server;
+mod subject;
+
+pub use dataset::DatasetSubject;
+pub use export::export;
+pub use inside::inside;
+pub use server::Server;
+pub use subject::{Index, Picture, Subject, short, unknown};
