@@ -45,3 +45,4 @@ mod traffic;
 mod versions;
 #[cfg(feature = "plugins")]
 mod versions_held;
+mod view;

@@ -30,6 +30,7 @@ mod schema;
 mod task;
 mod town;
 mod verify;
+mod view;
 mod why;
 
 use crate::command::Entry;
@@ -59,5 +60,6 @@ pub const COMMANDS: &[Entry] = &[
     task::TASK,
     Entry::of::<town::Arguments>(),
     Entry::of::<verify::Arguments>(),
+    Entry::of::<view::Arguments>(),
     Entry::of::<why::Arguments>(),
 ];
