@@ -1,0 +1,269 @@
+"""Opens `cosfly view` in headless Chromium: worst flight, filter, scrubbing, hostile texts, broken logs, narrow windows, the exported page.
+
+    python check_view.py COSFLY DATASET WORK [--screenshots FOLDER] [--many COUNT]
+
+WORK is a folder for copies of DATASET. With `--many`, first view and scrubbing are timed with that many copies of its flights. Needs
+`playwright`, `axe-playwright-python`, `pyarrow`, and a Chromium: that of playwright, or one on the PATH.
+"""
+
+import argparse
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import sync_playwright
+
+FIRST_VIEW_S = 2.0
+PAINTED_MS = 100.0
+MOST_SERVER_MB = 500
+HOSTILE = "<img src=x onerror=\"document.title='owned'\">"
+CHINESE = "晴朗的夜晚"
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("cosfly")
+parser.add_argument("dataset", type=pathlib.Path)
+parser.add_argument("work", type=pathlib.Path)
+parser.add_argument("--screenshots", type=pathlib.Path)
+parser.add_argument("--many", type=int)
+arguments = parser.parse_args()
+problems = []
+
+
+def expect(is_so, words):
+    """Notes what is wrong."""
+    if not is_so:
+        problems.append(words)
+
+
+class Viewer:
+    """A running server."""
+
+    def __init__(self, subject):
+        command = [arguments.cosfly, "view", str(subject), "--no-open"]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.address = self.process.stdout.readline().strip()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait(timeout=30)
+        expect(self.process.returncode == 0, f"the server ended with {self.process.returncode}")
+
+    def peak_mb(self):
+        """Largest memory of the server so far."""
+        status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(status.split("VmHWM:")[1].split()[0]) / 1024
+
+
+def open_page(browser, address, name, **options):
+    """A page that notes errors and requests to others."""
+    page = browser.new_page(**{"viewport": {"width": 1360, "height": 900}, **options})
+    own = address.split("?")[0]
+    page.on("console", lambda it: it.type == "error" and "422" not in it.text and problems.append(f"{name}: console: {it.text}"))
+    page.on("pageerror", lambda it: problems.append(f"{name}: error: {it}"))
+    page.on("request", lambda it: it.url.startswith(("data:", own)) or problems.append(f"{name}: loads {it.url}"))
+    page.goto(address)
+    page.wait_for_selector("#flight:not([hidden]) #map[data-frame]")
+    return page
+
+
+def shoot(page, name):
+    """A screenshot, and what must hold in every window."""
+    if arguments.screenshots:
+        arguments.screenshots.mkdir(parents=True, exist_ok=True)
+        page.screenshot(path=arguments.screenshots / f"view-{name}.png")
+    width, inside = page.evaluate("[document.documentElement.scrollWidth, innerWidth]")
+    expect(width <= inside, f"{name}: the page is {width} px wide in a window of {inside}")
+    for violation in Axe().run(page).response["violations"]:
+        problems.append(f"{name}: {violation['id']}: {violation['help']}: {violation['nodes'][0]['html'][:120]}")
+
+
+def painted(page, frame):
+    """Waits until all pictures show a frame."""
+    page.wait_for_function(
+        "frame => document.querySelector('#map').dataset.frame == frame"
+        " && [...document.querySelectorAll('#pictures canvas')].every(it => it.dataset.frame == frame)",
+        arg=str(frame),
+    )
+
+
+def check_whole(browser):
+    """Worst flight first, its reason and its frame; filters; keys; links."""
+    with Viewer(arguments.dataset) as viewer:
+        page = open_page(browser, viewer.address, "whole")
+        expect("token" not in page.url, "the token stays in the address")
+        page.wait_for_selector("#pictures canvas[data-frame]")
+        first = page.locator(".row").first
+        expect(first.get_attribute("aria-selected") == "true", "the worst flight is not chosen")
+        reason = page.locator("#reason").inner_text()
+        expect(reason and reason in first.inner_text(), "the reason of the worst flight is not told")
+        losses = page.evaluate("state.index.columns.find(it => it.name == 'losses_s').numbers")
+        chosen = page.evaluate("state.flight.number")
+        expect(losses[chosen] == max(losses), f"flight {chosen} loses its target for {losses[chosen]} s, another one for {max(losses)} s")
+        shoot(page, "whole")
+        for query, is_like in (
+            ("losses_s > 0.5", lambda at: losses[at] > 0.5),
+            ("losses over 0.5 s", lambda at: losses[at] > 0.5),
+            ("not losses_s > 0.5", lambda at: losses[at] <= 0.5),
+        ):
+            page.fill("#query", query)
+            shown = page.evaluate("list.order")
+            expect(sorted(shown) == [at for at in range(len(losses)) if is_like(at)], f"`{query}` shows {shown}")
+        for query, words in (("at night facing the sun (experts or twins)", "flight"), ("speed > 3", "no column `speed`"), ("losses_s >", "needs a value"),
+                             ("nothing-is-called-so", "no flight is like this"), ("(experts", "not closed"), ("losses_s = high", "with a number")):
+            page.fill("#query", query)
+            expect(words in page.locator("#matches").inner_text(), f"`{query}`: {page.locator('#matches').inner_text()}")
+        page.fill("#query", "")
+        page.locator("#map").focus()
+        page.keyboard.press("Home")
+        page.keyboard.press("ArrowRight")
+        page.keyboard.press("Shift+ArrowRight")
+        painted(page, 11)
+        page.wait_for_function("() => location.hash.includes('frame=11')")
+        page.keyboard.press("ArrowDown")
+        page.wait_for_function(f"() => state.flight.number != {chosen}")
+        link = page.evaluate("`#flight=${encodeURIComponent(state.index.columns[0].texts[0])}&frame=3`")
+        page.evaluate("link => { location.hash = link; }", link)
+        page.wait_for_function("() => state.flight.number == 0 && state.frame == 3")
+        expect(page.locator("#beside option").count() >= 2, "no twin stands beside the expert")
+        page.close()
+
+
+def copy(name):
+    """A copy of the dataset."""
+    folder = arguments.work / name
+    shutil.copytree(arguments.dataset, folder)
+    return folder
+
+
+def check_hostile(browser):
+    """Texts of a stranger are shown as texts; broken logs are told; narrow and dark windows."""
+    folder = copy("hostile")
+    for path in folder.glob("data/trajectories/*.parquet"):
+        table = pq.read_table(path)
+        for name, text in (("town", HOSTILE), ("weather_preset", CHINESE), ("pedestrian_id", HOSTILE)):
+            at = table.schema.get_field_index(name)
+            table = table.set_column(at, table.schema.field(at), pa.array([text] * len(table), table.schema.field(at).type))
+        pq.write_table(table, path)
+    for path in folder.glob("data/captions/*.parquet"):
+        table = pq.read_table(path)
+        at = table.schema.get_field_index("text")
+        table = table.set_column(at, table.schema.field(at), pa.array([HOSTILE + CHINESE] * len(table)))
+        pq.write_table(table, path)
+    for path in sorted(folder.glob("mcap/**/*.mcap")):
+        path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    with Viewer(folder) as viewer:
+        page = open_page(browser, viewer.address, "hostile", viewport={"width": 400, "height": 900}, color_scheme="dark")
+        page.wait_for_selector("#problem:not([hidden])")
+        expect("damaged" in page.locator("#problem").inner_text(), "a broken log is not told")
+        expect(HOSTILE in page.locator("#facts").inner_text(), "the town's name is not shown as it is")
+        expect(CHINESE in page.locator("#facts").inner_text(), "Chinese is not shown")
+        expect(page.locator("main img").count() == 0 and page.title() != "owned", "a text became an element")
+        shoot(page, "hostile-narrow-dark")
+        page.close()
+
+
+def check_exported(browser):
+    """The page in one file."""
+    path = arguments.work / "page.html"
+    subprocess.run([arguments.cosfly, "view", str(arguments.dataset), "--export", str(path)], check=True, stdout=subprocess.DEVNULL)
+    expect(path.stat().st_size <= 50_000_000, "the exported page is too large")
+    page = open_page(browser, path.resolve().as_uri(), "exported")
+    page.wait_for_selector("#pictures canvas[data-frame]")
+    expect("exported" in page.locator("#about").inner_text(), "the exported page does not say so")
+    shoot(page, "exported")
+    page.close()
+
+
+def multiplied(count):
+    """A dataset with the flights of DATASET again and again, under other names, with the same logs."""
+    folder = copy("many")
+    for table_name in ("trajectories", "frames"):
+        paths = sorted(folder.glob(f"data/{table_name}/*.parquet"))
+        tables = [pq.read_table(path) for path in paths]
+        names = [name for name in tables[0].column_names if "preview" not in name]
+        table = pa.concat_tables([it.select(names) for it in tables])
+        flights = len(set(table["trajectory_id"].to_pylist()))
+        with pq.ParquetWriter(paths[0], table.schema) as writer:
+            parts = []
+            for number in range(-(-count // flights)):
+                again = table
+                for name in {"trajectory_id", "flight_id", "expert_id"} & set(names):
+                    at = table.schema.get_field_index(name)
+                    ids = pa.array([it and f"{it}-{number:05}" for it in table[name].to_pylist()], table.schema.field(at).type)
+                    again = again.set_column(at, table.schema.field(at), ids)
+                parts.append(again)
+                if len(parts) == 100:  # row groups as large as those of real datasets
+                    writer.write_table(pa.concat_tables(parts).combine_chunks())
+                    parts = []
+            if parts:
+                writer.write_table(pa.concat_tables(parts).combine_chunks())
+        for path in paths[1:]:
+            path.unlink()
+    return folder
+
+
+def check_many(browser):
+    """Times of first view and scrubbing, memory of the server."""
+    folder = multiplied(arguments.many)
+    began = time.monotonic()
+    with Viewer(folder) as viewer:
+        ready_s = time.monotonic() - began
+        began = time.monotonic()
+        page = open_page(browser, viewer.address, "many")
+        page.wait_for_selector("#pictures canvas[data-frame]")
+        first_s = time.monotonic() - began
+        shoot(page, "many")
+        frames = page.evaluate("state.flight.x.length")
+        for frame in range(frames):
+            page.evaluate("frame => setFrame(frame)", frame)
+            painted(page, frame)
+        times = page.evaluate(
+            """async frames => {
+                const times = [];
+                for (let at = 0; at < 200; at += 1) {
+                    const [frame, began] = [(at * 7) % frames, performance.now()];
+                    setFrame(frame);
+                    await new Promise(done => {
+                        const look = () => [...document.querySelectorAll('#pictures canvas')].every(it => it.dataset.frame == frame)
+                            ? done() : requestAnimationFrame(look);
+                        requestAnimationFrame(look);
+                    });
+                    times.push(performance.now() - began);
+                }
+                return times.sort((a, b) => a - b);
+            }""",
+            frames,
+        )
+        peak_mb, size = viewer.peak_mb(), page.evaluate("state.flight.size")
+        late_ms = times[int(0.95 * len(times))]
+        flights = page.evaluate("state.index.flights")
+        print(f"{flights} flights: server ready after {ready_s:.2f} s, first view {first_s:.2f} s; of 200 inputs at {size[0]} x {size[1]} "
+              f"95 % painted within {late_ms:.0f} ms; server {peak_mb:.0f} MB")
+        expect(first_s <= FIRST_VIEW_S, f"the first view takes {first_s:.2f} s")
+        expect(late_ms <= PAINTED_MS, f"95 % of inputs are painted within {late_ms:.0f} ms")
+        expect(peak_mb <= MOST_SERVER_MB, f"the server takes {peak_mb:.0f} MB")
+        page.close()
+
+
+with sync_playwright() as playwright:
+    program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    chromium = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
+    arguments.work.mkdir(parents=True, exist_ok=True)
+    check_whole(chromium)
+    check_hostile(chromium)
+    check_exported(chromium)
+    if arguments.many:
+        check_many(chromium)
+    chromium.close()
+
+for problem in problems:
+    print("WRONG:", problem)
+sys.exit(1 if problems else 0)
