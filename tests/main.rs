@@ -11,6 +11,7 @@ mod carla_job;
 #[cfg(unix)]
 mod cluster;
 mod codes;
+mod container;
 mod crash;
 mod diagnostics;
 mod doctor;
