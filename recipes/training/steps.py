@@ -2,7 +2,7 @@
 
     python recipes/training/steps.py [RECIPE] [--obs state] [--envs 4096] [--jobs 1 2] [--seconds 5]
 
-The share is measured with one thread: seconds of `step` outside of stepping and drawing, of its own seconds. With a share s, N threads
+The share is measured with one thread: seconds of `step` outside of stepping, drawing and large copies, of its own seconds. With a share s, N threads
 are at most N / (1 + s (N - 1)) times as fast as one.
 """
 

@@ -13,6 +13,7 @@ use member::{Shared, VectorMember, stream_of};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 pub use member::{ACTIONS, Autoreset};
@@ -32,7 +33,10 @@ pub struct VectorEnvironment {
     outputs: Outputs,
     pictures: Option<Pictures>,
     pool: Option<ThreadPool>,
+    /// Seconds of stepping and drawing.
     shared_s: f64,
+    /// Time of copies, nanoseconds.
+    copied_ns: AtomicU64,
 }
 
 impl VectorEnvironment {
@@ -47,7 +51,7 @@ impl VectorEnvironment {
         let shared = Shared { tasks, settings, mode, has_experts, is_team: false };
         let members: Vec<VectorMember> = (0..count).map(|number| VectorMember::new(number, &shared)).collect();
         let outputs = Outputs::new(count);
-        Self { shared, members, outputs, pictures: None, pool: None, shared_s: 0.0 }
+        Self { shared, members, outputs, pictures: None, pool: None, shared_s: 0.0, copied_ns: AtomicU64::new(0) }
     }
 
     /// Drones as a team: all fly the same episode at the same time, which the first draws, each from its own start,
@@ -85,7 +89,12 @@ impl VectorEnvironment {
 
     /// Copies values of many environments, on the threads where there are many values.
     pub fn copy<T: Copy + Send + Sync>(&self, to: &mut [T], from: &[T]) {
-        match self.pool.as_ref().filter(|_| size_of_val(from) > 2 * COPIED_AT_ONCE) {
+        if size_of_val(from) <= 2 * COPIED_AT_ONCE {
+            to.copy_from_slice(from);
+            return;
+        }
+        let began = Instant::now();
+        match &self.pool {
             Some(pool) => pool.install(|| {
                 let length = COPIED_AT_ONCE / size_of::<T>().max(1);
                 let pieces = to.par_chunks_mut(length).zip(from.par_chunks(length));
@@ -93,11 +102,12 @@ impl VectorEnvironment {
             }),
             None => to.copy_from_slice(from),
         }
+        self.copied_ns.fetch_add(began.elapsed().as_nanos() as u64, Ordering::Relaxed);
     }
 
     /// Seconds that all calls so far spent in work that is shared between the threads.
     pub fn shared_s(&self) -> f64 {
-        self.shared_s
+        self.shared_s + 1e-9 * self.copied_ns.load(Ordering::Relaxed) as f64
     }
 
     /// Times at which ended episodes are followed by the next ones.
@@ -268,7 +278,7 @@ impl VectorEnvironment {
 
     /// Draws the pictures of the chosen environments, neighbours together.
     fn draw(&mut self, chosen: impl Fn(usize) -> bool + Sync) {
-        let Self { shared, members, outputs, pictures: Some(pictures), pool, shared_s } = self else { return };
+        let Self { shared, members, outputs, pictures: Some(pictures), pool, shared_s, .. } = self else { return };
         let environments: Vec<&Environment> = members.iter().map(|member| &member.environment).collect();
         let began = Instant::now();
         let album = &mut outputs.album;
