@@ -81,7 +81,11 @@ fn difference(task: &Task, settings: EnvironmentSettings, is_measured: bool, rec
     (ours != theirs).then(|| format!("`{name}`: all steps are equal, the row is not: {ours} instead of {theirs}"))
 }
 
-fn by_record(
+/// Flies an episode by the actions of its record.
+///
+/// # Errors
+/// A step without an action where one is asked for, in words.
+pub fn by_record(
     task: &Task,
     settings: EnvironmentSettings,
     is_measured: bool,

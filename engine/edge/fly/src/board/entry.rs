@@ -52,6 +52,8 @@ pub struct Entry {
     pub sees: Sees,
     /// What it proves.
     pub proof: Proof,
+    /// Its worst episode as a drawing (SVG).
+    pub clip: String,
 }
 
 /// The file of a bundle with its notes.

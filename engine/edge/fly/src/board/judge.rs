@@ -2,11 +2,12 @@
 
 use super::entry::{Entry, Found, Proof, names};
 use super::sees::Sees;
+use super::sketch::sketch;
 use super::standing::{Board, Refused};
-use crate::again::fly_again;
+use crate::again::{by_record, fly_again};
 use crate::bundle::Bundle;
 use crate::flight::Row;
-use crate::results::{Card, SuiteCard};
+use crate::results::{Card, SuiteCard, worst};
 use crate::suite::Suite;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_env::EnvironmentSettings;
@@ -18,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Version of kept outcomes.
-const OUTCOMES: u32 = 1;
+const OUTCOMES: u32 = 2;
 /// Most letters of a reason.
 const MOST_LETTERS: usize = 300;
 
@@ -118,11 +119,24 @@ struct Kept {
     rows: Vec<Row>,
     /// Where episodes come out differently, in words.
     differ: Vec<String>,
+    /// The worst episode from above.
+    clip: String,
 }
 
 /// Settings of each part of a suite that a card is of.
 fn settings(card: &Card, suite: &Suite) -> std::result::Result<Vec<EnvironmentSettings>, String> {
     card.settings(&suite.parts).map_err(|rule| format!("its environment is not one of this suite: {rule}"))
+}
+
+/// The worst episode of a bundle as a drawing; nothing where its actions cannot be flown.
+fn clip(bundle: &Bundle, suite: &Suite, settings: &[EnvironmentSettings]) -> String {
+    let rows: Vec<Row> = bundle.episodes.iter().map(|record| record.row.clone()).collect();
+    let Some(name) = worst(&rows, 1).first().map(|row| &row.episode) else { return String::new() };
+    let task = suite.tasks.iter().find(|task| task.episode.name == *name);
+    let record = bundle.episodes.iter().find(|record| record.row.episode == *name);
+    let Some((task, record)) = task.zip(record) else { return String::new() };
+    let flown = by_record(task, settings[task.part], bundle.card.is_measured(), record);
+    flown.map_or(String::new(), |flown| sketch(task, &flown.steps))
 }
 
 impl Bench<'_> {
@@ -145,10 +159,10 @@ impl Bench<'_> {
         let suite = self.suite(&kept.card)?;
         settings(&kept.card, suite)?;
         let suite = SuiteCard::of(suite);
-        let Kept { card, rows, differ } = kept;
+        let Kept { card, rows, differ, clip } = kept;
         let sees = Sees::of(&card, &notes, &rows)?;
         let proof = if differ.is_empty() { Proof::Reflown } else { Proof::Claimed(differ) };
-        Ok(Entry { file: name.to_owned(), card, suite, rows, notes, sees, proof })
+        Ok(Entry { file: name.to_owned(), card, suite, rows, notes, sees, proof, clip })
     }
 
     /// The suite of a card: found by its name, held by its hash.
@@ -183,11 +197,12 @@ impl Bench<'_> {
             Fault::Input => Rejection::Entry(problem.message),
             _ => Rejection::Machine(problem),
         })?;
+        let clip = clip(&bundle, suite, &settings);
         let at = |row: &Row| suite.tasks.iter().position(|task| task.episode.name == row.episode);
         let mut rows: Vec<Row> = bundle.episodes.into_iter().map(|episode| episode.row).collect();
         rows.sort_by_cached_key(at);
         let differ = differ.iter().map(|words| shortened(words)).collect();
-        Ok(Kept { card: bundle.card, rows, differ })
+        Ok(Kept { card: bundle.card, rows, differ, clip })
     }
 
     fn keep(&self, place: &Path, kept: &Kept) -> Result<()> {

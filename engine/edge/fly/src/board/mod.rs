@@ -9,6 +9,7 @@ mod judge;
 mod notes;
 mod page;
 mod sees;
+mod sketch;
 mod standing;
 mod table;
 

@@ -13,6 +13,8 @@ const COLUMNS: [&str; 5] = ["success", "collision", "lost", "policy_failure", "l
 const WORST: usize = 5;
 /// Episodes that come out differently, named for each entry.
 const DIFFER: usize = 3;
+/// Words below the drawing of an episode.
+const CLIP: &str = "The first of them from above, four times as fast: the target in blue, the drone in red, dashed where it does not track.";
 /// Most letters of a name.
 const MOST_LETTERS: usize = 60;
 
@@ -180,6 +182,9 @@ fn failures(standing: &Standing) -> String {
         let _ = write!(html, "<li>{episode}: {rate:.3}, {}</li>", escaped(&ending(row)));
     }
     html.push_str("</ul>");
+    if !entry.clip.is_empty() {
+        let _ = write!(html, "<figure>{}<figcaption>{CLIP}</figcaption></figure>", entry.clip);
+    }
     if let Proof::Claimed(differ) = &entry.proof {
         let _ = write!(html, "<p class=\"bad\">{} of {} episodes differ:</p><ul>", differ.len(), entry.rows.len());
         differ.iter().take(DIFFER).for_each(|it| _ = write!(html, "<li>{}</li>", escaped(it)));
