@@ -4,14 +4,13 @@ use crate::arguments::RecipeArguments;
 use crate::command::Refusals;
 use crate::console::Console;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_fly::benchmark::{Benchmark, Tier};
+use cosfly_fly::benchmark::{Benchmark, Entry, Tier};
 use cosfly_fly::held_out;
 use cosfly_fly::suite::{Part, Suite};
 use cosfly_recipe::Recipe;
 use cosfly_runner::RunOptions;
 use cosfly_stage::RunEvent;
 use cosfly_store::Store;
-use std::path::PathBuf;
 use std::rc::Rc;
 
 /// A recipe, or a tier of a benchmark.
@@ -127,7 +126,8 @@ fn benchmark(arguments: &RecipeArguments) -> Result<Option<Benchmark>> {
 }
 
 fn recipes(benchmark: &Benchmark, console: &dyn Console) -> std::result::Result<Rc<Vec<Recipe>>, Refusals> {
-    let load = |recipe: &PathBuf| RecipeArguments { recipe: recipe.clone(), overrides: vec![] }.load(console);
+    let load =
+        |suite: &Entry| RecipeArguments { recipe: suite.recipe.clone(), overrides: suite.set.clone() }.load(console);
     let recipes: Vec<Recipe> = benchmark.suites.iter().map(load).collect::<std::result::Result<_, _>>()?;
     // Names of suites begin those of episodes.
     let is_twice = |(at, recipe): &(usize, &Recipe)| recipes[..*at].iter().any(|other| other.name == recipe.name);

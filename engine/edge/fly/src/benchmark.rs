@@ -15,17 +15,28 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Keys of the file, sorted.
-const KEYS: [&str; 3] = ["name", "suites", "tiers"];
+const KEYS: [&str; 4] = ["episodes", "name", "suites", "tiers"];
+/// Keys of a suite that is a table, sorted.
+const SUITE_KEYS: [&str; 2] = ["recipe", "set"];
 
 /// Suites, and tiers that take episodes from them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Benchmark {
     /// Name, with the version.
     pub name: String,
-    /// Recipes of the suites.
-    pub suites: Vec<PathBuf>,
+    /// The suites.
+    pub suites: Vec<Entry>,
     /// Tiers, by their names.
     pub tiers: BTreeMap<String, Tier>,
+}
+
+/// A suite of a benchmark: a recipe with changes as of `--set`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The recipe.
+    pub recipe: PathBuf,
+    /// Changes to it, `PATH=VALUE`.
+    pub set: Vec<String>,
 }
 
 /// A tier of a benchmark.
@@ -35,6 +46,8 @@ pub struct Tier {
     pub name: String,
     /// Most episodes of each stage of each suite.
     pub episodes: usize,
+    /// Names of the only episodes that the benchmark has; `None`: all of its suites.
+    pub only: Option<Arc<BTreeSet<String>>>,
 }
 
 impl Benchmark {
@@ -50,7 +63,7 @@ impl Benchmark {
         read.map(Some).map_err(|rule| {
             let message = format!("`{}` is no benchmark: {rule}", path.display());
             Diagnostic::new("fly-benchmark", Fault::Recipe, message).hint(
-                "it has `name`, `suites` (a list of recipes) and `tiers` (a table: tier = episodes of each stage)",
+                "it has `name`, `suites` (a list of recipes), `tiers` (a table: tier = episodes of each stage), and it may have `episodes` (a list of names)",
             )
         })
     }
@@ -63,13 +76,28 @@ impl Benchmark {
         let name = table.get("name").and_then(Value::as_str).ok_or("`name` must be a text")?;
         is_safe(name)?;
         let suites = table.get("suites").and_then(Value::as_array).ok_or("`suites` must be a list of files")?;
-        let path = |suite: &Value| suite.as_str().map(|suite| folder.join(suite)).ok_or("`suites` must be files");
+        let texts = |value: &Value| -> Option<Vec<String>> {
+            value.as_array()?.iter().map(|text| text.as_str().map(str::to_owned)).collect()
+        };
+        let only = table.get("episodes").map(|names| texts(names).ok_or("`episodes` must be a list of names"));
+        let only = only.transpose()?.map(|names| Arc::new(names.into_iter().collect()));
+        let entry = |suite: &Value| -> std::result::Result<Entry, String> {
+            if let Some(unknown) =
+                suite.as_object().and_then(|it| it.keys().find(|it| !SUITE_KEYS.contains(&it.as_str())))
+            {
+                return Err(format!("`{unknown}` is no key of a suite: it has `recipe` and `set`"));
+            }
+            let recipe = suite.as_str().or_else(|| suite.get("recipe")?.as_str());
+            let recipe = recipe.ok_or("`suites` must be files, or tables with a `recipe`")?;
+            let set = suite.get("set").map_or(Some(vec![]), texts);
+            Ok(Entry { recipe: folder.join(recipe), set: set.ok_or("`set` of a suite must be a list of changes")? })
+        };
         let tiers = table.get("tiers").and_then(Value::as_object).ok_or("`tiers` must be a table")?;
         let tier = |(tier, episodes): (&String, &Value)| {
             is_safe(tier)?;
             let episodes = episodes.as_u64().filter(|episodes| *episodes > 0);
             let episodes = episodes.ok_or_else(|| format!("`tiers.{tier}` must be a whole number from 1 on"))?;
-            Ok((tier.clone(), Tier { name: format!("{name}-{tier}"), episodes: episodes as usize }))
+            Ok((tier.clone(), Tier { name: format!("{name}-{tier}"), episodes: episodes as usize, only: only.clone() }))
         };
         if suites.is_empty() || tiers.is_empty() {
             return Err("`suites` and `tiers` have one entry at least".to_owned());
@@ -79,7 +107,7 @@ impl Benchmark {
         }
         Ok(Self {
             name: name.to_owned(),
-            suites: suites.iter().map(path).collect::<std::result::Result<_, _>>()?,
+            suites: suites.iter().map(entry).collect::<std::result::Result<_, _>>()?,
             tiers: tiers.iter().map(tier).collect::<std::result::Result<_, String>>()?,
         })
     }
@@ -115,10 +143,13 @@ impl Tier {
     pub fn of(&self, suites: Vec<Suite>) -> Suite {
         let (mut tasks, mut parts, mut listed, mut rejected) = (vec![], vec![], String::new(), 0);
         for suite in suites {
-            let taken = taken(&suite.tasks, self.episodes);
             let several = suite.tasks.iter().map(|task| &task.episode.stratum).collect::<BTreeSet<_>>().len() > 1;
-            for (_, task) in suite.tasks.into_iter().enumerate().filter(|(at, _)| taken.contains(at)) {
-                let task = Task { part: parts.len(), ..named(task, &suite.name, several) };
+            let named = suite.tasks.into_iter().map(|task| named(task, &suite.name, several));
+            let is_of_it = |task: &Task| self.only.as_ref().is_none_or(|only| only.contains(&task.episode.name));
+            let known: Vec<Task> = named.filter(is_of_it).collect();
+            let taken = taken(&known, self.episodes);
+            for (_, task) in known.into_iter().enumerate().filter(|(at, _)| taken.contains(at)) {
+                let task = Task { part: parts.len(), ..task };
                 let _ = writeln!(listed, "{} {}", task.episode.name, task.digest);
                 tasks.push(task);
             }
@@ -183,7 +214,12 @@ mod tests {
         let folder = Path::new("recipes");
         let read = |text: &str| Benchmark::of_table(&cosfly_recipe::table(folder, text).expect("TOML"), folder);
         let good = read("name = \"track_1\"\nsuites = [\"a.toml\"]\ntiers = { mini = 2 }").expect("a benchmark");
-        assert_eq!((good.suites[0].as_path(), good.tiers["mini"].episodes), (Path::new("recipes/a.toml"), 2));
+        let first = Entry { recipe: "recipes/a.toml".into(), set: vec![] };
+        assert_eq!((&good.suites[0], good.tiers["mini"].episodes), (&first, 2));
+        let changed = "name = \"x\"\nepisodes = [\"b\"]\nsuites = [{ recipe = \"a.toml\", set = [\"seed=2\"] }]\ntiers = { all = 9 }";
+        let changed = read(changed).expect("a benchmark");
+        assert_eq!(changed.suites, [Entry { set: vec!["seed=2".to_owned()], ..first }]);
+        assert!(changed.tiers["all"].only.as_ref().is_some_and(|only| only.contains("b")));
         assert_eq!(good.tier(Some("mini")).expect("a tier").name, "track_1-mini");
         assert!(good.tier(None).is_err() && good.tier(Some("maxi")).is_err());
         for (text, words) in [
@@ -194,6 +230,12 @@ mod tests {
             ("name = \"x\"\nsuites = [\"a\"]\ntiers = {}", "one entry at least"),
             ("name = \"x\"\nsuites = [\"a\", \"a\"]\ntiers = { mini = 1 }", "twice"),
             ("name = \"x\"\nsuite = []\ntiers = {}", "did you mean `suites`?"),
+            (
+                "name = \"x\"\nsuites = [{ recipe = \"a\", sets = [] }]\ntiers = { mini = 1 }",
+                "`sets` is no key of a suite",
+            ),
+            ("name = \"x\"\nsuites = [{ recipe = \"a\", set = [1] }]\ntiers = { mini = 1 }", "`set` of a suite"),
+            ("name = \"x\"\nepisodes = 3\nsuites = [\"a\"]\ntiers = { mini = 1 }", "`episodes` must be a list"),
         ] {
             let wrong = read(text).expect_err(text);
             assert!(wrong.contains(words), "{text}: {wrong}");
