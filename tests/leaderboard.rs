@@ -42,6 +42,9 @@ fn entries_are_ranked_within_what_was_verified_and_others_are_listed_with_the_re
     assert!(honest.stdout.contains("3 flown again by this call"), "{}", honest.stdout);
     let page = || std::fs::read(at("index.html")).expect("a page");
     let first = page();
+    let text = String::from_utf8(first.clone()).expect("text");
+    let clips = text.matches("calcMode").count();
+    assert!(clips == 6 && text.len() < 90_000 && !text.contains("<script"), "two moving dots an entry: {clips}");
     assert!(leaderboard(street.path(), &["--jobs", "1"]).stdout.contains("0 flown again by this call"));
     assert_eq!(page(), first, "the same page from kept outcomes");
     // Another store: everything is flown again, on another number of threads.
