@@ -22,6 +22,7 @@ mod fly_policies;
 mod fuzzing;
 mod hostile_maps;
 mod house;
+mod hunt;
 mod leaderboard;
 mod long_walks;
 mod models;

@@ -9,6 +9,7 @@
 //! * [`run`]: all episodes on several threads ([`crew`]), resumed where rows are there already.
 //! * [`vector`]: many environments stepped together, for learners.
 //! * [`experts`]: the experts of a recipe, asked again; [`dagger`]: what they say where a policy came.
+//! * [`hunt`]: episodes in which a policy fails and the expert does not.
 //! * [`results`]: the folder: card, rows, logs, tables with intervals; [`compare`]: two of them side by side.
 //! * [`bundle`]: a result as one file; [`again`]: its actions, flown again.
 //! * [`board`]: a folder of them as a leaderboard.
@@ -24,6 +25,7 @@ pub mod dagger;
 pub mod experts;
 pub mod flight;
 pub mod held_out;
+pub mod hunt;
 pub mod log;
 pub mod pictures;
 pub mod pilot;

@@ -23,6 +23,7 @@ use std::sync::Arc;
 pub const ENVIRONMENT_VERSION: u32 = 3;
 
 /// An episode and what baselines may know of it.
+#[derive(Clone)]
 pub struct Task {
     /// The episode.
     pub episode: Arc<Episode>,
@@ -33,7 +34,7 @@ pub struct Task {
     /// The town as it looks.
     pub scenery: Arc<Scenery>,
     /// Weather, and looks of the target: those of the pictures that the recipe makes of the flight.
-    pub shooting: Shooting,
+    pub shooting: Arc<Shooting>,
     /// Number of its part in [`Suite::parts`].
     pub part: usize,
     /// Digest of all that the episode is made of, and of the version of the environment.
@@ -44,7 +45,7 @@ impl Task {
     /// An episode in a town that is not drawn: empty ground under a clear sky.
     pub fn undrawn(episode: Episode, knowledge: Knowledge, certified_visibility: f64) -> Self {
         let scenery = Arc::new(Scenery { town: Arc::default(), looks: episode.seed });
-        let shooting = Shooting::plain(episode.looks);
+        let shooting = Arc::new(Shooting::plain(episode.looks));
         let digest = Digest::of(episode.name.as_bytes());
         Self { episode: Arc::new(episode), knowledge, certified_visibility, scenery, shooting, part: 0, digest }
     }
@@ -59,6 +60,7 @@ pub struct Scenery {
 }
 
 /// The episodes of a recipe, or of a tier of a benchmark.
+#[derive(Clone)]
 pub struct Suite {
     /// Name of the recipe or of the tier.
     pub name: String,
@@ -92,7 +94,7 @@ impl Part {
 }
 
 /// Whether a stage plans flights behind walkers.
-fn follows(stage: &RecipeStage) -> bool {
+pub(crate) fn follows(stage: &RecipeStage) -> bool {
     stage.has_role(StageRole::Plans) && stage.connection("walks").is_some()
 }
 
@@ -207,7 +209,7 @@ impl Reader<'_> {
                     Digest::of(format!("{first}{}town {}\n", &listed[begun..], Digest(scenery.looks.0)).as_bytes());
                 let knowledge = Knowledge { flight: waypoints.into(), config: Arc::clone(&config) };
                 let certified_visibility = flight.certificate.mean_visibility;
-                let episode = Arc::new(episode);
+                let (episode, shooting) = (Arc::new(episode), Arc::new(shooting));
                 tasks.push(Task { episode, knowledge, certified_visibility, scenery, shooting, part: 0, digest });
             }
         }

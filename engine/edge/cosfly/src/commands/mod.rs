@@ -14,6 +14,7 @@ mod export;
 mod fly;
 mod gc;
 mod graph;
+mod hunt;
 mod init;
 mod leaderboard;
 mod map;
@@ -48,6 +49,7 @@ pub const COMMANDS: &[Entry] = &[
     Entry::of::<fly::Arguments>(),
     Entry::of::<gc::Arguments>(),
     Entry::of::<graph::Arguments>(),
+    Entry::of::<hunt::Arguments>(),
     Entry::of::<init::Arguments>(),
     Entry::of::<leaderboard::Arguments>(),
     map::MAP,
