@@ -105,11 +105,14 @@ fn walkers<'r>(recipe: &'r Recipe, stages: &[usize]) -> Vec<&'r str> {
     upstreams.into_iter().map(|stage| recipe.stages[stage].name.as_str()).collect()
 }
 
+/// Code of a recipe whose experts found no flight.
+pub const NO_EPISODE: &str = "fly-no-episode";
+
 impl Suite {
     /// Makes what a recipe's experts need, and reads their flights as episodes.
     ///
     /// # Errors
-    /// `fly-suite` for a recipe without experts or without an episode; failures of stages; errors of the store.
+    /// `fly-suite` for a recipe without experts, [`NO_EPISODE`] for one without an episode; failures of stages; errors of the store.
     pub fn make(
         recipe: &Recipe,
         store: &Store,
@@ -139,7 +142,7 @@ impl Suite {
         if suite.tasks.is_empty() {
             let message = format!("`{}` has no episode: the expert found no flight", recipe.path.display());
             let walks = walkers(recipe, &stages).join("`, `");
-            return Err(Diagnostic::new("fly-suite", Fault::Recipe, message)
+            return Err(Diagnostic::new(NO_EPISODE, Fault::Recipe, message)
                 .because(format!("none behind {} walks", suite.rejected))
                 .hint(format!(
                     "`cosfly run` on the recipe says why; more walks may have some: a larger `count` of `{walks}`"

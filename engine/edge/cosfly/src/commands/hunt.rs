@@ -17,7 +17,7 @@ use cosfly_fly::hunt::search::{Hunted, Search, hunt};
 use cosfly_fly::pilot::Place;
 use cosfly_fly::results::{Card, EnvironmentCard, Folder, KeptCard, LogChoice, SuiteCard};
 use cosfly_fly::run::{Order, Shard};
-use cosfly_fly::suite::{Part, Suite};
+use cosfly_fly::suite::{NO_EPISODE, Part, Suite};
 use cosfly_recipe::Recipe;
 use cosfly_runner::RunOptions;
 use cosfly_store::{Store, check_out_folder};
@@ -80,6 +80,9 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
 }
+
+/// Most worlds without an episode that a hunt passes over.
+const MOST_BARREN: usize = 20;
 
 /// Order of the candidates.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -149,7 +152,7 @@ impl Arguments {
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let _deadline = console.deadline(None);
         let progress = console.progress("make", "candidates");
-        let (mut suites, mut all, mut made) = (vec![], vec![], 0);
+        let (mut suites, mut all, mut made, mut barren) = (vec![], vec![], 0, 0);
         for world in 0.. {
             progress(made.min(self.pool) as u64, self.pool as u64);
             if made >= self.pool {
@@ -161,7 +164,13 @@ impl Arguments {
                 let part = Part::of(&recipe)?;
                 let suite = match known {
                     Some(ref suite) => suite.clone(),
-                    None => Suite::make(&recipe, store, &options, &|_| ())?,
+                    None => match Suite::make(&recipe, store, &options, &|_| ()) {
+                        Err(refusal) if refusal.code == NO_EPISODE && barren < MOST_BARREN => {
+                            barren += 1;
+                            break;
+                        }
+                        made => made?,
+                    },
                 };
                 made += suite.tasks.len();
                 let name = recipe.name.clone();
