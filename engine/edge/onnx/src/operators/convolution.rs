@@ -44,11 +44,9 @@ fn add_window(to: &mut [f32], from: &[f32], weights: &[f32], window: &Window) {
         for (row, to) in to.chunks_exact_mut(across).enumerate() {
             let Some(place) = window.place(0, row, row_at) else { continue };
             let from = &from[place * width..][..width];
-            for (column, to) in to.iter_mut().enumerate() {
-                if let Some(place) = window.place(1, column, column_at) {
-                    *to += weight * from[place];
-                }
-            }
+            let Some((windows, first)) = window.span(1, column_at) else { continue };
+            let taken = from[first..].iter().step_by(window.stride[1]);
+            to[windows].iter_mut().zip(taken).for_each(|(to, from)| *to += weight * from);
         }
     }
 }

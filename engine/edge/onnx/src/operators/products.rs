@@ -18,6 +18,30 @@ pub fn add_product(to: &mut [f32], a: &[f32], b: &[f32], inner: usize, columns: 
     }
 }
 
+/// Adds the product of a matrix (rows, inner) and the transpose of one (columns, inner) to `to`. Several sums run side by side, each in
+/// its order.
+pub fn add_product_turned(to: &mut [f32], a: &[f32], b: &[f32], inner: usize, columns: usize) {
+    if inner == 0 || columns == 0 {
+        return;
+    }
+    for (row, a) in to.chunks_exact_mut(columns).zip(a.chunks_exact(inner)) {
+        let (several, rest) = row.as_chunks_mut::<BESIDE>();
+        let done = several.len() * BESIDE * inner;
+        for (to, b) in several.iter_mut().zip(b.chunks_exact(BESIDE * inner)) {
+            let rows: [&[f32]; BESIDE] = std::array::from_fn(|at| &b[at * inner..][..inner]);
+            for (place, a) in a.iter().enumerate() {
+                to.iter_mut().zip(rows).for_each(|(to, row)| *to += a * row[place]);
+            }
+        }
+        for (to, b) in rest.iter_mut().zip(b[done..].chunks_exact(inner)) {
+            a.iter().zip(b).for_each(|(a, b)| *to += a * b);
+        }
+    }
+}
+
+/// Sums that run side by side.
+const BESIDE: usize = 8;
+
 /// The transpose of a matrix.
 pub fn transposed(values: &[f32], rows: usize, columns: usize) -> Vec<f32> {
     (0..columns).flat_map(|column| (0..rows).map(move |row| values[row * columns + column])).collect()
@@ -25,15 +49,10 @@ pub fn transposed(values: &[f32], rows: usize, columns: usize) -> Vec<f32> {
 
 /// `Gemm`.
 pub fn gemm(call: &Call<'_>) -> Outcome {
-    let matrix = |at: usize, turned: &str| -> Result<([usize; 2], Vec<f32>), String> {
-        let (shape, values) = call.of_axes(at, 2)?;
-        call.spend(&[values.len()])?;
-        Ok(match call.whole(turned, 0)? {
-            0 => ([shape[0], shape[1]], values.to_vec()),
-            _ => ([shape[1], shape[0]], transposed(values, shape[0], shape[1])),
-        })
-    };
-    let (([rows, inner], a), ([of_b, columns], b)) = (matrix(0, "transA")?, matrix(1, "transB")?);
+    let ((of_a, a), (own_b, b)) = (call.of_axes(0, 2)?, call.of_axes(1, 2)?);
+    let [turns_a, turns_b] = [call.whole("transA", 0)? != 0, call.whole("transB", 0)? != 0];
+    let sizes = |shape: &[usize], turns: bool| if turns { [shape[1], shape[0]] } else { [shape[0], shape[1]] };
+    let ([rows, inner], [of_b, columns]) = (sizes(of_a, turns_a), sizes(own_b, turns_b));
     if inner != of_b {
         return Err(format!("it multiplies matrices of the shapes {:?} and {:?}", [rows, inner], [of_b, columns]));
     }
@@ -41,7 +60,10 @@ pub fn gemm(call: &Call<'_>) -> Outcome {
     let shape = [rows, columns];
     let mut values = call.zeros(&shape)?;
     call.spend(&[rows, inner, columns])?;
-    add_product(&mut values, &a, &b, inner, columns);
+    call.spend(&[a.len()])?;
+    let turned = turns_a.then(|| transposed(a, of_a[0], of_a[1]));
+    let product = if turns_b { add_product_turned } else { add_product };
+    product(&mut values, turned.as_deref().unwrap_or(a), b, inner, columns);
     if alpha != 1.0 {
         values.iter_mut().for_each(|value| *value *= alpha);
     }

@@ -1,13 +1,13 @@
 //! Layers with a memory, forward in time.
 
 use super::elementwise::logistic;
-use super::products::{add_product, transposed};
+use super::products::add_product_turned;
 use crate::call::{Call, Floats};
 use crate::tensor::Tensor;
 
 type Outcome = Result<Vec<Tensor>, String>;
 
-/// A layer with a number of gates: sizes, weights turned for products, and the sum of a step.
+/// A layer with a number of gates: sizes, weights, and the sums of a step.
 struct Layer<'a> {
     steps: usize,
     batch: usize,
@@ -15,8 +15,8 @@ struct Layer<'a> {
     hidden: usize,
     gates: usize,
     sequence: &'a [f32],
-    /// Weights of the inputs and of the memory: (inputs, gates x hidden), (hidden, gates x hidden).
-    weights: [Vec<f32>; 2],
+    /// Weights of the inputs and of the memory: (gates x hidden, inputs), (gates x hidden, hidden).
+    weights: [&'a [f32]; 2],
     /// Biases of both, gates x hidden each.
     biases: [Vec<f32>; 2],
 }
@@ -37,12 +37,10 @@ impl<'a> Layer<'a> {
         if usize::try_from(call.whole("hidden_size", hidden as i64)?) != Ok(hidden) {
             return Err(format!("its setting `hidden_size` is not {hidden}, the size of its weights"));
         }
-        call.spend(&[wide, inputs])?;
-        call.spend(&[wide, hidden])?;
         call.spend(&[steps, batch, wide, inputs])?;
         call.spend(&[steps, batch, wide, hidden])?;
-        let of_inputs = transposed(call.of_shape(1, &[1, wide, inputs])?, wide, inputs);
-        let of_hidden = transposed(call.of_shape(2, &[1, wide, hidden])?, wide, hidden);
+        let of_inputs = call.of_shape(1, &[1, wide, inputs])?;
+        let of_hidden = call.of_shape(2, &[1, wide, hidden])?;
         let biases = match call.optional(3) {
             None => [vec![0.0; wide], vec![0.0; wide]],
             Some(_) => {
@@ -73,7 +71,7 @@ impl<'a> Layer<'a> {
 
     fn sums(&self, values: &[f32], part: usize, inner: usize) -> Vec<f32> {
         let mut sums = self.biases[part].repeat(self.batch);
-        add_product(&mut sums, values, &self.weights[part], inner, self.gates * self.hidden);
+        add_product_turned(&mut sums, values, self.weights[part], inner, self.gates * self.hidden);
         sums
     }
 

@@ -2,6 +2,7 @@
 
 use super::shapes::sizes;
 use crate::call::Call;
+use std::ops::Range;
 
 /// Windows over a picture. A row of numbers is a picture of the height 1. Pairs are of rows and columns.
 #[derive(Clone, Copy, Debug)]
@@ -85,6 +86,15 @@ impl Window {
     pub fn place(&self, axis: usize, window: usize, at: usize) -> Option<usize> {
         let place = (window * self.stride[axis] + at * self.dilation[axis]).checked_sub(self.before[axis])?;
         (place < self.picture[axis]).then_some(place)
+    }
+
+    /// The windows along an axis whose number `at` lies in the picture, and its place for the first of them.
+    pub fn span(&self, axis: usize, at: usize) -> Option<(Range<usize>, usize)> {
+        let (shift, before, stride) = (at * self.dilation[axis], self.before[axis], self.stride[axis]);
+        let first = before.saturating_sub(shift).div_ceil(stride);
+        let last = (self.picture[axis] - 1 + before).checked_sub(shift)? / stride;
+        let end = self.count[axis].min(last + 1);
+        (first < end).then(|| (first..end, first * stride + shift - before))
     }
 
     /// Shape of a result with a number of channels, for an input of a shape.
