@@ -141,6 +141,15 @@ fn shares_of_an_evaluation_and_rounds_of_labels_start_at_once() {
         all_succeed(street.path(), &format!("{dagger} --round b --onto labels --out second{round}"));
     }
     assert_eq!(tree_digests(&place("second0")), tree_digests(&place("second1")));
+    std::fs::create_dir(place("board")).expect("a folder");
+    cosfly(&words("fly bundle alone/hold --out board/hold.jsonl.zst")).within(street.path()).run_ok();
+    let leaderboard = "leaderboard board --suite recipe.toml --jobs 1";
+    cosfly(&words(&format!("{leaderboard} --store other --out page.html"))).within(street.path()).run_ok();
+    for round in 0..2 {
+        all_succeed(street.path(), &format!("{leaderboard} --out page{round}.html"));
+        let page = |name: &str| std::fs::read(place(name)).expect("a page");
+        assert!(page(&format!("page{round}.html")) == page("page.html"));
+    }
     assert_eq!(left_over(street.path()), [""; 0]);
 }
 

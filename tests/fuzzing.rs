@@ -56,7 +56,8 @@ fn corpus(name: &str) -> Vec<(String, Vec<u8>)> {
     paths.into_iter().map(read).collect()
 }
 
-fn damaged(bytes: &[u8], stream: &mut RandomStream) -> Vec<u8> {
+/// A copy with a few damages.
+pub fn damaged(bytes: &[u8], stream: &mut RandomStream) -> Vec<u8> {
     let mut out = bytes.to_vec();
     for _ in 0..=stream.index(6) {
         if out.is_empty() {

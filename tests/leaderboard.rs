@@ -1,8 +1,10 @@
 //! `leaderboard`: what each entry proves, hostile entries, the same page for any jobs and order; tiers of benchmarks.
 
+use crate::fuzzing::damaged;
 use crate::street::Street;
 use crate::support::{Printed, cosfly, repository_root};
 use cosfly_fly::bundle::Bundle;
+use cosfly_frames::Seed;
 use serde_json::Value;
 use std::path::Path;
 
@@ -180,6 +182,42 @@ fn hostile_names_are_text_on_the_page() {
         assert!(!page.contains(markup), "{markup}: {page}");
     }
     assert!(page.contains("&lt;script&gt;") && page.len() < 100_000, "{page}");
+}
+
+#[test]
+fn a_thousand_damaged_bundles_are_refused_or_flown_in_words() {
+    let (street, bundle) = board();
+    let whole = bundle.bytes().expect("bytes");
+    let mut stream = Seed::of_item(1, "bundles", "damaged").stream("damage");
+    for _ in 0..1000 {
+        match Bundle::of_bytes(&damaged(&whole, &mut stream)) {
+            Ok(read) => assert_eq!(read, bundle, "the digest holds"),
+            Err(words) => assert!(!words.is_empty()),
+        }
+    }
+    // Whoever edits the text can make its digest anew: what is still a bundle is flown.
+    let text = zstd::decode_all(&whole[..]).expect("zstd");
+    let text = String::from_utf8(text).expect("UTF-8");
+    let kept = text.trim_end().rsplit_once('\n').expect("lines").0;
+    let mut read = vec![];
+    for _ in 0..1000 {
+        match String::from_utf8(damaged(kept.as_bytes(), &mut stream)).map(|text| Bundle::of_text(&text)) {
+            Ok(Ok(bundle)) => read.push(bundle),
+            Ok(Err(words)) => assert!(!words.is_empty()),
+            Err(_) => {}
+        }
+    }
+    assert!(!read.is_empty(), "a digit of an action is another one");
+    for (number, bundle) in read.iter().enumerate().take(20) {
+        let file = street.path().join(format!("board/edited{number}.jsonl.zst"));
+        std::fs::write(file, bundle.bytes().expect("bytes")).expect("written");
+    }
+    let printed = leaderboard(street.path(), &["--run-policies", "--json"]);
+    assert!(matches!(printed.code, Some(0 | 1)), "{}", printed.stderr);
+    let board: Value = serde_json::from_str(&printed.stdout).expect("JSON");
+    let reasons =
+        board["refused"].as_array().expect("a list").iter().map(|it| it["reason"].as_str().unwrap_or_default());
+    assert!(reasons.clone().all(|reason| !reason.is_empty()), "{board:#}");
 }
 
 #[test]

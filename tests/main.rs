@@ -18,6 +18,7 @@ mod doctor;
 mod evaluation;
 mod export;
 mod fly;
+mod fly_onnx;
 mod fly_policies;
 mod fuzzing;
 mod hostile_maps;

@@ -3,9 +3,12 @@
 //! `fuzz_targets/NAME.rs` hands them to libFuzzer; `tests/fuzzing.rs` runs them over damaged files of `corpus/NAME`.
 
 use cosfly_domain::channels;
+use cosfly_fly::bundle::Bundle;
+use cosfly_fly::pilot::{OnnxPolicy, Runnable};
 use cosfly_frames::Seed;
 use cosfly_maps::{MapConfig, read_town};
 use cosfly_metrics::run_lengths::Runs;
+use cosfly_onnx::{Model, Tensor};
 #[cfg(feature = "plugins")]
 use cosfly_plugin_host::{Host, PluginLimits};
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, read_answer};
@@ -21,6 +24,7 @@ pub type Target = fn(&[u8]);
 pub const TARGETS: &[(&str, Target)] = &[
     ("arrow_answers", arrow_answers),
     ("boxes", map),
+    ("bundles", bundles),
     ("cityjson", map),
     ("frame_pack", frame_pack),
     ("generated", map),
@@ -31,6 +35,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("mcap", mcap),
     ("mp4", mp4),
     ("obj", scan),
+    ("onnx", onnx),
     ("opendrive", map),
     ("osm", map),
     ("pcd", scan),
@@ -69,6 +74,23 @@ fn refusal(bytes: &[u8]) -> Option<MapError> {
         }
         Err(error) => Some(error),
     }
+}
+
+/// A bundle, as a file and as the text in it, which a digest does not keep: policies in it are read, too.
+fn bundles(bytes: &[u8]) {
+    let read = [Bundle::of_bytes(bytes).ok(), str::from_utf8(bytes).ok().and_then(|text| Bundle::of_text(text).ok())];
+    for bundle in read.into_iter().flatten() {
+        let _ = Runnable::of(&bundle.card.policy, bundle.policy.as_deref());
+    }
+}
+
+/// A network in ONNX, which runs once, and as a policy.
+fn onnx(bytes: &[u8]) {
+    if let Ok(model) = Model::read(bytes) {
+        let zeros = model.inputs().iter().map(|port| Tensor::zeros(port.kind, &port.shape));
+        let _ = model.run(zeros.collect());
+    }
+    let _ = OnnxPolicy::of_bytes("policy", bytes.to_vec());
 }
 
 /// A pack of rendered frames.

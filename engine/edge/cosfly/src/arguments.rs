@@ -127,6 +127,11 @@ pub fn remote(place: &str) -> cosfly_diagnose::Result<Arc<dyn Remote>> {
         .hint("build it with `cargo build --release --features s3`, or use a folder that all machines share"))
 }
 
+/// Number of threads: what `--jobs` says, else one per core.
+pub fn threads(jobs: Option<u16>) -> usize {
+    jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
+}
+
 /// Whole numbers from 1 to a million.
 pub fn count() -> impl TypedValueParser<Value = usize> {
     clap::value_parser!(u64).range(1..=1_000_000).map(|count| count as usize)

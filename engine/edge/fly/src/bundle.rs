@@ -1,12 +1,14 @@
 //! [`Bundle`]: a result as one file that anyone can fly again.
 //!
-//! The file is JSON lines in zstd: the card; for each episode its row and the actions of all steps; the digest of all lines before
-//! it. Texts of the task and of failures are left out: they may hold paths.
+//! The file is JSON lines in zstd: the card; the policy, where the bundle holds it; for each episode its row and the actions of all
+//! steps; the digest of all lines before it. Texts of the task and of failures are left out: they may hold paths.
 
 use crate::flight::Row;
 use crate::log::Line;
-use crate::pilot::wrong_number;
+use crate::pilot::{OnnxPolicy, wrong_number};
 use crate::results::{Card, Folder};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_env::Action;
 use cosfly_fingerprint::Digest;
@@ -31,6 +33,8 @@ pub struct Bundle {
     pub card: Card,
     /// Episodes in the order of the suite.
     pub episodes: Vec<EpisodeRecord>,
+    /// The file of the policy, a network in ONNX.
+    pub policy: Option<Vec<u8>>,
 }
 
 /// An episode in a bundle.
@@ -62,6 +66,17 @@ pub struct StepRecord {
 struct Head {
     format: String,
     card: Card,
+    /// Whether the second line is the policy.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    holds_policy: bool,
+}
+
+/// The line of the policy.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Held {
+    /// The file, in base 64.
+    onnx: String,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -136,7 +151,26 @@ impl Bundle {
         };
         let episodes = rows.iter().map(episode).collect::<Result<_>>()?;
         card.policy.prompt.clear();
-        Ok(Self { card, episodes })
+        Ok(Self { card, episodes, policy: None })
+    }
+
+    /// The same with the file of its policy.
+    ///
+    /// # Errors
+    /// `fly-bundle` where the card names another file.
+    pub fn with_policy(self, policy: &OnnxPolicy) -> Result<Self> {
+        let (theirs, ours) = (policy.digest().to_string(), self.card.policy.source.clone().unwrap_or_default());
+        if theirs != ours {
+            let message = format!("`{}` is not the policy that flew this result", policy.name());
+            let refusal = Diagnostic::new("fly-bundle", Fault::Recipe, message);
+            return Err(refusal
+                .because(format!(
+                    "its digest is {theirs}; the card has {}",
+                    if ours.is_empty() { "none" } else { &ours }
+                ))
+                .hint("give the file that `cosfly fly --policy onnx:FILE` flew"));
+        }
+        Ok(Self { policy: Some(policy.bytes().to_vec()), ..self })
     }
 
     /// The file.
@@ -144,12 +178,19 @@ impl Bundle {
     /// # Errors
     /// Errors of the compression.
     pub fn bytes(&self) -> Result<Vec<u8>> {
-        let mut text = json(&Head { format: FORMAT.to_owned(), card: self.card.clone() });
+        let mut text =
+            json(&Head { format: FORMAT.to_owned(), card: self.card.clone(), holds_policy: self.policy.is_some() });
+        if let Some(policy) = &self.policy {
+            text += &json(&Held { onnx: STANDARD.encode(policy) });
+        }
         self.episodes.iter().for_each(|episode| text += &json(episode));
         text += &json(&Tail { blake3: Digest::of(text.as_bytes()).to_string() });
         if text.len() as u64 > MOST_BYTES {
-            let message =
-                format!("the result has {} MB of steps; a bundle holds {}", text.len() >> 20, MOST_BYTES >> 20);
+            let message = format!(
+                "the result has {} MB of steps and policy; a bundle holds {}",
+                text.len() >> 20,
+                MOST_BYTES >> 20
+            );
             return Err(Diagnostic::new("fly-bundle", Fault::Recipe, message)
                 .hint("fly fewer episodes into a result, such as a tier of a benchmark"));
         }
@@ -195,10 +236,14 @@ impl Bundle {
         if Digest::of(&text.as_bytes()[..=kept.len()]).to_string() != tail.blake3 {
             return Err("its digest is another one: it was edited or damaged".to_owned());
         }
-        Self::of_lines(kept)
+        Self::of_text(kept)
     }
 
-    fn of_lines(text: &str) -> std::result::Result<Self, String> {
+    /// Reads the lines of a file, without that of the digest.
+    ///
+    /// # Errors
+    /// What is wrong with them, in words.
+    pub fn of_text(text: &str) -> std::result::Result<Self, String> {
         let mut lines = text.lines().zip(1..);
         let head = lines.next().map_or("", |it| it.0);
         if head.len() > MOST_WORDS[0] {
@@ -209,7 +254,8 @@ impl Bundle {
         if format != FORMAT {
             return Err(format!("its format is `{format}`; this cosfly reads `{FORMAT}`"));
         }
-        let Head { card, .. } = serde_json::from_str(head).map_err(|error| format!("line 1: {error}"))?;
+        let Head { card, holds_policy, .. } = serde_json::from_str(head).map_err(|error| format!("line 1: {error}"))?;
+        let policy = if holds_policy { Some(held(lines.next().map_or("", |it| it.0))?) } else { None };
         let (mut episodes, mut names): (Vec<EpisodeRecord>, BTreeSet<String>) = (vec![], BTreeSet::new());
         for (line, number) in lines {
             let episode: EpisodeRecord =
@@ -225,8 +271,14 @@ impl Bundle {
         if episodes.len() as u64 != card.suite.episodes {
             return Err(format!("it has {} of {} episodes", episodes.len(), card.suite.episodes));
         }
-        Ok(Self { card, episodes })
+        Ok(Self { card, episodes, policy })
     }
+}
+
+/// The file in the line of the policy.
+fn held(line: &str) -> std::result::Result<Vec<u8>, String> {
+    let Held { onnx } = serde_json::from_str(line).map_err(|error| format!("line 2, the policy: {error}"))?;
+    STANDARD.decode(onnx).map_err(|error| format!("line 2, the policy: {error}"))
 }
 
 fn json(value: &impl Serialize) -> String {

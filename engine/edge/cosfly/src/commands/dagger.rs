@@ -3,7 +3,7 @@
 mod diff;
 
 use super::fly::policy::PolicyArguments;
-use crate::arguments::{RecipeArguments, StoreArguments};
+use crate::arguments::{RecipeArguments, StoreArguments, threads};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
@@ -48,7 +48,7 @@ pub struct Arguments {
     recipe: Option<RecipeArguments>,
     #[command(flatten)]
     store: StoreArguments,
-    /// The policy: ws://HOST:PORT, python:MODULE:FUNCTION, or the name of a baseline
+    /// The policy: ws://HOST:PORT, python:MODULE:FUNCTION, onnx:FILE, or the name of a baseline
     #[arg(long, value_name = "POLICY", required = true)]
     policy: Option<String>,
     /// Name of the policy on the card [default: made from its place]
@@ -101,14 +101,15 @@ impl Command for Arguments {
         let (Some(out), Some(name)) = (&self.out, &self.round) else {
             return Err(missing("`--out` or `--round`").into());
         };
-        if self.asked.actions() != ActionKind::Velocity {
+        self.asked.check(&place)?;
+        if self.asked.actions(&place) != ActionKind::Velocity {
             let message = "labels are velocities; a policy of other actions cannot be labelled";
             return Err(Diagnostic::new("dagger-actions", Fault::Recipe, message).hint("leave `--actions` out").into());
         }
         let manners = self.asked.manners()?;
         check_out_folder(&self.store.folder(), out)?;
         let store = self.store.open()?;
-        let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
+        let jobs = threads(self.jobs);
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let suite = {
             let _deadline = console.deadline(None);
@@ -116,7 +117,7 @@ impl Command for Arguments {
             Suite::make(&recipe, &store, &options, &*progress)?
         };
         // A label belongs to the state it is for: actions take effect at once.
-        let (latency_s, sensors) = (0.0, self.asked.sensors());
+        let (latency_s, sensors) = (0.0, self.asked.sensors(&place));
         let settings = EnvironmentSettings { latency_s, sensors, ..FlySettings::of(&recipe)?.environment() };
         let onto = self.onto.as_deref().map(LabelFolder::card).transpose()?;
         let card = self.card(&suite, &settings, &place, name, onto.as_ref())?;

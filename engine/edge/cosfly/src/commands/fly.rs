@@ -6,7 +6,7 @@ mod compare;
 pub mod policy;
 mod verify;
 
-use crate::arguments::{RecipeArguments, StoreArguments};
+use crate::arguments::{RecipeArguments, StoreArguments, threads};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
@@ -39,13 +39,14 @@ Examples:
   cosfly fly recipes/suites/street.toml --policy hold --policy follow --policy causal --policy expert
   cosfly fly recipes/suites/street.toml --policy ws://127.0.0.1:8000 --name mine --latency-ms 57
   cosfly fly recipes/suites/street.toml --policy python:my_policy:act
+  cosfly fly recipes/suites/street.toml --policy onnx:policy.onnx
   cosfly fly recipes/benchmarks/track_1.toml --tier mini --policy follow
   cosfly fly compare out/fly/street/follow out/fly/street/mine
   cosfly fly bundle out/fly/street/mine
   cosfly fly verify out/fly/street/mine.jsonl.zst recipes/suites/street.toml
 
-A policy is a server that speaks openpi's wire, a function in Python, or a baseline: causal, constant-velocity, expert,
-follow, hold, random. It gets a map with `state` (16 numbers), `prompt`, `episode`, `step` and `time_s`, and answers with a
+A policy is a server that speaks openpi's wire, a function in Python, a network in an ONNX file, or a baseline: causal,
+constant-velocity, expert, follow, hold, random. A network's file says what it sees and how it is asked. Others get a map with `state` (16 numbers), `prompt`, `episode`, `step` and `time_s`, and answer with a
 map whose `actions` are rows of numbers. A baseline may be varied: follow:gain=0.5,delay_s=0.3,noise_mps=1. The result is a folder: card.json, report.html with clips of the worst
 episodes, report.md, scores.json, episodes.jsonl, rows and logs. The same command goes on with what a folder lacks. Exits with 1 when a policy
 has given no right answer (then nothing is an episode, and nothing is kept) or went away before all episodes were flown."
@@ -57,7 +58,7 @@ pub struct Arguments {
     recipe: Option<RecipeArguments>,
     #[command(flatten)]
     store: StoreArguments,
-    /// The policy: ws://HOST:PORT, python:MODULE:FUNCTION, or the name of a baseline (repeatable)
+    /// The policy: ws://HOST:PORT, python:MODULE:FUNCTION, onnx:FILE, or the name of a baseline (repeatable)
     #[arg(long, value_name = "POLICY", required = true)]
     policy: Vec<String>,
     /// Tier of a benchmark, such as mini
@@ -195,14 +196,17 @@ impl Command for Arguments {
             return Err(Diagnostic::new("fly-policy", Fault::Recipe, message).hint("leave it out").into());
         }
         check_names(&places)?;
+        places.iter().try_for_each(|place| self.asked.check(place))?;
         let manners = self.asked.manners()?;
         let subject = Subject::load(recipe, self.tier.as_deref(), console)?;
+        let parts = subject.parts()?;
         let settings =
-            subject.parts()?.iter().map(|part| self.settings(&part.settings)).collect::<Result<Vec<_>, _>>()?;
+            |place| parts.iter().map(|part| self.settings(&part.settings, place)).collect::<Result<Vec<_>, _>>();
+        let settings = places.iter().map(settings).collect::<Result<Vec<_>, _>>()?;
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join("fly").join(&subject.name));
         check_out_folder(&self.store.folder(), &out)?;
         let store = self.store.open()?;
-        let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
+        let jobs = threads(self.jobs);
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let suite = {
             let _deadline = console.deadline(None);
@@ -214,12 +218,12 @@ impl Command for Arguments {
         }
         let mut arms = Vec::new();
         let mut code = exit::SUCCESS;
-        for place in &places {
+        for (place, settings) in places.iter().zip(&settings) {
             let name = self.name.clone().unwrap_or_else(|| place.name());
-            let card = self.card(&suite, place, &name, &settings);
+            let card = self.card(&suite, place, &name, settings);
             let folder = Folder::open(&out.join(&name), &card)?;
             let cancelled = console.cancelled();
-            let (shard, suite, settings) = (self.shard, &suite, &settings[..]);
+            let (shard, suite) = (self.shard, &suite);
             let latency = self.latency();
             let order =
                 Order { suite, place, manners: &manners, settings, latency, shard, jobs, cancelled: &cancelled };
@@ -262,7 +266,7 @@ fn check_names(places: &[Place]) -> cosfly_diagnose::Result<()> {
 
 impl Arguments {
     /// Settings of the environment: those of the suite, and over them those of the command line.
-    fn settings(&self, suite: &FlySettings) -> cosfly_diagnose::Result<EnvironmentSettings> {
+    fn settings(&self, suite: &FlySettings, place: &Place) -> cosfly_diagnose::Result<EnvironmentSettings> {
         let seconds = |milliseconds: u32| f64::from(milliseconds) / 1000.0;
         let latency_s = match self.latency_ms {
             None => seconds(suite.latency_ms),
@@ -275,7 +279,7 @@ impl Arguments {
             gusts: self.gusts || suite.gusts,
             sensors: !matches!(self.logs, LogsChoice::None),
         };
-        let actions = self.asked.actions();
+        let actions = self.asked.actions(place);
         let is_point = drone.model.parameters.is_none();
         let refused = |message: &str| {
             let problem = Diagnostic::new("fly-drone", Fault::Recipe, message);
@@ -287,7 +291,7 @@ impl Arguments {
         if is_point && (drone.wind_mps > 0.0 || drone.gusts) {
             return refused("wind does not move a point mass");
         }
-        let (step_s, sensors) = (seconds(self.step_ms), self.asked.sensors());
+        let (step_s, sensors) = (seconds(self.step_ms), self.asked.sensors(place));
         Ok(EnvironmentSettings { step_s, latency_s, drone, sensors, ..suite.environment() })
     }
 

@@ -1,6 +1,6 @@
 //! `cosfly leaderboard`: a folder of results, flown again, as a page.
 
-use crate::arguments::{RecipeArguments, StoreArguments};
+use crate::arguments::{RecipeArguments, StoreArguments, threads};
 use crate::command::{Command, Outcome, Refusals};
 use crate::console::Console;
 use crate::exit;
@@ -23,11 +23,13 @@ const SHIPPED: [&str; 2] = ["recipes/benchmarks", "recipes/suites"];
     after_help = "\
 Examples:
   cosfly leaderboard results
+  cosfly leaderboard results --run-policies
   cosfly leaderboard results --suite recipes/suites/street.toml --out public/index.html
 
 Each file NAME.jsonl.zst of `cosfly fly bundle` is an entry; NAME.toml beside it may have `licence`, `link`, `sees` (`world`, or
 `state` and channels) and `about`. Entries whose actions come to the same rows are ranked by their tracking rate; those that know the world stand
-apart. What has not changed is not flown again: outcomes are kept in the store. Exits with 1 when an entry is refused or comes out
+apart. With `--run-policies` baselines and networks in ONNX, in the bundle or in NAME.onnx beside it, are run again; those that give the same
+actions are ranked by what they see. What has not changed is not flown again: outcomes are kept in the store. Exits with 1 when an entry is refused or comes out
 differently."
 )]
 pub struct Arguments {
@@ -45,6 +47,9 @@ pub struct Arguments {
     /// Episodes at the same time [default: one per core]
     #[arg(long, short, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
+    /// Run policies again, where an entry is a baseline or has its network in ONNX; no other code of an entry is ever run
+    #[arg(long)]
+    run_policies: bool,
     /// Print the table as JSON
     #[arg(long)]
     json: bool,
@@ -59,7 +64,7 @@ impl Command for Arguments {
         }
         let subjects = self.subjects(console)?;
         let store = self.store.open()?;
-        let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
+        let jobs = threads(self.jobs);
         let cancelled = console.cancelled();
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let make = |subject: &Subject| subject.make(&store, &options, &*console.run_progress(true));
@@ -67,7 +72,8 @@ impl Command for Arguments {
             subjects.iter().map(|subject| Offer::new(subject.name.clone(), || make(subject))).collect();
         let (outcomes, cosfly) = (self.store.folder().join("reflown"), env!("CARGO_PKG_VERSION"));
         let program = program()?;
-        let bench = Bench { offers: &offers, outcomes, cosfly, program, jobs, cancelled: &cancelled };
+        let (runs_policies, cancelled) = (self.run_policies, &*cancelled);
+        let bench = Bench { offers: &offers, outcomes, cosfly, program, runs_policies, jobs, cancelled };
         let board = {
             let _deadline = console.deadline(None);
             judge(&self.folder, &bench, &*console.progress("fly again", "entries"))?
@@ -80,8 +86,7 @@ impl Command for Arguments {
             let page = path.display();
             console.print(&format!("{}{page}: {} flown again by this call\n", told(&board), board.flown))?;
         }
-        let is_sound = board.refused.is_empty() && board.claims() == 0;
-        Ok(if is_sound { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
+        Ok(if board.is_sound() { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
     }
 }
 

@@ -1,7 +1,7 @@
 //! `cosfly run`: makes everything that a recipe describes; prints the result, its place and what to open next.
 
 use super::elsewhere;
-use crate::arguments::{ClusterArguments, Place, RecipeArguments, StoreArguments};
+use crate::arguments::{ClusterArguments, Place, RecipeArguments, StoreArguments, threads};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
@@ -67,7 +67,7 @@ impl Command for Arguments {
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(folder));
         check_out_folder(&self.store.folder(), &out)?;
         let store = self.store.open()?;
-        let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
+        let jobs = threads(self.jobs);
         let options = RunOptions { jobs, asked, cancelled: console.cancelled(), ..RunOptions::default() };
         let wanted = asked.unwrap_or_else(|| delivered_stage(&recipe));
         if self.cluster.on == Place::Emit {

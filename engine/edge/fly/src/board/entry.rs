@@ -13,14 +13,17 @@ use std::path::Path;
 const BUNDLE: &str = ".jsonl.zst";
 /// Ending of the files of notes.
 const NOTES: &str = ".toml";
+/// Ending of the files of policies.
+const POLICY: &str = ".onnx";
 
 /// What an entry proves.
-///
-/// A third word is kept free: *re-run*, for a policy that was run again on what it says it sees and gave the same actions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Proof {
-    /// The actions were flown again here and came to the same rows, byte for byte.
-    Reflown,
+    /// The policy was run again here on what it sees, and gave the same actions.
+    Rerun,
+    /// The actions were flown again here and came to the same rows, byte for byte. Where the policy was run and gave other actions, in
+    /// words.
+    Reflown(Vec<String>),
     /// They came to other rows: the scores are a claim. Where they differ, in words.
     Claimed(Vec<String>),
 }
@@ -29,8 +32,17 @@ impl Proof {
     /// The word.
     pub fn word(&self) -> &'static str {
         match self {
-            Self::Reflown => "re-flown",
+            Self::Rerun => "re-run",
+            Self::Reflown(_) => "re-flown",
             Self::Claimed(_) => "claimed",
+        }
+    }
+
+    /// What came out differently, in words, an entry for each episode.
+    pub fn differs(&self) -> &[String] {
+        match self {
+            Self::Rerun => &[],
+            Self::Reflown(differ) | Self::Claimed(differ) => differ,
         }
     }
 }
@@ -56,15 +68,17 @@ pub struct Entry {
     pub clip: String,
 }
 
-/// The file of a bundle with its notes.
+/// The file of a bundle with its notes and its policy.
 pub struct Found {
     /// Bytes of the file.
     pub bytes: Vec<u8>,
+    /// The policy beside it, a network in ONNX.
+    pub policy: Option<Vec<u8>>,
     /// What its maker says of it.
     pub notes: Notes,
 }
 
-/// Names of the entries of a folder, sorted: of all files of bundles and of notes, without their endings.
+/// Names of the entries of a folder, sorted: of all files of bundles, notes and policies, without their endings.
 ///
 /// # Errors
 /// Errors of the file system.
@@ -73,7 +87,7 @@ pub fn names(folder: &Path) -> Result<BTreeSet<String>> {
     let mut names = BTreeSet::new();
     for entry in folder.read_dir().map_err(refused)? {
         let name = entry.map_err(refused)?.file_name().to_string_lossy().into_owned();
-        let stem = name.strip_suffix(BUNDLE).or_else(|| name.strip_suffix(NOTES));
+        let stem = name.strip_suffix(BUNDLE).or_else(|| [NOTES, POLICY].iter().find_map(|end| name.strip_suffix(end)));
         names.extend(stem.filter(|stem| !stem.is_empty() && !stem.starts_with('.')).map(str::to_owned));
     }
     Ok(names)
@@ -86,7 +100,8 @@ impl Found {
     /// What is wrong with its files, in words.
     pub fn read(folder: &Path, name: &str) -> std::result::Result<Self, String> {
         let bytes = bytes_of(&folder.join(format!("{name}{BUNDLE}")), MOST_BYTES)?;
-        let bytes = bytes.ok_or_else(|| format!("there is no `{name}{BUNDLE}` beside `{name}{NOTES}`"))?;
+        let bytes = bytes.ok_or_else(|| format!("there is no `{name}{BUNDLE}` beside its notes or its policy"))?;
+        let policy = bytes_of(&folder.join(format!("{name}{POLICY}")), cosfly_onnx::MOST_BYTES as u64)?;
         let notes = match bytes_of(&folder.join(format!("{name}{NOTES}")), 1 << 16)? {
             Some(notes) => {
                 let text = String::from_utf8(notes).map_err(|_| format!("`{name}{NOTES}` is no text in UTF-8"))?;
@@ -94,7 +109,7 @@ impl Found {
             }
             None => Notes::default(),
         };
-        Ok(Self { bytes, notes })
+        Ok(Self { bytes, policy, notes })
     }
 }
 

@@ -4,9 +4,10 @@ use super::entry::{Entry, Found, Proof, names};
 use super::sees::Sees;
 use super::sketch::sketch;
 use super::standing::{Board, Refused};
-use crate::again::{by_record, fly_again};
+use crate::again::{Again, by_record};
 use crate::bundle::Bundle;
 use crate::flight::Row;
+use crate::pilot::Runnable;
 use crate::results::{Card, SuiteCard, worst};
 use crate::suite::Suite;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
@@ -55,6 +56,8 @@ pub struct Bench<'a> {
     pub cosfly: &'static str,
     /// Digest of the program: outcomes are kept for the very same one.
     pub program: Digest,
+    /// Whether policies are run again, where an entry has its own.
+    pub runs_policies: bool,
     /// Threads.
     pub jobs: usize,
     /// Set from anywhere to stop.
@@ -121,6 +124,17 @@ struct Kept {
     differ: Vec<String>,
     /// The worst episode from above.
     clip: String,
+    /// The policy, run again.
+    rerun: Option<Rerun>,
+}
+
+/// A policy that was run again.
+#[derive(Serialize, Deserialize)]
+struct Rerun {
+    /// What it sees.
+    sees: Vec<String>,
+    /// Where it gives other actions, in words.
+    differ: Vec<String>,
 }
 
 /// Settings of each part of a suite that a card is of.
@@ -141,16 +155,19 @@ fn clip(bundle: &Bundle, suite: &Suite, settings: &[EnvironmentSettings]) -> Str
 
 impl Bench<'_> {
     fn entry(&self, folder: &Path, name: &str, flown: &mut usize) -> std::result::Result<Entry, Rejection> {
-        let Found { bytes, notes } = Found::read(folder, name)?;
+        let Found { bytes, policy, notes } = Found::read(folder, name)?;
         // The same bytes, judged by the same program; suite and settings are looked at below.
-        let key = format!("{OUTCOMES}\n{}\n{}\n", Digest::of(&bytes), self.program);
+        let policy = policy.filter(|_| self.runs_policies);
+        let beside = policy.as_ref().map_or_else(String::new, |policy| Digest::of(policy).to_string());
+        let (file, program, runs) = (Digest::of(&bytes), self.program, self.runs_policies);
+        let key = format!("{OUTCOMES}\n{file}\n{program}\n{runs} {beside}\n");
         let place = self.outcomes.join(Digest::of(key.as_bytes()).to_string());
         let kept = std::fs::read(&place).ok().and_then(|kept| serde_json::from_slice::<Kept>(&kept).ok());
         let kept = match kept {
             Some(kept) => kept,
             None => {
                 let bundle = Bundle::of_bytes(&bytes).map_err(|rule| format!("it is no whole bundle: {rule}"))?;
-                let kept = self.fly(bundle)?;
+                let kept = self.fly(bundle, policy.as_deref())?;
                 *flown += 1;
                 self.keep(&place, &kept)?;
                 kept
@@ -159,9 +176,14 @@ impl Bench<'_> {
         let suite = self.suite(&kept.card)?;
         settings(&kept.card, suite)?;
         let suite = SuiteCard::of(suite);
-        let Kept { card, rows, differ, clip } = kept;
-        let sees = Sees::of(&card, &notes, &rows)?;
-        let proof = if differ.is_empty() { Proof::Reflown } else { Proof::Claimed(differ) };
+        let Kept { card, rows, differ, clip, rerun } = kept;
+        let shown = rerun.as_ref().filter(|rerun| rerun.differ.is_empty()).map(|rerun| rerun.sees.as_slice());
+        let sees = Sees::of(&card, &notes, &rows, shown)?;
+        let proof = match rerun {
+            _ if !differ.is_empty() => Proof::Claimed(differ),
+            Some(rerun) if rerun.differ.is_empty() => Proof::Rerun,
+            rerun => Proof::Reflown(rerun.map_or(vec![], |rerun| rerun.differ)),
+        };
         Ok(Entry { file: name.to_owned(), card, suite, rows, notes, sees, proof, clip })
     }
 
@@ -189,25 +211,49 @@ impl Bench<'_> {
         .into())
     }
 
-    fn fly(&self, bundle: Bundle) -> std::result::Result<Kept, Rejection> {
+    fn fly(&self, bundle: Bundle, beside: Option<&[u8]>) -> std::result::Result<Kept, Rejection> {
         let suite = self.suite(&bundle.card)?;
         let settings = settings(&bundle.card, suite)?;
-        let flown = fly_again(&bundle, suite, &settings, self.jobs, self.cancelled, &|_, _| ());
-        let differ = flown.map_err(|problem| match problem.fault {
-            Fault::Input => Rejection::Entry(problem.message),
-            _ => Rejection::Machine(problem),
-        })?;
+        let (jobs, cancelled) = (self.jobs, self.cancelled);
+        let again = Again { bundle: &bundle, suite, settings: &settings, jobs, cancelled };
+        let rerun = if self.runs_policies { run_again(&again, beside)? } else { None };
+        let differ = match &rerun {
+            // The same actions were flown, to the same rows.
+            Some(rerun) if rerun.differ.is_empty() => vec![],
+            _ => again.by_record(&|_, _| ()).map_err(rejection)?,
+        };
         let clip = clip(&bundle, suite, &settings);
         let at = |row: &Row| suite.tasks.iter().position(|task| task.episode.name == row.episode);
         let mut rows: Vec<Row> = bundle.episodes.into_iter().map(|episode| episode.row).collect();
         rows.sort_by_cached_key(at);
         let differ = differ.iter().map(|words| shortened(words)).collect();
-        Ok(Kept { card: bundle.card, rows, differ, clip })
+        Ok(Kept { card: bundle.card, rows, differ, clip, rerun })
     }
 
     fn keep(&self, place: &Path, kept: &Kept) -> Result<()> {
         let text = serde_json::to_string(kept).unwrap_or_default();
         let written = std::fs::create_dir_all(&self.outcomes).and_then(|()| write_file(place, text.as_bytes()));
         written.map_err(|error| Diagnostic::io(format!("write {}", place.display()), &error))
+    }
+}
+
+/// The policy of an entry, run again; none where there is none to run.
+fn run_again(again: &Again<'_>, beside: Option<&[u8]>) -> std::result::Result<Option<Rerun>, Rejection> {
+    let bundle = again.bundle;
+    let policy = match Runnable::of(&bundle.card.policy, bundle.policy.as_deref().or(beside)) {
+        Ok(Some(policy)) => policy,
+        Ok(None) => return Ok(None),
+        Err(rule) => return Ok(Some(Rerun { sees: vec![], differ: vec![shortened(&rule)] })),
+    };
+    let differ = again.by_policy(&policy, &|_, _| ()).map_err(rejection)?;
+    let sees = policy.sees().into_iter().map(str::to_owned).collect();
+    Ok(Some(Rerun { sees, differ: differ.iter().map(|words| shortened(words)).collect() }))
+}
+
+/// Whether what went wrong is the entry's fault.
+fn rejection(problem: Box<Diagnostic>) -> Rejection {
+    match problem.fault {
+        Fault::Input => Rejection::Entry(problem.message),
+        _ => Rejection::Machine(problem),
     }
 }

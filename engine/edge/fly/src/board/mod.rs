@@ -18,5 +18,5 @@ pub use judge::{Bench, Offer, judge};
 pub use notes::Notes;
 pub use page::page;
 pub use sees::Sees;
-pub use standing::{Board, Contest, Refused, Standing};
+pub use standing::{Board, Class, Contest, Refused, Standing};
 pub use table::{json, told};

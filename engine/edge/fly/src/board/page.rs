@@ -1,7 +1,7 @@
 //! The page of a board: one file in HTML that opens offline, without a script.
 
-use super::entry::Proof;
 use super::standing::{Board, Contest, Refused, Standing};
+use super::table::differing;
 use crate::results::{METRICS, Metric, Summary, cell, ending, worst};
 use cosfly_plot::text::escaped;
 use cosfly_report::{Section, document};
@@ -34,11 +34,12 @@ pub fn page(board: &Board, cosfly: &str) -> String {
 
 fn heading(board: &Board) -> String {
     let count = |of: fn(&Contest) -> usize| board.contests.iter().map(of).sum::<usize>();
-    let reflown = count(|it| it.ranked.len() + it.world.len());
+    let reflown = count(|it| it.all().count() - it.claimed.len());
+    let rerun = count(|it| it.all().filter(|it| it.entry.proof.word() == "re-run").count());
     format!(
         "<header><div class=\"words\"><p class=\"eyebrow\">Closed-loop evaluation</p><h1>Leaderboard</h1>\
          <p class=\"headline\"><b>{reflown}</b> entries were flown again here and came to the same rows, byte for byte.</p>\
-         <p class=\"facts\">{} claimed<span aria-hidden=\"true\"> · </span>{} refused</p></div></header>\n",
+         <p class=\"facts\">{rerun} of them by their policies, run again<span aria-hidden=\"true\"> · </span>{} claimed<span aria-hidden=\"true\"> · </span>{} refused</p></div></header>\n",
         board.claims(),
         board.refused.len()
     )
@@ -50,22 +51,17 @@ fn of_contest(contest: &Contest) -> String {
         contest.suite.episodes,
         escaped(&contest.suite.hash)
     );
-    let first = contest.ranked.first().map_or("", |first| first.entry.card.policy.name.as_str());
-    let note = match contest.ranked.len() {
-        0 | 1 => String::new(),
-        _ => format!(
-            "<i>behind</i>: tracking rate minus that of {}, over the same episodes; the interval of pairs leaves out 0 \
-             where there is a *.",
-            escaped(&short(first))
-        ),
-    };
-    html += &table("Re-flown", &contest.ranked, &note);
+    for class in &contest.rerun {
+        let title = format!("Re-run, sees {}", escaped(&short(&class.sees)));
+        html += &table(&title, &class.ranked, &behind(&class.ranked));
+    }
+    html += &table("Re-flown", &contest.ranked, &behind(&contest.ranked));
     let note = "Not ranked: these know the whole walk and the expert&#39;s flight, or fly the expert&#39;s flight.";
-    html += &table("Re-flown, with knowledge of the world", &contest.world, note);
+    html += &table("With knowledge of the world", &contest.world, note);
     let note = "Not ranked: the actions came to other rows here. The scores are those that the file claims.";
     html += &table("Claimed", &contest.claimed, note);
     html += &groups(contest);
-    for standing in contest.ranked.iter().chain(&contest.world).chain(&contest.claimed) {
+    for standing in contest.all() {
         html += &failures(standing);
     }
     let ground = serde_json::to_string_pretty(&contest.ground).unwrap_or_default();
@@ -75,6 +71,18 @@ fn of_contest(contest: &Contest) -> String {
         escaped(&ground)
     );
     html
+}
+
+/// What the column `behind` says.
+fn behind(ranked: &[Standing]) -> String {
+    match ranked {
+        [first, _, ..] => format!(
+            "<i>behind</i>: tracking rate minus that of {}, over the same episodes; the interval of pairs leaves out 0 \
+             where there is a *.",
+            escaped(&short(&first.entry.card.policy.name))
+        ),
+        _ => String::new(),
+    }
 }
 
 fn columns() -> impl Iterator<Item = (usize, &'static Metric)> {
@@ -149,7 +157,7 @@ fn name(standing: &Standing) -> String {
 
 /// Mean tracking rate of all entries by group of episodes.
 fn groups(contest: &Contest) -> String {
-    let all: Vec<&Standing> = contest.ranked.iter().chain(&contest.world).collect();
+    let all: Vec<&Standing> = contest.all().take(contest.all().count() - contest.claimed.len()).collect();
     let Some(first) = all.first().filter(|first| !first.groups.is_empty()) else { return String::new() };
     let mut html = String::from(
         "<div class=\"card wide\"><h3>Tracking rate by group of episodes</h3><div class=\"scroll\"><table><thead><tr>\
@@ -185,8 +193,9 @@ fn failures(standing: &Standing) -> String {
     if !entry.clip.is_empty() {
         let _ = write!(html, "<figure>{}<figcaption>{CLIP}</figcaption></figure>", entry.clip);
     }
-    if let Proof::Claimed(differ) = &entry.proof {
-        let _ = write!(html, "<p class=\"bad\">{} of {} episodes differ:</p><ul>", differ.len(), entry.rows.len());
+    let differ = entry.proof.differs();
+    if !differ.is_empty() {
+        let _ = write!(html, "<p class=\"bad\">{}:</p><ul>", differing(standing));
         differ.iter().take(DIFFER).for_each(|it| _ = write!(html, "<li>{}</li>", escaped(it)));
         html.push_str("</ul>");
     }
@@ -207,7 +216,9 @@ fn refused(refused: &[Refused]) -> String {
 }
 
 fn words() -> String {
-    "<div class=\"card\"><p><b>Re-flown</b>: the recorded actions were flown again here and came to the same rows, byte for byte. So \
+    "<div class=\"card\"><p><b>Re-run</b>: the policy was run again here on what it sees, and gave the same actions, which came to the \
+     same rows. Only these are ranked by what they see.</p>\
+     <p><b>Re-flown</b>: the recorded actions were flown again here and came to the same rows, byte for byte. So \
      these actions give these scores. It does not prove who gave the actions, or what they saw: a rank is one of actions.</p>\
      <p><b>Claimed</b>: the actions came to other rows here, so that the scores are a claim.</p>\
      <p><b>Sees</b>: what the maker of the entry says, or else all that the policy was sent. An entry that flies the expert&#39;s \

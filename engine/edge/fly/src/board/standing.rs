@@ -34,7 +34,9 @@ pub struct Contest {
     pub suite: SuiteCard,
     /// Settings that all have in common.
     pub ground: Value,
-    /// Verified entries, the highest tracking rate first.
+    /// Entries whose policies were run again, by what they see.
+    pub rerun: Vec<Class>,
+    /// Entries whose actions alone were verified, the highest tracking rate first.
     pub ranked: Vec<Standing>,
     /// Verified entries that know the world: no rank among the others.
     pub world: Vec<Standing>,
@@ -42,16 +44,25 @@ pub struct Contest {
     pub claimed: Vec<Standing>,
 }
 
+/// Entries whose policies were run again and see the same.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Class {
+    /// What they see, in words.
+    pub sees: String,
+    /// The entries, the highest tracking rate first.
+    pub ranked: Vec<Standing>,
+}
+
 /// An entry with its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Standing {
     /// The entry.
     pub entry: Entry,
-    /// Rank among verified entries; equal rates have equal ranks.
+    /// Rank among the entries that it is listed with; equal rates have equal ranks.
     pub rank: Option<usize>,
     /// Metrics, in the order of `METRICS`.
     pub scores: Vec<Summary>,
-    /// Tracking rate, minus that of the first of the ranked, over pairs of episodes.
+    /// Tracking rate, minus that of the first that it is listed with, over pairs of episodes.
     pub behind: Option<Difference>,
     /// Mean tracking rate by group of episodes.
     pub groups: Vec<(String, f64)>,
@@ -79,6 +90,12 @@ impl Board {
     pub fn claims(&self) -> usize {
         self.contests.iter().map(|contest| contest.claimed.len()).sum()
     }
+
+    /// Whether no entry is refused, is a claim, or has a policy that gives other actions.
+    pub fn is_sound(&self) -> bool {
+        let sound = |standing: &Standing| standing.entry.proof.differs().is_empty();
+        self.refused.is_empty() && self.claims() == 0 && self.contests.iter().flat_map(Contest::all).all(sound)
+    }
 }
 
 impl Contest {
@@ -86,11 +103,24 @@ impl Contest {
         let (suite, ground) = entries.first().map(|first| (first.suite.clone(), first.card.ground()))?;
         let mut standings: Vec<Standing> = entries.into_iter().map(standing).collect();
         standings.sort_by(|a, b| b.rate().total_cmp(&a.rate()).then_with(|| a.entry.file.cmp(&b.entry.file)));
-        let (verified, claimed): (Vec<_>, Vec<_>) =
-            standings.into_iter().partition(|it| it.entry.proof == Proof::Reflown);
-        let (world, mut ranked): (Vec<_>, Vec<_>) = verified.into_iter().partition(|it| it.entry.sees.world);
+        let (claimed, verified): (Vec<_>, Vec<_>) =
+            standings.into_iter().partition(|it| matches!(it.entry.proof, Proof::Claimed(_)));
+        let (world, seeing): (Vec<_>, Vec<_>) = verified.into_iter().partition(|it| it.entry.sees.world);
+        let (run, mut ranked): (Vec<_>, Vec<_>) = seeing.into_iter().partition(|it| it.entry.proof == Proof::Rerun);
         rank(&mut ranked);
-        Some(Self { suite, ground, ranked, world, claimed })
+        let mut classes: BTreeMap<String, Vec<Standing>> = BTreeMap::new();
+        run.into_iter().for_each(|it| classes.entry(it.entry.sees.words.clone()).or_default().push(it));
+        let class = |(sees, mut ranked): (String, Vec<Standing>)| {
+            rank(&mut ranked);
+            Class { sees, ranked }
+        };
+        let rerun = classes.into_iter().map(class).collect();
+        Some(Self { suite, ground, rerun, ranked, world, claimed })
+    }
+
+    /// All entries, those that prove most first.
+    pub fn all(&self) -> impl Iterator<Item = &Standing> {
+        self.rerun.iter().flat_map(|class| &class.ranked).chain(&self.ranked).chain(&self.world).chain(&self.claimed)
     }
 }
 

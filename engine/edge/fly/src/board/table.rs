@@ -1,7 +1,7 @@
 //! The board for programs and for terminals.
 
 use super::entry::Proof;
-use super::standing::{Board, Contest, Standing};
+use super::standing::{Board, Class, Contest, Standing};
 use crate::results::{METRICS, of_summaries};
 use cosfly_plot::text::one_line;
 use serde_json::{Map, Value, json};
@@ -10,10 +10,11 @@ use std::fmt::Write as _;
 /// The board, for programs.
 pub fn json(board: &Board) -> String {
     let list = |standings: &[Standing]| standings.iter().map(of_standing).collect::<Vec<Value>>();
+    let class = |it: &Class| json!({ "sees": it.sees, "ranked": list(&it.ranked) });
     let contest = |it: &Contest| {
         json!({
             "suite": it.suite.name, "hash": it.suite.hash, "episodes": it.suite.episodes, "settings": it.ground,
-            "ranked": list(&it.ranked), "knows_world": list(&it.world), "claimed": list(&it.claimed),
+            "rerun": it.rerun.iter().map(class).collect::<Vec<Value>>(), "ranked": list(&it.ranked), "knows_world": list(&it.world), "claimed": list(&it.claimed),
         })
     };
     let suites: Vec<Value> = board.contests.iter().map(contest).collect();
@@ -30,16 +31,21 @@ fn of_standing(it: &Standing) -> Value {
     });
     let groups: Map<String, Value> = it.groups.iter().map(|(name, rate)| (name.clone(), json!(rate))).collect();
     let notes = &it.entry.notes;
-    let differ = match &it.entry.proof {
-        Proof::Reflown => &[][..],
-        Proof::Claimed(differ) => &differ[..],
-    };
     json!({
         "rank": it.rank, "file": it.entry.file, "policy": policy.name, "version": policy.version, "kind": policy.kind,
-        "proof": it.entry.proof.word(), "differs": differ, "sees": it.entry.sees.words,
+        "proof": it.entry.proof.word(), "differs": it.entry.proof.differs(), "sees": it.entry.sees.words,
         "latency": it.entry.card.latency(), "scores": of_summaries(&it.scores), "behind_first": behind,
         "tracking_rate_by_group": groups, "licence": notes.licence, "link": notes.link, "about": notes.about,
     })
+}
+
+/// What comes out differently, in words: a number of episodes.
+pub fn differing(it: &Standing) -> String {
+    let (count, all) = (it.entry.proof.differs().len(), it.entry.rows.len());
+    match it.entry.proof {
+        Proof::Claimed(_) => format!("{count} of {all} episodes differ"),
+        _ => format!("its policy was run and differs in {count} of {all} episodes"),
+    }
 }
 
 /// The board, for terminals.
@@ -47,16 +53,14 @@ pub fn told(board: &Board) -> String {
     let mut text = String::new();
     for contest in &board.contests {
         let _ = writeln!(text, "{}, {} episodes", one_line(&contest.suite.name), contest.suite.episodes);
-        let all = contest.ranked.iter().chain(&contest.world).chain(&contest.claimed);
-        for it in all {
+        for it in contest.all() {
             let rank = it.rank.map_or_else(|| "-".to_owned(), |rank| rank.to_string());
             let name = one_line(&it.entry.card.policy.name);
             let (rate, decimals) = (it.rate(), METRICS[0].decimals);
             let (word, sees) = (it.entry.proof.word(), one_line(&it.entry.sees.words));
             let _ = writeln!(text, "{rank:>4}  {rate:.decimals$}  {word:<8}  {name} (sees {sees})");
-            if let Proof::Claimed(differ) = &it.entry.proof {
-                let first = differ.first().map(|it| one_line(it)).unwrap_or_default();
-                let _ = writeln!(text, "      {} of {} episodes differ: {first}", differ.len(), it.entry.rows.len());
+            if let Some(first) = it.entry.proof.differs().first() {
+                let _ = writeln!(text, "      {}: {}", differing(it), one_line(first));
             }
         }
     }

@@ -50,12 +50,27 @@ impl ActionKind {
         }
     }
 
+    /// All kinds.
+    pub const ALL: [Self; 5] =
+        [Self::Velocity, Self::ThrustAndRates, Self::Rotors, Self::DeltasInWorld, Self::DeltasInBody];
+
+    /// Units of its numbers, in words.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Velocity => "m/s, degrees/s",
+            Self::ThrustAndRates => "weights, degrees/s",
+            Self::Rotors => "rev/min, degrees/s",
+            Self::DeltasInWorld | Self::DeltasInBody => "m, degrees",
+        }
+    }
+
     /// Whether only quadrotors take such actions.
     pub fn is_of_rotors(self) -> bool {
         matches!(self, Self::ThrustAndRates | Self::Rotors)
     }
 
-    fn columns(self) -> usize {
+    /// Numbers of a row.
+    pub fn columns(self) -> usize {
         if self == Self::Velocity { 5 } else { 6 }
     }
 }
@@ -90,7 +105,15 @@ impl Answer {
                 "`actions` has the shape {shape:?}; {name} is ({columns},) or (n, {columns}) with n of at least 1"
             ));
         }
-        if let Some(wrong) = wrong_number(&rows, columns) {
+        Self::of_rows(rows, environment, kind)
+    }
+
+    /// The answer of rows, one after the other, to the present observation.
+    ///
+    /// # Errors
+    /// The number that no action may have, in words.
+    pub fn of_rows(rows: Vec<f64>, environment: &Environment, kind: ActionKind) -> Result<Self, String> {
+        if let Some(wrong) = wrong_number(&rows, kind.columns()) {
             return Err(format!("`actions` is {wrong}"));
         }
         let observation = environment.observation();

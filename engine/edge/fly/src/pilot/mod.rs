@@ -1,14 +1,16 @@
-//! Policies of an evaluation: baselines, servers, functions in Python.
+//! Policies of an evaluation: baselines, servers, functions in Python, networks in ONNX files.
 
 mod answer;
 mod baseline;
 mod first_answer;
 mod manners;
+mod onnx;
 mod open;
 mod place;
 mod process;
 mod python;
 mod question;
+mod runnable;
 mod seam;
 mod socket;
 mod source;
@@ -16,7 +18,9 @@ mod source;
 pub use answer::{ActionKind, Answer, wrong_number};
 pub use first_answer::{Asked, FirstAnswer};
 pub use manners::Manners;
+pub use onnx::{FARTHEST_M, OnnxPolicy};
 pub use open::open;
 pub use place::Place;
+pub use runnable::Runnable;
 pub use seam::{Failure, Pilot};
 pub use source::source_of;

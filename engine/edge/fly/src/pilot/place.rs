@@ -1,8 +1,10 @@
 //! [`Place`]: where a policy is.
 
+use super::onnx::OnnxPolicy;
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_env::policies::{BASELINES, Variation};
 use cosfly_secrets::{has_secret, without_secrets};
+use std::path::Path;
 
 /// Where a policy is.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +16,8 @@ pub enum Place {
         /// Changes to its actions.
         variation: Variation,
     },
+    /// `onnx:FILE`, a network with a description.
+    Onnx(OnnxPolicy),
     /// `ws://HOST:PORT`, a server that speaks openpi's wire.
     Socket(String),
     /// `python:module:function`.
@@ -26,10 +30,10 @@ pub enum Place {
 }
 
 impl Place {
-    /// Reads `ws://HOST:PORT`, `python:module:function`, or the name of a baseline and changes to it: `follow:gain=0.5`.
+    /// Reads `ws://HOST:PORT`, `python:module:function`, `onnx:FILE` (and the file), or the name of a baseline and changes to it: `follow:gain=0.5`.
     ///
     /// # Errors
-    /// `fly-policy`, with what is allowed.
+    /// `fly-policy`, with what is allowed; those of [`OnnxPolicy::read`].
     pub fn read(text: &str) -> Result<Self> {
         let refused = |message: String| Diagnostic::new("fly-policy", Fault::Recipe, message);
         // The address names folders and stands on cards and pages.
@@ -45,6 +49,9 @@ impl Place {
         if text.starts_with("wss://") {
             let message = format!("`{text}` asks for an encrypted connection, which `cosfly fly` does not make");
             return Err(refused(message).hint("use ws://, through a tunnel such as `ssh -L` where the network is open"));
+        }
+        if let Some(file) = text.strip_prefix("onnx:") {
+            return OnnxPolicy::read(Path::new(file)).map(Self::Onnx);
         }
         if let Some(rest) = text.strip_prefix("python:") {
             let parts: Vec<&str> = rest.split(':').collect();
@@ -67,7 +74,25 @@ impl Place {
             None => problem,
         };
         let names: Vec<&str> = names().collect();
-        Err(problem.hint(format!("allowed are ws://HOST:PORT, python:MODULE:FUNCTION, {}", names.join(", "))))
+        Err(problem
+            .hint(format!("allowed are ws://HOST:PORT, python:MODULE:FUNCTION, onnx:FILE, {}", names.join(", "))))
+    }
+
+    /// The baseline whose [`Self::name`] this is.
+    pub fn of_baseline(name: &str) -> Option<Self> {
+        BASELINES.iter().find_map(|baseline| {
+            let change = name.strip_prefix(baseline.name)?;
+            let variation = match change.strip_prefix("-gain") {
+                None if change.is_empty() => Variation::NONE,
+                None => return None,
+                Some(change) => {
+                    let change = change.replacen("-delay", ",delay_s=", 1).replacen("-noise", ",noise_mps=", 1);
+                    Variation::read(&format!("gain={change}")).ok()?
+                }
+            };
+            let place = Self::Baseline { name: baseline.name, variation };
+            (place.name() == name).then_some(place)
+        })
     }
 
     /// Name in tables and of folders, where none is given.
@@ -81,8 +106,25 @@ impl Place {
             Self::Baseline { name, variation: Variation { delay_s, gain, noise_mps } } => {
                 format!("{name}-gain{gain}-delay{delay_s}-noise{noise_mps}")
             }
+            Self::Onnx(policy) => safe(policy.name()),
             Self::Socket(address) => safe(address.trim_start_matches("ws://")),
             Self::Python { module, function } => safe(&format!("{module}.{function}")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_baselines_are_read_back() {
+        for text in ["hold", "constant-velocity", "follow:gain=0.5", "causal:delay_s=0.3,noise_mps=1"] {
+            let place = Place::read(text).expect("a baseline");
+            assert_eq!(Place::of_baseline(&place.name()), Some(place), "{text}");
+        }
+        for wrong in ["", "holds", "follow-gain0.5", "follow-gain99-delay0-noise0", "127.0.0.1-8000"] {
+            assert_eq!(Place::of_baseline(wrong), None, "{wrong}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! [`source_of`]: the digest of the file of a policy in Python.
+//! [`source_of`]: the digest of the file of a policy.
 
 use super::manners::Manners;
 use super::place::Place;
@@ -21,10 +21,14 @@ const LONGEST: Duration = Duration::from_secs(10);
 /// Longest path that is read, bytes.
 const LONGEST_PATH: u64 = 1 << 16;
 
-/// Digest of the file of a policy in Python: rows of another text of it are rows of another policy. `None` for other policies, and
+/// Digest of the file of a policy in Python or ONNX: rows of another text of it are rows of another policy. `None` for other policies, and
 /// where the file is not found.
 pub fn source_of(place: &Place, manners: &Manners) -> Option<String> {
-    let Place::Python { module, .. } = place else { return None };
+    let module = match place {
+        Place::Onnx(policy) => return Some(policy.digest().to_string()),
+        Place::Python { module, .. } => module,
+        Place::Baseline { .. } | Place::Socket(_) => return None,
+    };
     let mut command = Command::new(&manners.python);
     command.args(["-c", FIND, module]).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
     in_group(&mut command);

@@ -2,6 +2,7 @@
 
 use super::differences::differences;
 use crate::flight::Latency;
+use crate::pilot::OnnxPolicy;
 use crate::settings::FlySettings;
 use crate::suite::{Part, Suite};
 use cosfly_domain::channels::rgb;
@@ -69,12 +70,12 @@ pub struct PolicyCard {
     /// Version, as given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
-    /// Kind: `baseline`, `socket`, `python`.
+    /// Kind: `baseline`, `onnx`, `python`, `socket`.
     pub kind: String,
-    /// Digest of the file of a module in Python.
+    /// Digest of the file of a network in ONNX, or of a module in Python.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<String>,
-    /// Time within which an answer must come, seconds; none for baselines.
+    /// Time within which an answer must come, seconds; none for baselines and networks in ONNX, which are not timed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timeout_s: Option<f64>,
     /// Kind of its actions.
@@ -89,6 +90,9 @@ pub struct PolicyCard {
     /// Sensors whose readings are in its observations.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sensors: Vec<String>,
+    /// What a network in ONNX sees: the observations that its inputs are fed with.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub observations: Vec<String>,
     /// The baseline that it is, with its variation, such as `follow-gain0.5-delay0-noise0`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub baseline: Option<String>,
@@ -97,8 +101,32 @@ pub struct PolicyCard {
 impl PolicyCard {
     /// Names of what the policy was sent: the state, pictures, readings of sensors.
     pub fn sent(&self) -> Vec<&str> {
+        if !self.observations.is_empty() {
+            return self.observations.iter().map(String::as_str).collect();
+        }
         let pictures = self.pictures.iter().flat_map(|pictures| &pictures.channels);
         std::iter::once("state").chain(pictures.chain(&self.sensors).map(String::as_str)).collect()
+    }
+
+    /// The card of a network in ONNX, whose file says all of it but name and version.
+    pub fn of_onnx(policy: &OnnxPolicy, name: &str, version: Option<String>) -> Self {
+        let description = policy.description();
+        let is_sensor = |name: &&str| cosfly_sensors::called(name).is_some();
+        let sees = policy.sees();
+        Self {
+            name: name.to_owned(),
+            version,
+            kind: "onnx".to_owned(),
+            source: Some(policy.digest().to_string()),
+            timeout_s: None,
+            actions: description.actions.name().to_owned(),
+            every: description.every,
+            prompt: String::new(),
+            pictures: description.pictures.as_ref().map(PicturesCard::of),
+            sensors: sees.iter().copied().filter(is_sensor).map(str::to_owned).collect(),
+            observations: sees.into_iter().map(str::to_owned).collect(),
+            baseline: None,
+        }
     }
 
     /// The sensors.

@@ -6,6 +6,7 @@ use crate::exit;
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_fly::bundle::Bundle;
+use cosfly_fly::pilot::OnnxPolicy;
 use cosfly_whole::write_file;
 use std::ffi::OsStr;
 use std::path::PathBuf;
@@ -13,11 +14,12 @@ use std::path::PathBuf;
 /// Make a result one file that anyone can fly again: card, rows, actions of every step
 #[derive(Args, Debug)]
 #[command(after_help = "\
-Example:
+Examples:
   cosfly fly bundle out/fly/street/mine
+  cosfly fly bundle out/fly/street/mine --with-policy mine.onnx
 
 The file is JSON lines in zstd (`zstdcat` shows them): the card, a line for each episode, a digest. Texts of the task and of failures are
-left out. `cosfly fly verify FILE SUITE` flies the actions again.")]
+left out. `--with-policy` puts a network in ONNX into it, so that others can run it again. `cosfly fly verify FILE SUITE` flies the actions again.")]
 pub struct Arguments {
     /// Folder of a finished result
     #[arg(value_name = "RESULT")]
@@ -25,12 +27,18 @@ pub struct Arguments {
     /// The file [default: RESULT.jsonl.zst]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// The file of the policy, a network in ONNX, to hold in the bundle; as it is, with all texts in it
+    #[arg(long, value_name = "FILE")]
+    with_policy: Option<PathBuf>,
 }
 
 impl Arguments {
     /// Does the work.
     pub fn run(&self, console: &dyn Console) -> Outcome {
-        let bundle = Bundle::of(&self.result)?;
+        let mut bundle = Bundle::of(&self.result)?;
+        if let Some(file) = &self.with_policy {
+            bundle = bundle.with_policy(&OnnxPolicy::read(file)?)?;
+        }
         let bytes = bundle.bytes()?;
         let path = self.out.clone().unwrap_or_else(|| {
             let mut name = self.result.file_name().unwrap_or(OsStr::new("result")).to_owned();

@@ -1,6 +1,6 @@
 //! `cosfly fly commit`: a suite that nobody knows before it is revealed.
 
-use crate::arguments::StoreArguments;
+use crate::arguments::{StoreArguments, threads};
 use crate::command::Outcome;
 use crate::console::Console;
 use crate::exit;
@@ -54,7 +54,7 @@ impl Arguments {
         let (secret, published) =
             (folder.join(format!("{name}.secret.toml")), folder.join(format!("{name}.commitment")));
         let held_out = cosfly_recipe::read(&secret, &text, &[], &registry)?;
-        let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
+        let jobs = threads(self.jobs);
         let options = RunOptions { jobs, cancelled: console.cancelled(), ..RunOptions::default() };
         let suite = {
             let _deadline = console.deadline(None);

@@ -6,15 +6,12 @@ use clap::{Args, ValueEnum};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{Channel, ChannelSet, channels};
 use cosfly_env::pictures::PictureFormat;
-use cosfly_fly::pilot::{ActionKind, Manners, Place, source_of};
+use cosfly_fly::pilot::{ActionKind, FARTHEST_M, Manners, Place, source_of};
 use cosfly_fly::results::{PicturesCard, PolicyCard};
 use cosfly_render::PictureLook;
 use cosfly_sensors::{Sensor, SensorSet};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-
-/// Greatest depth in pictures, metres.
-const FARTHEST_M: f32 = 200.0;
 
 /// Environment variable with the key of a server.
 const KEY_VARIABLE: &str = "COSFLY_API_KEY";
@@ -94,9 +91,33 @@ impl From<ActionChoice> for ActionKind {
 }
 
 impl PolicyArguments {
-    /// Kind of the policy's actions.
-    pub fn actions(&self) -> ActionKind {
-        self.actions.into()
+    /// Kind of the actions of the policy at a place.
+    pub fn actions(&self, place: &Place) -> ActionKind {
+        match place {
+            Place::Onnx(policy) => policy.description().actions,
+            _ => self.actions.into(),
+        }
+    }
+
+    /// Refuses options about what a network in ONNX says itself.
+    ///
+    /// # Errors
+    /// `fly-policy`, with the option.
+    pub fn check(&self, place: &Place) -> Result<()> {
+        let Place::Onnx(policy) = place else { return Ok(()) };
+        let given = [
+            ("--actions", !matches!(self.actions, ActionChoice::Velocity)),
+            ("--every", self.every != 1),
+            ("--obs", !self.obs.is_empty()),
+            ("--look", self.look != PictureLook::Simple),
+        ];
+        match given.iter().find(|it| it.1) {
+            None => Ok(()),
+            Some((option, _)) => {
+                let message = format!("`{option}` says how `{}` is asked, which its file says itself", policy.name());
+                Err(Diagnostic::new("fly-policy", Fault::Recipe, message).hint("leave the option out"))
+            }
+        }
     }
 
     /// How the policy is asked.
@@ -140,8 +161,11 @@ impl PolicyArguments {
         })
     }
 
-    /// Sensors whose readings observations carry.
-    pub fn sensors(&self) -> SensorSet {
+    /// Sensors whose readings observations of the policy at a place carry.
+    pub fn sensors(&self, place: &Place) -> SensorSet {
+        if let Place::Onnx(policy) = place {
+            return SensorSet::of(|sensor| policy.sees().contains(&sensor.name));
+        }
         let is = |it: &Observed, sensor: &Sensor| matches!(it, Observed::Sensor(own) if own.name == sensor.name);
         SensorSet::of(|sensor| self.obs.iter().any(|it| is(it, sensor)))
     }
@@ -149,6 +173,7 @@ impl PolicyArguments {
     /// Card of the policy at a place.
     pub fn card(&self, place: &Place, name: &str) -> PolicyCard {
         let kind = match place {
+            Place::Onnx(policy) => return PolicyCard::of_onnx(policy, name, self.version.clone()),
             Place::Baseline { .. } => "baseline",
             Place::Socket(_) => "socket",
             Place::Python { .. } => "python",
@@ -165,7 +190,8 @@ impl PolicyArguments {
             every: manners.every,
             prompt: manners.prompt,
             pictures: manners.pictures.map(|format| PicturesCard::of(&format)),
-            sensors: self.sensors().iter().map(|sensor| sensor.name.to_owned()).collect(),
+            observations: vec![],
+            sensors: self.sensors(place).iter().map(|sensor| sensor.name.to_owned()).collect(),
             baseline: is_baseline.then(|| place.name()),
         }
     }
