@@ -1,0 +1,43 @@
+"""The description that `cosfly.onnx` writes into files."""
+
+import json
+
+import pytest
+
+import cosfly.onnx
+
+
+def entries(data):
+    """Entries of `metadata_props`, read by the module's own reader of fields."""
+    found = []
+    for number, field, key in cosfly.onnx._fields(data):
+        if number == 14:
+            found.append((key, json.loads(field[field.index(b"{") :])))
+    return found
+
+
+def test_a_description_is_added_and_replaced(tmp_path):
+    file = tmp_path / "policy.onnx"
+    other = cosfly.onnx._number(14 << 3 | 2)  # an entry of another maker
+    entry = cosfly.onnx._text(1, "by") + cosfly.onnx._text(2, "{}")
+    graph = cosfly.onnx._text(7, "a graph" * 40)
+    file.write_bytes(graph + other + cosfly.onnx._number(len(entry)) + entry)
+    cosfly.onnx.describe(file, {"seen": "depth"}, "actions")
+    first = file.read_bytes()
+    assert first.startswith(graph) and [key for key, _ in entries(first)] == ["by", "cosfly"]
+    cosfly.onnx.describe(file, {"seen": {"observation": "rgb", "unit": "0..1", "history": 4}}, "actions", states={"h": "h_out"}, every=5)
+    (_, (key, described)) = entries(file.read_bytes())
+    assert key == "cosfly" and described["every"] == 5 and described["states"] == {"h": "h_out"}
+    assert described["inputs"] == {"seen": {"observation": "rgb", "unit": "0..1", "history": 4}}
+    assert described["output"] == {"name": "actions", "actions": "velocity", "unit": "m/s, degrees/s"}
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_wrong_files_and_actions_are_refused(tmp_path):
+    file = tmp_path / "policy.onnx"
+    file.write_bytes(b"no network")
+    with pytest.raises(ValueError, match="not in ONNX"):
+        cosfly.onnx.describe(file, {"seen": "state"}, "actions")
+    with pytest.raises(ValueError, match="allowed are velocity"):
+        cosfly.onnx.describe(file, {"seen": "state"}, "actions", actions="speed")
+    assert file.read_bytes() == b"no network"
