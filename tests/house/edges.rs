@@ -2,12 +2,15 @@
 
 use crate::support::repository_root;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// A room: its shelf, and the packages that it names.
 pub struct Room {
     /// `base`, `sim`, `flow`, `data`, `edge` or `lab`.
     pub shelf: String,
+    /// The folder of its sources.
+    pub folder: PathBuf,
     /// Names of all packages that it depends on; true for those of its tests alone.
     pub uses: BTreeMap<String, bool>,
 }
@@ -59,6 +62,7 @@ pub fn rooms() -> BTreeMap<String, Room> {
         let manifest = text(&package["manifest_path"]);
         let Some((_, rest)) = manifest.split_once("/engine/").filter(|_| package["source"].is_null()) else { continue };
         let shelf = rest.split('/').next().expect("a shelf").to_owned();
+        let folder = Path::new(&manifest).with_file_name("src");
         let mut uses = BTreeMap::new();
         let mut add =
             |name: String, is_dev: bool| _ = uses.entry(name).and_modify(|dev| *dev &= is_dev).or_insert(is_dev);
@@ -70,7 +74,7 @@ pub fn rooms() -> BTreeMap<String, Room> {
             let is_dev = list(&edge["dep_kinds"]).iter().all(|kind| kind["kind"].as_str() == Some("dev"));
             add(names[&text(&edge["pkg"])].clone(), is_dev);
         }
-        rooms.insert(text(&package["name"]), Room { shelf, uses });
+        rooms.insert(text(&package["name"]), Room { shelf, folder, uses });
     }
     rooms
 }

@@ -1,6 +1,7 @@
-//! Laws of the house, read from the source: circles of files, lengths, purity of `sim`, edges between crates, public interfaces.
+//! Laws of the house, read from the source: circles of files, lengths, sizes, purity of `sim`, edges between crates, public interfaces.
 
 mod circles;
+mod closures;
 pub mod edges;
 mod interfaces;
 pub mod lengths;

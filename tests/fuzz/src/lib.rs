@@ -7,10 +7,10 @@ use cosfly_fly::bundle::Bundle;
 use cosfly_fly::pilot::{OnnxPolicy, Runnable};
 use cosfly_frames::Seed;
 use cosfly_maps::{MapConfig, read_town};
-use cosfly_metrics::run_lengths::Runs;
 use cosfly_onnx::{Model, Tensor};
 #[cfg(feature = "plugins")]
 use cosfly_plugin_host::{Host, PluginLimits};
+use cosfly_read::predictions::run_lengths::Runs;
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, read_answer};
 use cosfly_town::MapError;
 use cosfly_write::FramePackReader;

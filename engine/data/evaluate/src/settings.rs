@@ -1,7 +1,8 @@
 //! Choices of an evaluation.
 
 use cosfly_metrics::baselines::Anchor;
-use cosfly_metrics::{DeltaFrame, DeltaOrigin, WindowShape, bootstrap};
+use cosfly_metrics::{DeltaFrame, DeltaOrigin, bootstrap};
+use cosfly_windows::WindowShape;
 use serde::Serialize;
 
 /// Flights that models see.

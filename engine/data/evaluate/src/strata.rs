@@ -1,7 +1,7 @@
 //! Kinds of windows that are scored separately.
 
 use crate::windows::{Flights, Window, WindowSet};
-use cosfly_metrics::{Difficulty, WindowShape};
+use cosfly_windows::{Difficulty, WindowShape};
 use cosfly_schema::TownLayout;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ pub type Membership = u16;
 
 /// The strata of every window of the flights of `part`, which are loaded.
 ///
-/// * difficulty: see [`cosfly_metrics::difficulty`].
+/// * difficulty: see [`cosfly_windows::WindowFeatures::difficulty`].
 /// * scene: a town is seen when a flight of split `train` is in a town of the same ground plan, whatever its name.
 /// * target in the input: occluded when rays reach less than half of it in an input frame.
 /// * target: static when it stays within half a metre during the window.

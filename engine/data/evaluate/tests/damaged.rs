@@ -6,7 +6,7 @@ use cosfly_evaluate::pictures::{self, PictureKind, PictureSettings};
 use cosfly_evaluate::windows::Flights;
 use cosfly_evaluate::{Settings, evaluate};
 use cosfly_frames::{RandomStream, Seed};
-use cosfly_metrics::WindowShape;
+use cosfly_windows::WindowShape;
 use cosfly_read::{PublishedDataset, predictions};
 use cosfly_sample as sample;
 use cosfly_schema::{DatasetConfig, EncodingConfig};

@@ -1,9 +1,7 @@
-//! Image encoders: colour, depth, ids, and previews.
+//! Codecs of pictures: colour, depth, ids. They know no channel.
 
 pub mod depth;
-pub mod false_colours;
 pub mod ids;
 pub mod jpeg;
-pub mod previews;
 pub mod read;
 pub mod rgb;

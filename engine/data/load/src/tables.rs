@@ -8,7 +8,7 @@ use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::{DataType, Field};
 use cosfly_doctor::{ExaminedEpisode, ExaminedMoment};
 use cosfly_frames::{DVec3, Pose, action};
-use cosfly_metrics::WindowShape;
+use cosfly_windows::WindowShape;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -2,7 +2,7 @@
 //! request, the target enlarged.
 
 use crate::shot::ClipShot;
-use cosfly_images::false_colours::DepthScale;
+use cosfly_channel_pictures::false_colours::DepthScale;
 use cosfly_plot::canvas::{Canvas, INK, WHITE};
 use cosfly_read::PublishedFlight;
 

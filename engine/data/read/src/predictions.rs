@@ -16,6 +16,7 @@ mod json_lines;
 mod model_text;
 mod parquet_rows;
 mod rows;
+pub mod run_lengths;
 mod waypoint;
 
 pub use rows::{Prediction, PredictionRow, Predictions, RowProblem};

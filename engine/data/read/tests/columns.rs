@@ -1,6 +1,6 @@
 //! Round trip of columns: the values written by an entry of the schema are read back by the same entry.
 
-use cosfly_metrics::WindowShape;
+use cosfly_windows::WindowShape;
 use cosfly_read::TableFile;
 use cosfly_sample as sample;
 use cosfly_schema::tables::{

@@ -3,7 +3,7 @@
 
 use cosfly_captions::sight::Landmarks;
 use cosfly_frames::{DVec3, Pose, Seed};
-use cosfly_metrics::WindowShape;
+use cosfly_windows::WindowShape;
 use cosfly_sample as sample;
 use cosfly_schema::tables::{self, DatasetItem, Membership};
 use cosfly_schema::{LogRecord, PreviewStrip, RenderedTrajectory, Role, Split, TownLayout};

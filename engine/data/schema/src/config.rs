@@ -2,7 +2,7 @@
 
 use crate::card_text::{FACTS, unknown_fact};
 use cosfly_diagnose::ParameterError;
-use cosfly_metrics::WindowShape;
+use cosfly_windows::WindowShape;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -2,7 +2,7 @@
 
 use arrow_array::types::Float64Type;
 use arrow_array::{Array, FixedSizeListArray, Float64Array, StringArray};
-use cosfly_metrics::{Difficulty, WindowShape};
+use cosfly_windows::{Difficulty, WindowShape};
 use cosfly_sample as sample;
 use cosfly_schema::tables::{Column, DatasetItem, Membership, Table, Trajectories, Windows, of_trajectories};
 use cosfly_schema::{LogRecord, PreviewStrip, Role, Split, TownLayout};

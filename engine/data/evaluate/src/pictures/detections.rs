@@ -2,13 +2,14 @@
 
 use super::report::ClassReport;
 use super::tallies::Counted;
+use super::things::things;
 use cosfly_domain::SemanticLabel;
 use cosfly_metrics::detection::{ImageDetections, Ranked, Ranking};
-use cosfly_metrics::run_lengths::{Runs, things};
 use cosfly_metrics::scores::OF_DETECTIONS;
 use cosfly_metrics::{Metric, boxes};
 use cosfly_read::LoggedFrame;
 use cosfly_read::predictions::detections::Detection;
+use cosfly_read::predictions::run_lengths::Runs;
 
 /// Detections and objects of one class in one frame.
 pub struct FrameDetections {

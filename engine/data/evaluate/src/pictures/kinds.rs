@@ -2,7 +2,7 @@
 
 use crate::strata::is_seen;
 use crate::windows::{Flights, Window};
-use cosfly_metrics::{Difficulty, WindowShape};
+use cosfly_windows::{Difficulty, WindowShape};
 use std::collections::BTreeSet;
 
 /// Frames before and from a frame on that say how hard it is.

@@ -21,6 +21,7 @@ mod recognise;
 pub mod report;
 mod settings;
 mod tallies;
+mod things;
 
 pub use evaluation::evaluate;
 pub use recognise::recognise;

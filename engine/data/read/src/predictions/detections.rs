@@ -2,9 +2,9 @@
 
 use super::json_array::{Places, bare_word, each_element};
 use super::rows::{Refusal, RowProblem, number_of};
+use super::run_lengths::Runs;
 use super::{json_lines, not_an_array};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_metrics::run_lengths::Runs;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;

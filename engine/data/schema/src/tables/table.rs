@@ -5,7 +5,7 @@ use super::column::AnyColumn;
 use crate::losses::Loss;
 use crate::{CaptionRecord, LogRecord, PreviewStrip, RenderedTrajectory, Split, TownLayout};
 use cosfly_frames::DVec3;
-use cosfly_metrics::WindowShape;
+use cosfly_windows::WindowShape;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;

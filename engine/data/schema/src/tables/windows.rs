@@ -7,8 +7,7 @@ use crate::Role;
 use crate::log::messages::edges_px;
 use cosfly_domain::TargetView;
 use cosfly_frames::{Pose, action};
-use cosfly_metrics::difficulty::WindowFrames;
-use cosfly_metrics::{Difficulty, WindowFeatures};
+use cosfly_windows::{Difficulty, WindowFeatures, WindowFrames};
 use std::ops::Range;
 
 /// Whether the town is part of the training data.

@@ -7,7 +7,7 @@ mod sight;
 use cosfly_captions::Language;
 use cosfly_captions::sight::Landmarks;
 use cosfly_frames::DVec3;
-use cosfly_metrics::WindowShape;
+use cosfly_windows::WindowShape;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::losses::Loss;
 use cosfly_schema::tables::{BodyRow, CrossingRow, Derived};

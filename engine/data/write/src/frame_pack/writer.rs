@@ -7,7 +7,7 @@ use super::pixels;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{Channel, FrameImages};
 use cosfly_images::jpeg::Chroma;
-use cosfly_images::previews::SmallImages;
+use cosfly_channel_pictures::previews::SmallImages;
 use cosfly_images::rgb;
 use cosfly_schema::config::{JpegChroma, RgbEncoding};
 use std::io::Write;

@@ -10,7 +10,7 @@ use cosfly_domain::Town;
 use cosfly_domain::channels::rgb;
 use cosfly_fingerprint::Digest;
 use cosfly_fingerprint::sha256::HashingWriter;
-use cosfly_images::previews;
+use cosfly_channel_pictures::previews;
 use cosfly_schema::extras::Extra;
 use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::log::{Frequency, frame_time_ns, messages, topic, topics};

@@ -12,7 +12,7 @@ use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_evaluate::pictures::{self, PictureKind, PictureSettings};
 use cosfly_evaluate::windows::Flights;
 use cosfly_evaluate::{Evaluation, Settings, evaluate, name_of};
-use cosfly_metrics::WindowShape;
+use cosfly_windows::WindowShape;
 use cosfly_read::PublishedDataset;
 use cosfly_read::predictions;
 use std::ffi::OsString;

@@ -7,7 +7,7 @@ use crate::clock::timed;
 use cosfly_diagnose::Result;
 use cosfly_domain::{ChannelSet, FrameImages, Weather};
 use cosfly_frames::simd::Level;
-use cosfly_images::previews::SmallImages;
+use cosfly_channel_pictures::previews::SmallImages;
 use cosfly_images::{depth, ids, rgb};
 use cosfly_render::{FrameParts, FrameSetup, PictureLook, Renderer};
 use cosfly_write::frame_pack::chunk_compressor;

@@ -1,7 +1,7 @@
 //! Options of `vlm`.
 
 use crate::shared_options::{IncrementOptions, InstructionOptions};
-use cosfly_metrics::WindowShape;
+use cosfly_windows::WindowShape;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

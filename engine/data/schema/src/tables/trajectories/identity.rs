@@ -6,7 +6,7 @@ use crate::tables::DatasetItem;
 use crate::tables::column::columns;
 use crate::tables::windows::{self, Scene};
 use cosfly_domain::{Outfit, Traffic, Traits};
-use cosfly_metrics::{Difficulty, WindowFeatures};
+use cosfly_windows::{Difficulty, WindowFeatures};
 
 columns! { Trajectories::IDENTITY of DatasetItem;
     /// Name of the trajectory, unique in the dataset.

@@ -1,6 +1,5 @@
 //! Previews of a frame, for viewers and for the `frames` table.
 
-use super::rgb::{jpeg, palette_png, png};
 use crate::false_colours::{depth_preview, picture_on_request};
 use core::ops::Range;
 use cosfly_diagnose::Result;
@@ -8,6 +7,7 @@ use cosfly_domain::channels::{ChannelSource, Element};
 use cosfly_domain::{Channel, ChannelImage, FrameImages, SemanticLabel};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
+use cosfly_images::rgb::{jpeg, palette_png, png};
 
 /// Largest width of a preview, pixels.
 const WIDTH: u32 = 320;

@@ -1,0 +1,4 @@
+//! Pictures of channels for people: false colours of what is no picture, and small previews of frames.
+
+pub mod false_colours;
+pub mod previews;
