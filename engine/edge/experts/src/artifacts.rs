@@ -37,6 +37,8 @@ pub const COMPANIONS: Kind<Vec<Companion>> = Kind::new("companions/1", "companio
 pub const TRAFFIC: Kind<Traffic> = Kind::new("traffic/1", "bodies");
 /// Bodies around the target of a flight.
 pub const AROUND: Kind<Around> = Kind::new("around/1", "around");
+/// Id of the walk that a flight follows, such as `crowd/p00003`.
+pub const WALK_ID: Kind<String> = Kind::new("walk-id/1", "walk-id");
 /// Outcome of ordering a loss of the target.
 pub const LOSSES: Kind<Trial> = Kind::new("losses/1", "trial");
 /// Flights of all drones behind a walk; a blob for each, of this type.

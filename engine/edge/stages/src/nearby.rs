@@ -87,8 +87,9 @@ impl Stage for NearbyStage {
         let target = followed(inputs, artifact)?;
         let stages: Vec<&[Artifact]> = inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).collect();
         let mut candidates = Candidates::new(&world.town, &flight, target.as_ref());
+        let walk_id = artifacts::WALK_ID.find(inputs, artifact)?;
         for (stage, artifacts) in stages.iter().enumerate() {
-            add(inputs, &mut candidates, stage, artifacts)?;
+            add(inputs, &mut candidates, (stage, artifacts), walk_id.as_deref())?;
         }
         let Candidates { all: candidates, left_out: meet_target, .. } = candidates;
         let about = candidates.len();
@@ -113,12 +114,18 @@ impl Stage for NearbyStage {
     }
 }
 
-/// Adds the items of stage number `stage` at port `others`.
-pub fn add(inputs: &Inputs<'_>, candidates: &mut Candidates<'_>, stage: usize, artifacts: &[Artifact]) -> Result<()> {
+/// Adds the items of a stage at port `others`, which has a number; not the walk that the flight follows.
+pub fn add(
+    inputs: &Inputs<'_>,
+    candidates: &mut Candidates<'_>,
+    (stage, artifacts): (usize, &[Artifact]),
+    followed: Option<&str>,
+) -> Result<()> {
     if let Some(traffic) = artifacts.first().map_or(Ok(None), |artifact| traffic_of(inputs, artifact))? {
         return candidates.add_traffic(stage, &traffic).map_err(|_| too_many(&artifacts[0]));
     }
-    for (item, artifact) in artifacts.iter().enumerate() {
+    let is_other = |artifact: &Artifact| followed.is_none_or(|id| artifact.id.to_string() != id);
+    for (item, artifact) in artifacts.iter().enumerate().filter(|(_, artifact)| is_other(artifact)) {
         let walk = artifacts::WALK.shared(inputs, artifact)?;
         match candidates.add_walk(stage, item, &walk)? {
             None => {}

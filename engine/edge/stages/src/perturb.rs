@@ -42,7 +42,7 @@ impl StageKind for Perturb {
         config.validate().map_err(|(path, message)| parameters::refused_at(&path, message))?;
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 6,
+            version: 7,
             parameters: parameters::canonical(&config),
             sources: vec![],
             inputs: self.ports(),

@@ -60,7 +60,7 @@ impl StageKind for Plan {
         parameters["occlusion"] = parameters::without(parameters["occlusion"].take(), OcclusionConfig::NOT_IN_KEY);
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 6,
+            version: 7,
             parameters,
             sources: expert.sources(),
             inputs,

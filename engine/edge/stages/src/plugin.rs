@@ -57,7 +57,7 @@ impl StageKind for Wasm {
         };
         let properties = StageProperties {
             kind: self.name().into(),
-            version: 3,
+            version: 4,
             parameters: parameters::canonical(&config.canonical()),
             sources: vec![source("", Role::Stage(config.makes), &config.setting())],
             inputs: ports_of(config.makes),

@@ -155,7 +155,8 @@ fn people(inputs: &Inputs<'_>, world: &World, record: &RenderedTrajectory) -> Re
     let (flight, target) = (&record.trajectory, record.followed.as_ref());
     let mut candidates = Candidates::new(&world.town, flight, target);
     for (stage, artifacts) in inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).enumerate() {
-        nearby::add(inputs, &mut candidates, stage, artifacts)?;
+        // The followed walk is left out like all that cross the target's body.
+        nearby::add(inputs, &mut candidates, (stage, artifacts), None)?;
     }
     let seen: BTreeSet<u32> = record.others.iter().map(|other| other.instance).collect();
     let others = candidates.sensed(&seen);

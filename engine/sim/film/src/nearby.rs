@@ -60,7 +60,7 @@ pub enum Refused {
     NoId,
 }
 
-/// Everybody except the target of a flight, and those whose own walk crosses the target's body.
+/// Everybody around a flight except its target, and those whose own walk crosses the target's body.
 pub struct Candidates<'a> {
     flight: &'a Trajectory,
     target: Option<&'a Followed>,
@@ -99,9 +99,6 @@ impl<'a> Candidates<'a> {
         let track = &walk.track;
         if track.is_empty() || !(track.dt_s > 0.0 && track.dt_s.is_finite()) {
             return Ok(Some(Refused::NoSteps));
-        }
-        if track.states == self.flight.track.states {
-            return Ok(None);
         }
         let instance = match self.instance(stage, item) {
             Ok(instance) => instance,

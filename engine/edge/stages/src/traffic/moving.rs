@@ -28,8 +28,10 @@ pub fn cut_around(inputs: &Inputs<'_>, walk: &Artifact, track: &TargetTrack) -> 
     Ok(Around::of(&traffic, track, own, AROUND_M))
 }
 
-/// Writes the bodies around the target of a flight, and links what later stages need to know of the moving world.
+/// Writes the id of the walk that a flight follows and the bodies around it, and links what later stages need to know of the
+/// moving world.
 pub fn put_around(walk: &Artifact, around: &Around, outputs: &mut dyn OutputSink) -> Result<()> {
+    artifacts::WALK_ID.put(outputs, &walk.id.to_string())?;
     if artifacts::TRAFFIC.is_in(walk) {
         artifacts::AROUND.put(outputs, around)?;
     }
@@ -44,9 +46,11 @@ pub fn around(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Arc<Around>> {
     artifacts::AROUND.shared(inputs, artifact)
 }
 
-/// Links the followed body, the bodies around it and the other drones from an input to the output of a task.
+/// Links the walk's id, the followed body, the bodies around it and the other drones from an input to the output of a task.
 pub fn link_moving(artifact: &Artifact, outputs: &mut dyn OutputSink) -> Result<()> {
-    for name in [artifacts::FOLLOWED.blob, artifacts::AROUND.blob, artifacts::DRONES.blob] {
+    let kept =
+        [artifacts::WALK_ID.blob, artifacts::FOLLOWED.blob, artifacts::AROUND.blob, artifacts::DRONES.blob];
+    for name in kept {
         if let Some(blob) = artifact.blobs.get(name) {
             outputs.link(name, *blob)?;
         }
