@@ -6,12 +6,11 @@ use super::tokens::{code_lines, tokens_of_file};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most code lines of crates that others use alone, with all crates of ours that they need.
-const OF_CLOSURES: [(&str, usize); 3] =
-    [("cosfly-read", 10_000), ("cosfly-images", 3_000), ("cosfly-planner", 13_000)];
+const OF_CLOSURES: [(&str, usize); 3] = [("cosfly-read", 10_000), ("cosfly-images", 3_000), ("cosfly-planner", 13_000)];
 /// Most code lines of a crate.
 const OF_CRATE: usize = 8_000;
 /// Most code lines of a crate that adapts others.
-const OF_ADAPTERS: [(&str, usize); 1] = [("cosfly-stages", 4_000)];
+const OF_ADAPTERS: [(&str, usize); 1] = [("cosfly-stages", 3_300)];
 
 /// Code lines of each crate on a shelf, without those of tests.
 fn lines_of_crates(rooms: &BTreeMap<String, Room>) -> BTreeMap<&str, usize> {
@@ -55,6 +54,9 @@ fn no_crate_grows_without_end() {
     let rooms = rooms();
     for (name, lines) in lines_of_crates(&rooms) {
         let most = OF_ADAPTERS.iter().find(|(adapter, _)| *adapter == name).map_or(OF_CRATE, |(_, most)| *most);
-        assert!(lines <= most, "`{name}` has {lines} code lines, {most} are allowed: give a part of it a crate of its own");
+        assert!(
+            lines <= most,
+            "`{name}` has {lines} code lines, {most} are allowed: give a part of it a crate of its own"
+        );
     }
 }

@@ -97,12 +97,12 @@ impl Interface {
 
 const KINDS: [&str; 7] = ["fn", "struct", "enum", "trait", "const", "type", "static"];
 
-fn text(tokens: &[Token], at: usize) -> &str {
+pub fn text(tokens: &[Token], at: usize) -> &str {
     tokens.get(at).map_or("", |token| token.text.as_str())
 }
 
 /// Places of the tokens outside of all brackets.
-fn tops(tokens: &[Token]) -> impl Iterator<Item = usize> {
+pub fn tops(tokens: &[Token]) -> impl Iterator<Item = usize> {
     let mut depth = 0_usize;
     let places = tokens.iter().enumerate().filter_map(move |(at, token)| {
         match token.text.as_str() {
@@ -155,7 +155,7 @@ fn parts(tokens: &[Token]) -> Vec<&[Token]> {
 }
 
 /// Names that the `pub use` of a file give to others.
-fn names_of_uses(tokens: &[Token]) -> BTreeSet<String> {
+pub fn names_of_uses(tokens: &[Token]) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     for start in tops(tokens).filter(|at| text(tokens, *at) == "pub" && text(tokens, *at + 1) == "use") {
         let end = (start..tokens.len()).find(|at| text(tokens, *at) == ";").unwrap_or(tokens.len());

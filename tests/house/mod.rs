@@ -1,4 +1,4 @@
-//! Laws of the house, read from the source: circles of files, lengths, sizes, purity of `sim`, edges between crates, public interfaces.
+//! Laws of the house, read from the source: circles of files, lengths, sizes, names, purity of `sim`, edges between crates, public interfaces.
 
 mod circles;
 mod closures;
@@ -6,5 +6,6 @@ pub mod edges;
 mod interfaces;
 pub mod lengths;
 mod modules;
+mod names;
 mod purity;
 pub mod tokens;

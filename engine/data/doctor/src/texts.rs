@@ -101,14 +101,17 @@ impl GivenTexts {
     }
 }
 
-/// Tally of the texts of all episodes.
+/// Number of languages.
+const LANGUAGES: usize = Language::ALL.len();
+
+/// Tally of the texts of all episodes, by language.
 #[derive(Default)]
 pub(crate) struct TextTally {
-    texts: [Vec<String>; 2],
-    clean: [usize; 2],
-    dressed: [[usize; 2]; 2],
-    singled: [[usize; 2]; 2],
-    subjects: [BTreeMap<Slot, [usize; 2]>; 2],
+    texts: [Vec<String>; LANGUAGES],
+    clean: [usize; LANGUAGES],
+    dressed: [[usize; 2]; LANGUAGES],
+    singled: [[usize; 2]; LANGUAGES],
+    subjects: [BTreeMap<Slot, [usize; 2]>; LANGUAGES],
     /// Only for given texts.
     pub(crate) judged: Option<Judged>,
 }
@@ -117,8 +120,8 @@ impl TextTally {
     pub(crate) fn add(&mut self, episode: &ExaminedEpisode) {
         let Some(facts) = facts_of(episode) else { return };
         for (code, text) in &episode.captions {
-            let Some(at) = Language::ALL.iter().position(|it| it.code() == code) else { continue };
-            let language = Language::ALL[at];
+            let Some(language) = Language::of_code(code) else { continue };
+            let at = language as usize;
             let slots = claimed(text, language);
             let mut wrong = check(text, language, &facts).err().unwrap_or_default();
             if self.judged.is_some() {
@@ -170,6 +173,6 @@ impl TextTally {
                 intents,
             }
         };
-        (0..Language::ALL.len()).filter(|at| !self.texts[*at].is_empty()).map(of).collect()
+        (0..LANGUAGES).filter(|at| !self.texts[*at].is_empty()).map(of).collect()
     }
 }

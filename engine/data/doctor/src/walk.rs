@@ -4,7 +4,7 @@
 //! the first such place behind it; and the same with 5 m. What is clear by both chords is a turn; what one of them hints at may be one.
 
 use crate::ExaminedEpisode;
-use cosfly_captions::{Compass, Facts, Stop, Turn, TurnKind};
+use cosfly_captions::{Compass, Facts, TargetStop, Turn, TurnKind};
 use cosfly_frames::{DVec2, DVec3, real};
 
 /// Lengths of the chords, metres.
@@ -73,12 +73,12 @@ pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
     })
 }
 
-fn stops(stands: &[bool], dt_s: f64) -> Vec<Stop> {
-    let mut stops: Vec<Stop> = vec![];
+fn stops(stands: &[bool], dt_s: f64) -> Vec<TargetStop> {
+    let mut stops: Vec<TargetStop> = vec![];
     for frame in (0..stands.len()).filter(|frame| stands[*frame]) {
         match stops.last_mut().filter(|_| frame > 0 && stands[frame - 1]) {
             Some(stop) => stop.duration_s += dt_s,
-            None => stops.push(Stop { frame: frame as u32, duration_s: dt_s }),
+            None => stops.push(TargetStop { frame: frame as u32, duration_s: dt_s }),
         }
     }
     stops.retain(|stop| stop.duration_s >= STOP_S - 1e-6);

@@ -2,7 +2,7 @@
 
 use crate::methods::Method;
 use crate::settings::Settings;
-use crate::strata::{COUNT, Membership, is_seen, memberships};
+use crate::strata::{COUNT, WindowStrata, is_seen, memberships};
 use crate::windows::{Flights, WindowSet};
 use cosfly_diagnose::Result;
 use cosfly_metrics::{Tally, errors};
@@ -78,7 +78,7 @@ pub fn score(
         let loaded = flights.part(&chosen)?;
         let memberships = memberships(&loaded, windows, &seen, part);
         sums.par_iter_mut().zip(methods).for_each(|(sums, Scored { method, settings, .. })| {
-            let of_flight = |(entry, memberships): (&(usize, usize), &Vec<Membership>)| {
+            let of_flight = |(entry, memberships): (&(usize, usize), &Vec<WindowStrata>)| {
                 tally(method, settings, &loaded, windows, *entry, memberships, wanted)
             };
             let by_flight: Vec<FlightTally> = part.par_iter().zip(&memberships).map(of_flight).collect();
@@ -96,7 +96,7 @@ fn tally(
     flights: &Flights,
     windows: &WindowSet,
     entry: (usize, usize),
-    memberships: &[Membership],
+    memberships: &[WindowStrata],
     wanted: &(dyn Fn(usize) -> bool + Sync),
 ) -> FlightTally {
     let mut sum = FlightTally {

@@ -1,8 +1,8 @@
 //! Kinds of windows that are scored separately.
 
 use crate::windows::{Flights, Window, WindowSet};
-use cosfly_windows::{Difficulty, WindowShape};
 use cosfly_schema::TownLayout;
+use cosfly_windows::{Difficulty, WindowShape};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ pub const STRATA: [(&str, &str); COUNT] = [
 ];
 
 /// Places in [`STRATA`], one bit each.
-pub type Membership = u16;
+pub type WindowStrata = u16;
 
 /// The strata of every window of the flights of `part`, which are loaded.
 ///
@@ -36,8 +36,8 @@ pub fn memberships(
     windows: &WindowSet,
     seen: &[bool],
     part: &[(usize, usize)],
-) -> Vec<Vec<Membership>> {
-    let of_flight = |entry: &(usize, usize)| -> Vec<Membership> {
+) -> Vec<Vec<WindowStrata>> {
+    let of_flight = |entry: &(usize, usize)| -> Vec<WindowStrata> {
         let row = &flights.rows[entry.0];
         let scene = if seen[entry.0] { 3 } else { 4 };
         let numbered = windows.of_flight(*entry, row.frames);
@@ -61,7 +61,7 @@ pub fn is_seen(flights: &Flights) -> Vec<bool> {
     flights.rows.iter().map(|row| known[row.town_layout.digest.as_str()]).collect()
 }
 
-fn of_window(flights: &Flights, window: Window, shape: &WindowShape) -> Membership {
+fn of_window(flights: &Flights, window: Window, shape: &WindowShape) -> WindowStrata {
     let features = flights.features(window, shape);
     let difficulty = match features.difficulty() {
         Difficulty::Easy => 0,

@@ -3,9 +3,9 @@
 use crate::settings::{InputRole, Settings};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Pose;
-use cosfly_metrics::baselines::{Anchor, View};
-use cosfly_windows::{WindowFeatures, WindowFrames, WindowShape};
+use cosfly_metrics::baselines::{Anchor, InputFrames};
 use cosfly_read::{FlightTrack, PublishedDataset, PublishedFlight, RowIndex};
+use cosfly_windows::{WindowFeatures, WindowFrames, WindowShape};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -157,10 +157,10 @@ impl Flights {
     }
 
     /// The inputs of a window.
-    pub fn view(&self, window: Window, shape: &WindowShape) -> View<'_> {
+    pub fn view(&self, window: Window, shape: &WindowShape) -> InputFrames<'_> {
         let (track, camera) = (self.track(window.flight), &self.rows[window.flight].camera);
         let frames = window.start..window.start + shape.history;
-        View {
+        InputFrames {
             poses: &track.poses[frames.clone()],
             feet: &track.feet[frames.clone()],
             boxes: &track.boxes[frames],

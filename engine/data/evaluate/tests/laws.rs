@@ -5,11 +5,11 @@ use cosfly_evaluate::{Evaluation, InputRole, Settings, evaluate};
 use cosfly_frames::{Pose, action};
 use cosfly_metrics::baselines::Anchor;
 use cosfly_metrics::{DeltaFrame, DeltaOrigin};
-use cosfly_windows::WindowShape;
 use cosfly_read::PublishedDataset;
 use cosfly_read::predictions::{Prediction, Predictions};
 use cosfly_sample as sample;
 use cosfly_schema::{DatasetConfig, EncodingConfig};
+use cosfly_windows::WindowShape;
 
 fn dataset() -> (tempfile::TempDir, PublishedDataset) {
     let folder = tempfile::tempdir().unwrap();

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 
 /// Content of the card of an export.
 #[derive(Clone, Debug, Default)]
-pub struct Card {
+pub struct ExportCard {
     /// Name of the format.
     pub format: &'static str,
     /// More lines of the front matter, such as `configs`.
@@ -20,7 +20,7 @@ pub struct Card {
     pub body: String,
 }
 
-impl Card {
+impl ExportCard {
     /// Writes `README.md`, and `LICENSE` as the dataset has it.
     pub fn write(&self, source: &Source<'_>, out: &OutFolder) -> Result<()> {
         let folder = source.dataset.folder();

@@ -2,7 +2,7 @@
 
 use crate::folder::OutFolder;
 use crate::pixels::{rgb_jpeg, rgb_of};
-use crate::source::Episode;
+use crate::source::ExportedFlight;
 use cosfly_diagnose::Result;
 use cosfly_read::LoggedFrame;
 use cosfly_schema::tables::Edges;
@@ -16,7 +16,7 @@ pub struct Sequence<'a> {
     /// Name in the export.
     pub name: String,
     /// The flight.
-    pub episode: &'a Episode<'a>,
+    pub episode: &'a ExportedFlight<'a>,
     /// Numbers of the frames in the flight, ascending.
     pub frames: Vec<usize>,
     /// Distance from one of the frames to the next.

@@ -25,7 +25,7 @@ impl Default for PictureOptions {
 #[serde(default)]
 pub struct InstructionOptions {
     /// Language of instructions
-    pub language: Language,
+    pub language: InstructionLanguage,
 }
 
 /// Pictures of some frames, and instructions.
@@ -42,7 +42,7 @@ pub struct PictureAndTextOptions {
 /// Language of instructions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Language {
+pub enum InstructionLanguage {
     /// English
     #[default]
     En,
@@ -50,7 +50,7 @@ pub enum Language {
     Zh,
 }
 
-impl Language {
+impl InstructionLanguage {
     /// Code of the language as captions have it.
     pub fn code(self) -> &'static str {
         match self {
@@ -73,13 +73,13 @@ impl Language {
 #[serde(default)]
 pub struct IncrementOptions {
     /// Axes of increments
-    pub frame: Axes,
+    pub frame: IncrementAxes,
 }
 
 /// Axes of increments.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Axes {
+pub enum IncrementAxes {
     /// The world: x east, y south, z up
     #[default]
     World,
@@ -91,8 +91,8 @@ impl IncrementOptions {
     /// The axes as the metrics know them.
     pub fn delta_frame(&self) -> DeltaFrame {
         match self.frame {
-            Axes::World => DeltaFrame::World,
-            Axes::Body => DeltaFrame::Body,
+            IncrementAxes::World => DeltaFrame::World,
+            IncrementAxes::Body => DeltaFrame::Body,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The target's flights as sequences for trackers of single targets: from the first picture that shows the target.
 
 use crate::sequence::Sequence;
-use crate::source::{Episode, Source};
+use crate::source::{ExportedFlight, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::BodyKind;
 use cosfly_read::FrameRow;
@@ -20,7 +20,7 @@ A sequence begins with the first frame that shows the target, from which tracker
 pub fn each_sequence(
     source: &Source<'_>,
     every: usize,
-    name: &dyn Fn(usize, &Episode<'_>) -> String,
+    name: &dyn Fn(usize, &ExportedFlight<'_>) -> String,
     write: &mut dyn FnMut(&Sequence<'_>) -> Result<()>,
 ) -> Result<Vec<String>> {
     let (mut number, mut without) = (0, 0);
@@ -51,7 +51,7 @@ pub fn is_seen(row: &FrameRow) -> bool {
 }
 
 /// Kind of the target as a word; `object` for kinds that cosfly does not know.
-pub fn target_word(episode: &Episode<'_>) -> &'static str {
+pub fn target_word(episode: &ExportedFlight<'_>) -> &'static str {
     let kind = episode.flight.target_kind.as_deref();
     BodyKind::ON_THE_GROUND.iter().map(|known| known.name()).find(|name| Some(*name) == kind).unwrap_or("object")
 }

@@ -1,6 +1,6 @@
 //! The flights that are exported, one at a time, with their rows, captions and pictures.
 
-use crate::shared_options::Language;
+use crate::shared_options::InstructionLanguage;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{Channel, channels};
 use cosfly_frames::Pose;
@@ -41,7 +41,7 @@ pub struct Source<'a> {
 }
 
 /// A flight with its frames.
-pub struct Episode<'a> {
+pub struct ExportedFlight<'a> {
     /// Row of the table of flights.
     pub flight: &'a PublishedFlight,
     /// Rows of the table of frames.
@@ -144,7 +144,7 @@ impl<'a> Source<'a> {
     }
 
     /// Calls `visit` with each chosen flight, in the dataset's order. One is in memory at a time.
-    pub fn each_flight(&self, visit: &mut dyn FnMut(&Episode<'_>) -> Result<()>) -> Result<()> {
+    pub fn each_flight(&self, visit: &mut dyn FnMut(&ExportedFlight<'_>) -> Result<()>) -> Result<()> {
         self.each_flight_of(&|_| true, visit)
     }
 
@@ -152,7 +152,7 @@ impl<'a> Source<'a> {
     pub fn each_flight_of(
         &self,
         wanted: &dyn Fn(&PublishedFlight) -> bool,
-        visit: &mut dyn FnMut(&Episode<'_>) -> Result<()>,
+        visit: &mut dyn FnMut(&ExportedFlight<'_>) -> Result<()>,
     ) -> Result<()> {
         let is_wanted = |flight: &PublishedFlight| self.chosen.contains(&flight.trajectory_id) && wanted(flight);
         self.all.set(self.flights().filter(|flight| wanted(flight)).map(|flight| flight.frames as u64).sum());
@@ -161,7 +161,7 @@ impl<'a> Source<'a> {
             let place = self.dataset.place(&flight.trajectory_id).unwrap_or_default();
             let captions = self.captions.borrow_mut().at(self.dataset, place)?.to_vec();
             let end = self.done.get() + frames.len() as u64;
-            visit(&Episode { flight, frames, captions, source: self, logs: Mutex::default() })?;
+            visit(&ExportedFlight { flight, frames, captions, source: self, logs: Mutex::default() })?;
             self.set_done(end);
             Ok(())
         })
@@ -190,7 +190,7 @@ impl<'a> Source<'a> {
     }
 }
 
-impl Episode<'_> {
+impl ExportedFlight<'_> {
     /// Readings of the flight's sensors that are no cameras.
     ///
     /// # Errors
@@ -265,8 +265,8 @@ impl Episode<'_> {
     }
 
     /// Some of the frames as an episode. Its pictures keep the frame numbers of the whole flight.
-    pub fn part(&self, frames: std::ops::Range<usize>) -> Episode<'_> {
-        Episode {
+    pub fn part(&self, frames: std::ops::Range<usize>) -> ExportedFlight<'_> {
+        ExportedFlight {
             flight: self.flight,
             frames: self.frames[frames].to_vec(),
             captions: self.captions.clone(),
@@ -286,7 +286,7 @@ impl Episode<'_> {
     }
 
     /// The instruction in `language`, else in any language, else a plain one.
-    pub fn instruction(&self, language: Language) -> &str {
+    pub fn instruction(&self, language: InstructionLanguage) -> &str {
         if let Some(own) = self.captions.iter().find(|caption| caption.language == language.code()) {
             return &own.text;
         }

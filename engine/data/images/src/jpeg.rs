@@ -7,7 +7,7 @@ mod huffman;
 mod inverse;
 mod transform;
 
-pub use decode::{Decoded, decode};
+pub use decode::{DecodedJpeg, decode};
 
 use cosfly_frames::simd::Level;
 use huffman::{AC, BitWriter, Codes, DC, UNITS, write_blocks, write_units};

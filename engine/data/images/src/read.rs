@@ -1,6 +1,6 @@
 //! Pictures from image files, whole or scaled.
 
-use crate::jpeg::{Decoded, decode};
+use crate::jpeg::{DecodedJpeg, decode};
 use cosfly_diagnose::{Diagnostic, Fault, Result, contained};
 use std::io::Cursor;
 use zune_jpeg::JpegDecoder;
@@ -72,7 +72,7 @@ fn by_library<T>(read: impl FnOnce() -> Result<T, String>) -> Result<T, String> 
 /// A picture of at least the wanted size; its area is averaged while the file is decoded.
 fn scaled_jpeg(file: &[u8], size: [usize; 2]) -> Result<Picture, String> {
     match decode(file, size) {
-        Some(Decoded { size, rgb }) => Ok(Picture { size, rgb }),
+        Some(DecodedJpeg { size, rgb }) => Ok(Picture { size, rgb }),
         None => by_library(|| jpeg(file)),
     }
 }

@@ -4,7 +4,7 @@ use crate::text::escaped;
 use std::fmt::Write;
 
 /// A place: x and y, pixels.
-pub type Place = (f64, f64);
+pub type PlotPoint = (f64, f64);
 
 /// End of a text that is at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +36,7 @@ impl ChartDocument {
     }
 
     /// Everything until [`Self::end_clip`] shows only inside a rectangle with this corner and size; `name` is unique.
-    pub fn begin_clip(&mut self, name: &str, (x, y): Place, (width, height): (f64, f64)) {
+    pub fn begin_clip(&mut self, name: &str, (x, y): PlotPoint, (width, height): (f64, f64)) {
         let _ = writeln!(
             self.text,
             "<clipPath id=\"{name}\"><rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\"/>\
@@ -50,7 +50,7 @@ impl ChartDocument {
     }
 
     /// A filled rectangle with this corner and size.
-    pub fn rectangle(&mut self, (x, y): Place, (width, height): (f64, f64), fill: &str, opacity: f64) {
+    pub fn rectangle(&mut self, (x, y): PlotPoint, (width, height): (f64, f64), fill: &str, opacity: f64) {
         let _ = writeln!(
             self.text,
             "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"{fill}\" \
@@ -59,13 +59,13 @@ impl ChartDocument {
     }
 
     /// A filled polygon.
-    pub fn polygon(&mut self, corners: &[Place], fill: &str, opacity: f64) {
+    pub fn polygon(&mut self, corners: &[PlotPoint], fill: &str, opacity: f64) {
         let points = points(corners);
         let _ = writeln!(self.text, "<polygon points=\"{points}\" fill=\"{fill}\" fill-opacity=\"{opacity}\"/>");
     }
 
     /// An open line; `dashes` as SVG writes them, empty for none.
-    pub fn line(&mut self, corners: &[Place], colour: &str, width: f64, dashes: &str) {
+    pub fn line(&mut self, corners: &[PlotPoint], colour: &str, width: f64, dashes: &str) {
         let points = points(corners);
         let dashes = if dashes.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dashes}\"") };
         let _ = writeln!(
@@ -76,21 +76,21 @@ impl ChartDocument {
     }
 
     /// A disc.
-    pub fn disc(&mut self, (x, y): Place, radius: f64, fill: &str) {
+    pub fn disc(&mut self, (x, y): PlotPoint, radius: f64, fill: &str) {
         let _ = writeln!(self.text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"{fill}\"/>");
     }
 
     /// A line of text.
-    pub fn words(&mut self, (x, y): Place, words: &str, anchor: TextAnchor, colour: &str) {
+    pub fn words(&mut self, (x, y): PlotPoint, words: &str, anchor: TextAnchor, colour: &str) {
         self.styled_words((x, y), words, anchor, &format!("fill=\"{colour}\""));
     }
 
     /// A heading: a line of bold text.
-    pub fn heading(&mut self, (x, y): Place, words: &str) {
+    pub fn heading(&mut self, (x, y): PlotPoint, words: &str) {
         self.styled_words((x, y), words, TextAnchor::Start, "font-weight=\"bold\"");
     }
 
-    fn styled_words(&mut self, (x, y): Place, words: &str, anchor: TextAnchor, style: &str) {
+    fn styled_words(&mut self, (x, y): PlotPoint, words: &str, anchor: TextAnchor, style: &str) {
         let anchor = match anchor {
             TextAnchor::Start => "start",
             TextAnchor::Middle => "middle",
@@ -107,7 +107,7 @@ impl ChartDocument {
     }
 }
 
-fn points(corners: &[Place]) -> String {
+fn points(corners: &[PlotPoint]) -> String {
     let points: Vec<String> = corners.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
     points.join(" ")
 }

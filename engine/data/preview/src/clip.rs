@@ -2,9 +2,9 @@
 
 use crate::shot::{ClipShot, FULL_BOX, VISIBLE_BOX};
 use color_quant::NeuQuant;
+use cosfly_channel_pictures::false_colours::DepthScale;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::SemanticLabel;
-use cosfly_channel_pictures::false_colours::DepthScale;
 use cosfly_plot::canvas::{Canvas, ChartColour, INK, WHITE};
 use std::borrow::Cow;
 

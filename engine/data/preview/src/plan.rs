@@ -4,7 +4,7 @@ use crate::clip::ramp;
 use crate::ground::SeenGround;
 use cosfly_frames::{DVec3, real};
 use cosfly_plot::canvas::{Canvas, ChartColour, INK, Point, WHITE, text_width};
-use cosfly_read::{FrameRow, PublishedFlight, SceneBox};
+use cosfly_read::{FrameRow, LoggedBox, PublishedFlight};
 
 /// Longest side of the drawn area, pixels.
 const SIDE: f64 = 1280.0;
@@ -27,7 +27,7 @@ pub struct Plan<'a> {
     /// The expert and its twins with their frames, the expert first.
     pub family: Vec<(&'a PublishedFlight, Vec<FrameRow>)>,
     /// Obstacles near the flight.
-    pub boxes: Vec<SceneBox>,
+    pub boxes: Vec<LoggedBox>,
     /// The ground.
     pub ground: SeenGround,
 }
@@ -94,8 +94,8 @@ impl Plan<'_> {
 
     /// Low boxes first, so that roofs lie above awnings.
     fn draw_boxes(&self, view: &View, canvas: &mut Canvas) {
-        let top = |it: &SceneBox| it.center_in_map.z + it.half_extents_m.z;
-        let mut boxes: Vec<&SceneBox> = self.boxes.iter().collect();
+        let top = |it: &LoggedBox| it.center_in_map.z + it.half_extents_m.z;
+        let mut boxes: Vec<&LoggedBox> = self.boxes.iter().collect();
         boxes.sort_by(|a, b| top(a).total_cmp(&top(b)));
         for it in boxes {
             let (sin, cos) = real::sin_cos(it.yaw_rad);

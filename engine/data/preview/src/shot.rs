@@ -1,7 +1,7 @@
 //! One frame of a log as pictures of any size.
 
-use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_channel_pictures::false_colours::{palette_image, picture_on_request};
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_images::read::{Picture, decoded};
 use cosfly_plot::canvas::{Canvas, ChartColour, WHITE};
 use cosfly_read::LoggedFrame;

@@ -31,7 +31,7 @@ pub fn is_below(below: usize, seen: usize) -> bool {
 }
 
 /// Depths and labels of a frame, by the number of the pixel.
-pub struct SeenGround<'a> {
+pub struct DrawnGround<'a> {
     /// The camera; its lens must be straight.
     pub camera: &'a Camera,
     /// Its pose.
@@ -42,7 +42,7 @@ pub struct SeenGround<'a> {
     pub label: &'a dyn Fn(usize) -> Option<u8>,
 }
 
-impl SeenGround<'_> {
+impl DrawnGround<'_> {
     /// Height of the ground around feet over them, metres; none where too little of it is seen. Ground from the height of a head on
     /// is a deck that somebody walks under.
     pub fn rise_m(&self, feet: DVec3, height_m: f64) -> Option<f64> {
@@ -106,7 +106,8 @@ mod tests {
             let ray = CAMERA.ray_in_world(&pose, u, v);
             Some((ground_m - 7.0) / ray.z).filter(|depth| *depth > 0.0)
         };
-        SeenGround { camera: &CAMERA, pose: &pose, depth_m: &depth_m, label: &|_| Some(label) }.rise_m(DVec3::ZERO, 1.8)
+        DrawnGround { camera: &CAMERA, pose: &pose, depth_m: &depth_m, label: &|_| Some(label) }
+            .rise_m(DVec3::ZERO, 1.8)
     }
 
     #[test]
@@ -126,7 +127,7 @@ mod tests {
             let far_m = (0.6 - 7.0) / ray.z;
             (far_m > 0.0 && (pose.position_in_world + far_m * ray).x < -0.3).then_some(far_m)
         };
-        let seen = SeenGround { camera: &CAMERA, pose: &pose, depth_m: &depth_m, label: &|_| Some(2) };
+        let seen = DrawnGround { camera: &CAMERA, pose: &pose, depth_m: &depth_m, label: &|_| Some(2) };
         assert_eq!(seen.rise_m(DVec3::ZERO, 1.8), None);
     }
 

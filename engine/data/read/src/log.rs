@@ -62,7 +62,7 @@ pub struct LoggedFrame {
 
 /// An obstacle of the logged scene, in the `map` frame.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SceneBox {
+pub struct LoggedBox {
     /// CARLA's name of the obstacle's label, such as `Building`.
     pub label: String,
     /// Centre of the box, metres.
@@ -128,13 +128,13 @@ impl LogReader {
     }
 
     /// Obstacles near the flight.
-    pub fn scene(&mut self) -> Result<Vec<SceneBox>> {
+    pub fn scene(&mut self) -> Result<Vec<LoggedBox>> {
         let mut boxes = vec![];
         self.messages(0..=0, &[topic::SCENE], &mut |_, _, data| {
             let update = messages::SceneUpdate::decode(data).map_err(|error| error.to_string())?;
             for entity in update.entities.iter().filter(|entity| entity.frame_id == MAP_FRAME) {
                 let label = entity.id.rsplit('/').next().unwrap_or_default();
-                boxes.extend(entity.cubes.iter().filter_map(|cube| SceneBox::read(label, cube)));
+                boxes.extend(entity.cubes.iter().filter_map(|cube| LoggedBox::read(label, cube)));
             }
             Ok(())
         })?;
@@ -303,7 +303,7 @@ fn camera_in_map(transforms: &[messages::FrameTransform]) -> Result<(DVec3, DQua
     if sound { Ok((place, turn)) } else { Err(format!("`{OPTICAL_FRAME}` is not connected to `{MAP_FRAME}`")) }
 }
 
-impl SceneBox {
+impl LoggedBox {
     fn read(label: &str, cube: &messages::CubePrimitive) -> Option<Self> {
         let (pose, size, colour) = (cube.pose.as_ref()?, cube.size.as_ref()?, cube.color.as_ref()?);
         let (p, q) = (pose.position.as_ref()?, pose.orientation.as_ref()?);

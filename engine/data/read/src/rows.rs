@@ -36,7 +36,7 @@ pub struct Rows<'f> {
 }
 
 /// Values of a column in the rows of one group.
-pub struct Values<'f, T> {
+pub struct RowValues<'f, T> {
     array: ArrayRef,
     name: &'static str,
     path: &'f Path,
@@ -139,8 +139,8 @@ impl<'f> Rows<'f> {
     ///
     /// # Errors
     /// `dataset-column`: the file has no such column, or one of another type.
-    pub fn values<S, T: Value>(&self, column: Column<S, T>) -> Result<Values<'f, T>> {
-        Ok(Values {
+    pub fn values<S, T: Value>(&self, column: Column<S, T>) -> Result<RowValues<'f, T>> {
+        Ok(RowValues {
             array: self.column(column.name, T::KIND)?,
             name: column.name,
             path: self.file.path,
@@ -208,7 +208,7 @@ fn same_type(found: &DataType, expected: &DataType) -> bool {
     }
 }
 
-impl<T: Value> Values<'_, T> {
+impl<T: Value> RowValues<'_, T> {
     /// Value of a row.
     ///
     /// # Errors
@@ -221,7 +221,7 @@ impl<T: Value> Values<'_, T> {
     }
 }
 
-impl Values<'_, String> {
+impl RowValues<'_, String> {
     /// Text of a row; empty for null.
     pub fn text(&self, row: usize) -> &str {
         let texts = self.array.as_string_opt::<i32>().filter(|texts| texts.is_valid(row));

@@ -3,7 +3,7 @@
 use super::damage::damaged;
 use super::dataset::PublishedDataset;
 use super::row_index::RowIndex;
-use super::rows::{Rows, Values};
+use super::rows::{RowValues, Rows};
 use cosfly_diagnose::Result;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_schema::tables::{Edges, Frames};
@@ -80,16 +80,16 @@ impl RowIndex {
 
 /// Columns of tracks, in the rows of one group.
 struct Columns<'f> {
-    ids: Values<'f, String>,
-    frame: Values<'f, u32>,
-    position: [Values<'f, f64>; 3],
+    ids: RowValues<'f, String>,
+    frame: RowValues<'f, u32>,
+    position: [RowValues<'f, f64>; 3],
     /// Pitch, yaw, roll, degrees.
-    angles: [Values<'f, f64>; 3],
-    feet: [Values<'f, f64>; 3],
-    heading: Values<'f, f64>,
-    visible: Values<'f, f64>,
-    boxes: Values<'f, Option<Edges>>,
-    expert_frame: Values<'f, Option<u32>>,
+    angles: [RowValues<'f, f64>; 3],
+    feet: [RowValues<'f, f64>; 3],
+    heading: RowValues<'f, f64>,
+    visible: RowValues<'f, f64>,
+    boxes: RowValues<'f, Option<Edges>>,
+    expert_frame: RowValues<'f, Option<u32>>,
 }
 
 impl<'f> Columns<'f> {
@@ -125,7 +125,7 @@ impl<'f> Columns<'f> {
             let what = format!("frame {frame} of `{id}` is out of order");
             return Err(damaged(path, &what, format!("frame {} was expected", track.poses.len())));
         }
-        let vector = |of: &[Values<'f, f64>; 3]| Ok::<_, Box<_>>([of[0].at(row)?, of[1].at(row)?, of[2].at(row)?]);
+        let vector = |of: &[RowValues<'f, f64>; 3]| Ok::<_, Box<_>>([of[0].at(row)?, of[1].at(row)?, of[2].at(row)?]);
         let [pitch_rad, yaw_rad, roll_rad] = vector(&self.angles)?.map(f64::to_radians);
         let position_in_world = DVec3::from_array(vector(&self.position)?);
         track.poses.push(Pose { position_in_world, pitch_rad, yaw_rad, roll_rad });

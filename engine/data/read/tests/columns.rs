@@ -1,6 +1,5 @@
 //! Round trip of columns: the values written by an entry of the schema are read back by the same entry.
 
-use cosfly_windows::WindowShape;
 use cosfly_read::TableFile;
 use cosfly_sample as sample;
 use cosfly_schema::tables::{
@@ -8,6 +7,7 @@ use cosfly_schema::tables::{
     of_rejections, of_trajectories,
 };
 use cosfly_schema::{LogRecord, PreviewStrip, Role, Split, TownLayout};
+use cosfly_windows::WindowShape;
 use cosfly_write::derive::derive;
 use cosfly_write::table_file::TableWriter;
 use std::fs::File;

@@ -32,13 +32,13 @@ pub struct Figures {
     #[serde(with = "parts")]
     pub visible_by_expert: Distribution,
     /// Distributions over experts and over perturbed flights.
-    pub numbers: BTreeMap<Quantity, [Numbers; 2]>,
+    pub numbers: BTreeMap<DrawnQuantity, [Numbers; 2]>,
     /// Weighted cost of each term over all published flights.
     pub term_costs: BTreeMap<String, f64>,
     /// Number of flights with costs of planning, and of those with the costs of three stops.
     pub planned: [u64; 2],
     /// Limits of experts.
-    pub limits: Limits,
+    pub limits: LimitFigures,
     /// Frames of the longest flight.
     pub longest: usize,
     /// Flights that are drawn.
@@ -60,7 +60,7 @@ pub struct Group {
 
 /// A quantity whose distribution is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Quantity {
+pub enum DrawnQuantity {
     /// Share of the body that is visible, per frame.
     Visible,
     /// Seconds with less than half visible.
@@ -85,7 +85,7 @@ pub struct Numbers(#[serde(with = "parts")] pub Distribution);
 
 /// How experts keep their limits.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Limits {
+pub struct LimitFigures {
     /// Number of experts that keep all limits.
     pub sound: u64,
     /// Smallest distance to an obstacle, metres; `None` without frames.
@@ -183,7 +183,7 @@ impl Figures {
     }
 
     /// Distributions of a quantity over experts and over perturbed flights.
-    pub fn numbers(&self, quantity: Quantity) -> [&Distribution; 2] {
+    pub fn numbers(&self, quantity: DrawnQuantity) -> [&Distribution; 2] {
         static NONE: Distribution = Distribution::EMPTY;
         self.numbers.get(&quantity).map_or([&NONE; 2], |numbers| [&numbers[0].0, &numbers[1].0])
     }
@@ -204,7 +204,7 @@ impl Group {
     }
 }
 
-impl Limits {
+impl LimitFigures {
     fn add(&mut self, flight: &FlightSketch) {
         let broken = flight.violations.iter().enumerate();
         self.merge(Self {
@@ -228,18 +228,18 @@ impl Limits {
 }
 
 /// Values of all quantities of a flight.
-fn quantities(flight: &FlightSketch) -> [(Quantity, Vec<f32>); 8] {
+fn quantities(flight: &FlightSketch) -> [(DrawnQuantity, Vec<f32>); 8] {
     let losses = flight.occlusions().into_iter().map(|it| (it.1 as f64 * flight.dt_s) as f32);
     let heights = flight.drone_m.iter().zip(&flight.feet_m).map(|(drone, feet)| drone[2] - feet[2]);
     [
-        (Quantity::Visible, flight.visible.clone()),
-        (Quantity::Losses, losses.collect()),
-        (Quantity::Distance, flight.distances_m()),
-        (Quantity::Height, heights.collect()),
-        (Quantity::Clearance, flight.clearance_m.clone()),
-        (Quantity::Speed, flight.speeds_mps()),
-        (Quantity::TargetSpeed, flight.target_speeds_mps()),
-        (Quantity::BoxHeight, (0..flight.len()).map(|frame| flight.box_height_px(frame)).collect()),
+        (DrawnQuantity::Visible, flight.visible.clone()),
+        (DrawnQuantity::Losses, losses.collect()),
+        (DrawnQuantity::Distance, flight.distances_m()),
+        (DrawnQuantity::Height, heights.collect()),
+        (DrawnQuantity::Clearance, flight.clearance_m.clone()),
+        (DrawnQuantity::Speed, flight.speeds_mps()),
+        (DrawnQuantity::TargetSpeed, flight.target_speeds_mps()),
+        (DrawnQuantity::BoxHeight, (0..flight.len()).map(|frame| flight.box_height_px(frame)).collect()),
     ]
 }
 

@@ -19,6 +19,6 @@ mod sketch;
 
 pub use document::{Section, document};
 pub use figures::Figures;
-pub use model::{BoxSketch, Known, PlannerRow, RejectionSketch, Report, TownSketch};
+pub use model::{BoxSketch, KnownNumber, PlannerRow, RejectionSketch, Report, TownSketch};
 pub use page::page;
 pub use sketch::{FlightSketch, TextSketch};

@@ -80,19 +80,19 @@ pub struct PlannerRow {
     /// Number of flights that keep all limits.
     pub sound: u64,
     /// Mean visibility, 0..=1.
-    pub visible: Known,
+    pub visible: KnownNumber,
     /// Share of frames with at least half of the target visible, 0..=1.
-    pub half_visible: Known,
+    pub half_visible: KnownNumber,
     /// Mean distance to the target, metres.
-    pub distance_m: Known,
+    pub distance_m: KnownNumber,
     /// Mean length of the way, metres.
-    pub length_m: Known,
+    pub length_m: KnownNumber,
     /// Smallest distance of a swept way to an obstacle, metres.
-    pub nearest_m: Known,
+    pub nearest_m: KnownNumber,
     /// Largest acceleration, m/s^2.
-    pub acceleration_mps2: Known,
+    pub acceleration_mps2: KnownNumber,
     /// Largest jerk, m/s^3.
-    pub jerk_mps3: Known,
+    pub jerk_mps3: KnownNumber,
     /// Weighted cost of each term per frame.
     pub costs: Vec<(String, f64)>,
     /// Reason of the first walk without a flight.
@@ -100,4 +100,4 @@ pub struct PlannerRow {
 }
 
 /// A number that may be unknown.
-pub type Known = Option<f64>;
+pub type KnownNumber = Option<f64>;

@@ -3,10 +3,10 @@
 
 use cosfly_captions::sight::Landmarks;
 use cosfly_frames::{DVec3, Pose, Seed};
-use cosfly_windows::WindowShape;
 use cosfly_sample as sample;
 use cosfly_schema::tables::{self, DatasetItem, Membership};
 use cosfly_schema::{LogRecord, PreviewStrip, RenderedTrajectory, Role, Split, TownLayout};
+use cosfly_windows::WindowShape;
 use cosfly_write::derive::derive;
 use cosfly_write::table_file::TableWriter;
 use std::fs::File;

@@ -8,7 +8,7 @@ use cosfly_schema::config::{SplitBy, SplitShares};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A place with flights, under one or several names.
-pub struct Place {
+pub struct FlightPlace {
     /// Start of the digest of its ground plan, the smallest where copies of it differ.
     pub name: String,
     /// Whether all flights of the place go to one split.
@@ -20,7 +20,7 @@ pub struct Place {
 /// All places, and the place of each flight.
 pub struct Places {
     /// Places, of which some have no flights.
-    pub all: Vec<Place>,
+    pub all: Vec<FlightPlace>,
     /// Number of the place of each flight.
     pub of_flight: Vec<usize>,
 }
@@ -43,7 +43,7 @@ impl Places {
         for (it, place) in facts.iter().zip(&of_flight) {
             towns[*place].insert(&it.town);
         }
-        let place = |(layout, towns): (&&TownLayout, &BTreeSet<&str>)| Place {
+        let place = |(layout, towns): (&&TownLayout, &BTreeSet<&str>)| FlightPlace {
             name: layout.short().to_owned(),
             is_whole: shares.by == SplitBy::Town || towns.len() > 1,
             split: towns.iter().find_map(|town| shares.towns.get(*town).copied()),

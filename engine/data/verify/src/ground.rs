@@ -4,7 +4,7 @@ use super::bodies::PlacedBody;
 use super::rows::{PlacedFlight, PlacedFrame};
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::DVec3;
-use cosfly_read::drawn_ground::{BELOW_GROUND_M, SeenGround, is_below};
+use cosfly_read::drawn_ground::{BELOW_GROUND_M, DrawnGround, is_below};
 use std::collections::BTreeMap;
 
 /// Bodies of one flight by their ids in instance images.
@@ -36,7 +36,7 @@ impl BodiesOnGround {
             return;
         }
         let depths = depths.as_chunks::<4>().0;
-        let ground = SeenGround {
+        let ground = DrawnGround {
             camera: &flight.camera,
             pose: &row.camera_pose,
             depth_m: &|at| depths.get(at).map(|depth| f64::from(f32::from_le_bytes(*depth))),

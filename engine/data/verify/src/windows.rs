@@ -6,11 +6,11 @@ use super::report::VerifyReport;
 use super::rows::{self, split_of};
 use cosfly_frames::Pose;
 use cosfly_frames::action;
-use cosfly_windows::{Difficulty, WindowFeatures, WindowFrames, WindowShape};
 use cosfly_read::{FlightTrack, Rows};
 use cosfly_schema::TownLayout;
-use cosfly_schema::tables::{self, Column, DatasetItem, Scene};
+use cosfly_schema::tables::{self, Column, DatasetItem, SceneMembership};
 use cosfly_splits::policy::SplitPolicy;
+use cosfly_windows::{Difficulty, WindowFeatures, WindowFrames, WindowShape};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -129,7 +129,7 @@ struct WindowRow {
     trajectory_id: String,
     expert_id: String,
     start_frame: u32,
-    scene: Scene,
+    scene: SceneMembership,
     difficulty: Difficulty,
     features: StoredFeatures,
     target_is_static: bool,
@@ -234,7 +234,7 @@ impl Windows<'_> {
         cut.check_steps(window)?;
         cut.check_boxes(window)?;
         cut.check_kinds(window)?;
-        let scene = if self.seen[number] { Scene::Seen } else { Scene::Unseen };
+        let scene = if self.seen[number] { SceneMembership::Seen } else { SceneMembership::Unseen };
         if window.scene != scene {
             return Err(("verify-window", format!("`scene` must be `{scene:?}`").to_lowercase()));
         }

@@ -2,10 +2,10 @@
 
 use arrow_array::types::Float64Type;
 use arrow_array::{Array, FixedSizeListArray, Float64Array, StringArray};
-use cosfly_windows::{Difficulty, WindowShape};
 use cosfly_sample as sample;
 use cosfly_schema::tables::{Column, DatasetItem, Membership, Table, Trajectories, Windows, of_trajectories};
 use cosfly_schema::{LogRecord, PreviewStrip, Role, Split, TownLayout};
+use cosfly_windows::{Difficulty, WindowShape};
 use cosfly_write::derive::derive;
 use cosfly_write::table_file::TableWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;

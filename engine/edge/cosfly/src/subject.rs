@@ -6,7 +6,7 @@ use crate::console::Console;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fly::benchmark::{Benchmark, Entry, Tier};
 use cosfly_fly::held_out;
-use cosfly_fly::suite::{Part, Suite};
+use cosfly_fly::suite::{Suite, SuitePart};
 use cosfly_recipe::Recipe;
 use cosfly_runner::RunOptions;
 use cosfly_stage::RunEvent;
@@ -80,8 +80,8 @@ impl Subject {
     ///
     /// # Errors
     /// `fly-settings`.
-    pub fn parts(&self) -> Result<Vec<Part>> {
-        self.recipes.iter().map(Part::of).collect()
+    pub fn parts(&self) -> Result<Vec<SuitePart>> {
+        self.recipes.iter().map(SuitePart::of).collect()
     }
 
     /// Holds a held-out suite against its commitment: a file, or the digits themselves.

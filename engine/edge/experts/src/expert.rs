@@ -1,9 +1,9 @@
 //! Parameters of an expert in a recipe: for the stage that plans, and for tools that ask the same expert again.
 use crate::plugins::config::ExpertPlugins;
-use crate::plugins::{Role, source};
+use crate::plugins::{PluginRole, source};
 use cosfly_diagnose::ParameterError;
 use cosfly_flight::Expert;
-use cosfly_objectives::{InspectConfig, Objective, ObjectiveConfig, PatrolConfig};
+use cosfly_objectives::{InspectionConfig, Objective, ObjectiveConfig, PatrolConfig};
 use cosfly_pilot::aim::AimConfig;
 use cosfly_planner::config::{DronesConfig, Foresight, Planner};
 use cosfly_planner::{MucoConfig, Preset};
@@ -95,7 +95,7 @@ impl RecipeExpert {
     /// Files of its plugins.
     pub fn sources(&self) -> Vec<Source> {
         let settings = self.plugins.settings();
-        let role = |parameter: &str| if parameter == "plugin" { Role::Objective } else { Role::Term };
+        let role = |parameter: &str| if parameter == "plugin" { PluginRole::Objective } else { PluginRole::Term };
         settings.iter().map(|(parameter, setting)| source(parameter, role(parameter), setting)).collect()
     }
 
@@ -131,7 +131,7 @@ impl RecipeExpert {
         }
         let not_in_key = match self.expert.objective.objective {
             Objective::Patrol => PatrolConfig::NOT_IN_KEY,
-            _ => InspectConfig::NOT_IN_KEY,
+            _ => InspectionConfig::NOT_IN_KEY,
         };
         all[key] = parameters::without(objective[key].take(), not_in_key);
         all

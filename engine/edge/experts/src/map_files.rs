@@ -4,7 +4,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Label, ParameterError, Result, plausibl
 use cosfly_domain::Town;
 use cosfly_frames::Seed;
 use cosfly_maps::advice::advice;
-use cosfly_maps::{Bounds, MapConfig, read_town_of, recognise};
+use cosfly_maps::{MapConfig, PlanRectangle, read_town_of, recognise};
 use cosfly_stage::parameters;
 use cosfly_town::{Format, MapError};
 use serde_json::Value;
@@ -81,7 +81,7 @@ pub fn checked(given: Value) -> Result<(MapConfig, Vec<PathBuf>), ParameterError
             return Err(parameters::refused_at(path, message));
         }
     }
-    if let Some(Err(rule)) = config.bounds_m.map(Bounds::new) {
+    if let Some(Err(rule)) = config.bounds_m.map(PlanRectangle::new) {
         return Err(parameters::refused_at("bounds_m", rule));
     }
     for (index, further) in config.more.iter().enumerate() {

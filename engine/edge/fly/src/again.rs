@@ -1,9 +1,9 @@
 //! [`Again`]: the actions of a bundle, flown again; and its policy, run again.
 
 use crate::bundle::{Bundle, EpisodeRecord};
-use crate::flight::{Flown, fly_by};
+use crate::flight::{FlownEpisode, fly_by};
 use crate::pilot::{Failure, Runnable};
-use crate::suite::{Suite, Task};
+use crate::suite::{Suite, EpisodeTask};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_env::{Environment, EnvironmentSettings};
 use rayon::prelude::*;
@@ -35,7 +35,7 @@ impl Again<'_> {
     pub fn by_record(&self, progress: &dyn Fn(u64, u64)) -> Result<Vec<String>> {
         let is_measured = self.bundle.card.is_measured();
         let flown =
-            |task: &Task, record: &EpisodeRecord| by_record(task, self.settings[task.part], is_measured, record);
+            |task: &EpisodeTask, record: &EpisodeRecord| by_record(task, self.settings[task.part], is_measured, record);
         self.differences(&flown, progress)
     }
 
@@ -46,7 +46,7 @@ impl Again<'_> {
     /// `fly-bundle` for a bundle of another suite; `fly-stopped`.
     pub fn by_policy(&self, policy: &Runnable, progress: &dyn Fn(u64, u64)) -> Result<Vec<String>> {
         let is_measured = self.bundle.card.is_measured();
-        let flown = |task: &Task, record: &EpisodeRecord| {
+        let flown = |task: &EpisodeTask, record: &EpisodeRecord| {
             let settings = self.settings[task.part];
             let mut pilot = policy.pilot();
             pilot.begin(&Environment::new(Arc::clone(&task.episode), settings), &task.knowledge)?;
@@ -75,7 +75,7 @@ impl Again<'_> {
             let message = format!("the bundle has {theirs} episodes, the suite `{}` has {ours}", suite.name);
             return Err(Diagnostic::new("fly-bundle", Fault::Input, message));
         }
-        let one = |done: &mut Sender<()>, task: &Task| {
+        let one = |done: &mut Sender<()>, task: &EpisodeTask| {
             if self.cancelled.load(Ordering::Relaxed) {
                 return None;
             }
@@ -102,10 +102,10 @@ impl Again<'_> {
 }
 
 /// Flies an episode that has a record.
-type FlyOne<'a> = dyn Fn(&Task, &EpisodeRecord) -> std::result::Result<Flown, String> + Sync + 'a;
+type FlyOne<'a> = dyn Fn(&EpisodeTask, &EpisodeRecord) -> std::result::Result<FlownEpisode, String> + Sync + 'a;
 
 /// The first step, or the row, in which an episode differs from its record, in words.
-fn difference(name: &str, flown: std::result::Result<Flown, String>, record: &EpisodeRecord) -> Option<String> {
+fn difference(name: &str, flown: std::result::Result<FlownEpisode, String>, record: &EpisodeRecord) -> Option<String> {
     let flown = match flown {
         Ok(flown) => flown,
         Err(rule) => return Some(format!("`{name}`: {rule}")),
@@ -128,11 +128,11 @@ fn difference(name: &str, flown: std::result::Result<Flown, String>, record: &Ep
 /// # Errors
 /// A step without an action where one is asked for, in words.
 pub fn by_record(
-    task: &Task,
+    task: &EpisodeTask,
     settings: EnvironmentSettings,
     is_measured: bool,
     record: &EpisodeRecord,
-) -> std::result::Result<Flown, String> {
+) -> std::result::Result<FlownEpisode, String> {
     fly_by(task, settings, &mut |environment: &Environment| {
         let step = environment.observation().step;
         match record.steps.get(step as usize) {

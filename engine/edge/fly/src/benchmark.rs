@@ -4,7 +4,7 @@
 //! the target (the best first). A tier takes as many as it says, evenly spaced along the list; all where there are fewer. So each
 //! tier has the kinds, weathers and difficulties of its suites in their proportions.
 
-use crate::suite::{Suite, Task};
+use crate::suite::{EpisodeTask, Suite};
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_domain::BodyKind;
 use cosfly_fingerprint::Digest;
@@ -145,11 +145,11 @@ impl Tier {
         for suite in suites {
             let several = suite.tasks.iter().map(|task| &task.episode.stratum).collect::<BTreeSet<_>>().len() > 1;
             let named = suite.tasks.into_iter().map(|task| named(task, &suite.name, several));
-            let is_of_it = |task: &Task| self.only.as_ref().is_none_or(|only| only.contains(&task.episode.name));
-            let known: Vec<Task> = named.filter(is_of_it).collect();
+            let is_of_it = |task: &EpisodeTask| self.only.as_ref().is_none_or(|only| only.contains(&task.episode.name));
+            let known: Vec<EpisodeTask> = named.filter(is_of_it).collect();
             let taken = taken(&known, self.episodes);
             for (_, task) in known.into_iter().enumerate().filter(|(at, _)| taken.contains(at)) {
-                let task = Task { part: parts.len(), ..task };
+                let task = EpisodeTask { part: parts.len(), ..task };
                 let _ = writeln!(listed, "{} {}", task.episode.name, task.digest);
                 tasks.push(task);
             }
@@ -161,7 +161,7 @@ impl Tier {
 }
 
 /// A task whose names begin with that of its suite.
-fn named(mut task: Task, suite: &str, several: bool) -> Task {
+fn named(mut task: EpisodeTask, suite: &str, several: bool) -> EpisodeTask {
     let episode = Arc::make_mut(&mut task.episode);
     episode.name = format!("{suite}-{}", episode.name);
     episode.stratum = if several { format!("{suite}/{}", episode.stratum) } else { suite.to_owned() };
@@ -169,13 +169,13 @@ fn named(mut task: Task, suite: &str, several: bool) -> Task {
 }
 
 /// Places of the tasks that the rule takes, at most `most` of each stage.
-fn taken(tasks: &[Task], most: usize) -> BTreeSet<usize> {
+fn taken(tasks: &[EpisodeTask], most: usize) -> BTreeSet<usize> {
     let mut stages: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (at, task) in tasks.iter().enumerate() {
         stages.entry(&task.episode.stratum).or_default().push(at);
     }
-    let kind = |task: &Task| task.episode.followed.as_ref().map_or(BodyKind::Pedestrian, |plan| plan.kind);
-    let weather = |task: &Task| task.episode.weather.as_ref().map(|weather| weather.name.clone());
+    let kind = |task: &EpisodeTask| task.episode.followed.as_ref().map_or(BodyKind::Pedestrian, |plan| plan.kind);
+    let weather = |task: &EpisodeTask| task.episode.weather.as_ref().map(|weather| weather.name.clone());
     let mut taken = BTreeSet::new();
     for stage in stages.values_mut() {
         stage.sort_by(|a, b| {

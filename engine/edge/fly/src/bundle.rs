@@ -4,7 +4,7 @@
 //! steps; the digest of all lines before it. Texts of the task and of failures are left out: they may hold paths.
 
 use crate::flight::Row;
-use crate::log::Line;
+use crate::log::LogLine;
 use crate::pilot::{OnnxPolicy, wrong_number};
 use crate::results::{Card, Folder};
 use base64::Engine as _;
@@ -87,8 +87,8 @@ struct Tail {
 
 impl EpisodeRecord {
     /// The record of an episode that was flown.
-    pub fn of(row: &Row, steps: &[Line]) -> Self {
-        let step = |line: &Line| StepRecord { action: line.flown, latency_s: line.latency_s, check: check(line) };
+    pub fn of(row: &Row, steps: &[LogLine]) -> Self {
+        let step = |line: &LogLine| StepRecord { action: line.flown, latency_s: line.latency_s, check: check(line) };
         Self { row: without_words(row), steps: steps.iter().map(step).collect() }
     }
 
@@ -122,7 +122,7 @@ impl EpisodeRecord {
 }
 
 /// First eight digits of the digest of a line.
-fn check(line: &Line) -> String {
+fn check(line: &LogLine) -> String {
     let text = serde_json::to_string(line).unwrap_or_default();
     Digest::of(text.as_bytes()).to_string()[..8].to_owned()
 }

@@ -13,7 +13,7 @@ const SEED: u64 = 1;
 
 /// A metric of two results over the same episodes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
+pub struct MetricDifference {
     /// Name of the metric.
     pub name: &'static str,
     /// Episodes where it is defined in both.
@@ -24,7 +24,7 @@ pub struct Difference {
     pub interval: Option<(f64, f64)>,
 }
 
-impl Difference {
+impl MetricDifference {
     /// Second mean minus the first.
     pub fn difference(&self) -> f64 {
         self.means[1] - self.means[0]
@@ -40,7 +40,7 @@ impl Difference {
 ///
 /// # Errors
 /// `fly-compare` where they have no episode in common.
-pub fn compare(first: &[Row], second: &[Row]) -> Result<Vec<Difference>> {
+pub fn compare(first: &[Row], second: &[Row]) -> Result<Vec<MetricDifference>> {
     let pairs = pairs(first, second);
     if pairs.is_empty() {
         return Err(Diagnostic::new("fly-compare", Fault::Input, "the two results have no episode in common"));
@@ -55,7 +55,7 @@ pub fn pairs<'a>(first: &'a [Row], second: &'a [Row]) -> Vec<(&'a Row, &'a Row)>
 }
 
 /// Difference in a metric over pairs of rows; `None` where no pair has it.
-pub fn difference(metric: &Metric, pairs: &[(&Row, &Row)]) -> Option<Difference> {
+pub fn difference(metric: &Metric, pairs: &[(&Row, &Row)]) -> Option<MetricDifference> {
     let both = |(a, b): &(&Row, &Row)| Some([(metric.of)(a)?, (metric.of)(b)?]);
     let values: Vec<[f64; 2]> = pairs.iter().filter_map(both).collect();
     if values.is_empty() {
@@ -68,11 +68,11 @@ pub fn difference(metric: &Metric, pairs: &[(&Row, &Row)]) -> Option<Difference>
     let mut intervals =
         resampled(values.len(), RESAMPLES, SEED, 1, &mut |times| vec![mean_of(&apart, times)]).into_iter();
     let interval = intervals.next().flatten();
-    Some(Difference { name: metric.name, episodes: values.len(), means, interval })
+    Some(MetricDifference { name: metric.name, episodes: values.len(), means, interval })
 }
 
 /// The differences, for people.
-pub fn told(names: [&str; 2], differences: &[Difference]) -> String {
+pub fn told(names: [&str; 2], differences: &[MetricDifference]) -> String {
     let mut text = format!(
         "{:<20}  {:>8}  {:>10}  {:>10}  {:>10}  95 % interval\n",
         "metric", "episodes", "first", "second", "change"
@@ -97,8 +97,8 @@ pub fn told(names: [&str; 2], differences: &[Difference]) -> String {
 }
 
 /// The differences, for programs.
-pub fn json(names: [&str; 2], differences: &[Difference]) -> String {
-    let entry = |it: &Difference| {
+pub fn json(names: [&str; 2], differences: &[MetricDifference]) -> String {
+    let entry = |it: &MetricDifference| {
         let interval = it.interval.map(|(low, high)| [low, high]);
         let value = json!({
             "episodes": it.episodes, "first": it.means[0], "second": it.means[1],

@@ -13,7 +13,7 @@ const MOST_UNANSWERED: usize = 3;
 const PAUSE: Duration = Duration::from_millis(5);
 
 /// Outcome of an episode.
-pub enum Step {
+pub enum EpisodeOutcome {
     /// It is kept.
     Kept,
     /// The policy has not answered since the command began; why.
@@ -61,7 +61,7 @@ pub fn crew<W>(
     shifts: &Shifts<'_>,
     progress: &dyn Fn(u64, u64),
     worker: impl Fn() -> Result<W> + Sync,
-    one: impl Fn(&mut W, usize) -> Result<Step> + Sync,
+    one: impl Fn(&mut W, usize) -> Result<EpisodeOutcome> + Sync,
 ) -> Result<Crewed> {
     let all = due.len();
     let board = Mutex::new(Board { due: due.into(), ..Board::default() });
@@ -78,8 +78,8 @@ pub fn crew<W>(
         while !is_over() {
             let Some(episode) = next(&mut lock(&board), shifts.first) else { break };
             match one(&mut own, episode)? {
-                Step::Kept => _ = kept.fetch_add(1, Ordering::Relaxed),
-                Step::Unanswered(reason) => {
+                EpisodeOutcome::Kept => _ = kept.fetch_add(1, Ordering::Relaxed),
+                EpisodeOutcome::Unanswered(reason) => {
                     let mut board = lock(&board);
                     board.unanswered.push(episode);
                     if board.unanswered.len() == MOST_UNANSWERED || board.due.is_empty() {
@@ -88,7 +88,7 @@ pub fn crew<W>(
                     }
                 }
                 // Others would wait for the policy as long, one by one.
-                Step::Gone(reason) => {
+                EpisodeOutcome::Gone(reason) => {
                     stop.store(true, Ordering::Relaxed);
                     lock(&board).gone.get_or_insert(reason);
                 }
@@ -163,10 +163,10 @@ mod tests {
                     first.tell();
                 }
                 if !first.came() {
-                    return Ok(Step::Unanswered(format!("not in {episode}")));
+                    return Ok(EpisodeOutcome::Unanswered(format!("not in {episode}")));
                 }
                 order.lock().expect("no panic").push(episode);
-                Ok(Step::Kept)
+                Ok(EpisodeOutcome::Kept)
             },
         );
         let crewed = crewed.expect("no error");

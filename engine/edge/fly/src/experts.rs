@@ -4,7 +4,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_domain::PlanOutcome;
 use cosfly_experts::plugins::Plugins;
 use cosfly_experts::{Kind, RecipeExpert, artifacts};
-use cosfly_flight::{Bodies, Companion, Flight, World};
+use cosfly_flight::{Companion, Flight, MovingBodies, World};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_recipe::{Arrival, Recipe, RecipeStage};
 use cosfly_runner::Plan;
@@ -106,7 +106,7 @@ impl<'a> Experts<'a> {
         let movers = around.map_or_else(Vec::new, |around| around.boxes());
         let drones = self.find(blobs, &artifacts::DRONES)?;
         let companions = self.companions(stage, item)?;
-        let bodies = Bodies { walk: Some(track), companions, movers };
+        let bodies = MovingBodies { walk: Some(track), companions, movers };
         let seed = Seed::of_item(self.plan.recipe.seed, described.name.as_str(), &described.items[item].to_string());
         let paths: Vec<PathBuf> = described.sources.iter().map(|source| source.path.clone()).collect();
         let plugins = Plugins::of_expert(&expert.plugins, &paths)?.for_item(name.clone());

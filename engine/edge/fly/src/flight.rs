@@ -1,8 +1,8 @@
 //! One episode, flown by a pilot: its [`Row`] and its log.
 
-use crate::log::Line;
+use crate::log::LogLine;
 use crate::pilot::{Asked, Failure, Pilot};
-use crate::suite::Task;
+use crate::suite::EpisodeTask;
 use cosfly_drone::Sensed;
 use cosfly_drone::quadrotor::TrackingError;
 use cosfly_env::{Action, Environment, EnvironmentSettings, EpisodeScore};
@@ -66,11 +66,11 @@ impl From<&TrackingError> for StrainRow {
 }
 
 /// An episode that was flown.
-pub struct Flown {
+pub struct FlownEpisode {
     /// Outcome.
     pub row: Row,
     /// The steps.
-    pub steps: Vec<Line>,
+    pub steps: Vec<LogLine>,
     /// Samples of the sensors, by time.
     pub sensed: Vec<Sensed>,
 }
@@ -87,7 +87,7 @@ pub enum Latency {
 /// Outcome of an episode.
 pub enum Attempt {
     /// It was flown; the policy may have ended it by its fault.
-    Flown(Box<Flown>),
+    Flown(Box<FlownEpisode>),
     /// The policy failed, and has given no right answer since the command began: it is not set up, and this is no episode. Why.
     Unanswered(String),
     /// The policy cannot be had; why.
@@ -95,7 +95,7 @@ pub enum Attempt {
 }
 
 /// Flies an episode. A policy that has answered and goes away in the middle of an episode begins anew, a few times.
-pub fn fly(task: &Task, settings: EnvironmentSettings, latency: Latency, pilot: &mut Asked<'_>) -> Attempt {
+pub fn fly(task: &EpisodeTask, settings: EnvironmentSettings, latency: Latency, pilot: &mut Asked<'_>) -> Attempt {
     let mut attempt = 1;
     loop {
         if let Err(reason) = pilot.begin(&Environment::new(Arc::clone(&task.episode), settings), &task.knowledge) {
@@ -127,13 +127,13 @@ pub type Given = (Action, Option<f64>);
 /// # Errors
 /// The reason of [`Failure::Gone`].
 pub fn fly_by(
-    task: &Task,
+    task: &EpisodeTask,
     settings: EnvironmentSettings,
     ask: &mut dyn FnMut(&Environment) -> Result<Given, Failure>,
-) -> Result<Flown, String> {
+) -> Result<FlownEpisode, String> {
     let mut environment = Environment::new(Arc::clone(&task.episode), settings);
     let mut policy_failure = None;
-    let mut steps: Vec<Line> = Vec::new();
+    let mut steps: Vec<LogLine> = Vec::new();
     while environment.score().end.is_none() && policy_failure.is_none() && environment.score().planned_steps > 0 {
         let asked = environment.wants_action().then(|| ask(&environment)).transpose();
         let given = match asked {
@@ -146,8 +146,8 @@ pub fn fly_by(
         };
         let (action, taken_s) = given.map_or((None, None), |(action, taken_s)| (Some(action), taken_s));
         let step = environment.step_late(action.as_ref(), taken_s.unwrap_or(settings.latency_s));
-        let line = Line::of(&environment, action.as_ref(), &step.reward, step.end);
-        steps.push(Line { latency_s: taken_s, ..line });
+        let line = LogLine::of(&environment, action.as_ref(), &step.reward, step.end);
+        steps.push(LogLine { latency_s: taken_s, ..line });
     }
     let row = Row {
         episode: task.episode.name.clone(),
@@ -160,11 +160,11 @@ pub fn fly_by(
         mean_latency_s: mean(steps.iter().filter_map(|step| step.latency_s)),
         score: *environment.score(),
     };
-    Ok(Flown { row, steps, sensed: environment.sensed().to_vec() })
+    Ok(FlownEpisode { row, steps, sensed: environment.sensed().to_vec() })
 }
 
 /// Mean distance from the expert's flight at those of its waypoints that fall on steps.
-fn from_expert_m(task: &Task, steps: &[Line]) -> Option<f64> {
+fn from_expert_m(task: &EpisodeTask, steps: &[LogLine]) -> Option<f64> {
     let dt_s = task.episode.target.dt_s;
     mean(steps.iter().filter_map(|step| {
         let frame = (step.time_s / dt_s).round();

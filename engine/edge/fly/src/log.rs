@@ -1,4 +1,4 @@
-//! [`Line`]: the state after a step, as logs keep it.
+//! [`LogLine`]: the state after a step, as logs keep it.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_env::{Action, End, Environment, Reward, readings};
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 /// The state after a step. Vectors are in the world frame, metres and m/s.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Line {
+pub struct LogLine {
     /// Steps since the beginning.
     pub step: u32,
     /// Time since the beginning, seconds.
@@ -52,7 +52,7 @@ pub struct Line {
     pub end: Option<End>,
 }
 
-impl Line {
+impl LogLine {
     /// The state of an environment after a step.
     pub fn of(environment: &Environment, action: Option<&Action>, reward: &Reward, end: Option<End>) -> Self {
         let seen = environment.observation();
@@ -90,8 +90,8 @@ impl Line {
 }
 
 /// Steps as a text, one line of JSON each.
-pub fn text(steps: &[Line]) -> String {
-    let line = |line: &Line| serde_json::to_string(line).unwrap_or_default() + "\n";
+pub fn text(steps: &[LogLine]) -> String {
+    let line = |line: &LogLine| serde_json::to_string(line).unwrap_or_default() + "\n";
     steps.iter().map(line).collect()
 }
 
@@ -99,7 +99,7 @@ pub fn text(steps: &[Line]) -> String {
 ///
 /// # Errors
 /// `fly-result`, with the place.
-pub fn read(text: &str) -> Result<Vec<Line>> {
+pub fn read(text: &str) -> Result<Vec<LogLine>> {
     let line = |(at, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
             let message = format!("line {} of a log is damaged", at + 1);

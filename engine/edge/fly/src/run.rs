@@ -1,11 +1,11 @@
 //! All episodes of a suite, flown by one policy on several threads; episodes that are in the folder are kept.
 
-use crate::crew::{Shifts, Step, crew};
-use crate::flight::{Attempt, Flown, Latency, Row, fly};
+use crate::crew::{EpisodeOutcome, Shifts, crew};
+use crate::flight::{Attempt, FlownEpisode, Latency, Row, fly};
 use crate::pictures::{self, Case};
 use crate::pilot::{Asked, FirstAnswer, Manners, Place};
 use crate::results::{Card, Folder, LogChoice, worst};
-use crate::suite::{Suite, Task};
+use crate::suite::{EpisodeTask, Suite};
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_env::EnvironmentSettings;
 use std::sync::OnceLock;
@@ -13,14 +13,14 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A share of the episodes: those whose number leaves `index` when divided by `of`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
+pub struct EpisodeShare {
     /// Number of the share, from 0 on.
     pub index: usize,
     /// Number of shares.
     pub of: usize,
 }
 
-impl Shard {
+impl EpisodeShare {
     /// All episodes.
     pub const WHOLE: Self = Self { index: 0, of: 1 };
 }
@@ -38,7 +38,7 @@ pub struct Order<'a> {
     /// Time that the policy takes for an action.
     pub latency: Latency,
     /// Episodes to fly.
-    pub shard: Shard,
+    pub shard: EpisodeShare,
     /// Threads.
     pub jobs: usize,
     /// Set from anywhere to stop.
@@ -75,13 +75,13 @@ pub fn run(order: &Order<'_>, card: &Card, folder: &Folder, progress: &dyn Fn(u6
         Ok(match fly(&tasks[at], order.settings[tasks[at].part], order.latency, pilot) {
             Attempt::Flown(flown) => {
                 keep(order, card, folder, &tasks[at], &flown)?;
-                Step::Kept
+                EpisodeOutcome::Kept
             }
-            Attempt::Unanswered(reason) => Step::Unanswered(reason),
-            Attempt::Gone(reason) => Step::Gone(reason),
+            Attempt::Unanswered(reason) => EpisodeOutcome::Unanswered(reason),
+            Attempt::Gone(reason) => EpisodeOutcome::Gone(reason),
         })
     })?;
-    let rows: Vec<Row> = tasks.iter().filter_map(|Task { episode, .. }| folder.row(&episode.name)).collect();
+    let rows: Vec<Row> = tasks.iter().filter_map(|EpisodeTask { episode, .. }| folder.row(&episode.name)).collect();
     let whole = rows.len() == tasks.len();
     if whole {
         finish(order, card, folder, &rows)?;
@@ -91,7 +91,7 @@ pub fn run(order: &Order<'_>, card: &Card, folder: &Folder, progress: &dyn Fn(u6
 }
 
 /// Keeps an episode with the logs that the card asks for.
-fn keep(order: &Order<'_>, card: &Card, folder: &Folder, task: &Task, flown: &Flown) -> Result<()> {
+fn keep(order: &Order<'_>, card: &Card, folder: &Folder, task: &EpisodeTask, flown: &FlownEpisode) -> Result<()> {
     let is_logged = card.kept.logs != LogChoice::None;
     let mcap = is_logged.then(|| pictures::mcap(task, &order.settings[task.part], flown)).transpose()?;
     folder.keep(flown, mcap.as_deref())

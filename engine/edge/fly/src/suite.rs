@@ -24,7 +24,7 @@ pub const ENVIRONMENT_VERSION: u32 = 3;
 
 /// An episode and what baselines may know of it.
 #[derive(Clone)]
-pub struct Task {
+pub struct EpisodeTask {
     /// The episode.
     pub episode: Arc<Episode>,
     /// Knowledge that baselines may have.
@@ -32,7 +32,7 @@ pub struct Task {
     /// Mean visibility that the certificate of the expert's flight states.
     pub certified_visibility: f64,
     /// The town as it looks.
-    pub scenery: Arc<Scenery>,
+    pub scenery: Arc<SuiteTown>,
     /// Weather, and looks of the target: those of the pictures that the recipe makes of the flight.
     pub shooting: Arc<Shooting>,
     /// Number of its part in [`Suite::parts`].
@@ -41,10 +41,10 @@ pub struct Task {
     pub digest: Digest,
 }
 
-impl Task {
+impl EpisodeTask {
     /// An episode in a town that is not drawn: empty ground under a clear sky.
     pub fn undrawn(episode: Episode, knowledge: Knowledge, certified_visibility: f64) -> Self {
-        let scenery = Arc::new(Scenery { town: Arc::default(), looks: episode.seed });
+        let scenery = Arc::new(SuiteTown { town: Arc::default(), looks: episode.seed });
         let shooting = Arc::new(Shooting::plain(episode.looks));
         let digest = Digest::of(episode.name.as_bytes());
         Self { episode: Arc::new(episode), knowledge, certified_visibility, scenery, shooting, part: 0, digest }
@@ -52,7 +52,7 @@ impl Task {
 }
 
 /// A town as it looks.
-pub struct Scenery {
+pub struct SuiteTown {
     /// The town.
     pub town: Arc<Town>,
     /// Seed of colours and patterns.
@@ -67,23 +67,23 @@ pub struct Suite {
     /// Digest of all towns and flights: equal exactly when the episodes are.
     pub digest: Digest,
     /// The recipe; of a tier, all recipes that it takes episodes from.
-    pub parts: Vec<Part>,
+    pub parts: Vec<SuitePart>,
     /// Episodes in the order of the recipe.
-    pub tasks: Vec<Task>,
+    pub tasks: Vec<EpisodeTask>,
     /// Walks that have no episode because the expert found no flight behind them.
     pub rejected: u64,
 }
 
 /// A recipe in a suite.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct SuitePart {
     /// Name of the recipe.
     pub name: String,
     /// Its drone and air.
     pub settings: FlySettings,
 }
 
-impl Part {
+impl SuitePart {
     /// The part that a recipe is.
     ///
     /// # Errors
@@ -119,7 +119,7 @@ impl Suite {
         options: &RunOptions,
         report: &(dyn Fn(RunEvent) + Sync),
     ) -> Result<Self> {
-        let part = Part::of(recipe)?;
+        let part = SuitePart::of(recipe)?;
         let stages: Vec<usize> = (0..recipe.stages.len()).filter(|at| follows(&recipe.stages[*at])).collect();
         if stages.is_empty() {
             let message = format!("`{}` has no episodes: no stage plans flights behind walkers", recipe.path.display());
@@ -156,11 +156,11 @@ struct Reader<'a> {
     plan: Plan<'a>,
     store: &'a Store,
     /// By the index of the stage that made the town, and its item.
-    places: BTreeMap<(usize, usize), (Arc<FlightSite>, Arc<Scenery>)>,
+    places: BTreeMap<(usize, usize), (Arc<FlightSite>, Arc<SuiteTown>)>,
 }
 
 impl Reader<'_> {
-    fn read(mut self, stages: &[usize], part: Part) -> Result<Suite> {
+    fn read(mut self, stages: &[usize], part: SuitePart) -> Result<Suite> {
         let recipe = self.plan.recipe;
         // The seed draws wind and blackouts of episodes.
         let first = format!("environment {ENVIRONMENT_VERSION}\nseed {}\n", recipe.seed);
@@ -213,21 +213,21 @@ impl Reader<'_> {
                 let knowledge = Knowledge { flight: waypoints.into(), config: Arc::clone(&config) };
                 let certified_visibility = flight.certificate.mean_visibility;
                 let (episode, shooting) = (Arc::new(episode), Arc::new(shooting));
-                tasks.push(Task { episode, knowledge, certified_visibility, scenery, shooting, part: 0, digest });
+                tasks.push(EpisodeTask { episode, knowledge, certified_visibility, scenery, shooting, part: 0, digest });
             }
         }
         let digest = Digest::of(listed.as_bytes());
         Ok(Suite { name: recipe.name.clone(), digest, parts: vec![part], tasks, rejected })
     }
 
-    fn place(&mut self, at: (usize, usize)) -> Result<(Arc<FlightSite>, Arc<Scenery>)> {
+    fn place(&mut self, at: (usize, usize)) -> Result<(Arc<FlightSite>, Arc<SuiteTown>)> {
         if let Some(known) = self.places.get(&at) {
             return Ok(known.clone());
         }
         let stored = self.blobs(at.0, at.1)?[artifacts::TOWN.blob];
         let (town, looks) = (Arc::new(artifacts::TOWN.decode(&self.store.read(&stored)?)?), Seed(stored.digest.0));
         // Buildings look as in films.
-        let known = (Arc::new(FlightSite::new(Arc::clone(&town), looks)), Arc::new(Scenery { town, looks }));
+        let known = (Arc::new(FlightSite::new(Arc::clone(&town), looks)), Arc::new(SuiteTown { town, looks }));
         self.places.insert(at, known.clone());
         Ok(known)
     }

@@ -6,7 +6,7 @@ mod team;
 #[cfg(test)]
 mod tests;
 
-use crate::suite::Task;
+use crate::suite::EpisodeTask;
 use cosfly_env::pictures::{PictureBatch, PictureFormat, Pictures};
 use cosfly_env::{Environment, EnvironmentSettings, Reward};
 use member::{Shared, VectorMember, stream_of};
@@ -17,7 +17,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 pub use member::{ACTIONS, Autoreset};
-pub use outputs::{Outputs, TERMS};
+pub use outputs::{StepOutputs, TERMS};
 pub use team::BESIDE;
 
 /// Fewest environments that one thread steps: below, handing them over takes longer.
@@ -30,7 +30,7 @@ const COPIED_AT_ONCE: usize = 1 << 17;
 pub struct VectorEnvironment {
     shared: Shared,
     members: Vec<VectorMember>,
-    outputs: Outputs,
+    outputs: StepOutputs,
     pictures: Option<Pictures>,
     pool: Option<ThreadPool>,
     /// Seconds of stepping and drawing.
@@ -42,7 +42,7 @@ pub struct VectorEnvironment {
 impl VectorEnvironment {
     /// Environments over the episodes of `tasks`, of which there must be one; before the first reset.
     pub fn new(
-        tasks: Arc<[Task]>,
+        tasks: Arc<[EpisodeTask]>,
         count: usize,
         settings: EnvironmentSettings,
         mode: Autoreset,
@@ -50,7 +50,7 @@ impl VectorEnvironment {
     ) -> Self {
         let shared = Shared { tasks, settings, mode, has_experts, is_team: false };
         let members: Vec<VectorMember> = (0..count).map(|number| VectorMember::new(number, &shared)).collect();
-        let outputs = Outputs::new(count);
+        let outputs = StepOutputs::new(count);
         Self { shared, members, outputs, pictures: None, pool: None, shared_s: 0.0, copied_ns: AtomicU64::new(0) }
     }
 
@@ -141,7 +141,7 @@ impl VectorEnvironment {
     }
 
     /// Results of the last reset or step.
-    pub fn outputs(&self) -> &Outputs {
+    pub fn outputs(&self) -> &StepOutputs {
         &self.outputs
     }
 

@@ -25,7 +25,7 @@ const STEP_M: f64 = 1e-5;
 
 /// Result of checking a law.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
+pub struct LawFinding {
     /// The law.
     pub law: &'static str,
     /// The observation; how the law was broken, if it was.
@@ -34,12 +34,12 @@ pub struct Finding {
     pub holds: bool,
 }
 
-fn holds(law: &'static str, words: impl Into<String>) -> Finding {
-    Finding { law, words: words.into(), holds: true }
+fn holds(law: &'static str, words: impl Into<String>) -> LawFinding {
+    LawFinding { law, words: words.into(), holds: true }
 }
 
-fn broken(law: &'static str, words: impl Into<String>) -> Finding {
-    Finding { law, words: words.into(), holds: false }
+fn broken(law: &'static str, words: impl Into<String>) -> LawFinding {
+    LawFinding { law, words: words.into(), holds: false }
 }
 
 /// Calls `visit` with the context of a winding walk of `frames` through an empty town.
@@ -67,7 +67,7 @@ pub fn random_flight(stream: &mut RandomStream, track: &TargetTrack) -> Vec<DVec
 ///
 /// # Errors
 /// Fault of the plugin.
-pub fn check_cost_term(plugin: &Plugin, params: &str) -> Result<Vec<Finding>, PluginError> {
+pub fn check_cost_term(plugin: &Plugin, params: &str) -> Result<Vec<LawFinding>, PluginError> {
     let mut findings = vec![];
     for frames in [1, 2, 3, FRAMES] {
         with_context(frames, |context| try_flights(plugin, params, context, frames == FRAMES, &mut findings))?;
@@ -81,7 +81,7 @@ fn try_flights(
     params: &str,
     context: &TermContext<'_>,
     is_whole: bool,
-    findings: &mut Vec<Finding>,
+    findings: &mut Vec<LawFinding>,
 ) -> Result<(), PluginError> {
     let open = || PluginTerm::open(plugin, Arc::new(NoTown), "checked", params, 7);
     let mut stream = Seed::of_item(1, "plugin", "check").stream("flights");
@@ -158,7 +158,7 @@ fn check_support(
     flight: &[DVec3],
     before: &[f64],
     costs_of: &CostsOf<'_>,
-) -> Result<Finding, PluginError> {
+) -> Result<LawFinding, PluginError> {
     let support = term.support();
     for moved in [0, context.track.len() / 2, context.track.len() - 1] {
         let mut other = flight.to_vec();
@@ -180,7 +180,7 @@ fn check_gradient(
     term: &PluginTerm,
     context: &TermContext<'_>,
     flights: &[Vec<DVec3>],
-) -> Result<Finding, PluginError> {
+) -> Result<LawFinding, PluginError> {
     if !term.shape().gradients {
         return Ok(holds("gradient", "it gives none; differences are taken, which costs six and more evaluations"));
     }
@@ -209,7 +209,7 @@ fn check_gradient(
 ///
 /// # Errors
 /// Fault of the plugin.
-pub fn check_objective(plugin: &Plugin, params: &str) -> Result<Vec<Finding>, PluginError> {
+pub fn check_objective(plugin: &Plugin, params: &str) -> Result<Vec<LawFinding>, PluginError> {
     let site = |seed: u64| SiteContext {
         seed,
         dt: 0.5,
@@ -268,7 +268,7 @@ pub fn check_stage(
     params: &str,
     encode: &EncodeSample<'_>,
     read: &ReadAnswer<'_>,
-) -> Result<Vec<Finding>, PluginError> {
+) -> Result<Vec<LawFinding>, PluginError> {
     let run = || run_stage(plugin, Arc::new(NoTown), params, encode);
     let (first, second) = (run()?, run()?);
     let declared = &first.0;

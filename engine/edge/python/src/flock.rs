@@ -8,7 +8,7 @@ use cosfly_domain::{ChannelSet, Weather, channels};
 use cosfly_env::pictures::{PictureBatch, PictureFormat, Pixels};
 use cosfly_fly::pilot::wrong_number;
 use cosfly_fly::settings::FlySettings;
-use cosfly_fly::suite::{Suite, Task};
+use cosfly_fly::suite::{EpisodeTask, Suite};
 use cosfly_fly::vector::{ACTIONS, Autoreset, TERMS, VectorEnvironment};
 use cosfly_render::PictureLook;
 use cosfly_runner::RunOptions;
@@ -281,7 +281,7 @@ impl PyFlock {
 }
 
 /// Episodes, and what their recipe says of the drone.
-type Made = (Arc<[Task]>, FlySettings);
+type Made = (Arc<[EpisodeTask]>, FlySettings);
 
 fn made(recipe: &std::path::Path, overrides: &[String], store: &std::path::Path) -> Result<Made, Refusal> {
     let one = |refusal: Box<Diagnostic>| Refusal::Work(vec![refusal]);

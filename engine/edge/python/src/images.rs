@@ -1,10 +1,10 @@
 //! Images of a log as pixels, whole or scaled.
 
 use crate::errors::{raised, refused};
+use cosfly_channel_pictures::false_colours::{palette_image, picture_on_request};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::channels::Element;
 use cosfly_domain::{Channel, channels};
-use cosfly_channel_pictures::false_colours::{palette_image, picture_on_request};
 use cosfly_images::read::{self, Picture};
 use cosfly_read::StoredImage;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};

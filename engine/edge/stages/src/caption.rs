@@ -1,7 +1,6 @@
 //! `caption`: instructions in Chinese and English, checked against the facts of the trajectory.
 
 mod pictures;
-mod taught;
 
 use crate::ports::{self, CAPTIONS, FRAMES, TRAJECTORY};
 use crate::{single, traffic};
@@ -20,8 +19,7 @@ use cosfly_stage::{
     Asks, InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,
 };
-use cosfly_teacher::{Frames, Teacher, TeacherConfig};
-use taught::{Class, record_of};
+use cosfly_teacher::{Teacher, TeacherConfig, TeacherFrames, TextRequest, record_of};
 
 /// Table of a teacher's parameters.
 const TEACHER: &str = "teacher";
@@ -65,7 +63,7 @@ impl StageKind for Caption {
         let (config, teacher): (CaptionConfig, TeacherConfig) = parameters::read_joined(given, TEACHER)?;
         let mut inputs = self.ports();
         let is_taught = config.writer == Writer::Teacher;
-        if is_taught && teacher.frames != Frames::None {
+        if is_taught && teacher.frames != TeacherFrames::None {
             inputs[1].optional = false;
         } else {
             inputs.truncate(1);
@@ -79,19 +77,14 @@ impl StageKind for Caption {
             canonical[TEACHER] = parameters::without(parameters::canonical(&teacher), TeacherConfig::NOT_IN_KEY);
         }
         let properties = StageProperties {
-            kind: self.name().into(),
             version: 13,
             parameters: canonical,
-            sources: vec![],
             inputs,
-            artifact: CAPTIONS,
             items: ItemRule::PerInput("trajectories"),
             bytes_per_item: 2_000,
-            files_per_item: 1,
-            intermediate: &[],
             asks: is_taught.then(|| asks(&config, &teacher)),
-            role: StageRole::Speaks,
             resources: Resources { memory_mib: 256, batch: 64 },
+            ..StageProperties::new(self.name(), StageRole::Speaks, CAPTIONS)
         };
         let teacher = is_taught.then(|| Teacher::new(teacher));
         Ok(single(CaptionStage { config, teacher, properties }))
@@ -104,7 +97,7 @@ fn asks(config: &CaptionConfig, teacher: &TeacherConfig) -> Asks {
     Asks {
         questions,
         most_questions: questions * u64::from(teacher.attempts),
-        input_tokens: QUESTION_TOKENS + PICTURE_TOKENS * pictures::count(teacher.frames),
+        input_tokens: QUESTION_TOKENS + PICTURE_TOKENS * teacher.frames.count(),
         output_tokens: ANSWER_TOKENS,
         prices: [teacher.budget.input_price, teacher.budget.output_price],
     }
@@ -147,8 +140,8 @@ impl Stage for CaptionStage {
             return Ok(Produced::default());
         };
         let pictures = pictures::of(inputs, teacher.config().frames)?;
-        let class = Class { teacher, facts: &facts, pictures: &pictures, answers: inputs.answers, context };
-        let records = class.texts(&texts)?;
+        let request = TextRequest { teacher, facts: &facts, pictures: &pictures, answers: inputs.answers, context };
+        let records = request.texts(&texts)?;
         outputs.put("captions", &captions_to_bytes(&records))?;
         Ok(told(&records))
     }

@@ -19,19 +19,13 @@ const NAME: &str = artifacts::COMPANIONS.blob;
 /// The part of a stage whose flights have `count` companions each and follow the walks at port `paths`.
 pub fn part(count: u32, paths: InputPort, others: InputPort) -> StagePart {
     let properties = StageProperties {
-        kind: "plan".into(),
         version: 1,
         parameters: serde_json::json!({ "companions": count }),
-        sources: vec![],
         inputs: vec![ports::town(), paths, others],
-        artifact: COMPANIONS,
         items: ItemRule::PerInput("walks"),
         bytes_per_item: 8_000 * u64::from(count),
-        files_per_item: 1,
-        intermediate: &[],
-        asks: None,
-        role: StageRole::Serves,
         resources: Resources { memory_mib: 512, batch: 4 },
+        ..StageProperties::new("plan", StageRole::Serves, COMPANIONS)
     };
     StagePart { suffix: NAME, stage: Box::new(CompanionsStage { count: count as usize, properties }) }
 }

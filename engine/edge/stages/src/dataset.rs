@@ -12,8 +12,8 @@ use cosfly_schema::DatasetConfig;
 use cosfly_schema::tables::ObjectRecord;
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Resources, Sees, Stage, StageKind, StagePart,
-    StageProperties, StageRole, Takes, TaskContext,
+    Artifact, Fan, InputPort, Inputs, Produced, Resources, Sees, Stage, StageKind, StagePart, StageProperties,
+    StageRole, Takes, TaskContext,
 };
 use cosfly_write::{DatasetSource, Shards, write_dataset};
 use std::collections::BTreeMap;
@@ -45,10 +45,8 @@ impl StageKind for Dataset {
         // A new column or table makes manifest and card anew without a raised version.
         parameters["tables"] = Digest::of(cosfly_schema::reference().as_bytes()).short().into();
         let whole = StageProperties {
-            kind: self.name().into(),
             version: 15,
             parameters,
-            sources: vec![],
             inputs: vec![
                 towns(),
                 group_splits::policy_port(),
@@ -60,14 +58,10 @@ impl StageKind for Dataset {
                 },
                 planners::port(),
             ],
-            artifact: DATASET,
-            items: ItemRule::One,
             bytes_per_item: 1_000_000,
             files_per_item: 14,
-            intermediate: &[],
-            asks: None,
-            role: StageRole::Publishes,
             resources: Resources { memory_mib: 2048, batch: 1 },
+            ..StageProperties::new(self.name(), StageRole::Publishes, DATASET)
         };
         let records = |fan| ports::without_pictures(frames(fan));
         Ok(vec![

@@ -44,19 +44,13 @@ pub fn group_name(item: &ItemName) -> GroupName {
 pub fn part(config: &DatasetConfig, frames: InputPort) -> StagePart {
     let window = config.windows.shape().size();
     let properties = StageProperties {
-        kind: "dataset".into(),
         version: 1,
         parameters: serde_json::json!({ "window": window }),
-        sources: vec![],
         inputs: vec![ports::group(frames)],
-        artifact: NOTES,
         items: items(config),
         bytes_per_item: 1_000_000,
-        files_per_item: 1,
-        intermediate: &[],
-        asks: None,
-        role: StageRole::Serves,
         resources: Resources { memory_mib: 2048, batch: 1 },
+        ..StageProperties::new("dataset", StageRole::Serves, NOTES)
     };
     StagePart { suffix: NAME, stage: Box::new(NotesStage { window, properties }) }
 }

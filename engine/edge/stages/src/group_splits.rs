@@ -12,8 +12,8 @@ use cosfly_schema::config::SplitShares;
 use cosfly_schema::{DatasetConfig, Rejection};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemName, ItemRule, Produced, Resources, Sees, Stage, StagePart, StageProperties,
-    StageRole, TaskContext,
+    Fan, InputPort, Inputs, ItemName, Produced, Resources, Sees, Stage, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
 use cosfly_write::{GroupPlan, plan_groups};
 use std::collections::BTreeMap;
@@ -31,19 +31,13 @@ pub fn part(config: &DatasetConfig, towns: InputPort) -> StagePart {
     let config = DatasetConfig { splits: config.splits.clone(), windows: config.windows, ..DatasetConfig::default() };
     let parameters = parameters::canonical(&config);
     let properties = StageProperties {
-        kind: "dataset".into(),
         version: 2,
         parameters: serde_json::json!({ "splits": parameters["splits"], "windows": parameters["windows"] }),
-        sources: vec![],
         inputs: vec![towns, group_notes::port()],
-        artifact: SPLITS,
-        items: ItemRule::One,
         bytes_per_item: 100_000,
         files_per_item: 2,
-        intermediate: &[],
-        asks: None,
-        role: StageRole::Serves,
         resources: Resources { memory_mib: 2048, batch: 1 },
+        ..StageProperties::new("dataset", StageRole::Serves, SPLITS)
     };
     StagePart { suffix: NAME, stage: Box::new(SplitsStage { config, properties }) }
 }

@@ -10,8 +10,7 @@ use cosfly_doctor::verdict::InspectConfig;
 use cosfly_schema::{Rejection, RenderedTrajectory};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
-    TaskContext,
+    InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, StageRole, TaskContext,
 };
 
 /// Stage kind `inspect`.
@@ -43,20 +42,14 @@ impl StageKind for Inspect {
         let mut inputs = self.ports();
         inputs.push(verdict::port());
         let kept = StageProperties {
-            kind: self.name().into(),
             version: 1,
             // Only the verdict reads parameters.
             parameters: serde_json::json!({}),
-            sources: vec![],
             inputs,
-            artifact: FRAMES,
             items: ItemRule::PerInput("frames"),
-            bytes_per_item: 0,
             files_per_item: 0,
             intermediate: &[PACK],
-            asks: None,
-            role: StageRole::Changes,
-            resources: Resources::default(),
+            ..StageProperties::new(self.name(), StageRole::Changes, FRAMES)
         };
         Ok(vec![verdict::part(config), StagePart { suffix: "", stage: Box::new(KeepStage { properties: kept }) }])
     }

@@ -40,20 +40,14 @@ pub fn part(frames: InputPort, captions: InputPort, extras: InputPort) -> StageP
     // What plugins made is in no log: another version of a plugin writes no log anew.
     let extras = InputPort { sees: Sees::Only(&[READINGS]), ..ports::group(extras) };
     let properties = StageProperties {
-        kind: "dataset".into(),
         version: 6,
         // Logs read no parameter: another title or split rewrites no log.
         parameters: serde_json::json!({}),
-        sources: vec![],
         inputs: vec![frames, captions, extras],
-        artifact: LOG,
         items: ItemRule::PerInput("frames"),
-        bytes_per_item: 0,
         files_per_item: 3,
-        intermediate: &[],
-        asks: None,
-        role: StageRole::Serves,
         resources: Resources { memory_mib: 2048, batch: 1 },
+        ..StageProperties::new("dataset", StageRole::Serves, LOG)
     };
     StagePart { suffix: NAME, stage: Box::new(LogStage { properties }) }
 }
@@ -135,7 +129,7 @@ impl Stage for LogStage {
 fn check_clothes(record: &RenderedTrajectory, captions: &[CaptionRecord]) -> Result<()> {
     let Some(wear) = record.outfit.as_ref().map(Wear::from) else { return Ok(()) };
     for caption in captions {
-        let language = [Language::Zh, Language::En].into_iter().find(|it| it.code() == caption.language);
+        let language = Language::of_code(&caption.language);
         let checked = language.map_or(Ok(()), |language| clothes_in(&caption.text, language, wear));
         checked.map_err(|mismatch| {
             let message = format!("a text of `{}` names other clothes than the pictures show", record.trajectory_id);

@@ -10,8 +10,8 @@ use cosfly_frames::Seed;
 use cosfly_maps::{FORMATS, MapConfig, recognise};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, Produced, Resources, Source, SourceCheck, Stage, StageKind, StagePart,
-    StageProperties, StageRole, TaskContext,
+    InputPort, Inputs, Produced, Source, SourceCheck, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
 use cosfly_town::{Format, FormatOptions};
 use serde_json::{Value, json};
@@ -56,19 +56,12 @@ impl StageKind for Map {
     fn build(&self, given: Value) -> Result<Vec<StagePart>, ParameterError> {
         let (config, files) = checked(given)?;
         let properties = StageProperties {
-            kind: self.name().into(),
             version: 15,
             parameters: canonical(&config)?,
             sources: sources(files),
             inputs: self.ports(),
-            artifact: TOWN,
-            items: ItemRule::One,
             bytes_per_item: 4_000_000,
-            files_per_item: 1,
-            intermediate: &[],
-            asks: None,
-            role: StageRole::World,
-            resources: Resources::default(),
+            ..StageProperties::new(self.name(), StageRole::World, TOWN)
         };
         Ok(single(MapStage { config, properties }))
     }

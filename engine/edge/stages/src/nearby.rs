@@ -10,11 +10,13 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::PlanOutcome;
 use cosfly_experts::artifacts;
 use cosfly_film::Shooting;
-use cosfly_film::nearby::{Candidate, Candidates, Filming, NearbyBodies, NearbyWalk, Origin, Refused, Scenery, apart};
+use cosfly_film::nearby::{
+    Candidate, CandidateRefusal, Candidates, Filming, NearbyBodies, NearbyWalk, Origin, Scenery, apart,
+};
 use cosfly_render::{Buildings, RenderConfig};
 use cosfly_stage::{
-    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
-    StageRole, TaskContext,
+    Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Stage, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
 use std::collections::BTreeMap;
 
@@ -24,19 +26,13 @@ pub const NAME: &str = "nearby";
 /// The part of a stage that renders as `config` says, with the same `items`.
 pub fn part(config: &RenderConfig, parameters: serde_json::Value, items: ItemRule) -> StagePart {
     let properties = StageProperties {
-        kind: "render".into(),
         version: 4,
         parameters,
-        sources: vec![],
         inputs: vec![ports::town(), trajectories(), others()],
-        artifact: NEARBY,
         items,
         bytes_per_item: 2_000,
         files_per_item: 2,
-        intermediate: &[],
-        asks: None,
-        role: StageRole::Serves,
-        resources: Resources::default(),
+        ..StageProperties::new("render", StageRole::Serves, NEARBY)
     };
     let stage = NearbyStage { config: config.clone(), properties, buildings: Memo::default() };
     StagePart { suffix: NAME, stage: Box::new(stage) }
@@ -129,8 +125,8 @@ pub fn add(
         let walk = artifacts::WALK.shared(inputs, artifact)?;
         match candidates.add_walk(stage, item, &walk)? {
             None => {}
-            Some(Refused::NoId) => return Err(too_many(artifact)),
-            Some(Refused::NoSteps) => {
+            Some(CandidateRefusal::NoId) => return Err(too_many(artifact)),
+            Some(CandidateRefusal::NoSteps) => {
                 let message = format!("the walk `{}` has no steps", artifact.name);
                 return Err(Diagnostic::new("crowd-walk", Fault::Input, message));
             }

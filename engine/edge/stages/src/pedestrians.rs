@@ -41,19 +41,13 @@ impl StageKind for Pedestrians {
         let count = config.count;
         let canonical = parameters::without(parameters::canonical(&config), PedestrianConfig::NOT_IN_KEY);
         let properties = StageProperties {
-            kind: self.name().into(),
             version: 1,
             parameters: canonical,
-            sources: vec![],
             inputs: self.ports(),
-            artifact: WALK,
             items: ItemRule::Count { prefix: "p", count },
             bytes_per_item: 60 * u64::from(config.frames),
-            files_per_item: 1,
-            intermediate: &[],
-            asks: None,
-            role: StageRole::World,
             resources: Resources { memory_mib: 512, batch: 16 },
+            ..StageProperties::new(self.name(), StageRole::World, WALK)
         };
         Ok(single(PedestrianStage { config, properties, grid: Memo::default() }))
     }

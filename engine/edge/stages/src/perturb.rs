@@ -41,19 +41,13 @@ impl StageKind for Perturb {
         let config: PerturbConfig = parameters::read(given)?;
         config.validate().map_err(|(path, message)| parameters::refused_at(&path, message))?;
         let properties = StageProperties {
-            kind: self.name().into(),
             version: 7,
             parameters: parameters::canonical(&config),
-            sources: vec![],
             inputs: self.ports(),
-            artifact: TRAJECTORY,
             items: ItemRule::PerInput("trajectories"),
             bytes_per_item: 80_000,
-            files_per_item: 1,
-            intermediate: &[],
-            asks: None,
-            role: StageRole::Changes,
             resources: Resources { memory_mib: 256, batch: 16 },
+            ..StageProperties::new(self.name(), StageRole::Changes, TRAJECTORY)
         };
         Ok(single(PerturbStage { config, properties }))
     }

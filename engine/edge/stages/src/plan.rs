@@ -59,19 +59,14 @@ impl StageKind for Plan {
         let mut parameters = expert.canonical();
         parameters["occlusion"] = parameters::without(parameters["occlusion"].take(), OcclusionConfig::NOT_IN_KEY);
         let properties = StageProperties {
-            kind: self.name().into(),
             version: 7,
             parameters,
             sources: expert.sources(),
             inputs,
-            artifact: TRAJECTORY,
             items,
             bytes_per_item: 60_000,
-            files_per_item: 1,
-            intermediate: &[],
-            asks: None,
-            role: StageRole::Plans,
             resources: Resources { memory_mib: 512, batch: 4 },
+            ..StageProperties::new(self.name(), StageRole::Plans, TRAJECTORY)
         };
         if expert.expert.config.drones.count > 1 {
             parts.extend(formation::parts(expert, properties));

@@ -13,8 +13,8 @@ use cosfly_flight::comparison::{ComparedFlight, Means, PlannerFigures, compared}
 use cosfly_report::PlannerRow;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties,
-    StageRole, TaskContext,
+    Artifact, Fan, InputPort, Inputs, PortSource, Produced, Resources, Stage, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
 use std::collections::BTreeMap;
 
@@ -26,19 +26,11 @@ const COMPARED: usize = 3;
 /// The part of a stage that gathers pictures at the port `frames`.
 pub fn part(frames: InputPort) -> StagePart {
     let properties = StageProperties {
-        kind: "dataset".into(),
         version: 2,
-        parameters: serde_json::json!({}),
-        sources: vec![],
         inputs: vec![frames, group_notes::port()],
-        artifact: PLANNERS,
-        items: ItemRule::One,
         bytes_per_item: 2_000,
-        files_per_item: 1,
-        intermediate: &[],
-        asks: None,
-        role: StageRole::Serves,
         resources: Resources { memory_mib: 2048, batch: 1 },
+        ..StageProperties::new("dataset", StageRole::Serves, PLANNERS)
     };
     StagePart { suffix: NAME, stage: Box::new(PlannersStage { properties }) }
 }

@@ -5,7 +5,7 @@ use crate::{companions, traffic};
 use cosfly_diagnose::Result;
 use cosfly_domain::{Around, PlanOutcome};
 use cosfly_experts::{RecipeExpert, artifacts};
-use cosfly_flight::{Bodies, World};
+use cosfly_flight::{MovingBodies, World};
 use cosfly_objectives::Objective;
 use cosfly_stage::{Inputs, Produced};
 use std::sync::Arc;
@@ -17,7 +17,7 @@ pub struct Setting {
     /// The bodies around the target.
     pub around: Around,
     /// Walk, companions and what moves.
-    pub bodies: Bodies,
+    pub bodies: MovingBodies,
 }
 
 impl Setting {
@@ -25,14 +25,14 @@ impl Setting {
     pub fn read(inputs: &Inputs<'_>, expert: &RecipeExpert) -> Result<Self> {
         let world = world(inputs)?;
         if expert.expert.objective.objective != Objective::Track {
-            return Ok(Self { world, around: Around::default(), bodies: Bodies::default() });
+            return Ok(Self { world, around: Around::default(), bodies: MovingBodies::default() });
         }
         check_same_town(inputs, "walks")?;
         let artifact = inputs.one("walks")?;
         let walk = artifacts::WALK.read(inputs, artifact)?;
         let around = traffic::cut_around(inputs, artifact, &walk.track)?;
         let (companions, movers) = (companions::read(inputs)?, around.boxes());
-        Ok(Self { world, around, bodies: Bodies { walk: Some(walk.track), companions, movers } })
+        Ok(Self { world, around, bodies: MovingBodies { walk: Some(walk.track), companions, movers } })
     }
 }
 

@@ -10,7 +10,7 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::{FlightLabel, PlanOutcome, Trajectory};
 use cosfly_experts::plugins::config::{Makes, StagePlugin};
-use cosfly_experts::plugins::{Declaration, Effect, Plugins, Role, source, tables};
+use cosfly_experts::plugins::{Declaration, Effect, PluginRole, Plugins, source, tables};
 use cosfly_experts::{artifacts, codec};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraShape};
@@ -18,8 +18,7 @@ use cosfly_schema::flight_table::{self, FlightColumns, MOST_FILES, MOST_ROWS};
 use cosfly_schema::record::captions_from_bytes;
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
-    TaskContext,
+    InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, StageRole, TaskContext,
 };
 use std::collections::BTreeMap;
 
@@ -56,19 +55,13 @@ impl StageKind for Wasm {
             Makes::Extras => (EXTRAS, "frames", 20_000, StageRole::Speaks),
         };
         let properties = StageProperties {
-            kind: self.name().into(),
             version: 4,
             parameters: parameters::canonical(&config.canonical()),
-            sources: vec![source("", Role::Stage(config.makes), &config.setting())],
+            sources: vec![source("", PluginRole::Stage(config.makes), &config.setting())],
             inputs: ports_of(config.makes),
-            artifact,
             items: ItemRule::PerInput(items),
             bytes_per_item,
-            files_per_item: 1,
-            intermediate: &[],
-            asks: None,
-            role,
-            resources: Resources::default(),
+            ..StageProperties::new(self.name(), role, artifact)
         };
         Ok(single(WasmStage { config, properties }))
     }

@@ -8,8 +8,7 @@ use cosfly_experts::{RecipeExpert, artifacts, codec};
 use cosfly_flight::losses::{Trial, assigned, said};
 use cosfly_planner::config::OcclusionConfig;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, Produced, Resources, Sees, Stage, StagePart, StageProperties, StageRole,
-    TaskContext,
+    Fan, InputPort, Inputs, Produced, Resources, Sees, Stage, StagePart, StageProperties, StageRole, TaskContext,
 };
 
 /// Version of the trials, which is theirs and not that of the flights.
@@ -23,19 +22,12 @@ pub const ORDERS_PART: &str = "orders";
 pub fn orders_part(config: &OcclusionConfig) -> StagePart {
     let trials = ports::sibling(TRIALS, LOSSES, Fan::Gather, "The trials of all flights.");
     let properties = StageProperties {
-        kind: "plan".into(),
         version: 3,
         parameters: serde_json::json!({ "share": config.share, "beside_look_alike": config.beside_look_alike }),
-        sources: vec![],
         inputs: vec![trials],
-        artifact: ORDERS,
-        items: ItemRule::One,
         bytes_per_item: 1_000,
-        files_per_item: 1,
-        intermediate: &[],
-        asks: None,
-        role: StageRole::Serves,
         resources: Resources { memory_mib: 512, batch: 4 },
+        ..StageProperties::new("plan", StageRole::Serves, ORDERS)
     };
     StagePart { suffix: ORDERS_PART, stage: Box::new(OrdersStage { config: config.clone(), properties }) }
 }

@@ -11,7 +11,7 @@ use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::{Around, Camera, PlanOutcome, TargetView, Trajectory, largest_object_instance};
 use cosfly_experts::{artifacts, pictures};
-use cosfly_figures::{Bystander, Walker, gait_phase_rad, outfit_of};
+use cosfly_figures::{Bystander, outfit_of};
 use cosfly_film::Shooting;
 use cosfly_film::body_rays::BodyRays;
 use cosfly_film::walks::walked_m;
@@ -24,8 +24,8 @@ use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemName, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties,
-    StageRole, TaskContext,
+    InputPort, Inputs, ItemName, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, StageRole,
+    TaskContext,
 };
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 use std::collections::{BTreeMap, BTreeSet};
@@ -69,19 +69,15 @@ impl StageKind for Render {
         let bare = RenderConfig { models: vec![], season: None, ..config.clone() };
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
-            kind: self.name().into(),
             version: 25,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
-            artifact: FRAMES,
             items,
             bytes_per_item: 200 * pixels * 3 / 4,
             files_per_item: 2,
             intermediate: &[PACK],
-            asks: None,
-            role: StageRole::Films,
-            resources: Resources::default(),
+            ..StageProperties::new(self.name(), StageRole::Films, FRAMES)
         };
         let stage = RenderStage { config, encoding, properties, scene: Memo::default(), idle: Mutex::default() };
         Ok(vec![nearby, StagePart { suffix: "", stage: Box::new(stage) }])
@@ -270,14 +266,7 @@ impl RenderStage {
                 let moment = |offset_s: f64| {
                     let at = frame as f64 + offset_s / track.dt_s;
                     let state = target_state_at(&track.states, at);
-                    let target = Walker {
-                        state,
-                        height_m: track.height_m,
-                        radius_m: track.radius_m,
-                        clothes_seed: shooting.clothes_seed,
-                        gait_phase_rad: gait_phase_rad(walked_m[frame] + offset_s * state.speed_mps, track.height_m),
-                        body: shooting.body,
-                    };
+                    let target = shooting.target(track, state, walked_m[frame] + offset_s * state.speed_mps);
                     // A target without extent is a point: it is watched, not drawn.
                     Moment { pose: pose_at(&poses, at), target: Some(target).filter(|target| target.radius_m > 0.0) }
                 };

@@ -15,11 +15,10 @@ use cosfly_frames::Seed;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraShape, ExtraSource, check_names};
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, Values};
-use cosfly_sensors::{Flown, SenseConfig, Sensor};
+use cosfly_sensors::{SenseConfig, SensedFlight, Sensor};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
-    TaskContext,
+    InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, StageRole, TaskContext,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -61,19 +60,13 @@ impl StageKind for Sense {
         let mut canonical = parameters::canonical(&config);
         canonical["version"] = sensor.version.into();
         let properties = StageProperties {
-            kind: self.name().into(),
             version: 2,
             parameters: canonical,
-            sources: vec![],
             inputs: self.ports(),
-            artifact: EXTRAS,
             items: ItemRule::PerInput("frames"),
             bytes_per_item: 20_000,
             files_per_item: 2,
-            intermediate: &[],
-            asks: None,
-            role: StageRole::Speaks,
-            resources: Resources::default(),
+            ..StageProperties::new(self.name(), StageRole::Speaks, EXTRAS)
         };
         Ok(single(SenseStage { config, sensor, source, properties }))
     }
@@ -119,7 +112,7 @@ impl Stage for SenseStage {
         let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
         let world = world(inputs)?;
         let people = people(inputs, &world, &record)?;
-        let flown = Flown {
+        let flown = SensedFlight {
             town: &world.exact,
             ground: &world.ground,
             bodies: &|time_s, list| list.extend(people.iter().filter_map(|person| person.box_at(time_s))),

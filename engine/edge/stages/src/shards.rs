@@ -38,7 +38,6 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
     let mut inputs: Vec<InputPort> = inputs.map(ports::group).into();
     inputs.extend([ports::group(logs::port()), group_splits::port()]);
     let properties = StageProperties {
-        kind: "dataset".into(),
         version: 9,
         parameters: serde_json::json!({
             "windows": canonical["windows"],
@@ -46,16 +45,12 @@ pub fn part(config: &DatasetConfig, inputs: [InputPort; 3]) -> StagePart {
             // A new column or table makes the tables anew without a raised version.
             "tables": Digest::of(cosfly_schema::reference().as_bytes()).short(),
         }),
-        sources: vec![],
         inputs,
-        artifact: SHARD,
         items: group_notes::items(&config),
         bytes_per_item: 10_000_000,
         files_per_item: 24,
-        intermediate: &[],
-        asks: None,
-        role: StageRole::Serves,
         resources: Resources { memory_mib: 2048, batch: 1 },
+        ..StageProperties::new("dataset", StageRole::Serves, SHARD)
     };
     StagePart { suffix: NAME, stage: Box::new(TablesStage { config, properties }) }
 }

@@ -13,8 +13,7 @@ use cosfly_frames::{DVec3, Seed};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    Fan, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Stage, StagePart, StageProperties, StageRole,
-    TaskContext,
+    Fan, InputPort, Inputs, PortSource, Produced, Stage, StagePart, StageProperties, StageRole, TaskContext,
 };
 use std::collections::BTreeMap;
 
@@ -25,19 +24,11 @@ const NAME: &str = "verdict";
 pub fn part(config: InspectConfig) -> StagePart {
     let doc = "The rendered flights.";
     let properties = StageProperties {
-        kind: "inspect".into(),
         version: 1,
         parameters: parameters::canonical(&config),
-        sources: vec![],
         inputs: vec![ports::town(), ports::without_pictures(ports::gather("frames", FRAMES, false, doc))],
-        artifact: VERDICT,
-        items: ItemRule::One,
         bytes_per_item: 10_000,
-        files_per_item: 1,
-        intermediate: &[],
-        asks: None,
-        role: StageRole::Serves,
-        resources: Resources::default(),
+        ..StageProperties::new("inspect", StageRole::Serves, VERDICT)
     };
     StagePart { suffix: NAME, stage: Box::new(VerdictStage { config, properties }) }
 }

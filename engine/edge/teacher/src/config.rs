@@ -31,7 +31,7 @@ pub struct TeacherConfig {
     /// Form of answers that is requested of the server. Default `schema`.
     pub json: JsonMode,
     /// Pictures beside the facts; port `frames` brings them. Default `none`.
-    pub frames: Frames,
+    pub frames: TeacherFrames,
     /// Number of questions about a text before it falls back to the template: the first one, and those that name a
     /// contradiction. Default 3.
     #[schemars(range(min = 1, max = 10))]
@@ -105,7 +105,7 @@ pub enum JsonMode {
 /// Pictures beside the facts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Frames {
+pub enum TeacherFrames {
     /// No pictures.
     #[default]
     None,
@@ -136,7 +136,7 @@ impl Default for TeacherConfig {
             seed: 0,
             max_tokens: 400,
             json: JsonMode::Schema,
-            frames: Frames::None,
+            frames: TeacherFrames::None,
             attempts: 3,
             round: 1,
             budget: BudgetConfig::default(),

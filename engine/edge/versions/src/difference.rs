@@ -272,7 +272,7 @@ fn packing(old: &Version, new: &Version) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::version::{Flight, RecipeText, SCHEMA, Task};
+    use crate::version::{RecipeText, SCHEMA, Task, VersionFlight};
     use cosfly_fingerprint::Digest;
     use cosfly_stage::{Blobs, ItemName};
     use serde_json::json;
@@ -287,7 +287,8 @@ mod tests {
             tasks.insert(walk.clone(), Task { key: key(id.clone()), reads: vec![] });
             tasks.insert(task.clone(), Task { key: key(format!("{id} {weight}")), reads: vec![expert.clone()] });
             tasks.insert(expert, Task { key: key(format!("{id}{weight}")), reads: vec![walk] });
-            flights.insert(id.clone(), Flight { split: "train".into(), log: key(format!("{id}.{weight}")), task });
+            flights
+                .insert(id.clone(), VersionFlight { split: "train".into(), log: key(format!("{id}.{weight}")), task });
         }
         let definition = |kind: &str, parameters| json!({"kind": kind, "version": 1, "parameters": parameters});
         Version {

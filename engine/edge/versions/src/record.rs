@@ -1,6 +1,6 @@
 //! Creates a version of a finished dataset in a store.
 
-use crate::version::{Flight, RecipeText, SCHEMA, Task, Version};
+use crate::version::{RecipeText, SCHEMA, Task, Version, VersionFlight};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_read::PublishedDataset;
@@ -79,7 +79,7 @@ pub fn record(name: &str, recipe: &Recipe, overrides: &[String], store: &Store, 
     Ok(version)
 }
 
-type Published = (BTreeMap<String, Flight>, BTreeMap<String, String>, Digest);
+type Published = (BTreeMap<String, VersionFlight>, BTreeMap<String, String>, Digest);
 
 /// Flights and rejections, read from a copy of the dataset's tables alone.
 fn flights(store: &Store, files: &Blobs, logs: &Logs) -> Result<Published> {
@@ -93,7 +93,7 @@ fn flights(store: &Store, files: &Blobs, logs: &Logs) -> Result<Published> {
     let flight = |flight: &cosfly_read::PublishedFlight| {
         let log = files.get(&flight.mcap_path).map_or(Digest([0; 32]), |blob| blob.digest);
         let task = ItemId { stage: logs.stage.clone(), item: logs.item(&flight.trajectory_id) };
-        (flight.trajectory_id.clone(), Flight { split: flight.split.clone(), log, task })
+        (flight.trajectory_id.clone(), VersionFlight { split: flight.split.clone(), log, task })
     };
     let flights = published.flights().iter().map(flight).collect();
     Ok((flights, published.rejections()?, cosfly_store::content_of(files)))

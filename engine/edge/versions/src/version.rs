@@ -40,7 +40,7 @@ pub struct Version {
     #[serde(serialize_with = "as_list", deserialize_with = "from_list")]
     pub tasks: BTreeMap<ItemId, Task>,
     /// Published flights by their ids.
-    pub flights: BTreeMap<String, Flight>,
+    pub flights: BTreeMap<String, VersionFlight>,
     /// Items without a flight, with their reasons.
     pub rejected: BTreeMap<String, String>,
 }
@@ -72,7 +72,7 @@ pub struct Task {
 /// A published flight.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Flight {
+pub struct VersionFlight {
     /// Split of the flight.
     pub split: String,
     /// BLAKE3 of the flight's log.

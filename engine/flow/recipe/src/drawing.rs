@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 /// Language of a graph drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum DrawingFormat {
     /// <https://mermaid.js.org>, drawn by GitHub and mdBook.
     Mermaid,
     /// <https://graphviz.org>.
@@ -14,12 +14,12 @@ pub enum Format {
 
 /// Text of the drawing of a recipe's stages and connections. Edges carry the port's name where it differs from the
 /// stage's.
-pub fn graph(recipe: &Recipe, format: Format) -> String {
+pub fn graph(recipe: &Recipe, format: DrawingFormat) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.
     let _ = match format {
-        Format::Mermaid => mermaid(recipe, &mut text),
-        Format::Dot => dot(recipe, &mut text),
+        DrawingFormat::Mermaid => mermaid(recipe, &mut text),
+        DrawingFormat::Dot => dot(recipe, &mut text),
     };
     text
 }

@@ -27,7 +27,7 @@ mod sources;
 mod toml_text;
 mod wiring;
 
-pub use drawing::{Format, graph};
+pub use drawing::{DrawingFormat, graph};
 pub use load::{load, read};
 pub use model::{Arrival, Connection, ItemNames, Recipe, RecipeStage, SourceFile};
 pub use plain::table;

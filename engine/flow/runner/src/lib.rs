@@ -35,4 +35,4 @@ pub use planning::{plan, plan_elsewhere, plan_for};
 pub use reason::Reason;
 pub use run::run;
 pub use single::run_tasks;
-pub use summary::{Failure, Origin, Rejection, RunOutcome, RunSummary, StageSummary, TaskEnd};
+pub use summary::{Failure, RejectionOrigin, RejectionReason, RunOutcome, RunSummary, StageSummary, TaskEnd};

@@ -8,7 +8,7 @@ use cosfly_diagnose::Result;
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::{Arrival, Recipe, RecipeStage};
 use cosfly_stage::{Fan, ItemName};
-use cosfly_store::{FolderTimes, Known, Store};
+use cosfly_store::{FinishedTask, FolderTimes, Store};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -114,7 +114,7 @@ fn find_finished(plan: &mut Plan<'_>, store: &Store) {
     for (stage, described) in plan.stages.iter_mut().zip(&plan.recipe.stages) {
         let intermediate = described.stage.properties().intermediate;
         let plans = stage.plans.par_iter().with_min_len(PER_THREAD);
-        let found: Vec<Option<Known>> = plans.map(|digest| known.finished(digest, intermediate)).collect();
+        let found: Vec<Option<FinishedTask>> = plans.map(|digest| known.finished(digest, intermediate)).collect();
         stage.was_whole = found.iter().map(|known| known.as_ref().map(|known| known.whole)).collect();
         stage.finished = found.into_iter().map(|known| known.map(|known| known.finished)).collect();
     }

@@ -23,7 +23,7 @@ pub enum TaskEnd {
     /// Finished, with a usable result.
     Done(Work),
     /// Finished without a usable result; the reason is published.
-    Rejected(Work, Rejection),
+    Rejected(Work, RejectionReason),
     /// Failed.
     Failed,
     /// Not tried: one of its inputs failed.
@@ -36,16 +36,16 @@ pub enum TaskEnd {
 
 /// Reason why an item holds no usable result.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Rejection {
+pub struct RejectionReason {
     /// Reason as it is published.
     pub reason: String,
     /// Beginning of the rejection.
-    pub origin: Origin,
+    pub origin: RejectionOrigin,
 }
 
 /// Beginning of a rejection.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Origin {
+pub enum RejectionOrigin {
     /// The item itself was rejected.
     Own,
     /// This item further up was rejected, and all that read it inherit that.
@@ -175,7 +175,7 @@ impl RunSummary {
     }
 
     /// All items without a usable result.
-    pub fn rejections(&self) -> impl Iterator<Item = (ItemId, Rejection)> {
+    pub fn rejections(&self) -> impl Iterator<Item = (ItemId, RejectionReason)> {
         self.ends().filter_map(|(id, end)| match end {
             TaskEnd::Rejected(_, rejection) => Some((id, rejection)),
             _ => None,
@@ -190,7 +190,7 @@ impl RunSummary {
         match (self.items[stage].endings[item], self.reason(stage, item)) {
             (Ending::Finished(work), None) => TaskEnd::Done(work),
             (Ending::Finished(work), Some(reason)) => {
-                TaskEnd::Rejected(work, Rejection { reason: reason.to_owned(), origin: self.origin(stage, item) })
+                TaskEnd::Rejected(work, RejectionReason { reason: reason.to_owned(), origin: self.origin(stage, item) })
             }
             (Ending::Failed, _) => TaskEnd::Failed,
             (Ending::Skipped, _) => TaskEnd::Skipped,
@@ -204,12 +204,16 @@ impl RunSummary {
     }
 
     /// Follows a rejection upstream: an item that reads a rejected one is rejected for that reason alone.
-    fn origin(&self, stage: usize, item: usize) -> Origin {
+    fn origin(&self, stage: usize, item: usize) -> RejectionOrigin {
         let (mut at_stage, mut at_item) = (stage, item);
         while let Some(arrival) = self.rejected_input(at_stage, at_item) {
             (at_stage, at_item) = (arrival.stage, arrival.item);
         }
-        if (at_stage, at_item) == (stage, item) { Origin::Own } else { Origin::Inherited(self.id(at_stage, at_item)) }
+        if (at_stage, at_item) == (stage, item) {
+            RejectionOrigin::Own
+        } else {
+            RejectionOrigin::Inherited(self.id(at_stage, at_item))
+        }
     }
 
     /// First rejected item that an item reads at a port that brings it a single one.

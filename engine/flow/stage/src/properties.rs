@@ -39,6 +39,27 @@ pub struct StageProperties {
     pub resources: Resources,
 }
 
+impl StageProperties {
+    /// A stage of a kind that gives artifacts of a kind: version 1, one item of one blob, no parameters, sources or inputs.
+    pub fn new(kind: &str, role: StageRole, artifact: &'static str) -> Self {
+        Self {
+            kind: kind.to_owned(),
+            version: 1,
+            parameters: serde_json::json!({}),
+            sources: vec![],
+            inputs: vec![],
+            artifact,
+            items: ItemRule::One,
+            bytes_per_item: 0,
+            files_per_item: 1,
+            intermediate: &[],
+            asks: None,
+            role,
+            resources: Resources::default(),
+        }
+    }
+}
+
 /// Role of a stage in a recipe: other tools find stages by it, never by the names of kinds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StageRole {

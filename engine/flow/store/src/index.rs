@@ -52,7 +52,7 @@ pub struct IndexedTask<'e> {
 
 /// A finished task.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Known {
+pub struct FinishedTask {
     /// Result of the task.
     pub finished: Finished,
     /// Whether all blobs are there, those that may be removed as well.
@@ -137,7 +137,7 @@ impl Store {
 
 impl KnownTasks<'_> {
     /// A task that is finished and has all its blobs but those named in `removable`.
-    pub fn finished(&self, plan: &Digest, removable: &[&str]) -> Option<Known> {
+    pub fn finished(&self, plan: &Digest, removable: &[&str]) -> Option<FinishedTask> {
         let shard = usize::from(plan.0[0]);
         let indexed = self.index.number_of(plan);
         let is_done =
@@ -155,7 +155,7 @@ impl KnownTasks<'_> {
         }
         self.missed.store(true, Ordering::Relaxed);
         let whole = removable.is_empty() || self.store.holds(&finished.record);
-        Some(Known { finished, whole })
+        Some(FinishedTask { finished, whole })
     }
 
     /// Times of the folders that lost nothing since the index was written; 0 for the others.
@@ -179,7 +179,7 @@ impl KnownTasks<'_> {
     }
 
     /// State of an indexed result; `None` where a lasting blob is missing.
-    fn known(&self, Entry { finished, whole }: Entry, removable: &[&str]) -> Option<Known> {
+    fn known(&self, Entry { finished, whole }: Entry, removable: &[&str]) -> Option<FinishedTask> {
         let is_unchanged = |blob: &BlobRef| self.blobs_are_whole[usize::from(blob.digest.0[0])];
         let holds = |blob: &BlobRef| is_unchanged(blob) || self.store.holds_blob(blob);
         if !whole && removable.is_empty() {
@@ -197,7 +197,7 @@ impl KnownTasks<'_> {
             false if removable().all(is_unchanged) => false,
             false => removable().all(|blob| self.store.holds_blob(blob)),
         };
-        Some(Known { finished, whole })
+        Some(FinishedTask { finished, whole })
     }
 
     fn done_in(&self, shard: usize) -> &[Digest] {
@@ -276,7 +276,7 @@ mod tests {
         for recipe in ["r", "another"] {
             let known = store.known_tasks(recipe);
             assert!(entries.iter().all(|(plan, finished)| {
-                known.finished(plan, &[]) == Some(Known { finished: finished.clone(), whole: true })
+                known.finished(plan, &[]) == Some(FinishedTask { finished: finished.clone(), whole: true })
             }));
             assert_eq!(known.finished(&Digest::of(b"unknown"), &[]), None);
             assert_eq!(known.missed.load(Ordering::Relaxed), recipe == "another");

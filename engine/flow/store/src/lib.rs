@@ -73,7 +73,7 @@ pub use fault::{FaultPoints, Step};
 pub use folder::VERSION_FILE;
 pub use garbage::{GarbageOptions, GarbageReport, collect_garbage, pin};
 pub use history::{PastRun, PastStage};
-pub use index::{IndexedTask, Known, KnownTasks};
+pub use index::{FinishedTask, IndexedTask, KnownTasks};
 pub use index_format::FolderTimes;
 pub use locks::TaskLock;
 pub use materialise::{Materialised, content_of, materialise};

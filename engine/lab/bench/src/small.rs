@@ -3,7 +3,7 @@
 
 use crate::clock::timed;
 use crate::render::views::Ground;
-use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
+use cosfly_batch::{BatchRenderer, BatchScene, BatchView, Outputs};
 use cosfly_domain::{Camera, FrameImages};
 use cosfly_figures::{Bystander, Walker};
 use cosfly_frames::{DVec3, TargetState};
@@ -159,11 +159,11 @@ fn row(
     let mut large = Renderer::new(Camera { width: size, height: size, horizontal_fov_rad: FOV_RAD });
     large.set_look(content.look());
     let mut small = BatchRenderer::new(size, size);
-    let views: Vec<View<'_>> = ground
+    let views: Vec<BatchView<'_>> = ground
         .views
         .iter()
         .zip(crowds)
-        .map(|(place, others)| View {
+        .map(|(place, others)| BatchView {
             scene,
             pose: place.pose,
             horizontal_fov_rad: FOV_RAD,

@@ -5,7 +5,7 @@
 #[path = "../tests/towns/mod.rs"]
 mod towns;
 
-use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
+use cosfly_batch::{BatchRenderer, BatchScene, BatchView, Outputs};
 use cosfly_frames::Seed;
 use cosfly_render::PictureLook;
 use std::time::Instant;
@@ -36,9 +36,9 @@ fn main() {
         BatchScene::new(&town, Seed([1; 32]))
     };
     let look = if content == "full" { PictureLook::Full } else { PictureLook::Simple };
-    let views: Vec<View<'_>> = places
+    let views: Vec<BatchView<'_>> = places
         .iter()
-        .map(|place| View {
+        .map(|place| BatchView {
             scene: &scene,
             pose: place.pose,
             horizontal_fov_rad: core::f64::consts::FRAC_PI_2,

@@ -2,7 +2,7 @@
 
 use crate::canvas::{Canvas, WIDE};
 use crate::faces::{BODY, DrawnFace};
-use crate::view::View;
+use crate::view::BatchView;
 use cosfly_domain::{Camera, Weather};
 use cosfly_frames::simd::Level;
 use cosfly_raster::visibility::NO_FACE;
@@ -32,7 +32,7 @@ impl Colours {
     pub fn draw(
         &mut self,
         level: Level,
-        view: &View<'_>,
+        view: &BatchView<'_>,
         canvas: &Canvas,
         (faces, parts): (&[DrawnFace], &[BodyPart]),
         rgb: &mut [u8],

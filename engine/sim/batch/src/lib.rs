@@ -2,7 +2,7 @@
 //! renderer (`cosfly-render`) is.
 //!
 //! [`BatchScene`] is made once per town and shared by all cameras and threads. One [`BatchRenderer`] draws pictures of one
-//! size: [`BatchRenderer::render`] takes any number of [`View`]s and writes into buffers of the caller ([`Outputs`]), picture
+//! size: [`BatchRenderer::render`] takes any number of [`BatchView`]s and writes into buffers of the caller ([`Outputs`]), picture
 //! after picture. A picture depends on its own view only: never on the batch around it, the order, or the number of threads.
 //!
 //! Every face is a plane whose inverse depth is linear over the image. A box is hit where the nearest of the planes that
@@ -34,4 +34,4 @@ pub use on_request::OnRequest;
 pub use outputs::Outputs;
 pub use renderer::BatchRenderer;
 pub use scene::BatchScene;
-pub use view::{Figure, View};
+pub use view::{BatchView, Figure};

@@ -14,7 +14,7 @@ use crate::on_request;
 use crate::outputs::Outputs;
 use crate::raster::{HalfPlanes, MOST_LINES, SEAM_PX, Surface, draw_box, draw_lane, draw_polygon, draw_within};
 use crate::resolve::resolve;
-use crate::view::View;
+use crate::view::BatchView;
 use cosfly_figures::{FigureParts, FigureTriangle, Wardrobe};
 use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
@@ -70,7 +70,7 @@ impl Painter {
     }
 
     /// Draws a picture into buffers of its own size.
-    pub fn paint(&mut self, view: &View<'_>, outputs: &mut Outputs<'_>) {
+    pub fn paint(&mut self, view: &BatchView<'_>, outputs: &mut Outputs<'_>) {
         let eye = Eye::new(&view.pose, self.canvas.width, self.canvas.height, view.horizontal_fov_rad);
         self.canvas.clear();
         self.faces.clear();

@@ -2,7 +2,7 @@
 
 use crate::outputs::Outputs;
 use crate::painter::Painter;
-use crate::view::View;
+use crate::view::BatchView;
 use cosfly_frames::simd::Level;
 use rayon::prelude::*;
 use std::sync::Mutex;
@@ -41,7 +41,7 @@ impl BatchRenderer {
     ///
     /// # Panics
     /// Where a buffer does not hold exactly the pixels of all views ([`Outputs::mismatch`] tells before).
-    pub fn render(&mut self, views: &[View<'_>], mut outputs: Outputs<'_>) {
+    pub fn render(&mut self, views: &[BatchView<'_>], mut outputs: Outputs<'_>) {
         let pixels = self.pixels();
         if let Some((channel, length)) = outputs.mismatch(views.len() * pixels) {
             panic!(

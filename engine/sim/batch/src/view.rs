@@ -8,7 +8,7 @@ use cosfly_render::PictureLook;
 
 /// One picture of a batch.
 #[derive(Clone, Copy)]
-pub struct View<'a> {
+pub struct BatchView<'a> {
     /// The town.
     pub scene: &'a BatchScene,
     /// The camera's pose (body axes: x along the optical axis, y right, z up).

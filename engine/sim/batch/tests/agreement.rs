@@ -4,7 +4,7 @@
 mod shared;
 mod towns;
 
-use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
+use cosfly_batch::{BatchRenderer, BatchScene, BatchView, Outputs};
 use cosfly_domain::{BodyKind, Camera, Town, Weather, object_instance};
 use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::{DVec3, Seed};
@@ -58,7 +58,7 @@ fn small(scene: &BatchScene, place: &Place, size: u32) -> Pictures {
         instance: vec![99; pixels],
         target_mask: vec![99; pixels],
     };
-    let view = View {
+    let view = BatchView {
         scene,
         pose: place.pose,
         horizontal_fov_rad: FOV_RAD,

@@ -2,7 +2,7 @@
 
 mod towns;
 
-use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
+use cosfly_batch::{BatchRenderer, BatchScene, BatchView, Outputs};
 use cosfly_frames::Seed;
 use cosfly_render::PictureLook;
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -44,9 +44,9 @@ fn the_second_batch_allocates_nothing() {
     let scene = BatchScene::new(&town, Seed([1; 32]));
     assert!(scene.bytes() < 50_000_000, "{} bytes", scene.bytes());
     let places = towns::places(&town, 12, 30);
-    let views: Vec<View<'_>> = places
+    let views: Vec<BatchView<'_>> = places
         .iter()
-        .map(|place| View {
+        .map(|place| BatchView {
             scene: &scene,
             pose: place.pose,
             horizontal_fov_rad: 1.4,
@@ -61,7 +61,8 @@ fn the_second_batch_allocates_nothing() {
     let pixels = views.len() * renderer.pixels();
     let (mut depth_m, mut instance, mut rgb) = (vec![0.0f32; pixels], vec![0; pixels], vec![0; 3 * pixels]);
     let mut pass = |look: Option<PictureLook>| {
-        let views: Vec<View<'_>> = views.iter().map(|view| View { look: look.unwrap_or(view.look), ..*view }).collect();
+        let views: Vec<BatchView<'_>> =
+            views.iter().map(|view| BatchView { look: look.unwrap_or(view.look), ..*view }).collect();
         let before = ALLOCATIONS.with(Cell::get);
         let outputs = match look {
             Some(_) => Outputs { rgb: Some(&mut rgb), ..Outputs::default() },

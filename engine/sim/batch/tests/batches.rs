@@ -2,7 +2,7 @@
 
 mod towns;
 
-use cosfly_batch::{BatchRenderer, BatchScene, Outputs, View};
+use cosfly_batch::{BatchRenderer, BatchScene, BatchView, Outputs};
 use cosfly_frames::Seed;
 use cosfly_frames::simd::Level;
 use cosfly_render::PictureLook;
@@ -20,8 +20,8 @@ struct Pictures {
     rgb: Vec<u8>,
 }
 
-fn view<'a>(scene: &'a BatchScene, place: &'a Place) -> View<'a> {
-    View {
+fn view<'a>(scene: &'a BatchScene, place: &'a Place) -> BatchView<'a> {
+    BatchView {
         scene,
         pose: place.pose,
         horizontal_fov_rad: 1.4,
@@ -33,7 +33,7 @@ fn view<'a>(scene: &'a BatchScene, place: &'a Place) -> View<'a> {
     }
 }
 
-fn draw(renderer: &mut BatchRenderer, views: &[View<'_>]) -> Pictures {
+fn draw(renderer: &mut BatchRenderer, views: &[BatchView<'_>]) -> Pictures {
     let mut depth_m = vec![-1.0f32; views.len() * PIXELS];
     let mut semantic = vec![99; views.len() * PIXELS];
     let mut instance = vec![99; views.len() * PIXELS];
@@ -68,7 +68,7 @@ fn a_picture_depends_on_its_view_only() {
     let town = towns::shipped("downtown.xodr");
     let scene = BatchScene::new(&town, Seed([1; 32]));
     let places = towns::places(&town, 64, 12);
-    let views: Vec<View<'_>> = places.iter().map(|place| view(&scene, place)).collect();
+    let views: Vec<BatchView<'_>> = places.iter().map(|place| view(&scene, place)).collect();
     let all = draw(&mut BatchRenderer::new(SIZE, SIZE), &views);
     // Alone, by a renderer that draws nothing else.
     for number in [0, 1, 31, 63] {
@@ -85,7 +85,7 @@ fn a_picture_depends_on_its_view_only() {
     }
     // In another order.
     let order: Vec<usize> = (0..views.len()).map(|k| (k * 37 + 5) % views.len()).collect();
-    let shuffled: Vec<View<'_>> = order.iter().map(|number| views[*number]).collect();
+    let shuffled: Vec<BatchView<'_>> = order.iter().map(|number| views[*number]).collect();
     let shuffled = draw(&mut BatchRenderer::new(SIZE, SIZE), &shuffled);
     for (place, number) in order.iter().enumerate() {
         assert!(picture(&shuffled, place) == picture(&all, *number), "picture {number}");
@@ -103,7 +103,7 @@ fn channels_that_nobody_asks_for_change_nothing() {
     let town = towns::shipped("uptown.xodr");
     let scene = BatchScene::new(&town, Seed([1; 32]));
     let places = towns::places(&town, 3, 5);
-    let views: Vec<View<'_>> = places.iter().map(|place| view(&scene, place)).collect();
+    let views: Vec<BatchView<'_>> = places.iter().map(|place| view(&scene, place)).collect();
     let mut renderer = BatchRenderer::new(SIZE, SIZE);
     let all = draw(&mut renderer, &views);
     let mut mask = vec![7; 3 * PIXELS];

@@ -15,7 +15,7 @@ fn main() -> std::io::Result<()> {
     let mut out = std::io::stdout().lock();
     for line in std::io::stdin().lock().lines() {
         let line: Line = serde_json::from_str(&line?)?;
-        let language = Language::ALL.into_iter().find(|it| it.code() == line.language);
+        let language = Language::of_code(&line.language);
         let language = language.ok_or_else(|| std::io::Error::other("`language` is `en` or `zh`"))?;
         let mut wrong = check(&line.text, language, &line.facts).err().unwrap_or_default();
         wrong.extend(foreign_words(&line.text, language));

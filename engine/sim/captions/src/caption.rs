@@ -25,7 +25,7 @@ pub struct Caption {
 /// chosen by the seed.
 pub fn captions(facts: &Facts, config: &CaptionConfig, seed: Seed) -> Vec<Caption> {
     let mut captions = vec![];
-    for language in Language::ALL {
+    for language in Language::ALL.iter().copied() {
         for &style in &config.styles {
             let own = seed.child(language.code(), style as u64);
             let first = captions.len();

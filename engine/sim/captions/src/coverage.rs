@@ -3,7 +3,7 @@
 //! No facts are needed, so that anyone's texts can be counted. A kind without texts shows what a model cannot learn from them.
 
 use crate::diversity::words;
-use cosfly_claims::Language;
+use cosfly_claims::{Language, Script};
 use std::collections::BTreeMap;
 
 /// A kind of relation or intent, with phrases that speak of it. An English phrase stands between the ends of words; one that ends
@@ -216,9 +216,9 @@ pub fn coverage<'t>(texts: impl IntoIterator<Item = &'t str>, language: Language
     let none = |kinds: &[Kind]| kinds.iter().map(|kind| (kind.name, 0)).collect();
     let mut found = Coverage { relations: none(&RELATIONS), intents: none(&INTENTS) };
     for text in texts {
-        let plain = match language {
-            Language::En => format!(" {} ", words(text, language).join(" ")),
-            Language::Zh => text.to_owned(),
+        let plain = match language.script() {
+            Script::Latin => format!(" {} ", words(text, language).join(" ")),
+            Script::Han => text.to_owned(),
         };
         for (kinds, counts) in [(&RELATIONS[..], &mut found.relations), (&INTENTS[..], &mut found.intents)] {
             for kind in kinds.iter().filter(|kind| speaks_of(&plain, kind, language)) {
@@ -230,9 +230,9 @@ pub fn coverage<'t>(texts: impl IntoIterator<Item = &'t str>, language: Language
 }
 
 fn speaks_of(plain: &str, kind: &Kind, language: Language) -> bool {
-    match language {
-        Language::En => kind.english.iter().any(|phrase| has_phrase(plain, phrase)),
-        Language::Zh => kind.chinese.iter().any(|phrase| plain.contains(phrase)),
+    match language.script() {
+        Script::Latin => kind.english.iter().any(|phrase| has_phrase(plain, phrase)),
+        Script::Han => kind.chinese.iter().any(|phrase| plain.contains(phrase)),
     }
 }
 

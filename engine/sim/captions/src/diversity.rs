@@ -1,6 +1,6 @@
 //! How different texts are: distinct-n, self-BLEU, lengths.
 
-use cosfly_claims::Language;
+use cosfly_claims::{Language, Script};
 use cosfly_frames::real;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Longest runs of words that BLEU counts.
 const LONGEST: usize = 4;
 
-/// Figures of the texts of one language. A word is a run of letters or digits in English, a character in Chinese.
+/// Figures of the texts of one language. A word is a run of letters or digits, a character in Chinese.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Diversity {
     /// Number of texts.
@@ -35,12 +35,12 @@ const NEIGHBOURS: usize = 10;
 /// Words of a text, in lower case, without punctuation.
 pub fn words(text: &str, language: Language) -> Vec<String> {
     let lower = text.to_lowercase();
-    match language {
-        Language::En => {
+    match language.script() {
+        Script::Latin => {
             let parts = lower.split(|c: char| !c.is_alphanumeric() && c != '.' && c != '/' && c != '\'');
             parts.map(|word| word.trim_matches(['.', '\'', '/']).to_owned()).filter(|word| !word.is_empty()).collect()
         }
-        Language::Zh => {
+        Script::Han => {
             // A number is one word.
             let mut words: Vec<String> = vec![];
             let mut in_number = false;

@@ -22,7 +22,7 @@ pub(crate) const LATE_S: f64 = 10.0;
 
 /// A pause of the target.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Stop {
+pub struct TargetStop {
     /// First frame that stands.
     pub frame: u32,
     /// Standing frames x time step, seconds.
@@ -67,7 +67,7 @@ pub struct Facts {
     #[serde(default)]
     pub dt_s: f64,
     /// Pauses of at least a second, in order.
-    pub stops: Vec<Stop>,
+    pub stops: Vec<TargetStop>,
     /// Time from the first to the last frame, seconds.
     pub duration_s: f64,
     /// Way that the target walks, metres.
@@ -104,7 +104,7 @@ impl Facts {
 
     /// Whether the target walks before and after each of its stops.
     pub fn stops_on_the_way(&self) -> bool {
-        let end_s = |stop: &Stop| f64::from(stop.frame) * self.dt_s + stop.duration_s;
+        let end_s = |stop: &TargetStop| f64::from(stop.frame) * self.dt_s + stop.duration_s;
         self.stops.iter().all(|stop| stop.frame > 0 && end_s(stop) < self.duration_s)
     }
 
@@ -166,14 +166,14 @@ pub fn facts(trajectory: &Trajectory) -> Facts {
 }
 
 /// Runs of standing frames of at least [`LEAST_STOP_S`].
-fn stops(moving: &[bool], dt_s: f64) -> Vec<Stop> {
+fn stops(moving: &[bool], dt_s: f64) -> Vec<TargetStop> {
     let mut stops = vec![];
     let mut first = 0;
     while first < moving.len() {
         let count = moving[first..].iter().take_while(|moves| !**moves).count();
         let duration_s = count as f64 * dt_s;
         if count > 0 && duration_s >= LEAST_STOP_S - 1e-9 {
-            stops.push(Stop { frame: first as u32, duration_s });
+            stops.push(TargetStop { frame: first as u32, duration_s });
         }
         first += count.max(1);
     }

@@ -7,13 +7,13 @@ const PARTS: [f64; 4] = [0.3, 0.4, 0.6, 0.7];
 /// Part of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
-pub enum Part {
+pub enum PicturePart {
     Left,
     Middle,
     Right,
 }
 
-impl Part {
+impl PicturePart {
     /// The part of what has its middle at this share of the picture's width; `None` near a border of parts.
     pub fn at(across: f64) -> Option<Self> {
         let [left, from, to, right] = PARTS;

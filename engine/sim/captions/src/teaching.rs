@@ -5,7 +5,7 @@
 use crate::check::{Slot, SlotMismatch, check};
 use crate::config::Style;
 use crate::facts::Facts;
-use cosfly_claims::{Language, foreign_things};
+use cosfly_claims::{Language, Script, foreign_things};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
@@ -32,18 +32,22 @@ pub struct Lesson<'a> {
 }
 
 /// The standing rules for a language.
-pub fn rules(language: Language) -> &'static str {
-    match language {
-        Language::En => {
-            "You write texts about the flight of a drone that follows one person. Write natural, idiomatic British English, as \
-             a pilot would say it. State only what the facts state; copy numbers in digits, with metres as `m`, angles in degrees and \
-             times in seconds; never mention buildings, trees, vehicles, other people, weather, gender or age. Answer with one \
-             JSON object, {\"text\": \"...\"}, and nothing else."
+pub fn rules(language: Language) -> String {
+    match language.script() {
+        Script::Latin => {
+            let name = if language == Language::En { "British English" } else { language.name() };
+            format!(
+                "You write texts about the flight of a drone that follows one person. Write natural, idiomatic {name}, as \
+                 a pilot would say it. State only what the facts state; copy numbers in digits, with metres as `m`, angles in degrees and \
+                 times in seconds; never mention buildings, trees, vehicles, other people, weather, gender or age. Answer with one \
+                 JSON object, {{\"text\": \"...\"}}, and nothing else."
+            )
         }
-        Language::Zh => {
+        Script::Han => {
             "你为无人机跟踪行人的飞行撰写文字。请用地道、自然的简体中文，不要有翻译腔。只写事实里有的内容；数字照抄，一律用阿拉伯数字，\
              距离用“米”，角度用“度”，时间用“秒”；不得提到建筑、树木、车辆、其他人、天气、性别或年龄。\
              只回答一个JSON对象：{\"text\": \"...\"}，不要有别的内容。"
+                .to_owned()
         }
     }
 }
@@ -51,25 +55,26 @@ pub fn rules(language: Language) -> &'static str {
 /// The task in words: kind of text, what it must hold, texts that exist, what was wrong before.
 pub fn task(lesson: &Lesson<'_>) -> String {
     let is_instruction = lesson.style == Style::Instruction;
-    let mut text = match (lesson.language, is_instruction) {
-        (Language::En, true) => {
+    let script = lesson.language.script();
+    let mut text = match (script, is_instruction) {
+        (Script::Latin, true) => {
             "Write one sentence that tells the pilot what to do: whom to follow (name the clothes), at which distance, at which \
              angle the camera looks down or up."
         }
-        (Language::En, false) => {
+        (Script::Latin, false) => {
             "Write three to five sentences: the way of the person with its turns in order and its stops, its length, time and \
              speed; then how the drone flies: distance and angle of the camera."
         }
-        (Language::Zh, true) => "写一句给飞手的指令：跟随谁（说明衣着）、保持多远距离、镜头俯视或仰视多少度。",
-        (Language::Zh, false) => {
+        (Script::Han, true) => "写一句给飞手的指令：跟随谁（说明衣着）、保持多远距离、镜头俯视或仰视多少度。",
+        (Script::Han, false) => {
             "写三到五句话：先写此人的路线（按顺序写转弯，写停留），路程、用时和步速；再写无人机怎么飞：距离和镜头角度。"
         }
     }
     .to_owned();
     if !lesson.others.is_empty() {
-        text += match lesson.language {
-            Language::En => "\nUse other words and another order than these texts:",
-            Language::Zh => "\n措辞和语序要与下列文字不同：",
+        text += match script {
+            Script::Latin => "\nUse other words and another order than these texts:",
+            Script::Han => "\n措辞和语序要与下列文字不同：",
         };
         for other in lesson.others {
             let _ = write!(text, "\n- {other}");
@@ -77,11 +82,11 @@ pub fn task(lesson: &Lesson<'_>) -> String {
     }
     if let Some((answer, why)) = lesson.refused {
         let answer: String = answer.chars().take(MOST_CHARS).collect();
-        let _ = match lesson.language {
-            Language::En => {
+        let _ = match script {
+            Script::Latin => {
                 write!(text, "\nYour answer was refused: {answer}\nWhat is wrong: {why}\nWrite it again, without that.")
             }
-            Language::Zh => write!(text, "\n你上次的回答未被接受：{answer}\n问题：{why}\n请改正后重写。"),
+            Script::Han => write!(text, "\n你上次的回答未被接受：{answer}\n问题：{why}\n请改正后重写。"),
         };
     }
     text
@@ -160,7 +165,7 @@ mod tests {
     #[test]
     fn a_question_names_the_contradiction_and_the_texts_that_exist() {
         let facts = &flights()[0];
-        for language in Language::ALL {
+        for language in Language::ALL.iter().copied() {
             let lesson = Lesson {
                 facts,
                 language,

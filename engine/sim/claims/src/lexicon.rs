@@ -72,13 +72,9 @@ pub(crate) struct Lexicon(BTreeMap<String, Vec<(Vec<String>, Concept)>>);
 impl Lexicon {
     /// The lexicon of a language.
     pub(crate) fn of(language: Language) -> &'static Self {
-        static ENGLISH: OnceLock<Lexicon> = OnceLock::new();
-        static CHINESE: OnceLock<Lexicon> = OnceLock::new();
-        let (lexicon, text) = match language {
-            Language::En => (&ENGLISH, include_str!("../words/english.txt")),
-            Language::Zh => (&CHINESE, include_str!("../words/chinese.txt")),
-        };
-        lexicon.get_or_init(|| Self::parse(text).expect("the lexicon is well formed: a test reads it"))
+        static ALL: [OnceLock<Lexicon>; Language::ALL.len()] = [const { OnceLock::new() }; Language::ALL.len()];
+        let read = || Self::parse(language.words()).expect("the lexicon is well formed: a test reads it");
+        ALL[language as usize].get_or_init(read)
     }
 
     /// Reads lines `concept: phrase, phrase`; empty lines and lines that begin with `#` say nothing.
@@ -206,7 +202,7 @@ mod tests {
     #[test]
     fn the_files_are_well_formed_and_the_longest_phrase_counts() {
         for language in Language::ALL {
-            assert!(Lexicon::of(language).0.len() > 200);
+            assert!(Lexicon::of(*language).0.len() > 200);
         }
         let find = |language, text: &str| Lexicon::of(language).find(&words_of(text));
         assert_eq!(find(Language::En, "turns around here"), Some((Concept::Turn(TurnKind::Around), 2)));

@@ -18,6 +18,6 @@ mod turns;
 
 pub use claim::Claim;
 pub use compass::Compass;
-pub use language::Language;
+pub use language::{Language, Script};
 pub use read::{foreign_things, read};
 pub use turn::TurnKind;

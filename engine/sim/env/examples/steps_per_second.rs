@@ -52,7 +52,7 @@ fn fly(episodes: &[Arc<Episode>]) {
     for step in 0..STEPS {
         let environment = &mut flying[step as usize % episodes.len()];
         let velocity = environment.observation().sighting.velocity_in_world;
-        let action = Action { axes: cosfly_env::Axes::World, velocity_mps: velocity, ..Action::default() };
+        let action = Action { axes: cosfly_env::VelocityAxes::World, velocity_mps: velocity, ..Action::default() };
         if environment.step(Some(&action)).end.is_some() {
             let episode = Arc::clone(environment.episode());
             environment.reset(episode);

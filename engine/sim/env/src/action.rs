@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Axes of the velocity of an action.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Axes {
+pub enum VelocityAxes {
     /// x ahead of the camera on the level, y right, z up.
     #[default]
     Heading,
@@ -42,7 +42,7 @@ pub struct Action {
     pub drive: Drive,
     /// Axes of velocity and acceleration.
     #[serde(skip_serializing_if = "is_default")]
-    pub axes: Axes,
+    pub axes: VelocityAxes,
     /// Wanted velocity, m/s.
     #[serde(skip_serializing_if = "is_zero")]
     pub velocity_mps: DVec3,
@@ -112,8 +112,8 @@ impl Action {
     /// The five numbers of an action of a drone with this yaw.
     pub fn numbers(&self, yaw_rad: f64) -> [f64; 5] {
         let velocity = match self.axes {
-            Axes::Heading => self.velocity_mps,
-            Axes::World => heading_from_world(self.velocity_mps, yaw_rad),
+            VelocityAxes::Heading => self.velocity_mps,
+            VelocityAxes::World => heading_from_world(self.velocity_mps, yaw_rad),
         };
         let view = [self.view.pitch_rad_s, self.view.yaw_rad_s].map(f64::to_degrees);
         [velocity.x, velocity.y, velocity.z, view[0], view[1]]
@@ -122,8 +122,8 @@ impl Action {
     /// The command for a drone with this yaw.
     pub fn command(&self, yaw_rad: f64) -> VelocityCommand {
         let in_world = |vector: DVec3| match self.axes {
-            Axes::Heading => world_from_heading(vector, yaw_rad),
-            Axes::World => vector,
+            VelocityAxes::Heading => world_from_heading(vector, yaw_rad),
+            VelocityAxes::World => vector,
         };
         VelocityCommand {
             velocity_in_world: in_world(self.velocity_mps),

@@ -301,5 +301,5 @@ impl Environment {
 
 /// The action that keeps a velocity.
 fn coasting(motion: &Motion) -> Action {
-    Action { axes: crate::Axes::World, velocity_mps: motion.velocity_in_world, ..Action::default() }
+    Action { axes: crate::VelocityAxes::World, velocity_mps: motion.velocity_in_world, ..Action::default() }
 }

@@ -25,7 +25,7 @@ mod suite;
 #[cfg(test)]
 mod tests;
 
-pub use action::{Action, Axes, Drive};
+pub use action::{Action, Drive, VelocityAxes};
 pub use environment::{Environment, Step};
 pub use episode::{Episode, Start};
 pub use observation::{FEATURES, Observation, TargetSighting};

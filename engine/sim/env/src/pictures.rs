@@ -6,7 +6,7 @@ mod format;
 use crate::Episode;
 use crate::environment::Environment;
 use crate::others::BodyAtTime;
-use cosfly_batch::{BatchRenderer, View};
+use cosfly_batch::{BatchRenderer, BatchView};
 use cosfly_domain::channels::rgb;
 use cosfly_domain::{BodyId, BodyKind, Weather};
 use cosfly_figures::{BodyShape, Bystander, Walker, gait_phase_rad};
@@ -79,8 +79,8 @@ impl Pictures {
             _ => environments.par_iter().zip(&mut *bystanders).enumerate().for_each(fill),
         }
         let has_colours = format.channels.contains(&rgb::CHANNEL);
-        let views: Vec<View<'_>> = (environments.iter().zip(&*bystanders))
-            .map(|(environment, others)| View {
+        let views: Vec<BatchView<'_>> = (environments.iter().zip(&*bystanders))
+            .map(|(environment, others)| BatchView {
                 scene: environment.episode().place.scene(has_colours),
                 pose: environment.camera(),
                 horizontal_fov_rad: environment.settings().lens.horizontal_deg.to_radians(),

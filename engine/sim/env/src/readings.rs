@@ -4,7 +4,7 @@ use crate::environment::Environment;
 use crate::episode::Episode;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec3;
-use cosfly_sensors::{Moment, Sensor};
+use cosfly_sensors::{Sensor, SensorMoment};
 
 /// Readings of an environment's sensors at the present moment, with the numbers of each. They sit in the middle of the drone and are
 /// turned as its camera. They meet the town, the target and everybody else, but not the drones of a team.
@@ -17,7 +17,7 @@ pub fn readings(environment: &Environment) -> Vec<(&'static Sensor, Vec<f64>)> {
     let bodies = bodies(episode, observation.time_s);
     let read = |sensor: &'static Sensor| {
         let mut values = vec![0.0; sensor.quantities.len()];
-        let moment = Moment {
+        let moment = SensorMoment {
             time_s: observation.time_s,
             sensor_in_world: environment.camera(),
             velocity_in_world: observation.motion.velocity_in_world,

@@ -2,8 +2,8 @@
 
 use crate::policies::{BASELINES, Knowledge, baseline};
 use crate::{
-    Action, Axes, Blackouts, DroneSettings, End, Environment, EnvironmentSettings, Episode, EpisodeScore, FlightSite,
-    Observation, Others, Reward, Start, readings,
+    Action, Blackouts, DroneSettings, End, Environment, EnvironmentSettings, Episode, EpisodeScore, FlightSite,
+    Observation, Others, Reward, Start, VelocityAxes, readings,
 };
 use cosfly_domain::{Around, Body, BodyKind, BodyPlan, OrientedBox, PlanOutcome, Traffic, Trajectory};
 use cosfly_drone::models::MODELS;
@@ -131,7 +131,7 @@ fn a_drone_does_not_fly_through_a_wall_however_thin() {
     };
     let settings = EnvironmentSettings { step_s: 0.5, ..EnvironmentSettings::default() };
     let mut environment = Environment::new(standing(vec![wall], 20), settings);
-    let ahead = Action { axes: Axes::World, velocity_mps: 12.0 * DVec3::X, ..Action::default() };
+    let ahead = Action { axes: VelocityAxes::World, velocity_mps: 12.0 * DVec3::X, ..Action::default() };
     while environment.score().end.is_none() {
         environment.step(Some(&ahead));
     }
@@ -148,7 +148,7 @@ fn a_drone_does_not_fly_through_a_wall_however_thin() {
 
 #[test]
 fn an_action_takes_effect_after_the_latency_and_meanwhile_none_is_asked_for() {
-    let ahead = Action { axes: Axes::World, velocity_mps: 2.0 * DVec3::X, ..Action::default() };
+    let ahead = Action { axes: VelocityAxes::World, velocity_mps: 2.0 * DVec3::X, ..Action::default() };
     // (latency, number of actions asked for in six steps, step after which the drone first moves)
     for (latency_s, asked, moves) in [(0.0, 6, 1), (0.057, 6, 1), (0.1, 6, 2), (0.2, 3, 3), (0.25, 2, 3)] {
         let settings = EnvironmentSettings { latency_s, ..EnvironmentSettings::default() };
@@ -261,7 +261,7 @@ fn a_lorry_hides_the_target_while_it_passes_and_is_hit() {
     for (speed_mps, end) in [(2.0, Some(End::Collision)), (0.0, None)] {
         let episode = Arc::new(Episode { start: low, ..(*episode).clone() });
         let mut environment = Environment::new(episode, EnvironmentSettings::default());
-        let ahead = Action { axes: Axes::World, velocity_mps: speed_mps * DVec3::X, ..Action::default() };
+        let ahead = Action { axes: VelocityAxes::World, velocity_mps: speed_mps * DVec3::X, ..Action::default() };
         (0..90).for_each(|_| _ = environment.step(Some(&ahead)));
         assert_eq!(environment.score().end, end);
         let x = environment.observation().motion.position_in_world.x;

@@ -27,7 +27,7 @@ pub struct Build {
     /// Hair or hat.
     pub hair: Hair,
     /// Bearing of the right arm.
-    pub right_arm: Arm,
+    pub right_arm: ArmBearing,
     /// Wears a top that reaches to the thighs.
     pub long_top: bool,
     /// Carries a bag at the right hip, where there is no backpack.
@@ -51,7 +51,7 @@ pub enum Hair {
 
 /// Bearing of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arm {
+pub enum ArmBearing {
     /// Swings with the gait.
     Swings,
     /// Rests with the hand in a pocket.
@@ -78,9 +78,9 @@ impl Build {
             _ => Hair::Short,
         };
         let right_arm = match stream.unit() {
-            share if share < 0.08 => Arm::Pocket,
-            share if share < 0.14 => Arm::Holds,
-            _ => Arm::Swings,
+            share if share < 0.08 => ArmBearing::Pocket,
+            share if share < 0.14 => ArmBearing::Holds,
+            _ => ArmBearing::Swings,
         };
         let [long_top, shoulder_bag] = [0.22, 0.20].map(|share| stream.chance(share));
         Self { shoulders, hips, belly, lean, stride, arm_swing, hair, right_arm, long_top, shoulder_bag }
@@ -122,7 +122,7 @@ mod tests {
         let builds: Vec<Build> = (0..500).map(|number| Build::draw(&Seed([9; 32]).child("person", number))).collect();
         let share = |of: &dyn Fn(&Build) -> bool| builds.iter().filter(|build| of(build)).count() as f64 / 500.0;
         assert!((share(&|build| build.hair == Hair::Long) - 0.25).abs() < 0.06);
-        assert!((share(&|build| build.right_arm == Arm::Swings) - 0.86).abs() < 0.06);
+        assert!((share(&|build| build.right_arm == ArmBearing::Swings) - 0.86).abs() < 0.06);
         assert!((share(&|build| build.long_top) - 0.22).abs() < 0.06);
         assert!((share(&|build| build.body_build() == BodyBuild::Stout) - 0.30).abs() < 0.06);
         let slim = share(&|build| build.body_build() == BodyBuild::Slim);

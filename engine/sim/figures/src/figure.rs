@@ -2,7 +2,7 @@
 
 use crate::Clothes;
 use crate::body_shape::BodyShape;
-use crate::build::{Arm, Hair, head_size};
+use crate::build::{ArmBearing, Hair, head_size};
 use crate::frustum::{FigurePart, FigureTriangle, Ring, Surface, around, ring};
 use crate::region::Region;
 use crate::walker::Walker;
@@ -98,8 +98,13 @@ impl FigureParts {
             let (stride, arm_swing) = (swing * build.stride, 0.8 * swing * build.arm_swing + 0.08);
             body.leg(-1.0, left, stride);
             body.leg(1.0, right, stride);
-            body.arm(-1.0, right, arm_swing, Arm::Swings);
-            body.arm(1.0, left, arm_swing, if walker.body.has_umbrella() { Arm::Holds } else { build.right_arm });
+            body.arm(-1.0, right, arm_swing, ArmBearing::Swings);
+            body.arm(
+                1.0,
+                left,
+                arm_swing,
+                if walker.body.has_umbrella() { ArmBearing::Holds } else { build.right_arm },
+            );
             body.bear(build.lean, head_size(walker.height_m));
             if walker.body.has_umbrella() {
                 umbrella::parts().into_iter().for_each(|FigurePart { low, high, region }| body.part(low, high, region));
@@ -239,11 +244,11 @@ impl Body<'_> {
     }
 
     /// An arm whose shoulder angle is `swing * sin(phase)`, with a bent elbow; or one that is busy.
-    fn arm(&mut self, side: f64, phase: f64, swing: f64, arm: Arm) {
+    fn arm(&mut self, side: f64, phase: f64, swing: f64, arm: ArmBearing) {
         let (angle, bend) = match arm {
-            Arm::Swings => (swing * real::sin(phase), 0.25 + 0.5 * swing),
-            Arm::Pocket => (-0.25 + 0.1 * swing * real::sin(phase), 0.55),
-            Arm::Holds => (0.15 + 0.1 * swing * real::sin(phase), 2.0),
+            ArmBearing::Swings => (swing * real::sin(phase), 0.25 + 0.5 * swing),
+            ArmBearing::Pocket => (-0.25 + 0.1 * swing * real::sin(phase), 0.55),
+            ArmBearing::Holds => (0.15 + 0.1 * swing * real::sin(phase), 2.0),
         };
         let right = side * (0.112 * self.shoulders + 0.014);
         let shoulder = (0.0, 0.815);

@@ -5,7 +5,6 @@ use crate::shooting::Shooting;
 use crate::walks::{Person, touch};
 use cosfly_diagnose::Result;
 use cosfly_domain::{Around, BodyId, Camera, Followed, Town, Traffic, Trajectory, largest_object_instance};
-use cosfly_figures::Walker;
 use cosfly_frames::{Pose, TargetState};
 use cosfly_optics::pose_at;
 use cosfly_pedestrians::PedestrianPath;
@@ -53,7 +52,7 @@ pub enum Origin {
 
 /// Reason why somebody cannot be a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refused {
+pub enum CandidateRefusal {
     /// The walk has no steps.
     NoSteps,
     /// There is no instance id left.
@@ -80,8 +79,8 @@ impl<'a> Candidates<'a> {
     /// Adds the bodies of the traffic that stage number `stage` made.
     ///
     /// # Errors
-    /// [`Refused::NoId`].
-    pub fn add_traffic(&mut self, stage: usize, traffic: &Arc<Traffic>) -> std::result::Result<(), Refused> {
+    /// [`CandidateRefusal::NoId`].
+    pub fn add_traffic(&mut self, stage: usize, traffic: &Arc<Traffic>) -> std::result::Result<(), CandidateRefusal> {
         for (number, body) in (0..).zip(&traffic.bodies).filter(|(_, body)| !body.states.is_empty()) {
             if !self.target.is_some_and(|it| it.is(&traffic.name, number)) {
                 let instance = self.instance(stage, number as usize)?;
@@ -95,10 +94,10 @@ impl<'a> Candidates<'a> {
     ///
     /// # Errors
     /// Those of [`Person::on`].
-    pub fn add_walk(&mut self, stage: usize, item: usize, walk: &PedestrianPath) -> Result<Option<Refused>> {
+    pub fn add_walk(&mut self, stage: usize, item: usize, walk: &PedestrianPath) -> Result<Option<CandidateRefusal>> {
         let track = &walk.track;
         if track.is_empty() || !(track.dt_s > 0.0 && track.dt_s.is_finite()) {
-            return Ok(Some(Refused::NoSteps));
+            return Ok(Some(CandidateRefusal::NoSteps));
         }
         let instance = match self.instance(stage, item) {
             Ok(instance) => instance,
@@ -113,8 +112,8 @@ impl<'a> Candidates<'a> {
         Ok(None)
     }
 
-    fn instance(&self, stage: usize, item: usize) -> std::result::Result<u32, Refused> {
-        BodyId::of(stage, item).and_then(|id| id.instance(self.largest_object)).ok_or(Refused::NoId)
+    fn instance(&self, stage: usize, item: usize) -> std::result::Result<u32, CandidateRefusal> {
+        BodyId::of(stage, item).and_then(|id| id.instance(self.largest_object)).ok_or(CandidateRefusal::NoId)
     }
 
     fn add(&mut self, instance: u32, origin: Origin, person: Person) {
@@ -241,14 +240,7 @@ impl Filming<'_> {
         let mut near = vec![];
         for (frame, target) in track.states.iter().enumerate() {
             check()?;
-            let target = Walker {
-                state: *target,
-                height_m: track.height_m,
-                radius_m: track.radius_m,
-                clothes_seed: shooting.clothes_seed,
-                gait_phase_rad: 0.0,
-                body: shooting.body,
-            };
+            let target = shooting.target(track, *target, 0.0);
             for offset_s in &moments_s {
                 let pose = pose_at(&poses, frame as f64 + offset_s / track.dt_s);
                 let outlook = Outlook::new(&camera, &shooting.weather, &pose);

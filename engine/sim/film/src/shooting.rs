@@ -3,8 +3,8 @@
 use crate::looks::walk_seed;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Camera, Followed, Mount, Noise, Optics, Trajectory, Weather};
-use cosfly_figures::{BodyShape, clothes_seed_of_target};
-use cosfly_frames::{Pose, Seed};
+use cosfly_figures::{BodyShape, Walker, clothes_seed_of_target, gait_phase_rad};
+use cosfly_frames::{Pose, Seed, TargetState, TargetTrack};
 use cosfly_render::RenderConfig;
 
 /// Settings of one flight.
@@ -74,6 +74,18 @@ impl Shooting {
     /// The shape of somebody else with these looks in the weather of the flight.
     pub fn dressed(&self, body: BodyShape, looks: &Seed) -> BodyShape {
         body.in_rain(self.rain, looks)
+    }
+
+    /// The target of a flight in a state, after metres of its way.
+    pub fn target(&self, track: &TargetTrack, state: TargetState, walked_m: f64) -> Walker {
+        Walker {
+            state,
+            height_m: track.height_m,
+            radius_m: track.radius_m,
+            clothes_seed: self.clothes_seed,
+            gait_phase_rad: gait_phase_rad(walked_m, track.height_m),
+            body: self.body,
+        }
     }
 
     /// Poses of the camera, one per frame.

@@ -1,9 +1,9 @@
 //! An expert: how flights are planned, for what, and how their pilots aim.
 
 use crate::aim::take_aim;
-use crate::flight::{Bodies, Flight};
+use crate::flight::{Flight, MovingBodies};
 use crate::flown::Flown;
-use crate::plugins::{NoPlugins, Plugins};
+use crate::plugins::{FlightPlugins, NoPlugins};
 use crate::world::World;
 use cosfly_domain::{PlanOutcome, Trajectory};
 use cosfly_frames::Seed;
@@ -31,9 +31,9 @@ impl Expert {
     pub fn flight(
         &self,
         world: &Arc<World>,
-        bodies: Bodies,
+        bodies: MovingBodies,
         seed: Seed,
-        plugins: Arc<dyn Plugins>,
+        plugins: Arc<dyn FlightPlugins>,
     ) -> cosfly_diagnose::Result<Result<Flight, String>> {
         let flight = Flight::of((&self.config, &self.objective), world, bodies, seed, plugins)?;
         Ok(flight.map(|flight| flight.aiming(&self.aim)))
@@ -44,7 +44,12 @@ impl Expert {
     ///
     /// # Errors
     /// Failures of a plugin.
-    pub fn formation(&self, world: &Arc<World>, bodies: Bodies, seed: Seed) -> cosfly_diagnose::Result<Vec<Flown>> {
+    pub fn formation(
+        &self,
+        world: &Arc<World>,
+        bodies: MovingBodies,
+        seed: Seed,
+    ) -> cosfly_diagnose::Result<Vec<Flown>> {
         let all = (&self.config, &self.objective);
         let mut flight = match Flight::of(all, world, bodies, seed, Arc::new(NoPlugins))? {
             Ok(flight) => flight,

@@ -2,7 +2,7 @@
 
 use crate::aim::take_aim;
 use crate::companions::Companion;
-use crate::plugins::{DrawnReference, Plugins};
+use crate::plugins::{DrawnReference, FlightPlugins};
 use crate::world::World;
 use cosfly_domain::{ObstacleKind, OrientedBox, PlanOutcome, Trajectory};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetTrack};
@@ -24,7 +24,7 @@ const SHARED_GROUND_FRAMES: usize = 4096;
 
 /// Who moves around a flight. The walker's own body is in none of the lists beside it.
 #[derive(Clone, Debug, Default)]
-pub struct Bodies {
+pub struct MovingBodies {
     /// Walk that is followed; `None` for objectives that follow nobody.
     pub walk: Option<TargetTrack>,
     /// Further walks to be seen.
@@ -55,7 +55,7 @@ pub struct Flight {
     objective: ObjectiveConfig,
     /// Aim at a walker; `None` where the flight follows nobody.
     aim: Option<AimConfig>,
-    plugins: Arc<dyn Plugins>,
+    plugins: Arc<dyn FlightPlugins>,
     seed: Seed,
     /// The ground around the whole flight, once a state asks for a way on.
     ground: OnceLock<GroundGrid>,
@@ -71,9 +71,9 @@ impl Flight {
     pub fn of(
         (config, objective): (&MucoConfig, &ObjectiveConfig),
         world: &Arc<World>,
-        bodies: Bodies,
+        bodies: MovingBodies,
         seed: Seed,
-        plugins: Arc<dyn Plugins>,
+        plugins: Arc<dyn FlightPlugins>,
     ) -> cosfly_diagnose::Result<Result<Self, String>> {
         let drawn = if objective.objective == Objective::Plugin {
             let (low, high) = bounds(world);
@@ -91,12 +91,12 @@ impl Flight {
     fn drawn_or_behind(
         (config, objective): (&MucoConfig, &ObjectiveConfig),
         world: &World,
-        bodies: Bodies,
+        bodies: MovingBodies,
         seed: Seed,
-        plugins: Arc<dyn Plugins>,
+        plugins: Arc<dyn FlightPlugins>,
         drawn: Option<DrawnReference>,
     ) -> Result<Self, String> {
-        let Bodies { walk, companions, movers } = bodies;
+        let MovingBodies { walk, companions, movers } = bodies;
         let ground = |x: f64, y: f64| world.ground.ground_height_m(x, y).unwrap_or(0.0);
         let structures = if objective.objective == Objective::Inspect { buildings(world) } else { Vec::new() };
         let site = Site { exact: &world.exact, structures: &structures, ground: &ground, bounds: bounds(world) };
@@ -348,7 +348,7 @@ mod tests {
         let walk = TargetTrack { dt_s: 0.5, height_m: 1.75, radius_m: 0.3, states };
         let world = Arc::new(World::new(Town::default()));
         let fly = |movers: Vec<Vec<OrientedBox>>| {
-            let bodies = Bodies { walk: Some(walk.clone()), movers, ..Bodies::default() };
+            let bodies = MovingBodies { walk: Some(walk.clone()), movers, ..MovingBodies::default() };
             Expert::default().flight(&world, bodies, Seed([1; 32]), Arc::new(NoPlugins)).unwrap().unwrap()
         };
         let flown = |outcome: PlanOutcome| match outcome {
@@ -387,7 +387,7 @@ mod tests {
         let fly = |count: u32| -> Vec<Vec<DVec3>> {
             let mut expert = Expert::default();
             expert.config.drones = DronesConfig { count, separation_m: 7.0 };
-            let bodies = Bodies { walk: Some(walk.clone()), ..Bodies::default() };
+            let bodies = MovingBodies { walk: Some(walk.clone()), ..MovingBodies::default() };
             let places = |flown: Flown| match flown.outcome {
                 PlanOutcome::Planned(flight) => flight.poses_in_world.iter().map(|it| it.position_in_world).collect(),
                 PlanOutcome::Rejected { reason, .. } => panic!("{reason}"),

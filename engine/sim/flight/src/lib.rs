@@ -20,7 +20,7 @@ pub mod world;
 
 pub use companions::Companion;
 pub use expert::Expert;
-pub use flight::{Bodies, Flight};
+pub use flight::{Flight, MovingBodies};
 pub use flown::Flown;
-pub use plugins::{DrawnReference, NoPlugins, OpenTerms, Plugins};
+pub use plugins::{DrawnReference, FlightPlugins, NoPlugins, OpenTerms};
 pub use world::World;

@@ -26,7 +26,7 @@ pub struct OpenTerms {
 }
 
 /// Plugins of an expert.
-pub trait Plugins: Send + Sync {
+pub trait FlightPlugins: Send + Sync {
     /// New instances of all terms, for one flight.
     ///
     /// # Errors
@@ -50,7 +50,7 @@ pub trait Plugins: Send + Sync {
 /// No plugins.
 pub struct NoPlugins;
 
-impl Plugins for NoPlugins {
+impl FlightPlugins for NoPlugins {
     fn open_terms(&self, _: &Arc<World>, _: Seed) -> Result<OpenTerms> {
         Ok(OpenTerms { terms: vec![], warnings: Box::new(|| Ok(vec![])) })
     }

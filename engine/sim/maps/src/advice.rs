@@ -1,7 +1,7 @@
 //! Options of the stage `map` that bring something which a town lacks.
 
 use crate::MapConfig;
-use crate::bounds::Bounds;
+use crate::bounds::PlanRectangle;
 use cosfly_domain::{ObstacleKind, SemanticLabel, Town, WalkableKind};
 use cosfly_frames::DVec2;
 use cosfly_geodata::reference::GeoReference;
@@ -48,7 +48,7 @@ pub fn why_not_compared(town: &Town) -> Option<String> {
 
 /// The way out for ground that is too wide for walks.
 fn wide(town: &Town) -> Option<String> {
-    let own = Bounds::around(corners(town))?;
+    let own = PlanRectangle::around(corners(town))?;
     let size_m = own.high - own.low;
     let part = busiest_part(town).filter(|_| size_m.element_product() > WIDEST_WALKS_M2)?;
     Some(format!(
@@ -66,7 +66,7 @@ fn corners(town: &Town) -> impl Iterator<Item = DVec2> + '_ {
 }
 
 /// The square of 4 km with the most pieces of ground for people; none in a town without any.
-pub fn busiest_part(town: &Town) -> Option<Bounds> {
+pub fn busiest_part(town: &Town) -> Option<PlanRectangle> {
     let cell = |at: DVec2| ((at.x / PART_M).floor() as i64, (at.y / PART_M).floor() as i64);
     let mut counts: BTreeMap<(i64, i64), usize> = BTreeMap::new();
     for polygon in &town.walkable {
@@ -77,5 +77,5 @@ pub fn busiest_part(town: &Town) -> Option<Bounds> {
     let most = counts.values().copied().max()?;
     let ((column, row), _) = counts.into_iter().find(|(_, count)| *count == most)?;
     let low = PART_M * DVec2::new(column as f64, row as f64);
-    Some(Bounds { low, high: low + PART_M })
+    Some(PlanRectangle { low, high: low + PART_M })
 }

@@ -1,6 +1,6 @@
 //! Towns whose things are kilometres apart: most likely two places, or a broken coordinate.
 
-use crate::bounds::Bounds;
+use crate::bounds::PlanRectangle;
 use cosfly_domain::{SemanticLabel, Town};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::MapError;
@@ -47,7 +47,7 @@ pub(crate) fn check(town: &Town) -> Result<Option<String>, MapError> {
         spans.len()
     );
     let plan = |at: usize| main.iter().map(move |span| DVec2::new(span[0][at], span[1][at]));
-    let kept = Bounds::around(plan(0).chain(plan(1)));
+    let kept = PlanRectangle::around(plan(0).chain(plan(1)));
     let hint = match (gap.axis, kept) {
         (0 | 1, Some(kept)) => format!("`{}` keeps the larger part", kept.grown(10.0).written()),
         _ => "check the heights of the file, and `heights` of `more`".to_owned(),

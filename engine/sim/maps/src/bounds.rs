@@ -1,4 +1,4 @@
-//! [`Bounds`]: the part of a town that is kept, whatever the format of its file.
+//! [`PlanRectangle`]: the part of a town that is kept, whatever the format of its file.
 
 use cosfly_diagnose::plausible;
 use cosfly_domain::{Lane, Obstacle, ObstacleKind, SurfaceMesh, Town, WalkablePolygon};
@@ -15,7 +15,7 @@ const SMALLEST_M2: f64 = 1e-4;
 
 /// A rectangle in plan, world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub struct PlanRectangle {
     /// Smallest corner, metres.
     pub low: DVec2,
     /// Largest corner, metres.
@@ -25,7 +25,7 @@ pub struct Bounds {
 /// A corner of a surface with its place along and across the road.
 type Corner = (DVec3, DVec2);
 
-impl Bounds {
+impl PlanRectangle {
     /// Smallest x and y, largest x and y, metres.
     ///
     /// # Errors
@@ -233,8 +233,8 @@ mod tests {
     use super::*;
     use cosfly_domain::{LaneKind, OrientedBox, SemanticLabel, WalkableKind};
 
-    fn bounds() -> Bounds {
-        Bounds::new([0.0, 0.0, 100.0, 50.0]).unwrap()
+    fn bounds() -> PlanRectangle {
+        PlanRectangle::new([0.0, 0.0, 100.0, 50.0]).unwrap()
     }
 
     fn area_m2(polygons: &[WalkablePolygon]) -> f64 {
@@ -254,7 +254,7 @@ mod tests {
             ([0.0, f64::NAN, 100.0, 50.0], "is not a number"),
             ([0.0, -1e23, 100.0, 50.0], "larger than 1e9"),
         ] {
-            assert!(Bounds::new(numbers).unwrap_err().contains(expected), "{numbers:?}");
+            assert!(PlanRectangle::new(numbers).unwrap_err().contains(expected), "{numbers:?}");
         }
         assert_eq!(bounds().written(), "bounds_m = [0, 0, 100, 50]");
     }
@@ -312,7 +312,7 @@ mod tests {
         assert_eq!(town.lanes.len(), 2);
         let lengths_m = [0, 1].map(|lane| town.lanes[lane].length_m());
         assert!(lengths_m.into_iter().zip([75.0, 40.0]).all(|(a, b)| (a - b).abs() < 1e-9), "{lengths_m:?}");
-        let reach = Bounds::around(town.surfaces[0].vertices_in_world.iter().map(|it| it.truncate())).unwrap();
+        let reach = PlanRectangle::around(town.surfaces[0].vertices_in_world.iter().map(|it| it.truncate())).unwrap();
         assert!((reach.low.x + 60.0).abs() < 1e-9 && (reach.high.x - 160.0).abs() < 1e-9, "{reach:?}");
         for (corner, along_across) in town.surfaces[0].vertices_in_world.iter().zip(&town.surfaces[0].along_across_m) {
             assert!(corner.truncate().distance(*along_across) < 1e-9);

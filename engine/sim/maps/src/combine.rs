@@ -1,6 +1,6 @@
 //! Several map files in one town: streets from one, houses or plants from another.
 
-use crate::bounds::Bounds;
+use crate::bounds::PlanRectangle;
 use crate::recognise;
 use cosfly_domain::{MapOrigin, Obstacle, ObstacleKind, Town};
 use cosfly_frames::{DVec2, DVec3, real};
@@ -87,7 +87,7 @@ pub(crate) fn add_source(
     town: &mut Town,
     further: &FurtherSource,
     bytes: &[u8],
-    bounds: Option<&Bounds>,
+    bounds: Option<&PlanRectangle>,
 ) -> Result<Vec<String>, MapError> {
     let (other, mut warnings) = recognise(bytes)?.read(bytes, &further.options)?;
     let place = Placement::of(town, &other, further)?;
@@ -234,7 +234,7 @@ impl Placement {
     /// # Errors
     /// Things that are kilometres away from it.
     fn check_distance(&self, town: &Town, taken: &Town, further: &FurtherSource) -> Result<Option<String>, MapError> {
-        let Some(own) = Bounds::around(places(town)) else { return Ok(None) };
+        let Some(own) = PlanRectangle::around(places(town)) else { return Ok(None) };
         let mut distances = places(taken).map(|at| own.distance_m(at));
         let Some(first_m) = distances.next() else {
             return Ok(Some(

@@ -24,7 +24,7 @@ pub fn fill(town: &mut Town, config: &FillConfig, seed: Seed) -> Vec<String> {
     let mut land = land::Land::of_town(town);
     let fronts = frontage::pavement_fronts(town, &land);
     let road_fronts = frontage::road_fronts(town, &land);
-    let mut site = site::Site::new(town);
+    let mut site = site::FillSite::new(town);
     let mut counts = [0; 3];
     // Greenery first: it takes little, and buildings stand back from it.
     if config.lamps {

@@ -95,8 +95,8 @@ mod tests {
                 for ((arm, pose, inward), skipped) in ends.into_iter().zip(turn.skipped_lanes) {
                     let line = &network.streets[arm.street].line;
                     let (mouth, outward) = match arm.contact {
-                        streets::Contact::Start => (line.pose_at(0.0), 1.0),
-                        streets::Contact::End => (line.end(), -1.0),
+                        streets::RoadEnd::Start => (line.pose_at(0.0), 1.0),
+                        streets::RoadEnd::End => (line.end(), -1.0),
                     };
                     assert!((pose.ahead() + mouth.ahead() * outward * inward).length() < 1e-9, "{turn:?}");
                     let offset_m = f64::from(skipped) * streets::LANE_WIDTH_M;

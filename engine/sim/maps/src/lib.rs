@@ -13,7 +13,7 @@ mod paving;
 pub mod read;
 mod recognise;
 
-pub use bounds::Bounds;
+pub use bounds::PlanRectangle;
 pub use config::MapConfig;
 pub use formats::FORMATS;
 pub use read::{read_town, read_town_of};

@@ -1,6 +1,6 @@
 //! [`read_town`]: bytes of any known format into a finished, checked [`Town`].
 
-use crate::bounds::Bounds;
+use crate::bounds::PlanRectangle;
 use crate::combine::add_source;
 use crate::fill::fill;
 use crate::paving::pave_quarters;
@@ -39,7 +39,7 @@ pub fn read_town_of(files: &[&[u8]], config: &MapConfig, seed: Seed) -> Result<(
         ));
     }
     let read = |bytes: &[u8]| recognise(bytes)?.read(bytes, &config.options);
-    let bounds = config.bounds_m.map(Bounds::new).transpose().map_err(|rule| (0, MapError::new(rule)))?;
+    let bounds = config.bounds_m.map(PlanRectangle::new).transpose().map_err(|rule| (0, MapError::new(rule)))?;
     let (mut town, mut warnings) = read(first).map_err(|error| (0, error))?;
     if let Some(name) = &config.name {
         town.name.clone_from(name);
@@ -59,9 +59,9 @@ pub fn read_town_of(files: &[&[u8]], config: &MapConfig, seed: Seed) -> Result<(
 ///
 /// # Errors
 /// Bounds that leave nothing of it.
-fn kept(town: &mut Town, bounds: &Bounds) -> Result<(), MapError> {
+fn kept(town: &mut Town, bounds: &PlanRectangle) -> Result<(), MapError> {
     town.update_bounds();
-    let whole = Bounds { low: town.min_in_world.truncate(), high: town.max_in_world.truncate() };
+    let whole = PlanRectangle { low: town.min_in_world.truncate(), high: town.max_in_world.truncate() };
     bounds.cut(town);
     if town.obstacles.is_empty() && town.walkable.is_empty() && town.lanes.is_empty() {
         let error = MapError::new(format!("nothing of the town lies within `{}`", bounds.written()));

@@ -3,7 +3,7 @@
 use cosfly_domain::{ObstacleKind, Town, WalkableKind};
 use cosfly_frames::{DVec2, Seed};
 use cosfly_geodata::reference::GeoReference;
-use cosfly_maps::{Bounds, MapConfig, read_town_of};
+use cosfly_maps::{MapConfig, PlanRectangle, read_town_of};
 use cosfly_town::MapError;
 use serde_json::{Value, json};
 
@@ -64,7 +64,7 @@ fn read(files: &[&str], config: Value) -> Result<(Town, Vec<String>), (usize, Ma
 fn middle_of_houses(town: &Town) -> DVec2 {
     let houses = town.obstacles.iter().filter(|one| one.kind == ObstacleKind::Building);
     let corners = houses.flat_map(|one| one.shape.corners_in_world()).map(|corner| corner.truncate());
-    let bounds = Bounds::around(corners).unwrap();
+    let bounds = PlanRectangle::around(corners).unwrap();
     0.5 * (bounds.low + bounds.high)
 }
 
@@ -114,7 +114,7 @@ fn a_file_with_an_offset_and_one_without_are_at_the_same_place() {
         let pavements =
             town.walkable.iter().filter(|polygon| polygon.kind == WalkableKind::Sidewalk && !polygon.synthetic);
         let pavements = pavements.flat_map(|polygon| &polygon.outline_in_world);
-        let bounds = Bounds::around(pavements.map(|corner| corner.truncate())).unwrap();
+        let bounds = PlanRectangle::around(pavements.map(|corner| corner.truncate())).unwrap();
         let middle = degrees(town, 0.5 * (bounds.low + bounds.high));
         assert!(middle.distance(DVec2::from_array(PLACE_DEG)) < 1e-7, "{middle} {bounds:?} {:?}", town.origin);
         // To the east: turned back by `hdg`.
@@ -235,7 +235,7 @@ fn bounds_cut_every_format_and_nothing_within_is_an_error() {
         let (whole, _) = read_town_of(&[format.example()], &config(None), seed).unwrap();
         let mut walkable = whole.walkable.iter().flat_map(|polygon| &polygon.outline_in_world);
         let at = walkable.next().unwrap().truncate();
-        let bounds = Bounds { low: at - 12.0, high: at + 12.0 };
+        let bounds = PlanRectangle { low: at - 12.0, high: at + 12.0 };
         let numbers = [bounds.low.x, bounds.low.y, bounds.high.x, bounds.high.y];
         let (part, _) = read_town_of(&[format.example()], &config(Some(numbers)), seed).unwrap();
         cosfly_town::assert_well_formed(&part).unwrap();

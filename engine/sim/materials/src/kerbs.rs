@@ -2,7 +2,7 @@
 //!
 //! Pavements are shaded together, whatever polygon they are of: each four carries the line of the kerb beside it.
 
-use super::lanes::{Block, EMPTY_ROW, Shared, Stage, StageRow, WIDE, get, groups, set, write_row};
+use super::lanes::{Block, EMPTY_ROW, PendingFours, Shared, StageRow, WIDE, get, groups, set, write_row};
 use super::pattern::{NoiseTexture, Noises, band, draw, floor_int, hash, most, one_if, stripes, unit};
 use super::vector::Vec3;
 use cosfly_frames::simd_kernel;
@@ -63,7 +63,7 @@ simd_kernel! {
     pub fn stones(shared: &[Shared], blocks: &mut [Block], kerbs: &Kerbs, tone: Vec3, noise: &NoiseTexture) {
         let [xs, ys] = &kerbs.inward;
         for (group, (shared, four)) in groups(shared, blocks).enumerate() {
-            let [x, y, offset] = [xs, ys, &kerbs.offset_m].map(|row| Stage::lane(row, group));
+            let [x, y, offset] = [xs, ys, &kerbs.offset_m].map(|row| PendingFours::lane(row, group));
             let mut wanted = 0u32;
             for k in 0..WIDE {
                 let middle = get(&shared.middle, k);

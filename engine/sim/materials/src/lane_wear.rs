@@ -3,7 +3,7 @@
 //! Cells of ground near a lane know where the lane runs: [`LaneWear`]. Wear is drawn in the lane's own coordinates, so it follows
 //! bends; it fades before pixels are as large as what they show, and towards junctions, where lanes part.
 
-use super::lanes::{Block, Lane, Shared, WIDE, get, groups, set};
+use super::lanes::{Block, PixelLane, Shared, WIDE, get, groups, set};
 use super::pattern::{NoiseTexture, Noises, band, draw, floor_int, hash, lerp, most, one_if, share, smoothstep};
 use cosfly_domain::{Lane as TownLane, LaneKind};
 use cosfly_frames::{DVec2, simd_kernel};
@@ -167,9 +167,9 @@ fn in_lane([along_m, aside_m]: [f32; 2], [x, y]: [f32; 2], away: [f32; 2]) -> [f
 
 /// Coordinates of lanes at the middles of sixteen fours.
 struct Places {
-    direction: [Lane; 2],
-    at_m: [Lane; 2],
-    strength: Lane,
+    direction: [PixelLane; 2],
+    at_m: [PixelLane; 2],
+    strength: PixelLane,
     seed: [u32; WIDE],
 }
 

@@ -18,9 +18,9 @@ pub const FOURS: usize = WIDE * GROUPS;
 pub const LANES: usize = FOUR * FOURS;
 
 /// One quantity of sixteen pixels or fours.
-pub type Lane = [f32; WIDE];
+pub type PixelLane = [f32; WIDE];
 /// A point, direction or colour of sixteen pixels or fours.
-pub type Lane3 = [Lane; 3];
+pub type Lane3 = [PixelLane; 3];
 /// One quantity of fours on their way. Room beyond the last lets sixteen be written at a time.
 pub type StageRow = [f32; FOURS + WIDE];
 
@@ -28,7 +28,7 @@ pub type StageRow = [f32; FOURS + WIDE];
 pub const EMPTY_ROW: StageRow = [0.0; FOURS + WIDE];
 
 /// Fours on their way into blocks.
-pub struct Stage {
+pub struct PendingFours {
     /// Centre of the first pixel, from the left, pixels.
     pub u: StageRow,
     /// From the top.
@@ -47,7 +47,7 @@ pub struct Stage {
     pub up: [StageRow; 3],
 }
 
-impl Stage {
+impl PendingFours {
     /// Nothing in particular.
     pub const EMPTY: Self = Self {
         u: [0.0; FOURS + WIDE],
@@ -62,7 +62,7 @@ impl Stage {
 
     /// Sixteen fours of a row.
     #[inline(always)]
-    pub fn lane(row: &StageRow, group: usize) -> &Lane {
+    pub fn lane(row: &StageRow, group: usize) -> &PixelLane {
         &row.as_chunks().0[group]
     }
 }
@@ -71,7 +71,7 @@ impl Stage {
 #[inline(always)]
 pub fn three_of(rows: &[StageRow; 3], group: usize, k: usize) -> Vec3 {
     let [x, y, z] = rows;
-    Vec3::new(Stage::lane(x, group)[k], Stage::lane(y, group)[k], Stage::lane(z, group)[k])
+    Vec3::new(PendingFours::lane(x, group)[k], PendingFours::lane(y, group)[k], PendingFours::lane(z, group)[k])
 }
 
 /// Writes a number for sixteen fours.
@@ -102,17 +102,17 @@ pub struct Shared {
     /// The middle, metres.
     pub middle: Lane3,
     /// Size of a pixel along the face's own horizontal, metres.
-    pub along_m: Lane,
+    pub along_m: PixelLane,
     /// Size of a pixel along the face's own vertical, metres.
-    pub up_m: Lane,
+    pub up_m: PixelLane,
     /// Size of a pixel averaged over directions, metres.
-    pub footprint_m: Lane,
+    pub footprint_m: PixelLane,
     /// Share of the sky that the place sees.
-    pub sky: Lane,
+    pub sky: PixelLane,
     /// Light of street lamps; 0 by day.
-    pub lamps: Lane,
+    pub lamps: PixelLane,
     /// Share of light that haze lets through, exposed.
-    pub kept: Lane,
+    pub kept: PixelLane,
     /// Light that haze adds, exposed.
     pub fog: Lane3,
     /// Light on the surface where the sun reaches it.
@@ -122,9 +122,9 @@ pub struct Shared {
     /// Light in a mirror there.
     pub mirrored: Lane3,
     /// Strength of the sun's image in it.
-    pub glint: Lane,
+    pub glint: PixelLane,
     /// Share of mirrored light, for surfaces that mirror.
-    pub fresnel: Lane,
+    pub fresnel: PixelLane,
 }
 
 impl Shared {
@@ -168,7 +168,7 @@ pub struct Block {
     /// The point, metres.
     pub world: Lane3,
     /// Share of the sun's light that no shadow takes.
-    pub sunlight: Lane,
+    pub sunlight: PixelLane,
     /// Looks of the material.
     pub albedo: Lane3,
     /// Light of its own.
@@ -176,9 +176,9 @@ pub struct Block {
     /// Normal for shading, of materials that are not flat.
     pub bent: Lane3,
     /// Share of a mirror.
-    pub mirror: Lane,
+    pub mirror: PixelLane,
     /// Share of the surroundings' openness that the surface keeps, where it is not flat.
-    pub openness: Lane,
+    pub openness: PixelLane,
     /// sRGB bytes: red in the lowest byte, then green and blue.
     pub bytes: [u32; WIDE],
 }

@@ -3,7 +3,7 @@
 //! Boxes of crowns are small on the screen: all of a picture are shaded together, each four with the numbers of its crown.
 
 use super::lanes::{
-    Block, EMPTY_ROW, FOUR, Shared, Stage, StageRow, WIDE, get, groups, set, three_of, write_row, write_three,
+    Block, EMPTY_ROW, FOUR, PendingFours, Shared, StageRow, WIDE, get, groups, set, three_of, write_row, write_three,
 };
 use super::pattern::{NoiseTexture, Noises, draw, least, lerp, most, share, smoothstep, unit};
 use super::surface::{Look, SurfacePoint};
@@ -108,8 +108,8 @@ impl Leaves {
     }
 
     /// The round crown.
-    pub fn outline(&self) -> Outline {
-        Outline { middle: self.middle, shrink: self.shrink }
+    pub fn outline(&self) -> LeafCrown {
+        LeafCrown { middle: self.middle, shrink: self.shrink }
     }
 
     /// Half the lesser width of the crown, metres.
@@ -120,14 +120,14 @@ impl Leaves {
 
 /// The round crown that leaves are drawn on; corners of boxes stand out of it.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Outline {
+pub struct LeafCrown {
     /// Middle, metres.
     pub middle: Vec3,
     /// One divided by half the size of the whole crown, 1/m.
     pub shrink: Vec3,
 }
 
-impl Outline {
+impl LeafCrown {
     /// How far a ray from the eye passes the round crown by, as a share of half the crown's size; 0 where the ray meets it.
     #[inline(always)]
     pub fn passed_by(&self, eye: Vec3, along: Vec3) -> f32 {
@@ -243,7 +243,7 @@ simd_kernel! {
         noise: &NoiseTexture,
     ) {
         for (group, (shared, four)) in groups(shared, blocks).enumerate() {
-            let [shifts, throughs] = [&crowns.shift, &crowns.through].map(|row| Stage::lane(row, group));
+            let [shifts, throughs] = [&crowns.shift, &crowns.through].map(|row| PendingFours::lane(row, group));
             for block in four {
                 for k in 0..WIDE {
                     let [middle, half, shrink, tint] = [&crowns.middle, &crowns.half, &crowns.shrink, &crowns.tint]

@@ -1,6 +1,6 @@
 //! Patterns without files: integer hashes, a seeded noise texture with coarser levels, and box-filtered stripes.
 
-use super::lanes::{Lane, WIDE};
+use super::lanes::{PixelLane, WIDE};
 
 /// Side of the noise texture's finest level, texels.
 const SIDE: usize = 256;
@@ -197,7 +197,7 @@ impl NoiseLevel {
 
 /// Levels of the noise texture for sixteen fours, worked out once for all of their pixels.
 pub struct NoiseLevels {
-    scale: Lane,
+    scale: PixelLane,
     mask: [u32; WIDE],
     start: [u32; WIDE],
     digits: [u32; WIDE],
@@ -206,7 +206,7 @@ pub struct NoiseLevels {
 impl NoiseLevels {
     /// Levels for pixels of these sizes where the finest texel is `1 / texels_per_m` wide.
     #[inline(always)]
-    pub fn of(footprint_m: &Lane, texels_per_m: f32) -> Self {
+    pub fn of(footprint_m: &PixelLane, texels_per_m: f32) -> Self {
         let mut levels = Self { scale: [0.0; WIDE], mask: [0; WIDE], start: [0; WIDE], digits: [0; WIDE] };
         for (k, footprint_m) in footprint_m.iter().enumerate() {
             let level = NoiseLevel::of(footprint_m * texels_per_m);

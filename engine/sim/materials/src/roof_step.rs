@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoofStep {
     /// Looks of the upright faces, in the order of the faces of boxes.
-    pub sides: [Side; 4],
+    pub sides: [FaceLook; 4],
     /// Slope of the upper face; none where it is level.
     pub top: Option<TopSlope>,
     /// Foot and height of the wall below, metres.
@@ -13,17 +13,17 @@ pub struct RoofStep {
 
 /// Look of an upright face.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Side {
+pub enum FaceLook {
     /// A wall of its own.
     Wall,
     /// The wall below goes on.
     Gable,
     /// A slope that falls outwards.
-    Slope(Pitch),
+    Slope(RoofPitch),
 }
 
 /// Sine and cosine of a slope's angle.
-pub type Pitch = [f32; 2];
+pub type RoofPitch = [f32; 2];
 
 /// An upper face that slopes down from a rectangle on all sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,5 +31,5 @@ pub struct TopSlope {
     /// Middle and half size of the rectangle along the box's axes, from its middle, metres.
     pub above_m: [f32; 4],
     /// Its angle.
-    pub pitch: Pitch,
+    pub pitch: RoofPitch,
 }

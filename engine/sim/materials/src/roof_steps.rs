@@ -1,7 +1,7 @@
 //! Which boxes of a building are steps of a pitched roof: they are drawn as slopes, whatever their faces.
 
 use crate::parts::SceneBox;
-use crate::roof_step::{Pitch, RoofStep, Side, TopSlope};
+use crate::roof_step::{FaceLook, RoofPitch, RoofStep, TopSlope};
 use cosfly_domain::ObstacleKind;
 use cosfly_frames::DVec2;
 use std::collections::BTreeMap;
@@ -67,7 +67,7 @@ fn ends_m(b: &SceneBox) -> [f64; 2] {
     [b.center_in_world.z - half, b.center_in_world.z + half]
 }
 
-fn pitch(rise_m: f64, run_m: f64) -> Pitch {
+fn pitch(rise_m: f64, run_m: f64) -> RoofPitch {
     let run_m = run_m.clamp(0.3 * rise_m, FLATTEST * rise_m).max(1e-3);
     let length_m = cosfly_frames::real::hypot(rise_m, run_m).max(1e-3);
     [(rise_m / length_m) as f32, (run_m / length_m) as f32]
@@ -113,7 +113,7 @@ pub fn roof_steps(boxes: &[SceneBox]) -> Vec<Option<RoofStep>> {
             Some(lower) => Some(step(boxes, index, lower, slope, &steps)),
             None => slope.map(|slope| {
                 let [foot_m, top_m] = ends_m(b);
-                RoofStep { sides: [Side::Wall; 4], top: Some(slope), wall_m: [foot_m, top_m - foot_m] }
+                RoofStep { sides: [FaceLook::Wall; 4], top: Some(slope), wall_m: [foot_m, top_m - foot_m] }
             }),
         };
     }
@@ -157,7 +157,7 @@ fn step(
     let own = Rectangle::of_box(b);
     let under = lower.iter().map(|other| Rectangle::seen_from(b, &boxes[*other])).reduce(Rectangle::around);
     let gaps_m = own.gaps_m(&under.unwrap_or(own));
-    let sides = gaps_m.map(|gap| if gap < FLUSH_M { Side::Gable } else { Side::Slope(pitch(rise_m, gap)) });
+    let sides = gaps_m.map(|gap| if gap < FLUSH_M { FaceLook::Gable } else { FaceLook::Slope(pitch(rise_m, gap)) });
     let wall = lower.iter().filter_map(|other| steps[*other].as_ref()).map(|step| step.wall_m).next();
     let run_m = gaps_m.into_iter().filter(|gap| *gap >= FLUSH_M).fold(f64::INFINITY, f64::min);
     let top = slope.or_else(|| run_m.is_finite().then(|| ridge(half_m(b), &sides, pitch(rise_m, run_m))));
@@ -165,8 +165,8 @@ fn step(
 }
 
 /// The last step falls to both sides of a ridge: between gables, else along the longer side.
-fn ridge(half_m: DVec2, sides: &[Side; 4], pitch: Pitch) -> TopSlope {
-    let is_gable = |first: usize| sides[first] == Side::Gable && sides[first + 1] == Side::Gable;
+fn ridge(half_m: DVec2, sides: &[FaceLook; 4], pitch: RoofPitch) -> TopSlope {
+    let is_gable = |first: usize| sides[first] == FaceLook::Gable && sides[first + 1] == FaceLook::Gable;
     let is_along_x = if is_gable(0) == is_gable(2) { half_m.x >= half_m.y } else { is_gable(0) };
     let [x, y] = if is_along_x { [half_m.x as f32, 0.0] } else { [0.0, half_m.y as f32] };
     TopSlope { above_m: [0.0, 0.0, x, y], pitch }
@@ -196,12 +196,12 @@ mod tests {
         let steps = steps_of(house(Roof::Gabled { rise_m: 4.0, ridge_yaw_rad: None }));
         assert!(steps.len() > 4);
         let wall = steps[0].as_ref().unwrap();
-        assert_eq!(wall.sides, [Side::Wall; 4]);
+        assert_eq!(wall.sides, [FaceLook::Wall; 4]);
         for (index, step) in steps.iter().enumerate().skip(1) {
             let step = step.as_ref().unwrap();
-            let count = |wanted: fn(&Side) -> bool| step.sides.iter().filter(|side| wanted(side)).count();
-            assert_eq!(count(|side| matches!(side, Side::Gable)), 2, "{index}: {step:?}");
-            assert_eq!(count(|side| matches!(side, Side::Slope(_))), 2, "{index}: {step:?}");
+            let count = |wanted: fn(&FaceLook) -> bool| step.sides.iter().filter(|side| wanted(side)).count();
+            assert_eq!(count(|side| matches!(side, FaceLook::Gable)), 2, "{index}: {step:?}");
+            assert_eq!(count(|side| matches!(side, FaceLook::Slope(_))), 2, "{index}: {step:?}");
             assert!(step.wall_m[0].abs() < 1e-6);
             let [sine, cosine] = step.top.unwrap().pitch;
             assert!((sine - cosine).abs() < 0.2, "a roof of 45 degrees: {step:?}");
@@ -214,7 +214,7 @@ mod tests {
         assert!(
             hips.iter()
                 .skip(1)
-                .all(|step| { step.as_ref().unwrap().sides.iter().all(|side| matches!(side, Side::Slope(_))) })
+                .all(|step| { step.as_ref().unwrap().sides.iter().all(|side| matches!(side, FaceLook::Slope(_))) })
         );
         assert_eq!(steps_of(house(Roof::Flat)), [None]);
         // The house of a lift on a wide roof, a tower on a podium, and two houses of one height side by side.

@@ -29,7 +29,7 @@ pub fn bulb(seed: u32) -> f32 {
 
 /// The box a thing is made of, and one of its faces.
 #[derive(Clone, Copy, Debug)]
-pub struct Thing {
+pub struct BoxThing {
     /// Kind.
     pub kind: ObstacleKind,
     /// The box's middle, metres.
@@ -75,7 +75,7 @@ macro_rules! paint_all {
     };
 }
 
-impl Thing {
+impl BoxThing {
     /// A face of a box; see the fields.
     pub fn new(
         kind: ObstacleKind,
@@ -272,7 +272,7 @@ impl Thing {
 
 simd_kernel! {
     /// The look of a box that is not a building.
-    pub fn things(shared: &[Shared], blocks: &mut [Block], thing: &Thing, noise: &NoiseTexture) {
+    pub fn things(shared: &[Shared], blocks: &mut [Block], thing: &BoxThing, noise: &NoiseTexture) {
         let thing = *thing;
         match thing.axis {
             0 => thing.all::<0>(shared, blocks, noise),

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Left, top, right and bottom edge of a box, pixels.
-pub type Edges = [f64; 4];
+pub type BoxEdges = [f64; 4];
 
 /// Others who are compared with a target of the same size in the picture: at its distance, up to this share of it, ...
 const SAME_DISTANCE: f64 = 0.1;
@@ -22,7 +22,7 @@ const WIDE: f64 = 0.05;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen {
     /// Around the visible pixels.
-    pub edges_px: Edges,
+    pub edges_px: BoxEdges,
     /// Rows of the picture in which crown and feet are, hidden or not; `None` for who has no such place in the picture.
     pub crown_and_feet_px: Option<[f64; 2]>,
     /// Distance from the camera to the feet, metres.
@@ -271,7 +271,7 @@ fn read_height_m(seen: &Seen) -> Option<f64> {
     (is_whole && feet > crown).then(|| seen.height_m * height_px(seen) / (feet - crown))
 }
 
-fn from_middle_px([width, height]: [f64; 2], [left, top, right, bottom]: Edges) -> f64 {
+fn from_middle_px([width, height]: [f64; 2], [left, top, right, bottom]: BoxEdges) -> f64 {
     let (across, down) = (0.5 * (left + right - width), 0.5 * (top + bottom - height));
     (across * across + down * down).sqrt()
 }

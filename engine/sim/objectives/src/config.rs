@@ -38,7 +38,7 @@ pub struct ObjectiveConfig {
     /// `patrol` meets timed waypoints, `plugin` is what a plugin says. The last three take no `inputs.walks`.
     pub objective: Objective,
     /// Inspection of buildings; `objective = "inspect"` only.
-    pub inspect: InspectConfig,
+    pub inspect: InspectionConfig,
     /// Waypoints of patrols; `objective = "patrol"` only.
     pub patrol: PatrolConfig,
 }
@@ -46,7 +46,7 @@ pub struct ObjectiveConfig {
 /// Inspection of buildings. Distance, pitch, altitudes and radii of `view` are set by these.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct InspectConfig {
+pub struct InspectionConfig {
     /// Number of flights, each around a building of its own draw. Default 1.
     #[schemars(range(min = 1, max = 100_000))]
     pub count: u64,
@@ -99,7 +99,7 @@ pub struct PatrolConfig {
     pub lead_m: f64,
 }
 
-impl Default for InspectConfig {
+impl Default for InspectionConfig {
     fn default() -> Self {
         Self {
             count: 1,
@@ -114,7 +114,7 @@ impl Default for InspectConfig {
     }
 }
 
-impl InspectConfig {
+impl InspectionConfig {
     /// Parameters that no single flight depends on; not in its key.
     pub const NOT_IN_KEY: &[&str] = &["count"];
 }

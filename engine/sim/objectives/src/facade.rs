@@ -17,7 +17,7 @@ const PARTY_WALL_M: f64 = 0.6;
 
 /// One upright side of a box.
 #[derive(Clone, Copy, Debug)]
-pub struct Side {
+pub struct FacadeSide {
     /// Lower corner of the wall, from which `along` leads to the other one.
     pub corner_in_world: DVec3,
     /// Unit vector along it, horizontal.
@@ -30,7 +30,7 @@ pub struct Side {
     pub height_m: f64,
 }
 
-impl Side {
+impl FacadeSide {
     /// The point `along_m` from the corner at `z_m`, `out_m` in front of it.
     pub fn point(&self, along_m: f64, z_m: f64, out_m: f64) -> DVec3 {
         (self.corner_in_world.truncate() + along_m * self.along + out_m * self.normal).extend(z_m)
@@ -38,12 +38,12 @@ impl Side {
 }
 
 /// The four sides of a box, each beginning where the one before ends.
-pub fn sides(shape: &OrientedBox) -> [Side; 4] {
+pub fn sides(shape: &OrientedBox) -> [FacadeSide; 4] {
     let (sin, cos) = real::sin_cos(shape.yaw_rad);
     let (ux, uy) = (DVec2::new(cos, sin), DVec2::new(-sin, cos));
     let (half, low) = (shape.half_extents_m, shape.center_in_world.z - shape.half_extents_m.z);
     let center = shape.center_in_world.truncate();
-    let side = |normal: DVec2, along: DVec2, out: f64, reach: f64| Side {
+    let side = |normal: DVec2, along: DVec2, out: f64, reach: f64| FacadeSide {
         corner_in_world: (center + out * normal - reach * along).extend(low),
         along,
         normal,
@@ -75,14 +75,14 @@ pub fn hull(boxes: &[OrientedBox]) -> Option<OrientedBox> {
 
 /// Part of a building's outer walls that a flight has seen.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Coverage {
+pub struct FacadeCoverage {
     /// Cells seen for the first time, per frame.
     pub new_cells: Vec<usize>,
     /// All cells in the open.
     pub cells: usize,
 }
 
-impl Coverage {
+impl FacadeCoverage {
     /// Share of the cells seen at least once, 0..=1; 0 without cells.
     pub fn share(&self) -> f64 {
         self.new_cells.iter().sum::<usize>() as f64 / self.cells.max(1) as f64
@@ -96,7 +96,7 @@ impl Coverage {
 
 /// Share of a building's walls that the camera saw: cells of 2 m whose middle was in a picture's middle part (28 degrees
 /// off the axis), nothing between, from within twice `standoff_m`, at 65 degrees off the wall's normal at most.
-pub fn coverage(site: &Site<'_>, boxes: &[OrientedBox], poses: &[Pose], standoff_m: f64) -> Coverage {
+pub fn coverage(site: &Site<'_>, boxes: &[OrientedBox], poses: &[Pose], standoff_m: f64) -> FacadeCoverage {
     let cells = cells(site, boxes);
     let axes: Vec<DVec3> = poses.iter().map(|pose| pose.world_from_body() * DVec3::X).collect();
     let (steepest, view) = (real::cos(STEEPEST_DEG.to_radians()), real::cos(HALF_VIEW_DEG.to_radians()));
@@ -114,7 +114,7 @@ pub fn coverage(site: &Site<'_>, boxes: &[OrientedBox], poses: &[Pose], standoff
             new_cells[frame] += 1;
         }
     }
-    Coverage { new_cells, cells: cells.len() }
+    FacadeCoverage { new_cells, cells: cells.len() }
 }
 
 /// Middles of the cells of all walls in the open, just in front of them, and the walls' normals.

@@ -4,8 +4,8 @@
 //! of it, to and fro, a little in front of the wall, and from side to side round corners or over the roof; opposite it,
 //! at the stand-off distance, is the place that draws the drone.
 
-use super::config::{DT_S, InspectConfig};
-use super::facade::{Coverage, Side, coverage, hull, is_free, sides};
+use super::config::{DT_S, InspectionConfig};
+use super::facade::{FacadeCoverage, FacadeSide, coverage, hull, is_free, sides};
 use super::meeting::Meeting;
 use super::mission::{Mission, POINT_HEIGHT_M, Site, agile};
 use cosfly_domain::OrientedBox;
@@ -42,7 +42,12 @@ pub struct Inspection {
 
 impl Inspection {
     /// Share of the walls that a flight has seen.
-    pub fn coverage(&self, site: &Site<'_>, poses: &[cosfly_frames::Pose], config: &InspectConfig) -> Coverage {
+    pub fn coverage(
+        &self,
+        site: &Site<'_>,
+        poses: &[cosfly_frames::Pose],
+        config: &InspectionConfig,
+    ) -> FacadeCoverage {
         coverage(site, &site.structures[self.structure], poses, config.standoff_m)
     }
 }
@@ -51,7 +56,12 @@ impl Inspection {
 ///
 /// # Errors
 /// When no building of the town fits, with how many there are and why they do not.
-pub fn mission(site: &Site<'_>, wanted: &InspectConfig, config: &MucoConfig, seed: Seed) -> Result<Inspection, String> {
+pub fn mission(
+    site: &Site<'_>,
+    wanted: &InspectionConfig,
+    config: &MucoConfig,
+    seed: Seed,
+) -> Result<Inspection, String> {
     let mut stream = seed.stream("structure");
     let mut left: Vec<usize> = (0..site.structures.len()).collect();
     let (mut of_size, mut with_room) = (0, 0);
@@ -79,7 +89,7 @@ pub fn mission(site: &Site<'_>, wanted: &InspectConfig, config: &MucoConfig, see
     ))
 }
 
-fn has_size(shape: &OrientedBox, wanted: &InspectConfig) -> bool {
+fn has_size(shape: &OrientedBox, wanted: &InspectionConfig) -> bool {
     let size = 2.0 * shape.half_extents_m;
     let is_side = |length: f64| (SIDES_M.0..=SIDES_M.1).contains(&length);
     (wanted.min_height_m..=wanted.max_height_m).contains(&size.z) && is_side(size.x) && is_side(size.y)
@@ -89,11 +99,11 @@ fn has_size(shape: &OrientedBox, wanted: &InspectConfig) -> bool {
 struct Wall {
     /// Number of the side, 0 to 3 round the building.
     number: usize,
-    side: Side,
+    side: FacadeSide,
     rows_m: Vec<f64>,
 }
 
-fn open_sides(site: &Site<'_>, shape: &OrientedBox, wanted: &InspectConfig, clearance_m: f64) -> Vec<Wall> {
+fn open_sides(site: &Site<'_>, shape: &OrientedBox, wanted: &InspectionConfig, clearance_m: f64) -> Vec<Wall> {
     let walls = sides(shape).into_iter().enumerate().map(|(number, side)| {
         let foot = side.point(0.5 * side.length_m, 0.0, OUT_M);
         let ground = (site.ground)(foot.x, foot.y);
@@ -106,7 +116,7 @@ fn open_sides(site: &Site<'_>, shape: &OrientedBox, wanted: &InspectConfig, clea
     walls.filter(|wall| has_room(site, wall, wanted, clearance_m)).collect()
 }
 
-fn has_room(site: &Site<'_>, wall: &Wall, wanted: &InspectConfig, clearance_m: f64) -> bool {
+fn has_room(site: &Site<'_>, wall: &Wall, wanted: &InspectionConfig, clearance_m: f64) -> bool {
     let columns = (wall.side.length_m / 4.0).ceil().max(2.0) as usize;
     let (mut free, mut all) = (0_usize, 0_usize);
     for z in &wall.rows_m {
@@ -129,7 +139,7 @@ struct Stop {
 }
 
 impl Stop {
-    fn opposite(side: &Side, along_m: f64, z_m: f64, standoff_m: f64) -> Self {
+    fn opposite(side: &FacadeSide, along_m: f64, z_m: f64, standoff_m: f64) -> Self {
         let point = side.point(along_m, z_m, OUT_M);
         Self { point, place: place_of(point, side.normal, standoff_m) }
     }
@@ -140,7 +150,7 @@ fn place_of(point: DVec3, normal: DVec2, standoff_m: f64) -> DVec3 {
 }
 
 /// All rows of all walls, to and fro, each wall begun at the nearest of its ends.
-fn way(walls: &[Wall], shape: &OrientedBox, wanted: &InspectConfig) -> Vec<Stop> {
+fn way(walls: &[Wall], shape: &OrientedBox, wanted: &InspectionConfig) -> Vec<Stop> {
     let mut left: Vec<&Wall> = walls.iter().collect();
     let mut stops: Vec<Stop> = Vec::new();
     let mut last: Option<&Wall> = None;
@@ -186,7 +196,7 @@ fn lead_over(
     there: Stop,
     wall: &Wall,
     shape: &OrientedBox,
-    wanted: &InspectConfig,
+    wanted: &InspectionConfig,
 ) {
     if (last.number + 2) % 4 == wall.number {
         let roof = shape.center_in_world.z + shape.half_extents_m.z + 1.0;
@@ -212,7 +222,7 @@ fn angle(normal: DVec2) -> f64 {
 }
 
 /// The way at the wanted speed of the point or of its place, whichever is faster; `None` when it takes too long.
-fn timed(stops: &[Stop], wanted: &InspectConfig, config: &MucoConfig) -> Option<Mission> {
+fn timed(stops: &[Stop], wanted: &InspectionConfig, config: &MucoConfig) -> Option<Mission> {
     let step_m = wanted.speed_mps * DT_S;
     let most = (wanted.max_duration_s / DT_S) as usize;
     let mut frames: Vec<Stop> = stops.first().copied().into_iter().collect();
@@ -249,7 +259,7 @@ fn timed(stops: &[Stop], wanted: &InspectConfig, config: &MucoConfig) -> Option<
 }
 
 /// The drone is near the stand-off distance, a little above what it looks at; there is no "behind" of a wall.
-fn wishes(wanted: &InspectConfig, config: &MucoConfig) -> MucoConfig {
+fn wishes(wanted: &InspectionConfig, config: &MucoConfig) -> MucoConfig {
     let mut config = agile(config);
     let standoff = wanted.standoff_m;
     let view = &mut config.view;
@@ -294,7 +304,7 @@ mod tests {
         let exact = BoxBvh::build(boxes.clone());
         let bounds = (DVec2::splat(-80.0), DVec2::splat(80.0));
         let site = Site { exact: &exact, structures: &structures, ground: &|_, _| 0.0, bounds };
-        let (wanted, config) = (InspectConfig::default(), MucoConfig::default());
+        let (wanted, config) = (InspectionConfig::default(), MucoConfig::default());
         let inspection = mission(&site, &wanted, &config, Seed::of_item(1, "inspect", "i")).expect("a building");
         assert_eq!((inspection.structure, inspection.sides), (1, 4));
         let flight = flown(&inspection.mission, &exact, &boxes);
@@ -327,7 +337,7 @@ mod tests {
         let middle = [vec![row[2]]];
         let bounds = (DVec2::splat(-80.0), DVec2::splat(80.0));
         let site = Site { exact: &exact, structures: &middle, ground: &|_, _| 0.0, bounds };
-        let (wanted, config) = (InspectConfig::default(), MucoConfig::default());
+        let (wanted, config) = (InspectionConfig::default(), MucoConfig::default());
         let inspection = mission(&site, &wanted, &config, Seed::of_item(1, "inspect", "i")).expect("a building");
         assert_eq!(inspection.sides, 2);
         let flight = flown(&inspection.mission, &exact, &row);

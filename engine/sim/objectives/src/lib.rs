@@ -17,5 +17,5 @@ pub mod patrol;
 pub mod reference;
 pub mod track;
 
-pub use config::{InspectConfig, Objective, ObjectiveConfig, PatrolConfig};
+pub use config::{InspectionConfig, Objective, ObjectiveConfig, PatrolConfig};
 pub use mission::{Mission, POINT_HEIGHT_M, Site};

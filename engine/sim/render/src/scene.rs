@@ -17,7 +17,7 @@ use cosfly_materials::leaves::Leaves;
 use cosfly_materials::parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox, boxes_of, join_crowns};
 use cosfly_materials::pattern::{NoiseTexture, noise_texture};
 use cosfly_materials::roof_edges::roofs_that_go_on;
-use cosfly_materials::roof_step::{RoofStep, Side};
+use cosfly_materials::roof_step::{FaceLook, RoofStep};
 use cosfly_materials::roof_steps::roof_steps;
 use cosfly_materials::vector::Vec3;
 use std::collections::BTreeMap;
@@ -143,7 +143,7 @@ impl Scene {
     /// Whether a face of a box is the wall of a building, not its roof.
     pub(crate) fn is_wall(&self, index: u32, face: u8) -> bool {
         let (b, face) = (&self.boxes[index as usize], usize::from(face));
-        let is_slope = |roof: &RoofStep| matches!(roof.sides.get(face), Some(Side::Slope(_)));
+        let is_slope = |roof: &RoofStep| matches!(roof.sides.get(face), Some(FaceLook::Slope(_)));
         BOX_FACES[face].0 != 2 && b.kind == ObstacleKind::Building && !b.roof.as_deref().is_some_and(is_slope)
     }
 

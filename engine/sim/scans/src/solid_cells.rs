@@ -1,7 +1,7 @@
 //! Columns of solid space on a grid, joined into few boxes.
 
 use crate::grid::{Grid, parts};
-use crate::window_cover::{Bases, Block, Column, Volumes, WIDEST, Window};
+use crate::window_cover::{Bases, CellWindow, Column, CoverBlock, Volumes, WIDEST};
 use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec2;
 use rayon::prelude::*;
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 /// A cover of columns.
 #[derive(Clone, Debug, Default)]
-pub struct Boxes {
+pub struct BoxCover {
     /// The boxes.
     pub shapes: Vec<OrientedBox>,
     /// Volumes, cubic metres.
@@ -24,7 +24,7 @@ pub fn boxes_of(
     tolerance_m: f64,
     bases: Bases,
     is_free: impl Fn(usize) -> bool + Sync,
-) -> Boxes {
+) -> BoxCover {
     let (part, _) = parts(grid, |cell| columns[cell].is_some());
     let mut pieces: BTreeMap<[usize; 3], Vec<([usize; 2], Column)>> = BTreeMap::new();
     for (cell, column) in columns.iter().enumerate() {
@@ -34,16 +34,16 @@ pub fn boxes_of(
     }
     let pieces: Vec<_> = pieces.into_values().collect();
     let is_free = |[column, row]: [usize; 2]| is_free(row * grid.columns + column);
-    let cover = |cells: &Vec<([usize; 2], Column)>| Window::of(cells, is_free).blocks(tolerance_m, bases);
-    let covers: Vec<(Vec<Block>, Volumes)> = pieces.par_iter().map(cover).collect();
+    let cover = |cells: &Vec<([usize; 2], Column)>| CellWindow::of(cells, is_free).blocks(tolerance_m, bases);
+    let covers: Vec<(Vec<CoverBlock>, Volumes)> = pieces.par_iter().map(cover).collect();
     let cell_m2 = grid.cell_m * grid.cell_m;
-    Boxes {
+    BoxCover {
         shapes: covers.iter().flat_map(|(blocks, _)| blocks).map(|block| box_of(grid, block)).collect(),
         volumes: covers.iter().fold(Volumes::default(), |sum, (_, volumes)| sum.plus(*volumes, cell_m2)),
     }
 }
 
-fn box_of(grid: &Grid, block: &Block) -> OrientedBox {
+fn box_of(grid: &Grid, block: &CoverBlock) -> OrientedBox {
     let [column, row, width, height] = block.cells.map(|cells| cells as f64);
     let size = DVec2::new(width, height);
     let center = grid.point(DVec2::new(column, row) + 0.5 * size);
@@ -68,7 +68,7 @@ mod tests {
             (!cell.is_multiple_of(3) || cell.is_multiple_of(5)).then_some(Column { base_m, top_m })
         };
         let columns: Vec<_> = (0..grid.cells()).map(column).collect();
-        let Boxes { shapes: boxes, volumes } = boxes_of(&grid, &columns, 0.5, Bases::Lowest, |_| false);
+        let BoxCover { shapes: boxes, volumes } = boxes_of(&grid, &columns, 0.5, Bases::Lowest, |_| false);
         let solid_m3: f64 = columns.iter().flatten().map(|column| column.top_m - column.base_m).sum();
         assert!((volumes.solid - solid_m3).abs() < 1e-6 * solid_m3, "{volumes:?}");
         assert!(volumes.lost < 1e-6 * solid_m3 && volumes.gained < 0.15 * solid_m3, "{volumes:?}");

@@ -1,4 +1,4 @@
-//! [`Window`]: columns of a part of a grid, covered by few blocks, the one that covers most new columns first.
+//! [`CellWindow`]: columns of a part of a grid, covered by few blocks, the one that covers most new columns first.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -32,7 +32,7 @@ pub enum Bases {
 
 /// Columns of some cells in rows.
 #[derive(Clone, Debug)]
-pub struct Window {
+pub struct CellWindow {
     first: [usize; 2],
     size: [usize; 2],
     columns: Vec<Option<Column>>,
@@ -42,7 +42,7 @@ pub struct Window {
 
 /// A block over a rectangle of cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Block {
+pub struct CoverBlock {
     /// First column, first row, number of columns, number of rows.
     pub cells: [usize; 4],
     /// Lower end, metres.
@@ -83,7 +83,7 @@ struct Level {
 /// New columns that a rectangle covers, the layer, lowest level first, and the rectangle.
 type Offer = (u32, Reverse<usize>, Reverse<[usize; 4]>);
 
-impl Window {
+impl CellWindow {
     /// Columns by their cells of the grid: column and row, within [`WIDEST`] of each other. Blocks may stand over free cells.
     pub fn of(cells: &[([usize; 2], Column)], is_free: impl Fn([usize; 2]) -> bool) -> Self {
         let places = || cells.iter().map(|(place, _)| *place);
@@ -101,7 +101,7 @@ impl Window {
 
     /// Blocks that hold every column. None stands over a column by more than the tolerance, or over a cell without one that is not free;
     /// a block may reach under higher columns.
-    pub fn blocks(&self, tolerance_m: f64, bases: Bases) -> (Vec<Block>, Volumes) {
+    pub fn blocks(&self, tolerance_m: f64, bases: Bases) -> (Vec<CoverBlock>, Volumes) {
         let mut cover = Cover::new(self, tolerance_m);
         let mut offers: BinaryHeap<Offer> = (0..cover.layers.len()).filter_map(|layer| cover.best(layer)).collect();
         let mut blocks = Vec::new();
@@ -121,9 +121,9 @@ impl Window {
     }
 
     /// Volumes in cells times metres. The blocks over a cell stand on each other.
-    fn volumes(&self, blocks: &[Block]) -> Volumes {
+    fn volumes(&self, blocks: &[CoverBlock]) -> Volumes {
         let mut ends = vec![[f64::INFINITY, f64::NEG_INFINITY]; self.columns.len()];
-        for Block { cells: [column, row, width, height], base_m, top_m } in blocks {
+        for CoverBlock { cells: [column, row, width, height], base_m, top_m } in blocks {
             for row in *row..row + height {
                 for [low, high] in &mut ends[row * self.size[0] + column..][..*width] {
                     (*low, *high) = (low.min(*base_m), high.max(*top_m));
@@ -143,10 +143,10 @@ impl Window {
 }
 
 /// A block within the plan of a lower one begins at its top.
-fn stack(blocks: &mut [Block]) {
+fn stack(blocks: &mut [CoverBlock]) {
     let lower = blocks.to_vec();
     for block in blocks {
-        let holds = |other: &&Block| {
+        let holds = |other: &&CoverBlock| {
             let [x, y, width, height] = block.cells;
             let [left, low, across, along] = other.cells;
             x >= left && y >= low && x + width <= left + across && y + height <= low + along
@@ -177,7 +177,7 @@ struct Layer {
 }
 
 impl Cover {
-    fn new(window: &Window, tolerance_m: f64) -> Self {
+    fn new(window: &CellWindow, tolerance_m: f64) -> Self {
         let step_m = tolerance_m / STEPS as f64;
         let [columns, rows] = window.size;
         // Steps of bases count from the lowest, so that a foot and the ground that was seen a little above are one step.
@@ -288,7 +288,7 @@ impl Cover {
     }
 
     /// Covers what the rectangle may.
-    fn take(&mut self, window: &Window, layer: usize, cells: [usize; 4], bases: Bases) -> Block {
+    fn take(&mut self, window: &CellWindow, layer: usize, cells: [usize; 4], bases: Bases) -> CoverBlock {
         let [column, row, width, height] = cells;
         let (mut top_m, mut lowest_m, mut highest_m) = (f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY);
         for row in row..row + height {
@@ -303,7 +303,7 @@ impl Cover {
             self.is_covered[row] |= new;
         }
         let base_m = if bases == Bases::Highest { highest_m } else { lowest_m };
-        Block { cells, base_m, top_m: top_m.max(base_m + THINNEST_M) }
+        CoverBlock { cells, base_m, top_m: top_m.max(base_m + THINNEST_M) }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Parameters of stage `sense`.
 
-use crate::place::Place;
+use crate::place::SensorPlace;
 use crate::sensor::Sensor;
 use cosfly_domain::Mount;
 use cosfly_frames::DVec3;
@@ -55,9 +55,9 @@ impl SenseConfig {
     }
 
     /// Where the sensor sits.
-    pub fn place(&self) -> Place {
+    pub fn place(&self) -> SensorPlace {
         let (pitch_rad, yaw_rad) = (self.pitch_deg.to_radians(), self.yaw_deg.to_radians());
         let mount = Mount { pitch_rad, yaw_rad, levelled: self.levelled };
-        Place { position_in_body: DVec3::from_array(self.position_in_body_m), mount }
+        SensorPlace { position_in_body: DVec3::from_array(self.position_in_body_m), mount }
     }
 }

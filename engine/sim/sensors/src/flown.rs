@@ -1,7 +1,7 @@
 //! A flight, and the readings of a sensor along it.
 
-use crate::place::Place;
-use crate::sensor::{Moment, Sensor};
+use crate::place::SensorPlace;
+use crate::sensor::{Sensor, SensorMoment};
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_geometry::BoxBvh;
@@ -10,7 +10,7 @@ use cosfly_town::GroundIndex;
 
 /// A flight that carries a sensor.
 #[derive(Clone, Copy)]
-pub struct Flown<'a> {
+pub struct SensedFlight<'a> {
     /// Solid boxes of the town around the drone.
     pub town: &'a BoxBvh,
     /// Height of the ground.
@@ -22,7 +22,7 @@ pub struct Flown<'a> {
     /// Time between frames, seconds.
     pub dt_s: f64,
     /// Where the sensor sits.
-    pub place: Place,
+    pub place: SensorPlace,
     /// Readings a second from the first frame on; `None` for one in each frame.
     pub rate_hz: Option<f64>,
     /// Seed of the noise.
@@ -40,7 +40,7 @@ pub struct Reading<'a> {
     pub values: &'a [f64],
 }
 
-impl Flown<'_> {
+impl SensedFlight<'_> {
     /// Number of readings.
     pub fn readings(&self) -> usize {
         let frames = self.poses_in_world.len();
@@ -62,7 +62,7 @@ impl Flown<'_> {
             let at = time_s / self.dt_s;
             bodies.clear();
             (self.bodies)(time_s, &mut bodies);
-            let moment = Moment {
+            let moment = SensorMoment {
                 time_s,
                 sensor_in_world: self.sensor_at(at),
                 velocity_in_world: self.velocity_at(at),

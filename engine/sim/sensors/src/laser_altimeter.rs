@@ -1,6 +1,6 @@
 //! Sensor `laser_altimeter`: a beam straight down.
 
-use crate::sensor::{Moment, Quantity, Sensor};
+use crate::sensor::{Quantity, Sensor, SensorMoment};
 use cosfly_frames::DVec3;
 
 /// Range of the beam, metres; that of common laser altimeters for drones.
@@ -19,7 +19,7 @@ pub static SENSOR: Sensor = Sensor {
     read,
 };
 
-fn read(at: &Moment<'_>, values: &mut [f64]) {
+fn read(at: &SensorMoment<'_>, values: &mut [f64]) {
     let from = at.sensor_in_world.position_in_world;
     let ground_m = at.ground.ground_below(from, 0.0).map(|ground| from.z - ground.height_m);
     let nearest_m = [at.hit_m(-DVec3::Z, RANGE_M), ground_m].into_iter().flatten().fold(f64::INFINITY, f64::min);

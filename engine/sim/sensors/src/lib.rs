@@ -1,7 +1,7 @@
 //! Sensors that are no cameras: numbers at moments of a flight.
 //!
 //! * [`ALL`]: the sensors, one file and one entry each; recipes, environments and policies find them here by name.
-//! * [`Flown`]: a flight with a place for a sensor, which is read along it. [`SensorSet`]: those that an environment reads.
+//! * [`SensedFlight`]: a flight with a place for a sensor, which is read along it. [`SensorSet`]: those that an environment reads.
 
 mod config;
 mod flown;
@@ -13,9 +13,9 @@ mod set;
 mod tests;
 
 pub use config::SenseConfig;
-pub use flown::{Flown, Reading};
-pub use place::Place;
-pub use sensor::{Moment, Quantity, Sensor};
+pub use flown::{Reading, SensedFlight};
+pub use place::SensorPlace;
+pub use sensor::{Quantity, Sensor, SensorMoment};
 pub use set::SensorSet;
 
 /// All sensors, sorted by name.

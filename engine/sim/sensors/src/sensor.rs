@@ -17,7 +17,7 @@ pub struct Sensor {
     /// Numbers of a reading, in the order of the table's columns.
     pub quantities: &'static [Quantity],
     /// Reads one moment; `values` has one place for each quantity, all of which it fills with finite numbers.
-    pub read: fn(&Moment<'_>, &mut [f64]),
+    pub read: fn(&SensorMoment<'_>, &mut [f64]),
 }
 
 /// One number of a reading.
@@ -31,7 +31,7 @@ pub struct Quantity {
 
 /// What surrounds a sensor at one moment. World frame: CARLA's, metres, radians.
 #[derive(Clone, Copy)]
-pub struct Moment<'a> {
+pub struct SensorMoment<'a> {
     /// Time since the first frame, seconds.
     pub time_s: f64,
     /// Pose of the sensor: its place on the drone, and its own turn (x ahead, y right, z up).
@@ -48,7 +48,7 @@ pub struct Moment<'a> {
     pub seed: Seed,
 }
 
-impl Moment<'_> {
+impl SensorMoment<'_> {
     /// Distance from the sensor along a direction of length 1 to the first box of the town or of a body, metres; `None` beyond `range_m`.
     pub fn hit_m(&self, direction_in_world: DVec3, range_m: f64) -> Option<f64> {
         let from = self.sensor_in_world.position_in_world;

@@ -1,6 +1,6 @@
 //! Laws of all sensors, and the numbers of each.
 
-use crate::{ALL, Flown, Place, Sensor, SensorSet, called};
+use crate::{ALL, SensedFlight, Sensor, SensorPlace, SensorSet, called};
 use cosfly_domain::{Mount, OrientedBox, Town, channels};
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
@@ -49,10 +49,10 @@ fn poses(world: &World) -> Vec<Pose> {
 type Kept = (usize, f64, Vec<f64>);
 
 fn readings(world: &World, poses_in_world: &[Pose], sensor: &Sensor, rate_hz: Option<f64>) -> Vec<Kept> {
-    let place = Place { position_in_body: DVec3::new(0.3, 0.0, -0.1), ..Place::default() };
+    let place = SensorPlace { position_in_body: DVec3::new(0.3, 0.0, -0.1), ..SensorPlace::default() };
     let World { exact: town, ground, .. } = world;
     let (bodies, seed) = (&bodies(world), Seed([3; 32]));
-    let flown = Flown { town, ground, bodies, poses_in_world, dt_s: DT_S, place, rate_hz, seed };
+    let flown = SensedFlight { town, ground, bodies, poses_in_world, dt_s: DT_S, place, rate_hz, seed };
     let mut all = vec![];
     flown.read(sensor, &mut |it| all.push((it.frame, it.time_s, it.values.to_vec())));
     assert_eq!(all.len(), flown.readings());
@@ -113,12 +113,12 @@ fn readings_begin_with_the_flight_and_end_within_it() {
 fn a_sensor_sits_and_moves_where_its_place_says() {
     let body = Pose { position_in_world: DVec3::new(3.0, -2.0, 9.0), pitch_rad: 0.0, yaw_rad: 1.2, roll_rad: 0.0 };
     let mount = Mount { pitch_rad: -0.4, yaw_rad: 0.3, levelled: false };
-    let place = Place { position_in_body: DVec3::new(0.2, 0.0, -0.1), mount };
+    let place = SensorPlace { position_in_body: DVec3::new(0.2, 0.0, -0.1), mount };
     let on = place.on(&body);
     let expected = body.position_in_world + body.world_from_body() * place.position_in_body;
     assert!(on.position_in_world.distance(expected) < 1e-12);
     assert!((on.yaw_rad - 1.5).abs() < 1e-12 && (on.pitch_rad + 0.4).abs() < 1e-12);
-    assert_eq!(Place::default().on(&body), body);
+    assert_eq!(SensorPlace::default().on(&body), body);
 
     // Even motion has one velocity, at the ends, too.
     static SPEED: Sensor = Sensor {
@@ -138,7 +138,7 @@ fn the_beam_ends_at_the_first_thing_below() {
     let world = world();
     let poses = poses(&world);
     let sensor = called("laser_altimeter").expect("in the list");
-    let place = Place { position_in_body: DVec3::new(0.3, 0.0, -0.1), ..Place::default() };
+    let place = SensorPlace { position_in_body: DVec3::new(0.3, 0.0, -0.1), ..SensorPlace::default() };
     let (mut roofs, mut far, mut on_bodies) = (0, 0, 0);
     for (frame, time_s, values) in readings(&world, &poses, sensor, None) {
         let from = place.on(&poses[frame]).position_in_world;

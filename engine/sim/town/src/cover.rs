@@ -11,7 +11,7 @@ mod rows;
 mod thinning;
 mod walls;
 
-pub use plan::{Plan, TurnedRectangle};
+pub use plan::{CoverPlan, TurnedRectangle};
 pub(crate) use rows::{Row, Rows, Span, strips};
 
 use crate::polygons::contains;
@@ -66,13 +66,13 @@ pub fn cover_polygon(outline: &[DVec2]) -> Vec<TurnedRectangle> {
 /// ones too. Rings without an area give one rectangle at most; a coordinate that is not finite gives none. Rings of very
 /// many corners are thinned out first, and the rectangles grow by what that moved.
 pub fn cover_rings(outer: &[&[DVec2]], holes: &[&[DVec2]]) -> Cover {
-    match Plan::of(outer, holes) {
+    match CoverPlan::of(outer, holes) {
         Some(plan) => plan.cover(COVER_TOLERANCE_M, MOST),
         None => Cover::default(),
     }
 }
 
-impl Plan {
+impl CoverPlan {
     /// The cover: with a tolerance of at most `tolerance_m` where `wanted` rectangles are enough, else of
     /// [`LOOSE_TOLERANCE_M`] and of as many as that takes.
     pub fn cover(&self, tolerance_m: f64, wanted: usize) -> Cover {

@@ -9,14 +9,14 @@ pub struct MapError {
     /// The value that was found and the rule it breaks.
     pub message: String,
     /// Place in the file, where the error is about one.
-    pub place: Option<Place>,
+    pub place: Option<TextPlace>,
     /// Advice for the user, one sentence each.
     pub hints: Vec<String>,
 }
 
 /// A place in a map file's text (after decoding to UTF-8, without a byte-order mark).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct TextPlace {
     /// Line, from 1.
     pub line: u32,
     /// Column in characters, from 1.
@@ -42,7 +42,7 @@ impl MapError {
 
     /// This error at a place.
     #[must_use]
-    pub fn at(mut self, place: Place) -> Self {
+    pub fn at(mut self, place: TextPlace) -> Self {
         self.place = Some(place);
         self
     }

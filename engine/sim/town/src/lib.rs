@@ -22,7 +22,7 @@ pub mod text;
 pub mod units;
 pub mod world;
 
-pub use error::{MapError, Place};
+pub use error::{MapError, TextPlace};
 pub use format::{Format, MapFormat};
 pub use ground::{GroundIndex, GroundPoint};
 pub use options::FormatOptions;

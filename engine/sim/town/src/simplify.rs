@@ -10,7 +10,7 @@ pub mod crop;
 pub mod merging;
 pub mod prune;
 
-pub use candidate::Candidate;
+pub use candidate::BoxCandidate;
 pub use config::SimplifyConfig;
 
 use cosfly_domain::{Obstacle, OrientedBox, SimplificationReport, WalkablePolygon};
@@ -25,11 +25,11 @@ pub fn simplify(
     config: &SimplifyConfig,
 ) -> (Vec<OrientedBox>, SimplificationReport) {
     let original = |(first, obstacle): (usize, &Obstacle)| {
-        let mut one = Candidate { shape: obstacle.shape, filled_m3: 0.0, growth_m: 0.0, first };
+        let mut one = BoxCandidate { shape: obstacle.shape, filled_m3: 0.0, growth_m: 0.0, first };
         one.filled_m3 = one.volume_m3();
         one
     };
-    let mut kept: Vec<Candidate> = obstacles.iter().enumerate().map(original).collect();
+    let mut kept: Vec<BoxCandidate> = obstacles.iter().enumerate().map(original).collect();
     let mut report = SimplificationReport {
         input_boxes: kept.len(),
         tolerance_m: config.tolerance_m,
@@ -39,7 +39,7 @@ pub fn simplify(
         crop::drop_far_from(&mut kept, walkable, config.crop_radius_m);
         report.cropped = report.input_boxes - kept.len();
     }
-    let original_m3: f64 = kept.iter().map(Candidate::volume_m3).sum();
+    let original_m3: f64 = kept.iter().map(BoxCandidate::volume_m3).sum();
     let before = kept.len();
     if config.merge {
         containment::drop_contained(&mut kept);
@@ -50,7 +50,7 @@ pub fn simplify(
     let mut lost_m3 = 0.0;
     if config.prune {
         let before = kept.len();
-        let filled_m3 = |kept: &[Candidate]| kept.iter().map(|one| one.filled_m3).sum::<f64>();
+        let filled_m3 = |kept: &[BoxCandidate]| kept.iter().map(|one| one.filled_m3).sum::<f64>();
         let before_m3 = filled_m3(&kept);
         prune::drop_specks(&mut kept, config.tolerance_m);
         lost_m3 = before_m3 - filled_m3(&kept);

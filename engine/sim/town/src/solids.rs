@@ -1,8 +1,8 @@
 //! Solid boxes of things that a map gives by their outline and heights.
 
 use crate::cover::{
-    COVER_TOLERANCE_M, Coarse, Cover, LOOSE_TOLERANCE_M, MOST, Plan, Row, Rows, Span, TurnedRectangle, cover_rings,
-    strips,
+    COVER_TOLERANCE_M, Coarse, Cover, CoverPlan, LOOSE_TOLERANCE_M, MOST, Row, Rows, Span, TurnedRectangle,
+    cover_rings, strips,
 };
 use crate::polygons::{contains, twice_area_m2};
 use crate::regions::PlanRegion;
@@ -74,7 +74,7 @@ impl Footprint {
 
 /// Boxes of a thing.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Solid {
+pub struct SolidBoxes {
     /// The boxes.
     pub boxes: Vec<OrientedBox>,
     /// Where they stand over the outline by more than covers do.
@@ -93,7 +93,7 @@ pub struct CoarseThings {
 
 impl CoarseThings {
     /// Counts a thing, if it is coarse.
-    pub fn add(&mut self, thing: &Solid) {
+    pub fn add(&mut self, thing: &SolidBoxes) {
         self.add_cover(thing.coarse);
         self.roofs += usize::from(thing.is_roof_coarse);
     }
@@ -129,15 +129,15 @@ impl CoarseThings {
 
 /// Boxes whose union covers a building from `base_m` to its roof, heights in the world frame, metres; none when a
 /// number is not finite. Overhang in plan as in [`crate::cover`]; a roof's boxes contain it and stand over it by less than one step.
-pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Roof) -> Solid {
+pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Roof) -> SolidBoxes {
     let rise_m = match roof {
         Roof::Flat => 0.0,
         Roof::Gabled { rise_m, .. } | Roof::Hipped { rise_m } => rise_m.max(0.0),
     };
     if !(base_m.is_finite() && eaves_m.is_finite() && rise_m.is_finite()) {
-        return Solid::default();
+        return SolidBoxes::default();
     }
-    let Some(plan) = Plan::of(&[&footprint.outer], &footprint.yards()) else { return Solid::default() };
+    let Some(plan) = CoverPlan::of(&[&footprint.outer], &footprint.yards()) else { return SolidBoxes::default() };
     let step_count = (rise_m / ROOF_STEP_M).ceil().clamp(1.0, MOST_STEPS);
     let level_m = |step: f64| eaves_m.max(base_m) + rise_m * step / step_count;
     let foot = plan.cover(COVER_TOLERANCE_M, MOST);
@@ -147,7 +147,7 @@ pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Ro
     let Some(plan) = plan.filter(|_| !is_absurd) else {
         // Too low or too thin for steps, or far too large.
         boxes.iter_mut().for_each(|one| *one = reaching(*one, level_m(step_count)));
-        return Solid { boxes, coarse: foot.coarse, is_roof_coarse: is_absurd };
+        return SolidBoxes { boxes, coarse: foot.coarse, is_roof_coarse: is_absurd };
     };
     let mut is_roof_coarse = rise_m > MOST_STEPS * ROOF_STEP_M;
     let mut step = 1.0;
@@ -158,15 +158,15 @@ pub fn building_boxes(footprint: &Footprint, base_m: f64, eaves_m: f64, roof: Ro
         boxes.extend(section.into_iter().map(|one| upright(one, level_m(step), level_m(step + 1.0))));
         step += 1.0;
     }
-    Solid { boxes, coarse: foot.coarse, is_roof_coarse }
+    SolidBoxes { boxes, coarse: foot.coarse, is_roof_coarse }
 }
 
 /// Boxes whose union covers a region between two heights, world, metres; overhang in plan as in [`crate::cover`].
-pub fn layer_boxes(region: &PlanRegion, base_m: f64, top_m: f64) -> Solid {
+pub fn layer_boxes(region: &PlanRegion, base_m: f64, top_m: f64) -> SolidBoxes {
     let (outer, holes) = region.rings();
     let Cover { rectangles, coarse } = cover_rings(&outer, &holes);
     let boxes = rectangles.into_iter().map(|one| upright(one, base_m, top_m)).collect();
-    Solid { boxes, coarse, is_roof_coarse: false }
+    SolidBoxes { boxes, coarse, is_roof_coarse: false }
 }
 
 fn upright(rectangle: TurnedRectangle, low_m: f64, high_m: f64) -> OrientedBox {
@@ -188,7 +188,7 @@ fn reaching(shape: OrientedBox, top_m: f64) -> OrientedBox {
 
 /// A roof's plan, ready to be cut at heights.
 struct RoofPlan {
-    plan: Plan,
+    plan: CoverPlan,
     yaw_rad: f64,
     rows: Rows,
     low: DVec2,
@@ -198,7 +198,7 @@ struct RoofPlan {
 }
 
 impl RoofPlan {
-    fn of(plan: Plan, roof: Roof) -> Option<Self> {
+    fn of(plan: CoverPlan, roof: Roof) -> Option<Self> {
         let size = |yaw_rad: f64| 2.0 * plan.bounding(yaw_rad).half_extents_m;
         let longer = |angles: &[f64]| {
             let widest = angles.iter().copied().take(2).max_by(|a, b| size(*a).x.total_cmp(&size(*b).x));

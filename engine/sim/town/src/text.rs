@@ -1,6 +1,6 @@
 //! The file's text: decoding of the bytes, and lines and columns of byte positions.
 
-use crate::error::{MapError, Place};
+use crate::error::{MapError, TextPlace};
 use core::ops::Range;
 use std::borrow::Cow;
 
@@ -23,7 +23,7 @@ pub fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, MapError> {
         Err(error) => {
             let good = error.valid_up_to();
             let text = core::str::from_utf8(&bytes[..good]).unwrap_or_default();
-            let place = Lines::new(text).place(good..good + 1, String::new());
+            let place = LineStarts::new(text).place(good..good + 1, String::new());
             let message = format!("byte 0x{:02x} is not UTF-8 text", bytes[good]);
             Err(MapError::new(message).at(place).hint("save the file as UTF-8, or check that it is an XML file"))
         }
@@ -38,7 +38,7 @@ fn declares_latin1(bytes: &[u8]) -> bool {
 
 /// A refusal of the JSON parser at its place in the text.
 pub fn refused_json(error: &serde_json::Error, text: &str) -> MapError {
-    let lines = Lines::new(text);
+    let lines = LineStarts::new(text);
     let at = lines.byte_at(error.line() as u32, error.column() as u32);
     // The parser's own text ends with the position, which the place says better.
     let message = error.to_string();
@@ -52,12 +52,12 @@ pub fn refused_json(error: &serde_json::Error, text: &str) -> MapError {
 }
 
 /// Starts of the lines, so that a position becomes a line and a column in little time.
-pub struct Lines<'t> {
+pub struct LineStarts<'t> {
     text: &'t str,
     starts: Vec<usize>,
 }
 
-impl<'t> Lines<'t> {
+impl<'t> LineStarts<'t> {
     /// Reader of a text.
     pub fn new(text: &'t str) -> Self {
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at + 1);
@@ -65,11 +65,11 @@ impl<'t> Lines<'t> {
     }
 
     /// The place of some bytes; `element` names the element there.
-    pub fn place(&self, byte_span: Range<usize>, element: String) -> Place {
+    pub fn place(&self, byte_span: Range<usize>, element: String) -> TextPlace {
         let line = self.starts.partition_point(|start| *start <= byte_span.start).max(1);
         let before = self.text.get(self.starts[line - 1]..byte_span.start).unwrap_or_default();
         let column = before.chars().count() as u32 + 1;
-        Place { line: line as u32, column, byte_span, element }
+        TextPlace { line: line as u32, column, byte_span, element }
     }
 
     /// The byte at a line and column (characters), both from 1; held to the text.
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn places_count_lines_and_characters_from_one() {
-        let lines = Lines::new("ab\n\u{fc}x\n\nend");
+        let lines = LineStarts::new("ab\n\u{fc}x\n\nend");
         for (at, expected) in [(0, (1, 1)), (2, (1, 3)), (3, (2, 1)), (5, (2, 2)), (7, (3, 1)), (11, (4, 4))] {
             let place = lines.place(at..at, String::new());
             assert_eq!((place.line, place.column), expected, "byte {at}");

@@ -7,7 +7,7 @@ use cosfly_town::cover::{
     COVER_TOLERANCE_M, Cover, LOOSE_TOLERANCE_M, MOST, TurnedRectangle, cover_polygon, cover_rings,
 };
 use cosfly_town::polygons::contains;
-use cosfly_town::solids::{Footprint, ROOF_STEP_M, Roof, Solid, building_boxes};
+use cosfly_town::solids::{Footprint, ROOF_STEP_M, Roof, SolidBoxes, building_boxes};
 use proptest::prelude::*;
 
 /// A simple ring around `center`: corners at equal angles, each at its own distance.
@@ -302,7 +302,7 @@ fn top_m(boxes: &[OrientedBox], point: DVec2) -> Option<f64> {
 
 /// Compares the boxes with the exact height of the roof over a grid of points.
 fn check_roof(footprint: &Footprint, roof: Roof, slope: f64, exact_m: impl Fn(DVec2) -> f64) {
-    let Solid { boxes, coarse, is_roof_coarse } = building_boxes(footprint, 1.0, 7.0, roof);
+    let SolidBoxes { boxes, coarse, is_roof_coarse } = building_boxes(footprint, 1.0, 7.0, roof);
     assert!(coarse.is_none() && !is_roof_coarse);
     assert!(boxes.iter().all(|one| one.half_extents_m.min_element() > 0.0));
     let volume = |shape: &OrientedBox| shape.half_extents_m.element_product();

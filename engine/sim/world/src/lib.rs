@@ -14,7 +14,7 @@ mod snapshot;
 
 pub use contacts::{Contact, contacts};
 pub use gap::gap_m;
-pub use look_alikes::{LookAlikeConfig, Wardrobe, dress};
+pub use look_alikes::{LookAlikeConfig, OutfitsBySeed, dress};
 pub use looks::{BagShares, BuildShares, GaitShares, LooksConfig, give_looks};
 pub use population::{Clock, Population, simulate};
 pub use prescribed::Prescribed;

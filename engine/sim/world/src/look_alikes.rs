@@ -35,7 +35,7 @@ pub struct LookAlikeConfig {
 
 /// Clothes by the seeds of looks, as the pictures show them.
 #[derive(Clone, Copy)]
-pub struct Wardrobe<'a> {
+pub struct OutfitsBySeed<'a> {
     /// Whether two seeds give the same clothes in words.
     pub alike: &'a dyn Fn(&Seed, &Seed) -> bool,
     /// Bag, build and gait of a seed.
@@ -65,7 +65,7 @@ impl LookAlikeConfig {
     }
 
     /// Looks like `target` for somebody who has the looks `own`: the same clothes and bag, build and gait as configured.
-    fn like(&self, target: &Seed, own: &Seed, wardrobe: Wardrobe<'_>) -> Option<Seed> {
+    fn like(&self, target: &Seed, own: &Seed, wardrobe: OutfitsBySeed<'_>) -> Option<Seed> {
         if self.same_build && self.same_gait {
             return Some(*target);
         }
@@ -99,7 +99,7 @@ pub fn dress(
     traffic: &mut Traffic,
     followed: &[u32],
     config: &LookAlikeConfig,
-    wardrobe: Wardrobe<'_>,
+    wardrobe: OutfitsBySeed<'_>,
     seed: &Seed,
 ) -> Option<String> {
     if config.shares.is_empty() {
@@ -211,7 +211,7 @@ mod tests {
         Traits { bag: Bag::None, build, gait: Gait::Medium }
     }
 
-    const WARDROBE: Wardrobe<'_> = Wardrobe { alike: &alike, traits: &traits };
+    const WARDROBE: OutfitsBySeed<'_> = OutfitsBySeed { alike: &alike, traits: &traits };
 
     fn street(people: u32) -> Traffic {
         let body = |number: u32| {

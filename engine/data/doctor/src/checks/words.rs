@@ -9,7 +9,7 @@ pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
     let Some(facts) = facts_of(episode).filter(|_| !episode.captions.is_empty()) else { return vec![] };
     let mut flags = vec![];
     for (code, text) in &episode.captions {
-        let Some(language) = [Language::Zh, Language::En].into_iter().find(|it| it.code() == code) else { continue };
+        let Some(language) = Language::of_code(code) else { continue };
         if let Err(mismatches) = check_caption(text, language, &facts) {
             let shown: Vec<String> = mismatches.iter().take(2).map(ToString::to_string).collect();
             let message = format!("its instruction ({code}) is not true: {}", shown.join("; "));

@@ -9,7 +9,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_domain::{Colour, TARGET_INSTANCE};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
-use cosfly_read::drawn_ground::SeenGround;
+use cosfly_read::drawn_ground::DrawnGround;
 use cosfly_read::{
     BoxInWorld, CaptionReader, FrameRow, LoggedFrame, PublishedDataset, PublishedFlight, log_problem, parquet_problem,
 };
@@ -223,7 +223,7 @@ fn looks(
         // Lenses that bend and rows that are taken one after the other show places elsewhere.
         if flight.lens.is_none() && flight.readout_s == 0.0 {
             let row = &rows[frame];
-            let ground = SeenGround {
+            let ground = DrawnGround {
                 camera: &flight.camera,
                 pose: &row.camera_pose,
                 depth_m: &|at| logged.depth_m.get(at).map(|depth| f64::from(*depth)),

@@ -8,7 +8,7 @@ use cosfly_domain::Camera;
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_images::read::{decoded, png_size};
-use cosfly_read::drawn_ground::SeenGround;
+use cosfly_read::drawn_ground::DrawnGround;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -238,7 +238,7 @@ fn rise_m(episode: &ExaminedEpisode, frame: usize, depth_m: &[f32], folder: &Pat
         return None;
     }
     let labels = decoded(&file, "png").ok()?;
-    let ground = SeenGround {
+    let ground = DrawnGround {
         camera,
         pose: &moment.camera,
         depth_m: &|at| depth_m.get(at).map(|depth| f64::from(*depth)),

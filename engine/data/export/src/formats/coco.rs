@@ -2,7 +2,7 @@
 
 mod mask;
 
-use crate::card::Card;
+use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{ending, picture_path};
@@ -26,7 +26,7 @@ impl Format for Coco {
         for split in source.splits() {
             write_split(options.every, source, out, split)?;
         }
-        Card {
+        ExportCard {
             format: "COCO",
             front_matter: "task_categories:\n- object-detection\n- image-segmentation\n".into(),
             body: BODY.replace("SPLIT", source.splits().first().copied().unwrap_or_default()),

@@ -1,6 +1,6 @@
 //! ImageFolder: picture files and one line of facts for each, as Hugging Face's `imagefolder` reads them.
 
-use crate::card::Card;
+use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{ending, picture_path};
@@ -32,7 +32,7 @@ impl Format for ImageFolder {
         for channel in source.channels_on_request()? {
             body.push_str(&format!("\n`{}`: {}\n", channel.name, channel.doc));
         }
-        Card { format: "ImageFolder", front_matter, body }.write(source, out)?;
+        ExportCard { format: "ImageFolder", front_matter, body }.write(source, out)?;
         Ok(vec![])
     }
 }

@@ -1,12 +1,12 @@
 //! LaSOT: a folder of pictures per flight, with the box of its target, absence by reason, and a sentence about the target.
 
-use crate::card::Card;
+use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::sequence::{self, Sequence, SequenceList, box_text};
 use crate::shared_options::PictureAndTextOptions;
 use crate::single_target::{self, each_sequence, is_seen, target_word};
-use crate::source::{Episode, Source};
+use crate::source::{ExportedFlight, Source};
 use cosfly_diagnose::Result;
 use cosfly_read::FrameRow;
 
@@ -21,7 +21,7 @@ impl Format for LaSot {
     fn write(options: &PictureAndTextOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         let mut list = SequenceList::default();
         // Readers cut a name at its dash.
-        let name = |number, episode: &Episode<'_>| format!("{}-{number}", target_word(episode));
+        let name = |number, episode: &ExportedFlight<'_>| format!("{}-{number}", target_word(episode));
         let remarks = each_sequence(source, options.pictures.every, &name, &mut |sequence| {
             let flight = sequence.episode.flight;
             let folder = format!("{}/{}/{}", flight.split, target_word(sequence.episode), sequence.name);
@@ -36,7 +36,7 @@ impl Format for LaSot {
         })?;
         list.write(out)?;
         let body = format!("{BODY}\n{}{}", single_target::CARD, sequence::CARD);
-        Card { format: "LaSOT", body, ..Card::default() }.write(source, out)?;
+        ExportCard { format: "LaSOT", body, ..ExportCard::default() }.write(source, out)?;
         Ok(remarks)
     }
 }

@@ -5,13 +5,13 @@ mod motion;
 mod statistics;
 mod tables;
 
-use crate::card::Card;
+use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::pixels::rgb_of;
 use crate::sample_text::pose_numbers;
-use crate::shared_options::{InstructionOptions, Language};
-use crate::source::{Episode, SensorReadings, Source};
+use crate::shared_options::{InstructionLanguage, InstructionOptions};
+use crate::source::{ExportedFlight, SensorReadings, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Pose;
 use cosfly_read::PublishedFlight;
@@ -73,7 +73,7 @@ fn names_of(sensor: &LoggedSensor) -> Vec<String> {
 }
 
 /// The last readings at each frame, those of all sensors one after the other.
-fn sensed_by_frame(episode: &Episode<'_>, kind: &Kind) -> Result<Vec<Vec<f64>>> {
+fn sensed_by_frame(episode: &ExportedFlight<'_>, kind: &Kind) -> Result<Vec<Vec<f64>>> {
     let sensors = episode.readings()?;
     let names: Vec<String> = sensors.iter().flat_map(|(sensor, _)| names_of(sensor)).collect();
     let begins = |(_, readings): &SensorReadings| readings.first().is_some_and(|(time_ns, _)| *time_ns == 0);
@@ -96,7 +96,13 @@ fn sensed_by_frame(episode: &Episode<'_>, kind: &Kind) -> Result<Vec<Vec<f64>>> 
 }
 
 /// Writes the dataset of a split, into a folder of its own: LeRobot reads all episodes of a folder, whatever their split.
-fn write_split(language: Language, source: &Source<'_>, out: &OutFolder, split: &str, kind: &Kind) -> Result<()> {
+fn write_split(
+    language: InstructionLanguage,
+    source: &Source<'_>,
+    out: &OutFolder,
+    split: &str,
+    kind: &Kind,
+) -> Result<()> {
     let table = tables::data(kind.sensed.len());
     let mut data = DataFiles { out, split, table: &table, file: 0, bytes: 0, open: None };
     let mut statistics = Statistics::default();
@@ -163,7 +169,7 @@ fn check(source: &Source<'_>) -> Result<u32> {
 /// The rows of a flight; its pictures and numbers count in both `statistics`. `numbers` are those of the episode, of its first frame and
 /// of its task.
 fn rows_of(
-    episode: &Episode<'_>,
+    episode: &ExportedFlight<'_>,
     expert: &[Pose],
     numbers: [usize; 3],
     statistics: &mut [&mut Statistics; 2],
@@ -288,7 +294,7 @@ fn info(source: &Source<'_>, split: &str, kind: &Kind, totals: [usize; 3]) -> Va
     })
 }
 
-fn card(splits: &[&str]) -> Card {
+fn card(splits: &[&str]) -> ExportCard {
     let mut front_matter = String::from(
         "task_categories:\n- robotics\ntags:\n- LeRobot\nconfigs:\n- config_name: default\n  data_files:\n",
     );
@@ -297,7 +303,7 @@ fn card(splits: &[&str]) -> Card {
         front_matter.push_str(&format!("  - split: {split}\n    path: {split}/data/*/*.parquet\n"));
         loading.push_str(&format!("{split} = LeRobotDataset(\"cosfly/{split}\", root=\"{split}\")\n"));
     }
-    Card { format: "LeRobot v3.0", front_matter, body: BODY.replace("LOADING\n", &loading) }
+    ExportCard { format: "LeRobot v3.0", front_matter, body: BODY.replace("LOADING\n", &loading) }
 }
 
 const BODY: &str = "\

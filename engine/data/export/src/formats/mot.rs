@@ -1,11 +1,11 @@
 //! MOTChallenge: a folder of pictures per flight, with the boxes of everybody who is seen.
 
-use crate::card::Card;
+use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::sequence::{self, Sequence, SequenceList, box_text};
 use crate::shared_options::PictureOptions;
-use crate::source::{Episode, Source};
+use crate::source::{ExportedFlight, Source};
 use cosfly_diagnose::Result;
 use cosfly_domain::{BodyKind, SemanticLabel, TARGET_INSTANCE};
 use cosfly_read::{SeenBody, SightingReader};
@@ -52,14 +52,14 @@ impl Format for Mot {
         list.write(out)?;
         let split = source.splits().first().copied().unwrap_or_default();
         let body = format!("{}\n{}", BODY.replace("NAME_OF_SPLIT", split), sequence::CARD);
-        Card { format: "MOTChallenge", front_matter: "task_categories:\n- object-detection\n".into(), body }
+        ExportCard { format: "MOTChallenge", front_matter: "task_categories:\n- object-detection\n".into(), body }
             .write(source, out)?;
         Ok(vec![])
     }
 }
 
 /// Lines of `gt.txt`, by id and picture.
-fn ground_truth(episode: &Episode<'_>, frames: &[usize], bodies: &[SeenBody]) -> String {
+fn ground_truth(episode: &ExportedFlight<'_>, frames: &[usize], bodies: &[SeenBody]) -> String {
     let number = |frame: usize| frames.binary_search(&frame).ok().map(|place| place + 1);
     let mut lines: BTreeMap<(u32, usize), String> = BTreeMap::new();
     let target = class(episode.flight.target_kind.as_deref().unwrap_or_default());

@@ -1,12 +1,12 @@
 //! OTB and UAV123: a folder of pictures per flight, with the box of its target.
 
-use crate::card::Card;
+use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::sequence::{self, Sequence, SequenceList, box_text};
 use crate::shared_options::PictureOptions;
 use crate::single_target::{self, each_sequence};
-use crate::source::{Episode, Source};
+use crate::source::{ExportedFlight, Source};
 use cosfly_diagnose::Result;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -68,7 +68,7 @@ impl Format for Otb {
     fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
         let layout = options.layout;
         let mut list = SequenceList::default();
-        let name = |_, episode: &Episode<'_>| episode.flight.trajectory_id.clone();
+        let name = |_, episode: &ExportedFlight<'_>| episode.flight.trajectory_id.clone();
         let remarks = each_sequence(source, options.pictures.every, &name, &mut |sequence| {
             let split = &sequence.episode.flight.split;
             let (name, pictures) = (&sequence.name, sequence.frames.len());
@@ -79,7 +79,7 @@ impl Format for Otb {
         })?;
         list.write(out)?;
         let body = format!("{}{BODY}\n{}{}", layout.body(), single_target::CARD, sequence::CARD);
-        Card { format: "OTB", body, ..Card::default() }.write(source, out)?;
+        ExportCard { format: "OTB", body, ..ExportCard::default() }.write(source, out)?;
         Ok(remarks)
     }
 }

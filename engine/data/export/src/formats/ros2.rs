@@ -7,12 +7,12 @@ mod cdr;
 mod definitions;
 mod messages;
 
-use crate::card::Card;
+use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{FOLDER_LIMIT, ending};
 use crate::shared_options::PictureAndTextOptions;
-use crate::source::{Episode, SensorReadings, Source};
+use crate::source::{ExportedFlight, SensorReadings, Source};
 use bag::{Bag, Topic};
 use cosfly_diagnose::Result;
 use cosfly_domain::TARGET_INSTANCE;
@@ -50,14 +50,15 @@ impl Format for Ros2 {
             bag.finish()
         })?;
         let body = BODY.replace("SPLIT", source.splits().first().copied().unwrap_or_default());
-        Card { format: "ROS 2", front_matter: "task_categories:\n- robotics\n".into(), body }.write(source, out)?;
+        ExportCard { format: "ROS 2", front_matter: "task_categories:\n- robotics\n".into(), body }
+            .write(source, out)?;
         Ok(vec![])
     }
 }
 
 /// A flight in the frames of ROS.
 struct Recording<'a> {
-    episode: &'a Episode<'a>,
+    episode: &'a ExportedFlight<'a>,
     bodies: &'a [SeenBody],
     /// Places of `base_link` in `map`.
     drone: Vec<Placed>,
@@ -94,7 +95,7 @@ fn time_ns(dt_s: f64, frame: usize) -> u64 {
 }
 
 impl<'a> Recording<'a> {
-    fn of(episode: &'a Episode<'a>, bodies: &'a [SeenBody], sensors: &'a [SensorReadings]) -> Self {
+    fn of(episode: &'a ExportedFlight<'a>, bodies: &'a [SeenBody], sensors: &'a [SensorReadings]) -> Self {
         let mut readings = vec![];
         for (number, (sensor, all)) in sensors.iter().enumerate() {
             let at = |(time_ns, values): &'a (u64, Vec<f64>)| {

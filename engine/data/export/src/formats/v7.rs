@@ -15,10 +15,10 @@ pub mod pictures;
 pub mod reader;
 pub mod short_ids;
 
-use crate::card::Card;
+use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
-use crate::source::{Episode, Source};
+use crate::source::{ExportedFlight, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_plot::text::markdown_code;
 use names::{Names, Place, TownName};
@@ -84,7 +84,13 @@ fn remarks(changed: usize) -> Vec<String> {
     if changed > 0 { vec![remark] } else { Vec::new() }
 }
 
-fn write_trace(episode: &Episode<'_>, place: &Place, ids: &ShortIds, with_debug: bool, out: &OutFolder) -> Result<()> {
+fn write_trace(
+    episode: &ExportedFlight<'_>,
+    place: &Place,
+    ids: &ShortIds,
+    with_debug: bool,
+    out: &OutFolder,
+) -> Result<()> {
     let frames = episode.all_frames();
     let parts = place.ids.len();
     frames.chunks(names::PART_FRAMES).take(parts).enumerate().try_for_each(|(part, frames)| {
@@ -95,7 +101,7 @@ fn write_trace(episode: &Episode<'_>, place: &Place, ids: &ShortIds, with_debug:
 
 /// A trace of some frames of a flight; `frames` are their numbers in the flight.
 fn write_part(
-    episode: &Episode<'_>,
+    episode: &ExportedFlight<'_>,
     place: &Place,
     (frames, ids): (&[usize], &ShortIds),
     with_debug: bool,
@@ -117,13 +123,13 @@ fn write_part(
     )
 }
 
-fn card(names: &Names) -> Card {
+fn card(names: &Names) -> ExportCard {
     let mut body = String::from(BODY);
     body.push_str("\n| folder | town of the dataset |\n| --- | --- |\n");
     for (folder, town) in names.towns() {
         let _ = writeln!(body, "| `{folder}` | {} |", markdown_code(town));
     }
-    Card { format: "v7", front_matter: "tags:\n- drone\n- trajectory\n- synthetic\n".into(), body }
+    ExportCard { format: "v7", front_matter: "tags:\n- drone\n- trajectory\n- synthetic\n".into(), body }
 }
 
 const BODY: &str = "\

@@ -5,13 +5,13 @@ mod goals;
 mod options;
 mod students;
 
-use crate::card::Card;
+use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{ending, picture_path};
 use crate::pixels::{rgb_jpeg, rgb_of, smaller_size};
-use crate::shared_options::Axes;
-use crate::source::{Episode, Source};
+use crate::shared_options::IncrementAxes;
+use crate::source::{ExportedFlight, Source};
 use conversation::{Shown, as_words, conversation};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_images::read::averaged;
@@ -152,7 +152,7 @@ fn registration(name: &str) -> Value {
 
 /// Writes the pictures that windows show; their paths by frame.
 fn write_pictures(
-    episode: &Episode<'_>,
+    episode: &ExportedFlight<'_>,
     options: &Options,
     out: &OutFolder,
     flight: usize,
@@ -187,7 +187,7 @@ fn write_pictures(
     Ok(paths)
 }
 
-fn card<'a>(options: &Options, splits: impl Iterator<Item = &'a str>) -> Card {
+fn card<'a>(options: &Options, splits: impl Iterator<Item = &'a str>) -> ExportCard {
     let mut front_matter =
         String::from("task_categories:\n- image-text-to-text\nconfigs:\n- config_name: default\n  data_files:\n");
     for split in splits {
@@ -195,8 +195,8 @@ fn card<'a>(options: &Options, splits: impl Iterator<Item = &'a str>) -> Card {
     }
     let (shape, input) = (options.window(), options.input.word());
     let frame = match options.increments.frame {
-        Axes::World => "world",
-        Axes::Body => "body",
+        IncrementAxes::World => "world",
+        IncrementAxes::Body => "body",
     };
     let settings = format!(
         "Windows: {} frames of {input} flights, then {} waypoints of the expert, one window every {} frames; increments in the \
@@ -214,7 +214,7 @@ fn card<'a>(options: &Options, splits: impl Iterator<Item = &'a str>) -> Card {
          beyond which it drops the end of the question without a word: set `cutoff_len` for larger ones.\n",
         options.width_px
     );
-    Card { format: "VLM fine-tuning", front_matter, body: settings + BODY + &pictures }
+    ExportCard { format: "VLM fine-tuning", front_matter, body: settings + BODY + &pictures }
 }
 
 const BODY: &str = "\

@@ -1,6 +1,6 @@
 //! WebDataset: shards of samples in tar files, read from front to end.
 
-use crate::card::Card;
+use crate::card::ExportCard;
 use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::ending;
@@ -62,7 +62,7 @@ impl Format for WebDataset {
         for channel in source.channels_on_request()? {
             body.push_str(&format!("| `{}` | {} |\n", part_on_request(channel), channel.doc));
         }
-        Card { format: "WebDataset", front_matter: front_matter(source), body }.write(source, out)?;
+        ExportCard { format: "WebDataset", front_matter: front_matter(source), body }.write(source, out)?;
         Ok(vec![])
     }
 }

@@ -18,7 +18,7 @@ const ORDER: [u8; 64] = [
 const MOST_PIXELS: usize = 1 << 28;
 
 /// A picture in colours.
-pub struct Decoded {
+pub struct DecodedJpeg {
     /// Width and height, pixels.
     pub size: [usize; 2],
     /// Row-major sRGB pixels.
@@ -52,7 +52,7 @@ struct Header {
 
 /// Decodes a file at the smallest fraction (1/8, 1/4, 1/2, 1) that has at least `least` pixels across and down; `None` for
 /// files of other kinds and for damaged ones.
-pub fn decode(file: &[u8], least: [usize; 2]) -> Option<Decoded> {
+pub fn decode(file: &[u8], least: [usize; 2]) -> Option<DecodedJpeg> {
     let (header, selected, start) = read_header(file)?;
     let [width, height] = header.size;
     let scaled = |side: usize| [(width * side).div_ceil(8), (height * side).div_ceil(8)];
@@ -80,7 +80,7 @@ pub fn decode(file: &[u8], least: [usize; 2]) -> Option<Decoded> {
         });
     }
     read_scan(Level::best(), &file[start..], &header, &mut channels, units)?;
-    Some(Decoded { size: scaled(side), rgb: colours(Level::best(), &channels, scaled(side)) })
+    Some(DecodedJpeg { size: scaled(side), rgb: colours(Level::best(), &channels, scaled(side)) })
 }
 
 /// Headers, the Huffman tables of each channel, and the start of the scan.

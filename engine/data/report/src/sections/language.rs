@@ -15,7 +15,7 @@ pub fn section(report: &Report) -> String {
         return String::new();
     }
     let mut html = String::new();
-    for language in Language::ALL {
+    for language in Language::ALL.iter().copied() {
         let own: Vec<&TextSketch> = texts.iter().filter(|text| text.language == language.code()).copied().collect();
         if !own.is_empty() {
             html += &of_language(&own, language);
@@ -33,10 +33,7 @@ pub fn section(report: &Report) -> String {
 
 fn of_language(texts: &[&TextSketch], language: Language) -> String {
     let figures = diversity(texts.iter().map(|text| text.text.as_str()), language);
-    let name = match language {
-        Language::Zh => "Chinese",
-        Language::En => "English",
-    };
+    let name = language.name();
     let mut html = format!("<h3>{name}</h3><dl class=\"tiles\">");
     for (title, value, note) in tiles(texts, &figures) {
         let _ = write!(

@@ -1,6 +1,6 @@
 //! Results of other planners for the same walks.
 
-use crate::model::{Known, PlannerRow, Report};
+use crate::model::{KnownNumber, PlannerRow, Report};
 use cosfly_plot::text::{escaped, percent, short};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -44,7 +44,7 @@ fn table(rows: &[PlannerRow]) -> String {
         let _ = write!(text, "<th scope=\"col\">{head}</th>");
     }
     text.push_str("</tr></thead><tbody>");
-    let known = |value: Known, written: fn(f64) -> String| value.map_or("–".to_owned(), written);
+    let known = |value: KnownNumber, written: fn(f64) -> String| value.map_or("–".to_owned(), written);
     for row in rows {
         let _ = write!(text, "<tr><th scope=\"row\">{}</th>", named(&row.planner));
         for share in [row.visible, row.half_visible] {

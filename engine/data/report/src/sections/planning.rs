@@ -1,6 +1,6 @@
 //! Costs of planning, and limits.
 
-use crate::figures::{Figures, Limits};
+use crate::figures::{Figures, LimitFigures};
 use crate::model::Report;
 use crate::moments::spread;
 use cosfly_plot::convergence::convergence as chart;
@@ -71,7 +71,7 @@ fn limits(figures: &Figures) -> String {
     if experts == 0 {
         return String::new();
     }
-    let Limits { sound, nearest_m, fastest_mps: fastest, jerk_mps3: jerk, broken } = &figures.limits;
+    let LimitFigures { sound, nearest_m, fastest_mps: fastest, jerk_mps3: jerk, broken } = &figures.limits;
     let nearest = nearest_m.unwrap_or(f32::INFINITY);
     let mut text = format!(
         "<h3>Limits</h3><p class=\"big\">{sound} of {}</p><p>experts keep all limits of clearance, speed, acceleration and jerk.</p>\

@@ -25,7 +25,7 @@ const MOST_FOLDERS: usize = 8;
 
 /// Verdict of a filter on a flight.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Verdict {
+pub struct FilterVerdict {
     /// Whether the flight is kept.
     pub keep: bool,
     /// Reason for a rejection.
@@ -36,12 +36,12 @@ pub struct Verdict {
 ///
 /// # Errors
 /// The violated rule, in words.
-pub fn verdict(answer: &[u8], gives: &[DeclaredColumn]) -> Result<Verdict, String> {
+pub fn verdict(answer: &[u8], gives: &[DeclaredColumn]) -> Result<FilterVerdict, String> {
     match <[Values; 2]>::try_from(read_answer(answer, gives, 1..=1)?) {
         Ok([Values::Booleans(keep), Values::Texts(reason)]) => {
             let reason: String = reason[0].chars().take(500).collect();
             let reason = if reason.is_empty() { "no reason is given".to_owned() } else { reason };
-            Ok(Verdict { keep: keep[0], reason })
+            Ok(FilterVerdict { keep: keep[0], reason })
         }
         _ => Err("the columns that it declares are not those of a filter".to_owned()),
     }

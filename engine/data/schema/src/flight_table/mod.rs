@@ -9,6 +9,6 @@ mod offered;
 #[cfg(test)]
 mod tests;
 
-pub use answer::{MOST_FILE_BYTES, MOST_FILES, MOST_ROWS, Verdict, labels, read_answer, verdict};
+pub use answer::{FilterVerdict, MOST_FILE_BYTES, MOST_FILES, MOST_ROWS, labels, read_answer, verdict};
 pub use column::{ColumnKind, DeclaredColumn, Values};
 pub use offered::{ColumnError, FlightColumns, SAMPLE_FRAMES, check_names};

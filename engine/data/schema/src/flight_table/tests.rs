@@ -32,7 +32,7 @@ fn answers_are_read_and_wrong_ones_say_what_is_declared() {
     let reason = Arc::new(StringArray::from(vec!["too low"]));
     let gives = declared(&[("keep", ColumnKind::Boolean), ("reason", ColumnKind::Text)]);
     let good = stream(vec![("keep", keep.clone()), ("reason", reason.clone())]);
-    assert_eq!(verdict(&good, &gives), Ok(Verdict { keep: false, reason: "too low".into() }));
+    assert_eq!(verdict(&good, &gives), Ok(FilterVerdict { keep: false, reason: "too low".into() }));
     assert!(verdict(&stream(vec![("keep", keep.clone())]), &gives).unwrap_err().contains("no column `reason` (text)"));
     let more = stream(vec![("keep", keep.clone()), ("reason", reason.clone()), ("colour", reason.clone())]);
     assert!(verdict(&more, &gives).unwrap_err().contains("`colour` that it does not declare"));

@@ -41,7 +41,7 @@ pub use target_losses::TargetLosses;
 pub use trajectories::{Trajectories, WEATHER_NUMBERS, WeatherNumber};
 pub use value::{Edges, ImageFile, Kind, Value};
 pub use waypoints::Waypoints;
-pub use windows::{DIFFICULTIES, SCENES, Scene, Windows};
+pub use windows::{DIFFICULTIES, SCENES, SceneMembership, Windows};
 
 /// Tables over the trajectories, in the order of the card.
 pub fn of_trajectories() -> Vec<Table<DatasetItem>> {

@@ -12,7 +12,7 @@ use std::ops::Range;
 
 /// Whether the town is part of the training data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scene {
+pub enum SceneMembership {
     /// Split `train` has trajectories in the same town.
     Seen,
     /// Split `train` has none.
@@ -24,7 +24,7 @@ pub const SCENES: [&str; 2] = ["seen", "unseen"];
 /// Class labels of difficulties.
 pub const DIFFICULTIES: [&str; 3] = ["easy", "medium", "hard"];
 
-class_value!(Scene, [Scene::Seen, Scene::Unseen], SCENES);
+class_value!(SceneMembership, [SceneMembership::Seen, SceneMembership::Unseen], SCENES);
 class_value!(Difficulty, [Difficulty::Easy, Difficulty::Medium, Difficulty::Hard], DIFFICULTIES);
 
 /// Increment from one pose to another.
@@ -71,7 +71,7 @@ columns! { Windows::COLUMNS of DatasetItem;
     subset_rank: f64 = |item, _| item.membership.subset_rank;
 
     /// Seen: split `train` of this dataset has trajectories in the same town, by the town's ground plan.
-    scene: Scene = |item, _| scene_of(item);
+    scene: SceneMembership = |item, _| scene_of(item);
     /// Hard: a turn of at least 90 degrees, a height change of at least 2.5 m, at least half of the frames occluded, or
     /// at least 4 m/s; easy: below 30 degrees, 0.5 m, 5 % and 2 m/s.
     difficulty: Difficulty = |item, row| features(item, frames(item, row)).difficulty();
@@ -199,8 +199,8 @@ pub fn all_features(item: &DatasetItem) -> Vec<WindowFeatures> {
 }
 
 /// Whether the town of a trajectory is part of the training data.
-pub fn scene_of(item: &DatasetItem) -> Scene {
-    if item.membership.is_seen { Scene::Seen } else { Scene::Unseen }
+pub fn scene_of(item: &DatasetItem) -> SceneMembership {
+    if item.membership.is_seen { SceneMembership::Seen } else { SceneMembership::Unseen }
 }
 
 fn input_steps(item: &DatasetItem, row: usize, step: Step) -> Vec<f32> {

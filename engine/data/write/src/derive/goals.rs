@@ -2,7 +2,7 @@
 
 use super::phrases::is_clear;
 use cosfly_captions::Wear;
-use cosfly_captions::goals::{Course, Flight, Goal, Grain, Hidden, Hider, Neighbour, Sample, goals};
+use cosfly_captions::goals::{Course, CourseData, Goal, Grain, Hidden, Hider, Neighbour, Sample, goals};
 use cosfly_captions::sight::Landmarks;
 use cosfly_domain::{BodyKind, Outfit, TARGET_INSTANCE, object_instance};
 use cosfly_frames::{DVec3, Seed};
@@ -42,14 +42,19 @@ pub fn row(goal: &Goal) -> GoalRow {
     }
 }
 
-fn flight<'a>(record: &'a RenderedTrajectory, outfit: &Outfit, losses: &[Loss], landmarks: &Landmarks) -> Flight<'a> {
+fn flight<'a>(
+    record: &'a RenderedTrajectory,
+    outfit: &Outfit,
+    losses: &[Loss],
+    landmarks: &Landmarks,
+) -> CourseData<'a> {
     let mut hidden: Vec<Hidden> = losses.iter().map(|loss| whole(record, loss)).collect();
     hidden.extend(partly(record));
     hidden.sort_by_key(|it| it.frames.start);
     let mut ids: Vec<u32> = hidden.iter().filter_map(|it| it.behind).collect();
     ids.sort_unstable();
     ids.dedup();
-    Flight {
+    CourseData {
         dt_s: record.dt_s(),
         states: &record.trajectory.track.states,
         distance_m: (0..record.len()).map(|frame| record.distance_m(frame)).collect(),

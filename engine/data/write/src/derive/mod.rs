@@ -7,10 +7,10 @@ mod sight;
 use cosfly_captions::Language;
 use cosfly_captions::sight::Landmarks;
 use cosfly_frames::DVec3;
-use cosfly_windows::WindowShape;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::losses::Loss;
 use cosfly_schema::tables::{BodyRow, CrossingRow, Derived};
+use cosfly_windows::WindowShape;
 use phrases::Given;
 
 /// A crossing whose box is this near to the target's way is around it, metres.

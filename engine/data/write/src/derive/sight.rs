@@ -1,6 +1,6 @@
 //! Instructions of windows: what the last picture of the input shows of the target.
 
-use cosfly_captions::sight::{self, Landmarks, Person, View};
+use cosfly_captions::sight::{self, Landmarks, SeenPerson, WindowView};
 use cosfly_captions::{Language, Wear};
 use cosfly_domain::{BodyKind, Colour, PixelBox};
 use cosfly_frames::{Seed, TargetState};
@@ -21,7 +21,7 @@ pub fn instruction(
 }
 
 /// The picture of frame `frame`; `None` for a target that is no person.
-fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<View> {
+fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<WindowView> {
     let outfit = record.outfit.as_ref().filter(|_| record.target_kind() == Some(BodyKind::Pedestrian))?;
     let states = &record.trajectory.track.states;
     let seen = &record.views[frame];
@@ -31,7 +31,7 @@ fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<View>
         let pixels = if body.plan.kind.is_person() { view.pixels } else { 0 };
         self::person(&sighting.state, Some(&view.visible_box), pixels, body.outfit.top.name)
     };
-    Some(View {
+    Some(WindowView {
         camera: record.camera_pose(frame),
         optics: record.camera,
         target: person(&states[frame], seen.visible_box.as_ref(), seen.pixels, outfit.top.name),
@@ -46,8 +46,8 @@ fn is_somebody(kind: BodyKind) -> bool {
     kind.row().is_dressed
 }
 
-fn person(state: &TargetState, visible_box: Option<&PixelBox>, pixels: u32, top: Colour) -> Person {
-    Person {
+fn person(state: &TargetState, visible_box: Option<&PixelBox>, pixels: u32, top: Colour) -> SeenPerson {
+    SeenPerson {
         feet_in_world: state.feet_in_world,
         heading_rad: state.heading_rad,
         speed_mps: state.speed_mps,

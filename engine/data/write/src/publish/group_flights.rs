@@ -4,10 +4,10 @@ use super::plan::GroupPlan;
 use super::source::{GroupSource, PublishedLog};
 use crate::derive::derive;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_windows::WindowShape;
 use cosfly_schema::config::DatasetConfig;
 use cosfly_schema::tables::DatasetItem;
 use cosfly_schema::{RenderedTrajectory, TownLayout};
+use cosfly_windows::WindowShape;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

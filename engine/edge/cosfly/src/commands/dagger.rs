@@ -12,7 +12,7 @@ use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_env::EnvironmentSettings;
 use cosfly_fly::dagger::difference::told;
 use cosfly_fly::dagger::folder::{LabelCard, LabelFolder, RoundCard};
-use cosfly_fly::dagger::rollout::Mixture;
+use cosfly_fly::dagger::rollout::PolicyMixture;
 use cosfly_fly::dagger::run::{Round, run};
 use cosfly_fly::flight::Latency;
 use cosfly_fly::pilot::{ActionKind, Place};
@@ -122,7 +122,7 @@ impl Command for Arguments {
         let onto = self.onto.as_deref().map(LabelFolder::card).transpose()?;
         let card = self.card(&suite, &settings, &place, name, onto.as_ref())?;
         let folder = LabelFolder::open(out, &card, self.onto.as_deref())?;
-        let mixture = Mixture { by_expert: self.expert_share, seed: Seed::of_item(recipe.seed, "dagger", name) };
+        let mixture = PolicyMixture { by_expert: self.expert_share, seed: Seed::of_item(recipe.seed, "dagger", name) };
         let cancelled = console.cancelled();
         let policy = self.name.clone().unwrap_or_else(|| place.name());
         let (recipe, store, suite, place, manners) = (&recipe, &store, &suite, &place, &manners);

@@ -12,9 +12,9 @@ use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_evaluate::pictures::{self, PictureKind, PictureSettings};
 use cosfly_evaluate::windows::Flights;
 use cosfly_evaluate::{Evaluation, Settings, evaluate, name_of};
-use cosfly_windows::WindowShape;
 use cosfly_read::PublishedDataset;
 use cosfly_read::predictions;
+use cosfly_windows::WindowShape;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 

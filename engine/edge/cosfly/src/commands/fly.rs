@@ -18,7 +18,7 @@ use cosfly_env::{DroneSettings, EnvironmentSettings, MOST_LATENCY_MS, MOST_WIND_
 use cosfly_fly::flight::Latency;
 use cosfly_fly::pilot::Place;
 use cosfly_fly::results::{Card, EnvironmentCard, Folder, KeptCard, LogChoice, SuiteCard, beside};
-use cosfly_fly::run::{Order, Shard, run};
+use cosfly_fly::run::{EpisodeShare, Order, run};
 use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::Suite;
 use cosfly_runner::RunOptions;
@@ -78,7 +78,7 @@ pub struct Arguments {
     jobs: Option<u16>,
     /// Fly a share of the episodes, such as 1/4; once the folder has all, the tables are written
     #[arg(long, value_name = "I/N", value_parser = shard, default_value = "1/1")]
-    shard: Shard,
+    shard: EpisodeShare,
     /// Simulated time from an observation to the effect of the action that answers it; the world moves on meanwhile
     /// (`measured`: as long as the policy really takes; then rows and logs differ from run to run) [default: that of the suite, else 0]
     #[arg(long, value_name = "MS", value_parser = latency)]
@@ -168,11 +168,11 @@ pub fn folder_name(text: &str) -> Result<String, String> {
     if fits { Ok(text.to_owned()) } else { Err("letters, digits, `-`, `_` and `.` are allowed".to_owned()) }
 }
 
-fn shard(text: &str) -> Result<Shard, String> {
+fn shard(text: &str) -> Result<EpisodeShare, String> {
     let number = |text: &str| text.parse::<usize>().ok();
     let parts = text.split_once('/').and_then(|(index, of)| Some((number(index)?, number(of)?)));
     match parts {
-        Some((index, of)) if index >= 1 && index <= of => Ok(Shard { index: index - 1, of }),
+        Some((index, of)) if index >= 1 && index <= of => Ok(EpisodeShare { index: index - 1, of }),
         _ => Err("it must be like 1/4: a number from 1 on, and the number of shares".to_owned()),
     }
 }

@@ -5,7 +5,7 @@ use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
 use clap::{Parser, ValueEnum};
-use cosfly_recipe::Format;
+use cosfly_recipe::DrawingFormat;
 
 /// Print the DAG as a Mermaid or DOT drawing
 #[derive(Debug, Parser)]
@@ -31,8 +31,8 @@ impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let recipe = self.recipe.load(console)?;
         let format = match self.format {
-            GraphFormat::Mermaid => Format::Mermaid,
-            GraphFormat::Dot => Format::Dot,
+            GraphFormat::Mermaid => DrawingFormat::Mermaid,
+            GraphFormat::Dot => DrawingFormat::Dot,
         };
         console.print(&cosfly_recipe::graph(&recipe, format))?;
         Ok(exit::SUCCESS)

@@ -7,7 +7,7 @@ use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_experts::plugins::config::Makes;
 use cosfly_experts::plugins::{host, tables};
-use cosfly_plugin_host::laws::{self, Finding};
+use cosfly_plugin_host::laws::{self, LawFinding};
 use cosfly_plugin_host::{
     Declaration, Effect, Effort, Kind, NoTown, Plugin, PluginError, PluginTerm, check_schema, with_defaults,
 };
@@ -61,7 +61,7 @@ fn check(arguments: &Arguments, console: &dyn Console) -> Outcome {
         Kind::Objective => laws::check_objective(&plugin, &params).map_err(one)?,
         Kind::Stage => laws::check_stage(&plugin, &params, &encode_sample(&plugin), &read_answer).map_err(one)?,
     };
-    for Finding { law, words, holds } in &findings {
+    for LawFinding { law, words, holds } in &findings {
         let _ = writeln!(text, "{} {law}: {words}", if *holds { "holds " } else { "BROKEN" });
     }
     if plugin.kind == Kind::CostTerm {

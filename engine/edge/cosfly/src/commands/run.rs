@@ -10,7 +10,7 @@ use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::Recipe;
-use cosfly_runner::{Delivery, Origin, Rejection, RunOptions, RunOutcome, RunSummary, deliver};
+use cosfly_runner::{Delivery, RejectionOrigin, RejectionReason, RunOptions, RunOutcome, RunSummary, deliver};
 use cosfly_stage::{ItemId, StageName, StageRole};
 use cosfly_store::check_out_folder;
 use std::fmt::Write;
@@ -162,8 +162,9 @@ fn stages(run: &RunSummary) -> String {
         }
     }
     // A rejection is inherited by everything that is made of the item: it is told once, where it began.
-    let rejected: Vec<(ItemId, Rejection)> = run.rejections().filter(|(_, it)| it.origin == Origin::Own).collect();
-    for (id, Rejection { reason, .. }) in rejected.iter().take(MOST_REJECTIONS) {
+    let rejected: Vec<(ItemId, RejectionReason)> =
+        run.rejections().filter(|(_, it)| it.origin == RejectionOrigin::Own).collect();
+    for (id, RejectionReason { reason, .. }) in rejected.iter().take(MOST_REJECTIONS) {
         let _ = writeln!(text, "rejected: {id}: {reason}");
     }
     if rejected.len() > MOST_REJECTIONS {
@@ -244,7 +245,7 @@ fn json(recipe: &Recipe, delivery: &Delivery, out: &Path) -> String {
         .collect();
     let rejected: Vec<serde_json::Value> = run
         .rejections()
-        .map(|(ItemId { stage, item }, Rejection { reason, .. })| {
+        .map(|(ItemId { stage, item }, RejectionReason { reason, .. })| {
             serde_json::json!({ "stage": stage.as_str(), "item": item.to_string(), "reason": reason })
         })
         .collect();

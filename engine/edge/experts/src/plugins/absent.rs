@@ -1,6 +1,6 @@
 //! In place of the host, in a build without plugins: every use is refused when the recipe is read.
 
-use super::Role;
+use super::PluginRole;
 use super::config::{ExpertPlugins, Makes, Setting};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_flight::{DrawnReference, NoPlugins, OpenTerms, World};
@@ -18,11 +18,11 @@ fn refused(file: &str) -> Box<Diagnostic> {
 }
 
 /// A source that is refused.
-pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
+pub fn source(parameter: &str, role: PluginRole, setting: &Setting) -> Source {
     let file = setting.file.clone();
     let read = move |_: &std::path::Path| Err(refused(&file));
     Source {
-        parameter: if matches!(role, Role::Stage(_)) { "file".to_owned() } else { format!("{parameter}.use") },
+        parameter: if matches!(role, PluginRole::Stage(_)) { "file".to_owned() } else { format!("{parameter}.use") },
         path: PathBuf::from(&setting.file),
         check: Some(SourceCheck { describes: "params".to_owned(), read: Arc::new(read), settle: None }),
     }
@@ -126,7 +126,7 @@ impl Plugins {
     }
 }
 
-impl cosfly_flight::Plugins for Plugins {
+impl cosfly_flight::FlightPlugins for Plugins {
     fn open_terms(&self, world: &Arc<World>, seed: Seed) -> Result<OpenTerms> {
         NoPlugins.open_terms(world, seed)
     }

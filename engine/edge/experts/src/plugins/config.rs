@@ -43,7 +43,7 @@ pub struct TermPlugin {
     pub params: Map<String, Value>,
     /// Limits: memory, time, instructions.
     #[serde(default)]
-    pub limits: PluginLimits,
+    pub limits: PluginLimitConfig,
     /// SHA-256 of the file; another file is refused. Not checked when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
@@ -67,7 +67,7 @@ pub struct ObjectivePlugin {
     pub params: Map<String, Value>,
     /// Limits: memory, time, instructions.
     #[serde(default)]
-    pub limits: PluginLimits,
+    pub limits: PluginLimitConfig,
     /// SHA-256 of the file; another file is refused. Not checked when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
@@ -85,7 +85,7 @@ pub struct StagePlugin {
     pub params: Map<String, Value>,
     /// Limits: memory, time, instructions.
     #[serde(default)]
-    pub limits: PluginLimits,
+    pub limits: PluginLimitConfig,
     /// SHA-256 of the file; another file is refused. Not checked when left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(regex(pattern = "^[0-9a-f]{64}$"))]
@@ -110,7 +110,7 @@ pub enum Makes {
 /// Limits of a plugin: memory, time, instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct PluginLimits {
+pub struct PluginLimitConfig {
     /// Most memory, MiB. Default 64.
     #[schemars(range(min = 1, max = 4096))]
     pub memory_mib: u32,
@@ -132,7 +132,7 @@ fn one_flight() -> u64 {
     1
 }
 
-impl Default for PluginLimits {
+impl Default for PluginLimitConfig {
     fn default() -> Self {
         Self { memory_mib: 64, call_ms: 1000, fuel: 0 }
     }
@@ -146,7 +146,7 @@ pub struct Setting {
     /// Its parameters.
     pub params: Map<String, Value>,
     /// Limits: memory, time, instructions.
-    pub limits: PluginLimits,
+    pub limits: PluginLimitConfig,
     /// SHA-256 of the file, if it is to be checked.
     pub sha256: Option<String>,
 }

@@ -21,7 +21,7 @@ pub use cosfly_plugin_host::{Answered, Column, Declaration, Effect, ValueKind};
 
 /// Role of a plugin in a recipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
+pub enum PluginRole {
     /// A cost term.
     Term,
     /// An objective.

@@ -1,7 +1,7 @@
 //! Plugins at work: those of a stage are loaded once, and opened again for every item.
 
 use super::config::{ExpertPlugins, Makes, Setting};
-use super::{Role, tables};
+use super::{PluginRole, tables};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_flight::{DrawnReference, OpenTerms, World};
@@ -35,7 +35,7 @@ pub fn host() -> &'static Host {
 
 /// File of a plugin as a source of a stage: it is loaded when the recipe is read, and describes its `params`.
 /// `parameter` is the parameter that names it; empty for the stage itself.
-pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
+pub fn source(parameter: &str, role: PluginRole, setting: &Setting) -> Source {
     let under = |key: &str| if parameter.is_empty() { key.to_owned() } else { format!("{parameter}.{key}") };
     let known = setting.clone();
     let read = move |path: &Path| {
@@ -44,8 +44,8 @@ pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
             .map_err(|message| PluginError::failed(&known.file, "describe", message).diagnostic(None))
     };
     let makes = match role {
-        Role::Stage(makes) => Some(makes),
-        Role::Term | Role::Objective => None,
+        PluginRole::Stage(makes) => Some(makes),
+        PluginRole::Term | PluginRole::Objective => None,
     };
     let known = setting.clone();
     let settle = makes.map(|makes| -> Arc<Settle> {
@@ -64,18 +64,18 @@ pub fn source(parameter: &str, role: Role, setting: &Setting) -> Source {
 }
 
 /// A declaration that does not fit, as a failure of `configure`, which returned it.
-fn misfit(plugin: &Plugin, checked: Result<(), tables::Refusal>) -> Result<(), PluginError> {
+fn misfit(plugin: &Plugin, checked: Result<(), tables::PluginRefusal>) -> Result<(), PluginError> {
     checked.map_err(|(message, hint)| {
         let failed = PluginError::failed(&plugin.shown, "configure", message);
         hint.into_iter().fold(failed, PluginError::hint)
     })
 }
 
-fn load(setting: &Setting, role: Role, path: &Path) -> Result<Plugin, PluginError> {
+fn load(setting: &Setting, role: PluginRole, path: &Path) -> Result<Plugin, PluginError> {
     let kind = match role {
-        Role::Term => Kind::CostTerm,
-        Role::Objective => Kind::Objective,
-        Role::Stage(_) => Kind::Stage,
+        PluginRole::Term => Kind::CostTerm,
+        PluginRole::Objective => Kind::Objective,
+        PluginRole::Stage(_) => Kind::Stage,
     };
     let (memory_mib, call_ms, fuel) = (setting.limits.memory_mib, setting.limits.call_ms, setting.limits.fuel);
     let plugin = host().load(path, &setting.file, Some(kind), PluginLimits { memory_mib, call_ms, fuel })?;
@@ -98,7 +98,7 @@ struct Ready {
     params: String,
 }
 
-fn ready(setting: &Setting, role: Role, path: Option<&PathBuf>) -> Result<Ready> {
+fn ready(setting: &Setting, role: PluginRole, path: Option<&PathBuf>) -> Result<Ready> {
     let path = path.ok_or_else(|| {
         Diagnostic::new("plugin-source", Fault::Bug, format!("plugin `{}` is no source of its stage", setting.file))
     })?;
@@ -126,7 +126,7 @@ impl Plugins {
     pub fn of_expert(config: &ExpertPlugins, paths: &[PathBuf]) -> Result<Self> {
         let mut plugins = Self::default();
         for (index, term) in config.terms.iter().enumerate() {
-            let ready = ready(&term.setting(), Role::Term, paths.get(index))?;
+            let ready = ready(&term.setting(), PluginRole::Term, paths.get(index))?;
             let name = term.name.clone().unwrap_or_else(|| ready.plugin.metadata.name.clone());
             if plugins.terms.iter().any(|(_, known, _)| *known == name) || is_built_in(&name) {
                 let message = format!("`terms.{index}` is called `{name}`, and so is another cost term");
@@ -136,7 +136,7 @@ impl Plugins {
             plugins.terms.push((ready, name, term.weight));
         }
         if let Some(objective) = &config.plugin {
-            plugins.other = Some(ready(&objective.setting(), Role::Objective, paths.get(config.terms.len()))?);
+            plugins.other = Some(ready(&objective.setting(), PluginRole::Objective, paths.get(config.terms.len()))?);
         }
         Ok(plugins)
     }
@@ -146,7 +146,7 @@ impl Plugins {
     /// # Errors
     /// A file that is not such a plugin.
     pub fn of_stage(setting: &Setting, paths: &[PathBuf]) -> Result<Self> {
-        Ok(Self { other: Some(ready(setting, Role::Stage(Makes::default()), paths.first())?), ..Self::default() })
+        Ok(Self { other: Some(ready(setting, PluginRole::Stage(Makes::default()), paths.first())?), ..Self::default() })
     }
 
     /// Plugins for the item `item`.
@@ -186,7 +186,7 @@ impl Plugins {
     }
 }
 
-impl cosfly_flight::Plugins for Plugins {
+impl cosfly_flight::FlightPlugins for Plugins {
     fn open_terms(&self, world: &Arc<World>, seed: Seed) -> Result<OpenTerms> {
         let (mut terms, mut began) = (vec![], vec![]);
         for (ready, name, weight) in &self.terms {

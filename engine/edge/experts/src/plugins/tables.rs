@@ -6,7 +6,7 @@ use cosfly_schema::extras::{self, ExtraShape, ExtraSource};
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, check_names};
 
 /// Message and hint of a refusal.
-pub type Refusal = (String, Option<String>);
+pub type PluginRefusal = (String, Option<String>);
 
 /// Columns of a declaration in the form of datasets.
 pub fn columns(declared: &[Column]) -> Vec<DeclaredColumn> {
@@ -29,7 +29,7 @@ pub fn columns(declared: &[Column]) -> Vec<DeclaredColumn> {
 ///
 /// # Errors
 /// Parts of the declaration that do not fit.
-pub fn check(declared: &Declaration, makes: Makes) -> Result<(), Refusal> {
+pub fn check(declared: &Declaration, makes: Makes) -> Result<(), PluginRefusal> {
     let of_flights = matches!(declared.effect, Effect::Filter | Effect::Label);
     match makes {
         Makes::Flights if !of_flights => {

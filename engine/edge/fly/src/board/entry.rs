@@ -1,7 +1,7 @@
 //! [`Entry`]: a bundle on a board. [`Found`]: its files, as they lie in a folder.
 
 use super::notes::Notes;
-use super::sees::Sees;
+use super::sees::PolicySees;
 use crate::bundle::MOST_BYTES;
 use crate::flight::Row;
 use crate::results::{Card, SuiteCard};
@@ -61,7 +61,7 @@ pub struct Entry {
     /// What its maker says of it.
     pub notes: Notes,
     /// What the policy sees.
-    pub sees: Sees,
+    pub sees: PolicySees,
     /// What it proves.
     pub proof: Proof,
     /// Its worst episode as a drawing (SVG).

@@ -1,7 +1,7 @@
 //! [`judge`]: flies the entries of a folder again, but for those whose outcome is known.
 
 use super::entry::{Entry, Found, Proof, names};
-use super::sees::Sees;
+use super::sees::PolicySees;
 use super::sketch::sketch;
 use super::standing::{Board, Refused};
 use crate::again::{Again, by_record};
@@ -178,7 +178,7 @@ impl Bench<'_> {
         let suite = SuiteCard::of(suite);
         let Kept { card, rows, differ, clip, rerun } = kept;
         let shown = rerun.as_ref().filter(|rerun| rerun.differ.is_empty()).map(|rerun| rerun.sees.as_slice());
-        let sees = Sees::of(&card, &notes, &rows, shown)?;
+        let sees = PolicySees::of(&card, &notes, &rows, shown)?;
         let proof = match rerun {
             _ if !differ.is_empty() => Proof::Claimed(differ),
             Some(rerun) if rerun.differ.is_empty() => Proof::Rerun,

@@ -17,6 +17,6 @@ pub use entry::{Entry, Proof};
 pub use judge::{Bench, Offer, judge};
 pub use notes::Notes;
 pub use page::page;
-pub use sees::Sees;
+pub use sees::PolicySees;
 pub use standing::{Board, Class, Contest, Refused, Standing};
 pub use table::{json, told};

@@ -2,7 +2,7 @@
 
 use super::standing::{Board, Contest, Refused, Standing};
 use super::table::differing;
-use crate::results::{METRICS, Metric, Summary, cell, ending, worst};
+use crate::results::{METRICS, Metric, MetricSummary, cell, ending, worst};
 use cosfly_plot::text::escaped;
 use cosfly_report::{Section, document};
 use std::fmt::Write as _;
@@ -133,7 +133,7 @@ fn line(standing: &Standing) -> String {
         entry.proof.word(),
         escaped(&entry.sees.words)
     );
-    let plain = |at: usize| Summary { interval: None, ..standing.scores[at] };
+    let plain = |at: usize| MetricSummary { interval: None, ..standing.scores[at] };
     columns().for_each(|(at, metric)| _ = write!(html, "<td>{}</td>", cell(metric, &plain(at))));
     let _ = write!(
         html,
@@ -221,7 +221,7 @@ fn words() -> String {
      <p><b>Re-flown</b>: the recorded actions were flown again here and came to the same rows, byte for byte. So \
      these actions give these scores. It does not prove who gave the actions, or what they saw: a rank is one of actions.</p>\
      <p><b>Claimed</b>: the actions came to other rows here, so that the scores are a claim.</p>\
-     <p><b>Sees</b>: what the maker of the entry says, or else all that the policy was sent. An entry that flies the expert&#39;s \
+     <p><b>PolicySees</b>: what the maker of the entry says, or else all that the policy was sent. An entry that flies the expert&#39;s \
      flight counts as one that knows the world, whatever it says.</p></div>"
         .to_owned()
 }

@@ -1,4 +1,4 @@
-//! [`Sees`]: what a policy sees, as far as an entry tells.
+//! [`PolicySees`]: what a policy sees, as far as an entry tells.
 
 use super::notes::Notes;
 use crate::flight::Row;
@@ -9,14 +9,14 @@ const EXPERT_M: f64 = 1.0;
 
 /// What a policy sees, as far as an entry tells.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Sees {
+pub struct PolicySees {
     /// Whether it knows the world: the whole walk, the expert's flight.
     pub world: bool,
     /// In words.
     pub words: String,
 }
 
-impl Sees {
+impl PolicySees {
     /// What the card, the notes and the flights of an entry tell; `shown` is what its policy saw where it was run again.
     ///
     /// # Errors

@@ -1,9 +1,9 @@
 //! [`Board`]: entries by what they flew, ranked within what was verified.
 
 use super::entry::{Entry, Proof};
-use crate::compare::{Difference, difference, pairs};
+use crate::compare::{MetricDifference, difference, pairs};
 use crate::flight::Row;
-use crate::results::{METRICS, SuiteCard, Summary, strata, summary};
+use crate::results::{METRICS, MetricSummary, SuiteCard, strata, summary};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -61,9 +61,9 @@ pub struct Standing {
     /// Rank among the entries that it is listed with; equal rates have equal ranks.
     pub rank: Option<usize>,
     /// Metrics, in the order of `METRICS`.
-    pub scores: Vec<Summary>,
+    pub scores: Vec<MetricSummary>,
     /// Tracking rate, minus that of the first that it is listed with, over pairs of episodes.
-    pub behind: Option<Difference>,
+    pub behind: Option<MetricDifference>,
     /// Mean tracking rate by group of episodes.
     pub groups: Vec<(String, f64)>,
 }

@@ -1,7 +1,7 @@
 //! [`LabelFolder`]: a version of the labels: `card.json`, `rounds/ROUND/EPISODE.jsonl`, and arrays over all of them.
 
 use super::npy;
-use super::rollout::{Label, Rollout};
+use super::rollout::{ExpertLabel, Rollout};
 use crate::results::{EnvironmentCard, PolicyCard, SuiteCard, differences};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
@@ -172,7 +172,7 @@ impl LabelFolder {
     /// Errors of the file system.
     pub fn keep(&self, round: &str, episode: &str, rollout: &Rollout) -> Result<()> {
         self.make()?;
-        let line = |label: &Label| serde_json::to_string(label).unwrap_or_default() + "\n";
+        let line = |label: &ExpertLabel| serde_json::to_string(label).unwrap_or_default() + "\n";
         let text: String = rollout.labels.iter().map(line).collect();
         self.write(&format!("rounds/{round}/{episode}.jsonl"), text.as_bytes())
     }
@@ -192,7 +192,7 @@ impl LabelFolder {
                 let text = std::fs::read_to_string(&path).map_err(|error| failed("read", &path, &error))?;
                 listed.push_str(&format!("{episode} {}\n", Digest::of(text.as_bytes())));
                 for line in text.lines() {
-                    let label = serde_json::from_str::<Label>(line).map_err(|error| {
+                    let label = serde_json::from_str::<ExpertLabel>(line).map_err(|error| {
                         let message = format!("`{}` is damaged", path.display());
                         Diagnostic::new("dagger-version", Fault::Input, message).because(error.to_string())
                     })?;

@@ -2,10 +2,10 @@
 
 use crate::experts::{KnownFlight, LOOK_AHEAD_S};
 use crate::pilot::{Asked, Failure, Pilot};
-use crate::suite::Task;
+use crate::suite::EpisodeTask;
 use cosfly_diagnose::Result;
 use cosfly_domain::PlanOutcome;
-use cosfly_env::policies::Plan;
+use cosfly_env::policies::FollowedPlan;
 use cosfly_env::{Action, Environment, EnvironmentSettings, FEATURES};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_planner::StartState;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// A state and what the expert would do in it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Label {
+pub struct ExpertLabel {
     /// Steps since the beginning of the episode.
     pub step: u32,
     /// Time since the beginning of the episode, seconds.
@@ -39,7 +39,7 @@ pub struct Label {
 #[derive(Clone, Debug, Default)]
 pub struct Rollout {
     /// One per step.
-    pub labels: Vec<Label>,
+    pub labels: Vec<ExpertLabel>,
     /// States from which the expert was asked for its way on, once per frame of the dataset.
     pub asked: u32,
     /// Reason why the policy ended the episode.
@@ -48,7 +48,7 @@ pub struct Rollout {
 
 /// The share of frames that the expert flies, and the seed that chooses them.
 #[derive(Clone, Copy, Debug)]
-pub struct Mixture {
+pub struct PolicyMixture {
     /// Share, 0..=1.
     pub by_expert: f64,
     /// Seed.
@@ -70,10 +70,10 @@ pub enum Attempt {
 /// # Errors
 /// Errors of the expert.
 pub fn rollout(
-    task: &Task,
+    task: &EpisodeTask,
     known: &KnownFlight,
     settings: EnvironmentSettings,
-    mixture: &Mixture,
+    mixture: &PolicyMixture,
     pilot: &mut Asked<'_>,
 ) -> Result<Attempt> {
     let mut environment = Environment::new(Arc::clone(&task.episode), settings);
@@ -104,7 +104,7 @@ pub fn rollout(
         };
         let flown = expert.filter(|_| by_expert).map_or(own, |(action, _)| action);
         let numbers = |action: &Action| action.numbers(observation.yaw_rad).map(|number| number as f32);
-        rollout.labels.push(Label {
+        rollout.labels.push(ExpertLabel {
             step: observation.step,
             time_s: observation.time_s,
             state: observation.features().map(|number| number as f32),
@@ -120,7 +120,7 @@ pub fn rollout(
 }
 
 /// The expert's way on from the present state, as `ask-expert` gives it, and its mean visibility.
-fn way_on(environment: &Environment, known: &KnownFlight, frame: usize) -> Result<Option<(Plan, f64)>> {
+fn way_on(environment: &Environment, known: &KnownFlight, frame: usize) -> Result<Option<(FollowedPlan, f64)>> {
     let track = &known.flight.mission.track;
     if frame + 1 >= track.states.len() {
         return Ok(None);
@@ -131,11 +131,11 @@ fn way_on(environment: &Environment, known: &KnownFlight, frame: usize) -> Resul
     let outcome = known.flight.plan_from(&known.world, frame, frames, start, &known.flown)?;
     let PlanOutcome::Planned(flight) = outcome else { return Ok(None) };
     let waypoints: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
-    let plan = Plan::through(&waypoints, frame as f64 * track.dt_s, track.dt_s);
+    let plan = FollowedPlan::through(&waypoints, frame as f64 * track.dt_s, track.dt_s);
     Ok(Some((plan, flight.certificate.mean_visibility)))
 }
 
-fn expert_action(environment: &Environment, plan: &Plan) -> Action {
+fn expert_action(environment: &Environment, plan: &FollowedPlan) -> Action {
     let episode = environment.episode();
     let next_s = environment.observation().time_s + environment.settings().step_s;
     let action = plan.action(environment, aim_point(&episode.target_at(next_s), episode.target.height_m));

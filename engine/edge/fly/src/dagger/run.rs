@@ -1,8 +1,8 @@
 //! A round: all episodes of a suite, flown and labelled on several threads; episodes that are in the folder are kept.
 
 use super::folder::LabelFolder;
-use super::rollout::{Attempt, Mixture, rollout};
-use crate::crew::{Shifts, Step, crew};
+use super::rollout::{Attempt, PolicyMixture, rollout};
+use crate::crew::{EpisodeOutcome, Shifts, crew};
 use crate::experts::Experts;
 use crate::pilot::{Asked, FirstAnswer, Manners, Place};
 use crate::suite::Suite;
@@ -29,7 +29,7 @@ pub struct Round<'a> {
     /// Settings of the environment.
     pub settings: EnvironmentSettings,
     /// Who flies.
-    pub mixture: Mixture,
+    pub mixture: PolicyMixture,
     /// Name of the round.
     pub name: &'a str,
     /// Name of the policy.
@@ -42,7 +42,7 @@ pub struct Round<'a> {
 
 /// Outcome of a round.
 #[derive(Debug, Default)]
-pub struct Flown {
+pub struct RoundOutcome {
     /// Episodes flown by this call.
     pub episodes: usize,
     /// States from which the expert was asked for its way on.
@@ -57,7 +57,7 @@ pub struct Flown {
 ///
 /// # Errors
 /// Errors of the expert and of the file system; `fly-stopped`.
-pub fn run(round: &Round<'_>, folder: &LabelFolder, progress: &dyn Fn(u64, u64)) -> Result<Flown> {
+pub fn run(round: &Round<'_>, folder: &LabelFolder, progress: &dyn Fn(u64, u64)) -> Result<RoundOutcome> {
     let tasks = &round.suite.tasks;
     let due: Vec<usize> = (0..tasks.len()).filter(|at| !folder.has(round.name, &tasks[*at].episode.name)).collect();
     let (first, all, asked) = (FirstAnswer::default(), due.len(), AtomicU64::new(0));
@@ -78,14 +78,14 @@ pub fn run(round: &Round<'_>, folder: &LabelFolder, progress: &dyn Fn(u64, u64))
                     let reason = format!("{}, {reason}", task.episode.name);
                     failures.lock().unwrap_or_else(PoisonError::into_inner).insert(at, reason);
                 }
-                Step::Kept
+                EpisodeOutcome::Kept
             }
-            Attempt::Unanswered(reason) => Step::Unanswered(reason),
-            Attempt::Gone(reason) => Step::Gone(reason),
+            Attempt::Unanswered(reason) => EpisodeOutcome::Unanswered(reason),
+            Attempt::Gone(reason) => EpisodeOutcome::Gone(reason),
         })
     })?;
     let failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
-    Ok(Flown {
+    Ok(RoundOutcome {
         episodes: crewed.kept,
         asked: asked.into_inner(),
         failures: failures.first_key_value().map(|(_, reason)| (failures.len(), reason.clone())),

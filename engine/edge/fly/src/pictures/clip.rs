@@ -1,8 +1,8 @@
 //! The clip of a flight: what the camera saw where it matters, drawn from the poses of the log.
 
 use super::window::telling;
-use crate::log::Line;
-use crate::suite::Task;
+use crate::log::LogLine;
+use crate::suite::EpisodeTask;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Camera, PixelBox};
 use cosfly_env::EnvironmentSettings;
@@ -24,9 +24,9 @@ const EVERY_S: f64 = 0.2;
 ///
 /// # Errors
 /// `preview-encode`.
-pub fn clip(task: &Task, settings: &EnvironmentSettings, steps: &[Line]) -> Result<Option<Vec<u8>>> {
+pub fn clip(task: &EpisodeTask, settings: &EnvironmentSettings, steps: &[LogLine]) -> Result<Option<Vec<u8>>> {
     let count = |time_s: f64| ((time_s / settings.step_s).round() as usize).max(1);
-    let shown: Vec<&Line> = steps[telling(steps, count(LENGTH_S))].iter().step_by(count(EVERY_S)).collect();
+    let shown: Vec<&LogLine> = steps[telling(steps, count(LENGTH_S))].iter().step_by(count(EVERY_S)).collect();
     if shown.is_empty() {
         return Ok(None);
     }
@@ -37,7 +37,7 @@ pub fn clip(task: &Task, settings: &EnvironmentSettings, steps: &[Line]) -> Resu
     encoded(shown.into_iter().map(|line| shot(task, &scene, &mut renderer, line))).map(Some)
 }
 
-fn shot(task: &Task, scene: &Scene, renderer: &mut Renderer, line: &Line) -> ClipShot {
+fn shot(task: &EpisodeTask, scene: &Scene, renderer: &mut Renderer, line: &LogLine) -> ClipShot {
     let (track, shooting) = (&task.episode.target, &task.shooting);
     let state = task.episode.target_at(line.time_s);
     let target = Walker {

@@ -1,9 +1,9 @@
 //! The log of a flight as an MCAP file.
 
 use super::window::losses;
-use crate::flight::{Flown, Row};
-use crate::log::Line;
-use crate::suite::Task;
+use crate::flight::{FlownEpisode, Row};
+use crate::log::LogLine;
+use crate::suite::EpisodeTask;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Camera, OrientedBox};
 use cosfly_drone::Sensed;
@@ -28,7 +28,7 @@ const SHORTEST_LOSS_S: f64 = 0.45;
 ///
 /// # Errors
 /// None that is expected: memory takes all bytes.
-pub fn mcap(task: &Task, settings: &EnvironmentSettings, flown: &Flown) -> Result<Vec<u8>> {
+pub fn mcap(task: &EpisodeTask, settings: &EnvironmentSettings, flown: &FlownEpisode) -> Result<Vec<u8>> {
     let (episode, row, lines) = (&task.episode, &flown.row, &flown.steps);
     let mut steps: Vec<FlownStep> = lines.iter().map(|line| step(task, settings, line)).collect();
     let mut rest = &flown.sensed[..];
@@ -73,7 +73,7 @@ pub fn mcap(task: &Task, settings: &EnvironmentSettings, flown: &Flown) -> Resul
     Ok(bytes)
 }
 
-fn step(task: &Task, settings: &EnvironmentSettings, line: &Line) -> FlownStep {
+fn step(task: &EpisodeTask, settings: &EnvironmentSettings, line: &LogLine) -> FlownStep {
     let pose = line.pose();
     let nearest = task.episode.place.exact.nearest(pose.position_in_world, FAR_M);
     FlownStep {
@@ -98,7 +98,7 @@ fn step(task: &Task, settings: &EnvironmentSettings, line: &Line) -> FlownStep {
     }
 }
 
-fn episode_boxes(task: &Task, time_s: f64) -> Vec<OrientedBox> {
+fn episode_boxes(task: &EpisodeTask, time_s: f64) -> Vec<OrientedBox> {
     task.episode.others.at(time_s).map(|present| present.mover.plan.box_at(&present.state)).collect()
 }
 
@@ -113,7 +113,7 @@ fn sample(sensed: &Sensed) -> SensedSample {
 }
 
 /// Writes losses, reacquisitions and the end into the steps where they happen.
-fn tell_events(steps: &mut [FlownStep], lines: &[Line], row: &Row) {
+fn tell_events(steps: &mut [FlownStep], lines: &[LogLine], row: &Row) {
     for loss in losses(lines) {
         let length_s = loss.len() as f64 * row.step_s;
         if length_s < SHORTEST_LOSS_S {

@@ -1,8 +1,8 @@
 //! The page of a result: numbers, episodes, the worst ones as clips; HTML that opens offline beside its clips.
 
 use crate::flight::Row;
-use crate::log::Line;
-use crate::results::{Card, METRICS, Metric, Summary, cell, ending, strata, summary};
+use crate::log::LogLine;
+use crate::results::{Card, METRICS, Metric, MetricSummary, cell, ending, strata, summary};
 use cosfly_plot::strip::{CLASSES, strip};
 use cosfly_plot::text::escaped;
 use cosfly_report::{Section, document};
@@ -13,7 +13,7 @@ pub struct Case<'a> {
     /// Its row.
     pub row: &'a Row,
     /// Its steps.
-    pub steps: Vec<Line>,
+    pub steps: Vec<LogLine>,
     /// Whether there is a clip of it.
     pub has_clip: bool,
 }
@@ -57,7 +57,7 @@ fn heading(card: &Card, rows: &[Row], title: &str) -> String {
 fn scores(rows: &[Row]) -> String {
     let groups = strata(rows);
     let several = groups.len() > 1;
-    let groups: Vec<(&str, Vec<Summary>)> =
+    let groups: Vec<(&str, Vec<MetricSummary>)> =
         groups.into_iter().filter(|_| several).map(|(name, rows)| (name, summary(&rows))).collect();
     let all = summary(&rows.iter().collect::<Vec<_>>());
     let mut html = String::from(

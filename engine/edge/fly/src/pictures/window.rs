@@ -1,11 +1,11 @@
 //! The steps of a flight that say most: around its end or its longest loss.
 
-use crate::log::Line;
+use crate::log::LogLine;
 use cosfly_env::End;
 use std::ops::Range;
 
 /// Stretches without tracking, as ranges of steps.
-pub fn losses(steps: &[Line]) -> Vec<Range<usize>> {
+pub fn losses(steps: &[LogLine]) -> Vec<Range<usize>> {
     let mut losses: Vec<Range<usize>> = Vec::new();
     for (at, _) in steps.iter().enumerate().filter(|(_, step)| !step.tracked) {
         match losses.last_mut() {
@@ -17,7 +17,7 @@ pub fn losses(steps: &[Line]) -> Vec<Range<usize>> {
 }
 
 /// The `count` steps that say most: the last ones where the flight ended early, else those around its longest loss.
-pub fn telling(steps: &[Line], count: usize) -> Range<usize> {
+pub fn telling(steps: &[LogLine], count: usize) -> Range<usize> {
     let ended_well = steps.last().is_some_and(|last| last.end == Some(End::Finished));
     let longest = losses(steps).into_iter().max_by(|a, b| a.len().cmp(&b.len()).then(b.start.cmp(&a.start)));
     let middle = match longest {
@@ -33,8 +33,8 @@ pub fn telling(steps: &[Line], count: usize) -> Range<usize> {
 mod tests {
     use super::*;
 
-    fn steps(tracked: &[bool], end: End) -> Vec<Line> {
-        let line = |(at, tracked): (usize, &bool)| Line {
+    fn steps(tracked: &[bool], end: End) -> Vec<LogLine> {
+        let line = |(at, tracked): (usize, &bool)| LogLine {
             step: at as u32 + 1,
             time_s: 0.1 * (at + 1) as f64,
             position_in_world: [0.0; 3],
@@ -53,7 +53,7 @@ mod tests {
             reward: [0.0; 6],
             end: None,
         };
-        let mut all: Vec<Line> = tracked.iter().enumerate().map(line).collect();
+        let mut all: Vec<LogLine> = tracked.iter().enumerate().map(line).collect();
         if let Some(last) = all.last_mut() {
             last.end = Some(end);
         }

@@ -1,4 +1,4 @@
-//! [`Answer`]: actions that a policy gave in one message.
+//! [`PolicyAnswer`]: actions that a policy gave in one message.
 
 use crate::wire;
 use cosfly_diagnose::plausible;
@@ -76,19 +76,19 @@ impl ActionKind {
 }
 
 /// Actions that a policy gave in one message.
-pub struct Answer {
+pub struct PolicyAnswer {
     kind: ActionKind,
     rows: Vec<f64>,
     /// Step of the observation that was answered.
     step: u32,
     /// Poses at the frames after it, the pose then first; empty for velocities.
     poses: Vec<Pose>,
-    plan: Option<policies::Plan>,
+    plan: Option<policies::FollowedPlan>,
     begins_s: f64,
     frame_s: f64,
 }
 
-impl Answer {
+impl PolicyAnswer {
     /// Reads the answer to the present observation.
     ///
     /// # Errors
@@ -135,7 +135,7 @@ impl Answer {
             self.poses.push(next);
         }
         let waypoints: Vec<DVec3> = self.poses.iter().map(|pose| pose.position_in_world).collect();
-        self.plan = Some(policies::Plan::through(&waypoints, self.begins_s, self.frame_s));
+        self.plan = Some(policies::FollowedPlan::through(&waypoints, self.begins_s, self.frame_s));
     }
 
     /// The action for the present step; `None` where the answer is used up or another is due after `every` steps.

@@ -15,7 +15,7 @@ mod seam;
 mod socket;
 mod source;
 
-pub use answer::{ActionKind, Answer, wrong_number};
+pub use answer::{ActionKind, PolicyAnswer, wrong_number};
 pub use first_answer::{Asked, FirstAnswer};
 pub use manners::Manners;
 pub use onnx::{FARTHEST_M, OnnxPolicy};

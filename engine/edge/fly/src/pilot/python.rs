@@ -1,6 +1,6 @@
 //! A policy that is a function in Python, in a process of its own.
 
-use super::answer::Answer;
+use super::answer::PolicyAnswer;
 use super::manners::Manners;
 use super::process::{Process, Silence, Told};
 use super::question::Question;
@@ -22,7 +22,7 @@ pub struct PythonPilot {
     manners: Manners,
     process: Option<Process>,
     question: Question,
-    answer: Option<Answer>,
+    answer: Option<PolicyAnswer>,
 }
 
 impl PythonPilot {
@@ -98,7 +98,7 @@ impl Pilot for PythonPilot {
         process.ask(question);
         let message = self.receive(self.manners.timeout)?;
         let message = wire::decode(&message).map_err(Failure::Answer)?;
-        let answer = Answer::read(&message, environment, self.manners.actions).map_err(Failure::Answer)?;
+        let answer = PolicyAnswer::read(&message, environment, self.manners.actions).map_err(Failure::Answer)?;
         let action = answer.action(environment, every);
         self.answer = Some(answer);
         action.ok_or_else(|| Failure::Answer("the answer is too short for one step".to_owned()))

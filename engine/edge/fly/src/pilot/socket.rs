@@ -1,6 +1,6 @@
 //! A policy behind a WebSocket that speaks openpi's wire: metadata first, then an action for every observation.
 
-use super::answer::Answer;
+use super::answer::PolicyAnswer;
 use super::manners::Manners;
 use super::question::Question;
 use super::seam::{Failure, Pilot, late};
@@ -28,7 +28,7 @@ pub struct SocketPilot {
     manners: Manners,
     socket: Option<WebSocket<Timed>>,
     question: Question,
-    answer: Option<Answer>,
+    answer: Option<PolicyAnswer>,
 }
 
 /// Why there is no server.
@@ -179,7 +179,7 @@ impl SocketPilot {
         }
     }
 
-    fn ask(&mut self, environment: &Environment) -> Result<Answer, Failure> {
+    fn ask(&mut self, environment: &Environment) -> Result<PolicyAnswer, Failure> {
         let question = self.question.bytes(environment);
         let socket = self.socket.as_mut().ok_or_else(|| Failure::Gone("there is no connection".to_owned()))?;
         socket.get_mut().until = Instant::now() + self.manners.timeout;
@@ -193,7 +193,7 @@ impl SocketPilot {
         }
         let message = self.receive()?;
         let message = wire::decode(&message).map_err(Failure::Answer)?;
-        Answer::read(&message, environment, self.manners.actions).map_err(Failure::Answer)
+        PolicyAnswer::read(&message, environment, self.manners.actions).map_err(Failure::Answer)
     }
 }
 

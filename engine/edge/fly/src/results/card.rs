@@ -4,7 +4,7 @@ use super::differences::differences;
 use crate::flight::Latency;
 use crate::pilot::OnnxPolicy;
 use crate::settings::FlySettings;
-use crate::suite::{Part, Suite};
+use crate::suite::{Suite, SuitePart};
 use cosfly_domain::channels::rgb;
 use cosfly_drone::models;
 use cosfly_env::pictures::PictureFormat;
@@ -249,7 +249,7 @@ impl EnvironmentCard {
 impl EnvironmentCard {
     /// The card of the settings of the first part of a suite, and those of other parts that differ from it.
     pub fn of_parts(
-        parts: &[Part],
+        parts: &[SuitePart],
         settings: &[EnvironmentSettings],
         latency: Latency,
     ) -> (Self, BTreeMap<String, Self>) {
@@ -296,12 +296,12 @@ impl Card {
     ///
     /// # Errors
     /// What differs, in words, where no options of this cosfly give such a card.
-    pub fn settings(&self, parts: &[Part]) -> Result<Vec<EnvironmentSettings>, String> {
+    pub fn settings(&self, parts: &[SuitePart]) -> Result<Vec<EnvironmentSettings>, String> {
         if let Some(name) = self.environments.keys().find(|name| parts.iter().all(|part| part.name != **name)) {
             return Err(format!("it has settings for `{name}`, which is no part of the suite"));
         }
         let sensors = self.policy.sensors()?;
-        let of = |part: &Part| {
+        let of = |part: &SuitePart| {
             let card = self.environments.get(&part.name).unwrap_or(&self.environment);
             card.settings(&part.settings).map(|settings| EnvironmentSettings { sensors, ..settings })
         };

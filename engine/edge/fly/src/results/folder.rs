@@ -3,8 +3,8 @@
 use super::card::Card;
 use super::differences::differences;
 use super::report;
-use crate::flight::{Flown, Row};
-use crate::log::{self, Line};
+use crate::flight::{FlownEpisode, Row};
+use crate::log::{self, LogLine};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_whole::{Appeared, NewFolder, write_file};
 use std::io::ErrorKind;
@@ -134,7 +134,7 @@ impl Folder {
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn keep(&self, flown: &Flown, mcap: Option<&[u8]>) -> Result<()> {
+    pub fn keep(&self, flown: &FlownEpisode, mcap: Option<&[u8]>) -> Result<()> {
         let name = &flown.row.episode;
         self.make()?;
         self.write(&format!("logs/{name}.jsonl"), log::text(&flown.steps).as_bytes())?;
@@ -146,7 +146,7 @@ impl Folder {
     ///
     /// # Errors
     /// `fly-result` where its log is damaged; errors of the file system.
-    pub fn steps(&self, episode: &str) -> Result<Vec<Line>> {
+    pub fn steps(&self, episode: &str) -> Result<Vec<LogLine>> {
         let path = self.path.join(format!("logs/{episode}.jsonl"));
         let text = std::fs::read_to_string(&path);
         let text = text.map_err(|error| Diagnostic::io(format!("read {}", path.display()), &error))?;

@@ -149,7 +149,7 @@ pub const METRICS: &[Metric] = &[
 
 /// Mean of a metric and its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Summary {
+pub struct MetricSummary {
     /// Mean over the episodes where it is defined.
     pub mean: Option<f64>,
     /// 95 % interval over resamples of episodes; `None` with fewer than two.
@@ -171,14 +171,14 @@ pub fn mean_of(values: &[Option<f64>], times: &[u32]) -> Option<f64> {
 }
 
 /// All metrics of episodes, in the order of [`METRICS`].
-pub fn summary(rows: &[&Row]) -> Vec<Summary> {
+pub fn summary(rows: &[&Row]) -> Vec<MetricSummary> {
     let values: Vec<Vec<Option<f64>>> =
         METRICS.iter().map(|metric| rows.iter().map(|row| (metric.of)(row)).collect()).collect();
     let intervals = resampled(rows.len(), RESAMPLES, SEED, METRICS.len(), &mut |times| {
         values.iter().map(|values| mean_of(values, times)).collect()
     });
     let once = vec![1; rows.len()];
-    let of = |(values, interval): (&Vec<Option<f64>>, Option<(f64, f64)>)| Summary {
+    let of = |(values, interval): (&Vec<Option<f64>>, Option<(f64, f64)>)| MetricSummary {
         mean: mean_of(values, &once),
         interval,
         count: values.iter().flatten().count(),

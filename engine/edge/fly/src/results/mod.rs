@@ -9,5 +9,5 @@ mod report;
 pub use card::{Card, EnvironmentCard, KeptCard, LogChoice, PicturesCard, PolicyCard, SuiteCard};
 pub use differences::differences;
 pub use folder::Folder;
-pub use metrics::{METRICS, Metric, Summary, mean_of, strata, summary};
+pub use metrics::{METRICS, Metric, MetricSummary, mean_of, strata, summary};
 pub use report::{beside, cell, ending, markdown, of_summaries, scores, worst};

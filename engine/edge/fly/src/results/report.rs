@@ -1,7 +1,7 @@
 //! Tables of results: Markdown for people, JSON for programs.
 
 use super::card::Card;
-use super::metrics::{METRICS, Metric, Summary, strata, summary};
+use super::metrics::{METRICS, Metric, MetricSummary, strata, summary};
 use crate::flight::Row;
 use cosfly_env::End;
 use cosfly_plot::text::{markdown as in_markdown, markdown_code, markdown_words};
@@ -23,8 +23,8 @@ pub fn scores(rows: &[Row]) -> Value {
 }
 
 /// Metrics, for programs.
-pub fn of_summaries(summaries: &[Summary]) -> Value {
-    let entry = |(metric, summary): (&Metric, &Summary)| {
+pub fn of_summaries(summaries: &[MetricSummary]) -> Value {
+    let entry = |(metric, summary): (&Metric, &MetricSummary)| {
         let interval = summary.interval.map(|(low, high)| [low, high]);
         (metric.name.to_owned(), json!({ "mean": summary.mean, "interval_95": interval, "episodes": summary.count }))
     };
@@ -32,7 +32,7 @@ pub fn of_summaries(summaries: &[Summary]) -> Value {
 }
 
 /// A mean and its interval, for people.
-pub fn cell(metric: &Metric, summary: &Summary) -> String {
+pub fn cell(metric: &Metric, summary: &MetricSummary) -> String {
     let decimals = metric.decimals;
     match (summary.mean, summary.interval) {
         (None, _) => "-".to_owned(),
@@ -76,7 +76,7 @@ pub fn markdown(card: &Card, rows: &[Row]) -> String {
     let groups = strata(rows);
     let several = groups.len() > 1;
     let all = summary(&rows.iter().collect::<Vec<_>>());
-    let groups: Vec<(&str, Vec<Summary>)> =
+    let groups: Vec<(&str, Vec<MetricSummary>)> =
         groups.into_iter().filter(|_| several).map(|(name, rows)| (name, summary(&rows))).collect();
     let _ = write!(text, "| metric | all |");
     groups.iter().for_each(|(name, _)| _ = write!(text, " {} |", in_markdown(name)));

@@ -1,6 +1,6 @@
 //! One environment of many: its episodes, and the expert's actions for it.
 
-use crate::suite::Task;
+use crate::suite::EpisodeTask;
 use cosfly_env::policies::baseline;
 use cosfly_env::{Action, End, Environment, EnvironmentSettings, Policy, Reward};
 use cosfly_frames::{RandomStream, Seed};
@@ -22,7 +22,7 @@ pub enum Autoreset {
 
 /// Parts that all environments share.
 pub(super) struct Shared {
-    pub(super) tasks: Arc<[Task]>,
+    pub(super) tasks: Arc<[EpisodeTask]>,
     pub(super) settings: EnvironmentSettings,
     pub(super) mode: Autoreset,
     pub(super) has_experts: bool,

@@ -1,4 +1,4 @@
-//! [`Outputs`]: what a reset or step of many environments gives, a column for each quantity.
+//! [`StepOutputs`]: what a reset or step of many environments gives, a column for each quantity.
 
 use super::member::{ACTIONS, VectorMember};
 use cosfly_env::pictures::PictureBatch;
@@ -10,7 +10,7 @@ pub const TERMS: usize = Reward::NAMES.len();
 
 /// Results of a step, one entry or row per environment.
 #[derive(Clone, Debug, Default)]
-pub struct Outputs {
+pub struct StepOutputs {
     /// Features of the observations; of the next episode where one began.
     pub features: Vec<[f32; FEATURES]>,
     /// Features of the last observation of the episode that ended in this step; else those of `features`.
@@ -41,7 +41,7 @@ pub struct Outputs {
     pub beside: Vec<Vec<f32>>,
 }
 
-impl Outputs {
+impl StepOutputs {
     /// Room for the results of `count` environments.
     pub(super) fn new(count: usize) -> Self {
         Self {

@@ -9,7 +9,7 @@ use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack};
 use cosfly_render::PictureLook;
 
 /// Targets that stand for 1 to 4 s.
-fn tasks() -> Arc<[Task]> {
+fn tasks() -> Arc<[EpisodeTask]> {
     let place = Arc::new(FlightSite::on_flat_ground(vec![]));
     let task = |seconds: usize| {
         let state = TargetState { feet_in_world: 20.0 * DVec3::X, heading_rad: 0.0, speed_mps: 0.0 };
@@ -27,7 +27,7 @@ fn tasks() -> Arc<[Task]> {
             seed: Seed([0; 32]),
         };
         let knowledge = Knowledge { flight: Arc::new([20.0 * DVec3::Z]), config: Arc::default() };
-        Task::undrawn(episode, knowledge, 1.0)
+        EpisodeTask::undrawn(episode, knowledge, 1.0)
     };
     (1..=4).map(task).collect()
 }

@@ -1,14 +1,14 @@
 //! Plugins that break the laws of cost terms without failing: each is found out.
 
 use crate::fixtures::TermText;
-use cosfly_plugin_host::laws::{Finding, check_cost_term};
+use cosfly_plugin_host::laws::{LawFinding, check_cost_term};
 
 const COUNTER: &str = "(global $calls (mut i32) (i32.const 0))";
 
 /// The laws that it breaks.
 fn broken(text: &TermText) -> Vec<&'static str> {
     let findings = check_cost_term(&text.load().unwrap(), "{}").unwrap();
-    findings.into_iter().filter(|finding| !finding.holds).map(|Finding { law, .. }| law).collect()
+    findings.into_iter().filter(|finding| !finding.holds).map(|LawFinding { law, .. }| law).collect()
 }
 
 fn counting(first: [&'static str; 4], cost: &'static str) -> TermText {

@@ -1,9 +1,6 @@
 //! `traffic`: people and vehicles who move together through the town, and the walks of those who are followed.
 
-mod avoided;
-mod config;
 mod moving;
-mod population;
 mod stage;
 
 pub use moving::{around, cut_around, followed, link_moving, put_around, traffic_of};

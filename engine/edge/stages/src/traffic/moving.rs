@@ -48,8 +48,7 @@ pub fn around(inputs: &Inputs<'_>, artifact: &Artifact) -> Result<Arc<Around>> {
 
 /// Links the walk's id, the followed body, the bodies around it and the other drones from an input to the output of a task.
 pub fn link_moving(artifact: &Artifact, outputs: &mut dyn OutputSink) -> Result<()> {
-    let kept =
-        [artifacts::WALK_ID.blob, artifacts::FOLLOWED.blob, artifacts::AROUND.blob, artifacts::DRONES.blob];
+    let kept = [artifacts::WALK_ID.blob, artifacts::FOLLOWED.blob, artifacts::AROUND.blob, artifacts::DRONES.blob];
     for name in kept {
         if let Some(blob) = artifact.blobs.get(name) {
             outputs.link(name, *blob)?;

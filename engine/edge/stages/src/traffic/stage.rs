@@ -1,30 +1,30 @@
 //! `traffic`: people and vehicles who move together through the town, and the walks of those who are followed.
 
-use super::avoided::{self, Avoided};
-use super::config::TrafficConfig;
 use super::moving::traffic_of;
-use super::population;
 use crate::memo::Memo;
 use crate::ports::{self, TRAFFIC, WALK};
 use crate::world::{check_same_town, link_town, world};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
-use cosfly_domain::{Body, Followed, Traffic, Traits};
+use cosfly_domain::{Body, Followed, Traffic};
 use cosfly_experts::artifacts;
-use cosfly_figures::{BodyShape, outfit_of};
 use cosfly_frames::Seed;
 use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
 use cosfly_stage::parameters;
 use cosfly_stage::{
-    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties,
+    Artifact, Fan, InputPort, Inputs, ItemRule, Produced, Source, Stage, StageKind, StagePart, StageProperties,
     StageRole, TaskContext,
 };
-use cosfly_world::{Wardrobe, dress, give_looks, simulate};
+use cosfly_traffic::{Avoided, Follow, SimulatedTraffic, TrackFile, TrafficConfig, simulate_traffic};
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Blob of a walk that was taken out of traffic, with the whole [`Traffic`]; and the part that makes it.
 const BODIES: &str = artifacts::TRAFFIC.blob;
+/// Port of the walks of those who are avoided.
+const AVOID: &str = "avoid";
 
 /// Stage kind `traffic`.
 pub struct TrafficKind;
@@ -43,36 +43,32 @@ impl StageKind for TrafficKind {
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        vec![ports::town(), avoided::port()]
+        let doc = "Walks that are made before: everybody moves around these people. They are no part of this traffic.";
+        vec![ports::town(), InputPort { optional: true, ..ports::gather(AVOID, WALK, true, doc) }]
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
         let mut config: TrafficConfig = parameters::read(given)?;
         config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
-        let sources = config.take_sources();
-        let properties = |parameters, inputs, artifact, items, bytes_per_item| StageProperties {
-            kind: self.name().into(),
+        let sources = take_sources(&mut config);
+        let properties = |parameters, inputs, bytes_per_item| StageProperties {
             version: 8,
             parameters,
-            sources: vec![],
             inputs,
-            artifact,
-            items,
             bytes_per_item,
             files_per_item: 2,
-            intermediate: &[],
-            asks: None,
-            role: StageRole::World,
-            resources: Resources::default(),
+            ..StageProperties::new(self.name(), StageRole::World, WALK)
         };
-        let bodies = config.canonical_of_bodies();
         let bytes = 20 * u64::from(config.frames) * u64::from(config.people.count);
-        let bodies = properties(bodies, self.ports(), TRAFFIC, ItemRule::One, bytes);
-        let bodies = StageProperties { sources, role: StageRole::Serves, ..bodies };
+        let bodies = properties(parameters_of_bodies(&config), self.ports(), bytes);
+        let bodies = StageProperties { sources, artifact: TRAFFIC, role: StageRole::Serves, ..bodies };
         let doc = "Everybody: the part of the same stage.";
         let inputs = vec![ports::town(), ports::sibling(BODIES, TRAFFIC, Fan::Broadcast, doc)];
         let items = ItemRule::Count { prefix: "t", count: config.follow.count };
-        let walks = properties(config.canonical_of_walks(), inputs, WALK, items, 60 * u64::from(config.frames));
+        // One walk does not depend on how many there are.
+        let parameters = parameters::without(parameters::canonical(&config.follow), Follow::NOT_IN_KEY);
+        let walks = properties(parameters, inputs, 60 * u64::from(config.frames));
+        let walks = StageProperties { items, ..walks };
         let config = Arc::new(config);
         Ok(vec![
             StagePart {
@@ -82,6 +78,46 @@ impl StageKind for TrafficKind {
             StagePart { suffix: "", stage: Box::new(WalksStage { config, properties: walks, grid: Memo::default() }) },
         ])
     }
+}
+
+/// Files of recorded tracks, then the two of SUMO. Their names are left out of the parameters: contents count.
+fn take_sources(config: &mut TrafficConfig) -> Vec<Source> {
+    let mut sources = vec![];
+    for (number, recorded) in config.recorded.iter_mut().enumerate() {
+        sources.push(Source::new(format!("recorded.{number}.source"), std::mem::take(&mut recorded.source)));
+    }
+    if let Some(sumo) = &mut config.sumo {
+        sources.push(Source::new("sumo.source", std::mem::take(&mut sumo.source)));
+        sources.push(Source::new("sumo.net", std::mem::take(&mut sumo.net)));
+    }
+    sources
+}
+
+/// Parameters that the bodies depend on, for keys: those who are followed as far as others are dressed like them.
+fn parameters_of_bodies(config: &TrafficConfig) -> serde_json::Value {
+    let all = parameters::canonical(config);
+    if config.look_alikes.shares.is_empty() {
+        parameters::without(all, TrafficConfig::NOT_IN_KEY_OF_BODIES)
+    } else {
+        all
+    }
+}
+
+fn track_file(path: &Path) -> TrackFile {
+    let (shown, path) = (path.display().to_string(), path.to_owned());
+    TrackFile { shown, open: Box::new(move || Ok(Box::new(File::open(&path)?))) }
+}
+
+/// People at the port of walks that are made before; all bodies of a traffic that one of them was taken out of.
+fn avoided(inputs: &Inputs<'_>) -> Result<Avoided> {
+    let mut avoided = Avoided::default();
+    for walks in inputs.all(AVOID).chunk_by(|a, b| a.id.stage == b.id.stage) {
+        match walks.first().map_or(Ok(None), |walk| traffic_of(inputs, walk))? {
+            Some(traffic) => avoided.add_traffic(&traffic),
+            None => walks.iter().try_for_each(|walk| avoided.add_walk(&*artifacts::WALK.shared(inputs, walk)?))?,
+        }
+    }
+    Ok(avoided)
 }
 
 struct BodiesStage {
@@ -95,37 +131,21 @@ impl Stage for BodiesStage {
     }
 
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
-        check_same_town(inputs, avoided::PORT)?;
+        check_same_town(inputs, AVOID)?;
         let world = world(inputs)?;
-        let clock = self.config.clock();
-        let by = (clock, Seed(context.seed));
-        let avoided = Avoided::read(inputs)?;
-        let count = avoided.len();
-        let mut populations = population::all(&self.config, &world.town, by, &context.sources, avoided)?;
-        let simulated = simulate(&mut populations.all, clock, |_| context.check_cancelled())?;
-        let mut traffic = Traffic { name: context.id.stage.recipe_name().to_owned(), ..simulated };
-        let left_out = avoided::take_out(&mut traffic, count);
-        // Followed people matter here to those who are dressed like them; walks refuse names that nobody has.
-        let mut followed = self.config.follow.eligible(&traffic).unwrap_or_default();
-        followed.truncate(self.config.follow.count as usize);
-        let outfit = |looks: &Seed| outfit_of(BodyShape::default(), looks);
-        let traits = |looks: &Seed| outfit(looks).traits.unwrap_or(Traits::PLAIN);
-        let alike = |a: &Seed, b: &Seed| outfit(a).is_like(&outfit(b));
-        let seed = |name: &str| Seed(context.seed).child(name, 0);
-        let looks_note = give_looks(&mut traffic, &self.config.looks, &traits, &seed("looks"));
-        let wardrobe = Wardrobe { alike: &alike, traits: &traits };
-        let note = dress(&mut traffic, &followed, &self.config.look_alikes, wardrobe, &seed("look-alikes"));
-        let about = traffic.notes.join("; ");
-        let warnings: Vec<String> = populations.notes.into_iter().chain(looks_note).chain(note).collect();
-        traffic.notes.extend(warnings.iter().cloned());
+        let name = context.id.stage.recipe_name();
+        let files: Vec<TrackFile> = context.sources.iter().map(|path| track_file(path)).collect();
+        let check = || context.check_cancelled();
+        let SimulatedTraffic { traffic, about, warnings, avoided, left_out } =
+            simulate_traffic(&self.config, (name, Seed(context.seed)), &world.town, &files, avoided(inputs)?, &check)?;
         artifacts::TRAFFIC.put(outputs, &traffic)?;
         link_town(inputs, outputs)?;
         let mut notes = BTreeMap::from([("bodies".to_owned(), traffic.bodies.len().to_string())]);
         if !about.is_empty() {
             notes.insert("traffic".to_owned(), about);
         }
-        if count > 0 {
-            let words = format!("{count}; {left_out} bodies left out, through whom one of them walks");
+        if avoided > 0 {
+            let words = format!("{avoided}; {left_out} bodies left out, through whom one of them walks");
             notes.insert("avoided".to_owned(), words);
         }
         Ok(Produced { notes, warnings, ..Produced::default() })

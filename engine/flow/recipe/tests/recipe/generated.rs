@@ -1,11 +1,11 @@
 //! Texts generated from the kinds: the recipe schema, the reference page, drawings of the graph.
 
 use crate::toys::{WHOLE, check, registry};
-use cosfly_recipe::{Format, graph, reference, schema};
+use cosfly_recipe::{DrawingFormat, graph, reference, schema};
 
 #[test]
 fn the_graph_as_mermaid() {
-    insta::assert_snapshot!(graph(&check(WHOLE, &[]).unwrap(), Format::Mermaid), @r#"
+    insta::assert_snapshot!(graph(&check(WHOLE, &[]).unwrap(), DrawingFormat::Mermaid), @r#"
     flowchart TD
         s0["town<br/>map, 1 item"]
         s1["people<br/>walkers, 3 items"]
@@ -30,7 +30,7 @@ fn the_graph_as_mermaid() {
 
 #[test]
 fn the_graph_as_dot() {
-    insta::assert_snapshot!(graph(&check(WHOLE, &[]).unwrap(), Format::Dot), @r#"
+    insta::assert_snapshot!(graph(&check(WHOLE, &[]).unwrap(), DrawingFormat::Dot), @r#"
     digraph "whole" {
         rankdir=TB;
         node [shape=box, style=rounded, fontname="sans-serif"];

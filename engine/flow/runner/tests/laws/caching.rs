@@ -1,7 +1,7 @@
 //! Items that run again after a change, and items that do not.
 
 use super::*;
-use cosfly_runner::{Origin, RunOutcome, TaskEnd};
+use cosfly_runner::{RejectionOrigin, RunOutcome, TaskEnd};
 use cosfly_stage::Work;
 
 #[test]
@@ -97,18 +97,18 @@ fn a_rejection_is_told_with_the_item_that_it_began_at_also_when_cached() {
         toys[stage].parameters = json!({ "rejected": reason });
     }
     let recipe = recipe(&toys);
-    let from = |stage, item| Origin::Inherited(recipe.id(stage, item));
+    let from = |stage, item| RejectionOrigin::Inherited(recipe.id(stage, item));
     for work in [Work::Ran, Work::Cached] {
         let summary = run_quietly(&recipe, &store);
         let told: Vec<_> = summary.rejections().map(|(id, it)| (id.to_string(), it.reason, it.origin)).collect();
         let expected = [
-            ("walkers/i00000", "unreachable", Origin::Own),
-            ("walkers/i00001", "unreachable", Origin::Own),
+            ("walkers/i00000", "unreachable", RejectionOrigin::Own),
+            ("walkers/i00001", "unreachable", RejectionOrigin::Own),
             ("expert/i00000", "unreachable", from(1, 0)),
             ("expert/i00001", "unreachable", from(1, 1)),
             ("noisy/i00000", "its expert was rejected", from(1, 0)),
             ("noisy/i00001", "its expert was rejected", from(1, 1)),
-            ("dataset/i00000", "empty", Origin::Own),
+            ("dataset/i00000", "empty", RejectionOrigin::Own),
         ];
         assert_eq!(told, expected.map(|(id, reason, origin)| (id.to_owned(), reason.to_owned(), origin)));
         assert_eq!(summary.ends().next().unwrap(), (recipe.id(0, 0), TaskEnd::Done(work)));

@@ -7,11 +7,11 @@
 use super::outcomes::{PathOutcome, PlannerOptions};
 use cosfly_frames::{DVec3, Pose, TargetTrack, real};
 use cosfly_metrics::baselines::features::Examples;
-use cosfly_metrics::baselines::{Ridge, View};
+use cosfly_metrics::baselines::{InputFrames, Ridge};
 use cosfly_metrics::errors;
-use cosfly_windows::WindowShape;
 use cosfly_planner::Walk;
 use cosfly_surroundings::visibility::aim_point;
+use cosfly_windows::WindowShape;
 use serde::Serialize;
 use std::fmt;
 
@@ -183,12 +183,18 @@ fn ridge_error_m(flown: &[Flown<'_>], with_target: bool) -> Option<f64> {
 }
 
 /// Calls `each` with the input and the true waypoints of every window of a flight.
-fn for_each_window(one: &Flown<'_>, shape: WindowShape, with_target: bool, mut each: impl FnMut(&View<'_>, &[Pose])) {
+fn for_each_window(
+    one: &Flown<'_>,
+    shape: WindowShape,
+    with_target: bool,
+    mut each: impl FnMut(&InputFrames<'_>, &[Pose]),
+) {
     let feet: Vec<DVec3> = one.track.states.iter().map(|state| state.feet_in_world).collect();
     for start in shape.starts(one.poses.len()) {
         let (now, end) = (start + shape.history, start + shape.size());
         let feet = if with_target { &feet[start..now] } else { &[] };
-        let view = View { poses: &one.poses[start..now], feet, horizon: shape.horizon, ..View::default() };
+        let view =
+            InputFrames { poses: &one.poses[start..now], feet, horizon: shape.horizon, ..InputFrames::default() };
         each(&view, &one.poses[now..end]);
     }
 }

@@ -6,7 +6,7 @@
 
 use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec3;
-use cosfly_planner::baselines::sight::Sight;
+use cosfly_planner::baselines::sight::StaticSight;
 use cosfly_surroundings::solid::Solid;
 use glam::Vec3A;
 
@@ -278,7 +278,7 @@ fn split(solids: &mut [Solid], depth: usize) -> usize {
     best.2
 }
 
-impl Sight for PlainBvh {
+impl StaticSight for PlainBvh {
     fn hide(&self, camera: DVec3, body: &[DVec3], hidden: &mut [bool]) {
         PlainBvh::hide(self, camera, body, hidden);
     }

@@ -5,7 +5,7 @@ use crate::canvas::WIDE;
 use crate::eye::{Eye, NEAR_M};
 use crate::faces::{BODY, DrawnFace, SKY};
 use crate::figures::{Around, SeenPart, Stance};
-use crate::view::{Figure, View};
+use crate::view::{BatchView, Figure};
 use cosfly_domain::{SemanticLabel, TARGET_INSTANCE};
 use cosfly_figures::{Region, Walker, figure};
 use cosfly_frames::DVec3;
@@ -13,7 +13,7 @@ use cosfly_raster::visibility::NO_FACE;
 use cosfly_render::{BodyPart, LEAST_HEIGHT_PX};
 
 impl Painter {
-    pub(super) fn draw_people(&mut self, eye: &Eye, view: &View<'_>) {
+    pub(super) fn draw_people(&mut self, eye: &Eye, view: &BatchView<'_>) {
         if let Some(target) = view.target.as_ref().filter(|target| target.has_body()) {
             self.draw_walker(eye, target, (0, TARGET_INSTANCE));
         }

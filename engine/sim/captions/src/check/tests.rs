@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::caption::tests::flights;
-use crate::facts::{Facts, Stop, Wear, facts, test_flights::flight};
+use crate::facts::{Facts, TargetStop, Wear, facts, test_flights::flight};
 use crate::turns::Turn;
 use crate::{CaptionConfig, Compass, Language, Style, TurnKind, captions};
 use cosfly_domain::Colour;
@@ -168,8 +168,8 @@ fn made_up(random: &mut RandomStream) -> Facts {
     let wear = Wear { top: colour(random), trousers: colour(random), backpack: random.chance(0.5) };
     let walking_s = random.uniform(20.0, 200.0);
     let speed = random.uniform(0.6, 1.9);
-    let stops: Vec<Stop> = (0..random.index(5) as u32)
-        .map(|it| Stop { frame: 9 + 9 * it, duration_s: random.uniform(1.0, 7.0) })
+    let stops: Vec<TargetStop> = (0..random.index(5) as u32)
+        .map(|it| TargetStop { frame: 9 + 9 * it, duration_s: random.uniform(1.0, 7.0) })
         .collect();
     Facts {
         turns: turns.into_iter().map(|(frame, kind)| Turn { frame, angle_deg: 90.0, kind }).collect(),
@@ -192,7 +192,7 @@ fn changed(facts: &Facts) -> Vec<(Facts, bool)> {
     let other = |colour: Colour| Colour::ALL[(colour as usize + 5) % Colour::ALL.len()];
     let wear = facts.wear.expect("they wear something");
     let more_turns = [facts.turns.clone(), vec![Turn { frame: 900, angle_deg: 90.0, kind: TurnKind::Left }]].concat();
-    let more_stops = [facts.stops.clone(), vec![Stop { frame: 300, duration_s: 1.0 }]].concat();
+    let more_stops = [facts.stops.clone(), vec![TargetStop { frame: 300, duration_s: 1.0 }]].concat();
     let mut all = vec![
         (Facts { distance_m: facts.distance_m + 3.0, ..facts.clone() }, false),
         (Facts { pitch_down_deg: facts.pitch_down_deg - 3.0, ..facts.clone() }, false),

@@ -16,7 +16,7 @@ use std::ops::Range;
 /// A move within this time of the end of a crossing is `after the crossing`, seconds.
 const RIGHT_AFTER_S: f64 = 5.0;
 
-/// Goals of a flight, in both languages, in the order of [`Grain::ALL`](super::Grain::ALL).
+/// Goals of a flight, in all languages, in the order of [`Grain::ALL`](super::Grain::ALL).
 pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
     let mut plans = pick::flights(course, &mut seed.stream("flights"));
     plans.extend(steps::steps(course, &mut seed.stream("steps")));
@@ -25,7 +25,7 @@ pub fn goals(course: &Course<'_>, seed: &Seed) -> Vec<Goal> {
     let right_after = course.frames_in(RIGHT_AFTER_S);
     let mut goals = vec![];
     for (number, plan) in plans.iter().enumerate() {
-        for language in Language::ALL {
+        for language in Language::ALL.iter().copied() {
             let words = &mut seed.child(language.code(), number as u64).stream("words");
             goals.push(Goal {
                 grain: plan.grain,

@@ -52,7 +52,7 @@ pub struct Neighbour {
 
 /// Data that a course is read from.
 #[derive(Clone, Debug)]
-pub struct Flight<'a> {
+pub struct CourseData<'a> {
     /// Time between frames, seconds.
     pub dt_s: f64,
     /// The target.
@@ -76,7 +76,7 @@ pub struct Flight<'a> {
 /// Facts that can be said of a flight.
 #[derive(Clone, Debug)]
 pub struct Course<'a> {
-    pub(super) flight: &'a Flight<'a>,
+    pub(super) flight: &'a CourseData<'a>,
     pub(super) landmarks: &'a Landmarks,
     /// False when the target stays within a metre.
     pub(super) walks: bool,
@@ -92,7 +92,7 @@ pub struct Course<'a> {
 
 impl<'a> Course<'a> {
     /// Course of a flight in a town.
-    pub fn of(flight: &'a Flight<'a>, landmarks: &'a Landmarks) -> Self {
+    pub fn of(flight: &'a CourseData<'a>, landmarks: &'a Landmarks) -> Self {
         let feet: Vec<DVec2> = flight.states.iter().map(|state| state.feet_in_world.truncate()).collect();
         let moving: Vec<bool> = flight.states.iter().map(|state| state.speed_mps >= STANDING_MPS).collect();
         let way_m: f64 = feet.windows(2).map(|pair| pair[0].distance(pair[1])).sum();

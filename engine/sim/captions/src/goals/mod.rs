@@ -20,5 +20,5 @@ mod tests;
 pub use claim::{Claim, Hider, Subject};
 pub(crate) use claim::{landmark_name, side_name};
 pub use compose::goals;
-pub use course::{Course, Flight, Hidden, Neighbour, Sample};
+pub use course::{Course, CourseData, Hidden, Neighbour, Sample};
 pub use plan::{Goal, Grain};

@@ -3,7 +3,7 @@
 use super::around::surroundings;
 use super::claim::{Claim, Hider, Subject};
 use super::compose::goals;
-use super::course::{Course, Flight, Hidden, Neighbour, Sample};
+use super::course::{Course, CourseData, Hidden, Neighbour, Sample};
 use super::plan::{Goal, Grain};
 use crate::facts::Wear;
 use crate::sight::Landmarks;
@@ -42,13 +42,13 @@ fn wear(top: Colour) -> Wear {
     Wear { top, trousers: Colour::Black, backpack: false }
 }
 
-fn flight(states: &[TargetState]) -> Flight<'_> {
+fn flight(states: &[TargetState]) -> CourseData<'_> {
     let beside = |frame: usize| Sample {
         frame,
         state: TargetState { feet_in_world: states[frame].feet_in_world + DVec3::new(0.0, 1.0, 0.0), ..states[frame] },
         is_clear: true,
     };
-    Flight {
+    CourseData {
         dt_s: 0.5,
         states,
         distance_m: vec![15.2; states.len()],
@@ -117,7 +117,7 @@ fn who_passes_is_told_by_the_way_it_goes() {
     };
     let neighbours = vec![Neighbour { wear: wear(Colour::Green), samples: drive(9.1, 0.5) }];
     let vehicles = vec![(BodyKind::Bus, drive(60.0, -4.0)), (BodyKind::Bicycle, drive(-30.0, 4.0))];
-    let (flight, town) = (Flight { neighbours, vehicles, ..flight(&states) }, Landmarks::default());
+    let (flight, town) = (CourseData { neighbours, vehicles, ..flight(&states) }, Landmarks::default());
     let told: Vec<String> =
         surroundings(&Course::of(&flight, &town), &(0..48)).iter().map(ToString::to_string).collect();
     assert_eq!(told, ["overtaken_by bicycle @ 21..23", "meets_vehicle bus @ 22..24", "overtakes green @ 24..26"]);
@@ -127,7 +127,7 @@ fn who_passes_is_told_by_the_way_it_goes() {
 fn goals_have_every_grain_in_both_languages_and_depend_on_the_seed_alone() {
     let goals = all(1);
     for grain in Grain::ALL {
-        for language in Language::ALL {
+        for language in Language::ALL.iter().copied() {
             let of_kind = goals.iter().filter(|it| it.grain == grain && it.language == language);
             assert!(of_kind.count() >= 2, "{grain:?} {language:?}");
         }
@@ -167,7 +167,7 @@ fn a_flight_of_one_frame_and_one_without_people_have_goals_without_a_panic() {
     let states = states();
     for count in [1, 3, 7] {
         let states = &states[..count];
-        let flight = Flight { hidden: vec![], neighbours: vec![], ..flight(states) };
+        let flight = CourseData { hidden: vec![], neighbours: vec![], ..flight(states) };
         for goal in goals(&Course::of(&flight, &Landmarks::default()), &Seed::of_item(1, "goals", "a")) {
             assert!(goal.frames.end <= count);
         }
@@ -187,7 +187,7 @@ fn what_is_said_depends_on_times_and_not_on_numbers_of_frames() {
         .collect();
     let partly =
         |frames: std::ops::Range<usize>| Hidden { frames, behind: Some(9), is_outside: false, is_whole: false };
-    let (mut of_coarse, mut of_fine) = (flight(&coarse), Flight { dt_s: 0.1, ..flight(&fine) });
+    let (mut of_coarse, mut of_fine) = (flight(&coarse), CourseData { dt_s: 0.1, ..flight(&fine) });
     // Partly hidden for a second, and for half of one.
     of_coarse.hidden = vec![partly(20..22), partly(30..31)];
     of_fine.hidden = vec![partly(100..110), partly(150..155)];

@@ -6,8 +6,8 @@ use cosfly_claims::Language;
 use cosfly_random::RandomStream;
 use std::sync::LazyLock;
 
-static TABLES: LazyLock<[Messages; Language::ALL.len()]> =
-    LazyLock::new(|| Language::ALL.map(|language| Messages::parse(file(language))));
+static TABLES: LazyLock<Vec<Messages>> =
+    LazyLock::new(|| Language::ALL.iter().map(|language| Messages::parse(file(*language))).collect());
 
 /// File with the messages of a language.
 fn file(language: Language) -> &'static str {

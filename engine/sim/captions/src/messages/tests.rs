@@ -50,7 +50,7 @@ fn stem(id: &str) -> &str {
 #[test]
 fn all_languages_have_the_same_messages_and_slots() {
     let english = slots_of(messages(Language::En));
-    for language in Language::ALL {
+    for language in Language::ALL.iter().copied() {
         let other = slots_of(messages(language));
         assert!(other.keys().eq(english.keys()), "{language:?}");
         for (id, slots) in &english {

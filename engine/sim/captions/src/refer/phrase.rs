@@ -1,6 +1,6 @@
 //! [`Phrase`]: a few properties of the target that nobody else in a picture has.
 
-use crate::part::Part;
+use crate::part::PicturePart;
 use cosfly_domain::{BodyKind, Colour};
 
 /// Faster than this a body moves, m/s; slower than [`STANDS_MPS`] it stands; nobody says what is between.
@@ -79,8 +79,8 @@ impl Candidate {
     }
 
     /// Part of the picture; `None` near a border and outside.
-    pub fn part(&self) -> Option<Part> {
-        Part::at(self.at?)
+    pub fn part(&self) -> Option<PicturePart> {
+        PicturePart::at(self.at?)
     }
 
     /// Whether a phrase may name a property of the body.

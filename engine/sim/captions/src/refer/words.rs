@@ -2,7 +2,7 @@
 
 use super::phrase::{Phrase, Property};
 use crate::messages::{Messages, messages};
-use crate::part::Part;
+use crate::part::PicturePart;
 use cosfly_claims::Language;
 use cosfly_domain::BodyKind;
 
@@ -34,7 +34,7 @@ fn phrase_in(phrase: &Phrase, messages: &Messages) -> String {
     if phrase.names(Property::ShoulderBag) {
         back.push(said("phrase-shoulder-bag"));
     }
-    let place = phrase.names(Property::Part).then(|| of.part().unwrap_or(Part::Middle));
+    let place = phrase.names(Property::Part).then(|| of.part().unwrap_or(PicturePart::Middle));
     let id = match (phrase.properties.is_empty(), is_dressed) {
         (true, true) => "phrase[plain-person]",
         (true, false) => "phrase[plain-vehicle]",

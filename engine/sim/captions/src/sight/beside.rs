@@ -1,7 +1,7 @@
 //! Relations of a person to landmarks that a picture shows: passing a tree, approaching a street lamp, in front of a building.
 
 use super::landmarks::{LandmarkKind, Landmarks, way_to};
-use super::view::{Person, STANDS_M, View, WALKS_M};
+use super::view::{STANDS_M, SeenPerson, WALKS_M, WindowView};
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec2, DVec3, real};
 
@@ -69,13 +69,13 @@ pub struct NearLandmark {
 }
 
 /// All landmarks that single the target out in a picture, the best first.
-pub(super) fn near_landmarks(view: &View, landmarks: &Landmarks) -> Vec<NearLandmark> {
+pub(super) fn near_landmarks(view: &WindowView, landmarks: &Landmarks) -> Vec<NearLandmark> {
     let around = landmarks.around(view.target.feet_in_world, APPROACHES_M[1] + APART_M);
     let mut found = vec![];
     for beside in [Beside::Passes, Beside::NextTo, Beside::Approaches] {
         for kind in LandmarkKind::ALL.into_iter().filter(|kind| *kind != LandmarkKind::Building) {
             let of_kind = || around.iter().filter(move |(it, ..)| *it == kind);
-            let holds = |person: &Person, shape: &OrientedBox, more_m: f64| {
+            let holds = |person: &SeenPerson, shape: &OrientedBox, more_m: f64| {
                 is_there(person, beside, shape, more_m) && is_moved_so(view, beside)
             };
             let mut there = of_kind().filter(|(_, _, shape)| holds(&view.target, shape, APART_M));
@@ -96,7 +96,7 @@ pub(super) fn near_landmarks(view: &View, landmarks: &Landmarks) -> Vec<NearLand
 }
 
 /// Whether somebody is in a relation to a landmark; `more_m` widens it.
-fn is_there(person: &Person, beside: Beside, shape: &OrientedBox, more_m: f64) -> bool {
+fn is_there(person: &SeenPerson, beside: Beside, shape: &OrientedBox, more_m: f64) -> bool {
     let way = way_to(shape, person.feet_in_world);
     let (before_m, aside_m) = along(person.heading_rad, way);
     let walks = person.speed_mps >= WALKS_MPS;
@@ -112,7 +112,7 @@ fn is_there(person: &Person, beside: Beside, shape: &OrientedBox, more_m: f64) -
 }
 
 /// Whether the target's way over the input goes with the relation.
-fn is_moved_so(view: &View, beside: Beside) -> bool {
+fn is_moved_so(view: &WindowView, beside: Beside) -> bool {
     let moved = view.moved_in_world.truncate();
     if beside == Beside::NextTo {
         return moved.length() < STANDS_M;
@@ -132,7 +132,7 @@ fn bottom_m(shape: &OrientedBox) -> f64 {
 }
 
 /// Whether the picture shows enough of an object, whose place is `shape`.
-fn is_seen(view: &View, landmarks: &Landmarks, object: u32, shape: &OrientedBox) -> bool {
+fn is_seen(view: &WindowView, landmarks: &Landmarks, object: u32, shape: &OrientedBox) -> bool {
     let size = DVec2::new(f64::from(view.optics.width), f64::from(view.optics.height));
     let (mut points, mut seen) = (0, 0);
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -159,7 +159,7 @@ fn is_seen(view: &View, landmarks: &Landmarks, object: u32, shape: &OrientedBox)
 }
 
 /// The side on which the target passes a landmark, where the picture shows the same one.
-fn side(view: &View, shape: &OrientedBox) -> Option<OnSide> {
+fn side(view: &WindowView, shape: &OrientedBox) -> Option<OnSide> {
     let (_, right_m) = along(view.target.heading_rad, way_to(shape, view.target.feet_in_world));
     let beside = shape.center_in_world.with_z(view.target.feet_in_world.z + MIDDLE_M);
     let ((u, ..), edges) = (view.optics.project(&view.camera, beside)?, view.target.box_px?);
@@ -172,7 +172,7 @@ fn side(view: &View, shape: &OrientedBox) -> Option<OnSide> {
 }
 
 /// The building that the camera sees right behind somebody as the first thing there, and to both sides of it.
-fn building_behind(view: &View, landmarks: &Landmarks, person: &Person) -> Option<u32> {
+fn building_behind(view: &WindowView, landmarks: &Landmarks, person: &SeenPerson) -> Option<u32> {
     let eye = view.camera.position_in_world;
     let middle = person.feet_in_world + MIDDLE_M * DVec3::Z;
     let ahead = (middle - eye).truncate().try_normalize()?;
@@ -193,14 +193,14 @@ mod tests {
     use super::*;
     use cosfly_domain::Colour::{Black, Red};
 
-    fn found(target: Person, others: Vec<Person>) -> Option<NearLandmark> {
+    fn found(target: SeenPerson, others: Vec<SeenPerson>) -> Option<NearLandmark> {
         near_landmarks(&view(target, others), &town()).first().copied()
     }
 
     #[test]
     fn the_relations_are_those_of_the_ground_and_the_picture() {
         let landmark = |beside, kind, side| Some(NearLandmark { beside, kind, side });
-        let still = Person { speed_mps: 0.0, ..person(12.0, 5.5, 0.0, Red) };
+        let still = SeenPerson { speed_mps: 0.0, ..person(12.0, 5.5, 0.0, Red) };
         for (target, expected) in [
             (person(12.0, 4.5, 0.0, Red), landmark(Beside::Passes, LandmarkKind::Tree, Some(OnSide::Right))),
             (person(12.0, 9.5, 0.0, Red), landmark(Beside::Passes, LandmarkKind::Tree, Some(OnSide::Left))),
@@ -226,7 +226,7 @@ mod tests {
     #[test]
     fn a_landmark_that_is_hidden_or_out_of_the_picture_is_not_said() {
         let mut view = view(person(12.0, 4.5, 0.0, Red), vec![]);
-        let is_said = |view: &View| !near_landmarks(view, &town()).is_empty();
+        let is_said = |view: &WindowView| !near_landmarks(view, &town()).is_empty();
         assert!(is_said(&view));
         view.camera.yaw_rad -= 0.4;
         assert!(!is_said(&view));

@@ -5,9 +5,9 @@
 
 use super::beside::{NearLandmark, near_landmarks};
 use super::landmarks::Landmarks;
-use super::view::{Person, STANDS_M, View, WALKS_M};
+use super::view::{STANDS_M, SeenPerson, WALKS_M, WindowView};
 use crate::facts::Wear;
-use crate::part::Part;
+use crate::part::PicturePart;
 use cosfly_domain::Colour;
 use cosfly_frames::real;
 
@@ -54,14 +54,14 @@ pub enum Side {
 /// Place of the target relative to people who walk along with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names say it")]
-pub enum Place {
+pub enum PlaceAmong {
     Ahead,
     Behind,
     Beside,
 }
 
-impl Place {
-    /// All places, in the order of [`Seen::near`].
+impl PlaceAmong {
+    /// All places, in the order of [`SeenTarget::near`].
     pub const ALL: [Self; 3] = [Self::Ahead, Self::Behind, Self::Beside];
 }
 
@@ -76,18 +76,18 @@ pub struct Near {
 
 /// Facts of a picture that shows the target.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Seen {
+pub struct SeenTarget {
     /// Way across the picture; `None` between two directions, and for a target that is not clear.
     pub across: Option<Across>,
     /// Part of the picture; `None` near a border.
-    pub part: Option<Part>,
+    pub part: Option<PicturePart>,
     /// Number of people in the picture, with the target; `None` where somebody is not clear.
     pub people: Option<usize>,
     /// Side on which the target is outermost of all people.
     pub side: Option<Side>,
     /// Whether the target is the one nearest to the camera of at least two.
     pub is_nearest: bool,
-    /// People who walk along, in the order of [`Place::ALL`].
+    /// People who walk along, in the order of [`PlaceAmong::ALL`].
     pub near: [Near; 3],
     /// Landmarks that single the target out, the best first.
     pub landmarks: Vec<NearLandmark>,
@@ -99,18 +99,18 @@ pub struct Sight {
     /// Clothes of the target.
     pub wear: Option<Wear>,
     /// Facts of the picture; `None` where it shows no pixel of the target.
-    pub seen: Option<Seen>,
+    pub seen: Option<SeenTarget>,
 }
 
 /// Facts of the picture in a town with these landmarks.
-pub fn sight(view: &View, landmarks: &Landmarks) -> Sight {
+pub fn sight(view: &WindowView, landmarks: &Landmarks) -> Sight {
     Sight { wear: view.wear, seen: view.target.box_px.map(|_| seen(view, landmarks)) }
 }
 
-fn seen(view: &View, landmarks: &Landmarks) -> Seen {
+fn seen(view: &WindowView, landmarks: &Landmarks) -> SeenTarget {
     let (target, width_px) = (&view.target, f64::from(view.optics.width));
     let at = target.across(width_px);
-    let all_clear = target.is_clear() && view.others.iter().all(Person::is_clear);
+    let all_clear = target.is_clear() && view.others.iter().all(SeenPerson::is_clear);
     let others = || view.others.iter().map(|other| other.across(width_px));
     let side = match () {
         () if !all_clear || view.others.is_empty() => None,
@@ -118,23 +118,23 @@ fn seen(view: &View, landmarks: &Landmarks) -> Seen {
         () if others().all(|other| at - OUTER > other) => Some(Side::Rightmost),
         () => None,
     };
-    let distance_m = |person: &Person| person.feet_in_world.distance(view.camera.position_in_world);
+    let distance_m = |person: &SeenPerson| person.feet_in_world.distance(view.camera.position_in_world);
     let is_nearest = target.is_clear()
-        && view.others.iter().any(Person::is_clear)
+        && view.others.iter().any(SeenPerson::is_clear)
         && view.others.iter().all(|other| distance_m(other) > NEARER * distance_m(target));
-    Seen {
+    SeenTarget {
         across: across(view).filter(|_| target.is_clear()),
-        part: Part::at(at),
+        part: PicturePart::at(at),
         people: all_clear.then_some(view.others.len() + 1),
         side,
         is_nearest,
-        near: Place::ALL.map(|place| near(view, place)),
+        near: PlaceAmong::ALL.map(|place| near(view, place)),
         landmarks: if target.is_clear() { near_landmarks(view, landmarks) } else { vec![] },
     }
 }
 
 /// The direction of the picture in which the target moved over the input.
-fn across(view: &View) -> Option<Across> {
+fn across(view: &WindowView) -> Option<Across> {
     let moved_m = real::hypot(view.moved_in_world.x, view.moved_in_world.y);
     if moved_m < STANDS_M {
         return Some(Across::Stands);
@@ -156,7 +156,7 @@ fn across(view: &View) -> Option<Across> {
 }
 
 /// The people who walk along with the target and of whom it is at `place`.
-fn near(view: &View, place: Place) -> Near {
+fn near(view: &WindowView, place: PlaceAmong) -> Near {
     let target = &view.target;
     let mut near = Near { tops: vec![], is_clear: true };
     if target.speed_mps < ALONG_MPS {
@@ -170,9 +170,9 @@ fn near(view: &View, place: Place) -> Near {
         // `wider` holds of people at the border, too.
         let is_near = |wider: f64| {
             let is_there = match place {
-                Place::Ahead => before_m < -BESIDE_M / wider,
-                Place::Behind => before_m > BESIDE_M / wider,
-                Place::Beside => before_m.abs() <= BESIDE_M * wider,
+                PlaceAmong::Ahead => before_m < -BESIDE_M / wider,
+                PlaceAmong::Behind => before_m > BESIDE_M / wider,
+                PlaceAmong::Beside => before_m.abs() <= BESIDE_M * wider,
             };
             let is_along = turned_deg <= ALONG_DEG * wider && other.speed_mps >= ALONG_MPS / wider;
             is_along && is_there && before_m.abs() <= NEAR_M * wider && aside_m <= ASIDE_M * wider
@@ -192,7 +192,7 @@ mod tests {
     use super::super::test_views::{person, town, view, views};
     use super::*;
 
-    fn seen_in(number: usize) -> Seen {
+    fn seen_in(number: usize) -> SeenTarget {
         sight(&views()[number], &town()).seen.expect("it is seen")
     }
 
@@ -204,7 +204,7 @@ mod tests {
         );
         assert_eq!(
             [0, 11, 13].map(|number| seen_in(number).part),
-            [Some(Part::Middle), Some(Part::Left), Some(Part::Right)]
+            [Some(PicturePart::Middle), Some(PicturePart::Left), Some(PicturePart::Right)]
         );
         assert_eq!([0, 2, 3].map(|number| seen_in(number).people), [Some(1), Some(2), Some(3)]);
         assert_eq!([0, 2, 3].map(|number| seen_in(number).side), [None, Some(Side::Leftmost), Some(Side::Rightmost)]);
@@ -222,7 +222,7 @@ mod tests {
         assert_eq!((far.people, far.side), (None, None));
         assert!(far.near[2].is_clear, "the one beside the target is clear");
         let target = person(12.0, 0.0, 0.0, Colour::Red);
-        let faint = Person { pixels: 5, ..person(10.0, 0.0, 0.0, Colour::Black) };
+        let faint = SeenPerson { pixels: 5, ..person(10.0, 0.0, 0.0, Colour::Black) };
         assert!(!sight(&view(target, vec![faint]), &town()).seen.expect("it is seen").near[0].is_clear);
     }
 }

@@ -13,7 +13,7 @@ mod wording;
 
 pub use beside::{Beside, NearLandmark, OnSide};
 pub use crossings::Crossing;
-pub use facts::{Across, Near, Place, Seen, Side, Sight, sight};
+pub use facts::{Across, Near, PlaceAmong, SeenTarget, Side, Sight, sight};
 pub use landmarks::{LandmarkKind, Landmarks};
-pub use view::{Person, View};
+pub use view::{SeenPerson, WindowView};
 pub use wording::instruction;

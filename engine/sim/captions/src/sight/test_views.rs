@@ -1,16 +1,16 @@
 //! Pictures with known facts.
 
 use super::landmarks::Landmarks;
-use super::view::{Person, View};
+use super::view::{SeenPerson, WindowView};
 use crate::facts::Wear;
 use cosfly_domain::{Camera, Colour, Obstacle, ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec3, Pose, real};
 
 /// Somebody at x, y (m) who walks along a yaw (degrees) at 1.3 m/s, seen by the camera of [`view`].
-pub(crate) fn person(x: f64, y: f64, yaw_deg: f64, top: Colour) -> Person {
+pub(crate) fn person(x: f64, y: f64, yaw_deg: f64, top: Colour) -> SeenPerson {
     let (across_px, height_px) = (320.0 + 320.0 * y / x, 400.0 / x);
     let edges = [across_px - 0.2 * height_px, 200.0, across_px + 0.2 * height_px, 200.0 + height_px];
-    Person {
+    SeenPerson {
         feet_in_world: DVec3::new(x, y, 0.0),
         heading_rad: yaw_deg.to_radians(),
         speed_mps: 1.3,
@@ -44,9 +44,9 @@ pub(crate) fn town() -> Landmarks {
 }
 
 /// A picture 640 pixels wide, taken 5 m above the world's origin along x. Everybody walked on for 2 s.
-pub(crate) fn view(target: Person, others: Vec<Person>) -> View {
+pub(crate) fn view(target: SeenPerson, others: Vec<SeenPerson>) -> WindowView {
     let (sin, cos) = real::sin_cos(target.heading_rad);
-    View {
+    WindowView {
         camera: Pose::looking_at(DVec3::Z * 5.0, DVec3::new(12.0, 0.0, 1.0)),
         optics: Camera { width: 640, height: 480, horizontal_fov_rad: 90f64.to_radians() },
         wear: Some(Wear { top: target.top, trousers: Colour::Blue, backpack: false }),
@@ -57,11 +57,11 @@ pub(crate) fn view(target: Person, others: Vec<Person>) -> View {
 }
 
 /// Pictures with every kind of fact.
-pub(crate) fn views() -> Vec<View> {
+pub(crate) fn views() -> Vec<WindowView> {
     let target = |y, yaw_deg| person(12.0, y, yaw_deg, Colour::Red);
-    let still = Person { speed_mps: 0.0, ..target(-5.0, 0.0) };
-    let hidden = Person { box_px: None, pixels: 0, ..target(0.0, 0.0) };
-    let faint = Person { pixels: 5, ..person(13.0, 5.5, 90.0, Colour::Grey) };
+    let still = SeenPerson { speed_mps: 0.0, ..target(-5.0, 0.0) };
+    let hidden = SeenPerson { box_px: None, pixels: 0, ..target(0.0, 0.0) };
+    let faint = SeenPerson { pixels: 5, ..person(13.0, 5.5, 90.0, Colour::Grey) };
     let follower = person(10.0, 0.3, 5.0, Colour::Black);
     vec![
         view(target(0.0, 0.0), vec![]),
@@ -81,7 +81,7 @@ pub(crate) fn views() -> Vec<View> {
         view(target(4.5, 0.0), vec![]),
         view(target(9.5, 0.0), vec![]),
         view(target(4.5, 90.0), vec![]),
-        view(Person { speed_mps: 0.0, ..target(5.5, 0.0) }, vec![]),
+        view(SeenPerson { speed_mps: 0.0, ..target(5.5, 0.0) }, vec![]),
         view(person(16.7, 3.0, 90.0, Colour::Red), vec![]),
     ]
 }

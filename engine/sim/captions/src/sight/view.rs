@@ -15,7 +15,7 @@ pub(super) const WALKS_M: f64 = 0.4;
 
 /// Somebody in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Person {
+pub struct SeenPerson {
     /// Ground point between the feet, world frame.
     pub feet_in_world: DVec3,
     /// Walking direction, radians.
@@ -30,7 +30,7 @@ pub struct Person {
     pub top: Colour,
 }
 
-impl Person {
+impl SeenPerson {
     pub(super) fn is_clear(&self) -> bool {
         self.pixels >= CLEAR_PIXELS && self.box_px.is_some_and(|edges| edges[3] - edges[1] >= CLEAR_HEIGHT_PX)
     }
@@ -43,17 +43,17 @@ impl Person {
 
 /// The picture that ends the input of a window.
 #[derive(Clone, Debug, PartialEq)]
-pub struct View {
+pub struct WindowView {
     /// Pose of the camera.
     pub camera: Pose,
     /// Size of the picture and its field of view.
     pub optics: Camera,
     /// The target.
-    pub target: Person,
+    pub target: SeenPerson,
     /// Clothes of the target.
     pub wear: Option<Wear>,
     /// Way of the target over the input, world frame, metres.
     pub moved_in_world: DVec3,
     /// Everybody else of whom at least one pixel is visible.
-    pub others: Vec<Person>,
+    pub others: Vec<SeenPerson>,
 }

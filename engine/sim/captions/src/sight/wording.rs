@@ -1,7 +1,7 @@
 //! The instruction of a picture: whom to follow, by clothes, by the people around, by the way across the picture.
 
 use super::beside::{Beside, NearLandmark};
-use super::facts::{Across, Place, Side, Sight};
+use super::facts::{Across, PlaceAmong, Side, Sight};
 use super::relation::{Relation, relation};
 use crate::goals::{landmark_name, side_name};
 use crate::messages::{Speaker, messages};
@@ -80,10 +80,10 @@ fn across_name(across: Across) -> &'static str {
     }
 }
 
-fn place_name(place: Place) -> &'static str {
+fn place_name(place: PlaceAmong) -> &'static str {
     match place {
-        Place::Ahead => "ahead",
-        Place::Behind => "behind",
-        Place::Beside => "beside",
+        PlaceAmong::Ahead => "ahead",
+        PlaceAmong::Behind => "behind",
+        PlaceAmong::Beside => "beside",
     }
 }

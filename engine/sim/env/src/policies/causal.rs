@@ -1,6 +1,6 @@
 //! `causal`: the planner, told only what was seen: it plans again and again behind a target that walks on as it was last seen.
 
-use super::plan::Plan;
+use super::plan::FollowedPlan;
 use super::{Baseline, Knowledge, Policy};
 use crate::{Action, Environment};
 use cosfly_domain::PlanOutcome;
@@ -23,7 +23,7 @@ pub(super) const BASELINE: Baseline = Baseline {
 
 struct Causal {
     knowledge: Knowledge,
-    plan: Option<Plan>,
+    plan: Option<FollowedPlan>,
     /// Time of the next plan, seconds.
     again_s: f64,
 }
@@ -52,7 +52,7 @@ impl Policy for Causal {
 }
 
 /// A flight from the present state on, behind the supposed target.
-fn planned(environment: &Environment, knowledge: &Knowledge) -> Option<Plan> {
+fn planned(environment: &Environment, knowledge: &Knowledge) -> Option<FollowedPlan> {
     let (observation, episode) = (environment.observation(), environment.episode());
     let TargetTrack { dt_s, height_m, radius_m, .. } = *episode.target;
     let state = |frame: u32| {
@@ -71,5 +71,5 @@ fn planned(environment: &Environment, knowledge: &Knowledge) -> Option<Plan> {
     request.start = Some(StartState { position_in_world, velocity_in_world });
     let PlanOutcome::Planned(flight) = plan_request(request) else { return None };
     let waypoints: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
-    Some(Plan::through(&waypoints, observation.time_s, dt_s))
+    Some(FollowedPlan::through(&waypoints, observation.time_s, dt_s))
 }

@@ -1,7 +1,7 @@
 //! `constant-velocity`: flies on as the target walked at first, without turning the camera.
 
 use super::{Baseline, Policy};
-use crate::{Action, Axes, Environment};
+use crate::{Action, Environment, VelocityAxes};
 use cosfly_frames::DVec3;
 
 pub(super) const BASELINE: Baseline = Baseline {
@@ -17,6 +17,6 @@ struct ConstantVelocity(DVec3);
 
 impl Policy for ConstantVelocity {
     fn act(&mut self, _: &Environment) -> Action {
-        Action { axes: Axes::World, velocity_mps: self.0, ..Action::default() }
+        Action { axes: VelocityAxes::World, velocity_mps: self.0, ..Action::default() }
     }
 }

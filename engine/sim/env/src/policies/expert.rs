@@ -1,6 +1,6 @@
 //! `expert`: flies the planned flight, which knows the target's future.
 
-use super::plan::Plan;
+use super::plan::FollowedPlan;
 use super::{Baseline, Policy};
 use crate::{Action, Environment};
 use cosfly_surroundings::visibility::aim_point;
@@ -11,11 +11,11 @@ pub(super) const BASELINE: Baseline = Baseline {
     make: |environment, knowledge| {
         let start = [environment.episode().start.position_in_world];
         let waypoints = if knowledge.flight.is_empty() { &start[..] } else { &knowledge.flight };
-        Box::new(Expert(Plan::through(waypoints, 0.0, environment.episode().target.dt_s)))
+        Box::new(Expert(FollowedPlan::through(waypoints, 0.0, environment.episode().target.dt_s)))
     },
 };
 
-struct Expert(Plan);
+struct Expert(FollowedPlan);
 
 impl Policy for Expert {
     fn act(&mut self, environment: &Environment) -> Action {

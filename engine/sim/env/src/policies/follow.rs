@@ -1,7 +1,7 @@
 //! `follow`: keeps the start's offset from the target, without regard to obstacles.
 
 use super::{Baseline, Policy};
-use crate::{Action, Axes, Environment};
+use crate::{Action, Environment, VelocityAxes};
 use cosfly_frames::DVec3;
 use cosfly_surroundings::visibility::aim_point;
 
@@ -33,7 +33,7 @@ impl Policy for Follow {
         let aim = aim_point(&sighted, environment.episode().target.height_m);
         let next = own + settings.step_s * observation.motion.velocity_in_world;
         Action {
-            axes: Axes::World,
+            axes: VelocityAxes::World,
             velocity_mps: observation.sighting.velocity_in_world + GAIN * (feet + self.0 - own),
             view: environment.gimbal().rates_to(next, aim, settings.step_s),
             ..Action::default()

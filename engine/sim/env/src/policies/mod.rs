@@ -11,7 +11,7 @@ mod plan;
 mod random;
 mod variation;
 
-pub use plan::Plan;
+pub use plan::FollowedPlan;
 pub use variation::Variation;
 
 use crate::action::Action;

@@ -1,6 +1,6 @@
-//! [`Plan`]: a planned flight, followed step by step.
+//! [`FollowedPlan`]: a planned flight, followed step by step.
 
-use crate::{Action, Axes, Environment};
+use crate::{Action, Environment, VelocityAxes};
 use cosfly_drone::Spline;
 use cosfly_frames::DVec3;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use std::sync::Arc;
 const RETURN: f64 = 1.0;
 
 /// A planned flight, followed step by step.
-pub struct Plan {
+pub struct FollowedPlan {
     /// Control points of the spline that is flown, world frame, metres; at least one.
     controls: Arc<[DVec3]>,
     /// Time of the first waypoint, seconds.
@@ -18,7 +18,7 @@ pub struct Plan {
     dt_s: f64,
 }
 
-impl Plan {
+impl FollowedPlan {
     /// A flight through waypoints that begin at a time. Its spline passes them at some centimetres: control points lie as far
     /// outside of each bend as the spline cuts it.
     pub fn through(waypoints: &[DVec3], begins_s: f64, dt_s: f64) -> Self {
@@ -43,7 +43,7 @@ impl Plan {
         };
         let beside = here.position_in_world - observation.motion.position_in_world;
         Action {
-            axes: Axes::World,
+            axes: VelocityAxes::World,
             velocity_mps: velocity + RETURN * beside,
             acceleration_mps2: (velocity - before) / step_s,
             view: environment.gimbal().rates_to(next.position_in_world, aim_in_world, step_s),

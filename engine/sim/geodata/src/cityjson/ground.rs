@@ -4,7 +4,7 @@ use super::faces::Face;
 use cosfly_domain::{SemanticLabel, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::MapError;
-use cosfly_town::cover::Plan;
+use cosfly_town::cover::CoverPlan;
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::polygons::{triangulated, twice_area_m2};
 
@@ -71,7 +71,7 @@ fn pieces(face: &Face) -> Vec<(Vec<DVec3>, Vec<[u32; 3]>)> {
         face.rings.iter().map(|ring| ring.iter().map(|corner| corner.truncate()).collect()).collect();
     let (outer, holes) = rings.split_at(1);
     let holes: Vec<&[DVec2]> = holes.iter().map(Vec::as_slice).collect();
-    let Some(plan) = Plan::of(&[&outer[0]], &holes) else { return Vec::new() };
+    let Some(plan) = CoverPlan::of(&[&outer[0]], &holes) else { return Vec::new() };
     let on_face = |corner: DVec2| corner.extend(face.height_m(corner));
     let quads = plan.trapezoids().into_iter().filter(|quad| twice_area_m2(quad).abs() > 1e-6);
     quads.map(|quad| (quad.map(on_face).to_vec(), vec![[0, 1, 2], [0, 2, 3]])).collect()

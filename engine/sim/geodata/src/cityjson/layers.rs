@@ -3,8 +3,8 @@
 use super::faces::{Face, plan_of};
 use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec2;
-use cosfly_town::cover::{COVER_TOLERANCE_M, Coarse, Cover, LOOSE_TOLERANCE_M, MOST, Plan, TurnedRectangle};
-use cosfly_town::solids::Solid;
+use cosfly_town::cover::{COVER_TOLERANCE_M, Coarse, Cover, CoverPlan, LOOSE_TOLERANCE_M, MOST, TurnedRectangle};
+use cosfly_town::solids::SolidBoxes;
 use std::collections::BTreeMap;
 
 /// How finely a solid becomes boxes.
@@ -29,18 +29,18 @@ const MOST_WORK: usize = 400_000;
 
 /// Boxes of everything between `base_m`, or the lowest corner, and the upper faces. `ground` faces give the plan up to the lowest corner of the
 /// upper ones; without them the upper faces do.
-pub(super) fn layered(ground: &[Face], upper: &[Face], base_m: f64, steps: Steps) -> Solid {
+pub(super) fn layered(ground: &[Face], upper: &[Face], base_m: f64, steps: Steps) -> SolidBoxes {
     let Levels { mut levels_m, is_coarse } = levels(upper, steps.height_m);
-    let Some(&eaves_m) = levels_m.first() else { return Solid::default() };
+    let Some(&eaves_m) = levels_m.first() else { return SolidBoxes::default() };
     let whole = |faces: &[Face]| -> Vec<Vec<Vec<DVec2>>> {
         faces.iter().map(|face| face.plan_above(f64::NEG_INFINITY)).collect()
     };
     let plan_of_rings = |rings: &[Vec<Vec<DVec2>>]| {
         let (outer, holes) = plan_of(rings);
-        Plan::of(&outer, &holes)
+        CoverPlan::of(&outer, &holes)
     };
     let foot = if ground.is_empty() { whole(upper) } else { whole(ground) };
-    let Some(foot) = plan_of_rings(&foot) else { return Solid::default() };
+    let Some(foot) = plan_of_rings(&foot) else { return SolidBoxes::default() };
     let angles: Vec<f64> = foot.angles_rad().iter().copied().take(2).collect();
     levels_m.insert(0, base_m.min(eaves_m));
     let mut layers: Vec<Layer> = Vec::new();
@@ -62,7 +62,7 @@ pub(super) fn layered(ground: &[Face], upper: &[Face], base_m: f64, steps: Steps
             None => layers.push(Layer { foot_m: pair[0], top_m: pair[1], rectangles }),
         }
     }
-    Solid { boxes: layers.iter().flat_map(Layer::boxes).collect(), coarse: coarsest, is_roof_coarse: is_coarse }
+    SolidBoxes { boxes: layers.iter().flat_map(Layer::boxes).collect(), coarse: coarsest, is_roof_coarse: is_coarse }
 }
 
 /// Faces by the squares of a grid that their middles lie in: long and bent things become boxes piece by piece, each
@@ -201,6 +201,6 @@ mod tests {
         let solid = layered(&[], &spikes, 0.0, BUILDING);
         assert!(solid.boxes.len() <= 64 * 2 * MOST_LAYERS && solid.is_roof_coarse, "{}", solid.boxes.len());
         assert!(layered(&[], &[face(&[[0.0; 3]; 3])], 0.0, BUILDING).boxes.len() <= 1);
-        assert_eq!(layered(&[], &[], 0.0, BUILDING), Solid::default());
+        assert_eq!(layered(&[], &[], 0.0, BUILDING), SolidBoxes::default());
     }
 }

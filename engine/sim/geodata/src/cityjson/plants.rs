@@ -7,7 +7,7 @@ use super::shapes::{Shape, Space};
 use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_frames::DVec3;
 use cosfly_town::crown::crown_boxes;
-use cosfly_town::solids::Solid;
+use cosfly_town::solids::SolidBoxes;
 use serde_json::Value;
 
 /// Steps of stands of plants.
@@ -85,7 +85,7 @@ pub(super) fn tree<'a>(
 }
 
 /// Boxes under faces that rise from the ground; [`of_height`] makes plants of them.
-pub(super) fn stand(faces: &[Face], base_m: f64) -> Vec<Solid> {
+pub(super) fn stand(faces: &[Face], base_m: f64) -> Vec<SolidBoxes> {
     let upper: Vec<Face> = faces.iter().filter(|face| face.highest_m() > base_m + GROUND_RISE_M).cloned().collect();
     pieces(&upper, PIECE_M).into_iter().map(|piece| layered(&[], &piece, base_m, STAND)).collect()
 }

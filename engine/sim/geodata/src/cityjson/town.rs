@@ -11,7 +11,7 @@ use super::undersides::undersides;
 use super::words::{Part, ground_of_surface, is_indoors, part_of};
 use crate::open_ground::add_open_ground;
 use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox, Synthetic, Town, WalkableKind};
-use cosfly_town::solids::{CoarseThings, Solid};
+use cosfly_town::solids::{CoarseThings, SolidBoxes};
 use cosfly_town::units::unit_warning;
 use cosfly_town::{MapError, terrain};
 use std::collections::{BTreeMap, BTreeSet};
@@ -157,7 +157,7 @@ impl Parts {
         self.obstacles.extend(boxes.into_iter().filter(|shape| shape.half_extents_m.is_finite()).map(one));
     }
 
-    fn push_solid(&mut self, kind: ObstacleKind, object_id: u32, solid: Solid) {
+    fn push_solid(&mut self, kind: ObstacleKind, object_id: u32, solid: SolidBoxes) {
         self.tally.coarse.add(&solid);
         self.push(kind, object_id, solid.boxes);
     }

@@ -3,7 +3,7 @@
 use super::FillConfig;
 use super::frontage::Front;
 use super::land::{Land, Plot, Use};
-use super::site::Site;
+use super::site::FillSite;
 use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec2, RandomStream};
 
@@ -18,7 +18,7 @@ const SIZES: [(f64, f64); 5] = [(1.0, 1.0), (0.85, 0.9), (0.7, 0.8), (0.55, 0.7)
 
 /// Puts up buildings along all fronts; gives their number.
 pub fn put_up_buildings(
-    site: &mut Site<'_>,
+    site: &mut FillSite<'_>,
     land: &mut Land,
     fronts: &[Front],
     config: &FillConfig,
@@ -73,7 +73,7 @@ fn is_free(land: &Land, plot: &Plot, setback_m: f64) -> bool {
     land.is_free(&plot.corners(GAP_M), Use::Lot) && land.is_free(&plot.corners(margin_m), Use::Street)
 }
 
-fn build(site: &mut Site<'_>, front: &Front, along_m: f64, plot: &Plot, height_m: f64) {
+fn build(site: &mut FillSite<'_>, front: &Front, along_m: f64, plot: &Plot, height_m: f64) {
     let edge = front.at(along_m);
     let corners = plot.corners(0.0).map(|corner| site.ground_m(corner.extend(edge.z)));
     let lowest_m = corners.into_iter().fold(edge.z, f64::min);

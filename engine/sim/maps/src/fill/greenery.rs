@@ -3,7 +3,7 @@
 use super::FillConfig;
 use super::frontage::Front;
 use super::land::{Land, Plot, Use};
-use super::site::Site;
+use super::site::FillSite;
 use cosfly_domain::{ObstacleKind, OrientedBox};
 use cosfly_frames::{DVec2, DVec3, Seed};
 use cosfly_town::crown::crown_boxes;
@@ -15,7 +15,13 @@ const STEP_M: f64 = 1.0;
 const LAMP_M: [f64; 2] = [6.5, 0.08];
 
 /// Plants trees; gives their number.
-pub fn plant_trees(site: &mut Site<'_>, land: &mut Land, fronts: &[Front], config: &FillConfig, seed: Seed) -> usize {
+pub fn plant_trees(
+    site: &mut FillSite<'_>,
+    land: &mut Land,
+    fronts: &[Front],
+    config: &FillConfig,
+    seed: Seed,
+) -> usize {
     let mut stream = seed.stream("fill trees");
     along_fronts(land, fronts, config.tree_spacing_m, 0.2, |foot, yaw_rad| {
         let (trunk_m, crown_m) = (stream.uniform(0.12, 0.2), stream.uniform(1.7, 2.8));
@@ -34,7 +40,7 @@ pub fn plant_trees(site: &mut Site<'_>, land: &mut Land, fronts: &[Front], confi
 }
 
 /// Puts up lamps; gives their number.
-pub fn put_up_lamps(site: &mut Site<'_>, land: &mut Land, fronts: &[Front], config: &FillConfig) -> usize {
+pub fn put_up_lamps(site: &mut FillSite<'_>, land: &mut Land, fronts: &[Front], config: &FillConfig) -> usize {
     along_fronts(land, fronts, config.lamp_spacing_m, LAMP_M[1], |foot, yaw_rad| {
         let object_id = site.next_object_id();
         let foot = foot.with_z(site.ground_m(foot));

@@ -1,17 +1,17 @@
-//! [`Site`]: a town while it is being filled.
+//! [`FillSite`]: a town while it is being filled.
 
 use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox, SemanticLabel, Town};
 use cosfly_frames::DVec3;
 use cosfly_town::ground::GroundIndex;
 
 /// The town while it is being filled.
-pub struct Site<'a> {
+pub struct FillSite<'a> {
     pub(super) town: &'a mut Town,
     terrain: GroundIndex,
     last_object_id: u32,
 }
 
-impl<'a> Site<'a> {
+impl<'a> FillSite<'a> {
     /// The site of a town.
     pub fn new(town: &'a mut Town) -> Self {
         let terrain = GroundIndex::of_surfaces(&town.surfaces, |mesh| mesh.label == SemanticLabel::Terrain);

@@ -3,7 +3,7 @@
 use super::GenerateConfig;
 use super::street_space::{Lot, StreetSpace};
 use super::streets::Network;
-use super::things::{Crown, Footprint, Thing, ThingKind};
+use super::things::{Crown, Footprint, GeneratedThing, ThingKind};
 use cosfly_frames::{DVec2, RandomStream, Seed, real};
 
 /// Gap between buildings and pavements, metres.
@@ -16,8 +16,13 @@ const CURVE_REACH_M: f64 = 54.0;
 const MIN_DEPTH_M: f64 = 7.0;
 
 /// Puts up buildings, and the trees, walls and benches of courtyards and parks.
-pub fn build_blocks(network: &Network, space: &StreetSpace, config: &GenerateConfig, seed: Seed) -> Vec<Thing> {
-    let mut site = Site { space, config, lots: Vec::new(), things: Vec::new() };
+pub fn build_blocks(
+    network: &Network,
+    space: &StreetSpace,
+    config: &GenerateConfig,
+    seed: Seed,
+) -> Vec<GeneratedThing> {
+    let mut site = FillSite { space, config, lots: Vec::new(), things: Vec::new() };
     let blocks = network.blocks();
     let park = seed.stream("park").index(blocks.len());
     for (index, &(low, high)) in blocks.iter().enumerate() {
@@ -61,14 +66,14 @@ struct Row {
     behind: f64,
 }
 
-struct Site<'a> {
+struct FillSite<'a> {
     space: &'a StreetSpace,
     config: &'a GenerateConfig,
     lots: Vec<Lot>,
-    things: Vec<Thing>,
+    things: Vec<GeneratedThing>,
 }
 
-impl Site<'_> {
+impl FillSite<'_> {
     fn height_m(&self, stream: &mut RandomStream) -> f64 {
         // Most are low; a few reach the top.
         let share = stream.unit();
@@ -85,7 +90,7 @@ impl Site<'_> {
         let free = lot.half_m.min_element() > 2.0 && self.is_free(&lot, SETBACK_M);
         if free {
             self.lots.push(lot);
-            self.things.push(Thing::on_lot(ThingKind::Building, lot, height_m));
+            self.things.push(GeneratedThing::on_lot(ThingKind::Building, lot, height_m));
         }
         free
     }
@@ -156,7 +161,7 @@ impl Site<'_> {
             [(0.0, 0.0), (reach_m, 0.0), (reach_m, thick_m), (thick_m, thick_m), (thick_m, reach_m), (0.0, reach_m)]
                 .map(|(x, y)| outer + DVec2::new(x, y));
         let footprint = Footprint::Polygon(corners.to_vec());
-        self.things.push(Thing { kind: ThingKind::Building, footprint, height_m, crown: None });
+        self.things.push(GeneratedThing { kind: ThingKind::Building, footprint, height_m, crown: None });
         wing_m
     }
 
@@ -180,7 +185,11 @@ impl Site<'_> {
     fn wall(&mut self, lot: Lot, stream: &mut RandomStream) {
         if self.is_free(&lot, 0.3) {
             self.lots.push(lot);
-            self.things.push(Thing::on_lot(ThingKind::Wall, lot, (10.0 * stream.uniform(1.6, 2.4)).round() / 10.0));
+            self.things.push(GeneratedThing::on_lot(
+                ThingKind::Wall,
+                lot,
+                (10.0 * stream.uniform(1.6, 2.4)).round() / 10.0,
+            ));
         }
     }
 
@@ -256,10 +265,15 @@ impl Site<'_> {
 }
 
 /// A street tree: high enough to walk under, wide enough to hide a walker from above.
-pub fn tree_at(center: DVec2, stream: &mut RandomStream) -> Thing {
+pub fn tree_at(center: DVec2, stream: &mut RandomStream) -> GeneratedThing {
     let tenths = |value: f64| (10.0 * value).round() / 10.0;
     let radius_m = (100.0 * stream.uniform(0.12, 0.22)).round() / 100.0;
     let crown = Crown { radius_m: tenths(stream.uniform(2.0, 3.1)), base_m: tenths(stream.uniform(2.6, 3.4)) };
     let height_m = crown.base_m + tenths(stream.uniform(3.6, 7.0));
-    Thing { kind: ThingKind::Tree, footprint: Footprint::Disc { center, radius_m }, height_m, crown: Some(crown) }
+    GeneratedThing {
+        kind: ThingKind::Tree,
+        footprint: Footprint::Disc { center, radius_m },
+        height_m,
+        crown: Some(crown),
+    }
 }

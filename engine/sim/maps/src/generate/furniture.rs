@@ -4,7 +4,7 @@ use super::GenerateConfig;
 use super::blocks::tree_at;
 use super::street_space::Lot;
 use super::streets::{Network, Street};
-use super::things::{Footprint, Thing, ThingKind};
+use super::things::{Footprint, GeneratedThing, ThingKind};
 use cosfly_frames::{RandomStream, Seed};
 
 /// Ends of a street that stay free for crossings, metres.
@@ -13,7 +13,7 @@ const FREE_END_M: f64 = 6.5;
 const KERB_GAP_M: f64 = 0.7;
 
 /// Furnishes every pavement.
-pub fn furnish(network: &Network, config: &GenerateConfig, seed: Seed) -> Vec<Thing> {
+pub fn furnish(network: &Network, config: &GenerateConfig, seed: Seed) -> Vec<GeneratedThing> {
     let mut things = Vec::new();
     for (index, street) in network.streets.iter().enumerate() {
         for (side_index, side) in [1.0, -1.0].into_iter().enumerate() {
@@ -29,7 +29,7 @@ fn furnish_side(
     side: f64,
     config: &GenerateConfig,
     stream: &mut RandomStream,
-    things: &mut Vec<Thing>,
+    things: &mut Vec<GeneratedThing>,
 ) {
     let end_m = street.line.length_m() - FREE_END_M;
     let curb_m = street.profile.carriageway_m();
@@ -38,7 +38,7 @@ fn furnish_side(
     let standing = |kind, s_m: f64, from_curb_m: f64, size: [f64; 2], height_m: f64| {
         let pose = spot(s_m, from_curb_m);
         let half_m = 0.5 * cosfly_frames::DVec2::from(size);
-        Thing::on_lot(kind, Lot { center: pose.at, half_m, heading_rad: pose.heading_rad }, height_m)
+        GeneratedThing::on_lot(kind, Lot { center: pose.at, half_m, heading_rad: pose.heading_rad }, height_m)
     };
     if end_m - FREE_END_M > 14.0 && stream.chance(0.12) {
         let s_m = stream.uniform(FREE_END_M + 4.0, end_m - 4.0);
@@ -48,7 +48,7 @@ fn furnish_side(
     let mut s_m = FREE_END_M + stream.uniform(0.5, 8.0);
     while s_m < end_m {
         let footprint = Footprint::Disc { center: spot(s_m, KERB_GAP_M - 0.2).at, radius_m: 0.08 };
-        things.push(Thing { kind: ThingKind::Lamp, footprint, height_m: 6.5, crown: None });
+        things.push(GeneratedThing { kind: ThingKind::Lamp, footprint, height_m: 6.5, crown: None });
         taken.push((s_m, 2.0));
         s_m += 26.0;
     }

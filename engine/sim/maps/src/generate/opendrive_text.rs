@@ -1,9 +1,9 @@
 //! The generated town as OpenDRIVE 1.6 text, floats with fixed decimals.
 
 use super::alignment::{Alignment, Curve};
-use super::streets::{Arm, Contact, LANE_WIDTH_M, Network, Street};
-use super::things::{Footprint, Thing};
-use super::turns::Turn;
+use super::streets::{Arm, LANE_WIDTH_M, Network, RoadEnd, Street};
+use super::things::{Footprint, GeneratedThing};
+use super::turns::JunctionWay;
 use cosfly_frames::{DVec2, real};
 use std::fmt::Write;
 
@@ -18,7 +18,7 @@ const KERB_M: f64 = 0.15;
 const CROSSING_M: [f64; 3] = [3.0, 3.0, 0.4];
 
 /// Writes everything.
-pub fn write_opendrive(network: &Network, turns: &[Turn], things: &[Thing], comment: &str) -> String {
+pub fn write_opendrive(network: &Network, turns: &[JunctionWay], things: &[GeneratedThing], comment: &str) -> String {
     let mut text = String::new();
     let (low, high) = network.outline();
     text.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -202,18 +202,18 @@ fn write_crossings(text: &mut String, index: usize, street: &Street) {
 
 /// The side of the street's lanes that a driver uses: towards (`inward`) or away from the junction at the arm.
 fn lane_sign(arm: &Arm, inward: bool) -> i64 {
-    if (arm.contact == Contact::End) == inward { -1 } else { 1 }
+    if (arm.contact == RoadEnd::End) == inward { -1 } else { 1 }
 }
 
-fn contact_name(contact: Contact) -> &'static str {
+fn contact_name(contact: RoadEnd) -> &'static str {
     match contact {
-        Contact::Start => "start",
-        Contact::End => "end",
+        RoadEnd::Start => "start",
+        RoadEnd::End => "end",
     }
 }
 
 /// Lane ids that a turn's lane `-lane` comes from and leads to.
-fn turn_links(turn: &Turn, lane: i64, network: &Network) -> [i64; 2] {
+fn turn_links(turn: &JunctionWay, lane: i64, network: &Network) -> [i64; 2] {
     let is_sidewalk = lane > i64::from(turn.lanes);
     let of_arm = |arm: &Arm, skipped: u32, inward: bool| {
         let outermost = i64::from(network.streets[arm.street].profile.lanes) + 1;
@@ -222,7 +222,7 @@ fn turn_links(turn: &Turn, lane: i64, network: &Network) -> [i64; 2] {
     [of_arm(&turn.from, turn.skipped_lanes[0], true), of_arm(&turn.to, turn.skipped_lanes[1], false)]
 }
 
-fn write_turn(text: &mut String, index: usize, turn: &Turn, network: &Network) {
+fn write_turn(text: &mut String, index: usize, turn: &JunctionWay, network: &Network) {
     let length_m = turn.line.length_m();
     line(
         text,
@@ -268,8 +268,9 @@ fn write_turn(text: &mut String, index: usize, turn: &Turn, network: &Network) {
     line(text, "</right></laneSection></lanes></road>");
 }
 
-fn write_junction(text: &mut String, junction: usize, turns: &[Turn], network: &Network) {
-    let own: Vec<(usize, &Turn)> = turns.iter().enumerate().filter(|(_, turn)| turn.junction == junction).collect();
+fn write_junction(text: &mut String, junction: usize, turns: &[JunctionWay], network: &Network) {
+    let own: Vec<(usize, &JunctionWay)> =
+        turns.iter().enumerate().filter(|(_, turn)| turn.junction == junction).collect();
     if own.is_empty() {
         return;
     }
@@ -292,7 +293,7 @@ fn write_junction(text: &mut String, junction: usize, turns: &[Turn], network: &
 }
 
 /// Every thing as an `<object>` of the straight street beside which it lies closest.
-fn objects_by_street(network: &Network, things: &[Thing]) -> Vec<String> {
+fn objects_by_street(network: &Network, things: &[GeneratedThing]) -> Vec<String> {
     let mut texts = vec![String::new(); network.streets.len()];
     let first_id = 2 * network.streets.len() + 1;
     for (index, thing) in things.iter().enumerate() {
@@ -330,7 +331,7 @@ fn foot_on_street(network: &Network, point: DVec2) -> Option<(usize, Foot)> {
     best.map(|(_, index, foot)| (index, foot))
 }
 
-fn write_object(text: &mut String, id: usize, thing: &Thing, foot: &Foot) {
+fn write_object(text: &mut String, id: usize, thing: &GeneratedThing, foot: &Foot) {
     let (kind, name) = thing.kind.type_and_name();
     let subtype = if name == "wall" { " subtype=\"wall\"" } else { "" };
     let corners = match &thing.footprint {

@@ -1,7 +1,7 @@
 //! Where the streets are: a building must stand clear of every lane and pavement.
 
 use super::streets::Network;
-use super::turns::Turn;
+use super::turns::JunctionWay;
 use cosfly_frames::{DVec2, real};
 
 /// A rectangle on the ground, map frame.
@@ -63,7 +63,7 @@ pub struct StreetSpace {
 
 impl StreetSpace {
     /// Space of all streets and turns.
-    pub fn new(network: &Network, turns: &[Turn]) -> Self {
+    pub fn new(network: &Network, turns: &[JunctionWay]) -> Self {
         let mut discs = Vec::new();
         for street in &network.streets {
             let radius_m = street.profile.half_width_m();

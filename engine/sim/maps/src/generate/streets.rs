@@ -32,7 +32,7 @@ impl Profile {
 
 /// End of a road that meets a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Contact {
+pub enum RoadEnd {
     /// The start of its reference line.
     Start,
     /// The end of its reference line.
@@ -58,7 +58,7 @@ pub struct Arm {
     /// Index of the street.
     pub street: usize,
     /// End of the street.
-    pub contact: Contact,
+    pub contact: RoadEnd,
 }
 
 /// A junction; its arms leave east, north, west and south.
@@ -205,7 +205,7 @@ impl Network {
         let street = self.streets.len();
         let junctions = ends.map(|(column, row, _)| row * self.grid.columns + column);
         for ((_, _, side), (junction, contact)) in
-            ends.into_iter().zip(junctions.into_iter().zip([Contact::Start, Contact::End]))
+            ends.into_iter().zip(junctions.into_iter().zip([RoadEnd::Start, RoadEnd::End]))
         {
             self.junctions[junction].arms[side] = Some(Arm { street, contact });
         }

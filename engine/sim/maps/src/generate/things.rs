@@ -72,7 +72,7 @@ pub struct Crown {
 
 /// One thing.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Thing {
+pub struct GeneratedThing {
     /// Kind of the thing.
     pub kind: ThingKind,
     /// Place of the foot.
@@ -83,7 +83,7 @@ pub struct Thing {
     pub crown: Option<Crown>,
 }
 
-impl Thing {
+impl GeneratedThing {
     /// Something upright on a rectangle.
     pub fn on_lot(kind: ThingKind, lot: Lot, height_m: f64) -> Self {
         Self { kind, footprint: Footprint::Rectangle(lot), height_m, crown: None }

@@ -1,12 +1,12 @@
 //! Connecting roads: every way through every junction, with the pavements that run around its corners.
 
 use super::alignment::{Alignment, Pose2};
-use super::streets::{Arm, Contact, LANE_WIDTH_M, Network, Profile};
+use super::streets::{Arm, LANE_WIDTH_M, Network, Profile, RoadEnd};
 use cosfly_frames::real;
 
 /// A way through a junction. Its lanes lie to the right of its reference line.
 #[derive(Clone, Debug)]
-pub struct Turn {
+pub struct JunctionWay {
     /// Index of the junction.
     pub junction: usize,
     /// The arm it comes from.
@@ -23,7 +23,7 @@ pub struct Turn {
     pub sidewalk_m: Option<[f64; 2]>,
 }
 
-impl Turn {
+impl JunctionWay {
     /// Width of everything to the right of the reference line, metres.
     pub fn width_m(&self) -> f64 {
         f64::from(self.lanes) * LANE_WIDTH_M + self.sidewalk_m.map_or(0.0, |[start, end]| start.max(end))
@@ -31,7 +31,7 @@ impl Turn {
 }
 
 /// All turns of the network, junction by junction.
-pub fn all_turns(network: &Network) -> Vec<Turn> {
+pub fn all_turns(network: &Network) -> Vec<JunctionWay> {
     let mut turns = Vec::new();
     for (junction, ends) in network.junctions.iter().enumerate() {
         for side in 0..4 {
@@ -57,8 +57,8 @@ pub fn all_turns(network: &Network) -> Vec<Turn> {
 fn mouth(network: &Network, arm: &Arm) -> Pose2 {
     let line = &network.streets[arm.street].line;
     match arm.contact {
-        Contact::Start => line.pose_at(0.0),
-        Contact::End => reversed(line.end()),
+        RoadEnd::Start => line.pose_at(0.0),
+        RoadEnd::End => reversed(line.end()),
     }
 }
 
@@ -104,7 +104,7 @@ fn turn(
     [(from_side, from), (to_side, to)]: &[(usize, Arm); 2],
     LaneWay { lanes, skipped: skipped_lanes }: LaneWay,
     with_sidewalk: bool,
-) -> Turn {
+) -> JunctionWay {
     let profile = |arm: &Arm| network.streets[arm.street].profile;
     let (from_profile, to_profile): (Profile, Profile) = (profile(from), profile(to));
     let quarter = (to_side + 4 - from_side) % 4;
@@ -119,5 +119,5 @@ fn turn(
         Alignment::quarter_turn(start, ahead_m, left_m.abs(), quarter == 3, f64::INFINITY, 0.0)
     };
     let sidewalk_m = with_sidewalk.then_some([from_profile.sidewalk_m, to_profile.sidewalk_m]);
-    Turn { junction, from: *from, to: *to, line, lanes, skipped_lanes, sidewalk_m }
+    JunctionWay { junction, from: *from, to: *to, line, lanes, skipped_lanes, sidewalk_m }
 }

@@ -1,6 +1,6 @@
 //! [`BoxFace`]: places on a box's upright face, and lines through it.
 
-use crate::lanes::Lane;
+use crate::lanes::PixelLane;
 use crate::surface::SurfacePoint;
 use crate::vector::Vec3;
 
@@ -31,6 +31,6 @@ pub(super) struct Slant {
 
 /// The slant of lines at pixel `k`.
 #[inline(always)]
-pub(super) fn slant([along, up]: &[Lane; 2], k: usize) -> Slant {
+pub(super) fn slant([along, up]: &[PixelLane; 2], k: usize) -> Slant {
     Slant { along: along[k], up: up[k] }
 }

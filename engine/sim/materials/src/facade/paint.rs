@@ -2,7 +2,7 @@
 
 use super::box_face::{BoxFace, Slant, slant};
 use super::wall::{Facade, GRAIN_PER_M};
-use crate::lanes::{Block, Lane, Shared, WIDE, get, groups, set};
+use crate::lanes::{Block, PixelLane, Shared, WIDE, get, groups, set};
 use crate::light::Light;
 use crate::pattern::{NoiseLevels, NoiseTexture, lerp, most, one_if, share};
 use crate::surface::SurfacePoint;
@@ -40,15 +40,15 @@ struct Group<'a> {
     shared: &'a Shared,
     night: Option<f32>,
     /// Slants of lines of sight and of sunlight.
-    views: [Lane; 2],
-    suns: [Lane; 2],
+    views: [PixelLane; 2],
+    suns: [PixelLane; 2],
     /// Strength of shadows within windows, and of balconies.
-    fine: Lane,
-    coarse: Lane,
+    fine: PixelLane,
+    coarse: PixelLane,
     any_fine: u32,
     any_coarse: u32,
     /// Light that dirt leaves.
-    dirt: Lane,
+    dirt: PixelLane,
 }
 
 impl Facade {
@@ -150,7 +150,7 @@ impl<'a> Group<'a> {
 
     /// Light that joints between bricks leave.
     #[inline(always)]
-    fn courses(&self, block: &Block) -> Lane {
+    fn courses(&self, block: &Block) -> PixelLane {
         let mut courses = [1.0f32; WIDE];
         if self.facade.brick > 0.0 {
             for (k, courses) in courses.iter_mut().enumerate() {
@@ -163,7 +163,7 @@ impl<'a> Group<'a> {
 
     /// The bare wall.
     #[inline(always)]
-    fn put_wall(&self, block: &mut Block, [grain, courses]: [&Lane; 2], is_at_ends: bool) {
+    fn put_wall(&self, block: &mut Block, [grain, courses]: [&PixelLane; 2], is_at_ends: bool) {
         let dirt = &self.dirt;
         if is_at_ends {
             for k in 0..WIDE {
@@ -212,7 +212,7 @@ impl<'a> Group<'a> {
     }
 
     #[inline(always)]
-    fn put_shops(&self, block: &mut Block, [grain, courses]: [&Lane; 2]) {
+    fn put_shops(&self, block: &mut Block, [grain, courses]: [&PixelLane; 2]) {
         for k in 0..WIDE {
             let (point, [along_m, up_m]) = self.point(block, k);
             let [view, _] = self.slants(k);

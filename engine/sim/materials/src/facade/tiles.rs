@@ -3,7 +3,7 @@
 use super::draws;
 use crate::lanes::{Block, Shared, WIDE, get, groups, set};
 use crate::pattern::{NoiseTexture, Noises, draw, hash, lerp, one_if, stripes, unit};
-use crate::roof_step::{Pitch, TopSlope};
+use crate::roof_step::{RoofPitch, TopSlope};
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;
 use cosfly_frames::simd_kernel;
@@ -59,7 +59,7 @@ pub struct Tiles {
     above_m: [f32; 4],
     /// Direction in which an upright face falls; zero for upper faces.
     outward: Vec3,
-    pitch: Pitch,
+    pitch: RoofPitch,
 }
 
 impl Tiles {
@@ -70,7 +70,7 @@ impl Tiles {
     }
 
     /// An upright face of a step that falls to `outward`.
-    pub fn side(seed: u32, town: u32, outward: Vec3, pitch: Pitch) -> Self {
+    pub fn side(seed: u32, town: u32, outward: Vec3, pitch: RoofPitch) -> Self {
         // A town prefers some: squared, the first ones as the town turns the list come most often.
         let place = (draw(seed, draws::TILES) * draw(seed, draws::TILES_AGAIN) * TONES.len() as f32) as usize;
         let turned = place + (hash(town, draws::TILES) % TONES.len() as u32) as usize;

@@ -1,6 +1,6 @@
 //! Baselines without training: constant pose, constant velocity, constant acceleration, copying the target's motion.
 
-use super::prediction::{Prediction, View};
+use super::prediction::{InputFrames, WorldPrediction};
 use cosfly_frames::{DVec3, Pose, real};
 
 /// Extrapolation by polynomials through the past poses.
@@ -22,10 +22,10 @@ impl Extrapolation {
     pub const ALL: [Self; 4] = [Self::Zero, Self::ConstantVelocity, Self::ConstantAcceleration, Self::CopyTarget];
 
     /// Predicts the waypoints of a window.
-    pub fn predict(self, view: &View<'_>) -> Prediction {
+    pub fn predict(self, view: &InputFrames<'_>) -> WorldPrediction {
         let current = view.current();
         match self {
-            Self::Zero => Prediction { current, waypoints: vec![current; view.horizon] },
+            Self::Zero => WorldPrediction { current, waypoints: vec![current; view.horizon] },
             Self::ConstantVelocity => fitted(view, 1),
             Self::ConstantAcceleration => fitted(view, 2),
             Self::CopyTarget => {
@@ -35,7 +35,7 @@ impl Extrapolation {
                 };
                 let moved =
                     |k: usize| Pose { position_in_world: current.position_in_world + k as f64 * step, ..current };
-                Prediction { current, waypoints: (1..=view.horizon).map(moved).collect() }
+                WorldPrediction { current, waypoints: (1..=view.horizon).map(moved).collect() }
             }
         }
     }
@@ -43,7 +43,7 @@ impl Extrapolation {
 
 /// Polynomials of `degree` through the six numbers of the poses, extrapolated. Fewer poses than required lower the
 /// degree.
-fn fitted(view: &View<'_>, degree: usize) -> Prediction {
+fn fitted(view: &InputFrames<'_>, degree: usize) -> WorldPrediction {
     let current = view.current();
     let degree = degree.min(view.poses.len().saturating_sub(1));
     let fit = Fit::new(view.poses.len(), degree);
@@ -67,7 +67,7 @@ fn fitted(view: &View<'_>, degree: usize) -> Prediction {
             roll_rad: current.roll_rad + angles.z,
         }
     };
-    Prediction { current: pose_at(0.0), waypoints: (1..=view.horizon).map(|step| pose_at(step as f64)).collect() }
+    WorldPrediction { current: pose_at(0.0), waypoints: (1..=view.horizon).map(|step| pose_at(step as f64)).collect() }
 }
 
 /// Least-squares fit of values at the times 1 - n ..= 0 by orthogonal polynomials (Gram's).
@@ -123,7 +123,8 @@ mod tests {
         for (method, curve) in [(Extrapolation::ConstantVelocity, 0.0), (Extrapolation::ConstantAcceleration, 1.0)] {
             let mut poses = along(|t| a * t + curve * b * t * t);
             poses.iter_mut().for_each(|pose| pose.pitch_rad = -0.7);
-            let found = method.predict(&View { poses: &poses[..5], feet: &[], horizon: 5, ..View::default() });
+            let found =
+                method.predict(&InputFrames { poses: &poses[..5], feet: &[], horizon: 5, ..InputFrames::default() });
             let errors = crate::errors(&found.waypoints, &poses[5..]);
             assert!(errors.ade_m < 1e-9 && errors.rotation_mae_deg < 1e-9, "{method:?} {errors:?}");
         }
@@ -133,14 +134,26 @@ mod tests {
     fn the_target_is_copied_and_nothing_is_needed() {
         let poses = along(|_| DVec3::Z);
         let feet: Vec<DVec3> = (0..5).map(|k| DVec3::new(f64::from(k), 0.0, 0.0)).collect();
-        let found =
-            Extrapolation::CopyTarget.predict(&View { poses: &poses[..5], feet: &feet, horizon: 3, ..View::default() });
+        let found = Extrapolation::CopyTarget.predict(&InputFrames {
+            poses: &poses[..5],
+            feet: &feet,
+            horizon: 3,
+            ..InputFrames::default()
+        });
         assert_eq!(found.waypoints[2].position_in_world, DVec3::new(3.0, 0.0, 1.0));
         for method in Extrapolation::ALL {
-            let alone = method.predict(&View { poses: &poses[..1], feet: &feet[..1], horizon: 2, ..View::default() });
+            let alone = method.predict(&InputFrames {
+                poses: &poses[..1],
+                feet: &feet[..1],
+                horizon: 2,
+                ..InputFrames::default()
+            });
             assert_eq!(alone.waypoints[1].position_in_world, DVec3::Z, "{method:?}");
             assert_eq!(
-                method.predict(&View { poses: &[], feet: &[], horizon: 2, ..View::default() }).waypoints.len(),
+                method
+                    .predict(&InputFrames { poses: &[], feet: &[], horizon: 2, ..InputFrames::default() })
+                    .waypoints
+                    .len(),
                 2
             );
         }
@@ -149,7 +162,12 @@ mod tests {
     #[test]
     fn an_anchor_moves_the_whole_prediction() {
         let poses = along(|t| DVec3::X * t);
-        let found = Extrapolation::Zero.predict(&View { poses: &poses[..5], feet: &[], horizon: 2, ..View::default() });
+        let found = Extrapolation::Zero.predict(&InputFrames {
+            poses: &poses[..5],
+            feet: &[],
+            horizon: 2,
+            ..InputFrames::default()
+        });
         let anchor = Pose::looking_at(DVec3::new(0.0, 7.0, 0.0), DVec3::new(9.0, 7.0, 0.0));
         assert_eq!(found.started_at(&anchor), [anchor, anchor]);
     }

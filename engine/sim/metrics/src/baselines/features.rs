@@ -1,6 +1,6 @@
 //! Features and outcomes of trained baselines, relative to the current pose and rotated by its yaw.
 
-use super::prediction::View;
+use super::prediction::InputFrames;
 use cosfly_frames::{DVec3, Pose, real};
 
 /// Numbers per predicted waypoint: ahead, right, up in metres, pitch, yaw and roll in radians.
@@ -25,7 +25,7 @@ pub enum Known {
 /// Appends the features of a window to `features`: for every frame before the current one the pose relative to it, the
 /// current pitch and roll, and in every input frame the target's position, or middle, height and presence of its box in
 /// shares of the image.
-pub fn push_features(view: &View<'_>, known: Known, features: &mut Vec<f64>) {
+pub fn push_features(view: &InputFrames<'_>, known: Known, features: &mut Vec<f64>) {
     let current = view.current();
     for pose in &view.poses[..view.poses.len().saturating_sub(1)] {
         features.extend(relative(&current, pose));
@@ -63,7 +63,7 @@ pub fn relative(current: &Pose, pose: &Pose) -> [f64; PER_WAYPOINT] {
 }
 
 /// `pose` relative to `start`, but along the axes of the current pose, which a model knows.
-pub fn outcome(view: &View<'_>, start: &Pose, pose: &Pose) -> [f64; PER_WAYPOINT] {
+pub fn outcome(view: &InputFrames<'_>, start: &Pose, pose: &Pose) -> [f64; PER_WAYPOINT] {
     let mut numbers = relative(&Pose { yaw_rad: view.current().yaw_rad, ..*start }, pose);
     numbers[4] = real::wrap_angle_rad(pose.yaw_rad - start.yaw_rad);
     numbers
@@ -103,7 +103,7 @@ pub struct Examples {
 impl Examples {
     /// Adds a window with the true waypoints `truth`; `start` is the pose to which they are relative: the view's
     /// current pose unless increments start elsewhere. Windows of another shape than the first are skipped.
-    pub fn push(&mut self, view: &View<'_>, start: &Pose, truth: &[Pose]) {
+    pub fn push(&mut self, view: &InputFrames<'_>, start: &Pose, truth: &[Pose]) {
         let (features, outcomes) = (self.features.len(), self.outcomes.len());
         push_features(view, self.known, &mut self.features);
         for pose in truth {
@@ -186,7 +186,7 @@ mod tests {
     fn boxes_are_shares_of_the_image_and_absent_ones_are_zeros() {
         let poses = [Pose::looking_at(DVec3::ZERO, DVec3::X)];
         let boxes = [Some([30.0, 10.0, 50.0, 30.0]), None];
-        let view = View { poses: &poses, boxes: &boxes, image_px: [80.0, 40.0], ..View::default() };
+        let view = InputFrames { poses: &poses, boxes: &boxes, image_px: [80.0, 40.0], ..InputFrames::default() };
         let mut features = vec![];
         push_features(&view, Known::Boxes, &mut features);
         assert_eq!(features[2..], [0.0, 0.0, 0.5, 1.0, 0.0, 0.0, 0.0, 0.0]);

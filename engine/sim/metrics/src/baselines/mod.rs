@@ -12,5 +12,5 @@ mod solve;
 
 pub use extrapolate::Extrapolation;
 pub use nearest::NearestNeighbour;
-pub use prediction::{Anchor, Prediction, View};
+pub use prediction::{Anchor, InputFrames, WorldPrediction};
 pub use ridge::Ridge;

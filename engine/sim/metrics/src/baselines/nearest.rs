@@ -1,7 +1,7 @@
 //! Nearest-neighbour baseline: the waypoints of the most similar training window.
 
 use super::features::{Examples, Known, Scaling, push_features, waypoints_of};
-use super::prediction::{Prediction, View};
+use super::prediction::{InputFrames, WorldPrediction};
 
 /// Number of columns summed in parallel.
 const LANES: usize = 8;
@@ -50,7 +50,7 @@ impl NearestNeighbour {
 
     /// Waypoints of the nearest window, by the distance between scaled features; the first of equally near ones. `None`
     /// for a window of another shape.
-    pub fn predict(&self, view: &View<'_>) -> Option<Prediction> {
+    pub fn predict(&self, view: &InputFrames<'_>) -> Option<WorldPrediction> {
         let mut features = Vec::with_capacity(self.width);
         push_features(view, self.known, &mut features);
         if features.len() != self.width {
@@ -67,7 +67,7 @@ impl NearestNeighbour {
         }
         let current = view.current();
         let outcomes = &self.outcomes[nearest.1 * self.depth..][..self.depth];
-        Some(Prediction { current, waypoints: waypoints_of(&current, outcomes) })
+        Some(WorldPrediction { current, waypoints: waypoints_of(&current, outcomes) })
     }
 }
 
@@ -107,7 +107,7 @@ mod tests {
         for step in [0.5, 1.0, 1.5, 2.0] {
             let poses = poses(step);
             examples.push(
-                &View { poses: &poses[..5], feet: &[DVec3::ZERO; 5], horizon: 5, ..View::default() },
+                &InputFrames { poses: &poses[..5], feet: &[DVec3::ZERO; 5], horizon: 5, ..InputFrames::default() },
                 &poses[4],
                 &poses[5..],
             );
@@ -115,7 +115,7 @@ mod tests {
         let memory = NearestNeighbour::fit(&examples, 100).unwrap();
         let poses = poses(1.5);
         let found = memory
-            .predict(&View { poses: &poses[..5], feet: &[DVec3::ZERO; 5], horizon: 5, ..View::default() })
+            .predict(&InputFrames { poses: &poses[..5], feet: &[DVec3::ZERO; 5], horizon: 5, ..InputFrames::default() })
             .unwrap();
         assert!(crate::errors(&found.waypoints, &poses[5..]).fde_m < 1e-9);
         assert_eq!(NearestNeighbour::fit(&examples, 2).unwrap().len(), 2);

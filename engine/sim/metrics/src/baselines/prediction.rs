@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// Input frames of a window; the last one is the current frame.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct View<'a> {
+pub struct InputFrames<'a> {
     /// Poses of the drone, world frame.
     pub poses: &'a [Pose],
     /// Positions of the target's feet, world frame, metres.
@@ -18,7 +18,7 @@ pub struct View<'a> {
     pub horizon: usize,
 }
 
-impl View<'_> {
+impl InputFrames<'_> {
     /// Pose of the drone in the current frame.
     pub fn current(&self) -> Pose {
         self.poses.last().copied().unwrap_or(Pose::looking_at(DVec3::ZERO, DVec3::X))
@@ -27,7 +27,7 @@ impl View<'_> {
 
 /// A prediction in the world frame.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Prediction {
+pub struct WorldPrediction {
     /// Estimated pose of the drone in the current frame.
     pub current: Pose,
     /// Predicted poses of the next frames.
@@ -44,7 +44,7 @@ pub enum Anchor {
     Expert,
 }
 
-impl Prediction {
+impl WorldPrediction {
     /// Waypoints when the prediction's increments start at `anchor` instead of the estimated current pose.
     pub fn started_at(mut self, anchor: &Pose) -> Vec<Pose> {
         let shift = anchor.position_in_world - self.current.position_in_world;

@@ -1,7 +1,7 @@
 //! Ridge regression from the input frames to the waypoints, in closed form.
 
 use super::features::{Examples, Known, Scaling, push_features, waypoints_of};
-use super::prediction::{Prediction, View};
+use super::prediction::{InputFrames, WorldPrediction};
 use super::solve::solve;
 
 /// Weight of the penalty per row: large enough for collinear columns, negligible otherwise.
@@ -51,7 +51,7 @@ impl Ridge {
     }
 
     /// Predicts the waypoints of a window; `None` for one of another shape than the training windows.
-    pub fn predict(&self, view: &View<'_>) -> Option<Prediction> {
+    pub fn predict(&self, view: &InputFrames<'_>) -> Option<WorldPrediction> {
         let mut features = Vec::with_capacity(self.width + 1);
         push_features(view, self.known, &mut features);
         if features.len() != self.width {
@@ -64,7 +64,7 @@ impl Ridge {
             outcomes.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += feature * weight);
         }
         let current = view.current();
-        Some(Prediction { current, waypoints: waypoints_of(&current, &outcomes) })
+        Some(WorldPrediction { current, waypoints: waypoints_of(&current, &outcomes) })
     }
 }
 
@@ -95,16 +95,21 @@ mod tests {
         for _ in 0..200 {
             let poses = window();
             examples.push(
-                &View { poses: &poses[..5], feet: &feet, horizon: 5, ..View::default() },
+                &InputFrames { poses: &poses[..5], feet: &feet, horizon: 5, ..InputFrames::default() },
                 &poses[4],
                 &poses[5..],
             );
         }
         let ridge = Ridge::fit(&examples).unwrap();
         let poses = window();
-        let found = ridge.predict(&View { poses: &poses[..5], feet: &feet, horizon: 5, ..View::default() }).unwrap();
+        let found = ridge
+            .predict(&InputFrames { poses: &poses[..5], feet: &feet, horizon: 5, ..InputFrames::default() })
+            .unwrap();
         assert!(crate::errors(&found.waypoints, &poses[5..]).fde_m < 0.05);
-        assert_eq!(ridge.predict(&View { poses: &poses[..4], feet: &feet, horizon: 5, ..View::default() }), None);
+        assert_eq!(
+            ridge.predict(&InputFrames { poses: &poses[..4], feet: &feet, horizon: 5, ..InputFrames::default() }),
+            None
+        );
         assert_eq!(Ridge::fit(&Examples::default()), None);
     }
 }

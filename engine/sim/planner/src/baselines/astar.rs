@@ -9,7 +9,7 @@ use super::clearance_cache::{ClearanceCache, move_is_free};
 use super::grid::{Cell, MOVES, VoxelGrid};
 use super::input::BaselinePath;
 use super::queue::RadixQueue;
-use super::sight::Sight;
+use super::sight::StaticSight;
 use crate::error::PlanError;
 
 /// Node record: cost on arrival, cost of the node, [`Mark`]s and the move that led here. Zero means untouched.
@@ -26,7 +26,7 @@ const SEEN: u32 = 2;
 /// Settled, or not allowed.
 const CLOSED: u32 = 4;
 
-struct Search<'a, S: Sight> {
+struct Search<'a, S: StaticSight> {
     grid: &'a VoxelGrid<'a>,
     sight: &'a S,
     clearance: ClearanceCache,
@@ -39,7 +39,7 @@ struct Search<'a, S: Sight> {
 /// The cheapest way through the grid that keeps `keep_m` from obstacles, voxels and moves alike.
 pub fn astar(
     grid: &VoxelGrid<'_>,
-    sight: &impl Sight,
+    sight: &impl StaticSight,
     keep_m: f64,
     influence_m: f64,
 ) -> Result<BaselinePath, PlanError> {
@@ -64,7 +64,7 @@ pub fn astar(
     Err(PlanError::NoWay(format!("no free way of voxels leads beyond frame {frame}")))
 }
 
-impl<S: Sight> Search<'_, S> {
+impl<S: StaticSight> Search<'_, S> {
     /// Settles a node that came out of the queue, unless it is stale, not free, or dearer than it was thought.
     fn settle(&mut self, cost: f32, node: usize) -> Option<Cell> {
         let record = &mut self.records[node];

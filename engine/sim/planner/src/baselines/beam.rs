@@ -7,7 +7,7 @@
 use super::clearance_cache::{ClearanceCache, move_is_free};
 use super::grid::{Cell, MOVES, VoxelGrid};
 use super::input::BaselinePath;
-use super::sight::Sight;
+use super::sight::StaticSight;
 use crate::error::PlanError;
 
 /// Nodes per layer that live on: as few as lose no visibility against A* in streets.
@@ -27,7 +27,7 @@ struct Node {
 /// A cheap way through the grid that keeps `keep_m` from obstacles.
 pub fn beam(
     grid: &VoxelGrid<'_>,
-    sight: &impl Sight,
+    sight: &impl StaticSight,
     keep_m: f64,
     influence_m: f64,
     width: usize,
@@ -60,7 +60,7 @@ pub fn beam(
 /// nodes are looked at by rising bound until no other can be among the cheapest.
 fn survivors(
     grid: &VoxelGrid<'_>,
-    sight: &impl Sight,
+    sight: &impl StaticSight,
     clearance: &mut ClearanceCache,
     keep_m: f64,
     mut reached: Vec<Node>,
@@ -101,7 +101,7 @@ fn prune(alive: &mut Vec<Node>, width: usize) -> f32 {
 /// The cells that the living nodes' moves lead to, each with its cheapest arrival; then their bare costs.
 fn successors(
     grid: &VoxelGrid<'_>,
-    sight: &impl Sight,
+    sight: &impl StaticSight,
     clearance: &mut ClearanceCache,
     keep_m: f64,
     alive: &[Node],

@@ -1,7 +1,7 @@
 //! Distances from obstacles, kept per voxel of the world: what stands still is asked once, not once per layer.
 
 use super::grid::{Cell, VoxelGrid};
-use super::sight::Sight;
+use super::sight::StaticSight;
 
 /// Largest number of voxels that are kept; wider paths ask anew.
 const MAX_VOXELS: f64 = (1 << 24) as f64;
@@ -32,14 +32,14 @@ impl ClearanceCache {
 
     /// The distance of a cell's middle from all obstacles.
     #[inline]
-    pub fn distance_m(&mut self, grid: &VoxelGrid<'_>, cell: Cell, sight: &impl Sight) -> f64 {
+    pub fn distance_m(&mut self, grid: &VoxelGrid<'_>, cell: Cell, sight: &impl StaticSight) -> f64 {
         let still_m = self.still_m(grid, cell, sight);
         grid.moving.distance_m(grid.layers[cell.layer].frame, grid.position(cell), still_m)
     }
 
     /// The distance from what stands still.
     #[inline]
-    fn still_m(&mut self, grid: &VoxelGrid<'_>, cell: Cell, sight: &impl Sight) -> f64 {
+    fn still_m(&mut self, grid: &VoxelGrid<'_>, cell: Cell, sight: &impl StaticSight) -> f64 {
         if self.distance_m.is_empty() {
             return sight.distance_m(grid.position(cell), self.within_m);
         }
@@ -59,7 +59,7 @@ impl ClearanceCache {
 pub fn move_is_free(
     cache: &mut ClearanceCache,
     grid: &VoxelGrid<'_>,
-    sight: &impl Sight,
+    sight: &impl StaticSight,
     (from, to): (Cell, Cell),
     length_m: f64,
     keep_m: f64,
@@ -74,7 +74,7 @@ pub fn move_is_free(
 fn still_is_free(
     cache: &mut ClearanceCache,
     grid: &VoxelGrid<'_>,
-    sight: &impl Sight,
+    sight: &impl StaticSight,
     (from, to): (Cell, Cell),
     length_m: f64,
     keep_m: f64,

@@ -1,7 +1,7 @@
 //! The voxels around a moving target, layer by layer in time, and what they cost before any ray is cast.
 
 use super::moving_layers::MovingLayers;
-use super::sight::Sight;
+use super::sight::StaticSight;
 use crate::config::muco::MucoConfig;
 use crate::error::PlanError;
 use crate::problem::Problem;
@@ -132,7 +132,7 @@ impl<'a> VoxelGrid<'a> {
     }
 
     /// Number of the target's points that are seen from a cell.
-    pub fn visible_points(&self, cell: Cell, sight: &impl Sight) -> usize {
+    pub fn visible_points(&self, cell: Cell, sight: &impl StaticSight) -> usize {
         let (camera, body) = (self.position(cell), &self.layers[cell.layer].body);
         let mut hidden = [false; BODY_POINTS];
         sight.hide(camera, body, &mut hidden);

@@ -8,7 +8,7 @@ use super::grid::{VoxelGrid, VoxelOptions};
 use super::input::{BaselineInput, BaselinePath};
 use super::lattice_path::lattice_path;
 use super::near_track::near_track;
-use super::sight::Sight;
+use super::sight::StaticSight;
 use crate::error::PlanError;
 use crate::track_check::check_track;
 use cosfly_domain::OrientedBox;
@@ -44,7 +44,7 @@ pub fn plan_baseline_with(
 }
 
 /// A* whose rays and distances are answered by what `tree` makes of the boxes near the track.
-pub fn plan_astar<S: Sight>(
+pub fn plan_astar<S: StaticSight>(
     input: &BaselineInput<'_>,
     options: VoxelOptions,
     tree: impl FnOnce(Vec<OrientedBox>) -> S,

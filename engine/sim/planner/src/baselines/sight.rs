@@ -4,7 +4,7 @@ use cosfly_frames::DVec3;
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 
 /// Visibility and clearance among obstacles that stand still. World frame, metres.
-pub trait Sight {
+pub trait StaticSight {
     /// Sets for each of the `body` points whether an obstacle hides it from `camera`.
     fn hide(&self, camera: DVec3, body: &[DVec3], hidden: &mut [bool]);
 
@@ -15,7 +15,7 @@ pub trait Sight {
     fn segment_clearance_m(&self, from: DVec3, to: DVec3, within_m: f64) -> f64;
 }
 
-impl Sight for BoxBvh {
+impl StaticSight for BoxBvh {
     fn hide(&self, camera: DVec3, body: &[DVec3], hidden: &mut [bool]) {
         self.blocked_batch(camera, body, hidden);
     }

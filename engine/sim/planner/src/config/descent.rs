@@ -1,6 +1,6 @@
 //! The gradient descent of `preset = "paper"`.
 
-use super::ranges::{Range, Refusal, ordered};
+use super::ranges::{Range, RangeRefusal, ordered};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +42,7 @@ impl DescentConfig {
         ]
     }
 
-    pub(super) fn check_order(&self) -> Result<(), Refusal> {
+    pub(super) fn check_order(&self) -> Result<(), RangeRefusal> {
         ordered(("descent.min_rate", self.min_rate), ("descent.rate", self.rate))
     }
 }

@@ -22,7 +22,7 @@ pub use muco::MucoConfig;
 pub use occlusion::OcclusionConfig;
 pub use paper::PaperConfig;
 pub use planner::Planner;
-pub use ranges::{Refusal, in_range};
+pub use ranges::{RangeRefusal, in_range};
 pub use search::{SearchConfig, SearchEffort};
 pub use targets::TargetsConfig;
 pub use view::ViewConfig;

@@ -7,7 +7,7 @@ use super::limits::{LimitsConfig, VIEW_RATE_DEG_S};
 use super::occlusion::OcclusionConfig;
 use super::paper::PaperConfig;
 use super::planner::Planner;
-use super::ranges::{Refusal, in_range, ordered};
+use super::ranges::{RangeRefusal, in_range, ordered};
 use super::search::SearchConfig;
 use super::targets::TargetsConfig;
 use super::view::ViewConfig;
@@ -109,7 +109,7 @@ impl MucoConfig {
     ///
     /// # Errors
     /// The path of the parameter, and the rule that it breaks.
-    pub fn validate(&self) -> Result<(), Refusal> {
+    pub fn validate(&self) -> Result<(), RangeRefusal> {
         self.check_ranges()?;
         self.view.check_order()?;
         let filter_radius = ("search.filter_radius_m", self.search.filter_radius_m);
@@ -119,7 +119,7 @@ impl MucoConfig {
         self.descent.check_order()
     }
 
-    fn check_ranges(&self) -> Result<(), Refusal> {
+    fn check_ranges(&self) -> Result<(), RangeRefusal> {
         let flight = self.limits.ranges().into_iter().chain(self.view.ranges()).chain(self.search.ranges());
         let targets = self.targets.ranges().into_iter().chain(self.occlusion.ranges()).chain(self.causal.ranges());
         let targets = targets.chain(self.drones.ranges());

@@ -1,6 +1,6 @@
 //! Losing the target on purpose.
 
-use super::ranges::{Range, Refusal, ordered};
+use super::ranges::{Range, RangeRefusal, ordered};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -59,7 +59,7 @@ impl OcclusionConfig {
         ]
     }
 
-    pub(super) fn check_order(&self) -> Result<(), Refusal> {
+    pub(super) fn check_order(&self) -> Result<(), RangeRefusal> {
         for (path, value, default) in [
             ("occlusion.share", self.share, Self::default().share),
             ("occlusion.beside_look_alike", self.beside_look_alike, Self::default().beside_look_alike),

@@ -4,13 +4,13 @@
 pub(super) type Range = (&'static str, f64, f64, f64);
 
 /// Path of a parameter, and the rule that it breaks.
-pub type Refusal = (String, String);
+pub type RangeRefusal = (String, String);
 
 /// Refuses a value out of range, or one that is not a number.
 ///
 /// # Errors
 /// The path, and the rule that it breaks.
-pub fn in_range(path: &str, value: f64, low: f64, high: f64) -> Result<(), Refusal> {
+pub fn in_range(path: &str, value: f64, low: f64, high: f64) -> Result<(), RangeRefusal> {
     if value >= low && value <= high {
         return Ok(());
     }
@@ -18,7 +18,7 @@ pub fn in_range(path: &str, value: f64, low: f64, high: f64) -> Result<(), Refus
 }
 
 /// Refuses a lower end (path and value) that is above the upper end.
-pub(super) fn ordered(low: (&str, f64), high: (&str, f64)) -> Result<(), Refusal> {
+pub(super) fn ordered(low: (&str, f64), high: (&str, f64)) -> Result<(), RangeRefusal> {
     if low.1 <= high.1 {
         return Ok(());
     }

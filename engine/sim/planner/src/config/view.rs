@@ -1,6 +1,6 @@
 //! Wanted position of the drone relative to its target.
 
-use super::ranges::{Range, Refusal, ordered};
+use super::ranges::{Range, RangeRefusal, ordered};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -76,7 +76,7 @@ impl ViewConfig {
     }
 
     /// Bands must not be upside down.
-    pub(super) fn check_order(&self) -> Result<(), Refusal> {
+    pub(super) fn check_order(&self) -> Result<(), RangeRefusal> {
         let min_altitude = ("view.min_altitude_m", self.min_altitude_m);
         let preferred_altitude = ("view.preferred_altitude_m", self.preferred_altitude_m);
         let max_altitude = ("view.max_altitude_m", self.max_altitude_m);

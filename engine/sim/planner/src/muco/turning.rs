@@ -18,7 +18,7 @@ const NEAR_AXIS_M: f64 = 4.0;
 const WAY_OUT_M: f64 = 1.0;
 
 /// Direction from the target in a plane that may turn from frame to frame: angle against `across` towards `up`.
-struct Sight {
+struct StaticSight {
     target: DVec3,
     across: DVec3,
     angle_rad: f64,
@@ -65,7 +65,7 @@ fn bound(
     let sight = |frame: usize| {
         let (target, across) = (aim_point(&input.track.states[frame], input.track.height_m), across(frame));
         let ray = waypoints[frame] - target;
-        Sight { target, across, angle_rad: real::atan2(ray.dot(up), ray.dot(across)) }
+        StaticSight { target, across, angle_rad: real::atan2(ray.dot(up), ray.dot(across)) }
     };
     let sights = [sight(frame), sight(frame + 1)];
     let turn = real::wrap_angle_rad(sights[1].angle_rad - sights[0].angle_rad);

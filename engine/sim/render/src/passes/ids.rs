@@ -4,7 +4,7 @@ use crate::faces::{DrawnFace, FaceSource};
 use cosfly_domain::{FrameImages, SemanticLabel};
 use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
-use cosfly_materials::leaves::Outline;
+use cosfly_materials::leaves::LeafCrown;
 use cosfly_raster::visibility::NO_FACE;
 use rayon::prelude::*;
 
@@ -43,7 +43,7 @@ pub(crate) struct CrownSpan {
     pub reach_m: f32,
     /// Twigs without leaves.
     pub is_bare: bool,
-    pub outline: Outline,
+    pub outline: LeafCrown,
 }
 
 /// The runs of faces seen, by band.

@@ -17,7 +17,7 @@ use cosfly_frames::simd::Level;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::kerbs::{KerbLine, Kerbs, put_kerb};
 use cosfly_materials::lanes::{
-    Block, EMPTY_ROW, FOUR, FOURS, GROUPS, LANES, Shared, Stage, StageRow, WIDE, write_row, write_three,
+    Block, EMPTY_ROW, FOUR, FOURS, GROUPS, LANES, PendingFours, Shared, StageRow, WIDE, write_row, write_three,
 };
 use cosfly_materials::leaves::{Crowns, put_crown};
 use cosfly_materials::vector::Vec3;
@@ -37,7 +37,7 @@ const END: u32 = u32::MAX;
 
 /// Buffers of one thread that shades bands.
 pub(crate) struct Worker {
-    stage: Box<Stage>,
+    stage: Box<PendingFours>,
     cloths: Box<Cloths>,
     crowns: Box<Crowns>,
     kerbs: Box<Kerbs>,
@@ -131,7 +131,7 @@ simd_kernel! {
 impl Worker {
     pub fn new() -> Self {
         Self {
-            stage: Box::new(Stage::EMPTY),
+            stage: Box::new(PendingFours::EMPTY),
             cloths: Box::new(Cloths::EMPTY),
             crowns: Box::new(Crowns::EMPTY),
             kerbs: Box::new(Kerbs::EMPTY),
@@ -333,7 +333,7 @@ fn are_one_plane(seen: &Seen<'_>, band: &Band<'_>, left: &Run, right: &Run) -> b
 
 simd_kernel! {
     /// Puts pieces of runs on the stage, sixteen fours at a time: what is too much, the next piece writes over.
-    fn fill(pieces: &[Piece], stage: &mut Stage) {
+    fn fill(pieces: &[Piece], stage: &mut PendingFours) {
         for piece in pieces {
             let step = FOUR as f32 * piece.across;
             let first = piece.lane / FOUR;

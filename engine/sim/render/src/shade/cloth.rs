@@ -4,7 +4,7 @@ use crate::people::{PartLook, Person};
 use cosfly_figures::{Pattern, Region};
 use cosfly_frames::simd_kernel;
 use cosfly_materials::lanes::{
-    Block, EMPTY_ROW, Shared, Stage, StageRow, WIDE, groups, three_of, write_row, write_three,
+    Block, EMPTY_ROW, PendingFours, Shared, StageRow, WIDE, groups, three_of, write_row, write_three,
 };
 use cosfly_materials::pattern::{NoiseTexture, Noises, share, stripes};
 use cosfly_materials::surface::Look;
@@ -94,7 +94,7 @@ simd_kernel! {
     /// that moves.
     pub(super) fn cloth(shared: &[Shared], blocks: &mut [Block], cloths: &Cloths, noise: &NoiseTexture) {
         for (group, (shared, four)) in groups(shared, blocks).enumerate() {
-            let [rings, lines] = [&cloths.rings, &cloths.lines].map(|row| Stage::lane(row, group));
+            let [rings, lines] = [&cloths.rings, &cloths.lines].map(|row| PendingFours::lane(row, group));
             let (mut per_length2, mut length) = ([0.0; WIDE], [0.0; WIDE]);
             for k in 0..WIDE {
                 let along = three_of(&cloths.along, group, k);

@@ -3,7 +3,7 @@
 use super::geometry::View;
 use super::setting::Seen;
 use crate::faces::FaceSource;
-use cosfly_materials::lanes::Stage;
+use cosfly_materials::lanes::PendingFours;
 use cosfly_materials::vector::Vec3;
 
 /// From the first pixel of a four to its middle, pixels.
@@ -47,7 +47,7 @@ impl Curve {
     }
 
     /// Turns the normals of fours on the stage.
-    pub fn bend(&self, view: &View, stage: &mut Stage, first: usize, fours: usize) {
+    pub fn bend(&self, view: &View, stage: &mut PendingFours, first: usize, fours: usize) {
         for four in first..first + fours {
             let ray = view.ray(stage.u[four] + MIDDLE, stage.v[four]);
             let inverse = stage.inverse[four];

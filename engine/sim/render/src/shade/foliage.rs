@@ -11,7 +11,7 @@ use crate::passes::ids::{CrownSpan, Run, SeenRuns};
 use crate::scene::Scene;
 use cosfly_domain::FrameImages;
 use cosfly_frames::simd_kernel;
-use cosfly_materials::leaves::{Leaves, Outline};
+use cosfly_materials::leaves::{LeafCrown, Leaves};
 use cosfly_materials::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
 use cosfly_materials::vector::Vec3;
 
@@ -266,7 +266,7 @@ simd_kernel! {
         for (k, gap) in gap.iter_mut().enumerate() {
             let ray = view.ray(places.u[k], places.v[k]);
             let [middle, shrink] = [&places.middle, &places.shrink].map(|rows| Vec3::new(rows[0][k], rows[1][k], rows[2][k]));
-            let outline = Outline { middle, shrink };
+            let outline = LeafCrown { middle, shrink };
             let place = view.position + ray * places.depth_m[k];
             let corner = outline.passed_by(view.position, ray);
             // No face of a box is seen edge-on in these two directions.

@@ -2,7 +2,7 @@
 
 use cosfly_frames::simd_kernel;
 use cosfly_materials::grid::{GridFrame, GridTables};
-use cosfly_materials::lanes::{Block, Shared, Stage, WIDE, get, groups, set, three_of};
+use cosfly_materials::lanes::{Block, PendingFours, Shared, WIDE, get, groups, set, three_of};
 use cosfly_materials::light::Light;
 use cosfly_materials::pattern::{least, most, one_if};
 use cosfly_materials::vector::Vec3;
@@ -47,15 +47,15 @@ pub struct FaceAxes {
 
 simd_kernel! {
     /// Fills in what fours share that follows from pixel, depth and normal; turns normals to the camera.
-    pub fn place(shared: &mut [Shared], stage: &Stage, view: &View, light: &Light) {
+    pub fn place(shared: &mut [Shared], stage: &PendingFours, view: &View, light: &Light) {
         let view = *view;
         let (haze_start_m, haze_per_m) = (light.haze_start_m, light.haze_per_m);
         for (group, shared) in shared.iter_mut().enumerate() {
-            let [u, v] = [&stage.u, &stage.v].map(|row| Stage::lane(row, group));
+            let [u, v] = [&stage.u, &stage.v].map(|row| PendingFours::lane(row, group));
             let [inverse, across, down] =
-                [&stage.inverse, &stage.across, &stage.down].map(|row| Stage::lane(row, group));
+                [&stage.inverse, &stage.across, &stage.down].map(|row| PendingFours::lane(row, group));
             let [x, y, z] = &stage.normal;
-            let normals = [x, y, z].map(|row| Stage::lane(row, group));
+            let normals = [x, y, z].map(|row| PendingFours::lane(row, group));
             for k in 0..WIDE {
                 let ray = view.ray(u[k] + MIDDLE, v[k]);
                 let depth = 1.0 / inverse_at(inverse[k], across[k], MIDDLE);
@@ -85,11 +85,11 @@ simd_kernel! {
 
 simd_kernel! {
     /// Fills in the place of each pixel.
-    pub fn points(shared: &[Shared], blocks: &mut [Block], stage: &Stage, view: &View) {
+    pub fn points(shared: &[Shared], blocks: &mut [Block], stage: &PendingFours, view: &View) {
         let view = *view;
         for (group, (shared, four)) in groups(shared, blocks).enumerate() {
-            let [u, v] = [&stage.u, &stage.v].map(|row| Stage::lane(row, group));
-            let [inverse, across] = [&stage.inverse, &stage.across].map(|row| Stage::lane(row, group));
+            let [u, v] = [&stage.u, &stage.v].map(|row| PendingFours::lane(row, group));
+            let [inverse, across] = [&stage.inverse, &stage.across].map(|row| PendingFours::lane(row, group));
             for (pixel, block) in four.iter_mut().enumerate() {
                 let aside = pixel as i32 as f32;
                 for k in 0..WIDE {

@@ -16,7 +16,7 @@ use cosfly_materials::facade::{facade, lift, roofs, tiles};
 use cosfly_materials::ground::ground;
 use cosfly_materials::kerbs::{Kerbs, stones};
 use cosfly_materials::lane_wear::worn;
-use cosfly_materials::lanes::{Block, Shared, Stage, StageRow, WIDE, get};
+use cosfly_materials::lanes::{Block, PendingFours, Shared, StageRow, WIDE, get};
 use cosfly_materials::leaves::{Crowns, even_leaves, leaves, swell};
 use cosfly_materials::pattern::{most, share};
 use cosfly_materials::things::things;
@@ -27,7 +27,7 @@ const OFF_CROWN_M: f32 = 1.5;
 
 /// Fours on the stage, with the people, crowns or colours that they show.
 pub(super) struct Staged<'a> {
-    pub stage: &'a Stage,
+    pub stage: &'a PendingFours,
     pub cloths: &'a Cloths,
     pub crowns: &'a Crowns,
     pub kerbs: &'a Kerbs,

@@ -5,7 +5,7 @@ use super::outskirts::{self, Outskirts, Sight};
 use super::tone::ToneCurve;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::grid::{GridFrame, GridTables};
-use cosfly_materials::lanes::{Block, FOUR, Shared, Stage, WIDE, get, groups, set};
+use cosfly_materials::lanes::{Block, FOUR, PendingFours, Shared, WIDE, get, groups, set};
 use cosfly_materials::light::Light;
 use cosfly_materials::pattern::{NoiseTexture, Noises, least, most, share, smoothstep};
 use cosfly_materials::vector::Vec3;
@@ -189,7 +189,7 @@ simd_kernel! {
     /// The sky and the land below it, where no face is.
     pub fn sky(
         blocks: &mut [Block],
-        stage: &Stage,
+        stage: &PendingFours,
         view: &View,
         air: (&Light, Vec3, &Outskirts),
         tone: &ToneCurve,
@@ -198,7 +198,7 @@ simd_kernel! {
         let (view, light, haze, outskirts) = (*view, *air.0, air.1, *air.2);
         let pixel = view.across.dot(view.across).sqrt();
         for (group, four) in blocks.as_chunks_mut::<FOUR>().0.iter_mut().enumerate() {
-            let [u, v] = [&stage.u, &stage.v].map(|row| Stage::lane(row, group));
+            let [u, v] = [&stage.u, &stage.v].map(|row| PendingFours::lane(row, group));
             // The sky changes slowly: it is blended between the ends of fours, which neighbours share.
             let mut ends = [[[0.0f32; WIDE]; 3]; 2];
             let (mut lowest, mut highest) = (1.0f32, -1.0f32);

@@ -6,11 +6,11 @@ use super::lighting::Answers;
 use super::skin::Painted;
 use cosfly_domain::{ObstacleKind, SemanticLabel};
 use cosfly_materials::facade::{BoxFace, Facade, Roof, Tiles};
-use cosfly_materials::lanes::Stage;
+use cosfly_materials::lanes::PendingFours;
 use cosfly_materials::light::Light;
 use cosfly_materials::parts::{BOX_FACES, SceneBox};
-use cosfly_materials::roof_step::Side;
-use cosfly_materials::things::Thing;
+use cosfly_materials::roof_step::FaceLook;
+use cosfly_materials::things::BoxThing;
 use cosfly_materials::vector::Vec3;
 
 /// Material of the pixels of a group.
@@ -20,7 +20,7 @@ pub(super) enum Material {
     Facade(Facade, BoxFace),
     Roof(Roof),
     Tiles(Tiles),
-    Thing(Thing),
+    Thing(BoxThing),
     /// See [`super::cloth::Cloths`].
     Cloth,
     /// Even surfaces of the simple look, of many colours: see [`super::face_material::even_colour`].
@@ -71,7 +71,7 @@ pub(super) fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
     if b.kind != ObstacleKind::Building {
         match b.kind {
             ObstacleKind::TreeCrown | ObstacleKind::Bush => Material::Leaves,
-            kind => Material::Thing(Thing::new(kind, center, axes, half, b.seed, axis, night)),
+            kind => Material::Thing(BoxThing::new(kind, center, axes, half, b.seed, axis, night)),
         }
     } else if let Some(material) = roof_material(b, face, (center, axes)) {
         material
@@ -94,9 +94,9 @@ fn roof_material(b: &SceneBox, face: usize, (center, axes): (Vec3, [Vec3; 2])) -
         return Some(Material::Tiles(Tiles::top(b.seed, b.town, center, axes, &slope)));
     }
     match step.sides[face] {
-        Side::Wall => None,
-        Side::Slope(pitch) => Some(Material::Tiles(Tiles::side(b.seed, b.town, axes[axis] * sign as f32, pitch))),
-        Side::Gable => {
+        FaceLook::Wall => None,
+        FaceLook::Slope(pitch) => Some(Material::Tiles(Tiles::side(b.seed, b.town, axes[axis] * sign as f32, pitch))),
+        FaceLook::Gable => {
             let half_width = if axis == 0 { b.half_extents_m.y } else { b.half_extents_m.x };
             let [foot_m, height_m] = step.wall_m.map(|value| value as f32);
             let look = Facade::new(b.seed, b.town, face as u32, 2.0 * half_width, height_m).bare();
@@ -114,7 +114,7 @@ impl Material {
     }
 
     /// Whether the sun shines on the back of a flat face: no shadow matters there. Faces of boxes show their outside.
-    pub(super) fn faces_away(&self, stage: &Stage, light: &Light) -> bool {
+    pub(super) fn faces_away(&self, stage: &PendingFours, light: &Light) -> bool {
         let is_flat = matches!(self, Self::Facade(..) | Self::Roof(_) | Self::Thing(_));
         let [x, y, z] = stage.normal.each_ref().map(|row| row[0]);
         is_flat && Vec3::new(x, y, z).dot(light.to_sun) <= 0.0

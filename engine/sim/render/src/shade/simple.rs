@@ -6,7 +6,7 @@ use super::tone::ToneCurve;
 use cosfly_domain::SemanticLabel;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::facade::{BoxFace, Facade};
-use cosfly_materials::lanes::{Block, FOUR, Shared, Stage, StageRow, WIDE, get, groups, three_of, write_three};
+use cosfly_materials::lanes::{Block, FOUR, PendingFours, Shared, StageRow, WIDE, get, groups, three_of, write_three};
 use cosfly_materials::light::Light;
 use cosfly_materials::vector::Vec3;
 
@@ -132,10 +132,10 @@ fn mixed(from: u32, to: u32, t: f32) -> u32 {
 
 simd_kernel! {
     /// A clear sky.
-    pub fn sky(blocks: &mut [Block], stage: &Stage, view: &View, light: &Light, tone: &ToneCurve) {
+    pub fn sky(blocks: &mut [Block], stage: &PendingFours, view: &View, light: &Light, tone: &ToneCurve) {
         let (view, light) = (*view, *light);
         for (group, four) in blocks.as_chunks_mut::<FOUR>().0.iter_mut().enumerate() {
-            let [u, v] = [&stage.u, &stage.v].map(|row| Stage::lane(row, group));
+            let [u, v] = [&stage.u, &stage.v].map(|row| PendingFours::lane(row, group));
             let mut bytes = [0; WIDE];
             for k in 0..WIDE {
                 bytes[k] = tone.pixel(light.sky(view.ray(u[k] + 1.5, v[k]).unit()) * light.exposure);

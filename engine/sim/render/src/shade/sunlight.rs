@@ -2,7 +2,7 @@
 
 use super::shadow_frame::DEPTH_M;
 use cosfly_frames::simd_kernel;
-use cosfly_materials::lanes::{Block, FOUR, Lane, WIDE, get};
+use cosfly_materials::lanes::{Block, FOUR, PixelLane, WIDE, get};
 use cosfly_materials::pattern::{NoiseTexture, Noises, floor_int, least, lerp, most, one_if, smoothstep};
 use cosfly_materials::vector::Vec3;
 use std::sync::Arc;
@@ -213,11 +213,11 @@ simd_kernel! {
 /// Places of sixteen pixels in the town's map, each among the finest texels that a frame has there.
 struct Spots {
     /// Coordinates of the finest texels.
-    finest: [Lane; 2],
+    finest: [PixelLane; 2],
     /// Heights over the map's lowest, metres.
-    height_m: Lane,
-    u: Lane,
-    v: Lane,
+    height_m: PixelLane,
+    u: PixelLane,
+    v: PixelLane,
     /// Number of the size of texels, from the finest.
     grain: [u32; WIDE],
     /// 1 where the map tells of the place.
@@ -265,7 +265,7 @@ fn spots(block: &Block, places: &Places) -> Spots {
 /// Looks a block's sunlight up in whole squares, which tells the same wherever a square is all above or all below the
 /// places; 1 for those of which it does not tell.
 #[inline(always)]
-fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> [u32; WIDE] {
+fn lit_by_squares(sunlight: &mut PixelLane, spots: &Spots, summary: &SummaryMap) -> [u32; WIDE] {
     const BITS: u32 = SQUARES.trailing_zeros();
     const MASK: u32 = SQUARES as u32 - 1;
     let mut unknown = [0u32; WIDE];
@@ -287,7 +287,7 @@ fn lit_by_squares(sunlight: &mut Lane, spots: &Spots, summary: &SummaryMap) -> [
 /// loaded one after the other, between vector code.
 #[inline(always)]
 fn lit_through_leaves(
-    sunlight: &mut Lane,
+    sunlight: &mut PixelLane,
     unknown: &[u32; WIDE],
     spots: &Spots,
     map: &TownMap,

@@ -6,7 +6,7 @@ use super::outline::smooth_unseen;
 use super::survey::{Survey, is_ground, plan_of};
 use crate::grid::{Grid, nearest_seeds, parts};
 use crate::plan::{convex_hull, smallest_rectangle_rad};
-use crate::solid_cells::{Boxes, boxes_of};
+use crate::solid_cells::{BoxCover, boxes_of};
 use crate::window_cover::{Bases, Column, Volumes};
 use cosfly_domain::{Obstacle, ObstacleKind};
 use cosfly_frames::{DVec2, real};
@@ -36,7 +36,7 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
     for (cell, number) in part.iter().enumerate().filter(|(_, number)| **number != 0) {
         cells[*number as usize].push(cell);
     }
-    let covers: Vec<Boxes> = cells[1..]
+    let covers: Vec<BoxCover> = cells[1..]
         .par_iter()
         .map(|cells| {
             let site = Site::new(survey, cells, &part);

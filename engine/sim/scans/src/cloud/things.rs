@@ -4,7 +4,7 @@ use super::class;
 use super::numbers::next_id;
 use super::survey::{Survey, is_ground};
 use crate::grid::parts;
-use crate::solid_cells::{Boxes, boxes_of};
+use crate::solid_cells::{BoxCover, boxes_of};
 use crate::window_cover::{Bases, Column, Volumes};
 use cosfly_domain::{Obstacle, ObstacleKind};
 use rayon::prelude::*;
@@ -78,7 +78,7 @@ fn add_kind(
         }
     }
     let first_id = next_id(obstacles);
-    let Boxes { shapes, volumes } = boxes_of(grid, &columns, survey.step_m, Bases::Highest, |_| false);
+    let BoxCover { shapes, volumes } = boxes_of(grid, &columns, survey.step_m, Bases::Highest, |_| false);
     let number = |shape: &cosfly_domain::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
     let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();
     numbered.sort_by_key(|(number, _)| *number);

@@ -1,7 +1,7 @@
 //! Covers of crooked rings: rectangles that grow inside as far as the walls let them, each turned along a wall near it.
 
 use super::pieces::{Frame, Piece, Rectangle};
-use super::plan::{Plan, TurnedRectangle};
+use super::plan::{CoverPlan, TurnedRectangle};
 use cosfly_frames::{DVec2, real};
 
 /// Walls near a place whose directions are tried there, beside the plan's own.
@@ -20,7 +20,7 @@ const MOST_WALLS: usize = 6000;
 ///
 /// The rest is a list of convex pieces. From the middle of the largest one rectangles grow in several directions; the
 /// one that covers most of what is left is kept, cut to that.
-pub(super) fn cover(plan: &Plan, tolerance_m: f64, most: usize) -> Option<Vec<TurnedRectangle>> {
+pub(super) fn cover(plan: &CoverPlan, tolerance_m: f64, most: usize) -> Option<Vec<TurnedRectangle>> {
     let frame = Frame::turned(*plan.angles_rad.first()?);
     let rows = plan.rows(frame.yaw_rad).with_levels_at_crossings()?;
     let walls: Vec<[DVec2; 2]> = rows.sides().map(|side| side.map(|end| frame.outside(end))).collect();

@@ -1,4 +1,4 @@
-//! [`Plan`]: rings to be covered, and rows and rectangles of them in a direction.
+//! [`CoverPlan`]: rings to be covered, and rows and rectangles of them in a direction.
 
 use super::rows::{Row, Rows, coarse_rows, strips};
 use super::thinning;
@@ -21,7 +21,7 @@ pub struct TurnedRectangle {
 
 /// Rings near the origin, thinned out, and the directions that suit them.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct CoverPlan {
     /// Outer rings first.
     pub(super) rings: Vec<Vec<DVec2>>,
     pub(super) outer_count: usize,
@@ -35,7 +35,7 @@ pub struct Plan {
     pub(super) extent_m: f64,
 }
 
-impl Plan {
+impl CoverPlan {
     /// None when there is no corner or a coordinate is not finite.
     pub fn of(outer: &[&[DVec2]], holes: &[&[DVec2]]) -> Option<Self> {
         let corners = || outer.iter().chain(holes).copied().flatten().copied();

@@ -1,6 +1,6 @@
 //! Slanted walls: a rectangle along the inner side of each, so that rows behind it need not follow the wall in steps.
 
-use super::plan::{Plan, TurnedRectangle};
+use super::plan::{CoverPlan, TurnedRectangle};
 use cosfly_frames::{DVec2, real};
 
 /// Depths of the rectangles that are tried, metres, and the least share of a side that one of each takes.
@@ -35,7 +35,7 @@ impl Wall {
     }
 
     /// The rectangle on the inner side.
-    pub fn rectangle(&self, plan: &Plan) -> TurnedRectangle {
+    pub fn rectangle(&self, plan: &CoverPlan) -> TurnedRectangle {
         let along = self.ends[1] - self.ends[0];
         TurnedRectangle {
             center: plan.middle + 0.5 * (self.ends[0] + self.ends[1] + self.depth_m * self.inwards),
@@ -46,7 +46,7 @@ impl Wall {
 }
 
 /// The walls of a plan of one outer ring.
-pub(super) fn walls(plan: &Plan) -> Vec<Wall> {
+pub(super) fn walls(plan: &CoverPlan) -> Vec<Wall> {
     let count: usize = plan.rings.iter().map(Vec::len).sum();
     if plan.outer_count != 1 || count > MOST_SIDES {
         return Vec::new();
@@ -55,7 +55,7 @@ pub(super) fn walls(plan: &Plan) -> Vec<Wall> {
     sides.filter_map(|(ring, side)| DEPTHS.into_iter().find_map(|depth| wall(plan, ring, side, depth))).collect()
 }
 
-fn wall(plan: &Plan, ring: usize, side: usize, (depth_m, least_share): (f64, f64)) -> Option<Wall> {
+fn wall(plan: &CoverPlan, ring: usize, side: usize, (depth_m, least_share): (f64, f64)) -> Option<Wall> {
     let corners = &plan.rings[ring];
     let corner = |k: usize| corners[(side + corners.len() + k) % corners.len()];
     let (before, a, b, after) = (corner(corners.len() - 1), corner(0), corner(1), corner(2));

@@ -1,10 +1,10 @@
-//! [`Candidate`]: a box on its way through simplification.
+//! [`BoxCandidate`]: a box on its way through simplification.
 
 use cosfly_domain::OrientedBox;
 
 /// A box on its way through simplification.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Candidate {
+pub struct BoxCandidate {
     /// Space of the box.
     pub shape: OrientedBox,
     /// Volume of it that originals fill, cubic metres; never more than the true volume.
@@ -15,7 +15,7 @@ pub struct Candidate {
     pub first: usize,
 }
 
-impl Candidate {
+impl BoxCandidate {
     /// Volume of the box, cubic metres.
     pub fn volume_m3(&self) -> f64 {
         8.0 * self.shape.half_extents_m.abs().element_product()

@@ -1,6 +1,6 @@
 //! Containment: a box inside another adds nothing.
 
-use super::candidate::Candidate;
+use super::candidate::BoxCandidate;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::DVec3;
 use cosfly_geometry::{Bounds, TurnedBox};
@@ -12,7 +12,7 @@ const ROUNDING_M: f64 = 1e-9;
 const MOST_MEETINGS: usize = 4096;
 
 /// Drops every box that lies inside another one; of equal boxes the first stays.
-pub fn drop_contained(boxes: &mut Vec<Candidate>) {
+pub fn drop_contained(boxes: &mut Vec<BoxCandidate>) {
     let shapes: Vec<OrientedBox> = boxes.iter().map(|one| one.shape).collect();
     let is_inside = covered_by_another(&shapes, |_| true, ROUNDING_M);
     retain_by(boxes, |index| !is_inside[index]);
@@ -52,7 +52,7 @@ fn bounds_of(shape: &OrientedBox) -> Bounds {
 }
 
 /// Keeps the elements whose index passes.
-pub fn retain_by(boxes: &mut Vec<Candidate>, mut keep: impl FnMut(usize) -> bool) {
+pub fn retain_by(boxes: &mut Vec<BoxCandidate>, mut keep: impl FnMut(usize) -> bool) {
     let mut index = 0;
     boxes.retain(|_| {
         index += 1;

@@ -1,6 +1,6 @@
 //! Crop: boxes far from all walkable ground never matter to a drone that follows a walker.
 
-use super::candidate::Candidate;
+use super::candidate::BoxCandidate;
 use cosfly_domain::WalkablePolygon;
 use cosfly_frames::DVec3;
 use cosfly_geometry::Bounds;
@@ -8,7 +8,7 @@ use cosfly_geometry::{Bvh, Visitor};
 
 /// Drops the boxes whose bounds are farther than `radius_m` (seen from above) from the bounds of every polygon. Bounds
 /// make it keep a little more than it must, never less. Without walkable ground nothing is dropped.
-pub fn drop_far_from(boxes: &mut Vec<Candidate>, walkable: &[WalkablePolygon], radius_m: f64) {
+pub fn drop_far_from(boxes: &mut Vec<BoxCandidate>, walkable: &[WalkablePolygon], radius_m: f64) {
     let grounds: Vec<Bounds> = walkable
         .iter()
         .map(|area| area.outline_in_world.iter().fold(Bounds::EMPTY, |sum, at| sum.with_point(at.with_z(0.0))))

@@ -1,6 +1,6 @@
 //! Merging: boxes of one orientation that together nearly fill a box become that box.
 
-use super::candidate::Candidate;
+use super::candidate::BoxCandidate;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, real};
 use cosfly_geometry::Bounds;
@@ -25,15 +25,15 @@ struct Item {
     growth_m: f64,
     first: usize,
     /// The candidate it came from while it is not joined with any other.
-    alone: Option<Candidate>,
+    alone: Option<BoxCandidate>,
     /// Whether it was made in the last round: two boxes that did not fit each other never will.
     is_new: bool,
 }
 
 /// Joins neighbours of one orientation. A joined box holds at most `max_empty_share` of empty volume and no point
 /// farther than `tolerance_m` from an original.
-pub fn merge_neighbours(boxes: Vec<Candidate>, max_empty_share: f64, tolerance_m: f64) -> Vec<Candidate> {
-    let mut turned: Vec<(f64, Candidate)> =
+pub fn merge_neighbours(boxes: Vec<BoxCandidate>, max_empty_share: f64, tolerance_m: f64) -> Vec<BoxCandidate> {
+    let mut turned: Vec<(f64, BoxCandidate)> =
         boxes.into_iter().map(|one| (quarter_turn_rest(one.shape.yaw_rad), one)).collect();
     turned.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.first.cmp(&b.1.first)));
     let limits = Limits { max_empty_share, tolerance_m };
@@ -79,7 +79,7 @@ impl Frame {
         Self { yaw_rad, sin, cos }
     }
 
-    fn item(&self, one: &Candidate) -> Item {
+    fn item(&self, one: &BoxCandidate) -> Item {
         let extent = one.shape.corners_in_world().iter().fold(Bounds::EMPTY, |sum, corner| {
             let (x, y) = (self.cos * corner.x + self.sin * corner.y, self.cos * corner.y - self.sin * corner.x);
             sum.with_point(DVec3::new(x, y, corner.z))
@@ -94,7 +94,7 @@ impl Frame {
         }
     }
 
-    fn candidate(&self, item: &Item) -> Candidate {
+    fn candidate(&self, item: &Item) -> BoxCandidate {
         item.alone.unwrap_or_else(|| {
             let center = item.extent.center_in_world();
             let half_extents_m = 0.5 * (item.extent.max_in_world - item.extent.min_in_world);
@@ -105,7 +105,7 @@ impl Frame {
                 half_extents_m: half_extents_m + DVec3::splat(1e-9),
                 yaw_rad: self.yaw_rad,
             };
-            Candidate { shape, filled_m3: item.filled_m3, growth_m: item.growth_m, first: item.first }
+            BoxCandidate { shape, filled_m3: item.filled_m3, growth_m: item.growth_m, first: item.first }
         })
     }
 }

@@ -1,12 +1,12 @@
 //! Prune: specks beside a kept box.
 
-use super::candidate::Candidate;
+use super::candidate::BoxCandidate;
 use super::containment::{covered_by_another, retain_by};
 use cosfly_domain::OrientedBox;
 
 /// Drops the boxes no larger than `tolerance_m` whose every point is within `tolerance_m` of one larger box. Larger
 /// boxes are never dropped, so what covers a speck stays.
-pub fn drop_specks(boxes: &mut Vec<Candidate>, tolerance_m: f64) {
+pub fn drop_specks(boxes: &mut Vec<BoxCandidate>, tolerance_m: f64) {
     let shapes: Vec<OrientedBox> = boxes.iter().map(|one| one.shape).collect();
     let is_speck = |index: usize| 2.0 * shapes[index].half_extents_m.abs().max_element() <= tolerance_m;
     if !(0..shapes.len()).any(is_speck) {

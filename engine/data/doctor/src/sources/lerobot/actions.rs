@@ -13,7 +13,7 @@ const ENOUGH: usize = 8;
 const SHIFTS: [i64; 5] = [0, -1, 1, -2, 2];
 
 /// An episode with the numbers of its actions.
-pub struct Recording {
+pub struct RecordedActions {
     /// The episode without its actions.
     pub episode: ExaminedEpisode,
     /// Three numbers per frame.
@@ -59,17 +59,17 @@ impl Meaning {
 }
 
 /// Finds the meaning of all actions and sets the positions that they lead to, or notes that no meaning fits.
-pub fn interpret(recordings: &mut [Recording], features: &Features, notes: &mut Vec<String>) {
+pub fn interpret(recordings: &mut [RecordedActions], features: &Features, notes: &mut Vec<String>) {
     if features.action.is_none() || features.position.is_none() {
         if features.position.is_some() {
             notes.push("actions: no feature `action` with three numbers along axes".to_owned());
         }
         return;
     }
-    let poses = |it: &Recording| it.episode.moments.iter().map(|moment| moment.drone).collect();
+    let poses = |it: &RecordedActions| it.episode.moments.iter().map(|moment| moment.drone).collect();
     let all: BTreeMap<String, Vec<Pose>> = recordings.iter().map(|it| (it.episode.id.clone(), poses(it))).collect();
     // None when the expert is not among the episodes.
-    let led_of = |it: &Recording| all.get(it.expert.as_ref().unwrap_or(&it.episode.id));
+    let led_of = |it: &RecordedActions| all.get(it.expert.as_ref().unwrap_or(&it.episode.id));
     let mut best: Option<(f64, Meaning)> = None;
     for meaning in MEANINGS {
         for shift in SHIFTS {
@@ -109,7 +109,7 @@ pub fn interpret(recordings: &mut [Recording], features: &Features, notes: &mut 
 }
 
 /// Errors of actions, metres, where each belongs to the frame `shift` after it.
-fn gaps<'a>(it: &'a Recording, led: &'a [Pose], meaning: Meaning, shift: i64) -> impl Iterator<Item = f64> + 'a {
+fn gaps<'a>(it: &'a RecordedActions, led: &'a [Pose], meaning: Meaning, shift: i64) -> impl Iterator<Item = f64> + 'a {
     let moments = &it.episode.moments;
     let count = moments.len().min(led.len());
     it.actions.iter().enumerate().take(count.saturating_sub(1)).filter_map(move |(frame, action)| {

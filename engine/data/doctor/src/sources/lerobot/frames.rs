@@ -1,6 +1,6 @@
 //! [`Frames`]: the tables of frames, and the recordings that they hold.
 
-use super::actions::Recording;
+use super::actions::RecordedActions;
 use super::features::{self, Features, pose};
 use super::info::split;
 use super::listed::Listed;
@@ -65,7 +65,7 @@ impl Frames {
         info: &Value,
         listed: &Listed,
         flags: &mut Vec<Flag>,
-    ) -> Vec<Recording> {
+    ) -> Vec<RecordedActions> {
         let in_degrees = self.are_degrees(features);
         let episodes = self.of_episodes().into_iter();
         episodes
@@ -83,7 +83,7 @@ impl Frames {
         info: &Value,
         listed: &Listed,
         flags: &mut Vec<Flag>,
-    ) -> Recording {
+    ) -> RecordedActions {
         let id = listed.name(number);
         let fps = info["fps"].as_f64().filter(|fps| *fps > 0.0).unwrap_or(1.0);
         let mut moments = vec![];
@@ -120,7 +120,7 @@ impl Frames {
             let of = |row: &usize| parts.as_ref().and_then(|parts| parts.of(self.row(&parts.feature, *row)));
             rows.iter().map(of).collect()
         };
-        Recording {
+        RecordedActions {
             actions: part(&features.action),
             turns: part(&features.turn),
             expert: listed.experts.get(&number).cloned(),

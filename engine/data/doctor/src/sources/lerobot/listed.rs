@@ -1,6 +1,6 @@
 //! [`Listed`]: the rows of `meta/episodes`, and the videos that they name.
 
-use super::actions::Recording;
+use super::actions::RecordedActions;
 use super::features::Features;
 use super::video;
 use crate::Flag;
@@ -41,7 +41,7 @@ impl Listed {
     }
 
     /// Whether the counts agree with the frames.
-    pub fn check(&self, info: &Value, recordings: &[Recording], rows: usize, flags: &mut Vec<Flag>) {
+    pub fn check(&self, info: &Value, recordings: &[RecordedActions], rows: usize, flags: &mut Vec<Flag>) {
         let mut flag = |place: &str, message: String| flags.push(Flag::damage("index-mismatch", place, message));
         for (key, found) in [("total_frames", rows), ("total_episodes", recordings.len())] {
             if let Some(stated) = info[key].as_u64().filter(|stated| *stated != found as u64) {

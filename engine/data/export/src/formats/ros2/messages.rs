@@ -3,7 +3,7 @@
 use super::cdr::Cdr;
 use cosfly_domain::{Camera, Lens};
 use cosfly_frames::{DQuat, DVec3};
-use cosfly_read::SceneBox;
+use cosfly_read::LoggedBox;
 use cosfly_schema::tables::Edges;
 
 /// The optical frame of the camera: x right, y down, z ahead.
@@ -192,7 +192,7 @@ pub fn detections(time_ns: u64, bodies: &[Detected<'_>]) -> Vec<u8> {
 }
 
 /// `visualization_msgs/MarkerArray` of boxes.
-pub fn markers(header: Header, boxes: &[SceneBox]) -> Vec<u8> {
+pub fn markers(header: Header, boxes: &[LoggedBox]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     cdr.u32(boxes.len() as u32);
     for (number, shape) in boxes.iter().enumerate() {

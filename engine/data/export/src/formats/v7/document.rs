@@ -2,7 +2,7 @@
 
 use super::names::{PART_FRAMES, Place};
 use super::short_ids::ShortIds;
-use crate::source::Episode;
+use crate::source::ExportedFlight;
 use cosfly_domain::{Camera, Lens};
 use cosfly_frames::{DVec3, Pose};
 use cosfly_read::{FrameRow, PublishedFlight};
@@ -16,7 +16,7 @@ pub const SCHEMA_VERSION: &str = "7.0.0";
 pub const FRAMES_DIR: &str = "frames_playback";
 
 /// The whole `trajectory.json`. World: CARLA's own, left-handed, z up, metres and degrees.
-pub fn trajectory(episode: &Episode<'_>, place: &Place, ids: &ShortIds) -> Value {
+pub fn trajectory(episode: &ExportedFlight<'_>, place: &Place, ids: &ShortIds) -> Value {
     let flight = episode.flight;
     let points: Vec<Value> = (0..episode.frames.len()).map(|index| point(episode, index)).collect();
     let waypoints: Vec<Value> = (0..episode.frames.len()).map(|index| waypoint(episode, index)).collect();
@@ -45,7 +45,7 @@ pub fn trajectory(episode: &Episode<'_>, place: &Place, ids: &ShortIds) -> Value
 }
 
 /// Facts for which the release has no place.
-fn own_part(episode: &Episode<'_>, place: &Place, ids: &ShortIds) -> Value {
+fn own_part(episode: &ExportedFlight<'_>, place: &Place, ids: &ShortIds) -> Value {
     let flight = episode.flight;
     let captions: Vec<Value> = episode
         .captions
@@ -91,7 +91,7 @@ fn middle_px(camera: &Camera) -> [f64; 2] {
     [0.5 * f64::from(camera.width), 0.5 * f64::from(camera.height)]
 }
 
-fn point(episode: &Episode<'_>, index: usize) -> Value {
+fn point(episode: &ExportedFlight<'_>, index: usize) -> Value {
     let (flight, row) = (episode.flight, &episode.frames[index]);
     let next = episode.frames.get(index + 1).map(|next| next.pose.position_in_world + flight.town_offset_m);
     json!({
@@ -119,7 +119,7 @@ fn point(episode: &Episode<'_>, index: usize) -> Value {
 }
 
 /// Time and pose of a point again: some readers look for `waypoints` instead of `points`.
-fn waypoint(episode: &Episode<'_>, index: usize) -> Value {
+fn waypoint(episode: &ExportedFlight<'_>, index: usize) -> Value {
     json!({
         "index": index,
         "timing": timing(episode, index),
@@ -128,7 +128,7 @@ fn waypoint(episode: &Episode<'_>, index: usize) -> Value {
 }
 
 /// Seconds since the first frame, by all names that readers know.
-fn timing(episode: &Episode<'_>, index: usize) -> Value {
+fn timing(episode: &ExportedFlight<'_>, index: usize) -> Value {
     let time_s = index as f64 * episode.flight.dt_s;
     json!({"timestamp": time_s, "trace_timestamp": time_s, "sim_timestamp": time_s})
 }
@@ -182,7 +182,7 @@ fn box_value([left, top, right, bottom]: [f32; 4]) -> Value {
 }
 
 /// The whole `perturbation_report.json`: our own design, since the release's is not documented.
-pub fn perturbation_report(episode: &Episode<'_>, place: &Place) -> Value {
+pub fn perturbation_report(episode: &ExportedFlight<'_>, place: &Place) -> Value {
     let events = |count: fn(&cosfly_read::Disturbance) -> bool| {
         episode.frames.iter().filter_map(|row| row.disturbance.as_ref()).filter(|it| count(it)).count()
     };

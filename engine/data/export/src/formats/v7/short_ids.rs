@@ -1,6 +1,6 @@
 //! Instance ids in the 16 bits of `instance.png`: larger ones get numbers that no other thing of the flight has.
 
-use crate::source::Episode;
+use crate::source::ExportedFlight;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,7 +26,7 @@ impl ShortIds {
     ///
     /// # Errors
     /// Damage of the log, or more things than numbers.
-    pub fn of_frames(episode: &Episode<'_>, frames: &[usize], largest_object: u32) -> Result<Self> {
+    pub fn of_frames(episode: &ExportedFlight<'_>, frames: &[usize], largest_object: u32) -> Result<Self> {
         if largest_object < LARGE_TOWN {
             return Ok(Self::default());
         }

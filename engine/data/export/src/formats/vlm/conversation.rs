@@ -3,8 +3,8 @@
 use super::options::{BoxScale, Options};
 use crate::pixels::smaller_size;
 use crate::sample_text::pose_numbers;
-use crate::shared_options::Axes;
-use crate::source::Episode;
+use crate::shared_options::IncrementAxes;
+use crate::source::ExportedFlight;
 use cosfly_frames::{DVec3, Pose, action};
 use cosfly_metrics::DeltaFrame;
 use cosfly_read::FrameRow;
@@ -36,7 +36,7 @@ impl Shown {
 /// The line of the window of `episode` that begins at frame `start`; `expert` has the expert's pose of every frame,
 /// `pictures` the paths of its pictures by frame, `instruction` is that of the window.
 pub fn conversation(
-    episode: &Episode<'_>,
+    episode: &ExportedFlight<'_>,
     options: &Options,
     expert: &[Pose],
     pictures: &BTreeMap<usize, String>,
@@ -97,8 +97,8 @@ fn hundredths(value: f64) -> f64 {
 
 fn system(options: &Options) -> String {
     let axes = match options.increments.frame {
-        Axes::World => "the world's axes (x east, y south, z up)",
-        Axes::Body => "the body's axes at the waypoint before (x ahead, y right, z up)",
+        IncrementAxes::World => "the world's axes (x east, y south, z up)",
+        IncrementAxes::Body => "the body's axes at the waypoint before (x ahead, y right, z up)",
     };
     format!(
         "You steer a drone that follows a person without losing sight of them. Answer with one JSON object: \
@@ -109,7 +109,13 @@ fn system(options: &Options) -> String {
     )
 }
 
-fn question(episode: &Episode<'_>, options: &Options, seen: &[FrameRow], instruction: &str, shown: Shown) -> String {
+fn question(
+    episode: &ExportedFlight<'_>,
+    options: &Options,
+    seen: &[FrameRow],
+    instruction: &str,
+    shown: Shown,
+) -> String {
     let flight = episode.flight;
     let dt_s = flight.dt_s;
     let history = "<image>".repeat(seen.len() - 1);

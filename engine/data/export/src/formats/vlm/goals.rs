@@ -1,7 +1,7 @@
 //! Goals as conversations: write the goal of pictures, judge whether pictures do what a goal says, understand a correction.
 
 use super::conversation::as_words;
-use crate::source::Episode;
+use crate::source::ExportedFlight;
 use cosfly_read::PublishedGoal;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ const SYSTEM: &str =
 /// Lines of a flight's goals, each with the name of its file after the split. `pictures` has the paths of the flight's pictures by frame;
 /// a goal whose stretch has none is left out.
 pub fn lines(
-    episode: &Episode<'_>,
+    episode: &ExportedFlight<'_>,
     goals: &[PublishedGoal],
     language: &str,
     pictures: &BTreeMap<usize, String>,

@@ -2,7 +2,7 @@
 
 use super::conversation::{Shown, as_words, pose_text};
 use super::options::Options;
-use crate::source::Episode;
+use crate::source::ExportedFlight;
 use cosfly_fingerprint::Digest;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -51,7 +51,7 @@ Files of pairs exist only where a teacher wrote captions (`writer = \"teacher\"`
 ";
 
 /// Whether a flight is in a share, by a number of its pedestrian alone: twins are together, and more flights move none.
-pub fn is_in_share(episode: &Episode<'_>, percent: u64) -> bool {
+pub fn is_in_share(episode: &ExportedFlight<'_>, percent: u64) -> bool {
     let digest = Digest::of(episode.flight.pedestrian_id.as_bytes());
     let number = u64::from_le_bytes(digest.0[..8].try_into().unwrap_or_default());
     number % 100 < percent
@@ -60,7 +60,7 @@ pub fn is_in_share(episode: &Episode<'_>, percent: u64) -> bool {
 /// Lines in which a model learns to write the texts of a flight, and pairs of a true and a refused text; each with the name of its
 /// file after the split. `pictures` has the paths of the flight's pictures by frame.
 pub fn texts(
-    episode: &Episode<'_>,
+    episode: &ExportedFlight<'_>,
     options: &Options,
     pictures: &BTreeMap<usize, String>,
 ) -> Vec<(&'static str, Value)> {
@@ -98,7 +98,7 @@ pub fn texts(
 const SYSTEM: &str =
     "You describe flights of a drone that follows a person. State only what the pictures and the poses show.";
 
-fn question(episode: &Episode<'_>, shown: &[usize], language: &str, style: &str) -> String {
+fn question(episode: &ExportedFlight<'_>, shown: &[usize], language: &str, style: &str) -> String {
     let mut text = format!("{}\n", "<image>".repeat(shown.len()));
     let _ = writeln!(
         text,

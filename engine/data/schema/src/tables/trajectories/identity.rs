@@ -4,7 +4,7 @@ use super::columns::Trajectories;
 use crate::Role;
 use crate::tables::DatasetItem;
 use crate::tables::column::columns;
-use crate::tables::windows::{self, Scene};
+use crate::tables::windows::{self, SceneMembership};
 use cosfly_domain::{Outfit, Traffic, Traits};
 use cosfly_windows::{Difficulty, WindowFeatures};
 
@@ -80,7 +80,7 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     /// all, and part of those below 0.5.
     subset_rank: f64 = |item, _| item.membership.subset_rank;
     /// Seen: split `train` of this dataset has trajectories in the same town, by the town's ground plan.
-    scene: Scene = |item, _| windows::scene_of(item);
+    scene: SceneMembership = |item, _| windows::scene_of(item);
     /// Median of the difficulties of the trajectory's windows, see table `windows`; null without the expert.
     difficulty: Option<Difficulty> = |item, _| {
         let mut all: Vec<_> = windows::all_features(item).iter().map(WindowFeatures::difficulty).collect();

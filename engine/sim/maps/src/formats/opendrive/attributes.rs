@@ -2,8 +2,8 @@
 
 use super::polynomial::{Cubic, CubicProfile};
 use core::cell::{Cell, RefCell};
-use cosfly_town::error::{MapError, Place};
-use cosfly_town::text::Lines;
+use cosfly_town::error::{MapError, TextPlace};
+use cosfly_town::text::LineStarts;
 use roxmltree::{Document, Node};
 
 /// Range of a number in the file.
@@ -47,14 +47,14 @@ const MOST_LANES: usize = 1_000_000;
 /// The document that is read, and the warnings about it.
 pub(super) struct Source<'d> {
     pub(super) document: &'d Document<'d>,
-    lines: &'d Lines<'d>,
+    lines: &'d LineStarts<'d>,
     warnings: RefCell<Vec<String>>,
     left_out: Cell<usize>,
     lanes: Cell<usize>,
 }
 
 impl<'d> Source<'d> {
-    pub(super) fn new(document: &'d Document<'d>, lines: &'d Lines<'d>) -> Self {
+    pub(super) fn new(document: &'d Document<'d>, lines: &'d LineStarts<'d>) -> Self {
         Self { document, lines, warnings: RefCell::default(), left_out: Cell::new(0), lanes: Cell::new(0) }
     }
 
@@ -89,7 +89,7 @@ impl<'d> Source<'d> {
         warnings
     }
 
-    fn place(&self, node: Node, byte_span: core::ops::Range<usize>) -> Place {
+    fn place(&self, node: Node, byte_span: core::ops::Range<usize>) -> TextPlace {
         self.lines.place(byte_span, described(node))
     }
 

@@ -8,7 +8,7 @@ use super::joining::joining_strips;
 use super::kerb_stones::{self, Kerb};
 use super::lanes::lanes_of;
 use super::line_ends::LineFree;
-use super::network::{LaneKind, Road, RoadNetwork};
+use super::network::{Road, RoadLaneKind, RoadNetwork};
 use super::objects::{MOST_OBSTACLES, ObstacleBuilder, ROOF_PITCH_DEG};
 use super::options::Roofs;
 use super::refuges::Walkway;
@@ -22,7 +22,7 @@ use cosfly_domain::{Lane, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolyg
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::mesh::MeshBuilder;
 use cosfly_town::polygons::PolygonIndex;
-use cosfly_town::text::Lines;
+use cosfly_town::text::LineStarts;
 use cosfly_town::world::WorldFromMap;
 use cosfly_town::{GroundIndex, MapError, terrain};
 use std::collections::BTreeMap;
@@ -45,7 +45,7 @@ pub(super) fn town(bytes: &[u8], options: &OpenDriveOptions) -> Result<(Town, Ve
 fn build(
     network: RoadNetwork,
     options: &OpenDriveOptions,
-    lines: &Lines<'_>,
+    lines: &LineStarts<'_>,
     notes: Vec<String>,
 ) -> Result<(Town, Vec<String>), MapError> {
     let mut parts = Parts { world: WorldFromMap::around(network.plan_points()), notes, ..Parts::default() };
@@ -54,8 +54,8 @@ fn build(
         Roofs::Flat => false,
         Roofs::Pitched => true,
     };
-    let has = |kind: LaneKind| network.lanes().any(|lane| lane.kind == kind);
-    let assumes_shoulders = options.assume_ground && !options.shoulders_as_sidewalks && !has(LaneKind::Sidewalk);
+    let has = |kind: RoadLaneKind| network.lanes().any(|lane| lane.kind == kind);
+    let assumes_shoulders = options.assume_ground && !options.shoulders_as_sidewalks && !has(RoadLaneKind::Sidewalk);
     let options = &OpenDriveOptions {
         shoulders_as_sidewalks: options.shoulders_as_sidewalks || assumes_shoulders,
         ..options.clone()

@@ -1,6 +1,6 @@
 //! Crossings: the file's crosswalks with their stripes, joints to the pavements, and unmarked crossings at junctions.
 
-use super::network::{LaneKind, LaneSection, Road, RoadObject};
+use super::network::{LaneSection, Road, RoadLaneKind, RoadObject};
 use super::object_kind::{ObjectKind, kind_of};
 use super::objects::outline_in_map;
 use super::refuges::Walkway;
@@ -299,7 +299,8 @@ fn far_pavement_edge(road: &Road, section: &LaneSection, side: usize, s_m: f64, 
     let mut spans: Vec<LaneSpan> = Vec::new();
     road.lane_spans(section, side, s_m, &mut spans);
     let lanes = section.sides()[side].1;
-    let is_walkable = |kind: LaneKind| kind == LaneKind::Sidewalk || shoulders && kind == LaneKind::Shoulder;
+    let is_walkable =
+        |kind: RoadLaneKind| kind == RoadLaneKind::Sidewalk || shoulders && kind == RoadLaneKind::Shoulder;
     let found = lanes
         .iter()
         .zip(&spans)

@@ -3,7 +3,7 @@
 use super::attributes::Source;
 use super::xml_bounds;
 use cosfly_town::error::MapError;
-use cosfly_town::text::{Lines, decoded};
+use cosfly_town::text::{LineStarts, decoded};
 use roxmltree::{Document, ParsingOptions};
 
 /// Most XML nodes of one file.
@@ -12,10 +12,10 @@ const MOST_NODES: u32 = 30_000_000;
 /// Parses the XML and hands it on; collects the warnings.
 pub(super) fn with_source<T>(
     bytes: &[u8],
-    work: impl FnOnce(&Source<'_>, &Lines<'_>) -> Result<T, MapError>,
+    work: impl FnOnce(&Source<'_>, &LineStarts<'_>) -> Result<T, MapError>,
 ) -> Result<(T, Vec<String>), MapError> {
     let text = decoded(bytes)?;
-    let lines = Lines::new(&text);
+    let lines = LineStarts::new(&text);
     xml_bounds::check(&text, &lines)?;
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&text, options).map_err(|error| broken_xml(&error, &text, &lines))?;
@@ -24,7 +24,7 @@ pub(super) fn with_source<T>(
     Ok((done, source.into_warnings()))
 }
 
-fn broken_xml(error: &roxmltree::Error, text: &str, lines: &Lines<'_>) -> MapError {
+fn broken_xml(error: &roxmltree::Error, text: &str, lines: &LineStarts<'_>) -> MapError {
     // For a file that just stops the parser has no position.
     let stops = matches!(error, roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream);
     let position = error.pos();

@@ -3,7 +3,7 @@
 //! A way that begins beside its road's line has such a lane between the line and its first paved lane. It crosses other ways of the
 //! junction, whose files say nothing of it: there it is carriageway. Beside grass it stays grass.
 
-use super::network::{Lane, LaneKind};
+use super::network::{RoadLane, RoadLaneKind};
 use super::stations::CrossSection;
 use cosfly_domain::SemanticLabel;
 use cosfly_frames::DVec3;
@@ -29,11 +29,11 @@ pub(super) struct InnerStrip {
 }
 
 /// The strips of one lane section.
-pub(super) fn strips(lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) -> Vec<InnerStrip> {
+pub(super) fn strips(lanes: [&[RoadLane]; 2], rows: &[CrossSection], world: &WorldFromMap) -> Vec<InnerStrip> {
     let mut strips = vec![];
     for (side, lanes) in lanes.into_iter().enumerate() {
-        let first = lanes.iter().position(|lane| lane.kind != LaneKind::None).unwrap_or(0);
-        let is_paved = |lane: &Lane| matches!(lane.kind, LaneKind::Carriageway | LaneKind::Shoulder);
+        let first = lanes.iter().position(|lane| lane.kind != RoadLaneKind::None).unwrap_or(0);
+        let is_paved = |lane: &RoadLane| matches!(lane.kind, RoadLaneKind::Carriageway | RoadLaneKind::Shoulder);
         if first == 0 || !is_paved(&lanes[first]) {
             continue;
         }

@@ -4,7 +4,7 @@
 //! of the carriageways.
 
 use super::island_outline::{CELL_M, Cell, Closed, middle, outline};
-use super::network::{LaneKind, LaneSection};
+use super::network::{LaneSection, RoadLaneKind};
 use super::stations::CrossSection;
 use super::surfaces::DEFAULT_KERB_M;
 use cosfly_domain::SemanticLabel;
@@ -40,7 +40,7 @@ pub(super) fn raise(
     walkways: &PolygonIndex,
     places: &[DVec3],
 ) -> usize {
-    let site = Site { ground, walkways };
+    let site = FillSite { ground, walkways };
     let mut seen = BTreeMap::new();
     let mut islands = Vec::new();
     for (number, place) in places.iter().enumerate() {
@@ -58,7 +58,7 @@ pub(super) fn places_on_medians(section: &LaneSection, rows: &[CrossSection], wo
     let mut places = vec![];
     for (side, (_, lanes)) in section.sides().into_iter().enumerate() {
         for (index, lane) in lanes.iter().enumerate() {
-            if lane.kind == LaneKind::Median && lane.heights.is_empty() {
+            if lane.kind == RoadLaneKind::Median && lane.heights.is_empty() {
                 let middle = |row: &CrossSection| 0.5 * (row.points[side][index][0] + row.points[side][index][1]);
                 places.extend(rows.windows(2).map(|pair| world.point(0.5 * (middle(&pair[0]) + middle(&pair[1])))));
             }
@@ -68,12 +68,12 @@ pub(super) fn places_on_medians(section: &LaneSection, rows: &[CrossSection], wo
 }
 
 /// The ground on which islands are looked for.
-struct Site<'a> {
+struct FillSite<'a> {
     ground: &'a GroundIndex,
     walkways: &'a PolygonIndex,
 }
 
-impl Site<'_> {
+impl FillSite<'_> {
     /// Ground that bounds an island at a place; `None` for grass and holes.
     fn closed(&self, at: DVec2, height_m: f64) -> Option<Closed> {
         let near = self.ground.ground_seen(at.extend(height_m), LEVEL_M);

@@ -20,7 +20,7 @@ pub struct RoadNetwork {
 
 impl RoadNetwork {
     /// All lanes of all roads.
-    pub fn lanes(&self) -> impl Iterator<Item = &Lane> {
+    pub fn lanes(&self) -> impl Iterator<Item = &RoadLane> {
         let sections = self.roads.iter().flat_map(|road| &road.sections);
         sections.flat_map(|section| section.left.iter().chain(&section.right))
     }
@@ -98,27 +98,27 @@ pub struct LaneSection {
     /// End, metres along the road: the start of the next section or the end of the road.
     pub end_s_m: f64,
     /// Lanes 1, 2, ... from the centre outwards.
-    pub left: Vec<Lane>,
+    pub left: Vec<RoadLane>,
     /// Marks of the centre line.
     pub center_marks: Vec<RoadMark>,
     /// Lanes -1, -2, ... from the centre outwards.
-    pub right: Vec<Lane>,
+    pub right: Vec<RoadLane>,
 }
 
 impl LaneSection {
     /// Both sides, each with its sign: +1 for the left (growing t), -1 for the right.
-    pub fn sides(&self) -> [(f64, &[Lane]); 2] {
+    pub fn sides(&self) -> [(f64, &[RoadLane]); 2] {
         [(1.0, &self.left), (-1.0, &self.right)]
     }
 }
 
 /// One lane of a section. Stations are along the road, not within the section.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lane {
+pub struct RoadLane {
     /// `id`: positive to the left, negative to the right.
     pub id: i32,
     /// Use of the lane.
-    pub kind: LaneKind,
+    pub kind: RoadLaneKind,
     /// Vehicles that drive on it in its direction, if any.
     pub traffic: Option<cosfly_domain::LaneKind>,
     /// Its own speed limit, m/s.
@@ -155,7 +155,7 @@ pub struct LaneHeight {
 
 /// Use of a lane, as far as it matters to a town.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LaneKind {
+pub enum RoadLaneKind {
     /// Any carriageway: driving, parking, bus, bicycle, ramp and so on.
     Carriageway,
     /// Pavement for pedestrians.

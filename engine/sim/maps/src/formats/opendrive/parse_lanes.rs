@@ -1,7 +1,7 @@
 //! `<laneSection>` and everything in it into the model.
 
 use super::attributes::{OFFSET, SIZE, STATION, Source, child, children};
-use super::network::{Dash, Lane, LaneEdge, LaneHeight, LaneKind, LaneSection, Paint, RoadMark};
+use super::network::{Dash, LaneEdge, LaneHeight, LaneSection, Paint, RoadLane, RoadLaneKind, RoadMark};
 use super::polynomial::{Cubic, CubicProfile};
 use cosfly_domain::LaneKind as TrafficKind;
 use cosfly_town::error::MapError;
@@ -66,7 +66,7 @@ fn side<'d>(
     section: Node<'d, 'd>,
     name: &'static str,
     section_s_m: f64,
-) -> Result<Vec<Lane>, MapError> {
+) -> Result<Vec<RoadLane>, MapError> {
     let nodes = source.only_child(section, name)?.into_iter().flat_map(|side| children(side, "lane"));
     let mut lanes = nodes.map(|node| lane(source, node, section_s_m)).collect::<Result<Vec<_>, _>>()?;
     lanes.sort_by_key(|lane| lane.id.unsigned_abs());
@@ -84,7 +84,7 @@ fn side<'d>(
     Ok(lanes)
 }
 
-fn lane<'d>(source: &Source<'d>, node: Node<'d, 'd>, section_s_m: f64) -> Result<Lane, MapError> {
+fn lane<'d>(source: &Source<'d>, node: Node<'d, 'd>, section_s_m: f64) -> Result<RoadLane, MapError> {
     let id_text = source.text(node, "id")?;
     let id = id_text.trim().parse::<i32>().ok().filter(|id| id.unsigned_abs() <= 1000);
     let id = id
@@ -112,7 +112,7 @@ fn lane<'d>(source: &Source<'d>, node: Node<'d, 'd>, section_s_m: f64) -> Result
     }
     let level = matches!(node.attribute("level"), Some("true" | "1"));
     let type_name = node.attribute("type");
-    Ok(Lane {
+    Ok(RoadLane {
         id,
         kind: kind(type_name),
         traffic: type_name.and_then(traffic),
@@ -188,18 +188,18 @@ pub(super) fn speed_limit_mps<'d>(source: &Source<'d>, parent: Node<'d, 'd>) -> 
     limit_mps
 }
 
-fn kind(type_name: Option<&str>) -> LaneKind {
+fn kind(type_name: Option<&str>) -> RoadLaneKind {
     match type_name.unwrap_or("none") {
-        "sidewalk" | "walking" => LaneKind::Sidewalk,
-        "shoulder" => LaneKind::Shoulder,
-        "border" | "curb" => LaneKind::Kerb,
-        "median" => LaneKind::Median,
-        "tram" | "rail" => LaneKind::Rail,
-        "none" => LaneKind::None,
+        "sidewalk" | "walking" => RoadLaneKind::Sidewalk,
+        "shoulder" => RoadLaneKind::Shoulder,
+        "border" | "curb" => RoadLaneKind::Kerb,
+        "median" => RoadLaneKind::Median,
+        "tram" | "rail" => RoadLaneKind::Rail,
+        "none" => RoadLaneKind::None,
         "driving" | "stop" | "parking" | "biking" | "bidirectional" | "restricted" | "entry" | "exit" | "offRamp"
         | "onRamp" | "connectingRamp" | "slipLane" | "mwyEntry" | "mwyExit" | "bus" | "taxi" | "HOV" | "hov"
-        | "roadWorks" | "special1" | "special2" | "special3" | "shared" => LaneKind::Carriageway,
-        _ => LaneKind::None,
+        | "roadWorks" | "special1" | "special2" | "special3" | "shared" => RoadLaneKind::Carriageway,
+        _ => RoadLaneKind::None,
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Short ways through junctions often have the driving lanes only; gutters, shoulders and pavements stop beside them.
 
-use super::network::{Lane, LaneKind};
+use super::network::{RoadLane, RoadLaneKind};
 use super::stations::CrossSection;
 use super::surfaces::lane_label;
 use cosfly_domain::SemanticLabel;
@@ -35,7 +35,7 @@ pub(super) struct LaneEnd {
 }
 
 /// Both ends of each carriageway and pavement of a section.
-pub(super) fn ends(lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) -> Vec<LaneEnd> {
+pub(super) fn ends(lanes: [&[RoadLane]; 2], rows: &[CrossSection], world: &WorldFromMap) -> Vec<LaneEnd> {
     let ([first, second, ..], [.., before, last]) = (rows, rows) else { return vec![] };
     let mut ends = vec![];
     for (side, own) in lanes.into_iter().enumerate() {
@@ -55,8 +55,8 @@ pub(super) fn ends(lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFrom
     ends
 }
 
-fn is_joined(lane: &Lane) -> bool {
-    matches!(lane.kind, LaneKind::Carriageway | LaneKind::Shoulder | LaneKind::Sidewalk)
+fn is_joined(lane: &RoadLane) -> bool {
+    matches!(lane.kind, RoadLaneKind::Carriageway | RoadLaneKind::Shoulder | RoadLaneKind::Sidewalk)
 }
 
 /// Joins the ends that face each other where neither carriageway nor pavement lies between them; gives the number of pieces. `ground`

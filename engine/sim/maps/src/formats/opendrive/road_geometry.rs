@@ -1,6 +1,6 @@
 //! Points on a road: reference line, heights, lane edges. Map frame (right-handed), metres, radians.
 
-use super::network::{Lane, LaneEdge, LaneHeight, LaneSection, Road, ShapeSection};
+use super::network::{LaneEdge, LaneHeight, LaneSection, Road, RoadLane, ShapeSection};
 use super::plan_view::PlanPoint;
 use cosfly_frames::{DVec2, DVec3, real};
 
@@ -110,7 +110,7 @@ fn beside(plan: PlanPoint, t_m: f64) -> DVec2 {
 }
 
 /// t of a lane's outer edge; never on the inner side of `inner_t_m`.
-fn outer_edge_m(lane: &Lane, sign: f64, inner_t_m: f64, offset_m: f64, s_m: f64) -> f64 {
+fn outer_edge_m(lane: &RoadLane, sign: f64, inner_t_m: f64, offset_m: f64, s_m: f64) -> f64 {
     match &lane.edge {
         LaneEdge::Width(width) => inner_t_m + sign * width.value(s_m).max(0.0),
         LaneEdge::Border(border) => inner_t_m + sign * (sign * (offset_m + border.value(s_m) - inner_t_m)).max(0.0),

@@ -1,7 +1,7 @@
 //! Painted lane lines as thin strips just above the road.
 
 use super::line_ends::LineFree;
-use super::network::{Lane, LaneSection, Paint, Road, RoadMark};
+use super::network::{LaneSection, Paint, Road, RoadLane, RoadMark};
 use super::stations::CrossSection;
 use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3, real};
@@ -38,7 +38,7 @@ impl LinePainter {
             }
         }
         let center_side = usize::from(section.left.is_empty());
-        let has_lane = |lanes: &[Lane]| !lanes.is_empty();
+        let has_lane = |lanes: &[RoadLane]| !lanes.is_empty();
         if has_lane(&section.left) || has_lane(&section.right) {
             let edge = |row: &CrossSection| (row.points[center_side][0][0], row.spans[center_side][0].t_m[0]);
             self.paint_marks(builder, road, section, &section.center_marks, rows, &edge, world);

@@ -1,6 +1,6 @@
 //! Slits: lanes that miss each other by a few centimetres, where the land below would show, are joined by asphalt.
 
-use super::network::{Lane, LaneKind};
+use super::network::{RoadLane, RoadLaneKind};
 use super::stations::CrossSection;
 use cosfly_domain::SemanticLabel;
 use cosfly_frames::{DVec2, DVec3};
@@ -29,9 +29,9 @@ pub(super) struct Edge {
 
 /// The edges of a section's outermost and innermost lanes where they are carriageway, and those of all carriageways at
 /// both ends of the section.
-pub(super) fn edges(lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) -> Vec<Edge> {
+pub(super) fn edges(lanes: [&[RoadLane]; 2], rows: &[CrossSection], world: &WorldFromMap) -> Vec<Edge> {
     let mut edges = vec![];
-    let is_paved = |lane: &Lane| matches!(lane.kind, LaneKind::Carriageway | LaneKind::Shoulder);
+    let is_paved = |lane: &RoadLane| matches!(lane.kind, RoadLaneKind::Carriageway | RoadLaneKind::Shoulder);
     let mut add = |ends: [DVec3; 2], inner: DVec3| {
         let [from, to] = ends.map(|end| world.point(end).truncate());
         let across = (to - from).perp().normalize_or_zero();
@@ -43,13 +43,13 @@ pub(super) fn edges(lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFro
     for (side, own) in lanes.iter().enumerate() {
         let at = |row: &CrossSection, lane: usize, edge: usize| row.points[side][lane][edge];
         // Lanes without a kind may shrink to slits.
-        let outermost = own.iter().rposition(|lane| lane.kind != LaneKind::None);
+        let outermost = own.iter().rposition(|lane| lane.kind != RoadLaneKind::None);
         let last = outermost.filter(|last| is_paved(&own[*last]));
         for pair in rows.windows(2) {
             if let Some(last) = last {
                 add([0, 1].map(|row: usize| at(&pair[row], last, 1)), at(&pair[0], last, 0));
             }
-            let innermost = own.iter().position(|lane| lane.kind != LaneKind::None);
+            let innermost = own.iter().position(|lane| lane.kind != RoadLaneKind::None);
             let has_open_side = innermost.is_some_and(|first| first > 0) || lanes[1 - side].is_empty();
             if let Some(first) = innermost.filter(|first| has_open_side && is_paved(&own[*first])) {
                 add([0, 1].map(|row: usize| at(&pair[row], first, 0)), at(&pair[0], first, 1));

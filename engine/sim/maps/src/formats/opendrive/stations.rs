@@ -1,6 +1,6 @@
 //! Where along a road cross-sections are taken: at every break of its profiles and as densely as its curves ask for.
 
-use super::network::{Lane, LaneEdge, LaneSection, Road};
+use super::network::{LaneEdge, LaneSection, Road, RoadLane};
 use super::road_geometry::LaneSpan;
 use cosfly_frames::DVec3;
 use cosfly_town::error::MapError;
@@ -174,7 +174,7 @@ pub(super) fn cross_section(road: &Road, section: &LaneSection, s_m: f64) -> Res
             .iter()
             .map(|span| core::array::from_fn(|i| (plan.position_in_map + span.t_m[i] * normal).extend(span.z_m[i])))
             .collect();
-        let lanes: &[Lane] = section.sides()[side].1;
+        let lanes: &[RoadLane] = section.sides()[side].1;
         for ((span, points), lane) in out.spans[side].iter().zip(&out.points[side]).zip(lanes) {
             let width_m = (span.t_m[1] - span.t_m[0]).abs();
             let near = |point: &DVec3| point.is_finite() && point.abs().max_element() < 1e9 && point.z.abs() < 1e5;

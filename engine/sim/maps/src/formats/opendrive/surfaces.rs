@@ -1,6 +1,6 @@
 //! Meshes of the lanes: carriageway, raised pavements with kerb faces, green strips, skirts at the road's edge.
 
-use super::network::{Lane, LaneHeight, LaneKind, Road};
+use super::network::{LaneHeight, Road, RoadLane, RoadLaneKind};
 use super::road_geometry::LaneSpan;
 use super::stations::CrossSection;
 use cosfly_domain::SemanticLabel;
@@ -15,22 +15,23 @@ pub(super) const DEFAULT_KERB_M: f64 = 0.15;
 
 /// The label under which lane `index` of a side is seen. A lane without a kind that lies between paved ones (closed
 /// roads of CARLA's towns) is paved as well; elsewhere it is green.
-fn seen_label(side_lanes: &[Lane], index: usize) -> SemanticLabel {
-    let paved = |lane: &Lane| matches!(lane.kind, LaneKind::Carriageway | LaneKind::Shoulder);
+fn seen_label(side_lanes: &[RoadLane], index: usize) -> SemanticLabel {
+    let paved = |lane: &RoadLane| matches!(lane.kind, RoadLaneKind::Carriageway | RoadLaneKind::Shoulder);
     let lane = &side_lanes[index];
-    if lane.kind == LaneKind::None && side_lanes[..index].iter().any(paved) && side_lanes[index..].iter().any(paved) {
+    if lane.kind == RoadLaneKind::None && side_lanes[..index].iter().any(paved) && side_lanes[index..].iter().any(paved)
+    {
         return SemanticLabel::Roads;
     }
     lane_label(lane)
 }
 
 /// The label of a lane by its own kind.
-pub(super) fn lane_label(lane: &Lane) -> SemanticLabel {
+pub(super) fn lane_label(lane: &RoadLane) -> SemanticLabel {
     match lane.kind {
-        LaneKind::Carriageway | LaneKind::Shoulder => SemanticLabel::Roads,
-        LaneKind::Sidewalk | LaneKind::Kerb => SemanticLabel::SideWalks,
-        LaneKind::Median | LaneKind::None => SemanticLabel::Terrain,
-        LaneKind::Rail => SemanticLabel::RailTrack,
+        RoadLaneKind::Carriageway | RoadLaneKind::Shoulder => SemanticLabel::Roads,
+        RoadLaneKind::Sidewalk | RoadLaneKind::Kerb => SemanticLabel::SideWalks,
+        RoadLaneKind::Median | RoadLaneKind::None => SemanticLabel::Terrain,
+        RoadLaneKind::Rail => SemanticLabel::RailTrack,
     }
 }
 
@@ -39,7 +40,7 @@ pub(super) fn raise_default_kerbs(road: &mut Road) -> bool {
     let mut raised = false;
     for section in &mut road.sections {
         for lane in section.left.iter_mut().chain(&mut section.right) {
-            if lane.kind == LaneKind::Sidewalk && lane.heights.is_empty() {
+            if lane.kind == RoadLaneKind::Sidewalk && lane.heights.is_empty() {
                 let s_m = section.start_s_m;
                 lane.heights = vec![LaneHeight { s_m, inner_m: DEFAULT_KERB_M, outer_m: DEFAULT_KERB_M }];
                 raised = true;
@@ -50,7 +51,12 @@ pub(super) fn raise_default_kerbs(road: &mut Road) -> bool {
 }
 
 /// Adds everything of one lane section.
-pub(super) fn add_section(builder: &mut MeshBuilder, lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) {
+pub(super) fn add_section(
+    builder: &mut MeshBuilder,
+    lanes: [&[RoadLane]; 2],
+    rows: &[CrossSection],
+    world: &WorldFromMap,
+) {
     for (side, side_lanes) in lanes.into_iter().enumerate() {
         for (index, lane) in side_lanes.iter().enumerate() {
             let label = seen_label(side_lanes, index);
@@ -80,7 +86,7 @@ pub(super) fn add_section(builder: &mut MeshBuilder, lanes: [&[Lane]; 2], rows: 
 }
 
 /// The face between the first lanes of both sides, when they differ in height at the centre.
-fn add_center_face(builder: &mut MeshBuilder, lanes: [&[Lane]; 2], rows: &[CrossSection], world: &WorldFromMap) {
+fn add_center_face(builder: &mut MeshBuilder, lanes: [&[RoadLane]; 2], rows: &[CrossSection], world: &WorldFromMap) {
     for pair in rows.windows(2) {
         let [low, high] = [&pair[0], &pair[1]];
         match (lanes[0].first(), lanes[1].first()) {
@@ -113,7 +119,7 @@ fn add_face(
     }
 }
 
-fn face_label(a: &Lane, b: &Lane) -> SemanticLabel {
+fn face_label(a: &RoadLane, b: &RoadLane) -> SemanticLabel {
     let labels = [lane_label(a), lane_label(b)];
     if labels.contains(&SemanticLabel::SideWalks) { SemanticLabel::SideWalks } else { labels[0] }
 }

@@ -1,6 +1,6 @@
 //! Invented pavements beside the carriageways, for files that have no ground for pedestrians.
 
-use super::network::{LaneKind, LaneSection, Road, RoadNetwork};
+use super::network::{LaneSection, Road, RoadLaneKind, RoadNetwork};
 use super::stations::{CrossSection, StationBudget, cross_sections};
 use super::surfaces::{DEFAULT_KERB_M, SKIRT_M};
 use super::walkable::{pieces, without_repeats};
@@ -54,7 +54,7 @@ pub(super) fn verges(
 
 fn rows(road: &Road, section: &LaneSection, side: usize, stations: &[CrossSection], world: &WorldFromMap) -> Vec<Row> {
     let (sign, lanes) = section.sides()[side];
-    let Some(last) = lanes.iter().rposition(|lane| lane.kind == LaneKind::Carriageway) else { return Vec::new() };
+    let Some(last) = lanes.iter().rposition(|lane| lane.kind == RoadLaneKind::Carriageway) else { return Vec::new() };
     let row = |station: &CrossSection| {
         let (edge, inner_t_m) = (station.points[side][last][1], station.spans[side][last].t_m[1]);
         let t_m = [inner_t_m, inner_t_m + sign * WIDTH_M];

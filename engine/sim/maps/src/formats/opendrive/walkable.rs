@@ -1,6 +1,6 @@
 //! Ground for pedestrians: pavements in short pieces, shoulders on request, kerb strips that join them.
 
-use super::network::{Lane, LaneKind, LaneSection, Road};
+use super::network::{LaneSection, Road, RoadLane, RoadLaneKind};
 use super::stations::CrossSection;
 use cosfly_domain::{WalkableKind, WalkablePolygon};
 use cosfly_frames::DVec3;
@@ -15,22 +15,22 @@ const NARROWEST_M: f64 = 0.05;
 
 /// Kind of walkable ground of each lane of one side; `None` for lanes that are not walkable.
 pub(super) fn walkable_lanes(
-    lanes: &[Lane],
+    lanes: &[RoadLane],
     rows: &[CrossSection],
     side: usize,
     shoulders: bool,
 ) -> Vec<Option<WalkableKind>> {
-    let own = |lane: &Lane| match lane.kind {
-        LaneKind::Sidewalk => Some(WalkableKind::Sidewalk),
-        LaneKind::Shoulder if shoulders => Some(WalkableKind::Shoulder),
+    let own = |lane: &RoadLane| match lane.kind {
+        RoadLaneKind::Sidewalk => Some(WalkableKind::Sidewalk),
+        RoadLaneKind::Shoulder if shoulders => Some(WalkableKind::Shoulder),
         _ => None,
     };
     let mut kinds: Vec<_> = lanes.iter().map(own).collect();
     for index in 0..lanes.len() {
         let beside = [index.checked_sub(1), Some(index + 1)].into_iter().flatten();
-        let touches = beside.filter_map(|i| lanes.get(i)).any(|lane| lane.kind == LaneKind::Sidewalk);
+        let touches = beside.filter_map(|i| lanes.get(i)).any(|lane| lane.kind == RoadLaneKind::Sidewalk);
         let widest = rows.iter().map(|row| width_m(row, side, index)).fold(0.0, f64::max);
-        if kinds[index].is_none() && lanes[index].kind == LaneKind::Kerb && touches && widest <= KERB_STRIP_M {
+        if kinds[index].is_none() && lanes[index].kind == RoadLaneKind::Kerb && touches && widest <= KERB_STRIP_M {
             kinds[index] = Some(WalkableKind::Sidewalk);
         }
     }
@@ -40,7 +40,7 @@ pub(super) fn walkable_lanes(
 /// Whether a section has any walkable lane.
 pub(super) fn has_walkable(section: &LaneSection, shoulders: bool) -> bool {
     let mut lanes = section.left.iter().chain(&section.right);
-    lanes.any(|lane| lane.kind == LaneKind::Sidewalk || shoulders && lane.kind == LaneKind::Shoulder)
+    lanes.any(|lane| lane.kind == RoadLaneKind::Sidewalk || shoulders && lane.kind == RoadLaneKind::Shoulder)
 }
 
 /// Adds the walkable pieces of one lane section; `rows` are at most [`LONGEST_PIECE_M`] apart.

@@ -2,7 +2,7 @@
 //! attributes and of the depth of elements that declare namespaces.
 
 use cosfly_town::error::MapError;
-use cosfly_town::text::Lines;
+use cosfly_town::text::LineStarts;
 
 /// Deepest nesting of elements; OpenDRIVE itself has about ten levels.
 const DEEPEST: usize = 100;
@@ -11,7 +11,7 @@ const MOST_ATTRIBUTES: usize = 1000;
 
 /// Refuses elements that are nested too deeply or have too many attributes. Text that is not XML may pass: the parser
 /// refuses it.
-pub(super) fn check(text: &str, lines: &Lines<'_>) -> Result<(), MapError> {
+pub(super) fn check(text: &str, lines: &LineStarts<'_>) -> Result<(), MapError> {
     let refuse = |at: usize, rule: String| Err(MapError::new(rule).at(lines.place(at..at + 1, String::new())));
     let mut depth = 0_usize;
     let mut at = 0;
@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     fn check_text(text: &str) -> Result<(), String> {
-        check(text, &Lines::new(text)).map_err(|error| error.message)
+        check(text, &LineStarts::new(text)).map_err(|error| error.message)
     }
 
     #[test]

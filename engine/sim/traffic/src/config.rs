@@ -1,8 +1,8 @@
 //! [`TrafficConfig`]: the parameters of traffic in a recipe.
 
-use cosfly_domain::{BodyKind, Traffic};
+use crate::follow::Follow;
+use cosfly_domain::BodyKind;
 use cosfly_pedestrians::{CrowdConfig, PedestrianConfigRule, RecordedConfig, ScriptedPerson};
-use cosfly_stage::{Source, parameters};
 use cosfly_vehicles::VehicleConfig;
 use cosfly_vehicles::fcd::FcdConfig;
 use cosfly_world::{Clock, LookAlikeConfig, LooksConfig};
@@ -81,70 +81,6 @@ pub struct SumoSource {
     pub options: FcdConfig,
 }
 
-/// Bodies that flights follow: the first ones, by number, of the named kinds that are there in all frames.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Follow {
-    /// Number of followed bodies; a higher number changes none of the first. Default 4.
-    #[schemars(range(min = 1, max = 1_000_000))]
-    pub count: u64,
-    /// Names of those who are followed first: scripted and recorded people, vehicles and people of SUMO. They count among `count`.
-    /// Default `[]`.
-    pub named: Vec<String>,
-    /// Kinds of the other followed bodies, in turn. Default `["pedestrian"]`.
-    #[schemars(length(min = 1))]
-    pub kinds: Vec<BodyKind>,
-    /// Least distance that a followed body covers, metres. Default 20.
-    #[schemars(range(min = 0.0, max = 100_000.0))]
-    pub min_length_m: f64,
-}
-
-impl Default for Follow {
-    fn default() -> Self {
-        Self { count: 4, named: vec![], kinds: vec![BodyKind::Pedestrian], min_length_m: 20.0 }
-    }
-}
-
-impl Follow {
-    /// Parameters that no single followed body depends on; not in its key.
-    pub const NOT_IN_KEY: &[&str] = &["count"];
-
-    /// Numbers of all bodies that may be followed, in the order in which they are: those with names, then the first of each
-    /// kind, the second of each kind and so on, so that further ones change nothing.
-    ///
-    /// # Errors
-    /// A name that nobody has who is there all the time.
-    pub fn eligible<'a>(&'a self, traffic: &Traffic) -> Result<Vec<u32>, &'a str> {
-        let is_there = |number: &u32| traffic.track(*number).is_some();
-        let numbers = || 0..traffic.bodies.len() as u32;
-        let of_name = |name: &'a String| {
-            let mut called = numbers().filter(|number| traffic.bodies[*number as usize].plan.source == *name);
-            called.find(is_there).ok_or(name.as_str())
-        };
-        let named: Vec<u32> = self.named.iter().map(of_name).collect::<Result<_, _>>()?;
-        let of_kind = |kind: &BodyKind| -> Vec<u32> {
-            let may = |number: &u32| {
-                let body = &traffic.bodies[*number as usize];
-                body.plan.kind == *kind
-                    && !named.contains(number)
-                    && is_there(number)
-                    && body.length_m() >= self.min_length_m
-            };
-            numbers().filter(may).collect()
-        };
-        let lists: Vec<Vec<u32>> = self.kinds.iter().map(of_kind).collect();
-        let longest = lists.iter().map(Vec::len).max().unwrap_or(0);
-        let others = (0..longest).flat_map(|place| lists.iter().filter_map(move |list| list.get(place))).copied();
-        Ok(named.iter().copied().chain(others).collect())
-    }
-
-    /// Names of the kinds, for messages.
-    pub fn names(&self) -> String {
-        let names: Vec<String> = self.kinds.iter().map(|kind| format!("`{}`", kind.name())).collect();
-        names.join(", ")
-    }
-}
-
 /// Whether sides, metres, are none of a body.
 fn is_no_size(size_m: &[f64; 3]) -> bool {
     !size_m.iter().all(|side_m| (0.1..=50.0).contains(side_m))
@@ -215,30 +151,6 @@ impl TrafficConfig {
     /// Frames and steps.
     pub fn clock(&self) -> Clock {
         Clock::new(self.frames, self.dt_s, STEP_S)
-    }
-
-    /// Files of recorded tracks, then the two of SUMO. Their names are left out of the parameters: contents count.
-    pub fn take_sources(&mut self) -> Vec<Source> {
-        let mut sources = vec![];
-        for (number, recorded) in self.recorded.iter_mut().enumerate() {
-            sources.push(Source::new(format!("recorded.{number}.source"), std::mem::take(&mut recorded.source)));
-        }
-        if let Some(sumo) = &mut self.sumo {
-            sources.push(Source::new("sumo.source", std::mem::take(&mut sumo.source)));
-            sources.push(Source::new("sumo.net", std::mem::take(&mut sumo.net)));
-        }
-        sources
-    }
-
-    /// Parameters that the bodies depend on, for keys: those who are followed as far as others are dressed like them.
-    pub fn canonical_of_bodies(&self) -> serde_json::Value {
-        let all = parameters::canonical(self);
-        if self.look_alikes.shares.is_empty() { parameters::without(all, Self::NOT_IN_KEY_OF_BODIES) } else { all }
-    }
-
-    /// Parameters that one walk depends on beside the tracks, for keys: not how many there are.
-    pub fn canonical_of_walks(&self) -> serde_json::Value {
-        parameters::without(parameters::canonical(&self.follow), Follow::NOT_IN_KEY)
     }
 }
 

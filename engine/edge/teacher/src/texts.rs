@@ -1,25 +1,33 @@
 //! Texts of a teacher: asked for, judged, asked for again, replaced by the template's.
 
+use crate::ask::{Reply, Teacher};
+use crate::question::Question;
 use cosfly_captions::teaching::{Lesson, believe, rules, task};
 use cosfly_captions::{Caption as Text, Facts, Language, claimed, facts_in_words};
 use cosfly_diagnose::Result;
 use cosfly_schema::CaptionRecord;
 use cosfly_stage::{Answers, TaskContext};
-use cosfly_teacher::{Question, Reply, Teacher};
 use std::collections::BTreeSet;
 
-/// Sources of the texts of a flight.
-pub struct Class<'a> {
+/// A request for the texts of a flight.
+pub struct TextRequest<'a> {
+    /// The model.
     pub teacher: &'a Teacher,
+    /// Facts of the flight, against which its texts are judged.
     pub facts: &'a Facts,
     /// JPEG files.
     pub pictures: &'a [Vec<u8>],
+    /// Kept answers.
     pub answers: &'a dyn Answers,
+    /// The task that needs the texts.
     pub context: &'a TaskContext,
 }
 
-impl Class<'_> {
+impl TextRequest<'_> {
     /// Texts in the place of the templates' texts. Languages and styles are asked for side by side.
+    ///
+    /// # Errors
+    /// Those of [`Teacher::ask`].
     pub fn texts(&self, templates: &[Text]) -> Result<Vec<CaptionRecord>> {
         let kinds = templates.chunk_by(|a, b| (a.language, a.style) == (b.language, b.style));
         let texts: Vec<Result<Vec<CaptionRecord>>> = std::thread::scope(|scope| {
@@ -57,7 +65,7 @@ impl Class<'_> {
             let refused = last.map(|(text, why)| (text.as_str(), why.as_str()));
             let task = task(&Lesson { facts: self.facts, language, style: template.style, others, refused });
             let user = config.prompt.replace("{facts}", &facts).replace("{task}", &task);
-            let question = Question { system: rules(language), user: &user, pictures: self.pictures };
+            let question = Question { system: &rules(language), user: &user, pictures: self.pictures };
             let answer = match self.teacher.ask(&question, self.answers, &|| self.context.check_cancelled())? {
                 Reply::Answer(answer) => answer,
                 Reply::Lost(why) => {

@@ -1,7 +1,7 @@
-//! The populations of a stage `traffic`: one function per kind.
+//! The populations of traffic: one function per kind.
 
-use super::avoided::Avoided;
-use super::config::{RecordedSource, SumoSource, TrafficConfig};
+use crate::avoided::Avoided;
+use crate::config::{RecordedSource, SumoSource, TrafficConfig};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::Town;
 use cosfly_frames::{DVec2, Seed};
@@ -9,29 +9,57 @@ use cosfly_pedestrians::{Crowd, PedestrianError, Recording, WalkableGrid, script
 use cosfly_vehicles::fcd::{self, FcdError, FcdProjection, NetLocation};
 use cosfly_vehicles::{VehicleError, Vehicles};
 use cosfly_world::{Clock, Population};
-use std::fs::File;
-use std::io::{BufReader, Read};
-use std::path::{Path, PathBuf};
+use std::io::{self, BufReader, Read};
 use std::sync::Arc;
 
 /// Bytes of a SUMO net that hold its location.
 const NET_HEAD_BYTES: u64 = 64 * 1024;
 
+/// A file of tracks, which the caller opens.
+pub struct TrackFile {
+    /// Path for messages.
+    pub shown: String,
+    /// Opens the file at its beginning.
+    pub open: Box<dyn Fn() -> io::Result<Box<dyn Read>>>,
+}
+
+impl TrackFile {
+    fn opened(&self) -> Result<Box<dyn Read>> {
+        (self.open)().map_err(|error| self.unreadable(&error))
+    }
+
+    /// Name without folders.
+    fn name(&self) -> &str {
+        self.shown.rsplit(['/', '\\']).next().unwrap_or_default()
+    }
+
+    fn unreadable(&self, error: &io::Error) -> Box<Diagnostic> {
+        Diagnostic::new("traffic-unreadable", Fault::Input, format!("cannot read `{}`", self.shown)).because(error)
+    }
+
+    fn refused(&self, error: &dyn std::fmt::Display, hint: &str) -> Box<Diagnostic> {
+        let message = format!("cannot use the tracks in `{}`", self.shown);
+        let refusal = Diagnostic::new("traffic-tracks", Fault::Input, message).because(error);
+        if hint.is_empty() { refusal } else { refusal.hint(hint) }
+    }
+}
+
 /// Populations, and what was left out, in words.
 #[derive(Default)]
-pub struct Populations {
+pub(crate) struct Populations {
     /// In the order of their numbers.
     pub all: Vec<Box<dyn Population>>,
     /// Omissions, in words.
     pub notes: Vec<String>,
 }
 
-/// All populations; the last one is `avoided`, if there is anybody. `files` are those of [`TrafficConfig::sources`].
-pub fn all(
+/// All populations; the last one is `avoided`, if there is anybody. `files` are those of [`TrafficConfig::recorded`], then the two
+/// of [`TrafficConfig::sumo`].
+pub(crate) fn all(
     config: &TrafficConfig,
     town: &Town,
     (clock, seed): (Clock, Seed),
-    files: &[PathBuf],
+    files: &[TrackFile],
     avoided: Avoided,
 ) -> Result<Populations> {
     let mut populations = Populations::default();
@@ -86,47 +114,36 @@ fn first_places(populations: &[Box<dyn Population>]) -> Vec<(DVec2, f64)> {
 
 fn recorded(
     source: &RecordedSource,
-    file: &Path,
+    file: &TrackFile,
     town: &Town,
     clock: Clock,
     seed: Seed,
     notes: &mut Vec<String>,
 ) -> Result<Box<dyn Population>> {
-    let bytes = std::fs::read(file).map_err(|error| unreadable(file, &error))?;
-    let refused = |error: cosfly_pedestrians::RecordedError| in_file(file, &error, &error.hint);
+    let mut bytes = vec![];
+    file.opened()?.read_to_end(&mut bytes).map_err(|error| file.unreadable(&error))?;
+    let refused = |error: cosfly_pedestrians::RecordedError| file.refused(&error, &error.hint);
     let recording = Recording::read(&bytes, &source.options).map_err(refused)?;
-    notes.extend(recording.warnings.iter().map(|warning| format!("{}: {warning}", name_of(file))));
+    notes.extend(recording.warnings.iter().map(|warning| format!("{}: {warning}", file.name())));
     Ok(Box::new(recording.placed(town, &source.options, clock, seed).map_err(refused)?))
 }
 
-fn sumo(source: &SumoSource, files: &[PathBuf], town: &Town, clock: Clock, seed: Seed) -> Result<Box<dyn Population>> {
+fn sumo(
+    source: &SumoSource,
+    files: &[TrackFile],
+    town: &Town,
+    clock: Clock,
+    seed: Seed,
+) -> Result<Box<dyn Population>> {
     let [traffic, net] = files else { return Err(Diagnostic::new("traffic-files", Fault::Bug, "a file is missing")) };
-    let refused = |file: &Path, error: FcdError| in_file(file, &error, error.hint.as_deref().unwrap_or_default());
+    let refused = |file: &TrackFile, error: FcdError| file.refused(&error, error.hint.as_deref().unwrap_or_default());
     let mut head = vec![];
-    File::open(net)
-        .and_then(|file| file.take(NET_HEAD_BYTES).read_to_end(&mut head))
-        .map_err(|error| unreadable(net, &error))?;
+    net.opened()?.take(NET_HEAD_BYTES).read_to_end(&mut head).map_err(|error| net.unreadable(&error))?;
     let net_location = NetLocation::of_net(&head).map_err(|error| refused(net, error))?;
     let place = FcdProjection::new(town, &net_location, source.options.geo).map_err(|error| refused(net, error))?;
-    let file = File::open(traffic).map_err(|error| unreadable(traffic, &error))?;
-    let recorded = fcd::read(BufReader::new(file), &place, &source.options, clock, seed)
+    let recorded = fcd::read(BufReader::new(traffic.opened()?), &place, &source.options, clock, seed)
         .map_err(|error| refused(traffic, error))?;
     Ok(Box::new(recorded))
-}
-
-fn name_of(file: &Path) -> String {
-    file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-}
-
-fn unreadable(file: &Path, error: &std::io::Error) -> Box<Diagnostic> {
-    let message = format!("cannot read `{}`", file.display());
-    Diagnostic::new("traffic-unreadable", Fault::Input, message).because(error)
-}
-
-fn in_file(file: &Path, error: &dyn std::fmt::Display, hint: &str) -> Box<Diagnostic> {
-    let message = format!("cannot use the tracks in `{}`", file.display());
-    let refusal = Diagnostic::new("traffic-tracks", Fault::Input, message).because(error);
-    if hint.is_empty() { refusal } else { refusal.hint(hint) }
 }
 
 fn refusal(error: &dyn std::fmt::Display, hint: impl Into<String>, town: &str) -> Box<Diagnostic> {

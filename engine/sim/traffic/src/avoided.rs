@@ -1,23 +1,12 @@
 //! People whom traffic moves around: other stages made their walks, and they make way for nobody.
 
-use crate::ports::{self, WALK};
 use cosfly_diagnose::Result;
 use cosfly_domain::{BodyPlan, Traffic};
-use cosfly_experts::artifacts;
 use cosfly_film::Person;
 use cosfly_frames::TargetState;
-use cosfly_stage::{InputPort, Inputs};
+use cosfly_pedestrians::PedestrianPath;
 use cosfly_world::{Population, Snapshot, contacts};
 use std::collections::BTreeSet;
-
-/// Name of the port.
-pub const PORT: &str = "avoid";
-
-/// Port of the walks of those who are avoided.
-pub fn port() -> InputPort {
-    let doc = "Walks that are made before: everybody moves around these people. They are no part of this traffic.";
-    InputPort { optional: true, ..ports::gather(PORT, WALK, true, doc) }
-}
 
 /// People who walk as their own stages made them, and stand where their walks end.
 #[derive(Default)]
@@ -27,29 +16,25 @@ pub struct Avoided {
 }
 
 impl Avoided {
-    /// Those at the port; all bodies of a traffic that one of them was taken out of.
-    pub fn read(inputs: &Inputs<'_>) -> Result<Self> {
-        let mut people = vec![];
-        for artifacts in inputs.all(PORT).chunk_by(|a, b| a.id.stage == b.id.stage) {
-            if let Some(traffic) =
-                artifacts.first().map_or(Ok(None), |artifact| super::moving::traffic_of(inputs, artifact))?
-            {
-                let bodies = traffic.bodies.iter().filter(|body| !body.states.is_empty());
-                people.extend(bodies.map(|body| Person::of(body, traffic.dt_s)));
-                continue;
-            }
-            for artifact in artifacts {
-                let walk = artifacts::WALK.shared(inputs, artifact)?;
-                if !walk.track.is_empty() {
-                    people.push(Person::on(&walk)?);
-                }
-            }
+    /// Adds all bodies of a traffic that one of the walks was taken out of.
+    pub fn add_traffic(&mut self, traffic: &Traffic) {
+        let bodies = traffic.bodies.iter().filter(|body| !body.states.is_empty());
+        self.people.extend(bodies.map(|body| Person::of(body, traffic.dt_s)));
+    }
+
+    /// Adds somebody on a walk; nobody where it has no steps.
+    ///
+    /// # Errors
+    /// Those of [`Person::on`].
+    pub fn add_walk(&mut self, walk: &PedestrianPath) -> Result<()> {
+        if !walk.track.is_empty() {
+            self.people.push(Person::on(walk)?);
         }
-        Ok(Self { people, now_s: 0.0 })
+        Ok(())
     }
 
     /// Number of people.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.people.len()
     }
 }
@@ -70,7 +55,7 @@ impl Population for Avoided {
 
 /// Takes the last `count` bodies out of a traffic, who were avoided. Bodies that one of them walks through all the same, such as
 /// somebody in an alley too narrow for two, are left without a place; gives the number of those.
-pub fn take_out(traffic: &mut Traffic, count: usize) -> usize {
+pub(crate) fn take_out(traffic: &mut Traffic, count: usize) -> usize {
     let own = traffic.bodies.len() - count;
     if count == 0 {
         return 0;

@@ -1,0 +1,69 @@
+//! [`Follow`]: the bodies of traffic that flights follow.
+
+use cosfly_domain::{BodyKind, Traffic};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Bodies that flights follow: the first ones, by number, of the named kinds that are there in all frames.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Follow {
+    /// Number of followed bodies; a higher number changes none of the first. Default 4.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub count: u64,
+    /// Names of those who are followed first: scripted and recorded people, vehicles and people of SUMO. They count among `count`.
+    /// Default `[]`.
+    pub named: Vec<String>,
+    /// Kinds of the other followed bodies, in turn. Default `["pedestrian"]`.
+    #[schemars(length(min = 1))]
+    pub kinds: Vec<BodyKind>,
+    /// Least distance that a followed body covers, metres. Default 20.
+    #[schemars(range(min = 0.0, max = 100_000.0))]
+    pub min_length_m: f64,
+}
+
+impl Default for Follow {
+    fn default() -> Self {
+        Self { count: 4, named: vec![], kinds: vec![BodyKind::Pedestrian], min_length_m: 20.0 }
+    }
+}
+
+impl Follow {
+    /// Parameters that no single followed body depends on; not in its key.
+    pub const NOT_IN_KEY: &[&str] = &["count"];
+
+    /// Numbers of all bodies that may be followed, in the order in which they are: those with names, then the first of each
+    /// kind, the second of each kind and so on, so that further ones change nothing.
+    ///
+    /// # Errors
+    /// A name that nobody has who is there all the time.
+    pub fn eligible<'a>(&'a self, traffic: &Traffic) -> Result<Vec<u32>, &'a str> {
+        let is_there = |number: &u32| traffic.track(*number).is_some();
+        let numbers = || 0..traffic.bodies.len() as u32;
+        let of_name = |name: &'a String| {
+            let mut called = numbers().filter(|number| traffic.bodies[*number as usize].plan.source == *name);
+            called.find(is_there).ok_or(name.as_str())
+        };
+        let named: Vec<u32> = self.named.iter().map(of_name).collect::<Result<_, _>>()?;
+        let of_kind = |kind: &BodyKind| -> Vec<u32> {
+            let may = |number: &u32| {
+                let body = &traffic.bodies[*number as usize];
+                body.plan.kind == *kind
+                    && !named.contains(number)
+                    && is_there(number)
+                    && body.length_m() >= self.min_length_m
+            };
+            numbers().filter(may).collect()
+        };
+        let lists: Vec<Vec<u32>> = self.kinds.iter().map(of_kind).collect();
+        let longest = lists.iter().map(Vec::len).max().unwrap_or(0);
+        let others = (0..longest).flat_map(|place| lists.iter().filter_map(move |list| list.get(place))).copied();
+        Ok(named.iter().copied().chain(others).collect())
+    }
+
+    /// Names of the kinds, for messages.
+    pub fn names(&self) -> String {
+        let names: Vec<String> = self.kinds.iter().map(|kind| format!("`{}`", kind.name())).collect();
+        names.join(", ")
+    }
+}

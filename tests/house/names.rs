@@ -1,0 +1,75 @@
+//! One name, one type: no two crates show types of one name to others, so that a search for a name finds its meaning.
+
+use super::circles::crates;
+use super::interfaces::{names_of_uses, text, tops};
+use super::modules::Crate;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// Names that say what their module says: `schema::tables::Column` is a column of a table. A name that is shown once must leave the list.
+const IDIOMS: [&str; 16] = [
+    "Baseline",
+    "Candidate",
+    "Claim",
+    "Column",
+    "Failure",
+    "Footprint",
+    "Format",
+    "Kind",
+    "Metric",
+    "Part",
+    "Plan",
+    "Roof",
+    "Shared",
+    "Source",
+    "Step",
+    "Visibility",
+];
+
+/// Types for builds without plugins: those of `plugin-host` under the same names.
+const STAND_IN: &str = "edge/experts/src/plugins/absent.rs";
+
+/// The libraries of the engine; nobody uses those of the lab.
+fn libraries() -> Vec<PathBuf> {
+    let of_engine = |folder: &PathBuf| {
+        let shelf = folder.parent().expect("a shelf");
+        shelf.parent().is_some_and(|engine| engine.ends_with("engine")) && !shelf.ends_with("lab")
+    };
+    let roots = crates().into_iter().filter(of_engine).map(|folder| folder.join("src/lib.rs"));
+    roots.filter(|root| root.exists()).collect()
+}
+
+/// Names of the types that a crate shows: those of its open modules, and those that open modules hand on.
+fn public_types(root: &Path) -> BTreeSet<String> {
+    let read = Crate::read(root);
+    let open = read.public_modules();
+    let handed_on: BTreeSet<String> =
+        open.iter().flat_map(|module| names_of_uses(&read.modules[*module].tokens)).collect();
+    let mut types = BTreeSet::new();
+    for (number, module) in read.modules.iter().enumerate().filter(|(_, module)| !module.file.ends_with(STAND_IN)) {
+        let tokens = &module.tokens;
+        let is_type = |at: &usize| {
+            text(tokens, *at) == "pub" && ["struct", "enum", "trait", "type"].contains(&text(tokens, at + 1))
+        };
+        let names = tops(tokens).filter(is_type).map(|at| text(tokens, at + 2).to_owned());
+        types.extend(names.filter(|name| open.contains(&number) || handed_on.contains(name)));
+    }
+    types
+}
+
+#[test]
+fn no_two_crates_show_types_of_one_name() {
+    let mut shown: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for root in libraries() {
+        let room = root.ancestors().nth(2).and_then(Path::file_name).expect("a room").to_string_lossy().into_owned();
+        for name in public_types(&root) {
+            shown.entry(name).or_default().push(room.clone());
+        }
+    }
+    let twice: BTreeMap<&str, &Vec<String>> =
+        shown.iter().filter(|(_, rooms)| rooms.len() > 1).map(|(name, rooms)| (name.as_str(), rooms)).collect();
+    let new: BTreeMap<_, _> = twice.iter().filter(|(name, _)| !IDIOMS.contains(name)).collect();
+    let gone: Vec<_> = IDIOMS.iter().filter(|name| !twice.contains_key(*name)).collect();
+    assert!(new.is_empty(), "types of one name in several rooms; give each a name of its own: {new:#?}");
+    assert!(gone.is_empty(), "these names are shown once: take them off the list of idioms: {gone:?}");
+}
