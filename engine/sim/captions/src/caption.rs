@@ -125,7 +125,7 @@ pub(crate) mod tests {
                 }
             }
         }
-        assert_eq!(count, 13 * 25 * 2 * 2 * 6);
+        assert_eq!(count, 13 * 25 * Language::ALL.len() * 2 * 6);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use crate::caption::tests::flights;
 use crate::facts::{Facts, TargetStop, Wear, facts, test_flights::flight};
 use crate::turns::Turn;
 use crate::{CaptionConfig, Compass, Language, Style, TurnKind, captions};
+use cosfly_claims::Script;
 use cosfly_domain::Colour;
 use cosfly_random::{RandomStream, Seed};
 
@@ -46,8 +47,8 @@ fn mutations(text: &str, language: Language) -> Vec<String> {
             mutated.push(format!("{}{other:.fraction$}{}", &text[..place.start], &text[place.end..]));
         }
     }
-    let sides = match language {
-        Language::En => vec![
+    let sides = match language.script() {
+        Script::Latin => vec![
             ("left", "right"),
             ("right", "left"),
             ("turns around", "turns left"),
@@ -64,7 +65,7 @@ fn mutations(text: &str, language: Language) -> Vec<String> {
             ("walks straight on", "turns left"),
             ("follows a straight line", "turns around"),
         ],
-        Language::Zh => vec![
+        Script::Han => vec![
             ("左转", "右转"),
             ("右转", "左转"),
             ("掉头", "左转"),
@@ -83,9 +84,9 @@ fn mutations(text: &str, language: Language) -> Vec<String> {
         let place = Compass::ALL.iter().position(|one| *one == direction).unwrap();
         for turn in [1, 2, 4] {
             let other = Compass::ALL[(place + turn) % 8];
-            let (from, to) = match language {
-                Language::En => (direction.english(), other.english()),
-                Language::Zh => (direction.chinese(), other.chinese()),
+            let (from, to) = match language.script() {
+                Script::Latin => (direction.english(), other.english()),
+                Script::Han => (direction.chinese(), other.chinese()),
             };
             mutated.extend(replaced(text, from, to, letter));
         }
