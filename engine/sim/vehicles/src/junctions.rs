@@ -1,5 +1,5 @@
 //! [`Junctions`]: who may drive through a junction. A vehicle asks before it enters; it gets its way when all lanes that
-//! cross it are free and there is room behind the junction. Who asked first goes first.
+//! cross it are free and there is room behind the junction. Who asked first goes first; who finds no room takes another way.
 
 use crate::driver::STANDING_GAP_M;
 use crate::network::Network;
@@ -7,14 +7,17 @@ use crate::vehicle::Vehicle;
 
 /// Vehicles ask from this distance beyond their braking distance, metres.
 const ASK_M: f64 = 12.0;
+/// Vehicles longer than this need more room where ways bend, metres.
+const LONG_M: f64 = 6.5;
 /// Who waits longer than this keeps others from going before, seconds.
 const PATIENCE_S: f64 = 4.0;
 
 /// Who holds which lane.
 #[derive(Clone, Debug)]
 pub(crate) struct Junctions {
-    /// Number of vehicles that hold each lane.
+    /// Number of vehicles that hold each lane, and of long ones.
     held: Vec<u32>,
+    held_long: Vec<u32>,
     /// Length that vehicles on their way to each lane, or on it, will take, metres.
     promised_m: Vec<f64>,
     /// Nearest vehicle to the end of each lane that would ask: distance in metres, number.
@@ -29,6 +32,7 @@ impl Junctions {
         let lanes = network.lanes.len();
         Self {
             held: vec![0; lanes],
+            held_long: vec![0; lanes],
             promised_m: vec![0.0; lanes],
             nearest: vec![None; lanes],
             asking: vec![],
@@ -51,6 +55,7 @@ impl Junctions {
             let was_granted = |index: usize| index < vehicle.passage.granted && is_inner(network, vehicle, index);
             if was_granted(index) {
                 self.held[lane] = self.held[lane].saturating_sub(1);
+                self.held_long[lane] = self.held_long[lane].saturating_sub(u32::from(is_long(vehicle)));
             }
             if index == 0 || !was_granted(index) && was_granted(index - 1) {
                 self.promised_m[lane] = (self.promised_m[lane] - takes_m(vehicle)).max(0.0);
@@ -87,34 +92,55 @@ impl Junctions {
             let vehicle = &mut vehicles[number];
             let Some([first, end]) = next(network, vehicle) else { continue };
             let (lanes, exit) = (&vehicle.route.lanes[first..end], vehicle.route.lanes.get(end).copied());
-            if self.is_free(network, lanes, exit, takes_m(vehicle)) {
-                lanes.iter().for_each(|lane| self.held[*lane as usize] += 1);
+            let has_room = self.has_room(network, exit, takes_m(vehicle));
+            if has_room && self.are_free(network, lanes, is_long(vehicle)) {
+                for lane in lanes {
+                    self.held[*lane as usize] += 1;
+                    self.held_long[*lane as usize] += u32::from(is_long(vehicle));
+                }
                 if let Some(exit) = exit {
                     self.promised_m[exit as usize] += takes_m(vehicle);
                 }
                 (vehicle.passage.granted, vehicle.passage.asked_s) = (end, None);
             } else if time_s - asked_s > PATIENCE_S {
-                self.starving.extend(lanes);
+                if has_room {
+                    self.starving.extend(lanes);
+                } else {
+                    // Who finds no room behind the junction looks for another way: else queues in a circle wait for each other.
+                    vehicle.turn_off(network, first);
+                    vehicle.passage.asked_s = None;
+                }
             }
         }
     }
 
-    fn is_free(&self, network: &Network, lanes: &[u32], exit: Option<u32>, takes_m: f64) -> bool {
-        let is_free = |lane: &u32| {
-            let conflicts = &network.lanes[*lane as usize].conflicts;
-            conflicts.iter().all(|other| self.held[*other as usize] == 0 && !self.starving.contains(other))
-        };
-        let has_room = exit.is_none_or(|exit| {
+    /// Whether nobody drives, or waits too long to drive, across lanes.
+    fn are_free(&self, network: &Network, lanes: &[u32], is_long: bool) -> bool {
+        let is_held = |other: &u32| self.held[*other as usize] > 0;
+        let is_held_long = |other: &u32| self.held_long[*other as usize] > 0;
+        lanes.iter().map(|lane| &network.lanes[*lane as usize]).all(|lane| {
+            !lane.conflicts.iter().any(|other| is_held(other) || self.starving.contains(other))
+                && !lane.long_conflicts.iter().any(|other| if is_long { is_held(other) } else { is_held_long(other) })
+        })
+    }
+
+    /// Whether a vehicle can stand on the lane behind a junction.
+    fn has_room(&self, network: &Network, exit: Option<u32>, takes_m: f64) -> bool {
+        exit.is_none_or(|exit| {
             let promised_m = self.promised_m[exit as usize];
             promised_m <= 0.0 || promised_m + takes_m < network.lanes[exit as usize].length_m
-        });
-        has_room && lanes.iter().all(is_free)
+        })
     }
 }
 
 /// Way at which a vehicle must stop: the beginning of lanes that are not granted.
 pub(crate) fn stop_m(network: &Network, vehicle: &Vehicle) -> Option<f64> {
     next(network, vehicle).map(|[first, _]| vehicle.route.starts_m[first])
+}
+
+/// Whether the rear of a vehicle cuts corners.
+fn is_long(vehicle: &Vehicle) -> bool {
+    vehicle.length_m() > LONG_M
 }
 
 /// Length of a lane that a standing vehicle takes, metres.

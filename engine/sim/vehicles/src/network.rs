@@ -7,6 +7,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Lanes through a junction whose middle lines come closer than this are in conflict, metres.
 const CONFLICT_M: f64 = 2.9;
+/// The same where a long vehicle bends off: its rear cuts the corner.
+const LONG_CONFLICT_M: f64 = 5.0;
+/// Lanes bend off where they turn by more than this, cosine.
+const BENDS_OFF: f64 = 0.94;
 /// Distance between the points that are compared, metres.
 const SPACING_M: f64 = 1.0;
 /// Side of a cell of the search for conflicts, metres.
@@ -28,6 +32,8 @@ pub(crate) struct Drive {
     pub successors: Vec<u32>,
     /// Lanes through the same junction that must be empty.
     pub conflicts: Vec<u32>,
+    /// Lanes through the same junction that must be empty of long vehicles, and empty for one.
+    pub long_conflicts: Vec<u32>,
     pub crossings: Vec<Crossing>,
     /// How far one can drive from its beginning, metres, up to [`FAR_M`].
     pub leads_m: f64,
@@ -73,6 +79,7 @@ impl Drive {
             length_m,
             successors: lane.successors.clone(),
             conflicts: vec![],
+            long_conflicts: vec![],
             crossings: vec![],
             leads_m: 0.0,
             is_exit: false,
@@ -236,7 +243,12 @@ fn find_conflicts(lanes: &mut [Drive]) {
     for (number, point) in inner.flat_map(|(number, lane)| lane.spaced().map(move |point| (number, point))) {
         cells.entry(cell(point)).or_default().push((number, point));
     }
-    let mut pairs: BTreeSet<[u32; 2]> = BTreeSet::new();
+    // Pairs, and whether they are in conflict for all vehicles.
+    let mut pairs: BTreeMap<[u32; 2], bool> = BTreeMap::new();
+    let bends_off = |number: u32| {
+        let lane = &lanes[number as usize];
+        lane.at(0.0).1.dot(lane.at(lane.length_m).1) < BENDS_OFF
+    };
     for ([column, row], members) in &cells {
         let around = (-1..=1).flat_map(|x| (-1..=1).map(move |y| [column + x, row + y]));
         for (other, place) in around.filter_map(|key| cells.get(&key)).flatten() {
@@ -245,22 +257,25 @@ fn find_conflicts(lanes: &mut [Drive]) {
                 // Lanes side by side are no conflict.
                 let widths_m = [number, other].map(|lane| lanes[*lane as usize].width_m);
                 let apart_m = (0.5 * (widths_m[0] + widths_m[1]) - 0.15).min(CONFLICT_M);
-                if away.truncate().length_squared() < apart_m * apart_m && away.z.abs() < 2.5 {
-                    pairs.insert([*number, *other]);
+                let (away_m, is_level) = (away.truncate().length(), away.z.abs() < 2.5);
+                let is_near = away_m < LONG_CONFLICT_M && (bends_off(*number) || bends_off(*other));
+                if is_level && (away_m < apart_m || is_near) {
+                    *pairs.entry([*number, *other]).or_default() |= away_m < apart_m;
                 }
             }
         }
     }
-    for [one, other] in pairs {
+    for ([one, other], for_all) in pairs {
         let [first, second] = [one, other].map(|number| &lanes[number as usize]);
         let parts = first.points[0].distance(second.points[0]) < 0.5;
         let follows = first.successors.contains(&other) || second.successors.contains(&one);
         let alongside = first.at(0.0).1.dot(second.at(0.0).1) > 0.98
             && first.at(first.length_m).1.dot(second.at(second.length_m).1) > 0.98
             && first.at(first.length_m).0.distance(second.at(second.length_m).0) > 2.5;
-        if !(parts || follows || alongside) {
-            lanes[one as usize].conflicts.push(other);
-            lanes[other as usize].conflicts.push(one);
+        let is_for_all = for_all && !alongside;
+        for [lane, other] in [[one, other], [other, one]].into_iter().filter(|_| !(parts || follows)) {
+            let Drive { conflicts, long_conflicts, .. } = &mut lanes[lane as usize];
+            if is_for_all { conflicts.push(other) } else { long_conflicts.push(other) }
         }
     }
 }

@@ -62,14 +62,26 @@ impl Route {
             self.starts_m.push(self.end_m);
             self.end_m += network.lanes[next as usize].length_m;
         }
-        // Where lanes will follow, the last bends depend on them.
-        let unknown_m = if is_at_end { 0.0 } else { self.axle_m + ROUNDED_M };
-        self.measure(network, self.end_m - unknown_m);
+        self.measure(network, if is_at_end { self.end_m } else { self.known_m() });
+    }
+
+    /// Forgets the lanes from an index on; the first one stays.
+    pub fn shorten(&mut self, network: &Network, count: usize) {
+        let count = count.clamp(1, self.lanes.len());
+        self.lanes.truncate(count);
+        self.starts_m.truncate(count);
+        self.end_m = self.starts_m[count - 1] + network.lanes[self.lanes[count - 1] as usize].length_m;
+        self.bends.truncate((self.known_m() / MEASURED_M) as usize);
+    }
+
+    /// Way up to which bends do not depend on lanes that will follow, metres.
+    fn known_m(&self) -> f64 {
+        (self.end_m - self.axle_m - ROUNDED_M).max(0.0)
     }
 
     /// Measures the bends up to a way.
     fn measure(&mut self, network: &Network, to_m: f64) {
-        for place in self.bends.len()..(to_m / MEASURED_M).max(0.0) as usize {
+        for place in self.bends.len()..(to_m / MEASURED_M) as usize {
             let [before, here, after] = [-1.0, 0.0, 1.0].map(|step| {
                 let [rear, front] = self.axles(network, MEASURED_M * (place as f64 + step));
                 (0.5 * (rear + front).truncate(), (front - rear).truncate())

@@ -49,6 +49,13 @@ impl Vehicle {
         }
     }
 
+    /// Draws the way anew from a lane of the route on.
+    pub fn turn_off(&mut self, network: &Network, first: usize) {
+        let needed_m = self.needed_m();
+        self.route.shorten(network, first);
+        self.route.extend(network, self.way_m, needed_m, &mut self.random);
+    }
+
     pub fn length_m(&self) -> f64 {
         self.plan.size_m.x
     }

@@ -105,6 +105,22 @@ fn nobody_leaves_a_town_because_cars_are_parked_in_its_lanes() {
 }
 
 #[test]
+fn traffic_goes_on_for_minutes_with_and_without_parked_cars() {
+    for (seed, parked_share) in [(0, 0.0), (0, 0.6), (1, 0.6), (1, 1.0)] {
+        let config = VehicleConfig { count: 60, parked_share, ..VehicleConfig::default() };
+        let clock = Clock::new(300, 2.0, 0.1);
+        let vehicles = Vehicles::new(&generated(seed), &config, clock, Seed([7; 32])).unwrap();
+        let traffic = simulate(&mut [Box::new(vehicles)], clock, |_| Ok::<_, ()>(())).unwrap();
+        let cars = parked(&traffic).len();
+        // Those who do not move in the last minute of ten.
+        let moves = |body: &&Body| body.states[270..].iter().any(|state| state.speed_mps > 0.5);
+        let moving = traffic.bodies.iter().filter(moves).count();
+        println!("town {seed}, share {parked_share}: {} bodies, {cars} parked, {moving} move", traffic.bodies.len());
+        assert!(moving >= 55, "town {seed}, share {parked_share}: {moving} of 60 move, {:?}", traffic.notes);
+    }
+}
+
+#[test]
 fn parking_lanes_fill_and_all_driving_lanes_stay_open() {
     for lanes in [&[("driving", 3.5), ("parking", 2.3)][..], &[("driving", 3.5), ("shoulder", 2.5)]] {
         let town = street(lanes);

@@ -52,7 +52,7 @@ impl StageKind for TrafficKind {
         config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
         let sources = take_sources(&mut config);
         let properties = |parameters, inputs, bytes_per_item| StageProperties {
-            version: 8,
+            version: 9,
             parameters,
             inputs,
             bytes_per_item,
