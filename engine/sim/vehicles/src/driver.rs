@@ -3,13 +3,12 @@
 use crate::network::{Crossing, Network};
 use crate::outlines::{LEVEL_M, to_outline};
 use crate::route::Route;
+use crate::vehicle::{BEFORE_JUNCTION_M, STANDING_GAP_M};
 use cosfly_domain::Driving;
 use cosfly_frames::DVec2;
 use cosfly_town::polygons::contains;
 use cosfly_world::{Present, Snapshot};
 
-/// Gap to a standing vehicle, metres.
-pub(crate) const STANDING_GAP_M: f64 = 2.0;
 /// Hardest braking, m/s^2.
 const HARDEST_MPS2: f64 = 8.0;
 /// Braking for people that no driver refuses, m/s^2.
@@ -118,7 +117,7 @@ impl Driver<'_> {
 
     fn for_each_ahead(&self, everybody: &Snapshot, near: &mut Vec<Present>, mut visit: impl FnMut(Ahead)) {
         if let Some(stop_m) = self.stop_m {
-            let gap_m = stop_m - self.front_m() + STANDING_GAP_M - 0.7;
+            let gap_m = stop_m - self.front_m() + STANDING_GAP_M - BEFORE_JUNCTION_M;
             visit(Ahead { gap_m, speed_mps: 0.0 });
         }
         self.bodies_ahead(everybody, near, &mut visit);

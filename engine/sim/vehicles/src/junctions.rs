@@ -1,9 +1,8 @@
 //! [`Junctions`]: who may drive through a junction. A vehicle asks before it enters; it gets its way when all lanes that
 //! cross it are free and there is room behind the junction. Who asked first goes first; who finds no room takes another way.
 
-use crate::driver::STANDING_GAP_M;
 use crate::network::Network;
-use crate::vehicle::Vehicle;
+use crate::vehicle::{BEFORE_JUNCTION_M, STANDING_GAP_M, Vehicle};
 
 /// Vehicles ask from this distance beyond their braking distance, metres.
 const ASK_M: f64 = 12.0;
@@ -128,7 +127,7 @@ impl Junctions {
     fn has_room(&self, network: &Network, exit: Option<u32>, takes_m: f64) -> bool {
         exit.is_none_or(|exit| {
             let promised_m = self.promised_m[exit as usize];
-            promised_m <= 0.0 || promised_m + takes_m < network.lanes[exit as usize].length_m
+            promised_m <= 0.0 || promised_m + takes_m + BEFORE_JUNCTION_M < network.lanes[exit as usize].length_m
         })
     }
 }
@@ -152,7 +151,7 @@ fn takes_m(vehicle: &Vehicle) -> f64 {
 /// lanes are granted together, so that nobody waits within a junction for the next one.
 fn is_inner(network: &Network, vehicle: &Vehicle, index: usize) -> bool {
     let lane = &network.lanes[vehicle.route.lanes[index] as usize];
-    lane.in_junction || lane.length_m < takes_m(vehicle)
+    lane.in_junction || lane.length_m < takes_m(vehicle) + BEFORE_JUNCTION_M
 }
 
 /// The next lanes of the route that need a grant: first index and the end.

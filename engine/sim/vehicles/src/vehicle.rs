@@ -8,6 +8,10 @@ use cosfly_frames::{RandomStream, TargetState};
 
 /// Room that a vehicle needs beside itself on its lane, metres.
 pub(crate) const BESIDE_M: f64 = 0.25;
+/// Gap to a standing vehicle, metres.
+pub(crate) const STANDING_GAP_M: f64 = 2.0;
+/// Vehicles stop this far before a junction: the rear of one that bends off swings aside, metres.
+pub(crate) const BEFORE_JUNCTION_M: f64 = 3.0;
 
 /// One vehicle.
 pub(crate) struct Vehicle {
