@@ -2,28 +2,18 @@
 
 use super::cars::{mirrors, shell};
 use super::model::Model;
-use super::shapes::{Shape, deck, roof};
+use super::shapes::{LARGE, STRAIGHT, Shape, deck, roof};
 use super::wheels::{Axle, turn_rad};
 use crate::region::Region;
 use Region::{Glass as G, Paint as P, TailLamp as R, Trim as T};
 use cosfly_frames::RandomStream;
 
-/// Half width of straight sheet, as a share of the width: wheels reach a little farther.
-const STRAIGHT: [f64; 2] = [0.494, 0.494];
-
 /// Body of a city bus.
 const CITY: Shape = Shape {
-    share: 1.0,
-    lengths_m: [0.0, 99.0],
-    heights_m: [0.0, 99.0],
-    foot: 0.09,
     tumble: 0.965,
     drop: 0.075,
-    narrow: 0.01,
     axles: [-0.24, 0.27],
     wheel: 0.155,
-    cladding: true,
-    rails: false,
     sections: &[
         roof(-0.5, 0.45, 0.90, [R, P, P]),
         roof(-0.492, 0.45, 0.935, [P, P, P]),
@@ -45,6 +35,7 @@ const CITY: Shape = Shape {
         deck(0.499, 0.31, 0.33, [P, P, P]),
         deck(0.5, 0.26, 0.27, [P, P, P]),
     ],
+    ..LARGE
 };
 
 /// Body of a coach: higher, with dark panes in one band and a raked front.
@@ -52,9 +43,7 @@ const COACH: Shape = Shape {
     foot: 0.085,
     tumble: 0.93,
     drop: 0.085,
-    narrow: 0.01,
     axles: [-0.26, 0.275],
-    wheel: 0.15,
     sections: &[
         roof(-0.5, 0.50, 0.90, [R, P, P]),
         roof(-0.492, 0.50, 0.955, [P, P, P]),
@@ -72,7 +61,7 @@ const COACH: Shape = Shape {
         deck(0.492, 0.30, 0.33, [P, P, P]),
         deck(0.5, 0.20, 0.21, [P, P, P]),
     ],
-    ..CITY
+    ..LARGE
 };
 
 /// A city bus or a coach.

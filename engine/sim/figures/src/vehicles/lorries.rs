@@ -3,29 +3,23 @@
 use super::cars::{mirrors, shell};
 use super::coaches::{axles, lamps};
 use super::model::Model;
-use super::shapes::{Section, Shape, deck, roof};
+use super::shapes::{LARGE, STRAIGHT, Section, Shape, deck, roof};
 use crate::region::Region;
 use Region::{Cargo as C, Glass as G, HeadLamp as H, Paint as P, Trim as T};
 use cosfly_frames::{DVec3, RandomStream, real};
 
-/// Half width of straight sheet, as a share of the width: wheels reach a little farther.
-const STRAIGHT: [f64; 2] = [0.494, 0.494];
 /// Sides of a tank.
 const SIDES: usize = 14;
 
 const CAB: Shape = Shape {
-    share: 1.0,
-    lengths_m: [0.0, 99.0],
-    heights_m: [0.0, 99.0],
     foot: 0.11,
     tumble: 0.94,
     drop: 0.045,
     narrow: 0.05,
     axles: [-0.30, 0.385],
     wheel: 0.145,
-    cladding: true,
-    rails: false,
     sections: CAB_SECTIONS,
+    ..LARGE
 };
 
 const CAB_SECTIONS: &[Section] = &[

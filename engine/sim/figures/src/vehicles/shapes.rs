@@ -54,6 +54,25 @@ pub(super) struct Shape {
     pub sections: &'static [Section],
 }
 
+/// What buses, coaches and the cabs of lorries have in common: a length and a height of any size, cladding, no rails.
+pub(super) const LARGE: Shape = Shape {
+    share: 1.0,
+    lengths_m: [0.0, 99.0],
+    heights_m: [0.0, 99.0],
+    foot: 0.09,
+    tumble: 0.95,
+    drop: 0.08,
+    narrow: 0.01,
+    axles: [-0.26, 0.27],
+    wheel: 0.15,
+    cladding: true,
+    rails: false,
+    sections: &[],
+};
+
+/// Half width of their straight sheet, as a share of the width: wheels reach a little farther.
+pub(super) const STRAIGHT: [f64; 2] = [0.494, 0.494];
+
 /// The nose of most cars, from the foot of the windscreen: its heights are those of the cowl.
 macro_rules! car {
     ($($tail:expr),+ ; $cowl:expr, $shoulder:expr, $top:expr, $edge:expr) => {
