@@ -5,6 +5,7 @@ use crate::source::Source;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_plot::text::{markdown, markdown_code};
 use cosfly_read::foreign_rows;
+use cosfly_schema::tables::Trajectories;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -62,8 +63,8 @@ fn optics(source: &Source<'_>) -> Result<String> {
     for path in paths {
         let rows = foreign_rows(&path, false)?;
         let names = rows.texts.get("trajectory_id").map_or(&[][..], Vec::as_slice);
-        for (name, _) in OPTICS {
-            let values = rows.numbers.get(*name).into_iter().flatten().zip(names);
+        for name in Trajectories::OPTICS.iter().map(|column| column.name()) {
+            let values = rows.numbers.get(name).into_iter().flatten().zip(names);
             let values = values.filter(|(_, id)| ids.contains(id.as_str())).filter_map(|(value, _)| value.first());
             columns.entry(name).or_default().extend(values.copied());
         }
@@ -89,34 +90,19 @@ fn optics(source: &Source<'_>) -> Result<String> {
             bends.into_iter().collect::<Vec<_>>().join(", ")
         ),
     };
-    for (name, words) in OPTICS {
-        let values = columns.get(name).map_or(&[][..], Vec::as_slice);
-        let most = values.iter().copied().fold(0.0, f64::max);
+    for column in Trajectories::OPTICS {
+        let values = columns.get(column.name()).map_or(&[][..], Vec::as_slice);
+        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let _ = match (most > 0.0, least == most) {
-            (false, _) => writeln!(text, "* {words}: none."),
-            (true, true) => writeln!(text, "* {words}: {most}."),
-            (true, false) => writeln!(text, "* {words}: {least} to {most}."),
+        let range = match () {
+            () if values.is_empty() => "unknown".to_owned(),
+            () if least == most => most.to_string(),
+            () => format!("{least} to {most}"),
         };
+        let _ = writeln!(text, "* `{}`: {range}. {}", column.name(), column.doc());
     }
     Ok(text)
 }
-
-/// Columns of the table of flights, and their meanings.
-const OPTICS: &[(&str, &str)] = &[
-    ("camera_shutter_s", "Motion blur of colours, seconds around the time of the frame"),
-    (
-        "camera_readout_s",
-        "Rolling shutter, seconds from the top row to the bottom row, the middle at the time of the frame",
-    ),
-    ("camera_point_spread_px", "Blur of lens and sensor, standard deviation, pixels"),
-    ("camera_sharpening", "Sharpening by the image processor, 0 to 1"),
-    ("camera_contrast", "Steepness of the tone curve, 0 to 1"),
-    ("camera_exposure_ev", "Exposure beyond the one that suits the weather, stops"),
-    ("camera_white_balance_k", "Temperature that is rendered as white, kelvin"),
-    ("camera_noise_gaussian", "Noise of colours, deviation everywhere, steps of 8 bits"),
-    ("camera_noise_shot", "Noise that falls with the root of brightness, deviation at white, steps of 8 bits"),
-];
 
 /// Licence and language of a card's front matter.
 fn kept_lines(card: &str) -> impl Iterator<Item = &str> {

@@ -5,6 +5,8 @@ use cosfly_domain::channels::instance;
 use cosfly_domain::{BodyKindRow, Obstacle, SemanticLabel, TARGET_INSTANCE, Town, object_instance};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{DepthEncoding, OtherBody, RenderedTrajectory};
+use serde::Serialize;
+use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
 /// Layout of our logs; raised when channels or conventions change.
@@ -53,6 +55,15 @@ fn trajectory(record: &RenderedTrajectory) -> BTreeMap<String, String> {
     ])
 }
 
+/// The numbers of a noun by the names of its fields.
+fn numbers(noun: &impl Serialize) -> impl Iterator<Item = (String, String)> {
+    let fields = match serde_json::to_value(noun) {
+        Ok(Value::Object(fields)) => fields,
+        _ => Map::new(),
+    };
+    fields.into_iter().filter_map(|(name, value)| Some((name, value.as_f64()?.to_string())))
+}
+
 fn weather(record: &RenderedTrajectory) -> BTreeMap<String, String> {
     let mut entries: BTreeMap<String, String> =
         weather_numbers(record).into_iter().map(|(name, value)| (name.to_owned(), value.to_string())).collect();
@@ -95,15 +106,10 @@ fn camera(record: &RenderedTrajectory) -> BTreeMap<String, String> {
         ("mount_levelled", record.mount.levelled.to_string()),
         ("shutter_s", record.motion_blur.shutter_s.to_string()),
         ("readout_s", record.rolling_shutter.readout_s.to_string()),
-        ("point_spread_px", record.optics.point_spread_px.to_string()),
-        ("sharpening", record.optics.sharpening.to_string()),
-        ("contrast", record.optics.contrast.to_string()),
-        ("exposure_ev", record.optics.exposure_ev.to_string()),
-        ("white_balance_k", record.optics.white_balance_k.to_string()),
-        ("bloom", record.optics.bloom.to_string()),
         ("noise_gaussian", record.noise.gaussian.to_string()),
         ("noise_shot", record.noise.shot.to_string()),
     ]);
+    all.extend(numbers(&record.optics));
     all.extend(record.camera_name.iter().map(|name| ("name".to_owned(), name.clone())));
     all
 }

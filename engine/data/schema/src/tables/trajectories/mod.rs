@@ -5,6 +5,8 @@ mod certificate;
 mod columns;
 mod identity;
 mod log;
+mod optics;
+mod target;
 mod weather;
 
 pub use columns::Trajectories;
@@ -18,7 +20,8 @@ pub fn table() -> Table<DatasetItem> {
     let weather = WEATHER_NUMBERS.iter().map(|number| &number.column as &dyn AnyColumn<DatasetItem>);
     let mut columns = Trajectories::IDENTITY.to_vec();
     columns.extend(Trajectories::WEATHER.iter().copied().chain(weather));
-    columns.extend([Trajectories::CAMERA, Trajectories::CERTIFICATE, Trajectories::LOG].into_iter().flatten());
+    let [camera, optics, target] = [Trajectories::CAMERA, Trajectories::OPTICS, Trajectories::TARGET];
+    columns.extend([camera, optics, target, Trajectories::CERTIFICATE, Trajectories::LOG].into_iter().flatten());
     let (rows_per_group, needs) = (10_000, &[Need::Expert][..]);
     let table = Table::new("trajectories", doc, &["trajectory_id"], |_: &DatasetItem| 1, &[]);
     Table { rows_per_group, needs, columns, ..table }
