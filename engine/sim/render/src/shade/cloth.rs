@@ -111,14 +111,16 @@ simd_kernel! {
                     let height = away.dot(along) * per_length2[k];
                     let (u, v) = (away.dot(side), height * length[k]);
                     let weave = noise.grain(u * 40.0, v * 40.0, point.footprint_m * 40.0);
-                    let fold = noise.clumps(u * 55.0, v * 35.0, point.footprint_m * 45.0);
+                    // Creases run around the part and turn the cloth up and down.
+                    let fold = noise.clumps(u * 22.0 + v * 14.0, v * 58.0, point.footprint_m * 45.0) - 0.5;
                     let round = (away - along * share(height)).unit();
-                    let normal = (round + point.normal * 0.4).unit();
+                    let crease = along * (per_length2[k] * length[k] * 1.6 * fold);
+                    let normal = (round + point.normal * 0.4 + crease).unit();
                     let width = point.footprint_m * PER_METRE;
                     let across = stripes(v * PER_METRE, 0.0, OTHER_SHARE, width) * rings[k];
                     let down = stripes(u * PER_METRE, 0.0, OTHER_SHARE, width) * lines[k];
                     let dyed = colour + other * (across + down - across * down);
-                    block.put_bent(k, &Look::matt(dyed * (0.62 + 0.25 * weave + 0.5 * fold), normal));
+                    block.put_bent(k, &Look::matt(dyed * (0.87 + 0.25 * weave + 0.3 * fold), normal));
                 }
             }
         }

@@ -1,9 +1,10 @@
 //! Lamps of vehicles at night: white light on what is ahead, red light on the ground behind.
 
+use super::contact::FOUR_SIZES;
 use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec2, real, simd_kernel};
-use cosfly_materials::lanes::{Shared, WIDE, get, set};
+use cosfly_materials::lanes::{Block, Shared, WIDE, get, groups, set};
 use cosfly_materials::light::Light;
 use cosfly_materials::pattern::{most, share, smoothstep};
 use cosfly_materials::vector::Vec3;
@@ -47,9 +48,9 @@ pub(crate) fn reach_m(walker: &Walker) -> [DVec2; 2] {
     [(-ahead).max(DVec2::ZERO) + aside_m, ahead.max(DVec2::ZERO) + aside_m]
 }
 
-/// Adds the light of somebody's lamps to what surfaces get.
-pub(super) fn shine(level: Level, shared: &mut [Shared], walker: &Walker, light: &Light) {
-    let (Some(lamps), BodyShape::Vehicle { size_m, .. }) = (Lamps::of(walker), &walker.body) else { return };
+/// Adds the light of somebody's lamps to what flat surfaces send; whether there are lamps.
+pub(super) fn shine(level: Level, shared: &[Shared], blocks: &mut [Block], walker: &Walker, light: &Light) -> bool {
+    let (Some(lamps), BodyShape::Vehicle { size_m, .. }) = (Lamps::of(walker), &walker.body) else { return false };
     let (sin, cos) = real::sin_cos(walker.state.heading_rad);
     let beam = Beam {
         feet: walker.state.feet_in_world.into(),
@@ -58,7 +59,8 @@ pub(super) fn shine(level: Level, shared: &mut [Shared], walker: &Walker, light:
         per_scale: 1.0 / lamps.scale,
         strength: lamps.strength * light.night,
     };
-    shine_on(level, shared, &beam);
+    shine_on(level, shared, blocks, &beam);
+    true
 }
 
 /// Lamps in place.
@@ -71,29 +73,57 @@ struct Beam {
     strength: f32,
 }
 
+impl Beam {
+    /// Place of a point: ahead of the middle, aside and above the feet, metres.
+    #[inline(always)]
+    fn place(&self, point: Vec3) -> [f32; 3] {
+        let (away, [cos, sin]) = (point - self.feet, self.along);
+        [away.x * cos + away.y * sin, away.y * cos - away.x * sin, away.z]
+    }
+
+    /// Light on a surface with this normal at a place.
+    #[inline(always)]
+    fn light(&self, [x, y, up_m]: [f32; 3], normal: Vec3) -> Vec3 {
+        let ([cos, sin], half_length_m, strength) = (self.along, self.half_length_m, self.strength);
+        let ahead_m = (x - half_length_m) * self.per_scale;
+        let width_m = HALF_WIDTH_M + WIDER * most(ahead_m, 0.0);
+        let inside = 1.0 - smoothstep(0.1 * width_m, width_m, y.abs());
+        let near = smoothstep(0.2, 3.5, ahead_m) * (1.0 - smoothstep(0.3 * AHEAD_M, AHEAD_M, ahead_m));
+        let low = 1.0 - smoothstep(LAMPS_M, 2.0 * LAMPS_M, up_m);
+        // Ground is lit at a flat angle; what stands upright faces the lamps.
+        let towards = normal.x * cos + normal.y * sin;
+        let facing = share(0.9 * normal.z + most(-towards, 0.0));
+        let white = WHITE * (strength * inside * near * low * facing);
+        let behind_m = -x - half_length_m;
+        let aside_m = most(y.abs() - 0.5 * HALF_WIDTH_M, 0.0);
+        let gone = (behind_m * behind_m + aside_m * aside_m + up_m * up_m) * (1.0 / (BEHIND_M * BEHIND_M));
+        let glow = if behind_m > 0.0 { share(1.0 - gone) } else { 0.0 };
+        white + RED * (strength * glow * glow * share(normal.z))
+    }
+}
+
 simd_kernel! {
-    fn shine_on(shared: &mut [Shared], beam: &Beam) {
-        let Beam { feet, along: [cos, sin], half_length_m, per_scale, strength } = *beam;
-        for shared in shared.iter_mut() {
+    fn shine_on(shared: &[Shared], blocks: &mut [Block], beam: &Beam) {
+        let beam = *beam;
+        let (behind_m, ahead_m) = (beam.half_length_m + BEHIND_M, beam.half_length_m + AHEAD_M / beam.per_scale);
+        let aside_m = HALF_WIDTH_M + WIDER * AHEAD_M;
+        for (shared, four) in groups(shared, blocks) {
+            let mut is_near = 0u32;
             for k in 0..WIDE {
-                let (away, normal) = (get(&shared.middle, k) - feet, get(&shared.normal, k));
-                let (x, y) = (away.x * cos + away.y * sin, away.y * cos - away.x * sin);
-                let ahead_m = (x - half_length_m) * per_scale;
-                let width_m = HALF_WIDTH_M + WIDER * most(ahead_m, 0.0);
-                let inside = 1.0 - smoothstep(0.1 * width_m, width_m, y.abs());
-                let near = smoothstep(0.2, 3.5, ahead_m) * (1.0 - smoothstep(0.3 * AHEAD_M, AHEAD_M, ahead_m));
-                let low = 1.0 - smoothstep(LAMPS_M, 2.0 * LAMPS_M, away.z);
-                // Ground is lit at a flat angle; what stands upright faces the lamps.
-                let towards = normal.x * cos + normal.y * sin;
-                let facing = share(0.9 * normal.z + most(-towards, 0.0));
-                let white = WHITE * (strength * inside * near * low * facing);
-                let behind_m = -x - half_length_m;
-                let aside_m = most(y.abs() - 0.5 * HALF_WIDTH_M, 0.0);
-                let gone = (behind_m * behind_m + aside_m * aside_m + away.z * away.z) * (1.0 / (BEHIND_M * BEHIND_M));
-                let glow = if behind_m > 0.0 { share(1.0 - gone) } else { 0.0 };
-                let red = RED * (strength * glow * glow * share(normal.z));
-                let soft = get(&shared.soft, k) + white + red;
-                set(&mut shared.soft, k, soft);
+                let [x, y, _] = beam.place(get(&shared.middle, k));
+                let margin_m = FOUR_SIZES * (shared.along_m[k] + shared.up_m[k]);
+                let is_along = (x > -behind_m - margin_m) & (x < ahead_m + margin_m);
+                is_near |= u32::from(is_along & (y.abs() < aside_m + margin_m));
+            }
+            if is_near == 0 {
+                continue;
+            }
+            for block in four {
+                for k in 0..WIDE {
+                    let light = beam.light(beam.place(get(&block.world, k)), get(&block.normal, k));
+                    let sent = get(&block.emission, k) + get(&block.albedo, k) * light;
+                    set(&mut block.emission, k, sent);
+                }
             }
         }
     }
@@ -104,6 +134,7 @@ mod tests {
     use super::*;
     use cosfly_domain::BodyKind;
     use cosfly_frames::{DVec3, Seed, TargetState};
+    use cosfly_materials::lanes::FOUR;
 
     fn car(heading_rad: f64, kind: BodyKind) -> Walker {
         Walker {
@@ -121,14 +152,15 @@ mod tests {
         let light = Light::new(&cosfly_materials::presets::preset(weather).expect("a preset"));
         let (sin, cos) = real::sin_cos(walker.state.heading_rad);
         let lit = |&[ahead, aside]: &[f64; 2]| {
-            let mut shared = Shared::EMPTY;
+            let (mut shared, mut four) = (Shared::EMPTY, [const { Block::EMPTY }; FOUR]);
             let place =
                 walker.state.feet_in_world + DVec3::new(ahead * cos - aside * sin, ahead * sin + aside * cos, 0.0);
             set(&mut shared.middle, 0, place.into());
-            set(&mut shared.normal, 0, Vec3::new(0.0, 0.0, 1.0));
-            let mut shared = [shared];
-            shine(Level::best(), &mut shared, walker, &light);
-            get(&shared[0].soft, 0)
+            set(&mut four[0].world, 0, place.into());
+            set(&mut four[0].normal, 0, Vec3::new(0.0, 0.0, 1.0));
+            set(&mut four[0].albedo, 0, Vec3::splat(1.0));
+            shine(Level::best(), &[shared], &mut four, walker, &light);
+            get(&four[0].emission, 0)
         };
         places.iter().map(lit).collect()
     }

@@ -2,25 +2,22 @@
 
 use super::cloth::{Cloths, cloth};
 use super::coach::coach;
+use super::contact::contact;
 use super::geometry::{open, place, points};
 use super::headlights::shine;
-use super::lighting::Mirror;
+use super::lighting::{Kinds, Mirror};
 use super::material::Material;
 use super::setting::{Seen, Setting};
 use super::skin::painted;
 use super::{lighting, simple};
 use cosfly_domain::SemanticLabel;
-use cosfly_figures::BodyShape;
-use cosfly_frames::{real, simd_kernel};
 use cosfly_materials::facade::{facade, lift, roofs, tiles};
 use cosfly_materials::ground::ground;
 use cosfly_materials::kerbs::{Kerbs, stones};
 use cosfly_materials::lane_wear::worn;
-use cosfly_materials::lanes::{Block, PendingFours, Shared, StageRow, WIDE, get};
+use cosfly_materials::lanes::{Block, PendingFours, Shared, StageRow, WIDE};
 use cosfly_materials::leaves::{Crowns, even_leaves, leaves, swell};
-use cosfly_materials::pattern::{most, share};
 use cosfly_materials::things::things;
-use cosfly_materials::vector::Vec3;
 
 /// Sunlight on leaves is looked up this far towards the sun, metres.
 const OFF_CROWN_M: f32 = 1.5;
@@ -57,21 +54,10 @@ pub(super) fn run_kernels(
         swell(level, shared, blocks, crowns, setting.view.position, setting.view.pixel());
     }
     open(level, shared, grid.tables(), &grid.frame(), light.night > 0.0);
-    if let Material::Ground(_) = material {
-        for person in near {
-            let walker = &seen.people.members[*person as usize].walker;
-            let feet = walker.state.feet_in_world.into();
-            match walker.body {
-                BodyShape::Person { .. } => contact(level, shared, feet, walker.radius_m.clamp(0.1, 2.0) as f32),
-                BodyShape::Vehicle { size_m, .. } => {
-                    let (sin, cos) = real::sin_cos(walker.state.heading_rad);
-                    // Two-wheelers touch the ground along a line.
-                    let width = if size_m.y < 1.0 { 0.15 } else { 1.0 };
-                    let half_m = [0.5 * size_m.x as f32, 0.5 * width * size_m.y as f32];
-                    contact_below(level, shared, feet, [cos as f32, sin as f32], half_m);
-                }
-            }
-        }
+    let is_shaded = matches!(material, Material::Ground(_)) && !near.is_empty();
+    if is_shaded {
+        blocks.iter_mut().for_each(|block| block.openness = [1.0; WIDE]);
+        near.iter().for_each(|one| contact(level, shared, blocks, &seen.people.members[*one as usize].walker));
     }
     let is_bent = material.is_bent();
     if let Material::Tiles(_) = material {
@@ -114,9 +100,6 @@ pub(super) fn run_kernels(
         Material::Skin(look) => painted(shared, blocks, look, &seen.scene.props.textures),
     }
     lighting::arriving(level, shared, light, setting.haze);
-    if light.night > 0.0 {
-        near.iter().for_each(|one| shine(level, shared, &seen.people.members[*one as usize].walker, light));
-    }
     if is_bent {
         lighting::develop_bent(level, shared, blocks, light, &setting.tone);
         return;
@@ -135,7 +118,13 @@ pub(super) fn run_kernels(
         };
         lighting::mirrored(level, shared, light, mirror, (grid.tables(), &grid.frame()));
     }
-    lighting::develop(level, shared, blocks, light, &setting.tone, answers.glows && light.night > 0.0, is_shiny);
+    let mut glows = answers.glows && light.night > 0.0;
+    if light.night > 0.0 {
+        let walkers = near.iter().map(|one| &seen.people.members[*one as usize].walker);
+        walkers.for_each(|walker| glows |= shine(level, shared, blocks, walker, light));
+    }
+    let kinds = Kinds { glows, shiny: is_shiny, shaded: is_shaded };
+    lighting::develop(level, shared, blocks, light, &setting.tone, kinds);
 }
 
 /// Draws a group in the simple look.
@@ -174,39 +163,5 @@ pub(super) fn run_simple_kernels(
         | Material::Thing(_)
         | Material::Cloth
         | Material::Coach(_) => {}
-    }
-}
-
-simd_kernel! {
-    /// Less sky where something stands on the ground: around `feet`, `radius_m` wide.
-    fn contact(shared: &mut [Shared], feet: Vec3, radius_m: f32) {
-        let per_radius2 = 1.0 / (radius_m * radius_m);
-        for shared in shared.iter_mut() {
-            for k in 0..WIDE {
-                let away = get(&shared.middle, k) - feet;
-                let shade = share(1.0 - away.dot(away) * per_radius2 * (1.0 / 9.0));
-                let kept = 1.0 - 0.55 * shade * shade * shade;
-                shared.sky[k] *= kept;
-                shared.lamps[k] *= kept;
-            }
-        }
-    }
-}
-
-simd_kernel! {
-    /// Less sky below and beside a vehicle: a rectangle around `feet` whose length lies along `along`.
-    fn contact_below(shared: &mut [Shared], feet: Vec3, along: [f32; 2], half_m: [f32; 2]) {
-        let ([cos, sin], [half_length_m, half_width_m]) = (along, half_m);
-        for shared in shared.iter_mut() {
-            for k in 0..WIDE {
-                let away = get(&shared.middle, k) - feet;
-                let (ahead, aside) = (away.x * cos + away.y * sin, away.y * cos - away.x * sin);
-                let (ahead, aside) = (most(ahead.abs() - half_length_m, 0.0), most(aside.abs() - half_width_m, 0.0));
-                let shade = share(1.0 - (ahead * ahead + aside * aside + away.z * away.z) * 1.6);
-                let kept = 1.0 - 0.75 * shade * shade * shade;
-                shared.sky[k] *= kept;
-                shared.lamps[k] *= kept;
-            }
-        }
     }
 }

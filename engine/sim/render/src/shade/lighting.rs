@@ -7,7 +7,7 @@ use cosfly_frames::simd_kernel;
 use cosfly_materials::grid::{GridFrame, GridTables};
 use cosfly_materials::lanes::{Block, FOUR, PendingFours, Shared, WIDE, get, groups, set};
 use cosfly_materials::light::Light;
-use cosfly_materials::pattern::{NoiseTexture, Noises, least, most, share, smoothstep};
+use cosfly_materials::pattern::{NoiseTexture, Noises, least, lerp, most, share, smoothstep};
 use cosfly_materials::vector::Vec3;
 
 /// Rays that rise or fall by less (sine of the angle) may have others beside them on the other side of the horizon.
@@ -112,32 +112,55 @@ simd_kernel! {
                 let from_lamps = shared.lamps[k] * (0.6 + 2.4 * level * level);
                 let near = light.ambient(normal) * (0.10 * shared.sky[k]) + light.lamp * from_lamps;
                 set(&mut shared.mirrored, k, light.sky(out) * open + near);
-                // The sun's own image, wide on rough water.
-                let toward = most(out.dot(light.to_sun), 0.0);
-                let toward4 = toward * toward * toward * toward;
-                let toward16 = toward4 * toward4 * toward4 * toward4;
-                let toward64 = toward16 * toward16 * toward16 * toward16;
-                let sharper = toward64 * toward64 * toward64 * toward64;
-                shared.glint[k] = (toward64 + (sharper - toward64) * sharp) * image;
+                // The sun's own image, from facets that lean halfway to it: wide on rough water, and long where the view is flat.
+                let halfway = light.to_sun - view;
+                let lean = most(halfway.dot(normal), 0.0);
+                let toward = lean * lean / (halfway.dot(halfway) + 1e-6);
+                let toward8 = fourth(toward) * fourth(toward);
+                let wide = fourth(fourth(toward8));
+                shared.glint[k] = lerp(wide, fourth(wide), sharp) * image;
             }
         }
     }
 }
 
+/// A number to the power of four.
+#[inline(always)]
+fn fourth(x: f32) -> f32 {
+    let square = x * x;
+    square * square
+}
+
+/// What a flat surface's light has beside that of sun, sky and street lamps.
+#[derive(Clone, Copy, Debug)]
+pub struct Kinds {
+    /// Light of its own.
+    pub glows: bool,
+    /// A mirror.
+    pub shiny: bool,
+    /// Openness that differs from pixel to pixel.
+    pub shaded: bool,
+}
+
 simd_kernel! {
-    /// From flat surfaces' looks to sRGB bytes; which of light's kinds they answer to.
-    pub fn develop(shared: &[Shared], blocks: &mut [Block], light: &Light, tone: &ToneCurve, glows: bool, shiny: bool) {
-        match (glows, shiny) {
-            (false, false) => develop_all::<false, false>(shared, blocks, light, tone),
-            (false, true) => develop_all::<false, true>(shared, blocks, light, tone),
-            (true, false) => develop_all::<true, false>(shared, blocks, light, tone),
-            (true, true) => develop_all::<true, true>(shared, blocks, light, tone),
+    /// From flat surfaces' looks to sRGB bytes.
+    pub fn develop(shared: &[Shared], blocks: &mut [Block], light: &Light, tone: &ToneCurve, kinds: Kinds) {
+        let Kinds { glows, shiny, shaded } = kinds;
+        match (glows, shiny, shaded) {
+            (false, false, false) => develop_all::<false, false, false>(shared, blocks, light, tone),
+            (false, true, false) => develop_all::<false, true, false>(shared, blocks, light, tone),
+            (true, false, false) => develop_all::<true, false, false>(shared, blocks, light, tone),
+            (true, true, false) => develop_all::<true, true, false>(shared, blocks, light, tone),
+            (false, false, true) => develop_all::<false, false, true>(shared, blocks, light, tone),
+            (false, true, true) => develop_all::<false, true, true>(shared, blocks, light, tone),
+            (true, false, true) => develop_all::<true, false, true>(shared, blocks, light, tone),
+            (true, true, true) => develop_all::<true, true, true>(shared, blocks, light, tone),
         }
     }
 }
 
 #[inline(always)]
-fn develop_all<const GLOWS: bool, const SHINY: bool>(
+fn develop_all<const GLOWS: bool, const SHINY: bool, const SHADED: bool>(
     shared: &[Shared],
     blocks: &mut [Block],
     light: &Light,
@@ -148,14 +171,15 @@ fn develop_all<const GLOWS: bool, const SHINY: bool>(
         for block in four {
             for k in 0..WIDE {
                 let sunlight = block.sunlight[k];
-                let arriving = get(&shared.sunny, k) * sunlight + get(&shared.soft, k);
+                let open = if SHADED { block.openness[k] } else { 1.0 };
+                let arriving = get(&shared.sunny, k) * sunlight + get(&shared.soft, k) * open;
                 let mut colour = get(&block.albedo, k) * arriving;
                 if GLOWS {
                     colour += get(&block.emission, k);
                 }
                 if SHINY {
                     let mirror = least(block.mirror[k] * shared.fresnel[k], 0.85);
-                    let seen = get(&shared.mirrored, k) + sun * (shared.glint[k] * sunlight);
+                    let seen = get(&shared.mirrored, k) * open + sun * (shared.glint[k] * sunlight);
                     colour = colour.lerp(seen, mirror);
                 }
                 block.bytes[k] = tone.pixel(colour * shared.kept[k] + get(&shared.fog, k));
@@ -185,7 +209,6 @@ simd_kernel! {
 }
 
 simd_kernel! {
-    /// Colours of the sky and of the land before it.
     /// The sky and the land below it, where no face is.
     pub fn sky(
         blocks: &mut [Block],

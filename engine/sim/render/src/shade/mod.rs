@@ -8,6 +8,7 @@ mod bands;
 mod body_shadow;
 mod cloth;
 mod coach;
+mod contact;
 mod curve;
 mod face_material;
 pub mod foliage;

@@ -13,9 +13,9 @@ use crate::shade::sun_tiles::Sun;
 use crate::shade::sun_window::Window;
 use crate::shade::sunlight::{FIGURE_SIDE, FigureShadow, Places, SOLID, figure_shadow, pack_figure, town_sunlight};
 use cosfly_domain::TARGET_INSTANCE;
-use cosfly_figures::{FigureParts, FigureTriangle};
+use cosfly_figures::{BodyShape, FigureParts, FigureTriangle};
 use cosfly_frames::simd::Level;
-use cosfly_frames::{DVec2, DVec3};
+use cosfly_frames::{DVec2, DVec3, real};
 use cosfly_materials::lanes::Block;
 use cosfly_materials::pattern::{NoiseTexture, fixed_size};
 use cosfly_materials::vector::Vec3;
@@ -24,8 +24,10 @@ use cosfly_raster::visibility::{Screen, Visibility};
 
 /// People less high than this on the screen throw no shadow, pixels.
 const LEAST_FIGURE_PX: f64 = 4.0;
-/// Texels along a side of the maps of other people, by their least height on the screen, pixels.
-const SIDES_BY_HEIGHT: [(f64, usize); 3] = [(48.0, FIGURE_SIDE), (20.0, 48), (LEAST_FIGURE_PX, 24)];
+/// Texels along a side of a body's map, by its least size on the screen, pixels.
+const SIDES_BY_SIZE: [(f64, usize); 4] = [(90.0, FIGURE_SIDE), (48.0, 96), (20.0, 48), (LEAST_FIGURE_PX, 24)];
+/// Least size of the target on the screen that counts, pixels: texels of its map are always small.
+const LEAST_TARGET_PX: f64 = 48.0;
 
 /// The town's shadows and the figures'.
 pub struct Shadows {
@@ -74,11 +76,14 @@ impl Shadows {
             if self.figures.len() <= position {
                 self.figures.push(FigureShadow { map: fixed_size(vec![]), side: 0, rows: None });
             }
-            let by_height = SIDES_BY_HEIGHT.iter().find(|(least_px, _)| person.height_px >= *least_px);
-            let side = match person.instance {
-                TARGET_INSTANCE => FIGURE_SIDE,
-                _ => by_height.map_or(0, |(_, side)| *side),
+            let size_px = match person.walker.body {
+                _ if person.height_px < LEAST_FIGURE_PX => 0.0,
+                BodyShape::Person { .. } => person.height_px,
+                BodyShape::Vehicle { size_m, .. } => person.height_px * size_m.max_element() / size_m.z,
             };
+            let is_target = person.instance == TARGET_INSTANCE;
+            let size_px = if is_target { size_px.max(LEAST_TARGET_PX) } else { size_px };
+            let side = SIDES_BY_SIZE.iter().find(|(least_px, _)| size_px >= *least_px).map_or(0, |(_, side)| *side);
             let is_person = person.walker.body.is_person();
             let drawn = match side {
                 0 => None,
@@ -86,7 +91,11 @@ impl Shadows {
                     let parts = FigureParts::of(&person.walker, &person.clothes);
                     draw_person(level, &lattice, (&person.walker, &parts), side, &mut self.heights)
                 }
-                _ => self.draw_figure(&lattice, to_sun, &people.triangles[person.triangles.clone()], side),
+                _ => {
+                    let triangles = &people.triangles[person.triangles.clone()];
+                    let frame = figure_frame(&lattice, person.walker.state.heading_rad, triangles, side);
+                    frame.inspect(|frame| self.draw_figure(frame, to_sun, triangles, side))
+                }
             };
             let heights = if is_person { self.heights.as_slice() } else { self.figure.inverse_depth.as_slice() };
             let figure = &mut self.figures[position];
@@ -97,34 +106,15 @@ impl Shadows {
         }
     }
 
-    /// Draws a vehicle's shadow into the first `side` rows and columns of the scratch map; says where they lie.
-    fn draw_figure(
-        &mut self,
-        town_frame: &Frame,
-        to_sun: Vec3,
-        triangles: &[FigureTriangle],
-        side: usize,
-    ) -> Option<Frame> {
+    /// Draws a vehicle's shadow into the first `side` rows and columns of the scratch map, which lie there.
+    fn draw_figure(&mut self, frame: &Frame, to_sun: Vec3, triangles: &[FigureTriangle], side: usize) {
         self.figure.clear_part([0; 2], [side; 2]);
-        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        for corner in triangles.iter().flat_map(|triangle| triangle.corners_in_world) {
-            let at = town_frame.sheared(corner);
-            low = low.min(at);
-            high = high.max(at);
-        }
-        let size = high - low;
-        if !size.is_finite() || size.min_element() <= 0.0 || size.max_element() > 100.0 {
-            return None;
-        }
-        let texels_m = size / (side as f64 - 4.0);
         let whole = Region { first: [0; 2], end: [side; 2] };
-        let frame = Frame { corner: low / texels_m - 2.0, texels_m, ..*town_frame };
         let to_sun = DVec3::new(f64::from(to_sun.x), f64::from(to_sun.y), f64::from(to_sun.z));
         for triangle in triangles.iter().filter(|triangle| triangle.normal_in_world.dot(to_sun) > 1e-6) {
             let normal = triangle.normal_in_world;
-            draw(&mut self.figure, (&frame, whole), to_sun, normal, &triangle.corners_in_world, SOLID);
+            draw(&mut self.figure, (frame, whole), to_sun, normal, &triangle.corners_in_world, SOLID);
         }
-        Some(frame)
     }
 
     /// Fills in which share of the sun's light reaches each pixel's place. On flat surfaces, the pixels between the ends
@@ -140,9 +130,62 @@ impl Shadows {
     }
 }
 
+/// Where the map of a vehicle's shadow lies: along the vehicle or along the light, whichever needs less room. Long edges then
+/// follow the texels and do not turn into stairs.
+fn figure_frame(lattice: &Frame, heading_rad: f64, triangles: &[FigureTriangle], side: usize) -> Option<Frame> {
+    let (sin, cos) = real::sin_cos(heading_rad);
+    let turned = Frame { axes: [DVec2::new(-sin, cos), DVec2::new(cos, sin)], ..*lattice };
+    let fitted = |frame: &Frame| {
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for corner in triangles.iter().flat_map(|triangle| triangle.corners_in_world) {
+            let at = frame.sheared(corner);
+            (low, high) = (low.min(at), high.max(at));
+        }
+        let size = high - low;
+        let fits = size.is_finite() && size.min_element() > 0.0 && size.max_element() <= 100.0;
+        let texels_m = size / (side as f64 - 4.0);
+        fits.then(|| Frame { corner: low / texels_m - 2.0, texels_m, ..*frame })
+    };
+    let room = |frame: &Frame| frame.texels_m.x * frame.texels_m.y;
+    let [along, lit] = [fitted(&turned)?, fitted(lattice)?];
+    Some(if room(&along) <= room(&lit) { along } else { lit })
+}
+
 /// Height of the lowest box or ground.
 fn lowest_place_m(scene: &Scene) -> f64 {
     let boxes = scene.boxes.iter().map(|b| b.center_in_world.z - b.half_bounds_m.z);
     let ground = scene.clusters.iter().map(|cluster| cluster.center_in_world.z - cluster.half_bounds_m.z);
     boxes.chain(ground).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_domain::BodyKind;
+    use cosfly_figures::{Clothes, Walker, figure};
+    use cosfly_frames::{Seed, TargetState};
+
+    #[test]
+    fn maps_of_vehicles_lie_along_them_under_a_high_sun_and_along_the_light_of_a_low_one() {
+        let heading_rad = 0.7;
+        let car = Walker {
+            state: TargetState { feet_in_world: DVec3::new(30.0, -8.0, 1.0), heading_rad, speed_mps: 0.0 },
+            height_m: 1.5,
+            radius_m: 1.0,
+            clothes_seed: Seed([3; 32]),
+            gait_phase_rad: 0.0,
+            body: BodyShape::Vehicle { kind: BodyKind::Car, size_m: DVec3::new(4.4, 1.8, 1.5) },
+        };
+        let mut triangles = vec![];
+        figure(&car, &Clothes::draw(&car.clothes_seed), 0, &mut triangles);
+        let (sin, cos) = real::sin_cos(heading_rad);
+        for (to_sun, is_along) in [(Vec3::new(0.1, 0.2, 1.0), true), (Vec3::new(1.0, 0.0, 0.1), false)] {
+            let lattice = Sun::new(to_sun.unit(), 0.0).lattice(0);
+            let frame = figure_frame(&lattice, heading_rad, &triangles, 96).expect("a shadow");
+            assert_eq!(frame.axes[1] == DVec2::new(cos, sin), is_along);
+            for corner in triangles.iter().flat_map(|triangle| triangle.corners_in_world) {
+                assert!(frame.place(corner).iter().all(|at| (1.9..94.1).contains(at)));
+            }
+        }
+    }
 }

@@ -17,8 +17,8 @@ pub(super) const TILE: usize = 128;
 pub(super) const PACKED_ROWS: usize = TILE + 1;
 /// Squares of texels along a side of a tile whose least and greatest heights are kept.
 pub(super) const SUMMARY_SIDE: usize = TILE >> IN_SQUARE;
-/// Texels along a side of the target's own map.
-pub(super) const FIGURE_SIDE: usize = 96;
+/// Texels along a side of the map of a body that is large on the screen.
+pub(super) const FIGURE_SIDE: usize = 128;
 /// Content of a texel of the town's map.
 pub(super) const SOLID: u32 = 0;
 pub(super) const LEAVES: u32 = 1;
