@@ -47,6 +47,8 @@ pub enum Hair {
     Bald,
     /// A cap with a peak, in a colour of clothes.
     Cap,
+    /// A hat with a brim all around, in a colour of clothes.
+    Hat,
 }
 
 /// Bearing of an arm.
@@ -74,7 +76,8 @@ impl Build {
             share if share < 0.25 => Hair::Long,
             share if share < 0.33 => Hair::Bun,
             share if share < 0.39 => Hair::Bald,
-            share if share < 0.51 => Hair::Cap,
+            share if share < 0.47 => Hair::Cap,
+            share if share < 0.53 => Hair::Hat,
             _ => Hair::Short,
         };
         let right_arm = match stream.unit() {

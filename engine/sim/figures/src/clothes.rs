@@ -112,7 +112,7 @@ impl Clothes {
         let outfit = Outfit { top, trousers, backpack, umbrella: false, traits };
         let head = match build.hair {
             Hair::Bald => skin,
-            Hair::Cap => one_of(&mut seed.stream("cap"), tops).linear_rgb,
+            Hair::Cap | Hair::Hat => one_of(&mut seed.stream("cap"), tops).linear_rgb,
             Hair::Short | Hair::Long | Hair::Bun => hair,
         };
         let bag_colour = bag_cloth.linear_rgb.map(|c| 0.5 * c);

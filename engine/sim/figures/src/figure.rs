@@ -148,7 +148,7 @@ impl Body<'_> {
         let waist = 0.5 * (hips + chest);
         let belt = ring(0.0, 0.0, 0.56, 0.088 * hips, 0.066 * depth);
         let middle = ring(0.006 * depth, 0.0, 0.66, 0.096 * waist, 0.070 * depth);
-        let breast = ring(0.0, 0.0, 0.80, 0.122 * chest, 0.076);
+        let breast = ring(0.0, 0.0, 0.775, 0.122 * chest, 0.076);
         self.part(
             ring(0.0, 0.0, 0.46, 0.085 * hips, 0.060),
             ring(0.0, 0.0, 0.57, 0.088 * hips, 0.062),
@@ -156,7 +156,9 @@ impl Body<'_> {
         );
         self.part(belt, middle, Region::Top);
         self.part(middle, breast, Region::Top);
-        self.part(breast, ring(0.0, 0.0, 0.85, 0.055 * chest, 0.045), Region::Top);
+        let shoulders = ring(-0.004, 0.0, 0.832, 0.104 * chest, 0.060);
+        self.part(breast, shoulders, Region::Top);
+        self.part(shoulders, ring(0.0, 0.0, 0.862, 0.042, 0.042), Region::Top);
         if long_top {
             let hem = ring(0.0, 0.0, 0.40, 0.104 * hips, 0.086);
             self.part(hem, ring(0.0, 0.0, 0.57, 0.091 * hips, 0.068 * depth), Region::Top);
@@ -170,8 +172,10 @@ impl Body<'_> {
         self.part(ring(0.015, 0.0, 0.865, 0.036, 0.044), cheeks, Region::Skin);
         self.part(cheeks, ring(0.008, 0.0, 0.955, 0.052, 0.060), Region::Skin);
         let crown = ring(-0.004, 0.0, 0.965, 0.059, 0.066);
-        let lowest =
-            if hair == Hair::Cap { ring(0.0, 0.0, 0.942, 0.060, 0.066) } else { ring(-0.008, 0.0, 0.90, 0.053, 0.052) };
+        let lowest = match hair {
+            Hair::Cap | Hair::Hat => ring(0.0, 0.0, 0.942, 0.060, 0.066),
+            _ => ring(-0.008, 0.0, 0.90, 0.053, 0.052),
+        };
         self.part(lowest, crown, Region::Hair);
         self.part(crown, ring(-0.008, 0.0, 1.0, 0.034, 0.040), Region::Hair);
         match hair {
@@ -183,6 +187,9 @@ impl Body<'_> {
             }
             Hair::Cap => {
                 self.part(ring(0.082, 0.0, 0.943, 0.044, 0.040), ring(0.072, 0.0, 0.953, 0.048, 0.036), Region::Hair);
+            }
+            Hair::Hat => {
+                self.part(ring(0.0, 0.0, 0.938, 0.098, 0.106), ring(0.0, 0.0, 0.946, 0.094, 0.102), Region::Hair);
             }
             Hair::Short | Hair::Bald => {}
         }

@@ -1,7 +1,8 @@
 //! Wear of carriageways along their lanes: wheel tracks, oil between them, mended trenches and patches.
 //!
 //! Cells of ground near a lane know where the lane runs: [`LaneWear`]. Wear is drawn in the lane's own coordinates, so it follows
-//! bends; it fades before pixels are as large as what they show, and towards junctions, where lanes part.
+//! bends and goes on from one lane to the next; it fades before pixels are as large as what they show. Towards junctions, where
+//! lanes part, tracks fade to even wear, which is as dark in the mean.
 
 use super::lanes::{Block, PixelLane, Shared, WIDE, get, groups, set};
 use super::pattern::{NoiseTexture, Noises, band, draw, floor_int, hash, lerp, most, one_if, share, smoothstep};
@@ -17,7 +18,7 @@ const TILES: usize = 512;
 const REACH_M: f64 = 2.6;
 /// Lanes are looked at in pieces of this length at most, metres.
 const PIECE_M: f64 = 12.0;
-/// Wear grows over this length from a lane's ends, metres.
+/// Tracks grow over this length from a junction on, metres.
 const FADE_M: f64 = 7.0;
 /// Pixels larger than this show none, metres.
 const COARSE_M: f32 = 0.45;
@@ -28,6 +29,8 @@ const MENDED_M: f32 = 11.0;
 /// Share of these lengths that have one, and width of the tar around it, metres.
 const MENDED_SHARE: f32 = 0.30;
 const SEAM_M: f32 = 0.045;
+/// Share of light that even wear takes in the mean.
+const EVENLY: f32 = 0.085;
 
 /// Where the nearest lane runs, packed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +40,7 @@ struct Cell {
     aside_mm: i16,
     /// Direction of the lane, a vector of length [`UNIT`].
     direction: [i16; 2],
-    /// Strength of the wear, up to [`UNIT`].
+    /// Strength of tracks and mended places, up to [`UNIT`].
     strength: i16,
     seed: u16,
 }
@@ -65,37 +68,37 @@ pub struct LaneWear {
 }
 
 impl LaneWear {
-    /// The wear of a town's driving lanes between junctions.
+    /// The wear of a town's driving lanes.
     pub fn new(lanes: &[TownLane], town: u32) -> Self {
-        let worn = || (0u32..).zip(lanes).filter(|(_, lane)| lane.kind == LaneKind::Driving && !lane.in_junction);
-        let points = worn().flat_map(|(_, lane)| &lane.middle_in_world).filter(|point| point.is_finite());
+        let streets = streets(lanes);
+        let worn = || lanes.iter().zip(&streets).filter(|(lane, _)| lane.kind == LaneKind::Driving);
+        let points = worn().flat_map(|(lane, _)| &lane.middle_in_world).filter(|point| point.is_finite());
         let low = points.fold(DVec2::INFINITY, |low, point| low.min(point.truncate())) - REACH_M;
         let low = if low.is_finite() { low.floor() } else { DVec2::ZERO };
         let low_m = low.as_vec2().to_array();
         let mut wear = Self { low: low_m, index: vec![0; TILES * TILES], cells: vec![EVEN; TILE * TILE] };
-        for (number, lane) in worn() {
-            wear.add(lane, low, hash(number, town ^ 0x3d1f));
+        for (lane, street) in worn() {
+            wear.add(lane, street, low, hash(street.first, town ^ 0x3d1f));
         }
         wear
     }
 
-    fn add(&mut self, lane: &TownLane, low: DVec2, seed: u32) {
-        let length_m = lane.length_m();
-        let mut done_m = 0.0;
+    fn add(&mut self, lane: &TownLane, street: &Street, low: DVec2, seed: u32) {
+        let mut done_m = street.begin_m;
         for pair in lane.middle_in_world.windows(2) {
             let (from, to) = (pair[0].truncate() - low, pair[1].truncate() - low);
             let span_m = (to - from).length();
             let pieces = (span_m / PIECE_M).ceil().clamp(1.0, 1e4);
             for piece in 0..pieces as u32 {
                 let ends = [0.0, 1.0].map(|end| from.lerp(to, (f64::from(piece) + end) / pieces));
-                self.add_piece(ends, done_m + span_m * f64::from(piece) / pieces, length_m, seed);
+                self.add_piece(ends, done_m + span_m * f64::from(piece) / pieces, street.tracks_m, seed);
             }
             done_m += span_m;
         }
     }
 
-    /// Adds a straight piece of a lane that begins so far along it.
-    fn add_piece(&mut self, [from, to]: [DVec2; 2], begin_m: f64, length_m: f64, seed: u32) {
+    /// Adds a straight piece of a lane that begins so far along its street; tracks lie between two places along it.
+    fn add_piece(&mut self, [from, to]: [DVec2; 2], begin_m: f64, tracks_m: [f64; 2], seed: u32) {
         let along = (to - from).normalize_or_zero();
         let span_m = (to - from).dot(along);
         let cell = |at: f64| (at / CELL_M).floor().clamp(0.0, (TILE * TILES - 1) as f64) as usize;
@@ -114,7 +117,7 @@ impl LaneWear {
                 let away_m = aside_m.abs() + beyond_m.abs();
                 if 1e3 * away_m < f64::from(known.aside_mm.unsigned_abs()) {
                     let place_m = begin_m + way_m;
-                    let to_end_m = place_m.min(length_m - place_m);
+                    let to_end_m = (place_m - tracks_m[0]).min(tracks_m[1] - place_m);
                     *known = Cell {
                         along_m: place_m as f32,
                         aside_mm: (1e3 * aside_m) as i16,
@@ -159,6 +162,60 @@ impl LaneWear {
     }
 }
 
+/// Driving lanes one after the other between two junctions, as one of them sees them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Street {
+    /// Number of the first lane.
+    first: u32,
+    /// Where the own lane begins along all of them, metres.
+    begin_m: f64,
+    /// Where tracks begin and end along all of them, metres: nowhere within junctions.
+    tracks_m: [f64; 2],
+}
+
+/// The street of each lane. Of a street in a circle, it begins with the lane of the least number.
+fn streets(lanes: &[TownLane]) -> Vec<Street> {
+    let is_street = |lane: &TownLane| lane.kind == LaneKind::Driving && !lane.in_junction;
+    let mut before: Vec<Vec<u32>> = vec![vec![]; lanes.len()];
+    for (number, lane) in (0u32..).zip(lanes) {
+        for next in &lane.successors {
+            if let Some(all) = before.get_mut(*next as usize) {
+                all.push(number);
+            }
+        }
+    }
+    // The one lane that goes on where a lane ends, unless several come together there.
+    let follower = |lane: &TownLane| match lane.successors[..] {
+        [next] if is_street(lane) && before.get(next as usize)?.len() == 1 => {
+            lanes.get(next as usize).is_some_and(is_street).then_some(next)
+        }
+        _ => None,
+    };
+    let followers: Vec<Option<u32>> = lanes.iter().map(follower).collect();
+    let mut is_first = vec![true; lanes.len()];
+    followers.iter().flatten().for_each(|next| is_first[*next as usize] = false);
+    let meets =
+        |numbers: &[u32]| numbers.iter().filter_map(|number| lanes.get(*number as usize)).any(|it| it.in_junction);
+    let none = Street { first: u32::MAX, begin_m: 0.0, tracks_m: [f64::INFINITY, f64::NEG_INFINITY] };
+    let mut streets = vec![none; lanes.len()];
+    let heads = (0..lanes.len()).filter(|number| is_first[*number]);
+    for first in heads.chain(0..lanes.len()) {
+        let mut next = is_street(&lanes[first]).then_some(first as u32);
+        let (mut chain, mut begin_m) = (vec![], 0.0);
+        while let Some(number) = next.filter(|number| streets[*number as usize] == none) {
+            streets[number as usize] = Street { first: first as u32, begin_m, ..none };
+            chain.push(number as usize);
+            begin_m += lanes[number as usize].length_m();
+            next = followers[number as usize];
+        }
+        let (Some(head), Some(last)) = (chain.first(), chain.last()) else { continue };
+        let from_m = if meets(&before[*head]) { 0.0 } else { f64::NEG_INFINITY };
+        let to_m = if meets(&lanes[*last].successors) { begin_m } else { f64::INFINITY };
+        chain.iter().for_each(|number| streets[*number].tracks_m = [from_m, to_m]);
+    }
+    streets
+}
+
 /// A place of a lane that lies away from another one, in the world.
 #[inline(always)]
 fn in_lane([along_m, aside_m]: [f32; 2], [x, y]: [f32; 2], away: [f32; 2]) -> [f32; 2] {
@@ -179,7 +236,7 @@ simd_kernel! {
         let mut places =
             Places { direction: [[0.0; WIDE]; 2], at_m: [[0.0; WIDE]; 2], strength: [0.0; WIDE], seed: [0; WIDE] };
         for (shared, four) in groups(shared, blocks) {
-            let mut strongest = 0.0f32;
+            let (mut strongest, mut evenly, mut most_evenly) = (0.0f32, [0.0f32; WIDE], 0.0f32);
             for k in 0..WIDE {
                 let middle = get(&shared.middle, k);
                 let near = 1.0 - smoothstep(0.4 * COARSE_M, COARSE_M, most(shared.along_m[k], shared.up_m[k]));
@@ -190,7 +247,20 @@ simd_kernel! {
                 }
                 places.strength[k] = place.strength * near;
                 places.seed[k] = place.seed;
+                evenly[k] = (near - places.strength[k]) * (1.0 - smoothstep(1.2, REACH_M as f32, place.at_m[1].abs()));
                 strongest = most(strongest, places.strength[k]);
+                most_evenly = most(most_evenly, evenly[k]);
+            }
+            if most_evenly > 0.0 {
+                for block in &mut *four {
+                    for k in 0..WIDE {
+                        let (point, size) = (get(&block.world, k), shared.footprint_m[k]);
+                        let uneven = noise.clumps(point.x * 1.7, point.y * 1.7, size * 1.7);
+                        let kept = 1.0 - evenly[k] * EVENLY * (0.4 + 1.2 * uneven);
+                        let albedo = get(&block.albedo, k) * kept;
+                        set(&mut block.albedo, k, albedo);
+                    }
+                }
             }
             if strongest <= 0.0 {
                 continue;
@@ -294,6 +364,28 @@ mod tests {
         }
         worn(Level::best(), &[shared], &mut four, wear, &noise_texture(3));
         four[0].albedo[0]
+    }
+
+    #[test]
+    fn tracks_go_on_from_lane_to_lane_and_fade_at_junctions_alone() {
+        let lane = |from_m: f64, successors: &[u32], in_junction| {
+            let points = [DVec3::X * from_m, DVec3::X * (from_m + 50.0)];
+            let lane = TownLane::new(LaneKind::Driving, points, 3.5, 10.0).expect("a lane");
+            TownLane { successors: successors.to_vec(), in_junction, ..lane }
+        };
+        let lanes = [lane(50.0, &[2], false), lane(0.0, &[0], false), lane(100.0, &[3], true), lane(150.0, &[], false)];
+        let wear = LaneWear::new(&lanes, 3);
+        let strength = [2.0, 48.5, 51.5, 98.5, 125.0, 151.5, 198.0].map(|x| wear.at(x, 0.5).strength);
+        assert_eq!([strength[0], strength[1], strength[2], strength[4], strength[6]], [1.0, 1.0, 1.0, 0.0, 1.0]);
+        assert!(strength[3] < 0.3 && strength[5] < 0.3, "{strength:?}");
+        let [before, after] = [48.5, 51.5].map(|x| wear.at(x, 0.5));
+        assert!((after.at_m[0] - before.at_m[0] - 3.0).abs() < 1e-3 && after.seed == before.seed);
+        let places = core::array::from_fn(|k| [101.0 + 3.0 * k as f32, 0.4]);
+        let mean = albedo(&wear, places, 0.05).iter().sum::<f32>() / WIDE as f32;
+        assert!((0.88..0.96).contains(&mean), "junctions are worn evenly: {mean}");
+        // A street in a circle.
+        let ring = [lane(0.0, &[1], false), lane(50.0, &[0], false)];
+        assert_eq!(streets(&ring).iter().map(|street| street.begin_m).collect::<Vec<_>>(), [0.0, 50.0]);
     }
 
     #[test]

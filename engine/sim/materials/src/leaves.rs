@@ -51,11 +51,11 @@ const EVERGREEN_BUSHES: f32 = 0.6;
 const ASIDE_M: f32 = 1.2;
 
 /// Ground below bare crowns, linear RGB.
-const BELOW: Vec3 = Vec3::new(0.150, 0.137, 0.106);
+const BELOW: Vec3 = Vec3::new(0.150, 0.131, 0.096);
 
 /// Twigs of a bare crown, linear RGB.
 fn twigs(seed: u32) -> Vec3 {
-    Vec3::new(0.115, 0.091, 0.064).lerp(Vec3::new(0.102, 0.088, 0.070), draw(seed, 10))
+    Vec3::new(0.126, 0.089, 0.057).lerp(Vec3::new(0.108, 0.083, 0.060), draw(seed, 10))
 }
 
 /// A crown.

@@ -10,6 +10,8 @@ use crate::vector::Vec3;
 
 /// Awnings stand out by this much, metres.
 const AWNING_M: f32 = 1.0;
+/// Pairs of stripes in a metre of an awning.
+const STRIPES_PER_M: f32 = 3.6;
 
 impl Facade {
     /// The street floor: shop windows, doors and a sign band.
@@ -54,7 +56,7 @@ impl Facade {
         let out_third = out_along * (self.bays_per_m / 3.0);
         let width = stripes(out_third, 0.03, 0.97, du * (1.0 / 3.0));
         let cloth = has * width * band(out_up, top - 1.35, top - 0.85, dv);
-        let pale = stripes(out_along * 1.6, 0.0, 0.5, point.footprints_m[0] * 1.6);
+        let pale = stripes(out_along * STRIPES_PER_M, 0.0, 0.5, point.footprints_m[0] * STRIPES_PER_M);
         look.albedo = look.albedo.lerp(sign.lerp(Vec3::splat(0.62), 0.85 * pale), cloth);
         (look.emission, look.mirror) = (look.emission * (1.0 - cloth), look.mirror * (1.0 - cloth));
         look
