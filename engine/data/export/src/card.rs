@@ -94,10 +94,10 @@ fn optics(source: &Source<'_>) -> Result<String> {
         let values = columns.get(column.name()).map_or(&[][..], Vec::as_slice);
         let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let range = match () {
-            () if values.is_empty() => "unknown".to_owned(),
-            () if least == most => most.to_string(),
-            () => format!("{least} to {most}"),
+        let range = match values {
+            [] => "unknown".to_owned(),
+            _ if least == most => most.to_string(),
+            _ => format!("{least} to {most}"),
         };
         let _ = writeln!(text, "* `{}`: {range}. {}", column.name(), column.doc());
     }
