@@ -23,7 +23,9 @@ pub(crate) struct Junctions {
     nearest: Vec<Option<(f64, usize)>>,
     asking: Vec<usize>,
     requests: Vec<(f64, usize)>,
+    /// Lanes of those who wait too long, and of long vehicles among them.
     starving: Vec<u32>,
+    starving_long: Vec<u32>,
 }
 
 impl Junctions {
@@ -37,6 +39,7 @@ impl Junctions {
             asking: vec![],
             requests: vec![],
             starving: vec![],
+            starving_long: vec![],
         }
     }
 
@@ -86,6 +89,7 @@ impl Junctions {
         }
         self.requests.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         self.starving.clear();
+        self.starving_long.clear();
         for request in 0..self.requests.len() {
             let (asked_s, number) = self.requests[request];
             let vehicle = &mut vehicles[number];
@@ -104,6 +108,7 @@ impl Junctions {
             } else if time_s - asked_s > PATIENCE_S {
                 if has_room {
                     self.starving.extend(lanes);
+                    self.starving_long.extend(lanes.iter().filter(|_| is_long(vehicle)));
                 } else {
                     // Who finds no room behind the junction looks for another way: else queues in a circle wait for each other.
                     vehicle.turn_off(network, first);
@@ -116,10 +121,10 @@ impl Junctions {
     /// Whether nobody drives, or waits too long to drive, across lanes.
     fn are_free(&self, network: &Network, lanes: &[u32], is_long: bool) -> bool {
         let is_held = |other: &u32| self.held[*other as usize] > 0;
-        let is_held_long = |other: &u32| self.held_long[*other as usize] > 0;
+        let is_held_long = |other: &u32| self.held_long[*other as usize] > 0 || self.starving_long.contains(other);
         lanes.iter().map(|lane| &network.lanes[*lane as usize]).all(|lane| {
             !lane.conflicts.iter().any(|other| is_held(other) || self.starving.contains(other))
-                && !lane.long_conflicts.iter().any(|other| if is_long { is_held(other) } else { is_held_long(other) })
+                && !lane.long_conflicts.iter().any(|other| is_held_long(other) || is_long && is_held(other))
         })
     }
 
