@@ -34,7 +34,7 @@ fn what_the_container_copies_is_there_and_what_it_runs_is_a_shells() {
     }
     assert!(arguments("RUN").contains(&"cargo build --release".to_owned()));
     assert!(text("README.md").contains("cargo run --release"), "people and containers build the same");
-    for ignored in ["target", ".git"] {
+    for ignored in ["target", ".git", "**/*.secret.toml"] {
         assert!(text(".dockerignore").lines().any(|line| line == ignored), "{ignored}");
     }
 }

@@ -239,6 +239,30 @@ fn a_file_that_does_not_fit_is_refused_with_what_is_allowed() {
         (changed(&|it| it["every"] = json!(0)), "`every` is 0; it must be 1 to 1000"),
         (changed(&|it| it["look"] = json!("plain")), "allowed are simple, full"),
         (
+            network(
+                [
+                    &[node("Identity", &["memory"], "actions")],
+                    &[],
+                    &[port("memory", &[1, 5])],
+                    &[port("actions", &[1, 5])],
+                ],
+                &json!({ "version": 1, "inputs": {}, "output": good["output"], "states": good["states"] }),
+            ),
+            "it sees nothing",
+        ),
+        (
+            network(
+                [
+                    &[node("Identity", &["seen"], "actions")],
+                    &[],
+                    &[port("seen", &[5])],
+                    &[port("actions", &[5]), port("actions", &[5])],
+                ],
+                &good,
+            ),
+            "two of its outputs have one name",
+        ),
+        (
             network([&[node("Loop", &[], "actions")], &[], &[], &[port("actions", &[1, 5])]], &good),
             "`actions` (Loop) has an operator that is not read; allowed are Abs, Add",
         ),

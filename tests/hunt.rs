@@ -43,6 +43,30 @@ fn failures_do_not_depend_on_jobs_or_stops_and_fly_bundle_and_verify_as_a_suite(
     run(&["fly", "bundle", "flown/expert"]);
     run(&["fly", "verify", "flown/expert.jsonl.zst", "one/failures.toml"]);
     run(&["plan", "one/training.toml"]);
+
+    let failures = std::fs::read_to_string(street.path().join("one/failures.toml")).expect("a benchmark");
+    let failures = failures.replace("episodes = [", "episodes = [\"street-nobody\",");
+    std::fs::write(street.path().join("one/wrong.toml"), failures).expect("written");
+    let fly = ["fly", "one/wrong.toml", "--tier", "all", "--policy", "expert"];
+    let printed = cosfly(&fly).within(street.path()).run();
+    assert!(printed.code == Some(3) && printed.stderr.contains("`street-nobody`"), "{}", printed.stderr);
+}
+
+#[test]
+fn training_data_have_all_inputs_and_files_of_traffic() {
+    let traffic = "\n[stages.crowd]\nuse = \"traffic\"\ninputs = { town = \"town\", avoid = \"walkers\" }\nframes = 40\n\
+                   people.count = 4\nvehicles.count = 0\nfollow = { count = 1, min_length_m = 0.5 }\n\
+                   recorded = [{ source = \"tracks.csv\" }]\n\
+                   \n[stages.second]\nuse = \"plan\"\ninputs = { town = \"town\", walks = \"crowd\" }\n";
+    let street = Street::with(&(RECIPE.replace("frames = 12", "frames = 40") + traffic), &map());
+    let track: String = (0..30).map(|second| format!("{second},a,{},6\n", 20 + second)).collect();
+    std::fs::write(street.path().join("tracks.csv"), format!("t,id,x,y\n{track}")).expect("written");
+    hunt(&street, "one", &["--policy", POLICY]);
+    let training = std::fs::read_to_string(street.path().join("one/training.toml")).expect("a recipe");
+    for words in ["inputs.avoid = \"walkers_1\"", "\"source\" = \"../tracks.csv\""] {
+        assert!(training.contains(words), "{training}");
+    }
+    cosfly(&["plan", "one/training.toml"]).within(street.path()).run_ok();
 }
 
 #[test]
@@ -58,5 +82,7 @@ fn what_is_wrong_is_told() {
     refused(&["follow", "--vary", "stages.walker.frames=10..20"], 3, "did you mean `walkers`?");
     refused(&["follow", "--vary", "tool.fly.latency_ms=0..9000", "--pool", "9"], 3, "latency_ms");
     refused(&["follow", "--budget", "0"], 2, "--budget");
+    refused(&["follow", "--seed", "9223372036854775808"], 2, "--seed");
+    refused(&["follow", "--actions", "rotors", "--pool", "4"], 3, "fly-drone");
     refused(&["ws://127.0.0.1:9", "--wait-s", "0.1", "--pool", "4"], 5, "fly-policy-unready");
 }

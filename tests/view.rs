@@ -159,10 +159,15 @@ fn hostile_requests_are_refused_and_the_viewer_goes_on() {
     ] {
         assert_eq!(viewer.send(&request).0, status, "{}", &request[..20.min(request.len())]);
     }
-    // Connections that say nothing take no place for long, and one too many is turned away.
+    // Connections that say nothing take no place once they end, and one too many is turned away.
+    std::thread::sleep(Duration::from_millis(500));
     let idle: Vec<TcpStream> =
-        (0..31).map(|_| TcpStream::connect(("127.0.0.1", viewer.port)).expect("it listens")).collect();
-    assert_eq!(viewer.get("/api/about", &cookie).0, 200);
+        (0..32).map(|_| TcpStream::connect(("127.0.0.1", viewer.port)).expect("it listens")).collect();
+    let mut more = TcpStream::connect(("127.0.0.1", viewer.port)).expect("it listens");
+    more.set_read_timeout(Some(Duration::from_secs(20))).expect("set");
+    let mut answer = String::new();
+    more.read_to_string(&mut answer).expect("an answer");
+    assert!(answer.starts_with("HTTP/1.1 503"), "{answer}");
     drop(idle);
     std::thread::sleep(Duration::from_millis(500));
     assert_eq!(viewer.get("/api/about", &cookie).0, 200);
@@ -231,6 +236,25 @@ fn what_cannot_be_shown_is_refused_and_a_page_is_exported() {
 }
 
 #[test]
+fn the_exported_page_of_a_result_has_the_towns_that_its_flights_name() {
+    let street = Street::new();
+    cosfly(&["fly", "recipe.toml", "--out", "flown", "--policy", "follow", "--clips", "0"])
+        .within(street.path())
+        .run_ok();
+    cosfly(&["view", "flown/follow", "--export", "page.html"]).within(street.path()).run_ok();
+    let page = std::fs::read_to_string(street.path().join("page.html")).expect("a page");
+    let data = page.split_once("id=\"data\">").expect("data").1.split_once("</script>").expect("an end").0;
+    let data: serde_json::Value = serde_json::from_str(data).expect("JSON");
+    let held = data["held"].as_array().expect("flights");
+    assert!(!held.is_empty());
+    for number in held {
+        let town = data[format!("/api/flight/{number}")]["town"].as_str().expect("a town");
+        let kinds = data[format!("town {town}")]["kinds"].as_object();
+        assert!(kinds.is_some_and(|kinds| !kinds.is_empty()), "flight {number} names `{town}`");
+    }
+}
+
+#[test]
 fn a_recipe_shows_what_of_it_is_made() {
     let street = Street::new();
     let progress = |viewer: &Viewer| {
@@ -244,4 +268,11 @@ fn a_recipe_shows_what_of_it_is_made() {
     let of = |name: &str| stages.iter().find(|stage| stage["name"] == name).expect("a stage").clone();
     assert_eq!((of("expert")["made"].as_u64(), of("expert")["items"].as_u64()), (Some(3), Some(3)));
     assert_eq!(of("frames")["made"].as_u64(), Some(0));
+    // A run that ends while the viewer is open: a reload shows its flights.
+    let viewer = Viewer::start(street.path(), "recipe.toml");
+    let cookie = viewer.enter();
+    assert_eq!(viewer.json("/api/index", &cookie).1["flights"].as_u64(), Some(0));
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    assert_eq!(viewer.json("/api/about", &cookie).1["flights"].as_u64(), Some(6));
+    assert_eq!(viewer.json("/api/index", &cookie).1["flights"].as_u64(), Some(6));
 }

@@ -178,6 +178,8 @@ def check_exported(browser):
     page = open_page(browser, path.resolve().as_uri(), "exported")
     page.wait_for_selector("#pictures canvas[data-frame]")
     expect("exported" in page.locator("#about").inner_text(), "the exported page does not say so")
+    held = "pictures.panes.every(pane => pane.flight.x.every((_, at) => source.picture(pane.flight.number, pictures.place(pane, at), pane.channel)))"
+    expect(page.evaluate(held), "boxes of the exported page are of frames without a picture")
     shoot(page, "exported")
     page.close()
 

@@ -7,7 +7,7 @@ use cosfly_fly::bundle::Bundle;
 use cosfly_fly::pilot::{OnnxPolicy, Runnable};
 use cosfly_frames::Seed;
 use cosfly_maps::{MapConfig, read_town};
-use cosfly_onnx::{Model, Tensor};
+use cosfly_onnx::{OnnxModel, Tensor};
 #[cfg(feature = "plugins")]
 use cosfly_plugin_host::{Host, PluginLimits};
 use cosfly_read::predictions::run_lengths::Runs;
@@ -86,7 +86,7 @@ fn bundles(bytes: &[u8]) {
 
 /// A network in ONNX, which runs once, and as a policy.
 fn onnx(bytes: &[u8]) {
-    if let Ok(model) = Model::read(bytes) {
+    if let Ok(model) = OnnxModel::read(bytes) {
         let zeros = model.inputs().iter().map(|port| Tensor::zeros(port.kind, &port.shape));
         let _ = model.run(zeros.collect());
     }

@@ -5,6 +5,7 @@ const $ = id => document.getElementById(id);
 const state = { index: null, flight: null, beside: null, frame: 0, isPlaying: false };
 const map = new TownMap($("map"));
 const pictures = new Pictures($("pictures"));
+const LEGEND = $("legend").textContent;
 let list;
 
 const element = (name, text) => Object.assign(document.createElement(name), { textContent: text });
@@ -32,7 +33,7 @@ async function start() {
   }
   filter();
   $("list").hidden = !state.index.flights;
-  if (about.kind === "recipe") progress();
+  if (about.kind === "recipe" && !source.isExported) progress();
   await followLink() || (list.order.length && await choose(list.order[0]));
 }
 
@@ -69,8 +70,23 @@ async function choose(number, frame) {
     const partner = flight.family.find(it => it.number !== number && source.has(it.number));
     await compare(partner ? partner.number : null);
   } catch (error) {
-    if (asked === number) tell(error.message);
+    if (asked !== number) return;
+    if (!state.flight || state.flight.number !== number) showNone(number);
+    tell(error.message);
   }
+}
+
+// A flight that cannot be loaded: the one before must not stand below its message.
+function showNone(number) {
+  state.flight = null;
+  clearTimeout(linkTimer);
+  showParts(false);
+  $("title").textContent = list.value("name", number) || "";
+  $("reason").textContent = list.value("reason", number) || "";
+}
+
+function showParts(isShown) {
+  for (const part of ["views", "texts", "strip"]) $(part).hidden = !isShown;
 }
 
 const loaded = new Map();
@@ -96,6 +112,7 @@ function tell(message) {
 function showFlight() {
   const flight = state.flight;
   const problem = flight.problem;
+  showParts(true);
   tell(problem && [problem.message, ...problem.causes, ...problem.hints].join("\n"));
   $("title").textContent = flight.name;
   $("reason").textContent = list.value("reason", flight.number) || "";
@@ -112,6 +129,8 @@ function showFlight() {
     item.append(button);
     return item;
   }));
+  const left = flight.bodies.left_out + flight.boxesOfTown.left_out;
+  $("legend").textContent = LEGEND + (left > 0 ? ` ${left} boxes and bodies are not drawn.` : "");
   if (!flight.losses.length) $("losses").replaceChildren(element("li", "none"));
   map.show(flight.boxesOfTown, [flight], flight.bodies);
   pictures.show(flight, null);
@@ -119,6 +138,7 @@ function showFlight() {
 
 async function compare(number) {
   const flight = state.flight;
+  if (!flight) return;
   $("beside").value = number === null ? "" : String(number);
   const beside = number === null ? null : await load(number);
   if (state.flight !== flight) return;
@@ -140,6 +160,7 @@ function setFrame(frame) {
 function draw() {
   isDue = false;
   const { flight, frame } = state;
+  if (!flight) return;
   const at = name => flight[name] && flight[name][frame];
   map.draw(frame);
   pictures.draw(frame);

@@ -16,17 +16,15 @@ class Pictures {
     const channels = (flight.channels || []).filter(channel => !source.isExported || channel === "rgb");
     const panes = channels.map(channel => ({ flight, channel, words: channel }));
     if (beside && (beside.channels || []).includes("rgb")) panes.splice(1, 0, { flight: beside, channel: "rgb", words: `${beside.name}, rgb` });
-    this.panes = panes.map(pane => ({ ...pane, canvas: document.createElement("canvas") }));
+    this.panes = panes.map(pane => ({ ...pane, canvas: document.createElement("canvas"), caption: element("figcaption", pane.words) }));
     this.box.hidden = !panes.length;
     this.box.replaceChildren(...this.panes.map((pane, at) => {
       const figure = document.createElement("figure");
-      const words = document.createElement("figcaption");
-      words.textContent = pane.words;
       figure.className = at === 0 && panes.length % 2 === 1 ? "wide" : "";
       [pane.canvas.width, pane.canvas.height] = pane.flight.size;
       pane.canvas.setAttribute("role", "img");
       pane.canvas.setAttribute("aria-label", `${pane.flight.name}: ${pane.channel}`);
-      figure.append(pane.canvas, words);
+      figure.append(pane.canvas, pane.caption);
       return figure;
     }));
   }
@@ -61,15 +59,15 @@ class Pictures {
     return image;
   }
 
-  // A flight beside may be shorter.
+  // The frame that a pane shows: a flight beside may be shorter, and not every frame of an exported page has a picture.
   place(pane, frame) {
-    return Math.min(frame, pane.flight.x.length - 1);
+    return source.pictured(pane.flight.number, Math.min(frame, pane.flight.x.length - 1), pane.channel);
   }
 
   fetchAhead(frame) {
     for (const pane of this.panes) {
       for (let step = 1; step <= AHEAD; step += 1) {
-        [frame + step, frame - step].filter(at => at >= 0 && at < pane.flight.x.length).forEach(at => this.image(pane, at));
+        [frame + step, frame - step].filter(at => at >= 0 && at < pane.flight.x.length).forEach(at => this.image(pane, this.place(pane, at)));
       }
     }
   }
@@ -97,6 +95,7 @@ class Pictures {
     if (pane.channel === "rgb") ((pane.flight.boxes || new Map()).get(at) || []).forEach(edges => box(edges, "#b57bff"));
     box(pane.flight.full_box && pane.flight.full_box[at], "#ffdc28");
     box(pane.flight.visible_box && pane.flight.visible_box[at], "#3cff5a");
+    pane.caption.textContent = at === frame ? pane.words : `${pane.words}, frame ${at}`;
     pane.canvas.dataset.frame = frame;
   }
 }

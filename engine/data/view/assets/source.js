@@ -30,18 +30,22 @@ const source = (() => {
     return get(held && `town ${name}` in held ? `town ${name}` : `/api/town/${number}`);
   }
 
-  // Address of a picture; of an exported page that of the last one before.
-  function picture(number, frame, channel) {
-    if (!held) return `/picture/${number}/${frame}/${channel}?v=${version}`;
-    for (let at = frame; at >= 0; at -= 1) {
-      const address = held[`/picture/${number}/${at}/${channel}`];
-      if (address) return address;
+  // The frame whose picture is shown: an exported page has few, and the last one before stands for a frame without one.
+  function pictured(number, frame, channel) {
+    for (let at = frame; held && at >= 0; at -= 1) {
+      if (`/picture/${number}/${at}/${channel}` in held) return at;
     }
-    return null;
+    return frame;
+  }
+
+  // Address of the picture of a frame; null where an exported page has none.
+  function picture(number, frame, channel) {
+    const path = `/picture/${number}/${frame}/${channel}`;
+    return held ? held[path] ?? null : `${path}?v=${version}`;
   }
 
   return {
-    get, town, picture,
+    get, town, pictured, picture,
     isExported: held !== null,
     has: number => !held || held.held.includes(number),
     setVersion: text => { version = encodeURIComponent(text); },

@@ -2,7 +2,7 @@
 
 use crate::page::{PAGE, SCRIPTS, STYLE};
 use crate::routes::value;
-use crate::subject::Subject;
+use crate::subject::ViewSubject;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
@@ -19,7 +19,7 @@ const MOST_PICTURES: usize = 60;
 ///
 /// # Errors
 /// Those of the subject; `view-size` where not even one flight fits; `stopped`.
-pub fn export(subject: &dyn Subject, numbers: &[usize], stop: &Stop) -> Result<(String, usize)> {
+pub fn export(subject: &dyn ViewSubject, numbers: &[usize], stop: &Stop) -> Result<(String, usize)> {
     let mut data = Map::new();
     for path in ["/api/about", "/api/index"] {
         data.insert(path.to_owned(), value(path, subject)?.unwrap_or_default());
@@ -47,7 +47,7 @@ pub fn export(subject: &dyn Subject, numbers: &[usize], stop: &Stop) -> Result<(
 }
 
 /// Paths and values of a flight that are not among `known`.
-fn flight(subject: &dyn Subject, number: usize, known: &Map<String, Value>) -> Result<Map<String, Value>> {
+fn flight(subject: &dyn ViewSubject, number: usize, known: &Map<String, Value>) -> Result<Map<String, Value>> {
     let mut data = Map::new();
     let whole = subject.flight(number)?;
     for path in [format!("/api/bodies/{number}"), format!("/api/town/{number}")] {

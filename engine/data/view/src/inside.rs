@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// stranger's dataset links to is not the stranger's.
 ///
 /// # Errors
-/// `view-outside`, or the file is not there.
+/// `view-outside`, `view-file` for a pipe or a device, which a reader would wait for; or the file is not there.
 pub fn inside(folder: &Path, name: &str) -> Result<PathBuf> {
     let refused = |path: &Path, error: std::io::Error| Diagnostic::io(format!("open `{}`", path.display()), &error);
     let outside = || {
@@ -19,7 +19,14 @@ pub fn inside(folder: &Path, name: &str) -> Result<PathBuf> {
     let root = folder.canonicalize().map_err(|error| refused(folder, error))?;
     let path = inner_path(&root, name).ok_or_else(outside)?;
     let real = path.canonicalize().map_err(|error| refused(&path, error))?;
-    if real.starts_with(&root) { Ok(real) } else { Err(outside()) }
+    if !real.starts_with(&root) {
+        return Err(outside());
+    }
+    if !real.is_file() && !real.is_dir() {
+        let message = format!("the viewer does not open `{name}`: it is not a file");
+        return Err(Diagnostic::new("view-file", Fault::Input, message));
+    }
+    Ok(real)
 }
 
 #[cfg(test)]
@@ -41,5 +48,7 @@ mod tests {
             assert_eq!(inside(&folder, name).err().map(|error| error.code), Some("view-outside"), "{name}");
         }
         assert!(inside(&folder, "absent").is_err());
+        let _socket = std::os::unix::net::UnixListener::bind(folder.join("socket")).expect("a socket");
+        assert_eq!(inside(&folder, "socket").err().map(|error| error.code), Some("view-file"));
     }
 }

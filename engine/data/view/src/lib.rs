@@ -1,6 +1,6 @@
 //! The viewer: a server on this machine and a page for flights, their pictures and their town.
 //!
-//! * [`Subject`]: what is shown: an index of flights, and the parts of each on request. [`DatasetSubject`] is one.
+//! * [`ViewSubject`]: what is shown: an index of flights, and the parts of each on request. [`DatasetSubject`] is one.
 //! * [`Server`]: answers requests from this machine that carry the cookie of its session.
 //! * [`export()`]: the page with its data in one file.
 //!
@@ -18,4 +18,4 @@ pub use dataset::DatasetSubject;
 pub use export::export;
 pub use inside::inside;
 pub use server::Server;
-pub use subject::{Index, Picture, Subject, short, unknown};
+pub use subject::{Index, ViewSubject, ViewedPicture, short, unknown};

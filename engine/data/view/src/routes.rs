@@ -2,13 +2,13 @@
 
 use crate::page::{PAGE, SCRIPTS, STYLE};
 use crate::server::{Request, Response};
-use crate::subject::Subject;
+use crate::subject::ViewSubject;
 use cosfly_diagnose::{Diagnostic, Result, contained};
 use cosfly_secrets::without_secrets;
 use serde_json::{Value, json};
 
 /// The answer to a request that may be answered.
-pub fn answer(request: &Request, subject: &dyn Subject) -> Response {
+pub fn answer(request: &Request, subject: &dyn ViewSubject) -> Response {
     let assets = SCRIPTS.iter().chain([&PAGE, &STYLE]);
     if let Some(asset) = assets.into_iter().find(|asset| asset.path == request.path) {
         return Response::file(asset.media_type, asset.text);
@@ -26,7 +26,7 @@ pub fn answer(request: &Request, subject: &dyn Subject) -> Response {
 }
 
 /// Data at a path; none where the path is of nothing.
-fn data(path: &str, subject: &dyn Subject) -> Result<Option<Response>> {
+fn data(path: &str, subject: &dyn ViewSubject) -> Result<Option<Response>> {
     let parts: Vec<&str> = path.split('/').skip(1).collect();
     let response = match parts[..] {
         ["picture", flight, frame, channel] => {
@@ -43,7 +43,7 @@ fn data(path: &str, subject: &dyn Subject) -> Result<Option<Response>> {
 ///
 /// # Errors
 /// Those of the subject.
-pub fn value(path: &str, subject: &dyn Subject) -> Result<Option<Value>> {
+pub fn value(path: &str, subject: &dyn ViewSubject) -> Result<Option<Value>> {
     let parts: Vec<&str> = path.split('/').skip(1).collect();
     let (kind, number) = match parts[..] {
         ["api", "about"] => return subject.about().map(Some),

@@ -1,10 +1,10 @@
-//! [`Subject`]: what the page shows.
+//! [`ViewSubject`]: what the page shows.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use serde_json::{Value, json};
 
 /// What the page shows: flights by their numbers from 0. All values are JSON; the page shows texts as texts.
-pub trait Subject: Send + Sync {
+pub trait ViewSubject: Send + Sync {
     /// Name, kind (`dataset`, `result` or `recipe`), channels, and `version`: another one where pictures are others.
     ///
     /// # Errors
@@ -39,7 +39,7 @@ pub trait Subject: Send + Sync {
     ///
     /// # Errors
     /// `view-unknown`; files that cannot be read.
-    fn picture(&self, number: usize, frame: usize, channel: &str) -> Result<Picture>;
+    fn picture(&self, number: usize, frame: usize, channel: &str) -> Result<ViewedPicture>;
 
     /// Progress of what is being made; none of finished things.
     ///
@@ -52,7 +52,7 @@ pub trait Subject: Send + Sync {
 
 /// An image file that browsers show.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
+pub struct ViewedPicture {
     /// `image/jpeg` or `image/png`.
     pub media_type: &'static str,
     /// The file.

@@ -34,7 +34,7 @@ pub fn document(config: &DatasetConfig, summary: &Summary, single_files: &[FileR
         "datePublished": config.date_published,
         "dateCreated": config.date_published,
         "isLiveDataset": false,
-        "inLanguage": ["en", "zh"],
+        "inLanguage": summary.text_languages(),
         "keywords": ["drone", "UAV", "visual tracking", "trajectory planning", "vision-language-action", "synthetic"],
         "creator": {"@type": "sc:Organization", "name": config.creator.name, "url": config.creator.url},
         "publisher": {"@type": "sc:Organization", "name": config.creator.name, "url": config.creator.url},

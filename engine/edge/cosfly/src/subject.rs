@@ -105,11 +105,15 @@ impl Subject {
     /// Makes the episodes.
     ///
     /// # Errors
-    /// Those of [`Suite::make`].
+    /// Those of [`Suite::make`]; `fly-benchmark`.
     pub fn make(&self, store: &Store, options: &RunOptions, report: &(dyn Fn(RunEvent) + Sync)) -> Result<Suite> {
         let suite = |recipe: &Recipe| Suite::make(recipe, store, options, report);
         match &self.tier {
-            Some(tier) => Ok(tier.of(self.recipes.iter().map(suite).collect::<Result<_>>()?)),
+            Some(tier) => {
+                let suites = self.recipes.iter().map(suite).collect::<Result<Vec<_>>>()?;
+                tier.check(&suites)?;
+                Ok(tier.of(suites))
+            }
             None => suite(&self.recipes[0]),
         }
     }

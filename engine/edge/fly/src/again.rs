@@ -3,7 +3,7 @@
 use crate::bundle::{Bundle, EpisodeRecord};
 use crate::flight::{FlownEpisode, fly_by};
 use crate::pilot::{Failure, Runnable};
-use crate::suite::{Suite, EpisodeTask};
+use crate::suite::{EpisodeTask, Suite};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_env::{Environment, EnvironmentSettings};
 use rayon::prelude::*;

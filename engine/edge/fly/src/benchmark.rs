@@ -139,6 +139,26 @@ fn is_safe(name: &str) -> std::result::Result<(), String> {
 }
 
 impl Tier {
+    /// Refuses names of `episodes` that no suite has.
+    ///
+    /// # Errors
+    /// `fly-benchmark`, with the names.
+    pub fn check(&self, suites: &[Suite]) -> Result<()> {
+        let of_suite = |suite: &Suite| -> Vec<String> {
+            suite.tasks.iter().map(|task| format!("{}-{}", suite.name, task.episode.name)).collect()
+        };
+        let names: BTreeSet<String> = suites.iter().flat_map(of_suite).collect();
+        let unknown: Vec<&str> =
+            self.only.iter().flat_map(|only| only.difference(&names)).map(String::as_str).collect();
+        if unknown.is_empty() {
+            return Ok(());
+        }
+        let message = format!("no suite of `{}` has the episodes `{}`", self.name, unknown.join("`, `"));
+        let refusal = Diagnostic::new("fly-benchmark", Fault::Recipe, message);
+        Err(refusal
+            .hint("a name is SUITE-EPISODE, such as `street-street-p00007`: correct it in `episodes`, or leave it out"))
+    }
+
     /// The episodes that the tier takes from suites, as one suite.
     pub fn of(&self, suites: Vec<Suite>) -> Suite {
         let (mut tasks, mut parts, mut listed, mut rejected) = (vec![], vec![], String::new(), 0);

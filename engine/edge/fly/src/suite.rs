@@ -213,7 +213,15 @@ impl Reader<'_> {
                 let knowledge = Knowledge { flight: waypoints.into(), config: Arc::clone(&config) };
                 let certified_visibility = flight.certificate.mean_visibility;
                 let (episode, shooting) = (Arc::new(episode), Arc::new(shooting));
-                tasks.push(EpisodeTask { episode, knowledge, certified_visibility, scenery, shooting, part: 0, digest });
+                tasks.push(EpisodeTask {
+                    episode,
+                    knowledge,
+                    certified_visibility,
+                    scenery,
+                    shooting,
+                    part: 0,
+                    digest,
+                });
             }
         }
         let digest = Digest::of(listed.as_bytes());

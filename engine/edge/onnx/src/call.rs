@@ -1,12 +1,14 @@
 //! [`Call`]: an operator's inputs, settings and bounds.
 
 use crate::attributes::Attribute;
-use crate::tensor::{MOST_AXES, MOST_NUMBERS, Tensor, Values, count};
+use crate::tensor::{MOST_AXES, MOST_NUMBERS, Tensor, TensorValues, count, listed};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
 /// Most multiplications and moves of numbers in a run.
-const MOST_WORK: usize = 1 << 30;
+const MOST_WORK: usize = 1 << 28;
+/// Work of a function of a number, such as the exponential.
+pub const FUNCTION: usize = 32;
 
 /// Work of a run, which is bounded.
 pub struct Work {
@@ -57,8 +59,8 @@ impl<'a> Call<'a> {
     pub fn floats(&self, at: usize) -> Result<Floats<'a>, String> {
         let tensor = self.input(at)?;
         match &tensor.values {
-            Values::Floats(values) => Ok((&tensor.shape, values)),
-            Values::Wholes(_) => Err(format!("its input {} has whole numbers where floats are expected", at + 1)),
+            TensorValues::Floats(values) => Ok((&tensor.shape, values)),
+            TensorValues::Wholes(_) => Err(format!("its input {} has whole numbers where floats are expected", at + 1)),
         }
     }
 
@@ -84,8 +86,13 @@ impl<'a> Call<'a> {
     pub fn wholes(&self, at: usize) -> Result<Option<&'a [i64]>, String> {
         match self.optional(at).map(|tensor| &tensor.values) {
             None => Ok(None),
-            Some(Values::Wholes(values)) => Ok(Some(values)),
-            Some(Values::Floats(_)) => Err(format!("its input {} has floats where whole numbers are expected", at + 1)),
+            Some(TensorValues::Wholes(values)) => {
+                self.spend(&[values.len()])?;
+                Ok(Some(values))
+            }
+            Some(TensorValues::Floats(_)) => {
+                Err(format!("its input {} has floats where whole numbers are expected", at + 1))
+            }
         }
     }
 
@@ -136,10 +143,18 @@ impl<'a> Call<'a> {
     pub fn room(&self, shape: &[usize]) -> Result<usize, String> {
         let count = count(shape).filter(|_| shape.len() <= MOST_AXES);
         let count = count.ok_or_else(|| {
-            format!("its result has the shape {shape:?}; a tensor may have {MOST_NUMBERS} numbers and {MOST_AXES} axes")
+            let shape = listed(shape);
+            format!("its result has the shape {shape}; a tensor may have {MOST_NUMBERS} numbers and {MOST_AXES} axes")
         })?;
-        self.work.spend(Some(count))?;
+        // What is empty along one axis may be walked along another.
+        self.work.spend(Some(shape.iter().map(|size| (*size).max(1)).product()))?;
         Ok(count)
+    }
+
+    /// [`Self::room`] for a result of functions such as the exponential.
+    pub fn functions(&self, shape: &[usize]) -> Result<(), String> {
+        let count = self.room(shape)?;
+        self.spend(&[count, FUNCTION])
     }
 
     /// Counts work: the product of these numbers.

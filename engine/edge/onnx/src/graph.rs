@@ -4,7 +4,7 @@ use crate::attributes::Attribute;
 use crate::file::{File, NodeProto};
 use crate::operators::{OPERATORS, Operator};
 use crate::tensor::Tensor;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Versions of ONNX's operators that are read.
 const OPSETS: std::ops::RangeInclusive<i64> = 13..=24;
@@ -70,6 +70,10 @@ impl Graph {
         let inputs = file.inputs.iter().map(|input| slots.add(&input.name, None)).collect::<Result<Vec<usize>, _>>()?;
         let nodes = std::mem::take(&mut file.nodes);
         let mut nodes = nodes.into_iter().map(|node| of_node(node, &mut slots)).collect::<Result<Vec<Node>, _>>()?;
+        let mut names = BTreeSet::new();
+        if !file.outputs.iter().all(|output| names.insert(&output.name)) {
+            return Err("two of its outputs have one name".to_owned());
+        }
         let outputs = file.outputs.iter().map(|output| slots.by_name.get(&output.name).copied().ok_or(&output.name));
         let outputs =
             outputs.collect::<Result<Vec<usize>, _>>().map_err(|name| format!("no node makes the output `{name}`"))?;

@@ -1,6 +1,6 @@
 //! Networks in ONNX files: an interpreter with the same bytes on every processor.
 //!
-//! * [`Model`]: a file that was read and checked; it runs on [`Tensor`]s.
+//! * [`OnnxModel`]: a file that was read and checked; it runs on [`Tensor`]s.
 //! * `wire`, `file`, `numbers`: protocol buffers, and the messages of ONNX, read in place.
 //! * `operators`: the list of operators, one function each.
 //!
@@ -18,6 +18,6 @@ mod tensor;
 mod wire;
 
 pub use file::{MOST_BYTES, Port};
-pub use model::Model;
+pub use model::OnnxModel;
 pub use operators::OPERATORS;
-pub use tensor::{Kind, Tensor, Values};
+pub use tensor::{Kind, Tensor, TensorValues};

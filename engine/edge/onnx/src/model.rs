@@ -1,25 +1,25 @@
-//! [`Model`]: a network that was read and checked.
+//! [`OnnxModel`]: a network that was read and checked.
 
 use crate::call::{Call, Work};
 use crate::file::{self, Port};
 use crate::graph::Graph;
-use crate::tensor::Tensor;
+use crate::tensor::{Kind, Tensor};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Most numbers that a run holds at a time.
-const MOST_HELD: usize = 1 << 26;
+/// Most numbers that a run holds at a time, where whole numbers count twice: they take twice the memory.
+const MOST_HELD: usize = 1 << 23;
 
 /// A network that was read and checked.
 #[derive(Debug)]
-pub struct Model {
+pub struct OnnxModel {
     metadata: BTreeMap<String, String>,
     inputs: Vec<Port>,
     outputs: Vec<Port>,
     graph: Graph,
 }
 
-impl Model {
+impl OnnxModel {
     /// Reads a file.
     ///
     /// # Errors
@@ -27,6 +27,10 @@ impl Model {
     pub fn read(bytes: &[u8]) -> Result<Self, String> {
         let mut file = file::read(bytes)?;
         let graph = Graph::of(&mut file)?;
+        let numbers: usize = file.inputs.iter().map(held_by).sum();
+        if numbers > MOST_HELD {
+            return Err(format!("its inputs have {numbers} numbers; {MOST_HELD} are allowed"));
+        }
         Ok(Self { metadata: file.metadata, inputs: file.inputs, outputs: file.outputs, graph })
     }
 
@@ -64,7 +68,7 @@ impl Model {
         let graph = &self.graph;
         let mut slots: Vec<Option<Cow<'_, Tensor>>> =
             graph.constants.iter().map(|it| it.as_ref().map(Cow::Borrowed)).collect();
-        let mut held: usize = inputs.iter().map(|input| input.values.len()).sum();
+        let mut held: usize = inputs.iter().map(|input| input.values.held()).sum();
         for (slot, input) in graph.inputs.iter().zip(inputs) {
             slots[*slot] = Some(Cow::Owned(input));
         }
@@ -83,7 +87,7 @@ impl Model {
             }
             for (slot, tensor) in node.outputs.iter().zip(made) {
                 if let Some(slot) = slot {
-                    held += tensor.values.len();
+                    held += tensor.values.held();
                     slots[*slot] = Some(Cow::Owned(tensor));
                 }
             }
@@ -91,11 +95,16 @@ impl Model {
                 return Err(at(format!("{held} numbers are held at a time; {MOST_HELD} are allowed")));
             }
             for slot in &node.over {
-                held -= slots[*slot].take().map_or(0, |tensor| tensor.values.len());
+                held -= slots[*slot].take().map_or(0, |tensor| tensor.values.held());
             }
         }
-        let output = |slot: &usize| slots[*slot].clone().map(Cow::into_owned);
+        let output = |slot: &usize| slots[*slot].take().map(Cow::into_owned);
         let outputs = graph.outputs.iter().map(output).collect::<Option<Vec<_>>>();
         outputs.ok_or_else(|| "an output is not made".to_owned())
     }
+}
+
+/// Numbers that an input holds, where whole numbers count twice.
+fn held_by(port: &Port) -> usize {
+    port.shape.iter().product::<usize>() * if port.kind == Kind::Whole { 2 } else { 1 }
 }

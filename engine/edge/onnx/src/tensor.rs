@@ -44,14 +44,14 @@ const NAMES: [(i64, &str); 10] = [
 
 /// Numbers of a tensor, row by row.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Values {
+pub enum TensorValues {
     /// 32-bit floats.
     Floats(Vec<f32>),
     /// Whole numbers; flags are 0 and 1.
     Wholes(Vec<i64>),
 }
 
-impl Values {
+impl TensorValues {
     /// Kind of the numbers.
     pub fn kind(&self) -> Kind {
         match self {
@@ -65,6 +65,14 @@ impl Values {
         match self {
             Self::Floats(values) => values.len(),
             Self::Wholes(values) => values.len(),
+        }
+    }
+
+    /// Count of the numbers, where whole numbers count twice: they take twice the memory.
+    pub fn held(&self) -> usize {
+        match self {
+            Self::Floats(values) => values.len(),
+            Self::Wholes(values) => 2 * values.len(),
         }
     }
 
@@ -88,18 +96,18 @@ pub struct Tensor {
     /// Sizes of the axes; their product is the count of the values.
     pub shape: Vec<usize>,
     /// The numbers.
-    pub values: Values,
+    pub values: TensorValues,
 }
 
 impl Tensor {
     /// Floats of a shape.
     pub fn floats(shape: &[usize], values: Vec<f32>) -> Self {
-        Self { shape: shape.to_vec(), values: Values::Floats(values) }
+        Self { shape: shape.to_vec(), values: TensorValues::Floats(values) }
     }
 
     /// Whole numbers of a shape.
     pub fn wholes(shape: &[usize], values: Vec<i64>) -> Self {
-        Self { shape: shape.to_vec(), values: Values::Wholes(values) }
+        Self { shape: shape.to_vec(), values: TensorValues::Wholes(values) }
     }
 
     /// Zeros of a kind and a shape.
@@ -122,6 +130,14 @@ pub fn count(shape: &[usize]) -> Option<usize> {
     let product = |count: usize, size: &usize| count.checked_mul((*size).max(1)).filter(|count| *count <= MOST_NUMBERS);
     let most = shape.iter().try_fold(1, product)?;
     Some(if shape.contains(&0) { 0 } else { most })
+}
+
+/// The first numbers of a list, for errors: it may have millions.
+pub fn listed(list: &[impl core::fmt::Debug]) -> String {
+    match list.split_at_checked(MOST_AXES) {
+        Some((first, rest)) if !rest.is_empty() => format!("{first:?} and {} more", rest.len()),
+        _ => format!("{list:?}"),
+    }
 }
 
 /// Steps from one number to the next along each axis.

@@ -3,7 +3,7 @@
 //! `tests/outside/make_onnx_cases.py` makes the cases.
 
 use cosfly_fingerprint::Digest;
-use cosfly_onnx::{Model, OPERATORS, Tensor, Values};
+use cosfly_onnx::{OPERATORS, OnnxModel, Tensor, TensorValues};
 use serde_json::Value;
 use std::path::Path;
 
@@ -27,7 +27,7 @@ fn is_near(ours: &Tensor, theirs: &Tensor) -> bool {
     let near = |(ours, theirs): (&f32, &f32)| (ours - theirs).abs() <= 2e-6 * theirs.abs().max(1.0);
     ours.shape == theirs.shape
         && match (&ours.values, &theirs.values) {
-            (Values::Floats(ours), Values::Floats(theirs)) => ours.iter().zip(theirs).all(near),
+            (TensorValues::Floats(ours), TensorValues::Floats(theirs)) => ours.iter().zip(theirs).all(near),
             (ours, theirs) => ours == theirs,
         }
 }
@@ -41,7 +41,7 @@ fn every_operator_gives_the_numbers_of_the_reference_and_the_same_bits_everywher
     for path in paths {
         let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
         let model =
-            Model::read(&std::fs::read(&path).expect("readable")).unwrap_or_else(|what| panic!("{name}: {what}"));
+            OnnxModel::read(&std::fs::read(&path).expect("readable")).unwrap_or_else(|what| panic!("{name}: {what}"));
         let case: Value = serde_json::from_str(model.metadata("case").expect("a case")).expect("JSON");
         let tensors = |name: &str| case[name].as_array().expect("a list").iter().map(tensor).collect::<Vec<Tensor>>();
         let made = model.run(tensors("inputs")).unwrap_or_else(|what| panic!("{name}: {what}"));
@@ -50,8 +50,8 @@ fn every_operator_gives_the_numbers_of_the_reference_and_the_same_bits_everywher
         for (ours, theirs) in made.iter().zip(&wanted) {
             assert!(is_near(ours, theirs), "{name}: {ours:?} instead of {theirs:?}");
             match &ours.values {
-                Values::Floats(values) => bits.extend(values.iter().flat_map(|value| value.to_le_bytes())),
-                Values::Wholes(values) => bits.extend(values.iter().flat_map(|value| value.to_le_bytes())),
+                TensorValues::Floats(values) => bits.extend(values.iter().flat_map(|value| value.to_le_bytes())),
+                TensorValues::Wholes(values) => bits.extend(values.iter().flat_map(|value| value.to_le_bytes())),
             }
         }
         tested.extend(OPERATORS.iter().filter(|it| name.replace('_', "").starts_with(&it.name.to_lowercase())));

@@ -227,16 +227,18 @@ struct Places {
     direction: [PixelLane; 2],
     at_m: [PixelLane; 2],
     strength: PixelLane,
+    /// Wear of the whole lane, where it has no tracks.
+    evenly: PixelLane,
     seed: [u32; WIDE],
 }
 
 simd_kernel! {
     /// Darkens and mends asphalt that is painted already.
     pub fn worn(shared: &[Shared], blocks: &mut [Block], wear: &LaneWear, noise: &NoiseTexture) {
-        let mut places =
-            Places { direction: [[0.0; WIDE]; 2], at_m: [[0.0; WIDE]; 2], strength: [0.0; WIDE], seed: [0; WIDE] };
+        let (none, seed) = ([0.0; WIDE], [0; WIDE]);
+        let mut places = Places { direction: [none; 2], at_m: [none; 2], strength: none, evenly: none, seed };
         for (shared, four) in groups(shared, blocks) {
-            let (mut strongest, mut evenly, mut most_evenly) = (0.0f32, [0.0f32; WIDE], 0.0f32);
+            let (mut strongest, mut most_evenly) = (0.0f32, 0.0f32);
             for k in 0..WIDE {
                 let middle = get(&shared.middle, k);
                 let near = 1.0 - smoothstep(0.4 * COARSE_M, COARSE_M, most(shared.along_m[k], shared.up_m[k]));
@@ -247,16 +249,17 @@ simd_kernel! {
                 }
                 places.strength[k] = place.strength * near;
                 places.seed[k] = place.seed;
-                evenly[k] = (near - places.strength[k]) * (1.0 - smoothstep(1.2, REACH_M as f32, place.at_m[1].abs()));
+                places.evenly[k] =
+                    (near - places.strength[k]) * (1.0 - smoothstep(1.2, REACH_M as f32, place.at_m[1].abs()));
                 strongest = most(strongest, places.strength[k]);
-                most_evenly = most(most_evenly, evenly[k]);
+                most_evenly = most(most_evenly, places.evenly[k]);
             }
             if most_evenly > 0.0 {
                 for block in &mut *four {
                     for k in 0..WIDE {
                         let (point, size) = (get(&block.world, k), shared.footprint_m[k]);
                         let uneven = noise.clumps(point.x * 1.7, point.y * 1.7, size * 1.7);
-                        let kept = 1.0 - evenly[k] * EVENLY * (0.4 + 1.2 * uneven);
+                        let kept = 1.0 - places.evenly[k] * EVENLY * (0.4 + 1.2 * uneven);
                         let albedo = get(&block.albedo, k) * kept;
                         set(&mut block.albedo, k, albedo);
                     }

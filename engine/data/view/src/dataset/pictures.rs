@@ -2,11 +2,11 @@
 
 use super::opened::Opened;
 use crate::inside::inside;
-use crate::subject::{Picture, unknown};
+use crate::subject::{ViewedPicture, unknown};
+use cosfly_channel_pictures::false_colours::{depth_preview, palette_image, picture_on_request};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::channels::{self, Element};
 use cosfly_domain::{Channel, SemanticLabel};
-use cosfly_images::false_colours::{depth_preview, palette_image, picture_on_request};
 use cosfly_images::rgb;
 use cosfly_read::{ImageLog, StoredImage};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -63,7 +63,7 @@ impl FlightLog {
     ///
     /// # Errors
     /// `view-unknown`, damage of the log.
-    pub fn picture(&self, frame: usize, channel: &str) -> Result<Picture> {
+    pub fn picture(&self, frame: usize, channel: &str) -> Result<ViewedPicture> {
         let channel = channels::called(channel).filter(|it| self.log.channels().any(|known| known == it.name));
         let channel = channel.ok_or_else(|| unknown("such channel in the log"))?;
         match self.log.image(channel, frame)? {
@@ -76,7 +76,7 @@ impl FlightLog {
 }
 
 /// A stored file: what it is says its beginning, whatever its format is called.
-fn file(bytes: Vec<u8>) -> Result<Picture> {
+fn file(bytes: Vec<u8>) -> Result<ViewedPicture> {
     let media_type = match &bytes[..] {
         [0xff, 0xd8, 0xff, ..] => "image/jpeg",
         [0x89, b'P', b'N', b'G', ..] => "image/png",
@@ -85,11 +85,11 @@ fn file(bytes: Vec<u8>) -> Result<Picture> {
             return Err(Diagnostic::new("view-image", Fault::Input, message).hint("`cosfly verify` says more"));
         }
     };
-    Ok(Picture { media_type, bytes })
+    Ok(ViewedPicture { media_type, bytes })
 }
 
 /// Pixels that are no colours, in colours.
-fn coloured(channel: &Channel, data: &[u8], [width, height]: [u32; 2], pixel_bytes: usize) -> Result<Picture> {
+fn coloured(channel: &Channel, data: &[u8], [width, height]: [u32; 2], pixel_bytes: usize) -> Result<ViewedPicture> {
     let (mut bytes, mut media_type) = (vec![], "image/png");
     match channel.element() {
         Element::Float => {
@@ -105,7 +105,7 @@ fn coloured(channel: &Channel, data: &[u8], [width, height]: [u32; 2], pixel_byt
         Element::Id => rgb::png(&ids(data, pixel_bytes), width, height, &mut bytes)?,
         _ => rgb::png(&picture_on_request(channel, data), width, height, &mut bytes)?,
     }
-    Ok(Picture { media_type, bytes })
+    Ok(ViewedPicture { media_type, bytes })
 }
 
 /// Ids in colours that tell neighbours apart; 0 is black, 1 (the target) white.

@@ -4,23 +4,25 @@ use super::opened::Opened;
 use super::pictures::Logs;
 use super::summary::{Summary, light, summaries, sun_deg};
 use super::{around, flight};
-use crate::subject::{Index, Picture, Subject, unknown};
+use crate::subject::{Index, ViewSubject, ViewedPicture, unknown};
 use cosfly_diagnose::{Result, Stop};
 use cosfly_read::PublishedFlight;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 /// Most flights of the index; the page keeps it in memory.
 const MOST_FLIGHTS: usize = 50_000;
+/// Most towns that are kept.
+const MOST_TOWNS: usize = 8;
 
 /// A published dataset.
 pub struct DatasetSubject {
     opened: Opened,
     summaries: Vec<Summary>,
     logs: Logs,
-    towns: Mutex<BTreeMap<String, Value>>,
+    /// Boxes of the towns that were asked for last, the newest at the end.
+    towns: Mutex<Vec<(String, Value)>>,
 }
 
 impl DatasetSubject {
@@ -35,7 +37,7 @@ impl DatasetSubject {
     }
 }
 
-impl Subject for DatasetSubject {
+impl ViewSubject for DatasetSubject {
     fn about(&self) -> Result<Value> {
         let flights = self.opened.dataset.flights().len();
         Ok(json!({
@@ -97,15 +99,18 @@ impl Subject for DatasetSubject {
     fn town(&self, number: usize) -> Result<Value> {
         let town = &self.opened.at(number)?.town;
         let mut known = self.towns.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(boxes) = known.get(town) {
-            return Ok(boxes.clone());
+        let boxes = match known.iter().position(|(known, _)| known == town) {
+            Some(at) => known.remove(at).1,
+            None => around::town(&self.opened.dataset, town)?,
+        };
+        known.push((town.clone(), boxes.clone()));
+        if known.len() > MOST_TOWNS {
+            known.remove(0);
         }
-        let boxes = around::town(&self.opened.dataset, town)?;
-        known.insert(town.clone(), boxes.clone());
         Ok(boxes)
     }
 
-    fn picture(&self, number: usize, frame: usize, channel: &str) -> Result<Picture> {
+    fn picture(&self, number: usize, frame: usize, channel: &str) -> Result<ViewedPicture> {
         let flight = self.opened.at(number)?;
         if frame >= flight.frames {
             return Err(unknown(format!("frame {frame}: there are {}, from 0", flight.frames)));

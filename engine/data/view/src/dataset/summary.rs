@@ -3,7 +3,7 @@
 use super::causes::Causes;
 use cosfly_diagnose::{Result, Stop};
 use cosfly_frames::real;
-use cosfly_read::{PublishedDataset, PublishedFlight, Rows, Values, read};
+use cosfly_read::{PublishedDataset, PublishedFlight, RowValues, Rows, read};
 use cosfly_schema::tables::Frames;
 use std::collections::BTreeMap;
 
@@ -59,18 +59,18 @@ struct Loss {
 
 /// The columns of table `frames` that are read.
 struct Columns<'f> {
-    ids: Values<'f, String>,
-    pixels: Values<'f, u32>,
-    by_pixels: Values<'f, f64>,
-    by_rays: Values<'f, f64>,
-    in_view: Values<'f, bool>,
-    occluders: Values<'f, u32>,
-    clearance: Values<'f, f64>,
-    distance: Values<'f, f64>,
-    camera_yaw: Values<'f, f64>,
-    camera_pitch: Values<'f, f64>,
-    look_alikes: Values<'f, u32>,
-    place: [Values<'f, f64>; 2],
+    ids: RowValues<'f, String>,
+    pixels: RowValues<'f, u32>,
+    by_pixels: RowValues<'f, f64>,
+    by_rays: RowValues<'f, f64>,
+    in_view: RowValues<'f, bool>,
+    occluders: RowValues<'f, u32>,
+    clearance: RowValues<'f, f64>,
+    distance: RowValues<'f, f64>,
+    camera_yaw: RowValues<'f, f64>,
+    camera_pitch: RowValues<'f, f64>,
+    look_alikes: RowValues<'f, u32>,
+    place: [RowValues<'f, f64>; 2],
 }
 
 /// Summaries of all flights of a dataset, in its order.
@@ -139,8 +139,11 @@ impl Pass {
                 self.loss = Loss { begin: frame, ..Loss::default() };
             }
             self.loss.frames += 1;
-            self.loss.out_of_view += usize::from(!columns.in_view.at(row)?);
-            *self.loss.causes.entry(columns.occluders.at(row)?).or_default() += 1;
+            if columns.in_view.at(row)? {
+                *self.loss.causes.entry(columns.occluders.at(row)?).or_default() += 1;
+            } else {
+                self.loss.out_of_view += 1;
+            }
             if self.loss.frames > self.longest.frames {
                 self.longest = self.loss.clone();
             }
@@ -169,7 +172,7 @@ impl Pass {
                 let cause = match most {
                     _ if 2 * self.longest.out_of_view > frames => "out of view".to_owned(),
                     Some((cause, _)) => format!("hidden by {}", causes.words(&flight.town, *cause)),
-                    None => "hidden".to_owned(),
+                    None => "out of view".to_owned(),
                 };
                 let begin = self.longest.begin;
                 (begin + frames / 2, format!("{cause} for {losses_s:.1} s from frame {begin}"))

@@ -4,7 +4,7 @@ use super::gate::{Caller, Gate};
 use super::request::{NoRequest, Request};
 use super::response::Response;
 use crate::routes::answer;
-use crate::subject::Subject;
+use crate::subject::ViewSubject;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::io::{ErrorKind, Read};
 use std::net::{Ipv4Addr, Shutdown, TcpListener, TcpStream};
@@ -53,7 +53,7 @@ impl Server {
     }
 
     /// Answers requests until `stop` is set.
-    pub fn serve(&self, subject: &dyn Subject, stop: &AtomicBool) {
+    pub fn serve(&self, subject: &dyn ViewSubject, stop: &AtomicBool) {
         let open = AtomicUsize::new(0);
         std::thread::scope(|scope| {
             while !stop.load(Ordering::SeqCst) {
@@ -69,6 +69,9 @@ impl Server {
                     Ok((stream, _)) => {
                         _ = stream.set_write_timeout(Some(READ));
                         _ = Response::refusal(503, "too many connections").write(&mut &stream, false, false);
+                        // What has come is taken; nobody waits for more.
+                        _ = stream.set_nonblocking(true);
+                        end(&stream);
                     }
                     Err(error) if error.kind() == ErrorKind::WouldBlock => std::thread::sleep(LOOK),
                     // Such as too many open files: others end meanwhile.
@@ -79,7 +82,7 @@ impl Server {
     }
 
     /// Answers the requests of a connection.
-    fn attend(&self, stream: &TcpStream, subject: &dyn Subject, stop: &AtomicBool) {
+    fn attend(&self, stream: &TcpStream, subject: &dyn ViewSubject, stop: &AtomicBool) {
         let is_set = stream.set_nonblocking(false).is_ok()
             && stream.set_read_timeout(Some(READ)).is_ok()
             && stream.set_write_timeout(Some(WRITE)).is_ok()
@@ -103,7 +106,7 @@ impl Server {
         }
     }
 
-    fn response(&self, request: &Request, subject: &dyn Subject) -> Response {
+    fn response(&self, request: &Request, subject: &dyn ViewSubject) -> Response {
         match self.gate.check(request) {
             Ok(Caller::Known) => answer(request, subject),
             Ok(Caller::New(cookie)) => answer(request, subject).with_cookie(cookie),

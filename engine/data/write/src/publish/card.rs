@@ -88,7 +88,8 @@ fn front_matter(config: &DatasetConfig, summary: &Summary) -> String {
         1_000_000..10_000_000 => "1M<n<10M",
         _ => "10M<n<100M",
     };
-    let _ = writeln!(text, "size_categories:\n- {size}\nlanguage:\n- en\n- zh\ntask_categories:\n- robotics");
+    let languages: String = summary.text_languages().iter().map(|code| format!("- {code}\n")).collect();
+    let _ = writeln!(text, "size_categories:\n- {size}\nlanguage:\n{languages}task_categories:\n- robotics");
     text.push_str("- depth-estimation\n- image-segmentation\n- image-text-to-text\n");
     text.push_str("tags:\n- croissant\n- mcap\n- drone\n- uav\n- tracking\n- trajectory\n- synthetic\nconfigs:\n");
     table_names().iter().for_each(|name| text.push_str(&config_entry(name, summary)));

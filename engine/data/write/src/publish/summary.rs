@@ -168,6 +168,11 @@ impl Summary {
         ])
     }
 
+    /// Languages of all texts: those of the captions; columns of tables are English and Chinese in every dataset.
+    pub fn text_languages(&self) -> BTreeSet<&str> {
+        self.languages.iter().map(String::as_str).chain(["en", "zh"]).collect()
+    }
+
     /// Mean visibility by rays, of expert and of perturbed flights each, in words: twins are perturbed to lose sight of the target, so
     /// one figure for both would describe neither.
     pub fn mean_visibility(&self) -> String {

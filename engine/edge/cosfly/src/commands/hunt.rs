@@ -11,13 +11,13 @@ use cosfly_env::EnvironmentSettings;
 use cosfly_fly::flight::Latency;
 use cosfly_fly::hunt::found;
 use cosfly_fly::hunt::pool::{Draw, Pool, draws};
-use cosfly_fly::hunt::range::Range;
+use cosfly_fly::hunt::range::HuntRange;
 use cosfly_fly::hunt::scouts::{Scouting, scout};
 use cosfly_fly::hunt::search::{Hunted, Search, hunt};
 use cosfly_fly::pilot::Place;
 use cosfly_fly::results::{Card, EnvironmentCard, Folder, KeptCard, LogChoice, SuiteCard};
-use cosfly_fly::run::{Order, Shard};
-use cosfly_fly::suite::{NO_EPISODE, Part, Suite};
+use cosfly_fly::run::{EpisodeShare, Order};
+use cosfly_fly::suite::{NO_EPISODE, Suite, SuitePart};
 use cosfly_recipe::Recipe;
 use cosfly_runner::RunOptions;
 use cosfly_store::{Store, check_out_folder};
@@ -40,14 +40,14 @@ Each candidate is an episode of the recipe with another seed (other places, walk
 Without `--vary` these are latency, losses of sight and, for quadrotors, wind. Baselines fly every candidate first; candidates in which the
 expert fails are left out. Then the policy flies as many as the budget has, the likeliest failures first; each flight tells of the next.
 The folder gets the rows, failures.toml (a benchmark of the failures) and training.toml (a recipe of training data around them). The same
-command goes on with what a folder lacks. Exits with 1 when the policy could not be had."
+command goes on with what a folder lacks. Exits with 5 when the policy could not be had."
 )]
 pub struct Arguments {
     #[command(flatten)]
     recipe: RecipeArguments,
     #[command(flatten)]
     store: StoreArguments,
-    /// The policy: ws://HOST:PORT, python:MODULE:FUNCTION, or the name of a baseline
+    /// The policy: ws://HOST:PORT, python:MODULE:FUNCTION, onnx:FILE, or the name of a baseline
     #[arg(long, value_name = "POLICY")]
     policy: String,
     /// Name of the policy in the result [default: made from its place]
@@ -68,7 +68,7 @@ pub struct Arguments {
     #[arg(long, value_enum, value_name = "ORDER", default_value_t = SearchChoice::Likeliest)]
     search: SearchChoice,
     /// Seed of the draws [default: that of the recipe]
-    #[arg(long, value_name = "SEED")]
+    #[arg(long, value_name = "SEED", value_parser = clap::value_parser!(u64).range(..=i64::MAX.unsigned_abs()))]
     seed: Option<u64>,
     /// Folder of the hunt [default: out/hunt/<recipe name>/<policy>]
     #[arg(long, value_name = "DIR")]
@@ -81,7 +81,7 @@ pub struct Arguments {
     json: bool,
 }
 
-/// Most worlds without an episode that a hunt passes over.
+/// Most worlds without an episode, one after another, that a hunt passes over.
 const MOST_BARREN: usize = 20;
 
 /// Order of the candidates.
@@ -96,14 +96,15 @@ enum SearchChoice {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let place = Place::read(&self.policy)?;
-        let ranges = self.vary.iter().map(|text| Range::read(text)).collect::<Result<Vec<_>, _>>()?;
+        let ranges = self.vary.iter().map(|text| HuntRange::read(text)).collect::<Result<Vec<_>, _>>()?;
         let recipe = self.recipe.load(console)?;
         if self.recipe.recipe == Path::new("-") {
             let message = "a recipe from standard input cannot be hunted in: the suite that is found names its file";
             return Err(Diagnostic::new("hunt-recipe", Fault::Recipe, message).hint("give the path of a file").into());
         }
-        let ranges = if ranges.is_empty() { Range::of_flights(&recipe) } else { ranges };
+        let ranges = if ranges.is_empty() { HuntRange::of_flights(&recipe) } else { ranges };
         let manners = self.asked.manners()?;
+        self.asked.check(&place)?;
         let name = self.name.clone().unwrap_or_else(|| place.name());
         let default = || PathBuf::from("out").join("hunt").join(&recipe.name).join(&name);
         let out = self.out.clone().unwrap_or_else(default);
@@ -111,7 +112,8 @@ impl Command for Arguments {
         let store = self.store.open()?;
         let jobs = self.jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from);
         let pool = self.pool(&recipe, &ranges, &store, jobs, console)?;
-        let settings: Vec<EnvironmentSettings> = pool.suite.parts.iter().map(|part| self.settings(part)).collect();
+        let parts = pool.suite.parts.iter();
+        let settings = parts.map(|part| self.settings(part, &place)).collect::<cosfly_diagnose::Result<Vec<_>>>()?;
         let card = self.card(&pool, &place, &name, &settings);
         let folder = Folder::open(&out, &card)?;
         let cancelled = console.cancelled();
@@ -119,7 +121,7 @@ impl Command for Arguments {
         let scouting = Scouting { settings: &settings, manners: &manners, jobs, cancelled: &cancelled };
         let told = scout(&pool, &scouting, &*console.progress("fly baselines in", "candidates"))?;
         let (suite, place, manners, settings) = (&pool.suite, &place, &manners, &settings[..]);
-        let (latency, shard, cancelled) = (Latency::Simulated, Shard::WHOLE, &*cancelled);
+        let (latency, shard, cancelled) = (Latency::Simulated, EpisodeShare::WHOLE, &*cancelled);
         let order = Order { suite, place, manners, settings, latency, shard, jobs, cancelled };
         let search = match self.search {
             SearchChoice::Likeliest => Search::Likeliest,
@@ -128,7 +130,7 @@ impl Command for Arguments {
         let progress = console.progress("hunt", "episodes");
         let hunted = hunt(&pool, &told, &order, (search, self.budget), &folder, &*progress)?;
         drop(progress);
-        self.tell(&recipe, &pool, &hunted, &out, console)?;
+        self.tell((&recipe, name.as_str()), &pool, &hunted, &out, console)?;
         Ok(exit::SUCCESS)
     }
 }
@@ -144,7 +146,7 @@ impl Arguments {
     fn pool(
         &self,
         recipe: &Recipe,
-        ranges: &[Range],
+        ranges: &[HuntRange],
         store: &Store,
         jobs: usize,
         console: &dyn Console,
@@ -161,7 +163,7 @@ impl Arguments {
             let mut known: Option<Suite> = None;
             for draw in draws(&recipe.name, self.seed.unwrap_or(recipe.seed), ranges, world) {
                 let recipe = self.drawn(&draw, console)?;
-                let part = Part::of(&recipe)?;
+                let part = SuitePart::of(&recipe)?;
                 let suite = match known {
                     Some(ref suite) => suite.clone(),
                     None => match Suite::make(&recipe, store, &options, &|_| ()) {
@@ -169,7 +171,10 @@ impl Arguments {
                             barren += 1;
                             break;
                         }
-                        made => made?,
+                        made => {
+                            barren = 0;
+                            made?
+                        }
                     },
                 };
                 made += suite.tasks.len();
@@ -182,8 +187,14 @@ impl Arguments {
         Ok(Pool::of(format!("{}_hunt", recipe.name), suites, all, self.pool))
     }
 
-    fn settings(&self, part: &Part) -> EnvironmentSettings {
-        EnvironmentSettings { sensors: self.asked.sensors(), ..part.settings.environment() }
+    fn settings(&self, part: &SuitePart, place: &Place) -> cosfly_diagnose::Result<EnvironmentSettings> {
+        let actions = self.asked.actions(place);
+        if part.settings.drone.parameters.is_none() && actions.is_of_rotors() {
+            let message = format!("a point mass takes no actions of the kind `{}`", actions.name());
+            let refusal = Diagnostic::new("fly-drone", Fault::Recipe, message);
+            return Err(refusal.hint("choose a quadrotor: `--set tool.fly.drone=pelican`"));
+        }
+        Ok(EnvironmentSettings { sensors: self.asked.sensors(place), ..part.settings.environment() })
     }
 
     fn card(&self, pool: &Pool, place: &Place, name: &str, settings: &[EnvironmentSettings]) -> Card {
@@ -201,7 +212,7 @@ impl Arguments {
     /// Writes the suite and the recipe, and prints the outcome.
     fn tell(
         &self,
-        recipe: &Recipe,
+        (recipe, policy): (&Recipe, &str),
         pool: &Pool,
         hunted: &Hunted,
         out: &Path,
@@ -218,7 +229,7 @@ impl Arguments {
             let folder = absolute(out)?;
             let changes = &self.recipe.overrides;
             let file = found::beside(&folder, &absolute(&self.recipe.recipe)?);
-            let suite = found::suite(pool, &format!("{}_hunt", recipe.name), &failures, changes, &file);
+            let suite = found::suite(pool, &format!("{}_{policy}_hunt", recipe.name), &failures, changes, &file);
             write(&out.join("failures.toml"), &suite)?;
             let worst = found::worst(pool, &failures).into_iter();
             let worst = worst.map(|part| self.drawn(&pool.draws[part], console)).collect::<Result<Vec<_>, _>>()?;

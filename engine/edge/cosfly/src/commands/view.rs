@@ -11,7 +11,7 @@ use crate::exit;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_view::{DatasetSubject, Server, Subject, export};
+use cosfly_view::{DatasetSubject, Server, ViewSubject, export};
 use cosfly_whole::write_file;
 use recipe::RecipeSubject;
 use results::ResultsSubject;
@@ -70,7 +70,7 @@ impl Command for Arguments {
 
 impl Arguments {
     /// What is shown.
-    fn open(&self, console: &dyn Console) -> Result<Box<dyn Subject>, Refusals> {
+    fn open(&self, console: &dyn Console) -> Result<Box<dyn ViewSubject>, Refusals> {
         let path = &self.subject;
         if results::is_of_results(path) {
             return Ok(Box::new(ResultsSubject::open(path)?));
@@ -84,7 +84,7 @@ impl Arguments {
     }
 
     /// Writes the page into a file.
-    fn write(&self, subject: &dyn Subject, path: &Path, console: &dyn Console) -> Outcome {
+    fn write(&self, subject: &dyn ViewSubject, path: &Path, console: &dyn Console) -> Outcome {
         let index = subject.index()?;
         if index.is_empty() {
             let message = format!("`{}` has no flights to export", self.subject.display());

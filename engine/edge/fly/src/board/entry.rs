@@ -24,6 +24,8 @@ pub enum Proof {
     /// The actions were flown again here and came to the same rows, byte for byte. Where the policy was run and gave other actions, in
     /// words.
     Reflown(Vec<String>),
+    /// The actions came to the same rows; the policy could not be run. Why, in words.
+    NotRun(Vec<String>),
     /// They came to other rows: the scores are a claim. Where they differ, in words.
     Claimed(Vec<String>),
 }
@@ -33,16 +35,16 @@ impl Proof {
     pub fn word(&self) -> &'static str {
         match self {
             Self::Rerun => "re-run",
-            Self::Reflown(_) => "re-flown",
+            Self::Reflown(_) | Self::NotRun(_) => "re-flown",
             Self::Claimed(_) => "claimed",
         }
     }
 
-    /// What came out differently, in words, an entry for each episode.
+    /// What came out differently, in words, an entry for each episode; or why the policy could not be run.
     pub fn differs(&self) -> &[String] {
         match self {
             Self::Rerun => &[],
-            Self::Reflown(differ) | Self::Claimed(differ) => differ,
+            Self::Reflown(differ) | Self::NotRun(differ) | Self::Claimed(differ) => differ,
         }
     }
 }

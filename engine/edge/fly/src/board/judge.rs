@@ -131,9 +131,9 @@ struct Kept {
 /// A policy that was run again.
 #[derive(Serialize, Deserialize)]
 struct Rerun {
-    /// What it sees.
+    /// What it sees; nothing where it could not be run.
     sees: Vec<String>,
-    /// Where it gives other actions, in words.
+    /// Where it gives other actions, or why it could not be run, in words.
     differ: Vec<String>,
 }
 
@@ -182,6 +182,7 @@ impl Bench<'_> {
         let proof = match rerun {
             _ if !differ.is_empty() => Proof::Claimed(differ),
             Some(rerun) if rerun.differ.is_empty() => Proof::Rerun,
+            Some(rerun) if rerun.sees.is_empty() => Proof::NotRun(rerun.differ),
             rerun => Proof::Reflown(rerun.map_or(vec![], |rerun| rerun.differ)),
         };
         Ok(Entry { file: name.to_owned(), card, suite, rows, notes, sees, proof, clip })

@@ -144,14 +144,16 @@ fn line(standing: &Standing) -> String {
     html
 }
 
-/// Name of the policy, with its version, and its link where it has one.
+/// Name of the policy, with its version, the baseline that it is where that has another name, and its link where it has one.
 fn name(standing: &Standing) -> String {
     let policy = &standing.entry.card.policy;
     let name = escaped(&short(&policy.name));
     let version = policy.version.as_ref().map_or(String::new(), |version| format!(" {}", escaped(&short(version))));
+    let baseline = policy.baseline.as_ref().filter(|baseline| **baseline != policy.name);
+    let baseline = baseline.map_or(String::new(), |baseline| format!(" (baseline {})", escaped(&short(baseline))));
     match &standing.entry.notes.link {
-        Some(link) => format!("<a href=\"{}\" rel=\"nofollow noopener\">{name}</a>{version}", escaped(link)),
-        None => format!("{name}{version}"),
+        Some(link) => format!("<a href=\"{}\" rel=\"nofollow noopener\">{name}</a>{version}{baseline}", escaped(link)),
+        None => format!("{name}{version}{baseline}"),
     }
 }
 
@@ -221,7 +223,7 @@ fn words() -> String {
      <p><b>Re-flown</b>: the recorded actions were flown again here and came to the same rows, byte for byte. So \
      these actions give these scores. It does not prove who gave the actions, or what they saw: a rank is one of actions.</p>\
      <p><b>Claimed</b>: the actions came to other rows here, so that the scores are a claim.</p>\
-     <p><b>PolicySees</b>: what the maker of the entry says, or else all that the policy was sent. An entry that flies the expert&#39;s \
+     <p><b>Sees</b>: what the maker of the entry says, or else all that the policy was sent. An entry that flies the expert&#39;s \
      flight counts as one that knows the world, whatever it says.</p></div>"
         .to_owned()
 }

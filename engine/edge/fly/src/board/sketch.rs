@@ -1,7 +1,7 @@
 //! [`sketch`]: an episode from above, as a drawing of a few kilobytes that moves without a script.
 
-use crate::log::Line;
-use crate::suite::Task;
+use crate::log::LogLine;
+use crate::suite::EpisodeTask;
 use cosfly_domain::OrientedBox;
 use std::fmt::Write as _;
 
@@ -17,10 +17,10 @@ const MOST_BOXES: usize = 80;
 const FASTER: f64 = 4.0;
 
 /// The drawing of an episode: obstacles, the walk of the target, the flight (where the target is not tracked, dashed); nothing without steps.
-pub(super) fn sketch(task: &Task, steps: &[Line]) -> String {
+pub(super) fn sketch(task: &EpisodeTask, steps: &[LogLine]) -> String {
     let Some(last) = steps.last() else { return String::new() };
     let kept = |at: &usize| at.is_multiple_of(steps.len().div_ceil(MOST_POINTS)) || *at + 1 == steps.len();
-    let kept: Vec<&Line> = (0..steps.len()).filter(kept).map(|at| &steps[at]).collect();
+    let kept: Vec<&LogLine> = (0..steps.len()).filter(kept).map(|at| &steps[at]).collect();
     let view = View::around(&kept);
     let drone: Vec<[f64; 2]> = kept.iter().map(|line| view.place(line.position_in_world)).collect();
     let target: Vec<[f64; 2]> = kept.iter().map(|line| view.place(line.target_in_world)).collect();
@@ -56,7 +56,7 @@ struct View {
 }
 
 impl View {
-    fn around(lines: &[&Line]) -> Self {
+    fn around(lines: &[&LogLine]) -> Self {
         let places = || lines.iter().flat_map(|line| [line.position_in_world, line.target_in_world]);
         let ends = |axis: usize| {
             let values = places().map(|place| place[axis]);
@@ -74,7 +74,7 @@ impl View {
 }
 
 /// Footprints of the largest obstacles in view.
-fn obstacles(task: &Task, view: &View) -> Vec<[[f64; 2]; 4]> {
+fn obstacles(task: &EpisodeTask, view: &View) -> Vec<[[f64; 2]; 4]> {
     let is_in_view = |shape: &&OrientedBox| {
         let (low, high) = shape.bounds_in_world();
         let (low, high) = (view.place(low.to_array()), view.place(high.to_array()));

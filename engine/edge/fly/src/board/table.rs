@@ -39,11 +39,12 @@ fn of_standing(it: &Standing) -> Value {
     })
 }
 
-/// What comes out differently, in words: a number of episodes.
+/// What comes out differently, in words: a number of episodes, or the policy that could not be run.
 pub fn differing(it: &Standing) -> String {
     let (count, all) = (it.entry.proof.differs().len(), it.entry.rows.len());
     match it.entry.proof {
         Proof::Claimed(_) => format!("{count} of {all} episodes differ"),
+        Proof::NotRun(_) => "its policy could not be run".to_owned(),
         _ => format!("its policy was run and differs in {count} of {all} episodes"),
     }
 }

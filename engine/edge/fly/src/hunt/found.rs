@@ -4,10 +4,10 @@ use super::pool::Pool;
 use super::search::by_part;
 use super::toml_text::{text, toml};
 use crate::suite::follows;
-use cosfly_recipe::{Recipe, RecipeStage};
+use cosfly_recipe::{Connection, Recipe, RecipeStage};
 use cosfly_stage::PortSource;
 use serde_json::Value;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Component, Path, PathBuf};
 
@@ -56,7 +56,7 @@ pub fn worst(pool: &Pool, failures: &[usize]) -> Vec<usize> {
 /// absolute path of the folder that it will lie in.
 pub fn training(recipes: &[Recipe], name: &str, seed: u64, folder: &Path) -> String {
     let mut written = format!(
-        "# Training data around failures, written by `cosfly hunt`: the worlds in which most were found, with walks of another seed.\n\
+        "# Training data around failures, written by `cosfly hunt`: the values of the worlds in which most were found, with walks of another seed.\n\
          name = {}\nseed = {seed}\n",
         text(&safe(name))
     );
@@ -65,7 +65,7 @@ pub fn training(recipes: &[Recipe], name: &str, seed: u64, folder: &Path) -> Str
         let called = |stage: usize| text(&format!("{}_{number}", recipe.stages[stage].name.recipe_name()));
         for at in needed(recipe) {
             let stage = &recipe.stages[at];
-            write_stage(&mut written, stage, &called, at, folder);
+            write_stage(&mut written, recipe, &called, at, folder);
             let town = stage.connection("town").and_then(|town| town.upstreams.first().copied()).map(called);
             let Some(town) = town.filter(|_| follows(stage)) else { continue };
             let (flights, place) = (called(at), films.len() + 1);
@@ -89,16 +89,21 @@ pub fn training(recipes: &[Recipe], name: &str, seed: u64, folder: &Path) -> Str
 }
 
 /// Writes a stage with the number of its recipe at its name and at those of its inputs.
-fn write_stage(written: &mut String, stage: &RecipeStage, called: &dyn Fn(usize) -> String, at: usize, folder: &Path) {
+fn write_stage(written: &mut String, recipe: &Recipe, called: &dyn Fn(usize) -> String, at: usize, folder: &Path) {
+    let stage = &recipe.stages[at];
+    let parts = || recipe.stages.iter().filter(|it| it.name.recipe_name() == stage.name.recipe_name());
+    let connections = parts().flat_map(|part| &part.connections).filter(|it| it.port.source == PortSource::Recipe);
+    // Parts share inputs.
+    let inputs: BTreeMap<&str, &Connection> = connections.map(|it| (it.port.name, it)).collect();
     let _ = write!(written, "\n[stages.{}]\nuse = {}\n", called(at), text(&stage.kind));
-    for connection in stage.connections.iter().filter(|it| it.port.source == PortSource::Recipe) {
+    for (port, connection) in inputs {
         let upstreams: Vec<String> = connection.upstreams.iter().map(|upstream| called(*upstream)).collect();
         let _ = match &upstreams[..] {
-            [one] => writeln!(written, "inputs.{} = {one}", connection.port.name),
-            all => writeln!(written, "inputs.{} = [{}]", connection.port.name, all.join(", ")),
+            [one] => writeln!(written, "inputs.{port} = {one}"),
+            all => writeln!(written, "inputs.{port} = [{}]", all.join(", ")),
         };
     }
-    for (key, value) in parameters(stage, folder).as_object().into_iter().flatten() {
+    for (key, value) in parameters(stage, parts(), folder).as_object().into_iter().flatten() {
         let _ = writeln!(written, "{} = {}", text(key), toml(value));
     }
 }
@@ -117,10 +122,10 @@ fn needed(recipe: &Recipe) -> BTreeSet<usize> {
     needed
 }
 
-/// Parameters of a stage, with files as seen from a folder.
-fn parameters(stage: &RecipeStage, folder: &Path) -> Value {
+/// Parameters of a stage, with the files of its parts as seen from a folder.
+fn parameters<'r>(stage: &RecipeStage, parts: impl Iterator<Item = &'r RecipeStage>, folder: &Path) -> Value {
     let mut parameters = stage.parameters.clone();
-    for source in &stage.sources {
+    for source in parts.flat_map(|part| &part.sources) {
         let pointer = format!("/{}", source.parameter.replace('.', "/"));
         let path = std::path::absolute(&source.path).unwrap_or_else(|_| source.path.clone());
         let path = path.canonicalize().unwrap_or(path);

@@ -3,7 +3,7 @@
 //! A *world* is a seed and values that change towns, walks and crowds; its episodes are made once and flown in several *airs*: values of
 //! `[tool.fly]`. Draw number `n` is the same in every hunt with the same seed, however many there are.
 
-use super::range::{Drawn, Range};
+use super::range::{DrawnChange, HuntRange};
 use crate::benchmark::Tier;
 use crate::suite::Suite;
 use cosfly_frames::Seed;
@@ -23,13 +23,13 @@ pub struct Draw {
 }
 
 /// The draws of a world: one for each air.
-pub fn draws(name: &str, seed: u64, ranges: &[Range], world: usize) -> Vec<Draw> {
+pub fn draws(name: &str, seed: u64, ranges: &[HuntRange], world: usize) -> Vec<Draw> {
     let of = |purpose: &str, number: u64| Seed::of_item(seed, "hunt", name).child(purpose, number).stream("values");
-    let (air, ground): (Vec<&Range>, Vec<&Range>) = ranges.iter().partition(|range| range.is_of_air());
+    let (air, ground): (Vec<&HuntRange>, Vec<&HuntRange>) = ranges.iter().partition(|range| range.is_of_air());
     let mut stream = of("world", world as u64);
     // Whole numbers of TOML have a sign.
     let world_seed = stream.bits() >> 1;
-    let values: Vec<Drawn> = ground.iter().map(|range| range.drawn(&mut stream)).collect();
+    let values: Vec<DrawnChange> = ground.iter().map(|range| range.drawn(&mut stream)).collect();
     let airs = if air.is_empty() { 1 } else { AIRS };
     let draw = |number: u64| {
         let mut stream = of("air", world as u64 * AIRS + number);
@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn draws_are_the_same_again_and_airs_share_their_world() {
         let ranges = ["tool.fly.latency_ms=0..400", "stages.walkers.speed.mean_mps=1..2"];
-        let ranges = ranges.map(|range| Range::read(range).expect("a range"));
+        let ranges = ranges.map(|range| HuntRange::read(range).expect("a range"));
         let made = draws("street", 1, &ranges, 3);
         assert_eq!(made, draws("street", 1, &ranges, 3));
         assert_eq!(made.len(), 4);

@@ -1,4 +1,4 @@
-//! [`Range`]: a value of a recipe that may vary, and the values that it may have.
+//! [`HuntRange`]: a value of a recipe that may vary, and the values that it may have.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_drone::models;
@@ -10,7 +10,7 @@ const AIR: &str = "tool.fly.";
 
 /// A value of a recipe that may vary.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Range {
+pub struct HuntRange {
     /// Keys from the root of the recipe, joined by dots.
     pub path: String,
     values: Values,
@@ -28,14 +28,14 @@ enum Values {
 
 /// A value that was drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Drawn {
+pub struct DrawnChange {
     /// The change as of `--set`.
     pub change: String,
     /// Place in the range, 0..=1; of a choice 0.
     pub place: f64,
 }
 
-impl Range {
+impl HuntRange {
     /// Reads `PATH=LOW..HIGH` or `PATH=VALUE|VALUE|...`.
     ///
     /// # Errors
@@ -88,8 +88,8 @@ impl Range {
     }
 
     /// A value of the range.
-    pub fn drawn(&self, stream: &mut RandomStream) -> Drawn {
-        let of = |value: String, place: f64| Drawn { change: format!("{}={value}", self.path), place };
+    pub fn drawn(&self, stream: &mut RandomStream) -> DrawnChange {
+        let of = |value: String, place: f64| DrawnChange { change: format!("{}={value}", self.path), place };
         match &self.values {
             Values::Whole(low, high) => {
                 let offset = stream.index((high - low) as usize + 1) as i64;
@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn ranges_are_read_and_drawn_and_what_is_wrong_is_told() {
         let mut stream = Seed([3; 32]).stream("test");
-        let mut drawn = |text: &str| Range::read(text).expect("a range").drawn(&mut stream);
+        let mut drawn = |text: &str| HuntRange::read(text).expect("a range").drawn(&mut stream);
         for _ in 0..100 {
             let whole = drawn("tool.fly.blackouts=1..3").change;
             assert!(["1", "2", "3"].iter().any(|value| whole == format!("tool.fly.blackouts={value}")), "{whole}");
@@ -131,7 +131,7 @@ mod tests {
             ("a.b=NaN..1", "between two numbers"),
             ("a.b=-9223372036854775808..9223372036854775807", "very far below"),
         ] {
-            let wrong = Range::read(text).expect_err(text).to_string();
+            let wrong = HuntRange::read(text).expect_err(text).to_string();
             assert!(wrong.contains(words), "{text}: {wrong}");
         }
     }

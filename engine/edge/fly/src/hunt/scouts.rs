@@ -1,7 +1,7 @@
 //! [`scout`]: baselines that fly every candidate before the policy does: they cost little, and where they have trouble others have, too.
 
 use super::pool::Pool;
-use crate::crew::{Shifts, Step, crew};
+use crate::crew::{EpisodeOutcome, Shifts, crew};
 use crate::flight::{Attempt, Latency, Row, fly};
 use crate::pilot::{Asked, FirstAnswer, Manners, Place};
 use cosfly_diagnose::Result;
@@ -60,18 +60,18 @@ pub fn scout(pool: &Pool, order: &Scouting<'_>, progress: &dyn Fn(u64, u64)) -> 
         for (number, pilot) in pilots.iter_mut().enumerate() {
             let flown = match fly(task, order.settings[task.part], Latency::Simulated, pilot) {
                 Attempt::Flown(flown) => flown,
-                Attempt::Unanswered(reason) | Attempt::Gone(reason) => return Ok(Step::Gone(reason)),
+                Attempt::Unanswered(reason) | Attempt::Gone(reason) => return Ok(EpisodeOutcome::Gone(reason)),
             };
             // The expert's success is more than that it comes to the end: it tracks the target there.
             if number == 0 && !flown.row.score.success() {
                 told[at].get_or_init(|| None);
-                return Ok(Step::Kept);
+                return Ok(EpisodeOutcome::Kept);
             }
             features.extend([1.0 - flown.row.score.tracking_rate(), f64::from(u8::from(failed(&flown.row)))]);
         }
         features.extend(&pool.draws[task.part].places);
         told[at].get_or_init(|| Some(features));
-        Ok(Step::Kept)
+        Ok(EpisodeOutcome::Kept)
     })?;
     Ok(told.into_iter().map(|told| told.into_inner().flatten()).collect())
 }

@@ -3,7 +3,7 @@
 use super::guess::Guess;
 use super::pool::Pool;
 use super::scouts::{TOLD, failed};
-use crate::crew::{Shifts, Step, crew};
+use crate::crew::{EpisodeOutcome, Shifts, crew};
 use crate::flight::{Attempt, Latency, fly};
 use crate::pilot::{Asked, FirstAnswer};
 use crate::results::Folder;
@@ -78,10 +78,10 @@ pub fn hunt(
             Ok(match fly(task, order.settings[task.part], Latency::Simulated, pilot) {
                 Attempt::Flown(flown) => {
                     folder.keep(&flown, None)?;
-                    Step::Kept
+                    EpisodeOutcome::Kept
                 }
-                Attempt::Unanswered(reason) => Step::Unanswered(reason),
-                Attempt::Gone(reason) => Step::Gone(reason),
+                Attempt::Unanswered(reason) => EpisodeOutcome::Unanswered(reason),
+                Attempt::Gone(reason) => EpisodeOutcome::Gone(reason),
             })
         })?;
         if let Some(reason) = crewed.gone {

@@ -2,7 +2,7 @@
 
 use super::shapes::{common, stretched};
 use crate::call::Call;
-use crate::tensor::{Kind, Tensor, Values};
+use crate::tensor::{Kind, Tensor, TensorValues};
 
 type Outcome = Result<Vec<Tensor>, String>;
 
@@ -13,6 +13,12 @@ fn each(call: &Call<'_>, function: impl Fn(f32) -> f32) -> Outcome {
     Ok(vec![Tensor::floats(shape, values.iter().map(|value| function(*value)).collect())])
 }
 
+/// A function that takes long, on each float.
+fn each_long(call: &Call<'_>, function: impl Fn(f32) -> f32) -> Outcome {
+    call.functions(call.floats(0)?.0)?;
+    each(call, function)
+}
+
 /// `Abs`.
 pub fn abs(call: &Call<'_>) -> Outcome {
     each(call, f32::abs)
@@ -21,17 +27,17 @@ pub fn abs(call: &Call<'_>) -> Outcome {
 /// `Elu`.
 pub fn elu(call: &Call<'_>) -> Outcome {
     let alpha = call.float("alpha", 1.0)?;
-    each(call, |x| if x < 0.0 { alpha * (libm::expf(x) - 1.0) } else { x })
+    each_long(call, |x| if x < 0.0 { alpha * (libm::expf(x) - 1.0) } else { x })
 }
 
 /// `Erf`.
 pub fn erf(call: &Call<'_>) -> Outcome {
-    each(call, libm::erff)
+    each_long(call, libm::erff)
 }
 
 /// `Exp`.
 pub fn exp(call: &Call<'_>) -> Outcome {
-    each(call, libm::expf)
+    each_long(call, libm::expf)
 }
 
 /// `LeakyRelu`.
@@ -42,7 +48,7 @@ pub fn leaky_relu(call: &Call<'_>) -> Outcome {
 
 /// `Log`.
 pub fn log(call: &Call<'_>) -> Outcome {
-    each(call, libm::logf)
+    each_long(call, libm::logf)
 }
 
 /// `Neg`.
@@ -57,12 +63,12 @@ pub fn relu(call: &Call<'_>) -> Outcome {
 
 /// `Sigmoid`.
 pub fn sigmoid(call: &Call<'_>) -> Outcome {
-    each(call, logistic)
+    each_long(call, logistic)
 }
 
 /// `Softplus`.
 pub fn softplus(call: &Call<'_>) -> Outcome {
-    each(call, |x| larger(x, 0.0) + libm::log1pf(libm::expf(-x.abs())))
+    each_long(call, |x| larger(x, 0.0) + libm::log1pf(libm::expf(-x.abs())))
 }
 
 /// `Sqrt`.
@@ -72,7 +78,7 @@ pub fn sqrt(call: &Call<'_>) -> Outcome {
 
 /// `Tanh`.
 pub fn tanh(call: &Call<'_>) -> Outcome {
-    each(call, libm::tanhf)
+    each_long(call, libm::tanhf)
 }
 
 /// The logistic function.
@@ -101,15 +107,15 @@ fn paired(
     call.room(&shape)?;
     let places = || stretched(&a.shape, &shape).zip(stretched(&b.shape, &shape));
     let values = match (&a.values, &b.values) {
-        (Values::Floats(one), Values::Floats(other)) if a.shape == b.shape => {
-            Values::Floats(one.iter().zip(other).map(|(one, other)| floats(*one, *other)).collect())
+        (TensorValues::Floats(one), TensorValues::Floats(other)) if a.shape == b.shape => {
+            TensorValues::Floats(one.iter().zip(other).map(|(one, other)| floats(*one, *other)).collect())
         }
-        (Values::Floats(one), Values::Floats(other)) => {
-            Values::Floats(places().map(|(at, with)| floats(one[at], other[with])).collect())
+        (TensorValues::Floats(one), TensorValues::Floats(other)) => {
+            TensorValues::Floats(places().map(|(at, with)| floats(one[at], other[with])).collect())
         }
-        (Values::Wholes(one), Values::Wholes(other)) => {
+        (TensorValues::Wholes(one), TensorValues::Wholes(other)) => {
             let whole = places().map(|(at, with)| wholes(one[at], other[with])).collect::<Option<_>>();
-            Values::Wholes(whole.ok_or("its whole numbers become too large, or are divided by 0")?)
+            TensorValues::Wholes(whole.ok_or("its whole numbers become too large, or are divided by 0")?)
         }
         _ => return Err("it has floats and whole numbers; both must be of one kind".to_owned()),
     };
@@ -142,6 +148,7 @@ pub fn div(call: &Call<'_>) -> Outcome {
 
 /// `Pow`.
 pub fn pow(call: &Call<'_>) -> Outcome {
+    call.functions(&common(&call.input(0)?.shape, &call.input(1)?.shape)?)?;
     pair(call, power, |a, b| a.checked_pow(u32::try_from(b).ok()?))
 }
 
@@ -194,16 +201,18 @@ pub fn cast(call: &Call<'_>) -> Outcome {
     let (input, to) = (call.input(0)?, call.whole("to", 0)?);
     call.room(&input.shape)?;
     let values = match (&input.values, Kind::of(to)?) {
-        (Values::Floats(values), Kind::Float) => Values::Floats(values.clone()),
-        (Values::Wholes(values), Kind::Float) => Values::Floats(values.iter().map(|value| *value as f32).collect()),
-        (Values::Floats(values), Kind::Whole) if to == 9 => {
-            Values::Wholes(values.iter().map(|value| i64::from(*value != 0.0)).collect())
+        (TensorValues::Floats(values), Kind::Float) => TensorValues::Floats(values.clone()),
+        (TensorValues::Wholes(values), Kind::Float) => {
+            TensorValues::Floats(values.iter().map(|value| *value as f32).collect())
         }
-        (Values::Floats(values), Kind::Whole) => {
-            Values::Wholes(values.iter().map(|value| within(*value as i64, to)).collect())
+        (TensorValues::Floats(values), Kind::Whole) if to == 9 => {
+            TensorValues::Wholes(values.iter().map(|value| i64::from(*value != 0.0)).collect())
         }
-        (Values::Wholes(values), Kind::Whole) => {
-            Values::Wholes(values.iter().map(|value| within(*value, to)).collect())
+        (TensorValues::Floats(values), Kind::Whole) => {
+            TensorValues::Wholes(values.iter().map(|value| within(*value as i64, to)).collect())
+        }
+        (TensorValues::Wholes(values), Kind::Whole) => {
+            TensorValues::Wholes(values.iter().map(|value| within(*value, to)).collect())
         }
     };
     Ok(vec![Tensor { shape: input.shape.clone(), values }])

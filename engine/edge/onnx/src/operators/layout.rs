@@ -3,7 +3,7 @@
 use super::shapes::sizes;
 use crate::attributes::Attribute;
 use crate::call::Call;
-use crate::tensor::{Tensor, places, strides};
+use crate::tensor::{MOST_AXES, Tensor, listed, places, strides};
 
 type Outcome = Result<Vec<Tensor>, String>;
 
@@ -53,16 +53,16 @@ pub fn reshape(call: &Call<'_>) -> Outcome {
         });
     }
     let count = input.values.len();
+    let unfit = || format!("{count} numbers do not fit the shape {}", listed(wanted));
     if let Some(open) = shape.iter().position(|size| *size == -1) {
         shape[open] = 1;
         let others = sizes(&shape)?.iter().try_fold(1_usize, |product, size| product.checked_mul(*size));
         let others = others.filter(|others| *others > 0 && count % others == 0);
-        shape[open] =
-            (count / others.ok_or_else(|| format!("{count} numbers do not fit the shape {wanted:?}"))?) as i64;
+        shape[open] = (count / others.ok_or_else(unfit)?) as i64;
     }
     let shape = sizes(&shape)?;
     let fits = shape.iter().try_fold(1_usize, |product, size| product.checked_mul(*size)) == Some(count);
-    if fits { reshaped(call, shape) } else { Err(format!("{count} numbers do not fit the shape {wanted:?}")) }
+    if fits { reshaped(call, shape) } else { Err(unfit()) }
 }
 
 /// `Squeeze`.
@@ -81,6 +81,9 @@ pub fn squeeze(call: &Call<'_>) -> Outcome {
 pub fn unsqueeze(call: &Call<'_>) -> Outcome {
     let (shape, axes) = (&call.input(0)?.shape, call.wholes(1)?.ok_or("its axes are missing")?);
     let all = shape.len() + axes.len();
+    if all > MOST_AXES {
+        return Err(format!("its result has {all} axes; a tensor may have {MOST_AXES}"));
+    }
     let mut new = axes.iter().map(|axis| call.axis(*axis, all)).collect::<Result<Vec<usize>, _>>()?;
     new.sort_unstable();
     new.dedup();
@@ -102,7 +105,7 @@ pub fn transpose(call: &Call<'_>) -> Outcome {
     let mut sorted = order.clone();
     sorted.sort_unstable();
     if !sorted.into_iter().eq(0..axes) {
-        return Err(format!("its order {order:?} does not name each of {axes} axes once"));
+        return Err(format!("its order {} does not name each of {axes} axes once", listed(&order)));
     }
     let steps = strides(&input.shape);
     let shape: Vec<usize> = order.iter().map(|axis| input.shape[*axis]).collect();

@@ -2,7 +2,7 @@
 
 use super::shapes::sizes;
 use crate::call::Call;
-use crate::tensor::{Tensor, Values, places, strides};
+use crate::tensor::{Tensor, TensorValues, listed, places, strides};
 
 type Outcome = Result<Vec<Tensor>, String>;
 
@@ -24,17 +24,18 @@ pub fn concat(call: &Call<'_>) -> Outcome {
     }
     call.room(&shape)?;
     let outer: usize = shape[..axis].iter().product();
+    call.spend(&[outer, tensors.len()])?;
     let blocks = |tensor: &Tensor| tensor.shape[axis..].iter().product::<usize>();
     let mut values = match first.values {
-        Values::Floats(_) => Values::Floats(vec![]),
-        Values::Wholes(_) => Values::Wholes(vec![]),
+        TensorValues::Floats(_) => TensorValues::Floats(vec![]),
+        TensorValues::Wholes(_) => TensorValues::Wholes(vec![]),
     };
     for row in 0..outer {
         for tensor in &tensors {
             let range = row * blocks(tensor)..(row + 1) * blocks(tensor);
             match (&mut values, &tensor.values) {
-                (Values::Floats(to), Values::Floats(from)) => to.extend_from_slice(&from[range]),
-                (Values::Wholes(to), Values::Wholes(from)) => to.extend_from_slice(&from[range]),
+                (TensorValues::Floats(to), TensorValues::Floats(from)) => to.extend_from_slice(&from[range]),
+                (TensorValues::Wholes(to), TensorValues::Wholes(from)) => to.extend_from_slice(&from[range]),
                 _ => {}
             }
         }
@@ -82,7 +83,7 @@ pub fn slice(call: &Call<'_>) -> Outcome {
                 (first, (end - first).max(0).div_ceil_by(step))
             }
             false => {
-                let first = counted(starts[at]).clamp(-1, size - 1);
+                let first = counted(starts[at]).clamp((size - 1).min(0), size - 1);
                 let end = counted(ends[at]).clamp(-1, size - 1);
                 (first.max(0), (first - end).max(0).div_ceil_by(-step))
             }
@@ -118,7 +119,7 @@ pub fn split(call: &Call<'_>) -> Outcome {
         }
     };
     if lengths.len() != parts || lengths.iter().try_fold(0_usize, |sum, it| sum.checked_add(*it)) != Some(size) {
-        return Err(format!("it splits an axis of the size {size} into {lengths:?} for {parts} outputs"));
+        return Err(format!("it splits an axis of the size {size} into {} for {parts} outputs", listed(&lengths)));
     }
     let mut from = 0;
     let one = |length: usize| {
@@ -136,7 +137,7 @@ pub fn gather(call: &Call<'_>) -> Outcome {
     let axis = call.axis(call.whole("axis", 0)?, input.shape.len())?;
     let (size, wanted) = (input.shape[axis], call.wholes(1)?.ok_or("its places are missing")?);
     let taken = wanted.iter().map(|place| call.axis(*place, size)).collect::<Result<Vec<usize>, _>>();
-    let taken = taken.map_err(|_| format!("it takes the places {wanted:?} of an axis of the size {size}"))?;
+    let taken = taken.map_err(|_| format!("it takes the places {} of an axis of the size {size}", listed(wanted)))?;
     let (before, after) = (&input.shape[..axis], &input.shape[axis + 1..]);
     let shape = [before, &places.shape, after].concat();
     call.room(&shape)?;

@@ -2,7 +2,7 @@
 
 use super::elementwise::logistic;
 use super::products::add_product_turned;
-use crate::call::{Call, Floats};
+use crate::call::{Call, FUNCTION, Floats};
 use crate::tensor::Tensor;
 
 type Outcome = Result<Vec<Tensor>, String>;
@@ -39,6 +39,9 @@ impl<'a> Layer<'a> {
         }
         call.spend(&[steps, batch, wide, inputs])?;
         call.spend(&[steps, batch, wide, hidden])?;
+        call.spend(&[steps, batch, wide, FUNCTION])?;
+        // Sums of a step.
+        call.room(&[batch, wide])?;
         let of_inputs = call.of_shape(1, &[1, wide, inputs])?;
         let of_hidden = call.of_shape(2, &[1, wide, hidden])?;
         let biases = match call.optional(3) {

@@ -2,7 +2,7 @@
 
 use crate::attributes::Attribute;
 use crate::call::Call;
-use crate::tensor::{Tensor, places, strides};
+use crate::tensor::{Tensor, listed, places, strides};
 
 /// The shape to which two shapes are stretched.
 pub fn common(a: &[usize], b: &[usize]) -> Result<Vec<usize>, String> {
@@ -13,7 +13,8 @@ pub fn common(a: &[usize], b: &[usize]) -> Result<Vec<usize>, String> {
         (1, b) => Some(b),
         _ => None,
     };
-    (0..axes).map(fit).collect::<Option<_>>().ok_or_else(|| format!("the shapes {a:?} and {b:?} do not fit together"))
+    let shape = (0..axes).map(fit).collect::<Option<_>>();
+    shape.ok_or_else(|| format!("the shapes {} and {} do not fit together", listed(a), listed(b)))
 }
 
 /// Places of a tensor's numbers where it is stretched to a shape.

@@ -2,6 +2,7 @@
 
 use super::shapes::sizes;
 use crate::call::Call;
+use crate::tensor::listed;
 use std::ops::Range;
 
 /// Windows over a picture. A row of numbers is a picture of the height 1. Pairs are of rows and columns.
@@ -38,7 +39,10 @@ impl Window {
             if fits {
                 Ok(list)
             } else {
-                Err(format!("its setting `{name}` is {list:?}: {length} numbers, {least} to {LARGEST}, are read"))
+                Err(format!(
+                    "its setting `{name}` is {}: {length} numbers, {least} to {LARGEST}, are read",
+                    listed(&list)
+                ))
             }
         };
         let pair = |list: &[usize], of_row: usize| match *list {
@@ -76,7 +80,7 @@ impl Window {
             let free = (picture[axis] + before[axis] + after[axis]).checked_sub(reach[axis]);
             free.map_or(0, |free| free / stride[axis] + 1)
         });
-        if count.contains(&0) {
+        if count.contains(&0) || picture.contains(&0) {
             return Err(format!("its window of the size {size:?} does not fit the picture {picture:?}"));
         }
         Ok(Self { picture, size, stride, dilation, before, count })
@@ -101,5 +105,24 @@ impl Window {
     pub fn shape(&self, input: &[usize], channels: usize) -> Vec<usize> {
         let from = if input.len() == 3 { 1 } else { 0 };
         [&[input[0], channels], &self.count[from..]].concat()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::attributes::Attribute;
+    use crate::call::{Call, Work};
+    use crate::operators::convolution::conv;
+    use crate::tensor::Tensor;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn no_window_fits_an_empty_picture() {
+        let (picture, weights) = (Tensor::floats(&[1, 1, 1, 0], vec![]), Tensor::floats(&[1, 1, 1, 1], vec![1.0]));
+        let attributes = BTreeMap::from([("pads".to_owned(), Attribute::Wholes(vec![0, 1, 0, 1]))]);
+        let (inputs, work) = ([Some(&picture), Some(&weights)], Work::new());
+        let call = Call { inputs: &inputs, attributes: &attributes, outputs: 1, work: &work };
+        let refused = conv(&call).expect_err("an empty picture");
+        assert!(refused.contains("does not fit the picture"), "{refused}");
     }
 }

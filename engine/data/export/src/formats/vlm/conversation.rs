@@ -17,6 +17,15 @@ pub fn as_words(text: &str) -> String {
     text.replace('<', "\u{2039}").replace('>', "\u{203a}")
 }
 
+/// Name of a language in English, by its code.
+pub fn language_name(code: &str) -> &str {
+    match code {
+        "zh" => "Chinese",
+        "en" => "English",
+        code => code,
+    }
+}
+
 /// Inputs that a question shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shown {

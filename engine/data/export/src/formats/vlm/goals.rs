@@ -1,6 +1,6 @@
 //! Goals as conversations: write the goal of pictures, judge whether pictures do what a goal says, understand a correction.
 
-use super::conversation::as_words;
+use super::conversation::{as_words, language_name};
 use crate::source::ExportedFlight;
 use cosfly_read::PublishedGoal;
 use serde_json::{Value, json};
@@ -43,7 +43,7 @@ pub fn lines(
         };
         let text = said(&goal.lines);
         if let ("flight" | "step", true) = (goal.grain.as_str(), goal.fits) {
-            let language = if language == "zh" { "Chinese" } else { "English" };
+            let language = language_name(language);
             let asked = format!("Which instruction does this {} carry out? Write it in {language}.", goal.grain);
             found.push(("goals", line("goal", asked, text.clone())));
         }

@@ -1,6 +1,6 @@
 //! Sets for students of a teacher: nested shares, windows without some inputs, texts to learn, pairs of texts.
 
-use super::conversation::{Shown, as_words, pose_text};
+use super::conversation::{Shown, as_words, language_name, pose_text};
 use super::options::Options;
 use crate::source::ExportedFlight;
 use cosfly_fingerprint::Digest;
@@ -108,7 +108,7 @@ fn question(episode: &ExportedFlight<'_>, shown: &[usize], language: &str, style
     for frame in shown {
         let _ = writeln!(text, "{}", pose_text(&episode.frames[*frame].pose, origin));
     }
-    let language = if language == "zh" { "Chinese" } else { "English" };
+    let language = language_name(language);
     let _ = write!(
         text,
         "{} frames, {} s apart. Write the {style} of this flight in {language}.",

@@ -68,12 +68,13 @@ impl Arguments {
         let settings = bundle.card.settings(&suite.parts);
         let settings = settings.map_err(|rule| self.refused("its environment is not one of this suite", &rule))?;
         let (progress, cancelled) = (console.progress("fly again", "episodes"), console.cancelled());
+        let deadline = console.deadline(None);
         let again = Again { bundle: &bundle, suite: &suite, settings: &settings, jobs, cancelled: &cancelled };
         let differ = match &policy {
             Some(policy) => again.by_policy(policy, &*progress)?,
             None => again.by_record(&*progress)?,
         };
-        drop(progress);
+        drop((progress, deadline));
         let (name, all) = (&bundle.card.policy.name, bundle.episodes.len());
         let how = if policy.is_some() { "re-run" } else { "re-flown" };
         let same = all - differ.len();
@@ -93,6 +94,7 @@ impl Arguments {
         let beside = self.policy_file.as_deref().map(OnnxPolicy::read).transpose()?;
         let file = beside.as_ref().map(OnnxPolicy::bytes).or(bundle.policy.as_deref());
         let rule = match Runnable::of(&bundle.card.policy, file) {
+            Ok(Some(Runnable::Baseline(..))) if beside.is_some() => "it is a baseline, which has no file".to_owned(),
             Ok(Some(policy)) => return Ok(policy),
             Ok(None) if bundle.card.policy.kind == "onnx" => "the bundle names it by its digest alone".to_owned(),
             Ok(None) => format!("it is of the kind `{}`", bundle.card.policy.kind),

@@ -2,10 +2,10 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fly::flight::Row;
-use cosfly_fly::log::{self, Line};
+use cosfly_fly::log::{self, LogLine};
 use cosfly_fly::results::{Folder, ending};
 use cosfly_read::LogReader;
-use cosfly_view::{Index, Picture, Subject, inside, short, unknown};
+use cosfly_view::{Index, ViewSubject, ViewedPicture, inside, short, unknown};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -34,8 +34,9 @@ pub fn is_of_results(path: &Path) -> bool {
 /// Folders of results in a folder, sorted.
 fn policies(path: &Path) -> Vec<PathBuf> {
     let entries = path.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
-    let mut found: Vec<PathBuf> = entries.filter(|path| path.join("card.json").is_file()).take(MOST_POLICIES).collect();
+    let mut found: Vec<PathBuf> = entries.filter(|path| path.join("card.json").is_file()).collect();
     found.sort();
+    found.truncate(MOST_POLICIES);
     found
 }
 
@@ -62,7 +63,7 @@ impl ResultsSubject {
 }
 
 impl Flight {
-    fn lines(&self) -> Result<Vec<Line>> {
+    fn lines(&self) -> Result<Vec<LogLine>> {
         let path = inside(&self.folder, &format!("logs/{}.jsonl", self.row.episode))?;
         let text = std::fs::read_to_string(&path)
             .map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?;
@@ -84,7 +85,7 @@ impl Flight {
     }
 }
 
-impl Subject for ResultsSubject {
+impl ViewSubject for ResultsSubject {
     fn about(&self) -> Result<Value> {
         let (all, version) = (self.flights.len(), "results");
         Ok(
@@ -119,7 +120,7 @@ impl Subject for ResultsSubject {
     fn flight(&self, number: usize) -> Result<Value> {
         let flight = self.at(number)?;
         let lines = flight.lines()?;
-        let column = |of: &dyn Fn(&Line) -> f64| lines.iter().map(|line| short(of(line))).collect::<Vec<_>>();
+        let column = |of: &dyn Fn(&LogLine) -> f64| lines.iter().map(|line| short(of(line))).collect::<Vec<_>>();
         let same = self.flights.iter().enumerate().filter(|(_, other)| other.row.episode == flight.row.episode);
         let family: Vec<Value> = same.map(|(number, it)| json!({ "number": number, "name": it.policy })).collect();
         let losses: Vec<Value> = losses(&lines)
@@ -130,7 +131,7 @@ impl Subject for ResultsSubject {
             [("policy", flight.policy.clone()), ("stratum", flight.row.stratum.clone()), ("end", ending(&flight.row))];
         let failure = flight.row.policy_failure.iter().map(|words| ("failure", words.clone()));
         Ok(json!({
-            "name": flight.row.episode, "town": flight.row.stratum, "dt_s": flight.row.step_s, "family": family, "channels": [],
+            "name": flight.row.episode, "town": flight.row.episode, "dt_s": flight.row.step_s, "family": family, "channels": [],
             "facts": facts.into_iter().chain(failure).collect::<Vec<_>>(), "losses": losses, "crossings": [], "captions": [], "goals": [],
             "time_s": column(&|it| it.time_s), "x": column(&|it| it.position_in_world[0]), "y": column(&|it| it.position_in_world[1]),
             "z": column(&|it| it.position_in_world[2]), "camera_yaw_deg": column(&|it| it.yaw_deg),
@@ -163,14 +164,14 @@ impl Subject for ResultsSubject {
         Ok(json!({ "name": flight.row.episode, "kinds": kinds, "left_out": 0 }))
     }
 
-    fn picture(&self, number: usize, _frame: usize, _channel: &str) -> Result<Picture> {
+    fn picture(&self, number: usize, _frame: usize, _channel: &str) -> Result<ViewedPicture> {
         let episode = &self.at(number)?.row.episode;
         Err(Diagnostic::new("view-unknown", Fault::Input, format!("the result of `{episode}` has no pictures")))
     }
 }
 
 /// Stretches of steps without tracking.
-fn losses(lines: &[Line]) -> Vec<(usize, usize)> {
+fn losses(lines: &[LogLine]) -> Vec<(usize, usize)> {
     let (mut begin, mut found) = (0, vec![]);
     for part in lines.chunk_by(|a, b| a.tracked == b.tracked) {
         if !part[0].tracked {

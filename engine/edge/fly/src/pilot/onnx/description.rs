@@ -4,7 +4,7 @@ use super::observation::{Observation, Order};
 use crate::pilot::answer::ActionKind;
 use cosfly_domain::ChannelSet;
 use cosfly_env::pictures::PictureFormat;
-use cosfly_onnx::{Kind, Model, Port};
+use cosfly_onnx::{Kind, OnnxModel, Port};
 use cosfly_render::PictureLook;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -101,7 +101,7 @@ impl Description {
     ///
     /// # Errors
     /// What is missing or wrong, and what is allowed, in words.
-    pub fn of(model: &Model) -> Result<Self, String> {
+    pub fn of(model: &OnnxModel) -> Result<Self, String> {
         let text = model.metadata(KEY).ok_or_else(|| {
             format!("its metadata has no entry `{KEY}`, which describes inputs and outputs; `cosfly.onnx.describe` writes it")
         })?;
@@ -118,6 +118,9 @@ impl Description {
         let sources = model.inputs().iter().map(of).collect::<Result<Vec<_>, _>>()?;
         let described = stated.inputs.keys().chain(stated.states.keys());
         described.into_iter().try_for_each(|name| place_of(model.inputs(), name, "input").map(drop))?;
+        if !sources.iter().any(|source| matches!(source, Source::Fed(_))) {
+            return Err("it sees nothing: none of its inputs is fed with an observation".to_owned());
+        }
         let pictures = pictures(model, &sources, &stated.look)?;
         Ok(Self { sources, output, actions, every: stated.every, pictures })
     }
@@ -168,7 +171,7 @@ fn actions(output: &StatedOutput) -> Result<ActionKind, String> {
     }
 }
 
-fn source(port: &Port, stated: &Stated, model: &Model) -> Result<Source, String> {
+fn source(port: &Port, stated: &Stated, model: &OnnxModel) -> Result<Source, String> {
     match (stated.inputs.get(&port.name), stated.states.get(&port.name)) {
         (Some(_), Some(_)) => Err("it stands among `inputs` and among `states`".to_owned()),
         (None, None) => Err("its description names it neither among `inputs` nor among `states`".to_owned()),
@@ -186,7 +189,7 @@ fn source(port: &Port, stated: &Stated, model: &Model) -> Result<Source, String>
 }
 
 /// The pictures that all inputs together need.
-fn pictures(model: &Model, sources: &[Source], look: &str) -> Result<Option<PictureFormat>, String> {
+fn pictures(model: &OnnxModel, sources: &[Source], look: &str) -> Result<Option<PictureFormat>, String> {
     let names = PictureLook::ALL.map(|(name, _)| name);
     let look =
         PictureLook::named(look).ok_or_else(|| format!("`look` is `{look}`; allowed are {}", names.join(", ")))?;

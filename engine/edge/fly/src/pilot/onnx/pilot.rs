@@ -3,12 +3,15 @@
 use super::description::{Fed, Source};
 use super::observation::{Observation, Order};
 use super::policy::OnnxPolicy;
-use crate::pilot::answer::Answer;
+use crate::pilot::answer::PolicyAnswer;
 use crate::pilot::seam::{Failure, Pilot};
 use cosfly_env::pictures::{PictureBatch, Pictures, Pixels};
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Action, Environment, readings};
-use cosfly_onnx::{Kind, Tensor, Values};
+use cosfly_onnx::{Kind, Tensor, TensorValues};
+
+/// Most letters of what a failed answer says.
+const MOST_LETTERS: usize = 300;
 
 /// A network in an episode.
 pub struct OnnxPilot {
@@ -16,7 +19,7 @@ pub struct OnnxPilot {
     pictures: Option<(Pictures, PictureBatch)>,
     /// Of each input: the observations that it was fed with, or its memory; empty at the beginning of an episode.
     kept: Vec<Vec<f32>>,
-    answer: Option<Answer>,
+    answer: Option<PolicyAnswer>,
 }
 
 impl OnnxPilot {
@@ -31,7 +34,7 @@ impl OnnxPilot {
     }
 
     /// The answer to the present observation.
-    fn ask(&mut self, environment: &Environment) -> Result<Answer, String> {
+    fn ask(&mut self, environment: &Environment) -> Result<PolicyAnswer, String> {
         if let Some((pictures, batch)) = &mut self.pictures {
             pictures.draw(&[environment], batch, 0);
         }
@@ -63,15 +66,15 @@ impl OnnxPilot {
             }
         }
         let rows = floats(&outputs[description.output]).iter().map(|number| f64::from(*number)).collect();
-        Answer::of_rows(rows, environment, description.actions)
+        PolicyAnswer::of_rows(rows, environment, description.actions)
     }
 }
 
 /// Numbers of a tensor of floats; none of another.
 fn floats(tensor: &Tensor) -> &[f32] {
     match &tensor.values {
-        Values::Floats(values) => values,
-        Values::Wholes(_) => &[],
+        TensorValues::Floats(values) => values,
+        TensorValues::Wholes(_) => &[],
     }
 }
 
@@ -113,7 +116,8 @@ impl Pilot for OnnxPilot {
         if let Some(action) = self.answer.as_ref().and_then(|answer| answer.action(environment, every)) {
             return Ok(action);
         }
-        let answer = self.ask(environment).map_err(Failure::Answer)?;
+        let answer =
+            self.ask(environment).map_err(|rule| Failure::Answer(rule.chars().take(MOST_LETTERS).collect()))?;
         let action = answer.action(environment, every);
         self.answer = Some(answer);
         action.ok_or_else(|| Failure::Answer("the answer is too short for one step".to_owned()))

@@ -3,7 +3,7 @@
 use super::description::{Description, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_onnx::{MOST_BYTES, Model, Tensor, Values};
+use cosfly_onnx::{MOST_BYTES, OnnxModel, Tensor, TensorValues};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ pub struct OnnxPolicy {
     name: String,
     bytes: Arc<[u8]>,
     digest: Digest,
-    network: Arc<(Model, Description)>,
+    network: Arc<(OnnxModel, Description)>,
 }
 
 impl core::fmt::Debug for OnnxPolicy {
@@ -55,7 +55,7 @@ impl OnnxPolicy {
     /// # Errors
     /// What is wrong and what is allowed, in words.
     pub fn of_bytes(name: &str, bytes: Vec<u8>) -> std::result::Result<Self, String> {
-        let model = Model::read(&bytes)?;
+        let model = OnnxModel::read(&bytes)?;
         let description = Description::of(&model)?;
         let zeros = model.inputs().iter().map(|port| Tensor::zeros(port.kind, &port.shape)).collect();
         run(&model, &description, zeros)?;
@@ -66,7 +66,7 @@ impl OnnxPolicy {
     /// Runs the network once.
     ///
     /// # Errors
-    /// Those of [`Model::run`]; shapes of memories and actions that do not fit.
+    /// Those of [`OnnxModel::run`]; shapes of memories and actions that do not fit.
     pub fn run(&self, inputs: Vec<Tensor>) -> std::result::Result<Vec<Tensor>, String> {
         run(self.model(), self.description(), inputs)
     }
@@ -87,7 +87,7 @@ impl OnnxPolicy {
     }
 
     /// The network.
-    pub fn model(&self) -> &Model {
+    pub fn model(&self) -> &OnnxModel {
         &self.network.0
     }
 
@@ -96,14 +96,16 @@ impl OnnxPolicy {
         &self.network.1
     }
 
-    /// Names of what it sees, in the order of its inputs.
+    /// Names of what it sees, sorted.
     pub fn sees(&self) -> Vec<&'static str> {
-        self.description().observations().into_iter().map(|it| it.name()).collect()
+        let mut names: Vec<&str> = self.description().observations().into_iter().map(|it| it.name()).collect();
+        names.sort_unstable();
+        names
     }
 }
 
 /// Outputs of a network, whose memories and actions have the shapes that they must have: shapes may depend on numbers.
-fn run(model: &Model, description: &Description, inputs: Vec<Tensor>) -> std::result::Result<Vec<Tensor>, String> {
+fn run(model: &OnnxModel, description: &Description, inputs: Vec<Tensor>) -> std::result::Result<Vec<Tensor>, String> {
     let outputs = model.run(inputs)?;
     for (port, source) in model.inputs().iter().zip(&description.sources) {
         if let Source::Memory(output) = source {
@@ -118,7 +120,7 @@ fn run(model: &Model, description: &Description, inputs: Vec<Tensor>) -> std::re
     }
     let (kind, columns) = (description.actions.name(), description.actions.columns());
     let Tensor { shape, values } = &outputs[description.output];
-    let is_row = shape.last() == Some(&columns) && matches!(values, Values::Floats(_)) && !values.is_empty();
+    let is_row = shape.last() == Some(&columns) && matches!(values, TensorValues::Floats(_)) && !values.is_empty();
     match is_row {
         true => Ok(outputs),
         false => Err(format!(
