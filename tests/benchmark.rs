@@ -3,7 +3,7 @@
 use crate::support::{cosfly, repository_root};
 
 /// Hash of the tier `mini`.
-const SUITE: &str = "aa3fe146aa6b737a6dfe2c9513fc1717b2f55a6494b884b947f1ac6983e18602";
+const SUITE: &str = "c516bb62584ae7a4855c3e6d42ea8375ba2e5f4a9529e2c89c81c38e8c022561";
 /// Digest of the rows of `follow` in it.
 const ROWS: &str = "47f37fcf173226f279f74bfdecf1ba843ba986493c91118eaf346b41a9ca5790";
 

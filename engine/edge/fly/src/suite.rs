@@ -142,7 +142,7 @@ impl Suite {
         if suite.tasks.is_empty() {
             let message = format!("`{}` has no episode: the expert found no flight", recipe.path.display());
             let walks = walkers(recipe, &stages).join("`, `");
-            return Err(Diagnostic::new(NO_EPISODE, Fault::Recipe, message)
+            return Err(Diagnostic::new("fly-no-episode", Fault::Recipe, message)
                 .because(format!("none behind {} walks", suite.rejected))
                 .hint(format!(
                     "`cosfly run` on the recipe says why; more walks may have some: a larger `count` of `{walks}`"

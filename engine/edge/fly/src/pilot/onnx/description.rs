@@ -129,10 +129,10 @@ impl Description {
     pub fn observations(&self) -> Vec<Observation> {
         let mut all: Vec<Observation> = vec![];
         for source in &self.sources {
-            if let Source::Fed(Fed { observation, .. }) = source {
-                if all.iter().all(|known| known.name() != observation.name()) {
-                    all.push(*observation);
-                }
+            if let Source::Fed(Fed { observation, .. }) = source
+                && all.iter().all(|known| known.name() != observation.name())
+            {
+                all.push(*observation);
             }
         }
         all
