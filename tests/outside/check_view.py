@@ -1,9 +1,10 @@
 """Opens `cosfly view` in headless Chromium: worst flight, filter, scrubbing, hostile texts, broken logs, narrow windows, the exported page.
 
-    python check_view.py COSFLY DATASET WORK [--screenshots FOLDER] [--many COUNT]
+    python check_view.py COSFLY DATASET WORK [--screenshots FOLDER] [--many COUNT] [--timed]
 
-WORK is a folder for copies of DATASET. With `--many`, first view and scrubbing are timed with that many copies of its flights. Needs
-`playwright`, `axe-playwright-python`, `pyarrow`, and a Chromium: that of playwright, or one on the PATH.
+WORK is a folder for copies of DATASET. With `--many`, first view and scrubbing are timed with that many copies of its flights, and with
+`--timed`, on an idle machine, times are held, too. Needs `playwright`, `axe-playwright-python`, `pyarrow`, and a Chromium: that of
+playwright, or one on the PATH.
 """
 
 import argparse
@@ -30,6 +31,7 @@ parser.add_argument("dataset", type=pathlib.Path)
 parser.add_argument("work", type=pathlib.Path)
 parser.add_argument("--screenshots", type=pathlib.Path)
 parser.add_argument("--many", type=int)
+parser.add_argument("--timed", action="store_true")
 arguments = parser.parse_args()
 problems = []
 
@@ -249,8 +251,8 @@ def check_many(browser):
         flights = page.evaluate("state.index.flights")
         print(f"{flights} flights: server ready after {ready_s:.2f} s, first view {first_s:.2f} s; of 200 inputs at {size[0]} x {size[1]} "
               f"95 % painted within {late_ms:.0f} ms; server {peak_mb:.0f} MB")
-        expect(first_s <= FIRST_VIEW_S, f"the first view takes {first_s:.2f} s")
-        expect(late_ms <= PAINTED_MS, f"95 % of inputs are painted within {late_ms:.0f} ms")
+        expect(not arguments.timed or first_s <= FIRST_VIEW_S, f"the first view takes {first_s:.2f} s")
+        expect(not arguments.timed or late_ms <= PAINTED_MS, f"95 % of inputs are painted within {late_ms:.0f} ms")
         expect(peak_mb <= MOST_SERVER_MB, f"the server takes {peak_mb:.0f} MB")
         page.close()
 
