@@ -285,6 +285,11 @@ fn a_file_that_does_not_fit_is_refused_with_what_is_allowed() {
         assert!(printed.code == Some(4) && told.contains(words), "{words}: {}", printed.stderr);
         assert!(told.contains("error[fly-onnx]") && !at("out/fly").exists(), "{words}: {}", printed.stderr);
     }
+    std::fs::create_dir(at("folder.onnx")).expect("made");
+    for (policy, words) in [("onnx:absent.onnx", "there is no such file"), ("onnx:folder.onnx", "it is no file")] {
+        let printed = fly(street.path(), policy, &[]);
+        assert!(printed.code == Some(4) && printed.stderr.contains(words), "{words}: {}", printed.stderr);
+    }
     std::fs::write(at("good.onnx"), whole).expect("written");
     let printed = fly(street.path(), "onnx:good.onnx", &["--obs", "depth"]);
     assert!(printed.code == Some(3) && printed.stderr.contains("`--obs` says how"), "{}", printed.stderr);

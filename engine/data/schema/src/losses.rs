@@ -29,12 +29,9 @@ impl Loss {
         {
             let frames = lost[0]..lost[lost.len() - 1] + 1;
             if views[frames.start].pixels == 0 {
-                let mut causes = BTreeMap::<u32, usize>::new();
-                views[frames.clone()].iter().for_each(|view| *causes.entry(view.occluder_instance).or_default() += 1);
-                // Of equal counts the smaller id.
-                let most = causes.into_iter().reduce(|most, next| if next.1 > most.1 { next } else { most });
+                let cause_instance = cause(views[frames.clone()].iter().map(|view| view.occluder_instance));
                 let frames_out_of_view = views[frames.clone()].iter().filter(|view| !view.in_view).count();
-                losses.push(Self { frames, cause_instance: most.map_or(0, |most| most.0), frames_out_of_view });
+                losses.push(Self { frames, cause_instance, frames_out_of_view });
             }
         }
         losses
@@ -44,4 +41,12 @@ impl Loss {
     pub fn is_reacquired(&self, record: &RenderedTrajectory) -> bool {
         self.frames.end < record.len()
     }
+}
+
+/// The instance id that hides the target in most frames of a loss, of those that hide most of it in each; of equal counts the
+/// smaller one.
+pub fn cause(occluders: impl Iterator<Item = u32>) -> u32 {
+    let mut counts = BTreeMap::<u32, usize>::new();
+    occluders.for_each(|id| *counts.entry(id).or_default() += 1);
+    counts.into_iter().reduce(|most, next| if next.1 > most.1 { next } else { most }).map_or(0, |most| most.0)
 }

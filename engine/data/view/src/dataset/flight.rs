@@ -1,6 +1,7 @@
 //! Frames and texts of a flight.
 
 use super::around::{crossings, own_rows};
+use super::causes::Loss;
 use super::opened::Opened;
 use super::pictures::FlightLog;
 use super::summary::is_point;
@@ -104,11 +105,9 @@ fn losses(opened: &Opened, flight: &PublishedFlight, frames: &[FrameRow], is_poi
     for part in frames.chunk_by(|a, b| is_lost(a) == is_lost(b)) {
         let end = begin + part.len();
         if is_lost(&part[0]) {
-            let middle = &part[part.len() / 2];
-            let cause = match middle.in_view {
-                false => "out of view".to_owned(),
-                true => opened.causes.words(&flight.town, middle.occluder_instance),
-            };
+            let mut loss = Loss::from(begin);
+            part.iter().for_each(|frame| loss.add(frame.in_view, frame.occluder_instance));
+            let cause = opened.causes.words(&flight.town, &loss);
             losses.push(json!({ "from": begin, "end": end, "cause": cause }));
         }
         begin = end;

@@ -1,11 +1,10 @@
 //! Numbers of all flights from one pass over table `frames`.
 
-use super::causes::Causes;
+use super::causes::{Causes, Loss};
 use cosfly_diagnose::{Result, Stop};
 use cosfly_frames::real;
 use cosfly_read::{PublishedDataset, PublishedFlight, RowValues, Rows, read};
 use cosfly_schema::tables::Frames;
-use std::collections::BTreeMap;
 
 /// Angle between camera and sun below which a frame faces the sun, degrees.
 const FACING_DEG: f64 = 35.0;
@@ -44,17 +43,9 @@ struct Pass {
     look_alikes: u32,
     start_m: [f64; 2],
     least: (usize, f64),
-    loss: Loss,
+    /// The loss that goes on.
+    loss: Option<Loss>,
     longest: Loss,
-}
-
-/// Frames in a row without the target.
-#[derive(Clone, Default)]
-struct Loss {
-    begin: usize,
-    frames: usize,
-    out_of_view: usize,
-    causes: BTreeMap<u32, usize>,
 }
 
 /// The columns of table `frames` that are read.
@@ -135,20 +126,10 @@ impl Pass {
         }
         let is_lost = if is_point { visible <= 0.0 } else { columns.pixels.at(row)? == 0 };
         if is_lost {
-            if self.loss.frames == 0 {
-                self.loss = Loss { begin: frame, ..Loss::default() };
-            }
-            self.loss.frames += 1;
-            if columns.in_view.at(row)? {
-                *self.loss.causes.entry(columns.occluders.at(row)?).or_default() += 1;
-            } else {
-                self.loss.out_of_view += 1;
-            }
-            if self.loss.frames > self.longest.frames {
-                self.longest = self.loss.clone();
-            }
+            let loss = self.loss.get_or_insert_with(|| Loss::from(frame));
+            loss.add(columns.in_view.at(row)?, columns.occluders.at(row)?);
         } else {
-            self.loss.frames = 0;
+            self.end_loss();
         }
         self.frames += 1;
         self.visible += visible;
@@ -160,20 +141,22 @@ impl Pass {
         Ok(())
     }
 
-    fn summary(self, flight: &PublishedFlight, causes: &Causes) -> Summary {
+    fn end_loss(&mut self) {
+        if let Some(loss) = self.loss.take().filter(|loss| loss.frames() > self.longest.frames()) {
+            self.longest = loss;
+        }
+    }
+
+    fn summary(mut self, flight: &PublishedFlight, causes: &Causes) -> Summary {
+        self.end_loss();
         let mean = |sum: f64| sum / self.frames.max(1) as f64;
-        let losses_s = self.longest.frames as f64 * flight.dt_s;
-        let (worst_frame, reason) = match self.longest.frames {
+        let losses_s = self.longest.frames() as f64 * flight.dt_s;
+        let (worst_frame, reason) = match self.longest.frames() {
             0 if self.frames == 0 => (0, "it has no frames".to_owned()),
             0 if self.least.1 >= 0.999 => (self.least.0, "always seen whole".to_owned()),
             0 => (self.least.0, format!("{:.0} % visible at frame {}", 100.0 * self.least.1, self.least.0)),
             frames => {
-                let most = self.longest.causes.iter().reduce(|most, next| if next.1 > most.1 { next } else { most });
-                let cause = match most {
-                    _ if 2 * self.longest.out_of_view > frames => "out of view".to_owned(),
-                    Some((cause, _)) => format!("hidden by {}", causes.words(&flight.town, *cause)),
-                    None => "out of view".to_owned(),
-                };
+                let cause = causes.words(&flight.town, &self.longest);
                 let begin = self.longest.begin;
                 (begin + frames / 2, format!("{cause} for {losses_s:.1} s from frame {begin}"))
             }

@@ -4,6 +4,7 @@ use super::description::{Description, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_onnx::{MOST_BYTES, OnnxModel, Tensor, TensorValues};
+use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -41,7 +42,16 @@ impl OnnxPolicy {
                 .because(rule)
                 .hint("the page \"Fly your ONNX policy\" of the book has the rules and an example")
         };
-        let size = path.metadata().map_err(|error| failed(&error))?.len();
+        let metadata = match path.metadata() {
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                return Err(refused("there is no such file".to_owned()));
+            }
+            metadata => metadata.map_err(|error| failed(&error))?,
+        };
+        let size = metadata.len();
+        if !metadata.is_file() {
+            return Err(refused("it is no file".to_owned())); // a device may have no end
+        }
         if size > MOST_BYTES as u64 {
             return Err(refused(format!("it has {size} bytes; it may have {MOST_BYTES}")));
         }
