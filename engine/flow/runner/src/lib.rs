@@ -16,6 +16,7 @@ mod leaf;
 mod options;
 mod plan;
 mod planning;
+mod processor_time;
 mod publisher;
 mod reason;
 mod reasons;

@@ -82,12 +82,12 @@ impl Ran<'_> {
     /// Summary of the run.
     pub(crate) fn summary(self, remembered: Result<()>, store: &Store) -> RunSummary {
         let Self { plan, after, .. } = self;
-        let AfterWork { endings, mut failures, costs, mut diagnostics, stopped } = after;
+        let AfterWork { endings, mut failures, costs, processor_s, mut diagnostics, stopped } = after;
         diagnostics.extend(remembered.err());
-        diagnostics.extend(remember_costs(&plan, &costs, store).err());
+        diagnostics.extend(remember_costs(&plan, &costs, processor_s, store).err());
         failures.sort_by_key(|failure| plan.recipe.position(failure.id.stage.as_str()));
         let mut summary = RunSummary::new(plan, endings);
-        (summary.failures, summary.diagnostics) = (failures, diagnostics);
+        (summary.failures, summary.diagnostics, summary.processor_s) = (failures, diagnostics, processor_s);
         summary.outcome = match summary.stages.iter().all(StageSummary::is_whole) && summary.diagnostics.is_empty() {
             _ if stopped => RunOutcome::Cancelled,
             true => RunOutcome::Complete,
@@ -97,12 +97,16 @@ impl Ran<'_> {
     }
 }
 
-/// Keeps the measured time of tasks for predictions.
-fn remember_costs(plan: &Plan<'_>, costs: &[Costs], store: &Store) -> Result<()> {
+/// Keeps the measured time of tasks for predictions: processor time, by each task's part of the clock's. Beside other work, and where
+/// a stage computes on several threads, the clock tells more or less than a core needs.
+fn remember_costs(plan: &Plan<'_>, costs: &[Costs], processor_s: Option<f64>, store: &Store) -> Result<()> {
+    let clock_s: f64 = costs.iter().map(|costs| costs.seconds).sum();
+    let share = processor_s.filter(|_| clock_s > 0.0).map_or(1.0, |processor_s| processor_s / clock_s);
     let measured = plan.stages.iter().zip(costs).filter(|(_, costs)| costs.items > 0);
-    measured
-        .into_iter()
-        .try_for_each(|(stage, costs)| store.add_costs(&stage.definition.digest, &stage.kind_and_part(), costs))
+    measured.into_iter().try_for_each(|(stage, costs)| {
+        let costs = Costs { seconds: share * costs.seconds, ..*costs };
+        store.add_costs(&stage.definition.digest, &stage.kind_and_part(), &costs)
+    })
 }
 
 fn all_cached(plan: &Plan<'_>) -> Vec<Vec<Ending>> {

@@ -112,6 +112,8 @@ pub struct RunSummary {
     pub failures: Vec<Failure>,
     /// Failures that belong to no task: a disk that refused, bytes that differ between executions.
     pub diagnostics: Vec<Box<Diagnostic>>,
+    /// Processor time of all threads, seconds; `None` where nothing was left to do or the system does not tell.
+    pub processor_s: Option<f64>,
     items: Vec<StageItems>,
 }
 
@@ -153,7 +155,14 @@ impl RunSummary {
             results: planned.finished,
         });
         let items = items.collect();
-        Self { outcome: RunOutcome::Complete, stages, failures: Vec::new(), diagnostics: Vec::new(), items }
+        Self {
+            outcome: RunOutcome::Complete,
+            stages,
+            failures: Vec::new(),
+            diagnostics: Vec::new(),
+            processor_s: None,
+            items,
+        }
     }
 
     /// Result of an item; `None` where it is not finished.

@@ -5,6 +5,7 @@ use crate::intermediates::Intermediates;
 use crate::leaf::{Ended, Settlement, Task, execute};
 use crate::options::RunOptions;
 use crate::plan::Plan;
+use crate::processor_time::processor_s;
 use crate::publisher::{Publication, Publisher};
 use crate::schedule::{Schedule, State, TaskIndex};
 use crate::summary::{Ending, Failure, RunSummary};
@@ -33,8 +34,10 @@ pub(crate) struct AfterWork {
     pub(crate) endings: Vec<Vec<Ending>>,
     /// The first failed tasks.
     pub(crate) failures: Vec<Failure>,
-    /// Measured tasks of each stage.
+    /// Measured tasks of each stage, seconds of a clock.
     pub(crate) costs: Vec<Costs>,
+    /// Processor time of the work, seconds; `None` where the system does not tell.
+    pub(crate) processor_s: Option<f64>,
     /// Failures that belong to no task.
     #[expect(clippy::vec_box, reason = "diagnostics are boxed wherever they go")]
     pub(crate) diagnostics: Vec<Box<Diagnostic>>,
@@ -103,7 +106,9 @@ pub(crate) fn do_the_rest(
         publisher: Publisher::default(),
         changed: Condvar::new(),
     };
+    let before_s = processor_s();
     let sound = workers.run(jobs);
+    let processor_s = processor_s().zip(before_s).map(|(after_s, before_s)| after_s - before_s);
     let mut shared = workers.shared.into_inner().unwrap_or_else(PoisonError::into_inner);
     if !sound {
         let message = "internal error: the engine panicked; please report it";
@@ -114,7 +119,7 @@ pub(crate) fn do_the_rest(
         stage.finished = results;
     }
     let Shared { failures, costs, diagnostics, stopping: stopped, .. } = shared;
-    Ok(AfterWork { endings, failures, costs, diagnostics, stopped })
+    Ok(AfterWork { endings, failures, costs, processor_s, diagnostics, stopped })
 }
 
 /// Threads for the parallel work of stages.

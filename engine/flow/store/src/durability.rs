@@ -12,8 +12,9 @@ use std::sync::Mutex;
 /// Syncs the file system of the store; where `syncfs` is missing, syncs the written files one by one.
 #[derive(Debug)]
 pub(crate) struct Durability {
+    /// Folder of the store; absent in a store that only reads.
     #[cfg(target_os = "linux")]
-    root: File,
+    root: Option<File>,
     /// Files renamed into place since the last sync.
     unsynced: Mutex<Vec<PathBuf>>,
 }
@@ -27,9 +28,18 @@ impl Durability {
         let _ = layout;
         Ok(Self {
             #[cfg(target_os = "linux")]
-            root,
+            root: Some(root),
             unsynced: Mutex::default(),
         })
+    }
+
+    /// For a store that only reads, and may not exist.
+    pub(crate) fn none() -> Self {
+        Self {
+            #[cfg(target_os = "linux")]
+            root: None,
+            unsynced: Mutex::default(),
+        }
     }
 
     /// Registers a file that was renamed into place.
@@ -41,7 +51,7 @@ impl Durability {
     pub(crate) fn sync(&self) -> io::Result<()> {
         let files = std::mem::take(&mut *locked(&self.unsynced));
         #[cfg(target_os = "linux")]
-        match rustix::fs::syncfs(&self.root) {
+        match self.root.as_ref().map_or(Err(rustix::io::Errno::NOSYS), rustix::fs::syncfs) {
             Ok(()) => return Ok(()),
             Err(rustix::io::Errno::NOSYS | rustix::io::Errno::PERM | rustix::io::Errno::OPNOTSUPP) => {}
             Err(error) => return Err(error.into()),

@@ -93,11 +93,14 @@ impl Store {
         })
     }
 
-    /// Like [`Self::open`], for reading: also opens a store on a read-only disk.
+    /// Like [`Self::open`], for reading: also opens a store on a read-only disk. Where nothing exists the store is empty, and stays absent.
     ///
     /// # Errors
     /// The errors of [`Self::open`].
     pub fn open_to_read(root: &Path) -> Result<Self> {
+        if !root.as_os_str().is_empty() && !root.exists() {
+            return Ok(Self::to_read(Layout { root: root.to_owned() }, None));
+        }
         match Self::open(root) {
             Err(refusal) if matches!(refusal.fault, Fault::Machine | Fault::DiskFull) => {
                 Self::open_as_it_is(root)?.ok_or(refusal)
@@ -111,10 +114,14 @@ impl Store {
         let Some(layout) = Layout::check(root)? else { return Ok(None) };
         // A store that cannot be locked cannot be cleaned either.
         let garbage_lock = File::open(layout.root.join("locks/garbage")).ok().filter(|file| file.lock_shared().is_ok());
-        Ok(Some(Self {
+        Ok(Some(Self::to_read(layout, garbage_lock)))
+    }
+
+    fn to_read(layout: Layout, garbage_lock: Option<File>) -> Self {
+        Self {
             scratch: Scratch::none(&layout),
             faults: Arc::new(NoFaults),
-            durability: Durability::of(&layout)?,
+            durability: Durability::none(),
             layout,
             checked: Mutex::default(),
             decoded: DecodeCache::default(),
@@ -124,7 +131,7 @@ impl Store {
             packs: Packs::default(),
             packed_lost: Mutex::default(),
             _garbage_lock: garbage_lock,
-        }))
+        }
     }
 
     /// Folder of the store.
@@ -322,8 +329,9 @@ mod tests {
         let store = Store::open_to_read(root.path()).unwrap();
         assert_eq!(store.document(&Digest::of(b"1")), Some(1.into()));
         assert_eq!(store.put_document(&Digest::of(b"2"), "2").unwrap_err().code, "machine-io");
-        let nothing = root.path().join("tmp/S");
-        assert_eq!(Store::open_to_read(&nothing).map(drop).unwrap_err().code, "machine-io");
+        let nothing = root.path().join("S");
+        let absent = Store::open_to_read(&nothing).unwrap();
+        assert!(absent.document(&Digest::of(b"1")).is_none() && !nothing.exists());
     }
 
     #[test]
