@@ -6,6 +6,7 @@
 mod config;
 mod flown;
 mod laser_altimeter;
+mod odometry;
 mod place;
 mod sensor;
 mod set;
@@ -22,6 +23,7 @@ pub use set::SensorSet;
 pub static ALL: &[&Sensor] = &[
     // Each has a file of its own.
     &laser_altimeter::SENSOR,
+    &odometry::SENSOR,
 ];
 
 /// The sensor called `name`.
