@@ -146,9 +146,12 @@ fn dagger_adds_rounds_and_says_what_is_new() {
         let all = [&["dagger", "recipe.toml"], arguments].concat();
         cosfly(&all).within(street.path()).run_ok().stdout
     };
-    let first = dagger(&["--policy", "hold", "--expert-share", "1", "--round", "clone", "--out", "v1", "--jobs", "1"]);
+    let kept = ["--keep", "mask,depth,laser_altimeter", "--size-px", "16", "--jobs", "1"];
+    let clone = ["--policy", "hold", "--expert-share", "1", "--round", "clone", "--out", "v1"];
+    let first = dagger(&[&clone[..], &kept].concat());
     assert!(first.contains("added: round `clone`") && first.contains("the expert flew 100 %"), "{first}");
     let mixed = ["--policy", "follow", "--expert-share", "0.5", "--round", "next", "--onto", "v1"];
+    let mixed = [&mixed[..], &kept[..4]].concat();
     let second = dagger(&[&mixed[..], &["--out", "v2", "--jobs", "1"]].concat());
     assert!(second.contains("kept: round `clone`") && second.contains("added: round `next`"), "{second}");
     dagger(&[&mixed[..], &["--out", "v3", "--jobs", "2"]].concat());
@@ -180,8 +183,14 @@ fn dagger_adds_rounds_and_says_what_is_new() {
         "{}",
         states.len()
     );
+    let bytes = |file: &str| std::fs::metadata(street.path().join(file)).expect("pictures").len() - 128;
+    assert_eq!(bytes("v2/mask.npy"), (states.len() as u64 - 128) / 64 * 256);
+    assert_eq!(bytes("v2/depth.npy"), 4 * bytes("v2/mask.npy"));
+    assert_eq!(bytes("v2/laser_altimeter.npy"), (states.len() as u64 - 128) / 8);
+    let again = [&["--policy", "follow", "--round", "clone", "--onto", "v1", "--out", "v4"][..], &kept].concat();
     for (arguments, words) in [
-        (&["--policy", "follow", "--round", "clone", "--onto", "v1", "--out", "v4"][..], "has a round `clone` already"),
+        (&again[..], "has a round `clone` already"),
+        (&["--policy", "follow", "--round", "other", "--onto", "v1", "--out", "v4"], "keeps other observations"),
         (&["--policy", "follow", "--round", "other", "--out", "v2"], "another version of labels"),
         (&["--policy", "follow", "--round", "other", "--onto", "nowhere", "--out", "v4"], "no version of labels"),
         (&["--policy", "follow", "--actions", "rotors", "--round", "other", "--out", "v4"], "labels are velocities"),

@@ -2,7 +2,7 @@
 
 mod diff;
 
-use super::fly::policy::PolicyArguments;
+use super::fly::policy::{Observed, PolicyArguments, observed, sensors_of};
 use crate::arguments::{RecipeArguments, StoreArguments, threads};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
@@ -12,15 +12,17 @@ use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_env::EnvironmentSettings;
 use cosfly_fly::dagger::difference::told;
 use cosfly_fly::dagger::folder::{LabelCard, LabelFolder, RoundCard};
+use cosfly_fly::dagger::kept::KeptObservations;
 use cosfly_fly::dagger::rollout::PolicyMixture;
 use cosfly_fly::dagger::run::{Round, run};
 use cosfly_fly::flight::Latency;
 use cosfly_fly::pilot::{ActionKind, Place};
-use cosfly_fly::results::{EnvironmentCard, SuiteCard};
+use cosfly_fly::results::{EnvironmentCard, PicturesCard, SuiteCard};
 use cosfly_fly::settings::FlySettings;
 use cosfly_fly::suite::Suite;
 use cosfly_frames::Seed;
 use cosfly_runner::RunOptions;
+use cosfly_sensors::SensorSet;
 use cosfly_store::check_out_folder;
 use std::path::PathBuf;
 
@@ -34,10 +36,13 @@ use std::path::PathBuf;
 Examples:
   cosfly dagger recipes/suites/street.toml --policy hold --expert-share 1 --round clone --out labels/v1
   cosfly dagger recipes/suites/street.toml --policy python:student:act --expert-share 0.5 --round first --out labels/v2 --onto labels/v1
+  cosfly dagger recipes/suites/street.toml --policy hold --expert-share 1 --round clone --keep depth,mask,odometry --out labels/seen
   cosfly dagger diff labels/v1 labels/v2
 
 A version is a folder: card.json, rounds/ROUND/EPISODE.jsonl with a line per step, and arrays of numpy over all rounds:
 states.npy (n, 16), expert_actions.npy (n, 5), actions.npy (n, 5), expert_visibility.npy (n, 1), by_expert.npy (n,).
+With --keep a file NAME.npy has what is seen in each state: pictures (n, rows, columns) or (n, rows, columns, 3), readings
+(n, quantities).
 States without a way on for the expert are left out of the arrays. The same command goes on with what a folder lacks. Exits
 with 1 when the policy has given no right answer (then nothing is kept) or went away before all episodes were flown."
 )]
@@ -62,6 +67,9 @@ pub struct Arguments {
     /// Name of the round; it draws the frames that the expert flies
     #[arg(long, value_name = "NAME", required = true, value_parser = super::fly::folder_name)]
     round: Option<String>,
+    /// Pictures, of `--size-px` and `--look`, and readings of sensors that are kept with every state (repeatable)
+    #[arg(long, value_name = "NAME", value_parser = observed(), value_delimiter = ',')]
+    keep: Vec<Observed>,
     /// Folder for the new version
     #[arg(long, value_name = "DIR", required = true)]
     out: Option<PathBuf>,
@@ -117,7 +125,9 @@ impl Command for Arguments {
             Suite::make(&recipe, &store, &options, &*progress)?
         };
         // A label belongs to the state it is for: actions take effect at once.
-        let (latency_s, sensors) = (0.0, self.asked.sensors(&place));
+        let (latency_s, seen) = (0.0, self.asked.sensors(&place));
+        let kept = sensors_of(&self.keep);
+        let sensors = SensorSet::of(|sensor| seen.iter().chain(kept.iter()).any(|it| it.name == sensor.name));
         let settings = EnvironmentSettings { latency_s, sensors, ..FlySettings::of(&recipe)?.environment() };
         let onto = self.onto.as_deref().map(LabelFolder::card).transpose()?;
         let card = self.card(&suite, &settings, &place, name, onto.as_ref())?;
@@ -127,7 +137,20 @@ impl Command for Arguments {
         let policy = self.name.clone().unwrap_or_else(|| place.name());
         let (recipe, store, suite, place, manners) = (&recipe, &store, &suite, &place, &manners);
         let (policy, cancelled) = (policy.as_str(), &*cancelled);
-        let round = Round { recipe, store, suite, place, manners, settings, mixture, name, policy, jobs, cancelled };
+        let round = Round {
+            recipe,
+            store,
+            suite,
+            place,
+            manners,
+            settings,
+            mixture,
+            name,
+            policy,
+            kept: self.kept(),
+            jobs,
+            cancelled,
+        };
         let progress = console.progress("dagger", "episodes");
         let deadline = console.deadline(None);
         let flown = run(&round, &folder, &*progress)?;
@@ -158,6 +181,10 @@ impl Command for Arguments {
 }
 
 impl Arguments {
+    fn kept(&self) -> KeptObservations {
+        KeptObservations { pictures: self.asked.pictures_of(&self.keep), sensors: sensors_of(&self.keep) }
+    }
+
     /// The card of the new version: the rounds of the one before, and the round to be made.
     fn card(
         &self,
@@ -182,11 +209,19 @@ impl Arguments {
                 refused(message).hint("run the command that makes it once more: it goes on with what is missing")
             );
         }
+        let kept = self.kept();
+        let pictures = kept.pictures.as_ref().map(PicturesCard::of);
+        let readings: Vec<String> = kept.sensors.iter().map(|sensor| sensor.name.to_owned()).collect();
+        if onto.is_some_and(|onto| (&onto.pictures, &onto.readings) != (&pictures, &readings)) {
+            let message = "the version of `--onto` keeps other observations".to_owned();
+            let hint = "its card.json has them under `pictures` and `readings`; give the same with `--keep`";
+            return Err(refused(message).hint(hint));
+        }
         if rounds.iter().any(|round| round.name == name) {
             let message = format!("the version of `--onto` has a round `{name}` already");
             return Err(refused(message).hint("give the new round another name with `--round`"));
         }
         rounds.push(round);
-        Ok(LabelCard { suite, environment, rounds, cosfly: env!("CARGO_PKG_VERSION").to_owned() })
+        Ok(LabelCard { suite, environment, pictures, readings, rounds, cosfly: env!("CARGO_PKG_VERSION").to_owned() })
     }
 }

@@ -15,7 +15,7 @@ use cosfly_stage::{ItemId, StageName, StageRole};
 use cosfly_store::check_out_folder;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Rejections that are listed.
 const MOST_REJECTIONS: usize = 10;
@@ -86,7 +86,7 @@ impl Command for Arguments {
         drop(progress);
         let delivery = delivery?;
         if self.json {
-            console.print(&json(&recipe, &delivery, &out))?;
+            console.print(&json(&recipe, &delivery, &out, began.elapsed()))?;
         } else {
             let took = duration(began.elapsed());
             if !self.quiet {
@@ -228,7 +228,7 @@ fn first_log(out: &Path) -> Option<PathBuf> {
 }
 
 /// Summary and result for programs.
-fn json(recipe: &Recipe, delivery: &Delivery, out: &Path) -> String {
+fn json(recipe: &Recipe, delivery: &Delivery, out: &Path, took: Duration) -> String {
     let run = &delivery.summary;
     let stages: Vec<serde_json::Value> = run
         .stages
@@ -262,6 +262,8 @@ fn json(recipe: &Recipe, delivery: &Delivery, out: &Path) -> String {
         "version": delivery.folder.as_ref().map(|folder| folder.version.to_string()),
         "files": delivery.folder.as_ref().map(|folder| folder.files),
         "bytes": delivery.folder.as_ref().map(|folder| folder.bytes),
+        "seconds": took.as_secs_f64(),
+        "core_seconds": run.processor_s,
     });
     serde_json::to_string_pretty(&whole).expect("a summary is plain JSON") + "\n"
 }

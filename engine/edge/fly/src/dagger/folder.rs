@@ -1,13 +1,14 @@
 //! [`LabelFolder`]: a version of the labels: `card.json`, `rounds/ROUND/EPISODE.jsonl`, and arrays over all of them.
 
+use super::kept::{KeptShape, ObservationKeeper};
 use super::npy;
 use super::rollout::{ExpertLabel, Rollout};
-use crate::results::{EnvironmentCard, PolicyCard, SuiteCard, differences};
+use crate::results::{EnvironmentCard, PicturesCard, PolicyCard, SuiteCard, differences};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
-use cosfly_whole::{Appeared, NewFolder, write_file};
+use cosfly_whole::{Appeared, NewFolder, draft, write_file};
 use serde::{Deserialize, Serialize};
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -19,10 +20,26 @@ pub struct LabelCard {
     pub suite: SuiteCard,
     /// Settings of the environment.
     pub environment: EnvironmentCard,
+    /// Pictures that are kept with every label, in all rounds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pictures: Option<PicturesCard>,
+    /// Sensors whose readings are kept with every label, in all rounds.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub readings: Vec<String>,
     /// Rounds, the oldest first.
     pub rounds: Vec<RoundCard>,
     /// Version of cosfly.
     pub cosfly: String,
+}
+
+impl LabelCard {
+    /// Names and shapes of the observations that are kept.
+    fn kept(&self) -> Vec<(&'static str, KeptShape)> {
+        let pictures = self.pictures.iter();
+        let pictures = pictures.flat_map(|of| of.channels().map(|it| (it.name, KeptShape::of(it, of.size()))));
+        let sensors = self.readings.iter().filter_map(|name| cosfly_sensors::called(name));
+        pictures.chain(sensors.map(|it| (it.name, KeptShape::of_readings(it)))).collect()
+    }
 }
 
 /// A round: flights of one policy under one mixture.
@@ -170,8 +187,11 @@ impl LabelFolder {
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn keep(&self, round: &str, episode: &str, rollout: &Rollout) -> Result<()> {
+    pub fn keep(&self, round: &str, episode: &str, rollout: &Rollout, kept: &ObservationKeeper) -> Result<()> {
         self.make()?;
+        for (name, file) in kept.files() {
+            self.write(&format!("rounds/{round}/{episode}.{name}.npy"), &file)?;
+        }
         let line = |label: &ExpertLabel| serde_json::to_string(label).unwrap_or_default() + "\n";
         let text: String = rollout.labels.iter().map(line).collect();
         self.write(&format!("rounds/{round}/{episode}.jsonl"), text.as_bytes())
@@ -183,7 +203,7 @@ impl LabelFolder {
     /// Errors of the file system; `dagger-version` where a file is damaged.
     pub fn finish(&self, mut card: LabelCard, episodes: &[&str]) -> Result<LabelCard> {
         self.make()?;
-        let mut all = Vec::new();
+        let (mut all, mut files) = (Vec::new(), Vec::new());
         for round in &mut card.rounds {
             let first = all.len();
             let mut listed = String::new();
@@ -191,12 +211,10 @@ impl LabelFolder {
                 let path = self.path.join("rounds").join(&round.name).join(format!("{episode}.jsonl"));
                 let text = std::fs::read_to_string(&path).map_err(|error| failed("read", &path, &error))?;
                 listed.push_str(&format!("{episode} {}\n", Digest::of(text.as_bytes())));
+                files.push((path.with_extension(""), all.len()));
                 for line in text.lines() {
-                    let label = serde_json::from_str::<ExpertLabel>(line).map_err(|error| {
-                        let message = format!("`{}` is damaged", path.display());
-                        Diagnostic::new("dagger-version", Fault::Input, message).because(error.to_string())
-                    })?;
-                    all.push(label);
+                    let label = serde_json::from_str::<ExpertLabel>(line);
+                    all.push(label.map_err(|error| damaged(&path, &error.to_string()))?);
                 }
             }
             let of_round = &all[first..];
@@ -221,8 +239,38 @@ impl LabelFolder {
         let seen = labelled().map(|(label, _)| label.expert_visibility.unwrap_or(0.0) as f32);
         self.write("expert_visibility.npy", &npy::floats(seen, 1))?;
         self.write("by_expert.npy", &npy::flags(labelled().map(|(label, _)| label.by_expert)))?;
+        let is_labelled: Vec<bool> = all.iter().map(|label| label.expert_action.is_some()).collect();
+        for (name, shape) in card.kept() {
+            self.gather(name, &shape, &files, &is_labelled)?;
+        }
         self.write("card.json", pretty(&card).as_bytes())?;
         Ok(card)
+    }
+
+    /// Writes the observations of all labelled states. `files` are the episodes' files without their extension, and the first of
+    /// their steps among all.
+    fn gather(&self, name: &str, shape: &KeptShape, files: &[(PathBuf, usize)], is_labelled: &[bool]) -> Result<()> {
+        let path = self.path.join(format!("{name}.npy"));
+        let refused = |error: std::io::Error| failed("write", &path, &error);
+        let mut file = draft(&path).map_err(refused)?;
+        file.write_all(&shape.head(is_labelled.iter().filter(|it| **it).count())).map_err(refused)?;
+        let ends = files.iter().skip(1).map(|(_, first)| *first).chain([is_labelled.len()]);
+        for ((episode, first), end) in files.iter().zip(ends) {
+            let of_episode = PathBuf::from(format!("{}.{name}.npy", episode.display()));
+            let bytes = std::fs::read(&of_episode).map_err(|error| failed("read", &of_episode, &error))?;
+            let is_labelled = &is_labelled[*first..end];
+            let Some(pixels) = bytes.strip_prefix(&shape.head(is_labelled.len())[..]) else {
+                return Err(damaged(&of_episode, "it does not begin as a file of so many steps of this shape"));
+            };
+            if pixels.len() != is_labelled.len() * shape.bytes() {
+                return Err(damaged(&of_episode, "it is not as long as its beginning says"));
+            }
+            for (pixels, _) in pixels.chunks_exact(shape.bytes()).zip(is_labelled).filter(|it| *it.1) {
+                file.write_all(pixels).map_err(refused)?;
+            }
+        }
+        file.persist(&path).map_err(|error| refused(error.error))?;
+        Ok(())
     }
 
     fn write(&self, name: &str, bytes: &[u8]) -> Result<()> {
@@ -241,6 +289,11 @@ fn unmade(card: &LabelCard) -> LabelCard {
     let mut card = card.clone();
     card.rounds.last_mut().into_iter().for_each(|round| round.made = None);
     card
+}
+
+fn damaged(path: &Path, why: &str) -> Box<Diagnostic> {
+    let message = format!("`{}` is damaged", path.display());
+    Diagnostic::new("dagger-version", Fault::Input, message).because(why)
 }
 
 fn failed(what: &str, path: &Path, error: &std::io::Error) -> Box<Diagnostic> {

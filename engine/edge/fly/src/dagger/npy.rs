@@ -4,22 +4,23 @@
 pub fn floats(rows: impl Iterator<Item = f32>, width: usize) -> Vec<u8> {
     let data: Vec<u8> = rows.flat_map(f32::to_le_bytes).collect();
     let count = data.len() / 4 / width.max(1);
-    with_head("<f4", &format!("({count}, {width})"), data)
+    [head("<f4", &format!("({count}, {width})")), data].concat()
 }
 
 /// A list of truth values, as a file.
 pub fn flags(values: impl Iterator<Item = bool>) -> Vec<u8> {
     let data: Vec<u8> = values.map(u8::from).collect();
-    with_head("|b1", &format!("({},)", data.len()), data)
+    [head("|b1", &format!("({},)", data.len())), data].concat()
 }
 
-fn with_head(dtype: &str, shape: &str, data: Vec<u8>) -> Vec<u8> {
+/// Beginning of a file, up to its numbers.
+pub fn head(dtype: &str, shape: &str) -> Vec<u8> {
     let mut head = format!("{{'descr': '{dtype}', 'fortran_order': False, 'shape': {shape}, }}");
     // Magic, version and length are 10 bytes; the data begin at a multiple of 64.
     let length = (10 + head.len() + 1).next_multiple_of(64) - 10;
     head.extend(std::iter::repeat_n(' ', length - 1 - head.len()));
     head.push('\n');
-    [b"\x93NUMPY\x01\x00", &(length as u16).to_le_bytes()[..], head.as_bytes(), &data].concat()
+    [b"\x93NUMPY\x01\x00", &(length as u16).to_le_bytes()[..], head.as_bytes()].concat()
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! One episode, flown by a mixture of policy and expert, with the expert's action in every state.
 
+use super::kept::ObservationKeeper;
 use crate::experts::{KnownFlight, LOOK_AHEAD_S};
 use crate::pilot::{Asked, Failure, Pilot};
 use crate::suite::EpisodeTask;
@@ -65,7 +66,8 @@ pub enum Attempt {
     Gone(String),
 }
 
-/// Flies an episode. The mixture chooses anew at every frame of the dataset who flies until the next one.
+/// Flies an episode. The mixture chooses anew at every frame of the dataset who flies until the next one. `keeper` gets the
+/// observations of each label.
 ///
 /// # Errors
 /// Errors of the expert.
@@ -75,11 +77,13 @@ pub fn rollout(
     settings: EnvironmentSettings,
     mixture: &PolicyMixture,
     pilot: &mut Asked<'_>,
+    keeper: &mut ObservationKeeper,
 ) -> Result<Attempt> {
     let mut environment = Environment::new(Arc::clone(&task.episode), settings);
     let (mut rollout, mut way) = (Rollout::default(), None);
     let mut choice = mixture.seed.child(&task.episode.name, 0).stream("mixture");
     let (mut by_expert, mut next_frame) = (false, 0);
+    keeper.begin();
     if let Err(reason) = pilot.begin(&environment, &task.knowledge) {
         return Ok(Attempt::Gone(reason));
     }
@@ -102,6 +106,7 @@ pub fn rollout(
                 break;
             }
         };
+        keeper.keep(&environment);
         let flown = expert.filter(|_| by_expert).map_or(own, |(action, _)| action);
         let numbers = |action: &Action| action.numbers(observation.yaw_rad).map(|number| number as f32);
         rollout.labels.push(ExpertLabel {

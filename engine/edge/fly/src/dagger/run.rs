@@ -1,6 +1,7 @@
 //! A round: all episodes of a suite, flown and labelled on several threads; episodes that are in the folder are kept.
 
 use super::folder::LabelFolder;
+use super::kept::{KeptObservations, ObservationKeeper};
 use super::rollout::{Attempt, PolicyMixture, rollout};
 use crate::crew::{EpisodeOutcome, Shifts, crew};
 use crate::experts::Experts;
@@ -30,6 +31,8 @@ pub struct Round<'a> {
     pub settings: EnvironmentSettings,
     /// Who flies.
     pub mixture: PolicyMixture,
+    /// Observations that are kept with every label.
+    pub kept: KeptObservations,
     /// Name of the round.
     pub name: &'a str,
     /// Name of the policy.
@@ -65,15 +68,16 @@ pub fn run(round: &Round<'_>, folder: &LabelFolder, progress: &dyn Fn(u64, u64))
     let shifts = Shifts { jobs: round.jobs, cancelled: round.cancelled, first: &first };
     let worker = || {
         let plan = cosfly_runner::plan(round.recipe, round.store)?;
-        Ok((Experts::new(plan, round.store), Asked::new(round.place, round.manners, &first)))
+        let keeper = ObservationKeeper::new(&round.kept);
+        Ok((Experts::new(plan, round.store), Asked::new(round.place, round.manners, &first), keeper))
     };
-    let crewed = crew(due, &shifts, progress, worker, |(experts, pilot), at| {
+    let crewed = crew(due, &shifts, progress, worker, |(experts, pilot, keeper), at| {
         let task = &tasks[at];
         let known = experts.flight(&task.episode.name)?;
-        Ok(match rollout(task, &known, round.settings, &round.mixture, pilot)? {
+        Ok(match rollout(task, &known, round.settings, &round.mixture, pilot, keeper)? {
             Attempt::Flown(made) => {
                 asked.fetch_add(u64::from(made.asked), Ordering::Relaxed);
-                folder.keep(round.name, &task.episode.name, &made)?;
+                folder.keep(round.name, &task.episode.name, &made, keeper)?;
                 if let Some(reason) = made.policy_failure {
                     let reason = format!("{}, {reason}", task.episode.name);
                     failures.lock().unwrap_or_else(PoisonError::into_inner).insert(at, reason);

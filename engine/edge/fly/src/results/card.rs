@@ -5,7 +5,8 @@ use crate::flight::Latency;
 use crate::pilot::OnnxPolicy;
 use crate::settings::FlySettings;
 use crate::suite::{Suite, SuitePart};
-use cosfly_domain::channels::rgb;
+use cosfly_domain::Channel;
+use cosfly_domain::channels::{self, rgb};
 use cosfly_drone::models;
 use cosfly_env::pictures::PictureFormat;
 use cosfly_env::{Blackouts, DroneSettings, EnvironmentSettings, MOST_LATENCY_MS, MOST_WIND_MPS, RewardWeights};
@@ -164,6 +165,16 @@ impl PicturesCard {
             farthest_m: format.farthest_m,
             look: format.channels.contains(&rgb::CHANNEL).then_some(format.look),
         }
+    }
+
+    /// Channels.
+    pub fn channels(&self) -> impl Iterator<Item = &'static Channel> {
+        self.channels.iter().filter_map(|name| channels::called(name))
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width as usize, self.height as usize]
     }
 }
 

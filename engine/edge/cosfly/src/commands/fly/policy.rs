@@ -57,7 +57,7 @@ pub struct PolicyArguments {
 
 /// A part of observations.
 #[derive(Clone, Copy, Debug)]
-enum Observed {
+pub enum Observed {
     Channel(&'static Channel),
     Sensor(&'static Sensor),
 }
@@ -146,8 +146,13 @@ impl PolicyArguments {
     }
 
     fn pictures(&self) -> Option<PictureFormat> {
+        self.pictures_of(&self.obs)
+    }
+
+    /// Pictures among parts of observations, in the size and look that are asked for; none without a channel.
+    pub fn pictures_of(&self, observed: &[Observed]) -> Option<PictureFormat> {
         let is_asked =
-            |channel: &Channel| self.obs.iter().any(|it| matches!(it, Observed::Channel(own) if *own == channel));
+            |channel: &Channel| observed.iter().any(|it| matches!(it, Observed::Channel(own) if *own == channel));
         let channels = ChannelSet::of(is_asked);
         let (width, height) = (self.size_px, self.size_px);
         let look = self.look;
@@ -166,8 +171,7 @@ impl PolicyArguments {
         if let Place::Onnx(policy) = place {
             return SensorSet::of(|sensor| policy.sees().contains(&sensor.name));
         }
-        let is = |it: &Observed, sensor: &Sensor| matches!(it, Observed::Sensor(own) if own.name == sensor.name);
-        SensorSet::of(|sensor| self.obs.iter().any(|it| is(it, sensor)))
+        sensors_of(&self.obs)
     }
 
     /// Card of the policy at a place.
@@ -211,8 +215,14 @@ fn key_of(file: &Path) -> Result<String> {
     Ok(key.to_owned())
 }
 
+/// Sensors among parts of observations.
+pub fn sensors_of(observed: &[Observed]) -> SensorSet {
+    let is = |it: &Observed, sensor: &Sensor| matches!(it, Observed::Sensor(own) if own.name == sensor.name);
+    SensorSet::of(|sensor| observed.iter().any(|it| is(it, sensor)))
+}
+
 /// A channel or a sensor of the lists, by its name.
-fn observed() -> impl TypedValueParser<Value = Observed> {
+pub fn observed() -> impl TypedValueParser<Value = Observed> {
     let channels = channels::ALL.iter().map(|channel| PossibleValue::new(channel.name).help(channel.doc));
     let sensors = cosfly_sensors::ALL.iter().map(|sensor| PossibleValue::new(sensor.name).help(sensor.doc));
     PossibleValuesParser::new(channels.chain(sensors)).try_map(|name| {
