@@ -203,6 +203,63 @@ def test_packs_give_the_same_samples():
         cosfly.pack("data", "packed", progress=False)
 
 
+def test_packs_of_some_flights_and_whole_arrays():
+    with pytest.warns(UserWarning, match="pixels high at 80 x 45"):
+        pack = cosfly.pack("data", "packed-twins", size=(80, 45), channels=("rgb",), role="perturbed", trajectories="perturbed-*", progress=False)
+    plain = cosfly.Dataset("data", size=(80, 45), channels=("rgb",), role="perturbed")
+    assert 0 < len(pack) == len(plain) < len(cosfly.Dataset("data"))
+    assert np.array_equal(pack.array("rgb")[pack.rows[7]], plain[7]["rgb"])
+    windows = pack.windows()
+    assert np.array_equal(pack.array("rgb")[windows.rows[2]], plain.windows()[2]["rgb"])
+    assert np.array_equal(windows.array("input_boxes_px")[2], windows[2]["input_boxes_px"])
+    with pytest.raises(cosfly.InvalidValue, match="no pictures of"):
+        cosfly.Pack("packed-twins", "data", role="expert")
+    with pytest.raises(cosfly.InvalidValue, match="no pictures of"):
+        cosfly.Pack("packed-twins", "data", trajectories="expert-*")
+    with pytest.raises(KeyError, match="none matches it"):
+        cosfly.Dataset("data", trajectories=["expert-p00000", "expert_p*"])
+
+
+def test_batches_are_the_samples_one_by_one():
+    dataset = cosfly.Dataset("data", size=(160, 90), columns=["visible_box_px", "drone_x_m"], jobs=2)
+    numbers = [3, -1, dataset.number_of(dataset.trajectory_ids[1], 4)]
+    for samples in (dataset, dataset.windows()):
+        chosen = [number % len(samples) for number in numbers]
+        batch, alone = samples.batch(chosen), [samples[number] for number in chosen]
+        for name in ("rgb", "depth"):
+            assert np.array_equal(batch[name], np.stack([sample[name] for sample in alone])), name
+        assert list(batch["trajectory_id"]) == [sample["trajectory_id"] for sample in alone]
+    row = pq.read_table("data/data/frames", filters=[("trajectory_id", "=", dataset[3]["trajectory_id"]), ("frame", "=", 3)]).to_pylist()[0]
+    assert row["visible_box_px"] and np.allclose(dataset[3]["visible_box_px"], np.array(row["visible_box_px"]) / 2)
+    windows = dataset.windows()
+    number = windows.number_of(windows[4]["trajectory_id"], windows[4]["start_frame"])
+    assert number == 4 and windows[4]["split"] in ("train", "val", "test") and windows[4]["town"] == "downtown"
+    with pytest.raises(KeyError, match="no sample of frame 1;"):
+        windows.number_of(windows[4]["trajectory_id"], 1)
+    assert windows[4]["difficulty"] in ("easy", "medium", "hard") and windows[4]["expert_boxes_px"].shape == (10, 4)
+
+
+def test_the_anchor_of_windows():
+    twins = cosfly.Dataset("data", role="perturbed", channels=())
+    ours, theirs = twins.windows(), twins.windows(anchor="expert")
+    a, b = ours[2], theirs[2]
+    assert np.array_equal(b["waypoint_deltas_in_world"], a["expert_steps_in_world"][4:])
+    assert np.array_equal(a["waypoint_deltas_in_world"][1:], b["waypoint_deltas_in_world"][1:])
+    assert np.allclose(a["waypoint_deltas_in_world"][0, :3] - a["correction_in_world"][-1, :3], b["waypoint_deltas_in_world"][0, :3], atol=1e-4)
+    with pytest.raises(cosfly.InvalidValue, match="anchors are"):
+        twins.windows(anchor="target")
+
+
+def test_runs_say_their_time_and_size():
+    made = cosfly.run("small", out="data", progress=False)
+    assert made.frames == len(cosfly.Dataset("data", channels=())) and made.seconds > 0
+
+
+def test_plans_write_nothing(tmp_path):
+    store = tmp_path / "nowhere"
+    assert cosfly.plan("small", store=store).to_run > 0 and not store.exists()
+
+
 def test_the_expert_answers_batches():
     expert = cosfly.Expert("small")
     poses = pq.read_table("data/data/frames").to_pylist()

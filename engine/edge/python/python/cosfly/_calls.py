@@ -63,8 +63,17 @@ class RunResult:
     """Digest of the dataset."""
     files: Optional[int]
     bytes: Optional[int]
+    seconds: float = 0.0
+    """Time of the run by the clock."""
+    core_seconds: Optional[float] = None
+    """Processor time of all threads; None where nothing was left to do or the system does not tell."""
     messages: List[str] = field(default_factory=list, repr=False)
     """Warnings and failures, as the command line prints them."""
+
+    @property
+    def frames(self) -> int:
+        """Frames of the dataset."""
+        return len(self.dataset(channels=()))
 
     def dataset(self, **options: Any) -> "Dataset":
         """The dataset, as :class:`cosfly.Dataset` with the given options."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import difflib
+import fnmatch
 import operator
 import os
 import warnings
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Container, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -18,8 +19,11 @@ from ._errors import InvalidValue, NotFound, OutOfRange, WrongType, options
 from ._show import Frame, Town, Trajectory
 
 ROLES = ("expert", "perturbed")
+ANCHORS = ("input", "expert")
+DIFFICULTIES = ("easy", "medium", "hard")
+SMALLEST_TARGET_PX = 8
 WINDOW_LISTS = {
-    # Column of table `windows`: numbers per row of the array.
+    # Column of table `windows`: numbers per row of the array. Other layouts may lack those of the expert.
     "current_pose_in_world": 6,
     "input_steps_in_world": 6,
     "input_steps_in_body": 6,
@@ -27,7 +31,10 @@ WINDOW_LISTS = {
     "correction_in_body": 6,
     "waypoint_deltas_in_world": 6,
     "waypoint_deltas_in_body": 6,
+    "expert_steps_in_world": 6,
+    "expert_steps_in_body": 6,
     "input_boxes_px": 4,
+    "expert_boxes_px": 4,
 }
 
 Sample = Dict[str, Any]
@@ -41,7 +48,8 @@ class Dataset:
 
     * ``rgb``: uint8, (H, W, 3);
     * ``depth``: float32 metres, planar, infinite for the sky; ``semantic``: uint8, CARLA's labels; ``instance``: uint32;
-    * ``trajectory_id``, ``frame``, and each of ``columns`` of table ``frames``;
+    * ``trajectory_id``, ``frame``, and each of ``columns`` of table ``frames``; boxes are in pixels of the pictures that the
+      sample has, scaled with ``size``, those of :meth:`table` in pixels of the stored pictures;
     * ``captions`` where ``captions`` is a language: the text of each style, by its name (``""`` in other layouts).
 
     Foreign layouts give the tables ``trajectories``, ``frames``, ``captions`` and ``windows`` (of the default shape) with
@@ -55,7 +63,8 @@ class Dataset:
     tables that are asked for later raise :class:`cosfly.Error` (``dataset-changed``), in worker processes, too: open it again.
 
     ``split`` is ``train``, ``val``, ``test`` or None for all; ``role`` is ``expert``, ``perturbed`` or None for both;
-    ``size`` is (width, height); ``jobs`` threads decode the pictures of one call.
+    ``trajectories`` are ids, or patterns such as ``"expert-*"`` (all flights of the stage ``expert``); ``size`` is (width,
+    height); ``jobs`` threads decode the pictures of one call, of :meth:`batch` and of a :class:`Loader`.
     """
 
     _unit = "frames"
@@ -69,6 +78,7 @@ class Dataset:
         *,
         split: Optional[str] = None,
         role: Optional[str] = None,
+        trajectories: Union[None, str, Sequence[str]] = None,
         channels: Sequence[str] = ("rgb", "depth"),
         size: Optional[Tuple[int, int]] = None,
         columns: Sequence[str] = (),
@@ -90,15 +100,22 @@ class Dataset:
             raise InvalidValue(f"the data in {self.path} state no splits; leave out `split`")
         self._number = {name: number for number, name in enumerate(ids)}
         self._counts = self._reader.frames
-        self.trajectory_ids: List[str] = [name for name, of in zip(ids, self._reader.splits) if split in (None, of)]
-        """Ids of the trajectories of the split."""
+        chosen = _matching(trajectories, self._number)
+        splits = zip(ids, self._reader.splits)
+        self.trajectory_ids: List[str] = [name for name, of in splits if split in (None, of) and name in chosen]
+        """Ids of the trajectories of the split, and of ``trajectories``."""
         self._columns: Dict[str, Any] = {}
+        self._numbers: Optional[Dict[Tuple[str, int], int]] = None
         self._index = self._frames_index(columns)
         self._captions = self._read_captions(captions) if captions else {}
 
-    def windows(self) -> "Windows":
-        """The training windows of the dataset, with the same split, role, channels, size and captions."""
-        return Windows(self)
+    def windows(self, anchor: str = "input") -> "Windows":
+        """The training windows of the dataset, with the same split, role, channels, size and captions.
+
+        ``waypoint_deltas_in_*`` lead from the last pose of the input to the expert's next one, and on along the expert. With
+        ``anchor="expert"`` they begin at the expert's pose of that frame, as in the paper's comparison.
+        """
+        return Windows(self, anchor)
 
     # Tables and frames
 
@@ -146,8 +163,23 @@ class Dataset:
         return len(self._index)
 
     def __getitem__(self, index: Union[int, np.integer]) -> Sample:
-        number = numbered("sample", index, len(self))
-        return self._sample(number)
+        return self._samples([numbered("sample", index, len(self))])[0]
+
+    def batch(self, numbers: Sequence[Union[int, np.integer]]) -> Sample:
+        """Some samples as one batch, as a :class:`Loader` gives it; ``jobs`` threads read and decode all of its pictures."""
+        return collated(self._samples([numbered("sample", number, len(self)) for number in numbers]))
+
+    def number_of(self, trajectory_id: str, frame: int) -> int:
+        """Number of the sample of a frame; of windows, that of the window that begins with the frame."""
+        if self._numbers is None:
+            self._numbers = {place: number for number, place in enumerate(self._index)}
+        number = self._numbers.get((trajectory_id, _index("frame", frame)))
+        if number is None:
+            self._number_of(trajectory_id)
+            frames = [at for name, at in self._index if name == trajectory_id]
+            there = f"its samples begin with {', '.join(map(str, frames[:4]))} ..." if frames else "it is not among these samples"
+            raise NotFound(f"{trajectory_id!r} has no sample of frame {frame}; {there}")
+        return number
 
     def __iter__(self) -> Iterator[Sample]:
         return (self[index] for index in range(len(self)))
@@ -226,13 +258,35 @@ class Dataset:
             raise InvalidValue(f"no caption is in {language!r}; the languages are {languages or 'not stated: there are no captions'}")
         return found
 
-    def _sample(self, number: int) -> Sample:
+    def _samples(self, numbers: Sequence[int]) -> List[Sample]:
+        """Some samples; their pictures are read with one call."""
+        wanted = [self._frames_of_sample(number) for number in numbers]
+        frames = [frame for of in wanted for frame in of]
+        images = self._images(frames, self.channels, self.size) if self.channels else {}
+        samples, first = [], 0
+        for number, of in zip(numbers, wanted):
+            pictures = {channel: arrays[first : first + len(of)] for channel, arrays in images.items()}
+            samples.append(self._captioned(self._labelled(number, pictures), self._index[number][0]))
+            first += len(of)
+        return samples
+
+    def _frames_of_sample(self, number: int) -> List[Tuple[str, int]]:
+        return [self._index[number]]
+
+    def _labelled(self, number: int, pictures: Dict[str, Any]) -> Sample:
         name, frame = self._index[number]
-        images = self._images([(name, frame)], self.channels, self.size) if self.channels else {}
-        sample: Sample = {channel: arrays[0] for channel, arrays in images.items()}
+        sample: Sample = {channel: arrays[0] for channel, arrays in pictures.items()}
         sample.update(trajectory_id=name, frame=frame)
-        sample.update({column: values[number] for column, values in self._columns.items()})
-        return self._captioned(sample, name)
+        for column, values in self._columns.items():
+            is_scaled = self.size and column.endswith("_box_px") and values[number] is not None
+            sample[column] = self._scaled(name, values[number]) if is_scaled else values[number]
+        return sample
+
+    def _scaled(self, name: str, edges_px: Any) -> np.ndarray:
+        """Boxes of stored pictures in pixels of the samples' pictures."""
+        width, height = self._reader.sizes[self._number_of(name)]
+        across, down = (self.size or (width, height))[0] / width, (self.size or (width, height))[1] / height
+        return np.asarray(edges_px, np.float32) * np.array([across, down, across, down], np.float32)
 
     def _captioned(self, sample: Sample, name: str) -> Sample:
         if self._captions:
@@ -252,17 +306,36 @@ class Windows(Dataset):
     """Training windows of a dataset, by number: what :meth:`Dataset.windows` gives.
 
     ``windows[i]`` is a dictionary: the channels with one picture for each frame of the input (``rgb`` is
-    (frames, H, W, 3)), ``trajectory_id``, ``start_frame``, ``role`` (``expert`` or ``perturbed``), ``captions`` where they
-    were asked for, and the columns of table ``windows`` as arrays of rows: steps are dx, dy, dz (m), dpitch, dyaw, droll
-    (degrees); boxes left, top, right, bottom in pixels of the scaled pictures.
+    (frames, H, W, 3)), ``trajectory_id``, ``start_frame``, ``role`` (``expert`` or ``perturbed``), ``split``, ``town``,
+    ``difficulty`` (``easy``, ``medium``, ``hard``), ``captions`` where they were asked for, and the columns of table
+    ``windows`` as arrays of rows: steps are dx, dy, dz (m), dpitch, dyaw, droll (degrees); boxes left, top, right, bottom in
+    pixels of the scaled pictures. Other layouts have what their data state.
     """
 
     _unit = "windows"
 
-    def __init__(self, dataset: Dataset):
+    def __init__(self, dataset: Dataset, anchor: str = "input"):
+        if anchor not in ANCHORS:
+            raise InvalidValue(f"the anchor is {anchor!r}; anchors are 'input' and 'expert'")
         self.__dict__.update(dataset.__dict__)
-        self.dataset = dataset
+        self.dataset, self.anchor, self._numbers = dataset, anchor, None
         self._index = self._windows_index()
+        if self.size:
+            warn_of_small_targets(self, ((name, self._arrays["input_boxes_px"][n][-1]) for n, (name, _) in enumerate(self._index)))
+
+    def array(self, column: str) -> np.ndarray:
+        """A column of all windows as one array, such as ``waypoint_deltas_in_body``: (windows, 5, 6)."""
+        if column not in self._arrays:
+            raise NotFound(f"there is no column {column!r}; columns are {', '.join(self._arrays)}")
+        rows = self._arrays[column]
+        if self.size and column.endswith("_boxes_px"):
+            rows = [self._scaled(name, boxes) for (name, _), boxes in zip(self._index, rows)]
+        return np.stack(rows) if len(rows) else np.empty((0,))
+
+    @property
+    def rows(self) -> np.ndarray:
+        """Places of each window's pictures in the arrays of a pack, (windows, frames of the input)."""
+        return np.array([self.dataset._rows_of(self._frames_of_sample(number)) for number in range(len(self))], dtype=np.int64)
 
     @property
     def _reader(self) -> Reader:
@@ -275,32 +348,62 @@ class Windows(Dataset):
 
     def _windows_index(self) -> List[Tuple[str, int]]:
         table = self.table("windows")
+        of_dataset = set(self.trajectory_ids)
         kept = np.ones(len(table), bool) if self.role is None else table["role"] == ROLES.index(self.role)
+        kept &= np.array([name in of_dataset for name in table["trajectory_id"]], bool)
         kept = np.flatnonzero(kept)
         names, starts = table["trajectory_id"], table["start_frame"]
-        self._columns = {"role": table["role"][kept]}
-        for name in WINDOW_LISTS:
-            self._columns[name] = _taken(table[name], kept)
-        self._columns["image_px"] = dict(zip(self._reader.trajectory_ids, self._reader.sizes))
+        has = set(table.columns)
+        self._arrays: Dict[str, List[np.ndarray]] = {
+            name: [np.asarray(row).reshape(-1, width).astype(np.float32) for row in _taken(table[name], kept)]
+            for name, width in WINDOW_LISTS.items()
+            if name in has and name != "current_pose_in_world"
+        }
+        self._arrays["current_pose_in_world"] = [np.asarray(row) for row in _taken(table["current_pose_in_world"], kept)]
+        if self.anchor == "expert":
+            if "expert_steps_in_body" not in has:
+                raise InvalidValue(f"the windows of {self.path} do not hold the expert's steps; the anchor is 'input'")
+            for axes in ("world", "body"):
+                steps, boxes = self._arrays[f"expert_steps_in_{axes}"], self._arrays["input_boxes_px"]
+                self._arrays[f"waypoint_deltas_in_{axes}"] = [it[len(seen) - 1 :] for it, seen in zip(steps, boxes)]
+        self._columns = {"role": [ROLES[int(role)] for role in table["role"][kept]]}
+        if any(self._reader.splits):
+            splits = dict(zip(self._reader.trajectory_ids, self._reader.splits))
+            self._columns["split"] = [splits[names[row]] for row in kept]
+        trajectories = self.table("trajectories")
+        if "town" in trajectories.columns:
+            towns = dict(zip(trajectories["trajectory_id"], trajectories["town"]))
+            self._columns["town"] = [towns[names[row]] for row in kept]
+        if "difficulty" in has:
+            self._columns["difficulty"] = [DIFFICULTIES[int(number)] for number in table["difficulty"][kept]]
         return [(names[row], int(starts[row])) for row in kept]
 
-    def _sample(self, number: int) -> Sample:
+    def _frames_of_sample(self, number: int) -> List[Tuple[str, int]]:
         name, start = self._index[number]
-        rows: Dict[str, np.ndarray] = {
-            column: np.asarray(self._columns[column][number]).reshape(-1, width).astype(np.float32)
-            for column, width in WINDOW_LISTS.items()
-        }
-        rows["current_pose_in_world"] = np.asarray(self._columns["current_pose_in_world"][number])
-        history = len(rows["input_boxes_px"])
-        frames = [(name, start + frame) for frame in range(history)]
-        images = self._images(frames, self.channels, self.size) if self.channels else {}
-        sample: Sample = {channel: np.stack(them) if isinstance(them, list) else them for channel, them in images.items()}
-        if self.size:
-            width, height = self._columns["image_px"][name]
-            across, down = self.size[0] / width, self.size[1] / height
-            rows["input_boxes_px"] = rows["input_boxes_px"] * np.array([across, down, across, down], np.float32)
-        sample.update(trajectory_id=name, start_frame=start, role=ROLES[int(self._columns["role"][number])], **rows)
-        return self._captioned(sample, name)
+        return [(name, start + frame) for frame in range(len(self._arrays["input_boxes_px"][number]))]
+
+    def _labelled(self, number: int, pictures: Dict[str, Any]) -> Sample:
+        name, start = self._index[number]
+        sample: Sample = {channel: np.stack(them) if isinstance(them, list) else them for channel, them in pictures.items()}
+        sample.update(trajectory_id=name, start_frame=start)
+        sample.update({column: values[number] for column, values in self._columns.items()})
+        for column, rows in self._arrays.items():
+            is_scaled = self.size and column.endswith("_boxes_px")
+            sample[column] = self._scaled(name, rows[number]) if is_scaled else rows[number]
+        return sample
+
+
+def warn_of_small_targets(dataset: Dataset, boxes: Iterable[Tuple[str, Any]]) -> None:
+    """Warns where the target is small at the dataset's size; ``boxes`` are trajectories and edges in stored pictures."""
+    scaled = (dataset._scaled(name, edges) for name, edges in boxes if edges is not None)
+    heights = [edges[3] - edges[1] for edges in scaled if edges[3] > edges[1]]
+    if heights and (median := float(np.median(heights))) < SMALLEST_TARGET_PX:
+        width, height = dataset.size or (0, 0)
+        warnings.warn(
+            f"the target is {median:.1f} pixels high at {width} x {height}, in the median where it is visible; below {SMALLEST_TARGET_PX} "
+            "little can be learnt about it from pictures: choose a larger `size`, or a smaller `fov_deg` in the recipe",
+            stacklevel=4,
+        )
 
 
 class Loader:
@@ -335,9 +438,9 @@ class Loader:
         order = self._order()
         while self.batch < len(self):
             numbers = order[self.batch * self.batch_size :][: self.batch_size]
-            samples = [self.dataset[number] for number in numbers]
+            batch = self.dataset.batch(numbers)
             self.batch += 1
-            yield collated(samples)
+            yield batch
         self.epoch, self.batch = self.epoch + 1, 0
 
     def state_dict(self) -> Dict[str, Any]:
@@ -414,3 +517,19 @@ def collated(samples: Sequence[Sample]) -> Sample:
 
 def _taken(values: Any, rows: np.ndarray) -> Any:
     return values[rows] if isinstance(values, np.ndarray) else [values[row] for row in rows]
+
+
+def _matching(trajectories: Union[None, str, Sequence[str]], names: Iterable[str]) -> Container[str]:
+    """Names that are given, or match a given pattern."""
+    known = dict.fromkeys(names)
+    if trajectories is None:
+        return known
+    given = [trajectories] if isinstance(trajectories, str) else list(trajectories)
+    found = {name for name in given if name in known}
+    for pattern in given:
+        more = fnmatch.filter(known, pattern) if pattern not in found and any(sign in pattern for sign in "*?[") else []
+        if pattern not in found and not more:
+            near = difflib.get_close_matches(pattern, known, 3) or list(known)[:3]
+            raise NotFound(f"no trajectory is called {pattern!r}, and none matches it; there are {', '.join(near)} ...")
+        found.update(more)
+    return found

@@ -9,13 +9,13 @@ import shutil
 import tempfile
 import threading
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _cosfly
 from ._calls import PathLike, Progress
-from ._dataset import Dataset
+from ._dataset import Dataset, warn_of_small_targets
 from ._errors import InvalidValue, OutOfRange, options
 from ._show import Bars
 
@@ -30,17 +30,23 @@ def pack(
     *,
     size: Tuple[int, int] = (224, 126),
     channels: Sequence[str] = ("rgb", "depth"),
+    split: Optional[str] = None,
+    role: Optional[str] = None,
+    trajectories: Union[None, str, Sequence[str]] = None,
     jobs: Optional[int] = None,
     progress: Progress = True,
 ) -> "Pack":
     """Write a training pack: every frame of a dataset at ``size`` (width, height), one ``<channel>.npy`` per channel.
+
+    ``split``, ``role`` and ``trajectories`` choose as those of :class:`cosfly.Dataset`; without them every flight is packed.
 
     ``rgb.npy`` is uint8 (frames, height, width, 3), ``depth.npy`` float16 metres (infinite for the sky; error at most 1
     in 2,048), ``semantic.npy`` uint8, ``instance.npy`` uint32. ``pack.json`` lists the trajectories with their first
     frame, and the identity of the dataset: :class:`cosfly.Pack` refuses labels of another one. The folder appears when it
     is whole.
     """
-    out, frames = Path(out), Dataset(dataset, channels=channels, size=size, jobs=jobs or os.cpu_count() or 1)
+    out, jobs = Path(out), jobs or os.cpu_count() or 1
+    frames = Dataset(dataset, split=split, role=role, trajectories=trajectories, channels=channels, size=size, jobs=jobs)
     if os.path.lexists(out):
         raise InvalidValue(f"{out} is there already; choose another folder")
     try:
@@ -49,6 +55,7 @@ def pack(
     except OSError as error:
         raise _refused(f"write into `{out.parent}`", error) from None
     try:
+        warn_of_small_targets(frames, _boxes(frames))
         with Bars("pack", bool(progress)) as bars:
             _write(frames, scratch, progress if callable(progress) else bars.show if bars.visible else None)
         frames.check()  # a dataset that was made anew meanwhile gave pictures of two
@@ -61,6 +68,14 @@ def pack(
         shutil.rmtree(scratch, ignore_errors=True)
         raise
     return Pack(out, dataset)
+
+
+def _boxes(frames: Dataset) -> Any:
+    """Trajectory and visible box of each packed frame, where the data have boxes."""
+    table = frames.table("frames")
+    names = set(name for name, _ in frames._index)
+    boxes = zip(table["trajectory_id"], table["visible_box_px"]) if "visible_box_px" in table.columns else ()
+    return ((name, box) for name, box in boxes if name in names)
 
 
 def _write(frames: Dataset, folder: Path, progress: Any) -> None:
@@ -85,9 +100,9 @@ def _write(frames: Dataset, folder: Path, progress: Any) -> None:
     finally:
         for file in files.values():
             file.close()
-    first, places = 0, {}
-    for name in frames.trajectory_ids:
-        places[name], first = first, first + frames._counts[frames._number_of(name)]
+    places: Dict[str, int] = {}
+    for place, (name, _) in enumerate(frames._index):
+        places.setdefault(name, place)
     about = {
         "format": FORMAT, "dataset": {"identity": frames.identity, "path": os.fspath(frames.path)},
         "size": list(frames.size or (0, 0)), "channels": list(frames.channels), "first_frame": places,
@@ -99,7 +114,9 @@ class Pack(Dataset):
     """Samples of a dataset whose pictures come from a training pack.
 
     Takes the options of :class:`cosfly.Dataset` but ``size``, and gives the same samples; depth is float16.
-    ``Pack(...).windows()`` are its training windows.
+    ``Pack(...).windows()`` are its training windows. A pack of some flights has the samples of these.
+
+    :meth:`array` is all pictures of a channel, and ``rows`` the places of each sample's pictures in it.
     """
 
     def __init__(self, path: PathLike, dataset: PathLike, **options: Any):
@@ -108,13 +125,32 @@ class Pack(Dataset):
         self._first: Dict[str, int] = about["first_frame"]
         self._frames: Dict[str, Frames] = {}
         options.setdefault("channels", tuple(about["channels"]))
+        if options.get("trajectories") is None:
+            options["trajectories"] = list(self._first)
         super().__init__(dataset, size=tuple(about["size"]), **options)
         source = about["dataset"]
         if source["identity"] != self.identity:
             given = str(source["path"]), str(source["identity"])
             raise _cosfly.pack_of_other(os.fspath(self.pack_path), os.fspath(self.path), given, self.identity)
+        absent = [name for name, _ in self._index if name not in self._first]
+        if absent or not self._index:
+            asked = f"trajectory {absent[0]!r}" if absent else f"split {self.split!r} and role {self.role!r}"
+            raise InvalidValue(f"{self.pack_path} has no pictures of {asked}; `cosfly.pack` chose the flights, of {len(self._first)} trajectories")
         for name in self.channels:
             self._frames_of(name)
+
+    def array(self, channel: str) -> np.ndarray:
+        """All pictures of a channel: (frames of the pack, H, W) or (frames, H, W, 3)."""
+        frames = self._frames_of(channel)
+        return frames.read(0, frames.count)
+
+    @property
+    def rows(self) -> np.ndarray:
+        """Place of each sample's picture in the arrays."""
+        return np.array(self._rows_of(self._index), dtype=np.int64)
+
+    def _rows_of(self, frames: Any) -> List[int]:
+        return [self._first[name] + int(frame) for name, frame in frames]
 
     def _frames_of(self, channel: str) -> "Frames":
         if channel not in self._frames:
@@ -123,7 +159,7 @@ class Pack(Dataset):
                 raise InvalidValue(f"{self.pack_path} has no channel {channel!r}")
             self._frames[channel] = Frames(path, self._seal)
             width, height = self.size or (0, 0)
-            expected = (sum(self._counts), height, width)
+            expected = (sum(self._counts[self._number_of(name)] for name in self._first), height, width)
             if (self._frames[channel].count, *self._frames[channel].shape[:2]) != expected:
                 raise _cosfly.damaged_pack(os.fspath(path), f"its frames, height and width are not {expected}, as pack.json has them")
         return self._frames[channel]
@@ -132,14 +168,18 @@ class Pack(Dataset):
         if size is not None and tuple(size) != self.size:
             raise InvalidValue(f"the pack {self.pack_path} has pictures of {self.size}; another size takes another pack")
         self._places(frames)
-        places = [self._first[name] + int(frame) for name, frame in frames]
+        places = self._rows_of(frames)
         return {channel: self._stacked(places, channel) for channel in channels}
 
-    def _stacked(self, places: List[int], channel: str) -> Any:
-        first, count = places[0], len(places)
-        if places == list(range(first, first + count)):  # frames of a window lie side by side
-            return self._frames_of(channel).read(first, count)
-        return [self._frames_of(channel).read(place, 1)[0] for place in places]
+    def _stacked(self, places: List[int], channel: str) -> np.ndarray:
+        frames = self._frames_of(channel)
+        made = np.empty((len(places), *frames.shape), frames.dtype)
+        first = 0
+        for end in range(1, len(places) + 1):  # frames of a window lie side by side
+            if end == len(places) or places[end] != places[end - 1] + 1:
+                frames.read_into(made[first:end], places[first])
+                first = end
+        return made
 
 
 class Frames:
@@ -165,9 +205,14 @@ class Frames:
 
     def read(self, first: int, count: int) -> np.ndarray:
         """Pictures ``first`` to ``first + count``, as one array."""
-        if not 0 <= first <= self.count - count:
-            raise OutOfRange(f"{self.path} has {self.count} frames, not {first + count}")
         made = np.empty((count, *self.shape), self.dtype)
+        self.read_into(made, first)
+        return made
+
+    def read_into(self, made: np.ndarray, first: int) -> None:
+        """Pictures from ``first`` on, as many as ``made`` has."""
+        if not 0 <= first <= self.count - len(made):
+            raise OutOfRange(f"{self.path} has {self.count} frames, not {first + len(made)}")
         whole = memoryview(made).cast("B")
         try:
             done = self._read_at(whole, self.start + first * self.bytes)
@@ -175,7 +220,6 @@ class Frames:
             raise _refused(f"read `{self.path}`", error) from None
         if done != len(whole):
             raise _cosfly.damaged_pack(os.fspath(self.path), "it ends too early: it was changed, or written incompletely")
-        return made
 
     def _read_at(self, into: memoryview, place: int) -> int:
         file, done = self._file(), 0
