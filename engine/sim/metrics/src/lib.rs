@@ -7,6 +7,7 @@
 //! * [`deltas`]: waypoints from predicted increments.
 //! * [`waypoint`]: errors of waypoints; [`scores`]: their reported means.
 //! * [`boxes`], [`depth`], [`segmentation`], [`detection`]: metrics of pictures.
+//! * [`single_target`], [`tracking`]: metrics of trackers, of one target and of many bodies.
 //! * [`bootstrap`]: intervals by resampling whole trajectories.
 //! * [`shortcuts`]: signs that give the target away.
 //! * [`spread`]: towns that fall apart.
@@ -21,7 +22,9 @@ pub mod detection;
 pub mod scores;
 pub mod segmentation;
 pub mod shortcuts;
+pub mod single_target;
 pub mod spread;
+pub mod tracking;
 pub mod waypoint;
 
 pub use deltas::{DeltaFrame, DeltaOrigin, waypoints};

@@ -49,6 +49,10 @@ const fn metric(key: &'static str, name: &'static str, unit: Unit, better: Bette
     Metric { key, name, unit, better, meaning }
 }
 
+const fn share(key: &'static str, name: &'static str, meaning: &'static str) -> Metric {
+    metric(key, name, Unit::Share, Better::Higher, meaning)
+}
+
 /// Number of metrics.
 pub const COUNT: usize = 17;
 
@@ -209,6 +213,30 @@ pub const OF_DETECTIONS: [Metric; 4] = {
         ),
     ]
 };
+
+/// Metrics of trackers of many bodies, TrackEval's: means over the classes with true boxes.
+pub const OF_TRACKS: [Metric; 5] = [
+    share("hota", "HOTA", "geometric mean of DetA and AssA, mean over overlaps 0.05, 0.1 ... 0.95"),
+    share("det_a", "DetA", "matched boxes among true and found ones, mean over the overlaps of HOTA"),
+    share(
+        "ass_a",
+        "AssA",
+        "matches of two tracks among the boxes of both, mean over matched boxes, then over overlaps",
+    ),
+    share("idf1", "IDF1", "F1 of the boxes of true and found tracks in their best pairs for the whole sequence"),
+    share("mota", "MOTA", "1 - (missed boxes + false boxes + changes of identity) / true boxes; may be below 0"),
+];
+
+/// Metrics of trackers of one target, got10k's: means over pictures that show the target, then over sequences.
+pub const OF_TARGETS: [Metric; 3] = [
+    share("success", "Success", "pictures whose overlap is above a threshold, mean over thresholds 0, 0.05 ... 1"),
+    share("precision", "Precision", "pictures whose middle is within 20 pixels of the true one"),
+    share(
+        "normalised_precision",
+        "Normalised precision",
+        "pictures whose middle is within a share of the target's size, mean over shares 0, 0.01 ... 0.5",
+    ),
+];
 
 #[cfg(test)]
 mod tests {
