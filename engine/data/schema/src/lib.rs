@@ -5,6 +5,7 @@
 //! * [`card_text`]: texts of the card with names for facts.
 //! * [`tables`]: the Parquet tables and their columns.
 //! * [`log`]: the topics and messages of a trajectory's MCAP log.
+//! * [`mot_class`]: classes of MOTChallenge.
 //! * [`town_layout`]: ground plan of a town, which identifies the town.
 //! * [`flight_table`], [`extras`]: labels, tables and files of plugins; [`published_costs`]: costs of flights.
 
@@ -14,6 +15,7 @@ pub mod extras;
 pub mod flight_table;
 pub mod log;
 pub mod losses;
+pub mod mot_class;
 pub mod published_costs;
 pub mod record;
 mod reference;

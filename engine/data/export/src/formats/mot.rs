@@ -7,15 +7,13 @@ use crate::sequence::{self, Sequence, SequenceList, box_text};
 use crate::shared_options::PictureOptions;
 use crate::source::{ExportedFlight, Source};
 use cosfly_diagnose::Result;
-use cosfly_domain::{BodyKind, SemanticLabel, TARGET_INSTANCE};
+use cosfly_domain::TARGET_INSTANCE;
 use cosfly_read::{SeenBody, SightingReader};
+use cosfly_schema::mot_class::{DISTRACTOR, mot_class};
 use std::collections::BTreeMap;
 
 /// Sequences for trackers of many bodies.
 pub struct Mot;
-
-/// Class of what is not counted, for or against a tracker.
-const DISTRACTOR: u8 = 8;
 
 impl Format for Mot {
     const NAME: &'static str = "mot";
@@ -62,7 +60,7 @@ impl Format for Mot {
 fn ground_truth(episode: &ExportedFlight<'_>, frames: &[usize], bodies: &[SeenBody]) -> String {
     let number = |frame: usize| frames.binary_search(&frame).ok().map(|place| place + 1);
     let mut lines: BTreeMap<(u32, usize), String> = BTreeMap::new();
-    let target = class(episode.flight.target_kind.as_deref().unwrap_or_default());
+    let target = mot_class(episode.flight.target_kind.as_deref().unwrap_or_default());
     for (place, frame) in frames.iter().enumerate() {
         let row = &episode.frames[*frame];
         if let Some(edges) = row.visible_box_px {
@@ -73,7 +71,7 @@ fn ground_truth(episode: &ExportedFlight<'_>, frames: &[usize], bodies: &[SeenBo
     for body in bodies {
         if let Some(number) = number(body.frame as usize) {
             let key = (body.instance, number);
-            lines.insert(key, line(key, &box_text(body.visible_box_px), class(&body.kind), "-1"));
+            lines.insert(key, line(key, &box_text(body.visible_box_px), mot_class(&body.kind), "-1"));
         }
     }
     lines.into_values().collect()
@@ -82,18 +80,6 @@ fn ground_truth(episode: &ExportedFlight<'_>, frames: &[usize], bodies: &[SeenBo
 fn line((id, number): (u32, usize), edges: &str, class: u8, visibility: &str) -> String {
     let counts = u8::from(class != DISTRACTOR);
     format!("{number},{id},{edges},{counts},{class},{visibility}\n")
-}
-
-/// MOTChallenge's class of a kind of body.
-fn class(kind: &str) -> u8 {
-    let known = BodyKind::ON_THE_GROUND.iter().find(|known| known.name() == kind);
-    match known.map(|kind| kind.row().label) {
-        Some(SemanticLabel::Pedestrian) => 1,
-        Some(SemanticLabel::Car | SemanticLabel::Truck | SemanticLabel::Bus) => 3,
-        Some(SemanticLabel::Bicycle) => 4,
-        Some(SemanticLabel::Motorcycle) => 5,
-        _ => DISTRACTOR,
-    }
 }
 
 fn info(sequence: &Sequence<'_>) -> String {
