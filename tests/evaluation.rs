@@ -208,6 +208,81 @@ fn exported_truth_scores_perfectly_and_faulty_pictures_are_named() {
     assert_eq!(files["problems"][0]["place"], "expert-p00000/1.png");
 }
 
+/// Results of a tracker that finds what an export has: its files of truth, changed by `change`.
+fn tracker(street: &Street, name: &str, export: &str, truth: &str, change: &dyn Fn(&str) -> String) {
+    let list = std::fs::read_to_string(street.path().join(export).join("sequences.jsonl")).expect("exported");
+    let folder = street.path().join(name);
+    std::fs::create_dir_all(&folder).expect("writable");
+    for line in list.lines() {
+        let row: serde_json::Value = serde_json::from_str(line).expect("JSON");
+        let [split, sequence] = ["split", "sequence"].map(|key| row[key].as_str().expect("a text").to_owned());
+        let kind = sequence.split('-').next().expect("a word");
+        let path = truth.replace("SPLIT", &split).replace("KIND", kind).replace("SEQUENCE", &sequence);
+        let text = std::fs::read_to_string(street.path().join(export).join(path)).expect("exported");
+        std::fs::write(folder.join(format!("{sequence}.txt")), change(&text)).expect("writable");
+    }
+}
+
+#[test]
+fn trackers_that_find_the_truth_score_perfectly() {
+    let street = street();
+    for format in ["mot", "otb", "lasot"] {
+        cosfly(&["export", "out/street", "--format", format, "--out", format]).within(street.path()).run_ok();
+    }
+    let of_many = |text: &str| {
+        text.lines().map(|line| line.rsplit_once(",1,").map_or("", |it| it.0).to_owned() + ",1\n").collect()
+    };
+    tracker(&street, "many", "mot", "SPLIT/SEQUENCE/gt/gt.txt", &of_many);
+    // Whatever a tracker says where nobody is seen, does not count.
+    let of_target = |text: &str| text.replace("NaN,NaN,NaN,NaN", "1,1,5,5");
+    tracker(&street, "target", "otb", "SPLIT/SEQUENCE/groundtruth_rect.txt", &of_target);
+    tracker(&street, "named", "lasot", "SPLIT/KIND/SEQUENCE/groundtruth.txt", &str::to_owned);
+    for (name, options, keys) in [
+        ("many", &[][..], &["hota", "det_a", "ass_a", "idf1", "mota"][..]),
+        ("target", &[], &["precision", "normalised_precision"]),
+        ("named", &["--sequences", "lasot"], &["precision", "normalised_precision"]),
+    ] {
+        let printed = eval(&street, &[&[name][..], options].concat());
+        assert_eq!(printed.code, Some(0), "{}{}", printed.stdout, printed.stderr);
+        assert!(printed.stdout.contains("## By sequence, the worst first"), "{}", printed.stdout);
+        let found = report(&street.path().join(format!("{name}-evaluation")));
+        for key in keys {
+            let score = found["scores"][key]["value"].as_f64().expect("a score");
+            assert!((score - 1.0).abs() < 1e-9, "{name}, {key}: {score}");
+        }
+    }
+}
+
+#[test]
+fn faulty_files_of_trackers_are_named_and_left_out() {
+    let street = street();
+    cosfly(&["export", "out/street", "--format", "otb", "--out", "otb"]).within(street.path()).run_ok();
+    let of_target = |text: &str| text.replace("NaN,NaN,NaN,NaN", "1,1,5,5");
+    tracker(&street, "some", "otb", "SPLIT/SEQUENCE/groundtruth_rect.txt", &of_target);
+    let file = |name: &str| street.path().join("some").join(name);
+    let text = std::fs::read_to_string(file("expert-p00000.txt")).expect("written");
+    let faulty = text.lines().next().expect("a line").to_owned() + "\nNaN,NaN,NaN,NaN\n";
+    std::fs::write(file("expert-p00000.txt"), faulty).expect("writable");
+    std::fs::write(file("stranger.txt"), "1,1,5,5\n").expect("writable");
+    std::fs::remove_file(file("expert-p00001.txt")).expect("it was there");
+    let printed = eval(&street, &["some"]);
+    assert_eq!(printed.code, Some(1), "{}", printed.stderr);
+    let found = report(&street.path().join("some-evaluation"));
+    assert_eq!(found["files"]["kinds"], serde_json::json!({"not-finite": 1, "unknown-sequence": 1}));
+    assert_eq!(found["files"]["problems"][0]["place"], "expert-p00000.txt line 2");
+    let missing: Vec<&String> = found["frames"]["missing"].as_object().expect("an object").keys().collect();
+    assert_eq!(missing, ["expert-p00000", "expert-p00001"]);
+    assert_eq!(found["is_partial"], true);
+
+    std::fs::create_dir(street.path().join("strangers")).expect("writable");
+    std::fs::rename(file("stranger.txt"), street.path().join("strangers/stranger.txt")).expect("writable");
+    let nothing = eval(&street, &["strangers"]);
+    insta::assert_snapshot!(
+        "eval_strange_tracker",
+        format!("exit code {}\n{}", nothing.code.unwrap_or(-1), nothing.stderr)
+    );
+}
+
 #[test]
 fn the_help_has_examples() {
     insta::assert_snapshot!("help_eval", cosfly(&["eval", "--help"]).run_ok().stdout);

@@ -11,6 +11,7 @@ use super::raster::{self, Refusal};
 use super::report::{ClassReport, FileFacts, FileProblem, FrameFacts, Nonsense, PictureEvaluation, ranges};
 use super::settings::{PictureKind, PictureSettings};
 use super::tallies::{Counted, FrameCounts, reports};
+use super::trackers;
 use crate::report::result::DatasetFacts;
 use crate::scoring::groups_of_flights;
 use crate::windows::Flights;
@@ -46,6 +47,7 @@ pub fn evaluate(
     settings: &PictureSettings,
 ) -> Result<PictureEvaluation> {
     let mut given = match settings.kind {
+        PictureKind::Tracks | PictureKind::Target => return trackers::evaluate(dataset, flights, path, settings),
         PictureKind::Depth | PictureKind::Semantic => {
             Given::Files(PredictedFiles::new(path, pictures(path)?, settings.kind.name(), flights))
         }
@@ -150,7 +152,7 @@ impl Count {
         let tallies = match kind {
             PictureKind::Depth => Tallies::Depth(DepthTallies::new(number, group_count)),
             PictureKind::Semantic => Tallies::Labels(LabelTallies::new(number, group_count)),
-            PictureKind::Boxes | PictureKind::Masks => Tallies::Things(DetectionTallies::new(number, group_count)),
+            _ => Tallies::Things(DetectionTallies::new(number, group_count)),
         };
         let counts = FrameCounts::new(number, group_count);
         Self {
@@ -290,6 +292,7 @@ impl Count {
             strata,
             classes,
             distances: if is_depth { self.ratio.reports(settings.max_depth_m) } else { vec![] },
+            sequences: vec![],
             notes,
             is_partial: is_empty || without_prediction > 0,
         }

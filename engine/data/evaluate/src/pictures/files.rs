@@ -28,6 +28,14 @@ pub struct PredictedFiles {
 /// # Errors
 /// A folder that cannot be read.
 pub fn pictures(folder: &Path) -> Result<(Vec<PathBuf>, u64)> {
+    files_below(folder, &|path| path.extension().is_some_and(is_picture))
+}
+
+/// Files below `folder` that are wanted, sorted, from its path on. Second: the number of the others.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn files_below(folder: &Path, is_wanted: &dyn Fn(&Path) -> bool) -> Result<(Vec<PathBuf>, u64)> {
     let (mut found, mut others, mut open) = (vec![], 0, vec![PathBuf::new()]);
     while let Some(inner) = open.pop() {
         let path = folder.join(&inner);
@@ -38,7 +46,7 @@ pub fn pictures(folder: &Path) -> Result<(Vec<PathBuf>, u64)> {
             // Symbolic links to folders are not followed: no way round in circles.
             if entry.file_type().map_err(refused)?.is_dir() {
                 open.push(name);
-            } else if name.extension().is_some_and(is_picture) {
+            } else if is_wanted(&name) {
                 found.push(name);
             } else {
                 others += 1;

@@ -43,6 +43,11 @@ impl FrameKinds {
         }
     }
 
+    /// Places in [`Self::names`] of all frames of a flight: scene and weather.
+    pub fn of_flight(&self, flight: usize) -> [usize; 2] {
+        [if self.seen[flight] { 3 } else { 4 }, self.weather[flight]]
+    }
+
     /// Places in [`Self::names`] of a frame, one of each kind.
     ///
     /// * difficulty and target: of the ten frames around it, five before and four after it, as for windows.
@@ -58,12 +63,13 @@ impl FrameKinds {
             Difficulty::Medium => 1,
             Difficulty::Hard => 2,
         };
+        let [scene, weather] = self.of_flight(flight);
         [
             difficulty,
-            if self.seen[flight] { 3 } else { 4 },
+            scene,
             if flights.track(flight).visible[frame] < 0.5 { 6 } else { 5 },
             if features.target_is_static() { 8 } else { 7 },
-            self.weather[flight],
+            weather,
         ]
     }
 }

@@ -1,14 +1,16 @@
 //! The report for people.
 
-use super::report::PictureEvaluation;
+use super::report::{PictureEvaluation, SequenceReport};
 use super::settings::PictureKind;
 use crate::report::table::{number, score, table, title};
-use cosfly_metrics::scores::OF_DETECTIONS;
 use cosfly_plot::text::{markdown, markdown_code, markdown_words};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Malformed files or rows, and flights with missing frames, that are shown; the JSON report has all.
 const SHOWN: usize = 5;
+/// Sequences that are shown.
+const WORST: usize = 20;
 
 impl PictureEvaluation {
     /// The Markdown report.
@@ -28,6 +30,7 @@ fn report(evaluation: &PictureEvaluation) -> String {
     text.push_str(&strata(evaluation));
     text.push_str(&distances(evaluation));
     text.push_str(&classes(evaluation));
+    text.push_str(&sequences(evaluation));
     text.push_str(&problems(evaluation));
     if !evaluation.notes.is_empty() {
         text.push_str("\n## Notes\n\n");
@@ -52,7 +55,11 @@ fn partial(evaluation: &PictureEvaluation) -> String {
 fn facts(evaluation: &PictureEvaluation) -> String {
     let (settings, dataset) = (&evaluation.settings, &evaluation.dataset);
     let (files, frames) = (&evaluation.files, &evaluation.frames);
-    let unit = if matches!(settings.kind, PictureKind::Depth | PictureKind::Semantic) { "pictures" } else { "rows" };
+    let unit = match settings.kind {
+        PictureKind::Depth | PictureKind::Semantic => "pictures",
+        PictureKind::Boxes | PictureKind::Masks => "rows",
+        PictureKind::Tracks | PictureKind::Target => "files",
+    };
     let mut text = format!(
         "{} of {} frames ({} flights, split {}){}.\n",
         frames.scored,
@@ -113,10 +120,11 @@ fn classes(evaluation: &PictureEvaluation) -> String {
     if evaluation.classes.is_empty() {
         return String::new();
     }
-    let is_labels = evaluation.settings.kind == PictureKind::Semantic;
-    let (truth, keys) = match is_labels {
-        true => ("true pixels", vec![("iou", "IoU".to_owned())]),
-        false => ("true things", OF_DETECTIONS.iter().map(|metric| (metric.key, title(metric))).collect()),
+    let named = || evaluation.metrics.iter().map(|metric| (metric.key, title(metric))).collect();
+    let (truth, keys) = match evaluation.settings.kind {
+        PictureKind::Semantic => ("true pixels", vec![("iou", "IoU".to_owned())]),
+        PictureKind::Tracks => ("true boxes", named()),
+        _ => ("true things", named()),
     };
     let head = ["class", "id", truth].map(str::to_owned).into_iter();
     let head: Vec<String> = head.chain(keys.iter().map(|(_, name)| name.clone())).collect();
@@ -124,19 +132,44 @@ fn classes(evaluation: &PictureEvaluation) -> String {
         .classes
         .iter()
         .map(|class| {
-            let cells = keys.iter().map(|(key, _)| match (class.scores.get(key), metric(key)) {
-                (Some(value), Some(metric)) => number(metric, *value),
-                (Some(value), None) => format!("{value:.3}"),
-                (None, _) => "-".to_owned(),
-            });
+            let cells = keys.iter().map(|(key, _)| cell(evaluation, &class.scores, key));
             [class.name.to_owned(), class.id.to_string(), class.truth.to_string()].into_iter().chain(cells).collect()
         })
         .collect();
     format!("\n## By class\n\n{}", table(&head, &rows))
 }
 
-fn metric(key: &str) -> Option<&'static cosfly_metrics::Metric> {
-    OF_DETECTIONS.iter().find(|metric| metric.key == key)
+/// The score called `key`, without an interval.
+fn cell(evaluation: &PictureEvaluation, scores: &BTreeMap<&str, f64>, key: &str) -> String {
+    let metric = evaluation.metrics.iter().find(|metric| metric.key == key);
+    match (scores.get(key), metric) {
+        (Some(value), Some(metric)) => number(metric, *value),
+        (Some(value), None) => format!("{value:.3}"),
+        (None, _) => "-".to_owned(),
+    }
+}
+
+/// The worst sequences.
+fn sequences(evaluation: &PictureEvaluation) -> String {
+    if evaluation.sequences.is_empty() {
+        return String::new();
+    }
+    let has_classes = evaluation.sequences.iter().any(|report| report.class.is_some());
+    let head = ["sequence"].into_iter().chain(has_classes.then_some("class")).chain(["pictures", "true boxes"]);
+    let head: Vec<String> = head.map(str::to_owned).chain(evaluation.metrics.iter().map(title)).collect();
+    let row = |report: &&SequenceReport| -> Vec<String> {
+        let first = [markdown_code(&report.sequence)].into_iter().chain(report.class.map(str::to_owned));
+        let numbers = [report.pictures.to_string(), report.truth.to_string()];
+        let scores = evaluation.metrics.iter().map(|metric| cell(evaluation, &report.scores, metric.key));
+        first.chain(numbers).chain(scores).collect()
+    };
+    let worst = evaluation.worst_sequences();
+    let rows: Vec<Vec<String>> = worst.iter().take(WORST).map(row).collect();
+    let mut text = format!("\n## By sequence, the worst first\n\n{}", table(&head, &rows));
+    if worst.len() > WORST {
+        let _ = writeln!(text, "\n{} rows of {}; all are in the JSON report.", WORST, worst.len());
+    }
+    text
 }
 
 fn problems(evaluation: &PictureEvaluation) -> String {
@@ -156,7 +189,13 @@ fn problems(evaluation: &PictureEvaluation) -> String {
             let _ = writeln!(text, "- {}: {frames}", markdown_code(id));
         }
         more(&mut text, frames.missing.len());
-        text.push_str("\nIf only some frames were meant to be predicted, say so with `--every N`.\n");
+        text.push_str(match evaluation.settings.kind {
+            PictureKind::Tracks => {
+                "\nA tracker writes a file for every sequence, an empty one where it finds nobody.\n"
+            }
+            PictureKind::Target => "\nA tracker writes a file for every sequence, with a line for each picture.\n",
+            _ => "\nIf only some frames were meant to be predicted, say so with `--every N`.\n",
+        });
     }
     text
 }

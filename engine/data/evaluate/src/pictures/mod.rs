@@ -1,9 +1,10 @@
-//! Scores of predicted pictures: depth, labels, detected boxes and masks.
+//! Scores of predictions in pictures: depth, labels, detected boxes and masks, trackers' files.
 //!
 //! * [`settings`]: choices of an evaluation; [`recognise()`]: the kind of predictions.
 //! * [`files`], [`given`] and [`raster`]: files and rows by frame, and their values.
 //! * [`kinds`]: kinds of frames that are scored separately.
 //! * [`tallies`] with [`depth`], [`labels`] and [`detections`]: counts, and their intervals.
+//! * [`trackers`]: tracks of many bodies, boxes of the target.
 //! * [`report`]: the result as JSON, Markdown and a picture.
 
 mod depth;
@@ -22,6 +23,7 @@ pub mod report;
 mod settings;
 mod tallies;
 mod things;
+mod trackers;
 
 pub use evaluation::evaluate;
 pub use recognise::recognise;

@@ -12,6 +12,8 @@ const WIDTH_PX: f64 = 980.0;
 const TOP_PX: f64 = 64.0;
 const LEFT: (f64, f64) = (210.0, 270.0);
 const RIGHT: (f64, f64) = (660.0, 270.0);
+/// Sequences that are shown.
+const WORST: usize = 12;
 
 impl PictureEvaluation {
     /// The picture, SVG; empty without a metric.
@@ -31,13 +33,18 @@ impl PictureEvaluation {
         document.finish()
     }
 
-    /// Heading and bars of the second panel: distances where there are some, else classes.
+    /// Heading and bars of the second panel: distances where there are some, classes, or sequences.
     fn beside(&self, key: &str, name: &str) -> (String, Vec<(String, Score)>) {
         let plain = |value: f64| Score { value, low: None, high: None };
         if !self.distances.is_empty() {
             let ranges = self.distances.iter();
             let bars = ranges.map(|range| (format!("{} to {} m", range.from_m, range.to_m), plain(range.abs_rel)));
             return ("AbsRel by true depth".to_owned(), bars.collect());
+        }
+        if self.classes.is_empty() {
+            let worst = self.worst_sequences().into_iter().take(WORST);
+            let bars = worst.filter_map(|report| Some((report.sequence.clone(), plain(*report.scores.get(key)?))));
+            return (format!("{name} of the worst sequences"), bars.collect());
         }
         let has_iou = self.classes.iter().any(|class| class.scores.contains_key("iou"));
         let (key, name) = if has_iou { ("iou", "IoU") } else { (key, name) };

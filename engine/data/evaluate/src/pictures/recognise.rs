@@ -1,7 +1,7 @@
 //! The kind of predictions, told by the files that are there.
 
 use super::settings::PictureKind;
-use super::{files, raster};
+use super::{files, raster, trackers};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_read::predictions::detections as detection_rows;
 use std::fs::File;
@@ -22,9 +22,13 @@ pub fn recognise(path: &Path) -> Result<Option<PictureKind>> {
     let unclear = |what: String| {
         let message = format!("`{}` {what}", path.display());
         Diagnostic::new("evaluation-kind", Fault::Recipe, message)
-            .hint("say what it predicts with `--kind depth` or `--kind semantic`")
+            .hint("say what it predicts with `--kind`: `depth`, `semantic`, or for a tracker's text files `tracks` or `target`")
     };
     let (pictures, _) = files::pictures(path)?;
+    if pictures.is_empty() {
+        let kind = trackers::recognise(path)?;
+        return kind.map(Some).ok_or_else(|| unclear("has no PNG file, no NumPy array and no text file".into()));
+    }
     let mut folders: Vec<&str> = pictures.iter().filter_map(|path| files::kind_folder(path)).collect();
     folders.sort_unstable();
     folders.dedup();
@@ -38,7 +42,6 @@ pub fn recognise(path: &Path) -> Result<Option<PictureKind>> {
     match found {
         Some(raster::Content::Depth) => Ok(Some(PictureKind::Depth)),
         Some(raster::Content::Labels) => Ok(Some(PictureKind::Semantic)),
-        None if pictures.is_empty() => Err(unclear("has no PNG file and no NumPy array".into())),
         None => Err(unclear("has pictures of which none of the first eight can be read".into())),
     }
 }

@@ -35,6 +35,9 @@ pub struct PictureEvaluation {
     pub classes: Vec<ClassReport>,
     /// Depth by true distance; none for others.
     pub distances: Vec<DistanceReport>,
+    /// Sequence by sequence, for trackers alone.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sequences: Vec<SequenceReport>,
     /// Remarks for the reader.
     pub notes: Vec<String>,
     /// Whether the scores are of less than was expected: frames without a prediction, or no detection at all.
@@ -121,11 +124,31 @@ pub struct KindReport {
 /// Scores of a class.
 #[derive(Clone, Debug, Serialize)]
 pub struct ClassReport {
-    /// CARLA's label.
+    /// CARLA's label; for tracks MOTChallenge's class.
     pub id: u8,
     /// Name of the class.
     pub name: &'static str,
     /// True pixels, or true things.
+    pub truth: u64,
+    /// Scores.
+    pub scores: BTreeMap<&'static str, f64>,
+}
+
+/// Scores of a tracker on a sequence, for trackers of many bodies in a class.
+#[derive(Clone, Debug, Serialize)]
+pub struct SequenceReport {
+    /// Name of the sequence.
+    pub sequence: String,
+    /// Its flight.
+    pub trajectory_id: String,
+    /// Split of the flight.
+    pub split: String,
+    /// Class of the bodies; none for the target.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub class: Option<&'static str>,
+    /// Pictures of the sequence.
+    pub pictures: usize,
+    /// True boxes.
     pub truth: u64,
     /// Scores.
     pub scores: BTreeMap<&'static str, f64>,
@@ -156,6 +179,15 @@ impl PictureEvaluation {
             Some((format!("{kind}: {name}"), self.strata.get(kind)?.get(name)?))
         };
         self.kinds.iter().filter_map(report)
+    }
+
+    /// Sequences, those with the lowest first score first.
+    pub fn worst_sequences(&self) -> Vec<&SequenceReport> {
+        let first = self.metrics.first().map_or("", |metric| metric.key);
+        let score = |report: &SequenceReport| report.scores.get(first).copied().unwrap_or(0.0);
+        let mut sequences: Vec<&SequenceReport> = self.sequences.iter().collect();
+        sequences.sort_by(|a, b| score(a).total_cmp(&score(b)));
+        sequences
     }
 
     /// The JSON report.

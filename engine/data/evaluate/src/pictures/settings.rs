@@ -16,6 +16,10 @@ pub enum PictureKind {
     Boxes,
     /// Masks of things.
     Masks,
+    /// Tracks of many bodies.
+    Tracks,
+    /// Boxes of the target alone.
+    Target,
 }
 
 impl PictureKind {
@@ -26,6 +30,8 @@ impl PictureKind {
             Self::Semantic => "semantic",
             Self::Boxes => "boxes",
             Self::Masks => "masks",
+            Self::Tracks => "tracks",
+            Self::Target => "target",
         }
     }
 }
@@ -47,6 +53,8 @@ pub struct PictureSettings {
     pub categories: Vec<u8>,
     /// File of annotations that names the images behind numbers.
     pub images: Option<PathBuf>,
+    /// List of the sequences that a tracker saw, or the export that has it; none: all flights under their names.
+    pub sequences: Option<PathBuf>,
     /// Resamples behind an interval.
     pub resamples: usize,
     /// Seed of the resamples.
@@ -64,6 +72,7 @@ impl PictureSettings {
             depth_per_metre: 100.0,
             categories: vec![],
             images: None,
+            sequences: None,
             resamples: bootstrap::RESAMPLES,
             seed: 1,
         }

@@ -32,6 +32,11 @@ impl FrameCounts {
         kinds.iter().for_each(|kind| self.counts[kind + 1][group] += 1);
     }
 
+    /// Counts frames of a kind, 0 for all.
+    pub fn add_many(&mut self, kind: usize, group: usize, frames: u64) {
+        self.counts[kind][group] += frames;
+    }
+
     /// Frames of a kind, and the groups that have some.
     fn of(&self, kind: usize) -> (u64, Vec<usize>) {
         let groups = self.counts[kind].iter().enumerate().filter(|(_, frames)| **frames > 0);

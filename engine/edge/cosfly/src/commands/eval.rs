@@ -18,7 +18,7 @@ use cosfly_windows::WindowShape;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// Score a model's predictions on a finished dataset: waypoints (beside baselines), depth, labels, boxes, masks
+/// Score predictions on a finished dataset: waypoints (beside baselines), depth, labels, boxes, masks, tracks
 #[derive(Debug, Parser)]
 #[command(
     name = "eval",
@@ -29,6 +29,7 @@ Examples:
   cosfly eval out/carla_town answers.jsonl --frame body --missing-as-zero
   cosfly eval out/carla_town depth-of-my-model                        a folder of PNG or .npy files
   cosfly eval out/carla_town results.json --images out/coco/annotations/instances_val.json
+  cosfly eval out/carla_town results-of-my-tracker --sequences out/mot  a folder of text files
   cosfly eval out/carla_town                                          the baselines alone
 
 A line of predictions is like
@@ -45,6 +46,9 @@ masks are COCO results: an array, or lines, of
   {\"image_id\": 7, \"category_id\": 12, \"bbox\": [left, top, width, height], \"score\": 0.9}
 where `trajectory_id` and `frame` may stand instead of `image_id`, and `segmentation` (run lengths) makes masks.
 
+Trackers: a text file per sequence of an export, SEQUENCE.txt. For `mot` a line is picture, id, left, top, width, height,
+score and perhaps the class; for `otb` and `lasot` each line is a picture: left, top, width, height.
+
 Rows and files that cannot be scored are counted and named, and so are windows and frames without a prediction: the scores
 are then of a part alone, the report says so first, and the exit code is 1. It is 4 when nothing can be scored."
 )]
@@ -53,7 +57,7 @@ pub struct Arguments {
     #[arg(value_name = "DATASET")]
     dataset: PathBuf,
     /// Predictions: of waypoints JSON lines or Parquet, of depth or labels a folder of pictures, of boxes or masks COCO
-    /// results [default: none, the baselines alone]
+    /// results, of a tracker a folder of text files [default: none, the baselines alone]
     #[arg(value_name = "PREDICTIONS")]
     predictions: Option<PathBuf>,
     /// Folder for report.md, report.json and errors.svg [default: <PREDICTIONS>-evaluation]
@@ -119,7 +123,7 @@ impl Command for Arguments {
 
 /// Options of `eval` for pictures.
 #[derive(Args, Debug)]
-#[command(next_help_heading = "Options for depth, labels, boxes and masks")]
+#[command(next_help_heading = "Options for depth, labels, boxes, masks and tracks")]
 struct PictureArguments {
     /// Distance from one prediction to the next, frames
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = count())]
@@ -136,6 +140,9 @@ struct PictureArguments {
     /// Frames of the `image_id`s: annotations/instances_<split>.json of `cosfly export --format coco`
     #[arg(long, value_name = "FILE")]
     images: Option<PathBuf>,
+    /// Sequences that a tracker saw: an export for trackers, or its `sequences.jsonl` [default: all flights]
+    #[arg(long, value_name = "EXPORT")]
+    sequences: Option<PathBuf>,
 }
 
 /// A number above 0.
@@ -188,6 +195,7 @@ fn picture_settings(kind: PictureKind, arguments: &Arguments) -> PictureSettings
         depth_per_metre: of_pictures.depth_per_metre,
         categories: of_pictures.categories.clone(),
         images: of_pictures.images.clone(),
+        sequences: of_pictures.sequences.clone(),
         resamples: arguments.resamples,
         seed: arguments.seed,
         ..PictureSettings::new(kind)

@@ -338,12 +338,13 @@ def evaluate(
     max_depth_m: Optional[float] = None,
     categories: Sequence[int] = (),
     images: Optional[PathLike] = None,
+    sequences: Optional[PathLike] = None,
 ) -> EvaluateResult:
     """Score predictions on a dataset, beside baselines; without predictions the baselines alone. The command is ``cosfly eval``.
 
     ``frame`` (``world`` or ``body``) gives the axes of increments, ``origin`` (``previous`` or ``current``) the pose that
     each starts from, ``anchor`` (``input`` or ``expert``) that of the first. ``history``, ``horizon`` and ``stride`` are
-    numbers of frames. ``every`` to ``images`` are for pictures.
+    numbers of frames. ``every`` to ``images`` are for pictures, ``sequences`` is for trackers.
     """
     given = [] if predictions is None else [os.fspath(predictions)]
     default = f"{os.path.splitext(given[0])[0]}-evaluation" if given else "baselines-evaluation"
@@ -352,7 +353,7 @@ def evaluate(
     arguments += _options(
         kind=kind, split=splits, frame=frame, anchor=anchor, input=input, history=history, horizon=horizon, stride=stride,
         missing_as_zero=missing_as_zero, resamples=resamples, seed=seed, every=every, depth_per_metre=depth_per_metre,
-        max_depth_m=max_depth_m, category=categories, images=images, origin=origin,
+        max_depth_m=max_depth_m, category=categories, images=images, sequences=sequences, origin=origin,
     )  # fmt: skip
     code, text, _ = _call(arguments, b"", False)
     return EvaluateResult(json.loads(text), folder, code == 0)

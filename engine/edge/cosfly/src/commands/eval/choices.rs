@@ -19,6 +19,10 @@ pub enum KindChoice {
     Boxes,
     /// Masks: COCO results with `segmentation`
     Masks,
+    /// Tracks of many bodies: a folder of MOTChallenge's files
+    Tracks,
+    /// Boxes of the target alone: a folder of OTB's, UAV123's or LaSOT's files
+    Target,
 }
 
 /// Axes of increments.
@@ -66,6 +70,8 @@ impl KindChoice {
             Self::Semantic => Some(PictureKind::Semantic),
             Self::Boxes => Some(PictureKind::Boxes),
             Self::Masks => Some(PictureKind::Masks),
+            Self::Tracks => Some(PictureKind::Tracks),
+            Self::Target => Some(PictureKind::Target),
         }
     }
 }
