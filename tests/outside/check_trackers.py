@@ -1,23 +1,28 @@
-"""Reads exports for trackers with the software that they are made for: TrackEval and got10k.
+"""Reads exports for trackers with the software that they are made for, TrackEval and got10k, and compares the scores of `cosfly eval` with
+theirs, for trackers that make mistakes.
 
-python check_trackers.py DATASET FOLDER     FOLDER has mot/, otb/, uav123/ and lasot/
+python check_trackers.py COSFLY DATASET FOLDER     FOLDER has mot/, otb/, uav123/ and lasot/
 """
 
 import configparser
 import glob
 import json
+import subprocess
 import sys
 import tempfile
 from collections import defaultdict
 from pathlib import Path
 
 import got10k.datasets
+import got10k.experiments
 import numpy as np
 import pyarrow.parquet as parquet
 import trackeval
 from PIL import Image
 
-dataset, folder = Path(sys.argv[1]), Path(sys.argv[2])
+cosfly, dataset, folder = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3])
+CLASSES = {1: "pedestrian", 3: "car", 4: "bicycle", 5: "motorcycle"}
+random = np.random.default_rng(11)
 
 
 def rows_of(table, without=()):
@@ -55,27 +60,111 @@ def check_pictures(row, files):
             assert picture.size == (flight["camera_width_px"], flight["camera_height_px"]) and picture.format == "JPEG"
 
 
-def scores(split, results):
-    """HOTA and IDF1 of results, a dictionary of lines by sequence, as TrackEval has them."""
+def evaluated(results, *options):
+    """The report of `cosfly eval` on texts of a tracker by sequence."""
+    with tempfile.TemporaryDirectory() as place:
+        tracker = Path(place) / "tracker"
+        tracker.mkdir()
+        for name, text in results.items():
+            (tracker / f"{name}.txt").write_text(text)
+        command = [cosfly, "eval", dataset, tracker, "--json", "--resamples", "20", "--out", Path(place) / "scores", *options]
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)
+
+
+def scores(split, results, root=folder / "mot"):
+    """Scores of results, a dictionary of lines by sequence, as TrackEval has them for pedestrians: of all sequences, and of each."""
     quiet = {"PRINT_CONFIG": False}
     with tempfile.TemporaryDirectory() as trackers:
         place = Path(trackers) / "mine/data"
         place.mkdir(parents=True)
         for name, lines in results.items():
             (place / f"{name}.txt").write_text("".join(lines))
-        root = folder / "mot"
         data = {"GT_FOLDER": str(root / split), "SEQMAP_FILE": str(root / f"seqmaps/{split}.txt"), "SKIP_SPLIT_FOL": True,
                 "TRACKERS_FOLDER": trackers, **quiet}
         config = {"PRINT_RESULTS": False, "TIME_PROGRESS": False, "OUTPUT_SUMMARY": False, "OUTPUT_DETAILED": False, "PLOT_CURVES": False,
                   "BREAK_ON_ERROR": True, **quiet}
-        metrics = [trackeval.metrics.HOTA(), trackeval.metrics.Identity({"THRESHOLD": 0.5, **quiet})]
+        limit = {"THRESHOLD": 0.5, **quiet}
+        metrics = [trackeval.metrics.HOTA(), trackeval.metrics.Identity(limit), trackeval.metrics.CLEAR(limit)]
         found, _ = trackeval.Evaluator(config).evaluate([trackeval.datasets.MotChallenge2DBox(data)], metrics)
-    found = found["MotChallenge2DBox"]["mine"]["COMBINED_SEQ"]["pedestrian"]
-    return found["HOTA"]["HOTA"].mean(), found["Identity"]["IDF1"]
+    return {name: named(of["pedestrian"]) for name, of in found["MotChallenge2DBox"]["mine"].items()}
+
+
+def named(found):
+    hota = {ours: found["HOTA"][theirs].mean() for ours, theirs in (("hota", "HOTA"), ("det_a", "DetA"), ("ass_a", "AssA"))}
+    return {**hota, "idf1": found["Identity"]["IDF1"], "mota": found["CLEAR"]["MOTA"]}
+
+
+def same(ours, theirs, words):
+    assert ours.keys() == theirs.keys() and all(abs(ours[key] - theirs[key]) < 1e-6 for key in ours), (words, ours, theirs)
+
+
+def mistaken(truth):
+    """Boxes with all mistakes that trackers make, of the classes that count: rows of picture, id, box, score, class."""
+    rows = []
+    ids = {id: number for number, id in enumerate(np.unique(truth[:, 1]), 1)}
+    for picture, id, left, top, width, height, _, kind, _ in truth:
+        if random.random() < 0.15:
+            continue
+        mine = ids[id] + 1000 * int(picture // 17) * (ids[id] % 3 == 0)
+        others = [ids[other] for other in truth[(truth[:, 0] == picture) & (truth[:, 1] != id), 1]]
+        if others and random.random() < 0.03:
+            mine = 5000 + others[0]
+        shift = random.normal(0, 0.12, 4) * [width, height, width, height]
+        box = [left + shift[0], top + shift[1], max(1, width + shift[2]), max(1, height + shift[3])]
+        # What does not count is taken for a pedestrian.
+        rows.append([picture, mine, *box, random.random(), kind if kind != 8 else 1])
+        if random.random() < 0.05:
+            rows.append([picture, 9000 + len(rows), left + random.integers(-60, 60), top, width, height, 0.3, 1])
+    return np.array(rows).reshape(-1, 8)
+
+
+def lines(rows, kind=None):
+    """Rows as a tracker's lines; of one class, without the class as TrackEval takes them."""
+    chosen = rows if kind is None else rows[rows[:, 7] == kind]
+    tail = (lambda row: [row[7], -1, -1]) if kind is None else (lambda _: [-1, -1, -1])
+    return [",".join(f"{number:.9g}" for number in (*row[:7], *tail(row))) + "\n" for row in chosen]
+
+
+def compared():
+    """A tracker with mistakes, scored by TrackEval class by class: it knows pedestrians alone, so each class takes their number in turn."""
+    count = 0
+    for split in sorted({row["split"] for row in sequences("mot")}):
+        truths = {row["sequence"]: np.loadtxt(folder / "mot" / split / row["sequence"] / "gt/gt.txt", delimiter=",", ndmin=2).reshape(-1, 9)
+                  for row in sequences("mot") if row["split"] == split}
+        found = {name: mistaken(truth) for name, truth in truths.items()}
+        options = ["--sequences", folder / "mot", "--split", split]
+        report = evaluated({name: "".join(lines(rows)) for name, rows in found.items()}, *options)
+        alone = evaluated({name: "".join(lines(rows, 1)) for name, rows in found.items()}, *options)
+        of_classes = {row["name"]: row["scores"] for row in report["classes"]}
+        there = {kind: name for kind, name in CLASSES.items() if any((truth[:, 7] == kind).any() for truth in truths.values())}
+        assert set(of_classes) == set(there.values()), (of_classes, there)
+        for kind, name in there.items():
+            with tempfile.TemporaryDirectory() as place:
+                root = Path(place)
+                for sequence, truth in truths.items():
+                    (root / split / sequence / "gt").mkdir(parents=True)
+                    (root / split / sequence / "seqinfo.ini").write_text((folder / "mot" / split / sequence / "seqinfo.ini").read_text())
+                    turned = truth.copy()
+                    turned[truth[:, 7] == kind, 7] = 1
+                    turned[(truth[:, 7] == 1) & (kind != 1), 7] = 3
+                    np.savetxt(root / split / sequence / "gt/gt.txt", turned, "%.9g", ",")
+                (root / "seqmaps").mkdir()
+                (root / f"seqmaps/{split}.txt").write_text((folder / f"mot/seqmaps/{split}.txt").read_text())
+                theirs = scores(split, {sequence: lines(rows, kind) for sequence, rows in found.items()}, root)
+            same(of_classes[name], theirs.pop("COMBINED_SEQ"), (split, name))
+            ours = {row["sequence"]: row["scores"] for row in report["sequences"] if row["class"] == name}
+            for sequence in ours:
+                same(ours[sequence], theirs[sequence], (sequence, name))
+                count += 1
+            if kind == 1:
+                same({row["name"]: row["scores"] for row in alone["classes"]}["pedestrian"], of_classes[name], split)
+    return f"{count} sequences and classes, equal to TrackEval's scores"
 
 
 def mot():
-    lines, without, counts = defaultdict(dict), defaultdict(dict), defaultdict(lambda: [0, 0])
+    lines_of, without, counts = defaultdict(dict), defaultdict(dict), defaultdict(lambda: [0, 0])
     for row in sequences("mot"):
         id, split = row["trajectory_id"], row["split"]
         root = folder / "mot" / split / row["sequence"]
@@ -98,13 +187,13 @@ def mot():
             if line[1] == 1:
                 assert abs(line[8] - frames[id][int(line[0]) - 1]["visible_by_pixels"]) < 1e-4
         as_result = [",".join(f"{number:g}" for number in (*line[:6], 1, -1, -1, -1)) + "\n" for line in truth if line[7] == 1]
-        lines[split][row["sequence"]] = as_result
+        lines_of[split][row["sequence"]] = as_result
         without[split][row["sequence"]] = [line for line in as_result if line.split(",")[1] != "1"]
         counts[split][0] += len(as_result)
         counts[split][1] += len(as_result) - len(without[split][row["sequence"]])
     for split, (all_boxes, of_targets) in counts.items():
-        assert np.allclose(scores(split, lines[split]), 1), split
-        _, idf1 = scores(split, without[split])
+        assert np.allclose(list(scores(split, lines_of[split])["COMBINED_SEQ"].values()), 1), split
+        idf1 = scores(split, without[split])["COMBINED_SEQ"]["idf1"]
         kept = all_boxes - of_targets
         assert np.isclose(idf1, 2 * kept / (2 * kept + of_targets)), (split, idf1)
     return f"{sum(count for count, _ in counts.values())} boxes, scored by TrackEval"
@@ -182,5 +271,54 @@ def lasot():
     return f"{len(sequences('lasot'))} sequences, read by got10k; target hidden in {absences[0]} pictures, outside in {absences[1]}"
 
 
-for check in (mot, otb, uav123, lasot):
+def wandering(boxes, absent):
+    """Boxes that drift away from true ones and come back."""
+    found, here = [], boxes[0]
+    for number, box in enumerate(boxes):
+        if not absent(box):
+            here = box + np.sin(number / 5) * np.array([0.5, 0.2, 0.15, -0.1]) * np.array([box[2], box[3], box[2], box[3]])
+        found.append(np.maximum(here, [-1e9, -1e9, 0, 0]))
+    return np.array(found)
+
+
+def theirs_of(found, boxes, absent):
+    """Success, precision and normalised precision by got10k's functions, over pictures that show the target."""
+    seen = ~np.array([absent(box) for box in boxes])
+    found = found.copy()
+    found[0] = boxes[0]
+    found, boxes = found[seen], boxes[seen]
+    experiment = object.__new__(got10k.experiments.ExperimentOTB)
+    experiment.nbins_iou, experiment.nbins_ce = 21, 51
+    success, precision = experiment._calc_curves(*experiment._calc_metrics(found, boxes))
+    # got10k 0.1.3 has no normalised precision; this is that of its repository.
+    away = (found[:, :2] + (found[:, 2:] - 1) / 2 - boxes[:, :2] - (boxes[:, 2:] - 1) / 2) / np.maximum(1, boxes[:, 2:])
+    near = np.sqrt((away**2).sum(axis=1))[:, None] <= np.linspace(0, 0.5, 51)
+    return {"success": success.mean(), "precision": precision[20], "normalised_precision": near.mean()}
+
+
+def targets():
+    """A tracker of the target that drifts, in all layouts."""
+    count = 0
+    for export in ("otb", "lasot"):
+        absent = without_a_box if export == "otb" else (lambda found: list(found) == [0, 0, 0, 0])
+        results, theirs = {}, {}
+        for row in sequences(export):
+            name = row["sequence"]
+            place = folder / export / row["split"]
+            file = place / name / "groundtruth_rect.txt" if export == "otb" else place / name[: name.rfind("-")] / name / "groundtruth.txt"
+            boxes = np.loadtxt(file, delimiter=",", ndmin=2)
+            found = wandering(boxes, absent)
+            results[name] = "".join(",".join(f"{number:.17g}" for number in box) + "\n" for box in found)
+            theirs[name] = theirs_of(found, boxes, absent)
+        report = evaluated(results, "--sequences", folder / export)
+        for row in report["sequences"]:
+            same(row["scores"], theirs[row["sequence"]], row["sequence"])
+            count += 1
+        assert len(report["sequences"]) == len(theirs)
+        means = {key: np.mean([scores[key] for scores in theirs.values()]) for key in next(iter(theirs.values()))}
+        same({key: score["value"] for key, score in report["scores"].items()}, means, export)
+    return f"{count} sequences, equal to got10k's scores"
+
+
+for check in (mot, compared, otb, uav123, lasot, targets):
     print(f"{check.__name__}: {check()}")
