@@ -268,6 +268,14 @@ fn a_recipe_shows_what_of_it_is_made() {
     let of = |name: &str| stages.iter().find(|stage| stage["name"] == name).expect("a stage").clone();
     assert_eq!((of("expert")["made"].as_u64(), of("expert")["items"].as_u64()), (Some(3), Some(3)));
     assert_eq!(of("frames")["made"].as_u64(), Some(0));
+    cosfly(&["run", "recipe.toml", "--quiet", "--stage", "frames"]).within(street.path()).run_ok();
+    let filming = Viewer::start(street.path(), "recipe.toml");
+    let cookie = filming.enter();
+    let films = filming.json("/api/progress", &cookie).1["films"].clone();
+    assert_eq!(films.as_array().expect("films").len(), 6, "{films}");
+    let (status, _, picture) = filming.get(&format!("/picture/{}/0/rgb", films[1]["number"]), &cookie);
+    assert!(status == 200 && picture.starts_with(&[0xff, 0xd8]), "the first picture of {}", films[1]["name"]);
+    assert_eq!(filming.get("/picture/77/0/rgb", &cookie).0, 404);
     // A run that ends while the viewer is open: a reload shows its flights.
     let viewer = Viewer::start(street.path(), "recipe.toml");
     let cookie = viewer.enter();

@@ -138,6 +138,75 @@ def check_whole(browser):
         page.close()
 
 
+def check_places(browser):
+    """All flights of a town on the map, of which a click chooses one; the town in 3-D."""
+    with Viewer(arguments.dataset) as viewer:
+        page = open_page(browser, viewer.address, "places")
+        page.click("#all")
+        page.wait_for_function("() => map.paths")
+        index = "name => state.index.columns.find(it => it.name == name).texts"
+        town = page.evaluate(f"({index})('town')[state.flight.number]")
+        count = page.evaluate(f"({index})('town')").count(town)
+        expect(page.evaluate("map.paths.length") == count, f"the map has not all {count} flights of {town}")
+        shoot(page, "all-flights")
+        other = page.evaluate("map.paths.map(it => it[0]).find(it => it != state.flight.number)")
+        at = page.evaluate("""other => {
+            // A place of the other flight that no third one comes closer to.
+            const points = map.paths.find(it => it[0] === other)[1];
+            const chosen = [];
+            map.choose = number => chosen.push(number);
+            for (let at = 0; at < points.length; at += 3) {
+                const place = [0, 1].map(axis => (points[at + axis] - [map.view.x, map.view.y][axis]) * map.view.scale
+                    + [map.canvas.clientWidth, map.canvas.clientHeight][axis] / 2);
+                map.clicked(...place);
+                if (chosen.pop() === other) { map.choose = number => choose(number); return place; }
+            }
+            return null;
+        }""", other)
+        expect(at, "no place of the map chooses the other flight")
+        if at:
+            page.locator("#map").click(position={"x": at[0], "y": at[1]})
+            page.wait_for_function(f"() => state.flight.number == {other}")
+        if page.locator("#solid").is_visible():
+            page.click("#solid")
+            page.wait_for_selector("#scene:not([hidden])[data-frame]")
+            expect(page.locator("#map").is_hidden(), "the map stands beside the 3-D view")
+            expect(page.evaluate("scene.gl.getError()") == 0 and page.evaluate("scene.still.count") > 100, "the 3-D view draws nothing")
+            page.mouse.move(*(page.locator("#scene").bounding_box()[side] + 100 for side in "xy"))
+            page.mouse.down()
+            page.mouse.move(*(page.locator("#scene").bounding_box()[side] + 130 for side in "xy"))
+            page.mouse.up()
+            colours = page.evaluate("""() => {
+                scene.draw(state.frame);
+                const [width, height] = [scene.canvas.width, scene.canvas.height];
+                const pixels = new Uint8Array(4 * width * height);
+                scene.gl.readPixels(0, 0, width, height, scene.gl.RGBA, scene.gl.UNSIGNED_BYTE, pixels);
+                return new Set(new Uint32Array(pixels.buffer)).size;
+            }""")
+            expect(colours > 8, f"the 3-D view has {colours} colours")
+            shoot(page, "solid")
+        else:
+            print("no WebGL in this browser: the 3-D view is not checked")
+        page.close()
+
+
+def check_empty(browser):
+    """A dataset without flights is shown with words."""
+    folder = copy("empty")
+    for table in ("trajectories", "frames", "bodies", "captions", "goals", "windows", "crossings"):
+        for path in folder.glob(f"data/{table}/*.parquet"):
+            pq.write_table(pq.read_table(path)[:0], path)
+    with Viewer(folder) as viewer:
+        page = browser.new_page(viewport={"width": 1360, "height": 900})
+        page.on("pageerror", lambda it: problems.append(f"empty: error: {it}"))
+        page.goto(viewer.address)
+        page.wait_for_function("() => document.getElementById('matches').textContent")
+        words = page.locator("#matches").inner_text()
+        expect("has no flights" in words, f"an empty dataset is told by `{words}`")
+        shoot(page, "empty")
+        page.close()
+
+
 def copy(name):
     """A copy of the dataset."""
     folder = arguments.work / name
@@ -259,9 +328,11 @@ def check_many(browser):
 
 with sync_playwright() as playwright:
     program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    chromium = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
+    chromium = playwright.chromium.launch(executable_path=program, args=["--no-sandbox", "--enable-unsafe-swiftshader"])
     arguments.work.mkdir(parents=True, exist_ok=True)
     check_whole(chromium)
+    check_places(chromium)
+    check_empty(chromium)
     check_hostile(chromium)
     check_exported(chromium)
     if arguments.many:

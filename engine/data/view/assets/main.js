@@ -3,7 +3,8 @@
 
 const $ = id => document.getElementById(id);
 const state = { index: null, flight: null, beside: null, frame: 0, isPlaying: false };
-const map = new TownMap($("map"));
+const map = new TownMap($("map"), number => choose(number));
+const scene = new Scene($("scene"));
 const pictures = new Pictures($("pictures"));
 const LEGEND = $("legend").textContent;
 let list;
@@ -19,6 +20,7 @@ async function start() {
   // The token has done its work: it must not stay in the address.
   if (location.search) history.replaceState(null, "", location.pathname + location.hash);
   const about = await source.get("/api/about");
+  state.about = about;
   source.setVersion(about.version);
   document.title = `${about.name} – cosfly view`;
   $("name").textContent = about.name;
@@ -43,12 +45,20 @@ function filter() {
     const lets = filterOf($("query").value, state.index);
     list.show(lets, $("sort").value);
     words.className = "";
-    const none = state.index.flights ? "no flight is like this" : "there are no flights yet";
-    words.textContent = list.order.length ? `${list.order.length} of ${state.index.flights} flights` : none;
+    words.textContent = list.order.length ? `${list.order.length} of ${state.index.flights} flights`
+      : state.index.flights ? "no flight is like this" : withoutFlights();
   } catch (error) {
     words.className = "wrong";
     words.textContent = error.message;
   }
+}
+
+// Words for a list that has nothing.
+function withoutFlights() {
+  const { kind, rejected, reasons } = state.about;
+  if (kind === "recipe") return "there are no flights yet";
+  const left = rejected ? `: ${rejected} were planned and left out` : "";
+  return [`this ${kind} has no flights${left}`, ...(reasons || [])].join("\n");
 }
 
 // The number of the flight that was asked for last: answers to earlier questions come too late.
@@ -132,7 +142,7 @@ function showFlight() {
   const left = flight.bodies.left_out + flight.boxesOfTown.left_out;
   $("legend").textContent = LEGEND + (left > 0 ? ` ${left} boxes and bodies are not drawn.` : "");
   if (!flight.losses.length) $("losses").replaceChildren(element("li", "none"));
-  map.show(flight.boxesOfTown, [flight], flight.bodies);
+  showPlaces();
   pictures.show(flight, null);
 }
 
@@ -143,9 +153,52 @@ async function compare(number) {
   const beside = number === null ? null : await load(number);
   if (state.flight !== flight) return;
   state.beside = beside;
-  map.show(flight.boxesOfTown, beside ? [flight, beside] : [flight], flight.bodies);
+  showPlaces();
   pictures.show(flight, beside);
   setFrame(state.frame);
+}
+
+// The town with the flights, on the map and, where it is shown, in 3-D.
+function showPlaces() {
+  const { flight, beside } = state;
+  const flights = beside ? [flight, beside] : [flight];
+  map.show(flight.boxesOfTown, flights, flight.bodies);
+  if (!$("scene").hidden) scene.show(flight.boxesOfTown, flights, flight.bodies);
+  if (map.paths && flight.town !== state.pathsOf) showPaths();
+}
+
+// All flights of the town that is shown.
+async function showPaths() {
+  const { flight } = state;
+  try {
+    const { flights } = await source.get(`/api/paths/${flight.number}`);
+    if (state.flight.town !== flight.town) return;
+    state.pathsOf = flight.town;
+    map.showPaths(flights);
+  } catch (error) {
+    tell(error.message);
+  }
+}
+
+function toggleAll() {
+  const isShown = toggle($("all"));
+  if (isShown && $("map").hidden) toggleSolid();
+  return isShown ? showPaths() : map.showPaths(null);
+}
+
+function toggleSolid() {
+  const isSolid = toggle($("solid"));
+  $("map").hidden = isSolid;
+  $("scene").hidden = !isSolid;
+  if (isSolid && map.paths) toggleAll();
+  showPlaces();
+  setFrame(state.frame);
+}
+
+function toggle(button) {
+  const isPressed = button.getAttribute("aria-pressed") !== "true";
+  button.setAttribute("aria-pressed", String(isPressed));
+  return isPressed;
 }
 
 let isDue = false;
@@ -163,6 +216,7 @@ function draw() {
   if (!flight) return;
   const at = name => flight[name] && flight[name][frame];
   map.draw(frame);
+  if (!$("scene").hidden) scene.draw(frame);
   pictures.draw(frame);
   drawStrip();
   $("time").textContent = `${frame} of ${flight.x.length - 1}, ${(at("time_s") ?? 0).toFixed(2)} s`;
@@ -224,11 +278,17 @@ async function followLink() {
 async function progress() {
   $("progress").hidden = false;
   try {
-    const { stages } = (await source.get("/api/progress")) || { stages: [] };
+    const { stages, films } = (await source.get("/api/progress")) || { stages: [], films: [] };
     $("stages").replaceChildren(...stages.map(stage => {
       const line = row(`${stage.name} (${stage.kind})`, String(stage.made));
       line.append(element("td", String(stage.items)), element("td", stage.failures.join("; ")));
       return line;
+    }));
+    $("films").replaceChildren(...films.map(film => {
+      const figure = document.createElement("figure");
+      const picture = Object.assign(new Image(), { src: `/picture/${film.number}/0/rgb`, alt: `first picture of ${film.name}` });
+      figure.append(picture, element("figcaption", film.name));
+      return figure;
     }));
     const left = stages.reduce((sum, stage) => sum + stage.to_run, 0);
     $("ready").textContent = !stages.length ? "nothing is made yet: start `cosfly run`"
@@ -275,6 +335,7 @@ function theme() {
     || document.documentElement.dataset.theme === undefined && matchMedia("(prefers-color-scheme: dark)").matches;
   document.documentElement.dataset.theme = isDark ? "light" : "dark";
   map.moved();
+  if (!$("scene").hidden) scene.draw(state.frame);
   if (state.flight) drawStrip();
 }
 
@@ -292,7 +353,11 @@ $("frame").addEventListener("input", event => setFrame(event.target.value));
 $("strip").addEventListener("click", event => setFrame(Math.floor(event.offsetX / $("strip").clientWidth * state.flight.x.length)));
 $("beside").addEventListener("change", event => compare(event.target.value === "" ? null : Number(event.target.value)).catch(error => tell(error.message)));
 $("play").addEventListener("click", play);
-$("fit").addEventListener("click", () => map.fit());
+$("fit").addEventListener("click", () => ($("scene").hidden ? map : scene).fit());
+$("all").addEventListener("click", toggleAll);
+$("solid").addEventListener("click", toggleSolid);
+$("solid").hidden = !scene.isThere;
+$("all").hidden = source.isExported;
 $("theme").addEventListener("click", theme);
 window.addEventListener("hashchange", () => followLink());
 start().catch(error => { $("about").textContent = error.message; });

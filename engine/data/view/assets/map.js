@@ -6,22 +6,34 @@ const KIND_COLOURS = {
   tree_trunk: "#6b5640", wall: "#8d7668", fence: "#8d7668", car: "#7b86b8",
 };
 const SMALLEST_M = 40;
+const SHADES = 10;
+const REACH_PX = 12;
 
 // Red where nothing is visible, through yellow to green.
 const visibleColour = share => `hsl(${Math.round(130 * Math.max(0, Math.min(1, share)))} 75% 42%)`;
 
 class TownMap {
-  constructor(canvas) {
+  constructor(canvas, choose) {
     this.canvas = canvas;
+    this.choose = choose;
     this.ground = document.createElement("canvas");
     this.view = { x: 0, y: 0, scale: 4 };
     this.shown = { town: { kinds: {} }, flights: [], bodies: null, frame: 0 };
     this.isStale = true;
+    this.paths = null;
     let from = null;
-    canvas.addEventListener("pointerdown", event => { from = [event.clientX, event.clientY]; canvas.setPointerCapture(event.pointerId); });
-    canvas.addEventListener("pointerup", () => { from = null; });
+    let isClick = false;
+    canvas.addEventListener("pointerdown", event => {
+      [from, isClick] = [[event.clientX, event.clientY], true];
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener("pointerup", event => {
+      if (isClick && this.paths) this.clicked(event.offsetX, event.offsetY);
+      from = null;
+    });
     canvas.addEventListener("pointermove", event => {
       if (!from) return;
+      isClick = false;
       this.view.x -= (event.clientX - from[0]) / this.view.scale;
       this.view.y -= (event.clientY - from[1]) / this.view.scale;
       from = [event.clientX, event.clientY];
@@ -50,10 +62,17 @@ class TownMap {
     this.fit();
   }
 
+  // Shows all flights of a town thinly, or none: for each its number, and x, y and the visible share of its points by turns.
+  showPaths(paths) {
+    this.paths = paths;
+    this.fit();
+  }
+
   fit() {
     const flights = this.shown.flights;
-    const xs = flights.flatMap(it => [...it.x, ...it.target_x]).filter(it => it !== null);
-    const ys = flights.flatMap(it => [...it.y, ...it.target_y]).filter(it => it !== null);
+    const ofPaths = axis => (this.paths || []).flatMap(([, points]) => points.filter((_, at) => at % 3 === axis));
+    const xs = [...flights.flatMap(it => [...it.x, ...it.target_x]), ...ofPaths(0)].filter(it => it !== null);
+    const ys = [...flights.flatMap(it => [...it.y, ...it.target_y]), ...ofPaths(1)].filter(it => it !== null);
     if (!xs.length) return;
     const [left, right, top, bottom] = [least(xs), most(xs), least(ys), most(ys)];
     const wide = Math.max(SMALLEST_M, 1.3 * (right - left));
@@ -99,13 +118,14 @@ class TownMap {
     const reach = Math.max(this.canvas.clientWidth, this.canvas.clientHeight) / this.view.scale;
     for (const [kind, boxes] of Object.entries(this.shown.town.kinds)) {
       context.fillStyle = KIND_COLOURS[kind] || "#8b8f9a";
-      for (let at = 0; at < boxes.length; at += 6) {
+      for (let at = 0; at < boxes.length; at += 7) {
         const [x, y, along, across, yaw] = boxes.slice(at, at + 5);
         if (Math.abs(x - this.view.x) - along - across > reach || Math.abs(y - this.view.y) - along - across > reach) continue;
         rectangle(context, x, y, along, across, yaw);
       }
     }
     const pixel = 1 / this.view.scale;
+    if (this.paths) this.drawPaths(context, 1.5 * pixel);
     const [flight] = this.shown.flights;
     if (!flight) return;
     context.strokeStyle = "#c0392b88";
@@ -117,6 +137,37 @@ class TownMap {
     line(context, flight.target_x, flight.target_y, false);
     context.setLineDash([]);
     this.shown.flights.slice().reverse().forEach(it => this.drawPath(context, it, it === flight ? 4 * pixel : 2 * pixel));
+  }
+
+  // All flights, colour by colour, the red ones on top.
+  drawPaths(context, thickness) {
+    context.lineWidth = thickness;
+    for (let shade = SHADES; shade >= 0; shade -= 1) {
+      context.strokeStyle = visibleColour(shade / SHADES);
+      context.beginPath();
+      for (const [, points] of this.paths) {
+        for (let at = 3; at < points.length; at += 3) {
+          if (Math.round(SHADES * points[at + 2]) !== shade) continue;
+          context.moveTo(points[at - 3], points[at - 2]);
+          context.lineTo(points[at], points[at + 1]);
+        }
+      }
+      context.stroke();
+    }
+  }
+
+  // Chooses the flight whose path passes a place of the canvas most closely.
+  clicked(left, top) {
+    const { x, y, scale } = this.view;
+    const at = [x + (left - this.canvas.clientWidth / 2) / scale, y + (top - this.canvas.clientHeight / 2) / scale];
+    let [nearest, closest] = [null, REACH_PX / scale];
+    for (const [number, points] of this.paths) {
+      for (let end = 3; end < points.length; end += 3) {
+        const away = distanceFrom(at, points.slice(end - 3, end - 1), points.slice(end, end + 2));
+        if (away < closest) [nearest, closest] = [number, away];
+      }
+    }
+    if (nearest !== null) this.choose(nearest);
   }
 
   drawPath(context, flight, thickness) {
@@ -180,6 +231,13 @@ function disc(context, x, y, radius, colour) {
   context.strokeStyle = "#fff";
   context.lineWidth = radius / 4;
   context.stroke();
+}
+
+// Distance of a place from the line between two others.
+function distanceFrom([x, y], [fromX, fromY], [toX, toY]) {
+  const [dx, dy] = [toX - fromX, toY - fromY];
+  const share = Math.max(0, Math.min(1, ((x - fromX) * dx + (y - fromY) * dy) / (dx * dx + dy * dy || 1)));
+  return Math.hypot(x - fromX - share * dx, y - fromY - share * dy);
 }
 
 // Bodies by their frames.

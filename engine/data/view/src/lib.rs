@@ -14,8 +14,8 @@ mod routes;
 mod server;
 mod subject;
 
-pub use dataset::DatasetSubject;
+pub use dataset::{DatasetSubject, stored_picture};
 pub use export::export;
 pub use inside::inside;
 pub use server::Server;
-pub use subject::{Index, ViewSubject, ViewedPicture, short, unknown};
+pub use subject::{FewPoints, Index, ViewSubject, ViewedPicture, short, unknown};

@@ -21,11 +21,12 @@ pub const STYLE: Asset =
     Asset { path: "/style.css", media_type: "text/css; charset=utf-8", text: include_str!("../assets/style.css") };
 
 /// Its scripts, in the order in which they run.
-pub const SCRIPTS: [Asset; 6] = [
+pub const SCRIPTS: [Asset; 7] = [
     Asset { path: "/source.js", media_type: SCRIPT, text: include_str!("../assets/source.js") },
     Asset { path: "/filter.js", media_type: SCRIPT, text: include_str!("../assets/filter.js") },
     Asset { path: "/list.js", media_type: SCRIPT, text: include_str!("../assets/list.js") },
     Asset { path: "/map.js", media_type: SCRIPT, text: include_str!("../assets/map.js") },
+    Asset { path: "/scene.js", media_type: SCRIPT, text: include_str!("../assets/scene.js") },
     Asset { path: "/pictures.js", media_type: SCRIPT, text: include_str!("../assets/pictures.js") },
     Asset { path: "/main.js", media_type: SCRIPT, text: include_str!("../assets/main.js") },
 ];

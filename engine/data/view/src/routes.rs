@@ -56,6 +56,7 @@ pub fn value(path: &str, subject: &dyn ViewSubject) -> Result<Option<Value>> {
         ("flight", Some(number)) => subject.flight(number).map(Some),
         ("bodies", Some(number)) => subject.bodies(number).map(Some),
         ("town", Some(number)) => subject.town(number).map(Some),
+        ("paths", Some(number)) => subject.paths(number).map(Some),
         _ => Ok(None),
     }
 }

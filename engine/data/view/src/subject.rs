@@ -35,6 +35,12 @@ pub trait ViewSubject: Send + Sync {
     /// `view-unknown`; files that cannot be read.
     fn town(&self, number: usize) -> Result<Value>;
 
+    /// Paths of all flights in the town of a flight: for each its number, and the numbers of [`FewPoints`].
+    ///
+    /// # Errors
+    /// `view-unknown`; files that cannot be read.
+    fn paths(&self, number: usize) -> Result<Value>;
+
     /// A picture of a flight.
     ///
     /// # Errors
@@ -109,6 +115,41 @@ impl Index {
     }
 }
 
+/// Most points of a path that stands for a flight among many, but for its end.
+const MOST_POINTS: usize = 24;
+
+/// A path in few points.
+#[derive(Clone, Debug, Default)]
+pub struct FewPoints {
+    every: usize,
+    frames: usize,
+    seen: usize,
+    least: f64,
+    numbers: Vec<f64>,
+}
+
+impl FewPoints {
+    /// The path of a flight of so many frames, none of which is there yet.
+    pub fn of(frames: usize) -> Self {
+        Self { every: frames.div_ceil(MOST_POINTS).max(1), frames, least: f64::INFINITY, ..Self::default() }
+    }
+
+    /// Adds the place (metres) and the visible share of the next frame.
+    pub fn add(&mut self, [x, y, visible]: [f64; 3]) {
+        self.least = self.least.min(visible);
+        if self.seen.is_multiple_of(self.every) || self.seen + 1 == self.frames {
+            self.numbers.extend([x, y, self.least].map(short));
+            self.least = f64::INFINITY;
+        }
+        self.seen += 1;
+    }
+
+    /// For each point x, y and the smallest visible share since the point before.
+    pub fn numbers(self) -> Vec<f64> {
+        self.numbers
+    }
+}
+
 /// A number with three decimals: millimetres and thousandths suffice to look at.
 pub fn short(number: f64) -> f64 {
     (number * 1000.0).round() / 1000.0
@@ -122,6 +163,20 @@ pub fn unknown(what: impl std::fmt::Display) -> Box<Diagnostic> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_path_ends_with_the_flight_and_keeps_its_losses() {
+        let path = |frames: usize| {
+            let mut path = FewPoints::of(frames);
+            (0..frames).for_each(|at| path.add([at as f64, 0.0, if at == 50 { 0.0 } else { 1.0 }]));
+            path.numbers()
+        };
+        let long = path(102);
+        assert!(long.len() <= 3 * (MOST_POINTS + 1));
+        assert_eq!(long[long.len() - 3..], [101.0, 0.0, 1.0]);
+        assert_eq!(long.iter().skip(2).step_by(3).filter(|share| **share == 0.0).count(), 1);
+        assert_eq!(path(1), [0.0, 0.0, 1.0]);
+    }
 
     #[test]
     fn the_longest_loss_is_worst_then_what_is_seen_least() {

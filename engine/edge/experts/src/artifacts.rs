@@ -53,6 +53,8 @@ pub const NEARBY: Kind<Vec<NearbyWalk>> = Kind::new("nearby/1", "people");
 pub const NEARBY_BODIES: Kind<Vec<NearbyBodies>> = Kind::new("nearby/1", "bodies");
 /// Artifact of a film.
 pub const FRAMES: &str = "frames/4";
+/// Blob of a film with its pictures.
+pub const FILM: &str = "pack";
 /// Reason why a film has no pictures; absent where it has.
 pub const REJECTION: Kind<Rejection> = Kind::new(FRAMES, "rejection");
 

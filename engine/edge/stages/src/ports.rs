@@ -24,7 +24,7 @@ pub const NEARBY: &str = artifacts::NEARBY.artifact;
 /// Artifact of a rendered trajectory.
 pub const FRAMES: &str = artifacts::FRAMES;
 /// Blob of a rendered trajectory: its packed pictures, which its log holds as well.
-pub const PACK: &str = "pack";
+pub const PACK: &str = artifacts::FILM;
 /// Artifact of a trajectory's captions.
 pub const CAPTIONS: &str = "captions/3";
 /// Artifact of a trajectory's MCAP log.

@@ -70,7 +70,7 @@ pub fn own_rows(
     })
 }
 
-/// Boxes of a town: for each kind numbers in groups of six: x, y, half lengths, yaw (degrees), height (metres).
+/// Boxes of a town: for each kind numbers in groups of seven: x, y, half lengths, yaw (degrees), height and bottom (metres).
 ///
 /// # Errors
 /// Damage of table `objects`.
@@ -82,9 +82,10 @@ pub fn town(dataset: &PublishedDataset, town: &str) -> Result<Value> {
             for row in (0..rows.len()).filter(|row| towns.text(*row) == town) {
                 count += 1;
                 if count <= MOST_BOXES {
-                    let [x, y, _] = rows.get(Objects::center_in_world_m, row)?;
+                    let [x, y, z] = rows.get(Objects::center_in_world_m, row)?;
                     let [length, width, height] = rows.get(Objects::size_m, row)?;
-                    let numbers = [x, y, 0.5 * length, 0.5 * width, rows.get(Objects::yaw_deg, row)?, height];
+                    let yaw_deg = rows.get(Objects::yaw_deg, row)?;
+                    let numbers = [x, y, 0.5 * length, 0.5 * width, yaw_deg, height, z - 0.5 * height];
                     kinds.entry(of_rows.text(row).to_owned()).or_default().extend(numbers.map(short));
                 }
             }

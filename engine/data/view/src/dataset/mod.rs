@@ -12,4 +12,5 @@ mod pictures;
 mod subject;
 mod summary;
 
+pub use pictures::stored_picture;
 pub use subject::DatasetSubject;

@@ -67,7 +67,7 @@ impl FlightLog {
         let channel = channels::called(channel).filter(|it| self.log.channels().any(|known| known == it.name));
         let channel = channel.ok_or_else(|| unknown("such channel in the log"))?;
         match self.log.image(channel, frame)? {
-            StoredImage::File(bytes, _) => file(bytes.to_vec()),
+            StoredImage::File(bytes, _) => stored_picture(bytes.to_vec()),
             StoredImage::Raw { data, width, height, pixel_bytes } => {
                 coloured(channel, &data, [width, height], pixel_bytes)
             }
@@ -76,7 +76,10 @@ impl FlightLog {
 }
 
 /// A stored file: what it is says its beginning, whatever its format is called.
-fn file(bytes: Vec<u8>) -> Result<ViewedPicture> {
+///
+/// # Errors
+/// `view-image`.
+pub fn stored_picture(bytes: Vec<u8>) -> Result<ViewedPicture> {
     let media_type = match &bytes[..] {
         [0xff, 0xd8, 0xff, ..] => "image/jpeg",
         [0x89, b'P', b'N', b'G', ..] => "image/png",
@@ -128,8 +131,8 @@ mod tests {
 
     #[test]
     fn files_are_what_their_beginnings_say() {
-        assert_eq!(file(vec![0xff, 0xd8, 0xff, 0]).expect("JPEG").media_type, "image/jpeg");
-        assert!(file(b"<svg onload=alert(1)>".to_vec()).is_err() && file(vec![]).is_err());
+        assert_eq!(stored_picture(vec![0xff, 0xd8, 0xff, 0]).expect("JPEG").media_type, "image/jpeg");
+        assert!(stored_picture(b"<svg onload=alert(1)>".to_vec()).is_err() && stored_picture(vec![]).is_err());
     }
 
     #[test]

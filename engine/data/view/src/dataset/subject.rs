@@ -13,6 +13,8 @@ use std::sync::{Mutex, PoisonError};
 
 /// Most flights of the index; the page keeps it in memory.
 const MOST_FLIGHTS: usize = 50_000;
+/// Most flights that were left out whose reasons an empty dataset tells.
+const MOST_REASONS: usize = 5;
 /// Most towns that are kept.
 const MOST_TOWNS: usize = 8;
 
@@ -40,10 +42,15 @@ impl DatasetSubject {
 impl ViewSubject for DatasetSubject {
     fn about(&self) -> Result<Value> {
         let flights = self.opened.dataset.flights().len();
+        let rejections = self.opened.dataset.rejections().unwrap_or_default();
+        let reasons: Vec<String> = match flights {
+            0 => rejections.iter().take(MOST_REASONS).map(|(id, reason)| format!("{id}: {reason}")).collect(),
+            _ => vec![],
+        };
         Ok(json!({
             "name": self.opened.dataset.name(), "kind": "dataset", "version": self.opened.dataset.identity().digest(),
             "flights": flights, "shown": flights.min(MOST_FLIGHTS),
-            "rejected": self.opened.dataset.rejections().map_or(0, |rejected| rejected.len()),
+            "rejected": rejections.len(), "reasons": reasons,
         }))
     }
 
@@ -108,6 +115,14 @@ impl ViewSubject for DatasetSubject {
             known.remove(0);
         }
         Ok(boxes)
+    }
+
+    fn paths(&self, number: usize) -> Result<Value> {
+        let town = &self.opened.at(number)?.town;
+        let flights = self.opened.dataset.flights().iter().zip(&self.summaries).take(MOST_FLIGHTS).enumerate();
+        let of_town = flights.filter(|(_, (flight, _))| flight.town == *town);
+        let paths: Vec<Value> = of_town.map(|(place, (_, summary))| json!([place, summary.path])).collect();
+        Ok(json!({ "flights": paths }))
     }
 
     fn picture(&self, number: usize, frame: usize, channel: &str) -> Result<ViewedPicture> {

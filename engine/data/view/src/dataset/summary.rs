@@ -1,6 +1,7 @@
 //! Numbers of all flights from one pass over table `frames`.
 
 use super::causes::{Causes, Loss};
+use crate::subject::FewPoints;
 use cosfly_diagnose::{Result, Stop};
 use cosfly_frames::real;
 use cosfly_read::{PublishedDataset, PublishedFlight, RowValues, Rows, read};
@@ -30,6 +31,8 @@ pub struct Summary {
     pub look_alikes: f64,
     /// First place of the drone, metres.
     pub start_m: [f64; 2],
+    /// The flight in few points, see [`FewPoints`].
+    pub path: Vec<f64>,
 }
 
 /// Sums over the frames of a flight so far.
@@ -46,6 +49,7 @@ struct Pass {
     /// The loss that goes on.
     loss: Option<Loss>,
     longest: Loss,
+    path: FewPoints,
 }
 
 /// The columns of table `frames` that are read.
@@ -70,8 +74,12 @@ struct Columns<'f> {
 /// Damage of table `frames`; `stopped`.
 pub fn summaries(dataset: &PublishedDataset, causes: &Causes, stop: &Stop) -> Result<Vec<Summary>> {
     let flights = dataset.flights();
-    let mut passes: Vec<Pass> =
-        flights.iter().map(|_| Pass { clearance_m: f64::INFINITY, ..Pass::default() }).collect();
+    let empty = |flight: &PublishedFlight| Pass {
+        clearance_m: f64::INFINITY,
+        path: FewPoints::of(flight.frames),
+        ..Pass::default()
+    };
+    let mut passes: Vec<Pass> = flights.iter().map(empty).collect();
     let mut open = (String::new(), None);
     for (_, path) in dataset.files("frames")? {
         read(&path, &mut |rows| {
@@ -115,12 +123,14 @@ impl<'f> Columns<'f> {
 impl Pass {
     fn add(&mut self, flight: &PublishedFlight, columns: &Columns<'_>, row: usize) -> Result<()> {
         let frame = self.frames;
+        let [x, y] = [columns.place[0].at(row)?, columns.place[1].at(row)?];
         if frame == 0 {
-            self.start_m = [columns.place[0].at(row)?, columns.place[1].at(row)?];
+            self.start_m = [x, y];
             self.least = (0, f64::INFINITY);
         }
         let is_point = is_point(flight);
         let visible = if is_point { columns.by_rays.at(row)? } else { columns.by_pixels.at(row)? };
+        self.path.add([x, y, visible]);
         if visible < self.least.1 {
             self.least = (frame, visible);
         }
@@ -171,6 +181,7 @@ impl Pass {
             sun_facing: mean(self.facing as f64),
             look_alikes: f64::from(self.look_alikes),
             start_m: self.start_m,
+            path: self.path.numbers(),
         }
     }
 }

@@ -5,7 +5,7 @@ use cosfly_fly::flight::Row;
 use cosfly_fly::log::{self, LogLine};
 use cosfly_fly::results::{Folder, ending};
 use cosfly_read::LogReader;
-use cosfly_view::{Index, ViewSubject, ViewedPicture, inside, short, unknown};
+use cosfly_view::{FewPoints, Index, ViewSubject, ViewedPicture, inside, short, unknown};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -158,10 +158,23 @@ impl ViewSubject for ResultsSubject {
         for it in boxes {
             let (center, half) = (it.center_in_map, it.half_extents_m);
             // The map's y is minus the world's, and so is its yaw.
-            let numbers = [center.x, -center.y, half.x, half.y, -it.yaw_rad.to_degrees(), 2.0 * half.z];
+            let yaw_deg = -it.yaw_rad.to_degrees();
+            let numbers = [center.x, -center.y, half.x, half.y, yaw_deg, 2.0 * half.z, center.z - half.z];
             kinds.entry(it.label.to_lowercase()).or_default().extend(numbers.map(short));
         }
         Ok(json!({ "name": flight.row.episode, "kinds": kinds, "left_out": 0 }))
+    }
+
+    fn paths(&self, number: usize) -> Result<Value> {
+        let town = &self.at(number)?.row.episode;
+        let mut flights = vec![];
+        for (place, flight) in self.flights.iter().enumerate().filter(|(_, flight)| flight.row.episode == *town) {
+            let lines = flight.lines()?;
+            let mut path = FewPoints::of(lines.len());
+            lines.iter().for_each(|it| path.add([it.position_in_world[0], it.position_in_world[1], it.visible]));
+            flights.push(json!([place, path.numbers()]));
+        }
+        Ok(json!({ "flights": flights }))
     }
 
     fn picture(&self, number: usize, _frame: usize, _channel: &str) -> Result<ViewedPicture> {
