@@ -341,6 +341,7 @@ impl<'r> Workers<'_, 'r> {
         if diagnostic.fault == Fault::Stopped && self.is_stopping(&mut shared) {
             return shared.schedule.abandon(index);
         }
+        let (stage, item) = shared.schedule.place(index);
         // The next task would meet the same full disk.
         shared.broken |= diagnostic.fault == Fault::DiskFull;
         shared.schedule.fail(index);
@@ -348,6 +349,10 @@ impl<'r> Workers<'_, 'r> {
             shared.failures.push(Failure { id: id.clone(), diagnostic: diagnostic.clone() });
         }
         drop(shared);
+        if diagnostic.fault != Fault::DiskFull {
+            // For those who look at the store; the run tells it anyway.
+            let _ = self.store.put_failure(&self.plan.stages[stage].plans[item], &diagnostic);
+        }
         (self.report)(RunEvent::Failed { id, diagnostic });
     }
 
