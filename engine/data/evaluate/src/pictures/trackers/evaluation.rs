@@ -7,7 +7,7 @@ use super::target::{TargetScores, TargetTallies};
 use super::tracks::{self, TrackTallies};
 use crate::pictures::kinds::FrameKinds;
 use crate::pictures::report::{
-    FileFacts, FileProblem, FrameFacts, Nonsense, PictureEvaluation, SequenceReport, ranges,
+    ClassReport, FileFacts, FileProblem, FrameFacts, Nonsense, PictureEvaluation, SequenceReport, ranges,
 };
 use crate::pictures::settings::{PictureKind, PictureSettings};
 use crate::pictures::tallies::{Counted, FrameCounts, reports};
@@ -221,50 +221,37 @@ impl Count {
         }
     }
 
+    /// Scores by class, and a note where true boxes of other classes do not count. Without classes, all boxes are of pedestrians.
+    fn classes(&mut self) -> (Vec<ClassReport>, Option<String>) {
+        let Tallies::Tracks(tallies) = &mut self.tallies else { return (vec![], None) };
+        tallies.classes = if self.has_classes { COUNTED.len() } else { 1 };
+        let of_scored = tallies.classes;
+        self.sequences.retain(|(class, _)| class.is_none_or(|class| class < of_scored));
+        let others = tallies.passed_over();
+        let note = format!(
+            "no result has a class (column 8) other than pedestrian: {others} true boxes of other classes do not count, and boxes \
+             around them are false, as TrackEval has it"
+        );
+        (tallies.classes(), (others > 0).then_some(note))
+    }
+
     /// Puts the report together, of `all` sequences those that were `expected`.
     fn finished(
         mut self,
         flights: &Flights,
         (all, expected): (&[TrackedSequence], &[usize]),
-        mut files: TrackerFiles,
+        files: TrackerFiles,
         splits: BTreeSet<String>,
         path: &Path,
         settings: &PictureSettings,
     ) -> PictureEvaluation {
-        let mut notes = vec![];
-        let mut classes = vec![];
-        if let Tallies::Tracks(tallies) = &mut self.tallies {
-            tallies.classes = if self.has_classes { COUNTED.len() } else { 1 };
-            classes = tallies.classes();
-            let others = tallies.passed_over();
-            if others > 0 {
-                notes.push(format!(
-                    "no result has a class (column 8) other than pedestrian: {others} true boxes of other classes do not count, \
-                     and boxes around them are false, as TrackEval has it"
-                ));
-            }
-        }
-        let scored_classes = if self.has_classes { COUNTED.len() } else { 1 };
+        let (classes, note) = self.classes();
         let counted: &dyn Counted = match &self.tallies {
             Tallies::Tracks(tallies) => tallies,
             Tallies::Target(tallies) => tallies,
         };
         let (scores, strata) = reports(counted, &self.counts, &self.kinds.names, settings.resamples, settings.seed);
-        let mut missing: BTreeMap<String, String> = BTreeMap::new();
-        for sequence in expected.iter().filter(|place| !self.scored.contains(place)).map(|place| &all[*place]) {
-            let id = flights.rows[sequence.flight].trajectory_id.clone();
-            missing.insert(id, ranges(&sequence.frames().collect::<Vec<_>>()));
-        }
-        let pictures =
-            |places: &mut dyn Iterator<Item = &usize>| places.map(|place| all[*place].pictures).sum::<usize>();
-        let (in_all, scored) = (pictures(&mut expected.iter()), pictures(&mut self.scored.iter()));
-        files.problems.sort();
-        let mut kinds = BTreeMap::new();
-        files.problems.iter().for_each(|problem| *kinds.entry(problem.kind).or_default() += 1);
-        let elsewhere = files.files.keys().filter(|place| !expected.contains(place)).count() as u64;
-        let clusters = self.groups.values().collect::<BTreeSet<_>>().len();
-        let is_scored = |class: &Option<usize>| class.is_none_or(|class| class < scored_classes);
-        let sequences = self.sequences.into_iter().filter(|(class, _)| is_scored(class)).map(|(_, report)| report);
+        let frames = frame_facts(flights, all, expected, &self.scored);
         PictureEvaluation {
             format: "cosfly-picture-evaluation",
             version: 1,
@@ -273,34 +260,59 @@ impl Count {
                 name: flights.name.clone(),
                 splits: splits.into_iter().collect(),
                 flights: self.flights.len(),
-                clusters,
+                clusters: self.groups.values().collect::<BTreeSet<_>>().len(),
             },
-            files: FileFacts {
-                name: crate::name_of(path),
-                read: files.read,
-                scored: self.scored.len() as u64,
-                elsewhere,
-                passed_over: files.passed_over,
-                malformed: files.problems.len() as u64,
-                kinds,
-                problems: files.problems,
-            },
-            frames: FrameFacts {
-                expected: in_all,
-                scored,
-                missing,
-                without_prediction: in_all - scored,
-                nonsense: Nonsense::default(),
-            },
+            files: file_facts(files, expected, self.scored.len(), path),
+            is_partial: frames.without_prediction > 0,
+            frames,
             metrics: counted.metrics().to_vec(),
             scores,
             kinds: self.kinds.names.clone(),
             strata,
             classes,
             distances: vec![],
-            sequences: sequences.collect(),
-            notes,
-            is_partial: in_all > scored,
+            sequences: self.sequences.into_iter().map(|(_, report)| report).collect(),
+            notes: note.into_iter().collect(),
         }
+    }
+}
+
+/// Pictures of the sequences in places `expected`, of which those in `scored` have results.
+fn frame_facts(flights: &Flights, all: &[TrackedSequence], expected: &[usize], scored: &BTreeSet<usize>) -> FrameFacts {
+    let mut facts = FrameFacts {
+        expected: 0,
+        scored: 0,
+        missing: BTreeMap::new(),
+        without_prediction: 0,
+        nonsense: Nonsense::default(),
+    };
+    for place in expected {
+        let sequence = &all[*place];
+        facts.expected += sequence.pictures;
+        if scored.contains(place) {
+            facts.scored += sequence.pictures;
+        } else {
+            let id = flights.rows[sequence.flight].trajectory_id.clone();
+            facts.missing.insert(id, ranges(&sequence.frames().collect::<Vec<_>>()));
+        }
+    }
+    facts.without_prediction = facts.expected - facts.scored;
+    facts
+}
+
+/// A tracker's files, of which so many were scored; `expected` are places of sequences, ascending.
+fn file_facts(mut files: TrackerFiles, expected: &[usize], scored: usize, path: &Path) -> FileFacts {
+    files.problems.sort();
+    let mut kinds = BTreeMap::new();
+    files.problems.iter().for_each(|problem| *kinds.entry(problem.kind).or_default() += 1);
+    FileFacts {
+        name: crate::name_of(path),
+        read: files.read,
+        scored: scored as u64,
+        elsewhere: files.files.keys().filter(|place| expected.binary_search(place).is_err()).count() as u64,
+        passed_over: files.passed_over,
+        malformed: files.problems.len() as u64,
+        kinds,
+        problems: files.problems,
     }
 }
