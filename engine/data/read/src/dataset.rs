@@ -49,7 +49,7 @@ impl PublishedDataset {
             })?;
         }
         if flights.is_empty() {
-            return Err(no_dataset(folder));
+            return Err(no_dataset(folder, &dataset.rejections().unwrap_or_default()));
         }
         let mut by_id: Vec<u32> = (0..flights.len() as u32).collect();
         by_id.sort_by(|a, b| flights[*a as usize].trajectory_id.cmp(&flights[*b as usize].trajectory_id));
@@ -236,8 +236,15 @@ impl PublishedDataset {
     }
 }
 
-fn no_dataset(folder: &Path) -> Box<Diagnostic> {
+fn no_dataset(folder: &Path, rejections: &BTreeMap<String, String>) -> Box<Diagnostic> {
     let (shown, is_file) = (folder.display(), folder.is_file());
+    if !rejections.is_empty() {
+        let message = format!("`{shown}` has no flights: {} were planned and left out", rejections.len());
+        let refusal = Diagnostic::new("dataset-none", Fault::Input, message);
+        let reason = |(id, reason): (&String, &String)| format!("{id}: {reason}");
+        let refusal = rejections.iter().take(3).map(reason).fold(refusal, Diagnostic::because);
+        return refusal.hint("change the recipe, and run it again; table `rejected` has all reasons");
+    }
     let message = match (folder.exists(), is_file) {
         (false, _) => format!("`{shown}` does not exist"),
         (true, true) => format!("`{shown}` is a file, not the folder of a dataset"),
