@@ -222,6 +222,10 @@ fn what_cannot_be_shown_is_refused_and_a_page_is_exported() {
         let printed = view(arguments);
         insta::assert_snapshot!(name, told(&printed));
     }
+    std::fs::create_dir(street.path().join("bare")).expect("writable");
+    let bare = Viewer::start(street.path(), "bare");
+    let about = bare.json("/api/about", &bare.enter()).1;
+    assert!(about["reasons"][0].as_str().is_some_and(|words| words.contains("has no table `trajectories`")), "{about}");
     let printed = view(&["out/street", "--export", "page.html"]);
     assert!(
         printed.code == Some(0) && printed.stdout.contains("the worst 6 of 6 flights"),

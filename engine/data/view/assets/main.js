@@ -55,10 +55,8 @@ function filter() {
 
 // Words for a list that has nothing.
 function withoutFlights() {
-  const { kind, rejected, reasons } = state.about;
-  if (kind === "recipe") return "there are no flights yet";
-  const left = rejected ? `: ${rejected} were planned and left out` : "";
-  return [`this ${kind} has no flights${left}`, ...(reasons || [])].join("\n");
+  const { kind, reasons } = state.about;
+  return kind === "recipe" ? "there are no flights yet" : (reasons || [`this ${kind} has no flights`]).join("\n");
 }
 
 // The number of the flight that was asked for last: answers to earlier questions come too late.
@@ -192,6 +190,7 @@ function toggleSolid() {
   $("scene").hidden = !isSolid;
   if (isSolid && map.paths) toggleAll();
   showPlaces();
+  $("fit").title = isSolid ? "Drag turns, Shift and drag moves, the wheel zooms" : "";
   setFrame(state.frame);
 }
 

@@ -13,8 +13,6 @@ use std::sync::{Mutex, PoisonError};
 
 /// Most flights of the index; the page keeps it in memory.
 const MOST_FLIGHTS: usize = 50_000;
-/// Most flights that were left out whose reasons an empty dataset tells.
-const MOST_REASONS: usize = 5;
 /// Most towns that are kept.
 const MOST_TOWNS: usize = 8;
 
@@ -42,15 +40,10 @@ impl DatasetSubject {
 impl ViewSubject for DatasetSubject {
     fn about(&self) -> Result<Value> {
         let flights = self.opened.dataset.flights().len();
-        let rejections = self.opened.dataset.rejections().unwrap_or_default();
-        let reasons: Vec<String> = match flights {
-            0 => rejections.iter().take(MOST_REASONS).map(|(id, reason)| format!("{id}: {reason}")).collect(),
-            _ => vec![],
-        };
         Ok(json!({
             "name": self.opened.dataset.name(), "kind": "dataset", "version": self.opened.dataset.identity().digest(),
             "flights": flights, "shown": flights.min(MOST_FLIGHTS),
-            "rejected": rejections.len(), "reasons": reasons,
+            "rejected": self.opened.dataset.rejections().map_or(0, |rejected| rejected.len()),
         }))
     }
 

@@ -11,7 +11,7 @@ use crate::exit;
 use crate::text::{bytes, count};
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault};
-use cosfly_view::{DatasetSubject, Server, ViewSubject, export};
+use cosfly_view::{DatasetSubject, NothingSubject, Server, ViewSubject, export};
 use cosfly_whole::write_file;
 use recipe::RecipeSubject;
 use results::ResultsSubject;
@@ -80,7 +80,12 @@ impl Arguments {
             let recipe = RecipeArguments { recipe: path.clone(), overrides: vec![] }.load(console)?;
             return Ok(Box::new(RecipeSubject::open(recipe, self.store.clone(), &console.stop())?));
         }
-        Ok(Box::new(DatasetSubject::open(path, &console.stop())?))
+        match DatasetSubject::open(path, &console.stop()) {
+            Err(refusal) if refusal.code == "dataset-none" && path.is_dir() && self.export.is_none() => {
+                Ok(Box::new(NothingSubject::new(path.display().to_string(), &refusal)))
+            }
+            opened => Ok(Box::new(opened?)),
+        }
     }
 
     /// Writes the page into a file.
