@@ -92,6 +92,8 @@ fn a_failure_skips_what_reads_it_and_nothing_else() {
     assert!(panic.diagnostic.message.contains("`expert/i00002`"));
     assert!(panic.diagnostic.causes[0].contains("a panic on purpose"));
     assert_eq!(events.iter().filter(|event| matches!(event, RunEvent::Failed { .. })).count(), 2);
+    let refused = cosfly_runner::plan(&recipe(&toys), &store).unwrap().stages[2].plans[1];
+    assert_eq!(store.failure(&refused).unwrap().code, "toy-refusal", "the store tells it, too");
     log.take();
     toys[2].hook = good_hook;
     assert_eq!(run_quietly(&recipe(&toys), &store).outcome, RunOutcome::Complete);
