@@ -149,23 +149,27 @@ def check_places(browser):
         count = page.evaluate(f"({index})('town')").count(town)
         expect(page.evaluate("map.paths.length") == count, f"the map has not all {count} flights of {town}")
         shoot(page, "all-flights")
-        other = page.evaluate("map.paths.map(it => it[0]).find(it => it != state.flight.number)")
-        at = page.evaluate("""other => {
-            // A place of the other flight that no third one comes closer to.
-            const points = map.paths.find(it => it[0] === other)[1];
+        found = page.evaluate("""() => {
+            // A flight, and a place of the map around which a click chooses it.
             const chosen = [];
             map.choose = number => chosen.push(number);
-            for (let at = 0; at < points.length; at += 3) {
-                const place = [0, 1].map(axis => (points[at + axis] - [map.view.x, map.view.y][axis]) * map.view.scale
-                    + [map.canvas.clientWidth, map.canvas.clientHeight][axis] / 2);
-                map.clicked(...place);
-                if (chosen.pop() === other) { map.choose = number => choose(number); return place; }
-            }
-            return null;
-        }""", other)
-        expect(at, "no place of the map chooses the other flight")
-        if at:
-            page.locator("#map").click(position={"x": at[0], "y": at[1]})
+            const around = [[0, 0], [2, 0], [-2, 0], [0, 2], [0, -2]];
+            const isOf = (number, [left, top]) => around.every(([right, down]) => {
+                map.clicked(left + right, top + down);
+                return chosen.pop() === number;
+            });
+            const canvas = [map.canvas.clientWidth, map.canvas.clientHeight];
+            const places = map.paths.filter(([number]) => number !== state.flight.number).flatMap(([number, points]) =>
+                points.map((_, at) => at).filter(at => at % 3 === 0).map(at => [number, [0, 1].map(axis =>
+                    Math.round((points[at + axis] - [map.view.x, map.view.y][axis]) * map.view.scale + canvas[axis] / 2))]));
+            const found = places.find(([number, place]) => isOf(number, place));
+            map.choose = number => choose(number);
+            return found;
+        }""")
+        expect(found, "no place of the map chooses another flight")
+        if found:
+            other, (left, top) = found
+            page.locator("#map").click(position={"x": left, "y": top})
             page.wait_for_function(f"() => state.flight.number == {other}")
         if page.locator("#solid").is_visible():
             page.click("#solid")
