@@ -14,7 +14,7 @@ class Scene {
   constructor(canvas) {
     this.canvas = canvas;
     this.gl = canvas.getContext("webgl");
-    this.eye = { x: 0, y: 0, z: 0, distance: 60, yaw: -2.2, pitch: 0.6 };
+    this.eye = { x: 0, y: 0, z: 0, distance: 60, yaw: -2.2, pitch: 1.05 };
     this.shown = null;
     this.frame = 0;
     if (!this.gl) return;
@@ -90,9 +90,10 @@ class Scene {
   fit() {
     const [flight] = this.shown ? this.shown.flights : [];
     if (!flight) return;
-    const middle = name => (least(flight[name]) + most(flight[name])) / 2;
-    const wide = Math.max(20, most(flight.x) - least(flight.x), most(flight.y) - least(flight.y));
-    Object.assign(this.eye, { x: middle("x"), y: middle("y"), z: middle("target_z"), distance: 1.6 * wide });
+    const sides = ["x", "y", "z"].map(axis => [...flight[axis], ...flight[`target_${axis}`]].filter(it => it !== null));
+    const [x, y, z] = sides.map(numbers => (least(numbers) + most(numbers)) / 2);
+    const wide = Math.max(SMALLEST_M / 2, ...sides.map(numbers => most(numbers) - least(numbers)));
+    Object.assign(this.eye, { x, y, z, distance: 2 * wide });
     this.draw(this.frame);
   }
 
@@ -205,7 +206,8 @@ function viewOf({ x, y, z, distance, yaw, pitch }, aspect) {
   const up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2], back[0] * right[1] - back[1] * right[0]];
   const eye = [x + distance * back[0], -y + distance * back[1], z + distance * back[2]];
   const along = axis => -axis.reduce((sum, part, at) => sum + part * eye[at], 0);
-  const [near, far, scale] = [0.02 * distance, 60 * distance + 3000, 1.7];
+  // What stands right before the eye would hide everything.
+  const [near, far, scale] = [0.3 * distance, 60 * distance + 3000, 1.7];
   const rows = [
     [...right, along(right)].map(part => part * scale / aspect),
     [...up, along(up)].map(part => part * scale),
