@@ -1,6 +1,6 @@
 //! Prints a generated town: `write_town [SEED]`, default seed 1.
 
-use cosfly_maps::generate::{GenerateConfig, generate_town};
+use cosfly_places::grid::{GenerateConfig, generate_town};
 
 fn main() {
     let seed = std::env::args().nth(1).and_then(|text| text.parse().ok()).unwrap_or(1);

@@ -1,4 +1,4 @@
-//! Map files of any known format to a [`Town`], streets from numbers, things to stand beside them. Types of the town
+//! Map files of any known format to a [`Town`], things to stand beside streets. Types of the town
 //! come from the room `town` and are found here, too.
 
 pub mod advice;
@@ -8,7 +8,6 @@ pub mod combine;
 pub mod config;
 pub mod fill;
 pub mod formats;
-pub mod generate;
 mod paving;
 pub mod read;
 mod recognise;

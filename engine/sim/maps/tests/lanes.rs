@@ -2,7 +2,7 @@
 
 use cosfly_domain::{LaneKind, Town};
 use cosfly_frames::Seed;
-use cosfly_maps::generate::{GenerateConfig, generate_town};
+use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_maps::{MapConfig, read_town};
 use std::collections::BTreeMap;
 

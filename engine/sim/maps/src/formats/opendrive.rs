@@ -8,6 +8,7 @@ mod build;
 mod crossings;
 mod document;
 mod gaps;
+mod ground_patches;
 mod header;
 mod inner_lanes;
 mod island_outline;

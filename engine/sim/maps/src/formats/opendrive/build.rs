@@ -17,7 +17,7 @@ use super::road_marks::{LinePainter, MOST_STROKES};
 use super::slits::{self, Edge};
 use super::stations::{StationBudget, cross_sections};
 use super::surfaces::{self, DEFAULT_KERB_M};
-use super::{OpenDriveOptions, islands, parse_road, signals, verges, walkable};
+use super::{OpenDriveOptions, ground_patches, islands, parse_road, signals, verges, walkable};
 use cosfly_domain::{Lane, Obstacle, ObstacleKind, Synthetic, Town, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::mesh::MeshBuilder;
@@ -64,6 +64,7 @@ fn build(
     parts.crosswalks = network.roads.iter().flat_map(|road| crosswalks(road, &world)).collect();
     parts.painter.free = LineFree::within(parts.crosswalks.iter().map(Crosswalk::line_free_outline).collect());
     for road in &network.roads {
+        parts.warnings.extend(ground_patches::add(road, &world, &mut parts.meshes, &mut parts.walkable));
         parts.add_lanes(road, options).map_err(|error| match error.place {
             Some(_) => error,
             None => error.at(lines.place(road.byte_span.clone(), format!("<road> `{}`", road.id))),

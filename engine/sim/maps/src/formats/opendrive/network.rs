@@ -4,6 +4,7 @@ use super::plan_view::PlanElement;
 use super::polynomial::CubicProfile;
 use core::ops::Range;
 use cosfly_frames::{DVec2, DVec3, real};
+use cosfly_town::solids::Roof;
 
 /// Everything the reader takes from an OpenDRIVE file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -224,6 +225,12 @@ pub struct RoadObject {
     pub outlines: Vec<Outline>,
     /// Our own extension: `<userData code=... value=...>` of a tree's crown.
     pub crown: Crown,
+    /// Our own extension: the roof of a building.
+    pub roof: Roof,
+    /// Our own extension: surface of a patch of ground, and whether people walk on it.
+    pub surface: Option<String>,
+    /// See `surface`.
+    pub is_walkable: bool,
     /// Bytes of the start tag in the text.
     pub byte_span: Range<usize>,
 }

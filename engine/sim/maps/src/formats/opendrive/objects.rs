@@ -292,7 +292,7 @@ impl ObstacleBuilder {
             let corners = outline_in_map(road, object, outline);
             if outline.closed {
                 let footprint = Footprint { outer: plan(&corners), holes: holes.clone() };
-                self.add_area(kind, &footprint, &corners, world);
+                self.add_area((kind, object.roof), &footprint, &corners, world);
             } else {
                 for pair in corners.windows(2) {
                     self.add_wall(kind, [pair[0].0, pair[1].0], [pair[0].1, pair[1].1], object.size.width_m, world);
@@ -301,7 +301,13 @@ impl ObstacleBuilder {
         }
     }
 
-    fn add_area(&mut self, kind: ObstacleKind, footprint: &Footprint, corners: &[(DVec3, f64)], world: &WorldFromMap) {
+    fn add_area(
+        &mut self,
+        (kind, stated): (ObstacleKind, Roof),
+        footprint: &Footprint,
+        corners: &[(DVec3, f64)],
+        world: &WorldFromMap,
+    ) {
         let tallest_m = corners.iter().map(|(_, height_m)| *height_m).fold(0.0, f64::max);
         if tallest_m < LOWEST_M || corners.len() < 2 {
             return;
@@ -309,9 +315,9 @@ impl ObstacleBuilder {
         let bottom_m = corners.iter().map(|(foot, _)| foot.z).fold(f64::INFINITY, f64::min) - world.offset_m.z;
         let top_m = corners.iter().map(|(foot, height_m)| foot.z + height_m).fold(f64::NEG_INFINITY, f64::max)
             - world.offset_m.z;
-        let guessed = self.guess_roofs && kind == ObstacleKind::Building;
-        let roof = if guessed { guessed_roof(footprint, top_m - bottom_m) } else { Roof::Flat };
-        self.guessed_roofs += usize::from(roof != Roof::Flat);
+        let is_guessed = self.guess_roofs && kind == ObstacleKind::Building && stated == Roof::Flat;
+        let roof = if is_guessed { guessed_roof(footprint, top_m - bottom_m) } else { stated };
+        self.guessed_roofs += usize::from(is_guessed && roof != Roof::Flat);
         let solid = building_boxes(footprint, bottom_m, top_m, roof);
         self.coarse.add(&solid);
         for shape in solid.boxes {

@@ -3,10 +3,13 @@
 use super::attributes::{ANGLE, LENGTH, LOOSE_SIZE, OFFSET, STATION, Source, children};
 use super::network::{Corner, Crown, ObjectSize, Outline, Repeat, RoadObject, RoadPosition, RoadSignal};
 use cosfly_town::error::MapError;
+use cosfly_town::solids::Roof;
 use roxmltree::Node;
 
 /// Widest and highest plate or light of a signal, metres; larger ones are made as large.
 pub(super) const LARGEST_PLATE_M: f64 = 5.0;
+/// Highest roof above the walls that a file may state, metres; a higher one is made as high.
+const HIGHEST_ROOF_M: f64 = 60.0;
 
 /// The objects of a road; `<objectReference>`s, tunnels and bridges are not things of their own.
 pub(super) fn objects<'d>(
@@ -48,6 +51,9 @@ fn object<'d>(source: &Source<'d>, node: Node<'d, 'd>, road_length_m: f64) -> Re
             radius_m: user_data(source, node, "crown_radius")?,
             base_m: user_data(source, node, "crown_base")?,
         },
+        roof: roof(source, node)?,
+        surface: user_word(node, "surface").map(str::to_owned),
+        is_walkable: user_word(node, "walkable") == Some("yes"),
         byte_span: source.start_tag(node),
     })
 }
@@ -82,6 +88,24 @@ fn loose_size_m<'d>(source: &Source<'d>, node: Node<'d, 'd>, name: &str) -> Resu
 fn user_data<'d>(source: &Source<'d>, node: Node<'d, 'd>, code: &str) -> Result<Option<f64>, MapError> {
     let found = children(node, "userData").find(|data| data.attribute("code") == Some(code));
     found.map_or(Ok(None), |data| source.optional_number(data, "value", OFFSET))
+}
+
+fn user_word<'d>(node: Node<'d, 'd>, code: &str) -> Option<&'d str> {
+    children(node, "userData").find(|data| data.attribute("code") == Some(code)).and_then(|data| data.attribute("value"))
+}
+
+/// The roof above the object's height; level where the file says nothing.
+fn roof<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Roof, MapError> {
+    let rise_m = user_data(source, node, "roof_rise")?.unwrap_or(0.0).clamp(0.0, HIGHEST_ROOF_M);
+    Ok(match user_word(node, "roof") {
+        Some("gabled") => Roof::Gabled { rise_m, ridge_yaw_rad: None },
+        Some("hipped") => Roof::Hipped { rise_m },
+        Some("flat") | None => Roof::Flat,
+        Some(other) => {
+            source.warn(node, &format!("`roof` is `{other}`; it must be `flat`, `gabled` or `hipped`; it is taken as flat"));
+            Roof::Flat
+        }
+    })
 }
 
 fn repeat<'d>(

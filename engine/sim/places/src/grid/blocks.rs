@@ -1,9 +1,10 @@
 //! Buildings on the land between the streets: rows of lots around a courtyard, towers, a park, and a row all around.
 
 use super::GenerateConfig;
-use super::street_space::{Lot, StreetSpace};
+use super::street_space::StreetSpace;
 use super::streets::Network;
-use super::things::{Crown, Footprint, GeneratedThing, ThingKind};
+use crate::lot::Lot;
+use crate::things::{Footprint, GeneratedThing, ThingKind};
 use cosfly_frames::{DVec2, RandomStream, Seed, real};
 
 /// Gap between buildings and pavements, metres.
@@ -161,7 +162,7 @@ impl FillSite<'_> {
             [(0.0, 0.0), (reach_m, 0.0), (reach_m, thick_m), (thick_m, thick_m), (thick_m, reach_m), (0.0, reach_m)]
                 .map(|(x, y)| outer + DVec2::new(x, y));
         let footprint = Footprint::Polygon(corners.to_vec());
-        self.things.push(GeneratedThing { kind: ThingKind::Building, footprint, height_m, crown: None });
+        self.things.push(GeneratedThing::new(ThingKind::Building, footprint, height_m));
         wing_m
     }
 
@@ -268,12 +269,7 @@ impl FillSite<'_> {
 pub fn tree_at(center: DVec2, stream: &mut RandomStream) -> GeneratedThing {
     let tenths = |value: f64| (10.0 * value).round() / 10.0;
     let radius_m = (100.0 * stream.uniform(0.12, 0.22)).round() / 100.0;
-    let crown = Crown { radius_m: tenths(stream.uniform(2.0, 3.1)), base_m: tenths(stream.uniform(2.6, 3.4)) };
-    let height_m = crown.base_m + tenths(stream.uniform(3.6, 7.0));
-    GeneratedThing {
-        kind: ThingKind::Tree,
-        footprint: Footprint::Disc { center, radius_m },
-        height_m,
-        crown: Some(crown),
-    }
+    let (crown_m, base_m) = (tenths(stream.uniform(2.0, 3.1)), tenths(stream.uniform(2.6, 3.4)));
+    let height_m = base_m + tenths(stream.uniform(3.6, 7.0));
+    GeneratedThing::tree(center, radius_m, height_m, crown_m, base_m)
 }

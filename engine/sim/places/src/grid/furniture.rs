@@ -2,9 +2,9 @@
 
 use super::GenerateConfig;
 use super::blocks::tree_at;
-use super::street_space::Lot;
 use super::streets::{Network, Street};
-use super::things::{Footprint, GeneratedThing, ThingKind};
+use crate::lot::Lot;
+use crate::things::{Footprint, GeneratedThing, ThingKind};
 use cosfly_frames::{RandomStream, Seed};
 
 /// Ends of a street that stay free for crossings, metres.
@@ -48,7 +48,7 @@ fn furnish_side(
     let mut s_m = FREE_END_M + stream.uniform(0.5, 8.0);
     while s_m < end_m {
         let footprint = Footprint::Disc { center: spot(s_m, KERB_GAP_M - 0.2).at, radius_m: 0.08 };
-        things.push(GeneratedThing { kind: ThingKind::Lamp, footprint, height_m: 6.5, crown: None });
+        things.push(GeneratedThing::new(ThingKind::Lamp, footprint, 6.5));
         taken.push((s_m, 2.0));
         s_m += 26.0;
     }

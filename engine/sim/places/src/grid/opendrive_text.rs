@@ -1,18 +1,16 @@
 //! The generated town as OpenDRIVE 1.6 text, floats with fixed decimals.
 
-use super::alignment::{Alignment, Curve};
 use super::streets::{Arm, LANE_WIDTH_M, Network, RoadEnd, Street};
-use super::things::{Footprint, GeneratedThing};
 use super::turns::JunctionWay;
-use cosfly_frames::{DVec2, real};
+use crate::things::GeneratedThing;
+use crate::xml::{Foot, Lane, fixed, line, road_mark, write_lane, write_object, write_plan_view};
+use cosfly_frames::DVec2;
 use std::fmt::Write;
 
 /// Id of the first junction; streets count from 1.
 const FIRST_JUNCTION: usize = 1000;
 /// Id of the first connecting road.
 const FIRST_TURN: usize = 2000;
-/// Height of pavements above the carriageway, metres.
-const KERB_M: f64 = 0.15;
 /// Middle of a crossing from the mouth of its arm, its width along the street, and how far it reaches onto the
 /// pavements, metres.
 const CROSSING_M: [f64; 3] = [3.0, 3.0, 0.4];
@@ -46,87 +44,6 @@ pub fn write_opendrive(network: &Network, turns: &[JunctionWay], things: &[Gener
     }
     line(&mut text, "</OpenDRIVE>");
     text
-}
-
-fn line(text: &mut String, content: &str) {
-    text.push_str(content);
-    text.push('\n');
-}
-
-/// A number with fixed decimals and no negative zero.
-fn fixed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let is_zero = text.trim_start_matches('-').bytes().all(|b| b == b'0' || b == b'.');
-    if is_zero { text.trim_start_matches('-').to_owned() } else { text }
-}
-
-fn write_plan_view(text: &mut String, alignment: &Alignment) {
-    line(text, "<planView>");
-    let mut s_m = 0.0;
-    for piece in &alignment.pieces {
-        let curve = match piece.curve {
-            Curve::Line => "<line/>".to_owned(),
-            Curve::Arc { curvature } => format!("<arc curvature=\"{}\"/>", fixed(curvature, 12)),
-            Curve::Spiral { start, end } => {
-                format!("<spiral curvStart=\"{}\" curvEnd=\"{}\"/>", fixed(start, 12), fixed(end, 12))
-            }
-        };
-        line(
-            text,
-            &format!(
-                "<geometry s=\"{}\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\">{curve}</geometry>",
-                fixed(s_m, 9),
-                fixed(piece.start.at.x, 9),
-                fixed(piece.start.at.y, 9),
-                fixed(real::wrap_angle_rad(piece.start.heading_rad), 12),
-                fixed(piece.length_m, 9)
-            ),
-        );
-        s_m += piece.length_m;
-    }
-    line(text, "</planView>");
-    line(text, "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>");
-}
-
-/// One lane: its id, width at start and end, links and marking.
-struct Lane {
-    id: i64,
-    is_sidewalk: bool,
-    width_m: [f64; 2],
-    links: Option<[i64; 2]>,
-    mark: &'static str,
-}
-
-fn write_lane(text: &mut String, lane: &Lane, length_m: f64) {
-    let kind = if lane.is_sidewalk { "sidewalk" } else { "driving" };
-    let link = lane.links.map_or_else(
-        || "<link/>".to_owned(),
-        |[from, to]| format!("<link><predecessor id=\"{from}\"/><successor id=\"{to}\"/></link>"),
-    );
-    let growth = (lane.width_m[1] - lane.width_m[0]) / length_m;
-    let height = if lane.is_sidewalk {
-        format!("<height sOffset=\"0\" inner=\"{KERB_M}\" outer=\"{KERB_M}\"/>")
-    } else {
-        String::new()
-    };
-    let speed = if lane.is_sidewalk { "" } else { "<speed sOffset=\"0\" max=\"13.89\" unit=\"m/s\"/>" };
-    line(
-        text,
-        &format!(
-            "<lane id=\"{}\" type=\"{kind}\" level=\"false\">{link}<width sOffset=\"0\" a=\"{}\" b=\"{}\" c=\"0\" d=\"0\"/>{}{speed}{height}</lane>",
-            lane.id,
-            fixed(lane.width_m[0], 4),
-            fixed(growth, 12),
-            road_mark(lane.mark),
-        ),
-    );
-}
-
-fn road_mark(kind: &str) -> String {
-    let width = if kind == "none" { "0" } else { "0.12" };
-    format!(
-        "<roadMark sOffset=\"0\" type=\"{kind}\" weight=\"standard\" color=\"standard\" material=\"standard\" width=\"{width}\" laneChange=\"none\"/>"
-    )
 }
 
 fn write_street(text: &mut String, index: usize, street: &Street, objects: &str) {
@@ -304,16 +221,6 @@ fn objects_by_street(network: &Network, things: &[GeneratedThing]) -> Vec<String
     texts
 }
 
-/// A point in the frame of a straight street.
-struct Foot {
-    s_m: f64,
-    t_m: f64,
-    /// Distance along the street from the nearer end, for points beyond the ends, metres.
-    beyond_m: f64,
-    origin: DVec2,
-    heading_rad: f64,
-}
-
 fn foot_on_street(network: &Network, point: DVec2) -> Option<(usize, Foot)> {
     let mut best: Option<(f64, usize, Foot)> = None;
     for (index, street) in network.streets.iter().enumerate().filter(|(_, street)| street.line.is_straight()) {
@@ -331,52 +238,3 @@ fn foot_on_street(network: &Network, point: DVec2) -> Option<(usize, Foot)> {
     best.map(|(_, index, foot)| (index, foot))
 }
 
-fn write_object(text: &mut String, id: usize, thing: &GeneratedThing, foot: &Foot) {
-    let (kind, name) = thing.kind.type_and_name();
-    let subtype = if name == "wall" { " subtype=\"wall\"" } else { "" };
-    let corners = match &thing.footprint {
-        Footprint::Polygon(corners) => Some(corners.clone()),
-        Footprint::Rectangle(lot) if foot.beyond_m != 0.0 => Some(lot.corners().to_vec()),
-        Footprint::Disc { .. } if foot.beyond_m != 0.0 => return,
-        _ => None,
-    };
-    let (hdg_rad, size) = match &thing.footprint {
-        Footprint::Rectangle(lot) if corners.is_none() => (
-            real::wrap_angle_rad(lot.heading_rad - foot.heading_rad),
-            format!(" length=\"{}\" width=\"{}\"", fixed(2.0 * lot.half_m.x, 3), fixed(2.0 * lot.half_m.y, 3)),
-        ),
-        Footprint::Disc { radius_m, .. } => (0.0, format!(" radius=\"{}\"", fixed(*radius_m, 3))),
-        _ => (0.0, String::new()),
-    };
-    let _ = write!(
-        text,
-        "<object id=\"{id}\" name=\"{name}\" type=\"{kind}\"{subtype} s=\"{}\" t=\"{}\" zOffset=\"0.0\" hdg=\"{}\" pitch=\"0.0\" roll=\"0.0\" orientation=\"none\"{size} height=\"{}\"",
-        fixed(foot.s_m, 4),
-        fixed(foot.t_m, 4),
-        fixed(hdg_rad, 9),
-        fixed(thing.height_m, 2)
-    );
-    let mut content = String::new();
-    if let Some(corners) = corners {
-        content.push_str("<outlines><outline id=\"0\" closed=\"true\" outer=\"true\">");
-        let (sin, cos) = real::sin_cos(foot.heading_rad);
-        for corner in corners {
-            let away = corner - foot.origin;
-            let (u_m, v_m) = (cos * away.x + sin * away.y, cos * away.y - sin * away.x);
-            let _ = write!(
-                content,
-                "<cornerLocal u=\"{}\" v=\"{}\" z=\"0.0\" height=\"{}\"/>",
-                fixed(u_m, 4),
-                fixed(v_m, 4),
-                fixed(thing.height_m, 2)
-            );
-        }
-        content.push_str("</outline></outlines>");
-    }
-    if let Some(crown) = &thing.crown {
-        for (code, value) in [("crown_radius", crown.radius_m), ("crown_base", crown.base_m)] {
-            let _ = write!(content, "<userData code=\"{code}\" value=\"{}\"/>", fixed(value, 2));
-        }
-    }
-    line(text, &if content.is_empty() { "/>".to_owned() } else { format!(">{content}</object>") });
-}

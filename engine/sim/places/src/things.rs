@@ -1,6 +1,6 @@
 //! Objects of a generated town: a list of things in map coordinates, each with its footprint and height.
 
-use super::street_space::Lot;
+use crate::lot::Lot;
 use cosfly_frames::DVec2;
 
 /// Kinds of things, by their OpenDRIVE type and name.
@@ -18,6 +18,20 @@ pub enum ThingKind {
     BusStop,
     /// A free-standing wall.
     Wall,
+    /// A fence.
+    Fence,
+    /// A hedge.
+    Hedge,
+    /// A parked car.
+    Car,
+    /// A market stall.
+    Stall,
+    /// A swing, a slide or a climbing frame.
+    PlayEquipment,
+    /// A fountain or a well.
+    Fountain,
+    /// A piece of ground; its height is that of the ground, and nothing stands up.
+    Ground,
 }
 
 impl ThingKind {
@@ -30,6 +44,13 @@ impl ThingKind {
             Self::Bench => ("obstacle", "bench"),
             Self::BusStop => ("obstacle", "busStop"),
             Self::Wall => ("barrier", "wall"),
+            Self::Fence => ("barrier", "fence"),
+            Self::Hedge => ("vegetation", "hedge"),
+            Self::Car => ("car", "car"),
+            Self::Stall => ("obstacle", "stall"),
+            Self::PlayEquipment => ("obstacle", "playEquipment"),
+            Self::Fountain => ("obstacle", "fountain"),
+            Self::Ground => ("patch", "ground"),
         }
     }
 }
@@ -61,15 +82,6 @@ impl Footprint {
     }
 }
 
-/// A tree's crown.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crown {
-    /// Radius, metres.
-    pub radius_m: f64,
-    /// Height of the lower edge above the ground, metres.
-    pub base_m: f64,
-}
-
 /// One thing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeneratedThing {
@@ -79,13 +91,27 @@ pub struct GeneratedThing {
     pub footprint: Footprint,
     /// From the ground to its top, metres.
     pub height_m: f64,
-    /// Crown of a tree; none for other things.
-    pub crown: Option<Crown>,
+    /// Our own additions to the format, as codes and values of `userData`.
+    pub data: Vec<(&'static str, String)>,
 }
 
 impl GeneratedThing {
     /// Something upright on a rectangle.
     pub fn on_lot(kind: ThingKind, lot: Lot, height_m: f64) -> Self {
-        Self { kind, footprint: Footprint::Rectangle(lot), height_m, crown: None }
+        Self::new(kind, Footprint::Rectangle(lot), height_m)
+    }
+
+    /// Something upright on any footprint.
+    pub fn new(kind: ThingKind, footprint: Footprint, height_m: f64) -> Self {
+        Self { kind, footprint, height_m, data: Vec::new() }
+    }
+
+    /// A tree, its trunk's radius and its crown: radius and height of its lower edge, metres.
+    pub fn tree(center: DVec2, radius_m: f64, height_m: f64, crown_radius_m: f64, crown_base_m: f64) -> Self {
+        let data = vec![
+            ("crown_radius", format!("{crown_radius_m:.2}")),
+            ("crown_base", format!("{crown_base_m:.2}")),
+        ];
+        Self { data, ..Self::new(ThingKind::Tree, Footprint::Disc { center, radius_m }, height_m) }
     }
 }

@@ -1,7 +1,7 @@
 //! Connecting roads: every way through every junction, with the pavements that run around its corners.
 
-use super::alignment::{Alignment, Pose2};
 use super::streets::{Arm, LANE_WIDTH_M, Network, Profile, RoadEnd};
+use crate::alignment::{Alignment, Pose2};
 use cosfly_frames::real;
 
 /// A way through a junction. Its lanes lie to the right of its reference line.

@@ -1,7 +1,7 @@
 //! The street network of a generated town: a loose grid, curved at its four corners and along two streets.
 
 use super::GenerateConfig;
-use super::alignment::{Alignment, Pose2};
+use crate::alignment::{Alignment, Pose2};
 use cosfly_frames::{DVec2, Seed, real};
 
 /// Width of every driving lane, metres.

@@ -172,6 +172,72 @@ impl Alignment {
         line.then(Curve::Line, side_m - leg_m)
     }
 
+    /// From `start` to `goal` over the point where their directions meet: lines and one arc.
+    pub fn corner(start: Pose2, goal: Pose2) -> Self {
+        let (ahead, onward) = (start.ahead(), goal.ahead());
+        let (reach, turn_rad) = (goal.at - start.at, real::wrap_angle_rad(goal.heading_rad - start.heading_rad));
+        if turn_rad.abs() < 1e-6 {
+            return Self::straight(start, reach.dot(ahead));
+        }
+        let crossed = ahead.perp_dot(onward);
+        let legs_m = [reach.perp_dot(onward) / crossed, ahead.perp_dot(reach) / crossed];
+        let tangent_m = legs_m[0].min(legs_m[1]);
+        Self::straight(start, legs_m[0] - tangent_m).turned(turn_rad, tangent_m).then(Curve::Line, legs_m[1] - tangent_m)
+    }
+
+    /// Straight from point to point, each turn an arc of at most `radius_m`; both ends are given without their first
+    /// and last metres.
+    pub fn through(points: &[DVec2], cut_m: [f64; 2], radius_m: f64) -> Self {
+        let legs: Vec<DVec2> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let last = legs.len() - 1;
+        let free_m = |leg: usize| {
+            let cut_m = if leg == 0 { cut_m[0] } else { 0.0 } + if leg == last { cut_m[1] } else { 0.0 };
+            legs[leg].length() - cut_m
+        };
+        let heading_rad = |leg: usize| real::atan2(legs[leg].y, legs[leg].x);
+        let mut line = Self::from(Pose2 { at: points[0], heading_rad: heading_rad(0) }.moved(cut_m[0], 0.0));
+        let mut used_m = 0.0;
+        for leg in 0..=last {
+            let turn_rad = if leg < last { real::wrap_angle_rad(heading_rad(leg + 1) - heading_rad(leg)) } else { 0.0 };
+            let room_m = if leg < last { 0.45 * free_m(leg).min(free_m(leg + 1)) } else { 0.0 };
+            let tangent_m = (radius_m * real::tan(0.5 * turn_rad.abs())).min(room_m);
+            line = line.then(Curve::Line, free_m(leg) - used_m - tangent_m).turned(turn_rad, tangent_m);
+            used_m = tangent_m;
+        }
+        line
+    }
+
+    /// A turning circle that comes back to where it began: right by a sixth, left around, right by a sixth.
+    pub fn turning_circle(start: Pose2, radius_m: f64) -> Self {
+        let sixth = real::PI / 3.0;
+        [(-1.0, sixth), (1.0, real::PI + 2.0 * sixth), (-1.0, sixth)].into_iter().fold(Self::from(start), |line, arc| {
+            let (side, turn_rad) = arc;
+            line.then(Curve::Arc { curvature: side / radius_m }, radius_m * turn_rad)
+        })
+    }
+
+    /// Onward by an arc whose tangents have this length.
+    fn turned(self, turn_rad: f64, tangent_m: f64) -> Self {
+        if turn_rad.abs() < 1e-9 {
+            return self;
+        }
+        let radius_m = tangent_m / real::tan(0.5 * turn_rad.abs());
+        self.then(Curve::Arc { curvature: turn_rad.signum() / radius_m.max(1e-9) }, radius_m * turn_rad.abs())
+    }
+
+    /// Stations at the ends of all pieces, and in curves at least every 8 degrees.
+    pub fn stations_m(&self) -> Vec<f64> {
+        const STEP_RAD: f64 = 0.14;
+        let (mut all, mut begin_m) = (vec![0.0], 0.0);
+        for piece in &self.pieces {
+            let turn_rad = (piece.heading_at(piece.length_m) - piece.start.heading_rad).abs();
+            let steps = (turn_rad / STEP_RAD).ceil().max(1.0);
+            all.extend((1..=steps as usize).map(|step| begin_m + piece.length_m * step as f64 / steps));
+            begin_m += piece.length_m;
+        }
+        all
+    }
+
     /// Length along the line.
     pub fn length_m(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.length_m).sum()
@@ -225,6 +291,21 @@ mod tests {
             assert!((pair[0].pose_at(pair[0].length_m).at - pair[1].start.at).length() < 1e-12);
         }
         assert!((line.pose_at(line.length_m()).at - at).length() < 1e-9);
+    }
+
+    #[test]
+    fn corners_bends_and_turning_circles_end_where_they_were_sent() {
+        let start = Pose2 { at: DVec2::new(3.0, -2.0), heading_rad: 0.7 };
+        for turn_rad in [-2.0, -0.3, 0.5, 1.9] {
+            let bend = start.moved(14.0, 0.0);
+            let goal = Pose2 { heading_rad: 0.7 + turn_rad, ..bend }.moved(21.0, 0.0);
+            check_ends_at(&Alignment::corner(start, goal), goal.at, goal.heading_rad);
+        }
+        let points = [[0.0, 0.0], [40.0, 10.0], [60.0, 50.0], [120.0, 50.0]].map(DVec2::from);
+        let line = Alignment::through(&points, [5.0, 7.0], 20.0);
+        check_ends_at(&line, DVec2::new(113.0, 50.0), 0.0);
+        check_ends_at(&Alignment::turning_circle(start, 6.0), start.at, 0.7 + real::PI);
+        assert!(line.stations_m().windows(2).all(|pair| pair[0] < pair[1]));
     }
 
     #[test]

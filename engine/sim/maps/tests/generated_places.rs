@@ -1,0 +1,131 @@
+//! Every kind of place: read without a warning, walked and driven without gaps, nothing where it must not stand.
+
+use cosfly_domain::{LaneKind, ObstacleKind, SemanticLabel, Town, WalkableKind};
+use cosfly_frames::{DVec2, Seed};
+use cosfly_maps::{MapConfig, read_town};
+use cosfly_places::kinds::ALL;
+use cosfly_places::kinds::kind::PlaceKind;
+use cosfly_town::polygons::PolygonIndex;
+use std::collections::BTreeMap;
+
+const SEEDS: std::ops::Range<u64> = 1..5;
+
+fn places() -> impl Iterator<Item = (String, Town)> {
+    ALL.iter().flat_map(|kind| SEEDS.map(|seed| (format!("{}, seed {seed}", kind.name), town(kind, seed))))
+}
+
+fn town(kind: &PlaceKind, seed: u64) -> Town {
+    let settings = kind.settings(&BTreeMap::new()).unwrap();
+    let text = kind.open_drive(&settings, seed);
+    assert!(text.len() < 4_000_000, "{}: {} bytes", kind.name, text.len());
+    let (town, warnings) = read_town(text.as_bytes(), &MapConfig::default(), Seed([1; 32])).expect("it reads");
+    assert_eq!(warnings, Vec::<String>::new(), "{}, seed {seed}", kind.name);
+    town
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_and_another_seed_another_place() {
+    for kind in ALL {
+        let settings = kind.settings(&BTreeMap::new()).unwrap();
+        assert_eq!(kind.open_drive(&settings, 1), kind.open_drive(&settings, 1));
+        assert_ne!(kind.open_drive(&settings, 1), kind.open_drive(&settings, 2));
+    }
+}
+
+#[test]
+fn the_ends_of_all_ranges_read_without_warning() {
+    for kind in ALL {
+        for end in 0..2 {
+            let ends = kind.keys.iter().map(|key| (key.name.to_owned(), key.range[end]));
+            let text = kind.open_drive(&kind.settings(&ends.collect()).unwrap(), 3);
+            let (_, warnings) = read_town(text.as_bytes(), &MapConfig::default(), Seed([1; 32])).expect("it reads");
+            assert_eq!(warnings, Vec::<String>::new(), "{}, end {end}", kind.name);
+        }
+    }
+}
+
+#[test]
+fn kinds_are_sorted_and_their_defaults_are_in_range() {
+    assert!(ALL.windows(2).all(|pair| pair[0].name < pair[1].name));
+    for key in ALL.iter().flat_map(|kind| kind.keys) {
+        assert!((key.range[0]..=key.range[1]).contains(&key.default), "{key:?}");
+    }
+}
+
+#[test]
+fn every_lane_leads_on_and_a_way_through_a_junction_joins_two() {
+    for (name, town) in places() {
+        let mut before = vec![0; town.lanes.len()];
+        town.lanes.iter().for_each(|lane| lane.successors.iter().for_each(|next| before[*next as usize] += 1));
+        assert!(town.lanes.len() > 20, "{name}");
+        for (number, (lane, before)) in town.lanes.iter().zip(&before).enumerate() {
+            assert_eq!(lane.kind, LaneKind::Driving);
+            assert!(!lane.successors.is_empty() && *before > 0, "{name}: lane {number} of {}", town.lanes.len());
+            assert!(!lane.in_junction || (lane.successors.len(), *before) == (1, 1), "{name}: lane {number}");
+            let end = lane.middle_in_world[lane.middle_in_world.len() - 1];
+            for next in &lane.successors {
+                let gap_m = town.lanes[*next as usize].middle_in_world[0].distance(end);
+                assert!(gap_m < 0.05, "{name}: {gap_m} m between lane {number} and {next}");
+            }
+        }
+    }
+}
+
+/// Cells of half a metre whose middle is walkable, in connected parts; sizes of the parts, largest first.
+fn walkable_parts(town: &Town) -> Vec<usize> {
+    const CELL_M: f64 = 0.5;
+    let outlines = PolygonIndex::new(town.walkable.iter().map(cosfly_domain::WalkablePolygon::plan).collect());
+    let [low, high] = [town.min_in_world, town.max_in_world].map(|corner| (corner.truncate() / CELL_M).floor());
+    let (columns, rows) = ((high.x - low.x) as usize + 2, (high.y - low.y) as usize + 2);
+    let middle = |cell: usize| CELL_M * (low + DVec2::new((cell % columns) as f64 + 0.5, (cell / columns) as f64 + 0.5));
+    let mut open: Vec<bool> = (0..columns * rows).map(|cell| outlines.at(middle(cell)).next().is_some()).collect();
+    let mut parts = Vec::new();
+    for start in 0..open.len() {
+        let (mut next, mut size) = (vec![start], 0);
+        while let Some(cell) = next.pop() {
+            if core::mem::take(&mut open[cell]) {
+                size += 1;
+                next.extend(cosfly_town::terrain::beside(cell, columns, rows));
+            }
+        }
+        parts.extend((size > 0).then_some(size));
+    }
+    parts.sort_by(|a, b| b.cmp(a));
+    parts
+}
+
+#[test]
+fn one_part_of_the_walkable_ground_holds_nearly_all_of_it() {
+    for (name, town) in places() {
+        let parts = walkable_parts(&town);
+        let share = parts[0] as f64 / parts.iter().sum::<usize>() as f64;
+        assert!(share >= 0.95, "{name}: {share}, {:?}", &parts[..parts.len().min(6)]);
+        assert!(town.walkable.iter().any(|area| area.kind == WalkableKind::Crossing), "{name}");
+    }
+}
+
+#[test]
+fn buildings_stand_clear_of_what_is_walked_and_driven_and_trees_clear_of_lanes() {
+    for (name, town) in places() {
+        let walkable = PolygonIndex::new(town.walkable.iter().map(cosfly_domain::WalkablePolygon::plan).collect());
+        let roads = cosfly_town::GroundIndex::of_surfaces(&town.surfaces, |mesh| mesh.label == SemanticLabel::Roads);
+        let is_road = |at: DVec2| {
+            let mut found = false;
+            roads.visit_at(at.x, at.y, |_| found = true);
+            found
+        };
+        let solid = |kind| matches!(kind, ObstacleKind::Building | ObstacleKind::Wall | ObstacleKind::Fence);
+        for obstacle in town.obstacles.iter().filter(|obstacle| solid(obstacle.kind)) {
+            let corners = obstacle.shape.corners_in_world();
+            for share in 0..=20 {
+                for (a, b) in [(0, 1), (1, 3), (3, 2), (2, 0)] {
+                    let at = corners[a].lerp(corners[b], f64::from(share) / 20.0).truncate();
+                    assert!(walkable.at(at).next().is_none() && !is_road(at), "{name}: {obstacle:?} at {at}");
+                }
+            }
+        }
+        for trunk in town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::TreeTrunk) {
+            assert!(!is_road(trunk.shape.center_in_world.truncate()), "{name}: {trunk:?}");
+        }
+    }
+}
