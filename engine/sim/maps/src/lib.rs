@@ -7,6 +7,7 @@ pub mod bounds;
 pub mod combine;
 pub mod config;
 pub mod fill;
+pub mod form;
 pub mod formats;
 mod paving;
 pub mod read;

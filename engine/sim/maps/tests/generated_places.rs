@@ -4,14 +4,18 @@ use cosfly_domain::{LaneKind, ObstacleKind, SemanticLabel, Town, WalkableKind};
 use cosfly_frames::{DVec2, Seed};
 use cosfly_maps::{MapConfig, read_town};
 use cosfly_places::kinds::ALL;
-use cosfly_places::kinds::kind::PlaceKind;
+use cosfly_places::kinds::kind::{Key, PlaceKind};
 use cosfly_town::polygons::PolygonIndex;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 const SEEDS: std::ops::Range<u64> = 1..5;
 
-fn places() -> impl Iterator<Item = (String, Town)> {
-    ALL.iter().flat_map(|kind| SEEDS.map(|seed| (format!("{}, seed {seed}", kind.name), town(kind, seed))))
+/// All places, read once.
+fn places() -> &'static [(String, Town)] {
+    static PLACES: OnceLock<Vec<(String, Town)>> = OnceLock::new();
+    let named = |kind: &PlaceKind, seed| (format!("{}, seed {seed}", kind.name), town(kind, seed));
+    PLACES.get_or_init(|| ALL.iter().flat_map(|kind| SEEDS.map(|seed| named(kind, seed))).collect())
 }
 
 fn town(kind: &PlaceKind, seed: u64) -> Town {
@@ -57,7 +61,7 @@ fn every_lane_leads_on_and_a_way_through_a_junction_joins_two() {
     for (name, town) in places() {
         let mut before = vec![0; town.lanes.len()];
         town.lanes.iter().for_each(|lane| lane.successors.iter().for_each(|next| before[*next as usize] += 1));
-        assert!(town.lanes.len() > 20, "{name}");
+        assert!(town.lanes.len() > 3, "{name}");
         for (number, (lane, before)) in town.lanes.iter().zip(&before).enumerate() {
             assert_eq!(lane.kind, LaneKind::Driving);
             assert!(!lane.successors.is_empty() && *before > 0, "{name}: lane {number} of {}", town.lanes.len());
@@ -77,7 +81,8 @@ fn walkable_parts(town: &Town) -> Vec<usize> {
     let outlines = PolygonIndex::new(town.walkable.iter().map(cosfly_domain::WalkablePolygon::plan).collect());
     let [low, high] = [town.min_in_world, town.max_in_world].map(|corner| (corner.truncate() / CELL_M).floor());
     let (columns, rows) = ((high.x - low.x) as usize + 2, (high.y - low.y) as usize + 2);
-    let middle = |cell: usize| CELL_M * (low + DVec2::new((cell % columns) as f64 + 0.5, (cell / columns) as f64 + 0.5));
+    let middle =
+        |cell: usize| CELL_M * (low + DVec2::new((cell % columns) as f64 + 0.5, (cell / columns) as f64 + 0.5));
     let mut open: Vec<bool> = (0..columns * rows).map(|cell| outlines.at(middle(cell)).next().is_some()).collect();
     let mut parts = Vec::new();
     for start in 0..open.len() {
@@ -97,7 +102,7 @@ fn walkable_parts(town: &Town) -> Vec<usize> {
 #[test]
 fn one_part_of_the_walkable_ground_holds_nearly_all_of_it() {
     for (name, town) in places() {
-        let parts = walkable_parts(&town);
+        let parts = walkable_parts(town);
         let share = parts[0] as f64 / parts.iter().sum::<usize>() as f64;
         assert!(share >= 0.95, "{name}: {share}, {:?}", &parts[..parts.len().min(6)]);
         assert!(town.walkable.iter().any(|area| area.kind == WalkableKind::Crossing), "{name}");
@@ -126,6 +131,19 @@ fn buildings_stand_clear_of_what_is_walked_and_driven_and_trees_clear_of_lanes()
         }
         for trunk in town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::TreeTrunk) {
             assert!(!is_road(trunk.shape.center_in_world.truncate()), "{name}: {trunk:?}");
+        }
+    }
+}
+
+#[test]
+fn the_book_lists_all_kinds_and_keys_with_their_ranges() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../book/src/guide/generated-towns.md");
+    let page = std::fs::read_to_string(path).unwrap();
+    for kind in ALL {
+        assert!(page.contains(&format!("| `{}` | ", kind.name)), "{}", kind.name);
+        for Key { name, doc, range: [low, high], default } in kind.keys {
+            let row = format!(" | `{name}` | {doc}, {low} to {high}, usually {default} |");
+            assert!(page.contains(&row), "{}: {row}", kind.name);
         }
     }
 }

@@ -77,8 +77,7 @@ fn a_town_has_streets_to_walk_and_nothing_solid_but_furniture_on_its_pavements()
     assert!(town.walkable.iter().filter(|area| area.kind == WalkableKind::Crossing).count() >= 60);
     let size = town.max_in_world - town.min_in_world;
     assert!(size.x > 300.0 && size.x < 520.0 && size.y > 300.0 && size.y < 520.0, "{size}");
-    for obstacle in town.obstacles.iter().filter(|o| matches!(o.kind, ObstacleKind::Building | ObstacleKind::Wall))
-    {
+    for obstacle in town.obstacles.iter().filter(|o| matches!(o.kind, ObstacleKind::Building | ObstacleKind::Wall)) {
         let corners = obstacle.shape.corners_in_world();
         for share in 0..=20 {
             for (a, b) in [(0, 1), (1, 3), (3, 2), (2, 0)] {

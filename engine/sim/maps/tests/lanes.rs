@@ -2,8 +2,8 @@
 
 use cosfly_domain::{LaneKind, Town};
 use cosfly_frames::Seed;
-use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_maps::{MapConfig, read_town};
+use cosfly_places::grid::{GenerateConfig, generate_town};
 use std::collections::BTreeMap;
 
 #[path = "../../../../tests/shared.rs"]

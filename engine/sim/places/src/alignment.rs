@@ -182,7 +182,9 @@ impl Alignment {
         let crossed = ahead.perp_dot(onward);
         let legs_m = [reach.perp_dot(onward) / crossed, ahead.perp_dot(reach) / crossed];
         let tangent_m = legs_m[0].min(legs_m[1]);
-        Self::straight(start, legs_m[0] - tangent_m).turned(turn_rad, tangent_m).then(Curve::Line, legs_m[1] - tangent_m)
+        Self::straight(start, legs_m[0] - tangent_m)
+            .turned(turn_rad, tangent_m)
+            .then(Curve::Line, legs_m[1] - tangent_m)
     }
 
     /// Straight from point to point, each turn an arc of at most `radius_m`; both ends are given without their first
@@ -210,10 +212,13 @@ impl Alignment {
     /// A turning circle that comes back to where it began: right by a sixth, left around, right by a sixth.
     pub fn turning_circle(start: Pose2, radius_m: f64) -> Self {
         let sixth = real::PI / 3.0;
-        [(-1.0, sixth), (1.0, real::PI + 2.0 * sixth), (-1.0, sixth)].into_iter().fold(Self::from(start), |line, arc| {
-            let (side, turn_rad) = arc;
-            line.then(Curve::Arc { curvature: side / radius_m }, radius_m * turn_rad)
-        })
+        [(-1.0, sixth), (1.0, real::PI + 2.0 * sixth), (-1.0, sixth)].into_iter().fold(
+            Self::from(start),
+            |line, arc| {
+                let (side, turn_rad) = arc;
+                line.then(Curve::Arc { curvature: side / radius_m }, radius_m * turn_rad)
+            },
+        )
     }
 
     /// Onward by an arc whose tangents have this length.

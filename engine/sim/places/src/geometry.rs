@@ -12,9 +12,25 @@ pub fn edges(outline: &[DVec2]) -> impl Iterator<Item = [DVec2; 2]> + '_ {
     outline.iter().enumerate().map(|(at, corner)| [*corner, outline[(at + 1) % outline.len()]])
 }
 
-/// Mean of the corners.
+/// Middle of the area; the mean of the corners where there is none.
 pub fn middle(outline: &[DVec2]) -> DVec2 {
-    outline.iter().sum::<DVec2>() / outline.len().max(1) as f64
+    let mean = outline.iter().sum::<DVec2>() / outline.len().max(1) as f64;
+    let mut sum = (0.0, DVec2::ZERO);
+    for [a, b] in edges(outline) {
+        let twice_m2 = (a - mean).perp_dot(b - mean);
+        sum = (sum.0 + twice_m2, sum.1 + twice_m2 / 3.0 * (a + b - 2.0 * mean));
+    }
+    if sum.0.abs() > 1e-9 { mean + sum.1 / sum.0 } else { mean }
+}
+
+/// How far a ray from inside a convex polygon goes, metres.
+pub fn reach_m(outline: &[DVec2], from: DVec2, direction: DVec2) -> f64 {
+    let to_side = |[a, b]: [DVec2; 2]| {
+        let along = b - a;
+        let crossed = direction.perp_dot(along);
+        if crossed.abs() < 1e-9 { f64::INFINITY } else { (a - from).perp_dot(along) / crossed }
+    };
+    edges(outline).map(to_side).filter(|reach_m| *reach_m > 0.0).fold(f64::INFINITY, f64::min)
 }
 
 /// Whether a point lies inside (even-odd rule).
@@ -135,6 +151,13 @@ mod tests {
         assert_eq!(twice_area_m2(&inset(&SQUARE, 1.0)), 128.0);
         assert!(inset(&SQUARE, 6.0).is_empty());
         assert!(contains(&SQUARE, DVec2::splat(3.0)) && !contains(&SQUARE, DVec2::splat(-1.0)));
+    }
+
+    #[test]
+    fn the_middle_is_that_of_the_area_and_rays_end_at_the_sides() {
+        let many = [SQUARE[0], DVec2::new(1.0, 0.0), DVec2::new(2.0, 0.0), SQUARE[1], SQUARE[2], SQUARE[3]];
+        assert!(middle(&many).distance(DVec2::splat(5.0)) < 1e-9);
+        assert_eq!(reach_m(&SQUARE, DVec2::new(4.0, 5.0), DVec2::X), 6.0);
     }
 
     #[test]

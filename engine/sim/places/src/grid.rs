@@ -3,11 +3,11 @@
 //! The way: [`streets`] draws the network, [`turns`] the ways through its junctions, [`blocks`] and [`furniture`] put
 //! things on the land and the pavements, [`opendrive_text`] writes.
 
-pub mod blocks;
+mod blocks;
 pub mod config;
-pub mod furniture;
-pub mod opendrive_text;
-pub mod street_space;
+mod furniture;
+mod opendrive_text;
+mod street_space;
 pub mod streets;
 pub mod turns;
 

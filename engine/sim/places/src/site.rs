@@ -1,13 +1,13 @@
 //! A place while it is built: its streets, the land between them, and what stands there already.
 
-use crate::geometry::{bounds, contains, crosses_east, edges, middle, segment_distance_m};
+use crate::geometry::{bounds, contains, crosses_east, disc, edges, segment_distance_m, twice_area_m2};
 use crate::lot::Lot;
 use crate::net::faces::{Face, faces};
 use crate::net::network::Network;
 use crate::net::plan::StreetPlan;
 use crate::net::ways::{Way, all_ways};
 use crate::things::{Footprint, GeneratedThing, ThingKind};
-use cosfly_frames::{DVec2, RandomStream};
+use cosfly_frames::{DVec2, RandomStream, real};
 
 /// Level of paths and squares, metres; pavements lie at 0.15.
 const PAVED_LEVEL_M: f64 = 0.13;
@@ -73,9 +73,7 @@ impl Site {
     /// Whether a polygon lies on land, `gap_m` from every pavement.
     pub fn is_clear(&self, polygon: &[DVec2], gap_m: f64) -> bool {
         let [low, high] = bounds(polygon);
-        let is_near = |[a, b]: &&[DVec2; 2]| {
-            a.min(*b).cmple(high + gap_m).all() && a.max(*b).cmpge(low - gap_m).all()
-        };
+        let is_near = |[a, b]: &&[DVec2; 2]| a.min(*b).cmple(high + gap_m).all() && a.max(*b).cmpge(low - gap_m).all();
         polygon.len() >= 3
             && self.is_land(polygon[0])
             && self.edges.iter().filter(is_near).all(|edge| {
@@ -141,7 +139,7 @@ impl Site {
     pub fn enclose(&mut self, kind: ThingKind, [from, to]: [DVec2; 2], thick_m: f64, height_m: f64) -> bool {
         let along = to - from;
         let half_m = 0.5 * DVec2::new(along.length(), thick_m);
-        let lot = Lot { center: 0.5 * (from + to), half_m, heading_rad: cosfly_frames::real::atan2(along.y, along.x) };
+        let lot = Lot { center: 0.5 * (from + to), half_m, heading_rad: real::atan2(along.y, along.x) };
         half_m.x > 0.4 && self.stand(kind, lot, height_m, 0.1)
     }
 
@@ -191,22 +189,23 @@ impl Site {
             self.walk_on(&[pair[0] - side, pair[1] - side, pair[1] + side, pair[0] + side], surface);
         }
         for joint in points.iter().skip(1).take(points.len().saturating_sub(2)) {
-            self.walk_on(&crate::geometry::disc(*joint, 0.55 * width_m, 12), surface);
+            self.walk_on(&disc(*joint, 0.55 * width_m, 12), surface);
         }
     }
 
     /// The enclosed faces, largest first.
     pub fn blocks(&self) -> Vec<Face> {
         let mut blocks: Vec<Face> = self.faces.iter().filter(|face| face.is_enclosed).cloned().collect();
-        let area_m2 = |face: &Face| crate::geometry::twice_area_m2(&face.outline);
+        let area_m2 = |face: &Face| twice_area_m2(&face.outline);
         blocks.sort_by(|a, b| area_m2(b).total_cmp(&area_m2(a)));
         blocks
     }
 
-    /// Middle of all junctions.
+    /// Mean of the middles of all streets.
     pub fn middle(&self) -> DVec2 {
-        let mouths = self.network.streets.iter().map(|street| street.line.pose_at(0.5 * street.line.length_m()).at);
-        middle(&mouths.collect::<Vec<_>>())
+        let streets = &self.network.streets;
+        let sum: DVec2 = streets.iter().map(|street| street.line.pose_at(0.5 * street.line.length_m()).at).sum();
+        sum / streets.len().max(1) as f64
     }
 }
 

@@ -108,10 +108,7 @@ impl GeneratedThing {
 
     /// A tree, its trunk's radius and its crown: radius and height of its lower edge, metres.
     pub fn tree(center: DVec2, radius_m: f64, height_m: f64, crown_radius_m: f64, crown_base_m: f64) -> Self {
-        let data = vec![
-            ("crown_radius", format!("{crown_radius_m:.2}")),
-            ("crown_base", format!("{crown_base_m:.2}")),
-        ];
+        let data = vec![("crown_radius", format!("{crown_radius_m:.2}")), ("crown_base", format!("{crown_base_m:.2}"))];
         Self { data, ..Self::new(ThingKind::Tree, Footprint::Disc { center, radius_m }, height_m) }
     }
 }

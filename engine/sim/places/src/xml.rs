@@ -115,7 +115,8 @@ pub struct Foot {
 /// An `<object>`.
 pub fn write_object(text: &mut String, id: usize, thing: &GeneratedThing, foot: &Foot) {
     let (kind, name) = thing.kind.type_and_name();
-    let (level_m, height_m) = if thing.kind == ThingKind::Ground { (thing.height_m, 0.0) } else { (0.0, thing.height_m) };
+    let (level_m, height_m) =
+        if thing.kind == ThingKind::Ground { (thing.height_m, 0.0) } else { (0.0, thing.height_m) };
     let subtype = if name == "wall" { " subtype=\"wall\"" } else { "" };
     let corners = match &thing.footprint {
         Footprint::Polygon(corners) => Some(corners.clone()),

@@ -2,8 +2,8 @@
 
 use cosfly_domain::{BodyKind, BodyPlan, Town, Traffic, WalkableKind};
 use cosfly_frames::{DVec2, DVec3, Seed, TargetState};
-use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_maps::{MapConfig, read_town};
+use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_vehicles::{VehicleConfig, Vehicles};
 use cosfly_world::{Clock, Population, Snapshot, contacts, simulate};
 

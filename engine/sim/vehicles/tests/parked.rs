@@ -2,8 +2,8 @@
 
 use cosfly_domain::{Around, Body, BodyPlan, Town, Traffic};
 use cosfly_frames::{DVec2, Seed, TargetTrack, real};
-use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_maps::{MapConfig, read_town};
+use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_town::polygons::PolygonIndex;
 use cosfly_vehicles::{VehicleConfig, Vehicles};
 use cosfly_world::{Clock, simulate};

@@ -55,7 +55,7 @@ impl Command for Arguments {
 const GRID_HINT: &str = "write a JSON file with `town` for a grid of other sizes; see the page \"Generated towns\"";
 
 impl Arguments {
-    fn of_kind(&self, kind: &PlaceKind) -> Result<String, Diagnostic> {
+    fn of_kind(&self, kind: &PlaceKind) -> Result<String, Box<Diagnostic>> {
         let mut given = BTreeMap::new();
         for setting in &self.settings {
             let number = setting.split_once('=').and_then(|(key, value)| Some((key, value.parse().ok()?)));
@@ -69,6 +69,6 @@ impl Arguments {
     }
 }
 
-fn refused(message: String, hint: String) -> Diagnostic {
+fn refused(message: String, hint: String) -> Box<Diagnostic> {
     Diagnostic::new("town-settings", Fault::Recipe, message).hint(hint)
 }

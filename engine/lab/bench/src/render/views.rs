@@ -7,8 +7,8 @@ use cosfly_domain::{
 use cosfly_figures::{BodyShape, Walker, gait_phase_rad};
 use cosfly_frames::{DVec2, DVec3, Pose, TargetState, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
-use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_maps::{MapConfig, read_town};
+use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_random::Seed;
 use cosfly_render::Scene;
 use cosfly_town::MapError;

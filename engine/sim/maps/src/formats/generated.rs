@@ -2,12 +2,12 @@
 //! that a recipe of many towns needs no large files.
 
 use super::opendrive::{OpenDrive, OpenDriveOptions};
-use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_domain::Town;
-use cosfly_town::text::{decoded, refused_json};
-use cosfly_town::{MapError, MapFormat};
+use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_places::kinds::kind::PlaceKind;
 use cosfly_places::kinds::{ALL, GRID};
+use cosfly_town::text::{decoded, refused_json};
+use cosfly_town::{MapError, MapFormat};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -237,4 +237,3 @@ fn foot_on_street(network: &Network, point: DVec2) -> Option<(usize, Foot)> {
     }
     best.map(|(_, index, foot)| (index, foot))
 }
-

@@ -1,10 +1,10 @@
 //! `arterial`: two wide roads that cross, slab blocks on lawns behind them, car parks, a supermarket.
 
 use super::houses::{playground, scatter};
-use super::kind::{Key, PlaceKind, Settings};
+use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::Mesh;
 use super::pavements::Furniture;
-use crate::geometry::{convex_core, inset, long_axis, middle, rectangle};
+use crate::geometry::{convex_core, inset, long_axis, middle, reach_m, rectangle};
 use crate::lot::Lot;
 use crate::net::plan::Profile;
 use crate::site::{Site, Surface};
@@ -27,7 +27,7 @@ const WIDE: Profile = Profile { lanes: 2, lane_m: 3.5, sidewalk_m: 4.6, corner_m
 const SIDE: Profile = Profile { lanes: 1, lane_m: 3.25, sidewalk_m: 2.8, corner_m: 4.0 };
 const STOREY_M: f64 = 2.9;
 
-fn build(settings: &Settings, seed: Seed) -> Site {
+fn build(settings: &PlaceSettings, seed: Seed) -> Site {
     let mut stream = seed.stream("streets");
     let half_m = 0.5 * settings.get("size_m");
     let mut pair = || {
@@ -56,13 +56,14 @@ fn build(settings: &Settings, seed: Seed) -> Site {
 }
 
 /// A block: a path through the middle, slabs across it in parallel, a car park and a flat hall by the junction.
-fn slabs(site: &mut Site, core: &[DVec2], center: DVec2, settings: &Settings, stream: &mut RandomStream) {
+fn slabs(site: &mut Site, core: &[DVec2], center: DVec2, settings: &PlaceSettings, stream: &mut RandomStream) {
     let (axis, size_m) = long_axis(core);
-    let (along, size_m) = if stream.chance(0.5) { (axis, size_m) } else { (axis.perp(), DVec2::new(size_m.y, size_m.x)) };
+    let (along, size_m) =
+        if stream.chance(0.5) { (axis, size_m) } else { (axis.perp(), DVec2::new(size_m.y, size_m.x)) };
     let at = middle(core);
-    let reach = 0.5 * size_m + 0.8;
-    site.path(&[at - reach.x * along, at + reach.x * along], 3.0, Surface::Paving);
-    site.path(&[at - reach.y * along.perp(), at + reach.y * along.perp()], 2.6, Surface::Paving);
+    for direction in [along, -along, along.perp(), -along.perp()] {
+        site.path(&[at, at + (reach_m(core, at, direction) + 0.5) * direction], 2.8, Surface::Paving);
+    }
     let to_junction = center - at;
     let quarter = DVec2::new(along.dot(to_junction).signum(), along.perp().dot(to_junction).signum());
     let by_junction = at + 0.25 * size_m.x * quarter.x * along + 0.25 * size_m.y * quarter.y * along.perp();

@@ -1,10 +1,10 @@
 //! `campus`: large buildings of wings between lawns, paths that cross, a park with a lake.
 
 use super::houses::{playground, scatter};
-use super::kind::{Key, PlaceKind, Settings};
+use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::Mesh;
 use super::pavements::Furniture;
-use crate::geometry::{convex_core, disc, inset, long_axis, middle};
+use crate::geometry::{convex_core, disc, inset, long_axis, middle, reach_m};
 use crate::lot::Lot;
 use crate::net::plan::Profile;
 use crate::site::{Site, Surface};
@@ -23,9 +23,11 @@ pub const KIND: PlaceKind = PlaceKind {
     build,
 };
 
+/// Paths end so far on the pavement, metres.
+const ONTO_PAVEMENT_M: f64 = 0.5;
 const ROAD: Profile = Profile { lanes: 1, lane_m: 3.25, sidewalk_m: 3.0, corner_m: 6.0 };
 
-fn build(settings: &Settings, seed: Seed) -> Site {
+fn build(settings: &PlaceSettings, seed: Seed) -> Site {
     let mut stream = seed.stream("streets");
     let size_m = settings.get("size_m");
     let share = stream.uniform(0.42, 0.58);
@@ -60,10 +62,9 @@ fn build(settings: &Settings, seed: Seed) -> Site {
 fn quadrangle(site: &mut Site, core: &[DVec2], storeys: f64, stream: &mut RandomStream) {
     let (along, size_m) = long_axis(core);
     let (at, across) = (middle(core), along.perp());
-    let reach = 0.5 * size_m + 4.0;
-    let clipped = |direction: DVec2, length_m: f64| at + boundary_m(core, at, direction).min(length_m) * direction;
-    for (direction, length_m) in [(along, reach.x), (-along, reach.x), (across, reach.y), (-across, reach.y)] {
-        site.path(&[at, clipped(direction, length_m)], 3.4, Surface::Paving);
+    for direction in [along, -along, across, -across] {
+        let end = at + (reach_m(core, at, direction) + ONTO_PAVEMENT_M) * direction;
+        site.path(&[at, end], 3.4, Surface::Paving);
     }
     site.walk_on(&disc(at, 11.0, 20), Surface::Paving);
     let heading_rad = real::atan2(along.y, along.x);
@@ -93,7 +94,14 @@ fn wings(size_m: DVec2, thick_m: f64, stream: &mut RandomStream) -> Vec<DVec2> {
     let half = 0.5 * size_m;
     let t = thick_m.min(0.4 * size_m.min_element());
     let corners: &[(f64, f64)] = if stream.chance(0.5) {
-        &[(-half.x, -half.y), (half.x, -half.y), (half.x, -half.y + t), (-half.x + t, -half.y + t), (-half.x + t, half.y), (-half.x, half.y)]
+        &[
+            (-half.x, -half.y),
+            (half.x, -half.y),
+            (half.x, -half.y + t),
+            (-half.x + t, -half.y + t),
+            (-half.x + t, half.y),
+            (-half.x, half.y),
+        ]
     } else {
         &[
             (-half.x, -half.y),
@@ -117,10 +125,16 @@ fn park(site: &mut Site, core: &[DVec2], stream: &mut RandomStream) {
     let phase_rad = stream.uniform(0.0, 6.0);
     let ring = |grown_m: f64| -> Vec<DVec2> {
         let radius = |corner: usize| {
-            radius_m * (1.0 + 0.22 * real::sin(2.0 * real::PI * corner as f64 / 16.0 + phase_rad)
-                + 0.1 * real::sin(6.0 * real::PI * corner as f64 / 32.0))
+            radius_m
+                * (1.0
+                    + 0.22 * real::sin(2.0 * real::PI * corner as f64 / 16.0 + phase_rad)
+                    + 0.1 * real::sin(6.0 * real::PI * corner as f64 / 32.0))
         };
-        disc(DVec2::ZERO, 1.0, 32).iter().enumerate().map(|(corner, way)| at + (radius(corner) + grown_m) * *way).collect()
+        disc(DVec2::ZERO, 1.0, 32)
+            .iter()
+            .enumerate()
+            .map(|(corner, way)| at + (radius(corner) + grown_m) * *way)
+            .collect()
     };
     let lake = ring(0.0);
     site.surface(&lake, Surface::Water);
@@ -131,7 +145,7 @@ fn park(site: &mut Site, core: &[DVec2], stream: &mut RandomStream) {
     for spoke in 0..6 {
         let corner = walk[spoke * 32 / 6];
         let direction = (corner - at).normalize();
-        let end = at + boundary_m(core, at, direction) * direction;
+        let end = at + (reach_m(core, at, direction) + ONTO_PAVEMENT_M) * direction;
         let bend = corner.lerp(end, 0.5) + stream.uniform(-7.0, 7.0) * direction.perp();
         site.path(&[corner - 0.3 * direction, bend, end], 2.4, Surface::Gravel);
     }
@@ -142,14 +156,4 @@ fn park(site: &mut Site, core: &[DVec2], stream: &mut RandomStream) {
         let lot = Lot { center, half_m: DVec2::new(0.25, 0.9), heading_rad: real::atan2(way.y, way.x) };
         site.stand(ThingKind::Bench, lot, 0.8, 0.1);
     }
-}
-
-/// How far a ray from inside a convex polygon goes, and half a metre onto the pavement, metres.
-fn boundary_m(core: &[DVec2], at: DVec2, direction: DVec2) -> f64 {
-    let to_side = |[a, b]: [DVec2; 2]| {
-        let along = b - a;
-        let crossed = direction.perp_dot(along);
-        if crossed.abs() < 1e-9 { f64::INFINITY } else { (a - at).perp_dot(along) / crossed }
-    };
-    crate::geometry::edges(core).map(to_side).filter(|m| *m > 0.0).fold(f64::INFINITY, f64::min) + 0.5
 }

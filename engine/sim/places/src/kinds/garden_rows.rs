@@ -1,7 +1,7 @@
 //! `garden_rows`: curved streets of semi-detached and terraced houses with gardens, hedges, fences and drives.
 
 use super::houses::{Houses, playground, scatter};
-use super::kind::{Key, PlaceKind, Settings};
+use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::{Mesh, distances_m};
 use super::pavements::Furniture;
 use crate::geometry::{convex_core, long_axis, middle};
@@ -15,7 +15,12 @@ pub const KIND: PlaceKind = PlaceKind {
     doc: "Curved streets of semi-detached and terraced houses with gardens",
     keys: &[
         Key { name: "size_m", doc: "Width of the place, metres", range: [200.0, 1000.0], default: 380.0 },
-        Key { name: "terraced_share", doc: "Share of the fronts with terraces, not pairs", range: [0.0, 1.0], default: 0.4 },
+        Key {
+            name: "terraced_share",
+            doc: "Share of the fronts with terraces, not pairs",
+            range: [0.0, 1.0],
+            default: 0.4,
+        },
         Key { name: "tree_share", doc: "Share of the gardens with a tree", range: [0.0, 1.0], default: 0.6 },
     ],
     build,
@@ -24,7 +29,7 @@ pub const KIND: PlaceKind = PlaceKind {
 /// Length of the closes that leave the place, metres.
 const CLOSE_M: f64 = 85.0;
 
-fn build(settings: &Settings, seed: Seed) -> Site {
+fn build(settings: &PlaceSettings, seed: Seed) -> Site {
     let mut stream = seed.stream("streets");
     let size_m = settings.get("size_m");
     let mesh = Mesh {
@@ -78,7 +83,7 @@ fn build(settings: &Settings, seed: Seed) -> Site {
     site
 }
 
-fn style(is_terraced: bool, settings: &Settings) -> Houses {
+fn style(is_terraced: bool, settings: &PlaceSettings) -> Houses {
     let pairs = Houses {
         in_a_row: [2, 2],
         width_m: [6.4, 7.4],

@@ -177,9 +177,11 @@ pub fn playground(site: &mut Site, center: DVec2, along: DVec2) -> bool {
         return false;
     }
     site.surface(&plan, Surface::Gravel);
-    for (x, y, size_m, height_m) in
-        [(-4.0, -1.0, DVec2::new(3.6, 0.5), 2.3), (3.0, 2.0, DVec2::new(2.4, 2.4), 2.6), (3.5, -3.0, DVec2::new(3.0, 0.8), 1.6)]
-    {
+    for (x, y, size_m, height_m) in [
+        (-4.0, -1.0, DVec2::new(3.6, 0.5), 2.3),
+        (3.0, 2.0, DVec2::new(2.4, 2.4), 2.6),
+        (3.5, -3.0, DVec2::new(3.0, 0.8), 1.6),
+    ] {
         let lot = Lot {
             center: middle(&plan) + x * along + y * along.perp(),
             half_m: 0.5 * size_m,

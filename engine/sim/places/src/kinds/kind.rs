@@ -14,7 +14,7 @@ pub struct PlaceKind {
     /// The numbers that it takes.
     pub keys: &'static [Key],
     /// Builds it.
-    pub build: fn(&Settings, Seed) -> Site,
+    pub build: fn(&PlaceSettings, Seed) -> Site,
 }
 
 /// A number that a kind takes.
@@ -32,9 +32,9 @@ pub struct Key {
 
 /// Values of all keys of a kind, each within its range.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings(BTreeMap<&'static str, f64>);
+pub struct PlaceSettings(BTreeMap<&'static str, f64>);
 
-impl Settings {
+impl PlaceSettings {
     /// The value of a key of the kind.
     pub fn get(&self, key: &str) -> f64 {
         self.0.get(key).copied().unwrap_or_default()
@@ -55,7 +55,7 @@ impl PlaceKind {
     ///
     /// # Errors
     /// A key that the kind does not have, or a value out of its range.
-    pub fn settings(&self, given: &BTreeMap<String, f64>) -> Result<Settings, RefusedSetting> {
+    pub fn settings(&self, given: &BTreeMap<String, f64>) -> Result<PlaceSettings, RefusedSetting> {
         let mut values: BTreeMap<&'static str, f64> = self.keys.iter().map(|key| (key.name, key.default)).collect();
         for (name, value) in given {
             let Some(key) = self.keys.iter().find(|key| key.name == name) else {
@@ -70,11 +70,11 @@ impl PlaceKind {
             }
             values.insert(key.name, *value);
         }
-        Ok(Settings(values))
+        Ok(PlaceSettings(values))
     }
 
     /// OpenDRIVE 1.6 text of a place; the same settings and seed give the same bytes.
-    pub fn open_drive(&self, settings: &Settings, seed: u64) -> String {
+    pub fn open_drive(&self, settings: &PlaceSettings, seed: u64) -> String {
         let site = (self.build)(settings, Seed::of_item(seed, "place", self.name));
         let comment = format!(
             "A place made by cosfly ({}, seed {seed}); no survey, nobody else's data. Lengths in metres. Our own userData: \

@@ -1,6 +1,6 @@
 //! `old_town`: a few crooked streets, lanes between old houses that only people use, a market square with a church.
 
-use super::kind::{Key, PlaceKind, Settings};
+use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::{Mesh, distances_m};
 use super::pavements::Furniture;
 use crate::geometry::{convex_core, cut, disc, edges, inset, long_axis, middle, rectangle, twice_area_m2};
@@ -28,7 +28,7 @@ const BLOCK_M2: f64 = 1100.0;
 /// Plots of houses are split until they are smaller, square metres.
 const PLOT_M2: f64 = 150.0;
 
-fn build(settings: &Settings, seed: Seed) -> Site {
+fn build(settings: &PlaceSettings, seed: Seed) -> Site {
     let mut stream = seed.stream("streets");
     let mesh = Mesh {
         columns_m: distances_m(settings.get("size_m"), 115.0, 0.15, &mut stream),

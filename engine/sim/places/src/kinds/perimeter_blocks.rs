@@ -1,10 +1,10 @@
 //! `perimeter_blocks`: straight streets, houses wall to wall around courtyards, one block a park (Barcelona, Berlin).
 
 use super::houses::{playground, scatter};
-use super::kind::{Key, PlaceKind, Settings};
+use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::{Mesh, distances_m};
 use super::pavements::Furniture;
-use crate::geometry::{convex_core, edges, inset, long_axis, meeting, middle, rectangle};
+use crate::geometry::{convex_core, edges, inset, long_axis, meeting, middle, reach_m, rectangle};
 use crate::lot::Lot;
 use crate::net::plan::Profile;
 use crate::site::{Site, Surface};
@@ -25,7 +25,7 @@ pub const KIND: PlaceKind = PlaceKind {
 
 const STOREY_M: f64 = 3.3;
 
-fn build(settings: &Settings, seed: Seed) -> Site {
+fn build(settings: &PlaceSettings, seed: Seed) -> Site {
     let mut stream = seed.stream("streets");
     let (size_m, block_m) = (settings.get("size_m"), settings.get("block_m"));
     let mesh = Mesh {
@@ -142,10 +142,8 @@ impl Style {
 fn square(site: &mut Site, core: &[DVec2], stream: &mut RandomStream) {
     let (along, size_m) = long_axis(core);
     let center = middle(core);
-    let reach = |direction: DVec2, length_m: f64| center + (0.5 * length_m + 1.2) * direction;
-    let ends = [(along, size_m.x), (-along, size_m.x), (along.perp(), size_m.y), (-along.perp(), size_m.y)];
-    for (direction, length_m) in ends {
-        site.path(&[center, reach(direction, length_m)], 3.2, Surface::Gravel);
+    for direction in [along, -along, along.perp(), -along.perp()] {
+        site.path(&[center, center + (reach_m(core, center, direction) + 1.2) * direction], 3.2, Surface::Gravel);
     }
     site.walk_on(&crate::geometry::disc(center, 9.0, 16), Surface::Gravel);
     let heading_rad = real::atan2(along.y, along.x);

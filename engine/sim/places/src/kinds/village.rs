@@ -1,7 +1,7 @@
 //! `village`: a winding main street, lanes that end in the fields, farms, a green with a church and a pond.
 
 use super::houses::{Houses, scatter};
-use super::kind::{Key, PlaceKind, Settings};
+use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::pavements::Furniture;
 use crate::geometry::{disc, rectangle};
 use crate::net::plan::{Profile, StreetPlan};
@@ -24,7 +24,7 @@ pub const KIND: PlaceKind = PlaceKind {
 const MAIN: Profile = Profile { lanes: 1, lane_m: 3.0, sidewalk_m: 1.8, corner_m: 3.0 };
 const LANE: Profile = Profile { lanes: 1, lane_m: 2.6, sidewalk_m: 1.5, corner_m: 2.5 };
 
-fn build(settings: &Settings, seed: Seed) -> Site {
+fn build(settings: &PlaceSettings, seed: Seed) -> Site {
     let mut stream = seed.stream("streets");
     let mut site = Site::of(&streets(settings.get("length_m"), &mut stream));
     let mut stream = seed.stream("houses");
@@ -111,10 +111,15 @@ fn streets(length_m: f64, stream: &mut RandomStream) -> StreetPlan {
 fn green(site: &mut Site, stream: &mut RandomStream) {
     let Some(block) = site.blocks().into_iter().next() else { return };
     let center = crate::geometry::middle(&crate::geometry::convex_core(&block.outline));
-    let ends: Vec<DVec2> = block.fronts.iter().filter(|front| super::houses::length_m(front) > 20.0).map(|front| {
-        let points = &front.points;
-        points[points.len() / 2].lerp(points[(points.len() - 1) / 2], 0.5)
-    }).collect();
+    let ends: Vec<DVec2> = block
+        .fronts
+        .iter()
+        .filter(|front| super::houses::length_m(front) > 20.0)
+        .map(|front| {
+            let points = &front.points;
+            points[points.len() / 2].lerp(points[(points.len() - 1) / 2], 0.5)
+        })
+        .collect();
     let Some(first) = ends.first() else { return };
     let along = (center - *first).normalize();
     let crossing = center + 3.0 * along;

@@ -80,9 +80,10 @@ impl Network {
 
     /// Smallest and largest corner around all streets, with room for what stands beside them.
     pub fn bounds(&self, margin_m: f64) -> [DVec2; 2] {
-        let points = self.streets.iter().flat_map(|street| {
-            street.line.stations_m().into_iter().map(|s_m| street.line.pose_at(s_m).at)
-        });
+        let points = self
+            .streets
+            .iter()
+            .flat_map(|street| street.line.stations_m().into_iter().map(|s_m| street.line.pose_at(s_m).at));
         let around = |[low, high]: [DVec2; 2], at: DVec2| [low.min(at), high.max(at)];
         let [low, high] = points.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], around);
         [low - margin_m, high + margin_m]

@@ -169,7 +169,10 @@ fn write_land(text: &mut String, first_id: usize, things: &[GeneratedThing], [lo
             "<planView><geometry s=\"0\" x=\"{x}\" y=\"0\" hdg=\"0\" length=\"{length_m}\"><line/></geometry></planView>"
         ),
     );
-    line(text, "<lanes><laneSection s=\"0\"><center><lane id=\"0\" type=\"none\" level=\"false\"/></center></laneSection></lanes>");
+    line(
+        text,
+        "<lanes><laneSection s=\"0\"><center><lane id=\"0\" type=\"none\" level=\"false\"/></center></laneSection></lanes>",
+    );
     line(text, "<objects>");
     for (index, thing) in things.iter().enumerate() {
         let at = match &thing.footprint {

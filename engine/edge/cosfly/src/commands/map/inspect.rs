@@ -7,6 +7,7 @@ use clap::Parser;
 use cosfly_diagnose::Diagnostic;
 use cosfly_experts::map_files::{ReadMap, read_map};
 use cosfly_maps::advice::why_not_compared;
+use cosfly_maps::form::form;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -106,6 +107,11 @@ fn figures(map: &ReadMap) -> Value {
             "tolerance_m": report.tolerance_m, "added_volume_share": report.added_volume_share,
             "lost_volume_share": report.lost_volume_share, "cropped": report.cropped,
         },
+        "form": form(town).map(|form| json!({
+            "built_share": form.built_share, "height_m": form.height_m, "tree_share": form.tree_share,
+            "block_m2": form.block_m2, "free_width_m": form.free_width_m,
+            "direction_entropy": form.direction_entropy, "sky_share": form.sky_share,
+        })),
         "synthetic_notes": town.synthetic.notes, "warnings": warnings, "advice": advice,
     })
 }
@@ -134,6 +140,20 @@ fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
     let _ = writeln!(text, "\n{:<14} {:>8} {:>12}  {:>12}", "ground", "", "area m2", "invented m2");
     for (label, it) in &census.ground {
         let _ = writeln!(text, "{label:<14} {:>8} {:>12.0}  {:>12.0}", "", it.area_m2, it.synthetic_area_m2);
+    }
+    if let Some(form) = form(town) {
+        let _ = writeln!(
+            text,
+            "\nform: {:.0} % built, {:.1} m high; {:.0} % under trees; blocks of {:.0} m2; {:.0} m free between buildings; \
+             street directions {:.2} of 1; {:.0} % of the sky seen from walks",
+            100.0 * form.built_share,
+            form.height_m,
+            100.0 * form.tree_share,
+            form.block_m2,
+            form.free_width_m,
+            form.direction_entropy,
+            100.0 * form.sky_share
+        );
     }
     let report = &town.simplification;
     let _ = writeln!(

@@ -30,7 +30,8 @@ pub(super) fn add(
     for object in road.objects.iter().filter(|object| object.surface.is_some() || object.is_walkable) {
         let outline = outline(road, object, world);
         if outline.len() < 3 {
-            warnings.push(format!("the patch of ground `{}` has no outline of three corners; it is left out", object.id));
+            warnings
+                .push(format!("the patch of ground `{}` has no outline of three corners; it is left out", object.id));
             continue;
         }
         if let Some(name) = &object.surface {
@@ -44,11 +45,7 @@ pub(super) fn add(
             }
         }
         if object.is_walkable {
-            walkable.push(WalkablePolygon {
-                kind: WalkableKind::Plaza,
-                outline_in_world: outline,
-                synthetic: false,
-            });
+            walkable.push(WalkablePolygon { kind: WalkableKind::Plaza, outline_in_world: outline, synthetic: false });
         }
     }
     warnings

@@ -91,7 +91,9 @@ fn user_data<'d>(source: &Source<'d>, node: Node<'d, 'd>, code: &str) -> Result<
 }
 
 fn user_word<'d>(node: Node<'d, 'd>, code: &str) -> Option<&'d str> {
-    children(node, "userData").find(|data| data.attribute("code") == Some(code)).and_then(|data| data.attribute("value"))
+    children(node, "userData")
+        .find(|data| data.attribute("code") == Some(code))
+        .and_then(|data| data.attribute("value"))
 }
 
 /// The roof above the object's height; level where the file says nothing.
@@ -102,7 +104,10 @@ fn roof<'d>(source: &Source<'d>, node: Node<'d, 'd>) -> Result<Roof, MapError> {
         Some("hipped") => Roof::Hipped { rise_m },
         Some("flat") | None => Roof::Flat,
         Some(other) => {
-            source.warn(node, &format!("`roof` is `{other}`; it must be `flat`, `gabled` or `hipped`; it is taken as flat"));
+            source.warn(
+                node,
+                &format!("`roof` is `{other}`; it must be `flat`, `gabled` or `hipped`; it is taken as flat"),
+            );
             Roof::Flat
         }
     })
