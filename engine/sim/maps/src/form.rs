@@ -55,12 +55,12 @@ pub fn form(town: &Town) -> Option<Form> {
     let widths = places.iter().map(|place| cells.free_width_m(*place));
     Some(Form {
         built_share: share(&|cell| cells.built_m[cell] > 0.0),
-        height_m: heights.iter().sum::<f64>() / heights.len().max(1) as f64,
+        height_m: mean(&heights),
         tree_share: share(&|cell| cells.crown_m[cell] > 0.0),
         block_m2: cells.block_m2(),
         free_width_m: median(widths.collect()),
         direction_entropy: direction_entropy(town),
-        sky_share: places.iter().map(|place| cells.sky_share(*place)).sum::<f64>() / places.len().max(1) as f64,
+        sky_share: mean(&places.iter().map(|place| cells.sky_share(*place)).collect::<Vec<_>>()),
     })
 }
 
@@ -248,6 +248,11 @@ fn direction(share: f64) -> DVec2 {
     DVec2::new(cos, sin)
 }
 
+/// The mean; 0 of nothing.
+fn mean(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |sum, value| sum + value) / values.len().max(1) as f64
+}
+
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or_default()
@@ -265,7 +270,7 @@ fn direction_entropy(town: &Town) -> f64 {
     }
     let sum_m: f64 = bins_m.iter().sum();
     let shares = bins_m.into_iter().map(|bin_m| bin_m / sum_m.max(1e-9)).filter(|share| *share > 0.0);
-    shares.map(|share| -share * real::ln(share)).sum::<f64>() / real::ln(BINS as f64)
+    shares.fold(0.0, |sum, share| sum - share * real::ln(share)) / real::ln(BINS as f64)
 }
 
 #[cfg(test)]

@@ -120,10 +120,16 @@ pub fn disc(center: DVec2, radius_m: f64, corners: usize) -> Vec<DVec2> {
 
 /// The largest convex part of an outline that lies to the left of all its sides; the outline itself where it is convex.
 pub fn convex_core(outline: &[DVec2]) -> Vec<DVec2> {
+    grown(outline, 0.0)
+}
+
+/// A convex polygon with all sides moved outwards.
+pub fn grown(outline: &[DVec2], by_m: f64) -> Vec<DVec2> {
     let [low, high] = bounds(outline);
+    let (low, high) = (low - by_m, high + by_m);
     let all = vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    let sides = edges(outline).filter(|[a, b]| a.distance(*b) > 1e-3);
-    sides.fold(all, |part, [a, b]| cut(&part, a, (b - a).normalize()))
+    let sides = edges(outline).filter(|[a, b]| a.distance(*b) > 1e-3).map(|[a, b]| (a, (b - a).normalize()));
+    sides.fold(all, |part, (a, along)| cut(&part, a - by_m * along.perp(), along))
 }
 
 /// A rectangle `size_m` along and across a direction, from the middle of its front to the left of that direction.

@@ -3,7 +3,7 @@
 use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::{Mesh, distances_m};
 use super::pavements::Furniture;
-use crate::geometry::{convex_core, cut, disc, edges, inset, long_axis, middle, rectangle, twice_area_m2};
+use crate::geometry::{convex_core, cut, disc, edges, grown, inset, long_axis, middle, rectangle, twice_area_m2};
 use crate::lot::Lot;
 use crate::net::plan::Profile;
 use crate::site::{Site, Surface};
@@ -23,6 +23,8 @@ pub const KIND: PlaceKind = PlaceKind {
 };
 
 const STOREY_M: f64 = 2.9;
+/// Lanes go so far onto other lanes and pavements, metres.
+const ONTO_M: f64 = 0.4;
 /// Blocks between lanes are split until they are smaller, square metres.
 const BLOCK_M2: f64 = 1100.0;
 /// Plots of houses are split until they are smaller, square metres.
@@ -80,7 +82,8 @@ impl OldTown {
         let (sin, cos) = real::sin_cos(stream.uniform(-0.22, 0.22));
         let along = DVec2::new(cos, sin).rotate(axis.perp());
         let half = 0.5 * (self.lane_m * stream.uniform(0.75, 1.35)).max(2.4) * along.perp();
-        let lane = cut(&cut(&land, at - half, along), at + half, -along);
+        // Lanes reach onto the ground that they lead to.
+        let lane = cut(&cut(&grown(&land, ONTO_M), at - half, along), at + half, -along);
         if lane.len() >= 3 {
             site.walk_over(&lane);
         }

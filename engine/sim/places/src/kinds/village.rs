@@ -129,10 +129,10 @@ fn green(site: &mut Site, stream: &mut RandomStream) {
     }
     site.walk_on(&disc(crossing, 4.0, 12), Surface::Gravel);
     let side = along.perp();
-    for turn in [1.0, -1.0] {
-        let front = crossing + turn * 10.0 * side + 9.0 * along;
-        let nave = rectangle(front, turn * along, DVec2::new(19.0, 9.0));
-        let tower = rectangle(front - turn * 12.2 * along + turn * 2.0 * side, turn * along, DVec2::new(5.0, 5.0));
+    for (turn, ahead_m) in [(1.0, 15.0), (-1.0, 15.0), (1.0, -15.0), (-1.0, -15.0)] {
+        let front = crossing + turn * 5.0 * side + ahead_m * along;
+        let nave = rectangle(front, turn * along, DVec2::new(17.0, 8.5));
+        let tower = rectangle(front - turn * 11.2 * along + turn * 2.0 * side, turn * along, DVec2::new(5.0, 5.0));
         if site.is_free(&nave, 2.0, 0.6) && site.is_free(&tower, 2.0, 0.6) {
             site.build(&nave, 7.5, 4.5, 0.5);
             site.build(&tower, 17.0, 5.0, 0.05);
