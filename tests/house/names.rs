@@ -7,13 +7,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Names that say what their module says: `schema::tables::Column` is a column of a table. A name that is shown once must leave the list.
-const IDIOMS: [&str; 16] = [
+const IDIOMS: [&str; 15] = [
     "Baseline",
     "Candidate",
     "Claim",
     "Column",
     "Failure",
-    "Footprint",
     "Format",
     "Kind",
     "Metric",

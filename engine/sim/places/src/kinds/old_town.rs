@@ -3,7 +3,9 @@
 use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::{Mesh, distances_m};
 use super::pavements::Furniture;
-use crate::geometry::{convex_core, cut, disc, edges, grown, inset, long_axis, middle, rectangle, twice_area_m2};
+use crate::geometry::{
+    contains, convex_core, cut, disc, edges, grown, inset, long_axis, middle, rectangle, twice_area_m2,
+};
 use crate::lot::Lot;
 use crate::net::plan::Profile;
 use crate::site::{Site, Surface};
@@ -132,14 +134,27 @@ impl OldTown {
         }
     }
 
+    /// A church where the land holds one, with a tower at the end that has room; houses elsewhere.
     fn church(&self, site: &mut Site, cell: &[DVec2], stream: &mut RandomStream) {
+        let land = inset(cell, 0.75);
+        let holds = |plan: &[DVec2]| plan.iter().all(|corner| contains(&land, *corner));
         let (axis, size_m) = long_axis(cell);
-        let (width_m, length_m) = (0.34 * size_m.y, 0.56 * size_m.x);
+        let (width_m, length_m) = (0.34 * size_m.y, 0.5 * size_m.x);
         let front = middle(cell) - 0.5 * width_m * axis.perp();
+        let nave = rectangle(front, axis, DVec2::new(length_m, width_m));
+        if !holds(&nave) {
+            return self.houses(site, land, stream);
+        }
         let eaves_m = 11.0 + stream.uniform(0.0, 3.0).round();
-        site.build_beside(&rectangle(front, axis, DVec2::new(length_m, width_m)), eaves_m, 0.5 * width_m);
-        let tower = front - (0.5 * length_m + 3.6) * axis + (0.5 * width_m - 3.5) * axis.perp();
-        site.build_beside(&rectangle(tower, axis, DVec2::new(7.0, 7.0)), eaves_m + 18.0, 7.0);
+        site.build_beside(&nave, eaves_m, 0.5 * width_m);
+        for end in [-1.0, 1.0] {
+            let at = front + end * (0.5 * length_m + 3.1) * axis + (0.5 * width_m - 3.0) * axis.perp();
+            let tower = rectangle(at, axis, DVec2::new(6.0, 6.0));
+            if holds(&tower) {
+                site.build_beside(&tower, eaves_m + 18.0, 6.0);
+                break;
+            }
+        }
     }
 }
 
