@@ -148,3 +148,17 @@ fn the_book_lists_all_kinds_and_keys_with_their_ranges() {
         }
     }
 }
+
+#[test]
+fn surfaces_and_roofs_that_do_not_exist_are_said() {
+    let village = ALL.iter().find(|kind| kind.name == "village").unwrap();
+    let smallest = village.keys.iter().map(|key| (key.name.to_owned(), key.range[0]));
+    let text = village.open_drive(&village.settings(&smallest.collect()).unwrap(), 1);
+    let text = text.replace("value=\"gravel\"", "value=\"lava\"").replace("value=\"gabled\"", "value=\"onion\"");
+    let (_, warnings) = read_town(text.as_bytes(), &MapConfig::default(), Seed([1; 32])).unwrap();
+    for words in
+        ["is `lava`; it must be `asphalt`, `gravel`", "`roof` is `onion`; it must be `flat`, `gabled` or `hipped`"]
+    {
+        assert!(warnings.iter().any(|warning| warning.contains(words)), "{words}: {warnings:?}");
+    }
+}
