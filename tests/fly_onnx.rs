@@ -1,7 +1,7 @@
 //! Policies in ONNX: flown, kept in bundles, run again by `verify` and on leaderboards; files that are wrong.
 
 use crate::street::Street;
-use crate::support::{Printed, cosfly, tree_digests};
+use crate::support::{Printed, cosfly, repository_root, tree_digests};
 use cosfly_fly::bundle::Bundle;
 use cosfly_fly::pilot::OnnxPolicy;
 use cosfly_fly::results::PolicyCard;
@@ -304,4 +304,21 @@ fn a_file_that_does_not_fit_is_refused_with_what_is_allowed() {
     assert!(refused.code == Some(4) && refused.stderr.contains("by its digest alone"), "{}", refused.stderr);
     let verify = [&verify[..], &["--policy-file", "good.onnx"]].concat();
     cosfly(&verify).within(street.path()).run_ok();
+}
+
+#[test]
+fn the_policies_that_ship_fly_and_their_card_names_them() {
+    let street = Street::new();
+    let folder = repository_root().join("recipes/policies");
+    let card = std::fs::read_to_string(folder.join("README.md")).expect("a card");
+    for name in ["follow_depth", "follow_state"] {
+        let file = folder.join(format!("{name}.onnx"));
+        assert!(std::fs::metadata(&file).expect("shipped").len() < 5_000_000);
+        let printed = fly(street.path(), &format!("onnx:{}", file.display()), &["--out", "shipped"]);
+        assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+        let flown = std::fs::read(street.path().join("shipped").join(name).join("card.json")).expect("a card");
+        let flown: Value = serde_json::from_slice(&flown).expect("JSON");
+        let digest = flown["policy"]["source"].as_str().expect("a digest");
+        assert!(card.contains(digest), "`{name}` is {digest}, which its card does not say");
+    }
 }

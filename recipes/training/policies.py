@@ -5,7 +5,7 @@
 
 `state` sees the 16 numbers of the state. `depth` sees depth, the target's mask and its own motion; it remembers where the target was,
 how it moved, and takes its own motion into account. Needs `pip install . numpy onnx`; uses one processor for the fit, so that the same
-seed gives the same file on the same processor. WORK gets labels and the students of all rounds, and may be removed.
+seed gives the same file on the same processor. WORK, a new folder, gets labels and the students of all rounds, and may be removed.
 """
 
 import os
@@ -235,7 +235,7 @@ def write(kind, weights, path):
 
 
 def examples(kind, version):
-    """Features and the expert's actions of all labelled states of a version."""
+    """Features and the expert's actions of all labelled states of a version, whose pictures are removed: they are the most of it."""
     _, kept, features, remembered = KINDS[kind]
     rows, learnt = [], []
     for episode in sorted(version.glob("rounds/*/*.jsonl")):
@@ -249,6 +249,8 @@ def examples(kind, version):
             if label["expert_action"] is not None:
                 rows.append(found)
                 learnt.append(label["expert_action"])
+    for pictures in [*version.glob("rounds/*/*.npy"), *(version / f"{name}.npy" for name in kept)]:
+        pictures.unlink(missing_ok=True)
     return np.array(rows, np.float32), np.array(learnt, np.float32)
 
 
@@ -286,10 +288,12 @@ def main():
     parser.add_argument("work", type=pathlib.Path)
     parser.add_argument("--cosfly", default="cosfly")
     parser.add_argument("--store")
-    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--suites", nargs="+", default=SUITES, help="suites whose walks are drawn anew, never those of the judge")
     parser.add_argument("--seed", type=int, default=7001, help="seed of these walks and of the network")
     given = parser.parse_args()
+    if given.work.exists() and any(given.work.iterdir()):
+        parser.error(f"{given.work} is not empty; give a new folder")
     given.work.mkdir(parents=True, exist_ok=True)
     store = ["--store", given.store] if given.store else []
     kept, began = KINDS[given.kind][1], time.time()
