@@ -1,0 +1,83 @@
+//! A band of the picture, as high as a tile: its footprints in order, tile by tile.
+
+use crate::footprint::Footprint;
+use crate::order::by_depth;
+use crate::tile::{SIDE, Tile, blend};
+use cosfly_frames::simd::Level;
+
+/// Pixels of a band, and the depth beyond which nothing is blended into them.
+pub struct Band<'a> {
+    /// Number of the band.
+    pub number: usize,
+    /// Pixels of a row.
+    pub width: usize,
+    /// Colours, row by row.
+    pub colour: &'a mut [[f32; 3]],
+    /// Share of the light behind that comes through.
+    pub transmittance: &'a mut [f32],
+    /// Depth at which half of the light is gone, metres.
+    pub depth_m: &'a mut [f32],
+    /// Mean depth of what is seen, metres.
+    pub mean_depth_m: &'a mut [f32],
+    /// Limits of depth, metres; without them there are none.
+    pub limit_m: Option<&'a [f32]>,
+}
+
+/// Buffers of one thread.
+#[derive(Default)]
+pub struct Scratch {
+    pairs: Vec<(u32, u32)>,
+    spare: Vec<(u32, u32)>,
+    footprints: Vec<Footprint>,
+    /// Footprints of each tile, from near to far.
+    tiles: Vec<Vec<u32>>,
+}
+
+impl Scratch {
+    /// Draws a band: `members` are its footprints among `all`, by number.
+    pub fn draw(&mut self, level: Level, all: &[Footprint], members: &[u32], mut band: Band<'_>) {
+        self.pairs.clear();
+        self.pairs.extend(members.iter().map(|number| (all[*number as usize].depth_m.to_bits(), *number)));
+        by_depth(&mut self.pairs, &mut self.spare);
+        self.footprints.clear();
+        self.footprints.extend(self.pairs.iter().map(|(_, number)| all[*number as usize]));
+        self.tiles.resize(self.tiles.len().max(band.width.div_ceil(SIDE)), Vec::new());
+        self.tiles.iter_mut().for_each(Vec::clear);
+        for (number, footprint) in (0..).zip(&self.footprints) {
+            let [first, last] = [footprint.first[0], footprint.last[0]].map(|column| usize::from(column) / SIDE);
+            self.tiles[first..=last].iter_mut().for_each(|tile| tile.push(number));
+        }
+        for (number, order) in self.tiles[..band.width.div_ceil(SIDE)].iter().enumerate() {
+            let mut tile = Tile::CLEAR;
+            let column = SIDE * number;
+            band.read_limits(column, &mut tile);
+            blend(level, &self.footprints, order, [column, SIDE * band.number], &mut tile);
+            band.write(column, &tile);
+        }
+    }
+}
+
+impl Band<'_> {
+    fn read_limits(&self, column: usize, tile: &mut Tile) {
+        let Some(limit_m) = self.limit_m else { return };
+        for (row, own) in limit_m.chunks_exact(self.width).zip(&mut tile.limit_m) {
+            own.iter_mut().zip(&row[column..]).for_each(|(own, limit)| *own = *limit);
+        }
+    }
+
+    fn write(&mut self, column: usize, tile: &Tile) {
+        let rows = self.transmittance.len() / self.width;
+        let columns = SIDE.min(self.width - column);
+        for row in 0..rows {
+            for k in 0..columns {
+                let at = row * self.width + column + k;
+                let light = tile.transmittance[row][k];
+                self.colour[at] = [0, 1, 2].map(|channel| tile.colour[channel][row][k]);
+                self.transmittance[at] = light;
+                self.depth_m[at] = tile.depth_m[row][k];
+                let seen = 1.0 - light;
+                self.mean_depth_m[at] = if seen > 0.0 { tile.weighted_m[row][k] / seen } else { f32::INFINITY };
+            }
+        }
+    }
+}
