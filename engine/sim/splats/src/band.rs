@@ -2,7 +2,7 @@
 
 use crate::footprint::Footprint;
 use crate::order::by_depth;
-use crate::tile::{SIDE, Tile, blend};
+use crate::tile::{SIDE, Tile, blend, place};
 use cosfly_frames::simd::Level;
 
 /// Pixels of a band, and the depth beyond which nothing is blended into them.
@@ -17,8 +17,6 @@ pub struct Band<'a> {
     pub transmittance: &'a mut [f32],
     /// Depth at which half of the light is gone, metres.
     pub depth_m: &'a mut [f32],
-    /// Mean depth of what is seen, metres.
-    pub mean_depth_m: &'a mut [f32],
     /// Limits of depth, metres; without them there are none.
     pub limit_m: Option<&'a [f32]>,
 }
@@ -26,26 +24,27 @@ pub struct Band<'a> {
 /// Buffers of one thread.
 #[derive(Default)]
 pub struct Scratch {
+    footprints: Vec<Footprint>,
     pairs: Vec<(u32, u32)>,
     spare: Vec<(u32, u32)>,
-    footprints: Vec<Footprint>,
     /// Footprints of each tile, from near to far.
     tiles: Vec<Vec<u32>>,
 }
 
 impl Scratch {
-    /// Draws a band: `members` are its footprints among `all`, by number.
-    pub fn draw(&mut self, level: Level, all: &[Footprint], members: &[u32], mut band: Band<'_>) {
-        self.pairs.clear();
-        self.pairs.extend(members.iter().map(|number| (all[*number as usize].depth_m.to_bits(), *number)));
-        by_depth(&mut self.pairs, &mut self.spare);
+    /// Draws a band of these footprints, group by group in the order of the cloud.
+    pub fn draw<'f>(&mut self, level: Level, groups: impl Iterator<Item = &'f [Footprint]>, mut band: Band<'_>) {
         self.footprints.clear();
-        self.footprints.extend(self.pairs.iter().map(|(_, number)| all[*number as usize]));
+        groups.for_each(|group| self.footprints.extend_from_slice(group));
+        self.pairs.clear();
+        self.pairs.extend(self.footprints.iter().map(|footprint| footprint.depth_m.to_bits()).zip(0..));
+        by_depth(&mut self.pairs, &mut self.spare);
         self.tiles.resize(self.tiles.len().max(band.width.div_ceil(SIDE)), Vec::new());
         self.tiles.iter_mut().for_each(Vec::clear);
-        for (number, footprint) in (0..).zip(&self.footprints) {
+        for (_, number) in &self.pairs {
+            let footprint = &self.footprints[*number as usize];
             let [first, last] = [footprint.first[0], footprint.last[0]].map(|column| usize::from(column) / SIDE);
-            self.tiles[first..=last].iter_mut().for_each(|tile| tile.push(number));
+            self.tiles[first..=last].iter_mut().for_each(|tile| tile.push(*number));
         }
         for (number, order) in self.tiles[..band.width.div_ceil(SIDE)].iter().enumerate() {
             let mut tile = Tile::CLEAR;
@@ -60,8 +59,11 @@ impl Scratch {
 impl Band<'_> {
     fn read_limits(&self, column: usize, tile: &mut Tile) {
         let Some(limit_m) = self.limit_m else { return };
-        for (row, own) in limit_m.chunks_exact(self.width).zip(&mut tile.limit_m) {
-            own.iter_mut().zip(&row[column..]).for_each(|(own, limit)| *own = *limit);
+        for (row, limits) in limit_m.chunks_exact(self.width).enumerate() {
+            for (k, limit) in limits[column..].iter().take(SIDE).enumerate() {
+                let [block, lane] = place(row, k);
+                tile.limit_m[block][lane] = *limit;
+            }
         }
     }
 
@@ -71,12 +73,11 @@ impl Band<'_> {
         for row in 0..rows {
             for k in 0..columns {
                 let at = row * self.width + column + k;
-                let light = tile.transmittance[row][k];
-                self.colour[at] = [0, 1, 2].map(|channel| tile.colour[channel][row][k]);
+                let [block, lane] = place(row, k);
+                let light = tile.transmittance[block][lane];
+                self.colour[at] = [0, 1, 2].map(|channel| tile.colour[channel][block][lane]);
                 self.transmittance[at] = light;
-                self.depth_m[at] = tile.depth_m[row][k];
-                let seen = 1.0 - light;
-                self.mean_depth_m[at] = if seen > 0.0 { tile.weighted_m[row][k] / seen } else { f32::INFINITY };
+                self.depth_m[at] = if light < 0.5 { tile.depth_m[block][lane] } else { f32::INFINITY };
             }
         }
     }

@@ -10,14 +10,11 @@ pub struct Block {
     pub middle: [[f32; WIDE]; 3],
     /// Covariances: xx, xy, xz, yy, yz, zz.
     pub covariance: [[f32; WIDE]; 6],
-    /// Opacities.
+    /// Opacities; 0 in lanes without a splat.
     pub opacity: [f32; WIDE],
-    /// Square of the distance at which nothing is seen any more, in standard deviations; negative in lanes without a splat.
-    pub reach: [f32; WIDE],
 }
 
 impl Block {
     /// A block without splats.
-    pub const EMPTY: Self =
-        Self { middle: [[0.0; WIDE]; 3], covariance: [[0.0; WIDE]; 6], opacity: [0.0; WIDE], reach: [-1.0; WIDE] };
+    pub const EMPTY: Self = Self { middle: [[0.0; WIDE]; 3], covariance: [[0.0; WIDE]; 6], opacity: [0.0; WIDE] };
 }

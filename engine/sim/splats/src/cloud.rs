@@ -2,7 +2,6 @@
 
 use crate::block::{Block, WIDE};
 use crate::splat::Splat;
-use cosfly_frames::real;
 
 /// Least opacity that is drawn, as in the reference: one step of eight bits.
 pub const LEAST_ALPHA: f32 = 1.0 / 255.0;
@@ -58,7 +57,6 @@ impl SplatCloud {
         }
         block.covariance.iter_mut().zip(covariance).for_each(|(lanes, entry)| lanes[lane] = entry);
         block.opacity[lane] = splat.opacity;
-        block.reach[lane] = (2.0 * real::ln(f64::from(splat.opacity) / f64::from(LEAST_ALPHA))) as f32;
         let own = &mut self.harmonics[(blocks - 1) * width..];
         own.iter_mut().zip(splat.harmonics.iter().flatten()).for_each(|(lanes, value)| lanes[lane] = *value);
         self.count += 1;

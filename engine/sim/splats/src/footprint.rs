@@ -7,6 +7,8 @@ pub struct Footprint {
     pub place: [f32; 2],
     /// Power of two of its profile at (x, y) from the middle: `xx * x * x + xy * x * y + yy * y * y`.
     pub profile: [f32; 3],
+    /// Least power at which it is seen.
+    pub least_power: f32,
     /// Opacity of the middle.
     pub opacity: f32,
     /// Red, green, blue, in the space of training.

@@ -1,6 +1,8 @@
 //! Splats of a block on the screen: the affine approximation of Zwicker et al. 2001 (EWA) as in 3D Gaussian Splatting, section 4.
 
 use crate::block::{Block, WIDE};
+use crate::cloud::LEAST_ALPHA;
+use crate::exponential::logarithm;
 use crate::footprint::Footprint;
 use crate::harmonics;
 use crate::view::{MOST_ASIDE, NEAR_M, SplatView};
@@ -45,6 +47,7 @@ impl Lens {
 struct Lanes {
     place: [[f32; WIDE]; 2],
     profile: [[f32; WIDE]; 3],
+    least_power: [f32; WIDE],
     opacity: [f32; WIDE],
     depth_m: [f32; WIDE],
     slope: [[f32; WIDE]; 2],
@@ -57,6 +60,7 @@ struct Lanes {
 const NO_LANES: Lanes = Lanes {
     place: [[0.0; WIDE]; 2],
     profile: [[0.0; WIDE]; 3],
+    least_power: [0.0; WIDE],
     opacity: [0.0; WIDE],
     depth_m: [0.0; WIDE],
     slope: [[0.0; WIDE]; 2],
@@ -91,6 +95,7 @@ simd_kernel! {
                 *footprint = Footprint {
                     place: [lanes.place[0][k], lanes.place[1][k]],
                     profile: [lanes.profile[0][k], lanes.profile[1][k], lanes.profile[2][k]],
+                    least_power: lanes.least_power[k],
                     opacity: lanes.opacity[k],
                     colour: [colours[0][k], colours[1][k], colours[2][k]],
                     depth_m: lanes.depth_m[k],
@@ -134,9 +139,11 @@ fn measure(block: &Block, lens: &Lens, out: &mut Lanes) {
         let opacity = block.opacity[k] * if lens.is_antialiased { kept } else { 1.0 };
         let (zx, zy) = (dot(ahead, s), dot(ahead, t));
         let place = [lens.centre_px[0] + lens.focal_px * aside[0], lens.centre_px[1] + lens.focal_px * aside[1]];
-        let extent = [(block.reach[k] * wide).sqrt(), (block.reach[k] * high).sqrt()];
-        let mut is_seen =
-            (z > NEAR_M as f32) & (det > 0.0) & (block.reach[k] > 0.0) & (opacity > crate::cloud::LEAST_ALPHA);
+        // Power of two of the profile at which the least opacity is left, and the square of that distance in deviations.
+        let least_power = -logarithm(opacity * (1.0 / LEAST_ALPHA));
+        let reach = least_power / half;
+        let extent = [(reach * wide).sqrt(), (reach * high).sqrt()];
+        let mut is_seen = (z > NEAR_M as f32) & (det > 0.0) & (opacity > LEAST_ALPHA);
         for axis in 0..2 {
             // Pixels whose centres it reaches.
             let first = most((place[axis] - extent[axis] - 0.5).ceil(), 0.0);
@@ -148,6 +155,7 @@ fn measure(block: &Block, lens: &Lens, out: &mut Lanes) {
         out.profile[0][k] = half * conic[0];
         out.profile[1][k] = 2.0 * half * conic[1];
         out.profile[2][k] = half * conic[2];
+        out.least_power[k] = least_power;
         out.slope[0][k] = zx * conic[0] + zy * conic[1];
         out.slope[1][k] = zx * conic[1] + zy * conic[2];
         out.opacity[k] = opacity;

@@ -12,6 +12,8 @@ use rayon::prelude::*;
 
 /// Blocks that are projected at a time.
 const CHUNK: usize = 128;
+/// Chunks of a group.
+const GROUP: usize = 8;
 
 /// A picture of a cloud, row by row.
 #[derive(Clone, Debug, Default)]
@@ -26,8 +28,6 @@ pub struct SplatPicture {
     pub transmittance: Vec<f32>,
     /// Planar depth at which half of the light is gone, metres; infinite where more comes through.
     pub depth_m: Vec<f32>,
-    /// Mean planar depth of what is seen, metres; infinite where nothing is.
-    pub mean_depth_m: Vec<f32>,
 }
 
 /// Draws clouds. Owns every buffer; keep one per thread.
@@ -35,11 +35,8 @@ pub struct SplatPicture {
 pub struct SplatRenderer {
     level: Option<Level>,
     is_parallel: bool,
-    footprints: Vec<Footprint>,
-    /// Footprints of each chunk.
-    counts: Vec<usize>,
-    /// Footprints of each band, by number.
-    bands: Vec<Vec<u32>>,
+    /// Footprints by group and band.
+    groups: Vec<Vec<Vec<Footprint>>>,
     scratch: Scratch,
     picture: SplatPicture,
 }
@@ -67,73 +64,67 @@ impl SplatRenderer {
         picture.colour.resize(pixels, [0.0; 3]);
         picture.transmittance.resize(pixels, 1.0);
         picture.depth_m.resize(pixels, f32::INFINITY);
-        picture.mean_depth_m.resize(pixels, f32::INFINITY);
         if pixels == 0 {
             return &self.picture;
         }
         let level = self.level.unwrap_or_else(Level::best);
         self.project(level, cloud, view);
-        self.sort_into_bands(view.height.div_ceil(SIDE));
         self.blend(level, view.width, limit_m);
         &self.picture
     }
 
-    /// Footprints of all splats in view, at the places of their chunks.
+    /// Footprints of all splats in view, into the bands that they reach.
     fn project(&mut self, level: Level, cloud: &SplatCloud, view: &SplatView) {
-        let lens = Lens::new(view);
-        self.footprints.resize(cloud.blocks().len() * WIDE, Footprint::default());
-        self.counts.resize(cloud.blocks().len().div_ceil(CHUNK), 0);
-        let width = 3 * cloud.coefficients();
-        macro_rules! project_all {
-            ($chunks:ident, $chunks_mut:ident, $iterate:ident) => {
-                (cloud.blocks().$chunks(CHUNK).zip(cloud.harmonics().$chunks(CHUNK * width)))
-                    .zip(self.footprints.$chunks_mut(CHUNK * WIDE).zip(self.counts.$iterate()))
-                    .for_each(|((blocks, harmonics), (footprints, count))| {
-                        *count = project(level, blocks, harmonics, &lens, footprints);
-                    })
-            };
-        }
-        if self.is_parallel {
-            project_all!(par_chunks, par_chunks_mut, par_iter_mut);
-        } else {
-            project_all!(chunks, chunks_mut, iter_mut);
-        }
-    }
-
-    fn sort_into_bands(&mut self, count: usize) {
-        self.bands.resize(count, Vec::new());
-        self.bands.iter_mut().for_each(Vec::clear);
-        for (chunk, count) in self.counts.iter().enumerate() {
-            let first = chunk * CHUNK * WIDE;
-            for (number, footprint) in (first as u32..).zip(&self.footprints[first..first + count]) {
-                let [top, end] = [footprint.first[1], footprint.last[1]].map(|row| usize::from(row) / SIDE);
-                self.bands[top..=end].iter_mut().for_each(|band| band.push(number));
+        let (lens, bands, width) = (Lens::new(view), view.height.div_ceil(SIDE), 3 * cloud.coefficients());
+        self.groups.resize(cloud.blocks().len().div_ceil(GROUP * CHUNK), Vec::new());
+        let fill = |number: usize, group: &mut Vec<Vec<Footprint>>| {
+            group.resize(bands, Vec::new());
+            group.iter_mut().for_each(Vec::clear);
+            let chunks = cloud.blocks().chunks(CHUNK).zip(cloud.harmonics().chunks(CHUNK * width));
+            let mut seen = vec![Footprint::default(); CHUNK * WIDE];
+            for (blocks, harmonics) in chunks.skip(number * GROUP).take(GROUP) {
+                let count = project(level, blocks, harmonics, &lens, &mut seen);
+                for footprint in &seen[..count] {
+                    let [top, end] = [footprint.first[1], footprint.last[1]].map(|row| usize::from(row) / SIDE);
+                    group[top..=end].iter_mut().for_each(|band| band.push(*footprint));
+                }
             }
+        };
+        if self.is_parallel {
+            self.groups.par_iter_mut().enumerate().for_each(|(number, group)| fill(number, group));
+        } else {
+            self.groups.iter_mut().enumerate().for_each(|(number, group)| fill(number, group));
         }
     }
 
+    /// Blends the bands.
     fn blend(&mut self, level: Level, width: usize, limit_m: Option<&[f32]>) {
-        let Self { footprints, bands, scratch, picture, .. } = self;
+        let Self { groups, scratch, picture, .. } = self;
         let pixels = SIDE * width;
         let limits = |number: usize| limit_m.and_then(|limits| limits.chunks(pixels).nth(number));
+        let draw = |scratch: &mut Scratch, band: Band<'_>| {
+            let number = band.number;
+            scratch.draw(level, groups.iter().map(|group| group[number].as_slice()), band);
+        };
         macro_rules! bands {
-            ($chunks_mut:ident, $iterate:ident) => {
-                (picture.colour.$chunks_mut(pixels).zip(picture.transmittance.$chunks_mut(pixels)))
-                    .zip(picture.depth_m.$chunks_mut(pixels).zip(picture.mean_depth_m.$chunks_mut(pixels)))
-                    .zip(bands.$iterate())
+            ($chunks_mut:ident) => {
+                (picture.colour.$chunks_mut(pixels))
+                    .zip(picture.transmittance.$chunks_mut(pixels).zip(picture.depth_m.$chunks_mut(pixels)))
                     .enumerate()
-                    .map(|(number, (((colour, transmittance), (depth_m, mean_depth_m)), members))| {
-                        let limit_m = limits(number);
-                        (members, Band { number, width, colour, transmittance, depth_m, mean_depth_m, limit_m })
+                    .map(|(number, (colour, (transmittance, depth_m)))| Band {
+                        number,
+                        width,
+                        colour,
+                        transmittance,
+                        depth_m,
+                        limit_m: limits(number),
                     })
             };
         }
         if self.is_parallel {
-            bands!(par_chunks_mut, par_iter).for_each_init(Scratch::default, |scratch, (members, band)| {
-                scratch.draw(level, footprints, members, band);
-            });
+            bands!(par_chunks_mut).for_each_init(Scratch::default, draw);
         } else {
-            bands!(chunks_mut, iter).for_each(|(members, band)| scratch.draw(level, footprints, members, band));
+            bands!(chunks_mut).for_each(|band| draw(scratch, band));
         }
     }
 }
@@ -213,7 +204,7 @@ mod tests {
     fn threads_and_vector_instructions_change_no_byte() {
         let (cloud, view) = (cloud_of(&scene(7, 3000), 3), view(true, 131));
         let bits = |picture: &SplatPicture| {
-            let numbers = [&picture.transmittance, &picture.depth_m, &picture.mean_depth_m].into_iter().flatten();
+            let numbers = picture.transmittance.iter().chain(&picture.depth_m);
             let all: Vec<u32> = picture.colour.iter().flatten().chain(numbers).map(|number| number.to_bits()).collect();
             all
         };
@@ -243,7 +234,6 @@ mod tests {
         let middle = 10 * 20 + 10;
         assert!((picture.colour[middle][1] - 0.75 * 0.25).abs() < 1e-3, "{:?}", picture.colour[middle]);
         assert!((picture.depth_m[middle] - 5.0).abs() < 1e-3 && picture.transmittance[middle] < 0.07);
-        assert!((picture.mean_depth_m[middle] - (5.0 * 0.75 + 8.0 * 0.1875) / 0.9375).abs() < 1e-2);
         let mut limits = vec![f32::INFINITY; 400];
         limits[middle] = 6.0;
         let picture = renderer.draw(&cloud, &view, Some(&limits));
