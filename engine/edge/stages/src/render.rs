@@ -65,8 +65,8 @@ impl StageKind for Render {
             true => ItemRule::PerInput("trajectories"),
         };
         let sources = props::take_sources(&mut config);
-        // Models and leaves change no body around a flight.
-        let bare = RenderConfig { models: vec![], season: None, ..config.clone() };
+        // Models, leaves and splats change no body around a flight.
+        let bare = RenderConfig { models: vec![], season: None, splats: None, ..config.clone() };
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             version: 26,
@@ -134,7 +134,9 @@ impl Stage for RenderStage {
         // Buildings look the same in every flight through the town.
         let scene = self.scene.get(town_digest, || -> Result<_> {
             let models = props::read_models(&self.config, &context.sources)?;
-            Ok(Scene::with_models(&world.town, Seed(town_digest.0), &models).in_season(self.config.season))
+            let splats = props::read_scene_splats(&self.config, &context.sources, world.town.origin.offset_m)?;
+            let scene = Scene::with_models(&world.town, Seed(town_digest.0), &models);
+            Ok(scene.in_season(self.config.season).with_splats(splats))
         })?;
         let target = traffic::followed(inputs, artifact)?;
         let shooting = Shooting::of(&config, &trajectory, target.as_ref(), film)?;

@@ -4,10 +4,11 @@ use crate::cameras::{CameraConfig, GimbalConfig};
 use crate::effects::Effects;
 use crate::look::PictureLook;
 use cosfly_domain::{Camera, ChannelSet, Lens, MotionBlur, Mount, Noise, RollingShutter, Season, Weather};
-use cosfly_frames::Seed;
+use cosfly_frames::{DVec3, Seed};
 use cosfly_materials::weather::WeatherRanges;
 use cosfly_models::ModelConfig;
 use cosfly_optics::OpticsConfig;
+use cosfly_splats::SplatsConfig;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -77,6 +78,9 @@ pub struct RenderConfig {
     /// Models from glTF files, drawn instead of the boxes of the town's things; labels and ids stay those of the things.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub models: Vec<ModelConfig>,
+    /// Gaussian splats of a scan: colours over the geometry that the map's file gives. Dry days only, in the season of the scan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub splats: Option<SplatsConfig>,
 }
 
 impl Default for RenderConfig {
@@ -102,6 +106,7 @@ impl Default for RenderConfig {
             weather: WeatherRanges::default(),
             season: None,
             models: vec![],
+            splats: None,
         }
     }
 }
@@ -161,6 +166,7 @@ impl RenderConfig {
         check_range("gimbal.yaw_range_deg", self.gimbal.yaw_range_deg, [-180.0, 180.0])?;
         self.check_effects()?;
         self.check_cameras()?;
+        self.check_splats()?;
         for (index, model) in self.models.iter().enumerate() {
             if !(-360.0..=360.0).contains(&model.turn_deg) {
                 let message = format!("the turn is `{}`", model.turn_deg);
@@ -188,6 +194,17 @@ impl RenderConfig {
             }
         }
         Ok(())
+    }
+
+    fn check_splats(&self) -> Result<(), ConfigProblem> {
+        let Some(splats) = &self.splats else { return Ok(()) };
+        splats.placement(DVec3::ZERO).map_err(|problem| ConfigProblem {
+            path: format!("splats.{}", problem.key),
+            message: problem.message,
+            hint: problem.hint.to_owned(),
+        })?;
+        let refused = crate::dry_days::refusal(&self.weathers, &self.weather, self.season);
+        refused.map_or(Ok(()), |(path, message, hint)| Err(ConfigProblem { path, message, hint }))
     }
 
     fn check_effects(&self) -> Result<(), ConfigProblem> {

@@ -2,6 +2,7 @@
 
 mod colours;
 mod ground;
+mod splats;
 
 use crate::faces::{DrawnFace, FaceSource, box_lift};
 use crate::far_light::FarLight;
@@ -11,6 +12,7 @@ use crate::passes::ids::{SeenRuns, for_each_band};
 use crate::passes::on_request;
 use crate::people::{PartLook, People};
 use crate::scene::Scene;
+use crate::scene_splats::Composer;
 use crate::setup::FrameSetup;
 use crate::shade::setting::Seen;
 use crate::shade::shader::Shader;
@@ -67,6 +69,9 @@ pub struct Renderer {
     smoother: smooth::Smoother,
     optics: Optics,
     glass: Glass,
+    composer: Composer,
+    /// Draws the frame without bodies, where splats need their shadows.
+    bare: Option<Box<Renderer>>,
 }
 
 impl Renderer {
@@ -106,6 +111,8 @@ impl Renderer {
             smoother: smooth::Smoother::default(),
             optics: Optics::IDEAL,
             glass: Glass::default(),
+            composer: Composer::default(),
+            bare: None,
         };
         renderer.set_optics(cosfly_optics::of_mean_drone());
         renderer
@@ -122,6 +129,7 @@ impl Renderer {
         self.shader.set_level(level);
         self.nearest.set_level(level);
         self.alone.set_level(level);
+        self.bare = None;
     }
 
     /// Draws colours in this look from now on; all other channels are the same in each.
@@ -133,6 +141,7 @@ impl Renderer {
     /// Takes colours of the full look through these optics from now on; a middling drone's at first.
     pub fn set_optics(&mut self, optics: Optics) {
         self.optics = optics;
+        self.bare = None;
         self.shader.set_optics(&optics);
     }
 
@@ -148,6 +157,7 @@ impl Renderer {
     /// last band would begin another task meanwhile.
     pub fn set_parallel(&mut self, parallel: bool) {
         self.parallel = parallel;
+        self.bare = None;
     }
 
     /// Draws all channels of one frame. The same scene and setup give the same bytes on any thread, after any other frame.
@@ -196,17 +206,7 @@ impl Renderer {
 
     fn draw(&mut self, scene: &Scene, setup: &FrameSetup<'_>, parts: FrameParts, watch: &mut Stopwatch<'_>) {
         let eye = Eye::new(&setup.pose);
-        self.nearest.clear();
-        self.alone.clear();
-        self.faces.clear();
-        self.covered.clear();
-        self.others.clear();
-        self.draw_boxes(scene, &eye);
-        self.draw_props(scene, &eye);
-        self.draw_people(scene, &eye, setup);
-        watch.lap(0);
-        self.draw_ground(scene, &eye);
-        watch.lap(1);
+        self.find_faces(scene, setup, &eye, watch);
         if parts == FrameParts::All {
             self.shader.prepare(scene, setup, &eye, &self.people, &self.nearest);
             watch.lap(2);
@@ -225,6 +225,9 @@ impl Renderer {
             target_view::measure_bodies(self.level, &self.images, setup.others, &mut self.others);
             watch.lap(4);
         }
+        if parts == FrameParts::All {
+            self.draw_splats(scene, setup);
+        }
         if parts == FrameParts::All && self.look == PictureLook::Full {
             self.smooth_edges(scene);
             watch.lap(5);
@@ -233,9 +236,34 @@ impl Renderer {
         }
     }
 
+    /// Finds what is nearest at each pixel.
+    fn find_faces(&mut self, scene: &Scene, setup: &FrameSetup<'_>, eye: &Eye, watch: &mut Stopwatch<'_>) {
+        self.nearest.clear();
+        self.alone.clear();
+        self.faces.clear();
+        self.covered.clear();
+        self.others.clear();
+        self.draw_boxes(scene, eye);
+        self.draw_props(scene, eye);
+        self.draw_people(scene, eye, setup);
+        watch.lap(0);
+        self.draw_ground(scene, eye);
+        watch.lap(1);
+    }
+
+    /// Depth, ids and colours as they are before edges are smoothed.
+    fn shade_faces(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
+        let eye = Eye::new(&setup.pose);
+        self.find_faces(scene, setup, &eye, &mut Stopwatch::new(None));
+        self.shader.prepare(scene, setup, &eye, &self.people, &self.nearest);
+        self.fill_channels(scene, true);
+    }
+
     /// Broken edges of crowns, and no stair steps along all others.
     fn smooth_edges(&mut self, scene: &Scene) {
-        self.shader.fray(scene, &self.runs, &mut self.images);
+        if scene.splats.is_none() {
+            self.shader.fray(scene, &self.runs, &mut self.images);
+        }
         self.smoother.smooth(self.runs.rows(), self.screen.width, &mut self.images.rgb);
     }
 

@@ -4,6 +4,7 @@ use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::kerb_lines::kerb_lines;
 use crate::parked::{leave_out, parked_cars};
 use crate::props::{Props, SceneModel};
+use crate::scene_splats::SceneSplats;
 use crate::shade::material::colour_of;
 use crate::shade::outskirts::Outskirts;
 use crate::shade::sun_tiles::SunMaps;
@@ -48,6 +49,8 @@ pub struct Scene {
     pub(crate) props: Props,
     /// Cars of the town as vehicles.
     pub(crate) parked: Vec<Bystander>,
+    /// A scan's colours, in the place of those of boxes and ground.
+    pub(crate) splats: Option<SceneSplats>,
     /// Shadows of everything above, drawn as views need them.
     pub(crate) sun_maps: SunMaps,
     /// Tells scenes of one process apart; buffers that outlive a frame remember it.
@@ -121,6 +124,7 @@ impl Scene {
             outskirts,
             props,
             parked,
+            splats: None,
             sun_maps: SunMaps::default(),
             identity,
         }
@@ -137,6 +141,12 @@ impl Scene {
         self.season = season;
         self.outskirts = Outskirts::of(&self.grid, season);
         self.crowns = self.boxes.iter().map(|b| Leaves::of(b, season)).collect();
+        self
+    }
+
+    /// This town with the colours of a scan; without one, as it is.
+    pub fn with_splats(mut self, splats: Option<SceneSplats>) -> Self {
+        self.splats = splats;
         self
     }
 

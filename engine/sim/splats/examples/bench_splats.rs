@@ -2,9 +2,7 @@
 
 use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose, Seed};
-use cosfly_splats::{
-    MOST_COEFFICIENTS, PlacementConfig, Splat, SplatCloud, SplatRenderer, SplatUpAxis, SplatView, read,
-};
+use cosfly_splats::{MOST_COEFFICIENTS, Splat, SplatCloud, SplatRenderer, SplatUpAxis, SplatView, SplatsConfig, read};
 use std::time::Instant;
 
 const COUNT: usize = 1_000_000;
@@ -16,8 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         None => street(),
     };
     println!("{} splats in {:.2} s", cloud.len(), started.elapsed().as_secs_f64());
-    let config =
-        PlacementConfig { up_axis: SplatUpAxis::Z, unit_m: None, turn_deg: None, origin_m: None, points: None };
+    let config = SplatsConfig::new("", SplatUpAxis::Z);
     let placement = config.placement(DVec3::ZERO).map_err(|problem| problem.message)?;
     let camera = Camera { width: 1280, height: 720, horizontal_fov_rad: 1.570_796 };
     for (name, from, to) in [

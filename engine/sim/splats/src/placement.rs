@@ -1,4 +1,4 @@
-//! Place of a cloud in the world: its own up, scale, turn and origin, or two measured points.
+//! Parameters of splats in a recipe, and their place in the world: up, scale, turn and origin, or two measured points.
 
 use cosfly_frames::{DMat3, DVec2, DVec3, real};
 use schemars::JsonSchema;
@@ -39,10 +39,12 @@ pub struct Measured {
     pub map_m: [f64; 3],
 }
 
-/// Place of a file of splats in the map. Left out: its numbers are those of the map's file.
+/// A file of splats over the town of its map. Left out, its numbers are those of the map's file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct PlacementConfig {
+pub struct SplatsConfig {
+    /// Path of a `.ply`, `.spz` or `.splat` file, relative to the recipe.
+    pub source: String,
     /// Axis of the file that points up: `y`, `-y` or `z`.
     pub up_axis: SplatUpAxis,
     /// Length of the file's unit, metres, 0.0001 to 10,000. Default: 1.
@@ -59,11 +61,18 @@ pub struct PlacementConfig {
     /// Two points that were measured in both files, in the place of `unit_m`, `turn_deg` and `origin_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<[Measured; 2]>,
+    /// Exposure of the splats beside that of people and vehicles, stops: 1 is twice the light, -4 to 4.
+    #[serde(default)]
+    #[schemars(range(min = -4, max = 4))]
+    pub exposure_ev: f64,
+    /// Whether small splats become fainter, as in Mip-Splatting: as the splats were trained.
+    #[serde(default)]
+    pub antialiased: bool,
 }
 
-/// A place that cannot be used.
+/// Parameters that cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PlacementProblem {
+pub struct SplatsProblem {
     /// The key.
     pub key: &'static str,
     /// The refused value and the violated rule.
@@ -84,16 +93,33 @@ pub struct Placement {
 /// Farthest place and coordinate.
 const FARTHEST: f64 = 1e7;
 
-impl PlacementConfig {
+impl SplatsConfig {
+    /// A file whose numbers are those of the map's file.
+    pub fn new(source: impl Into<String>, up_axis: SplatUpAxis) -> Self {
+        Self {
+            source: source.into(),
+            up_axis,
+            unit_m: None,
+            turn_deg: None,
+            origin_m: None,
+            points: None,
+            exposure_ev: 0.0,
+            antialiased: false,
+        }
+    }
+
     /// The place in a world whose origin lies at `world_origin_m`: what the town's reader takes off its map's points, world axes.
     ///
     /// # Errors
     /// Numbers out of range, measured points beside other keys, or points too near to each other.
-    pub fn placement(&self, world_origin_m: DVec3) -> Result<Placement, PlacementProblem> {
-        let problem = |key, message, hint| Err(PlacementProblem { key, message, hint });
+    pub fn placement(&self, world_origin_m: DVec3) -> Result<Placement, SplatsProblem> {
+        let problem = |key, message, hint| Err(SplatsProblem { key, message, hint });
         let (unit_m, turn_deg) = (self.unit_m.unwrap_or(1.0), self.turn_deg.unwrap_or(0.0));
         if !(0.0001..=10_000.0).contains(&unit_m) {
             return problem("unit_m", format!("the length is `{unit_m}`"), "0.0001 to 10,000 metres");
+        }
+        if !(-4.0..=4.0).contains(&self.exposure_ev) {
+            return problem("exposure_ev", format!("the exposure is `{}`", self.exposure_ev), "-4 to 4 stops");
         }
         if !(-360.0..=360.0).contains(&turn_deg) {
             return problem("turn_deg", format!("the turn is `{turn_deg}`"), "-360 to 360 degrees");
@@ -161,27 +187,28 @@ impl Placement {
 mod tests {
     use super::*;
 
-    const PLAIN: PlacementConfig =
-        PlacementConfig { up_axis: SplatUpAxis::Z, unit_m: None, turn_deg: None, origin_m: None, points: None };
+    fn plain() -> SplatsConfig {
+        SplatsConfig::new("street.ply", SplatUpAxis::Z)
+    }
 
     #[test]
     fn points_of_the_file_stand_where_the_maps_do() {
-        let placement = PLAIN.placement(DVec3::new(10.0, -20.0, 0.0)).expect("a place");
+        let placement = plain().placement(DVec3::new(10.0, -20.0, 0.0)).expect("a place");
         // 12 east, 25 north, 3 up: 2 ahead of the world's origin and 5 to its left.
         assert_eq!(placement.in_world(DVec3::new(12.0, 25.0, 3.0)), DVec3::new(2.0, -5.0, 3.0));
-        let down = PlacementConfig { up_axis: SplatUpAxis::MinusY, unit_m: Some(2.0), ..PLAIN };
+        let down = SplatsConfig { up_axis: SplatUpAxis::MinusY, unit_m: Some(2.0), ..plain() };
         let placement = down.placement(DVec3::ZERO).expect("a place");
         assert_eq!(placement.in_world(DVec3::new(1.0, -4.0, 3.0)), DVec3::new(2.0, -6.0, 8.0));
     }
 
     #[test]
     fn two_measured_points_say_scale_turn_and_origin() {
-        let known = PlacementConfig {
+        let known = SplatsConfig {
             up_axis: SplatUpAxis::Y,
             unit_m: Some(2.5),
             turn_deg: Some(70.0),
             origin_m: Some([100.0, -30.0, 2.0]),
-            points: None,
+            ..plain()
         };
         let known = known.placement(DVec3::ZERO).expect("a place");
         let measured = |file: [f64; 3]| {
@@ -190,7 +217,7 @@ mod tests {
         };
         let points = Some([measured([0.0, 1.0, 2.0]), measured([9.0, 0.5, -4.0])]);
         let found =
-            PlacementConfig { up_axis: SplatUpAxis::Y, points, ..PLAIN }.placement(DVec3::ZERO).expect("a place");
+            SplatsConfig { up_axis: SplatUpAxis::Y, points, ..plain() }.placement(DVec3::ZERO).expect("a place");
         for point in [DVec3::ZERO, DVec3::new(3.0, -8.0, 11.0)] {
             assert!((found.in_world(point) - known.in_world(point)).length() < 1e-9);
             assert!((found.in_file(found.in_world(point)) - point).length() < 1e-9);
@@ -202,12 +229,13 @@ mod tests {
         let point = |file, map_m| Measured { file, map_m };
         let above = [point([0.0; 3], [0.0; 3]), point([0.0, 0.0, 1.0], [0.0, 0.0, 1.0])];
         for (config, key) in [
-            (PlacementConfig { unit_m: Some(0.0), ..PLAIN }, "unit_m"),
-            (PlacementConfig { turn_deg: Some(f64::NAN), ..PLAIN }, "turn_deg"),
-            (PlacementConfig { origin_m: Some([0.0, f64::INFINITY, 0.0]), ..PLAIN }, "origin_m"),
-            (PlacementConfig { points: Some(above), ..PLAIN }, "points"),
-            (PlacementConfig { points: Some([above[0]; 2]), ..PLAIN }, "points"),
-            (PlacementConfig { unit_m: Some(1.0), points: Some(above), ..PLAIN }, "points"),
+            (SplatsConfig { unit_m: Some(0.0), ..plain() }, "unit_m"),
+            (SplatsConfig { exposure_ev: f64::NAN, ..plain() }, "exposure_ev"),
+            (SplatsConfig { turn_deg: Some(f64::NAN), ..plain() }, "turn_deg"),
+            (SplatsConfig { origin_m: Some([0.0, f64::INFINITY, 0.0]), ..plain() }, "origin_m"),
+            (SplatsConfig { points: Some(above), ..plain() }, "points"),
+            (SplatsConfig { points: Some([above[0]; 2]), ..plain() }, "points"),
+            (SplatsConfig { unit_m: Some(1.0), points: Some(above), ..plain() }, "points"),
         ] {
             assert_eq!(config.placement(DVec3::ZERO).expect_err("refused").key, key);
         }

@@ -64,6 +64,12 @@ pub(crate) struct BandRuns {
 }
 
 impl SeenRuns {
+    /// Makes all surfaces one but those of the faces that `is_apart` tells.
+    pub fn join_surfaces(&mut self, is_apart: impl Fn(u32) -> bool) {
+        let runs = self.0.iter_mut().flat_map(|band| &mut band.all);
+        runs.filter(|run| !is_apart(run.face)).for_each(|run| run.surface = NO_FACE);
+    }
+
     /// The runs of each row, from the top.
     pub fn rows(&self) -> impl Iterator<Item = &[Run]> {
         self.0.iter().flat_map(|band| {

@@ -1,0 +1,66 @@
+//! Days that pictures of scans can show: the light of a scan is in its colours.
+
+use cosfly_domain::Season;
+use cosfly_materials::presets::{PRESETS, preset};
+use cosfly_materials::weather::WeatherRanges;
+
+/// The key of a stage that a scan's pictures cannot follow, what is wrong with it, and what is allowed.
+pub(crate) fn refusal(
+    weathers: &[String],
+    ranges: &WeatherRanges,
+    season: Option<Season>,
+) -> Option<(String, String, String)> {
+    if season.is_some() {
+        let hint = "leave `season` out: trees and lawns are those of the scan".to_owned();
+        return Some(("season".to_owned(), "the season of splats cannot be changed".to_owned(), hint));
+    }
+    if let Some((index, name)) = weathers.iter().enumerate().find(|(_, name)| !is_dry_day(name)) {
+        let days: Vec<&str> = PRESETS.into_iter().filter(|name| is_dry_day(name)).collect();
+        let message = format!("`{name}` is wet, dusty or dark, and splats are as dry and bright as they were scanned");
+        let hint = format!("with `splats`, the weathers are {}: they light people and vehicles", days.join(", "));
+        return Some((format!("weathers[{index}]"), message, hint));
+    }
+    let changed = ranges.all().into_iter().find_map(|(name, range, _)| {
+        let [low, _] = range?;
+        let is_of_light = matches!(name, "cloudiness" | "wind_intensity" | "sun_azimuth_angle");
+        (!(is_of_light || name == "sun_altitude_angle" && low > 0.0)).then_some(name)
+    });
+    changed.map(|name| {
+        let message = format!("`{name}` changes air or ground, and splats stay as they were scanned");
+        let hint = "with `splats`, give `cloudiness`, `sun_azimuth_angle`, or `sun_altitude_angle` above 0: they light \
+                    people and vehicles";
+        (format!("weather.{name}"), message, hint.to_owned())
+    })
+}
+
+/// Whether a preset is a day without water or dust.
+fn is_dry_day(name: &str) -> bool {
+    preset(name).is_none_or(|weather| {
+        let water = weather.precipitation + weather.precipitation_deposits + weather.wetness;
+        weather.sun_altitude_angle > 0.0 && water + weather.dust_storm == 0.0
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_scan_cannot_show_is_refused_by_name() {
+        let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        let plain = WeatherRanges::default();
+        assert_eq!(refusal(&names(&["ClearNoon", "CloudySunset"]), &plain, None), None);
+        let path = |weathers: &[&str], ranges: &WeatherRanges, season| {
+            refusal(&names(weathers), ranges, season).expect("refused").0
+        };
+        assert_eq!(path(&["ClearNoon", "ClearNight"], &plain, None), "weathers[1]");
+        assert_eq!(path(&["WetNoon"], &plain, None), "weathers[0]");
+        assert_eq!(path(&["ClearNoon"], &plain, Some(Season::Winter)), "season");
+        let fog = WeatherRanges { fog_density: Some([0.0, 30.0]), ..plain.clone() };
+        assert_eq!(path(&["ClearNoon"], &fog, None), "weather.fog_density");
+        let night = WeatherRanges { sun_altitude_angle: Some([-5.0, 30.0]), ..plain.clone() };
+        assert_eq!(path(&["ClearNoon"], &night, None), "weather.sun_altitude_angle");
+        let sun = WeatherRanges { sun_azimuth_angle: Some([90.0, 90.0]), ..plain };
+        assert_eq!(refusal(&names(&["ClearNoon"]), &sun, None), None);
+    }
+}

@@ -1,0 +1,67 @@
+//! Splats of a scene in a frame: bodies stand among them, and their shadows fall on them.
+
+use super::Renderer;
+use crate::faces::FaceSource;
+use crate::look::PictureLook;
+use crate::people::Person;
+use crate::scene::Scene;
+use crate::scene_splats::{BEFORE_BODIES_M, lit_shares};
+use crate::setup::FrameSetup;
+use cosfly_figures::Walker;
+
+impl Renderer {
+    /// Puts the scene's splats over the shaded faces of all that is no body; depth and ids stay those of the geometry.
+    pub(super) fn draw_splats(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
+        let Some(splats) = &scene.splats else { return };
+        self.composer.lit.clear();
+        if self.look == PictureLook::Full && self.people.members.iter().any(is_body) {
+            self.measure_shadows(scene, setup);
+        }
+        let Self { composer, images, nearest, faces, people, runs, camera, parallel, .. } = self;
+        let is_of_body = |face: u32| match faces.get(face as usize).map(|face| face.source) {
+            Some(FaceSource::Figure { look, .. }) => {
+                is_body(&people.members[people.looks[look as usize].person as usize])
+            }
+            _ => false,
+        };
+        composer.limit_m.clear();
+        composer.limit_m.extend(
+            nearest
+                .face
+                .iter()
+                .zip(&images.depth_m)
+                .map(|(face, depth_m)| if is_of_body(*face) { depth_m - BEFORE_BODIES_M } else { f32::INFINITY }),
+        );
+        if let Some(pixels) = composer.lit.get_mut(..composer.limit_m.len()) {
+            pixels
+                .iter_mut()
+                .zip(&composer.limit_m)
+                .filter(|(_, limit)| limit.is_finite())
+                .for_each(|(lit, _)| *lit = 1.0);
+        }
+        composer.compose(splats, (camera, &setup.pose), *parallel, &mut images.rgb);
+        // Edges within the geometry do not show.
+        runs.join_surfaces(is_of_body);
+    }
+
+    /// Light that pixels lose to bodies: the same frame is shaded without them.
+    fn measure_shadows(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
+        let mut bare = self.bare.take().unwrap_or_else(|| {
+            let mut bare = Renderer::new(self.camera);
+            bare.set_level(self.level);
+            bare.set_optics(self.optics);
+            bare.set_parallel(self.parallel);
+            Box::new(bare)
+        });
+        // A target without extent is not drawn; the town's shadows lie where they lie with it.
+        let target = setup.target.map(|target| Walker { height_m: 0.0, ..target });
+        bare.shade_faces(scene, &FrameSetup { target, others: &[], ..*setup });
+        lit_shares(&bare.images.rgb, &self.images.rgb, &mut self.composer.lit);
+        self.bare = Some(bare);
+    }
+}
+
+/// Whether somebody is no thing of the town.
+fn is_body(person: &Person) -> bool {
+    person.town_label.is_none()
+}

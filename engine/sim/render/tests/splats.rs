@@ -1,0 +1,126 @@
+//! Splats in pictures: depth of a known town, bodies among splats, shadows on them; labels and depth stay those of the geometry.
+
+mod photographed;
+mod small_town;
+
+use cosfly_domain::{Camera, FrameImages, TARGET_INSTANCE};
+use cosfly_figures::{BodyShape, Walker};
+use cosfly_frames::{DVec3, Pose, Seed, TargetState};
+use cosfly_render::{FrameSetup, Renderer, Scene, SceneSplats};
+use cosfly_splats::{Splat, SplatCloud, SplatRenderer, SplatUpAxis, SplatView, SplatsConfig};
+
+const CAMERA: Camera = Camera { width: 320, height: 180, horizontal_fov_rad: 1.2 };
+const FEET: DVec3 = DVec3::new(-8.0, 13.5, 0.14);
+
+fn scene() -> Scene {
+    Scene::new(&small_town::small_town(2, 1), Seed([1; 32]))
+}
+
+fn config() -> SplatsConfig {
+    SplatsConfig::new("street.ply", SplatUpAxis::Z)
+}
+
+fn cloud_of(splats: &[Splat]) -> SplatCloud {
+    let mut cloud = SplatCloud::new(0);
+    splats.iter().for_each(|splat| cloud.push(splat));
+    cloud
+}
+
+fn with_splats(splats: &[Splat], config: &SplatsConfig) -> Scene {
+    let splats = SceneSplats::new(cloud_of(splats), config, DVec3::ZERO).expect("a place");
+    scene().with_splats(Some(splats))
+}
+
+fn look_at(from: DVec3) -> Pose {
+    Pose::looking_at(FEET + from, FEET + DVec3::Z)
+}
+
+fn draw(scene: &Scene, pose: Pose, has_target: bool) -> FrameImages {
+    let target = Walker {
+        state: TargetState { feet_in_world: FEET, heading_rad: 0.1, speed_mps: 1.4 },
+        height_m: 1.75,
+        radius_m: 0.3,
+        clothes_seed: Seed([9; 32]),
+        gait_phase_rad: 1.2,
+        body: BodyShape::default(),
+    };
+    let mut renderer = Renderer::new(CAMERA);
+    renderer.set_optics(cosfly_domain::Optics::IDEAL);
+    let mut weather = cosfly_materials::presets::preset("ClearNoon").expect("a preset");
+    weather.sun_azimuth_angle = 200.0;
+    let target = has_target.then_some(target);
+    renderer.render(scene, &FrameSetup { pose, weather: &weather, target, others: &[] }).images.clone()
+}
+
+/// A level or upright sheet of white splats around a place of the world.
+fn sheet(middle: DVec3, along: [DVec3; 2]) -> Vec<Splat> {
+    let places = (-12..=12).flat_map(|x| (-12..=12).map(move |y| (f64::from(x), f64::from(y))));
+    let splat = |(x, y)| {
+        let at: DVec3 = middle + along[0] * x + along[1] * y;
+        Splat::plain([at.x as f32, -at.y as f32, at.z as f32], [0.08; 3], [1.0, 0.0, 0.0, 0.0], 0.95, [1.0; 3])
+    };
+    places.map(splat).collect()
+}
+
+/// Mean of the colours of some pixels.
+fn brightness(images: &FrameImages, pixels: &[usize]) -> f64 {
+    let sum: f64 = pixels.iter().flat_map(|at| &images.rgb[3 * at..3 * at + 3]).map(|byte| f64::from(*byte)).sum();
+    sum / (3 * pixels.len()) as f64
+}
+
+fn of_target(images: &FrameImages) -> Vec<usize> {
+    (0..images.instance.len()).filter(|at| images.instance[*at] == TARGET_INSTANCE).collect()
+}
+
+#[test]
+fn splats_of_a_known_town_lie_where_it_lies() {
+    let scene = scene();
+    let poses = [[-9.0, -6.0, 7.0], [8.0, -7.0, 8.0], [-7.0, 9.0, 9.0], [9.0, 8.0, 7.0]];
+    let splats = photographed::splats_of(&scene, CAMERA, &poses.map(|from| look_at(DVec3::from_array(from))), 0.04);
+    let pose = look_at(DVec3::new(-2.0, -10.0, 8.0));
+    let truth = draw(&scene, pose, false);
+    let view = SplatView::new(&CAMERA, &pose, &config().placement(DVec3::ZERO).expect("a place"), false);
+    let mut renderer = SplatRenderer::default();
+    let picture = renderer.draw(&cloud_of(&splats), &view, None);
+    let both = picture.depth_m.iter().zip(&truth.depth_m).filter(|(own, truth)| own.is_finite() && truth.is_finite());
+    let mut off: Vec<f32> = both.map(|(own, truth)| (own - truth).abs()).collect();
+    off.sort_by(f32::total_cmp);
+    assert!(off.len() > truth.depth_m.len() / 2, "{} pixels", off.len());
+    assert!(off[off.len() / 2] <= 0.05, "median {} m", off[off.len() / 2]);
+}
+
+#[test]
+fn bodies_stand_among_splats_and_labels_are_those_of_the_geometry() {
+    let pose = look_at(DVec3::new(-6.0, 0.0, 1.5));
+    let across = [DVec3::Y * 0.1, DVec3::Z * 0.1];
+    let behind = with_splats(&sheet(FEET + DVec3::new(1.5, 0.0, 1.0), across), &config());
+    let before = with_splats(&sheet(FEET + DVec3::new(-1.5, 0.0, 1.0), across), &config());
+    let plain = draw(&scene(), pose, true);
+    let pixels = of_target(&plain);
+    assert!(pixels.len() > 200, "{}", pixels.len());
+    let (behind, before) = (draw(&behind, pose, true), draw(&before, pose, true));
+    for images in [&behind, &before] {
+        assert!(images.depth_m == plain.depth_m && images.instance == plain.instance, "geometry");
+    }
+    assert!((brightness(&behind, &pixels) - brightness(&plain, &pixels)).abs() < 12.0);
+    assert!(brightness(&before, &pixels) > 235.0);
+    // What is beside the body shows the sheet in both.
+    let beside: Vec<usize> =
+        pixels.iter().map(|at| at + 25).filter(|at| plain.instance[*at] != TARGET_INSTANCE).collect();
+    assert!(brightness(&behind, &beside) > 235.0 && brightness(&before, &beside) > 235.0);
+}
+
+#[test]
+fn shadows_of_bodies_fall_on_splats_and_exposure_is_a_key() {
+    let pose = look_at(DVec3::new(-5.0, -3.0, 6.0));
+    let ground = sheet(FEET, [DVec3::X * 0.25, DVec3::Y * 0.25].map(|way| way * 0.5));
+    let scene = with_splats(&ground, &config());
+    let (with, without) = (draw(&scene, pose, true), draw(&scene, pose, false));
+    let is_ground = |at: &usize| with.instance[*at] == 0;
+    let darker = |at: &usize| brightness(&without, &[*at]) > 225.0 && brightness(&with, &[*at]) < 200.0;
+    let shadow = (0..with.instance.len()).filter(is_ground).filter(darker).count();
+    assert!(shadow > 60, "{shadow} pixels in the shadow");
+    let dark = with_splats(&ground, &SplatsConfig { exposure_ev: -2.0, ..config() });
+    let lit: Vec<usize> = (0..with.instance.len()).filter(|at| brightness(&without, &[*at]) > 225.0).collect();
+    assert!(brightness(&draw(&dark, pose, false), &lit) < 160.0);
+}
