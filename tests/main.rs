@@ -36,6 +36,7 @@ mod preview;
 mod processors;
 mod promises;
 mod repository;
+mod scans;
 mod sensors;
 mod several_towns;
 mod shared;

@@ -2,16 +2,17 @@
 //!
 //! `fuzz_targets/NAME.rs` hands them to libFuzzer; `tests/fuzzing.rs` runs them over damaged files of `corpus/NAME`.
 
-use cosfly_domain::channels;
+use cosfly_domain::{Camera, channels};
 use cosfly_fly::bundle::Bundle;
 use cosfly_fly::pilot::{OnnxPolicy, Runnable};
-use cosfly_frames::Seed;
+use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_maps::{MapConfig, read_town};
 use cosfly_onnx::{OnnxModel, Tensor};
 #[cfg(feature = "plugins")]
 use cosfly_plugin_host::{Host, PluginLimits};
 use cosfly_read::predictions::run_lengths::Runs;
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, read_answer};
+use cosfly_splats::{SplatRenderer, SplatUpAxis, SplatView, SplatsConfig};
 use cosfly_town::MapError;
 use cosfly_write::FramePackReader;
 use std::io::{Cursor, Write};
@@ -45,6 +46,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("predictions", predictions),
     ("recipes", recipes),
     ("run_lengths", run_lengths),
+    ("splats", splats),
 ];
 
 /// The target called `name`.
@@ -176,6 +178,21 @@ fn run_lengths(bytes: &[u8]) {
     {
         assert!(runs.0.iter().all(|[from, to]| from < to && u64::from(*to) <= pixels), "runs lie in the image");
     }
+}
+
+/// A file of splats, which is drawn once: whatever is refused comes with a way out.
+fn splats(bytes: &[u8]) {
+    let file = match cosfly_splats::read(bytes) {
+        Ok(file) => file,
+        Err(error) => return assert!(!error.hints.is_empty(), "{error}"),
+    };
+    let config = SplatsConfig::new("", SplatUpAxis::Z);
+    let placement = config.placement(DVec3::ZERO).expect("the plain place");
+    let camera = Camera { width: 40, height: 20, horizontal_fov_rad: 1.5 };
+    let pose = Pose::looking_at(DVec3::new(-4.0, 0.3, 1.0), DVec3::ZERO);
+    let view = SplatView::new(&camera, &pose, &placement, true);
+    let picture = SplatRenderer::default().draw(&file.cloud, &view, None).clone();
+    assert!(picture.transmittance.iter().all(|light| (0.0..=1.0).contains(light)), "light is a share");
 }
 
 /// The answer of a plugin: an Arrow stream of declared columns.

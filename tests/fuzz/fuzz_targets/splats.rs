@@ -1,0 +1,4 @@
+//! `splats` for libFuzzer.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| cosfly_fuzz::target("splats")(bytes));

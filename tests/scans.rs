@@ -1,0 +1,70 @@
+//! Splats of scans through the real binary: drawn, checked, cached by what their file holds, refused where they mean nothing.
+
+use crate::street::{RECIPE, Street, map};
+use crate::support::cosfly;
+use cosfly_splats::{Splat, to_ply};
+
+/// A splat in yellow.
+const YELLOW: [f32; 3] = [1.0, 0.9, 0.1];
+
+/// The street whose render stage has these lines.
+fn street(lines: &str) -> Street {
+    let changed = RECIPE.replacen("width = 96\n", &format!("width = 96\n{lines}\n"), 1);
+    let street = Street::with(&changed, &map());
+    let places = (-15..15).flat_map(|x| (-15..15).map(move |y| [4.0 * x as f32, 4.0 * y as f32, 0.0]));
+    let splat = |middle| Splat::plain(middle, [2.0, 2.0, 0.02], [1.0, 0.0, 0.0, 0.0], 0.9, YELLOW);
+    let splats: Vec<Splat> = places.map(splat).collect();
+    std::fs::write(street.path().join("street.ply"), to_ply(&splats)).expect("writable");
+    street
+}
+
+#[test]
+fn splats_are_drawn_over_the_town_and_the_dataset_holds() {
+    let street = street("weathers = [\"ClearNoon\"]\nsplats = { source = \"street.ply\", up_axis = \"z\" }");
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let dataset = street.dataset();
+    cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+
+    // The same file elsewhere makes nothing anew; another place of it makes other pictures.
+    std::fs::rename(street.path().join("street.ply"), street.path().join("scan.ply")).expect("movable");
+    let frames_made = |splats: &str| {
+        let set = format!("stages.frames.splats={splats}");
+        let printed = cosfly(&["run", "recipe.toml", "--json", "--set", &set]).within(street.path()).run_ok();
+        let summary: serde_json::Value = serde_json::from_str(&printed.stdout).expect("a JSON summary");
+        let stages = summary["stages"].as_array().expect("stages").clone();
+        stages.into_iter().find(|it| it["stage"] == "frames").expect("the stage")["ran"].as_u64().expect("a count")
+    };
+    assert_eq!(frames_made("{ source = \"scan.ply\", up_axis = \"z\" }"), 0);
+    assert_eq!(frames_made("{ source = \"scan.ply\", up_axis = \"z\", turn_deg = 30 }"), 6);
+}
+
+#[test]
+fn scans_that_cannot_be_drawn_are_refused_before_anything_runs() {
+    let dry = "weathers = [\"ClearNoon\"]\n";
+    let lines = |keys: &str| format!("{dry}splats = {{ {keys} }}");
+    for (lines, code, words) in [
+        (lines("source = \"street.xodr\", up_axis = \"z\""), 4, vec!["street.xodr", ".spz", "recipe.toml:"]),
+        (lines("source = \"none.ply\", up_axis = \"z\""), 4, vec!["none.ply", "recipe.toml:"]),
+        (lines("source = \"street.ply\""), 3, vec!["up_axis"]),
+        (lines("source = \"street.ply\", up_axis = \"x\""), 3, vec!["x", "-y"]),
+        (lines("source = \"street.ply\", up_axis = \"z\", unit_m = 0"), 3, vec!["unit_m", "0.0001"]),
+        (
+            "weathers = [\"WetNoon\"]\nsplats = { source = \"street.ply\", up_axis = \"z\" }".to_owned(),
+            3,
+            vec!["WetNoon", "ClearNoon, CloudyNoon, ClearSunset, CloudySunset", "recipe.toml:"],
+        ),
+        (
+            format!("season = \"winter\"\n{}", lines("source = \"street.ply\", up_axis = \"z\"")),
+            3,
+            vec!["season", "those of the scan"],
+        ),
+    ] {
+        let street = street(&lines);
+        let printed = cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run();
+        assert_eq!(printed.code, Some(code), "{lines}: {}", printed.stderr);
+        for word in words {
+            assert!(printed.stderr.contains(word), "{word}: {}", printed.stderr);
+        }
+        assert!(!street.dataset().exists());
+    }
+}
