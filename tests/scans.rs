@@ -21,7 +21,8 @@ fn street(lines: &str) -> Street {
 #[test]
 fn splats_are_drawn_over_the_town_and_the_dataset_holds() {
     let street = street("weathers = [\"ClearNoon\"]\nsplats = { source = \"street.ply\", up_axis = \"z\" }");
-    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run_ok();
+    assert!(!printed.stderr.contains("the splats lie"), "{}", printed.stderr);
     let dataset = street.dataset();
     cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
 
@@ -36,6 +37,11 @@ fn splats_are_drawn_over_the_town_and_the_dataset_holds() {
     };
     assert_eq!(frames_made("{ source = \"scan.ply\", up_axis = \"z\" }"), 0);
     assert_eq!(frames_made("{ source = \"scan.ply\", up_axis = \"z\", turn_deg = 30 }"), 6);
+
+    // Splats far above the street are not those of the street.
+    let set = "stages.frames.splats={ source = \"scan.ply\", up_axis = \"z\", origin_m = [0, 0, -9] }";
+    let printed = cosfly(&["run", "recipe.toml", "--set", set]).within(street.path()).run_ok();
+    assert!(printed.stderr.contains("the splats lie"), "{}", printed.stderr);
 }
 
 #[test]

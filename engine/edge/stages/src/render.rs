@@ -31,6 +31,9 @@ use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
 
+/// Splats farther from the geometry in the median seem to be of another place, metres.
+const MOST_OFF_M: f32 = 0.5;
+
 /// Stage kind `render`.
 pub struct Render;
 
@@ -143,8 +146,11 @@ impl Stage for RenderStage {
         let crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
         let crowd = crowd.dressed_for(&shooting);
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
-        let seen = self.draw(outputs, context, &place, &trajectory, (&config, &shooting))?;
-        let notes = notes_of(&crowd, &seen.sightings);
+        let mut seen = self.draw(outputs, context, &place, &trajectory, (&config, &shooting))?;
+        let mut notes = notes_of(&crowd, &seen.sightings);
+        let splats = seen.median_off_m().map(compared);
+        notes.extend(splats.iter().map(|(note, _)| ("splats".to_owned(), note.clone())));
+        let warnings = splats.and_then(|(_, warning)| warning).into_iter().collect();
         let pair = trajectory.perturbation.as_ref().map(|twin| {
             let expert = ItemName::own(twin.expert_item.as_str());
             // The expert is published in the same weather, by the same camera.
@@ -180,7 +186,7 @@ impl Stage for RenderStage {
             pair,
         };
         outputs.put("index", &record.to_bytes())?;
-        Ok(Produced { notes, ..Produced::default() })
+        Ok(Produced { notes, warnings, rejected: None })
     }
 }
 
@@ -208,6 +214,26 @@ struct SeenPeople {
     views: Vec<TargetView>,
     by_dense_rays: Vec<Option<f64>>,
     sightings: Vec<Sighting>,
+    /// Median distances between splats and geometry by frame, metres.
+    splats_off_m: Vec<f32>,
+}
+
+impl SeenPeople {
+    /// The median over all frames; none without splats.
+    fn median_off_m(&mut self) -> Option<f32> {
+        self.splats_off_m.sort_unstable_by(f32::total_cmp);
+        self.splats_off_m.get(self.splats_off_m.len() / 2).copied()
+    }
+}
+
+/// The note about splats and geometry, and the warning where they do not belong together.
+fn compared(off_m: f32) -> (String, Option<String>) {
+    let note = format!("half of the pixels within {off_m:.2} m of the geometry");
+    let is_elsewhere = off_m > MOST_OFF_M;
+    let warning = format!(
+        "the splats lie {off_m:.1} m from the geometry in the median: check `splats.up_axis`, its scale and its place"
+    );
+    (note, is_elsewhere.then_some(warning))
 }
 
 /// Notes about the people around.
@@ -278,15 +304,18 @@ impl RenderStage {
                 let shot = Shot { weather: &shooting.weather, moment: &moment, others: &others, noise_seed };
                 let rendered = rig.effects.film(&mut rig.renderer, scene, &shot);
                 pack.frame(rendered.images)?;
+                let sightings = crowd.sightings(frame, time_s, rendered.others);
+                let view = rendered.target_view;
                 let Moment { pose, target } = moment(0.0);
-                let target = target.filter(|_| rendered.target_view.in_view);
+                let target = target.filter(|_| view.in_view);
                 about.clear();
                 crowd.at(time_s, &mut about);
                 seen.by_dense_rays.push(
                     target.and_then(|it| body_rays.visible_share(&world.exact, &about, &shooting.camera, &pose, &it)),
                 );
-                seen.views.push(TargetView { visible_by_rays, ..rendered.target_view });
-                seen.sightings.extend(crowd.sightings(frame, time_s, rendered.others));
+                seen.views.push(TargetView { visible_by_rays, ..view });
+                seen.sightings.extend(sightings);
+                seen.splats_off_m.extend(rig.renderer.splats_off_m());
             }
             pack.finish().map(drop)
         })?;

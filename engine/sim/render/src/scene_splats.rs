@@ -37,20 +37,29 @@ pub(crate) struct Composer {
     pub limit_m: Vec<f32>,
     /// Share of its light that each pixel has left in the shadow of bodies; empty: all of it.
     pub lit: Vec<f32>,
+    /// Distances between splats and geometry along the optical axis in the last picture, metres, of some pixels.
+    off_m: Vec<f32>,
 }
 
+/// Pixels from one to the next at which splats are compared with the geometry.
+const BETWEEN_LOOKS: usize = 61;
+
 impl Composer {
-    /// Puts the splats before the limits over the colours of a picture.
+    /// Puts the splats before the limits over the colours of a picture, whose geometry has these depths.
     pub fn compose(
         &mut self,
         splats: &SceneSplats,
         (camera, pose): (&Camera, &Pose),
         is_parallel: bool,
-        rgb: &mut [u8],
+        (rgb, depth_m): (&mut [u8], &[f32]),
     ) {
         let view = SplatView::new(camera, pose, &splats.placement, splats.is_antialiased);
         self.renderer.set_parallel(is_parallel);
         let picture = self.renderer.draw(&splats.cloud, &view, Some(&self.limit_m));
+        self.off_m.clear();
+        let both = picture.depth_m.iter().zip(depth_m).zip(&self.limit_m).step_by(BETWEEN_LOOKS);
+        let both = both.filter(|((own, there), limit)| own.is_finite() && there.is_finite() && limit.is_infinite());
+        self.off_m.extend(both.map(|((own, there), _)| (own - there).abs()));
         let curve = self.curve.get_or_insert_with(|| Box::new(Curve::new()));
         let seen = picture.colour.iter().zip(&picture.transmittance);
         for (pixel, (rgb, (colour, light))) in rgb.as_chunks_mut::<3>().0.iter_mut().zip(seen).enumerate() {
@@ -65,6 +74,15 @@ impl Composer {
                 *byte = (255.0 * own + light * f32::from(*byte) + 0.5) as u8;
             }
         }
+    }
+}
+
+impl Composer {
+    /// Median distance between splats and geometry in the last picture, metres; none where both are nowhere seen.
+    pub fn median_off_m(&self) -> Option<f32> {
+        let mut sorted = self.off_m.clone();
+        sorted.sort_unstable_by(f32::total_cmp);
+        sorted.get(sorted.len() / 2).copied()
     }
 }
 

@@ -161,8 +161,8 @@ fn measure(block: &Block, lens: &Lens, out: &mut Lanes) {
         out.opacity[k] = opacity;
         out.depth_m[k] = z;
         let length = 1.0 / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-        for axis in 0..3 {
-            out.direction[axis][k] = d[axis] * length;
+        for (lanes, part) in out.direction.iter_mut().zip(d) {
+            lanes[k] = part * length;
         }
         out.is_seen[k] = is_seen;
     }

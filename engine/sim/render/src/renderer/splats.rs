@@ -10,6 +10,12 @@ use crate::setup::FrameSetup;
 use cosfly_figures::Walker;
 
 impl Renderer {
+    /// Median distance along the optical axis between the scene's splats and its geometry in the last frame, metres; none without
+    /// pixels of both.
+    pub fn splats_off_m(&self) -> Option<f32> {
+        self.composer.median_off_m()
+    }
+
     /// Puts the scene's splats over the shaded faces of all that is no body; depth and ids stay those of the geometry.
     pub(super) fn draw_splats(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
         let Some(splats) = &scene.splats else { return };
@@ -39,7 +45,7 @@ impl Renderer {
                 .filter(|(_, limit)| limit.is_finite())
                 .for_each(|(lit, _)| *lit = 1.0);
         }
-        composer.compose(splats, (camera, &setup.pose), *parallel, &mut images.rgb);
+        composer.compose(splats, (camera, &setup.pose), *parallel, (&mut images.rgb, &images.depth_m));
         // Edges within the geometry do not show.
         runs.join_surfaces(is_of_body);
     }

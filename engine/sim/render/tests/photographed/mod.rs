@@ -4,32 +4,38 @@ use cosfly_domain::{Camera, FrameImages, Optics};
 use cosfly_frames::{DMat3, DQuat, DVec3, Pose};
 use cosfly_render::{FrameSetup, Renderer, Scene};
 use cosfly_splats::Splat;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
-/// Largest distance of a pixel's neighbours on its surface, metres: what is seen from afar, another picture shows from near.
-const LARGEST_M: f64 = 0.5;
+/// Largest distance of a pixel's neighbours on its surface, sides of cubes: what is seen from afar, another picture shows from near.
+const LARGEST: f64 = 4.0;
 /// Spread across a surface, metres.
 const THIN_M: f32 = 0.01;
 
-/// Splats of what the poses see, in the map's frame (right-handed, z up), at most one in each cube of `cell_m`.
+/// Splats of what the poses see, in the map's frame (right-handed, z up): the finest in each cube of `cell_m`.
 pub fn splats_of(scene: &Scene, camera: Camera, poses: &[Pose], cell_m: f64) -> Vec<Splat> {
     let mut renderer = Renderer::new(camera);
     renderer.set_optics(Optics::IDEAL);
     let weather = cosfly_materials::presets::preset("ClearNoon").expect("a preset");
-    let (mut splats, mut taken) = (vec![], BTreeSet::new());
+    let mut finest: BTreeMap<[i32; 3], Splat> = BTreeMap::new();
+    let size = |splat: &Splat| splat.spread[0].max(splat.spread[1]);
     for pose in poses {
         let setup = FrameSetup { pose: *pose, weather: &weather, target: None, others: &[] };
         let images = renderer.render(scene, &setup).images;
         for row in 0..camera.height as usize - 1 {
             for column in 0..camera.width as usize - 1 {
                 let Some(splat) = splat_at(images, &camera, pose, [column, row]) else { continue };
-                if taken.insert(splat.middle.map(|at| (f64::from(at) / cell_m).floor() as i32)) {
-                    splats.push(splat);
+                if f64::from(size(&splat)) > 0.6 * LARGEST * cell_m {
+                    continue;
+                }
+                let cell = splat.middle.map(|at| (f64::from(at) / cell_m).floor() as i32);
+                let own = finest.entry(cell).or_insert(splat);
+                if size(&splat) < size(own) {
+                    *own = splat;
                 }
             }
         }
     }
-    splats
+    finest.into_values().collect()
 }
 
 /// The splat of a pixel whose neighbours are of the same surface.
@@ -51,10 +57,7 @@ fn splat_at(images: &FrameImages, camera: &Camera, pose: &Pose, [column, row]: [
     };
     let [middle, right, below] = beside.map(in_map);
     let (across, down) = (right - middle, below - middle);
-    if across.length().max(down.length()) > LARGEST_M {
-        return None;
-    }
-    let first = across.normalize();
+    let first = across.try_normalize()?;
     let normal = first.cross(down).try_normalize()?;
     let second = normal.cross(first);
     let turn = DQuat::from_mat3(&DMat3::from_cols(first, second, normal)).as_quat();

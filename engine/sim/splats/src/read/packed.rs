@@ -90,7 +90,7 @@ fn cloud(head: &Head, data: &[u8]) -> SplatCloud {
     let (turns, further) = rest.split_at(head.turn_bytes() * count);
     let unit = 1.0 / (1_u32 << head.fraction) as f32;
     let mut cloud = SplatCloud::new(head.degree);
-    for splat in 0..count {
+    for (splat, opacity) in opacities.iter().enumerate() {
         let coordinate = |axis: usize| {
             let own = &middles[9 * splat + 3 * axis..][..3];
             // A number of three bytes with its sign.
@@ -112,7 +112,7 @@ fn cloud(head: &Head, data: &[u8]) -> SplatCloud {
                 let own = &turns[4 * splat..];
                 turn_of_word(u32::from_le_bytes([own[0], own[1], own[2], own[3]]))
             },
-            opacity: f32::from(opacities[splat]) / 255.0,
+            opacity: f32::from(*opacity) / 255.0,
             harmonics,
         });
     }

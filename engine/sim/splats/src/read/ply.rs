@@ -143,7 +143,7 @@ mod tests {
         assert_eq!(cloud.blocks()[0].opacity[0], 0.5);
         // The second harmonic of red, green and blue.
         assert_eq!([3, 4, 5].map(|lane| cloud.harmonics()[lane][0]), [1.0, 4.0, 7.0]);
-        assert!((cloud.blocks()[0].covariance[0][0] - (-2.0_f32).exp()).abs() < 1e-6);
+        assert!((cloud.blocks()[0].covariance[0][0] - exponential(-2.0)).abs() < 1e-6);
     }
 
     #[test]
