@@ -32,7 +32,7 @@ impl SplatUpAxis {
 /// A point that was measured in the splats and in the map.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Measured {
+pub struct ControlPoint {
     /// Its place in the file of splats.
     pub file: [f64; 3],
     /// Its place in the map's file: to the east, to the north and up, metres.
@@ -60,7 +60,7 @@ pub struct SplatsConfig {
     pub origin_m: Option<[f64; 3]>,
     /// Two points that were measured in both files, in the place of `unit_m`, `turn_deg` and `origin_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub points: Option<[Measured; 2]>,
+    pub points: Option<[ControlPoint; 2]>,
     /// Exposure of the splats beside that of people and vehicles, stops: 1 is twice the light, -4 to 4.
     #[serde(default)]
     #[schemars(range(min = -4, max = 4))]
@@ -213,7 +213,7 @@ mod tests {
         let known = known.placement(DVec3::ZERO).expect("a place");
         let measured = |file: [f64; 3]| {
             let there = known.in_world(DVec3::from_array(file));
-            Measured { file, map_m: [there.x, -there.y, there.z] }
+            ControlPoint { file, map_m: [there.x, -there.y, there.z] }
         };
         let points = Some([measured([0.0, 1.0, 2.0]), measured([9.0, 0.5, -4.0])]);
         let found =
@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn places_that_mean_nothing_are_refused_by_key() {
-        let point = |file, map_m| Measured { file, map_m };
+        let point = |file, map_m| ControlPoint { file, map_m };
         let above = [point([0.0; 3], [0.0; 3]), point([0.0, 0.0, 1.0], [0.0, 0.0, 1.0])];
         for (config, key) in [
             (SplatsConfig { unit_m: Some(0.0), ..plain() }, "unit_m"),
