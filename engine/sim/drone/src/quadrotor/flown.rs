@@ -49,6 +49,8 @@ pub struct FlownQuadrotor {
     error: TrackingError,
     sensing: Option<Sensing>,
     acceleration_in_world: DVec3,
+    /// Mean acceleration of the last tick, inertial frame, m/s^2.
+    tick_acceleration_mps2: DVec3,
 }
 
 impl FlownQuadrotor {
@@ -66,8 +68,17 @@ impl FlownQuadrotor {
         quadrotor.state.velocity_mps = flipped(motion.velocity_in_world);
         quadrotor.state.attitude = DQuat::from_rotation_z(-yaw_rad);
         let point = PointMass { motion, limits };
-        let (error, acceleration_in_world) = (TrackingError::default(), DVec3::ZERO);
-        Self { quadrotor, controller, point, air, time_s: 0.0, error, sensing, acceleration_in_world }
+        Self {
+            quadrotor,
+            controller,
+            point,
+            air,
+            time_s: 0.0,
+            error: TrackingError::default(),
+            sensing,
+            acceleration_in_world: DVec3::ZERO,
+            tick_acceleration_mps2: DVec3::ZERO,
+        }
     }
 
     /// Flies for `time_s` seconds.
@@ -129,8 +140,9 @@ impl FlownQuadrotor {
                 *rotors
             }
         };
-        let wind_mps = flipped(self.air.next_in_world());
+        let (wind_mps, before_mps) = (flipped(self.air.next_in_world()), self.quadrotor.state.velocity_mps);
         self.quadrotor.step(rotors, wind_mps, TICK_S);
+        self.tick_acceleration_mps2 = (self.quadrotor.state.velocity_mps - before_mps) / TICK_S;
         self.error.ticks += 1;
         if let Some(sensing) = &mut self.sensing {
             sensing.tick(self.error.ticks, &self.quadrotor.state);
@@ -144,6 +156,11 @@ impl FlownQuadrotor {
             velocity_in_world: self.velocity_in_world(),
             acceleration_in_world: self.acceleration_in_world,
         }
+    }
+
+    /// Mean acceleration of the last tick, m/s^2.
+    pub fn tick_acceleration_in_world(&self) -> DVec3 {
+        flipped(self.tick_acceleration_mps2)
     }
 
     fn velocity_in_world(&self) -> DVec3 {
