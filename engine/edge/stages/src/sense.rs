@@ -15,7 +15,7 @@ use cosfly_frames::Seed;
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraShape, ExtraSource, check_names};
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, Values};
-use cosfly_sensors::{SenseConfig, SensedFlight, Sensor};
+use cosfly_sensors::{Carrier, GeoOrigin, SenseConfig, SensedFlight, Sensor};
 use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart, StageProperties, StageRole, TaskContext,
@@ -55,6 +55,11 @@ impl StageKind for Sense {
         let config: SenseConfig = parameters::read(given)?;
         let unknown = || parameters::refused_at("sensor", format!("there is no sensor `{}`", config.sensor));
         let sensor = config.sensor().ok_or_else(unknown)?;
+        if config.levelled && sensor.carrier == Carrier::Airframe {
+            let message =
+                format!("`{}` is fixed to the airframe: nothing holds it level; leave the key out", sensor.name);
+            return Err(parameters::refused_at("levelled", message));
+        }
         let source = source_of(sensor, &config);
         check_names(&source.name, &source.columns).map_err(|rule| parameters::refused_at("table", rule))?;
         let mut canonical = parameters::canonical(&config);
@@ -72,14 +77,14 @@ impl StageKind for Sense {
     }
 }
 
-/// The table of a sensor: frame and time, then its numbers.
+/// The table of a sensor: frame and time, then its numbers and the true ones.
 fn source_of(sensor: &Sensor, config: &SenseConfig) -> ExtraSource {
     let column = |name: &str, kind, doc: &str| DeclaredColumn { name: name.to_owned(), kind, doc: doc.to_owned() };
     let mut columns = vec![
         column("frame", ColumnKind::Integer, "frame at the time of the reading, or the last one before it"),
         column("time_s", ColumnKind::Real, "time since the first frame, seconds"),
     ];
-    columns.extend(sensor.quantities.iter().map(|it| column(it.name, ColumnKind::Real, it.doc)));
+    columns.extend(sensor.quantities.iter().chain(sensor.truths).map(|it| column(it.name, ColumnKind::Real, it.doc)));
     ExtraSource {
         name: config.table().to_owned(),
         shape: ExtraShape::Readings,
@@ -120,6 +125,7 @@ impl Stage for SenseStage {
             dt_s: record.trajectory.track.dt_s,
             place: self.config.place(),
             rate_hz: self.config.rate_hz,
+            origin: GeoOrigin::of(&world.town.origin),
             seed: Seed(context.seed),
         };
         if flown.readings() > MOST_ROWS {
@@ -127,7 +133,7 @@ impl Stage for SenseStage {
             return Err(Diagnostic::new("sense-readings", Fault::Recipe, message).hint("set a lower `rate_hz`"));
         }
         let (mut at, mut times_s) = (vec![], vec![]);
-        let mut numbers = vec![vec![]; self.sensor.quantities.len()];
+        let mut numbers = vec![vec![]; self.sensor.count()];
         flown.read(self.sensor, &mut |reading| {
             at.push(reading.frame as i64);
             times_s.push(reading.time_s);

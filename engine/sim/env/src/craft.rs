@@ -6,7 +6,17 @@ use crate::settings::{DroneSettings, EnvironmentSettings};
 use cosfly_drone::quadrotor::{ControlInput, FlownQuadrotor, ThrustAndRates, TrackingError};
 use cosfly_drone::wind::{Air, Turbulence};
 use cosfly_drone::{Motion, PointMass, Sensed, Sensing};
-use cosfly_frames::{DVec3, real};
+use cosfly_frames::{DMat3, DVec3, real};
+use cosfly_sensors::{Airframe, Derivatives};
+
+/// Changes in a step, on the mean.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Changes {
+    /// m/s^3.
+    pub(crate) jerk_in_world: DVec3,
+    /// Rate of the yaw, rad/s.
+    pub(crate) yaw_rate_rad_s: f64,
+}
 
 /// The drone of an environment.
 #[derive(Clone)]
@@ -50,6 +60,32 @@ impl Craft {
         match self {
             Self::PointMass(point) => point.motion,
             Self::Quadrotor(flown) => flown.motion(),
+        }
+    }
+
+    /// The body after changes, with the nose of a point mass along a yaw.
+    pub(crate) fn airframe(&self, changes: &Changes, yaw_rad: f64) -> Airframe {
+        let motion = self.motion();
+        let Self::Quadrotor(flown) = self else {
+            let motion = Derivatives {
+                position_in_world: motion.position_in_world,
+                velocity_in_world: motion.velocity_in_world,
+                acceleration_in_world: motion.acceleration_in_world,
+                jerk_in_world: changes.jerk_in_world,
+            };
+            return Airframe::flying(&motion, yaw_rad, changes.yaw_rate_rad_s);
+        };
+        let state = &flown.quadrotor().state;
+        // From right-handed axes to left-handed ones: y changes its sign; a turn is no vector and changes the other two.
+        let flip = DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0));
+        let rates = state.rates_rad_s;
+        Airframe {
+            position_in_world: motion.position_in_world,
+            velocity_in_world: motion.velocity_in_world,
+            acceleration_in_world: flown.tick_acceleration_in_world(),
+            world_from_body: flip * DMat3::from_quat(state.attitude) * flip,
+            rates_in_body: DVec3::new(-rates.x, rates.y, -rates.z),
+            turn_acceleration_in_body: DVec3::ZERO,
         }
     }
 

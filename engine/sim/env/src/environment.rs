@@ -1,7 +1,7 @@
 //! [`Environment`]: flies an episode, action by action.
 
 use crate::action::Action;
-use crate::craft::Craft;
+use crate::craft::{Changes, Craft};
 use crate::episode::Episode;
 use crate::observation::{Observation, TargetSighting};
 use crate::others::BodyAtTime;
@@ -12,6 +12,7 @@ use cosfly_drone::quadrotor::TrackingError;
 use cosfly_drone::{Gimbal, Motion, Sensed};
 use cosfly_frames::{Pose, TargetState, real};
 use cosfly_geometry::SpatialQuery;
+use cosfly_sensors::Airframe;
 use cosfly_surroundings::visibility::aim_point;
 use std::sync::Arc;
 
@@ -49,6 +50,8 @@ pub struct Environment {
     action: Action,
     answer: Option<Answer>,
     observation: Observation,
+    /// Changes in the last step.
+    changes: Changes,
     /// Distance that the target covered so far, metres.
     target_covered_m: f64,
     score: EpisodeScore,
@@ -82,9 +85,20 @@ impl Environment {
         };
         let blackouts = settings.blackouts.drawn(&episode.seed, episode.target.duration_s());
         let score = EpisodeScore { planned_steps: episode.steps(settings.step_s), ..EpisodeScore::default() };
-        let (answer, target_covered_m) = (None, 0.0);
-        let mut new =
-            Self { settings, episode, drone, gimbal, blackouts, action, answer, observation, target_covered_m, score };
+        let (answer, changes, target_covered_m) = (None, Changes::default(), 0.0);
+        let mut new = Self {
+            settings,
+            episode,
+            drone,
+            gimbal,
+            blackouts,
+            action,
+            answer,
+            observation,
+            changes,
+            target_covered_m,
+            score,
+        };
         new.observe(target);
         new
     }
@@ -155,6 +169,11 @@ impl Environment {
         self.drone.attitude_xyzw()
     }
 
+    /// The body of the drone now. That of a point mass is of a quadrotor that flies its acceleration and the mean jerk of the last step.
+    pub fn airframe(&self) -> Airframe {
+        self.drone.airframe(&self.changes, self.gimbal.yaw_rad)
+    }
+
     /// Samples of the sensors of a quadrotor, by time; nothing without sensors.
     pub fn sensed(&self) -> &[Sensed] {
         self.drone.sensed()
@@ -185,7 +204,7 @@ impl Environment {
         if let (Some(&action), true) = (action, self.wants_action()) {
             self.answer = Some(Answer { arrives_s: begins_s + latency_s, action });
         }
-        let before = self.drone.motion();
+        let (before, yaw_rad) = (self.drone.motion(), self.gimbal.yaw_rad);
         self.observation.step += 1;
         let ends_s = f64::from(self.observation.step) * self.settings.step_s;
         self.observation.time_s = ends_s;
@@ -203,6 +222,11 @@ impl Environment {
         if let Some(Answer { action, .. }) = self.answer.filter(|answer| answer.arrives_s <= ends_s + ROUNDING_S) {
             (self.action, self.answer) = (action, None);
         }
+        let bent = self.drone.motion().acceleration_in_world - before.acceleration_in_world;
+        self.changes = Changes {
+            jerk_in_world: bent / self.settings.step_s,
+            yaw_rate_rad_s: real::wrap_angle_rad(self.gimbal.yaw_rad - yaw_rad) / self.settings.step_s,
+        };
         let target = self.episode.target_at(ends_s);
         let step = target.feet_in_world - self.episode.target_at(begins_s).feet_in_world;
         self.target_covered_m += step.length();

@@ -4,6 +4,7 @@ use cosfly_batch::BatchScene;
 use cosfly_domain::{BodyId, OrientedBox, Town, largest_object_instance};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_sensors::GeoOrigin;
 use cosfly_town::GroundIndex;
 use std::sync::{Arc, OnceLock};
 
@@ -61,6 +62,11 @@ impl FlightSite {
 
     fn prepared(&self) -> BatchScene {
         BatchScene::without_colours(&self.town, &self.ground)
+    }
+
+    /// Place of the town on the globe.
+    pub fn origin(&self) -> GeoOrigin {
+        GeoOrigin::of(&self.town.origin)
     }
 
     /// Instance id of a body in pictures.

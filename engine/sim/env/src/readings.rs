@@ -3,11 +3,11 @@
 use crate::environment::Environment;
 use crate::episode::Episode;
 use cosfly_domain::OrientedBox;
-use cosfly_frames::DVec3;
-use cosfly_sensors::{Sensor, SensorMoment};
+use cosfly_frames::{DVec3, Pose};
+use cosfly_sensors::{Airframe, Carrier, Sensor, SensorMoment};
 
-/// Readings of an environment's sensors at the present moment, with the numbers of each. They sit in the middle of the drone and are
-/// turned as its camera. They meet the town, the target and everybody else, but not the drones of a team.
+/// Readings of an environment's sensors at the present moment, with the numbers of each but the true ones. They sit in the middle of the
+/// drone and are turned as its camera or, where it carries them, its airframe. They meet the town, the target and everybody else, but not the drones of a team.
 pub fn readings(environment: &Environment) -> Vec<(&'static Sensor, Vec<f64>)> {
     let (episode, observation) = (environment.episode(), environment.observation());
     let mut sensors = environment.settings().sensors.iter().peekable();
@@ -15,21 +15,35 @@ pub fn readings(environment: &Environment) -> Vec<(&'static Sensor, Vec<f64>)> {
         return vec![];
     }
     let bodies = bodies(episode, observation.time_s);
+    let airframe = environment.airframe();
     let read = |sensor: &'static Sensor| {
-        let mut values = vec![0.0; sensor.quantities.len()];
+        let mut values = vec![0.0; sensor.count()];
         let moment = SensorMoment {
             time_s: observation.time_s,
-            sensor_in_world: environment.camera(),
+            sensor_in_world: pose(sensor, environment, &airframe),
             velocity_in_world: observation.motion.velocity_in_world,
+            step_s: environment.settings().step_s,
+            airframe,
             town: &episode.place.exact,
             ground: episode.place.ground(),
             bodies: &bodies,
+            origin: episode.place.origin(),
+            flight_seed: episode.seed.child(sensor.name, u64::MAX),
             seed: episode.seed.child(sensor.name, u64::from(observation.step)),
         };
         (sensor.read)(&moment, &mut values);
+        values.truncate(sensor.quantities.len());
         (sensor, values)
     };
     sensors.map(read).collect()
+}
+
+/// Pose of what carries a sensor.
+fn pose(sensor: &Sensor, environment: &Environment, airframe: &Airframe) -> Pose {
+    match sensor.carrier {
+        Carrier::Camera => environment.camera(),
+        Carrier::Airframe => airframe.pose(),
+    }
 }
 
 /// Boxes of the target and of everybody else who is there at a time.

@@ -384,6 +384,35 @@ fn a_blind_camera_tracks_nothing_and_the_target_is_found_again() {
 }
 
 #[test]
+fn inertial_readings_are_without_the_truth_and_follow_the_drone() {
+    let sensors = SensorSet::of(|sensor| sensor.name == "inertial_unit");
+    for model in MODELS {
+        let drone = DroneSettings { model, ..DroneSettings::default() };
+        let settings = EnvironmentSettings { sensors, drone, ..EnvironmentSettings::default() };
+        let mut environment = Environment::new(standing(vec![], 60), settings);
+        let mut turns_rad = 0.0;
+        for step in 0..40 {
+            let view = ViewRates { yaw_rad_s: 0.3, pitch_rad_s: 0.0 };
+            let velocity_mps = if step < 20 { DVec3::X } else { DVec3::ZERO };
+            environment.step(Some(&Action { velocity_mps, view, ..Action::default() }));
+            let [(sensor, values)] = &readings(&environment)[..] else { panic!("one sensor") };
+            assert_eq!(values.len(), sensor.quantities.len());
+            let airframe = environment.airframe();
+            let force = airframe.force_in_body().to_array();
+            assert!(force.iter().zip(values).all(|(exact, value)| (exact - value).abs() < 0.1), "{force:?} {values:?}");
+            // Thrust alone is felt along z, but for the drag of a quadrotor.
+            assert!(
+                force[0].abs() + force[1].abs() < 0.6 && (force[2] - 9.81).abs() < 3.0,
+                "{}: {force:?}",
+                model.name
+            );
+            turns_rad += airframe.rates_in_body.z * settings.step_s;
+        }
+        assert!((turns_rad - 0.3 * 40.0 * settings.step_s).abs() < 0.15, "{}: {turns_rad}", model.name);
+    }
+}
+
+#[test]
 fn sensors_meet_roofs_and_whoever_is_below() {
     let sensors = SensorSet::of(|sensor| sensor.name == "laser_altimeter");
     let settings = EnvironmentSettings { sensors, ..EnvironmentSettings::default() };

@@ -11,14 +11,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SenseConfig {
-    /// Name of the sensor: `laser_altimeter`, or one that you added.
+    /// Name of the sensor, such as `inertial_unit`, or one that you added.
     #[schemars(extend("enum" = names()))]
     pub sensor: String,
     /// Name of the table with its readings; left out: the name of the sensor. Two sensors of one kind need two names.
     #[serde(default)]
     #[schemars(regex(pattern = "^[a-z][a-z0-9_]{0,63}$"))]
     pub table: Option<String>,
-    /// Readings a second, from the first frame on; left out: one in each frame. Between frames the drone moves evenly.
+    /// Readings a second, from the first frame on; left out: one in each frame. Inertial units have 200 or more.
     #[serde(default)]
     #[schemars(range(min = 0.01, max = 10000))]
     pub rate_hz: Option<f64>,
@@ -34,7 +34,7 @@ pub struct SenseConfig {
     #[serde(default)]
     #[schemars(range(min = -180, max = 180))]
     pub yaw_deg: f64,
-    /// Holds the sensor level whatever the drone's tilt, as a gimbal does.
+    /// Holds the sensor level whatever the drone's tilt, as a gimbal does; not for sensors that are fixed to the airframe.
     #[serde(default)]
     pub levelled: bool,
 }

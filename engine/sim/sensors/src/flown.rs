@@ -1,7 +1,9 @@
 //! A flight, and the readings of a sensor along it.
 
+use crate::geo_origin::GeoOrigin;
 use crate::place::SensorPlace;
-use crate::sensor::{Sensor, SensorMoment};
+use crate::sensor::{Carrier, Sensor, SensorMoment};
+use crate::smooth_flight::SmoothFlight;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_geometry::BoxBvh;
@@ -25,6 +27,8 @@ pub struct SensedFlight<'a> {
     pub place: SensorPlace,
     /// Readings a second from the first frame on; `None` for one in each frame.
     pub rate_hz: Option<f64>,
+    /// Place of the world on the globe.
+    pub origin: GeoOrigin,
     /// Seed of the noise.
     pub seed: Seed,
 }
@@ -36,7 +40,7 @@ pub struct Reading<'a> {
     pub frame: usize,
     /// Time since the first frame, seconds.
     pub time_s: f64,
-    /// Numbers in the order of the sensor's quantities.
+    /// Numbers in the order of the sensor's quantities, then of its truths.
     pub values: &'a [f64],
 }
 
@@ -53,22 +57,35 @@ impl SensedFlight<'_> {
         }
     }
 
-    /// Reads a sensor at every moment, in their order. Between frames the drone moves evenly.
+    /// Reads a sensor at every moment, in their order. Between frames the camera moves evenly, the airframe smoothly.
     pub fn read(&self, sensor: &Sensor, each: &mut dyn FnMut(Reading<'_>)) {
         let step_s = self.rate_hz.map_or(self.dt_s, f64::recip);
-        let (mut values, mut bodies) = (vec![0.0; sensor.quantities.len()], vec![]);
+        let (mut values, mut bodies) = (vec![0.0; sensor.count()], vec![]);
+        if self.poses_in_world.is_empty() {
+            return;
+        }
+        let smooth = SmoothFlight::new(self.poses_in_world, self.dt_s);
         for index in 0..self.readings() {
             let time_s = index as f64 * step_s;
             let at = time_s / self.dt_s;
             bodies.clear();
             (self.bodies)(time_s, &mut bodies);
+            let airframe = smooth.at(at).at(&self.place);
+            let (sensor_in_world, velocity_in_world) = match sensor.carrier {
+                Carrier::Camera => (self.sensor_at(at), self.velocity_at(at)),
+                Carrier::Airframe => (airframe.pose(), airframe.velocity_in_world),
+            };
             let moment = SensorMoment {
                 time_s,
-                sensor_in_world: self.sensor_at(at),
-                velocity_in_world: self.velocity_at(at),
+                sensor_in_world,
+                velocity_in_world,
+                step_s,
+                airframe,
                 town: self.town,
                 ground: self.ground,
                 bodies: &bodies,
+                origin: self.origin,
+                flight_seed: self.seed,
                 seed: self.seed.child("reading", index as u64),
             };
             (sensor.read)(&moment, &mut values);
@@ -77,7 +94,7 @@ impl SensedFlight<'_> {
         }
     }
 
-    /// Pose of the sensor at a frame number, which may lie between two frames.
+    /// Pose of a sensor that the camera carries at a frame number, which may lie between two frames.
     fn sensor_at(&self, at: f64) -> Pose {
         let last = (self.poses_in_world.len() - 1) as f64;
         self.place.on(&pose_at(self.poses_in_world, at.clamp(0.0, last)))

@@ -1,6 +1,6 @@
 //! Sensor `laser_altimeter`: a beam straight down.
 
-use crate::sensor::{Quantity, Sensor, SensorMoment};
+use crate::sensor::{Carrier, Quantity, Sensor, SensorMoment};
 use cosfly_frames::DVec3;
 
 /// Range of the beam, metres; that of common laser altimeters for drones.
@@ -12,10 +12,12 @@ pub static SENSOR: Sensor = Sensor {
     doc: "A gimballed laser beam straight down, 100 m at most, without noise: it meets the town's boxes, its ground, and people \
           and vehicles as boxes.",
     version: 2,
+    carrier: Carrier::Camera,
     quantities: &[
         Quantity { name: "range_m", doc: "distance to the first thing below, metres; 100 where nothing is nearer" },
         Quantity { name: "is_hit", doc: "1 where something is within the range, else 0" },
     ],
+    truths: &[],
     read,
 };
 

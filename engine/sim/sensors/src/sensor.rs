@@ -1,5 +1,7 @@
 //! The entry of a sensor: name, meaning, quantities, and how a moment is read.
 
+use crate::airframe::Airframe;
+use crate::geo_origin::GeoOrigin;
 use cosfly_domain::OrientedBox;
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_geometry::{BoxBvh, BruteForce, SpatialQuery};
@@ -14,10 +16,30 @@ pub struct Sensor {
     pub doc: &'static str,
     /// Raised whenever the readings change.
     pub version: u32,
+    /// What carries it, which says how it moves.
+    pub carrier: Carrier,
     /// Numbers of a reading, in the order of the table's columns.
     pub quantities: &'static [Quantity],
-    /// Reads one moment; `values` has one place for each quantity, all of which it fills with finite numbers.
+    /// Numbers without errors beside them, in datasets alone; their names begin with `true_`.
+    pub truths: &'static [Quantity],
+    /// Reads one moment; `values` has one place for each quantity, then one for each truth, all of which it fills with finite numbers.
     pub read: fn(&SensorMoment<'_>, &mut [f64]),
+}
+
+impl Sensor {
+    /// Number of the numbers that it fills: quantities and truths.
+    pub fn count(&self) -> usize {
+        self.quantities.len() + self.truths.len()
+    }
+}
+
+/// What carries a sensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Carrier {
+    /// The camera: the sensor is turned as the pictures are, and moves evenly from frame to frame.
+    Camera,
+    /// The airframe: the sensor is turned as a quadrotor that flies the frames' positions, and moves smoothly.
+    Airframe,
 }
 
 /// One number of a reading.
@@ -38,14 +60,22 @@ pub struct SensorMoment<'a> {
     pub sensor_in_world: Pose,
     /// Velocity of the sensor, m/s.
     pub velocity_in_world: DVec3,
+    /// Time between readings, seconds.
+    pub step_s: f64,
+    /// The sensor on the airframe, whatever carries it, with its acceleration and angular velocity.
+    pub airframe: Airframe,
     /// Solid boxes of the town.
     pub town: &'a BoxBvh,
     /// Height of the ground.
     pub ground: &'a GroundIndex,
     /// Boxes of the people and vehicles that are there now, the target among them.
     pub bodies: &'a [OrientedBox],
+    /// Place of the world on the globe.
+    pub origin: GeoOrigin,
     /// Seed of this reading, for noise.
     pub seed: Seed,
+    /// Seed of the flight, for what changes slowly.
+    pub flight_seed: Seed,
 }
 
 impl SensorMoment<'_> {
