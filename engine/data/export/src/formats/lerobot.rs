@@ -62,14 +62,14 @@ struct Kind {
     sensed: Vec<String>,
 }
 
-/// Names of the numbers of the first flight's sensors.
+/// Names of the numbers that the first flight's sensors measured.
 fn sensed(source: &Source<'_>) -> Result<Vec<String>> {
     let Some(flight) = source.flights().next() else { return Ok(vec![]) };
     Ok(source.dataset.log(flight)?.sensors().iter().flat_map(names_of).collect())
 }
 
 fn names_of(sensor: &LoggedSensor) -> Vec<String> {
-    sensor.quantities.iter().map(|quantity| format!("{}.{quantity}", sensor.name)).collect()
+    sensor.measured().map(|(_, quantity)| format!("{}.{quantity}", sensor.name)).collect()
 }
 
 /// The last readings at each frame, those of all sensors one after the other.
@@ -86,9 +86,10 @@ fn sensed_by_frame(episode: &ExportedFlight<'_>, kind: &Kind) -> Result<Vec<Vec<
     }
     let at = |frame: usize| {
         let time_ns = frame_time_ns(episode.flight.dt_s, frame);
-        let last = |(_, readings): &SensorReadings| {
+        let last = |(sensor, readings): &SensorReadings| -> Vec<f64> {
             let until = readings.partition_point(|(at_ns, _)| *at_ns <= time_ns);
-            readings.get(until.saturating_sub(1)).map_or(vec![], |(_, values)| values.clone())
+            let values = readings.get(until.saturating_sub(1)).map_or(&[][..], |(_, values)| &values[..]);
+            sensor.measured().filter_map(|(place, _)| values.get(place).copied()).collect()
         };
         sensors.iter().flat_map(last).collect()
     };
@@ -323,7 +324,7 @@ them and has the statistics of each (`stats/...`), from which LeRobot makes thos
   are differences. The first one leads from this pose to the expert's next pose, the others on along the expert, so that the sum of
   the first k leads to the expert's pose k frames later, from perturbed poses, too. An action is a whole chunk: policies of
   chunks use a chunk of 1, and `action.reshape(5, 6)` has the steps. Behind the end of a flight the expert waits.
-* `observation.sensors`: the last reading of each sensor of the dataset, where it has any; `meta/info.json` names the numbers.
+* `observation.sensors`: the last reading of each sensor of the dataset, where it has any, without the true numbers; `meta/info.json` names the numbers.
 * `privileged.pose`: the drone's x, y, z, pitch, yaw, roll. `privileged.target`: the place between the person's feet. `privileged.box`:
   left, top, right, bottom edges of what can be seen of the person, pixels; -1 where nothing is. World: CARLA's axes. These are
   labels that no drone has; policies of LeRobot take only features called `observation...` as inputs.

@@ -6,6 +6,7 @@ mod bag;
 mod cdr;
 mod definitions;
 mod messages;
+mod readings;
 
 use crate::card::ExportCard;
 use crate::folder::OutFolder;
@@ -21,6 +22,7 @@ use cosfly_read::{LoggedFrame, SeenBody, SightingReader};
 use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::log::{frame_time_ns, messages::feet_pose, right_handed};
 use messages::{Detected, Header, Motion, OPTICAL, Placed};
+use readings::ReadingCoder;
 
 /// Bags.
 pub struct Ros2;
@@ -64,8 +66,10 @@ struct Recording<'a> {
     drone: Vec<Placed>,
     /// Places of `target` in `map`; none where nobody is followed.
     target: Vec<Placed>,
-    /// Time, number of the sensor, names of its quantities and values of each reading, by time.
-    readings: Vec<(u64, usize, &'a [String], &'a [f64])>,
+    /// How the readings of each sensor become messages.
+    coders: Vec<ReadingCoder<'a>>,
+    /// Time, number of the sensor and values of each reading, by time.
+    readings: Vec<(u64, usize, &'a [f64])>,
 }
 
 /// Pictures of a frame as messages.
@@ -97,10 +101,8 @@ fn time_ns(dt_s: f64, frame: usize) -> u64 {
 impl<'a> Recording<'a> {
     fn of(episode: &'a ExportedFlight<'a>, bodies: &'a [SeenBody], sensors: &'a [SensorReadings]) -> Self {
         let mut readings = vec![];
-        for (number, (sensor, all)) in sensors.iter().enumerate() {
-            let at = |(time_ns, values): &'a (u64, Vec<f64>)| {
-                (START_NS + time_ns, number, &sensor.quantities[..], &values[..])
-            };
+        for (number, (_, all)) in sensors.iter().enumerate() {
+            let at = |(time_ns, values): &'a (u64, Vec<f64>)| (START_NS + time_ns, number, &values[..]);
             readings.extend(all.iter().map(at));
         }
         readings.sort_by_key(|(time_ns, number, ..)| (*time_ns, *number));
@@ -110,6 +112,7 @@ impl<'a> Recording<'a> {
             bodies,
             drone: episode.frames.iter().map(|row| in_map(&row.pose)).collect(),
             target: followed.iter().map(|row| in_map(&feet_pose(&row.target))).collect(),
+            coders: sensors.iter().map(|(sensor, _)| ReadingCoder::of(sensor)).collect(),
             readings,
         }
     }
@@ -135,7 +138,7 @@ impl<'a> Recording<'a> {
         let mut rest = &self.readings[..];
         self.episode.each_picture(&self.episode.every_nth_frame(every), make, |frame, pictures| {
             let due = rest.partition_point(|(at_ns, ..)| *at_ns <= time_ns(dt_s, frame));
-            write_readings(bag, &rest[..due])?;
+            self.write_readings(bag, &rest[..due])?;
             rest = &rest[due..];
             self.write_motion(bag, frame)?;
             let (time_ns, flight) = (time_ns(dt_s, frame), self.episode.flight);
@@ -148,7 +151,18 @@ impl<'a> Recording<'a> {
             bag.write(Topic::Labels, time_ns, &pictures.labels)?;
             bag.write(Topic::Detections, time_ns, &messages::detections(time_ns, &self.detected(frame)))
         })?;
-        write_readings(bag, rest)
+        self.write_readings(bag, rest)
+    }
+
+    /// Readings, and the places of sensors that know theirs.
+    fn write_readings(&self, bag: &mut Bag<'_>, readings: &[(u64, usize, &[f64])]) -> Result<()> {
+        readings.iter().try_for_each(|(time_ns, number, values)| {
+            let coder = &self.coders[*number];
+            if let Some((frame, placed)) = coder.placed(values) {
+                bag.write(Topic::Tf, *time_ns, &messages::transforms(*time_ns, &[("map", frame, placed)]))?;
+            }
+            bag.write(Topic::Sensor(*number), *time_ns, &coder.encode(*time_ns, values))
+        })
     }
 
     /// Clock, transforms and odometry.
@@ -185,12 +199,6 @@ impl<'a> Recording<'a> {
         let others = others.map(|it| Detected { kind: &it.kind, instance: it.instance, edges_px: it.visible_box_px });
         target.into_iter().chain(others).collect()
     }
-}
-
-fn write_readings(bag: &mut Bag<'_>, readings: &[(u64, usize, &[String], &[f64])]) -> Result<()> {
-    readings.iter().try_for_each(|(time_ns, number, quantities, values)| {
-        bag.write(Topic::Sensor(*number), *time_ns, &messages::reading(quantities, values))
-    })
 }
 
 /// Place of a body with this world-frame pose in `map`; its axes are x ahead, y left, z up.
@@ -255,12 +263,15 @@ A folder is a bag: MCAP, messages of ROS 2 Humble and later in CDR, with their d
 | `/camera/semantic/image_raw` | `sensor_msgs/Image` | `mono8`, CARLA's labels |
 | `/camera/camera_info`, `/camera/depth/camera_info` | `sensor_msgs/CameraInfo` | the pinhole, `plumb_bob` with the lens's k1, k2 |
 | `/detections` | `vision_msgs/Detection2DArray` | boxes around visible pixels, with the body's kind; `id` is the dataset's instance id, 1 the target. No poses |
-| `/sensor/NAME` | `std_msgs/Float64MultiArray` | readings of each sensor that the dataset has; the label of the only dimension names the quantities |
+| `/sensor/NAME` | by its columns | readings of each sensor that the dataset has, in the frame `NAME`: inertial units as `sensor_msgs/Imu`, receivers as \
+`NavSatFix`, barometers as `FluidPressure`, magnetometers as `MagneticField`; others as `std_msgs/Float64MultiArray`, \
+the label of whose only dimension names the quantities. `/tf` has the true place of each inertial unit, `map` to `NAME` |
 | `/town`* | `visualization_msgs/MarkerArray` | boxes of obstacles near the flight |
 | `/instruction`* | `std_msgs/String` | what the drone is told |
 
 Frames are those of REP 103 and REP 105: x ahead, y left, z up, right-handed; the optical frame is x right, y down, z ahead. A point
 (x, y, z) of the dataset's left-handed world is (x, -y, z) in `map`; yaw and pitch change their sign. The origin of `target` is
 between its feet. In pictures the middle of the top-left pixel is (0, 0), so that an edge of the dataset's tables is half a pixel
-less here. Covariances are zero. Flights of a dataset have no inertial unit and no satellite receiver, so there are no `/imu` and `/fix`.
+less here. Covariances are zero: not known. Vectors of sensors have the axes x ahead, y left, z up, too; an angular velocity changes the
+signs of x and z. The height of `NavSatFix` is above the world's origin.
 ";

@@ -12,6 +12,9 @@ use prost_types::field_descriptor_proto::Type;
 /// Beginning of the topics.
 pub const TOPICS: &str = "/sensor/";
 
+/// Beginning of the names of quantities without errors, which no sensor measures.
+pub const TRUE: &str = "true_";
+
 /// A sensor in a log.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LoggedSensor {
@@ -25,6 +28,11 @@ impl LoggedSensor {
     /// Name of the topic.
     pub fn topic_name(&self) -> String {
         format!("{TOPICS}{}", self.name)
+    }
+
+    /// Places and names of the quantities that it measures: all but the true ones.
+    pub fn measured(&self) -> impl Iterator<Item = (usize, &String)> {
+        self.quantities.iter().enumerate().filter(|(_, name)| !name.starts_with(TRUE))
     }
 
     /// The topic.

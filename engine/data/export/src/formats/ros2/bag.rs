@@ -1,6 +1,7 @@
 //! A bag: an MCAP file of messages, and the `metadata.yaml` that ROS 2 looks for beside it.
 
 use super::definitions::whole_definition;
+use super::readings::ReadingCoder;
 use crate::folder::OutFolder;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_schema::log::reading::LoggedSensor;
@@ -110,7 +111,7 @@ impl<'a> Bag<'a> {
         let mut writer = options.create(output).map_err(refused)?;
         let own = TOPICS.into_iter().map(|(topic, name, kind, is_latched)| (topic, name.to_owned(), kind, is_latched));
         let of_sensor = |(number, sensor): (usize, &LoggedSensor)| {
-            (Topic::Sensor(number), sensor.topic_name(), "std_msgs/Float64MultiArray", false)
+            (Topic::Sensor(number), sensor.topic_name(), ReadingCoder::of(sensor).message(), false)
         };
         let topics: Vec<_> = own.chain(sensors.iter().enumerate().map(of_sensor)).collect();
         let mut channels = BTreeMap::new();

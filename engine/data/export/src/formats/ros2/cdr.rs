@@ -30,6 +30,11 @@ impl Cdr {
         self.bytes.push(value);
     }
 
+    /// A whole number of 16 bits.
+    pub fn u16(&mut self, value: u16) {
+        self.aligned(&value.to_le_bytes());
+    }
+
     /// A whole number of 32 bits; also the length of a sequence.
     pub fn u32(&mut self, value: u32) {
         self.aligned(&value.to_le_bytes());

@@ -11,11 +11,11 @@ pub const OPTICAL: &str = "camera_optical_frame";
 
 /// A time in a frame.
 #[derive(Clone, Copy, Debug)]
-pub struct Header {
+pub struct Header<'a> {
     /// Time, nanoseconds.
     pub time_ns: u64,
     /// Name of the coordinate frame.
-    pub frame: &'static str,
+    pub frame: &'a str,
 }
 
 /// Place of a child frame in its parent, right-handed, metres.
@@ -53,7 +53,8 @@ impl Cdr {
         self.u32((time_ns % 1_000_000_000) as u32);
     }
 
-    fn header(&mut self, header: Header) {
+    /// A `std_msgs/Header`.
+    pub fn header(&mut self, header: Header<'_>) {
         self.time(header.time_ns);
         self.text(header.frame);
     }
@@ -104,7 +105,7 @@ pub fn reading(quantities: &[String], values: &[f64]) -> Vec<u8> {
 }
 
 /// `tf2_msgs/TFMessage` of parents, children and their places.
-pub fn transforms(time_ns: u64, list: &[(&'static str, &str, Placed)]) -> Vec<u8> {
+pub fn transforms(time_ns: u64, list: &[(&str, &str, Placed)]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     cdr.u32(list.len() as u32);
     for (parent, child, placed) in list {
@@ -116,7 +117,7 @@ pub fn transforms(time_ns: u64, list: &[(&'static str, &str, Placed)]) -> Vec<u8
 }
 
 /// `nav_msgs/Odometry`: the truth, without covariance.
-pub fn odometry(header: Header, child: &str, placed: &Placed, motion: &Motion) -> Vec<u8> {
+pub fn odometry(header: Header<'_>, child: &str, placed: &Placed, motion: &Motion) -> Vec<u8> {
     let mut cdr = Cdr::new();
     cdr.header(header);
     cdr.text(child);
@@ -129,7 +130,7 @@ pub fn odometry(header: Header, child: &str, placed: &Placed, motion: &Motion) -
 }
 
 /// `sensor_msgs/CameraInfo`. The middle of the top-left pixel is (0, 0), as ROS and OpenCV have it.
-pub fn camera_info(header: Header, camera: &Camera, lens: &Lens) -> Vec<u8> {
+pub fn camera_info(header: Header<'_>, camera: &Camera, lens: &Lens) -> Vec<u8> {
     let focal = camera.focal_px();
     let [cx, cy] = [camera.width, camera.height].map(|pixels| 0.5 * f64::from(pixels) - 0.5);
     let mut cdr = Cdr::new();
@@ -149,7 +150,7 @@ pub fn camera_info(header: Header, camera: &Camera, lens: &Lens) -> Vec<u8> {
 }
 
 /// `sensor_msgs/CompressedImage` of a file.
-pub fn compressed_image(header: Header, format: &str, file: &[u8]) -> Vec<u8> {
+pub fn compressed_image(header: Header<'_>, format: &str, file: &[u8]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     cdr.header(header);
     cdr.text(format);
@@ -158,7 +159,7 @@ pub fn compressed_image(header: Header, format: &str, file: &[u8]) -> Vec<u8> {
 }
 
 /// `sensor_msgs/Image` of rows of little-endian pixels.
-pub fn image(header: Header, [width, height]: [u32; 2], encoding: &str, bytes: &[u8]) -> Vec<u8> {
+pub fn image(header: Header<'_>, [width, height]: [u32; 2], encoding: &str, bytes: &[u8]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     cdr.header(header);
     cdr.u32(height);
@@ -192,7 +193,7 @@ pub fn detections(time_ns: u64, bodies: &[Detected<'_>]) -> Vec<u8> {
 }
 
 /// `visualization_msgs/MarkerArray` of boxes.
-pub fn markers(header: Header, boxes: &[LoggedBox]) -> Vec<u8> {
+pub fn markers(header: Header<'_>, boxes: &[LoggedBox]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     cdr.u32(boxes.len() as u32);
     for (number, shape) in boxes.iter().enumerate() {
