@@ -26,6 +26,7 @@ mod options;
 mod report;
 mod resume;
 mod rows;
+mod sensed;
 mod splits;
 mod sums;
 mod tables;

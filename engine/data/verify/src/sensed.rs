@@ -1,0 +1,366 @@
+//! Tables of sensors of motion against the poses of their flights, and what was measured against the truth beside it.
+
+use crate::flights::Flights;
+use crate::report::VerifyReport;
+use arrow_array::RecordBatch;
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, Int64Type};
+use arrow_schema::ArrowError;
+use cosfly_frames::{DMat3, DQuat, DVec3, Pose};
+use cosfly_schema::extras::is_taken;
+use cosfly_schema::log::reading::TRUE;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::Path;
+
+/// Acceleration of free fall, m/s^2.
+const GRAVITY_MPS2: f64 = 9.81;
+/// Longest arm from the drone to a sensor, metres: the corner of the places that recipes allow.
+const LONGEST_ARM_M: f64 = 17.4;
+/// Longest step between inertial readings that can be added up, seconds.
+const LONGEST_STEP_S: f64 = 0.02;
+/// Errors allowed of what inertial readings add up to from one frame to the next: metres, m/s, radians.
+const ALLOWED: [f64; 3] = [2e-3, 5e-3, 2e-3];
+
+/// Errors that readings may have: beginning and end of the column's name, root mean square, and density of white noise, which adds more the
+/// higher the rate. Constant errors of five standard deviations pass.
+const NOISE: [(&str, &str, f64, f64); 6] = [
+    ("altitude_", "m", 4.0, 0.0),
+    ("field_", "_ut", 2.5, 0.0),
+    ("force_", "_mps2", 0.1, 1.83e-3),
+    ("pressure_", "hpa", 0.4, 0.0),
+    ("rate_", "_rad_s", 5e-3, 1.92e-4),
+    ("velocity_", "_mps", 1.0, 0.0),
+];
+/// Root mean square of a receiver's errors of position for a dilution of 1, metres.
+const RECEIVER_M: f64 = 15.0;
+
+/// Readings of a sensor along one flight.
+#[derive(Clone, Debug, Default)]
+pub struct SensedRows {
+    frames: Vec<i64>,
+    times_s: Vec<f64>,
+    numbers: BTreeMap<String, Vec<f64>>,
+}
+
+/// Checks every table that has true columns.
+pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
+    for file in flights.files.sound_below("data/") {
+        if file.split('/').nth(1).is_none_or(is_taken) {
+            continue;
+        }
+        // Damage of the file is found, and reported, where its columns are compared with their description.
+        let _ = each_flight(&flights.folder.join(file), &mut |id, rows| {
+            let Some(number) = flights.tables.flights.number(id).filter(|number| flights.wanted.has(*number)) else {
+                return;
+            };
+            let tracks = flights.tracks(&[number].into());
+            let Some(track) = tracks.get(&number) else { return };
+            if let Err(message) = rows.problem(&track.poses, flights.tables.flights.at(number).dt_s) {
+                report.find(file, format!("`{id}`"), "verify-sensor", message);
+            }
+        });
+    }
+}
+
+/// Gives the readings of each flight of a file; none where it has no true columns.
+fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &SensedRows)) -> Result<(), ArrowError> {
+    let builder = ParquetRecordBatchReaderBuilder::try_new(File::open(path)?)?;
+    let has = |name: &str| builder.schema().field_with_name(name).is_ok();
+    let has_truth = builder.schema().fields().iter().any(|field| field.name().starts_with(TRUE));
+    if !(has_truth && has("trajectory_id") && has("frame") && has("time_s")) {
+        return Ok(());
+    }
+    let (mut id, mut rows) = (String::new(), SensedRows::default());
+    for batch in builder.build()? {
+        let batch = batch?;
+        let Some(ids) = batch.column_by_name("trajectory_id").and_then(|column| column.as_string_opt::<i32>()) else {
+            return Ok(());
+        };
+        let mut from = 0;
+        while from < batch.num_rows() {
+            let own = ids.value(from);
+            let count = (from..batch.num_rows()).take_while(|row| ids.value(*row) == own).count();
+            if own != id {
+                visit(&id, &std::mem::take(&mut rows));
+                own.clone_into(&mut id);
+            }
+            rows.push(&batch.slice(from, count));
+            from += count;
+        }
+    }
+    visit(&id, &rows);
+    Ok(())
+}
+
+impl SensedRows {
+    fn push(&mut self, batch: &RecordBatch) {
+        for (field, column) in batch.schema().fields().iter().zip(batch.columns()) {
+            if let Some(values) = column.as_primitive_opt::<Float64Type>() {
+                let list = match field.name().as_str() {
+                    "time_s" => &mut self.times_s,
+                    name => self.numbers.entry(name.to_owned()).or_default(),
+                };
+                list.extend_from_slice(values.values());
+            } else if let (Some(values), "frame") = (column.as_primitive_opt::<Int64Type>(), field.name().as_str()) {
+                self.frames.extend_from_slice(values.values());
+            }
+        }
+    }
+
+    /// What is wrong with the readings of a flight with these poses.
+    ///
+    /// # Errors
+    /// The first fault, in words.
+    fn problem(&self, poses: &[Pose], dt_s: f64) -> Result<(), String> {
+        let count = self.times_s.len();
+        if self.frames.len() != count || self.numbers.values().any(|list| list.len() != count) {
+            return Err("a column has another type than its readings".to_owned());
+        }
+        self.check_times(poses.len(), dt_s)?;
+        self.check_errors()?;
+        self.check_places(poses, dt_s)?;
+        self.check_sums()
+    }
+
+    /// Readings come evenly, from the first frame on, each with the frame of its time.
+    fn check_times(&self, frames: usize, dt_s: f64) -> Result<(), String> {
+        let step_s = self.step_s();
+        for (row, (time_s, frame)) in self.times_s.iter().zip(&self.frames).enumerate() {
+            let (due_s, due) = (row as f64 * step_s, (time_s / dt_s + 1e-6) as i64);
+            if (time_s - due_s).abs() > 1e-6 || !time_s.is_finite() {
+                return Err(format!("reading {row} is at {time_s} s; readings {step_s} s apart have it at {due_s} s"));
+            }
+            if *frame != due || *frame >= frames as i64 {
+                return Err(format!("reading {row}, at {time_s} s, is of frame {frame}; at that time it is {due}"));
+            }
+        }
+        Ok(())
+    }
+
+    fn step_s(&self) -> f64 {
+        self.times_s.get(1).copied().unwrap_or_default()
+    }
+
+    /// What was measured is near the truth.
+    fn check_errors(&self) -> Result<(), String> {
+        let is_fix = self.numbers.get("is_fix");
+        for (name, measured) in &self.numbers {
+            let Some(exact) = self.numbers.get(&format!("{TRUE}{name}")) else { continue };
+            let dilution = match name.as_str() {
+                "east_m" | "north_m" => self.numbers.get("horizontal_dilution"),
+                "up_m" => self.numbers.get("vertical_dilution"),
+                _ => None,
+            };
+            let noise = NOISE.iter().find(|(start, end, ..)| name.starts_with(start) && name.ends_with(end));
+            let noise = noise.map(|(_, _, rms, density)| rms + 2.0 * density / self.step_s().max(1e-6).sqrt());
+            let Some(allowed) = dilution.map(|_| RECEIVER_M).or(noise) else { continue };
+            let (mut sum, mut rows) = (0.0, 0);
+            for row in (0..measured.len()).filter(|row| is_fix.is_none_or(|fix| fix[*row] == 1.0)) {
+                let error = (measured[row] - exact[row]) / dilution.map_or(1.0, |list| list[row].max(0.5));
+                sum += error * error;
+                rows += 1;
+            }
+            let error = (sum / f64::from(rows.max(1))).sqrt();
+            if exceeds(error, allowed) {
+                return Err(format!(
+                    "`{name}` is {error:.3} from `{TRUE}{name}` on the mean; noise explains {allowed:.3}"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The sensor is where the drone carries it: at readings on a frame, one arm from the frame's position.
+    fn check_places(&self, poses: &[Pose], dt_s: f64) -> Result<(), String> {
+        let turns = self.quaternions();
+        let places = self.vectors(["true_x_m", "true_y_m", "true_z_m"]);
+        let east_north = self.vectors(["true_east_m", "true_north_m", "true_up_m"]);
+        let places =
+            places.or(east_north.map(|list| list.into_iter().map(|it| DVec3::new(it.x, -it.y, it.z)).collect()));
+        let heights = self.numbers.get("true_altitude_m");
+        let mut first: Option<DVec3> = None;
+        for (row, time_s) in self.times_s.iter().enumerate() {
+            let at = time_s / dt_s;
+            let Some(pose) = poses.get(at.round() as usize).filter(|_| (at - at.round()).abs() < 1e-6) else {
+                continue;
+            };
+            let from = pose.position_in_world;
+            let far = match (&places, heights) {
+                (Some(places), _) => {
+                    let away = places[row] - from;
+                    let arm = turns.as_ref().map_or(DVec3::new(away.length(), 0.0, 0.0), |list| {
+                        DMat3::from_quat(list[row]).transpose() * away
+                    });
+                    let expected = *first.get_or_insert(arm);
+                    (arm.length() > LONGEST_ARM_M || arm.distance(expected) > 2e-3).then_some(arm.distance(expected))
+                }
+                (None, Some(heights)) => {
+                    let away_m = (heights[row] - from.z).abs();
+                    (away_m > LONGEST_ARM_M).then_some(away_m)
+                }
+                (None, None) => return Ok(()),
+            };
+            if let Some(far) = far {
+                return Err(format!("reading {row}: its true place is {far:.3} m from where frame {at:.0} carries it"));
+            }
+        }
+        Ok(())
+    }
+
+    /// True inertial readings add up, from frame to frame, to the true velocities, places and turns.
+    fn check_sums(&self) -> Result<(), String> {
+        let step_s = self.step_s();
+        let vectors = |names: [&str; 3]| self.vectors(names);
+        let (Some(turns), Some(force), Some(rates), Some(velocity), Some(place)) = (
+            self.quaternions(),
+            vectors(["true_force_x_mps2", "true_force_y_mps2", "true_force_z_mps2"]),
+            vectors(["true_rate_x_rad_s", "true_rate_y_rad_s", "true_rate_z_rad_s"]),
+            vectors(["true_velocity_x_mps", "true_velocity_y_mps", "true_velocity_z_mps"]),
+            vectors(["true_x_m", "true_y_m", "true_z_m"]),
+        ) else {
+            return Ok(());
+        };
+        if step_s > LONGEST_STEP_S {
+            return Ok(());
+        }
+        let attitudes: Vec<DMat3> = turns.iter().map(|turn| DMat3::from_quat(*turn)).collect();
+        let felt = |row: usize| attitudes[row] * force[row] - GRAVITY_MPS2 * DVec3::Z;
+        let mut errors = [DVec3::ZERO; 3];
+        for row in 1..place.len() {
+            if self.frames[row] != self.frames[row - 1] {
+                errors = [DVec3::ZERO; 3];
+            }
+            let mean = |list: &[DVec3]| 0.5 * step_s * (list[row - 1] + list[row]);
+            let bent = 0.5 * step_s * (felt(row - 1) + felt(row));
+            let turned = attitudes[row - 1].transpose() * attitudes[row];
+            let turn = 0.5
+                * (DVec3::new(turned.y_axis.z, turned.z_axis.x, turned.x_axis.y)
+                    - DVec3::new(turned.z_axis.y, turned.x_axis.z, turned.y_axis.x));
+            errors[0] += place[row] - place[row - 1] - mean(&velocity);
+            errors[1] += velocity[row] - velocity[row - 1] - bent;
+            errors[2] += turn - mean(&rates);
+            let what = [
+                "velocities do not add up to its places",
+                "force does not add up to its velocities",
+                "angular velocity does not add up to its turns",
+            ];
+            for (error, (allowed, what)) in errors.iter().zip(ALLOWED.iter().zip(what)) {
+                if exceeds(error.length(), *allowed) {
+                    let time_s = self.times_s[row];
+                    return Err(format!("reading {row}, at {time_s} s: the true {what}, by {:.4}", error.length()));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn vectors(&self, names: [&str; 3]) -> Option<Vec<DVec3>> {
+        let [x, y, z] = names.map(|name| self.numbers.get(name));
+        let (x, y, z) = (x?, y?, z?);
+        Some((0..x.len()).map(|row| DVec3::new(x[row], y[row], z[row])).collect())
+    }
+
+    /// Turns of the sensor into the world.
+    fn quaternions(&self) -> Option<Vec<DQuat>> {
+        let [x, y, z, w] = ["true_qx", "true_qy", "true_qz", "true_qw"].map(|name| self.numbers.get(name));
+        let (x, y, z, w) = (x?, y?, z?, w?);
+        Some((0..x.len()).map(|row| DQuat::from_xyzw(x[row], y[row], z[row], w[row]).normalize()).collect())
+    }
+}
+
+/// Whether a number is more than is allowed, or none.
+fn exceeds(number: f64, allowed: f64) -> bool {
+    number.is_nan() || number > allowed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_frames::real;
+
+    const DT_S: f64 = 0.25;
+
+    /// A sensor at 200 Hz that swings to the side, 0.1 m ahead of a drone that turns with it; and the drone's poses.
+    fn swinging() -> (SensedRows, Vec<Pose>) {
+        let pose = |time_s: f64| Pose {
+            position_in_world: DVec3::new(3.0 * time_s, real::sin(time_s), 20.0),
+            pitch_rad: 0.0,
+            yaw_rad: 0.5 * time_s,
+            roll_rad: 0.0,
+        };
+        let poses = (0..9).map(|frame| pose(f64::from(frame) * DT_S)).collect();
+        let mut rows = SensedRows::default();
+        for step in 0..=400_i32 {
+            let time_s = f64::from(step) / 200.0;
+            rows.times_s.push(time_s);
+            rows.frames.push(i64::from(step / 50));
+            let body = pose(time_s);
+            let (ahead, right) = (body.world_from_body().x_axis, body.world_from_body().y_axis);
+            let place = body.position_in_world + 0.1 * ahead;
+            let velocity = DVec3::new(3.0, real::cos(time_s), 0.0) + 0.05 * right;
+            let acceleration = DVec3::new(0.0, -real::sin(time_s), 0.0) - 0.025 * ahead;
+            let force = body.world_from_body().transpose() * (acceleration + GRAVITY_MPS2 * DVec3::Z);
+            let (sin, cos) = real::sin_cos(0.25 * time_s);
+            let mut push = |name: String, value: f64| rows.numbers.entry(name).or_default().push(value);
+            for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+                for start in ["", TRUE] {
+                    push(format!("{start}force_{letter}_mps2"), force[axis]);
+                    push(format!("{start}rate_{letter}_rad_s"), [0.0, 0.0, 0.5][axis]);
+                }
+                push(format!("true_velocity_{letter}_mps"), velocity[axis]);
+                push(format!("true_{letter}_m"), place[axis]);
+            }
+            [("x", 0.0), ("y", 0.0), ("z", sin), ("w", cos)].map(|(name, value)| push(format!("true_q{name}"), value));
+        }
+        (rows, poses)
+    }
+
+    #[test]
+    fn sound_readings_pass_and_every_planted_fault_is_found() {
+        let (sound, poses) = swinging();
+        assert_eq!(sound.problem(&poses, DT_S), Ok(()));
+        let found = |words: &str, plant: &dyn Fn(&mut SensedRows)| {
+            let mut rows = sound.clone();
+            plant(&mut rows);
+            let problem = rows.problem(&poses, DT_S).expect_err(words);
+            assert!(problem.contains(words), "{words}: {problem}");
+        };
+        let scale = |rows: &mut SensedRows, name: &str, factor: f64| {
+            rows.numbers.get_mut(name).expect("a column").iter_mut().for_each(|value| *value *= factor);
+        };
+        let swap = |rows: &mut SensedRows, a: &str, b: &str| {
+            let [first, second] = [a, b].map(|name| rows.numbers.remove(name).expect("a column"));
+            rows.numbers.extend([(a.to_owned(), second), (b.to_owned(), first)]);
+        };
+        // Time stamps: all of them, and one.
+        found("reading 0 is at", &|rows| rows.times_s.iter_mut().for_each(|time_s| *time_s += 0.01));
+        found("reading 7 is at", &|rows| rows.times_s[7] += 0.001);
+        found("is of frame", &|rows| rows.frames[60] = 0);
+        // All numbers a reading late.
+        found("frame 1 carries it", &|rows| rows.numbers.values_mut().for_each(|list| list.rotate_right(1)));
+        for (start, words) in [("", "noise explains"), (TRUE, "noise explains")] {
+            let name = |rest: &str| format!("{start}{rest}");
+            found(words, &|rows| scale(rows, &name("force_z_mps2"), -1.0));
+            found(words, &|rows| scale(rows, &name("force_z_mps2"), 1.02));
+            found(words, &|rows| scale(rows, &name("rate_z_rad_s"), -1.0));
+            found(words, &|rows| scale(rows, &name("rate_z_rad_s"), 1.05));
+            found(words, &|rows| swap(rows, &name("force_x_mps2"), &name("force_y_mps2")));
+            found(words, &|rows| swap(rows, &name("rate_x_rad_s"), &name("rate_z_rad_s")));
+        }
+        // Measured and true readings alike: what they add up to tells.
+        for (name, words) in [("force_y_mps2", "force does not add up"), ("rate_z_rad_s", "angular velocity does not")]
+        {
+            for factor in [-1.0, 1.1] {
+                found(words, &|rows| {
+                    ["", TRUE].iter().for_each(|start| scale(rows, &format!("{start}{name}"), factor))
+                });
+            }
+        }
+        found("velocities do not add up", &|rows| scale(rows, "true_velocity_x_mps", 1.05));
+        found("carries it", &|rows| scale(rows, "true_y_m", -1.0));
+        found("carries it", &|rows| swap(rows, "true_x_m", "true_z_m"));
+        found("carries it", &|rows| scale(rows, "true_qz", -1.0));
+    }
+}
