@@ -4,16 +4,19 @@ use crate::street::{RECIPE, Street, map};
 use crate::support::{column, cosfly};
 use std::collections::BTreeMap;
 
-/// The street with two altimeters on the drone, whose readings the dataset has.
+/// The street with two altimeters, an inertial unit and a satellite receiver on the drone, whose readings the dataset has.
 fn street(second: &str) -> Street {
     let stages = format!(
         "[stages.altitude]\nuse = \"sense\"\nsensor = \"laser_altimeter\"\ninputs = {{ town = \"town\", frames = \"frames\", others = \"walkers\" }}\n\n\
          [stages.nose]\nuse = \"sense\"\nsensor = \"laser_altimeter\"\n{second}\ninputs = {{ town = \"town\", frames = \"frames\" }}\n\n\
+         [stages.motion]\nuse = \"sense\"\nsensor = \"inertial_unit\"\nrate_hz = 200\nposition_in_body_m = [0.1, 0.0, 0.05]\n\
+         inputs = {{ town = \"town\", frames = \"frames\" }}\n\n\
+         [stages.fixes]\nuse = \"sense\"\nsensor = \"satellite_receiver\"\ninputs = {{ town = \"town\", frames = \"frames\" }}\n\n\
          [stages.dataset]"
     );
     let recipe = RECIPE.replacen("[stages.dataset]", &stages, 1).replacen(
         "captions = \"captions\" }\n",
-        "captions = \"captions\", extras = [\"altitude\", \"nose\"] }\n",
+        "captions = \"captions\", extras = [\"altitude\", \"nose\", \"motion\", \"fixes\"] }\n",
         1,
     );
     Street::with(&recipe, &map())
@@ -59,13 +62,14 @@ fn readings_are_in_logs_and_in_exports() {
         let sensors = log.sensors();
         let names: Vec<(&str, String)> = sensors.iter().map(|it| (it.name.as_str(), it.quantities.join(" "))).collect();
         let quantities = "range_m is_hit".to_owned();
-        assert_eq!(names, [("laser_altimeter", quantities.clone()), ("nose_m", quantities)]);
+        assert_eq!(names[1..3], [("laser_altimeter", quantities.clone()), ("nose_m", quantities)]);
+        assert_eq!((names[0].0, names[3].0), ("inertial_unit", "satellite_receiver"));
         // One in each frame, those of the table.
-        let read = log.readings(&sensors[0]).expect("readings");
+        let read = log.readings(&sensors[1]).expect("readings");
         let own = keys.iter().zip(&values).filter(|(id, _)| id.trim_matches('"') == flight.trajectory_id);
         let own: Vec<f64> = own.map(|(_, value)| value.parse().expect("a number")).collect();
         assert_eq!(read.iter().map(|(_, numbers)| numbers[0]).collect::<Vec<_>>(), own);
-        let often = log.readings(&sensors[1]).expect("readings");
+        let often = log.readings(&sensors[2]).expect("readings");
         assert!(often.is_sorted_by_key(|it| it.0) && often.windows(2).all(|pair| pair[1].0 - pair[0].0 == 20_000_000));
     }
     let out = street.dataset();
@@ -81,11 +85,22 @@ fn readings_are_in_logs_and_in_exports() {
     let metadata = std::fs::read_to_string(metadata).expect("a bag");
     let topic = "name: /sensor/laser_altimeter\n        type: std_msgs/msg/Float64MultiArray";
     assert!(metadata.contains(topic) && metadata.contains("name: /sensor/nose_m"), "{metadata}");
+    let topic = |name: &str, kind: &str| format!("name: /sensor/{name}\n        type: sensor_msgs/msg/{kind}\n");
+    for topic in [topic("inertial_unit", "Imu"), topic("satellite_receiver", "NavSatFix")] {
+        assert!(metadata.contains(&topic), "{topic}{metadata}");
+    }
     let info = street.path().join("lerobot").join(&*flight.split).join("meta/info.json");
     let info: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(info).expect("a dataset")).expect("JSON");
     let names = ["laser_altimeter.range_m", "laser_altimeter.is_hit", "nose_m.range_m", "nose_m.is_hit"];
-    assert_eq!(info["features"]["observation.sensors"]["names"], serde_json::json!(names));
+    let found: Vec<&str> = info["features"]["observation.sensors"]["names"]
+        .as_array()
+        .expect("names")
+        .iter()
+        .filter_map(|name| name.as_str())
+        .collect();
+    assert_eq!((found.len(), &found[6..10]), (6 + 4 + 12, &names[..]));
+    assert!(found.iter().all(|name| !name.contains("true_")), "{found:?}");
 }
 
 #[test]
@@ -130,9 +145,14 @@ fn sensors_that_are_not_there_and_names_that_are_taken_are_refused_with_the_way_
     refused("rate_hz = 0.0", &["rate_hz"]);
     refused("table = \"Nose\"", &["table"]);
     refused("", &["two stages give `laser_altimeter`", "`table`"]);
-    let unknown = RECIPE.to_owned()
-        + "\n[stages.lidar]\nuse = \"sense\"\nsensor = \"laser_altimetre\"\ninputs = { town = \"town\", frames = \"frames\" }\n";
-    let street = Street::with(&unknown, &map());
-    let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run();
-    assert!(printed.code == Some(3) && printed.stderr.contains("laser_altimeter"), "{}", printed.stderr);
+    for (keys, word) in [
+        ("sensor = \"laser_altimetre\"", "laser_altimeter"),
+        ("sensor = \"inertial_unit\"\nlevelled = true", "fixed to the airframe"),
+    ] {
+        let stage =
+            format!("\n[stages.more]\nuse = \"sense\"\n{keys}\ninputs = {{ town = \"town\", frames = \"frames\" }}\n");
+        let street = Street::with(&(RECIPE.to_owned() + &stage), &map());
+        let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run();
+        assert!(printed.code == Some(3) && printed.stderr.contains(word), "{}", printed.stderr);
+    }
 }
