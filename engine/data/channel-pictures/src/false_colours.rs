@@ -1,5 +1,6 @@
 //! Pictures of channels that are not pictures: semantic colours, coloured depth, channels on request.
 
+use crate::colour_wheel::flow_picture;
 use cosfly_domain::channels::Element;
 use cosfly_domain::{Channel, SemanticLabel};
 
@@ -10,17 +11,24 @@ pub fn palette_image(semantic: &[u8]) -> Vec<u8> {
     semantic.iter().flat_map(|&id| palette[usize::from(id)]).collect()
 }
 
-/// Stored pixels of a channel on request as a picture: numbers in colours as [`depth_preview`] has them, 1 white and 0 black,
-/// three bytes as they are. 3 bytes a pixel.
+/// Stored pixels of a channel on request as a picture: numbers in colours as [`depth_preview`] has them, pairs as
+/// [`flow_picture`] has them, 1 white and 0 black, three bytes as they are. 3 bytes a pixel.
 pub fn picture_on_request(channel: &Channel, bytes: &[u8]) -> Vec<u8> {
     match channel.element() {
         Element::Float => {
             let numbers = bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number));
             depth_preview(&numbers.collect::<Vec<f32>>())
         }
+        Element::Pair => flow_picture(&pairs(bytes)),
         Element::Flag => bytes.iter().flat_map(|flag| [if *flag == 0 { 0 } else { 255 }; 3]).collect(),
         _ => bytes.to_vec(),
     }
+}
+
+/// Pairs of numbers from stored pixels.
+fn pairs(bytes: &[u8]) -> Vec<[f32; 2]> {
+    let (numbers, _) = bytes.as_chunks::<4>();
+    numbers.as_chunks::<2>().0.iter().map(|pair| pair.map(f32::from_le_bytes)).collect()
 }
 
 /// Nearest and farthest depth that previews tell apart, metres.

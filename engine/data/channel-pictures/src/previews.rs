@@ -42,12 +42,16 @@ impl SmallImages {
             ChannelSource::Depth => self.depth(images, file),
             ChannelSource::Labels => self.semantic(images, file),
             ChannelSource::Ids => Ok(()),
-            ChannelSource::Target | ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
-                match images.on_request.iter().find(|image| image.channel == channel) {
-                    Some(image) => self.on_request(image, images, file),
-                    None => Ok(()),
-                }
-            }
+            ChannelSource::Target
+            | ChannelSource::TargetAlone
+            | ChannelSource::Number(_)
+            | ChannelSource::Bytes(_)
+            | ChannelSource::Flow(_)
+            | ChannelSource::FlowValid(_)
+            | ChannelSource::DepthSensor => match images.on_request.iter().find(|image| image.channel == channel) {
+                Some(image) => self.on_request(image, images, file),
+                None => Ok(()),
+            },
         }
     }
 
@@ -92,12 +96,13 @@ impl SmallImages {
         palette_png(&self.labels, width, height, palette, file)
     }
 
-    /// Numbers in colours as depth is, 1 white and 0 black, three bytes as they are.
+    /// Numbers in colours as depth is, pairs in those of a wheel, 1 white and 0 black, three bytes as they are.
     fn on_request(&self, image: &ChannelImage, images: &FrameImages, file: &mut Vec<u8>) -> Result<()> {
         let (width, height) = size(images);
         let small = match image.channel.element() {
             Element::Float => sampled(image.bytes.as_chunks::<4>().0, images),
             Element::Flag => sampled(image.bytes.as_chunks::<1>().0, images),
+            Element::Pair => sampled(image.bytes.as_chunks::<8>().0, images),
             _ => sampled(image.bytes.as_chunks::<3>().0, images),
         };
         let picture = picture_on_request(image.channel, &small);
@@ -112,7 +117,7 @@ impl SmallImages {
 pub fn format(channel: &Channel) -> &'static str {
     match channel.element() {
         Element::Colour | Element::Float => "jpeg",
-        Element::Label | Element::Id | Element::Flag | Element::Bytes => "png",
+        Element::Label | Element::Id | Element::Flag | Element::Bytes | Element::Pair => "png",
     }
 }
 

@@ -118,8 +118,13 @@ impl Number for f32 {
 
 /// A NumPy file with `rows` x `columns` numbers.
 pub fn npy<T: Number>(values: &[T], [columns, rows]: [u32; 2]) -> Vec<u8> {
+    npy_of_shape(values, &format!("({rows}, {columns})"))
+}
+
+/// A NumPy file with numbers of a shape as Python writes it.
+fn npy_of_shape<T: Number>(values: &[T], shape: &str) -> Vec<u8> {
     let kind = T::DESCRIPTION;
-    let mut header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
+    let mut header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
     // Magic, version and length take 10 bytes; everything before the data a multiple of 64.
     let padding = (64 - (10 + header.len() + 1) % 64) % 64;
     header.push_str(&" ".repeat(padding));
@@ -141,16 +146,15 @@ pub fn gzip(file: &[u8]) -> Result<Vec<u8>> {
 
 /// Ending of files of a channel on request: bytes are PNG, numbers NumPy files.
 pub fn ending_on_request(channel: &Channel) -> &'static str {
-    if channel.element() == Element::Float { "npy" } else { "png" }
+    if matches!(channel.element(), Element::Float | Element::Pair) { "npy" } else { "png" }
 }
 
 /// File of a channel on request.
 pub fn file_on_request(image: &ChannelImage, [width, height]: [u32; 2]) -> Result<Vec<u8>> {
+    let numbers = || -> Vec<f32> { image.bytes.as_chunks::<4>().0.iter().map(|it| f32::from_le_bytes(*it)).collect() };
     match image.channel.element() {
-        Element::Float => {
-            let numbers = image.bytes.as_chunks::<4>().0.iter().map(|number| f32::from_le_bytes(*number));
-            Ok(npy(&numbers.collect::<Vec<_>>(), [width, height]))
-        }
+        Element::Float => Ok(npy(&numbers(), [width, height])),
+        Element::Pair => Ok(npy_of_shape(&numbers(), &format!("({height}, {width}, 2)"))),
         Element::Flag => gray8_png(&image.bytes, [width, height]),
         _ => {
             let mut file = vec![];
@@ -171,6 +175,14 @@ mod tests {
         assert!(String::from_utf8_lossy(&file[10..128]).contains("'shape': (2, 3)"));
         assert_eq!(&file[128..132], &1.0f32.to_le_bytes());
         assert_eq!((npy(&[7u8, 8], [2, 1]).len(), npy(&[70_000u32], [1, 1]).len()), (128 + 2, 128 + 4));
+    }
+
+    #[test]
+    fn pairs_are_the_last_axis_of_a_numpy_file() {
+        let image = ChannelImage { channel: &cosfly_domain::channels::flow::BACK, bytes: vec![0; 8 * 6] };
+        let file = file_on_request(&image, [3, 2]).unwrap();
+        assert_eq!((ending_on_request(image.channel), file.len()), ("npy", 128 + 48));
+        assert!(String::from_utf8_lossy(&file[10..128]).contains("'shape': (2, 3, 2)"));
     }
 
     #[test]

@@ -12,6 +12,17 @@ pub(crate) const RADIUS_M: f64 = 0.35;
 /// Instance id of the bystander who walks ahead of every target.
 pub(crate) const COMPANION: u32 = 7;
 
+/// Way on the picture of a point that stands, from one pose to another: right and down, pixels.
+pub(crate) fn flow_px(point: &SeenPoint, camera: &Camera, here: &Pose, beside: &Pose) -> [f32; 2] {
+    // The sky is as far as makes no difference.
+    let depth_m = f64::from(point.depth_m).min(1e9);
+    let seen = |pose: &Pose| camera.project(pose, point.camera_in_world + depth_m * point.ray_in_world);
+    match (seen(here), seen(beside)) {
+        (Some(from), Some(to)) => [(to.0 - from.0) as f32, (to.1 - from.1) as f32],
+        _ => [0.0; 2],
+    }
+}
+
 /// Point of the surface at a pixel, assumed level.
 pub(crate) fn point(images: &FrameImages, camera: &Camera, pose: &Pose, at: usize) -> SeenPoint {
     let (column, row) = (at as u32 % images.width, at as u32 / images.width);

@@ -1,8 +1,8 @@
 //! Sample flights: the track of a pedestrian, the poses of a drone, pictures by rays.
 
-use crate::drawn::{COMPANION, HEIGHT_M, RADIUS_M, ahead_of, look, point};
+use crate::drawn::{COMPANION, HEIGHT_M, RADIUS_M, ahead_of, flow_px, look, point};
 use crate::town::town;
-use cosfly_domain::channels::{ALL, SeenPoint};
+use cosfly_domain::channels::{ALL, ChannelSource, FlowTo, SeenPoint};
 use cosfly_domain::{
     Around, BodyKind, BodyPlan, Camera, Certificate, ChannelImage, ChannelSet, FrameImages, FramePerturbation, Lens,
     Limits, MotionBlur, Mount, Noise, Optics, Outfit, Perturbation, PerturbationKind, RollingShutter, Season,
@@ -36,16 +36,36 @@ impl SampleFlight {
         ChannelSet::of(|channel| !channel.is_on_request() || drawn.iter().any(|image| image.channel == channel))
     }
 
-    /// Draws all optional channels, as if every surface were level.
+    /// Draws all optional channels, as if every surface were level, nobody moved and the target were a box; the masks of flows are
+    /// 0.
     pub fn draw_on_request(&mut self) {
         let camera = &self.record.camera;
-        for (images, pose) in self.images.iter_mut().zip(&self.record.trajectory.poses_in_world) {
+        let poses = &self.record.trajectory.poses_in_world;
+        let views = &self.record.views;
+        for (frame, (images, pose)) in self.images.iter_mut().zip(poses).enumerate() {
             let points: Vec<SeenPoint> = (0..images.depth_m.len()).map(|at| point(images, camera, pose, at)).collect();
             let on_request = ALL.iter().copied().filter(|channel| channel.is_on_request());
             images.on_request = on_request.map(|channel| ChannelImage::new(channel, points.len())).collect();
             for image in &mut images.on_request {
+                if let (ChannelSource::TargetAlone, Some(full)) = (image.channel.source, views[frame].full_box) {
+                    for row in full.v_min..=full.v_max {
+                        let at = |column: u32| (row * images.width + column) as usize;
+                        image.bytes[at(full.u_min)..=at(full.u_max)].fill(1);
+                    }
+                    continue;
+                }
                 let pixels = image.bytes.chunks_exact_mut(image.channel.bytes_on_request());
-                pixels.zip(&points).for_each(|(pixel, point)| image.channel.draw(point, pixel));
+                let beside = match image.channel.source {
+                    ChannelSource::Flow(FlowTo::Previous) => frame.checked_sub(1),
+                    _ => Some(frame + 1),
+                };
+                let beside = beside.filter(|beside| *beside < FRAMES).map(|beside| &poses[beside]);
+                for (pixel, point) in pixels.zip(&points) {
+                    image.channel.draw(point, pixel);
+                    if let (ChannelSource::Flow(_), Some(beside)) = (image.channel.source, beside) {
+                        pixel.copy_from_slice(&flow_px(point, camera, pose, beside).map(f32::to_le_bytes).concat());
+                    }
+                }
             }
         }
     }

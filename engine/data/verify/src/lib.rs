@@ -19,6 +19,7 @@ mod files;
 mod flight_list;
 mod flight_rows;
 mod flights;
+mod flow;
 mod frames;
 mod ground;
 mod log;

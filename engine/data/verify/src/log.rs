@@ -3,6 +3,7 @@
 use super::bodies::PlacedBody;
 use super::body::Body;
 use super::captions::Caption;
+use super::flow::StandingPoints;
 use super::ground::BodiesOnGround;
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
@@ -67,6 +68,7 @@ pub fn check(
         depth: None,
         labels: None,
         on_ground: BodiesOnGround::default(),
+        standing: StandingPoints::default(),
         is_ours: false,
     };
     let mut input = known.stop.reading(BufReader::new(input));
@@ -97,6 +99,8 @@ struct LogCheck<'a> {
     /// The last label image and its frame, likewise.
     labels: Option<(usize, messages::RawImage)>,
     on_ground: BodiesOnGround,
+    /// Points of the last frame whose flow is known.
+    standing: StandingPoints,
     is_ours: bool,
 }
 
@@ -175,6 +179,7 @@ impl LogCheck<'_> {
                 let labels = self.labels.take().filter(|(of, _)| *of == frame);
                 if let Some((_, depth)) = self.depth.take().filter(|(of, _)| *of == frame) {
                     self.check_depth(&depth, &of_target, row);
+                    self.find_standing(frame, &depth, &image);
                     if let Some((_, labels)) = labels {
                         let pixels = [&depth.data[..], &labels.data[..]];
                         self.on_ground.add(self.flight, row, self.known.others_in(row.frame), pixels);
@@ -186,14 +191,37 @@ impl LogCheck<'_> {
                 self.labels = Some((frame, image));
             }
             ChannelSource::Depth => self.depth = Some((frame, image)),
-            ChannelSource::Target | ChannelSource::Number(_) | ChannelSource::Bytes(_) => {
+            ChannelSource::Target
+            | ChannelSource::TargetAlone
+            | ChannelSource::Number(_)
+            | ChannelSource::Bytes(_)
+            | ChannelSource::Flow(_)
+            | ChannelSource::FlowValid(_)
+            | ChannelSource::DepthSensor => {
                 let mut pixels = image.data.chunks_exact(channel.bytes_on_request());
                 if let Some(at) = pixels.position(|pixel| !(channel.is_value)(pixel)) {
                     self.find(place, "verify-pixels", format!("pixel {at} holds no value of `{}`", channel.name));
+                } else if let Some(message) = self.amodal_problem(channel, &image, row) {
+                    self.find(place, "verify-pixels", message);
+                } else if let Some(message) =
+                    self.standing.problem(self.flight, self.frames, (frame, channel), &image.data)
+                {
+                    self.find(place, "verify-flow", message);
                 }
             }
             ChannelSource::Colour => {}
         }
+    }
+
+    /// What is wrong with the mask of the target without obstacles.
+    fn amodal_problem(&self, channel: &Channel, image: &messages::RawImage, row: &PlacedFrame) -> Option<String> {
+        if !matches!(channel.source, ChannelSource::TargetAlone) {
+            return None;
+        }
+        let pixels: Vec<usize> = (0..image.data.len()).filter(|at| image.data[*at] != 0).collect();
+        let found = edges(&pixels, image.width as usize);
+        (found != row.full_box())
+            .then(|| format!("its pixels lie in {found:?}; `full_box_px` of table `frames` is {:?}", row.full_box()))
     }
 
     fn camera_problem(&self, data: &[u8]) -> Option<String> {
@@ -251,6 +279,23 @@ impl LogCheck<'_> {
             )
         });
         (of_target, problem)
+    }
+
+    /// Keeps points of what stands, where the log has a flow to compare with.
+    fn find_standing(&mut self, frame: usize, depth: &messages::RawImage, ids: &messages::RawImage) {
+        let is_flow = |channel: &&&Channel| matches!(channel.source, ChannelSource::Flow(_));
+        let is_logged = |channel: &Channel| self.topics.values().any(|topic| *topic == topic::images(channel));
+        if !channels::ALL.iter().filter(is_flow).any(|channel| is_logged(channel)) {
+            return;
+        }
+        let Some(objects) = self.known.objects else { return };
+        let bytes = if ids.encoding == "32UC1" { 4 } else { 2 };
+        let id = |pixel: usize| {
+            let stored = ids.data.get(bytes * pixel..bytes * (pixel + 1))?;
+            Some(stored.iter().rev().fold(0u32, |sum, byte| sum << 8 | u32::from(*byte)))
+        };
+        let stands = |pixel: usize| id(pixel).is_some_and(|id| id == 0 || objects.contains(&id));
+        self.standing = StandingPoints::of(frame, &depth.data, stands);
     }
 
     /// Labels by their number alone: they come before the ids, which say whose pixels are whose.

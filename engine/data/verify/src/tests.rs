@@ -158,6 +158,29 @@ fn channels_on_request_are_sound_until_a_pixel_holds_no_value_or_a_frame_has_non
 }
 
 #[test]
+fn flows_that_depth_and_poses_do_not_have_are_found() {
+    type Fault = fn(&mut [f32; 2]);
+    let faults: [Fault; 3] =
+        [|way| *way = way.map(|it| 1.01 * it), |way| *way = way.map(|it| -it), |way| way.reverse()];
+    for fault in faults {
+        let mut flights = sample::flights();
+        flights[0].draw_on_request();
+        let flow = flights[0].images[1].on_request.iter_mut().find(|image| image.channel.name == "flow_forward");
+        for pair in flow.unwrap().bytes.as_chunks_mut::<4>().0.as_chunks_mut::<2>().0 {
+            let mut way = pair.map(f32::from_le_bytes);
+            fault(&mut way);
+            *pair = way.map(f32::to_le_bytes);
+        }
+        assert_eq!(rules_of(&published(flights)), ["verify-flow"]);
+    }
+    let mut flights = sample::flights();
+    flights[0].draw_on_request();
+    let mask = flights[0].images[0].on_request.iter_mut().find(|image| image.channel.name == "flow_back_valid");
+    mask.unwrap().bytes[7] = 1;
+    assert_eq!(rules_of(&published(flights)), ["verify-flow"]);
+}
+
+#[test]
 fn depths_outside_of_the_target_s_body_are_found() {
     let mut flights = sample::flights();
     let images = &mut flights[0].images[1];

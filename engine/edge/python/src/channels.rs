@@ -9,21 +9,21 @@ use pyo3::prelude::*;
 /// absent where it is the environment's greatest depth.
 type ChannelFacts = (&'static str, &'static str, usize, f64, Option<f64>, &'static str);
 
-/// All channels of pictures.
+/// All channels of pictures that environments have.
 #[pyfunction]
 pub fn channels() -> Vec<ChannelFacts> {
-    let facts = |channel: &&'static Channel| {
+    let facts = |channel: &'static Channel| {
         let element = channel.element();
         let (kind, least, greatest) = match element {
             Element::Colour | Element::Label | Element::Bytes => ("uint8", 0.0, Some(255.0)),
             Element::Flag => ("uint8", 0.0, Some(1.0)),
             Element::Id => ("uint32", 0.0, Some(f64::from(u32::MAX))),
             Element::Float if matches!(channel.source, ChannelSource::Depth) => ("float32", 0.0, None),
-            Element::Float => ("float32", f64::NEG_INFINITY, Some(f64::INFINITY)),
+            Element::Float | Element::Pair => ("float32", f64::NEG_INFINITY, Some(f64::INFINITY)),
         };
         (channel.name, kind, element.parts(), least, greatest, channel.doc)
     };
-    cosfly_domain::channels::ALL.iter().map(facts).collect()
+    cosfly_domain::channels::of_moments().map(facts).collect()
 }
 
 /// A sensor for Python: name, documentation, names and documentation of its quantities.

@@ -75,7 +75,7 @@ impl PyFlock {
         let flock = if is_team { flock.as_team() } else { flock };
         let flock =
             flock.on_threads(config.threads.min(count)).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-        if let Some(unknown) = config.channels.iter().find(|name| channels::called(name).is_none()) {
+        if let Some(unknown) = config.channels.iter().find(|name| !channels::of_moments().any(|it| it.name == **name)) {
             return Err(InvalidValue::new_err(format!("there is no channel `{unknown}`")));
         }
         let channels = ChannelSet::of(|channel| config.channels.iter().any(|name| name == channel.name));

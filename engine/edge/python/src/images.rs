@@ -20,6 +20,8 @@ pub enum Pixels {
     Depth(Vec<f32>),
     /// Ids.
     Ids(Vec<u32>),
+    /// Two numbers per pixel.
+    Pairs(Vec<f32>),
 }
 
 /// Pixels with their size.
@@ -54,6 +56,15 @@ impl Image {
                         Pixels::Ids(numbers(&data, from, size, |two| u32::from(u16::from_le_bytes(two))))
                     }
                     (Element::Id, 4) => Pixels::Ids(numbers(&data, from, size, u32::from_le_bytes)),
+                    (Element::Pair, 8) => {
+                        let pairs = read::sampled(data.as_chunks::<8>().0, from, size).into_flattened();
+                        Pixels::Pairs(numbers(
+                            &pairs,
+                            [2 * size[0], size[1]],
+                            [2 * size[0], size[1]],
+                            f32::from_le_bytes,
+                        ))
+                    }
                     (_, 3) => Pixels::Bytes(read::sampled(data.as_chunks::<3>().0, from, size).into_flattened()),
                     _ => {
                         return Err(Diagnostic::new(
@@ -68,13 +79,14 @@ impl Image {
         }
     }
 
-    /// The pixels as a numpy array of height x width (x 3).
+    /// The pixels as a numpy array of height x width (x 2 or 3).
     pub fn into_array(self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let [width, height] = self.size;
         Ok(match self.pixels {
             Pixels::Bytes(values) => PyArray1::from_vec(py, values).reshape([height, width, 3])?.into_any().unbind(),
             Pixels::Labels(values) => PyArray1::from_vec(py, values).reshape([height, width])?.into_any().unbind(),
             Pixels::Depth(values) => PyArray1::from_vec(py, values).reshape([height, width])?.into_any().unbind(),
+            Pixels::Pairs(values) => PyArray1::from_vec(py, values).reshape([height, width, 2])?.into_any().unbind(),
             Pixels::Ids(values) => PyArray1::from_vec(py, values).reshape([height, width])?.into_any().unbind(),
         })
     }
@@ -109,13 +121,15 @@ pub fn decode_rgb<'py>(
 }
 
 /// A PNG file that shows an image: colours as they are, depth from warm (near) to cold (far), labels in CARLA's colours, ids
-/// in a colour each. `pixels` are the bytes of the array.
+/// in a colour each, flow in the colours of a wheel. `pixels` are the bytes of the array.
 #[pyfunction]
 pub fn shown(py: Python<'_>, channel: &str, pixels: &[u8], width: u32, height: u32) -> PyResult<Vec<u8>> {
     let (count, channel) = (width as usize * height as usize, raised(py, self::channel(channel))?);
     let rgb = match (channel.element(), pixels.len().checked_div(count)) {
         (_, Some(3)) => pixels.to_vec(),
-        (Element::Float, Some(4)) | (Element::Flag, Some(1)) => picture_on_request(channel, pixels),
+        (Element::Float, Some(4)) | (Element::Flag, Some(1)) | (Element::Pair, Some(8)) => {
+            picture_on_request(channel, pixels)
+        }
         (Element::Label, Some(1)) => palette_image(pixels),
         (Element::Id, Some(4)) => {
             let ids = pixels.as_chunks::<4>().0.iter().map(|id| u32::from_le_bytes(*id));

@@ -56,6 +56,8 @@ def test_channels_are_those_of_datasets():
     }
     assert (space["depth"].high == 50.0).all() and (space["mask"].high == 1).all()
     assert all(channel.doc.endswith(".") for channel in cosfly.gym.CHANNELS.values())
+    with pytest.raises(ValueError, match="flow_forward.* channels of films"):
+        make_vec(num_envs=1, obs=("flow_forward",))
 
 
 @pytest.mark.parametrize("mode", list(AutoresetMode))

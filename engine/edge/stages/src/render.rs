@@ -19,7 +19,7 @@ use cosfly_flight::World;
 use cosfly_frames::{Pose, Seed};
 use cosfly_geometry::SpatialQuery;
 use cosfly_optics::{pose_at, target_state_at};
-use cosfly_render::{Effects, Moment, RenderConfig, Renderer, Scene, Shot};
+use cosfly_render::{Effects, FrameBeside, Moment, Neighbours, RenderConfig, Renderer, Scene, Shot};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
 use cosfly_stage::parameters;
@@ -285,31 +285,42 @@ impl RenderStage {
         let track = &trajectory.track;
         let poses: Vec<Pose> = shooting.poses(trajectory);
         let walked_m = walked_m(&track.states);
+        let moment_of = |frame: usize, offset_s: f64| {
+            let at = frame as f64 + offset_s / track.dt_s;
+            let state = target_state_at(&track.states, at);
+            let target = shooting.target(track, state, walked_m[frame] + offset_s * state.speed_mps);
+            // A target without extent is a point: it is watched, not drawn.
+            Moment { pose: pose_at(&poses, at), target: Some(target).filter(|target| target.radius_m > 0.0) }
+        };
+        let time_s = |frame: usize| frame as f64 * track.dt_s;
+        let frame_at = |frame: usize| {
+            let others = move |offset_s: f64, list: &mut Vec<Bystander>| crowd.at(time_s(frame) + offset_s, list);
+            (move |offset_s: f64| moment_of(frame, offset_s), others)
+        };
         let (mut seen, mut body_rays, mut about) = (SeenPeople::default(), BodyRays::default(), vec![]);
         outputs.stream(PACK, &mut |file| {
             seen = SeenPeople::default();
             let mut pack = FramePackWriter::new(file, &header)?;
             for (frame, visible_by_rays) in trajectory.visibility.iter().copied().enumerate() {
                 context.check_cancelled()?;
-                let moment = |offset_s: f64| {
-                    let at = frame as f64 + offset_s / track.dt_s;
-                    let state = target_state_at(&track.states, at);
-                    let target = shooting.target(track, state, walked_m[frame] + offset_s * state.speed_mps);
-                    // A target without extent is a point: it is watched, not drawn.
-                    Moment { pose: pose_at(&poses, at), target: Some(target).filter(|target| target.radius_m > 0.0) }
-                };
                 let noise_seed = Seed(context.seed).child("frame", frame as u64);
-                let time_s = frame as f64 * track.dt_s;
-                let others = |offset_s: f64, list: &mut Vec<Bystander>| crowd.at(time_s + offset_s, list);
-                let shot = Shot { weather: &shooting.weather, moment: &moment, others: &others, noise_seed };
+                let (before, (moment, others), after) =
+                    (frame_at(frame.saturating_sub(1)), frame_at(frame), frame_at(frame + 1));
+                let neighbours = Neighbours {
+                    previous: (frame > 0).then(|| FrameBeside { moment: &before.0, others: &before.1 }),
+                    next: (frame + 1 < trajectory.visibility.len())
+                        .then(|| FrameBeside { moment: &after.0, others: &after.1 }),
+                };
+                let shot =
+                    Shot { weather: &shooting.weather, moment: &moment, others: &others, neighbours, noise_seed };
                 let rendered = rig.effects.film(&mut rig.renderer, scene, &shot);
                 pack.frame(rendered.images)?;
-                let sightings = crowd.sightings(frame, time_s, rendered.others);
+                let sightings = crowd.sightings(frame, time_s(frame), rendered.others);
                 let view = rendered.target_view;
                 let Moment { pose, target } = moment(0.0);
                 let target = target.filter(|_| view.in_view);
                 about.clear();
-                crowd.at(time_s, &mut about);
+                crowd.at(time_s(frame), &mut about);
                 seen.by_dense_rays.push(
                     target.and_then(|it| body_rays.visible_share(&world.exact, &about, &shooting.camera, &pose, &it)),
                 );

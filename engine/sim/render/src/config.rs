@@ -3,6 +3,7 @@
 use crate::cameras::{CameraConfig, GimbalConfig};
 use crate::effects::Effects;
 use crate::look::PictureLook;
+use cosfly_domain::channels;
 use cosfly_domain::{Camera, ChannelSet, Lens, MotionBlur, Mount, Noise, RollingShutter, Season, Weather};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_materials::weather::WeatherRanges;
@@ -230,6 +231,13 @@ impl RenderConfig {
         }
         in_range("lens.k1", self.lens.k1, [-1.0, 1.0])?;
         in_range("lens.k2", self.lens.k2, [-1.0, 1.0])?;
+        if !self.lens.is_none() && self.channels.contains(&channels::depth_sensor::CHANNEL) {
+            return Err(ConfigProblem {
+                path: "channels".into(),
+                message: "`depth_sensor` measures in rectified pictures, and `lens` bends them".into(),
+                hint: "leave out `depth_sensor`, or `lens`".into(),
+            });
+        }
         in_range("motion_blur.shutter_s", self.motion_blur.shutter_s, [0.0, 0.5])?;
         in_range("motion_blur.samples", f64::from(self.motion_blur.samples), [3.0, 65.0])?;
         in_range("rolling_shutter.readout_s", self.rolling_shutter.readout_s, [0.0, 0.5])?;
@@ -415,6 +423,14 @@ mod tests {
                 "gimbal.yaw_range_deg",
             ),
             (RenderConfig { lens: Lens { k1: -0.9, k2: 0.0 }, ..good.clone() }, "lens"),
+            (
+                RenderConfig {
+                    lens: Lens { k1: -0.1, k2: 0.0 },
+                    channels: ChannelSet::of(|channel| channel.name != "mask"),
+                    ..good.clone()
+                },
+                "channels",
+            ),
             (
                 RenderConfig {
                     optics: OpticsConfig { white_balance_k: Some(f64::NAN), ..OpticsConfig::default() },

@@ -6,45 +6,29 @@
 //! they are never mixed.
 //! A rolling shutter takes all channels of a strip of rows at the strip's moment, so that they still agree.
 
+mod comparison;
+mod depth_sensor;
 mod lens;
+mod shot;
 
 use crate::frame::RenderedFrame;
 use crate::renderer::Renderer;
+use crate::renderer::flow::SeenThrough;
 use crate::scene::Scene;
-use crate::setup::FrameSetup;
 use crate::target_view;
-use cosfly_domain::{BodyView, Camera, ChannelImage, FrameImages, Lens, MotionBlur, Noise, RollingShutter, Weather};
-use cosfly_figures::{Bystander, Walker};
+use comparison::Comparison;
+use cosfly_domain::{BodyView, Camera, ChannelImage, FrameImages, Lens, MotionBlur, Noise, RollingShutter};
+use cosfly_figures::Bystander;
 use cosfly_frames::simd::Level;
-use cosfly_frames::{Pose, Seed};
 use cosfly_optics::{Exposure, add_noise};
 use lens::LensMap;
+use shot::setup;
+pub use shot::{FrameBeside, Moment, Neighbours, Shot};
 use std::ops::Range;
-
-/// Camera and target at a moment.
-#[derive(Clone, Copy, Debug)]
-pub struct Moment {
-    /// The camera's pose.
-    pub pose: Pose,
-    /// The followed target, if there is one.
-    pub target: Option<Walker>,
-}
-
-/// One picture to take.
-pub struct Shot<'a> {
-    /// Weather with its sun azimuth drawn.
-    pub weather: &'a Weather,
-    /// The moment this many seconds after the middle of the shutter (before it, when negative).
-    pub moment: &'a dyn Fn(f64) -> Moment,
-    /// Adds everybody else at that time to an empty list.
-    pub others: &'a dyn Fn(f64, &mut Vec<Bystander>),
-    /// Seed of the sensor's noise; another one per frame.
-    pub noise_seed: Seed,
-}
 
 /// The effects of one camera with their buffers; keep one per thread beside its renderer.
 pub struct Effects {
-    camera: Camera,
+    finished: SeenThrough,
     blur: MotionBlur,
     rolling: RollingShutter,
     noise: Noise,
@@ -59,15 +43,17 @@ pub struct Effects {
     mask: Vec<bool>,
     bystanders: Vec<Bystander>,
     seen: Vec<BodyView>,
+    comparison: Comparison,
 }
 
 impl Effects {
     /// The effects of a camera whose finished pictures have the size and field of view of `camera`. The field of view is
     /// that of the ideal camera without the lens: its focal length stays the same.
     pub fn new(camera: Camera, lens: Lens, blur: MotionBlur, rolling: RollingShutter) -> Self {
+        let finished = SeenThrough { camera, lens };
         let lens = (!lens.is_none()).then(|| LensMap::new(camera, lens));
         Self {
-            camera,
+            finished,
             blur,
             rolling,
             noise: Noise::default(),
@@ -81,6 +67,7 @@ impl Effects {
             mask: vec![],
             bystanders: vec![],
             seen: vec![],
+            comparison: Comparison::default(),
         }
     }
 
@@ -91,7 +78,7 @@ impl Effects {
 
     /// The ideal camera that the renderer has to draw with: wider than the finished picture where the lens needs it.
     pub fn ideal_camera(&self) -> Camera {
-        self.lens.as_ref().map_or(self.camera, LensMap::ideal_camera)
+        self.lens.as_ref().map_or(self.finished.camera, LensMap::ideal_camera)
     }
 
     /// Moments at which [`Self::film`] looks at what is in front of the camera, seconds from the middle of the shutter.
@@ -105,11 +92,16 @@ impl Effects {
     pub fn film<'a>(&'a mut self, renderer: &'a mut Renderer, scene: &Scene, shot: &Shot<'_>) -> RenderedFrame<'a> {
         let noise = self.noise;
         let grain = |rgb: &mut [u8]| add_noise(Level::best(), &noise, rgb, &shot.noise_seed);
+        self.comparison.look((renderer, scene), (shot.weather, &shot.neighbours), &self.rolling);
         if self.lens.is_none() && self.blur.is_none() && self.rolling.is_none() {
-            return renderer.render_retouched(scene, &setup(shot, 0.0, &mut self.bystanders), grain);
+            let setup = setup(shot, 0.0, &mut self.bystanders);
+            renderer.render_retouched(scene, &setup, grain);
+            depth_sensor::draw(renderer.images_mut(), &self.finished.camera, &shot.noise_seed);
+            self.comparison.draw(renderer, &setup, &(0..self.finished.camera.height as usize), &self.finished);
+            return renderer.finished();
         }
         let strips = self.rolling.strips(self.ideal_camera().height as usize);
-        let Self { blur, exposure, rolled, rolled_target, bystanders, .. } = self;
+        let Self { blur, exposure, rolled, rolled_target, bystanders, comparison, finished, .. } = self;
         rolled_target.clear();
         for (rows, moment_s) in strips {
             exposure.open();
@@ -118,7 +110,10 @@ impl Effects {
                 exposure.add(&renderer.render(scene, &setup).images.rgb);
             }
             // The middle comes last: its depth and ids are what stays.
-            let frame = renderer.render(scene, &setup(shot, moment_s, bystanders));
+            let setup = setup(shot, moment_s, bystanders);
+            renderer.render(scene, &setup);
+            comparison.draw(renderer, &setup, &rows, finished);
+            let frame = renderer.finished();
             if !blur.is_none() {
                 exposure.add(&frame.images.rgb);
             }
@@ -139,18 +134,11 @@ impl Effects {
             }
         }
         grain(&mut self.images.rgb);
+        depth_sensor::draw(&mut self.images, &self.finished.camera, &shot.noise_seed);
         let view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
         target_view::measure_bodies(Level::best(), &self.images, bystanders, &mut self.seen);
         RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered, others: &self.seen }
     }
-}
-
-/// The frame at a moment of a shot; `bystanders` is room for who is about.
-fn setup<'a>(shot: &Shot<'a>, offset_s: f64, bystanders: &'a mut Vec<Bystander>) -> FrameSetup<'a> {
-    let Moment { pose, target } = (shot.moment)(offset_s);
-    bystanders.clear();
-    (shot.others)(offset_s, bystanders);
-    FrameSetup { pose, weather: shot.weather, target, others: bystanders }
 }
 
 /// Copies rows of all channels, those of `rgb` for colours, without new buffers when the sizes agree.

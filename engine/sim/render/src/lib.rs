@@ -36,7 +36,7 @@ pub use body_bounds::LEAST_HEIGHT_PX;
 pub use buildings::Buildings;
 pub use cameras::{CameraConfig, GimbalConfig};
 pub use config::{ConfigProblem, RenderConfig};
-pub use effects::{Effects, Moment, Shot};
+pub use effects::{Effects, FrameBeside, Moment, Neighbours, Shot};
 pub use found::{BodyPart, FoundFace, FoundPicture, FoundSource};
 pub use frame::RenderedFrame;
 pub use look::PictureLook;

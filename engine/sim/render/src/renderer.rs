@@ -1,6 +1,7 @@
 //! One frame from start to end: cull, draw, resolve, shade, measure the target.
 
 mod colours;
+pub(crate) mod flow;
 mod ground;
 mod splats;
 
@@ -195,7 +196,12 @@ impl Renderer {
         self.finished()
     }
 
-    fn finished(&self) -> RenderedFrame<'_> {
+    /// Images of the frame that was drawn last.
+    pub(crate) fn images_mut(&mut self) -> &mut FrameImages {
+        &mut self.images
+    }
+
+    pub(crate) fn finished(&self) -> RenderedFrame<'_> {
         RenderedFrame {
             images: &self.images,
             target_view: self.view,
@@ -222,6 +228,7 @@ impl Renderer {
                 target_view::covered_pixels(&self.alone, self.screen.width, &mut self.covered);
                 self.view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
             }
+            target_view::draw_alone(&mut self.images, &self.covered);
             target_view::measure_bodies(self.level, &self.images, setup.others, &mut self.others);
             watch.lap(4);
         }

@@ -1,5 +1,6 @@
 //! Visible part of people in a frame, counted in pixels; of the target, against the target drawn alone.
 
+use cosfly_domain::channels::mask_amodal;
 use cosfly_domain::{BodyView, FrameImages, PixelBox, TARGET_INSTANCE, TargetView};
 use cosfly_figures::Bystander;
 use cosfly_frames::simd::Level;
@@ -23,6 +24,13 @@ pub(crate) fn covered_pixels(alone: &Visibility, width: usize, covered: &mut Vec
     let (first_row, end_row) = alone.drawn_rows();
     let pixels = first_row * width..end_row * width;
     covered.extend(pixels.filter(|pixel| alone.face[*pixel] != NO_FACE).map(|pixel| pixel as u32));
+}
+
+/// Fills the channel `mask_amodal`, where it was asked for, from the pixels that the target would cover without obstacles.
+pub(crate) fn draw_alone(images: &mut FrameImages, covered: &[u32]) {
+    let Some(image) = images.on_request.iter_mut().find(|image| *image.channel == mask_amodal::CHANNEL) else { return };
+    image.bytes.fill(0);
+    covered.iter().for_each(|pixel| image.bytes[*pixel as usize] = 1);
 }
 
 /// View of the target in `images`, when it would cover the pixels `covered` without obstacles; `visible_by_rays` is

@@ -2,10 +2,14 @@
 
 mod small_town;
 
-use cosfly_domain::channels::normals;
-use cosfly_domain::{Camera, ChannelSet, FrameImages, Lens, MotionBlur, RollingShutter, SemanticLabel, Weather};
-use cosfly_frames::{DVec3, Pose, Seed};
-use cosfly_render::{Effects, FrameSetup, Moment, Renderer, Scene, Shot};
+use cosfly_domain::channels::{flow, normals};
+use cosfly_domain::{
+    BodyKind, Camera, Channel, ChannelSet, FrameImages, Lens, MotionBlur, RollingShutter, SemanticLabel,
+    TARGET_INSTANCE, Weather,
+};
+use cosfly_figures::{BodyShape, Bystander, Walker};
+use cosfly_frames::{DMat3, DVec3, Pose, Seed, TargetState};
+use cosfly_render::{Effects, FrameBeside, FrameSetup, Moment, Neighbours, Renderer, Scene, Shot};
 
 const CAMERA: Camera = Camera { width: 160, height: 90, horizontal_fov_rad: 1.4 };
 
@@ -82,10 +86,163 @@ fn lens_and_rolling_shutter_carry_the_channels_along() {
     let mut renderer = Renderer::new(effects.ideal_camera());
     renderer.set_channels(&ChannelSet::of(|_| true));
     for noise_seed in [Seed([1; 32]), Seed([2; 32])] {
-        let shot = Shot { weather: &noon(), moment: &moment, others: &|_, _| {}, noise_seed };
+        let shot = Shot {
+            weather: &noon(),
+            moment: &moment,
+            others: &|_, _| {},
+            neighbours: Neighbours::default(),
+            noise_seed,
+        };
         let images = effects.film(&mut renderer, &scene, &shot).images;
         let pixels = normals_of(images).iter().zip(&images.depth_m);
         assert_eq!(pixels.len(), (CAMERA.width * CAMERA.height) as usize);
         pixels.for_each(|(normal, depth_m)| assert_eq!(*normal == [0; 3], depth_m.is_infinite()));
     }
+}
+
+/// A moment of a flight past a car and a person that move, `frame` frames of a tenth of a second later.
+fn moving(frame: f64) -> (Moment, Vec<Bystander>) {
+    let mut camera = pose();
+    camera.position_in_world += DVec3::new(0.35, -0.12, 0.05) * frame;
+    camera.yaw_rad += 0.01 * frame;
+    let feet_in_world = DVec3::new(2.0 + 0.14 * frame, -22.0, 0.0);
+    let walker = |state: TargetState, body: BodyShape, height_m: f64| Walker {
+        state,
+        height_m,
+        radius_m: 0.3,
+        clothes_seed: Seed([4; 32]),
+        gait_phase_rad: 0.6 * frame,
+        body,
+    };
+    let target = walker(TargetState { feet_in_world, heading_rad: 0.0, speed_mps: 1.4 }, BodyShape::default(), 1.8);
+    let heading_rad = 0.5 + 0.04 * frame;
+    let state = TargetState { feet_in_world: DVec3::new(5.0 + 0.5 * frame, -24.5, 0.0), heading_rad, speed_mps: 5.0 };
+    let car = walker(state, BodyShape::of(BodyKind::Car, DVec3::new(4.4, 1.8, 1.5)), 1.5);
+    (Moment { pose: camera, target: Some(target) }, vec![Bystander { walker: car, instance: CAR }])
+}
+
+const CAR: u32 = 900;
+
+fn filmed(frame: i32, lens: Lens, rolling: RollingShutter) -> FrameImages {
+    let at = |frame: i32| {
+        let seconds = move |offset_s: f64| f64::from(frame) + 10.0 * offset_s;
+        let others = move |offset_s: f64, list: &mut Vec<Bystander>| list.extend(moving(seconds(offset_s)).1);
+        (move |offset_s: f64| moving(seconds(offset_s)).0, others)
+    };
+    let (before, now, after) = (at(frame - 1), at(frame), at(frame + 1));
+    let neighbours = Neighbours {
+        previous: (frame > 0).then_some(FrameBeside { moment: &before.0, others: &before.1 }),
+        next: Some(FrameBeside { moment: &after.0, others: &after.1 }),
+    };
+    let noise_seed = Seed([1; 32]);
+    let shot = Shot { weather: &noon(), moment: &now.0, others: &now.1, neighbours, noise_seed };
+    let mut effects = Effects::new(CAMERA, lens, MotionBlur::default(), rolling);
+    let mut renderer = Renderer::new(effects.ideal_camera());
+    renderer.set_channels(&ChannelSet::of(|_| true));
+    effects.film(&mut renderer, &scene(), &shot).images.clone()
+}
+
+/// Flow and mask of each pixel.
+fn flow_of(images: &FrameImages, [flow, mask]: [&Channel; 2]) -> Vec<([f64; 2], bool)> {
+    let bytes =
+        |channel: &Channel| &images.on_request.iter().find(|it| it.channel == channel).expect("asked for").bytes;
+    let pairs = bytes(flow).as_chunks::<4>().0.as_chunks::<2>().0;
+    let pairs = pairs.iter().map(|pair| pair.map(|number| f64::from(f32::from_le_bytes(number))));
+    pairs.zip(bytes(mask)).map(|(pair, mask)| (pair, *mask == 1)).collect()
+}
+
+const FORWARD: [&Channel; 2] = [&flow::FORWARD, &flow::FORWARD_VALID];
+const BACK: [&Channel; 2] = [&flow::BACK, &flow::BACK_VALID];
+
+#[test]
+fn flow_is_the_way_of_the_point_through_depth_poses_and_lens() {
+    let none = RollingShutter::default();
+    for lens in [Lens::default(), Lens { k1: -0.12, k2: 0.01 }] {
+        let (images, next) = (filmed(1, lens, none), filmed(2, lens, none));
+        let (mut counts, mut hidden, mut landed) = ([0; 3], 0, 0);
+        for (channels, other, away) in [(FORWARD, 2.0, 1.0), (BACK, 0.0, -1.0)] {
+            for (at, (way, is_seen)) in flow_of(&images, channels).into_iter().enumerate() {
+                let centre = [at as u32 % CAMERA.width, at as u32 / CAMERA.width].map(|place| f64::from(place) + 0.5);
+                let seen = lens.unbend(&CAMERA, (centre[0], centre[1])).expect("in reach");
+                let [u, v] =
+                    [seen.0, seen.1].map(|place| (((place - 0.5) * 256.0).round() / 256.0 + 0.5).floor() + 0.5);
+                let depth_m = f64::from(images.depth_m[at]).min(1e9);
+                let mut point =
+                    moving(1.0).0.pose.position_in_world + depth_m * CAMERA.ray_in_world(&moving(1.0).0.pose, u, v);
+                let kind = match images.instance[at] {
+                    TARGET_INSTANCE => 2,
+                    CAR => 1,
+                    _ => 0,
+                };
+                if kind == 1 {
+                    let [from, to] = [1.0, other].map(|frame| moving(frame).1[0].walker.state);
+                    let turn = DMat3::from_rotation_z(to.heading_rad - from.heading_rad);
+                    point = to.feet_in_world + turn * (point - from.feet_in_world);
+                }
+                let to = CAMERA.project(&moving(other).0.pose, point).expect("before the camera");
+                let (from, bent) = (lens.bend(&CAMERA, (u, v)), lens.bend(&CAMERA, (to.0, to.1)));
+                let error = ((bent.0 - from.0 - way[0]).powi(2) + (bent.1 - from.1 - way[1]).powi(2)).sqrt();
+                // Limbs move by less than a step, at some metres.
+                let most = if kind == 2 { 12.0 } else { 0.01 };
+                assert!(error < most, "{lens:?} pixel {at} kind {kind} is off by {error} px, {way:?}");
+                counts[kind] += 1;
+                if away > 0.0 && lens.is_none() {
+                    let (column, row) = (bent.0.floor(), bent.1.floor());
+                    let is_inside = (0.0..160.0).contains(&bent.0) && (0.0..90.0).contains(&bent.1);
+                    assert!(is_inside || kind == 2 || !is_seen, "pixel {at} leaves the picture");
+                    if is_inside && kind < 2 {
+                        let there_m = f64::from(next.depth_m[row as usize * 160 + column as usize]);
+                        hidden += usize::from(!is_seen && there_m < 0.99 * to.2);
+                        landed += usize::from(is_seen == (there_m > 0.98 * to.2 - 0.05));
+                    }
+                }
+            }
+        }
+        assert!(counts[0] > 20_000 && counts[1] > 200 && counts[2] > 60, "{counts:?}");
+        if lens.is_none() {
+            assert!(hidden > 20 && landed > 12_500, "{hidden} {landed}");
+        }
+    }
+}
+
+#[test]
+fn limbs_move_with_their_parts_and_frames_without_a_neighbour_have_no_flow() {
+    let none = RollingShutter::default();
+    let (images, next) = (filmed(0, Lens::default(), none), filmed(1, Lens::default(), none));
+    assert!(flow_of(&images, BACK).iter().all(|pixel| *pixel == ([0.0; 2], false)));
+    let (mut on_target, mut all, mut ways) = (0, 0, vec![]);
+    for (at, (way, is_seen)) in flow_of(&images, FORWARD).into_iter().enumerate() {
+        if images.instance[at] == TARGET_INSTANCE && is_seen {
+            let column = (at as u32 % CAMERA.width) as f64 + 0.5 + way[0];
+            let row = (at as u32 / CAMERA.width) as f64 + 0.5 + way[1];
+            all += 1;
+            on_target += usize::from(next.instance[row as usize * 160 + column as usize] == TARGET_INSTANCE);
+            ways.push(way[0]);
+        }
+    }
+    assert!(all > 30 && on_target * 10 > all * 9, "{on_target} of {all}");
+    let (least, most) = ways.iter().fold((f64::MAX, f64::MIN), |(low, high), way| (low.min(*way), high.max(*way)));
+    assert!(most - least > 0.05, "legs and trunk move apart: {least} to {most}");
+}
+
+#[test]
+fn through_a_rolling_shutter_a_point_is_looked_for_when_its_row_is_taken() {
+    let rolling = RollingShutter { readout_s: 0.03, strips: 6 };
+    let images = filmed(1, Lens::default(), rolling);
+    let (mut compared, strips) = (0, rolling.strips(90).collect::<Vec<_>>());
+    let moment_of =
+        |row: f64| strips.iter().find(|(rows, _)| rows.contains(&(row as usize))).map(|(_, moment_s)| 10.0 * moment_s);
+    for (at, (way, is_seen)) in flow_of(&images, FORWARD).into_iter().enumerate() {
+        if !is_seen || [CAR, TARGET_INSTANCE].contains(&images.instance[at]) || images.depth_m[at].is_infinite() {
+            continue;
+        }
+        let (u, v) = ((at as u32 % CAMERA.width) as f64 + 0.5, (at as u32 / CAMERA.width) as f64 + 0.5);
+        let here = moving(1.0 + moment_of(v).expect("a row")).0.pose;
+        let point = here.position_in_world + f64::from(images.depth_m[at]) * CAMERA.ray_in_world(&here, u, v);
+        let there = moving(2.0 + moment_of(v + way[1]).expect("it is seen")).0.pose;
+        let to = CAMERA.project(&there, point).expect("before the camera");
+        assert!((to.0 - u - way[0]).abs() < 0.01 && (to.1 - v - way[1]).abs() < 0.01, "pixel {at}");
+        compared += 1;
+    }
+    assert!(compared > 5_000, "{compared}");
 }

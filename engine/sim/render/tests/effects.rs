@@ -7,7 +7,7 @@ use cosfly_domain::{
 };
 use cosfly_figures::{BodyShape, Bystander, Walker};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_render::{Effects, Moment, Renderer, Scene, Shot};
+use cosfly_render::{Effects, Moment, Neighbours, Renderer, Scene, Shot};
 use std::cell::RefCell;
 
 const CAMERA: Camera = Camera { width: 320, height: 180, horizontal_fov_rad: 1.4 };
@@ -47,7 +47,13 @@ fn film_rolling(
     let mut effects = Effects::new(CAMERA, lens, blur, rolling);
     effects.set_noise(noise);
     let mut renderer = Renderer::new(effects.ideal_camera());
-    let shot = Shot { weather: &weather, moment: &moment, others: &|_, _| {}, noise_seed: Seed([noise_seed; 32]) };
+    let shot = Shot {
+        weather: &weather,
+        moment: &moment,
+        others: &|_, _| {},
+        neighbours: Neighbours::default(),
+        noise_seed: Seed([noise_seed; 32]),
+    };
     let frame = effects.film(&mut renderer, &scene, &shot);
     (frame.images.clone(), frame.target_view)
 }
@@ -170,7 +176,13 @@ fn a_film_looks_at_its_moments_and_at_no_other() {
         effects.set_noise(Noise { gaussian: 1.0, shot: 0.0 });
         let (moments_s, asked) = (effects.moments_s(), RefCell::new(vec![]));
         let others = |offset_s: f64, _: &mut Vec<Bystander>| asked.borrow_mut().push(offset_s);
-        let shot = Shot { weather: &weather, moment: &moment, others: &others, noise_seed: Seed([2; 32]) };
+        let shot = Shot {
+            weather: &weather,
+            moment: &moment,
+            others: &others,
+            neighbours: Neighbours::default(),
+            noise_seed: Seed([2; 32]),
+        };
         effects.film(&mut Renderer::new(effects.ideal_camera()), &scene, &shot);
         assert_eq!((&asked.take(), moments_s.len()), (&moments_s, count));
     }

@@ -5,7 +5,7 @@ mod small_town;
 use cosfly_domain::{Camera, Lens, MotionBlur, Noise, RollingShutter};
 use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, real};
-use cosfly_render::{Effects, Moment, Renderer, Scene, Shot};
+use cosfly_render::{Effects, Moment, Neighbours, Renderer, Scene, Shot};
 
 /// Resident memory of this process in kB, where the system tells.
 fn resident_kb() -> Option<u64> {
@@ -45,8 +45,13 @@ fn ten_thousand_frames_take_no_more_memory_than_a_thousand() {
             }),
         };
         let noise_seed = Seed([3; 32]).child("frame", u64::from(frame));
-        let shot =
-            Shot { weather: &weathers[(frame / 100 % 2) as usize], moment: &moment, others: &|_, _| {}, noise_seed };
+        let shot = Shot {
+            weather: &weathers[(frame / 100 % 2) as usize],
+            moment: &moment,
+            others: &|_, _| {},
+            neighbours: Neighbours::default(),
+            noise_seed,
+        };
         effects.film(&mut renderer, &scene, &shot);
         if frame == 1_000 {
             early_kb = resident_kb().unwrap_or(0);

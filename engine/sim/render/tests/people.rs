@@ -9,7 +9,7 @@ use cosfly_domain::{
 use cosfly_figures::{BodyShape, Bystander, Clothes, Walker, walker_triangles};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, RandomStream, Seed, TargetState, real};
-use cosfly_render::{Buildings, Effects, FrameSetup, Moment, Outlook, Renderer, Scene, Shot};
+use cosfly_render::{Buildings, Effects, FrameSetup, Moment, Neighbours, Outlook, Renderer, Scene, Shot};
 
 const CAMERA: Camera = Camera { width: 640, height: 360, horizontal_fov_rad: 1.4 };
 /// Larger than all ids of the small town.
@@ -346,7 +346,13 @@ fn through_a_lens_and_blurred_people_move_and_keep_their_ids() {
         let mut effects = Effects::new(CAMERA, lens, blur, RollingShutter::default());
         let mut renderer = Renderer::new(effects.ideal_camera());
         let weather = noon();
-        let shot = Shot { weather: &weather, moment: &moment, others: &others(speed_mps), noise_seed: Seed([1; 32]) };
+        let shot = Shot {
+            weather: &weather,
+            moment: &moment,
+            others: &others(speed_mps),
+            neighbours: Neighbours::default(),
+            noise_seed: Seed([1; 32]),
+        };
         let frame = effects.film(&mut renderer, &scene, &shot);
         Drawn { images: frame.images.clone(), view: frame.target_view, others: frame.others.to_vec() }
     };

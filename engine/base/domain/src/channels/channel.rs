@@ -32,10 +32,28 @@ pub enum ChannelSource {
     Ids,
     /// Whether the pixel is of the target, drawn where somebody asks for the channel.
     Target,
+    /// Whether the pixel is of the target or of what hides it, drawn in films where somebody asks for the channel.
+    TargetAlone,
     /// A number for each pixel, drawn where somebody asks for the channel.
     Number(fn(&SeenPoint) -> f32),
     /// Three bytes for each pixel, drawn where somebody asks for the channel.
     Bytes(fn(&SeenPoint) -> [u8; 3]),
+    /// Way of the point at the pixel centre to its place in a neighbouring frame, pixels: right and down; drawn in films
+    /// where somebody asks for the channel.
+    Flow(FlowTo),
+    /// Whether the neighbouring frame shows that point; drawn as the flow is.
+    FlowValid(FlowTo),
+    /// Depth as a stereo camera measures it, a number for each pixel; drawn in films where somebody asks for the channel.
+    DepthSensor,
+}
+
+/// A frame beside another one of a film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FlowTo {
+    /// The frame before.
+    Previous,
+    /// The frame after.
+    Next,
 }
 
 /// Element type of a pixel as it is stored.
@@ -53,6 +71,8 @@ pub enum Element {
     Flag,
     /// Three bytes.
     Bytes,
+    /// Two 32-bit floats.
+    Pair,
 }
 
 /// The surface that is nearest at a pixel centre. World frame.
@@ -78,17 +98,26 @@ impl Channel {
     pub fn element(&self) -> Element {
         match self.source {
             ChannelSource::Colour => Element::Colour,
-            ChannelSource::Depth | ChannelSource::Number(_) => Element::Float,
+            ChannelSource::Depth | ChannelSource::Number(_) | ChannelSource::DepthSensor => Element::Float,
             ChannelSource::Labels => Element::Label,
             ChannelSource::Ids => Element::Id,
-            ChannelSource::Target => Element::Flag,
+            ChannelSource::Target | ChannelSource::TargetAlone | ChannelSource::FlowValid(_) => Element::Flag,
             ChannelSource::Bytes(_) => Element::Bytes,
+            ChannelSource::Flow(_) => Element::Pair,
         }
     }
 
     /// Whether the channel is drawn only where a recipe or an environment asks for it.
     pub fn is_on_request(&self) -> bool {
-        matches!(self.source, ChannelSource::Target | ChannelSource::Number(_) | ChannelSource::Bytes(_))
+        self.is_of_films()
+            || matches!(self.source, ChannelSource::Target | ChannelSource::Number(_) | ChannelSource::Bytes(_))
+    }
+
+    /// Whether a pixel needs more than the point at its centre, such as other pixels or frames: films have the channel,
+    /// environments do not.
+    pub fn is_of_films(&self) -> bool {
+        use ChannelSource::{DepthSensor, Flow, FlowValid, TargetAlone};
+        matches!(self.source, TargetAlone | Flow(_) | FlowValid(_) | DepthSensor)
     }
 
     /// Whether a log may hold small pictures of the channel: of all but ids, whose numbers are no picture.
@@ -96,22 +125,24 @@ impl Channel {
         self.element() != Element::Id
     }
 
-    /// Writes the stored bytes of one pixel of a channel on request; `pixel` has [`Self::bytes_on_request`] bytes.
+    /// Writes the stored bytes of one pixel of a channel on request; `pixel` has [`Self::bytes_on_request`] bytes. Channels
+    /// of films are drawn by films.
     pub fn draw(&self, point: &SeenPoint, pixel: &mut [u8]) {
         match self.source {
             ChannelSource::Target => pixel.fill(u8::from(point.instance == TARGET_INSTANCE)),
             ChannelSource::Number(number) => pixel.copy_from_slice(&number(point).to_le_bytes()),
             ChannelSource::Bytes(three) => pixel.copy_from_slice(&three(point)),
-            ChannelSource::Colour | ChannelSource::Depth | ChannelSource::Labels | ChannelSource::Ids => {}
+            _ => {}
         }
     }
 
     /// Bytes of a pixel of a channel on request; 0 for the channels of every frame.
     pub fn bytes_on_request(&self) -> usize {
         match self.source {
-            ChannelSource::Target => 1,
-            ChannelSource::Number(_) => 4,
+            ChannelSource::Target | ChannelSource::TargetAlone | ChannelSource::FlowValid(_) => 1,
+            ChannelSource::Number(_) | ChannelSource::DepthSensor => 4,
             ChannelSource::Bytes(_) => 3,
+            ChannelSource::Flow(_) => 8,
             _ => 0,
         }
     }
@@ -122,6 +153,7 @@ impl Element {
     pub fn parts(self) -> usize {
         match self {
             Self::Colour | Self::Bytes => 3,
+            Self::Pair => 2,
             Self::Float | Self::Label | Self::Id | Self::Flag => 1,
         }
     }

@@ -4,14 +4,17 @@
 mod channel;
 mod channel_set;
 pub mod depth;
+pub mod depth_sensor;
+pub mod flow;
 mod image;
 pub mod instance;
 pub mod mask;
+pub mod mask_amodal;
 pub mod normals;
 pub mod rgb;
 pub mod semantic;
 
-pub use channel::{Channel, ChannelSource, Element, SeenPoint};
+pub use channel::{Channel, ChannelSource, Element, FlowTo, SeenPoint};
 pub use channel_set::ChannelSet;
 pub use image::ChannelImage;
 
@@ -23,9 +26,20 @@ pub static ALL: &[&Channel] = &[
     &semantic::CHANNEL,
     &instance::CHANNEL,
     // On request, sorted by name.
+    &depth_sensor::CHANNEL,
+    &flow::BACK,
+    &flow::BACK_VALID,
+    &flow::FORWARD,
+    &flow::FORWARD_VALID,
     &mask::CHANNEL,
+    &mask_amodal::CHANNEL,
     &normals::CHANNEL,
 ];
+
+/// The channels that a single moment has: those of environments and single pictures.
+pub fn of_moments() -> impl Iterator<Item = &'static Channel> {
+    ALL.iter().copied().filter(|channel| !channel.is_of_films())
+}
 
 /// The channel called `name`.
 pub fn called(name: &str) -> Option<&'static Channel> {

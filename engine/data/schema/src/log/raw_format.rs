@@ -14,6 +14,7 @@ pub struct RawFormat {
 
 /// Possible formats of a channel's raw images; none for channels stored as image files. Ids are `16UC1`, or `32UC1`
 /// where a town has more objects than 16 bits can number (not in Foxglove's list: `step` / `width` = 4 gives the size).
+/// Neither is `32FC2`, OpenCV's name of two floats.
 pub fn formats(channel: &Channel) -> &'static [RawFormat] {
     match channel.element() {
         Element::Colour => &[],
@@ -23,5 +24,6 @@ pub fn formats(channel: &Channel) -> &'static [RawFormat] {
             &[RawFormat { encoding: "16UC1", pixel_bytes: 2 }, RawFormat { encoding: "32UC1", pixel_bytes: 4 }]
         }
         Element::Bytes => &[RawFormat { encoding: "rgb8", pixel_bytes: 3 }],
+        Element::Pair => &[RawFormat { encoding: "32FC2", pixel_bytes: 8 }],
     }
 }

@@ -175,6 +175,7 @@ fn preview_doc(channel: &Channel) -> Option<String> {
         Element::Float => Some(format!("{} in logarithmic colours.", channel.name)),
         Element::Label => Some("labels as palette PNG.".into()),
         Element::Flag | Element::Bytes => Some(format!("{} as PNG.", channel.name)),
+        Element::Pair => Some(format!("{} in the colours of a wheel, as PNG.", channel.name)),
         Element::Id => None,
     }
 }

@@ -78,7 +78,7 @@ fn address(name: &str, value: &Value) -> Result<String, String> {
 fn seen(name: &str, value: &Value) -> Result<Vec<String>, String> {
     let given: Vec<Value> = value.as_array().cloned().unwrap_or_else(|| vec![value.clone()]);
     let given = given.iter().map(|value| words(name, "sees", value)).collect::<Result<Vec<String>, String>>()?;
-    let allowed: Vec<&str> = ["world", "state"].into_iter().chain(channels::ALL.iter().map(|it| it.name)).collect();
+    let allowed: Vec<&str> = ["world", "state"].into_iter().chain(channels::of_moments().map(|it| it.name)).collect();
     let allowed: Vec<&str> = allowed.into_iter().chain(cosfly_sensors::ALL.iter().map(|it| it.name)).collect();
     if let Some(wrong) = given.iter().find(|it| !allowed.contains(&it.as_str())) {
         return Err(format!("`sees` of `{name}` has `{wrong}`{}", near(wrong, &allowed)));

@@ -106,7 +106,7 @@ class EnvConfig:
             raise InvalidValue(f"jobs is {self.jobs}; it is 1 to 1024")
         names = tuple(self.obs)
         if not names or not {*names} <= {*OBSERVATIONS} or len({*names}) < len(names):
-            raise InvalidValue(f"obs is {names}; it names one or several of {', '.join(OBSERVATIONS)}, each once")
+            raise InvalidValue(f"obs is {names}; it names one or several of {', '.join(OBSERVATIONS)}, each once; channels of films, such as flow_forward, are not seen while flying")
         if not all(8 <= side <= _LARGEST_SIZE for side in self.sides):
             raise InvalidValue(f"size is {self.sides}; the sides of pictures are 8 to {_LARGEST_SIZE} pixels")
         if not 1.0 <= self.max_depth_m <= 1e6:

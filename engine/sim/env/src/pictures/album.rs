@@ -99,7 +99,7 @@ impl PictureBatch {
 impl Pixels {
     fn new(element: Element, pixels: usize) -> Self {
         match element {
-            Element::Float => Self::Floats(vec![0.0; pixels]),
+            Element::Float | Element::Pair => Self::Floats(vec![0.0; element.parts() * pixels]),
             Element::Id => Self::Ids(vec![0; pixels]),
             Element::Colour | Element::Label | Element::Flag | Element::Bytes => {
                 Self::Bytes(vec![0; element.parts() * pixels])

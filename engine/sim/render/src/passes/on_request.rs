@@ -24,7 +24,7 @@ pub(crate) fn draw(images: &mut FrameImages, nearest: &[u32], faces: &[DrawnFace
             ray_in_world,
             camera_in_world: eye.position_in_world,
         };
-        for image in &mut images.on_request {
+        for image in images.on_request.iter_mut().filter(|image| !image.channel.is_of_films()) {
             let size = image.channel.bytes_on_request();
             image.channel.draw(&point, &mut image.bytes[size * at..size * (at + 1)]);
         }

@@ -223,7 +223,7 @@ pub fn sensors_of(observed: &[Observed]) -> SensorSet {
 
 /// A channel or a sensor of the lists, by its name.
 pub fn observed() -> impl TypedValueParser<Value = Observed> {
-    let channels = channels::ALL.iter().map(|channel| PossibleValue::new(channel.name).help(channel.doc));
+    let channels = channels::of_moments().map(|channel| PossibleValue::new(channel.name).help(channel.doc));
     let sensors = cosfly_sensors::ALL.iter().map(|sensor| PossibleValue::new(sensor.name).help(sensor.doc));
     PossibleValuesParser::new(channels.chain(sensors)).try_map(|name| {
         let sensor = || cosfly_sensors::called(&name).map(Observed::Sensor);

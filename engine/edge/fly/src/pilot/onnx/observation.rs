@@ -42,8 +42,9 @@ impl Observation {
             return Ok(Self::State);
         }
         let sensor = || cosfly_sensors::called(name).map(Self::Sensor);
-        channels::called(name).map(Self::Channel).or_else(sensor).ok_or_else(|| {
-            let channels = channels::ALL.iter().map(|it| it.name);
+        let channel = channels::of_moments().find(|it| it.name == name);
+        channel.map(Self::Channel).or_else(sensor).ok_or_else(|| {
+            let channels = channels::of_moments().map(|it| it.name);
             let all: Vec<&str> =
                 ["state"].into_iter().chain(channels).chain(cosfly_sensors::ALL.iter().map(|it| it.name)).collect();
             let near = nearest_name(name, all.iter().copied())
@@ -68,7 +69,7 @@ impl Observation {
             Element::Colour => &["0..255", "0..1"],
             Element::Bytes => &["0..255"],
             Element::Float if *channel == channels::depth::CHANNEL => &["m"],
-            Element::Float => &["number"],
+            Element::Float | Element::Pair => &["number"],
             Element::Label | Element::Id => &["id"],
             Element::Flag => &["0, 1"],
         }
