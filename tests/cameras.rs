@@ -117,7 +117,9 @@ fn drawn_cameras_with_lens_blur_and_noise_pass_every_check_of_the_dataset() {
 
 #[test]
 fn channels_on_request_are_logged_checked_shown_and_exported_where_a_recipe_asks_for_them() {
-    let street = street("channels = [\"normals\", \"rgb\", \"depth\", \"semantic\", \"instance\", \"mask\"]");
+    let flows = "\"flow_back\", \"flow_back_valid\", \"flow_forward\", \"flow_forward_valid\", \"depth_sensor\", \"mask_amodal\"";
+    let list = format!("[\"normals\", \"rgb\", \"depth\", \"semantic\", \"instance\", \"mask\", {flows}]");
+    let street = street(&format!("channels = {list}"));
     cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
     let dataset = street.dataset();
     let folder = dataset.to_str().expect("UTF-8");
@@ -125,6 +127,7 @@ fn channels_on_request_are_logged_checked_shown_and_exported_where_a_recipe_asks
     cosfly(&["preview", folder]).within(street.path()).run_ok();
     let card = std::fs::read_to_string(dataset.join("README.md")).expect("a card");
     assert!(card.contains("Channel `normals`: unit normals") && card.contains("Channel `mask`: 1 where"), "{card}");
+    assert!(card.contains("Channel `flow_forward`: optical flow") && card.contains("Channel `depth_sensor`"), "{card}");
     cosfly(&["export", folder, "--format", "imagefolder", "--out", "pictures"]).within(street.path()).run_ok();
     let card = std::fs::read_to_string(street.path().join("pictures/README.md")).expect("a card");
     assert!(card.contains("`normals`: unit normals"), "{card}");
@@ -146,6 +149,11 @@ fn impossible_cameras_and_renderers_are_refused_with_their_place() {
         ("backend = \"carla\"", "backend", "carla-job"),
         ("channels = [\"rgb\", \"depth\"]", "channels", "semantic"),
         ("channels = [\"rgb\", \"normal\"]", "channels", "normals"),
+        (
+            "lens = { k1 = -0.1 }\nchannels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"depth_sensor\"]",
+            "channels",
+            "rectified",
+        ),
         ("weathers = [\"ClearNoon\", \"ClearNoon\"]\npaired_weathers = true", "weathers", "once"),
     ] {
         let street = street(lines);

@@ -85,7 +85,7 @@ impl KeptShape {
     pub fn of(channel: &Channel, [width, height]: [usize; 2]) -> Self {
         let element = channel.element();
         let (dtype, bytes_per_number) = match element {
-            Element::Float => ("<f4", 4),
+            Element::Float | Element::Pair => ("<f4", 4),
             Element::Id => ("<u4", 4),
             Element::Colour | Element::Bytes | Element::Label | Element::Flag => ("|u1", 1),
         };

@@ -1,0 +1,226 @@
+"""Judges the optical flow of a dataset by reprojection: from depth, ids, the camera's poses and the tables of bodies alone.
+
+    venv/bin/python tests/outside/check_flow.py DATASET_FOLDER [--least-pixels N] [--plant scale|sign|swap|frame]
+
+Shares no code with cosfly. What stands (town, ground, sky) and vehicles must agree to 0.01 px beyond the step of the stored depth, through the
+lens. People move part by part: their pixels may differ from their body's motion by what a limb can do in a frame, and most of the ways that
+the mask calls seen must end on the same person. The mask is compared with the depth that the neighbouring frame has there. Needs logs without
+a rolling shutter. `--plant` spoils the flow first: the check must then fail.
+"""
+
+import argparse
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+import pyarrow.dataset as ds
+
+RIDER = 13
+MOST_PX = 0.01
+STEP_M = 0.5 / 1024
+LIMB_MPS = 8.0
+TYPES = {"32FC1": ("<f4", 1), "32FC2": ("<f4", 2), "mono8": ("u1", 1), "16UC1": ("<u2", 1), "32UC1": ("<u4", 1)}
+
+
+def rows(folder, name, columns):
+    return ds.dataset(folder / "data" / name, format="parquet").to_table(columns=columns).to_pylist()
+
+
+def images(path):
+    """Raw images of a log: topic -> list of arrays in the order of frames."""
+    from mcap.reader import make_reader
+    from mcap_protobuf.decoder import DecoderFactory
+
+    found = defaultdict(list)
+    names = ["depth", "instance", "semantic", "flow_forward", "flow_forward_valid", "flow_back", "flow_back_valid"]
+    with open(path, "rb") as file:
+        reader = make_reader(file, decoder_factories=[DecoderFactory()])
+        for _, channel, _, image in reader.iter_decoded_messages([f"/camera/{name}/image" for name in names]):
+            kind, parts = TYPES[image.encoding]
+            shape = (image.height, image.width) + ((parts,) if parts > 1 else ())
+            found[channel.topic.split("/")[2]].append(np.frombuffer(image.data, kind).reshape(shape))
+    return found
+
+
+def world_from_camera(row):
+    """Columns: ahead, right, up, in CARLA's world (left-handed, z up)."""
+    pitch, yaw, roll = np.radians([row[f"camera_{axis}_deg"] for axis in ("pitch", "yaw", "roll")])
+    (sp, sy, sr), (cp, cy, cr) = np.sin([pitch, yaw, roll]), np.cos([pitch, yaw, roll])
+    return np.array([
+        [cp * cy, cy * sp * sr - sy * cr, -cy * sp * cr - sy * sr],
+        [cp * sy, sy * sp * sr + cy * cr, -sy * sp * cr + cy * sr],
+        [sp, -cp * sr, cp * cr],
+    ])
+
+
+class Lens:
+    def __init__(self, flight):
+        self.focal, self.k1, self.k2 = flight["camera_focal_px"], flight["camera_k1"], flight["camera_k2"]
+        self.centre = np.array([flight["camera_width_px"], flight["camera_height_px"]]) / 2
+
+    def bend(self, ideal):
+        at = (ideal - self.centre) / self.focal
+        square = (at**2).sum(-1, keepdims=True)
+        return self.centre + self.focal * at * (1 + square * (self.k1 + square * self.k2))
+
+    def sampled(self, seen):
+        """Pixel centre of the ideal picture that a finished pixel shows."""
+        if not (self.k1 or self.k2):
+            return seen
+        ideal = seen.copy()
+        for _ in range(60):
+            ideal -= self.bend(ideal) - seen
+        return np.floor(np.round((ideal - 0.5) * 256) / 256 + 0.5) + 0.5
+
+
+def turn(degrees):
+    sin, cos = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
+    return np.array([[cos, -sin, 0], [sin, cos, 0], [0, 0, 1]])
+
+
+def moved(points, here, there):
+    """Points of a rigid body that goes from one state to another."""
+    feet = lambda row: np.array(row["feet_in_world_m"])
+    return feet(there) + (points - feet(here)) @ turn(there["heading_deg"] - here["heading_deg"]).T
+
+
+def project(points, row, lens):
+    seen = (points - np.array([row[f"drone_{axis}_m"] for axis in "xyz"])) @ world_from_camera(row)
+    ahead = np.where(seen[..., 0] > 0.05, seen[..., 0], np.nan)
+    ideal = lens.centre + lens.focal * np.stack([seen[..., 1], -seen[..., 2]], -1) / ahead[..., None]
+    return lens.bend(ideal), ahead
+
+
+def spoiled(flow, how):
+    return {None: flow, "scale": flow * 1.02, "sign": -flow, "swap": flow[..., ::-1]}[how]
+
+
+class Judge:
+    def __init__(self, folder, plant):
+        self.plant, self.wrong, self.counts, self.worst = plant, [], defaultdict(int), defaultdict(float)
+        self.objects = {row["instance"] for row in rows(folder, "objects", ["instance"])}
+        self.folder = folder
+        self.flights = rows(folder, "trajectories", [
+            "trajectory_id", "mcap_path", "dt_s", "target_kind", "camera_width_px", "camera_height_px", "camera_focal_px", "camera_k1",
+            "camera_k2", "camera_readout_s"])  # fmt: skip
+        self.frames = defaultdict(dict)
+        angles = [f"camera_{axis}_deg" for axis in ("pitch", "yaw", "roll")]
+        target = [*(f"target_{axis}_m" for axis in "xyz"), "target_heading_deg"]
+        for row in rows(folder, "frames", ["trajectory_id", "frame", *(f"drone_{axis}_m" for axis in "xyz"), *angles, *target]):
+            self.frames[row["trajectory_id"]][row["frame"]] = row
+        self.bodies = defaultdict(dict)
+        for row in rows(folder, "bodies", ["trajectory_id", "frame", "instance", "kind", "feet_in_world_m", "heading_deg"]):
+            self.bodies[row["trajectory_id"], row["frame"]][row["instance"]] = row
+
+    def about(self, flight, frame):
+        """Bodies of a frame by instance id, the target among them."""
+        row = self.frames[flight["trajectory_id"]][frame]
+        target = {"kind": flight["target_kind"], "feet_in_world_m": [row[f"target_{axis}_m"] for axis in "xyz"], "heading_deg": row["target_heading_deg"]}
+        return {1: target, **self.bodies[flight["trajectory_id"], frame]}
+
+    def flight(self, flight):
+        logged = images(self.folder / flight["mcap_path"])
+        for name, step in (("flow_forward", 1), ("flow_back", -1)):
+            for frame, flow in enumerate(logged[name]):
+                other = frame + step + (self.plant == "frame")
+                place = f"{flight['trajectory_id']} frame {frame} {name}"
+                valid = logged[f"{name}_valid"][frame]
+                if not 0 <= frame + step < len(logged[name]):
+                    if flow.any() or valid.any():
+                        self.wrong.append(f"{place}: there is no such frame, and not all is 0")
+                elif 0 <= other < len(logged[name]):
+                    self.pair(place, flight, logged, (frame, other), spoiled(flow, self.plant if self.plant != "frame" else None), valid)
+
+    def pair(self, place, flight, logged, pair, flow, valid):
+        lens, (frame, other) = Lens(flight), pair
+        here, there = (self.frames[flight["trajectory_id"]][it] for it in pair)
+        depth, ids, labels = (logged[name][frame] for name in ("depth", "instance", "semantic"))
+        depth = depth.astype(float)
+        rows_, columns = np.indices(depth.shape)
+        centre = lens.sampled(np.stack([columns, rows_], -1) + 0.5)
+        ray = np.concatenate([np.ones((*depth.shape, 1)), (centre - lens.centre) / lens.focal * [1, -1]], -1) @ world_from_camera(here).T
+        drone = np.array([here[f"drone_{axis}_m"] for axis in "xyz"])
+        around, around_there = self.about(flight, frame), self.about(flight, other)
+        points = lambda depth_m: drone + np.minimum(depth_m, 1e9)[..., None] * ray
+
+        def ways(depth_m):
+            at, kinds = points(depth_m), np.zeros(depth.shape, "U8")
+            kinds[(ids == 0) | np.isin(ids, list(self.objects))] = "standing"
+            for instance in np.unique(ids):
+                body, later = around.get(instance), around_there.get(instance)
+                if instance in self.objects or not body or not later:
+                    continue
+                mask = ids == instance
+                at[mask] = moved(at[mask], body, later)
+                kinds[mask] = "person" if body["kind"] == "pedestrian" else "vehicle"
+                kinds[mask & (labels == RIDER)] = "rider"
+            end, ahead = project(at, there, lens)
+            return end - lens.bend(centre), kinds, end, ahead
+
+        expected, kinds, end, ahead = ways(depth)
+        nearer = ways(depth - STEP_M)[0]
+        error = np.linalg.norm(flow - expected, axis=-1)
+        allowed = MOST_PX + 1e-4 * np.linalg.norm(expected, axis=-1) + 1.5 * np.linalg.norm(nearer - expected, axis=-1)
+        limb = LIMB_MPS * flight["dt_s"] * lens.focal / np.maximum(ahead - 1, 0.5)
+        for kind in ("standing", "vehicle", "person", "rider"):
+            chosen = (kinds == kind) & np.isfinite(ahead)
+            beyond = chosen & (error > (allowed if kind in ("standing", "vehicle") else allowed + limb))
+            self.counts[kind] += chosen.sum()
+            if chosen.any() and kind in ("standing", "vehicle"):
+                self.worst[kind] = max(self.worst[kind], (error - allowed + MOST_PX)[chosen].max())
+            if beyond.any():
+                v, u = np.argwhere(beyond)[0]
+                self.wrong.append(f"{place}: {beyond.sum()} pixels of kind {kind}, the first at ({u}, {v}): {flow[v, u]} instead of {expected[v, u]}")
+        self.mask(place, logged, other, flow, valid, kinds, ids, ahead)
+
+    def mask(self, place, logged, other, flow, valid, kinds, ids, ahead):
+        """The mask against what the other frame shows at the ends of the ways."""
+        height, width = ids.shape
+        rows_, columns = np.indices(ids.shape)
+        end = flow + np.stack([columns, rows_], -1) + 0.5
+        inside = (end >= 0.01).all(-1) & (end[..., 0] < width - 0.01) & (end[..., 1] < height - 0.01)
+        outside = (end < -0.6).any(-1) | (end[..., 0] > width + 0.6) | (end[..., 1] > height + 0.6)
+        u, v = (np.clip(np.nan_to_num(end[..., k]), 0, size - 1).astype(int) for k, size in ((0, width), (1, height)))
+        found, theirs = logged["depth"][other].astype(float), logged["instance"][other]
+        near = np.min([np.roll(found, shift, (0, 1)) for shift in np.ndindex(3, 3)], 0)
+        near = np.roll(near, (-1, -1), (0, 1))[v, u]
+        standing = kinds == "standing"
+        self.counts["hidden"] += (standing & inside & (valid == 0)).sum()
+        bad = (valid == 1) & outside
+        # Said to be hidden, and nothing near the end of the way is nearer.
+        bad |= standing & inside & (valid == 0) & (near > ahead * 0.999) & np.isfinite(ahead)
+        # Said to be seen, and what is there is much nearer.
+        bad |= standing & inside & (valid == 1) & (found[v, u] < ahead * 0.9 - 0.5) & (np.max([found[v, u], near], 0) < ahead * 0.9 - 0.5)
+        if bad.sum() > 0.002 * bad.size:
+            self.wrong.append(f"{place}: the mask of {bad.sum()} pixels differs from the depths of the other frame")
+        people = (kinds == "person") & (valid == 1) & inside
+        self.counts["landed"] += (theirs[v, u][people] == ids[people]).sum()
+        self.counts["people seen"] += people.sum()
+
+
+def main():
+    options = argparse.ArgumentParser()
+    options.add_argument("folder", type=Path)
+    options.add_argument("--least-pixels", type=int, default=10_000)
+    options.add_argument("--plant", choices=["scale", "sign", "swap", "frame"])
+    given = options.parse_args()
+    judge = Judge(given.folder, given.plant)
+    for flight in judge.flights:
+        if flight["camera_readout_s"]:
+            sys.exit("check_flow: it has a rolling shutter, whose rows the tables do not place")
+        judge.flight(flight)
+    counts = judge.counts
+    print(", ".join(f"{name} {count}" for name, count in counts.items()), "| worst beyond the depth's step, px:",
+          {kind: round(error, 4) for kind, error in judge.worst.items()})  # fmt: skip
+    if counts["standing"] < given.least_pixels:
+        judge.wrong.append(f"only {counts['standing']} pixels were compared")
+    if counts["people seen"] and counts["landed"] < 0.85 * counts["people seen"]:
+        judge.wrong.append(f"{counts['landed']} of {counts['people seen']} ways of people end on the same person")
+    for message in judge.wrong[:20]:
+        print("check_flow:", message)
+    sys.exit(1 if judge.wrong else 0)
+
+
+if __name__ == "__main__":
+    main()
