@@ -195,7 +195,9 @@ class Judge:
         if bad.sum() > 0.002 * bad.size:
             self.wrong.append(f"{place}: the mask of {bad.sum()} pixels differs from the depths of the other frame")
         people = (kinds == "person") & (valid == 1) & inside
-        self.counts["landed"] += (theirs[v, u][people] == ids[people]).sum()
+        # A far person is a few pixels wide: a way may end beside its last pixel.
+        around = np.stack([np.roll(theirs, shift, (0, 1)) for shift in ((0, 0), (0, 1), (0, -1), (1, 0), (-1, 0))])
+        self.counts["landed"] += (around[:, v, u] == ids).any(0)[people].sum()
         self.counts["people seen"] += people.sum()
 
 
