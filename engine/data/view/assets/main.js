@@ -170,7 +170,8 @@ async function showPaths() {
   const { flight } = state;
   try {
     const { flights } = await source.get(`/api/paths/${flight.number}`);
-    if (state.flight.town !== flight.town) return;
+    // Answers may come too late: another town, no flight, or the button released.
+    if (state.flight?.town !== flight.town || !isPressed($("all"))) return;
     state.pathsOf = flight.town;
     map.showPaths(flights);
   } catch (error) {
@@ -188,16 +189,17 @@ function toggleSolid() {
   const isSolid = toggle($("solid"));
   $("map").hidden = isSolid;
   $("scene").hidden = !isSolid;
-  if (isSolid && map.paths) toggleAll();
+  if (isSolid && isPressed($("all"))) toggleAll();
   showPlaces();
   $("fit").title = isSolid ? "Drag turns, Shift and drag moves, the wheel zooms" : "";
   setFrame(state.frame);
 }
 
+const isPressed = button => button.getAttribute("aria-pressed") === "true";
+
 function toggle(button) {
-  const isPressed = button.getAttribute("aria-pressed") !== "true";
-  button.setAttribute("aria-pressed", String(isPressed));
-  return isPressed;
+  button.setAttribute("aria-pressed", String(!isPressed(button)));
+  return isPressed(button);
 }
 
 let isDue = false;
@@ -274,6 +276,19 @@ async function followLink() {
   return true;
 }
 
+// First pictures of films that a recipe has so far; loaded again only where there are others.
+let filmsShown = "[]";
+function showFilms(films) {
+  if (JSON.stringify(films) === filmsShown) return;
+  filmsShown = JSON.stringify(films);
+  $("films").replaceChildren(...films.map(film => {
+    const figure = document.createElement("figure");
+    const address = `/picture/${film.number}/0/rgb?v=${film.version}`;
+    figure.append(Object.assign(new Image(), { src: address, alt: `first picture of ${film.name}` }), element("figcaption", film.name));
+    return figure;
+  }));
+}
+
 async function progress() {
   $("progress").hidden = false;
   try {
@@ -283,12 +298,7 @@ async function progress() {
       line.append(element("td", String(stage.items)), element("td", stage.failures.join("; ")));
       return line;
     }));
-    $("films").replaceChildren(...films.map(film => {
-      const figure = document.createElement("figure");
-      const picture = Object.assign(new Image(), { src: `/picture/${film.number}/0/rgb`, alt: `first picture of ${film.name}` });
-      figure.append(picture, element("figcaption", film.name));
-      return figure;
-    }));
+    showFilms(films);
     const left = stages.reduce((sum, stage) => sum + stage.to_run, 0);
     $("ready").textContent = !stages.length ? "nothing is made yet: start `cosfly run`"
       : left ? `${left} tasks are left` : "everything is made: reload to see its flights once `cosfly run` has ended";

@@ -21,7 +21,7 @@ class Scene {
     this.prepare();
     let from = null;
     canvas.addEventListener("webglcontextlost", event => event.preventDefault());
-    canvas.addEventListener("webglcontextrestored", () => { this.prepare(); this.rebuild(); this.draw(this.frame); });
+    canvas.addEventListener("webglcontextrestored", () => { this.prepare(); if (this.shown) this.rebuild(); this.draw(this.frame); });
     canvas.addEventListener("pointerdown", event => { from = [event.clientX, event.clientY]; canvas.setPointerCapture(event.pointerId); });
     canvas.addEventListener("pointerup", () => { from = null; });
     canvas.addEventListener("pointermove", event => {
@@ -91,6 +91,7 @@ class Scene {
     const [flight] = this.shown ? this.shown.flights : [];
     if (!flight) return;
     const sides = ["x", "y", "z"].map(axis => [...flight[axis], ...flight[`target_${axis}`]].filter(it => it !== null));
+    if (sides.some(numbers => !numbers.length)) return;
     const [x, y, z] = sides.map(numbers => (least(numbers) + most(numbers)) / 2);
     const wide = Math.max(SMALLEST_M / 2, ...sides.map(numbers => most(numbers) - least(numbers)));
     Object.assign(this.eye, { x, y, z, distance: 2 * wide });
@@ -110,7 +111,7 @@ class Scene {
     for (const [bx, by, along, across, yaw, height, bottom, kind] of boxes.slice(0, MOST_SOLID)) {
       solid(mesh, [bx, by, bottom], [along, across, height], yaw, rgbOf(KIND_COLOURS[kind] || "#8b8f9a"));
     }
-    if (flight) {
+    if (flight && flight.x.length) {
       const ground = least(flight.target_z) - 0.1;
       solid(mesh, [x, y, ground - 1], [2000, 2000, 1], 0, rgbOf("#7f8a80"));
       ribbon(mesh, flight.target_x, flight.target_y, flight.target_z.map(z => z + 0.2), () => rgbOf("#d4006a"), 0.15);

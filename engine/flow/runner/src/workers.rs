@@ -349,9 +349,10 @@ impl<'r> Workers<'_, 'r> {
             shared.failures.push(Failure { id: id.clone(), diagnostic: diagnostic.clone() });
         }
         drop(shared);
-        if diagnostic.fault != Fault::DiskFull {
-            // For those who look at the store; the run tells it anyway.
-            let _ = self.store.put_failure(&self.plan.stages[stage].plans[item], &diagnostic);
+        let plan = &self.plan.stages[stage].plans[item];
+        if diagnostic.fault != Fault::DiskFull && !self.options.failed_elsewhere.contains_key(plan) {
+            // For those who look at the store; the run tells it anyway. Where it failed elsewhere, it was left there.
+            let _ = self.store.put_failure(plan, &diagnostic);
         }
         (self.report)(RunEvent::Failed { id, diagnostic });
     }

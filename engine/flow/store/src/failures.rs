@@ -1,4 +1,4 @@
-//! Failures of tasks that ran apart from their run, so that the run can tell them: on a cluster, nobody reads standard error.
+//! Failures of tasks, so that others can tell them: the run whose tasks ran on a cluster, where nobody reads standard error, and the viewer.
 
 use crate::fault::Step;
 use crate::store::Store;

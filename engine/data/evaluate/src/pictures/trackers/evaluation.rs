@@ -1,4 +1,4 @@
-//! The evaluation of a tracker's files, sequence by sequence: memory does not grow with their number.
+//! The evaluation of a tracker's files: boxes of a few sequences are in memory at a time, counts of all.
 
 use super::files::TrackerFiles;
 use super::lines::{self, FoundBox, LineFault};
@@ -165,13 +165,14 @@ struct Count {
 impl Count {
     /// Nothing counted yet of the sequences of `flown`, a flight each.
     fn new(flights: &Flights, kind: PictureKind, mut flown: Vec<usize>) -> Self {
+        flown.sort_unstable();
         flown.dedup();
         let groups = groups_of_flights(flights, &flown);
         let number = groups.iter().max().map_or(0, |last| last + 1);
         let kinds = FrameKinds::new(flights);
         let tallies = match kind {
             PictureKind::Target => Tallies::Target(TargetTallies::new(kinds.names.len(), number)),
-            _ => Tallies::Tracks(TrackTallies::new(kinds.names.len(), number)),
+            _ => Tallies::Tracks(TrackTallies::new(kinds.names.len())),
         };
         Self {
             counts: FrameCounts::new(kinds.names.len(), number),

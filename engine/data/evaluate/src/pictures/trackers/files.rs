@@ -29,6 +29,7 @@ pub struct TrackerFiles {
 fn texts(folder: &Path) -> Result<(Vec<PathBuf>, u64)> {
     let is_time = |path: &Path| path.parent().is_some_and(|parent| parent.ends_with("times"));
     files_below(folder, &|path| path.extension().is_some_and(|ending| ending == "txt") && !is_time(path))
+        .map_err(|refusal| refusal.hint("a tracker's results are a folder with a text file for each sequence"))
 }
 
 /// The kind of a tracker's results, by the first line that has something; `None` for a folder without text files.

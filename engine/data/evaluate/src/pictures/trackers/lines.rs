@@ -137,6 +137,8 @@ fn shown(cell: &str) -> String {
 }
 
 fn text(bytes: &[u8]) -> Result<&str, LineFault> {
+    // Some editors begin a text with a mark of its encoding.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     std::str::from_utf8(bytes).map_err(|error| {
         let line = 1 + bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
         (line, "text", "the file is not text in UTF-8".to_owned())
@@ -178,6 +180,7 @@ mod tests {
         let boxes = tracks(b"2,7,10,20,30,40,1,5", 2).unwrap();
         assert_eq!(boxes, [vec![], vec![FoundBox { id: 7, class: Some(5), edges: [10.0, 20.0, 40.0, 60.0] }]]);
         assert_eq!(tracks(b"1,1,1,1,1,1,1\n\xff", 2).unwrap_err().0, 2);
+        assert_eq!(tracks(b"\xef\xbb\xbf2,7,10,20,30,40,1,5", 2).unwrap(), boxes, "a mark of the encoding");
     }
 
     #[test]

@@ -4,6 +4,8 @@ use crate::pictures::settings::{PictureKind, PictureSettings};
 use crate::windows::Flights;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use serde::Deserialize;
+use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// A sequence of pictures.
@@ -57,13 +59,14 @@ pub fn sequences(flights: &Flights, settings: &PictureSettings) -> Result<Vec<Tr
 }
 
 fn listed(path: &Path, flights: &Flights) -> Result<Vec<TrackedSequence>> {
-    let text =
-        std::fs::read_to_string(path).map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?;
+    let hint = "`--sequences` takes the `sequences.jsonl` of an export for trackers of the same dataset";
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error).hint(hint))?;
     let refused = |line: usize, what: String| {
         Diagnostic::new("predictions-sequences", Fault::Input, format!("`{}` line {line}: {what}", path.display()))
-            .hint("`--sequences` takes the `sequences.jsonl` of an export for trackers of the same dataset")
+            .hint(hint)
     };
-    let mut found: Vec<TrackedSequence> = vec![];
+    let (mut found, mut names): (Vec<TrackedSequence>, BTreeSet<String>) = Default::default();
     for (line, number) in text.lines().zip(1..).filter(|(line, _)| !line.trim().is_empty()) {
         let line: Line =
             serde_json::from_str(line).map_err(|error| refused(number, format!("not a sequence: {error}")))?;
@@ -76,6 +79,9 @@ fn listed(path: &Path, flights: &Flights) -> Result<Vec<TrackedSequence>> {
             let frames = flights.rows[flight].frames;
             let what = format!("{} pictures, of every {} frames", line.pictures, line.every);
             return Err(refused(number, format!("`{}` has {frames} frames, and not {what}", line.trajectory_id)));
+        }
+        if !names.insert(line.sequence.clone()) {
+            return Err(refused(number, format!("a second sequence `{}`; names must differ", line.sequence)));
         }
         let [first, every, pictures] = [line.first_frame, line.every, line.pictures];
         found.push(TrackedSequence { name: line.sequence, flight, first, every, pictures });
@@ -92,7 +98,11 @@ fn of_flights(flights: &Flights, settings: &PictureSettings) -> Result<Vec<Track
     let all: Vec<usize> = (0..flights.rows.len()).collect();
     let mut found = vec![];
     for part in flights.parts(&all, &|flight| *flight) {
-        let loaded = flights.part(part)?;
+        // Tracks begin with the flight, whatever its frames show.
+        let loaded = match settings.kind {
+            PictureKind::Tracks => Cow::Borrowed(flights),
+            _ => flights.part(part)?,
+        };
         for flight in part.iter().copied() {
             let seen = |frame: &usize| settings.kind == PictureKind::Tracks || is_seen(&loaded, flight, *frame);
             let Some(first) = (0..flights.rows[flight].frames).step_by(every).find(seen) else { continue };

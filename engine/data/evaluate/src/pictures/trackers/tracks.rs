@@ -76,32 +76,33 @@ pub fn named(tally: &TrackTally) -> Option<BTreeMap<&'static str, f64>> {
     Some(OF_TRACKS.iter().map(|metric| metric.key).zip(tally.scores()?).collect())
 }
 
-/// Everything that is counted: row per kind, column per class, then group.
+/// Everything that is counted: row per kind, column per class, then what there is of groups.
 pub struct TrackTallies {
-    counted: Vec<Vec<Vec<TrackTally>>>,
+    counted: Vec<Vec<BTreeMap<usize, TrackTally>>>,
     /// Number of classes that are scored, from the first on.
     pub classes: usize,
 }
 
 impl TrackTallies {
     /// Nothing counted yet.
-    pub fn new(kinds: usize, groups: usize) -> Self {
-        Self { counted: vec![vec![vec![TrackTally::default(); groups]; COUNTED.len()]; kinds + 1], classes: 1 }
+    pub fn new(kinds: usize) -> Self {
+        Self { counted: vec![vec![BTreeMap::new(); COUNTED.len()]; kinds + 1], classes: 1 }
     }
 
     /// Counts a sequence of kinds and a group.
     pub fn add(&mut self, kinds: &[usize], group: usize, sequence: &[TrackTally; COUNTED.len()]) {
         for kind in [0].into_iter().chain(kinds.iter().map(|kind| kind + 1)) {
-            for (class, tally) in self.counted[kind].iter_mut().zip(sequence) {
-                class[group].add_times(tally, 1.0);
+            let classes = self.counted[kind].iter_mut().zip(sequence);
+            for (class, tally) in classes.filter(|(_, tally)| **tally != TrackTally::default()) {
+                class.entry(group).or_default().add_times(tally, 1.0);
             }
         }
     }
 
     fn total(&self, kind: usize, class: usize, times: &dyn Fn(usize) -> u64) -> TrackTally {
         let mut total = TrackTally::default();
-        for (group, tally) in self.counted[kind][class].iter().enumerate().filter(|(group, _)| times(*group) > 0) {
-            total.add_times(tally, times(group) as f64);
+        for (group, tally) in self.counted[kind][class].iter().filter(|(group, _)| times(**group) > 0) {
+            total.add_times(tally, times(*group) as f64);
         }
         total
     }

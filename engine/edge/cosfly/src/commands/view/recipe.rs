@@ -122,7 +122,11 @@ impl ViewSubject for RecipeSubject {
             })
         });
         let shown = films(&plan, &store).take(if self.delivered.get().is_some() { 0 } else { MOST_FILMS });
-        let films = shown.map(|film| json!({ "name": film.name, "number": film.number }));
+        // The browser keeps pictures: the version tells those of an earlier recipe apart.
+        let films = shown.map(|film| {
+            let version = film.pack.digest.to_string();
+            json!({ "name": film.name, "number": film.number, "version": version })
+        });
         Ok(Some(json!({ "stages": stages.collect::<Vec<_>>(), "films": films.collect::<Vec<_>>() })))
     }
 }
