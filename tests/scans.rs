@@ -38,7 +38,7 @@ fn splats_are_drawn_over_the_town_and_the_dataset_holds() {
     assert_eq!(frames_made("{ source = \"scan.ply\", up_axis = \"z\" }"), 0);
     assert_eq!(frames_made("{ source = \"scan.ply\", up_axis = \"z\", turn_deg = 30 }"), 6);
 
-    // Splats far above the street are not those of the street.
+    // Splats far below the street are not those of the street.
     let set = "stages.frames.splats={ source = \"scan.ply\", up_axis = \"z\", origin_m = [0, 0, -9] }";
     let printed = cosfly(&["run", "recipe.toml", "--set", set]).within(street.path()).run_ok();
     assert!(printed.stderr.contains("the splats lie"), "{}", printed.stderr);

@@ -10,6 +10,9 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// Longest file of splats: the most splats that are read, with every number that they may have, fit well.
+const MOST_SPLAT_BYTES: u64 = 4 << 30;
+
 /// Files of the models and of the splats, whose paths leave the parameters: what a file holds counts, not where it lies.
 pub fn take_sources(config: &mut RenderConfig) -> Vec<Source> {
     let take = |key: String, source: &mut String, settle: fn(&Path) -> Result<()>| {
@@ -51,7 +54,14 @@ pub fn read_scene_splats(
 
 fn read_splats(path: &Path) -> Result<SplatCloud> {
     let shown = path.display();
-    let bytes = std::fs::read(path).map_err(|error| Diagnostic::io(format!("read the splats `{shown}`"), &error))?;
+    let unreadable = |error: std::io::Error| Diagnostic::io(format!("read the splats `{shown}`"), &error);
+    let length = std::fs::metadata(path).map_err(unreadable)?.len();
+    if length > MOST_SPLAT_BYTES {
+        let message = format!("the file has {length} bytes; at most {MOST_SPLAT_BYTES} are read");
+        let refused = Diagnostic::new("splats-refused", Fault::Input, message).because(format!("in `{shown}`"));
+        return Err(refused.hint("cut the scene into pieces, or prune it in an editor of splats such as SuperSplat"));
+    }
+    let bytes = std::fs::read(path).map_err(unreadable)?;
     cosfly_splats::read(&bytes).map(|file| file.cloud).map_err(|error| {
         let refused = Diagnostic::new("splats-refused", Fault::Input, error.message).because(format!("in `{shown}`"));
         error.hints.into_iter().fold(refused, |refused, hint| refused.hint(hint))

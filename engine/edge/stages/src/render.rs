@@ -148,7 +148,7 @@ impl Stage for RenderStage {
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
         let mut seen = self.draw(outputs, context, &place, &trajectory, (&config, &shooting))?;
         let mut notes = notes_of(&crowd, &seen.sightings);
-        let splats = seen.median_off_m().map(compared);
+        let splats = self.config.splats.as_ref().map(|_| compared(seen.median_off_m()));
         notes.extend(splats.iter().map(|(note, _)| ("splats".to_owned(), note.clone())));
         let warnings = splats.and_then(|(_, warning)| warning).into_iter().collect();
         let pair = trajectory.perturbation.as_ref().map(|twin| {
@@ -219,7 +219,7 @@ struct SeenPeople {
 }
 
 impl SeenPeople {
-    /// The median over all frames; none without splats.
+    /// The median over all frames; none without pixels of both splats and geometry.
     fn median_off_m(&mut self) -> Option<f32> {
         self.splats_off_m.sort_unstable_by(f32::total_cmp);
         self.splats_off_m.get(self.splats_off_m.len() / 2).copied()
@@ -227,7 +227,12 @@ impl SeenPeople {
 }
 
 /// The note about splats and geometry, and the warning where they do not belong together.
-fn compared(off_m: f32) -> (String, Option<String>) {
+fn compared(off_m: Option<f32>) -> (String, Option<String>) {
+    let Some(off_m) = off_m else {
+        let note = "no picture shows splats over the geometry".to_owned();
+        let warning = format!("{note}: check `splats.up_axis`, its scale and its place");
+        return (note, Some(warning));
+    };
     let note = format!("half of the pixels within {off_m:.2} m of the geometry");
     let is_elsewhere = off_m > MOST_OFF_M;
     let warning = format!(
@@ -354,6 +359,13 @@ impl RenderStage {
 mod tests {
     use super::*;
     use cosfly_frames::DVec3;
+
+    #[test]
+    fn splats_that_lie_elsewhere_or_nowhere_are_a_warning() {
+        assert_eq!(compared(Some(0.04)), ("half of the pixels within 0.04 m of the geometry".to_owned(), None));
+        let warning = |off_m| compared(off_m).1.expect("a warning");
+        assert!(warning(Some(2.0)).contains("2.0 m") && warning(None).contains("splats.up_axis"));
+    }
 
     #[test]
     fn a_camera_in_a_wall_is_named_with_its_frame() {

@@ -47,7 +47,7 @@ pub(super) fn draw(images: &mut FrameImages, camera: &Camera, seed: &Seed) {
                 let noisy = true_px + deviation * (f64::from(sum) - SUM_OF_FOUR[1]) / SUM_OF_FOUR[0];
                 scale / ((noisy / STEP_PX).round() * STEP_PX)
             });
-            let found = found.filter(|depth_m| (0.0..=RANGE_M[1]).contains(depth_m));
+            let found = found.filter(|depth_m| (RANGE_M[0]..=RANGE_M[1]).contains(depth_m));
             *measured = found.map_or(f32::NAN, |depth_m| depth_m as f32).to_le_bytes();
         }
     }

@@ -14,6 +14,7 @@ use cosfly_figures::{Bystander, FigureTriangle, figure};
 use cosfly_frames::{DMat3, DVec3, real};
 use cosfly_raster::eye::Eye;
 use cosfly_raster::visibility::{NEAR_M, NO_FACE, PlaneOnScreen, Screen};
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// A surface hides a point that is farther by more than this, metres and a share of its depth.
@@ -26,7 +27,7 @@ const MOST_TRIES: usize = 8;
 #[derive(Default)]
 pub(crate) struct OtherFrame {
     strips: Vec<OtherStrip>,
-    /// Planes of the faces of all strips.
+    /// Planes of the faces that are nearest somewhere, strip by strip.
     planes: Vec<PlaneOnScreen>,
     /// Number of the plane that is nearest at each pixel of the ideal picture.
     nearest: Vec<u32>,
@@ -95,10 +96,18 @@ impl OtherFrame {
 impl Renderer {
     /// Takes rows of the frame that was drawn last, at the moment of `setup`, into a frame beside another one.
     pub(crate) fn remember(&self, setup: &FrameSetup<'_>, rows: Range<usize>, other: &mut OtherFrame) {
-        let first = other.planes.len() as u32;
-        other.planes.extend(self.faces.iter().map(|face| face.plane));
-        let faces = &self.nearest.face[rows.start * self.screen.width..rows.end * self.screen.width];
-        other.nearest.extend(faces.iter().map(|face| if *face == NO_FACE { NO_FACE } else { first + face }));
+        let mut numbers = vec![NO_FACE; self.faces.len()];
+        for face in &self.nearest.face[rows.start * self.screen.width..rows.end * self.screen.width] {
+            let Some(number) = numbers.get_mut(*face as usize) else {
+                other.nearest.push(NO_FACE);
+                continue;
+            };
+            if *number == NO_FACE {
+                *number = other.planes.len() as u32;
+                other.planes.push(self.faces[*face as usize].plane);
+            }
+            other.nearest.push(*number);
+        }
         let target = setup.target.map(|walker| Bystander { walker, instance: TARGET_INSTANCE });
         let bodies = target.into_iter().chain(setup.others.iter().copied()).collect();
         other.strips.push(OtherStrip { rows, eye: Eye::new(&setup.pose), bodies });
@@ -162,8 +171,8 @@ struct Flow<'a> {
     /// Motion of what stands, to the moment of each strip.
     town: Vec<Motion>,
     eye: Eye,
-    /// Of each strip: everybody in this frame, where they are there.
-    bodies: Vec<Vec<Option<OtherBody>>>,
+    /// Of each strip that a point may be in: everybody in this frame, where they are there.
+    bodies: Vec<OnceCell<Vec<Option<OtherBody>>>>,
 }
 
 /// Somebody in the other frame.
@@ -180,11 +189,7 @@ impl<'a> Flow<'a> {
         let (ideal, finished) = (&renderer.screen, [f64::from(width), f64::from(height)]);
         let margin_px = [0.5 * (ideal.width as f64 - finished[0]), 0.5 * (ideal.height as f64 - finished[1])];
         let town = other.strips.iter().map(|strip| Motion::in_world(&eye, &strip.eye, DMat3::IDENTITY, DVec3::ZERO));
-        let members = &renderer.people.members;
-        let of_strip = |strip: &OtherStrip| {
-            members.iter().map(|person| OtherBody::of(person, &eye, strip)).collect::<Vec<Option<OtherBody>>>()
-        };
-        let bodies = other.strips.iter().map(of_strip).collect();
+        let bodies = other.strips.iter().map(|_| OnceCell::new()).collect();
         Self { renderer, other, seen_through, margin_px, town: town.collect(), eye, bodies }
     }
 
@@ -208,11 +213,12 @@ impl<'a> Flow<'a> {
                 last.2
             };
             let mut strip = self.other.strip_at(v);
-            let mut place = None;
+            let (mut place, mut is_taken) = (None, false);
             for _ in 0..MOST_TRIES {
                 place = motion(strip).and_then(|motion: Motion| motion.place(screen, ray, inverse));
                 let taken = place.as_ref().map_or(strip, |place: &Place| self.other.strip_at(place.v));
-                if taken == strip {
+                is_taken = taken == strip;
+                if is_taken {
                     break;
                 }
                 strip = taken;
@@ -221,7 +227,6 @@ impl<'a> Flow<'a> {
             let (from, to) = (self.finished(u, v), self.finished(place.u, place.v));
             let Camera { width, height, .. } = self.seen_through.camera;
             let is_inside = (0.0..f64::from(width)).contains(&to.0) && (0.0..f64::from(height)).contains(&to.1);
-            let is_taken = self.other.strip_at(place.v) == strip;
             let is_seen = is_inside && is_taken && self.other.shows(screen, &place);
             ([(to.0 - from.0) as f32, (to.1 - from.1) as f32], is_seen)
         })
@@ -233,6 +238,13 @@ impl<'a> Flow<'a> {
         lens.bend(camera, (u - self.margin_px[0], v - self.margin_px[1]))
     }
 
+    /// Everybody in this frame, where they are at the moment of a strip.
+    fn bodies_at(&self, strip: usize) -> &[Option<OtherBody>] {
+        let members = self.renderer.people.members.iter();
+        let there = &self.other.strips[strip];
+        self.bodies[strip].get_or_init(|| members.map(|person| OtherBody::of(person, &self.eye, there)).collect())
+    }
+
     /// Motion of a face to the moment of a strip; none for somebody who is not there then.
     fn motion(&self, source: Option<FaceSource>, strip: usize) -> Option<Motion> {
         let Some(FaceSource::Figure { look, triangle, is_cloth, .. }) = source else { return Some(self.town[strip]) };
@@ -242,7 +254,7 @@ impl<'a> Flow<'a> {
         if person.town_label.is_some() {
             return Some(self.town[strip]);
         }
-        let there = self.bodies[strip][number].as_ref()?;
+        let there = self.bodies_at(strip)[number].as_ref()?;
         if !is_cloth {
             return Some(there.rigid);
         }
