@@ -100,12 +100,9 @@ def main():
         packed = cosfly.Pack(scratch / "pack", options.dataset).windows()
         many = [(int(number),) for number in np.random.default_rng(8).integers(0, len(windows), 20 * options.windows)]
         measure("cosfly.Pack", lambda number: packed[number], many)
-        few = set(packed.trajectory_ids[: options.trajectories])
-        for made in (packed, frames := cosfly.Dataset(options.dataset, size=SIZE)):
-            made._index, kept = [it for it in made._index if it[0] in few], [it[0] in few for it in made._index]
-            for column, values in made._columns.items():
-                if column != "image_px":
-                    made._columns[column] = cosfly._dataset._taken(values, np.flatnonzero(kept))
+        few = packed.trajectory_ids[: options.trajectories]
+        packed = cosfly.Pack(scratch / "pack", options.dataset, trajectories=few).windows()
+        frames = cosfly.Dataset(options.dataset, size=SIZE, trajectories=few)
         print(f"on {len(packed)} windows of {len(few)} trajectories:")
         many = [(int(number),) for number in np.random.default_rng(8).integers(0, len(packed), 20 * options.windows)]
         measure("cosfly.Pack", lambda number: packed[number], many)

@@ -26,7 +26,7 @@ const ALLOWED: [f64; 3] = [2e-3, 5e-3, 2e-3];
 const ALLOWED_SHARE: f64 = 0.02;
 
 /// Errors that readings may have: beginning and end of the column's name, root mean square, and density of white noise, which adds more the
-/// higher the rate. Constant errors of five standard deviations pass.
+/// higher the rate. Constant errors of five standard deviations pass. Those of a receiver are for a dilution of 1.
 const NOISE: [(&str, &str, f64, f64); 6] = [
     ("altitude_", "m", 4.0, 0.0),
     ("field_", "_ut", 2.5, 0.0),
@@ -153,13 +153,15 @@ impl SensedRows {
         for (name, measured) in &self.numbers {
             let Some(exact) = self.numbers.get(&format!("{TRUE}{name}")) else { continue };
             let dilution = match name.as_str() {
-                "east_m" | "north_m" => self.numbers.get("horizontal_dilution"),
-                "up_m" => self.numbers.get("vertical_dilution"),
+                "east_m" | "north_m" | "velocity_east_mps" | "velocity_north_mps" => {
+                    self.numbers.get("horizontal_dilution")
+                }
+                "up_m" | "velocity_up_mps" => self.numbers.get("vertical_dilution"),
                 _ => None,
             };
             let noise = NOISE.iter().find(|(start, end, ..)| name.starts_with(start) && name.ends_with(end));
             let noise = noise.map(|(_, _, rms, density)| rms + 2.0 * density / self.step_s().max(1e-6).sqrt());
-            let Some(allowed) = dilution.map(|_| RECEIVER_M).or(noise) else { continue };
+            let Some(allowed) = noise.or(dilution.map(|_| RECEIVER_M)) else { continue };
             let (mut sum, mut rows) = (0.0, 0);
             for row in (0..measured.len()).filter(|row| is_fix.is_none_or(|fix| fix[*row] == 1.0)) {
                 let error = (measured[row] - exact[row]) / dilution.map_or(1.0, |list| list[row].max(0.5));

@@ -6,6 +6,7 @@ use crate::{
     Observation, Others, Reward, Start, VelocityAxes, readings,
 };
 use cosfly_domain::{Around, Body, BodyKind, BodyPlan, OrientedBox, PlanOutcome, Traffic, Trajectory};
+use cosfly_drone::ViewRates;
 use cosfly_drone::models::MODELS;
 use cosfly_frames::{DVec3, Seed, TargetState, TargetTrack, real};
 use cosfly_planner::{MucoConfig, PlanRequest, plan_request};
@@ -387,7 +388,7 @@ fn a_blind_camera_tracks_nothing_and_the_target_is_found_again() {
 fn inertial_readings_are_without_the_truth_and_follow_the_drone() {
     let sensors = SensorSet::of(|sensor| sensor.name == "inertial_unit");
     for model in MODELS {
-        let drone = DroneSettings { model, ..DroneSettings::default() };
+        let drone = DroneSettings { model: *model, ..DroneSettings::default() };
         let settings = EnvironmentSettings { sensors, drone, ..EnvironmentSettings::default() };
         let mut environment = Environment::new(standing(vec![], 60), settings);
         let mut turns_rad = 0.0;

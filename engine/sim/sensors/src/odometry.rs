@@ -1,6 +1,6 @@
 //! Sensor `odometry`: own motion.
 
-use crate::sensor::{Quantity, Sensor, SensorMoment};
+use crate::sensor::{Carrier, Quantity, Sensor, SensorMoment};
 use cosfly_frames::DVec3;
 
 /// Axis and velocity of the sensor along the world's axes; in environments and on flights of policies the sensor is turned as the camera.
@@ -9,14 +9,16 @@ pub static SENSOR: Sensor = Sensor {
     doc: "Own motion as a visual and inertial odometry with a compass estimates it, without noise and drift: where the sensor \
           looks, and how fast it moves, along the axes of the world.",
     version: 1,
+    carrier: Carrier::Camera,
     quantities: &[
-        Quantity { name: "axis_x", doc: "unit vector along which the sensor looks, ahead of it, x" },
+        Quantity { name: "axis_x", doc: "unit vector along which the sensor looks, world frame, x" },
         Quantity { name: "axis_y", doc: "the same, y" },
         Quantity { name: "axis_z", doc: "the same, z" },
-        Quantity { name: "velocity_x_mps", doc: "velocity of the sensor along x" },
-        Quantity { name: "velocity_y_mps", doc: "velocity of the sensor along y" },
-        Quantity { name: "velocity_z_mps", doc: "velocity of the sensor along z" },
+        Quantity { name: "velocity_x_mps", doc: "velocity of the sensor along x of the world, m/s" },
+        Quantity { name: "velocity_y_mps", doc: "velocity of the sensor along y of the world, m/s" },
+        Quantity { name: "velocity_z_mps", doc: "velocity of the sensor along z of the world, m/s" },
     ],
+    truths: &[],
     read,
 };
 

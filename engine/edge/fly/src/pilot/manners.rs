@@ -4,6 +4,7 @@ use super::answer::ActionKind;
 use cosfly_diagnose::visible_text;
 use cosfly_env::pictures::PictureFormat;
 use cosfly_secrets::Secrets;
+use cosfly_sensors::SensorSet;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -19,6 +20,8 @@ pub struct Manners {
     pub every: u32,
     /// Pictures that observations carry.
     pub pictures: Option<PictureFormat>,
+    /// Sensors whose readings observations carry, of those that the environment reads.
+    pub sensors: SensorSet,
     /// Text of the task that observations carry.
     pub prompt: String,
     /// Time within which an answer must come.

@@ -4,10 +4,12 @@ use super::manners::Manners;
 use crate::wire::{self, Field};
 use cosfly_env::pictures::{PictureBatch, Pictures, Pixels};
 use cosfly_env::{Environment, FEATURES, readings};
+use cosfly_sensors::SensorSet;
 
 /// Asks for actions. Owns what draws the pictures.
 pub struct Question {
     prompt: String,
+    sensors: SensorSet,
     pictures: Option<(Pictures, PictureBatch)>,
 }
 
@@ -18,7 +20,7 @@ impl Question {
             let album = PictureBatch::new(&format, 1);
             (Pictures::new(format, 1), album)
         });
-        Self { prompt: manners.prompt.clone(), pictures }
+        Self { prompt: manners.prompt.clone(), sensors: manners.sensors, pictures }
     }
 
     /// The message that asks for an action in the present state.
@@ -27,6 +29,7 @@ impl Question {
         let state = observation.features().map(|feature| feature as f32);
         let readings: Vec<(&str, Vec<f32>, [usize; 1])> = readings(environment)
             .into_iter()
+            .filter(|(sensor, _)| self.sensors.iter().any(|asked| asked.name == sensor.name))
             .map(|(sensor, values)| {
                 (sensor.name, values.iter().map(|value| *value as f32).collect(), [sensor.quantities.len()])
             })

@@ -100,7 +100,7 @@ class Dataset:
             raise InvalidValue(f"the data in {self.path} state no splits; leave out `split`")
         self._number = {name: number for number, name in enumerate(ids)}
         self._counts = self._reader.frames
-        chosen = _matching(trajectories, self._number)
+        chosen = self._chosen(trajectories)
         splits = zip(ids, self._reader.splits)
         self.trajectory_ids: List[str] = [name for name, of in splits if split in (None, of) and name in chosen]
         """Ids of the trajectories of the split, and of ``trajectories``."""
@@ -108,6 +108,10 @@ class Dataset:
         self._numbers: Optional[Dict[Tuple[str, int], int]] = None
         self._index = self._frames_index(columns)
         self._captions = self._read_captions(captions) if captions else {}
+
+    def _chosen(self, trajectories: Union[None, str, Sequence[str]]) -> Container[str]:
+        """Ids of the trajectories that are asked for."""
+        return _matching(trajectories, self._number)
 
     def windows(self, anchor: str = "input") -> "Windows":
         """The training windows of the dataset, with the same split, role, channels, size and captions.
@@ -167,6 +171,8 @@ class Dataset:
 
     def batch(self, numbers: Sequence[Union[int, np.integer]]) -> Sample:
         """Some samples as one batch, as a :class:`Loader` gives it; ``jobs`` threads read and decode all of its pictures."""
+        if not len(numbers):
+            raise InvalidValue("a batch without numbers has no samples; give one number or more")
         return collated(self._samples([numbered("sample", number, len(self)) for number in numbers]))
 
     def number_of(self, trajectory_id: str, frame: int) -> int:
@@ -272,6 +278,9 @@ class Dataset:
 
     def _frames_of_sample(self, number: int) -> List[Tuple[str, int]]:
         return [self._index[number]]
+
+    def _rows_of(self, frames: Sequence[Tuple[str, int]]) -> List[int]:
+        raise InvalidValue("`rows` are places in the arrays of a pack: ask the windows of a `cosfly.Pack`; `cosfly.pack` makes one")
 
     def _labelled(self, number: int, pictures: Dict[str, Any]) -> Sample:
         name, frame = self._index[number]

@@ -9,7 +9,7 @@ import shutil
 import tempfile
 import threading
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Container, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -125,19 +125,21 @@ class Pack(Dataset):
         self._first: Dict[str, int] = about["first_frame"]
         self._frames: Dict[str, Frames] = {}
         options.setdefault("channels", tuple(about["channels"]))
-        if options.get("trajectories") is None:
-            options["trajectories"] = list(self._first)
+        self._source: Dict[str, Any] = about["dataset"]
         super().__init__(dataset, size=tuple(about["size"]), **options)
-        source = about["dataset"]
-        if source["identity"] != self.identity:
-            given = str(source["path"]), str(source["identity"])
-            raise _cosfly.pack_of_other(os.fspath(self.pack_path), os.fspath(self.path), given, self.identity)
         absent = [name for name, _ in self._index if name not in self._first]
         if absent or not self._index:
             asked = f"trajectory {absent[0]!r}" if absent else f"split {self.split!r} and role {self.role!r}"
             raise InvalidValue(f"{self.pack_path} has no pictures of {asked}; `cosfly.pack` chose the flights, of {len(self._first)} trajectories")
         for name in self.channels:
             self._frames_of(name)
+
+    def _chosen(self, trajectories: Union[None, str, Sequence[str]]) -> Container[str]:
+        """Those of the pack without others; of another dataset they would have other names."""
+        if self._source["identity"] != self.identity:
+            given = str(self._source["path"]), str(self._source["identity"])
+            raise _cosfly.pack_of_other(os.fspath(self.pack_path), os.fspath(self.path), given, self.identity)
+        return self._first if trajectories is None else super()._chosen(trajectories)
 
     def array(self, channel: str) -> np.ndarray:
         """All pictures of a channel: (frames of the pack, H, W) or (frames, H, W, 3)."""
@@ -149,7 +151,7 @@ class Pack(Dataset):
         """Place of each sample's picture in the arrays."""
         return np.array(self._rows_of(self._index), dtype=np.int64)
 
-    def _rows_of(self, frames: Any) -> List[int]:
+    def _rows_of(self, frames: Sequence[Tuple[str, int]]) -> List[int]:
         return [self._first[name] + int(frame) for name, frame in frames]
 
     def _frames_of(self, channel: str) -> "Frames":

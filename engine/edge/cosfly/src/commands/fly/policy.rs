@@ -137,6 +137,7 @@ impl PolicyArguments {
             actions: self.actions.into(),
             every: u32::try_from(self.every).unwrap_or(u32::MAX),
             pictures: self.pictures(),
+            sensors: sensors_of(&self.obs),
             prompt: self.prompt.clone(),
             timeout: Duration::from_secs_f64(self.timeout_s),
             wait: Duration::from_secs_f64(self.wait_s),
