@@ -4,7 +4,7 @@
 
 use cosfly_domain::{ObstacleKind, SemanticLabel, Town, WalkablePolygon};
 use cosfly_frames::{DVec2, real};
-use cosfly_town::polygons::{contains, twice_area_m2};
+use cosfly_town::polygons::twice_area_m2;
 use cosfly_town::terrain::beside;
 
 /// Ground this close to a walk belongs to the town, metres.
@@ -72,6 +72,8 @@ struct Cells {
     rows: usize,
     is_walk: Vec<bool>,
     is_road: Vec<bool>,
+    /// Level of the ground: that of the nearest walk.
+    ground_m: Vec<f64>,
     /// Height of buildings and of crowns over the ground; 0 without any.
     built_m: Vec<f64>,
     crown_m: Vec<f64>,
@@ -97,29 +99,34 @@ impl Cells {
             rows,
             is_walk: vec![false; columns * rows],
             is_road: vec![false; columns * rows],
+            ground_m: vec![f64::NAN; columns * rows],
             built_m: none.clone(),
             crown_m: none,
         };
-        for walk in &walks {
-            cells.cover(walk, |cells, cell| cells.is_walk[cell] = true);
+        for (walk, level_m) in walks.iter().zip(town.walkable.iter().map(WalkablePolygon::mean_height_m)) {
+            cells.cover(walk, |cells, cell| (cells.is_walk[cell], cells.ground_m[cell]) = (true, level_m));
         }
+        cells.spread_ground();
         for mesh in town.surfaces.iter().filter(|mesh| mesh.label == SemanticLabel::Roads) {
             for triangle in &mesh.triangles {
                 let plan = triangle.map(|corner| mesh.vertices_in_world[corner as usize].truncate());
                 cells.cover(&plan, |cells, cell| cells.is_road[cell] = true);
             }
         }
-        let ground_m = town.walkable.first().map_or(0.0, WalkablePolygon::mean_height_m);
         for obstacle in &town.obstacles {
             let plan: Vec<DVec2> =
                 [0, 1, 3, 2].iter().map(|corner| obstacle.shape.corners_in_world()[*corner].truncate()).collect();
-            let top_m = obstacle.shape.bounds_in_world().1.z - ground_m;
+            let top_m = obstacle.shape.bounds_in_world().1.z;
             match obstacle.kind {
                 ObstacleKind::Building => {
-                    cells.cover(&plan, |cells, cell| cells.built_m[cell] = cells.built_m[cell].max(top_m));
+                    cells.cover(&plan, |cells, cell| {
+                        cells.built_m[cell] = cells.built_m[cell].max(top_m - cells.ground_m[cell]);
+                    });
                 }
                 ObstacleKind::TreeCrown => {
-                    cells.cover(&plan, |cells, cell| cells.crown_m[cell] = cells.crown_m[cell].max(top_m));
+                    cells.cover(&plan, |cells, cell| {
+                        cells.crown_m[cell] = cells.crown_m[cell].max(top_m - cells.ground_m[cell]);
+                    });
                 }
                 _ => {}
             }
@@ -127,7 +134,24 @@ impl Cells {
         Some(cells)
     }
 
-    /// Calls with each cell whose middle lies in an outline.
+    /// Gives ground beyond the walks the level of the nearest, by steps from cell to cell.
+    fn spread_ground(&mut self) {
+        let mut front: Vec<usize> = (0..self.is_walk.len()).filter(|cell| self.is_walk[*cell]).collect();
+        while !front.is_empty() {
+            let mut next = Vec::new();
+            for cell in front {
+                for other in beside(cell, self.columns, self.rows) {
+                    if self.ground_m[other].is_nan() {
+                        self.ground_m[other] = self.ground_m[cell];
+                        next.push(other);
+                    }
+                }
+            }
+            front = next;
+        }
+    }
+
+    /// Calls with each cell whose middle lies in an outline (even-odd rule, row by row).
     fn cover(&mut self, outline: &[DVec2], mut mark: impl FnMut(&mut Self, usize)) {
         if outline.len() < 3 || twice_area_m2(outline) == 0.0 {
             return;
@@ -137,9 +161,13 @@ impl Cells {
         let first = corners.next().unwrap_or_default();
         let (low, high) = corners.fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
         for row in low.y as usize..=(high.y as usize).min(self.rows - 1) {
+            let y = self.middle(row * self.columns).y;
+            let sides = outline.iter().zip(outline.iter().cycle().skip(1)).filter(|(a, b)| (a.y > y) != (b.y > y));
+            let crossed: Vec<f64> = sides.map(|(a, b)| a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y))).collect();
             for column in low.x as usize..=(high.x as usize).min(self.columns - 1) {
                 let cell = row * self.columns + column;
-                if contains(outline, self.middle(cell)) {
+                let x = self.middle(cell).x;
+                if crossed.iter().filter(|at| x < **at).count() % 2 == 1 {
                     mark(self, cell);
                 }
             }
@@ -279,11 +307,11 @@ mod tests {
     use cosfly_domain::{Obstacle, OrientedBox, WalkableKind};
     use cosfly_frames::DVec3;
 
-    #[test]
-    fn a_walk_between_two_rows_of_houses_is_as_wide_as_their_distance() {
+    /// A street between two rows of houses 10 m high.
+    fn street(east_m: f64, level_m: f64) -> Town {
         let row = |y: f64| Obstacle {
             shape: OrientedBox {
-                center_in_world: DVec3::new(0.0, y, 5.0),
+                center_in_world: DVec3::new(east_m, y, level_m + 5.0),
                 half_extents_m: DVec3::new(100.0, 5.0, 5.0),
                 yaw_rad: 0.0,
             },
@@ -291,14 +319,26 @@ mod tests {
             object_id: 1,
             synthetic: false,
         };
-        let outline_in_world =
-            [[-50.0, -5.0], [50.0, -5.0], [50.0, 5.0], [-50.0, 5.0]].map(|at| DVec2::from(at).extend(0.0)).to_vec();
+        let corners = [[-50.0, -5.0], [50.0, -5.0], [50.0, 5.0], [-50.0, 5.0]];
+        let outline_in_world = corners.map(|[x, y]| DVec3::new(east_m + x, y, level_m)).to_vec();
         let walk = WalkablePolygon { kind: WalkableKind::Plaza, outline_in_world, synthetic: false };
-        let town = Town { obstacles: vec![row(-15.0), row(15.0)], walkable: vec![walk], ..Town::default() };
-        let form = form(&town).unwrap();
+        Town { obstacles: vec![row(-15.0), row(15.0)], walkable: vec![walk], ..Town::default() }
+    }
+
+    #[test]
+    fn a_walk_between_two_rows_of_houses_is_as_wide_as_their_distance() {
+        let form = form(&street(0.0, 0.0)).unwrap();
         assert!((form.free_width_m - 20.0).abs() <= 2.0 && form.height_m == 10.0, "{form:?}");
         assert!(form.sky_share > 0.3 && form.sky_share < 0.8 && form.built_share > 0.2, "{form:?}");
         assert_eq!((form.tree_share, form.direction_entropy), (0.0, 0.0));
         assert_eq!(super::form(&Town::default()), None);
+    }
+
+    #[test]
+    fn houses_on_a_hill_are_as_high_as_those_in_the_valley() {
+        let [mut town, hill] = [street(0.0, 0.0), street(300.0, 60.0)];
+        town.obstacles.extend(hill.obstacles);
+        town.walkable.extend(hill.walkable);
+        assert_eq!(form(&town).unwrap().height_m, 10.0);
     }
 }

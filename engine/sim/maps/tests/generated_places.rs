@@ -9,7 +9,7 @@ use cosfly_town::polygons::PolygonIndex;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-const SEEDS: std::ops::Range<u64> = 1..5;
+const SEEDS: std::ops::Range<u64> = 1..3;
 
 /// All places, read once.
 fn places() -> &'static [(String, Town)] {

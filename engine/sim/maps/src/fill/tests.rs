@@ -1,11 +1,11 @@
 //! Filled towns: nothing invented stands on a street, everything is flagged, and real towns fill quickly.
 
 use super::*;
-use crate::generate::{GenerateConfig, generate_town};
 use crate::{MapConfig, read_town};
 use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox, SemanticLabel, SurfaceMesh};
 use cosfly_frames::DVec2;
 use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_places::grid::{GenerateConfig, generate_town};
 use cosfly_town::GroundIndex;
 use cosfly_town::polygons::triangulated;
 

@@ -17,5 +17,12 @@ use kind::PlaceKind;
 pub const GRID: &str = "grid";
 
 /// All kinds but the grid, by their names.
-pub const ALL: &[&PlaceKind] =
-    &[&arterial::KIND, &campus::KIND, &garden_rows::KIND, &old_town::KIND, &perimeter_blocks::KIND, &village::KIND];
+pub const ALL: &[&PlaceKind] = &[
+    // Each has a file of its own.
+    &arterial::KIND,
+    &campus::KIND,
+    &garden_rows::KIND,
+    &old_town::KIND,
+    &perimeter_blocks::KIND,
+    &village::KIND,
+];

@@ -48,7 +48,7 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
     for (number, block) in blocks.iter().enumerate() {
         let mut stream = seed.child("block", number as u64).stream("houses");
         let core = inset(&convex_core(&block.outline), 0.7);
-        if number == park {
+        if number == park && blocks.len() > 1 {
             square(&mut site, &core, &mut stream);
         } else {
             style.block(&mut site, &core, &mut stream);

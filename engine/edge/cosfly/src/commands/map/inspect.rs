@@ -141,18 +141,19 @@ fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
     for (label, it) in &census.ground {
         let _ = writeln!(text, "{label:<14} {:>8} {:>12.0}  {:>12.0}", "", it.area_m2, it.synthetic_area_m2);
     }
-    if let Some(form) = form(town) {
+    if figures["form"].is_object() {
+        let figure = |name: &str| figures["form"][name].as_f64().unwrap_or_default();
         let _ = writeln!(
             text,
             "\nform: {:.0} % built, {:.1} m high; {:.0} % under trees; blocks of {:.0} m2; {:.0} m free between buildings; \
              street directions {:.2} of 1; {:.0} % of the sky seen from walks",
-            100.0 * form.built_share,
-            form.height_m,
-            100.0 * form.tree_share,
-            form.block_m2,
-            form.free_width_m,
-            form.direction_entropy,
-            100.0 * form.sky_share
+            100.0 * figure("built_share"),
+            figure("height_m"),
+            100.0 * figure("tree_share"),
+            figure("block_m2"),
+            figure("free_width_m"),
+            figure("direction_entropy"),
+            100.0 * figure("sky_share")
         );
     }
     let report = &town.simplification;

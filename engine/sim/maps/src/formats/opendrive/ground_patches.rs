@@ -27,7 +27,9 @@ pub(super) fn add(
     walkable: &mut Vec<WalkablePolygon>,
 ) -> Vec<String> {
     let mut warnings = Vec::new();
-    for object in road.objects.iter().filter(|object| object.surface.is_some() || object.is_walkable) {
+    let is_patch =
+        |object: &&RoadObject| object.type_name == "patch" && (object.surface.is_some() || object.is_walkable);
+    for object in road.objects.iter().filter(is_patch) {
         let outline = outline(road, object, world);
         if outline.len() < 3 {
             warnings
@@ -36,7 +38,11 @@ pub(super) fn add(
         }
         if let Some(name) = &object.surface {
             match SURFACES.iter().find(|(word, _)| word == name) {
-                Some((_, label)) => add_surface(builder, *label, &outline),
+                Some((_, label)) if add_surface(builder, *label, &outline) => {}
+                Some(_) => warnings.push(format!(
+                    "the outline of the patch of ground `{}` crosses itself or has over 100 corners; its surface stays grass",
+                    object.id
+                )),
                 None => warnings.push(format!(
                     "the surface of `{}` is `{name}`; it must be {}; it stays grass",
                     object.id,
@@ -52,13 +58,20 @@ pub(super) fn add(
 }
 
 fn outline(road: &Road, object: &RoadObject, world: &WorldFromMap) -> Vec<DVec3> {
-    let Some(outline) = object.outlines.iter().find(|outline| outline.closed) else { return Vec::new() };
+    let Some(outline) = object.outlines.iter().find(|outline| outline.closed && !outline.is_hole) else {
+        return Vec::new();
+    };
     let corners = outline_in_map(road, object, outline).into_iter();
     without_repeats(corners.map(|(foot, _)| world.point(foot)).collect())
 }
 
-fn add_surface(builder: &mut MeshBuilder, label: SemanticLabel, outline: &[DVec3]) {
+/// Adds a surface; gives whether its outline can be filled.
+fn add_surface(builder: &mut MeshBuilder, label: SemanticLabel, outline: &[DVec3]) -> bool {
     let plan: Vec<DVec2> = outline.iter().map(|corner| corner.truncate()).collect();
     let vertices: Vec<(DVec3, DVec2)> = outline.iter().map(|corner| (*corner, corner.truncate())).collect();
-    builder.polygon(label, false, &vertices, &triangulated(&plan));
+    let triangles = triangulated(&plan);
+    if !triangles.is_empty() {
+        builder.polygon(label, false, &vertices, &triangles);
+    }
+    !triangles.is_empty()
 }
