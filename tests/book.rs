@@ -13,11 +13,12 @@ const OTHERS: [&str; 6] =
 /// Pictures and texts of the samples of the Python package.
 const OF_SAMPLES: [&str; 6] = ["caption", "captions", "depth", "instance", "rgb", "semantic"];
 /// Pages whose examples index other things than rows of tables.
-const NOT_OF_TABLES: [&str; 9] = [
+const NOT_OF_TABLES: [&str; 10] = [
     "guide/closed-loop.md",
     "guide/dagger.md",
     "guide/environments.md",
     "guide/onnx.md",
+    "guide/samples.md",
     "guide/trackers.md",
     "frameworks/jax.md",
     "frameworks/lerobot.md",

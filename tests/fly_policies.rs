@@ -5,6 +5,7 @@
 
 use crate::street::Street;
 use crate::support::{Call, Printed, cosfly};
+use cosfly_domain::channels;
 use serde_json::Value;
 use std::io::{Read, Write};
 use std::net::TcpListener;
@@ -61,7 +62,7 @@ fn good_until(count: u32, then: &str) -> String {
 fn observations_have_every_channel_of_the_list_that_is_asked_for() {
     let street = Street::new();
     script(&street, &always(HOLD).replace(">/dev/null", ">seen.bin"));
-    let names: Vec<&str> = cosfly_domain::channels::ALL.iter().map(|channel| channel.name).collect();
+    let names: Vec<&str> = channels::of_moments().map(|channel| channel.name).collect();
     let printed = fly_into(&street, "seen", &["--obs", &names.join(","), "--size-px", "16", "--jobs", "1"]);
     assert_eq!(printed.code, Some(0), "{}", printed.stderr);
     let seen = std::fs::read(street.path().join("seen.bin")).expect("the last observation");
@@ -72,9 +73,11 @@ fn observations_have_every_channel_of_the_list_that_is_asked_for() {
     }
     let card = std::fs::read_to_string(street.path().join("seen/mine/card.json")).expect("a card");
     assert!(names.iter().all(|name| card.contains(&format!("\"{name}\""))), "{card}");
-    let refused = fly_into(&street, "other", &["--obs", "sound"]);
-    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
-    assert!(names.iter().all(|name| refused.stderr.contains(name)), "{}", refused.stderr);
+    for absent in ["sound", "flow_forward"] {
+        let refused = fly_into(&street, "other", &["--obs", absent]);
+        assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+        assert!(names.iter().all(|name| refused.stderr.contains(name)), "{}", refused.stderr);
+    }
 }
 
 #[test]

@@ -31,7 +31,7 @@ impl StandingPoints {
     }
 
     /// What is wrong with the flow or the mask of `frames[frame]`.
-    pub fn problem(
+    pub fn finding(
         &self,
         flight: &PlacedFlight,
         frames: &[PlacedFrame],

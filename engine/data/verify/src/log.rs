@@ -204,7 +204,7 @@ impl LogCheck<'_> {
                 } else if let Some(message) = self.amodal_problem(channel, &image, row) {
                     self.find(place, "verify-pixels", message);
                 } else if let Some(message) =
-                    self.standing.problem(self.flight, self.frames, (frame, channel), &image.data)
+                    self.standing.finding(self.flight, self.frames, (frame, channel), &image.data)
                 {
                     self.find(place, "verify-flow", message);
                 }

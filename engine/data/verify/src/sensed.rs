@@ -61,7 +61,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
             let Some(track) = tracks.get(&number) else { return };
             let flight = flights.tables.flights.at(number);
             // Perturbed flights jump as no drone does: their readings are too far apart to be added up.
-            if let Err(message) = rows.problem(&track.poses, flight.dt_s, flight.expert_id.is_none()) {
+            if let Err(message) = rows.finding(&track.poses, flight.dt_s, flight.expert_id.is_none()) {
                 report.find(file, format!("`{id}`"), "verify-sensor", message);
             }
         });
@@ -117,7 +117,7 @@ impl SensedRows {
     ///
     /// # Errors
     /// The first fault, in words.
-    fn problem(&self, poses: &[Pose], dt_s: f64, is_smooth: bool) -> Result<(), String> {
+    fn finding(&self, poses: &[Pose], dt_s: f64, is_smooth: bool) -> Result<(), String> {
         let count = self.times_s.len();
         if self.frames.len() != count || self.numbers.values().any(|list| list.len() != count) {
             return Err("a column has another type than its readings".to_owned());
@@ -330,7 +330,9 @@ mod tests {
                 push(format!("true_velocity_{letter}_mps"), velocity[axis]);
                 push(format!("true_{letter}_m"), place[axis]);
             }
-            [("x", 0.0), ("y", 0.0), ("z", sin), ("w", cos)].map(|(name, value)| push(format!("true_q{name}"), value));
+            for (name, value) in [("x", 0.0), ("y", 0.0), ("z", sin), ("w", cos)] {
+                push(format!("true_q{name}"), value);
+            }
         }
         (rows, poses)
     }
@@ -338,11 +340,11 @@ mod tests {
     #[test]
     fn sound_readings_pass_and_every_planted_fault_is_found() {
         let (sound, poses) = swinging();
-        assert_eq!(sound.problem(&poses, DT_S, true), Ok(()));
+        assert_eq!(sound.finding(&poses, DT_S, true), Ok(()));
         let found = |words: &str, plant: &dyn Fn(&mut SensedRows)| {
             let mut rows = sound.clone();
             plant(&mut rows);
-            let problem = rows.problem(&poses, DT_S, true).expect_err(words);
+            let problem = rows.finding(&poses, DT_S, true).expect_err(words);
             assert!(problem.contains(words), "{words}: {problem}");
         };
         let scale = |rows: &mut SensedRows, name: &str, factor: f64| {

@@ -312,9 +312,9 @@ impl RenderStage {
                 let (before, (moment, others), after) =
                     (frame_at(frame.saturating_sub(1)), frame_at(frame), frame_at(frame + 1));
                 let neighbours = Neighbours {
-                    previous: (frame > 0).then(|| FrameBeside { moment: &before.0, others: &before.1 }),
+                    previous: (frame > 0).then_some(FrameBeside { moment: &before.0, others: &before.1 }),
                     next: (frame + 1 < trajectory.visibility.len())
-                        .then(|| FrameBeside { moment: &after.0, others: &after.1 }),
+                        .then_some(FrameBeside { moment: &after.0, others: &after.1 }),
                 };
                 let shot =
                     Shot { weather: &shooting.weather, moment: &moment, others: &others, neighbours, noise_seed };

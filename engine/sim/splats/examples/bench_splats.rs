@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{} splats in {:.2} s", cloud.len(), started.elapsed().as_secs_f64());
     let config = SplatsConfig::new("", SplatUpAxis::Z);
     let placement = config.placement(DVec3::ZERO).map_err(|problem| problem.message)?;
-    let camera = Camera { width: 1280, height: 720, horizontal_fov_rad: 1.570_796 };
+    let camera = Camera { width: 1280, height: 720, horizontal_fov_rad: std::f64::consts::FRAC_PI_2 };
     for (name, from, to) in [
         ("follow", [-22.0, 3.0, 12.0], [0.0, 0.0, 1.0]),
         ("high", [-50.0, 20.0, 45.0], [0.0; 3]),

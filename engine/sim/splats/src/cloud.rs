@@ -39,7 +39,8 @@ impl SplatCloud {
         let covariance = splat.covariance().map(|entry| entry as f32);
         let colours = splat.harmonics[..self.coefficients].iter().flatten();
         let is_finite = splat.middle.iter().chain(&covariance).chain(colours).all(|value| value.is_finite());
-        if !is_finite || !(splat.opacity > LEAST_ALPHA && splat.opacity <= 1.0) {
+        let is_seen = splat.opacity > LEAST_ALPHA && splat.opacity <= 1.0;
+        if !(is_finite && is_seen) {
             self.left_out += 1;
             return;
         }

@@ -35,6 +35,7 @@ macro_rules! harmonics {
 
 harmonics! {
     /// In single precision.
+    #[expect(clippy::excessive_precision, reason = "one list of constants for both precisions")]
     single, f32
 }
 harmonics! {

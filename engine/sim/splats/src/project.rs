@@ -87,10 +87,8 @@ simd_kernel! {
                 continue;
             }
             let colours = colours(harmonics, &lanes.direction);
-            for k in 0..WIDE {
-                if !lanes.is_seen[k] {
-                    continue;
-                }
+            let seen = lanes.is_seen.iter().enumerate().filter(|(_, is_seen)| **is_seen);
+            for (k, _) in seen {
                 let Some(footprint) = out.get_mut(count) else { return count };
                 *footprint = Footprint {
                     place: [lanes.place[0][k], lanes.place[1][k]],
