@@ -1,6 +1,7 @@
 //! The book names only columns that tables have: in examples of Python and SQL, and in prose.
 
 use crate::support::repository_root;
+use cosfly_domain::channels;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -10,8 +11,8 @@ const OF_COLUMNS: [&str; 9] =
 /// Other names that begin so: frames of bags and logs, keys and schema of the release's layout, a key of recipes.
 const OTHERS: [&str; 6] =
     ["camera_link", "camera_optical", "drone_nav_traj_v7", "drone_pose", "target_stands_out", "target_losses"];
-/// Pictures and texts of the samples of the Python package.
-const OF_SAMPLES: [&str; 6] = ["caption", "captions", "depth", "instance", "rgb", "semantic"];
+/// Texts of the samples of the Python package, which have pictures by their channels, too.
+const OF_SAMPLES: [&str; 2] = ["caption", "captions"];
 /// Pages whose examples index other things than rows of tables.
 const NOT_OF_TABLES: [&str; 10] = [
     "guide/closed-loop.md",
@@ -65,7 +66,8 @@ fn the_book_names_columns_that_tables_have() {
             let is_example = number % 2 == 1 && (part.starts_with("python") || part.starts_with("sql"));
             if is_example && !NOT_OF_TABLES.iter().any(|it| page.ends_with(it)) {
                 let indexed = part.split("[\"").skip(1).filter_map(|rest| Some(rest.split_once("\"]")?.0));
-                indexed.filter(is_name).filter(|it| !OF_SAMPLES.contains(it)).for_each(|name| check(&page, name));
+                let is_of_samples = |name: &str| OF_SAMPLES.contains(&name) || channels::called(name).is_some();
+                indexed.filter(is_name).filter(|it| !is_of_samples(it)).for_each(|name| check(&page, name));
             } else if number % 2 == 0 {
                 let words = part.split('`').skip(1).step_by(2).filter(is_name);
                 let words = words.filter(|it| OF_COLUMNS.iter().any(|begin| it.starts_with(begin)));
