@@ -266,8 +266,9 @@ function drawStrip() {
 }
 
 // `#flight=NAME&frame=N`; the number tells flights of one name apart.
-async function followLink() {
-  const asked = new URLSearchParams(location.hash.slice(1));
+async function followLink(hash = location.hash) {
+  clearTimeout(linkTimer);
+  const asked = new URLSearchParams(hash.slice(1));
   const names = (state.index.columns.find(column => column.name === "name") || { texts: [] }).texts;
   const number = Number(asked.get("number"));
   const flight = names[number] === asked.get("flight") ? number : names.indexOf(asked.get("flight"));
@@ -368,5 +369,6 @@ $("solid").addEventListener("click", toggleSolid);
 $("solid").hidden = !scene.isThere;
 $("all").hidden = source.isExported;
 $("theme").addEventListener("click", theme);
-window.addEventListener("hashchange", () => followLink());
+// The address itself may have been written over meanwhile.
+window.addEventListener("hashchange", event => followLink(new URL(event.newURL).hash));
 start().catch(error => { $("about").textContent = error.message; });
