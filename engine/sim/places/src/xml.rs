@@ -98,6 +98,27 @@ pub fn road_mark(kind: &str) -> String {
     )
 }
 
+/// A crossing at a station; `along_m` wide along the street, to `reach_m` on either side. The outline repeats its first corner, as
+/// CARLA's own towns do.
+pub fn write_crossing(text: &mut String, id: usize, s_m: f64, [along_m, reach_m]: [f64; 2]) {
+    line(
+        text,
+        &format!(
+            "<object id=\"{0}\" name=\"crosswalk_{0}\" type=\"crosswalk\" s=\"{1}\" t=\"0.0\" zOffset=\"0.0\" hdg=\"0.0\" pitch=\"0.0\" roll=\"0.0\" orientation=\"none\" length=\"{2}\" width=\"{3}\">",
+            id,
+            fixed(s_m, 4),
+            fixed(along_m, 2),
+            fixed(2.0 * reach_m, 2)
+        ),
+    );
+    text.push_str("<outline closed=\"true\">");
+    for (u, v) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+        let (u_m, v_m) = (fixed(0.5 * u * along_m, 3), fixed(v * reach_m, 3));
+        let _ = write!(text, "<cornerLocal u=\"{u_m}\" v=\"{v_m}\" z=\"0.0\" height=\"0.0\"/>");
+    }
+    line(text, "</outline></object>");
+}
+
 /// A point in the frame of a straight street.
 pub struct Foot {
     /// Station, metres.

@@ -3,9 +3,8 @@
 use super::streets::{Arm, LANE_WIDTH_M, Network, RoadEnd, Street};
 use super::turns::JunctionWay;
 use crate::things::GeneratedThing;
-use crate::xml::{Foot, Lane, fixed, line, road_mark, write_lane, write_object, write_plan_view};
+use crate::xml::{Foot, Lane, fixed, line, road_mark, write_crossing, write_lane, write_object, write_plan_view};
 use cosfly_frames::DVec2;
-use std::fmt::Write;
 
 /// Id of the first junction; streets count from 1.
 const FIRST_JUNCTION: usize = 1000;
@@ -93,27 +92,12 @@ fn write_street(text: &mut String, index: usize, street: &Street, objects: &str)
     line(text, "</objects></road>");
 }
 
-/// One crossing at either end; the outline repeats its first corner, as CARLA's own towns do.
+/// One crossing at either end.
 fn write_crossings(text: &mut String, index: usize, street: &Street) {
     let [from_mouth_m, along_m, onto_pavement_m] = CROSSING_M;
     let reach_m = street.profile.carriageway_m() + onto_pavement_m;
     for (end, s_m) in [from_mouth_m, street.line.length_m() - from_mouth_m].into_iter().enumerate() {
-        line(
-            text,
-            &format!(
-                "<object id=\"{0}\" name=\"crosswalk_{0}\" type=\"crosswalk\" s=\"{1}\" t=\"0.0\" zOffset=\"0.0\" hdg=\"0.0\" pitch=\"0.0\" roll=\"0.0\" orientation=\"none\" length=\"{2}\" width=\"{3}\">",
-                2 * index + end + 1,
-                fixed(s_m, 4),
-                fixed(along_m, 2),
-                fixed(2.0 * reach_m, 2)
-            ),
-        );
-        text.push_str("<outline closed=\"true\">");
-        for (u, v) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-            let (u_m, v_m) = (fixed(0.5 * u * along_m, 3), fixed(v * reach_m, 3));
-            let _ = write!(text, "<cornerLocal u=\"{u_m}\" v=\"{v_m}\" z=\"0.0\" height=\"0.0\"/>");
-        }
-        line(text, "</outline></object>");
+        write_crossing(text, 2 * index + end + 1, s_m, [along_m, reach_m]);
     }
 }
 

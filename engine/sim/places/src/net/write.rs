@@ -3,9 +3,8 @@
 use super::network::{Arm, Network, Street};
 use super::ways::Way;
 use crate::things::{Footprint, GeneratedThing};
-use crate::xml::{Foot, Lane, fixed, line, road_mark, write_lane, write_object, write_plan_view};
+use crate::xml::{Foot, Lane, fixed, line, road_mark, write_crossing, write_lane, write_object, write_plan_view};
 use cosfly_frames::DVec2;
-use std::fmt::Write;
 
 /// Id of the first junction; streets count from 1.
 const FIRST_JUNCTION: usize = 10_000;
@@ -106,22 +105,7 @@ fn write_crossings(text: &mut String, index: usize, street: &Street, network: &N
         if network.junctions[street.junctions[end]].len() == 2 {
             continue;
         }
-        line(
-            text,
-            &format!(
-                "<object id=\"{0}\" name=\"crosswalk_{0}\" type=\"crosswalk\" s=\"{1}\" t=\"0.0\" zOffset=\"0.0\" hdg=\"0.0\" pitch=\"0.0\" roll=\"0.0\" orientation=\"none\" length=\"{2}\" width=\"{3}\">",
-                2 * index + end + 1,
-                fixed(s_m, 4),
-                fixed(along_m, 2),
-                fixed(2.0 * reach_m, 2)
-            ),
-        );
-        text.push_str("<outline closed=\"true\">");
-        for (u, v) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-            let (u_m, v_m) = (fixed(0.5 * u * along_m, 3), fixed(v * reach_m, 3));
-            let _ = write!(text, "<cornerLocal u=\"{u_m}\" v=\"{v_m}\" z=\"0.0\" height=\"0.0\"/>");
-        }
-        line(text, "</outline></object>");
+        write_crossing(text, 2 * index + end + 1, s_m, [along_m, reach_m]);
     }
 }
 
