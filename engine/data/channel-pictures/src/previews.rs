@@ -42,13 +42,8 @@ impl SmallImages {
             ChannelSource::Depth => self.depth(images, file),
             ChannelSource::Labels => self.semantic(images, file),
             ChannelSource::Ids => Ok(()),
-            ChannelSource::Target
-            | ChannelSource::TargetAlone
-            | ChannelSource::Number(_)
-            | ChannelSource::Bytes(_)
-            | ChannelSource::Flow(_)
-            | ChannelSource::FlowValid(_)
-            | ChannelSource::DepthSensor => match images.on_request.iter().find(|image| image.channel == channel) {
+            // On request.
+            _ => match images.on_request.iter().find(|image| image.channel == channel) {
                 Some(image) => self.on_request(image, images, file),
                 None => Ok(()),
             },

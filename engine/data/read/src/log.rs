@@ -268,16 +268,11 @@ impl LoggedFrame {
                 let (ids, _) = image.data.as_chunks::<4>();
                 self.instance = ids.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect();
             }
-            ChannelSource::Target
-            | ChannelSource::TargetAlone
-            | ChannelSource::Number(_)
-            | ChannelSource::Bytes(_)
-            | ChannelSource::Flow(_)
-            | ChannelSource::FlowValid(_)
-            | ChannelSource::DepthSensor => {
+            ChannelSource::Colour => {}
+            // On request.
+            _ => {
                 self.on_request.push(ChannelImage { channel, bytes: image.data.to_vec() });
             }
-            ChannelSource::Colour => {}
         }
         Ok(())
     }

@@ -191,13 +191,9 @@ impl LogCheck<'_> {
                 self.labels = Some((frame, image));
             }
             ChannelSource::Depth => self.depth = Some((frame, image)),
-            ChannelSource::Target
-            | ChannelSource::TargetAlone
-            | ChannelSource::Number(_)
-            | ChannelSource::Bytes(_)
-            | ChannelSource::Flow(_)
-            | ChannelSource::FlowValid(_)
-            | ChannelSource::DepthSensor => {
+            ChannelSource::Colour => {}
+            // On request.
+            _ => {
                 let mut pixels = image.data.chunks_exact(channel.bytes_on_request());
                 if let Some(at) = pixels.position(|pixel| !(channel.is_value)(pixel)) {
                     self.find(place, "verify-pixels", format!("pixel {at} holds no value of `{}`", channel.name));
@@ -209,7 +205,6 @@ impl LogCheck<'_> {
                     self.find(place, "verify-flow", message);
                 }
             }
-            ChannelSource::Colour => {}
         }
     }
 

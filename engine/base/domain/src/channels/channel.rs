@@ -109,8 +109,8 @@ impl Channel {
 
     /// Whether the channel is drawn only where a recipe or an environment asks for it.
     pub fn is_on_request(&self) -> bool {
-        self.is_of_films()
-            || matches!(self.source, ChannelSource::Target | ChannelSource::Number(_) | ChannelSource::Bytes(_))
+        use ChannelSource::{Colour, Depth, Ids, Labels};
+        !matches!(self.source, Colour | Depth | Labels | Ids)
     }
 
     /// Whether a pixel needs more than the point at its centre, such as other pixels or frames: films have the channel,

@@ -27,14 +27,8 @@ pub fn write(
         ChannelSource::Depth => write_depth(bytes, place, &images.depth_m, header.encoding.depth),
         ChannelSource::Labels => Ok(pieces(bytes, place, &images.semantic, 1, |ids, bytes| bytes.copy_from_slice(ids))),
         ChannelSource::Ids => write_ids(bytes, place, &images.instance, header.instance),
-        ChannelSource::Colour
-        | ChannelSource::Target
-        | ChannelSource::TargetAlone
-        | ChannelSource::Number(_)
-        | ChannelSource::Bytes(_)
-        | ChannelSource::Flow(_)
-        | ChannelSource::FlowValid(_)
-        | ChannelSource::DepthSensor => {
+        // On request; the colours' file is written elsewhere.
+        _ => {
             let image = images.on_request.iter().find(|image| image.channel == record.channel);
             let drawn = image.map_or(&[][..], |image| &image.bytes[..]);
             Ok(pieces(bytes, place, drawn, 1, |drawn, bytes| bytes.copy_from_slice(drawn)))
