@@ -2,6 +2,7 @@
 //!
 //! * [`ALL`]: the sensors, one file and one entry each; recipes, environments and policies find them here by name.
 //! * [`Airframe`]: the body of a quadrotor whose attitude follows from its acceleration; [`SmoothFlight`]: its flight between frames.
+//! * [`lidar`]: sensors whose reading is a cloud of points.
 //! * [`SensedFlight`]: a flight with a place for a sensor, which is read along it. [`SensorSet`]: those that an environment reads.
 
 mod airframe;
@@ -13,6 +14,7 @@ mod flown;
 mod geo_origin;
 mod inertial_unit;
 mod laser_altimeter;
+pub mod lidar;
 mod magnetometer;
 mod odometry;
 mod place;

@@ -45,7 +45,8 @@ impl SmoothFlight {
         Airframe { turn_acceleration_in_body: change / (TURN_SHARE * self.dt_s), ..middle }
     }
 
-    fn without_turn_acceleration(&self, at: f64) -> Airframe {
+    /// The airframe at a frame number within the flight, whose angular acceleration is 0.
+    pub(crate) fn without_turn_acceleration(&self, at: f64) -> Airframe {
         let derivatives = self.derivatives(at);
         let vector = |order: usize| DVec3::from_slice(&derivatives[order][..3]);
         let motion = Derivatives {
