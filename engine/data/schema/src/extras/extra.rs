@@ -52,6 +52,18 @@ pub struct ExtraSource {
 }
 
 impl ExtraSource {
+    /// Readings of a sensor, one row each, in a table.
+    pub fn of_sensor(table: &str, (sensor, version): (&str, u32), summary: &str, columns: Vec<DeclaredColumn>) -> Self {
+        Self {
+            name: table.to_owned(),
+            shape: ExtraShape::Readings,
+            columns,
+            plugin: sensor.to_owned(),
+            version: version.to_string(),
+            summary: summary.to_owned(),
+        }
+    }
+
     /// Origin of the output in words, such as "plugin `viewpoint` 1.0.0".
     pub fn origin(&self) -> String {
         let giver = if self.shape == ExtraShape::Readings { "sensor" } else { "plugin" };

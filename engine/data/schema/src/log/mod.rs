@@ -3,6 +3,7 @@
 //! Here the world frame (left-handed, y right) is converted to the right-handed `map` frame of robotics tools, by
 //! [`right_handed`] and nowhere else. Frame `i` is at `i * dt_s` after time 0.
 
+pub mod cloud;
 pub mod flown_step;
 pub mod messages;
 mod own_message;

@@ -85,7 +85,7 @@ pub struct Topic {
 }
 
 impl Topic {
-    fn new<M: Encode>(name: impl Into<String>, doc: &str, frequency: Frequency) -> Self {
+    pub(super) fn new<M: Encode>(name: impl Into<String>, doc: &str, frequency: Frequency) -> Self {
         let schema = M::get_schema().expect("every Foxglove message has a schema");
         let doc = format!("`{}`{doc}", schema.name);
         Self { name: name.into(), doc, schema, notes: &[], frequency }

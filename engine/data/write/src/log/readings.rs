@@ -5,6 +5,7 @@ use cosfly_diagnose::Result;
 use cosfly_schema::extras::{Extra, ExtraShape};
 use cosfly_schema::flight_table::Values;
 use cosfly_schema::log::reading::{LoggedSensor, ReadingMessage};
+use cosfly_schema::log::{Topic, cloud};
 use std::io::Write;
 
 /// Columns of a table of readings before its quantities: frame and time.
@@ -35,15 +36,24 @@ impl<'a> Readings<'a> {
         Self { sensors, order, next: 0 }
     }
 
-    /// The sensors.
-    pub fn sensors(&self) -> impl Iterator<Item = &LoggedSensor> {
-        self.sensors.iter().map(|(sensor, _)| sensor)
+    /// The topics of the sensors.
+    pub fn topics(&self) -> impl Iterator<Item = Topic> {
+        self.sensors.iter().map(|(sensor, quantities)| match sweeps_of(sensor, quantities) {
+            Some(_) => cloud::topic(&sensor.name),
+            None => sensor.topic(),
+        })
     }
 
     /// Writes the readings up to a time that are not written yet.
     pub fn write<W: Write>(&mut self, log: &mut ChannelWriter<W>, until_ns: u64) -> Result<()> {
         while let Some((time_ns, sensor, row)) = self.order.get(self.next).filter(|it| it.0 <= until_ns) {
             let (sensor, quantities) = &self.sensors[*sensor];
+            if let Some((clouds, pose)) = sweeps_of(sensor, quantities) {
+                let message = cloud::message(*time_ns, &pose.map(|numbers| numbers[*row]), &clouds[*row]);
+                log.write(&sensor.topic_name(), *time_ns, &message)?;
+                self.next += 1;
+                continue;
+            }
             let number = |values: &Values| if let Values::Reals(values) = values { values[*row] } else { 0.0 };
             let message = ReadingMessage(quantities.iter().map(number).collect());
             log.write(&sensor.topic_name(), *time_ns, &message)?;
@@ -51,4 +61,16 @@ impl<'a> Readings<'a> {
         }
         Ok(())
     }
+}
+
+/// Clouds and poses of the sweeps of a lidar; `None` of other sensors.
+fn sweeps_of<'a>(sensor: &LoggedSensor, quantities: &'a [Values]) -> Option<(&'a [Vec<u8>], [&'a [f64]; 7])> {
+    let of = |name: &str| sensor.quantities.iter().position(|it| it == name).map(|place| &quantities[place]);
+    let Values::Bytes(clouds) = of(cloud::COLUMN)? else { return None };
+    let mut pose: [&[f64]; 7] = [&[]; 7];
+    for (place, name) in pose.iter_mut().zip(cloud::POSE) {
+        let Values::Reals(numbers) = of(name)? else { return None };
+        *place = numbers;
+    }
+    Some((clouds, pose))
 }

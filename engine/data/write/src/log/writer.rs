@@ -12,7 +12,6 @@ use cosfly_domain::channels::rgb;
 use cosfly_fingerprint::Digest;
 use cosfly_fingerprint::sha256::HashingWriter;
 use cosfly_schema::extras::Extra;
-use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::log::{Frequency, frame_time_ns, messages, topic, topics};
 use cosfly_schema::{CaptionRecord, LogRecord, RenderedTrajectory, RgbEncoding};
 use std::io::{Read, Seek, Write};
@@ -44,7 +43,7 @@ pub fn write_log<R: Read + Seek>(
     let mut topics = topics(&pack.header().channels);
     topics.retain(|topic| with_previews || topic.frequency != Frequency::Previews);
     let mut readings = Readings::of(extras);
-    topics.extend(readings.sensors().map(LoggedSensor::topic));
+    topics.extend(readings.topics());
     let mut log = ChannelWriter::new(&mut hashing, &topics)?;
     for (name, entries) in metadata::records(record, pack.header(), town) {
         log.metadata(name, &entries)?;
