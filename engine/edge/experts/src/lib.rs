@@ -4,13 +4,17 @@
 //! * [`expert`]: parameters of an expert; [`pictures`]: settings of pictures.
 //! * [`map_files`]: towns read from map files.
 //! * [`plugins`]: plugins in recipes.
+//! * [`world`]: the town of a task; [`published_towns`]: those of a dataset; [`memo`]: what is computed from one input for all tasks.
 
 pub mod artifacts;
 pub mod codec;
 pub mod expert;
 pub mod map_files;
+pub mod memo;
 pub mod pictures;
 pub mod plugins;
+pub mod published_towns;
+pub mod world;
 
 pub use artifacts::Kind;
 pub use expert::RecipeExpert;

@@ -2,10 +2,10 @@
 //! one more walker plans no flight anew whose companions stay the same.
 
 use crate::ports::{self, COMPANIONS};
-use crate::world::check_same_town;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_experts::artifacts;
+use cosfly_experts::world::check_same_town;
 use cosfly_flight::companions::{Companion, nearest};
 use cosfly_frames::TargetTrack;
 use cosfly_stage::{

@@ -2,10 +2,10 @@
 //! tables per group (`tables`), a comparison of planners (`planners`), then manifest, card and page over all of them.
 
 use crate::ports::{self, CAPTIONS, DATASET, EXTRAS, FRAMES};
-use crate::published_towns::PublishedTowns;
 use crate::{group_notes, group_splits, logs, planners, shards};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
+use cosfly_experts::published_towns::PublishedTowns;
 use cosfly_fingerprint::Digest;
 use cosfly_report::PlannerRow;
 use cosfly_schema::DatasetConfig;

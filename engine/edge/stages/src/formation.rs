@@ -3,11 +3,11 @@
 
 use crate::planning::{Setting, produced};
 use crate::ports::{self, FORMATION};
-use crate::world::link_town;
 use crate::{quotas, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
 use cosfly_domain::PlanOutcome;
+use cosfly_experts::world::link_town;
 use cosfly_experts::{RecipeExpert, artifacts, codec};
 use cosfly_flight::Flown;
 use cosfly_flight::formation::{Drone, Formation};

@@ -3,10 +3,10 @@
 
 use crate::group_notes::{self, GroupNotes};
 use crate::ports::{self, SPLITS};
-use crate::published_towns::PublishedTowns;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_experts::codec;
+use cosfly_experts::published_towns::PublishedTowns;
 use cosfly_fingerprint::canonical_json;
 use cosfly_schema::config::SplitShares;
 use cosfly_schema::{DatasetConfig, Rejection};

@@ -3,10 +3,10 @@
 use crate::ports::{self, FRAMES, PACK};
 use crate::rejections::{handed_on, reject};
 use crate::verdict;
-use crate::world::link_town;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_doctor::verdict::InspectConfig;
+use cosfly_experts::world::link_town;
 use cosfly_schema::{Rejection, RenderedTrajectory};
 use cosfly_stage::parameters;
 use cosfly_stage::{

@@ -12,7 +12,6 @@ mod group_splits;
 mod inspect;
 mod logs;
 mod map;
-mod memo;
 mod nearby;
 mod pedestrians;
 mod perturb;
@@ -22,17 +21,16 @@ mod planning;
 mod plugin;
 mod ports;
 mod props;
-mod published_towns;
 mod quotas;
 #[cfg(test)]
 mod rare_keys;
 mod rejections;
 mod render;
+mod scan;
 mod sense;
 mod shards;
 mod traffic;
 mod verdict;
-mod world;
 
 use cosfly_env::SuiteTable;
 use cosfly_stage::{Registry, Stage, StageKind, Tool};
@@ -53,6 +51,7 @@ pub fn registry_with(others: Vec<Box<dyn StageKind>>) -> Registry {
         Box::new(perturb::Perturb),
         Box::new(plan::Plan),
         Box::new(render::Render),
+        Box::new(scan::Scan),
         Box::new(sense::Sense),
         Box::new(traffic::TrafficKind),
         Box::new(plugin::Wasm),

@@ -3,12 +3,12 @@
 use crate::ports::{self, EXTRAS, LOG, PACK};
 use crate::rejections::handed_on;
 use crate::sense::READINGS;
-use crate::world::world_of;
 use cosfly_blobs::{BlobPart, OutputSink, PassingFile};
 use cosfly_captions::{Language, Wear, check_clothes as clothes_in};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::ChannelSet;
 use cosfly_experts::codec;
+use cosfly_experts::world::world_of;
 use cosfly_schema::extras::Extra;
 use cosfly_schema::record::captions_from_bytes;
 use cosfly_schema::{CaptionRecord, PreviewStrip, RenderedTrajectory};

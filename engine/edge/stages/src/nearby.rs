@@ -1,14 +1,14 @@
 //! Part `nearby` of a `render` stage: the people who may appear in the pictures of a flight, or throw a shadow into them. An
 //! item of its own per film, so that one more walker films nothing anew where that walker is never in view.
 
-use crate::memo::Memo;
 use crate::ports::{self, NEARBY, TRAJECTORY, WALK};
 use crate::traffic::{followed, traffic_of};
-use crate::world::{check_same_town, world};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::PlanOutcome;
 use cosfly_experts::artifacts;
+use cosfly_experts::memo::Memo;
+use cosfly_experts::world::{check_same_town, world};
 use cosfly_film::Shooting;
 use cosfly_film::nearby::{
     Candidate, CandidateRefusal, Candidates, Filming, NearbyBodies, NearbyWalk, Origin, Scenery, apart,

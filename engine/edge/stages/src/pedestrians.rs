@@ -1,12 +1,12 @@
 //! `pedestrians`: people who walk the town's pavements and crossings.
 
-use crate::memo::Memo;
 use crate::ports::{self, WALK};
 use crate::single;
-use crate::world::{link_town, world};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_experts::artifacts;
+use cosfly_experts::memo::Memo;
+use cosfly_experts::world::{link_town, world};
 use cosfly_frames::Seed;
 use cosfly_pedestrians::{PedestrianConfig, PedestrianError, WalkableGrid, walk};
 use cosfly_stage::parameters;

@@ -2,12 +2,12 @@
 
 use crate::planning::produced;
 use crate::ports::{self, TRAJECTORY};
-use crate::world::{check_same_town, link_town, world};
 use crate::{single, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::PlanOutcome;
 use cosfly_experts::artifacts;
+use cosfly_experts::world::{check_same_town, link_town, world};
 use cosfly_frames::Seed;
 use cosfly_pilot::perturb::{PerturbConfig, perturb};
 use cosfly_stage::parameters;

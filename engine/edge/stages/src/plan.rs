@@ -3,11 +3,11 @@
 use crate::planning::{Setting, produced};
 use crate::ports::{self, TRAJECTORY, WALK};
 use crate::quotas;
-use crate::world::link_town;
 use crate::{companions, formation, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_experts::plugins::Plugins;
+use cosfly_experts::world::link_town;
 use cosfly_experts::{RecipeExpert, artifacts};
 use cosfly_flight::Flown;
 use cosfly_flight::losses::Trial;

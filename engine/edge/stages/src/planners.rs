@@ -4,11 +4,11 @@
 use crate::group_notes;
 
 use crate::ports::{self, PLANNERS};
-use crate::world::world_of;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
 use cosfly_domain::Trajectory;
 use cosfly_experts::codec;
+use cosfly_experts::world::world_of;
 use cosfly_flight::comparison::{ComparedFlight, Means, PlannerFigures, compared};
 use cosfly_report::PlannerRow;
 use cosfly_schema::RenderedTrajectory;

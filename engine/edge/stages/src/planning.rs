@@ -1,9 +1,9 @@
 //! Surroundings among which the flights of an item are planned, and the notes on them.
 
-use crate::world::{check_same_town, world};
 use crate::{companions, traffic};
 use cosfly_diagnose::Result;
 use cosfly_domain::{Around, PlanOutcome};
+use cosfly_experts::world::{check_same_town, world};
 use cosfly_experts::{RecipeExpert, artifacts};
 use cosfly_flight::{MovingBodies, World};
 use cosfly_objectives::Objective;

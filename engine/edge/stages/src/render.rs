@@ -2,14 +2,14 @@
 //! part `nearby`.
 
 use crate::crowd::Crowd;
-use crate::memo::Memo;
 use crate::ports::{self, FRAMES, PACK};
 use crate::rejections::reject;
-use crate::world::{check_same_town, link_town, world};
 use crate::{nearby, props, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::{Around, Camera, PlanOutcome, TargetView, Trajectory, largest_object_instance};
+use cosfly_experts::memo::Memo;
+use cosfly_experts::world::{check_same_town, link_town, world};
 use cosfly_experts::{artifacts, pictures};
 use cosfly_figures::{Bystander, outfit_of};
 use cosfly_film::Shooting;

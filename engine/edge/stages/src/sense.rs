@@ -3,17 +3,18 @@
 use crate::plugin::EXTRA;
 use crate::ports::{self, EXTRAS, FRAMES, WALK};
 use crate::rejections::handed_on;
-use crate::world::{check_same_town, world};
 use crate::{nearby, single};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_domain::{TARGET_INSTANCE, Traffic};
 use cosfly_experts::codec;
+use cosfly_experts::world::{check_same_town, world};
 use cosfly_film::Person;
 use cosfly_film::nearby::{Candidate, Candidates};
 use cosfly_flight::World;
 use cosfly_frames::Seed;
 use cosfly_schema::RenderedTrajectory;
-use cosfly_schema::extras::{Extra, ExtraShape, ExtraSource, check_names};
+use cosfly_schema::extras::{Extra, ExtraSource, check_names};
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, Values};
 use cosfly_sensors::{Carrier, GeoOrigin, SenseConfig, SensedFlight, Sensor};
 use cosfly_stage::parameters;
@@ -42,13 +43,7 @@ impl StageKind for Sense {
     }
 
     fn ports(&self) -> Vec<InputPort> {
-        let doc = "The rendered flights, one item each.";
-        let others = "People and vehicles who are met: the stages that the pictures show; nobody else, when left out.";
-        vec![
-            ports::town(),
-            ports::without_pictures(ports::each("frames", FRAMES, false, doc)),
-            InputPort { optional: true, ..ports::gather("others", WALK, true, others) },
-        ]
+        flight_ports()
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
@@ -77,6 +72,17 @@ impl StageKind for Sense {
     }
 }
 
+/// Ports of stages that follow rendered flights: their town, the flights, and who else is about.
+pub fn flight_ports() -> Vec<InputPort> {
+    let doc = "The rendered flights, one item each.";
+    let others = "People and vehicles who are met: the stages that the pictures show; nobody else, when left out.";
+    vec![
+        ports::town(),
+        ports::without_pictures(ports::each("frames", FRAMES, false, doc)),
+        InputPort { optional: true, ..ports::gather("others", WALK, true, others) },
+    ]
+}
+
 /// The table of a sensor: frame and time, then its numbers and the true ones.
 fn source_of(sensor: &Sensor, config: &SenseConfig) -> ExtraSource {
     let column = |name: &str, kind, doc: &str| DeclaredColumn { name: name.to_owned(), kind, doc: doc.to_owned() };
@@ -85,14 +91,7 @@ fn source_of(sensor: &Sensor, config: &SenseConfig) -> ExtraSource {
         column("time_s", ColumnKind::Real, "time since the first frame, seconds"),
     ];
     columns.extend(sensor.quantities.iter().chain(sensor.truths).map(|it| column(it.name, ColumnKind::Real, it.doc)));
-    ExtraSource {
-        name: config.table().to_owned(),
-        shape: ExtraShape::Readings,
-        columns,
-        plugin: sensor.name.to_owned(),
-        version: sensor.version.to_string(),
-        summary: sensor.doc.to_owned(),
-    }
+    ExtraSource::of_sensor(config.table(), (sensor.name, sensor.version), sensor.doc, columns)
 }
 
 struct SenseStage {
@@ -120,7 +119,7 @@ impl Stage for SenseStage {
         let flown = SensedFlight {
             town: &world.exact,
             ground: &world.ground,
-            bodies: &|time_s, list| list.extend(people.iter().filter_map(|person| person.box_at(time_s))),
+            bodies: &|time_s, list| list.extend(people.iter().filter_map(|(_, person)| person.box_at(time_s))),
             poses_in_world: &record.trajectory.poses_in_world,
             dt_s: record.trajectory.track.dt_s,
             place: self.config.place(),
@@ -149,8 +148,9 @@ impl Stage for SenseStage {
     }
 }
 
-/// Everybody whom sensors may meet: the target, the traffic around it, and those at port `others` who are in the pictures or nobody's way.
-fn people(inputs: &Inputs<'_>, world: &World, record: &RenderedTrajectory) -> Result<Vec<Person>> {
+/// Everybody whom sensors may meet, with instance ids as in pictures: those at port `others` who are in the pictures or nobody's way, the
+/// traffic around the target, and the target.
+pub fn people(inputs: &Inputs<'_>, world: &World, record: &RenderedTrajectory) -> Result<Vec<(u32, Person)>> {
     let (flight, target) = (&record.trajectory, record.followed.as_ref());
     let mut candidates = Candidates::new(&world.town, flight, target);
     for (stage, artifacts) in inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).enumerate() {
@@ -160,7 +160,12 @@ fn people(inputs: &Inputs<'_>, world: &World, record: &RenderedTrajectory) -> Re
     let seen: BTreeSet<u32> = record.others.iter().map(|other| other.instance).collect();
     let others = candidates.sensed(&seen);
     let around = &record.around;
-    let of_traffic = around.bodies().map(|(_, body)| Person::of(body, around.traffic.dt_s));
-    let target = (flight.track.radius_m > 0.0).then(|| Person::target(&flight.track, target));
-    Ok(others.into_iter().map(Candidate::into_person).chain(of_traffic).chain(target).collect())
+    let of_traffic = around.bodies().map(|(number, body)| {
+        let body_id = Traffic::body_id(&around.traffic.name, number);
+        let seen = record.others.iter().find(|other| other.body_id == body_id);
+        (seen.map_or(u32::MAX - number, |other| other.instance), Person::of(body, around.traffic.dt_s))
+    });
+    let target = (flight.track.radius_m > 0.0).then(|| (TARGET_INSTANCE, Person::target(&flight.track, target)));
+    let others = others.into_iter().map(|it| (it.instance, Candidate::into_person(it)));
+    Ok(others.chain(of_traffic).chain(target).collect())
 }

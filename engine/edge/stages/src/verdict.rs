@@ -2,13 +2,13 @@
 
 use crate::ports::{self, FRAMES, VERDICT};
 use crate::rejections::is_rejected;
-use crate::world::{check_same_town, world};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
 use cosfly_doctor::sources;
 use cosfly_doctor::verdict::{Family, InspectConfig, Verdict, verdict};
 use cosfly_domain::{ObstacleKind, Town};
 use cosfly_experts::codec;
+use cosfly_experts::world::{check_same_town, world};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_stage::parameters;

@@ -1,13 +1,13 @@
 //! `traffic`: people and vehicles who move together through the town, and the walks of those who are followed.
 
 use super::moving::traffic_of;
-use crate::memo::Memo;
 use crate::ports::{self, TRAFFIC, WALK};
-use crate::world::{check_same_town, link_town, world};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::{Body, Followed, Traffic};
 use cosfly_experts::artifacts;
+use cosfly_experts::memo::Memo;
+use cosfly_experts::world::{check_same_town, link_town, world};
 use cosfly_frames::Seed;
 use cosfly_pedestrians::{Crowd, WalkableGrid, path_of};
 use cosfly_stage::parameters;

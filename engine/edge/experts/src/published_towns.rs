@@ -1,8 +1,8 @@
 //! Towns of a dataset: the one of each flight, and their tables.
 
+use crate::artifacts;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::Town;
-use cosfly_experts::artifacts;
 use cosfly_schema::TownLayout;
 use cosfly_schema::tables::ObjectRecord;
 use cosfly_stage::{Artifact, Inputs};

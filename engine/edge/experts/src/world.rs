@@ -1,8 +1,8 @@
 //! The town of a task, decoded once for all tasks that share it.
 
+use crate::artifacts::TOWN;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_experts::artifacts::TOWN;
 use cosfly_flight::World;
 use cosfly_stage::{Artifact, Inputs};
 use std::sync::Arc;

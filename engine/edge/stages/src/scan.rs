@@ -1,0 +1,146 @@
+//! `scan`: sweeps of a lidar along every rendered flight, as a table of the dataset.
+
+use crate::plugin::EXTRA;
+use crate::ports::EXTRAS;
+use crate::rejections::handed_on;
+use crate::sense::{READINGS, flight_ports, people};
+use crate::single;
+use cosfly_blobs::OutputSink;
+use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_domain::TARGET_INSTANCE;
+use cosfly_experts::memo::Memo;
+use cosfly_experts::world::{check_same_town, world};
+use cosfly_experts::{artifacts, codec};
+use cosfly_figures::{Bystander, clothes_seed_of_target};
+use cosfly_film::looks::walk_seed;
+use cosfly_frames::Seed;
+use cosfly_render::{Scene, SceneTriangle};
+use cosfly_schema::RenderedTrajectory;
+use cosfly_schema::extras::{Extra, ExtraSource, check_names};
+use cosfly_schema::log::cloud::{self, CloudPoint, SweepRows};
+use cosfly_sensors::lidar::{
+    LidarPattern, LidarPoint, LidarScene, LidarTriangle, MOST_BEAMS, ScanConfig, ScannedFlight,
+};
+use cosfly_stage::{InputPort, Inputs, ItemRule, Produced, Stage, StageKind, StagePart};
+use cosfly_stage::{StageProperties, StageRole, TaskContext, parameters};
+use std::collections::BTreeMap;
+
+/// Meaning of a lidar that is no device of the list.
+const OWN_DOC: &str = "Lidar with a pattern of the recipe.";
+
+/// Stage kind `scan`.
+pub struct Scan;
+
+impl StageKind for Scan {
+    fn name(&self) -> &'static str {
+        "scan"
+    }
+
+    fn doc(&self) -> &'static str {
+        "Scans with a lidar along every rendered flight; the dataset has its sweeps as a table and in the logs."
+    }
+
+    fn schema(&self) -> serde_json::Value {
+        parameters::schema_of::<ScanConfig>()
+    }
+
+    fn ports(&self) -> Vec<InputPort> {
+        flight_ports()
+    }
+
+    fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
+        let config: ScanConfig = parameters::read(given)?;
+        let pattern = config.read_pattern().map_err(|it| parameters::refused_at(it.key, it.reason))?;
+        let (device, doc) = config.device().map_or((("lidar", 1), OWN_DOC), |it| ((it.name, it.version), it.doc));
+        let source = ExtraSource::of_sensor(config.table(), device, doc, cloud::columns());
+        check_names(&source.name, &source.columns).map_err(|rule| parameters::refused_at("table", rule))?;
+        let mut canonical = parameters::canonical(&config);
+        canonical["version"] = source.version.clone().into();
+        let properties = StageProperties {
+            version: 1,
+            parameters: canonical,
+            inputs: self.ports(),
+            items: ItemRule::PerInput("frames"),
+            bytes_per_item: 200_000_000,
+            files_per_item: 2,
+            ..StageProperties::new(self.name(), StageRole::Speaks, EXTRAS)
+        };
+        Ok(single(ScanStage { config, pattern, source, properties, scene: Memo::default() }))
+    }
+}
+
+struct ScanStage {
+    config: ScanConfig,
+    pattern: LidarPattern,
+    source: ExtraSource,
+    properties: StageProperties,
+    scene: Memo<LidarScene>,
+}
+
+impl Stage for ScanStage {
+    fn properties(&self) -> &StageProperties {
+        &self.properties
+    }
+
+    fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
+        check_same_town(inputs, "frames")?;
+        check_same_town(inputs, "others")?;
+        let frames = inputs.one("frames")?;
+        if let Some(rejected) = handed_on(inputs, outputs, frames)? {
+            return Ok(rejected);
+        }
+        let record = RenderedTrajectory::from_bytes(&inputs.read(frames, "index")?)?;
+        let world = world(inputs)?;
+        let town = inputs.one("town")?.blobs[artifacts::TOWN.blob].digest;
+        let scene = self.scene.get(town, || -> Result<_> {
+            let triangles = Scene::new(&world.town, Seed(town.0)).triangles();
+            Ok(LidarScene::new(&triangles.into_iter().map(met).collect::<Vec<_>>()))
+        })?;
+        let (people, rain) = (people(inputs, &world, &record)?, record.weather.precipitation);
+        let looks =
+            record.followed.as_ref().map_or_else(|| walk_seed(&record.trajectory.track), |it| Ok(it.plan.looks))?;
+        let clothes_seed = clothes_seed_of_target(&looks, 0.0);
+        let body = |time_s: f64, (instance, person): &(u32, cosfly_film::Person)| {
+            let mut walker = person.walker(time_s)?;
+            if *instance == TARGET_INSTANCE {
+                walker.clothes_seed = clothes_seed;
+            }
+            walker.body = walker.body.in_rain(rain, &walker.clothes_seed);
+            Some(Bystander { walker, instance: *instance })
+        };
+        let flight = ScannedFlight {
+            scene: &scene,
+            bodies: &|time_s, list| list.extend(people.iter().filter_map(|person| body(time_s, person))),
+            poses_in_world: &record.trajectory.poses_in_world,
+            dt_s: record.trajectory.track.dt_s,
+            place: self.config.place(),
+            rate_hz: self.config.rate_hz(),
+            weather: &record.weather,
+            seed: Seed(context.seed),
+        };
+        let beams = flight.beams(&self.pattern);
+        if beams > MOST_BEAMS {
+            let message = format!("a flight would have {beams} beams of a lidar; {MOST_BEAMS} are allowed");
+            let hint = "choose a device with fewer shots a second, or shorter walks";
+            return Err(Diagnostic::new("sense-readings", Fault::Recipe, message).hint(hint));
+        }
+        let mut rows = SweepRows::default();
+        flight.scan(&self.pattern, &mut |sweep| {
+            rows.add(sweep.frame, sweep.time_s, &sweep.pose(), sweep.points.iter().map(written));
+        });
+        let notes = BTreeMap::from([("rows".to_owned(), rows.len().to_string())]);
+        let extra = codec::encode(EXTRAS, &Extra { source: self.source.clone(), values: rows.into_values() })?;
+        outputs.put(EXTRA, &extra)?;
+        outputs.put(READINGS, &extra)?;
+        Ok(Produced { notes, ..Produced::default() })
+    }
+}
+
+fn met(SceneTriangle { corners_in_world, label, instance }: SceneTriangle) -> LidarTriangle {
+    LidarTriangle { corners_in_world, label, instance }
+}
+
+fn written(point: &LidarPoint) -> CloudPoint {
+    let LidarPoint { place_m, intensity, time_s, ring, label, instance } = *point;
+    CloudPoint { place_m, intensity, time_s, ring, label: label.into(), instance }
+}
