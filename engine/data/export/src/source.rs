@@ -4,7 +4,9 @@ use crate::shared_options::InstructionLanguage;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{Channel, channels};
 use cosfly_frames::Pose;
-use cosfly_read::{CaptionReader, FrameRow, LogReader, LoggedFrame, PublishedDataset, PublishedFlight, RowIndex};
+use cosfly_read::{
+    CaptionReader, FrameRow, LogReader, LoggedFrame, LoggedSweep, PublishedDataset, PublishedFlight, RowIndex,
+};
 use cosfly_schema::CaptionRecord;
 use cosfly_schema::log::reading::LoggedSensor;
 use rayon::prelude::*;
@@ -55,6 +57,9 @@ pub struct ExportedFlight<'a> {
 
 /// A sensor that is no camera, and its readings: time since the first frame, nanoseconds, and numbers of the quantities.
 pub type SensorReadings = (LoggedSensor, Vec<(u64, Vec<f64>)>);
+
+/// A lidar, and its sweeps.
+pub type LidarSweeps = (String, Vec<LoggedSweep>);
 
 impl<'a> Source<'a> {
     /// The flights of `dataset` in `choice`. `progress` is called with the number of frames that are done and of all.
@@ -198,6 +203,15 @@ impl ExportedFlight<'_> {
     pub fn readings(&self) -> Result<Vec<SensorReadings>> {
         let mut log = self.source.dataset.log(self.flight)?;
         log.sensors().into_iter().map(|sensor| log.readings(&sensor).map(|all| (sensor, all))).collect()
+    }
+
+    /// Sweeps of the flight's lidars.
+    ///
+    /// # Errors
+    /// Damage of the log.
+    pub fn sweeps(&self) -> Result<Vec<LidarSweeps>> {
+        let mut log = self.source.dataset.log(self.flight)?;
+        log.lidars().into_iter().map(|lidar| log.sweeps(&lidar).map(|all| (lidar, all))).collect()
     }
 
     /// Reads the pictures of the flight's frames `frames`, calls `make` with them on all cores, and `take` with its results

@@ -58,7 +58,7 @@ pub use identity::{Identity, changed};
 pub use image_log::{ImageLog, StoredImage};
 pub use inner_path::inner_path;
 pub use instructions::{InstructionReader, InstructionsByFrame};
-pub use log::{LogReader, LoggedBox, LoggedFrame};
+pub use log::{LogReader, LoggedBox, LoggedFrame, LoggedSweep};
 pub use objects::{BoxInWorld, PublishedObject};
 pub use picture_column::{PictureColumn, PictureFile};
 pub use records::{LogDamage, read_records};

@@ -10,8 +10,8 @@ use cosfly_domain::channels::{ChannelSource, Element};
 use cosfly_domain::{Channel, ChannelImage, channels};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_schema::log::messages::{MAP_FRAME, OPTICAL_FRAME};
-use cosfly_schema::log::reading::{LoggedSensor, ReadingMessage};
-use cosfly_schema::log::{TargetStateMessage, formats, frame_time_ns, topic};
+use cosfly_schema::log::reading::{LoggedSensor, ReadingMessage, TOPICS};
+use cosfly_schema::log::{TargetStateMessage, cloud, formats, frame_time_ns, topic};
 use foxglove::messages;
 use prost::Message;
 use std::fs::File;
@@ -31,6 +31,19 @@ pub struct LogReader {
     summary: Summary,
     /// The channels of every frame, and those on request that the log has.
     channels: Vec<&'static Channel>,
+}
+
+/// A sweep of a lidar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoggedSweep {
+    /// Time of its beginning since the first frame, nanoseconds.
+    pub time_ns: u64,
+    /// Position of the lidar at that time in the `map` frame, metres.
+    pub position: DVec3,
+    /// Rotation from the lidar's axes (x ahead, y left, z up) to those of `map`.
+    pub rotation: DQuat,
+    /// Points in the lidar's axes, as [`cloud::CloudPoint`] reads them, with y to the left.
+    pub points: Vec<[u8; cloud::POINT_BYTES]>,
 }
 
 /// Images, camera and target of one frame.
@@ -160,6 +173,35 @@ impl LogReader {
             Ok(())
         })?;
         Ok(readings)
+    }
+
+    /// Names of the lidars.
+    pub fn lidars(&self) -> Vec<String> {
+        let name = |channel: &Arc<::mcap::Channel<'static>>| {
+            let is_cloud = channel.schema.as_ref().is_some_and(|schema| schema.name == cloud::SCHEMA);
+            channel.topic.strip_prefix(TOPICS).filter(|_| is_cloud).map(str::to_owned)
+        };
+        let mut names: Vec<String> = self.summary.channels.values().filter_map(name).collect();
+        names.sort();
+        names
+    }
+
+    /// All sweeps of a lidar.
+    pub fn sweeps(&mut self, lidar: &str) -> Result<Vec<LoggedSweep>> {
+        let (topic, mut sweeps) = (format!("{TOPICS}{lidar}"), vec![]);
+        self.messages(0..=u64::MAX, &[topic.as_str()], &mut |_, time_ns, data| {
+            let cloud = messages::PointCloud::decode(data).map_err(|error| error.to_string())?;
+            let pose = cloud.pose.unwrap_or_default();
+            let position = pose.position.map_or(DVec3::ZERO, |it| DVec3::new(it.x, it.y, it.z));
+            let rotation = pose.orientation.map_or(DQuat::IDENTITY, |it| DQuat::from_xyzw(it.x, it.y, it.z, it.w));
+            let (points, rest) = cloud.data.as_chunks();
+            if cloud.point_stride as usize != cloud::POINT_BYTES || !rest.is_empty() {
+                return Err(format!("its points do not have {} bytes", cloud::POINT_BYTES));
+            }
+            sweeps.push(LoggedSweep { time_ns, position, rotation, points: points.to_vec() });
+            Ok(())
+        })?;
+        Ok(sweeps)
     }
 
     fn damaged(&self, what: &str) -> Box<Diagnostic> {

@@ -3,6 +3,7 @@
 //! To add one, write its file and add two lines here: its `mod` and its entry in [`FORMATS`]. Command line, help and the
 //! laws that every export must keep follow from the list.
 
+mod clouds;
 mod coco;
 mod image_folder;
 mod lasot;
@@ -18,6 +19,7 @@ use crate::format::Export;
 
 /// The formats, sorted by name.
 pub static FORMATS: &[Export] = &[
+    Export::of::<clouds::Clouds>(),
     Export::of::<coco::Coco>(),
     Export::of::<image_folder::ImageFolder>(),
     Export::of::<lasot::LaSot>(),

@@ -13,12 +13,12 @@ use crate::folder::OutFolder;
 use crate::format::Format;
 use crate::media::{FOLDER_LIMIT, ending};
 use crate::shared_options::PictureAndTextOptions;
-use crate::source::{ExportedFlight, SensorReadings, Source};
+use crate::source::{ExportedFlight, LidarSweeps, SensorReadings, Source};
 use bag::{Bag, Topic};
 use cosfly_diagnose::Result;
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::{DQuat, DVec3, Pose, real};
-use cosfly_read::{LoggedFrame, SeenBody, SightingReader};
+use cosfly_read::{LoggedFrame, LoggedSweep, SeenBody, SightingReader};
 use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::log::{frame_time_ns, messages::feet_pose, right_handed};
 use messages::{Detected, Header, Motion, OPTICAL, Placed};
@@ -45,8 +45,9 @@ impl Format for Ros2 {
             let place = source.dataset.place(&flight.trajectory_id).unwrap_or_default();
             let readings = episode.readings()?;
             let sensors: Vec<LoggedSensor> = readings.iter().map(|(sensor, _)| sensor.clone()).collect();
-            let recording = Recording::of(episode, bodies.at(source.dataset, place)?, &readings);
-            let mut bag = Bag::begin(out, folder, &sensors)?;
+            let lidars = episode.sweeps()?;
+            let recording = Recording::of(episode, bodies.at(source.dataset, place)?, &readings, &lidars);
+            let mut bag = Bag::begin(out, folder, &sensors, &lidars)?;
             recording.write_once(&mut bag, source, episode.instruction(options.instructions.language))?;
             recording.write_frames(&mut bag, options.pictures.every)?;
             bag.finish()
@@ -70,6 +71,9 @@ struct Recording<'a> {
     coders: Vec<ReadingCoder<'a>>,
     /// Time, number of the sensor and values of each reading, by time.
     readings: Vec<(u64, usize, &'a [f64])>,
+    lidars: &'a [LidarSweeps],
+    /// Time and number of the lidar of each sweep, by time.
+    sweeps: Vec<(u64, usize, &'a LoggedSweep)>,
 }
 
 /// Pictures of a frame as messages.
@@ -99,13 +103,23 @@ fn time_ns(dt_s: f64, frame: usize) -> u64 {
 }
 
 impl<'a> Recording<'a> {
-    fn of(episode: &'a ExportedFlight<'a>, bodies: &'a [SeenBody], sensors: &'a [SensorReadings]) -> Self {
+    fn of(
+        episode: &'a ExportedFlight<'a>,
+        bodies: &'a [SeenBody],
+        sensors: &'a [SensorReadings],
+        lidars: &'a [LidarSweeps],
+    ) -> Self {
         let mut readings = vec![];
         for (number, (_, all)) in sensors.iter().enumerate() {
             let at = |(time_ns, values): &'a (u64, Vec<f64>)| (START_NS + time_ns, number, &values[..]);
             readings.extend(all.iter().map(at));
         }
         readings.sort_by_key(|(time_ns, number, ..)| (*time_ns, *number));
+        let mut sweeps = vec![];
+        for (number, (_, all)) in lidars.iter().enumerate() {
+            sweeps.extend(all.iter().map(|sweep| (START_NS + sweep.time_ns, number, sweep)));
+        }
+        sweeps.sort_by_key(|(time_ns, number, _)| (*time_ns, *number));
         let followed = if episode.flight.target_kind.is_some() { &episode.frames[..] } else { &[] };
         Self {
             episode,
@@ -114,6 +128,8 @@ impl<'a> Recording<'a> {
             target: followed.iter().map(|row| in_map(&feet_pose(&row.target))).collect(),
             coders: sensors.iter().map(|(sensor, _)| ReadingCoder::of(sensor)).collect(),
             readings,
+            lidars,
+            sweeps,
         }
     }
 
@@ -135,11 +151,14 @@ impl<'a> Recording<'a> {
     fn write_frames(&self, bag: &mut Bag<'_>, every: usize) -> Result<()> {
         let dt_s = self.episode.flight.dt_s;
         let make = |frame: usize, logged: LoggedFrame| Ok(Pictures::of(time_ns(dt_s, frame), &logged));
-        let mut rest = &self.readings[..];
+        let (mut rest, mut sweeps) = (&self.readings[..], &self.sweeps[..]);
         self.episode.each_picture(&self.episode.every_nth_frame(every), make, |frame, pictures| {
             let due = rest.partition_point(|(at_ns, ..)| *at_ns <= time_ns(dt_s, frame));
             self.write_readings(bag, &rest[..due])?;
             rest = &rest[due..];
+            let due = sweeps.partition_point(|(at_ns, ..)| *at_ns <= time_ns(dt_s, frame));
+            self.write_sweeps(bag, &sweeps[..due])?;
+            sweeps = &sweeps[due..];
             self.write_motion(bag, frame)?;
             let (time_ns, flight) = (time_ns(dt_s, frame), self.episode.flight);
             let header = Header { time_ns, frame: OPTICAL };
@@ -151,7 +170,8 @@ impl<'a> Recording<'a> {
             bag.write(Topic::Labels, time_ns, &pictures.labels)?;
             bag.write(Topic::Detections, time_ns, &messages::detections(time_ns, &self.detected(frame)))
         })?;
-        self.write_readings(bag, rest)
+        self.write_readings(bag, rest)?;
+        self.write_sweeps(bag, sweeps)
     }
 
     /// Readings, and the places of sensors that know theirs.
@@ -162,6 +182,17 @@ impl<'a> Recording<'a> {
                 bag.write(Topic::Tf, *time_ns, &messages::transforms(*time_ns, &[("map", frame, placed)]))?;
             }
             bag.write(Topic::Sensor(*number), *time_ns, &coder.encode(*time_ns, values))
+        })
+    }
+
+    /// Sweeps, and the places of the lidars at their beginnings.
+    fn write_sweeps(&self, bag: &mut Bag<'_>, sweeps: &[(u64, usize, &LoggedSweep)]) -> Result<()> {
+        sweeps.iter().try_for_each(|(time_ns, number, sweep)| {
+            let frame = self.lidars[*number].0.as_str();
+            let placed = Placed { position: sweep.position, rotation: sweep.rotation };
+            bag.write(Topic::Tf, *time_ns, &messages::transforms(*time_ns, &[("map", frame, placed)]))?;
+            let message = messages::point_cloud(Header { time_ns: *time_ns, frame }, &sweep.points);
+            bag.write(Topic::Lidar(*number), *time_ns, &message)
         })
     }
 
@@ -266,6 +297,8 @@ A folder is a bag: MCAP, messages of ROS 2 Humble and later in CDR, with their d
 | `/sensor/NAME` | by its columns | readings of each sensor that the dataset has, in the frame `NAME`: inertial units as `sensor_msgs/Imu`, receivers as \
 `NavSatFix`, barometers as `FluidPressure`, magnetometers as `MagneticField`; others as `std_msgs/Float64MultiArray`, \
 the label of whose only dimension names the quantities. `/tf` has the true place of each inertial unit, `map` to `NAME` |
+| `/sensor/LIDAR` | `sensor_msgs/PointCloud2` | sweeps of each lidar, in the frame `LIDAR` at the time of each point's shot; `/tf` has its \
+place at the beginning of the sweep |
 | `/town`* | `visualization_msgs/MarkerArray` | boxes of obstacles near the flight |
 | `/instruction`* | `std_msgs/String` | what the drone is told |
 

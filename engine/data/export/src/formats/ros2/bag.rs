@@ -3,8 +3,9 @@
 use super::definitions::whole_definition;
 use super::readings::ReadingCoder;
 use crate::folder::OutFolder;
+use crate::source::LidarSweeps;
 use cosfly_diagnose::{Diagnostic, Result};
-use cosfly_schema::log::reading::LoggedSensor;
+use cosfly_schema::log::reading::{self, LoggedSensor};
 use mcap::records::MessageHeader;
 use mcap::{McapError, WriteOptions, Writer};
 use std::collections::BTreeMap;
@@ -43,6 +44,8 @@ pub enum Topic {
     Detections,
     /// Readings of the flight's sensor of this number.
     Sensor(usize),
+    /// Sweeps of the flight's lidar of this number.
+    Lidar(usize),
 }
 
 use Topic as T;
@@ -101,8 +104,8 @@ pub struct Bag<'a> {
 }
 
 impl<'a> Bag<'a> {
-    /// Begins the bag of a flight with these sensors in a new folder, named after its last part.
-    pub fn begin(out: &'a OutFolder, folder: String, sensors: &[LoggedSensor]) -> Result<Self> {
+    /// Begins the bag of a flight with these sensors and lidars in a new folder, named after its last part.
+    pub fn begin(out: &'a OutFolder, folder: String, sensors: &[LoggedSensor], lidars: &[LidarSweeps]) -> Result<Self> {
         let file = format!("{}_0.mcap", folder.rsplit('/').next().unwrap_or_default());
         // Threads of the compressor would show in the bytes.
         let options = WriteOptions::new().profile("ros2").library("cosfly").compression_threads(0);
@@ -113,7 +116,11 @@ impl<'a> Bag<'a> {
         let of_sensor = |(number, sensor): (usize, &LoggedSensor)| {
             (Topic::Sensor(number), sensor.topic_name(), ReadingCoder::of(sensor).message(), false)
         };
-        let topics: Vec<_> = own.chain(sensors.iter().enumerate().map(of_sensor)).collect();
+        let of_lidar = |(number, (name, _)): (usize, &LidarSweeps)| {
+            (Topic::Lidar(number), format!("{}{name}", reading::TOPICS), "sensor_msgs/PointCloud2", false)
+        };
+        let of_lidars = lidars.iter().enumerate().map(of_lidar);
+        let topics: Vec<_> = own.chain(sensors.iter().enumerate().map(of_sensor)).chain(of_lidars).collect();
         let mut channels = BTreeMap::new();
         for (topic, name, kind, is_latched) in &topics {
             let definition = whole_definition(kind);

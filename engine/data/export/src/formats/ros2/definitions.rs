@@ -58,6 +58,15 @@ const DEFINITIONS: &[(&str, &str)] = &[
         "sensor_msgs/NavSatStatus",
         "int8 STATUS_NO_FIX=-1\nint8 STATUS_FIX=0\nuint16 SERVICE_GPS=1\nint8 status\nuint16 service",
     ),
+    (
+        "sensor_msgs/PointCloud2",
+        "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\n\
+         uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense",
+    ),
+    (
+        "sensor_msgs/PointField",
+        "uint8 UINT16=4\nuint8 UINT32=6\nuint8 FLOAT32=7\nstring name\nuint32 offset\nuint8 datatype\nuint32 count",
+    ),
     ("sensor_msgs/RegionOfInterest", "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify"),
     ("std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a"),
     ("std_msgs/Float64MultiArray", "std_msgs/MultiArrayLayout layout\nfloat64[] data"),

@@ -4,6 +4,7 @@ use super::cdr::Cdr;
 use cosfly_domain::{Camera, Lens};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_read::LoggedBox;
+use cosfly_schema::log::cloud::{self, POINT_BYTES};
 use cosfly_schema::tables::Edges;
 
 /// The optical frame of the camera: x right, y down, z ahead.
@@ -155,6 +156,32 @@ pub fn compressed_image(header: Header<'_>, format: &str, file: &[u8]) -> Vec<u8
     cdr.header(header);
     cdr.text(format);
     cdr.byte_sequence(file);
+    cdr.finish()
+}
+
+/// `sensor_msgs/PointCloud2` of a sweep.
+pub fn point_cloud(header: Header<'_>, points: &[[u8; POINT_BYTES]]) -> Vec<u8> {
+    let mut cdr = Cdr::new();
+    cdr.header(header);
+    cdr.u32(1);
+    cdr.u32(points.len() as u32);
+    let fields = cloud::fields();
+    cdr.u32(fields.len() as u32);
+    for (name, offset, kind) in fields {
+        cdr.text(name);
+        cdr.u32(offset);
+        cdr.u8(match kind {
+            "u2" => 4,
+            "u4" => 6,
+            _ => 7,
+        });
+        cdr.u32(1);
+    }
+    cdr.u8(0);
+    cdr.u32(POINT_BYTES as u32);
+    cdr.u32((POINT_BYTES * points.len()) as u32);
+    cdr.byte_sequence(points.as_flattened());
+    cdr.u8(1);
     cdr.finish()
 }
 
