@@ -41,6 +41,7 @@ const BEYOND: &[(&str, &[&str], &str)] = &[
     ("cosfly-planner", &["cosfly-scenes"], "tests: seeded streets"),
     ("cosfly-report", &["cosfly-captions"], "counts what texts say"),
     ("cosfly-sample", &["cosfly-captions", "cosfly-figures", "cosfly-planner"], "makes a dataset for tests"),
+    ("cosfly-verify", &["cosfly-sensors"], "casts points of lidars again from the airframe of their time"),
     ("cosfly-write", &["cosfly-captions"], "words goals, phrases and instructions of windows"),
 ];
 

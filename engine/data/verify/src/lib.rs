@@ -12,6 +12,7 @@ mod body;
 mod boxes;
 mod captions;
 mod checks;
+mod clouds;
 mod croissant;
 mod extras;
 mod figures;

@@ -6,7 +6,7 @@ use crate::options::{Options, Wanted};
 use crate::report::VerifyReport;
 use crate::resume::ResumeFile;
 use crate::tables::SmallTables;
-use crate::{croissant, extras, files, sensed, splits, tables, waypoints, windows};
+use crate::{clouds, croissant, extras, files, sensed, splits, tables, waypoints, windows};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::path::Path;
 use std::sync::mpsc;
@@ -80,6 +80,7 @@ fn check_flights(
     let flights = Flights::new(folder, files, tables, &wanted, resume, report);
     windows::check(&flights, report);
     sensed::check(&flights, report);
+    clouds::check(&flights, report);
     let motions = flights.check_all(report, progress)?;
     waypoints::check(&flights, &motions, report);
     Ok(())

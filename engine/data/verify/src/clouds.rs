@@ -1,0 +1,225 @@
+//! Tables of sweeps of lidars against the boxes of their towns: a share of the points is cast again.
+
+use crate::flights::Flights;
+use crate::report::VerifyReport;
+use crate::rows;
+use arrow_array::cast::AsArray;
+use arrow_array::types::Float64Type;
+use arrow_schema::ArrowError;
+use cosfly_domain::{OrientedBox, SemanticLabel};
+use cosfly_frames::{DMat3, DQuat, DVec3, Pose};
+use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_schema::extras::is_taken;
+use cosfly_schema::log::cloud::{COLUMN, CloudPoint, POINT_BYTES, POSE};
+use cosfly_schema::tables::{self, Objects};
+use cosfly_sensors::SmoothFlight;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::Path;
+
+/// One point of so many is cast again.
+const ONE_OF: usize = 61;
+/// Distance between a point and what its ray meets that noise explains, metres.
+const ALLOWED_M: f64 = 0.15;
+/// Share of the points that may be wrong: rounded rays beside edges.
+const ALLOWED_SHARE: f64 = 0.02;
+
+/// Boxes of a town that rays meet as boxes: cars are drawn as vehicles.
+struct Boxes {
+    tree: BoxBvh,
+    /// Instance id of each.
+    instances: Vec<u32>,
+}
+
+/// A sweep of a table.
+struct Sweep {
+    time_s: f64,
+    position: DVec3,
+    world_from_sensor: DMat3,
+    points: Vec<CloudPoint>,
+}
+
+/// Checks every table of sweeps.
+pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
+    let mut towns = None;
+    for file in flights.files.sound_below("data/") {
+        if file.split('/').nth(1).is_none_or(is_taken) {
+            continue;
+        }
+        // Damage of the file is found, and reported, where its columns are compared with their description.
+        let _ = each_flight(&flights.folder.join(file), &mut |id, sweeps| {
+            let Some(number) = flights.tables.flights.number(id).filter(|number| flights.wanted.has(*number)) else {
+                return;
+            };
+            let flight = flights.tables.flights.at(number);
+            let towns = towns.get_or_insert_with(|| boxes_of_towns(flights));
+            if let (Some(track), Some(boxes)) = (flights.tracks(&[number].into()).get(&number), towns.get(&flight.town))
+                && let Err(message) = finding(sweeps, &track.poses, flight.dt_s, boxes)
+            {
+                report.find(file, format!("`{id}`"), "verify-cloud", message);
+            }
+        });
+    }
+}
+
+/// Boxes of each town; damage of the table is reported elsewhere.
+fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, Boxes> {
+    let mut found: BTreeMap<String, Vec<(u32, OrientedBox)>> = BTreeMap::new();
+    for file in flights.files.sound_below("data/objects/") {
+        let _ = rows::read(&flights.folder.join(file), &tables::of_objects(), &mut |rows| {
+            for row in 0..rows.len() {
+                let list = found.entry(rows.get(Objects::town, row)?).or_default();
+                let shape = OrientedBox {
+                    center_in_world: DVec3::from_array(rows.get(Objects::center_in_world_m, row)?),
+                    half_extents_m: 0.5 * DVec3::from_array(rows.get(Objects::size_m, row)?),
+                    yaw_rad: rows.get(Objects::yaw_deg, row)?.to_radians(),
+                };
+                if rows.get(Objects::label, row)? != SemanticLabel::Car {
+                    list.push((rows.get(Objects::instance, row)?, shape));
+                }
+            }
+            Ok(())
+        });
+    }
+    let boxes = |list: Vec<(u32, OrientedBox)>| {
+        let (instances, shapes) = list.into_iter().unzip();
+        Boxes { tree: BoxBvh::build(shapes), instances }
+    };
+    found.into_iter().map(|(town, list)| (town, boxes(list))).collect()
+}
+
+/// Gives the sweeps of each flight of a file; none where it has no clouds.
+fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &[Sweep])) -> Result<(), ArrowError> {
+    let builder = ParquetRecordBatchReaderBuilder::try_new(File::open(path)?)?.with_batch_size(16);
+    let has = |name: &str| builder.schema().field_with_name(name).is_ok();
+    if !["trajectory_id", "time_s", COLUMN].into_iter().chain(POSE).all(has) {
+        return Ok(());
+    }
+    let (mut id, mut sweeps) = (String::new(), vec![]);
+    for batch in builder.build()? {
+        let batch = batch?;
+        let column = |name: &str| batch.column_by_name(name);
+        let reals = |name: &str| column(name)?.as_primitive_opt::<Float64Type>();
+        let ids = column("trajectory_id").and_then(|it| it.as_string_opt::<i32>());
+        let clouds = column(COLUMN).and_then(|it| it.as_binary_opt::<i32>());
+        let pose: Option<Vec<_>> = POSE.into_iter().map(reals).collect();
+        let (Some(ids), Some(clouds), Some(times_s), Some(pose)) = (ids, clouds, reals("time_s"), pose) else {
+            return Ok(());
+        };
+        for row in 0..batch.num_rows() {
+            if ids.value(row) != id {
+                visit(&id, &std::mem::take(&mut sweeps));
+                ids.value(row).clone_into(&mut id);
+            }
+            let at = |place: usize| pose[place].value(row);
+            let turn = DQuat::from_xyzw(at(3), at(4), at(5), at(6)).normalize();
+            sweeps.push(Sweep {
+                time_s: times_s.value(row),
+                position: DVec3::new(at(0), at(1), at(2)),
+                world_from_sensor: DMat3::from_quat(turn),
+                points: clouds.value(row).as_chunks::<POINT_BYTES>().0.iter().map(CloudPoint::of).collect(),
+            });
+        }
+    }
+    visit(&id, &sweeps);
+    Ok(())
+}
+
+/// What is wrong with the sweeps of a flight with these poses.
+///
+/// # Errors
+/// The first fault, in words.
+fn finding(sweeps: &[Sweep], poses: &[Pose], dt_s: f64, boxes: &Boxes) -> Result<(), String> {
+    let (Some(first), false) = (sweeps.first(), poses.is_empty()) else { return Ok(()) };
+    let smooth = SmoothFlight::new(poses, dt_s);
+    // The lidar is fixed to the airframe; `verify-sensor` holds all sweeps to the place of the first.
+    let start = smooth.at(first.time_s / dt_s);
+    let body_from_world = start.world_from_body.transpose();
+    let arm = body_from_world * (first.position - start.position_in_world);
+    let body_from_sensor = body_from_world * first.world_from_sensor;
+    for (number, sweep) in sweeps.iter().enumerate() {
+        let (mut cast, mut wrong, mut worst) = (0, 0, None);
+        for (place, point) in sweep.points.iter().enumerate().skip(number % ONE_OF).step_by(ONE_OF) {
+            let airframe = smooth.at((sweep.time_s + f64::from(point.time_s)) / dt_s);
+            let from = airframe.position_in_world + airframe.world_from_body * arm;
+            let in_sensor = DVec3::from_array(point.place_m.map(f64::from));
+            let (range_m, ray) = (in_sensor.length(), airframe.world_from_body * body_from_sensor * in_sensor);
+            let is_right = range_m > 0.0 && is_right(boxes, point.instance, (from, ray / range_m), range_m);
+            cast += 1;
+            if !is_right {
+                wrong += 1;
+                worst.get_or_insert((place, range_m));
+            }
+        }
+        if let Some((place, range_m)) = worst.filter(|_| f64::from(wrong) > 1.0 + ALLOWED_SHARE * f64::from(cast)) {
+            return Err(format!(
+                "sweep {number}, at {} s: {wrong} of {cast} points that were cast again are not where their rays meet the town; \
+                 the first is point {place}, {range_m:.2} m away",
+                sweep.time_s
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Whether a ray meets a thing at a range, and no box before it.
+fn is_right(boxes: &Boxes, instance: u32, (from, ray): (DVec3, DVec3), range_m: f64) -> bool {
+    let hit = boxes.tree.closest_hit(from, ray, range_m + 1.0);
+    match hit {
+        Some(hit) if hit.t < range_m - ALLOWED_M => false,
+        Some(hit) if boxes.instances[hit.primitive as usize] == instance => hit.t < range_m + ALLOWED_M,
+        _ => !boxes.instances.contains(&instance),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DT_S: f64 = 0.1;
+
+    /// A drone that flies along a wall and turns, and the points of a lidar on it.
+    fn scanned() -> (Vec<Sweep>, Vec<Pose>, Boxes) {
+        let pose = |frame: u32| {
+            let time_s = f64::from(frame) * DT_S;
+            let position_in_world = DVec3::new(6.0 * time_s, time_s, 5.0);
+            Pose { position_in_world, pitch_rad: 0.0, yaw_rad: 0.5 * time_s, roll_rad: 0.0 }
+        };
+        let poses: Vec<Pose> = (0..11).map(pose).collect();
+        let wall = OrientedBox::from_corners(DVec3::new(-90.0, 20.0, 0.0), DVec3::new(90.0, 22.0, 40.0));
+        let boxes = Boxes { tree: BoxBvh::build(vec![wall]), instances: vec![7] };
+        let smooth = SmoothFlight::new(&poses, DT_S);
+        let sweep = |number: u32| {
+            let time_s = f64::from(number) * DT_S;
+            let start = smooth.at(time_s / DT_S);
+            let point = |shot: u32| {
+                let (time_s, azimuth_rad) = (f64::from(shot) * 1e-4, f64::from(shot) * 3e-3);
+                let in_sensor = DVec3::new(0.3, 1.0, 0.2 - 0.1 * azimuth_rad).normalize();
+                let at = smooth.at(f64::from(number) + time_s / DT_S);
+                let hit = boxes.tree.closest_hit(at.position_in_world, at.world_from_body * in_sensor, 200.0)?;
+                let place_m = (hit.t * in_sensor).to_array().map(|it| it as f32);
+                Some(CloudPoint { place_m, time_s: time_s as f32, instance: 7, ..CloudPoint::default() })
+            };
+            let points = (0..1000).filter_map(point).collect();
+            Sweep { time_s, position: start.position_in_world, world_from_sensor: start.world_from_body, points }
+        };
+        ((0..10).map(sweep).collect(), poses, boxes)
+    }
+
+    #[test]
+    fn planted_faults_are_found() {
+        let sound = |change: &dyn Fn(&mut Sweep)| {
+            let (mut sweeps, poses, boxes) = scanned();
+            sweeps.iter_mut().skip(1).for_each(change);
+            finding(&sweeps, &poses, DT_S, &boxes)
+        };
+        assert_eq!(sound(&|_| ()), Ok(()));
+        let each = |change: fn(&mut CloudPoint)| sound(&|sweep| sweep.points.iter_mut().for_each(change));
+        let scaled = each(|point| point.place_m = point.place_m.map(|it| 1.02 * it)).expect_err("a scaled range");
+        assert!(scaled.starts_with("sweep 1, at 0.1 s: "), "{scaled}");
+        assert!(each(|point| point.place_m.swap(0, 1)).is_err(), "swapped axes");
+        assert!(each(|point| point.place_m[1] *= -1.0).is_err(), "a flipped sign");
+        assert!(sound(&|sweep| sweep.time_s += 0.5).is_err(), "a shifted time stamp");
+    }
+}
