@@ -4,7 +4,7 @@ use crate::street::{RECIPE, Street, map};
 use crate::support::{column, cosfly};
 use std::collections::BTreeMap;
 
-/// The street with two altimeters, an inertial unit and a satellite receiver on the drone, whose readings the dataset has.
+/// The street with two altimeters, an inertial unit, a satellite receiver and a lidar on the drone, whose readings the dataset has.
 fn street(second: &str) -> Street {
     let stages = format!(
         "[stages.altitude]\nuse = \"sense\"\nsensor = \"laser_altimeter\"\ninputs = {{ town = \"town\", frames = \"frames\", others = \"walkers\" }}\n\n\
@@ -12,11 +12,14 @@ fn street(second: &str) -> Street {
          [stages.motion]\nuse = \"sense\"\nsensor = \"inertial_unit\"\nrate_hz = 200\nposition_in_body_m = [0.1, 0.0, 0.05]\n\
          inputs = {{ town = \"town\", frames = \"frames\" }}\n\n\
          [stages.fixes]\nuse = \"sense\"\nsensor = \"satellite_receiver\"\ninputs = {{ town = \"town\", frames = \"frames\" }}\n\n\
+         [stages.scan]\nuse = \"scan\"\ntable = \"top\"\n\
+         pattern = {{ elevations_deg = [-80, -60, -45, -35, -25, 5], shots_hz = 2000, range_m = [0.5, 80] }}\n\
+         inputs = {{ town = \"town\", frames = \"frames\" }}\n\n\
          [stages.dataset]"
     );
     let recipe = RECIPE.replacen("[stages.dataset]", &stages, 1).replacen(
         "captions = \"captions\" }\n",
-        "captions = \"captions\", extras = [\"altitude\", \"nose\", \"motion\", \"fixes\"] }\n",
+        "captions = \"captions\", extras = [\"altitude\", \"nose\", \"motion\", \"fixes\", \"scan\"] }\n",
         1,
     );
     Street::with(&recipe, &map())
@@ -45,6 +48,12 @@ fn readings_are_tables_of_a_verified_dataset() {
     let rows = column(&dataset, "nose_m", "time_s");
     assert_eq!(rows.len() % 6, 0);
     assert!(rows.len() > 6 * 100, "{}", rows.len());
+    // Sweeps of a tenth of a second: 20 of a flight of 2.2 s or so, most of them with the ground below.
+    let points = column(&dataset, "top", "points");
+    assert!(
+        points.len() >= 6 * 20 && points.iter().filter(|count| *count != "0").count() > points.len() / 2,
+        "{points:?}"
+    );
     let card = std::fs::read_to_string(dataset.join("README.md")).expect("a card");
     assert!(card.contains("Given by the sensor `laser_altimeter` 2: A gimballed laser beam"), "{card}");
     assert!(card.contains("| `range_m` | float64 | distance to the first thing below"), "{card}");
@@ -58,6 +67,9 @@ fn readings_are_in_logs_and_in_exports() {
     let keys = column(&street.dataset(), "laser_altimeter", "trajectory_id");
     let values = column(&street.dataset(), "laser_altimeter", "range_m");
     for flight in dataset.flights() {
+        let bytes = std::fs::read(street.dataset().join(&flight.mcap_path)).expect("a log");
+        let has = |word: &str| bytes.windows(word.len()).any(|part| part == word.as_bytes());
+        assert!(has("/sensor/top") && has("foxglove.PointCloud"));
         let mut log = dataset.log(flight).expect("a log");
         let sensors = log.sensors();
         let names: Vec<(&str, String)> = sensors.iter().map(|it| (it.name.as_str(), it.quantities.join(" "))).collect();
@@ -79,6 +91,7 @@ fn readings_are_in_logs_and_in_exports() {
     };
     export("ros2");
     export("lerobot");
+    export("clouds");
     let flight = &dataset.flights()[0];
     let metadata =
         street.path().join("ros2").join(&*flight.split).join("000").join(&flight.trajectory_id).join("metadata.yaml");
@@ -86,9 +99,15 @@ fn readings_are_in_logs_and_in_exports() {
     let topic = "name: /sensor/laser_altimeter\n        type: std_msgs/msg/Float64MultiArray";
     assert!(metadata.contains(topic) && metadata.contains("name: /sensor/nose_m"), "{metadata}");
     let topic = |name: &str, kind: &str| format!("name: /sensor/{name}\n        type: sensor_msgs/msg/{kind}\n");
-    for topic in [topic("inertial_unit", "Imu"), topic("satellite_receiver", "NavSatFix")] {
+    for topic in [topic("inertial_unit", "Imu"), topic("satellite_receiver", "NavSatFix"), topic("top", "PointCloud2")]
+    {
         assert!(metadata.contains(&topic), "{topic}{metadata}");
     }
+    let clouds = street.path().join("clouds").join(&*flight.split).join("000").join(&flight.trajectory_id).join("top");
+    let poses = std::fs::read_to_string(clouds.join("poses.txt")).expect("poses");
+    assert!(poses.lines().count() >= 20 && poses.lines().all(|line| line.split(' ').count() == 12), "{poses}");
+    let size = |name: &str| std::fs::metadata(clouds.join(name)).expect("a file").len();
+    assert_eq!(size("velodyne/000019.bin"), 4 * size("labels/000019.label"));
     let info = street.path().join("lerobot").join(&*flight.split).join("meta/info.json");
     let info: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(info).expect("a dataset")).expect("JSON");
@@ -145,12 +164,16 @@ fn sensors_that_are_not_there_and_names_that_are_taken_are_refused_with_the_way_
     refused("rate_hz = 0.0", &["rate_hz"]);
     refused("table = \"Nose\"", &["table"]);
     refused("", &["two stages give `laser_altimeter`", "`table`"]);
-    for (keys, word) in [
-        ("sensor = \"laser_altimetre\"", "laser_altimeter"),
-        ("sensor = \"inertial_unit\"\nlevelled = true", "fixed to the airframe"),
+    let pattern = "pattern = { elevations_deg = [0], shots_hz = 1000, range_m = [0, 50] }";
+    for (kind, keys, word) in [
+        ("scan", "lidar = \"vlp61\"", "`vlp16`"),
+        ("scan", "lidar = \"vlp16\"\nrate_hz = 7", "18080 shots"),
+        ("scan", pattern, "two distances"),
+        ("sense", "sensor = \"laser_altimetre\"", "laser_altimeter"),
+        ("sense", "sensor = \"inertial_unit\"\nlevelled = true", "fixed to the airframe"),
     ] {
         let stage =
-            format!("\n[stages.more]\nuse = \"sense\"\n{keys}\ninputs = {{ town = \"town\", frames = \"frames\" }}\n");
+            format!("\n[stages.more]\nuse = \"{kind}\"\n{keys}\ninputs = {{ town = \"town\", frames = \"frames\" }}\n");
         let street = Street::with(&(RECIPE.to_owned() + &stage), &map());
         let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run();
         assert!(printed.code == Some(3) && printed.stderr.contains(word), "{}", printed.stderr);
