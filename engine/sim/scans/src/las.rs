@@ -1,5 +1,6 @@
 //! `LAS`: point clouds of surveys, plain (LAS) or compressed (LAZ), versions 1.0 to 1.4, point formats 0 to 10.
 
+pub mod coloured;
 pub mod compressed;
 pub mod header;
 pub mod projection;
@@ -12,7 +13,7 @@ use cosfly_domain::Town;
 use cosfly_town::{MapError, MapFormat};
 use header::Header;
 use projection::Projection;
-use records::Points;
+use records::{Points, Record};
 
 /// The way out of a damaged file.
 const WAY_OUT: &str = "the file seems to be damaged: fetch it again, or write it with `pdal translate FILE new.laz`";
@@ -44,7 +45,10 @@ fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), Map
     let units_m = projection.units_m(options.unit_m, &mut warnings)?;
     let mut points = Points { header: &header, units_m, cloud: CloudBuilder::default(), left_out: 0 };
     match header.record(compressed::USER, compressed::RECORD) {
-        Some(record) if header.is_compressed => compressed::read(&header, record, &mut points)?,
+        Some(record) if header.is_compressed => {
+            let read = |bytes: &[u8]| Record::read(bytes, header.is_long());
+            compressed::read(&header, record, compressed::usual_parts(), read, |batches| points.add_batches(batches))?;
+        }
         None if header.is_compressed => {
             let error = MapError::new("the points are compressed, but the record that says how is missing");
             return Err(error.hint("write the file again with LAStools, PDAL or laspy"));

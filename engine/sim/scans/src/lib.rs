@@ -2,8 +2,11 @@
 
 pub mod bytes;
 pub mod cloud;
+pub mod coloured;
+pub mod coloured_point;
 pub mod gltf;
 pub mod grid;
+pub mod ground_filter;
 pub mod las;
 pub mod mesh;
 pub mod obj;

@@ -3,9 +3,11 @@
 use crate::cloud::survey::spacing_m;
 use crate::cloud::table::{Columns, not_applied};
 use crate::cloud::{CloudBuilder, CloudOptions, town_of};
+use crate::coloured_point::ColouredPoint;
 use crate::scalar::Scalar;
 use crate::way_out::or_advice;
 use cosfly_domain::Town;
+use cosfly_frames::DVec3;
 use cosfly_town::remarks::speaks_of_a_place;
 use cosfly_town::{MapError, MapFormat};
 
@@ -46,8 +48,10 @@ fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), Map
     let unit_m = options.unit_m.unwrap_or(1.0);
     let mut cloud = CloudBuilder::default();
     match head.encoding {
-        Encoding::Text => head.add_lines(data, &columns, unit_m, &mut cloud)?,
-        Encoding::Binary { is_big_endian } => head.add_rows(data, &columns, unit_m, is_big_endian, &mut cloud)?,
+        Encoding::Text => head.each_line(data, columns.last(), &mut |value| columns.push(&mut cloud, unit_m, value))?,
+        Encoding::Binary { is_big_endian } => {
+            head.each_row(data, is_big_endian, &mut |value| columns.push(&mut cloud, unit_m, value))?;
+        }
     }
     let mut cloud = columns.finish(cloud, options.unit_m)?;
     let remarks = text.lines().filter(|line| ["comment ", "obj_info "].iter().any(|word| line.starts_with(word)));
@@ -62,6 +66,41 @@ fn town(bytes: &[u8], options: &CloudOptions) -> Result<(Town, Vec<String>), Map
         warnings.push("the file has faces: only its vertices are read, as points".to_owned());
     }
     Ok((town, warnings))
+}
+
+/// Vertices with their colours.
+pub(crate) fn coloured(bytes: &[u8]) -> Result<Vec<ColouredPoint>, MapError> {
+    let (text, data) = split(bytes)?;
+    let head = Head::read(&text)?;
+    let column = |names: &[&str]| {
+        let found = head.properties.iter().position(|(name, _)| names.iter().any(|own| name.eq_ignore_ascii_case(own)));
+        found.ok_or_else(|| {
+            let error = MapError::new(format!("the points have no number called `{}`", names[0]));
+            error.hint("export the cloud with colours: `red`, `green` and `blue` of each point")
+        })
+    };
+    let position = [column(&["x"])?, column(&["y"])?, column(&["z"])?];
+    let colour = [column(&["red", "r"])?, column(&["green", "g"])?, column(&["blue", "b"])?];
+    // Reals count to 1, longer numbers to 65,535.
+    let most = colour.map(|column| match head.properties[column].1 {
+        Scalar::Real(_) => 1.0,
+        Scalar::Unsigned(2) | Scalar::Signed(2) => 65_535.0,
+        _ => 255.0,
+    });
+    let last = position.into_iter().chain(colour).max().unwrap_or(0);
+    let mut points = Vec::new();
+    let mut push = |value: &dyn Fn(usize) -> f64| {
+        let share = |k: usize| (255.0 * (value(colour[k]) / most[k]).clamp(0.0, 1.0) + 0.5) as u8;
+        points.push(ColouredPoint {
+            position: DVec3::from_array(position.map(value)),
+            colour: [share(0), share(1), share(2)],
+        });
+    };
+    match head.encoding {
+        Encoding::Text => head.each_line(data, last, &mut push)?,
+        Encoding::Binary { is_big_endian } => head.each_row(data, is_big_endian, &mut push)?,
+    }
+    Ok(points)
 }
 
 /// The head as text and the bytes behind it.
@@ -194,13 +233,12 @@ impl Head {
         error.hint("the file seems to be cut off: fetch or export it again")
     }
 
-    fn add_rows(
+    /// Visits the rows of a binary file: `visit` takes a function from columns to numbers.
+    fn each_row(
         &self,
         mut data: &[u8],
-        columns: &Columns,
-        unit_m: f64,
         is_big_endian: bool,
-        cloud: &mut CloudBuilder,
+        visit: &mut dyn FnMut(&dyn Fn(usize) -> f64),
     ) -> Result<(), MapError> {
         for (count, properties) in &self.before {
             data = without_rows(data, *count, properties, is_big_endian).ok_or_else(|| self.cut_off())?;
@@ -222,12 +260,18 @@ impl Head {
                 let (place, scalar) = places[column];
                 scalar.read(&row[place..], is_big_endian).unwrap_or(f64::NAN)
             };
-            columns.push(cloud, unit_m, value);
+            visit(&value);
         }
         Ok(())
     }
 
-    fn add_lines(&self, data: &[u8], columns: &Columns, unit_m: f64, cloud: &mut CloudBuilder) -> Result<(), MapError> {
+    /// [`Self::each_row`] of a text up to its column `last`.
+    fn each_line(
+        &self,
+        data: &[u8],
+        last: usize,
+        visit: &mut dyn FnMut(&dyn Fn(usize) -> f64),
+    ) -> Result<(), MapError> {
         let text = String::from_utf8_lossy(data);
         let skipped = self.before.iter().map(|(count, _)| *count).fold(0, usize::saturating_add);
         let mut lines = text.lines().filter(|line| !line.trim().is_empty()).skip(skipped);
@@ -235,13 +279,13 @@ impl Head {
         for vertex in 0..self.vertices {
             let line = lines.next().ok_or_else(|| self.cut_off())?;
             numbers.clear();
-            numbers.extend(line.split_whitespace().take(columns.last() + 1).map_while(|word| word.parse::<f64>().ok()));
-            if numbers.len() <= columns.last() {
+            numbers.extend(line.split_whitespace().take(last + 1).map_while(|word| word.parse::<f64>().ok()));
+            if numbers.len() <= last {
                 let shown: String = line.chars().take(60).collect();
                 let rule = format!("it must have {} numbers", self.properties.len());
                 return Err(MapError::new(format!("vertex {vertex} is `{shown}`; {rule}")));
             }
-            columns.push(cloud, unit_m, |column| numbers[column]);
+            visit(&|column| numbers[column]);
         }
         Ok(())
     }

@@ -1,7 +1,6 @@
 //! LAZ: chunks of compressed points, unpacked side by side. Sizes and counts are checked before anything is allocated.
 
 use super::header::Header;
-use super::records::{Points, Record};
 use cosfly_diagnose::contained;
 use cosfly_town::MapError;
 use laz::laszip::ChunkTable;
@@ -32,11 +31,27 @@ struct Chunk<'a> {
     points: usize,
 }
 
-/// Adds all points of a compressed file.
+/// Parts of points that are unpacked.
+pub(super) fn usual_parts() -> DecompressionSelection {
+    DecompressionSelection::base().decompress_z().decompress_classification().decompress_flags()
+}
+
+/// [`usual_parts`] with colours.
+pub(super) fn coloured_parts() -> DecompressionSelection {
+    usual_parts().decompress_rgb()
+}
+
+/// Unpacks the records of all points of a compressed file and gives them to `take`, some chunks at a time.
 ///
 /// # Errors
 /// A layout that does not fit the point format, chunks beyond the end of the file, or damaged chunks.
-pub(super) fn read(header: &Header<'_>, record: &[u8], points: &mut Points<'_>) -> Result<(), MapError> {
+pub(super) fn read<T: Send>(
+    header: &Header<'_>,
+    record: &[u8],
+    parts: DecompressionSelection,
+    read: impl Fn(&[u8]) -> T + Sync,
+    mut take: impl FnMut(Vec<Vec<T>>),
+) -> Result<(), MapError> {
     let vlr = LazVlr::from_buffer(record).map_err(|error| damaged(&error.to_string()))?;
     check_items(header, vlr.items())?;
     let data = header.bytes.0.len() as u64 - header.points_start.min(header.bytes.0.len() as u64);
@@ -53,9 +68,9 @@ pub(super) fn read(header: &Header<'_>, record: &[u8], points: &mut Points<'_>) 
         chunks(header, &vlr)?
     };
     for some in chunks.chunks(CHUNKS_AT_ONCE) {
-        let unpacked: Result<Vec<Vec<Record>>, MapError> =
-            some.par_iter().map(|chunk| unpacked(header, vlr.items(), chunk)).collect();
-        points.add_batches(unpacked?);
+        let unpacked: Result<Vec<Vec<T>>, MapError> =
+            some.par_iter().map(|chunk| unpacked(header, vlr.items(), chunk, (parts, &read))).collect();
+        take(unpacked?);
     }
     Ok(())
 }
@@ -119,7 +134,15 @@ fn chunks<'a>(header: &Header<'a>, vlr: &LazVlr) -> Result<Vec<Chunk<'a>>, MapEr
     Ok(chunks)
 }
 
-fn unpacked(header: &Header<'_>, items: &Vec<LazItem>, chunk: &Chunk<'_>) -> Result<Vec<Record>, MapError> {
+/// Parts of points that are unpacked, and the reader of their records.
+type Wanted<'a, T> = (DecompressionSelection, &'a (dyn Fn(&[u8]) -> T + Sync));
+
+fn unpacked<T>(
+    header: &Header<'_>,
+    items: &Vec<LazItem>,
+    chunk: &Chunk<'_>,
+    wanted: Wanted<'_, T>,
+) -> Result<Vec<T>, MapError> {
     let is_layered = items[0].version() > 2;
     if is_layered {
         check_layers(header, items, chunk.bytes)?;
@@ -130,29 +153,28 @@ fn unpacked(header: &Header<'_>, items: &Vec<LazItem>, chunk: &Chunk<'_>) -> Res
     let source = Cursor::new(chunk.bytes);
     let records = || {
         if is_layered {
-            all_records(LayeredPointRecordDecompressor::new(source), header, items, chunk.points)
+            all_records(LayeredPointRecordDecompressor::new(source), header, items, (chunk.points, wanted))
         } else {
-            all_records(SequentialPointRecordDecompressor::new(source), header, items, chunk.points)
+            all_records(SequentialPointRecordDecompressor::new(source), header, items, (chunk.points, wanted))
         }
     };
     // The decoder of laz 0.13 indexes beyond its tables on some damaged bytes; nothing of it outlives the chunk.
     contained(records).unwrap_or_else(|| Err(damaged("a chunk holds what no encoder writes")))
 }
 
-fn all_records<R>(
+fn all_records<R, T>(
     mut unpacker: impl RecordDecompressor<R>,
     header: &Header<'_>,
     items: &Vec<LazItem>,
-    points: usize,
-) -> Result<Vec<Record>, MapError> {
+    (points, (parts, read)): (usize, Wanted<'_, T>),
+) -> Result<Vec<T>, MapError> {
     unpacker.set_fields_from(items).map_err(|error| damaged(&error.to_string()))?;
-    unpacker
-        .set_selection(DecompressionSelection::base().decompress_z().decompress_classification().decompress_flags());
+    unpacker.set_selection(parts);
     let mut bytes = vec![0; header.record_bytes];
     let mut records = Vec::with_capacity(points);
     for _ in 0..points {
         unpacker.decompress_next(&mut bytes).map_err(|error| damaged(&error.to_string()))?;
-        records.push(Record::read(&bytes, header.is_long()));
+        records.push(read(&bytes));
     }
     Ok(records)
 }
