@@ -1,12 +1,13 @@
 //! From triangles with names to a town: ground as surfaces, everything else as boxes.
 //!
 //! [`parts`] holds the triangles, [`names`] tells things by their names, [`solid`] covers them with boxes, [`ground`]
-//! makes the relief, the surfaces and the walkable ground; [`slabs`] and [`uncovered`] tell tops from undersides, [`whole`] which pieces
-//! are one thing.
+//! makes the relief, the surfaces and the walkable ground, [`one_surface`] finds it in a scan without names; [`slabs`] and [`uncovered`]
+//! tell tops from undersides, [`whole`] which pieces are one thing.
 
 pub mod ground;
 mod level;
 pub mod names;
+pub mod one_surface;
 pub mod options;
 pub mod parts;
 pub mod plan_index;
@@ -79,6 +80,10 @@ pub fn town_of(
         ));
     }
     let mut notes = Vec::new();
+    if options.one_surface {
+        parts = one_surface::apart(parts, names::is_telling);
+        notes.push("the ground is told from what stands on it by shape: `options.one_surface`".to_owned());
+    }
     let mut things = names::things(parts, &mut notes);
     let ground = things.iter_mut().filter(|thing| thing.kind.is_ground());
     let mut work = slabs::MOST_WORK;
@@ -94,7 +99,8 @@ pub fn town_of(
     }
     if walkable.is_empty() {
         let error = MapError::new("the scene leaves no open ground to walk on");
-        return Err(error.hint("name the meshes to walk on `sidewalk`; check `options.up_axis` and `options.unit_m`"));
+        let error = error.hint("name the meshes to walk on `sidewalk`; check `options.up_axis` and `options.unit_m`");
+        return Err(error.hint("for a scan that is one surface, set `options.one_surface = true`"));
     }
     warnings.extend(add_terrain(&mut meshes, &obstacles, USUAL_MARGIN_M)?);
     let town = Town {

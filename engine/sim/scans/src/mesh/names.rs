@@ -130,6 +130,11 @@ fn by_name(name: &str) -> Option<Kind> {
     telling(&name.to_lowercase()).map(|(kind, _)| kind)
 }
 
+/// Whether a name tells a kind.
+pub fn is_telling(name: &str) -> bool {
+    by_name(name).is_some()
+}
+
 /// Whether a telling name stands for many things: its word is in the plural.
 fn is_collection(name: &str) -> bool {
     let name = name.to_lowercase();

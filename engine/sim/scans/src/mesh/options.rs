@@ -30,6 +30,9 @@ pub struct MeshOptions {
     /// Length of the file's unit, metres: 0.3048 for feet. 0.000001 to 1000. Default: what the file says, else 1.
     #[schemars(range(min = 0.000001, max = 1000.0))]
     pub unit_m: Option<f64>,
+    /// Whether meshes without telling names are one surface, as photogrammetry makes it: their ground is told by its shape.
+    #[serde(skip_serializing_if = "core::ops::Not::not")]
+    pub one_surface: bool,
 }
 
 impl MeshOptions {
