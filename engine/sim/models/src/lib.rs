@@ -1,8 +1,10 @@
 //! Models that people bring along: triangles with textures from glTF files, instead of the boxes of a town's things.
 //!
 //! [`Model`] is a file in its own frame, [`ModelConfig`] a line of a recipe, [`place`] puts a model where a thing stands.
+//! [`mesh`] has whole places: scans with the light that they were taken in.
 
 mod config;
+pub mod mesh;
 mod model;
 mod pictures;
 mod place;

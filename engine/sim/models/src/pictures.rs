@@ -21,6 +21,8 @@ pub struct Picture {
     pub height: usize,
     /// Red, green, blue of each pixel.
     pub rgb: Vec<[u8; 3]>,
+    /// Opacity of each pixel; empty where all are opaque.
+    pub alpha: Vec<u8>,
 }
 
 /// Reads a picture.
@@ -28,9 +30,17 @@ pub struct Picture {
 /// # Errors
 /// Damaged files, other kinds, sides of no pixel or more than 8,192.
 pub fn read(bytes: &[u8], number: usize) -> Result<Picture, MapError> {
+    read_named(bytes, &format!("picture {number} of the model"))
+}
+
+/// Reads a picture that errors call by a name.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_named(bytes: &[u8], name: &str) -> Result<Picture, MapError> {
     let refused = |why: String| {
-        let error = MapError::new(format!("picture {number} of the model cannot be read: {why}"));
-        error.hint("models take PNG and JPEG pictures of at most 8,192 pixels a side")
+        let error = MapError::new(format!("{name} cannot be read: {why}"));
+        error.hint("models and meshes take PNG and JPEG pictures of at most 8,192 pixels a side")
     };
     let picture = match bytes {
         [0x89, b'P', b'N', b'G', ..] => by_library(|| read_png(bytes)),
@@ -63,8 +73,10 @@ fn read_png(bytes: &[u8]) -> Result<Picture, String> {
     let info = reader.next_frame(&mut samples).map_err(failed)?;
     let channels = info.color_type.samples();
     let colour = |pixel: &[u8]| if channels >= 3 { [pixel[0], pixel[1], pixel[2]] } else { [pixel[0]; 3] };
-    let rgb: Vec<[u8; 3]> = samples.chunks_exact(channels).take(width * height).map(colour).collect();
-    if rgb.len() == width * height { Ok(Picture { width, height, rgb }) } else { Err("it is cut off".into()) }
+    let pixels = || samples.chunks_exact(channels).take(width * height);
+    let rgb: Vec<[u8; 3]> = pixels().map(colour).collect();
+    let alpha = if channels % 2 == 0 { pixels().map(|pixel| pixel[channels - 1]).collect() } else { vec![] };
+    if rgb.len() == width * height { Ok(Picture { width, height, rgb, alpha }) } else { Err("it is cut off".into()) }
 }
 
 fn read_jpeg(bytes: &[u8]) -> Result<Picture, String> {
@@ -78,5 +90,6 @@ fn read_jpeg(bytes: &[u8]) -> Result<Picture, String> {
     check_size(width, height)?;
     let samples = decoder.decode().map_err(|error| error.to_string())?;
     let rgb: Vec<[u8; 3]> = samples.as_chunks::<3>().0.to_vec();
-    if rgb.len() == width * height { Ok(Picture { width, height, rgb }) } else { Err("it is cut off".into()) }
+    let alpha = vec![];
+    if rgb.len() == width * height { Ok(Picture { width, height, rgb, alpha }) } else { Err("it is cut off".into()) }
 }

@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn samples_lie_between_texels_and_far_ones_are_the_mean() {
-        let picture = Picture { width: 4, height: 1, rgb: vec![[0; 3], [255; 3], [0; 3], [255; 3]] };
+        let picture = Picture { width: 4, height: 1, rgb: vec![[0; 3], [255; 3], [0; 3], [255; 3]], alpha: vec![] };
         let texture = Texture::new(&picture);
         assert_eq!(texture.sample([0.125, 0.5], 1.0), [0.0; 3]);
         assert_eq!(texture.sample([0.375, 0.5], 1.0), [1.0; 3]);

@@ -195,8 +195,8 @@ impl Reader<'_> {
     }
 }
 
-/// Triangles of a polygon: a fan where it is convex, else its ears in the plane that it lies in most.
-fn in_triangles(corners: &[u32], vertices: &[DVec3]) -> Vec<[u32; 3]> {
+/// Triangles of a polygon whose corners are numbers of vertices: a fan where it is convex, else its ears in the plane that it lies in most.
+pub fn in_triangles(corners: &[u32], vertices: &[DVec3]) -> Vec<[u32; 3]> {
     let fan = || corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]).collect();
     let at = |index: usize| vertices[corners[index % corners.len()] as usize];
     let normal: DVec3 = (2..corners.len()).map(|k| (at(k - 1) - at(0)).cross(at(k) - at(0))).sum();

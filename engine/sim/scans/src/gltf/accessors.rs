@@ -127,6 +127,18 @@ impl Document {
         })
     }
 
+    /// Colours of an accessor: linear red, green and blue.
+    pub fn colours(&self, accessor: usize) -> Option<Vec<[f32; 3]>> {
+        let linear = |[red, green, blue]: [f64; 3]| [red as f32, green as f32, blue as f32];
+        match self.vectors::<3>(accessor, "VEC3") {
+            Some(plain) => Some(plain.into_iter().map(linear).collect()),
+            None => {
+                let with_alpha = self.vectors::<4>(accessor, "VEC4")?.into_iter();
+                Some(with_alpha.map(|[red, green, blue, _]| linear([red, green, blue])).collect())
+            }
+        }
+    }
+
     /// Numbers of corners of an accessor.
     pub fn indices(&self, accessor: usize) -> Option<Vec<u32>> {
         let accessor = self.accessors.get(accessor)?;

@@ -129,6 +129,10 @@ pub struct Primitive {
 pub struct Material {
     /// Colours of metallic-roughness shading, the only ones that are read.
     pub pbr_metallic_roughness: Colours,
+    /// `OPAQUE`, `MASK` or `BLEND`; none is opaque.
+    pub alpha_mode: Option<String>,
+    /// Least opacity that is drawn with `MASK`; none is a half.
+    pub alpha_cutoff: Option<f32>,
 }
 
 /// Base colour of a material.

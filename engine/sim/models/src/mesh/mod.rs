@@ -1,0 +1,20 @@
+//! Textured meshes: scanned places as triangles with textures and colours of their own, in the world of a town.
+//!
+//! [`TexturedMesh`] is a file where [`MeshConfig`] puts it, [`MeshSurvey`] its figures. Readers: glTF, and OBJ with its materials.
+
+mod builder;
+mod config;
+mod gltf;
+mod materials;
+mod obj;
+mod read;
+mod survey;
+mod texture;
+mod textured;
+
+pub use config::{MeshConfig, MeshPlace, MeshProblem};
+pub use materials::named_files;
+pub use read::NamedFile;
+pub use survey::MeshSurvey;
+pub use texture::MeshTexture;
+pub use textured::{MeshMaterial, MeshTriangle, TexturedMesh};

@@ -1,0 +1,228 @@
+//! Meshes of OBJ files with their materials and pictures, and colours of corners (`v x y z r g b`).
+
+use super::builder::Builder;
+use super::config::MeshPlace;
+use super::materials::{self, NamedMaterial, name_of};
+use super::textured::{MeshMaterial, MeshTriangle, TexturedMesh};
+use cosfly_frames::DVec3;
+use cosfly_scans::obj::in_triangles;
+use cosfly_town::MapError;
+use cosfly_town::text::decoded;
+use std::collections::BTreeMap;
+
+/// Most corners of a polygon.
+const MOST_CORNERS: usize = 10_000;
+
+pub(super) fn read(bytes: &[u8], beside: &[(String, Vec<u8>)], place: &MeshPlace) -> Result<TexturedMesh, MapError> {
+    let text = decoded(bytes)?;
+    let builder = Builder::new("OBJ", place);
+    let mut reader = Reader {
+        builder,
+        beside,
+        points: vec![],
+        colours: vec![],
+        texture_places: vec![],
+        known: BTreeMap::new(),
+        pictures: BTreeMap::new(),
+        numbers: BTreeMap::new(),
+        material: 0,
+        is_mesh: false,
+    };
+    reader.material = reader.plain([1.0; 3], None);
+    let mut whole = String::new();
+    for (at, line) in text.lines().enumerate() {
+        if let Some(begun) = line.strip_suffix('\\') {
+            whole.push_str(begun);
+            continue;
+        }
+        whole.push_str(line);
+        let line = std::mem::take(&mut whole);
+        reader.line(line.trim()).map_err(|error| {
+            let shown: String = line.chars().take(60).collect();
+            MapError { message: format!("line {} is `{shown}`; {}", at + 1, error.message), ..error }
+        })?;
+    }
+    if !reader.is_mesh {
+        let error = MapError::new("the file is neither glTF nor OBJ: it has no line of corners");
+        return Err(error.hint("export the mesh as GLB, or as OBJ with its materials"));
+    }
+    Ok(reader.builder.mesh)
+}
+
+struct Reader<'a> {
+    builder: Builder<'a>,
+    beside: &'a [(String, Vec<u8>)],
+    points: Vec<DVec3>,
+    /// Colours of the first corners; those without any are white.
+    colours: Vec<[u8; 3]>,
+    texture_places: Vec<[f32; 2]>,
+    /// Materials of the files that were named so far.
+    known: BTreeMap<String, NamedMaterial>,
+    /// Numbers of textures by the names of their files.
+    pictures: BTreeMap<String, u32>,
+    /// Numbers of materials by name.
+    numbers: BTreeMap<String, u32>,
+    /// The material of the faces that come now.
+    material: u32,
+    is_mesh: bool,
+}
+
+/// What is wrong with a line of a damaged file.
+fn damaged(rule: &str) -> MapError {
+    MapError::new(rule).hint("the file seems to be damaged: export it again")
+}
+
+impl Reader<'_> {
+    fn line(&mut self, line: &str) -> Result<(), MapError> {
+        let (word, rest) = line.split_once([' ', '\t']).unwrap_or((line, ""));
+        match word {
+            "v" => self.vertex(rest)?,
+            "vt" => {
+                let mut numbers = rest.split_whitespace().map(|number| number.parse::<f32>().unwrap_or(0.0));
+                let (u, v) = (numbers.next().unwrap_or(0.0), numbers.next().unwrap_or(0.0));
+                // Places count from below here, from above in textures.
+                self.texture_places.push([u, 1.0 - v]);
+                self.builder.count(1)?;
+            }
+            "f" => self.face(rest)?,
+            "mtllib" => self.materials_of(rest.trim())?,
+            "usemtl" => self.material = self.number_of(rest.trim())?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn vertex(&mut self, rest: &str) -> Result<(), MapError> {
+        let mut numbers = rest.split_whitespace().map_while(|number| number.parse::<f64>().ok());
+        let [x, y, z] = [numbers.next(), numbers.next(), numbers.next()];
+        let (Some(x), Some(y), Some(z)) = (x, y, z) else {
+            return Err(damaged("a corner must have three numbers"));
+        };
+        self.is_mesh = true;
+        self.builder.count(1)?;
+        self.points.push(DVec3::new(x, y, z));
+        let further: Vec<f64> = numbers.take(4).collect();
+        if let [red, green, blue] = further[..] {
+            self.colours.resize(self.points.len() - 1, [u8::MAX; 3]);
+            self.colours.push([red, green, blue].map(|share| (255.0 * share.clamp(0.0, 1.0) + 0.5) as u8));
+        }
+        Ok(())
+    }
+
+    fn face(&mut self, rest: &str) -> Result<(), MapError> {
+        let index = |word: Option<&str>, count: usize| {
+            let number: i64 = word.filter(|word| !word.is_empty())?.parse().ok()?;
+            let index = if number < 0 { (count as i64).checked_add(number)? } else { number.checked_sub(1)? };
+            usize::try_from(index).ok().filter(|index| *index < count)
+        };
+        let (mut corners, mut places) = (Vec::new(), Vec::new());
+        for word in rest.split_whitespace() {
+            let mut parts = word.split('/');
+            let corner = index(parts.next(), self.points.len());
+            corners.push(corner.ok_or_else(|| damaged("a corner is no number of a corner before it"))?);
+            places.push(index(parts.next(), self.texture_places.len()));
+        }
+        if !(3..=MOST_CORNERS).contains(&corners.len()) {
+            return Err(damaged(&format!("a face must have at least three corners, and at most {MOST_CORNERS}")));
+        }
+        self.builder.count(corners.len())?;
+        let points: Vec<DVec3> = corners.iter().map(|corner| self.points[*corner]).collect();
+        let numbers: Vec<u32> = (0..points.len() as u32).collect();
+        for three in in_triangles(&numbers, &points) {
+            let three = three.map(|corner| corner as usize);
+            let look = MeshTriangle {
+                corners_in_world: [[0.0; 3]; 3],
+                texture_places: three.map(|k| places[k].map_or([0.0; 2], |place| self.texture_places[place])),
+                colours: three.map(|k| self.colours.get(corners[k]).copied().unwrap_or([u8::MAX; 3])),
+                material: self.material,
+            };
+            self.builder.push(three.map(|k| points[k]), look)?;
+        }
+        Ok(())
+    }
+
+    fn file(&self, path: &str) -> Result<&[u8], MapError> {
+        let name = name_of(path);
+        let found = self.beside.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
+        found.map(|(_, bytes)| bytes.as_slice()).ok_or_else(|| {
+            let shown: String = name.chars().take(60).collect();
+            let error = MapError::new(format!("the mesh names the file `{shown}`, which is not among its `files`"));
+            error.hint(format!(
+                "name it beside the mesh: `files = [\"{shown}\"]`; no file is opened that the recipe does not name"
+            ))
+        })
+    }
+
+    fn materials_of(&mut self, path: &str) -> Result<(), MapError> {
+        let all = materials::read(self.file(path)?)?;
+        self.known.extend(all.into_iter().map(|material| (material.name.clone(), material)));
+        Ok(())
+    }
+
+    /// The number of a material by its name; of the plain one where no file has it.
+    fn number_of(&mut self, name: &str) -> Result<u32, MapError> {
+        if let Some(number) = self.numbers.get(name) {
+            return Ok(*number);
+        }
+        let Some(NamedMaterial { colour, picture, .. }) = self.known.get(name).cloned() else { return Ok(0) };
+        let texture = match picture {
+            Some(picture) => Some(self.texture(&picture)?),
+            None => None,
+        };
+        let number = self.plain(colour, texture);
+        self.numbers.insert(name.to_owned(), number);
+        Ok(number)
+    }
+
+    fn texture(&mut self, name: &str) -> Result<u32, MapError> {
+        if let Some(known) = self.pictures.get(name) {
+            return Ok(*known);
+        }
+        let bytes = self.file(name)?.to_vec();
+        let number = self.builder.texture(&bytes, &format!("`{name}`"))?;
+        self.pictures.insert(name.to_owned(), number);
+        Ok(number)
+    }
+
+    fn plain(&mut self, [red, green, blue]: [f32; 3], texture: Option<u32>) -> u32 {
+        // Pictures with holes show them: OBJ has no word for it.
+        let least_alpha = texture.filter(|it| self.builder.mesh.textures[*it as usize].has_holes()).map(|_| 0.5);
+        self.builder.material(MeshMaterial { colour: [red, green, blue, 1.0], texture, least_alpha })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::config::MeshConfig;
+    use super::*;
+
+    fn read(text: &str, beside: &[(String, Vec<u8>)]) -> Result<TexturedMesh, MapError> {
+        let place = MeshConfig::new("scan.obj").place(DVec3::ZERO).expect("a place");
+        TexturedMesh::read(text.as_bytes(), beside, &place)
+    }
+
+    #[test]
+    fn polygons_materials_and_colours_of_corners_are_read() {
+        let text = "mtllib ./a/scan.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 0 -1 0 0 1\nv 0 0 -1 1 1 1\nvt 0 0\nvt 1 0\nvt 1 1\n\
+                    usemtl red\nf 1/1 2/2 3/3 4\nusemtl other\nf -4 -3 -2\n";
+        let beside = [("scan.mtl".to_owned(), b"newmtl red\nKd 1 0 0\n".to_vec())];
+        let mesh = read(text, &beside).expect("a mesh");
+        assert_eq!((mesh.format, mesh.triangles.len(), mesh.materials.len()), ("OBJ", 3, 2));
+        assert_eq!(mesh.triangles[0].texture_places[..2], [[0.0, 1.0], [1.0, 1.0]]);
+        // The middle of a red, a green and a blue corner, through a red material.
+        let look = mesh.look_at(&mesh.triangles[0], [1.0 / 3.0; 3], 1.0);
+        assert!((look[0] - 1.0 / 3.0).abs() < 1e-3 && look[1] == 0.0, "{look:?}");
+        assert_eq!(mesh.triangles[2].material, 0);
+    }
+
+    #[test]
+    fn files_that_the_recipe_does_not_name_are_never_opened() {
+        for path in ["../../etc/passwd", "/etc/passwd", "C:\\x\\scan.mtl", "https://example.org/scan.mtl"] {
+            let error = read(&format!("mtllib {path}\nv 0 0 0\n"), &[]).expect_err("refused");
+            assert!(error.message.contains("not among its `files`"), "{error}");
+        }
+        let error = read("v 0 0 0\nv 1 0 0\nf 1 2 3\n", &[]).expect_err("refused");
+        assert!(error.message.contains("line 3"), "{error}");
+        assert!(read("hello", &[]).expect_err("refused").message.contains("neither glTF nor OBJ"));
+    }
+}

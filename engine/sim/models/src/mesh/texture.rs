@@ -1,0 +1,144 @@
+//! [`MeshTexture`]: a picture of a scan at its full size with smaller copies, four bytes a texel.
+
+use crate::pictures::Picture;
+use cosfly_frames::real;
+use std::sync::OnceLock;
+
+/// A picture that repeats in both directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshTexture {
+    /// The picture, then copies of half the size, down to one texel.
+    levels: Vec<Level>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Level {
+    width: usize,
+    height: usize,
+    /// sRGB red, green, blue, and opacity.
+    texels: Vec<[u8; 4]>,
+}
+
+/// Light of each sRGB code, 0 to 1.
+pub fn light() -> &'static [f32; 256] {
+    static LIGHT: OnceLock<[f32; 256]> = OnceLock::new();
+    LIGHT.get_or_init(|| {
+        core::array::from_fn(|code| {
+            let value = code as f64 / 255.0;
+            (if value <= 0.04045 { value / 12.92 } else { real::powf((value + 0.055) / 1.055, 2.4) }) as f32
+        })
+    })
+}
+
+/// The sRGB code next to a light.
+pub fn code(value: f32) -> u8 {
+    let light = light();
+    let above = light.partition_point(|own| *own < value).min(255);
+    let below = above.saturating_sub(1);
+    (if value - light[below] < light[above] - value { below } else { above }) as u8
+}
+
+impl MeshTexture {
+    /// Takes over a picture.
+    pub(crate) fn new(picture: Picture) -> Self {
+        let Picture { width, height, rgb, alpha } = picture;
+        let alpha = alpha.into_iter().chain(core::iter::repeat(u8::MAX));
+        let texels = rgb.into_iter().zip(alpha).map(|([red, green, blue], alpha)| [red, green, blue, alpha]).collect();
+        let mut levels = vec![Level { width, height, texels }];
+        while let Some(last) = levels.last().filter(|last| last.width.max(last.height) > 1) {
+            let next = last.halved();
+            levels.push(next);
+        }
+        Self { levels }
+    }
+
+    /// Texels of the whole picture, across and down.
+    pub fn size(&self) -> [f32; 2] {
+        [self.levels[0].width as f32, self.levels[0].height as f32]
+    }
+
+    /// Whether a texel is less opaque than not.
+    pub(crate) fn has_holes(&self) -> bool {
+        self.levels[0].texels.iter().any(|texel| texel[3] < 128)
+    }
+
+    /// Linear colour and opacity at a place (0 to 1 over the picture, which repeats) for a pixel that covers `texels` of the whole picture
+    /// a side.
+    pub fn sample(&self, place: [f32; 2], texels: f32) -> [f32; 4] {
+        let step = libm::log2f(texels.max(1.0)).min((self.levels.len() - 1) as f32);
+        let (fine, share) = (step.floor(), step - step.floor());
+        let near = self.levels[fine as usize].sample(place);
+        if share <= 0.0 {
+            return near;
+        }
+        let far = self.levels[(fine as usize + 1).min(self.levels.len() - 1)].sample(place);
+        [0, 1, 2, 3].map(|k| near[k] + (far[k] - near[k]) * share)
+    }
+}
+
+impl Level {
+    /// Means of two by two texels in light; of one at an odd edge.
+    fn halved(&self) -> Self {
+        let light = light();
+        let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
+        let mut texels = Vec::with_capacity(width * height);
+        for row in 0..height {
+            for column in 0..width {
+                let (left, top) = (2 * column, 2 * row);
+                let (right, below) = ((left + 1).min(self.width - 1), (top + 1).min(self.height - 1));
+                let four = [(left, top), (right, top), (left, below), (right, below)];
+                let four = four.map(|(x, y)| self.texels[y * self.width + x]);
+                let mean = |channel: usize| {
+                    code(0.25 * four.iter().map(|texel| light[usize::from(texel[channel])]).sum::<f32>())
+                };
+                let alpha = (four.iter().map(|texel| u16::from(texel[3])).sum::<u16>() + 2) / 4;
+                texels.push([mean(0), mean(1), mean(2), alpha as u8]);
+            }
+        }
+        Self { width, height, texels }
+    }
+
+    /// Between the four texels around a place.
+    fn sample(&self, [u, v]: [f32; 2]) -> [f32; 4] {
+        let light = light();
+        let place = |at: f32, count: usize| {
+            let at = at - at.floor();
+            let texel = (if at.is_finite() { at } else { 0.0 }) * count as f32 - 0.5;
+            let (first, share) = (texel.floor(), texel - texel.floor());
+            let first = (first as i64).rem_euclid(count as i64) as usize;
+            (first, if first + 1 == count { 0 } else { first + 1 }, share)
+        };
+        let ((left, right, x), (top, below, y)) = (place(u, self.width), place(v, self.height));
+        let texel = |column: usize, row: usize| {
+            let [red, green, blue, alpha] = self.texels[row * self.width + column];
+            let [red, green, blue] = [red, green, blue].map(|code| light[usize::from(code)]);
+            [red, green, blue, f32::from(alpha) / 255.0]
+        };
+        let row = |row: usize| {
+            let (from, to) = (texel(left, row), texel(right, row));
+            [0, 1, 2, 3].map(|k| from[k] + (to[k] - from[k]) * x)
+        };
+        let (from, to) = (row(top), row(below));
+        [0, 1, 2, 3].map(|k| from[k] + (to[k] - from[k]) * y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_lie_between_texels_and_far_ones_are_the_mean_of_their_light() {
+        let picture =
+            Picture { width: 4, height: 1, rgb: vec![[0; 3], [255; 3], [0; 3], [255; 3]], alpha: vec![255, 0, 255, 0] };
+        let texture = MeshTexture::new(picture);
+        assert_eq!(texture.sample([0.125, 0.5], 1.0), [0.0, 0.0, 0.0, 1.0]);
+        assert_eq!(texture.sample([0.375, 0.5], 1.0), [1.0, 1.0, 1.0, 0.0]);
+        // Half the light is the code 188, half the opacity 128 of 255.
+        let mean = texture.sample([0.1, 0.1], 1e9);
+        assert!((mean[0] - 0.5).abs() < 5e-3 && (mean[3] - 0.5).abs() < 5e-3, "{mean:?}");
+        assert!(texture.sample([f32::NAN, f32::INFINITY], f32::NAN).iter().all(|it| it.is_finite()));
+        assert!((0..=255).all(|own: u8| code(light()[usize::from(own)]) == own));
+        assert_eq!((code(-1.0), code(2.0), code(f32::NAN)), (0, 255, 0));
+    }
+}
