@@ -17,6 +17,7 @@ pub struct SplatCloud {
     left_out: usize,
     low: [f32; 3],
     high: [f32; 3],
+    origin: [f64; 3],
 }
 
 impl SplatCloud {
@@ -31,7 +32,20 @@ impl SplatCloud {
             left_out: 0,
             low: [f32::INFINITY; 3],
             high: [f32::NEG_INFINITY; 3],
+            origin: [0.0; 3],
         }
+    }
+
+    /// This cloud, whose splats count from a place of the file.
+    #[must_use]
+    pub fn with_origin(mut self, origin: [f64; 3]) -> Self {
+        self.origin = origin;
+        self
+    }
+
+    /// Place of the file from which splats count.
+    pub fn origin(&self) -> [f64; 3] {
+        self.origin
     }
 
     /// Adds a splat. One that is not finite or that nobody sees is counted and left out.

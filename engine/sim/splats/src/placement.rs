@@ -68,6 +68,9 @@ pub struct SplatsConfig {
     /// Whether small splats become fainter, as in Mip-Splatting: as the splats were trained.
     #[serde(default)]
     pub antialiased: bool,
+    /// Licence of the scan and its owner, such as `CC BY 4.0, Ana Kos, https://example.org/street`: it stands on the dataset's card.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub license: Option<String>,
 }
 
 /// Parameters that cannot be used.
@@ -105,6 +108,7 @@ impl SplatsConfig {
             points: None,
             exposure_ev: 0.0,
             antialiased: false,
+            license: None,
         }
     }
 
@@ -170,6 +174,12 @@ impl Placement {
         let world_from_file = DMat3::from_cols(axis([1.0, 0.0, 0.0]), axis([0.0, 1.0, 0.0]), axis([0.0, 0.0, 1.0]));
         let file_from_world = world_from_file.transpose() * (1.0 / (unit_m * unit_m));
         Self { world_from_file, file_from_world, origin_in_world: in_world(origin_in_map) - world_origin_m }
+    }
+
+    /// The place of a cloud whose splats count from a point of the file.
+    #[must_use]
+    pub fn counted_from(self, origin_in_file: [f64; 3]) -> Self {
+        Self { origin_in_world: self.in_world(DVec3::from_array(origin_in_file)), ..self }
     }
 
     /// A point of the file in the world, metres.

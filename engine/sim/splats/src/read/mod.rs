@@ -2,6 +2,7 @@
 
 mod packed;
 mod ply;
+mod points;
 mod small;
 
 use crate::cloud::SplatCloud;
@@ -19,12 +20,15 @@ pub struct SplatFile {
     pub format: &'static str,
 }
 
-/// Reads a file: `.ply` of the reference trainer, `.spz` or `.splat`, told by its content.
+/// Reads a file: `.ply` of the reference trainer, `.spz` or `.splat`, or a cloud of coloured points (`.ply`, `.las`, `.laz`), told by its
+/// content.
 ///
 /// # Errors
 /// Other formats, damaged or cut files, more than [`MOST_SPLATS`] splats, and files none of whose splats can be seen.
 pub fn read(bytes: &[u8]) -> Result<SplatFile, SplatError> {
     let (cloud, format) = match bytes {
+        [b'L', b'A', b'S', b'F', ..] => (points::read(bytes)?, "LAS"),
+        [b'p', b'l', b'y', ..] if ply::is_of_points(bytes) => (points::read(bytes)?, "PLY of points"),
         [b'p', b'l', b'y', ..] => (ply::read(bytes)?, "PLY"),
         [0x1f, 0x8b, ..] => (packed::read(bytes)?, "SPZ"),
         _ => (small::read(bytes)?, "splat"),

@@ -26,6 +26,15 @@ const NAMES: [&str; 14] = [
     "rot_3",
 ];
 
+/// Whether a file has points with colours instead of splats.
+pub(super) fn is_of_points(bytes: &[u8]) -> bool {
+    let within = &bytes[..bytes.len().min(LONGEST_HEAD)];
+    let end = within.windows(10).position(|window| window == b"end_header").unwrap_or(0);
+    let head = String::from_utf8_lossy(&within[..end]);
+    let has = |name: &str| head.lines().any(|line| line.starts_with("property ") && line.trim_end().ends_with(name));
+    !has(" f_dc_0") && (has(" red") || has(" r"))
+}
+
 pub(super) fn read(bytes: &[u8]) -> Result<SplatCloud, SplatError> {
     let within = &bytes[..bytes.len().min(LONGEST_HEAD)];
     let Some(end) = within.windows(END.len()).position(|window| window == END) else {
