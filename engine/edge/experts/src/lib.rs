@@ -5,6 +5,7 @@
 //! * [`map_files`]: towns read from map files.
 //! * [`plugins`]: plugins in recipes.
 //! * [`world`]: the town of a task; [`published_towns`]: those of a dataset; [`memo`]: what is computed from one input for all tasks.
+//! * [`render_files`]: models, meshes and splats that pictures show.
 
 pub mod artifacts;
 pub mod codec;
@@ -14,6 +15,7 @@ pub mod memo;
 pub mod pictures;
 pub mod plugins;
 pub mod published_towns;
+pub mod render_files;
 pub mod world;
 
 pub use artifacts::Kind;

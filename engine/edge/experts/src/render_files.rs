@@ -1,39 +1,108 @@
-//! Models and splats of a `render` stage: files of the recipe, checked before any stage runs.
+//! Models, mesh and splats of a `render` stage: files of the recipe, checked before any stage runs.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_domain::Town;
 use cosfly_frames::DVec3;
 use cosfly_models::Model;
-use cosfly_render::{RenderConfig, SceneModel, SceneSplats};
+use cosfly_models::mesh::{MeshConfig, NamedFile, TexturedMesh};
+use cosfly_render::{RenderConfig, SceneMesh, SceneModel, SceneSplats};
 use cosfly_splats::SplatCloud;
-use cosfly_stage::{Source, SourceCheck};
+use cosfly_stage::{Settle, Source, SourceCheck};
+use cosfly_town::MapError;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Longest file of splats: the most splats that are read, with every number that they may have, fit well.
 const MOST_SPLAT_BYTES: u64 = 4 << 30;
+/// Longest file of a mesh, or of a picture beside it.
+const MOST_MESH_BYTES: u64 = 4 << 30;
+/// Splats farther from the geometry in the median seem to be of another place, metres.
+const MOST_OFF_M: f32 = 0.5;
+/// A mesh with less of its area on the map's boxes and ground seems to be of another place.
+const LEAST_KNOWN: f64 = 0.8;
 
-/// Files of the models and of the splats, whose paths leave the parameters: what a file holds counts, not where it lies.
+/// Files of the models, of the mesh and of the splats, whose paths leave the parameters: what a file holds counts, not where it lies.
 pub fn take_sources(config: &mut RenderConfig) -> Vec<Source> {
-    let take = |key: String, source: &mut String, settle: fn(&Path) -> Result<()>| {
+    let take = |key: String, source: &mut String, settle: Arc<Settle>| {
         let path = std::mem::replace(source, "(content)".into());
-        let check = SourceCheck {
-            describes: String::new(),
-            read: Arc::new(|_| Ok(Value::Bool(true))),
-            settle: Some(Arc::new(settle)),
-        };
+        let check =
+            SourceCheck { describes: String::new(), read: Arc::new(|_| Ok(Value::Bool(true))), settle: Some(settle) };
         Source { check: Some(check), ..Source::new(key, path) }
     };
-    let models = config.models.iter_mut().enumerate();
-    let models = models.map(|(index, model)| {
-        take(format!("models.{index}.source"), &mut model.source, |path| read_model(path).map(drop))
-    });
-    let mut sources: Vec<Source> = models.collect();
-    let splats = config.splats.as_mut();
-    sources.extend(
-        splats.map(|splats| take("splats.source".to_owned(), &mut splats.source, |path| read_splats(path).map(drop))),
-    );
+    let mut sources = vec![];
+    for (index, model) in config.models.iter_mut().enumerate() {
+        let check = Arc::new(|path: &Path| read_model(path).map(drop));
+        sources.push(take(format!("models.{index}.source"), &mut model.source, check));
+    }
+    if let Some(mesh) = &mut config.mesh {
+        let plain = mesh.clone();
+        // Files that the mesh names are found before the mesh is.
+        let beside = Arc::new(Mutex::new(vec![]));
+        for (index, file) in mesh.files.iter_mut().enumerate() {
+            let beside = Arc::clone(&beside);
+            let name =
+                Path::new(&*file).file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let check = Arc::new(move |path: &Path| {
+                beside.lock().unwrap_or_else(PoisonError::into_inner).push(path.to_owned());
+                Ok(())
+            });
+            let source = take(format!("mesh.files.{index}"), file, check);
+            *file = name;
+            sources.push(source);
+        }
+        let check = Arc::new(move |path: &Path| {
+            let beside = std::mem::take(&mut *beside.lock().unwrap_or_else(PoisonError::into_inner));
+            read_mesh(&plain, path, &beside, DVec3::ZERO).map(drop)
+        });
+        sources.push(take("mesh.source".to_owned(), &mut mesh.source, check));
+    }
+    if let Some(splats) = &mut config.splats {
+        let check = Arc::new(|path: &Path| read_splats(path).map(drop));
+        sources.push(take("splats.source".to_owned(), &mut splats.source, check));
+    }
     sources
+}
+
+/// Reads the mesh of a stage from its files, for a town whose labels it has.
+///
+/// # Errors
+/// Files that cannot be read, or are no mesh.
+pub fn read_scene_mesh(config: &RenderConfig, files: &[PathBuf], town: &Town) -> Result<Option<SceneMesh>> {
+    let own = config.mesh.as_ref().and_then(|mesh| {
+        let files = files.get(config.models.len()..)?;
+        Some((mesh, files.get(mesh.files.len())?, &files[..mesh.files.len()]))
+    });
+    let Some((mesh, file, beside)) = own else { return Ok(None) };
+    let read = read_mesh(mesh, file, beside, town.origin.offset_m)?;
+    Ok(Some(SceneMesh::new(read, mesh, town)))
+}
+
+fn read_mesh(config: &MeshConfig, path: &Path, beside: &[PathBuf], world_origin_m: DVec3) -> Result<TexturedMesh> {
+    let shown = path.display();
+    let refused = |error: MapError| {
+        let refused = Diagnostic::new("mesh-refused", Fault::Input, error.message).because(format!("in `{shown}`"));
+        error.hints.into_iter().fold(refused, |refused, hint| refused.hint(hint))
+    };
+    let place = config
+        .place(world_origin_m)
+        .map_err(|problem| Diagnostic::new("mesh-placed", Fault::Recipe, problem.message).hint(problem.hint))?;
+    let read = |path: &Path| {
+        let unreadable =
+            |error: std::io::Error| Diagnostic::io(format!("read the mesh's file `{}`", path.display()), &error);
+        let length = std::fs::metadata(path).map_err(unreadable)?.len();
+        if length > MOST_MESH_BYTES {
+            let message = format!("the file has {length} bytes; at most {MOST_MESH_BYTES} are read");
+            return Err(refused(MapError::new(message).hint("cut the scene into pieces, or simplify it")));
+        }
+        std::fs::read(path).map_err(unreadable)
+    };
+    let named = |path: &PathBuf| {
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        Ok((name, read(path)?))
+    };
+    let beside = beside.iter().map(named).collect::<Result<Vec<NamedFile>>>()?;
+    TexturedMesh::read(&read(path)?, &beside, &place).map_err(refused)
 }
 
 /// Reads the splats of a stage from its last file, for a town whose reader took `world_origin_m` off its map's points.
@@ -87,4 +156,62 @@ fn read_model(path: &Path) -> Result<Model> {
         let refused = Diagnostic::new("model-refused", Fault::Input, error.message).because(format!("in `{shown}`"));
         error.hints.into_iter().fold(refused, |refused, hint| refused.hint(hint))
     })
+}
+
+/// Words on the scans of pictures for the card of a dataset, and warnings where licences are not stated.
+pub fn scan_notes(config: &RenderConfig) -> (Vec<String>, Vec<String>) {
+    let mesh = config.mesh.as_ref().map(|mesh| ("mesh", "a textured mesh", &mesh.license));
+    let splats = config.splats.as_ref().map(|splats| ("splats", "splats", &splats.license));
+    let (mut notes, mut warnings) = (vec![], vec![]);
+    for (key, what, license) in mesh.into_iter().chain(splats) {
+        let stated = license.as_deref().map(str::trim).filter(|license| !license.is_empty());
+        if stated.is_none() {
+            warnings.push(format!("the licence of the scan is not stated: give it with `{key}.license`"));
+        }
+        let license = stated.map_or_else(|| "not stated".to_owned(), str::to_owned);
+        notes.push(format!(
+            "not invented: pictures show {what} of a real or modelled place, licence: {license}; whoever publishes them answers for faces \
+             and number plates in it"
+        ));
+    }
+    (notes, warnings)
+}
+
+/// The note about splats and geometry, and the warning where they do not belong together.
+pub fn compared(off_m: Option<f32>) -> (String, Option<String>) {
+    let Some(off_m) = off_m else {
+        let note = "no picture shows splats over the geometry".to_owned();
+        let warning = format!("{note}: check `splats.up_axis`, its scale and its place");
+        return (note, Some(warning));
+    };
+    let note = format!("half of the pixels within {off_m:.2} m of the geometry");
+    let is_elsewhere = off_m > MOST_OFF_M;
+    let warning = format!(
+        "the splats lie {off_m:.1} m from the geometry in the median: check `splats.up_axis`, its scale and its place"
+    );
+    (note, is_elsewhere.then_some(warning))
+}
+
+/// The note about a mesh and the geometry, and the warning where they do not belong together.
+pub fn matched(mesh: &SceneMesh) -> (String, Option<String>) {
+    let share = mesh.known_share();
+    let note =
+        format!("{} triangles, {:.1} % of their area on the map's boxes and ground", mesh.triangles(), 100.0 * share);
+    let warning = format!(
+        "{:.0} % of the mesh lie on no box and no ground of the map: check `mesh.up_axis`, its unit and its place",
+        100.0 * (1.0 - share)
+    );
+    (note, (share < LEAST_KNOWN).then_some(warning))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn splats_that_lie_elsewhere_or_nowhere_are_a_warning() {
+        assert_eq!(compared(Some(0.04)), ("half of the pixels within 0.04 m of the geometry".to_owned(), None));
+        let warning = |off_m| compared(off_m).1.expect("a warning");
+        assert!(warning(Some(2.0)).contains("2.0 m") && warning(None).contains("splats.up_axis"));
+    }
 }

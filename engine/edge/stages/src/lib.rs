@@ -20,7 +20,6 @@ mod planners;
 mod planning;
 mod plugin;
 mod ports;
-mod props;
 mod quotas;
 #[cfg(test)]
 mod rare_keys;

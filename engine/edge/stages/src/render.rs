@@ -4,13 +4,13 @@
 use crate::crowd::Crowd;
 use crate::ports::{self, FRAMES, PACK};
 use crate::rejections::reject;
-use crate::{nearby, props, traffic};
+use crate::{nearby, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::{Around, Camera, PlanOutcome, TargetView, Trajectory, largest_object_instance};
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{check_same_town, link_town, world};
-use cosfly_experts::{artifacts, pictures};
+use cosfly_experts::{artifacts, pictures, render_files};
 use cosfly_figures::{Bystander, outfit_of};
 use cosfly_film::Shooting;
 use cosfly_film::body_rays::BodyRays;
@@ -30,9 +30,6 @@ use cosfly_stage::{
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
-
-/// Splats farther from the geometry in the median seem to be of another place, metres.
-const MOST_OFF_M: f32 = 0.5;
 
 /// Stage kind `render`.
 pub struct Render;
@@ -67,9 +64,9 @@ impl StageKind for Render {
             false => ItemRule::PerVariant { port: "trajectories", variants: films },
             true => ItemRule::PerInput("trajectories"),
         };
-        let sources = props::take_sources(&mut config);
-        // Models, leaves and splats change no body around a flight.
-        let bare = RenderConfig { models: vec![], season: None, splats: None, ..config.clone() };
+        let sources = render_files::take_sources(&mut config);
+        // Models, leaves and scans change no body around a flight.
+        let bare = RenderConfig { models: vec![], season: None, mesh: None, splats: None, ..config.clone() };
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
             version: 26,
@@ -136,10 +133,11 @@ impl Stage for RenderStage {
         let town_digest = inputs.one("town")?.blobs[artifacts::TOWN.blob].digest;
         // Buildings look the same in every flight through the town.
         let scene = self.scene.get(town_digest, || -> Result<_> {
-            let models = props::read_models(&self.config, &context.sources)?;
-            let splats = props::read_scene_splats(&self.config, &context.sources, world.town.origin.offset_m)?;
+            let models = render_files::read_models(&self.config, &context.sources)?;
+            let splats = render_files::read_scene_splats(&self.config, &context.sources, world.town.origin.offset_m)?;
+            let mesh = render_files::read_scene_mesh(&self.config, &context.sources, &world.town)?;
             let scene = Scene::with_models(&world.town, Seed(town_digest.0), &models);
-            Ok(scene.in_season(self.config.season).with_splats(splats))
+            Ok(scene.in_season(self.config.season).with_mesh(mesh).with_splats(splats))
         })?;
         let target = traffic::followed(inputs, artifact)?;
         let shooting = Shooting::of(&config, &trajectory, target.as_ref(), film)?;
@@ -148,9 +146,14 @@ impl Stage for RenderStage {
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
         let mut seen = self.draw(outputs, context, &place, &trajectory, (&config, &shooting))?;
         let mut notes = notes_of(&crowd, &seen.sightings);
-        let splats = self.config.splats.as_ref().map(|_| compared(seen.median_off_m()));
+        let splats = self.config.splats.as_ref().map(|_| render_files::compared(seen.median_off_m()));
         notes.extend(splats.iter().map(|(note, _)| ("splats".to_owned(), note.clone())));
-        let warnings = splats.and_then(|(_, warning)| warning).into_iter().collect();
+        let mesh = scene.mesh().map(render_files::matched);
+        notes.extend(mesh.iter().map(|(note, _)| ("mesh".to_owned(), note.clone())));
+        let (on_card, mut warnings) = render_files::scan_notes(&self.config);
+        warnings.extend(splats.into_iter().chain(mesh).filter_map(|(_, warning)| warning));
+        let mut town = TownInfo::of(&world.town, town_digest);
+        town.synthetic.notes.extend(on_card);
         let pair = trajectory.perturbation.as_ref().map(|twin| {
             let expert = ItemName::own(twin.expert_item.as_str());
             // The expert is published in the same weather, by the same camera.
@@ -163,7 +166,7 @@ impl Stage for RenderStage {
             role: if pair.is_some() { Role::Perturbed } else { Role::Expert },
             // A trajectory has the name of the walk that it follows.
             pedestrian_id: walker(&artifact.id.item).to_string(),
-            town: TownInfo::of(&world.town, town_digest),
+            town,
             trajectory,
             camera_name: film.filter(|_| !self.config.cameras.is_empty()).map(str::to_owned),
             camera: shooting.camera,
@@ -224,21 +227,6 @@ impl SeenPeople {
         self.splats_off_m.sort_unstable_by(f32::total_cmp);
         self.splats_off_m.get(self.splats_off_m.len() / 2).copied()
     }
-}
-
-/// The note about splats and geometry, and the warning where they do not belong together.
-fn compared(off_m: Option<f32>) -> (String, Option<String>) {
-    let Some(off_m) = off_m else {
-        let note = "no picture shows splats over the geometry".to_owned();
-        let warning = format!("{note}: check `splats.up_axis`, its scale and its place");
-        return (note, Some(warning));
-    };
-    let note = format!("half of the pixels within {off_m:.2} m of the geometry");
-    let is_elsewhere = off_m > MOST_OFF_M;
-    let warning = format!(
-        "the splats lie {off_m:.1} m from the geometry in the median: check `splats.up_axis`, its scale and its place"
-    );
-    (note, is_elsewhere.then_some(warning))
 }
 
 /// Notes about the people around.
@@ -359,13 +347,6 @@ impl RenderStage {
 mod tests {
     use super::*;
     use cosfly_frames::DVec3;
-
-    #[test]
-    fn splats_that_lie_elsewhere_or_nowhere_are_a_warning() {
-        assert_eq!(compared(Some(0.04)), ("half of the pixels within 0.04 m of the geometry".to_owned(), None));
-        let warning = |off_m| compared(off_m).1.expect("a warning");
-        assert!(warning(Some(2.0)).contains("2.0 m") && warning(None).contains("splats.up_axis"));
-    }
 
     #[test]
     fn a_camera_in_a_wall_is_named_with_its_frame() {

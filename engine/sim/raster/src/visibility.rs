@@ -181,6 +181,37 @@ impl Visibility {
         self.draw_projected(&points[..count], &plane.lifted(bias), face);
     }
 
+    /// Draws a polygon as [`Self::draw_polygon`] does, but only the pixels whose centres `keep` tells.
+    pub fn draw_polygon_where(
+        &mut self,
+        screen: &Screen,
+        (corners, plane, bias): (&[DVec3], &PlaneOnScreen, f64),
+        face: u32,
+        keep: impl Fn(f64, f64) -> bool,
+    ) {
+        let mut clipped = [DVec3::ZERO; 2 * MAX_CORNERS];
+        let count = clip_near(corners, &mut clipped);
+        let mut points = [[0.0f64; 2]; 2 * MAX_CORNERS];
+        for (point, corner) in points.iter_mut().zip(&clipped[..count]) {
+            let scale = screen.focal_px / corner.x;
+            *point = [screen.center_u + corner.y * scale, screen.center_v - corner.z * scale];
+        }
+        let Some(rows) = (if count < 3 { None } else { self.rows_of(&points[..count]) }) else { return };
+        self.dirty_rows = (self.dirty_rows.0.min(rows.0), self.dirty_rows.1.max(rows.1));
+        let plane = plane.lifted(bias);
+        scan_edges(&points[..count], rows.0, &mut self.left[rows.0..rows.1], &mut self.right[rows.0..rows.1]);
+        for row in rows.0..rows.1 {
+            let v = row as f64 + 0.5;
+            for column in first_center(self.left[row], self.width)..first_center(self.right[row], self.width) {
+                let (u, at) = (column as f64 + 0.5, row * self.width + column);
+                let candidate = plane.at(u, v) as f32;
+                if candidate > self.inverse_depth[at] && keep(u, v) {
+                    (self.inverse_depth[at], self.face[at]) = (candidate, face);
+                }
+            }
+        }
+    }
+
     /// Draws a convex polygon given by pixel coordinates; larger values of `plane` win.
     pub fn draw_projected(&mut self, points: &[[f64; 2]], plane: &PlaneOnScreen, face: u32) {
         if let Some(rows) = self.rows_of(points) {

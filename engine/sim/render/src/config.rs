@@ -1,6 +1,7 @@
 //! Parameters of a recipe's pictures: renderer, camera, effects, weathers.
 
 use crate::cameras::{CameraConfig, GimbalConfig};
+use crate::dry_days;
 use crate::effects::Effects;
 use crate::look::PictureLook;
 use cosfly_domain::channels;
@@ -8,6 +9,7 @@ use cosfly_domain::{Camera, ChannelSet, Lens, MotionBlur, Mount, Noise, RollingS
 use cosfly_frames::{DVec3, Seed};
 use cosfly_materials::weather::WeatherRanges;
 use cosfly_models::ModelConfig;
+use cosfly_models::mesh::MeshConfig;
 use cosfly_optics::OpticsConfig;
 use cosfly_splats::SplatsConfig;
 use schemars::JsonSchema;
@@ -79,6 +81,10 @@ pub struct RenderConfig {
     /// Models from glTF files, drawn instead of the boxes of the town's things; labels and ids stay those of the things.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub models: Vec<ModelConfig>,
+    /// A textured mesh of a scan, drawn in the place of the town's boxes, with the light that is in its colours. Dry days only, in the
+    /// season of the scan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshConfig>,
     /// Gaussian splats of a scan: colours over the geometry that the map's file gives. Dry days only, in the season of the scan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub splats: Option<SplatsConfig>,
@@ -107,6 +113,7 @@ impl Default for RenderConfig {
             weather: WeatherRanges::default(),
             season: None,
             models: vec![],
+            mesh: None,
             splats: None,
         }
     }
@@ -167,7 +174,7 @@ impl RenderConfig {
         check_range("gimbal.yaw_range_deg", self.gimbal.yaw_range_deg, [-180.0, 180.0])?;
         self.check_effects()?;
         self.check_cameras()?;
-        self.check_splats()?;
+        self.check_scan()?;
         for (index, model) in self.models.iter().enumerate() {
             if !(-360.0..=360.0).contains(&model.turn_deg) {
                 let message = format!("the turn is `{}`", model.turn_deg);
@@ -197,14 +204,18 @@ impl RenderConfig {
         Ok(())
     }
 
-    fn check_splats(&self) -> Result<(), ConfigProblem> {
-        let Some(splats) = &self.splats else { return Ok(()) };
-        splats.placement(DVec3::ZERO).map_err(|problem| ConfigProblem {
-            path: format!("splats.{}", problem.key),
-            message: problem.message,
-            hint: problem.hint.to_owned(),
-        })?;
-        let refused = crate::dry_days::refusal(&self.weathers, &self.weather, self.season);
+    fn check_scan(&self) -> Result<(), ConfigProblem> {
+        let problem = |path: String, message, hint: &str| ConfigProblem { path, message, hint: hint.to_owned() };
+        if let Some(mesh) = &self.mesh {
+            let place = mesh.place(DVec3::ZERO);
+            place.map_err(|it| problem(format!("mesh.{}", it.key), it.message, it.hint))?;
+        }
+        if let Some(splats) = &self.splats {
+            let place = splats.placement(DVec3::ZERO);
+            place.map_err(|it| problem(format!("splats.{}", it.key), it.message, it.hint))?;
+        }
+        let scan = self.mesh.as_ref().map(|_| "mesh").or(self.splats.as_ref().map(|_| "splats"));
+        let refused = scan.and_then(|key| dry_days::refusal(key, &self.weathers, &self.weather, self.season));
         refused.map_or(Ok(()), |(path, message, hint)| Err(ConfigProblem { path, message, hint }))
     }
 

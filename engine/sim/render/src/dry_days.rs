@@ -4,20 +4,21 @@ use cosfly_domain::Season;
 use cosfly_materials::presets::{PRESETS, preset};
 use cosfly_materials::weather::WeatherRanges;
 
-/// The key of a stage that a scan's pictures cannot follow, what is wrong with it, and what is allowed.
+/// The key of a stage that pictures of the scan under `scan` cannot follow, what is wrong with it, and what is allowed.
 pub(crate) fn refusal(
+    scan: &str,
     weathers: &[String],
     ranges: &WeatherRanges,
     season: Option<Season>,
 ) -> Option<(String, String, String)> {
     if season.is_some() {
         let hint = "leave `season` out: trees and lawns are those of the scan".to_owned();
-        return Some(("season".to_owned(), "the season of splats cannot be changed".to_owned(), hint));
+        return Some(("season".to_owned(), format!("the season of `{scan}` cannot be changed"), hint));
     }
     if let Some((index, name)) = weathers.iter().enumerate().find(|(_, name)| !is_dry_day(name)) {
         let days: Vec<&str> = PRESETS.into_iter().filter(|name| is_dry_day(name)).collect();
-        let message = format!("`{name}` is wet, dusty or dark, and splats are as dry and bright as they were scanned");
-        let hint = format!("with `splats`, the weathers are {}: they light people and vehicles", days.join(", "));
+        let message = format!("`{name}` is wet, dusty or dark, and `{scan}` is as dry and bright as it was scanned");
+        let hint = format!("with `{scan}`, the weathers are {}: they light people and vehicles", days.join(", "));
         return Some((format!("weathers[{index}]"), message, hint));
     }
     let changed = ranges.all().into_iter().find_map(|(name, range, _)| {
@@ -26,10 +27,12 @@ pub(crate) fn refusal(
         (!(is_of_light || name == "sun_altitude_angle" && low > 0.0)).then_some(name)
     });
     changed.map(|name| {
-        let message = format!("`{name}` changes air or ground, and splats stay as they were scanned");
-        let hint = "with `splats`, give `cloudiness`, `sun_azimuth_angle`, or `sun_altitude_angle` above 0: they light \
-                    people and vehicles";
-        (format!("weather.{name}"), message, hint.to_owned())
+        let message = format!("`{name}` changes air or ground, and `{scan}` stays as it was scanned");
+        let hint = format!(
+            "with `{scan}`, give `cloudiness`, `sun_azimuth_angle`, or `sun_altitude_angle` above 0: they light people and \
+             vehicles"
+        );
+        (format!("weather.{name}"), message, hint)
     })
 }
 
@@ -49,9 +52,9 @@ mod tests {
     fn what_a_scan_cannot_show_is_refused_by_name() {
         let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
         let plain = WeatherRanges::default();
-        assert_eq!(refusal(&names(&["ClearNoon", "CloudySunset"]), &plain, None), None);
+        assert_eq!(refusal("mesh", &names(&["ClearNoon", "CloudySunset"]), &plain, None), None);
         let path = |weathers: &[&str], ranges: &WeatherRanges, season| {
-            refusal(&names(weathers), ranges, season).expect("refused").0
+            refusal("splats", &names(weathers), ranges, season).expect("refused").0
         };
         assert_eq!(path(&["ClearNoon", "ClearNight"], &plain, None), "weathers[1]");
         assert_eq!(path(&["WetNoon"], &plain, None), "weathers[0]");
@@ -61,6 +64,6 @@ mod tests {
         let night = WeatherRanges { sun_altitude_angle: Some([-5.0, 30.0]), ..plain.clone() };
         assert_eq!(path(&["ClearNoon"], &night, None), "weather.sun_altitude_angle");
         let sun = WeatherRanges { sun_azimuth_angle: Some([90.0, 90.0]), ..plain };
-        assert_eq!(refusal(&names(&["ClearNoon"]), &sun, None), None);
+        assert_eq!(refusal("mesh", &names(&["ClearNoon"]), &sun, None), None);
     }
 }

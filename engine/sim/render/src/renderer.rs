@@ -3,6 +3,7 @@
 mod colours;
 pub(crate) mod flow;
 mod ground;
+mod mesh;
 mod splats;
 
 use crate::faces::{DrawnFace, FaceSource, box_lift};
@@ -232,7 +233,9 @@ impl Renderer {
             target_view::measure_bodies(self.level, &self.images, setup.others, &mut self.others);
             watch.lap(4);
         }
-        if parts == FrameParts::All {
+        if parts == FrameParts::All && (scene.mesh.is_some() || scene.splats.is_some()) {
+            self.measure_shadows(scene, setup);
+            self.draw_mesh(scene, setup);
             self.draw_splats(scene, setup);
         }
         if parts == FrameParts::All && self.look == PictureLook::Full {
@@ -250,11 +253,19 @@ impl Renderer {
         self.faces.clear();
         self.covered.clear();
         self.others.clear();
-        self.draw_boxes(scene, eye);
-        self.draw_props(scene, eye);
+        match &scene.mesh {
+            Some(mesh) => self.draw_mesh_faces(mesh, eye),
+            None => {
+                self.draw_boxes(scene, eye);
+                self.draw_props(scene, eye);
+            }
+        }
         self.draw_people(scene, eye, setup);
         watch.lap(0);
         self.draw_ground(scene, eye);
+        if scene.mesh.is_some() {
+            self.bring_ground_forward();
+        }
         watch.lap(1);
     }
 
@@ -358,7 +369,9 @@ impl Renderer {
         // What hides people hides the ground, too; that they hide some of it themselves is not worth another look.
         self.nearer.measure(&self.nearest);
         self.people.gather(setup.others, (eye, &self.screen), far, &self.nearer);
-        self.people.gather_parked(&scene.parked, (eye, &self.screen), far, &self.nearer);
+        // Cars that stand in a scan are in its mesh.
+        let parked = if scene.mesh.is_some() { &[][..] } else { &scene.parked };
+        self.people.gather_parked(parked, (eye, &self.screen), far, &self.nearer);
         for person in self.people.members.iter().filter(|person| person.is_seen) {
             let is_target = person.instance == TARGET_INSTANCE;
             // Look and first face of the parts of vehicles, whose faces come in any order, and of the last part of somebody.

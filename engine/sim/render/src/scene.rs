@@ -4,6 +4,7 @@ use crate::ground_polygons::{GroundPolygon, GroundPolygons};
 use crate::kerb_lines::kerb_lines;
 use crate::parked::{leave_out, parked_cars};
 use crate::props::{Props, SceneModel};
+use crate::scene_mesh::SceneMesh;
 use crate::scene_splats::SceneSplats;
 use crate::shade::material::colour_of;
 use crate::shade::outskirts::Outskirts;
@@ -49,6 +50,8 @@ pub struct Scene {
     pub(crate) props: Props,
     /// Cars of the town as vehicles.
     pub(crate) parked: Vec<Bystander>,
+    /// A scan's triangles, in the place of boxes, models and parked cars; ground shows through its holes.
+    pub(crate) mesh: Option<SceneMesh>,
     /// A scan's colours, in the place of those of boxes and ground.
     pub(crate) splats: Option<SceneSplats>,
     /// Shadows of everything above, drawn as views need them.
@@ -124,6 +127,7 @@ impl Scene {
             outskirts,
             props,
             parked,
+            mesh: None,
             splats: None,
             sun_maps: SunMaps::default(),
             identity,
@@ -142,6 +146,17 @@ impl Scene {
         self.outskirts = Outskirts::of(&self.grid, season);
         self.crowns = self.boxes.iter().map(|b| Leaves::of(b, season)).collect();
         self
+    }
+
+    /// This town drawn as a textured mesh; without one, as it is.
+    pub fn with_mesh(mut self, mesh: Option<SceneMesh>) -> Self {
+        self.mesh = mesh;
+        self
+    }
+
+    /// The textured mesh that it is drawn as.
+    pub fn mesh(&self) -> Option<&SceneMesh> {
+        self.mesh.as_ref()
     }
 
     /// This town with the colours of a scan; without one, as it is.

@@ -1,5 +1,6 @@
 //! Splats of a scene: the colours of a scan over the geometry of a town, and bodies among them.
 
+use crate::scan_light::Curve;
 use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_splats::{Placement, SplatCloud, SplatRenderer, SplatView, SplatsConfig, SplatsProblem};
@@ -22,7 +23,7 @@ impl SceneSplats {
     /// # Errors
     /// A place that cannot be used.
     pub fn new(cloud: SplatCloud, config: &SplatsConfig, world_origin_m: DVec3) -> Result<Self, SplatsProblem> {
-        let placement = config.placement(world_origin_m)?;
+        let placement = config.placement(world_origin_m)?.counted_from(cloud.origin());
         let exposure = real::powf(2.0, config.exposure_ev) as f32;
         Ok(Self { cloud, placement, exposure, is_antialiased: config.antialiased })
     }
@@ -83,78 +84,5 @@ impl Composer {
         let mut sorted = self.off_m.clone();
         sorted.sort_unstable_by(f32::total_cmp);
         sorted.get(sorted.len() / 2).copied()
-    }
-}
-
-/// Light of pixels without the shadows of bodies, and with them, as shares of the first.
-pub(crate) fn lit_shares(without: &[u8], with: &[u8], lit: &mut Vec<f32>) {
-    let curve = Curve::new();
-    let light: [f32; 256] = core::array::from_fn(|code| curve.decoded(code as f32 / 255.0));
-    let sum = |rgb: &[u8; 3]| rgb.iter().map(|code| light[usize::from(*code)]).sum::<f32>();
-    let pixels = without.as_chunks::<3>().0.iter().zip(with.as_chunks::<3>().0);
-    lit.clear();
-    lit.extend(pixels.map(|(without, with)| match sum(without) {
-        _ if without == with => 1.0,
-        bright if bright > 0.0 => (sum(with) / bright).min(1.0),
-        _ => 1.0,
-    }));
-}
-
-/// Steps of the tables from light to code and back.
-const STEPS: usize = 4096;
-
-/// The curve between sRGB codes and light, both 0 to 1.
-struct Curve {
-    light: [f32; STEPS + 1],
-    code: [f32; STEPS + 1],
-}
-
-impl Curve {
-    fn new() -> Self {
-        let at = |step: usize| step as f64 / STEPS as f64;
-        let light = |code: f64| {
-            if code <= 0.04045 { code / 12.92 } else { real::powf((code + 0.055) / 1.055, 2.4) }
-        };
-        let code = |light: f64| {
-            if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * real::powf(light, 1.0 / 2.4) - 0.055 }
-        };
-        Self {
-            light: core::array::from_fn(|step| light(at(step)) as f32),
-            code: core::array::from_fn(|step| code(at(step)) as f32),
-        }
-    }
-
-    fn decoded(&self, code: f32) -> f32 {
-        between(&self.light, code)
-    }
-
-    fn encoded(&self, light: f32) -> f32 {
-        between(&self.code, light)
-    }
-}
-
-/// Value of a table over 0 to 1.
-fn between(table: &[f32; STEPS + 1], at: f32) -> f32 {
-    let place = at.clamp(0.0, 1.0) * STEPS as f32;
-    let step = (place as usize).min(STEPS - 1);
-    table[step] + (table[step + 1] - table[step]) * (place - step as f32)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn half_the_light_is_half_the_light_whatever_the_code() {
-        let curve = Curve::new();
-        for code in [0.02, 0.3, 0.9] {
-            let light = curve.decoded(code);
-            assert!((curve.encoded(light) - code).abs() < 2e-4, "{code}");
-        }
-        let mut lit = vec![];
-        // 188 is half the light of 255.
-        lit_shares(&[255, 255, 255, 90, 90, 90, 0, 0, 0], &[188, 188, 188, 90, 90, 90, 9, 9, 9], &mut lit);
-        assert!((lit[0] - 0.5).abs() < 5e-3, "{lit:?}");
-        assert_eq!(lit[1..], [1.0, 1.0]);
     }
 }

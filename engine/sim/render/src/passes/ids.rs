@@ -173,6 +173,7 @@ fn surface_of(number: u32, face: &DrawnFace) -> u32 {
         FaceSource::Figure { first_face, .. } => 0x8200_0000 | (first_face & 0xff_ffff),
         // Textures, not triangles, make what is seen of a model: no edge is smoothed within it.
         FaceSource::Prop { .. } => 0x8300_0000 | (face.instance & 0xff_ffff),
+        FaceSource::Mesh { .. } => 0x8500_0000 | (face.instance & 0xff_ffff),
         // Round crowns have no edges between the faces of their boxes.
         FaceSource::Crown { .. } => 0x8400_0000 | (face.instance & 0xff_ffff),
         FaceSource::Box { .. } => number & 0x7fff_ffff,

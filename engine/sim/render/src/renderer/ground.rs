@@ -1,6 +1,7 @@
 //! The ground of a frame, cluster by cluster from near to far.
 
 use super::Renderer;
+use super::mesh::BEHIND;
 use crate::faces::{DrawnFace, FaceSource, ground_lift};
 use crate::scene::Scene;
 use cosfly_frames::DVec3;
@@ -20,7 +21,7 @@ impl Renderer {
         for position in 0..self.visible.len() {
             let index = self.visible[position].1;
             let cluster = &scene.clusters[index as usize];
-            self.draw_cluster(cluster, index, eye);
+            self.draw_cluster(cluster, index, eye, scene.mesh.is_some());
         }
     }
 
@@ -37,7 +38,7 @@ impl Renderer {
         nearest_m >= NEAR_M && self.nearer.hides(low, high, 1.0 / nearest_m)
     }
 
-    fn draw_cluster(&mut self, cluster: &Cluster, index: u32, eye: &Eye) {
+    fn draw_cluster(&mut self, cluster: &Cluster, index: u32, eye: &Eye, is_behind: bool) {
         let screen = self.screen;
         self.seen_points.clear();
         self.seen_points.extend(cluster.points_in_world.iter().map(|point| {
@@ -68,7 +69,8 @@ impl Renderer {
             let normal = eye.turn(polygon.normal_in_world);
             let Some(plane) = PlaneOnScreen::new(&screen, normal, eye.see(polygon.middle_in_world)) else { continue };
             let face = self.faces.len() as u32;
-            let bias = ground_lift(polygon.label);
+            let lift = ground_lift(polygon.label);
+            let bias = if is_behind { (1.0 + lift) * f64::from(BEHIND) - 1.0 } else { lift };
             if is_ahead {
                 self.nearest.draw_rows(&points[..count], rows, &plane.lifted(bias), face);
             } else {

@@ -4,8 +4,9 @@ use super::Renderer;
 use crate::faces::FaceSource;
 use crate::look::PictureLook;
 use crate::people::Person;
+use crate::scan_light::lit_shares;
 use crate::scene::Scene;
-use crate::scene_splats::{BEFORE_BODIES_M, lit_shares};
+use crate::scene_splats::BEFORE_BODIES_M;
 use crate::setup::FrameSetup;
 use cosfly_figures::Walker;
 
@@ -19,10 +20,6 @@ impl Renderer {
     /// Puts the scene's splats over the shaded faces of all that is no body; depth and ids stay those of the geometry.
     pub(super) fn draw_splats(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
         let Some(splats) = &scene.splats else { return };
-        self.composer.lit.clear();
-        if self.look == PictureLook::Full && self.people.members.iter().any(is_body) {
-            self.measure_shadows(scene, setup);
-        }
         let Self { composer, images, nearest, faces, people, runs, camera, parallel, .. } = self;
         let is_of_body = |face: u32| match faces.get(face as usize).map(|face| face.source) {
             Some(FaceSource::Figure { look, .. }) => {
@@ -50,8 +47,12 @@ impl Renderer {
         runs.join_surfaces(is_of_body);
     }
 
-    /// Light that pixels lose to bodies: the same frame is shaded without them.
-    fn measure_shadows(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
+    /// Light that pixels of a scan lose to bodies: the same frame is shaded without them.
+    pub(super) fn measure_shadows(&mut self, scene: &Scene, setup: &FrameSetup<'_>) {
+        self.composer.lit.clear();
+        if self.look != PictureLook::Full || !self.people.members.iter().any(is_body) {
+            return;
+        }
         let mut bare = self.bare.take().unwrap_or_else(|| {
             let mut bare = Renderer::new(self.camera);
             bare.set_level(self.level);

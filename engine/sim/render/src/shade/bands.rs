@@ -6,7 +6,7 @@ use super::face_material::{axes_of, even_colour, material_of};
 use super::foliage::{self, crown_of};
 use super::geometry::FaceAxes;
 use super::kernels::{Staged, run_kernels, run_simple_kernels};
-use super::material::{FLAT, Material};
+use super::material::{FLAT, Material, UNDER_A_SCAN};
 use super::setting::{Seen, Setting};
 use super::simple::put_colour;
 use crate::faces::FaceSource;
@@ -423,6 +423,7 @@ fn group_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> usize {
     let is_simple = setting.look == PictureLook::Simple;
     match drawn.source {
         FaceSource::Ground { .. } => usize::from(drawn.label).min(EVEN - 1),
+        FaceSource::Mesh { .. } => usize::from(UNDER_A_SCAN.id()),
         FaceSource::Figure { .. } if is_simple => EVEN,
         FaceSource::Figure { is_cloth: true, .. } => PEOPLE,
         FaceSource::Figure { first_face, .. } => SHARED_GROUPS + first_face as usize,

@@ -2,7 +2,7 @@
 
 use super::coach::Coach;
 use super::geometry::FaceAxes;
-use super::material::{FLAT, Material, box_axes, box_material};
+use super::material::{FLAT, Material, UNDER_A_SCAN, box_axes, box_material};
 use super::setting::{Seen, Setting};
 use super::skin::Painted;
 use crate::faces::FaceSource;
@@ -21,6 +21,7 @@ pub(super) fn material_of(setting: &Setting, seen: &Seen<'_>, face: u32) -> (Mat
             let props = &seen.scene.props;
             (Material::Skin(Painted::new(&props.triangles[triangle as usize].skin, &props.textures)), flat)
         }
+        FaceSource::Mesh { .. } => (Material::Ground(UNDER_A_SCAN), flat),
         FaceSource::Figure { is_cloth: true, .. } => (Material::Cloth, flat),
         FaceSource::Figure { look, .. } => {
             let look = &seen.people.looks[look as usize];

@@ -31,6 +31,9 @@ pub(super) enum Material {
     Skin(Painted),
 }
 
+/// Ground that a mesh is shaded as: its own colours come over it, darker where bodies darken that ground.
+pub(super) const UNDER_A_SCAN: SemanticLabel = SemanticLabel::Ground;
+
 /// The axes of flat ground.
 pub(super) const FLAT: FaceAxes = FaceAxes { along: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) };
 
