@@ -1,5 +1,6 @@
 //! `cosfly map inspect`: the town that is read from a map file, in figures and as a plan.
 
+use super::mesh;
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
@@ -54,7 +55,10 @@ impl Command for Arguments {
             cosfly_whole::write_file(path, &picture)
                 .map_err(|error| Diagnostic::io(format!("write the plan `{}`", path.display()), &error))?;
         }
-        let figures = figures(&map);
+        let mut figures = figures(&map);
+        if let Some(mesh) = mesh::figures(&self.file, &map, &self.parameters) {
+            figures["mesh"] = mesh;
+        }
         console.print(&if self.json { format!("{figures:#}\n") } else { text(&map, &figures, plan.as_deref()) })?;
         Ok(exit::SUCCESS)
     }
@@ -140,6 +144,9 @@ fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
     let _ = writeln!(text, "\n{:<14} {:>8} {:>12}  {:>12}", "ground", "", "area m2", "invented m2");
     for (label, it) in &census.ground {
         let _ = writeln!(text, "{label:<14} {:>8} {:>12.0}  {:>12.0}", "", it.area_m2, it.synthetic_area_m2);
+    }
+    if figures["mesh"].is_object() {
+        let _ = writeln!(text, "\n{}", mesh::text(&figures["mesh"]));
     }
     if figures["form"].is_object() {
         let figure = |name: &str| figures["form"][name].as_f64().unwrap_or_default();

@@ -1,6 +1,7 @@
 //! `cosfly map`: work with map files; one file per command.
 
 mod inspect;
+mod mesh;
 
 use crate::command::{Entry, dispatch, with_commands};
 

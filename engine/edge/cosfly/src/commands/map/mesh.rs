@@ -1,0 +1,91 @@
+//! Figures of a textured mesh for `cosfly map inspect`: triangles, pictures, open edges, and how its key in a recipe is written.
+
+use cosfly_experts::map_files::ReadMap;
+use cosfly_models::mesh::{MeshConfig, MeshSurvey, NamedFile, TexturedMesh, named_files};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Largest file beside a mesh that is read, bytes.
+const MOST_BYTES_BESIDE: u64 = 1 << 30;
+
+/// Figures for programs; none for other formats. `parameters` are those of the stage `map`, which tell the unit.
+pub fn figures(file: &Path, map: &ReadMap, parameters: &[String]) -> Option<Value> {
+    if !matches!(map.format, "glTF" | "OBJ") {
+        return None;
+    }
+    let bytes = std::fs::read(file).ok()?;
+    let option = |name: &str| {
+        let given = parameters
+            .iter()
+            .find_map(|change| change.strip_prefix("options.")?.strip_prefix(name)?.strip_prefix('='))?;
+        Some(given.trim().trim_matches('"'))
+    };
+    let mut config = MeshConfig { unit_m: option("unit_m").and_then(|it| it.parse().ok()), ..MeshConfig::new("") };
+    if let Some(axis) = option("up_axis") {
+        config.up_axis = serde_json::from_value(axis.into()).ok()?;
+    }
+    let files = if map.format == "OBJ" { beside(file, &bytes) } else { vec![] };
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    let place = config.place(map.town.origin.offset_m).ok()?;
+    Some(match TexturedMesh::read(&bytes, &files, &place) {
+        Ok(mesh) => {
+            let MeshSurvey { triangles, left_out, textures, has_colours, textured_share, open_edges_m } =
+                MeshSurvey::of(&mesh);
+            json!({
+                "triangles": triangles, "left_out": left_out, "textures": textures, "has_colours": has_colours,
+                "textured_share": textured_share, "open_edges_m": open_edges_m, "files": names,
+            })
+        }
+        Err(error) => json!({ "files": names, "refused": error.message, "hints": error.hints }),
+    })
+}
+
+/// Files in the mesh's own folder that it names, and those that its materials name.
+fn beside(file: &Path, bytes: &[u8]) -> Vec<NamedFile> {
+    let mut files: Vec<NamedFile> = vec![];
+    let mut names = named_files(bytes);
+    while let Some(name) = names.pop() {
+        let path = file.with_file_name(&name);
+        let is_read = files.iter().any(|(known, _)| *known == name);
+        let is_plain = std::fs::metadata(&path).is_ok_and(|it| it.is_file() && it.len() <= MOST_BYTES_BESIDE);
+        if is_read || !is_plain || Path::new(&name).components().count() != 1 {
+            continue;
+        }
+        let Ok(bytes) = std::fs::read(&path) else { continue };
+        if Path::new(&name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtl")) {
+            names.extend(named_files(&bytes));
+        }
+        files.push((name, bytes));
+    }
+    files.sort();
+    files
+}
+
+/// Figures for people.
+pub fn text(figures: &Value) -> String {
+    let mut text = String::new();
+    if let Some(why) = figures["refused"].as_str() {
+        let _ = write!(text, "mesh: cannot be drawn with its textures: {why}");
+        return text;
+    }
+    let pictures = figures["textures"].as_array().map_or(&[][..], Vec::as_slice);
+    let _ = write!(text, "mesh: {} triangles, {} pictures", figures["triangles"], pictures.len());
+    if let Some(largest) = pictures.iter().max_by_key(|size| size[0].as_u64().max(size[1].as_u64())) {
+        let share = 100.0 * figures["textured_share"].as_f64().unwrap_or_default();
+        let _ = write!(text, " of up to {} x {} pixels on {share:.0} % of them", largest[0], largest[1]);
+    }
+    if figures["has_colours"] == true {
+        text.push_str(", colours of corners");
+    }
+    if let Some(open_m) = figures["open_edges_m"].as_f64() {
+        let _ = write!(text, "; {open_m:.0} m of open edges: rims of holes and of the scan");
+    }
+    if let Some(left_out @ 1..) = figures["left_out"].as_u64() {
+        let _ = write!(text, "; {left_out} triangles without extent or far away are not drawn");
+    }
+    if let Some(files) = figures["files"].as_array().filter(|files| !files.is_empty()) {
+        let _ = write!(text, "\nmesh: in a recipe, `files = {}`", Value::from(files.clone()));
+    }
+    text
+}
