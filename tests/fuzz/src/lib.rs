@@ -7,6 +7,7 @@ use cosfly_fly::bundle::Bundle;
 use cosfly_fly::pilot::{OnnxPolicy, Runnable};
 use cosfly_frames::{DVec3, Pose, Seed};
 use cosfly_maps::{MapConfig, read_town};
+use cosfly_models::mesh::{MeshConfig, TexturedMesh};
 use cosfly_onnx::{OnnxModel, Tensor};
 #[cfg(feature = "plugins")]
 use cosfly_plugin_host::{Host, PluginLimits};
@@ -34,6 +35,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("jpeg", jpeg),
     ("las", scan),
     ("mcap", mcap),
+    ("meshes", meshes),
     ("mp4", mp4),
     ("obj", scan),
     ("onnx", onnx),
@@ -193,6 +195,20 @@ fn splats(bytes: &[u8]) {
     let view = SplatView::new(&camera, &pose, &placement, true);
     let picture = SplatRenderer::default().draw(&file.cloud, &view, None).clone();
     assert!(picture.transmittance.iter().all(|light| (0.0..=1.0).contains(light)), "light is a share");
+}
+
+/// A textured mesh, some of whose triangles are looked at. The file stands for its materials and pictures, too.
+fn meshes(bytes: &[u8]) {
+    let place = MeshConfig::new("").place(DVec3::ZERO).expect("the plain place");
+    let beside = [("scan.mtl".to_owned(), bytes.to_vec()), ("scan.png".to_owned(), bytes.to_vec())];
+    let mesh = match TexturedMesh::read(bytes, &beside, &place) {
+        Ok(mesh) => mesh,
+        Err(error) => return assert!(!error.hints.is_empty(), "{error}"),
+    };
+    for triangle in mesh.triangles.iter().take(100) {
+        let look = mesh.look_at(triangle, [0.2, 0.3, 0.5], 3.0);
+        assert!(look.iter().all(|share| (0.0..=1.001).contains(share)), "{look:?}");
+    }
 }
 
 /// The answer of a plugin: an Arrow stream of declared columns.

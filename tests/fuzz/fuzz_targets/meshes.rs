@@ -1,0 +1,4 @@
+//! `meshes` for libFuzzer.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| cosfly_fuzz::target("meshes")(bytes));
