@@ -1,7 +1,8 @@
-//! Splats of scans through the real binary: drawn, checked, cached by what their file holds, refused where they mean nothing.
+//! Splats and meshes of scans through the real binary: drawn, checked, cached by what their file holds, refused where they mean nothing.
 
 use crate::street::{RECIPE, Street, map};
 use crate::support::cosfly;
+use cosfly_models::mesh::TexturedMesh;
 use cosfly_splats::{Splat, to_ply};
 
 /// A splat in yellow.
@@ -73,4 +74,62 @@ fn scans_that_cannot_be_drawn_are_refused_before_anything_runs() {
         }
         assert!(!street.dataset().exists());
     }
+}
+
+/// The street as an example's mesh, drawn as it is.
+fn meshed(keys: &str) -> Street {
+    let lines = format!("width = 96\nweathers = [\"ClearNoon\"]\nmesh = {{ {keys} }}\n");
+    let changed = RECIPE.replacen("width = 96\n", &lines, 1).replacen("street.xodr", "scan.glb", 1);
+    let street = Street::with(&changed, &map());
+    std::fs::write(street.path().join("scan.glb"), TexturedMesh::EXAMPLE).expect("writable");
+    std::fs::write(street.path().join("scan.obj"), "mtllib scan.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nf 1 2 3\n")
+        .expect("writable");
+    std::fs::write(street.path().join("scan.mtl"), "newmtl stone\n").expect("writable");
+    street
+}
+
+#[test]
+fn a_mesh_is_drawn_as_it_is_and_its_licence_stands_on_the_card() {
+    let street = meshed("source = \"scan.glb\", license = \"CC BY 4.0, Ana Kos\"");
+    let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run_ok();
+    assert!(
+        !printed.stderr.contains("licence of the scan") && !printed.stderr.contains("of the mesh lie"),
+        "{}",
+        printed.stderr
+    );
+    let dataset = street.dataset();
+    cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
+    let card = std::fs::read_to_string(dataset.join("README.md")).expect("a card");
+    assert!(card.contains("CC BY 4.0, Ana Kos") && card.contains("number plates"), "{card}");
+
+    // Elsewhere, the mesh is not that of the map; without a licence, somebody must ask.
+    let set = "stages.frames.mesh={ source = \"scan.glb\", origin_m = [0, 0, -30] }";
+    let printed = cosfly(&["run", "recipe.toml", "--set", set]).within(street.path()).run_ok();
+    for words in ["of the mesh lie", "licence of the scan", "mesh.license"] {
+        assert!(printed.stderr.contains(words), "{words}: {}", printed.stderr);
+    }
+    let printed = cosfly(&["map", "inspect", "scan.glb"]).within(street.path()).run_ok();
+    assert!(printed.stdout.contains("52 triangles, 2 pictures of up to 32 x 32 pixels"), "{}", printed.stdout);
+}
+
+#[test]
+fn meshes_that_cannot_be_drawn_are_refused_before_anything_runs() {
+    for (keys, code, words) in [
+        ("source = \"street.xodr\"", 4, vec!["street.xodr", "neither glTF nor OBJ", "recipe.toml:"]),
+        ("source = \"none.glb\"", 4, vec!["none.glb", "recipe.toml:"]),
+        ("source = \"scan.obj\"", 4, vec!["scan.mtl", "`files`", "recipe.toml:"]),
+        ("source = \"scan.glb\", unit_m = 0", 3, vec!["unit_m", "recipe.toml:"]),
+        ("source = \"scan.glb\", up_axis = \"-y\"", 3, vec!["up_axis", "recipe.toml:"]),
+        ("source = \"scan.glb\", exposure_ev = 9", 3, vec!["exposure_ev", "recipe.toml:"]),
+    ] {
+        let street = meshed(keys);
+        let printed = cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run();
+        assert_eq!(printed.code, Some(code), "{keys}: {}", printed.stderr);
+        for word in words {
+            assert!(printed.stderr.contains(word), "{keys}: {word}: {}", printed.stderr);
+        }
+    }
+    let street = meshed("source = \"scan.obj\", files = [\"scan.mtl\"]");
+    let printed = cosfly(&["plan", "recipe.toml"]).within(street.path()).run_ok();
+    assert!(!printed.stdout.is_empty());
 }
