@@ -30,10 +30,13 @@ fn ran(street: &Street, arguments: &[&str], stage: &str) -> u64 {
 #[test]
 fn several_cameras_film_every_flight_at_the_same_moments() {
     let street = filmed_by(
-        "[stages.frames.cameras.front]\n[stages.frames.cameras.down]\nwidth = 64\nheight = 64\nfov_deg = 120.0\n\
+        "bodies_3d = true\nchannels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"disparity\"]\n\
+         [stages.frames.cameras.front]\nbase_line_m = 0.3\n\
+         gimbal = { position_in_body_m = [0.2, -0.15, 0.05], roll_deg = 4.0, levelled = false }\n\
+         [stages.frames.cameras.down]\nwidth = 64\nheight = 64\nfov_deg = 70.0\nlens = { model = \"fisheye\", k1 = -0.02 }\n\
          gimbal = { pitch_range_deg = [-90, -90], yaw_range_deg = [0, 0] }",
     );
-    assert_eq!(ran(&street, &[], "frames"), 12);
+    assert_eq!(ran(&street, &[], "frames"), 18);
     let dataset = street.dataset();
     cosfly(&["verify", dataset.to_str().expect("UTF-8")]).within(street.path()).run_ok();
     cosfly(&["doctor", dataset.to_str().expect("UTF-8")]).within(street.path()).run();
@@ -41,7 +44,7 @@ fn several_cameras_film_every_flight_at_the_same_moments() {
     let of = |name: &str| column(&dataset, "trajectories", name);
     let (ids, flights, cameras) = (of("trajectory_id"), of("flight_id"), of("camera_name"));
     let (widths, pitches, experts) = (of("camera_width_px"), of("camera_mount_pitch_deg"), of("expert_id"));
-    assert_eq!(ids.len(), 12);
+    assert_eq!(ids.len(), 18);
     for at in 0..ids.len() {
         let camera = cameras[at].trim_matches('"');
         assert_eq!(ids[at].trim_matches('"'), format!("{}-{camera}", flights[at].trim_matches('"')));
@@ -51,6 +54,23 @@ fn several_cameras_film_every_flight_at_the_same_moments() {
         let expert = experts[at].trim_matches('"');
         assert!(["", "null"].contains(&expert) || expert.ends_with(camera), "{expert} of {camera}");
     }
+    // The pair stands a base line apart, in a place of its own.
+    let of_film = |name: &str, film: &str| {
+        let values = of(name).into_iter().zip(&cameras);
+        values.filter(|(_, camera)| camera.contains(film)).map(|(value, _)| value).collect::<Vec<_>>()
+    };
+    assert_eq!(of_film("camera_mount_right_m", "front_left"), vec!["0.0"; 6]);
+    assert_eq!(of_film("camera_mount_right_m", "front_right"), vec!["0.3"; 6]);
+    assert_eq!(of_film("camera_lens_model", "down"), vec!["\"fisheye\""; 6]);
+    // Key points of somebody are seen, and COCO's file has them.
+    let shown = column(&dataset, "bodies_3d", "key_points_shown");
+    assert!(!shown.is_empty() && shown.iter().any(|points| points.contains('2')), "{shown:?}");
+    let folder = dataset.to_str().expect("UTF-8");
+    cosfly(&["export", folder, "--format", "coco", "--out", "coco"]).within(street.path()).run_ok();
+    cosfly(&["export", folder, "--format", "ros2", "--out", "bags"]).within(street.path()).run_ok();
+    let files = std::fs::read_dir(street.path().join("coco/annotations")).expect("annotations");
+    let text: String = files.map(|file| std::fs::read_to_string(file.expect("a file").path()).expect("text")).collect();
+    assert!(text.contains("\"left_ankle\"") && text.contains("\"num_keypoints\":"));
     // All cameras of a flight have its texts.
     let captioned = column(&dataset, "captions", "trajectory_id");
     assert!(ids.iter().all(|id| captioned.contains(id)));
@@ -60,6 +80,11 @@ fn several_cameras_film_every_flight_at_the_same_moments() {
 fn cameras_that_cannot_be_are_refused_with_their_key() {
     for (lines, words) in [
         ("[stages.frames.cameras.Down]\nwidth = 64", "lower-case letter"),
+        ("[stages.frames.cameras.down]\nbase_line_m = 0.0", "`cameras.down.base_line_m` is `0"),
+        ("[stages.frames.cameras.a]\nbase_line_m = 0.1\n[stages.frames.cameras.a_left]", "makes a film of this name"),
+        ("channels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"disparity\"]", "no camera is one"),
+        ("gimbal = { position_in_body_m = [0.0, 0.0, 40.0] }", "position_in_body_m"),
+        ("lens = { model = \"fisheye\" }\nfov_deg = 140.0", "no picture in the corners"),
         ("[stages.frames.cameras.down]\nwidth = 8", "`cameras.down.width` is `8`"),
         ("[stages.frames.cameras.down]\nlens = { k1 = -0.9 }", "the corners of a field of view"),
         ("paired_weathers = true\n[stages.frames.cameras.down]", "both name the films of a flight"),

@@ -3,6 +3,7 @@
 use crate::folder::OutFolder;
 use crate::source::Source;
 use cosfly_diagnose::{Diagnostic, Result};
+use cosfly_domain::{Lens, LensModel};
 use cosfly_plot::text::{markdown, markdown_code};
 use cosfly_read::foreign_rows;
 use cosfly_schema::tables::Trajectories;
@@ -80,13 +81,22 @@ fn optics(source: &Source<'_>) -> Result<String> {
         weathers.iter().map(|(name, count)| format!("{} ({count})", markdown_code(name))).collect();
     let mut text = format!("\n## Camera and weather\n\n* Weather, with flights: {}.\n", weathers.join(", "));
     let _ = writeln!(text, "* Picture: {}.", sizes.into_iter().collect::<Vec<_>>().join("; "));
-    let bends: BTreeSet<String> =
-        source.flights().filter(|it| !it.lens.is_none()).map(|it| format!("{:?}", [it.lens.k1, it.lens.k2])).collect();
+    let bends: BTreeSet<String> = source
+        .flights()
+        .filter(|it| !it.lens.is_none())
+        .map(|it| {
+            let Lens { model, k1, k2, .. } = it.lens;
+            match model {
+                LensModel::Brown => format!("{:?}", [k1, k2]),
+                LensModel::Fisheye => format!("fisheye {:?}", it.lens.coefficients()),
+            }
+        })
+        .collect();
     let _ = match bends.is_empty() {
         true => writeln!(text, "* Lens: a pinhole; nothing is bent."),
         false => writeln!(
             text,
-            "* Lens: bent by k1, k2 (Brown's radial terms): {}. Intrinsics are those of the pinhole.",
+            "* Lens: bent by k1, k2 (Brown's radial terms, or those of OpenCV's `fisheye`): {}. Intrinsics are those of the pinhole.",
             bends.into_iter().collect::<Vec<_>>().join(", ")
         ),
     };

@@ -40,8 +40,8 @@ fn check_lens(flight: &PublishedFlight) -> Result<()> {
     if flight.lens.is_none() {
         return Ok(());
     }
-    let Lens { k1, k2 } = flight.lens;
-    let message = format!("the lens of `{}` is bent (k1 = {k1}, k2 = {k2})", flight.trajectory_id);
+    let Lens { model, k1, k2, .. } = flight.lens;
+    let message = format!("the lens of `{}` is bent (`{}`, k1 = {k1}, k2 = {k2})", flight.trajectory_id, model.name());
     Err(Diagnostic::new("carla-lens", Fault::Recipe, message)
         .hint("CARLA's lens is bent by another formula; render the flights without `lens`"))
 }
@@ -154,7 +154,7 @@ mod tests {
         assert_eq!((first["weather"].as_object().unwrap().len(), &first["weather"]["fog_density"]), (14, &2.0.into()));
         assert_eq!(first["frames"].as_array().unwrap().len(), given.len());
         let pose = &given.trajectory.poses_in_world[3];
-        let bent = PublishedFlight { lens: Lens { k1: 0.1, k2: 0.0 }, ..dataset.flights()[0].clone() };
+        let bent = PublishedFlight { lens: Lens::brown(0.1, 0.0), ..dataset.flights()[0].clone() };
         assert_eq!(write(&dataset, &[&bent], DVec3::ZERO, &mut vec![]).unwrap_err().code, "carla-lens");
         let camera = &first["frames"][3]["camera"];
         assert_eq!(camera[1].as_f64(), Some(pose.position_in_world.y));

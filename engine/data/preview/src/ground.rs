@@ -33,9 +33,10 @@ impl SeenGround {
                 if depth > REACH_M || colour(label).is_none() {
                     continue;
                 }
-                let x = (u as f64 + 0.5 - 0.5 * width as f64) / focal;
-                let y = (v as f64 + 0.5 - 0.5 * height as f64) / focal;
-                let [x, y] = straightened(x, y, [flight.lens.k1, flight.lens.k2]);
+                let seen = (u as f64 + 0.5, v as f64 + 0.5);
+                let Some((u, v)) = flight.lens.unbend(&flight.camera, seen) else { continue };
+                let x = (u - 0.5 * width as f64) / focal;
+                let y = (v - 0.5 * height as f64) / focal;
                 let ray = frame.map_from_optical * DVec3::new(x, y, 1.0);
                 let point = frame.camera_in_map + ray * f64::from(depth);
                 // The map's y is minus the world's.
@@ -57,17 +58,6 @@ impl SeenGround {
     }
 }
 
-/// Where the ideal camera would see what a bent lens shows at (x, y), both at 1 m: some steps of the usual iteration.
-fn straightened(x: f64, y: f64, [k1, k2]: [f64; 2]) -> [f64; 2] {
-    let mut ideal = [x, y];
-    for _ in 0..if k1 == 0.0 && k2 == 0.0 { 0 } else { 8 } {
-        let r2 = ideal[0] * ideal[0] + ideal[1] * ideal[1];
-        let factor = 1.0 + r2 * (k1 + r2 * k2);
-        ideal = [x, y].map(|place| place / factor.max(0.1));
-    }
-    ideal
-}
-
 /// The plan's colour of a label of the ground; none for what stands on it.
 fn colour(label: u8) -> Option<ChartColour> {
     Some(match SemanticLabel::ALL.get(usize::from(label))? {
@@ -80,18 +70,4 @@ fn colour(label: u8) -> Option<ChartColour> {
         SemanticLabel::RailTrack | SemanticLabel::Bridge => [180, 170, 165],
         _ => return None,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bent_places_are_straightened() {
-        let (ideal, [k1, k2]) = ([0.4, -0.3], [-0.12, 0.02]);
-        let factor = 1.0 + 0.25 * (k1 + 0.25 * k2);
-        let found = straightened(ideal[0] * factor, ideal[1] * factor, [k1, k2]);
-        assert!((found[0] - ideal[0]).abs() < 1e-6 && (found[1] - ideal[1]).abs() < 1e-6, "{found:?}");
-        assert_eq!(straightened(0.4, -0.3, [0.0; 2]), ideal);
-    }
 }

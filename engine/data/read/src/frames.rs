@@ -20,7 +20,7 @@ pub struct FrameRow {
     pub time_s: f64,
     /// Pose of the drone.
     pub pose: Pose,
-    /// Pose of the camera, at the same position; its attitude may differ from the drone's.
+    /// Pose of the camera.
     pub camera_pose: Pose,
     /// State of the target.
     pub target: TargetState,
@@ -174,7 +174,7 @@ impl FrameRow {
             roll_rad: rows.get(Frames::drone_roll_deg, row)?.to_radians(),
         };
         // Datasets from before the gimbal have no separate attitude of the camera.
-        let camera_pose = if rows.has(Frames::camera_pitch_deg) {
+        let mut camera_pose = if rows.has(Frames::camera_pitch_deg) {
             Pose {
                 pitch_rad: rows.get(Frames::camera_pitch_deg, row)?.to_radians(),
                 yaw_rad: rows.get(Frames::camera_yaw_deg, row)?.to_radians(),
@@ -184,6 +184,9 @@ impl FrameRow {
         } else {
             pose
         };
+        if let Some(place) = rows.get_or(Frames::camera_in_world_m, row, None)? {
+            camera_pose.position_in_world = DVec3::from_array(place);
+        }
         Ok(Self {
             frame: rows.get(Frames::frame, row)?,
             time_s: rows.get(Frames::time_s, row)?,

@@ -2,7 +2,7 @@
 
 use super::rows::Rows;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_domain::{Camera, Lens, Mount};
+use cosfly_domain::{Camera, Lens, LensModel, Mount};
 use cosfly_frames::DVec3;
 use cosfly_schema::TownLayout;
 use cosfly_schema::tables::{Trajectories, WEATHER_NUMBERS};
@@ -46,8 +46,10 @@ pub struct PublishedFlight {
     pub camera: Camera,
     /// Distortion of the lens.
     pub lens: Lens,
-    /// Rotation of the camera relative to the drone.
+    /// Place and rotation of the camera relative to the drone.
     pub mount: Mount,
+    /// Distance between the two cameras of a stereo pair, metres; `None` for a single camera.
+    pub base_line_m: Option<f64>,
     /// Time from the top row to the bottom row of an image, seconds.
     pub readout_s: f64,
     /// Height of the target's body, metres.
@@ -110,10 +112,22 @@ impl PublishedFlight {
                 horizontal_fov_rad: rows.get(Trajectories::camera_fov_deg, row)?.to_radians(),
             },
             lens: Lens {
+                model: LensModel::called(&rows.get_or(Trajectories::camera_lens_model, row, "brown".to_owned())?)
+                    .unwrap_or_default(),
+                k3: rows.get_or(Trajectories::camera_k3, row, 0.0)?,
+                k4: rows.get_or(Trajectories::camera_k4, row, 0.0)?,
                 k1: rows.get_or(Trajectories::camera_k1, row, 0.0)?,
                 k2: rows.get_or(Trajectories::camera_k2, row, 0.0)?,
             },
+            base_line_m: rows.get_or(Trajectories::camera_base_line_m, row, None)?,
             mount: Mount {
+                position_in_body_m: DVec3::from_array(rows.get_or(
+                    Trajectories::camera_mount_position_in_body_m,
+                    row,
+                    [0.0; 3],
+                )?),
+                right_m: rows.get_or(Trajectories::camera_mount_right_m, row, 0.0)?,
+                roll_rad: rows.get_or(Trajectories::camera_mount_roll_deg, row, 0.0)?.to_radians(),
                 pitch_rad: rows.get_or(Trajectories::camera_mount_pitch_deg, row, 0.0)?.to_radians(),
                 yaw_rad: rows.get_or(Trajectories::camera_mount_yaw_deg, row, 0.0)?.to_radians(),
                 levelled: rows.get_or(Trajectories::camera_mount_levelled, row, false)?,

@@ -6,7 +6,7 @@ use cosfly_domain::channels::{ALL, ChannelSource, FlowTo, SeenPoint};
 use cosfly_domain::{
     Around, BodyKind, BodyPlan, Camera, Certificate, ChannelImage, ChannelSet, FrameImages, FramePerturbation, Lens,
     Limits, MotionBlur, Mount, Noise, Optics, Outfit, Perturbation, PerturbationKind, RollingShutter, Season,
-    SemanticLabel, TargetView, TermCost, Trajectory, Weather,
+    SemanticLabel, StereoEye, TargetView, TermCost, Trajectory, Weather,
 };
 use cosfly_figures::Clothes;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState, TargetTrack, real};
@@ -15,6 +15,9 @@ use cosfly_schema::{
     CaptionRecord, EncodingConfig, OtherBody, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo,
 };
 use cosfly_write::frame_pack::{FramePackWriter, PackHeader};
+
+/// Base line of the pair that the optional channels are of, metres.
+const BASE_LINE_M: f64 = 0.3;
 
 /// Number of frames of every flight.
 pub const FRAMES: usize = 5;
@@ -36,9 +39,10 @@ impl SampleFlight {
         ChannelSet::of(|channel| !channel.is_on_request() || drawn.iter().any(|image| image.channel == channel))
     }
 
-    /// Draws all optional channels, as if every surface were level, nobody moved and the target were a box; the masks of flows are
-    /// 0.
+    /// Draws all optional channels, as if every surface were level, nobody moved, the target were a box and the camera the left one
+    /// of a pair; the masks of flows are 0.
     pub fn draw_on_request(&mut self) {
+        self.record.stereo = Some(StereoEye { base_line_m: BASE_LINE_M, is_right: false });
         let camera = &self.record.camera;
         let poses = &self.record.trajectory.poses_in_world;
         let views = &self.record.views;
@@ -62,6 +66,10 @@ impl SampleFlight {
                 let beside = beside.filter(|beside| *beside < FRAMES).map(|beside| &poses[beside]);
                 for (pixel, point) in pixels.zip(&points) {
                     image.channel.draw(point, pixel);
+                    if matches!(image.channel.source, ChannelSource::Disparity) {
+                        let disparity_px = camera.focal_px() * BASE_LINE_M / f64::from(point.depth_m);
+                        pixel.copy_from_slice(&(disparity_px as f32).to_le_bytes());
+                    }
                     if let (ChannelSource::Flow(_), Some(beside)) = (image.channel.source, beside) {
                         pixel.copy_from_slice(&flow_px(point, camera, pose, beside).map(f32::to_le_bytes).concat());
                     }
@@ -148,6 +156,7 @@ pub fn flight_filmed_by(camera: Camera, pedestrian: usize, role: Role) -> Sample
         camera,
         lens: Lens::default(),
         mount: Mount::default(),
+        stereo: None,
         motion_blur: MotionBlur::default(),
         rolling_shutter: RollingShutter::default(),
         noise: Noise::default(),
@@ -173,6 +182,7 @@ pub fn flight_filmed_by(camera: Camera, pedestrian: usize, role: Role) -> Sample
         }],
         outfit: Some(outfit(pedestrian as u8)),
         sightings,
+        bodies_3d: vec![],
         pair: (role == Role::Perturbed).then(|| PairInfo { expert_id: format!("expert-p{pedestrian:05}") }),
     };
     let caption = |language: &str, text: &str| CaptionRecord {

@@ -2,8 +2,9 @@
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{
-    Around, BodyKind, BodyPlan, BodyView, Camera, Followed, Lens, MapOrigin, MotionBlur, Mount, Noise, Optics, Outfit,
-    RollingShutter, Season, Synthetic, TARGET_INSTANCE, TargetView, Town, Trajectory, Weather,
+    Around, BodyInSpace, BodyKind, BodyPlan, BodyView, Camera, Followed, Lens, MapOrigin, MotionBlur, Mount, Noise,
+    Optics, Outfit, RollingShutter, Season, StereoEye, Synthetic, TARGET_INSTANCE, TargetView, Town, Trajectory,
+    Weather,
 };
 use cosfly_frames::{Pose, TargetState};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -111,8 +112,10 @@ pub struct RenderedTrajectory {
     pub camera: Camera,
     /// Distortion of the lens.
     pub lens: Lens,
-    /// Rotation of the camera relative to the drone, whose poses the trajectory holds.
+    /// Place and rotation of the camera relative to the drone, whose poses the trajectory holds.
     pub mount: Mount,
+    /// The camera in its stereo pair; `None` for a single one.
+    pub stereo: Option<StereoEye>,
     /// Motion blur of the camera.
     pub motion_blur: MotionBlur,
     /// Rolling shutter of the camera.
@@ -142,6 +145,8 @@ pub struct RenderedTrajectory {
     pub others: Vec<OtherBody>,
     /// Frames in which they are visible, by frame and instance id.
     pub sightings: Vec<Sighting>,
+    /// Boxes and key points of the visible bodies, the target's among them, by frame and instance id; none where nobody asked.
+    pub bodies_3d: Vec<BodyInSpace>,
     /// Relation to the expert; set for perturbed flights.
     pub pair: Option<PairInfo>,
 }
@@ -190,7 +195,7 @@ impl RenderedTrajectory {
     /// Distance from the camera to the target's feet, metres.
     pub fn distance_m(&self, frame: usize) -> f64 {
         let feet = self.trajectory.track.states[frame].feet_in_world;
-        (feet - self.trajectory.poses_in_world[frame].position_in_world).length()
+        (feet - self.camera_pose(frame).position_in_world).length()
     }
 
     /// Encodes an `index` blob.
@@ -237,8 +242,11 @@ impl RenderedTrajectory {
         if !(dt_s.is_finite() && dt_s > 0.0) {
             return Err(self.refusal(format!("`dt_s` is `{dt_s}`; it must be more than 0 s")));
         }
-        let optics = [self.lens.k1, self.lens.k2, self.mount.pitch_rad, self.mount.yaw_rad];
-        if !optics.iter().all(|number| number.is_finite()) {
+        let Mount { position_in_body_m, right_m, roll_rad, pitch_rad, yaw_rad, .. } = self.mount;
+        let place = position_in_body_m.to_array();
+        let mut optics =
+            self.lens.coefficients().into_iter().chain(place).chain([right_m, roll_rad, pitch_rad, yaw_rad]);
+        if !optics.all(f64::is_finite) {
             return Err(self.refusal("its lens or mount holds a number that is not finite".into()));
         }
         for (frame, (pose, state)) in trajectory.poses_in_world.iter().zip(&trajectory.track.states).enumerate() {
@@ -371,7 +379,7 @@ pub fn captions_from_bytes(bytes: &[u8]) -> Result<Vec<CaptionRecord>> {
     decode("captions", CAPTIONS_MAGIC, bytes)
 }
 
-const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x09";
+const TRAJECTORY_MAGIC: &[u8; 8] = b"CFTRAJ\x00\x0a";
 const CAPTIONS_MAGIC: &[u8; 8] = b"CFCAPT\x00\x03";
 
 /// Encodes eight bytes of kind and version, then postcard.

@@ -7,8 +7,8 @@ use super::report::VerifyReport;
 use super::rows::{self, PlacedFlight, PlacedFrame, split_of};
 use cosfly_domain::BodyKind;
 use cosfly_frames::{DVec3, real};
-use cosfly_read::RowIndex;
-use cosfly_schema::tables::Bodies;
+use cosfly_read::{RowIndex, SpaceRow};
+use cosfly_schema::tables::{Bodies, Bodies3d};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -38,21 +38,24 @@ pub struct BodiesIndex {
     names: Vec<String>,
 }
 
+/// File and rows of table `bodies_3d` of a flight.
+pub type SpaceOfFlight = (String, Vec<(usize, SpaceRow)>);
 /// File and bodies of a flight, in the order of their rows.
 pub type BodiesOfFlight = (String, Vec<PlacedBody>);
 
 impl BodiesIndex {
-    /// Checks the table as a whole and finds the bodies of each flight; `has_frames` tells whether a flight has frames.
+    /// Checks a table of bodies as a whole and finds the rows of each flight; `has_frames` tells whether a flight has frames.
     pub fn read(
-        folder: &Path,
+        (folder, table): (&Path, &str),
         files: &CheckedFiles,
         flights: &FlightList,
         has_frames: &dyn Fn(usize) -> bool,
         report: &mut VerifyReport,
     ) -> Self {
         let mut bodies = Self { index: RowIndex::default(), names: vec![] };
-        let names: Vec<&str> = files.sound_below("data/bodies/").collect();
-        let read = |name: &&str| rows::read(&folder.join(name), &rows::table("bodies"), &mut |_| Ok(()));
+        let below = format!("data/{table}/");
+        let names: Vec<&str> = files.sound_below(&below).collect();
+        let read = |name: &&str| rows::read(&folder.join(name), &rows::table(table), &mut |_| Ok(()));
         let outcomes: Vec<rows::ReadResult<()>> = names.par_iter().map(read).collect();
         for (name, outcome) in names.into_iter().zip(outcomes) {
             let added = outcome.and_then(|()| {
@@ -81,6 +84,24 @@ impl BodiesIndex {
             }
         }
         bodies
+    }
+
+    /// Rows of table `bodies_3d` of some flights, each with its number in the file.
+    pub fn in_space(&self, wanted: &BTreeSet<usize>, flights: &FlightList) -> BTreeMap<usize, SpaceOfFlight> {
+        let mut found: BTreeMap<usize, SpaceOfFlight> = BTreeMap::new();
+        let _ = self.index.visit(wanted, &mut |rows, path| {
+            let (ids, first) = (rows.values(Bodies3d::trajectory_id)?, rows.first());
+            let file = self.index.files().iter().position(|it| it == path).map_or("", |file| &self.names[file]);
+            for row in 0..rows.len() {
+                let number = flights.number(ids.text(row)).filter(|number| wanted.contains(number));
+                if let Some(number) = number {
+                    let list = &mut found.entry(number).or_insert_with(|| (file.to_owned(), vec![])).1;
+                    list.push((first + row, SpaceRow::read(rows, row)?));
+                }
+            }
+            Ok(())
+        });
+        found
     }
 
     /// Bodies of some flights.

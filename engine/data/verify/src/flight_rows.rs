@@ -1,6 +1,6 @@
 //! [`FlightRows`]: the rows of a flight, and all that they are compared with.
 
-use crate::bodies::PlacedBody;
+use crate::bodies::{PlacedBody, SpaceOfFlight};
 use crate::rows::{PlacedFlight, PlacedFrame};
 use crate::tables::{Extent, PairRow};
 use cosfly_read::FlightTrack;
@@ -18,6 +18,8 @@ pub struct FlightRows<'a> {
     pub bodies_file: &'a str,
     /// Rows of table `bodies`.
     pub bodies: &'a [PlacedBody],
+    /// Rows of table `bodies_3d`, where there are some.
+    pub in_space: Option<&'a SpaceOfFlight>,
     /// Instance ids of the town's objects.
     pub objects: Option<&'a BTreeSet<u32>>,
     /// Rows of table `pairs` by the perturbed flight.

@@ -1,6 +1,6 @@
 //! All flights, side by side: table `frames` with the tables beside it, and the log of each flight.
 
-use super::bodies::{BodiesIndex, PlacedBody};
+use super::bodies::{BodiesIndex, PlacedBody, SpaceOfFlight};
 use super::checks::OF_FLIGHTS;
 use super::files::{CheckedFiles, State};
 use super::flight_rows::FlightRows;
@@ -43,6 +43,7 @@ pub struct Flights<'a> {
     resume: Option<ResumeFile>,
     index: RowIndex,
     bodies: BodiesIndex,
+    in_space: BodiesIndex,
 }
 
 /// A flight that was checked.
@@ -61,6 +62,7 @@ struct Rows<'a> {
     frames: &'a [PlacedFrame],
     bodies_file: &'a str,
     bodies: &'a [PlacedBody],
+    in_space: Option<&'a SpaceOfFlight>,
     expert: Option<&'a FlightTrack>,
 }
 
@@ -79,8 +81,10 @@ impl<'a> Flights<'a> {
             // Damage is found again, and reported, when all columns are read.
             let _ = index.add(folder.join(file), &|id| tables.flights.number(id));
         }
-        let bodies = BodiesIndex::read(folder, files, &tables.flights, &|number| index.has(number), report);
-        Self { folder, files, tables, wanted, resume, index, bodies }
+        let mut read =
+            |table| BodiesIndex::read((folder, table), files, &tables.flights, &|number| index.has(number), report);
+        let (bodies, in_space) = (read("bodies"), read("bodies_3d"));
+        Self { folder, files, tables, wanted, resume, index, bodies, in_space }
     }
 
     /// Tracks of some flights; those whose rows are damaged are left out.
@@ -199,11 +203,15 @@ impl<'a> Flights<'a> {
         let expert = |number: usize| flights.number(flights.at(number).expert_id.as_ref()?);
         let experts = self.tracks(&numbers.iter().filter_map(|number| expert(*number)).collect());
         let bodies = self.bodies.of(&numbers, flights);
+        let in_space = self.in_space.in_space(&numbers, flights);
         let check = |frames: &Vec<PlacedFrame>| {
             let number = number(frames);
             let (bodies_file, bodies) = bodies.get(&number).map_or(("", &[][..]), |(file, rows)| (file, rows));
             let expert = expert(number).and_then(|number| experts.get(&number));
-            let checked = self.check_flight(number, &Rows { file, frames, bodies_file, bodies, expert });
+            let checked = self.check_flight(
+                number,
+                &Rows { file, frames, bodies_file, bodies, in_space: in_space.get(&number), expert },
+            );
             count();
             checked
         };
@@ -241,6 +249,7 @@ impl<'a> Flights<'a> {
             frames,
             bodies_file: rows.bodies_file,
             bodies: others,
+            in_space: rows.in_space,
             objects,
             pairs: &self.tables.pairs,
             extent: self.tables.extents.get(&flight.town),

@@ -41,7 +41,7 @@ pub fn check_frames(file: &str, flight: &PlacedFlight, frames: &[PlacedFrame], r
             (None, None) if frame.action_in_body.is_none() => {}
             _ => find("verify-action", "only the last frame has no action".into()),
         }
-        let distance_m = (frame.target.feet_in_world - frame.pose.position_in_world).length();
+        let distance_m = (frame.target.feet_in_world - frame.camera_pose.position_in_world).length();
         if (distance_m - frame.distance_m).is_nan() || (distance_m - frame.distance_m).abs() > TOLERANCE {
             find(
                 "verify-distance",
@@ -55,7 +55,12 @@ pub fn check_frames(file: &str, flight: &PlacedFlight, frames: &[PlacedFrame], r
         if let Some(message) = box_problem(flight, frame) {
             find("verify-reprojection", message);
         }
-        let turned = flight.mount.camera_pose(&frame.pose).world_from_body();
+        let placed = flight.mount.camera_pose(&frame.pose);
+        let off_m = (placed.position_in_world - frame.camera_pose.position_in_world).length();
+        if off_m.is_nan() || off_m > TOLERANCE {
+            find("verify-camera", format!("the camera is {off_m} m from the place that its mount has on the drone"));
+        }
+        let turned = placed.world_from_body();
         let stored = frame.camera_pose.world_from_body();
         let apart = (turned.x_axis - stored.x_axis).length().max((turned.y_axis - stored.y_axis).length());
         if apart.is_nan() || apart > TOLERANCE {

@@ -14,6 +14,7 @@ mod captions;
 mod checks;
 mod clouds;
 mod croissant;
+mod disparity;
 mod extras;
 mod figures;
 mod files;

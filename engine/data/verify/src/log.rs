@@ -3,6 +3,7 @@
 use super::bodies::PlacedBody;
 use super::body::Body;
 use super::captions::Caption;
+use super::disparity::KnownDepths;
 use super::flow::StandingPoints;
 use super::ground::BodiesOnGround;
 use super::report::VerifyReport;
@@ -13,6 +14,7 @@ use cosfly_domain::channels::{ChannelSource, Element, depth};
 use cosfly_domain::{Channel, ChannelSet, SemanticLabel, TARGET_INSTANCE, channels};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_read::read_records;
+use cosfly_schema::log::messages::shift_px;
 use cosfly_schema::log::{Frequency, TargetStateMessage, formats, frame_time_ns, right_handed, topic, topics};
 use foxglove::messages;
 use prost::Message;
@@ -69,6 +71,7 @@ pub fn check(
         labels: None,
         on_ground: BodiesOnGround::default(),
         standing: StandingPoints::default(),
+        disparities: KnownDepths::default(),
         is_ours: false,
     };
     let mut input = known.stop.reading(BufReader::new(input));
@@ -101,6 +104,7 @@ struct LogCheck<'a> {
     on_ground: BodiesOnGround,
     /// Points of the last frame whose flow is known.
     standing: StandingPoints,
+    disparities: KnownDepths,
     is_ours: bool,
 }
 
@@ -178,6 +182,7 @@ impl LogCheck<'_> {
                 }
                 let labels = self.labels.take().filter(|(of, _)| *of == frame);
                 if let Some((_, depth)) = self.depth.take().filter(|(of, _)| *of == frame) {
+                    self.disparities = KnownDepths::of(self.flight, frame, &depth.data);
                     self.check_depth(&depth, &of_target, row);
                     self.find_standing(frame, &depth, &image);
                     if let Some((_, labels)) = labels {
@@ -199,6 +204,8 @@ impl LogCheck<'_> {
                     self.find(place, "verify-pixels", format!("pixel {at} holds no value of `{}`", channel.name));
                 } else if let Some(message) = self.amodal_problem(channel, &image, row) {
                     self.find(place, "verify-pixels", message);
+                } else if let Some(message) = self.disparities.finding(self.flight, (frame, channel), &image.data) {
+                    self.find(place, "verify-disparity", message);
                 } else if let Some(message) =
                     self.standing.finding(self.flight, self.frames, (frame, channel), &image.data)
                 {
@@ -224,8 +231,13 @@ impl LogCheck<'_> {
         let camera = &self.flight.camera;
         let same = (calibration.width, calibration.height) == (camera.width, camera.height)
             && calibration.k.first().is_some_and(|focal| (focal - camera.focal_px()).abs() < 1e-6 * focal)
-            && calibration.d.get(..2) == Some(&[self.flight.lens.k1, self.flight.lens.k2]);
-        (!same).then(|| "size, focal length or distortion differ from table `trajectories`".into())
+            && calibration.distortion_model == self.flight.lens.model.ros_name()
+            && calibration.d == self.flight.lens.coefficients()
+            && calibration
+                .p
+                .get(3)
+                .is_some_and(|px| (px - shift_px(camera.focal_px(), &self.flight.mount)).abs() < 1e-6);
+        (!same).then(|| "size, focal length, distortion or base line differ from table `trajectories`".into())
     }
 
     /// The target's pixels in the instance image; and what is wrong with them or with those of others against counts and
@@ -402,13 +414,19 @@ fn pose_problem(data: &[u8], row: &PlacedFrame) -> Option<String> {
 /// The chain of transforms from the map to the camera is the stored pose of the camera.
 fn camera_turn_problem(data: &[u8], row: &PlacedFrame) -> Option<String> {
     let Ok(transforms) = messages::FrameTransforms::decode(data) else { return Some(UNREADABLE.into()) };
-    let rotation = |child: &str| {
-        let found = transforms.transforms.iter().find(|it| it.child_frame_id == child)?.rotation.as_ref()?;
-        Some(DQuat::from_xyzw(found.x, found.y, found.z, found.w))
+    let placed = |child: &str| {
+        let found = transforms.transforms.iter().find(|it| it.child_frame_id == child)?;
+        let (place, turn) = (found.translation.as_ref()?, found.rotation.as_ref()?);
+        Some((DVec3::new(place.x, place.y, place.z), DQuat::from_xyzw(turn.x, turn.y, turn.z, turn.w)))
     };
-    let (Some(drone), Some(camera)) = (rotation("drone"), rotation("camera_optical")) else {
+    let (Some((drone_in_map, drone)), Some((place, camera))) = (placed("drone"), placed("camera_optical")) else {
         return Some("the transforms do not lead from the map to the camera".into());
     };
+    let camera_in_world = right_handed::map_from_world_point(drone_in_map + drone * place);
+    let off_m = (camera_in_world - row.camera_pose.position_in_world).length();
+    if off_m.is_nan() || off_m > POSE_TOLERANCE {
+        return Some(format!("the camera is {off_m:.6} m from its place in table `frames`"));
+    }
     let ahead = right_handed::map_from_world_point(drone * camera * DVec3::Z);
     let right = right_handed::map_from_world_point(drone * camera * DVec3::X);
     let stored = row.camera_pose.world_from_body();

@@ -1,6 +1,8 @@
 //! A sound dataset passes; every kind of damage is found and named.
 
 use crate::{Options, VerifyReport, files, frames, rows, tables, verify};
+use cosfly_domain::{BodyInSpace, KeyPoint, Shown};
+use cosfly_frames::DVec3;
 use cosfly_sample as sample;
 use cosfly_sample::SampleFlight;
 use cosfly_schema::{DatasetConfig, EncodingConfig};
@@ -178,6 +180,63 @@ fn flows_that_depth_and_poses_do_not_have_are_found() {
     let mask = flights[0].images[0].on_request.iter_mut().find(|image| image.channel.name == "flow_back_valid");
     mask.unwrap().bytes[7] = 1;
     assert_eq!(rules_of(&published(flights)), ["verify-flow"]);
+}
+
+#[test]
+fn disparities_that_depth_and_base_line_do_not_have_are_found() {
+    let faults: [fn(f32) -> f32; 2] = [|px| 1.01 * px, |px| px + 0.5];
+    for fault in faults {
+        let mut flights = sample::flights();
+        flights[0].draw_on_request();
+        let image = flights[0].images[1].on_request.iter_mut().find(|image| image.channel.name == "disparity");
+        for four in image.unwrap().bytes.as_chunks_mut::<4>().0 {
+            *four = fault(f32::from_le_bytes(*four)).to_le_bytes();
+        }
+        assert_eq!(rules_of(&published(flights)), ["verify-disparity"]);
+    }
+}
+
+/// The target's box, with all key points in its middle.
+fn in_space(flight: &SampleFlight, frame: usize) -> BodyInSpace {
+    let (record, state) = (&flight.record, &flight.record.trajectory.track.states[frame]);
+    let centre_in_world = state.feet_in_world + DVec3::Z * 0.9;
+    let (u, v, depth_m) = record.camera.project(&record.camera_pose(frame), centre_in_world).unwrap();
+    let point = KeyPoint { point_in_world: centre_in_world, pixel: [u, v], depth_m, shown: Shown::Visible };
+    BodyInSpace {
+        frame: frame as u32,
+        instance: 1,
+        centre_in_world,
+        size_m: DVec3::new(0.7, 0.7, 1.8),
+        heading_rad: state.heading_rad,
+        key_points: vec![point; 17],
+    }
+}
+
+#[test]
+fn boxes_and_key_points_that_poses_and_pictures_do_not_have_are_found() {
+    type Fault = fn(&mut BodyInSpace);
+    let faults: [Fault; 9] = [
+        |body| body.centre_in_world.y = -body.centre_in_world.y,
+        |body| body.frame += 1,
+        |body| body.instance = 900,
+        |body| body.heading_rad += 0.01,
+        |body| drop(body.key_points.pop()),
+        |body| body.key_points[3].pixel.reverse(),
+        |body| body.key_points[3].depth_m += 0.1,
+        |body| body.key_points[16].shown = Shown::Outside,
+        |body| body.key_points[0].point_in_world.z += 3.0,
+    ];
+    let marked = |fault: Fault| {
+        let mut flights = sample::flights();
+        let mut bodies: Vec<BodyInSpace> = (0..3).map(|frame| in_space(&flights[0], frame)).collect();
+        fault(&mut bodies[2]);
+        flights[0].record.bodies_3d = bodies;
+        rules_of(&published(flights))
+    };
+    assert!(marked(|_| ()).is_empty());
+    for (number, fault) in faults.into_iter().enumerate() {
+        assert_eq!(marked(fault), ["verify-3d"], "fault {number}");
+    }
 }
 
 #[test]

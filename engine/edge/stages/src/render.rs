@@ -7,13 +7,16 @@ use crate::rejections::reject;
 use crate::{nearby, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
-use cosfly_domain::{Around, Camera, PlanOutcome, TargetView, Trajectory, largest_object_instance};
+use cosfly_domain::{
+    Around, BodyInSpace, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, largest_object_instance,
+};
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{check_same_town, link_town, world};
 use cosfly_experts::{artifacts, pictures, render_files};
 use cosfly_figures::{Bystander, outfit_of};
 use cosfly_film::Shooting;
 use cosfly_film::body_rays::BodyRays;
+use cosfly_film::in_space::Taken;
 use cosfly_film::walks::walked_m;
 use cosfly_flight::World;
 use cosfly_frames::{Pose, Seed};
@@ -69,7 +72,7 @@ impl StageKind for Render {
         let bare = RenderConfig { models: vec![], season: None, mesh: None, splats: None, ..config.clone() };
         let nearby = nearby::part(&bare, canonical(&bare, parameters::canonical(&bare)), items.clone());
         let properties = StageProperties {
-            version: 26,
+            version: 27,
             parameters: canonical(&config, parameters::joined_canonical(&config, &encoding, pictures::ENCODING)),
             sources,
             inputs: vec![ports::town(), nearby::trajectories(), nearby::port()],
@@ -115,8 +118,12 @@ impl Stage for RenderStage {
         let artifact = inputs.one("trajectories")?;
         let world = world(inputs)?;
         let outcome = artifacts::FLIGHT.read(inputs, artifact)?;
-        let trajectory = match filmable(&world, outcome) {
-            Ok(trajectory) => *trajectory,
+        let film = context.id.item.variant().filter(|_| !self.config.films().is_empty());
+        let config = self.config.of_camera(film);
+        let target = traffic::followed(inputs, artifact)?;
+        let shooting = |trajectory: &Trajectory| Shooting::of(&config, trajectory, target.as_ref(), film);
+        let (trajectory, shooting) = match filmable(&world, outcome, &shooting)? {
+            Ok(filmed) => filmed,
             Err(reason) => {
                 let rejection = Rejection {
                     trajectory_id: context.id.item.to_string(),
@@ -128,8 +135,6 @@ impl Stage for RenderStage {
                 return reject(outputs, rejection);
             }
         };
-        let film = context.id.item.variant().filter(|_| !self.config.films().is_empty());
-        let config = self.config.of_camera(film);
         let town_digest = inputs.one("town")?.blobs[artifacts::TOWN.blob].digest;
         // Buildings look the same in every flight through the town.
         let scene = self.scene.get(town_digest, || -> Result<_> {
@@ -139,8 +144,6 @@ impl Stage for RenderStage {
             let scene = Scene::with_models(&world.town, Seed(town_digest.0), &models);
             Ok(scene.in_season(self.config.season).with_mesh(mesh).with_splats(splats))
         })?;
-        let target = traffic::followed(inputs, artifact)?;
-        let shooting = Shooting::of(&config, &trajectory, target.as_ref(), film)?;
         let crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
         let crowd = crowd.dressed_for(&shooting);
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
@@ -172,6 +175,7 @@ impl Stage for RenderStage {
             camera: shooting.camera,
             lens: config.lens,
             mount: shooting.mount,
+            stereo: config.stereo,
             motion_blur: config.motion_blur,
             rolling_shutter: config.rolling_shutter,
             noise: shooting.noise,
@@ -186,6 +190,7 @@ impl Stage for RenderStage {
             followed: target,
             others: crowd.into_bodies(),
             sightings: seen.sightings,
+            bodies_3d: seen.bodies_3d,
             pair,
         };
         outputs.put("index", &record.to_bytes())?;
@@ -193,12 +198,18 @@ impl Stage for RenderStage {
     }
 }
 
-/// The flight, or the reason why it cannot be filmed.
-fn filmable(world: &World, outcome: PlanOutcome) -> Result<Box<Trajectory>, String> {
-    match outcome {
-        PlanOutcome::Planned(flight) => camera_inside(world, &flight.poses_in_world).map_or(Ok(flight), Err),
-        PlanOutcome::Rejected { reason, .. } => Err(reason),
-    }
+/// The flight and how it is filmed, or the reason why it cannot be.
+fn filmable(
+    world: &World,
+    outcome: PlanOutcome,
+    shooting: &dyn Fn(&Trajectory) -> Result<Shooting>,
+) -> Result<Result<(Trajectory, Shooting), String>> {
+    let flight = match outcome {
+        PlanOutcome::Planned(flight) => *flight,
+        PlanOutcome::Rejected { reason, .. } => return Ok(Err(reason)),
+    };
+    let shooting = shooting(&flight)?;
+    Ok(camera_inside(world, &shooting.poses(&flight)).map_or(Ok((flight, shooting)), Err))
 }
 
 /// Reason why a flight cannot be filmed: a camera in a wall would look out through it.
@@ -217,6 +228,7 @@ struct SeenPeople {
     views: Vec<TargetView>,
     by_dense_rays: Vec<Option<f64>>,
     sightings: Vec<Sighting>,
+    bodies_3d: Vec<BodyInSpace>,
     /// Median distances between splats and geometry by frame, metres.
     splats_off_m: Vec<f32>,
 }
@@ -314,6 +326,12 @@ impl RenderStage {
                 let target = target.filter(|_| view.in_view);
                 about.clear();
                 crowd.at(time_s(frame), &mut about);
+                if config.bodies_3d {
+                    let (images, camera, lens) = (rendered.images, shooting.camera, config.lens);
+                    let all = target.map(|walker| Bystander { walker, instance: TARGET_INSTANCE });
+                    let taken = Taken { frame, images, camera, lens, pose };
+                    seen.bodies_3d.extend(taken.bodies(all.into_iter().chain(about.iter().copied())));
+                }
                 seen.by_dense_rays.push(
                     target.and_then(|it| body_rays.visible_share(&world.exact, &about, &shooting.camera, &pose, &it)),
                 );

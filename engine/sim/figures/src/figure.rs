@@ -2,8 +2,9 @@
 
 use crate::Clothes;
 use crate::body_shape::BodyShape;
-use crate::build::{ArmBearing, Hair, head_size};
+use crate::build::Hair;
 use crate::frustum::{FigurePart, FigureTriangle, Ring, Surface, around, ring};
+use crate::joints::{ArmJoints, Bearing, LegJoints, Limbs};
 use crate::region::Region;
 use crate::walker::Walker;
 use crate::{umbrella, vehicles};
@@ -81,31 +82,21 @@ impl FigureParts {
     pub fn set(&mut self, walker: &Walker, clothes: &Clothes) {
         self.count = 0;
         let build = &clothes.build;
-        let stout = (walker.radius_m / (0.15 * walker.height_m)).clamp(0.8, 1.25);
+        let Limbs { shoulders, hips, legs, arms, bearing } = Limbs::of(walker, build);
         let mut body = Body {
             forearm: if clothes.short_sleeves { Region::Skin } else { Region::Top },
-            shoulders: build.shoulders * stout,
-            hips: build.hips * stout,
+            shoulders,
+            hips,
             depth: build.belly,
             parts: self,
         };
         if walker.has_body() {
-            let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
-            let (left, right) = (walker.gait_phase_rad, walker.gait_phase_rad + real::PI);
             body.trunk(build.long_top);
             body.head(build.hair);
             body.luggage(clothes.outfit.backpack, build.shoulder_bag);
-            let (stride, arm_swing) = (swing * build.stride, 0.8 * swing * build.arm_swing + 0.08);
-            body.leg(-1.0, left, stride);
-            body.leg(1.0, right, stride);
-            body.arm(-1.0, right, arm_swing, ArmBearing::Swings);
-            body.arm(
-                1.0,
-                left,
-                arm_swing,
-                if walker.body.has_umbrella() { ArmBearing::Holds } else { build.right_arm },
-            );
-            body.bear(build.lean, head_size(walker.height_m));
+            legs.iter().for_each(|leg| body.leg(leg));
+            arms.iter().for_each(|arm| body.arm(arm));
+            body.bear(&bearing);
             if walker.body.has_umbrella() {
                 umbrella::parts().into_iter().for_each(|FigurePart { low, high, region }| body.part(low, high, region));
             }
@@ -204,33 +195,23 @@ impl Body<'_> {
         }
     }
 
-    /// Leans the trunk forward and gives the head its size: the neck moves down by what the head takes.
-    fn bear(&mut self, lean: f64, head: f64) {
-        const CHIN: f64 = 0.865;
-        let below = (1.0 - (1.0 - CHIN) * head) / CHIN;
+    /// Leans the trunk forward and gives the head its size.
+    fn bear(&mut self, bearing: &Bearing) {
         let count = self.parts.count;
         for FigurePart { low, high, region } in &mut self.parts.parts[..count] {
             let is_head = low.up >= 0.86 && matches!(region, Region::Skin | Region::Hair);
             for ring in [low, high] {
-                ring.forward += lean * (ring.up - 0.49).max(0.0);
-                ring.up = if ring.up < CHIN { ring.up * below } else { 1.0 - (1.0 - ring.up) * head };
+                (ring.forward, ring.up) = bearing.bear((ring.forward, ring.up));
                 if is_head {
-                    ring.half_side *= head;
-                    ring.half_forward *= head;
+                    ring.half_side *= bearing.head;
+                    ring.half_forward *= bearing.head;
                 }
             }
         }
     }
 
-    /// A leg whose hip angle is `swing * sin(phase)`, with the knee bent while it comes forward.
-    fn leg(&mut self, side: f64, phase: f64, swing: f64) {
-        let hip_angle = swing * real::sin(phase);
-        let knee_angle = swing * 1.3 * real::sin(phase + 0.5 * real::PI).max(0.0);
-        let right = side * 0.047 * self.hips;
-        let hip = (0.0, 0.49);
-        let knee = reach(hip, hip_angle, 0.235);
-        let shin_angle = hip_angle - knee_angle;
-        let ankle = reach(knee, shin_angle, 0.225);
+    fn leg(&mut self, joints: &LegJoints) {
+        let LegJoints { right, hip, knee, ankle } = *joints;
         let thick = 0.5 * (1.0 + self.hips);
         self.part(
             ring(knee.0, right, knee.1, 0.034 * thick, 0.038 * thick),
@@ -250,31 +231,13 @@ impl Body<'_> {
         );
     }
 
-    /// An arm whose shoulder angle is `swing * sin(phase)`, with a bent elbow; or one that is busy.
-    fn arm(&mut self, side: f64, phase: f64, swing: f64, arm: ArmBearing) {
-        let (angle, bend) = match arm {
-            ArmBearing::Swings => (swing * real::sin(phase), 0.25 + 0.5 * swing),
-            ArmBearing::Pocket => (-0.25 + 0.1 * swing * real::sin(phase), 0.55),
-            ArmBearing::Holds => (0.15 + 0.1 * swing * real::sin(phase), 2.0),
-        };
-        let right = side * (0.112 * self.shoulders + 0.014);
-        let shoulder = (0.0, 0.815);
-        let elbow = reach(shoulder, angle, 0.165);
-        let wrist = reach(elbow, angle + bend, 0.15);
-        let hand = reach(wrist, angle + bend + 0.05, 0.05);
-        let (out, far) = (right + side * 0.010, right + side * 0.012);
+    fn arm(&mut self, joints: &ArmJoints) {
+        let ArmJoints { right, out, far, tip, shoulder, elbow, wrist, hand } = *joints;
         self.part(ring(elbow.0, out, elbow.1, 0.025, 0.028), ring(shoulder.0, right, 0.79, 0.031, 0.038), Region::Top);
-        let tip = right - side * 0.016;
         self.part(ring(shoulder.0, right, 0.785, 0.031, 0.038), ring(0.0, tip, 0.832, 0.016, 0.022), Region::Top);
         self.part(ring(wrist.0, far, wrist.1, 0.022, 0.023), ring(elbow.0, out, elbow.1, 0.027, 0.029), self.forearm);
         self.part(ring(hand.0, far, hand.1, 0.014, 0.021), ring(wrist.0, far, wrist.1, 0.019, 0.021), Region::Skin);
     }
-}
-
-/// The point `length` below `(forward, up)`, turned forward by an angle.
-fn reach((forward, up): (f64, f64), angle_rad: f64, length: f64) -> (f64, f64) {
-    let (sin, cos) = real::sin_cos(angle_rad);
-    (forward + length * sin, up - length * cos)
 }
 
 #[cfg(test)]

@@ -21,7 +21,12 @@ pub struct CameraConfig {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 5, max = 150))]
     pub fov_deg: Option<f64>,
-    /// Turn of the camera against the drone.
+    /// Distance between the two cameras of a stereo pair, metres, along their right axis: both film every flight, and the films
+    /// are named `<camera>_left`, where the place of the camera says, and `<camera>_right`. Left out: one camera.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.001, max = 10))]
+    pub base_line_m: Option<f64>,
+    /// Place and turn of the camera on the drone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gimbal: Option<GimbalConfig>,
     /// Lens, sensor and image processor.
@@ -41,10 +46,15 @@ pub struct CameraConfig {
     pub noise: Option<Noise>,
 }
 
-/// Ranges of the camera's turn against the drone.
+/// Place of the camera on the drone, and ranges of its turn.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct GimbalConfig {
+    /// Position along the drone's axes: ahead, right, up, metres, -10 to 10. The drone's pitch and roll are those of the table `frames`.
+    pub position_in_body_m: [f64; 3],
+    /// Turn around the optical axis, after yaw and pitch, degrees; positive: right side down.
+    #[schemars(range(min = -180, max = 180))]
+    pub roll_deg: f64,
     /// Lowest and highest turn upwards, degrees, -90 to 90.
     pub pitch_range_deg: [f64; 2],
     /// Lowest and highest turn to the right, degrees, -180 to 180.
@@ -56,6 +66,12 @@ pub struct GimbalConfig {
 
 impl Default for GimbalConfig {
     fn default() -> Self {
-        Self { pitch_range_deg: [0.0; 2], yaw_range_deg: [0.0; 2], levelled: true }
+        Self {
+            position_in_body_m: [0.0; 3],
+            roll_deg: 0.0,
+            pitch_range_deg: [0.0; 2],
+            yaw_range_deg: [0.0; 2],
+            levelled: true,
+        }
     }
 }

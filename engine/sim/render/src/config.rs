@@ -5,7 +5,9 @@ use crate::dry_days;
 use crate::effects::Effects;
 use crate::look::PictureLook;
 use cosfly_domain::channels;
-use cosfly_domain::{Camera, ChannelSet, Lens, MotionBlur, Mount, Noise, RollingShutter, Season, Weather};
+use cosfly_domain::{
+    Camera, ChannelSet, Lens, LensModel, MotionBlur, Mount, Noise, RollingShutter, Season, StereoEye, Weather,
+};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_materials::weather::WeatherRanges;
 use cosfly_models::ModelConfig;
@@ -49,7 +51,7 @@ pub struct RenderConfig {
     /// named `<trajectory>-<camera>`; weather, clothes and everything else are the same. Left out: one camera.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub cameras: BTreeMap<String, CameraConfig>,
-    /// Turn of the camera against the drone; drawn once per walk, the same for all of its flights and frames.
+    /// Place and turn of the camera on the drone; the turn is drawn once per walk, the same for all of its flights and frames.
     pub gimbal: GimbalConfig,
     /// Lens, sensor and image processor; of colours in the full look. Left out: a drone's camera, drawn per walk.
     pub optics: OpticsConfig,
@@ -88,6 +90,12 @@ pub struct RenderConfig {
     /// Gaussian splats of a scan: colours over the geometry that the map's file gives. Dry days only, in the season of the scan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub splats: Option<SplatsConfig>,
+    /// Writes a 3-D box of each body that a frame shows, and COCO's seventeen key points of people: table `bodies_3d`.
+    #[serde(skip_serializing_if = "core::ops::Not::not")]
+    pub bodies_3d: bool,
+    /// Which camera of a stereo pair this is; set by [`Self::of_camera`].
+    #[serde(skip)]
+    pub stereo: Option<StereoEye>,
 }
 
 impl Default for RenderConfig {
@@ -115,6 +123,8 @@ impl Default for RenderConfig {
             models: vec![],
             mesh: None,
             splats: None,
+            bodies_3d: false,
+            stereo: None,
         }
     }
 }
@@ -172,6 +182,10 @@ impl RenderConfig {
         }
         check_range("gimbal.pitch_range_deg", self.gimbal.pitch_range_deg, [-90.0, 90.0])?;
         check_range("gimbal.yaw_range_deg", self.gimbal.yaw_range_deg, [-180.0, 180.0])?;
+        check_range("gimbal.roll_deg", [self.gimbal.roll_deg; 2], [-180.0, 180.0])?;
+        for metres in self.gimbal.position_in_body_m {
+            check_range("gimbal.position_in_body_m", [metres; 2], [-10.0, 10.0])?;
+        }
         self.check_effects()?;
         self.check_cameras()?;
         self.check_scan()?;
@@ -240,8 +254,7 @@ impl RenderConfig {
         ] {
             value.map_or(Ok(()), |value| in_range(path, value, bounds))?;
         }
-        in_range("lens.k1", self.lens.k1, [-1.0, 1.0])?;
-        in_range("lens.k2", self.lens.k2, [-1.0, 1.0])?;
+        self.check_lens()?;
         if !self.lens.is_none() && self.channels.contains(&channels::depth_sensor::CHANNEL) {
             return Err(ConfigProblem {
                 path: "channels".into(),
@@ -253,17 +266,31 @@ impl RenderConfig {
         in_range("motion_blur.samples", f64::from(self.motion_blur.samples), [3.0, 65.0])?;
         in_range("rolling_shutter.readout_s", self.rolling_shutter.readout_s, [0.0, 0.5])?;
         in_range("rolling_shutter.strips", f64::from(self.rolling_shutter.strips), [2.0, 256.0])?;
+        Ok(())
+    }
+
+    fn check_lens(&self) -> Result<(), ConfigProblem> {
+        let Lens { model, k1, k2, k3, k4 } = self.lens;
+        let problem = |path: &str, message: String, hint: &str| {
+            Err(ConfigProblem { path: path.into(), message, hint: hint.into() })
+        };
+        for (path, value) in [("lens.k1", k1), ("lens.k2", k2), ("lens.k3", k3), ("lens.k4", k4)] {
+            if !(-1.0..=1.0).contains(&value) {
+                return problem(path, format!("the value is `{value}`"), "allowed are -1 to 1");
+            }
+        }
+        if model == LensModel::Brown && (k3 != 0.0 || k4 != 0.0) {
+            let message = "`k3` and `k4` are of a fisheye, and the model is `brown`".to_owned();
+            return problem("lens.model", message, "write `model = \"fisheye\"`, or leave out `k3` and `k4`");
+        }
         let widest_deg = self.fov_range_deg.map_or(self.fov_deg, |range| range[1]);
         let widest = Camera { horizontal_fov_rad: widest_deg.to_radians(), ..self.camera() };
         if self.lens.widening(&widest).is_none_or(|widening| widening > 3.0) {
-            let Lens { k1, k2 } = self.lens;
-            return Err(ConfigProblem {
-                path: "lens".into(),
-                message: format!(
-                    "the lens (`k1` {k1}, `k2` {k2}) has no picture in the corners of a field of view of {widest_deg} degrees"
-                ),
-                hint: "take coefficients nearer to 0 or a smaller field of view".into(),
-            });
+            let message = format!(
+                "the lens (`{}`, `k1` {k1}, `k2` {k2}) has no picture in the corners of a field of view of {widest_deg} degrees",
+                model.name()
+            );
+            return problem("lens", message, "take coefficients nearer to 0 or a smaller field of view");
         }
         Ok(())
     }
@@ -282,6 +309,9 @@ impl RenderConfig {
     /// Turn of the camera against the drone on all flights behind one walk.
     pub fn draw_mount(&self, walk_seed: &Seed) -> Mount {
         Mount {
+            position_in_body_m: DVec3::from_array(self.gimbal.position_in_body_m),
+            right_m: self.stereo.map_or(0.0, |eye| eye.right_m()),
+            roll_rad: self.gimbal.roll_deg.to_radians(),
             pitch_rad: draw(walk_seed, "gimbal-pitch", self.gimbal.pitch_range_deg).to_radians(),
             yaw_rad: draw(walk_seed, "gimbal-yaw", self.gimbal.yaw_range_deg).to_radians(),
             levelled: self.gimbal.levelled,
@@ -319,61 +349,8 @@ impl RenderConfig {
 
     /// Effects on ideal pictures of `camera`.
     pub fn effects(&self, camera: Camera) -> Effects {
-        Effects::new(camera, self.lens, self.motion_blur, self.rolling_shutter)
-    }
-}
-
-impl RenderConfig {
-    /// The settings of one camera; those of the stage where there is no such camera.
-    pub fn of_camera(&self, name: Option<&str>) -> Self {
-        let mut config = Self { cameras: BTreeMap::new(), ..self.clone() };
-        let Some(camera) = name.and_then(|name| self.cameras.get(name)) else { return config };
-        let CameraConfig { width, height, fov_deg, gimbal, optics, lens, motion_blur, rolling_shutter, noise } =
-            camera.clone();
-        config.width = width.unwrap_or(config.width);
-        config.height = height.unwrap_or(config.height);
-        config.fov_range_deg = config.fov_range_deg.filter(|_| fov_deg.is_none());
-        config.fov_deg = fov_deg.unwrap_or(config.fov_deg);
-        config.gimbal = gimbal.unwrap_or(config.gimbal);
-        config.optics = optics.unwrap_or(config.optics);
-        config.lens = lens.unwrap_or(config.lens);
-        config.motion_blur = motion_blur.unwrap_or(config.motion_blur);
-        config.rolling_shutter = rolling_shutter.unwrap_or(config.rolling_shutter);
-        config.noise = noise.or(config.noise);
-        config
-    }
-
-    /// Names of the films of one flight: cameras, or weathers where they are paired; none where there is one film.
-    pub fn films(&self) -> Vec<String> {
-        if self.paired_weathers { self.weathers.clone() } else { self.cameras.keys().cloned().collect() }
-    }
-
-    /// Checks the cameras, each with its own settings.
-    pub(crate) fn check_cameras(&self) -> Result<(), ConfigProblem> {
-        let problem =
-            |path: String, message: String, hint: &str| Err(ConfigProblem { path, message, hint: hint.into() });
-        if self.paired_weathers && !self.cameras.is_empty() {
-            let hint = "write one recipe for each weather, or one for each camera";
-            return problem(
-                "cameras".into(),
-                "`cameras` and `paired_weathers` both name the films of a flight".into(),
-                hint,
-            );
-        }
-        for name in self.cameras.keys() {
-            let is_word = name.starts_with(|first: char| first.is_ascii_lowercase())
-                && name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_')
-                && name.len() <= 32;
-            if !is_word {
-                let hint =
-                    "a camera is named by a lower-case letter, then lower-case letters, digits and `_`, 32 at most";
-                return problem(format!("cameras.{name}"), format!("the name is `{name}`"), hint);
-            }
-            self.of_camera(Some(name))
-                .validate()
-                .map_err(|found| ConfigProblem { path: format!("cameras.{name}.{}", found.path), ..found })?;
-        }
-        Ok(())
+        let effects = Effects::new(camera, self.lens, self.motion_blur, self.rolling_shutter);
+        effects.of_pair(self.stereo.map(|eye| eye.base_line_m))
     }
 }
 
@@ -433,10 +410,10 @@ mod tests {
                 },
                 "gimbal.yaw_range_deg",
             ),
-            (RenderConfig { lens: Lens { k1: -0.9, k2: 0.0 }, ..good.clone() }, "lens"),
+            (RenderConfig { lens: Lens::brown(-0.9, 0.0), ..good.clone() }, "lens"),
             (
                 RenderConfig {
-                    lens: Lens { k1: -0.1, k2: 0.0 },
+                    lens: Lens::brown(-0.1, 0.0),
                     channels: ChannelSet::of(|channel| channel.name != "mask"),
                     ..good.clone()
                 },
@@ -532,11 +509,40 @@ mod tests {
     }
 
     #[test]
+    fn a_pair_is_two_films_a_base_line_apart() {
+        let pair = CameraConfig { base_line_m: Some(0.12), ..CameraConfig::default() };
+        let mut config = RenderConfig { channels: ChannelSet::of(|_| true), ..with_camera("front", pair) };
+        config.cameras.insert("down".into(), CameraConfig::default());
+        config.validate().expect("a pair and a single camera");
+        assert_eq!(config.films(), ["down", "front_left", "front_right"]);
+        let [down, left, right] = ["down", "front_left", "front_right"].map(|film| config.of_camera(Some(film)));
+        let right_m = |config: &RenderConfig| config.draw_mount(&Seed([1; 32])).right_m;
+        assert_eq!([right_m(&down), right_m(&left), right_m(&right)], [0.0, 0.0, 0.12]);
+        let has_disparity = |config: &RenderConfig| config.channels.contains(&channels::disparity::CHANNEL);
+        assert!(!has_disparity(&down) && has_disparity(&left) && has_disparity(&right));
+    }
+
+    #[test]
     fn cameras_are_refused_with_their_path() {
         let path = |config: &RenderConfig| config.validate().expect_err("refused").path;
         assert_eq!(path(&with_camera("Down", CameraConfig::default())), "cameras.Down");
         assert_eq!(path(&with_camera("", CameraConfig::default())), "cameras.");
-        let wide = CameraConfig { lens: Some(Lens { k1: -0.9, k2: 0.0 }), ..CameraConfig::default() };
+        let zero = CameraConfig { base_line_m: Some(0.0), ..CameraConfig::default() };
+        assert_eq!(path(&with_camera("front", zero)), "cameras.front.base_line_m");
+        let mut twice = with_camera("front", CameraConfig { base_line_m: Some(0.1), ..CameraConfig::default() });
+        twice.cameras.insert("front_left".into(), CameraConfig::default());
+        assert_eq!(path(&twice), "cameras.front_left");
+        let all = ChannelSet::of(|channel| !channel.name.starts_with("depth_"));
+        let single = RenderConfig { channels: all.clone(), ..with_camera("front", CameraConfig::default()) };
+        assert_eq!(path(&single), "channels");
+        let bent =
+            CameraConfig { base_line_m: Some(0.1), lens: Some(Lens::brown(-0.1, 0.0)), ..CameraConfig::default() };
+        assert_eq!(path(&RenderConfig { channels: all, ..with_camera("front", bent) }), "cameras.front.channels");
+        let long = Lens { k3: 0.1, ..Lens::brown(0.0, 0.0) };
+        assert_eq!(path(&RenderConfig { lens: long, ..RenderConfig::default() }), "lens.model");
+        let far = GimbalConfig { position_in_body_m: [0.0, 0.0, 40.0], ..GimbalConfig::default() };
+        assert_eq!(path(&RenderConfig { gimbal: far, ..RenderConfig::default() }), "gimbal.position_in_body_m");
+        let wide = CameraConfig { lens: Some(Lens::brown(-0.9, 0.0)), ..CameraConfig::default() };
         assert_eq!(path(&with_camera("wide", wide)), "cameras.wide.lens");
         assert_eq!(
             path(&RenderConfig { paired_weathers: true, ..with_camera("down", CameraConfig::default()) }),

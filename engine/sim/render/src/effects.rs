@@ -8,6 +8,7 @@
 
 mod comparison;
 mod depth_sensor;
+mod disparity;
 mod lens;
 mod shot;
 
@@ -32,6 +33,7 @@ pub struct Effects {
     blur: MotionBlur,
     rolling: RollingShutter,
     noise: Noise,
+    base_line_m: Option<f64>,
     lens: Option<LensMap>,
     exposure: Exposure,
     /// Strips put together, and the target's pixels in them.
@@ -57,6 +59,7 @@ impl Effects {
             blur,
             rolling,
             noise: Noise::default(),
+            base_line_m: None,
             lens,
             exposure: Exposure::default(),
             rolled: FrameImages::default(),
@@ -69,6 +72,11 @@ impl Effects {
             seen: vec![],
             comparison: Comparison::default(),
         }
+    }
+
+    /// Effects of a camera of a stereo pair with this base line, where there is one.
+    pub fn of_pair(self, base_line_m: Option<f64>) -> Self {
+        Self { base_line_m, ..self }
     }
 
     /// Adds this noise from now on; none at first.
@@ -97,6 +105,7 @@ impl Effects {
             let setup = setup(shot, 0.0, &mut self.bystanders);
             renderer.render_retouched(scene, &setup, grain);
             depth_sensor::draw(renderer.images_mut(), &self.finished.camera, &shot.noise_seed);
+            disparity::draw(renderer.images_mut(), &self.finished.camera, self.base_line_m);
             self.comparison.draw(renderer, &setup, &(0..self.finished.camera.height as usize), &self.finished);
             return renderer.finished();
         }
@@ -135,6 +144,7 @@ impl Effects {
         }
         grain(&mut self.images.rgb);
         depth_sensor::draw(&mut self.images, &self.finished.camera, &shot.noise_seed);
+        disparity::draw(&mut self.images, &self.finished.camera, self.base_line_m);
         let view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
         target_view::measure_bodies(Level::best(), &self.images, bystanders, &mut self.seen);
         RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered, others: &self.seen }

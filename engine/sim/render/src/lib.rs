@@ -26,6 +26,7 @@ mod passes;
 mod people;
 mod props;
 pub mod renderer;
+mod rig;
 mod scan_light;
 pub mod scene;
 mod scene_mesh;

@@ -2,13 +2,13 @@
 
 mod small_town;
 
-use cosfly_domain::channels::{flow, normals};
+use cosfly_domain::channels::{disparity, flow, normals};
 use cosfly_domain::{
-    BodyKind, Camera, Channel, ChannelSet, FrameImages, Lens, MotionBlur, RollingShutter, SemanticLabel,
+    BodyKind, Camera, Channel, ChannelSet, FrameImages, Lens, MotionBlur, Mount, RollingShutter, SemanticLabel,
     TARGET_INSTANCE, Weather,
 };
 use cosfly_figures::{BodyShape, Bystander, Walker};
-use cosfly_frames::{DMat3, DVec3, Pose, Seed, TargetState};
+use cosfly_frames::{DMat3, DVec3, Pose, Seed, TargetState, real};
 use cosfly_render::{Effects, FrameBeside, FrameSetup, Moment, Neighbours, Renderer, Scene, Shot};
 
 const CAMERA: Camera = Camera { width: 160, height: 90, horizontal_fov_rad: 1.4 };
@@ -75,7 +75,7 @@ fn normals_face_the_camera_and_roads_face_up() {
 #[test]
 fn lens_and_rolling_shutter_carry_the_channels_along() {
     let scene = scene();
-    let lens = Lens { k1: -0.1, k2: 0.0 };
+    let lens = Lens::brown(-0.1, 0.0);
     let rolling = RollingShutter { readout_s: 0.02, strips: 5 };
     let moment = |offset_s: f64| {
         let mut pose = pose();
@@ -157,7 +157,7 @@ const BACK: [&Channel; 2] = [&flow::BACK, &flow::BACK_VALID];
 #[test]
 fn flow_is_the_way_of_the_point_through_depth_poses_and_lens() {
     let none = RollingShutter::default();
-    for lens in [Lens::default(), Lens { k1: -0.12, k2: 0.01 }] {
+    for lens in [Lens::default(), Lens::brown(-0.12, 0.01), Lens::fisheye([-0.02, 0.004, 0.0, 0.0])] {
         let (images, next) = (filmed(1, lens, none), filmed(2, lens, none));
         let (mut counts, mut hidden, mut landed) = ([0; 3], 0, 0);
         for (channels, other, away) in [(FORWARD, 2.0, 1.0), (BACK, 0.0, -1.0)] {
@@ -245,4 +245,61 @@ fn through_a_rolling_shutter_a_point_is_looked_for_when_its_row_is_taken() {
         compared += 1;
     }
     assert!(compared > 5_000, "{compared}");
+}
+
+/// A picture of a pose by a camera with this lens, one of a pair 0.3 m apart.
+fn taken(pose: Pose, lens: Lens) -> FrameImages {
+    let mut effects = Effects::new(CAMERA, lens, MotionBlur::default(), RollingShutter::default()).of_pair(Some(0.3));
+    let mut renderer = Renderer::new(effects.ideal_camera());
+    renderer.set_channels(&ChannelSet::of(|channel| *channel == disparity::CHANNEL || !channel.is_on_request()));
+    let moment = move |_: f64| Moment { pose, target: None };
+    let (neighbours, noise_seed) = (Neighbours::default(), Seed([1; 32]));
+    let shot = Shot { weather: &noon(), moment: &moment, others: &|_, _| {}, neighbours, noise_seed };
+    effects.film(&mut renderer, &scene(), &shot).images.clone()
+}
+
+#[test]
+fn the_right_picture_of_a_pair_shows_each_point_a_disparity_to_the_left_in_the_same_row() {
+    let right = Mount { right_m: 0.3, ..Mount::default() }.camera_pose(&pose());
+    let [left, right] = [pose(), right].map(|pose| taken(pose, Lens::default()));
+    let (disparities, _) = left.on_request[0].bytes.as_chunks::<4>();
+    let (mut found, mut all) = (0, 0);
+    for (at, four) in disparities.iter().enumerate() {
+        let (disparity_px, depth_m) = (f64::from(f32::from_le_bytes(*four)), f64::from(left.depth_m[at]));
+        let (column, row) = (at % 160, at / 160);
+        let there = column as f64 + 0.5 - disparity_px;
+        // Half the width is f times the tangent of half the field of view.
+        assert!((disparity_px - 80.0 / real::tan(0.7) * 0.3 / depth_m).abs() < 1e-4, "pixel {at}");
+        if there >= 0.0 {
+            all += 1;
+            let there = 160 * row + there as usize;
+            found += usize::from((f64::from(right.depth_m[there]) / depth_m - 1.0).abs() < 0.03 || depth_m > 1e6);
+        }
+    }
+    assert!(all > 12_000 && found * 100 > all * 95, "{found} of {all}");
+}
+
+#[test]
+fn a_fisheye_shows_every_point_at_the_angle_of_its_ray() {
+    let [k1, k2, k3, k4] = [-0.03, 0.01, -0.004, 0.001];
+    let (plain, wide) = (taken(pose(), Lens::default()), taken(pose(), Lens::fisheye([k1, k2, k3, k4])));
+    let focal = 80.0 / real::tan(0.7);
+    let (mut same, mut all) = (0, 0);
+    for at in 0..160 * 90 {
+        // The direction of the ray of the pinhole's pixel, then the angle's polynomial.
+        let (x, y) = ((at % 160) as f64 + 0.5 - 80.0, (at / 160) as f64 + 0.5 - 45.0);
+        let off = real::hypot(x, y);
+        let angle = real::atan2(off, focal);
+        let square = angle * angle;
+        let bent = angle * (1.0 + square * (k1 + square * (k2 + square * (k3 + square * k4))));
+        let (u, v) = (80.0 + x / off * focal * bent, 45.0 + y / off * focal * bent);
+        let there = 160 * v as usize + u as usize;
+        let ratio = f64::from(wide.depth_m[there]) / f64::from(plain.depth_m[at]);
+        all += 1;
+        same +=
+            usize::from((ratio.is_nan() || (ratio - 1.0).abs() < 0.04) && wide.semantic[there] == plain.semantic[at]);
+    }
+    assert!(same * 100 > all * 93, "{same} of {all}");
+    // Its corners show more than the pinhole's.
+    assert!(wide.rgb != plain.rgb);
 }

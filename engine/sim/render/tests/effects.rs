@@ -72,7 +72,7 @@ fn box_of_pixels(images: &FrameImages) -> Option<PixelBox> {
     })
 }
 
-const NO_LENS: Lens = Lens { k1: 0.0, k2: 0.0 };
+const NO_LENS: Lens = Lens::brown(0.0, 0.0);
 const NO_BLUR: MotionBlur = MotionBlur { shutter_s: 0.0, samples: 9 };
 const AT_ONCE: RollingShutter = RollingShutter { readout_s: 0.0, strips: 16 };
 const NO_NOISE: Noise = Noise { gaussian: 0.0, shot: 0.0 };
@@ -113,7 +113,7 @@ fn a_rolling_shutter_shows_each_strip_at_its_moment_in_all_channels() {
     assert_ne!(view.visible_box, at_once.visible_box, "the target leans");
     // Blurred and bent as well, every pixel of the target still counts once.
     let blur = MotionBlur { shutter_s: 0.02, samples: 3 };
-    let (bent, view) = film_rolling(Lens { k1: -0.2, k2: 0.0 }, blur, rolling, NO_NOISE, 1, 0.0);
+    let (bent, view) = film_rolling(Lens::brown(-0.2, 0.0), blur, rolling, NO_NOISE, 1, 0.0);
     assert_eq!(view.visible_box, box_of_pixels(&bent));
     assert_eq!(view.pixels as usize, bent.instance.iter().filter(|id| **id == TARGET_INSTANCE).count());
 }
@@ -128,7 +128,7 @@ fn the_same_seed_gives_the_same_grain() {
 #[test]
 fn through_a_lens_boxes_are_those_of_the_bent_pixels_and_labels_are_never_mixed() {
     let (plain, plain_view) = film(NO_LENS, NO_BLUR, NO_NOISE, 1);
-    for lens in [Lens { k1: -0.25, k2: 0.04 }, Lens { k1: 0.15, k2: 0.0 }] {
+    for lens in [Lens::brown(-0.25, 0.04), Lens::brown(0.15, 0.0)] {
         let (bent, view) = film(lens, NO_BLUR, NO_NOISE, 1);
         assert_eq!((bent.width, bent.height), (CAMERA.width, CAMERA.height));
         assert_eq!(view.visible_box, box_of_pixels(&bent));

@@ -23,8 +23,7 @@ fn ten_thousand_frames_take_no_more_memory_than_a_thousand() {
     let scene = Scene::new(&small_town::small_town(2, 5), Seed([1; 32]));
     let camera = Camera { width: 64, height: 48, horizontal_fov_rad: 1.2 };
     let noise = Noise { gaussian: 2.0, shot: 1.0 };
-    let mut effects =
-        Effects::new(camera, Lens { k1: -0.1, k2: 0.0 }, MotionBlur::default(), RollingShutter::default());
+    let mut effects = Effects::new(camera, Lens::brown(-0.1, 0.0), MotionBlur::default(), RollingShutter::default());
     effects.set_noise(noise);
     let mut renderer = Renderer::new(effects.ideal_camera());
     let weathers =

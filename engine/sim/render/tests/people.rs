@@ -356,7 +356,7 @@ fn through_a_lens_and_blurred_people_move_and_keep_their_ids() {
         let frame = effects.film(&mut renderer, &scene, &shot);
         Drawn { images: frame.images.clone(), view: frame.target_view, others: frame.others.to_vec() }
     };
-    for lens in [Lens::default(), Lens { k1: -0.1, k2: 0.0 }] {
+    for lens in [Lens::default(), Lens::brown(-0.1, 0.0)] {
         let sharp = film(lens, MotionBlur::default(), 3.0);
         let [still, moved] = [0.0, 3.0].map(|speed_mps| film(lens, blur, speed_mps));
         let (pixels, visible_box) = pixels_of(&sharp.images, FIRST).expect("in view");

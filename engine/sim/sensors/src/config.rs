@@ -57,7 +57,7 @@ impl SenseConfig {
     /// Where the sensor sits.
     pub fn place(&self) -> SensorPlace {
         let (pitch_rad, yaw_rad) = (self.pitch_deg.to_radians(), self.yaw_deg.to_radians());
-        let mount = Mount { pitch_rad, yaw_rad, levelled: self.levelled };
+        let mount = Mount { pitch_rad, yaw_rad, levelled: self.levelled, ..Mount::default() };
         SensorPlace { position_in_body: DVec3::from_array(self.position_in_body_m), mount }
     }
 }

@@ -121,7 +121,7 @@ fn readings_begin_with_the_flight_and_end_within_it() {
 #[test]
 fn a_sensor_sits_and_moves_where_its_place_says() {
     let body = Pose { position_in_world: DVec3::new(3.0, -2.0, 9.0), pitch_rad: 0.0, yaw_rad: 1.2, roll_rad: 0.0 };
-    let mount = Mount { pitch_rad: -0.4, yaw_rad: 0.3, levelled: false };
+    let mount = Mount { pitch_rad: -0.4, yaw_rad: 0.3, ..Mount::default() };
     let place = SensorPlace { position_in_body: DVec3::new(0.2, 0.0, -0.1), mount };
     let on = place.on(&body);
     let expected = body.position_in_world + body.world_from_body() * place.position_in_body;
@@ -208,7 +208,7 @@ fn open_readings(poses_in_world: &[Pose], dt_s: f64, sensor: &Sensor, place: Sen
 #[test]
 fn true_inertial_readings_add_up_to_the_flight() {
     let (poses, rate_hz) = (smooth_poses(41), 200.0);
-    let mount = Mount { pitch_rad: 0.3, yaw_rad: -0.9, levelled: false };
+    let mount = Mount { pitch_rad: 0.3, yaw_rad: -0.9, ..Mount::default() };
     let place = SensorPlace { position_in_body: DVec3::new(0.2, -0.1, 0.05), mount };
     let all = open_readings(&poses, DT_S, called("inertial_unit").expect("in the list"), place, rate_hz);
     let vector = |index: usize, first: usize| DVec3::from_slice(&all[index].2[first..first + 3]);

@@ -15,6 +15,11 @@ impl ChannelSet {
         Self(channels::ALL.iter().copied().filter(|channel| is_chosen(channel)).collect())
     }
 
+    /// The channels but one.
+    pub fn without(&self, left_out: &Channel) -> Self {
+        Self::of(|channel| channel != left_out && self.contains(channel))
+    }
+
     /// Whether these are the channels of every frame and no other.
     pub fn is_default(&self) -> bool {
         *self == Self::default()

@@ -5,6 +5,7 @@ mod channel;
 mod channel_set;
 pub mod depth;
 pub mod depth_sensor;
+pub mod disparity;
 pub mod flow;
 mod image;
 pub mod instance;
@@ -27,6 +28,7 @@ pub static ALL: &[&Channel] = &[
     &instance::CHANNEL,
     // On request, sorted by name.
     &depth_sensor::CHANNEL,
+    &disparity::CHANNEL,
     &flow::BACK,
     &flow::BACK_VALID,
     &flow::FORWARD,

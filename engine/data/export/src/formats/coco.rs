@@ -9,9 +9,10 @@ use crate::media::{ending, picture_path};
 use crate::shared_options::PictureOptions;
 use crate::source::Source;
 use cosfly_diagnose::Result;
-use cosfly_domain::{SemanticLabel, TARGET_INSTANCE};
+use cosfly_domain::{KEY_POINTS, SKELETON, SemanticLabel, TARGET_INSTANCE};
+use cosfly_read::{SpaceReader, SpaceRow};
 use mask::{Mask, masks};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::io::Write;
 
 /// Boxes and masks.
@@ -41,10 +42,8 @@ fn write_split(every: usize, source: &Source<'_>, out: &OutFolder, split: &str) 
     let name = format!("annotations/instances_{split}.json");
     let mut file = out.create(&name)?;
     let refused = |error: std::io::Error| out.refusal(&name, &error);
-    let categories: Vec<Value> = SemanticLabel::ALL
-        .iter()
-        .map(|label| json!({"id": label.id(), "name": label.name(), "supercategory": "carla"}))
-        .collect();
+    let categories: Vec<Value> = SemanticLabel::ALL.iter().map(category).collect();
+    let mut in_space = SpaceReader::of(source.dataset)?;
     let head = json!({"description": source.name(), "contributor": "cosfly", "version": env!("CARGO_PKG_VERSION")});
     write!(file, "{{\"info\":{head},\"licenses\":[],\"categories\":{},\"annotations\":[", json!(categories))
         .map_err(refused)?;
@@ -52,6 +51,8 @@ fn write_split(every: usize, source: &Source<'_>, out: &OutFolder, split: &str) 
     let mut images: Vec<&str> = vec![];
     source.each_flight_of(&|flight| flight.split == split, &mut |episode| {
         let id = &episode.flight.trajectory_id;
+        let place = source.dataset.place(id).unwrap_or_default();
+        let rows = in_space.at(source.dataset, place)?;
         episode.each_picture(
             &episode.every_nth_frame(every),
             |frame, logged| {
@@ -61,13 +62,18 @@ fn write_split(every: usize, source: &Source<'_>, out: &OutFolder, split: &str) 
                 let size = [logged.width, logged.height];
                 Ok((ending, size, masks(&logged.instance, &logged.semantic, size)))
             },
-            |_, (ending, size, masks)| {
+            |frame, (ending, size, masks)| {
                 image_id += 1;
                 images.push(ending);
                 for mask in masks {
                     let separator = if annotation_id == 0 { "" } else { ",\n" };
                     annotation_id += 1;
-                    let annotation = annotation(&mask, annotation_id, image_id, size);
+                    let row = rows.iter().find(|row| (row.frame as usize, row.instance) == (frame, mask.instance));
+                    let mut annotation = annotation(&mask, annotation_id, image_id, size);
+                    if let Some(row) = row.filter(|row| !row.key_points.is_empty()) {
+                        annotation.extend(key_points(row));
+                    }
+                    let annotation = Value::Object(annotation);
                     write!(file, "{separator}{annotation}").map_err(refused)?;
                 }
                 Ok(())
@@ -95,8 +101,25 @@ fn write_split(every: usize, source: &Source<'_>, out: &OutFolder, split: &str) 
     file.write_all(b"]}\n").and_then(|()| file.flush()).map_err(refused)
 }
 
-fn annotation(mask: &Mask, id: u64, image_id: u64, [width, height]: [u32; 2]) -> Value {
-    json!({
+fn category(label: &SemanticLabel) -> Value {
+    let mut category = json!({"id": label.id(), "name": label.name(), "supercategory": "carla"});
+    if *label == SemanticLabel::Pedestrian {
+        category["keypoints"] = json!(KEY_POINTS);
+        // Counted from 1.
+        category["skeleton"] = json!(SKELETON.map(|line| line.map(|end| end + 1)));
+    }
+    category
+}
+
+/// Key points as `person_keypoints` has them: right, down, and 0, 1 or 2 for each.
+fn key_points(row: &SpaceRow) -> Map<String, Value> {
+    let flat: Vec<f64> = row.key_points.iter().flat_map(|it| [it.pixel[0], it.pixel[1], f64::from(it.shown)]).collect();
+    let count = row.key_points.iter().filter(|point| point.shown > 0).count();
+    [("keypoints".to_owned(), json!(flat)), ("num_keypoints".to_owned(), json!(count))].into_iter().collect()
+}
+
+fn annotation(mask: &Mask, id: u64, image_id: u64, [width, height]: [u32; 2]) -> Map<String, Value> {
+    let fields = json!({
         "id": id,
         "image_id": image_id,
         "category_id": mask.label,
@@ -106,7 +129,11 @@ fn annotation(mask: &Mask, id: u64, image_id: u64, [width, height]: [u32; 2]) ->
         "segmentation": {"size": [height, width], "counts": mask.counts},
         "instance": mask.instance,
         "is_target": mask.instance == TARGET_INSTANCE,
-    })
+    });
+    match fields {
+        Value::Object(fields) => fields,
+        _ => Map::new(),
+    }
 }
 
 const BODY: &str = "\
@@ -129,5 +156,7 @@ for image in coco.loadImgs(coco.getImgIds()):
 
 `file_name` is relative to the folder of the split. Category ids are CARLA's labels. Every thing with an id has an annotation
 for its visible pixels: its box, its area and its mask as compressed run lengths; ground and sky have none. `instance` is the id
-of the thing in its flight's log, `is_target` marks the one who is followed.
+of the thing in its flight's log, `is_target` marks the one who is followed. Of datasets with key points (`bodies_3d`), people on
+foot have `keypoints` and `num_keypoints`, as in COCO's `person_keypoints`: right, down, and 2 where the point is seen, 1 where it is
+hidden, 0 out of the picture.
 ";

@@ -140,7 +140,7 @@ impl<'a> Recording<'a> {
         let turned = |rotation: DQuat| Placed { rotation, ..still };
         let mut list = vec![("map", "odom", still), ("camera_link", OPTICAL, turned(right_handed::BODY_FROM_OPTICAL))];
         if let (false, Some(row)) = (flight.mount.levelled, self.episode.frames.first()) {
-            list.push(("base_link", "camera_link", turned(camera_rotation(&flight.mount, &row.pose))));
+            list.push(("base_link", "camera_link", camera_on_drone(&flight.mount, &row.pose)));
         }
         bag.write(Topic::TfStatic, START_NS, &messages::transforms(START_NS, &list))?;
         let boxes = source.dataset.log(flight)?.scene()?;
@@ -162,7 +162,7 @@ impl<'a> Recording<'a> {
             self.write_motion(bag, frame)?;
             let (time_ns, flight) = (time_ns(dt_s, frame), self.episode.flight);
             let header = Header { time_ns, frame: OPTICAL };
-            let info = messages::camera_info(header, &flight.camera, &flight.lens);
+            let info = messages::camera_info(header, &flight.camera, &flight.lens, &flight.mount);
             bag.write(Topic::CameraInfo, time_ns, &info)?;
             bag.write(Topic::Image, time_ns, &pictures.colours)?;
             bag.write(Topic::DepthInfo, time_ns, &info)?;
@@ -203,8 +203,7 @@ impl<'a> Recording<'a> {
         bag.write(Topic::Clock, time_ns, &messages::clock(time_ns))?;
         let mut list = vec![("odom", "base_link", self.drone[frame])];
         if flight.mount.levelled {
-            let rotation = camera_rotation(&flight.mount, &self.episode.frames[frame].pose);
-            list.push(("base_link", "camera_link", Placed { position: DVec3::ZERO, rotation }));
+            list.push(("base_link", "camera_link", camera_on_drone(&flight.mount, &self.episode.frames[frame].pose)));
         }
         list.extend(self.target.get(frame).map(|placed| ("map", "target", *placed)));
         bag.write(Topic::Tf, time_ns, &messages::transforms(time_ns, &list))?;
@@ -238,9 +237,10 @@ fn in_map(pose: &Pose) -> Placed {
     Placed { position, rotation: right_handed::map_from_body(pose) }
 }
 
-/// Rotation from the axes of `camera_link` to those of `base_link`.
-fn camera_rotation(mount: &cosfly_domain::Mount, drone: &Pose) -> DQuat {
-    right_handed::body_from_optical(mount, drone) * right_handed::BODY_FROM_OPTICAL.inverse()
+/// Place of `camera_link` in `base_link`.
+fn camera_on_drone(mount: &cosfly_domain::Mount, drone: &Pose) -> Placed {
+    let rotation = right_handed::body_from_optical(mount, drone) * right_handed::BODY_FROM_OPTICAL.inverse();
+    Placed { position: right_handed::camera_in_body(mount, drone), rotation }
 }
 
 /// Motion from a frame to the next one; in the last frame, from the one before.
@@ -292,7 +292,7 @@ A folder is a bag: MCAP, messages of ROS 2 Humble and later in CDR, with their d
 | `/camera/image_raw/compressed` | `sensor_msgs/CompressedImage` | the colours, as in the dataset's log |
 | `/camera/depth/image_raw` | `sensor_msgs/Image` | `32FC1`, metres along the optical axis; infinity is the sky |
 | `/camera/semantic/image_raw` | `sensor_msgs/Image` | `mono8`, CARLA's labels |
-| `/camera/camera_info`, `/camera/depth/camera_info` | `sensor_msgs/CameraInfo` | the pinhole, `plumb_bob` with the lens's k1, k2 |
+| `/camera/camera_info`, `/camera/depth/camera_info` | `sensor_msgs/CameraInfo` | the pinhole, with `plumb_bob` (k1, k2) or, of a fisheye, `equidistant` (k1 to k4); the right camera of a pair has the base line in P |
 | `/detections` | `vision_msgs/Detection2DArray` | boxes around visible pixels, with the body's kind; `id` is the dataset's instance id, 1 the target. No poses |
 | `/sensor/NAME` | by its columns | readings of each sensor that the dataset has, in the frame `NAME`: inertial units as `sensor_msgs/Imu`, receivers as \
 `NavSatFix`, barometers as `FluidPressure`, magnetometers as `MagneticField`; others as `std_msgs/Float64MultiArray`, \

@@ -28,8 +28,8 @@ pub fn compressed_image(time_ns: u64, format: &str, file: Bytes) -> messages::Co
     }
 }
 
-/// Calibration of the camera with its lens.
-pub fn calibration(time_ns: u64, camera: &Camera, lens: &Lens) -> messages::CameraCalibration {
+/// Calibration of the camera with its lens; the projection of the right camera of a pair is that of the left one.
+pub fn calibration(time_ns: u64, camera: &Camera, lens: &Lens, mount: &Mount) -> messages::CameraCalibration {
     let focal = camera.focal_px();
     let (cx, cy) = (0.5 * f64::from(camera.width), 0.5 * f64::from(camera.height));
     messages::CameraCalibration {
@@ -37,12 +37,17 @@ pub fn calibration(time_ns: u64, camera: &Camera, lens: &Lens) -> messages::Came
         frame_id: OPTICAL_FRAME.into(),
         width: camera.width,
         height: camera.height,
-        distortion_model: "plumb_bob".into(),
-        d: vec![lens.k1, lens.k2, 0.0, 0.0, 0.0],
+        distortion_model: lens.model.ros_name().into(),
+        d: lens.coefficients(),
         k: vec![focal, 0.0, cx, 0.0, focal, cy, 0.0, 0.0, 1.0],
         r: vec![1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-        p: vec![focal, 0.0, cx, 0.0, 0.0, focal, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
+        p: vec![focal, 0.0, cx, shift_px(focal, mount), 0.0, focal, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
     }
+}
+
+/// Fourth number of a projection: the place of the left camera of a pair in the right one, times the focal length.
+pub fn shift_px(focal_px: f64, mount: &Mount) -> f64 {
+    if mount.right_m == 0.0 { 0.0 } else { -focal_px * mount.right_m }
 }
 
 /// Pose at the target's feet, with the target's heading.
@@ -63,7 +68,12 @@ pub fn transforms(time_ns: u64, drone: &Pose, mount: &Mount, target: &Pose) -> m
     };
     let optical = messages::FrameTransform {
         parent_frame_id: "drone".into(),
-        ..transform(time_ns, OPTICAL_FRAME, DVec3::ZERO, right_handed::body_from_optical(mount, drone))
+        ..transform(
+            time_ns,
+            OPTICAL_FRAME,
+            right_handed::camera_in_body(mount, drone),
+            right_handed::body_from_optical(mount, drone),
+        )
     };
     messages::FrameTransforms { transforms: vec![in_map("drone", drone), optical, in_map("target", target)] }
 }

@@ -13,15 +13,22 @@ pub const BODY_FROM_OPTICAL: DQuat = DQuat::from_xyzw(-0.5, 0.5, -0.5, 0.5);
 /// Rotation from the optical axes of a camera in this mount to the right-handed body axes of a drone.
 pub fn body_from_optical(mount: &Mount, drone: &Pose) -> DQuat {
     let camera = mount.camera_pose(drone);
-    if camera == *drone {
+    if (Pose { position_in_world: drone.position_in_world, ..camera }) == *drone {
         return BODY_FROM_OPTICAL;
     }
     if mount.levelled {
         return map_from_body(drone).inverse() * map_from_body(&camera) * BODY_FROM_OPTICAL;
     }
-    let turn =
-        Pose { position_in_world: DVec3::ZERO, pitch_rad: mount.pitch_rad, yaw_rad: mount.yaw_rad, roll_rad: 0.0 };
-    map_from_body(&turn) * BODY_FROM_OPTICAL
+    map_from_body(&mount.turn()) * BODY_FROM_OPTICAL
+}
+
+/// Place of a camera in this mount along the right-handed axes of a drone, metres.
+pub fn camera_in_body(mount: &Mount, drone: &Pose) -> DVec3 {
+    if mount.is_in_origin() {
+        return DVec3::ZERO;
+    }
+    let aside = body_from_optical(mount, drone) * DVec3::new(mount.right_m, 0.0, 0.0);
+    map_from_world_point(mount.position_in_body_m) + aside
 }
 
 /// Point of the world frame in the `map` frame; the function is its own inverse.
@@ -99,7 +106,21 @@ mod tests {
     #[test]
     fn a_turned_camera_looks_the_same_way_in_both_frames() {
         for levelled in [false, true] {
-            let (pose, mount) = (turned(), Mount { pitch_rad: 0.2, yaw_rad: -0.7, levelled });
+            let (pose, mount) = (
+                turned(),
+                Mount {
+                    position_in_body_m: DVec3::new(0.3, -0.2, 0.1),
+                    right_m: 0.12,
+                    roll_rad: 0.4,
+                    pitch_rad: 0.2,
+                    yaw_rad: -0.7,
+                    levelled,
+                },
+            );
+            let camera = mount.camera_pose(&pose).position_in_world;
+            let along_m = map_from_body(&pose) * camera_in_body(&mount, &pose);
+            let expected = map_from_world_point(pose.position_in_world) + along_m;
+            assert!((map_from_world_point(camera) - expected).length() < 1e-12);
             let world_from_camera = mount.camera_pose(&pose).world_from_body();
             let map_from_optical = map_from_body(&pose) * body_from_optical(&mount, &pose);
             for (axis, in_optical) in [(DVec3::X, DVec3::Z), (DVec3::Y, DVec3::X), (DVec3::Z, DVec3::NEG_Y)] {

@@ -34,11 +34,11 @@ columns! { Frames::COLUMNS of DatasetItem;
     /// Expert or perturbed trajectory.
     role: Role = |item, _| item.record.role;
 
-    /// Position of drone and camera, world frame (CARLA's, left-handed): x, east.
+    /// Position of the drone, world frame (CARLA's, left-handed): x, east.
     drone_x_m: f64 = |item, i| pose(item, i).position_in_world.x;
-    /// Position of drone and camera, world frame: y, south.
+    /// Position of the drone, world frame: y, south.
     drone_y_m: f64 = |item, i| pose(item, i).position_in_world.y;
-    /// Position of drone and camera, world frame: z, up.
+    /// Position of the drone, world frame: z, up.
     drone_z_m: f64 = |item, i| pose(item, i).position_in_world.z;
     /// Pitch of the drone; positive: nose up.
     drone_pitch_deg: f64 = |item, i| pose(item, i).pitch_rad.to_degrees();
@@ -52,6 +52,11 @@ columns! { Frames::COLUMNS of DatasetItem;
     camera_yaw_deg: f64 = |item, i| item.record.camera_pose(i).yaw_rad.to_degrees();
     /// Roll of the camera, signed like `drone_roll_deg`.
     camera_roll_deg: f64 = |item, i| item.record.camera_pose(i).roll_rad.to_degrees();
+    /// Position of the camera, world frame: x, y, z; null where it is the drone's.
+    camera_in_world_m: Option<[f64; 3]> = |item, i| {
+        let camera = item.record.camera_pose(i).position_in_world.to_array();
+        (!item.record.mount.is_in_origin()).then_some(camera)
+    };
 
     /// Ground point between the target's feet, world frame: x.
     target_x_m: f64 = |item, i| state(item, i).feet_in_world.x;
@@ -70,7 +75,7 @@ columns! { Frames::COLUMNS of DatasetItem;
 
     /// Whether the target's body covers at least one pixel centre of the image, occluded or not.
     in_view: bool = |item, i| view(item, i).in_view;
-    /// Share of the target's body points that unoccluded rays from the camera reach, 0..1.
+    /// Share of the target's body points that unoccluded rays from the drone's position reach, 0..1.
     visible_by_rays: f64 = |item, i| view(item, i).visible_by_rays;
     /// Visible pixels of the target / pixels without obstacles, inside the image, 0..1; 0 out of view.
     visible_by_pixels: f64 = |item, i| view(item, i).visible_by_pixels;

@@ -5,6 +5,7 @@
 
 mod arrow_schema;
 mod bodies;
+mod bodies_3d;
 mod body_row;
 mod captions;
 mod column;
@@ -25,6 +26,7 @@ mod windows;
 
 pub use arrow_schema::{hugging_face_features, schema};
 pub use bodies::Bodies;
+pub use bodies_3d::Bodies3d;
 pub use body_row::BodyRow;
 pub use captions::Captions;
 pub use column::{AnyColumn, CellProblem, Column};
@@ -52,6 +54,7 @@ pub fn of_trajectories() -> Vec<Table<DatasetItem>> {
         captions::table(),
         pairs::table(),
         bodies::table(),
+        bodies_3d::table(),
         target_losses::table(),
         phrases::table(),
         goals::table(),

@@ -128,7 +128,7 @@ fn write_step<W: Write>(log: &mut ChannelWriter<W>, flight: &FlownFlight<'_>, st
     log.write(topic::DRONE_POSE, time, &messages::pose_in_map(time, &step.pose))?;
     log.write(topic::TARGET_POSE, time, &messages::pose_in_map(time, &target))?;
     log.write(topic::TARGET_STATE, time, &target_state(flight, step))?;
-    log.write(topic::CAMERA, time, &messages::calibration(time, &flight.camera, &Lens::default()))?;
+    log.write(topic::CAMERA, time, &messages::calibration(time, &flight.camera, &Lens::default(), &Mount::default()))?;
     log.write(topic::STEP, time, &step_message(step))?;
     for (sensor, values) in flight.sensors.iter().zip(&step.readings) {
         log.write(&sensor.topic_name(), time, &ReadingMessage(values.clone()))?;

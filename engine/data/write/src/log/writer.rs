@@ -129,7 +129,7 @@ fn write_frame<W: Write>(
     log.write(topic::DRONE_POSE, time, &messages::pose_in_map(time, pose))?;
     log.write(topic::TARGET_POSE, time, &messages::pose_in_map(time, &target))?;
     log.write(topic::TARGET_STATE, time, &messages::target_state(record, frame))?;
-    log.write(topic::CAMERA, time, &messages::calibration(time, camera, &record.lens))?;
+    log.write(topic::CAMERA, time, &messages::calibration(time, camera, &record.lens, &record.mount))?;
     log.write(topic::ANNOTATIONS, time, &messages::annotations(time, record, frame))?;
     let format = match header.encoding.rgb {
         RgbEncoding::Jpeg => "jpeg",

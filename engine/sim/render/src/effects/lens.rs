@@ -122,11 +122,11 @@ mod tests {
 
     #[test]
     fn a_barrel_lens_draws_wider_with_the_same_focal_length() {
-        let map = LensMap::new(CAMERA, Lens { k1: -0.2, k2: 0.0 });
+        let map = LensMap::new(CAMERA, Lens::brown(-0.2, 0.0));
         let ideal = map.ideal_camera();
         assert!(ideal.width > CAMERA.width && ideal.height > CAMERA.height);
         assert!((ideal.focal_px() - CAMERA.focal_px()).abs() < 1e-9);
-        let pincushion = LensMap::new(CAMERA, Lens { k1: 0.2, k2: 0.0 });
+        let pincushion = LensMap::new(CAMERA, Lens::brown(0.2, 0.0));
         assert_eq!(pincushion.ideal_camera().width, CAMERA.width);
     }
 }

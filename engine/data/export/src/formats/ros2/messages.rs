@@ -1,10 +1,11 @@
 //! The messages of a bag, encoded.
 
 use super::cdr::Cdr;
-use cosfly_domain::{Camera, Lens};
+use cosfly_domain::{Camera, Lens, Mount};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_read::LoggedBox;
 use cosfly_schema::log::cloud::{self, POINT_BYTES};
+use cosfly_schema::log::messages::shift_px;
 use cosfly_schema::tables::Edges;
 
 /// The optical frame of the camera: x right, y down, z ahead.
@@ -131,19 +132,20 @@ pub fn odometry(header: Header<'_>, child: &str, placed: &Placed, motion: &Motio
 }
 
 /// `sensor_msgs/CameraInfo`. The middle of the top-left pixel is (0, 0), as ROS and OpenCV have it.
-pub fn camera_info(header: Header<'_>, camera: &Camera, lens: &Lens) -> Vec<u8> {
+pub fn camera_info(header: Header<'_>, camera: &Camera, lens: &Lens, mount: &Mount) -> Vec<u8> {
     let focal = camera.focal_px();
     let [cx, cy] = [camera.width, camera.height].map(|pixels| 0.5 * f64::from(pixels) - 0.5);
     let mut cdr = Cdr::new();
     cdr.header(header);
     cdr.u32(camera.height);
     cdr.u32(camera.width);
-    cdr.text("plumb_bob");
-    cdr.u32(5);
-    cdr.f64s(&[lens.k1, lens.k2, 0.0, 0.0, 0.0]);
+    cdr.text(lens.model.ros_name());
+    let coefficients = lens.coefficients();
+    cdr.u32(coefficients.len() as u32);
+    cdr.f64s(&coefficients);
     cdr.f64s(&[focal, 0.0, cx, 0.0, focal, cy, 0.0, 0.0, 1.0]);
     cdr.f64s(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
-    cdr.f64s(&[focal, 0.0, cx, 0.0, 0.0, focal, cy, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    cdr.f64s(&[focal, 0.0, cx, shift_px(focal, mount), 0.0, focal, cy, 0.0, 0.0, 0.0, 1.0, 0.0]);
     // No binning, the whole picture, nothing rectified.
     (0..6).for_each(|_| cdr.u32(0));
     cdr.u8(0);

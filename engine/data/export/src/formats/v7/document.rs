@@ -3,7 +3,7 @@
 use super::names::{PART_FRAMES, Place};
 use super::short_ids::ShortIds;
 use crate::source::ExportedFlight;
-use cosfly_domain::{Camera, Lens};
+use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_read::{FrameRow, PublishedFlight};
 use serde_json::{Value, json};
@@ -154,11 +154,10 @@ fn image_uv(flight: &PublishedFlight, point: DVec3) -> Option<[f64; 2]> {
     }
     let camera = &flight.camera;
     let (right, down) = (point.y / point.x, -point.z / point.x);
-    let square = right * right + down * down;
-    let Lens { k1, k2 } = flight.lens;
-    let bend = camera.focal_px() * (1.0 + k1 * square + k2 * square * square);
     let [cx, cy] = middle_px(camera);
-    let uv = [cx + bend * right, cy + bend * down];
+    let focal = camera.focal_px();
+    let (u, v) = flight.lens.bend(camera, (cx + focal * right, cy + focal * down));
+    let uv = [u, v];
     let is_inside =
         (0.0..=f64::from(camera.width)).contains(&uv[0]) && (0.0..=f64::from(camera.height)).contains(&uv[1]);
     is_inside.then_some(uv)

@@ -19,15 +19,30 @@ columns! { Trajectories::CAMERA of DatasetItem;
     camera_cx_px: f64 = |item, _| 0.5 * f64::from(item.record.camera.width);
     /// Optical centre, from the top edge.
     camera_cy_px: f64 = |item, _| 0.5 * f64::from(item.record.camera.height);
-    /// Lens distortion, OpenCV's k1: r (1 + k1 r^2 + k2 r^4), r the tangent of the angle from the optical axis.
+    /// Model of the lens: `brown` (radial distortion of a pinhole) or `fisheye` (Kannala and Brandt's, OpenCV's `fisheye`).
+    camera_lens_model: String = |item, _| item.record.lens.model.name().to_owned();
+    /// Lens distortion, OpenCV's k1: r (1 + k1 r^2 + k2 r^4), r the tangent of the angle from the optical axis. Of a fisheye:
+    /// a (1 + k1 a^2 + k2 a^4 + k3 a^6 + k4 a^8), a the angle itself, radians.
     camera_k1: f64 = |item, _| item.record.lens.k1;
     /// Lens distortion, OpenCV's k2.
     camera_k2: f64 = |item, _| item.record.lens.k2;
+    /// Lens distortion of a fisheye, OpenCV's k3; otherwise 0.
+    camera_k3: f64 = |item, _| item.record.lens.k3;
+    /// Lens distortion of a fisheye, OpenCV's k4; otherwise 0.
+    camera_k4: f64 = |item, _| item.record.lens.k4;
+    /// Position of the camera on the drone, along the drone's axes: ahead, right, up; without `camera_mount_right_m`.
+    camera_mount_position_in_body_m: [f64; 3] = |item, _| item.record.mount.position_in_body_m.to_array();
+    /// Shift of the camera along its own right axis: the base line, of the right camera of a stereo pair; otherwise 0.
+    camera_mount_right_m: f64 = |item, _| item.record.mount.right_m;
+    /// Distance between the two cameras of a stereo pair; null for a single camera.
+    camera_base_line_m: Option<f64> = |item, _| item.record.stereo.map(|eye| eye.base_line_m);
     /// Yaw of the camera relative to the drone, around the drone's up axis, positive to the right; before the pitch. Of a
     /// levelled mount, around the vertical.
     camera_mount_yaw_deg: f64 = |item, _| item.record.mount.yaw_rad.to_degrees();
     /// Pitch of the camera relative to the drone, positive upwards; after the yaw.
     camera_mount_pitch_deg: f64 = |item, _| item.record.mount.pitch_rad.to_degrees();
-    /// Whether a gimbal holds the horizon level: yaw and pitch of the mount add to the drone's, and the camera has no roll.
+    /// Roll of the camera relative to the drone, around the optical axis; positive: right side down; after the pitch.
+    camera_mount_roll_deg: f64 = |item, _| item.record.mount.roll_rad.to_degrees();
+    /// Whether a gimbal holds the horizon level: yaw and pitch of the mount add to the drone's, and its roll is the camera's.
     camera_mount_levelled: bool = |item, _| item.record.mount.levelled;
 }

@@ -1,0 +1,82 @@
+//! Table `bodies_3d`: boxes and key points against the bodies, the camera's pose and the pictures' boxes.
+
+use crate::flight_rows::FlightRows;
+use crate::report::VerifyReport;
+use crate::rows::PlacedFrame;
+use cosfly_domain::KEY_POINTS;
+use cosfly_frames::{DVec3, Pose, real};
+use cosfly_read::{SeenKeyPoint, SpaceRow};
+
+/// Angles pass through degrees, metres.
+const TOLERANCE: f64 = 1e-6;
+/// Pixels of points that pass through degrees.
+const SLACK_PX: f64 = 1e-3;
+
+/// Every row is of a body that its frame shows, and says the same in the world, before the camera and in the picture.
+pub fn check(it: &FlightRows<'_>, report: &mut VerifyReport) {
+    let Some((file, rows)) = it.in_space else { return };
+    for (number, row) in rows {
+        let Some(frame) = it.frames.get(row.frame as usize) else {
+            let place = format!("row {number}, `{}`", it.flight.trajectory_id);
+            report.find(file, place, "verify-reference", "the flight has no such frame");
+            continue;
+        };
+        if let Some(message) = problem(it, frame, row) {
+            let place = format!("row {number}, `{}` frame {}", it.flight.trajectory_id, row.frame);
+            report.find(file, place, "verify-3d", message);
+        }
+    }
+}
+
+fn problem(it: &FlightRows<'_>, frame: &PlacedFrame, row: &SpaceRow) -> Option<String> {
+    let is_target = row.instance == 1;
+    let other = it.bodies.iter().find(|body| body.frame == row.frame && body.instance == Some(row.instance));
+    let (feet, seen) = match other {
+        _ if is_target => (frame.target.feet_in_world, frame.visible_box()),
+        Some(body) => (body.space.feet, body.visible_box),
+        None => return Some(format!("no body of table `bodies` has the id {} in this frame", row.instance)),
+    };
+    let apart_m = (row.centre_in_world - feet - DVec3::Z * (0.5 * row.size_m.z)).length();
+    if apart_m.is_nan() || apart_m > TOLERANCE {
+        return Some(format!("the middle of the box is {apart_m:.6} m from the body's"));
+    }
+    let turn = |of_deg: f64, from_rad: f64| real::wrap_angle_rad(of_deg.to_radians() - from_rad).abs() > TOLERANCE;
+    if is_target && turn(row.yaw_in_world_deg, frame.target.heading_rad) {
+        return Some(format!("the box is turned by {} degrees, the target is not", row.yaw_in_world_deg));
+    }
+    let camera: &Pose = &frame.camera_pose;
+    let off_m = (camera.body_from_world_point(row.centre_in_world) - row.centre_in_camera).length();
+    if off_m.is_nan() || off_m > 1e3 * TOLERANCE {
+        return Some(format!("the middle of the box before the camera is {off_m:.6} m from the one in the world"));
+    }
+    if turn(row.yaw_in_camera_deg, row.yaw_in_world_deg.to_radians() - camera.yaw_rad) {
+        return Some(format!("the turn before the camera, {} degrees, is another one", row.yaw_in_camera_deg));
+    }
+    if ![0, KEY_POINTS.len()].contains(&row.key_points.len()) {
+        return Some(format!("{} key points; there are 17, or none", row.key_points.len()));
+    }
+    let points = row.key_points.iter().zip(KEY_POINTS);
+    points.into_iter().find_map(|(point, name)| Some(format!("`{name}` {}", point_problem(it, camera, point, seen)?)))
+}
+
+/// What is wrong with a key point of a body whose visible pixels have these edges.
+fn point_problem(it: &FlightRows<'_>, camera: &Pose, point: &SeenKeyPoint, seen: Option<[f64; 4]>) -> Option<String> {
+    let [u, v] = point.pixel;
+    let Some((right, down, depth_m)) = it.flight.project(camera, point.point_in_world) else {
+        return (point.shown != 0).then(|| "is behind the camera".into());
+    };
+    if (depth_m - point.depth_m).abs() > 1e3 * TOLERANCE {
+        return Some(format!("is {:.4} m deep; its place is {depth_m:.4} m deep", point.depth_m));
+    }
+    let (width, height) = (f64::from(it.flight.camera.width), f64::from(it.flight.camera.height));
+    let within = |slack: f64| (-slack..width + slack).contains(&right) && (-slack..height + slack).contains(&down);
+    if point.shown == 0 {
+        return within(-SLACK_PX).then(|| "is in the picture, and said to be out of it".into());
+    }
+    if !within(SLACK_PX) || (right - u).abs() > SLACK_PX || (down - v).abs() > SLACK_PX {
+        return Some(format!("is at pixel ({u:.2}, {v:.2}); its place is at ({right:.2}, {down:.2})"));
+    }
+    let is_on_body =
+        seen.is_some_and(|[left, top, right, bottom]| (left..=right).contains(&u) && (top..=bottom).contains(&v));
+    (point.shown == 2 && !is_on_body).then(|| format!("is seen at ({u:.2}, {v:.2}), where the body has no pixel"))
+}
