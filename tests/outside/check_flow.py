@@ -56,17 +56,20 @@ def world_from_camera(row):
 
 class Lens:
     def __init__(self, flight):
-        self.focal, self.k1, self.k2 = flight["camera_focal_px"], flight["camera_k1"], flight["camera_k2"]
+        self.focal, self.is_fisheye = flight["camera_focal_px"], flight["camera_lens_model"] == "fisheye"
+        self.k = [flight[f"camera_k{number}"] for number in (1, 2, 3, 4)]
         self.centre = np.array([flight["camera_width_px"], flight["camera_height_px"]]) / 2
 
     def bend(self, ideal):
         at = (ideal - self.centre) / self.focal
-        square = (at**2).sum(-1, keepdims=True)
-        return self.centre + self.focal * at * (1 + square * (self.k1 + square * self.k2))
+        off = np.sqrt((at**2).sum(-1, keepdims=True))
+        bent = np.arctan(off) if self.is_fisheye else off
+        bent = bent * (1 + sum(k * bent ** (2 * power) for power, k in enumerate(self.k, 1)))
+        return self.centre + self.focal * at * np.divide(bent, off, out=np.ones_like(off), where=off > 0)
 
     def sampled(self, seen):
         """Pixel centre of the ideal picture that a finished pixel shows."""
-        if not (self.k1 or self.k2):
+        if not (self.is_fisheye or any(self.k)):
             return seen
         ideal = seen.copy()
         for _ in range(60):
@@ -85,8 +88,13 @@ def moved(points, here, there):
     return feet(there) + (points - feet(here)) @ turn(there["heading_deg"] - here["heading_deg"]).T
 
 
+def eye(row):
+    """Position of the camera."""
+    return np.array(row["camera_in_world_m"] or [row[f"drone_{axis}_m"] for axis in "xyz"])
+
+
 def project(points, row, lens):
-    seen = (points - np.array([row[f"drone_{axis}_m"] for axis in "xyz"])) @ world_from_camera(row)
+    seen = (points - eye(row)) @ world_from_camera(row)
     ahead = np.where(seen[..., 0] > 0.05, seen[..., 0], np.nan)
     ideal = lens.centre + lens.focal * np.stack([seen[..., 1], -seen[..., 2]], -1) / ahead[..., None]
     return lens.bend(ideal), ahead
@@ -103,9 +111,9 @@ class Judge:
         self.folder = folder
         self.flights = rows(folder, "trajectories", [
             "trajectory_id", "mcap_path", "dt_s", "target_kind", "camera_width_px", "camera_height_px", "camera_focal_px", "camera_k1",
-            "camera_k2", "camera_readout_s"])  # fmt: skip
+            "camera_k2", "camera_k3", "camera_k4", "camera_lens_model", "camera_readout_s"])  # fmt: skip
         self.frames = defaultdict(dict)
-        angles = [f"camera_{axis}_deg" for axis in ("pitch", "yaw", "roll")]
+        angles = [*(f"camera_{axis}_deg" for axis in ("pitch", "yaw", "roll")), "camera_in_world_m"]
         target = [*(f"target_{axis}_m" for axis in "xyz"), "target_heading_deg"]
         for row in rows(folder, "frames", ["trajectory_id", "frame", *(f"drone_{axis}_m" for axis in "xyz"), *angles, *target]):
             self.frames[row["trajectory_id"]][row["frame"]] = row
@@ -140,9 +148,8 @@ class Judge:
         rows_, columns = np.indices(depth.shape)
         centre = lens.sampled(np.stack([columns, rows_], -1) + 0.5)
         ray = np.concatenate([np.ones((*depth.shape, 1)), (centre - lens.centre) / lens.focal * [1, -1]], -1) @ world_from_camera(here).T
-        drone = np.array([here[f"drone_{axis}_m"] for axis in "xyz"])
         around, around_there = self.about(flight, frame), self.about(flight, other)
-        points = lambda depth_m: drone + np.minimum(depth_m, 1e9)[..., None] * ray
+        points = lambda depth_m: eye(here) + np.minimum(depth_m, 1e9)[..., None] * ray
 
         def ways(depth_m):
             at, kinds = points(depth_m), np.zeros(depth.shape, "U8")
@@ -172,13 +179,11 @@ class Judge:
             if beyond.any():
                 v, u = np.argwhere(beyond)[0]
                 self.wrong.append(f"{place}: {beyond.sum()} pixels of kind {kind}, the first at ({u}, {v}): {flow[v, u]} instead of {expected[v, u]}")
-        self.mask(place, logged, other, flow, valid, kinds, ids, ahead)
+        self.mask(place, logged, other, flow + lens.bend(centre), valid, kinds, ids, ahead)
 
-    def mask(self, place, logged, other, flow, valid, kinds, ids, ahead):
-        """The mask against what the other frame shows at the ends of the ways."""
+    def mask(self, place, logged, other, end, valid, kinds, ids, ahead):
+        """The mask against what the other frame shows at the ends of the ways, which begin at the points that pixels show."""
         height, width = ids.shape
-        rows_, columns = np.indices(ids.shape)
-        end = flow + np.stack([columns, rows_], -1) + 0.5
         inside = (end >= 0.01).all(-1) & (end[..., 0] < width - 0.01) & (end[..., 1] < height - 0.01)
         outside = (end < -0.6).any(-1) | (end[..., 0] > width + 0.6) | (end[..., 1] > height + 0.6)
         u, v = (np.clip(np.nan_to_num(end[..., k]), 0, size - 1).astype(int) for k, size in ((0, width), (1, height)))
