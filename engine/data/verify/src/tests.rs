@@ -220,7 +220,7 @@ fn boxes_and_key_points_that_poses_and_pictures_do_not_have_are_found() {
         |body| body.frame += 1,
         |body| body.instance = 900,
         |body| body.heading_rad += 0.01,
-        |body| drop(body.key_points.pop()),
+        |body| body.key_points.truncate(16),
         |body| body.key_points[3].pixel.reverse(),
         |body| body.key_points[3].depth_m += 0.1,
         |body| body.key_points[16].shown = Shown::Outside,
