@@ -59,7 +59,7 @@ fn several_cameras_film_every_flight_at_the_same_moments() {
         let values = of(name).into_iter().zip(&cameras);
         values.filter(|(_, camera)| camera.contains(film)).map(|(value, _)| value).collect::<Vec<_>>()
     };
-    assert_eq!(of_film("camera_mount_right_m", "front_left"), vec!["0.0"; 6]);
+    assert_eq!(of_film("camera_mount_right_m", "front_left"), vec!["0E0"; 6]);
     assert_eq!(of_film("camera_mount_right_m", "front_right"), vec!["0.3"; 6]);
     assert_eq!(of_film("camera_lens_model", "down"), vec!["\"fisheye\""; 6]);
     // Key points of somebody are seen, and COCO's file has them.
