@@ -15,16 +15,16 @@ use cosfly_frames::simd_kernel;
 
 /// Leaves by species, linear RGB: plane, lime, maple, oak, ash, willow, cherry, olive, birch, and copper beech.
 const SPECIES: [[f32; 3]; 10] = [
-    [0.085, 0.135, 0.036],
-    [0.095, 0.160, 0.042],
-    [0.070, 0.125, 0.030],
-    [0.062, 0.100, 0.030],
-    [0.080, 0.120, 0.045],
-    [0.130, 0.165, 0.060],
-    [0.075, 0.110, 0.034],
-    [0.105, 0.120, 0.070],
-    [0.125, 0.150, 0.040],
-    [0.075, 0.045, 0.040],
+    [0.063, 0.096, 0.030],
+    [0.070, 0.112, 0.034],
+    [0.052, 0.088, 0.025],
+    [0.048, 0.074, 0.025],
+    [0.060, 0.088, 0.036],
+    [0.096, 0.120, 0.050],
+    [0.056, 0.080, 0.028],
+    [0.082, 0.093, 0.058],
+    [0.090, 0.108, 0.034],
+    [0.048, 0.020, 0.021],
 ];
 
 /// Colours of these leaves in autumn, linear RGB; olives stay green.
@@ -49,6 +49,9 @@ const EVERGREEN_BUSHES: f32 = 0.6;
 
 /// How far leaves of a clump are aside of where it is, for shadows, metres.
 const ASIDE_M: f32 = 1.2;
+
+/// Frequency of boughs, in frequencies of clumps.
+const BOUGHS: f32 = 0.36;
 
 /// Ground below bare crowns, linear RGB.
 const BELOW: Vec3 = Vec3::new(0.150, 0.131, 0.096);
@@ -81,7 +84,7 @@ impl Leaves {
         let [middle, half] = b.whole.map(|v| Vec3::new(v.x, v.y, v.z));
         let (seed, common) = (b.seed, SPECIES.len() - 1);
         // The last species is rare.
-        let species = if draw(seed, 8) < 0.03 { common } else { (draw(seed, 7) * common as f32) as usize % common };
+        let species = if draw(seed, 8) < 0.015 { common } else { (draw(seed, 7) * common as f32) as usize % common };
         let [green, late] = [SPECIES, AUTUMN].map(|leaves| leaves[species]).map(|[r, g, b]| Vec3::new(r, g, b));
         let is_evergreen = species == EVERGREEN || (b.kind == ObstacleKind::Bush && draw(seed, 11) < EVERGREEN_BUSHES);
         let look = season::row(season);
@@ -284,7 +287,9 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
     let size = point.footprint_m;
     let (u, v, scale) = crown.place(point.world);
     let clumps = |offset: f32| noise.clumps(u + offset, v - offset, size * scale) - 0.5;
-    let (big, aside, upward) = (clumps(crown.shift), clumps(crown.shift + 91.0), clumps(crown.shift + 173.0));
+    let (big, aside) = (clumps(crown.shift), clumps(crown.shift + 91.0));
+    // Boughs: clumps of clumps, with deep shade between them.
+    let upward = noise.clumps((u + 173.0) * BOUGHS + crown.shift, v * BOUGHS, size * scale * BOUGHS) - 0.5;
     let fine = lerp(0.85, 0.55, crown.through);
     let small = noise.grain(u * fine, v * fine, size * scale * fine) - 0.5;
     // Twigs are lines, level sets of the same noise, with what lies below the crown between them; they fade where a
@@ -295,10 +300,10 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
     // Every clump of leaves faces its own way.
     let turn = Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big);
     let bent = (out + turn * 2.4).lerp(Vec3::new(0.0, 0.0, 1.0), 0.3 * bare);
-    let deep = smoothstep(-0.46, 0.40, 1.3 * big + 0.9 * small);
+    let deep = smoothstep(-0.46, 0.40, 1.2 * upward + 0.8 * big + 0.9 * small);
     // Light shines through leaves at the rim of a clump: they are yellower there.
-    let through = Vec3::new(0.11, 0.115, 0.02) * crown.through;
-    let tint = crown.tint.lerp(crown.tint * 0.6 + through, 0.5 * (small + 0.5) * deep);
+    let through = Vec3::new(1.9, 1.45, 1.1) * crown.through + Vec3::splat(0.6 * bare);
+    let tint = crown.tint.lerp(crown.tint * through, 0.5 * (small + 0.5) * deep);
     let tint = (tint * (0.58 + 0.80 * deep)).lerp(BELOW, open * (0.5 + 0.25 * deep));
     // Darker below, where the crown shades itself.
     let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z + bare);

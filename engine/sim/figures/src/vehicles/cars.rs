@@ -13,6 +13,9 @@ const SHEET: f64 = 0.486;
 /// Half the width of panels at both ends, in half widths.
 const END: [f64; 2] = [0.494, 0.494];
 
+/// Height of the crease along the sides between foot and shoulder, a share.
+const CREASE: f64 = 0.62;
+
 /// The shape of a car or van of a size: one of those that fit, drawn by their shares.
 pub(super) fn shape(kind: BodyKind, size_m: DVec3, looks: &mut RandomStream) -> &'static Shape {
     let all: &'static [Shape] = if kind == BodyKind::Van { &VANS } else { &CARS };
@@ -75,15 +78,16 @@ pub(super) fn shell(model: &Model<'_>, shape: &Shape) -> Shell {
         };
         shell.points[number] = outline(shape, section).map(bend);
         let sill = if shape.cladding { Region::Trim } else { Region::Paint };
-        let pillar = if over == Region::Trim { Region::Paint } else { side_of_roof(over) };
+        let pillar = match (side, over) {
+            // Lamps reach round the corners.
+            (Region::HeadLamp | Region::TailLamp, _) => side,
+            // Pillars beside panes are painted.
+            (_, Region::Trim | Region::Glass) => Region::Paint,
+            _ => over,
+        };
         shell.regions[number] = [sill, Region::Paint, low, side, pillar, over, over];
     }
     shell
-}
-
-/// The edge between side and roof: pillars beside panes are painted.
-fn side_of_roof(over: Region) -> Region {
-    if over == Region::Glass { Region::Paint } else { over }
 }
 
 /// Points of the right half of a cross-section from sill to roof, in box sizes.
@@ -95,7 +99,7 @@ fn outline(shape: &Shape, section: &Section) -> [[f64; 3]; POINTS] {
     let foot = shape.foot + 0.045 * rise * rise;
     let at = |y: f64, z: f64| [x, y * w, z];
     let height = shoulder - foot;
-    let lower = [at(0.94, foot), at(0.985, foot + 0.26 * height), at(1.0, foot + 0.6 * height), at(0.955, shoulder)];
+    let lower = [at(0.93, foot), at(0.965, foot + 0.26 * height), at(1.0, foot + CREASE * height), at(0.94, shoulder)];
     let upper = if roofed {
         let drop = shape.drop;
         let edge = shape.tumble;

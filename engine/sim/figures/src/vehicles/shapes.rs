@@ -82,7 +82,7 @@ macro_rules! car {
             deck($cowl + 0.018, $shoulder, $top - 0.004, [P, P, P]),
             deck(0.5 * ($cowl + 0.44), $shoulder - 0.015, $top - 0.03, [P, P, P]),
             deck(0.44, $edge + 0.02, $edge + 0.075, [H, P, P]),
-            deck(0.484, $edge - 0.04, $edge, [H, P, P]),
+            deck(0.484, $edge - 0.04, $edge, [H, H, P]),
             deck(0.5, $edge - 0.12, $edge - 0.085, [P, P, P]),
         ]
     };
@@ -105,7 +105,7 @@ pub(super) const CARS: [Shape; 8] = [
         rails: false,
         sections: car![
             deck(-0.5, 0.38, 0.44, [R, P, P]),
-            deck(-0.49, 0.53, 0.61, [R, P, P]),
+            deck(-0.49, 0.53, 0.61, [R, R, P]),
             deck(-0.474, 0.62, 0.69, [P, P, G]),
             roof(-0.415, 0.64, 0.945, [P, P, P]),
             roof(-0.335, 0.645, 0.975, [P, G, P]),
@@ -130,7 +130,7 @@ pub(super) const CARS: [Shape; 8] = [
         rails: false,
         sections: car![
             deck(-0.5, 0.40, 0.47, [R, P, P]),
-            deck(-0.49, 0.55, 0.64, [R, P, P]),
+            deck(-0.49, 0.55, 0.64, [R, R, P]),
             deck(-0.465, 0.62, 0.715, [P, P, P]),
             deck(-0.375, 0.635, 0.725, [P, P, G]),
             roof(-0.225, 0.645, 0.955, [P, G, P]),
@@ -155,7 +155,7 @@ pub(super) const CARS: [Shape; 8] = [
         rails: true,
         sections: car![
             deck(-0.5, 0.39, 0.46, [R, P, P]),
-            deck(-0.492, 0.56, 0.64, [R, P, P]),
+            deck(-0.492, 0.56, 0.64, [R, R, P]),
             deck(-0.48, 0.62, 0.69, [P, P, G]),
             roof(-0.425, 0.64, 0.93, [P, P, P]),
             roof(-0.39, 0.645, 0.955, [P, G, P]),
@@ -182,7 +182,7 @@ pub(super) const CARS: [Shape; 8] = [
         rails: true,
         sections: car![
             deck(-0.5, 0.40, 0.46, [R, P, P]),
-            deck(-0.492, 0.57, 0.63, [R, P, P]),
+            deck(-0.492, 0.57, 0.63, [R, R, P]),
             deck(-0.48, 0.625, 0.68, [P, P, G]),
             roof(-0.43, 0.64, 0.93, [P, P, P]),
             roof(-0.375, 0.645, 0.965, [P, G, P]),
@@ -207,7 +207,7 @@ pub(super) const CARS: [Shape; 8] = [
         rails: false,
         sections: car![
             deck(-0.5, 0.42, 0.50, [R, P, P]),
-            deck(-0.488, 0.56, 0.66, [R, P, P]),
+            deck(-0.488, 0.56, 0.66, [R, R, P]),
             deck(-0.455, 0.63, 0.72, [P, P, G]),
             roof(-0.20, 0.645, 0.945, [P, G, P]),
             roof(-0.10, 0.645, 1.0, [P, G, P]),
@@ -230,7 +230,7 @@ pub(super) const CARS: [Shape; 8] = [
         rails: false,
         sections: car![
             deck(-0.5, 0.36, 0.42, [R, P, P]),
-            deck(-0.493, 0.52, 0.585, [R, P, P]),
+            deck(-0.493, 0.52, 0.585, [R, R, P]),
             deck(-0.484, 0.56, 0.63, [P, P, G]),
             roof(-0.445, 0.58, 0.93, [P, P, P]),
             roof(-0.405, 0.585, 0.96, [P, G, P]),
@@ -281,7 +281,7 @@ pub(super) const CARS: [Shape; 8] = [
         rails: false,
         sections: car![
             deck(-0.5, 0.38, 0.43, [R, P, P]),
-            deck(-0.493, 0.54, 0.60, [R, P, P]),
+            deck(-0.493, 0.54, 0.60, [R, R, P]),
             deck(-0.483, 0.60, 0.655, [P, P, G]),
             roof(-0.44, 0.62, 0.935, [P, P, P]),
             roof(-0.375, 0.625, 0.97, [P, G, P]),

@@ -10,6 +10,8 @@ pub(super) const POINTS: usize = 8;
 pub(super) const MOST_SECTIONS: usize = 20;
 /// Faces round into each other where the cosine of their angle is greater.
 const SMOOTH: f64 = 0.72;
+/// Point of a cross-section along which sheet is creased: its faces do not round into each other there.
+const CREASED: usize = 2;
 
 /// The right half of a body, own axes, metres: cross-sections from tail to nose.
 pub(super) struct Shell {
@@ -76,7 +78,8 @@ impl Shell {
         for (back, down) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             let place = (along.wrapping_sub(back), up.wrapping_sub(down));
             let Some(normal) = normals.get(place.0).and_then(|row| row.get(place.1)) else { continue };
-            if is_glass(place) == is_glass(face) && normal.normalize_or_zero().dot(own) > SMOOTH {
+            let is_beyond = up == CREASED && place.1 != face.1;
+            if is_glass(place) == is_glass(face) && !is_beyond && normal.normalize_or_zero().dot(own) > SMOOTH {
                 sum += *normal;
             }
         }

@@ -24,11 +24,12 @@ pub const TILES: u32 = 21;
 pub const TILES_AGAIN: u32 = 22;
 pub const TILES_BRIGHTNESS: u32 = 23;
 
-/// Draws of a window: its curtains, how its pane leans, whether it is lit at night, the warmth of its light.
+/// Draws of a window: its curtains and how far they hang, how its pane leans, whether it is lit at night, the warmth of its light.
 pub const CURTAINS: u32 = 3;
 pub const PANE: u32 = 4;
 pub const LIT: u32 = 7;
 pub const WARMTH: u32 = 9;
+pub const BLIND: u32 = 10;
 
 /// Draws of a shop: its window, whether it is open at night, how bright it is then, whether it has an awning.
 pub const SHOP_WINDOW: u32 = 1;

@@ -56,6 +56,9 @@ const SHADE_M: f32 = 0.75;
 /// Squares that have at most one thing, per metre.
 const THINGS_PER_M: f32 = 0.2;
 
+/// Dry plants of a roof, linear RGB.
+const STONECROP: Vec3 = Vec3::new(0.135, 0.098, 0.056);
+
 /// Farther than any roof reaches, metres.
 const FAR_M: f32 = 1.0e4;
 
@@ -64,6 +67,8 @@ const FAR_M: f32 = 1.0e4;
 pub struct Roof {
     seed: u32,
     tone: Vec3,
+    /// 1 where plants grow on it.
+    planted: f32,
     shift: f32,
     center: Vec3,
     axes: [Vec3; 2],
@@ -82,12 +87,13 @@ impl Roof {
             Vec3::new(0.12, 0.12, 0.125),
             Vec3::new(0.44, 0.43, 0.41),
             Vec3::new(0.27, 0.22, 0.18),
-            Vec3::new(0.13, 0.16, 0.07),
+            Vec3::new(0.085, 0.095, 0.042),
         ];
-        let tone = tones[(draw(seed, draws::FLAT_ROOF) * 6.0) as usize % 6];
+        let kind = (draw(seed, draws::FLAT_ROOF) * 6.0) as usize % 6;
+        let (tone, planted) = (tones[kind], if kind == 5 { 1.0 } else { 0.0 });
         let parapet_m = |side: usize| half_m[side / 2] + if goes_on[side] { FAR_M } else { 0.0 };
         let parapets_m = [0, 1, 2, 3].map(parapet_m);
-        Self { seed, tone, shift: unit(seed) * 99.0, center, axes, half_m, parapets_m }
+        Self { seed, tone, planted, shift: unit(seed) * 99.0, center, axes, half_m, parapets_m }
     }
 
     /// Colour without patterns.
@@ -124,8 +130,10 @@ impl Roof {
         let pool = smoothstep(0.60, 0.63, stain) - smoothstep(0.66, 0.72, stain);
         let sheet = stripes(x * (1.0 / 3.0), 0.0, 0.03, point.footprints_m[0] * (1.0 / 3.0));
         let across = stripes(y * (1.0 / 8.0), 0.0, 0.012, point.footprints_m[1] * (1.0 / 8.0));
-        let seam = most(sheet, across);
-        self.tone * ((0.5 + 0.5 * rough + 0.5 * stain) * (1.0 - 0.25 * seam) * (1.0 - 0.25 * pool))
+        let seam = most(sheet, across) * (1.0 - self.planted);
+        // Stonecrop is red and brown in patches.
+        let tone = self.tone.lerp(STONECROP, self.planted * smoothstep(0.42, 0.62, stain));
+        tone * ((0.5 + 0.5 * rough + 0.5 * stain) * (1.0 - 0.25 * seam) * (1.0 - 0.25 * pool))
     }
 
     /// Random bits of the square of the grid of things that a place lies in.

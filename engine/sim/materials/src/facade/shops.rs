@@ -43,7 +43,7 @@ impl Facade {
         let glass = across * band(up_m, low, top - 1.05, dv);
         let sign_share = band(up_m, top - 0.85, top - 0.25, dv) * stripes(third, 0.02, 0.98, du * (1.0 / 3.0));
         let mut look = Look::matt(wall.lerp(sign, sign_share), point.normal);
-        self.glaze(&mut look, glass, hash(shop, draws::SHOP_WINDOW), 1.0, lerp(0.35, 1.0, many), night);
+        self.glaze(&mut look, (glass, 0.4), hash(shop, draws::SHOP_WINDOW), lerp(0.35, 1.0, many), night);
         look.albedo = look.albedo.lerp(sign * 0.5, 0.55 * glass * door);
         if let Some(night) = night {
             let open = lerp(one_if(unit(hash(shop, draws::OPEN)) < 0.6), 0.6, many) * night;

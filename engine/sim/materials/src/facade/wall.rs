@@ -74,7 +74,7 @@ impl Facade {
             reveal_m: family.reveal_m,
             gloss: family.gloss,
             // Where all is glass, differences show.
-            uneven: if share > 0.8 { 0.55 } else { 0.25 },
+            uneven: if share > 0.8 { 0.9 } else { 0.4 },
             mullions: if family.mullion { 1.0 } else { 0.0 },
             brick: if family.brick { 1.0 } else { 0.0 },
             ledge: family.ledge,

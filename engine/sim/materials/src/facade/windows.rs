@@ -44,7 +44,11 @@ impl Facade {
         let mut look = Look { albedo: look.albedo.lerp(self.trim * 0.82, frame), ..*look };
         let cell = hash(floor_int(deep_bay) as u32, floor_int(floor) as u32 ^ self.seed);
         let glass = pane * (1.0 - 0.8 * mullion);
-        self.glaze(&mut look, glass, cell, 1.0, smoothstep(0.35, 0.9, du), night);
+        // Blinds and curtains hang from the lintel down to a height of their own.
+        let height = (deep_floor - floor_int(deep_floor) as f32 - self.sill[0]) / (self.sill[1] - self.sill[0]);
+        let hangs = 1.15 * unit(hash(cell, draws::BLIND)) + 0.25;
+        let cloth = smoothstep(1.0 - hangs, 1.03 - hangs + dv, height);
+        self.glaze(&mut look, (glass, cloth), cell, smoothstep(0.35, 0.9, du), night);
         look
     }
 
@@ -65,17 +69,26 @@ impl Facade {
         1.0 - opening * (1.0 - open)
     }
 
-    /// Puts glass of a window over a share of the pixel; `mean` 1 where windows are too small to tell apart.
+    /// Puts glass of a window over a share of the pixel, with `cloth` behind it where it has any; `mean` 1 where windows are too
+    /// small to tell apart.
     #[inline(always)]
-    pub(super) fn glaze(&self, look: &mut Look, share: f32, cell: u32, shade: f32, mean: f32, night: Option<f32>) {
-        let curtains = unit(hash(cell, draws::CURTAINS));
-        let drawn = one_if(curtains > 0.62);
-        let inside = GLASS.lerp(Vec3::new(0.32, 0.29, 0.24) * (curtains - 0.35), drawn);
+    pub(super) fn glaze(
+        &self,
+        look: &mut Look,
+        (share, cloth): (f32, f32),
+        cell: u32,
+        mean: f32,
+        night: Option<f32>,
+    ) {
+        let (curtains, pane) = (unit(hash(cell, draws::CURTAINS)), unit(hash(cell, draws::PANE)));
+        let drawn = one_if(curtains > 0.5) * cloth;
+        // Rooms are dark to a different degree; cloth is white to sand.
+        let room = GLASS * (0.45 + 1.5 * pane * pane);
+        let inside = room.lerp(Vec3::splat(0.52).lerp(Vec3::new(0.30, 0.25, 0.18), pane) * (1.3 * curtains - 0.45), drawn);
         let inside = inside.lerp(Vec3::new(0.09, 0.09, 0.085), mean);
-        look.albedo = look.albedo.lerp(inside * shade, share);
+        look.albedo = look.albedo.lerp(inside, share);
         // Panes lean a little: each mirrors another part of the sky.
-        let leans = (unit(hash(cell, draws::PANE)) - 0.5) * (1.0 - mean);
-        look.mirror = share * self.gloss * shade * (1.0 + self.uneven * leans);
+        look.mirror = share * self.gloss * (1.0 + self.uneven * (pane - 0.5) * (1.0 - mean));
         if let Some(night) = night {
             let lit = unit(hash(cell, draws::LIT));
             let one = one_if(lit < 0.30) * (0.12 + 1.3 * lit);

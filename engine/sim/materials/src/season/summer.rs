@@ -4,7 +4,7 @@ use super::row::SeasonRow;
 use crate::vector::Vec3;
 
 pub(super) static ROW: SeasonRow = SeasonRow {
-    lawn: [Vec3::new(0.084, 0.146, 0.040), Vec3::new(0.200, 0.195, 0.080)],
+    lawn: [Vec3::new(0.064, 0.098, 0.032), Vec3::new(0.165, 0.150, 0.072)],
     woods: [Vec3::new(0.055, 0.085, 0.035), Vec3::new(0.060, 0.080, 0.045)],
     gaps: [0.52, 0.70, 0.75],
     leaf: Vec3::new(1.0, 1.0, 1.0),

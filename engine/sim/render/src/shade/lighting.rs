@@ -33,15 +33,18 @@ pub struct Mirror {
     /// Strength of the sun's image, and how small it is: 0 to 1.
     image: f32,
     sharp: f32,
+    /// Brightness of the sky in it, in brightnesses of the sky that is drawn.
+    sky: f32,
 }
 
 impl Mirror {
     /// A film of water: it mirrors more along it than from above.
-    pub const FILM: Self = Self { from_above: 0.26, along: 2.0, image: 1.6, sharp: 0.0 };
+    pub const FILM: Self = Self { from_above: 0.26, along: 2.0, image: 1.6, sharp: 0.0, sky: 1.0 };
     /// Panes and paint of houses and things.
-    pub const PANE: Self = Self { from_above: 0.30, along: 0.9, image: 1.6, sharp: 0.0 };
-    /// The smooth coat over the paint of vehicles, and their glass: as much as its optics say.
-    pub const COAT: Self = Self { from_above: 0.0, along: 1.0, image: 24.0, sharp: 1.0 };
+    pub const PANE: Self = Self { from_above: 0.30, along: 0.9, image: 1.6, sharp: 0.0, sky: 1.0 };
+    /// The smooth coat over the paint of vehicles, and their glass: as much as its optics say. The sky sends more light than its
+    /// picture shows, and a coat mirrors what it sends.
+    pub const COAT: Self = Self { from_above: 0.0, along: 1.0, image: 24.0, sharp: 1.0, sky: 2.4 };
 }
 
 simd_kernel! {
@@ -87,7 +90,7 @@ simd_kernel! {
     /// Sky, houses across the street and lamps as surfaces mirror them.
     pub fn mirrored(shared: &mut [Shared], light: &Light, mirror: Mirror, grid: (&GridTables, &GridFrame)) {
         let (light, tables, frame) = (*light, grid.0, *grid.1);
-        let Mirror { from_above, along, image, sharp } = mirror;
+        let Mirror { from_above, along, image, sharp, sky } = mirror;
         for shared in shared.iter_mut() {
             for k in 0..WIDE {
                 let (ray, normal) = (get(&shared.ray, k), get(&shared.normal, k));
@@ -111,7 +114,7 @@ simd_kernel! {
                 let level = 1.0 - share(1.4 * out.z);
                 let from_lamps = shared.lamps[k] * (0.6 + 2.4 * level * level);
                 let near = light.ambient(normal) * (0.10 * shared.sky[k]) + light.lamp * from_lamps;
-                set(&mut shared.mirrored, k, light.sky(out) * open + near);
+                set(&mut shared.mirrored, k, light.sky(out) * (open * sky) + near);
                 // The sun's own image, from facets that lean halfway to it: wide on rough water, and long where the view is flat.
                 let halfway = light.to_sun - view;
                 let lean = most(halfway.dot(normal), 0.0);

@@ -18,7 +18,7 @@ pub fn ground_colour(label: SemanticLabel) -> Vec3 {
         SemanticLabel::RoadLine => Vec3::splat(0.62),
         SemanticLabel::Ground | SemanticLabel::Static | SemanticLabel::Other => Vec3::new(0.23, 0.21, 0.185),
         SemanticLabel::Water => Vec3::new(0.05, 0.09, 0.11),
-        _ => Vec3::new(0.11, 0.165, 0.05),
+        _ => Vec3::new(0.085, 0.115, 0.042),
     }
 }
 
