@@ -289,7 +289,7 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
     let clumps = |offset: f32| noise.clumps(u + offset, v - offset, size * scale) - 0.5;
     let (big, aside) = (clumps(crown.shift), clumps(crown.shift + 91.0));
     // Boughs: clumps of clumps, with deep shade between them.
-    let upward = noise.clumps((u + 173.0) * BOUGHS + crown.shift, v * BOUGHS, size * scale * BOUGHS) - 0.5;
+    let bough = noise.clumps((u + 173.0) * BOUGHS + crown.shift, v * BOUGHS, size * scale * BOUGHS) - 0.5;
     let fine = lerp(0.85, 0.55, crown.through);
     let small = noise.grain(u * fine, v * fine, size * scale * fine) - 0.5;
     // Twigs are lines, level sets of the same noise, with what lies below the crown between them; they fade where a
@@ -298,16 +298,16 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
     let open = bare * share((small.abs() - 0.01) / (0.10 + 0.40 * least(size * scale * fine, 1.0)));
     let small = small * crown.through;
     // Every clump of leaves faces its own way.
-    let turn = Vec3::new(aside - upward, aside + upward - big, upward + 0.5 * big);
+    let turn = Vec3::new(aside - big, aside + big - bough, bough + 0.5 * big);
     let bent = (out + turn * 2.4).lerp(Vec3::new(0.0, 0.0, 1.0), 0.3 * bare);
-    let deep = smoothstep(-0.46, 0.40, 1.2 * upward + 0.8 * big + 0.9 * small);
+    let deep = smoothstep(-0.44, 0.42, 1.8 * bough + 1.3 * big + 1.3 * small);
     // Light shines through leaves at the rim of a clump: they are yellower there.
     let through = Vec3::new(1.9, 1.45, 1.1) * crown.through + Vec3::splat(0.6 * bare);
     let tint = crown.tint.lerp(crown.tint * through, 0.5 * (small + 0.5) * deep);
-    let tint = (tint * (0.58 + 0.80 * deep)).lerp(BELOW, open * (0.5 + 0.25 * deep));
+    let tint = (tint * (0.50 + 0.90 * deep)).lerp(BELOW, open * (0.5 + 0.25 * deep));
     // Darker below, where the crown shades itself.
     let shade = 0.5 + 0.5 * smoothstep(-1.0, 0.6, out.z + bare);
-    let openness = lerp((0.55 + 0.55 * deep) * shade, 0.85, 0.5 * open);
+    let openness = lerp((0.42 + 0.68 * deep) * shade, 0.85, 0.5 * open);
     (Look { openness, ..Look::matt(tint, bent.unit()) }, turn)
 }
 

@@ -99,7 +99,8 @@ fn outline(shape: &Shape, section: &Section) -> [[f64; 3]; POINTS] {
     let foot = shape.foot + 0.045 * rise * rise;
     let at = |y: f64, z: f64| [x, y * w, z];
     let height = shoulder - foot;
-    let lower = [at(0.93, foot), at(0.965, foot + 0.26 * height), at(1.0, foot + CREASE * height), at(0.94, shoulder)];
+    let crease = at(1.0, foot + CREASE * height);
+    let lower = [at(0.93, foot), at(0.965, foot + 0.26 * height), crease, at(shape.tumble.max(0.94), shoulder)];
     let upper = if roofed {
         let drop = shape.drop;
         let edge = shape.tumble;

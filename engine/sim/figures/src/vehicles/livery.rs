@@ -64,7 +64,7 @@ impl Livery {
             (Region::Metal, if is_light { [0.30; 3] } else { [0.26, 0.265, 0.27] }),
             (Region::Plate, [0.62, 0.62, 0.58]),
             (Region::HeadLamp, [0.34, 0.35, 0.36]),
-            (Region::TailLamp, [0.42, 0.015, 0.015]),
+            (Region::TailLamp, [0.24, 0.008, 0.010]),
         ] {
             colours[region as usize] = colour;
         }

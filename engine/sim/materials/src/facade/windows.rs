@@ -72,19 +72,13 @@ impl Facade {
     /// Puts glass of a window over a share of the pixel, with `cloth` behind it where it has any; `mean` 1 where windows are too
     /// small to tell apart.
     #[inline(always)]
-    pub(super) fn glaze(
-        &self,
-        look: &mut Look,
-        (share, cloth): (f32, f32),
-        cell: u32,
-        mean: f32,
-        night: Option<f32>,
-    ) {
+    pub(super) fn glaze(&self, look: &mut Look, (share, cloth): (f32, f32), cell: u32, mean: f32, night: Option<f32>) {
         let (curtains, pane) = (unit(hash(cell, draws::CURTAINS)), unit(hash(cell, draws::PANE)));
         let drawn = one_if(curtains > 0.5) * cloth;
         // Rooms are dark to a different degree; cloth is white to sand.
         let room = GLASS * (0.45 + 1.5 * pane * pane);
-        let inside = room.lerp(Vec3::splat(0.52).lerp(Vec3::new(0.30, 0.25, 0.18), pane) * (1.3 * curtains - 0.45), drawn);
+        let colour = Vec3::splat(0.52).lerp(Vec3::new(0.30, 0.25, 0.18), pane) * (1.3 * curtains - 0.45);
+        let inside = room.lerp(colour, drawn);
         let inside = inside.lerp(Vec3::new(0.09, 0.09, 0.085), mean);
         look.albedo = look.albedo.lerp(inside, share);
         // Panes lean a little: each mirrors another part of the sky.

@@ -69,7 +69,7 @@ impl Coach {
             Region::Glass => (1.7, 0.0, Kind::Glass),
             Region::Metal => (4.0, 0.0, Kind::Other),
             Region::HeadLamp => (1.6, 2.4, Kind::Other),
-            Region::TailLamp => (1.0, 1.1, Kind::Other),
+            Region::TailLamp => (1.6, 1.9, Kind::Other),
             Region::Trim => (0.3, 0.0, Kind::Other),
             _ => (0.0, 0.0, Kind::Other),
         };

@@ -16,9 +16,9 @@ use cosfly_materials::pattern::{NoiseTexture, Noises, hash, lerp, share, unit};
 use cosfly_materials::vector::Vec3;
 
 /// Gaps reach this far into a crown, metres.
-const REACH_M: f32 = 0.8;
+const REACH_M: f32 = 0.6;
 /// Share of a half width that gaps reach at most.
-const REACH_SHARE: f32 = 0.32;
+const REACH_SHARE: f32 = 0.28;
 /// Pixels that gaps reach at most.
 const MOST_PX: f32 = 20.0;
 /// Reach of crowns without leaves, metres.
@@ -274,7 +274,7 @@ simd_kernel! {
             let y = 0.35 * place.x - 0.7 * place.y + 0.85 * place.z;
             let (pixel_m, shift) = (places.pixel_m[k], places.shift[k]);
             let leaves = noise.rough(x * 26.0 + shift, y * 26.0, pixel_m * 26.0);
-            let branches = noise.clumps(x * 9.0, y * 9.0 + shift, pixel_m * 9.0);
+            let branches = noise.clumps(x * 15.0, y * 15.0 + shift, pixel_m * 15.0);
             let twigs = 1.0 * (branches - 0.5).abs() + 0.3 * (leaves - 0.5).abs();
             let thin = lerp(1.7 * branches + 0.75 * leaves, twigs, places.bare[k]);
             *gap = share((thin + CORNER * corner - places.least[k]) * STEEPNESS);
