@@ -300,7 +300,7 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
     // Every clump of leaves faces its own way.
     let turn = Vec3::new(aside - big, aside + big - bough, bough + 0.5 * big);
     let bent = (out + turn * 2.4).lerp(Vec3::new(0.0, 0.0, 1.0), 0.3 * bare);
-    let deep = smoothstep(-0.44, 0.42, 1.8 * bough + 1.3 * big + 1.3 * small);
+    let deep = smoothstep(-0.62, 0.66, 1.6 * bough + 1.3 * big + 1.6 * small);
     // Light shines through leaves at the rim of a clump: they are yellower there.
     let through = Vec3::new(1.9, 1.45, 1.1) * crown.through + Vec3::splat(0.6 * bare);
     let tint = crown.tint.lerp(crown.tint * through, 0.5 * (small + 0.5) * deep);
