@@ -57,7 +57,7 @@ const SHADE_M: f32 = 0.75;
 const THINGS_PER_M: f32 = 0.2;
 
 /// Dry plants of a roof, linear RGB.
-const STONECROP: Vec3 = Vec3::new(0.135, 0.098, 0.056);
+const STONECROP: Vec3 = Vec3::new(0.112, 0.096, 0.050);
 
 /// Farther than any roof reaches, metres.
 const FAR_M: f32 = 1.0e4;
