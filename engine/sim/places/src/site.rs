@@ -11,7 +11,7 @@ use cosfly_frames::{DVec2, RandomStream, real};
 
 /// Level of paths and squares, metres; pavements lie at 0.15.
 const PAVED_LEVEL_M: f64 = 0.13;
-/// Paved ground that nobody is led over lies under what is walked on, metres.
+/// Painted lines lie so far under what is walked on, and other ground as far under them, metres.
 const BELOW_PATHS_M: f64 = 0.01;
 
 /// Surfaces of ground; the names are those of `userData`.
@@ -27,6 +27,8 @@ pub enum Surface {
     Soil,
     /// Ponds and channels.
     Water,
+    /// Painted lines.
+    Paint,
 }
 
 impl Surface {
@@ -37,6 +39,7 @@ impl Surface {
             Self::Asphalt => "asphalt",
             Self::Soil => "soil",
             Self::Water => "water",
+            Self::Paint => "paint",
         }
     }
 }
@@ -169,7 +172,11 @@ impl Site {
 
     /// Ground that is seen and not walked on.
     pub fn surface(&mut self, outline: &[DVec2], surface: Surface) {
-        let level_m = if surface == Surface::Water { 0.0 } else { PAVED_LEVEL_M - BELOW_PATHS_M };
+        let level_m = match surface {
+            Surface::Water => 0.0,
+            Surface::Paint => PAVED_LEVEL_M - BELOW_PATHS_M,
+            _ => PAVED_LEVEL_M - 2.0 * BELOW_PATHS_M,
+        };
         self.put_ground(outline, Some(surface), false, level_m);
     }
 

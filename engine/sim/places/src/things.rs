@@ -28,6 +28,14 @@ pub enum ThingKind {
     Stall,
     /// A swing, a slide or a climbing frame.
     PlayEquipment,
+    /// A goal of a sports field.
+    Goal,
+    /// A container of freight, or several on top of each other.
+    Container,
+    /// A boat that lies at a pier.
+    Boat,
+    /// A marked place for a car, flat.
+    Bay,
     /// A fountain or a well.
     Fountain,
     /// A piece of ground; its height is that of the ground, and nothing stands up.
@@ -49,6 +57,10 @@ impl ThingKind {
             Self::Car => ("car", "car"),
             Self::Stall => ("obstacle", "stall"),
             Self::PlayEquipment => ("obstacle", "playEquipment"),
+            Self::Goal => ("obstacle", "goal"),
+            Self::Container => ("obstacle", "container"),
+            Self::Boat => ("obstacle", "boat"),
+            Self::Bay => ("parkingSpace", "bay"),
             Self::Fountain => ("obstacle", "fountain"),
             Self::Ground => ("patch", "ground"),
         }

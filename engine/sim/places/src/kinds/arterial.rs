@@ -1,15 +1,15 @@
 //! `arterial`: two wide roads that cross, slab blocks on lawns behind them, car parks, a supermarket.
 
+use super::around::Around;
+use super::car_park::CarPark;
 use super::houses::{playground, scatter};
 use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::Mesh;
 use super::pavements::Furniture;
 use crate::geometry::{convex_core, inset, long_axis, middle, reach_m, rectangle};
-use crate::lot::Lot;
 use crate::net::plan::Profile;
 use crate::site::{Site, Surface};
-use crate::things::ThingKind;
-use cosfly_frames::{DVec2, RandomStream, Seed, real};
+use cosfly_frames::{DVec2, RandomStream, Seed};
 
 /// The kind.
 pub const KIND: PlaceKind = PlaceKind {
@@ -52,6 +52,7 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
         }
     }
     Furniture { tree_share: 0.6, crown_m: 2.8, lamp_m: 8.5 }.put(&mut site, &mut seed.stream("pavements"));
+    Around { fields: 0, trees: 420, rows: 2, eaves_m: [8.0, 16.0] }.put(&mut site, seed);
     site
 }
 
@@ -99,19 +100,7 @@ fn hall(site: &mut Site, at: DVec2, along: DVec2, room_m: DVec2, stream: &mut Ra
     if size_m.min_element() < 12.0 || !site.is_free(&lot, 1.0, 0.5) || !site.build(&plan, 6.5, 0.0, 0.5) {
         return;
     }
-    site.surface(&lot, Surface::Asphalt);
-    let heading_rad = real::atan2(across.y, across.x);
-    for row in [0.16, 0.84] {
-        let mut from_m = 2.0 - 0.5 * size_m.x;
-        while from_m < 0.5 * size_m.x - 2.0 {
-            let center = at - (size_m.y * (1.0 - row) + 1.5) * across + from_m * along;
-            if stream.chance(0.65) {
-                site.stand(ThingKind::Car, Lot { center, half_m: DVec2::new(2.2, 0.9), heading_rad }, 1.5, 0.3);
-            }
-            from_m += 2.6;
-        }
-    }
-    site.take(&lot);
+    CarPark { front: at - (size_m.y + 1.5) * across, along, size_m, filled: 0.65, way_m: None }.put(site, stream);
 }
 
 /// Long houses on the far side of the outermost streets.

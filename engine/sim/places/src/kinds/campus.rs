@@ -1,5 +1,6 @@
 //! `campus`: large buildings of wings between lawns, paths that cross, a park with a lake.
 
+use super::around::Around;
 use super::houses::{playground, scatter};
 use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::Mesh;
@@ -52,9 +53,7 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
         }
     }
     Furniture { tree_share: 0.8, crown_m: 2.6, lamp_m: 5.5 }.put(&mut site, &mut seed.stream("pavements"));
-    let [low, high] = site.network.bounds(50.0);
-    let around = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    scatter(&mut site, &around, 260, [2.2, 4.5], &mut seed.stream("beyond"));
+    Around { fields: 0, trees: 700, rows: 1, eaves_m: [6.0, 12.0] }.put(&mut site, seed);
     site
 }
 

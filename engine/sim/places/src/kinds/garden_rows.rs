@@ -1,5 +1,6 @@
 //! `garden_rows`: curved streets of semi-detached and terraced houses with gardens, hedges, fences and drives.
 
+use super::around::Around;
 use super::houses::{Houses, playground, scatter};
 use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::{Mesh, distances_m};
@@ -7,7 +8,7 @@ use super::pavements::Furniture;
 use crate::geometry::{convex_core, long_axis, middle};
 use crate::net::plan::Profile;
 use crate::site::Site;
-use cosfly_frames::{DVec2, Seed};
+use cosfly_frames::Seed;
 
 /// The kind.
 pub const KIND: PlaceKind = PlaceKind {
@@ -77,9 +78,7 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
         }
     }
     Furniture { tree_share: 0.0, crown_m: 1.8, lamp_m: 5.0 }.put(&mut site, &mut seed.stream("pavements"));
-    let [low, high] = site.network.bounds(60.0);
-    let around = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    scatter(&mut site, &around, 160, [2.0, 4.2], &mut seed.stream("beyond"));
+    Around { fields: 3, trees: 420, rows: 2, eaves_m: [5.2, 6.2] }.put(&mut site, seed);
     site
 }
 

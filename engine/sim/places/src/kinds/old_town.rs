@@ -1,5 +1,6 @@
 //! `old_town`: a few crooked streets, lanes between old houses that only people use, a market square with a church.
 
+use super::around::Around;
 use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::{Mesh, distances_m};
 use super::pavements::Furniture;
@@ -62,6 +63,7 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
         }
     }
     Furniture { tree_share: 0.0, crown_m: 2.0, lamp_m: 4.5 }.put(&mut site, &mut seed.stream("pavements"));
+    Around { fields: 4, trees: 300, rows: 2, eaves_m: [4.0, 8.0] }.put(&mut site, seed);
     site
 }
 

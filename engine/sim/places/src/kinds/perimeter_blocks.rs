@@ -1,5 +1,6 @@
 //! `perimeter_blocks`: straight streets, houses wall to wall around courtyards, one block a park (Barcelona, Berlin).
 
+use super::around::Around;
 use super::houses::{playground, scatter};
 use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::mesh::{Mesh, distances_m};
@@ -61,6 +62,7 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
         }
     }
     Furniture { tree_share: 0.7, crown_m: 2.4, lamp_m: 7.0 }.put(&mut site, &mut seed.stream("pavements"));
+    Around { fields: 0, trees: 300, rows: 2, eaves_m: [10.0, 17.0] }.put(&mut site, seed);
     site
 }
 

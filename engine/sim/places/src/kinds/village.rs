@@ -1,12 +1,12 @@
 //! `village`: a winding main street, lanes that end in the fields, farms, a green with a church and a pond.
 
-use super::houses::{Houses, scatter};
+use super::around::Around;
+use super::houses::Houses;
 use super::kind::{Key, PlaceKind, PlaceSettings};
 use super::pavements::Furniture;
 use crate::geometry::{disc, rectangle};
 use crate::net::plan::{Profile, StreetPlan};
 use crate::site::{Site, Surface};
-use crate::things::ThingKind;
 use cosfly_frames::{DVec2, RandomStream, Seed, real};
 
 /// The kind.
@@ -61,11 +61,9 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
             }
         }
     }
-    fields(&mut site, settings.get("fields") as usize, &mut seed.stream("fields"));
     Furniture { tree_share: 0.0, crown_m: 2.0, lamp_m: 5.0 }.put(&mut site, &mut seed.stream("pavements"));
-    let [low, high] = site.network.bounds(90.0);
-    let around = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    scatter(&mut site, &around, 220, [1.6, 4.2], &mut seed.stream("trees"));
+    let fields = settings.get("fields") as usize;
+    Around { fields, trees: 400, rows: 0, eaves_m: [0.0; 2] }.put(&mut site, seed);
     site
 }
 
@@ -152,33 +150,5 @@ fn green(site: &mut Site, stream: &mut RandomStream) {
             site.take(&pond);
             break;
         }
-    }
-}
-
-/// Ploughed fields with fences and hedges around them.
-fn fields(site: &mut Site, count: usize, stream: &mut RandomStream) {
-    let [low, high] = site.network.bounds(110.0);
-    let mut made = 0;
-    for _ in 0..60 * count {
-        if made == count {
-            return;
-        }
-        let at = DVec2::new(stream.uniform(low.x, high.x), stream.uniform(low.y, high.y));
-        let (sin, cos) = real::sin_cos(stream.uniform(0.0, real::PI));
-        let size_m = DVec2::new(stream.uniform(40.0, 90.0), stream.uniform(30.0, 60.0));
-        let along = DVec2::new(cos, sin);
-        let field = rectangle(at - 0.5 * size_m.y * along.perp(), along, size_m);
-        if !site.is_free(&field, 2.5, 2.0) {
-            continue;
-        }
-        made += 1;
-        site.surface(&crate::geometry::inset(&field, 1.5), Surface::Soil);
-        let is_hedge = stream.chance(0.5);
-        for [a, b] in crate::geometry::edges(&field) {
-            let (kind, thick_m) = if is_hedge { (ThingKind::Hedge, 0.9) } else { (ThingKind::Fence, 0.08) };
-            let step = (b - a).normalize();
-            site.enclose(kind, [a + 1.0 * step, b - 1.0 * step], thick_m, if is_hedge { 1.6 } else { 1.1 });
-        }
-        site.take(&field);
     }
 }

@@ -160,7 +160,8 @@ fn write_land(text: &mut String, first_id: usize, things: &[GeneratedThing], [lo
     line(text, "<objects>");
     for (index, thing) in things.iter().enumerate() {
         let at = match &thing.footprint {
-            Footprint::Polygon(corners) => corners[0],
+            // Outlines are told from any point; that of the land's road must be on it.
+            Footprint::Polygon(corners) => DVec2::new(corners[0].x.clamp(low.x, high.x), corners[0].y),
             footprint => footprint.center(),
         };
         let foot = Foot { s_m: at.x - origin.x, t_m: at.y, beyond_m: 0.0, origin: at, heading_rad: 0.0 };

@@ -11,9 +11,10 @@ use cosfly_town::polygons::triangulated;
 use cosfly_town::world::WorldFromMap;
 
 /// Names of surfaces and what is seen.
-const SURFACES: [(&str, SemanticLabel); 5] = [
+const SURFACES: [(&str, SemanticLabel); 6] = [
     ("asphalt", SemanticLabel::Ground),
     ("gravel", SemanticLabel::Ground),
+    ("paint", SemanticLabel::RoadLine),
     ("paving", SemanticLabel::SideWalks),
     ("soil", SemanticLabel::Ground),
     ("water", SemanticLabel::Water),
