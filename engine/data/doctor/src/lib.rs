@@ -13,6 +13,7 @@ pub mod episode;
 mod examination;
 mod files;
 pub mod flag;
+mod hardness;
 mod shortcuts;
 pub mod sources;
 #[cfg(test)]

@@ -1,9 +1,12 @@
 //! The verdict over flights that are about to be published: which are left out, with their reasons, decided over all of them at
 //! once.
 
+use crate::hardness::{difficulty, surplus};
 use crate::{ExaminedEpisode, Severity, checks};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Seed;
+use cosfly_schema::RenderedTrajectory;
+use cosfly_windows::Difficulty;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -24,11 +27,16 @@ pub struct InspectConfig {
     /// Shares of flights that must lose their target for a certain time; flights that do not are left out until they are
     /// met.
     pub quotas: Vec<LossQuota>,
+    /// Share of hard flights among all that are kept, by the column `difficulty` of windows of the usual shape; flights of which
+    /// there are too many are left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub hard_share: Option<f64>,
 }
 
 impl Default for InspectConfig {
     fn default() -> Self {
-        Self { min_visibility: 0.0, max_lost_s: 3600.0, imperfect_share: 0.05, quotas: vec![] }
+        Self { min_visibility: 0.0, max_lost_s: 3600.0, imperfect_share: 0.05, quotas: vec![], hard_share: None }
     }
 }
 
@@ -62,6 +70,8 @@ pub struct Family {
     imperfection: Option<String>,
     /// Losses of all members, seconds.
     losses_s: Vec<f64>,
+    /// Difficulty of the expert.
+    difficulty: Option<Difficulty>,
 }
 
 impl Family {
@@ -89,6 +99,18 @@ impl Family {
         self.losses_s.extend(losses);
     }
 
+    /// Adds the difficulty of a flight, if it is the expert.
+    pub fn rate(&mut self, record: &RenderedTrajectory) {
+        if record.pair.is_none() {
+            self.difficulty = Some(difficulty(record));
+        }
+    }
+
+    /// Whether its expert is hard to predict.
+    pub fn is_hard(&self) -> bool {
+        self.difficulty == Some(Difficulty::Hard)
+    }
+
     fn meets(&self, quota: &LossQuota) -> bool {
         self.losses_s.iter().any(|lost| *lost >= quota.min_s && *lost <= quota.max_s)
     }
@@ -99,12 +121,36 @@ impl Family {
 ///
 /// # Errors
 /// `inspect-quota`.
-pub fn verdict(families: BTreeMap<String, Family>, seed: Seed, config: &InspectConfig) -> Result<Verdict> {
+pub fn verdict(families: BTreeMap<String, Family>, seed: Seed, config: &InspectConfig) -> Result<Decided> {
     let draw = |name: &str| seed.child(name, 0).stream("inspect").unit().to_bits();
     let mut drawn: Vec<(u64, Family)> = families.into_iter().map(|(name, family)| (draw(&name), family)).collect();
     drawn.sort_by_key(|(draw, _)| *draw);
     let families: Vec<Family> = drawn.into_iter().map(|(_, family)| family).collect();
-    decide(&families, config)
+    let verdict = decide(&families, config)?;
+    Ok(Decided { notes: notes(&families, &verdict, config), verdict })
+}
+
+/// A verdict and what the stage says about it.
+pub struct Decided {
+    /// Items that are left out.
+    pub verdict: Verdict,
+    /// Shares that came, by what they are of.
+    pub notes: BTreeMap<String, String>,
+}
+
+fn notes(families: &[Family], verdict: &Verdict, config: &InspectConfig) -> BTreeMap<String, String> {
+    let all: usize = families.iter().map(|family| family.items.len()).sum();
+    let mut notes = BTreeMap::from([("kept".to_owned(), format!("{} of {all}", all - verdict.len()))]);
+    if let Some(share) = config.hard_share {
+        let kept = families.iter().filter(|family| family.items.iter().all(|item| !verdict.contains_key(item)));
+        let [mut hard, mut flights] = [0, 0];
+        kept.for_each(|family| (hard, flights) = (hard + usize::from(family.is_hard()), flights + 1));
+        let percent = 100.0 * hard as f64 / (flights as f64).max(1.0);
+        let asked = 100.0 * share;
+        notes
+            .insert("hard".to_owned(), format!("{hard} of {flights} experts, {percent:.1} %; {asked} % are asked for"));
+    }
+    notes
 }
 
 /// Leaves out damaged families, then imperfect ones beyond their share, then those that exceed a quota.
@@ -153,6 +199,12 @@ fn decide(families: &[Family], config: &InspectConfig) -> Result<Verdict> {
             !goes
         });
     }
+    if let Some(share) = config.hard_share {
+        let is_hard: Vec<bool> = kept.iter().map(|family| family.is_hard()).collect();
+        for at in surplus(&is_hard, share)? {
+            leave(kept[at], &format!("{} % of the flights are to be hard", 100.0 * share));
+        }
+    }
     Ok(verdict)
 }
 
@@ -198,5 +250,25 @@ mod tests {
             ..InspectConfig::default()
         };
         assert_eq!(decide(&families, &config).unwrap_err().code, "inspect-quota");
+    }
+
+    #[test]
+    fn the_share_of_hard_flights_is_met_from_both_sides() {
+        let of = |hard: usize, share: f64| {
+            let rated = |at, family: &mut Family| {
+                family.difficulty = Some(if at < hard { Difficulty::Hard } else { Difficulty::Easy });
+            };
+            let families = families(400, rated);
+            let config = InspectConfig { hard_share: Some(share), ..InspectConfig::default() };
+            let verdict = decide(&families, &config).unwrap();
+            let kept: Vec<&Family> = families.iter().filter(|it| !verdict.contains_key(&it.items[0])).collect();
+            (kept.iter().filter(|it| it.is_hard()).count(), kept.len())
+        };
+        assert_eq!(of(40, 0.25), (40, 160));
+        assert_eq!(of(300, 0.25), (33, 133));
+        assert_eq!(of(100, 0.25), (100, 400));
+        assert_eq!((of(7, 0.0), of(7, 1.0)), ((0, 393), (7, 7)));
+        let config = InspectConfig { hard_share: Some(0.1), ..InspectConfig::default() };
+        assert_eq!(decide(&families(9, |_, _| {}), &config).unwrap_err().code, "inspect-hard");
     }
 }

@@ -13,6 +13,9 @@ pub enum SplitBy {
     Pedestrian,
     /// All flights in one town, whatever its name: a dataset of several towns then has unseen ones.
     Town,
+    /// All flights in all towns of one kind: those whose names differ in a number at the end only, such as `village_1` and
+    /// `village_2`. A dataset of several kinds of places then has unseen ones.
+    Kind,
     /// All flights in one area: each town's map is cut by straight lines, with a guard band along each. Flights whose
     /// walk enters a band are left out, with a row in table `rejected`.
     Area,
@@ -69,7 +72,7 @@ pub struct SplitShares {
     pub test: f64,
     /// Seed of the assignment.
     pub seed: u64,
-    /// Unit that goes to one split as a whole: `pedestrian`, `town` or `area`.
+    /// Unit that goes to one split as a whole: `pedestrian`, `town`, `kind` (of town) or `area`.
     pub by: SplitBy,
     /// Width of the guard band along each line between areas, metres (`by = "area"` only): walks of two splits are at
     /// least this far apart.

@@ -174,6 +174,18 @@ mod tests {
     }
 
     #[test]
+    fn all_towns_of_a_kind_go_to_one_split_which_other_kinds_do_not_move() {
+        let of = |town, digest| in_town(town, digest, (0..6).map(|id| walker(id, 40.0 * id as f64, 0.0)).collect());
+        let by_kind = SplitShares { by: SplitBy::Kind, ..SplitShares::default() };
+        let villages = [of("village_1", "ab"), of("village_2", "cd")].concat();
+        let alone = assign(&villages, &by_kind);
+        let all = assign(&[villages, of("campus_1", "ef"), of("campus_2", "09")].concat(), &by_kind);
+        assert_eq!((&all.splits[..12], &all.groups[..12]), (&alone.splits[..], &alone.groups[..]));
+        assert!(all.groups[..12].iter().all(|group| group == "village"));
+        assert!(all.groups[12..].iter().all(|group| group == "campus"));
+    }
+
+    #[test]
     fn without_overlap_more_walkers_move_no_old_one_and_subsets_nest() {
         let facts: Vec<FlightFacts> = (0..300).map(|id| walker(id, 40.0 * id as f64, 0.0)).collect();
         let (all, fewer) = (assign(&facts, &SplitShares::default()), assign(&facts[..200], &SplitShares::default()));

@@ -34,7 +34,7 @@ impl LintRules {
     /// Rules that follow from the shares of a recipe or of `splits.json`.
     pub fn of_shares(shares: &SplitShares) -> Self {
         let SplitShares { max_route_overlap, overlap_direction, by, .. } = *shares;
-        Self { max_route_overlap, overlap_direction, by_town: by == SplitBy::Town }
+        Self { max_route_overlap, overlap_direction, by_town: matches!(by, SplitBy::Town | SplitBy::Kind) }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::rejections::is_rejected;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::Result;
 use cosfly_doctor::sources;
-use cosfly_doctor::verdict::{Family, InspectConfig, Verdict, verdict};
+use cosfly_doctor::verdict::{Decided, Family, InspectConfig, Verdict, verdict};
 use cosfly_domain::{ObstacleKind, Town};
 use cosfly_experts::codec;
 use cosfly_experts::world::{check_same_town, world};
@@ -67,11 +67,10 @@ impl Stage for VerdictStage {
             let family = families.entry(expert.clone()).or_default();
             family.items.push(artifact.name.to_string());
             family.add(&episode, &self.config);
+            family.rate(&record);
         }
-        let all: usize = families.values().map(|family| family.items.len()).sum();
-        let verdict = verdict(families, Seed(context.seed), &self.config)?;
+        let Decided { verdict, notes } = verdict(families, Seed(context.seed), &self.config)?;
         outputs.put(NAME, &codec::encode(VERDICT, &verdict)?)?;
-        let notes = BTreeMap::from([("kept".to_owned(), format!("{} of {all}", all - verdict.len()))]);
         Ok(Produced { notes, ..Produced::default() })
     }
 }
