@@ -36,7 +36,7 @@ fn features(record: &RenderedTrajectory, frames: Range<usize>) -> WindowFeatures
 ///
 /// # Errors
 /// `inspect-hard`: all flights are of one sort.
-pub fn surplus(is_hard: &[bool], share: f64) -> Result<Vec<usize>> {
+pub fn too_many(is_hard: &[bool], share: f64) -> Result<Vec<usize>> {
     let of = |sort: bool| (0..is_hard.len()).filter(|at| is_hard[*at] == sort).collect::<Vec<usize>>();
     let (hard, others) = (of(true), of(false));
     let lacking = match (hard.is_empty(), others.is_empty()) {

@@ -1,7 +1,7 @@
 //! The verdict over flights that are about to be published: which are left out, with their reasons, decided over all of them at
 //! once.
 
-use crate::hardness::{difficulty, surplus};
+use crate::hardness::{difficulty, too_many};
 use crate::{ExaminedEpisode, Severity, checks};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Seed;
@@ -201,7 +201,7 @@ fn decide(families: &[Family], config: &InspectConfig) -> Result<Verdict> {
     }
     if let Some(share) = config.hard_share {
         let is_hard: Vec<bool> = kept.iter().map(|family| family.is_hard()).collect();
-        for at in surplus(&is_hard, share)? {
+        for at in too_many(&is_hard, share)? {
             leave(kept[at], &format!("{} % of the flights are to be hard", 100.0 * share));
         }
     }
