@@ -144,7 +144,7 @@ impl ScanConfig {
     /// Where the lidar sits.
     pub fn place(&self) -> SensorPlace {
         let (pitch_rad, yaw_rad) = (self.pitch_deg.to_radians(), self.yaw_deg.to_radians());
-        let mount = Mount { pitch_rad, yaw_rad, levelled: false };
+        let mount = Mount { pitch_rad, yaw_rad, ..Mount::default() };
         SensorPlace { position_in_body: DVec3::from_array(self.position_in_body_m), mount }
     }
 }
