@@ -181,7 +181,7 @@ fn damaged(bytes: &[u8], damages: &[(f64, Damage)]) -> Vec<u8> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn damaged_files_give_an_error_or_a_well_formed_town(damages in prop::collection::vec(damage(), 1..5)) {

@@ -95,7 +95,7 @@ fn cars_are_parked_in_most_streets_of_generated_towns() {
 
 #[test]
 fn nobody_leaves_a_town_because_cars_are_parked_in_its_lanes() {
-    for (seed, parked_share) in [0, 1, 2].into_iter().flat_map(|seed| [0.3, 0.6, 1.0].map(|share| (seed, share))) {
+    for (seed, parked_share) in [(0, 0.3), (1, 0.6), (2, 1.0)] {
         let town = generated(seed);
         let traffic = traffic(&town, 60, parked_share);
         // Streets of generated towns have no ends.
@@ -106,7 +106,7 @@ fn nobody_leaves_a_town_because_cars_are_parked_in_its_lanes() {
 
 #[test]
 fn traffic_goes_on_for_minutes_with_and_without_parked_cars() {
-    for (seed, parked_share) in [(0, 0.0), (0, 0.6), (1, 0.6), (1, 1.0)] {
+    for (seed, parked_share) in [(0, 0.0), (0, 0.6), (1, 1.0)] {
         let config = VehicleConfig { count: 60, parked_share, ..VehicleConfig::default() };
         let clock = Clock::new(300, 2.0, 0.1);
         let vehicles = Vehicles::new(&generated(seed), &config, clock, Seed([7; 32])).unwrap();
