@@ -14,10 +14,11 @@ const OTHERS: [&str; 6] =
 /// Texts of the samples of the Python package, which have pictures by their channels, too.
 const OF_SAMPLES: [&str; 2] = ["caption", "captions"];
 /// Pages whose examples index other things than rows of tables.
-const NOT_OF_TABLES: [&str; 10] = [
+const NOT_OF_TABLES: [&str; 11] = [
     "guide/closed-loop.md",
     "guide/dagger.md",
     "guide/environments.md",
+    "guide/lidar.md",
     "guide/onnx.md",
     "guide/samples.md",
     "guide/trackers.md",

@@ -94,7 +94,7 @@ fn of_frames(frames: &[PlacedFrame]) -> [f64; 5] {
         mean(&|frame| frame.visible_by_pixels),
         mean(&|frame| frame.visible_by_rays),
         mean(&|frame| f64::from(u8::from(frame.visible_by_rays >= 0.5))),
-        mean(&|frame| frame.distance_m),
+        mean(&|frame| frame.target.feet_in_world.distance(frame.pose.position_in_world)),
         frames.windows(2).map(|pair| pair[1].pose.position_in_world.distance(pair[0].pose.position_in_world)).sum(),
     ]
 }

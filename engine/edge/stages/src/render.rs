@@ -149,12 +149,8 @@ impl Stage for RenderStage {
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
         let mut seen = self.draw(outputs, context, &place, &trajectory, (&config, &shooting))?;
         let mut notes = notes_of(&crowd, &seen.sightings);
-        let splats = self.config.splats.as_ref().map(|_| render_files::compared(seen.median_off_m()));
-        notes.extend(splats.iter().map(|(note, _)| ("splats".to_owned(), note.clone())));
-        let mesh = scene.mesh().map(render_files::matched);
-        notes.extend(mesh.iter().map(|(note, _)| ("mesh".to_owned(), note.clone())));
         let (on_card, mut warnings) = render_files::scan_notes(&self.config);
-        warnings.extend(splats.into_iter().chain(mesh).filter_map(|(_, warning)| warning));
+        self.compare_scans(&scene, seen.median_off_m(), &mut notes, &mut warnings);
         let mut town = TownInfo::of(&world.town, town_digest);
         town.synthetic.notes.extend(on_card);
         let pair = trajectory.perturbation.as_ref().map(|twin| {
@@ -195,6 +191,24 @@ impl Stage for RenderStage {
         };
         outputs.put("index", &record.to_bytes())?;
         Ok(Produced { notes, warnings, rejected: None })
+    }
+}
+
+impl RenderStage {
+    /// Adds what is to say of the splats and of the mesh of a recipe beside the town.
+    fn compare_scans(
+        &self,
+        scene: &Scene,
+        splats_off_m: Option<f32>,
+        notes: &mut BTreeMap<String, String>,
+        warnings: &mut Vec<String>,
+    ) {
+        let splats = self.config.splats.as_ref().map(|_| ("splats", render_files::compared(splats_off_m)));
+        let mesh = scene.mesh().map(|mesh| ("mesh", render_files::matched(mesh)));
+        for (name, (note, warning)) in splats.into_iter().chain(mesh) {
+            notes.insert(name.to_owned(), note);
+            warnings.extend(warning);
+        }
     }
 }
 

@@ -39,7 +39,7 @@ columns! { Trajectories::CERTIFICATE of DatasetItem;
     max_yaw_rate_deg_s: f64 = |item, _| certificate(item).max_yaw_rate_deg_s;
     /// Largest pitch rate of the drone as planned, from frame to frame.
     max_pitch_rate_deg_s: f64 = |item, _| certificate(item).max_pitch_rate_deg_s;
-    /// Mean distance to the target's feet.
+    /// Mean distance from the drone to the target's feet.
     mean_distance_m: f64 = |item, _| certificate(item).mean_distance_m;
     /// Mean horizontal angle from straight behind the target; frames in which the target stands are excluded.
     mean_rear_angle_deg: f64 = |item, _| certificate(item).mean_rear_angle_deg;
