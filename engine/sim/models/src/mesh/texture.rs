@@ -9,6 +9,7 @@ use std::sync::OnceLock;
 pub struct MeshTexture {
     /// The picture, then copies of half the size, down to one texel.
     levels: Vec<Level>,
+    has_holes: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -43,13 +44,15 @@ impl MeshTexture {
     pub(crate) fn new(picture: Picture) -> Self {
         let Picture { width, height, rgb, alpha } = picture;
         let alpha = alpha.into_iter().chain(core::iter::repeat(u8::MAX));
-        let texels = rgb.into_iter().zip(alpha).map(|([red, green, blue], alpha)| [red, green, blue, alpha]).collect();
+        let texels: Vec<[u8; 4]> =
+            rgb.into_iter().zip(alpha).map(|([red, green, blue], alpha)| [red, green, blue, alpha]).collect();
+        let has_holes = texels.iter().any(|texel| texel[3] < 128);
         let mut levels = vec![Level { width, height, texels }];
         while let Some(last) = levels.last().filter(|last| last.width.max(last.height) > 1) {
             let next = last.halved();
             levels.push(next);
         }
-        Self { levels }
+        Self { levels, has_holes }
     }
 
     /// Texels of the whole picture, across and down.
@@ -59,7 +62,7 @@ impl MeshTexture {
 
     /// Whether a texel is less opaque than not.
     pub(crate) fn has_holes(&self) -> bool {
-        self.levels[0].texels.iter().any(|texel| texel[3] < 128)
+        self.has_holes
     }
 
     /// Linear colour and opacity at a place (0 to 1 over the picture, which repeats) for a pixel that covers `texels` of the whole picture
