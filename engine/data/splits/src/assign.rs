@@ -25,12 +25,14 @@ pub struct Assignment {
 /// Assigns all flights. Pedestrians of a town whose walks overlap by more than `max_route_overlap` are one group; the
 /// split is a draw from the first pedestrian of a group. More pedestrians or towns move old ones only where a new walk
 /// joins two groups. A place goes to one split as a whole where the shares say so for all places or for this one, and
-/// where it has several names: the draw is then from its ground plan. With areas, a flight goes to the split of the area
-/// that holds its walk; [`area::left_out`] names those that no area holds.
+/// where it has several names: the draw is then from its ground plan. Kinds are shared out instead of drawn. With areas, a
+/// flight goes to the split of the area that holds its walk; [`area::left_out`] names those that no area holds.
 pub fn assign(facts: &[FlightFacts], shares: &SplitShares) -> Assignment {
-    let places = Places::of(facts, shares);
-    if shares.by == SplitBy::Area {
-        return of_areas(facts, shares, &places);
+    let mut places = Places::of(facts, shares);
+    match shares.by {
+        SplitBy::Area => return of_areas(facts, shares, &places),
+        SplitBy::Kind => share_out(&mut places, shares),
+        SplitBy::Pedestrian | SplitBy::Town => {}
     }
     let representatives = representatives(facts, &places, (shares.max_route_overlap, shares.overlap_direction));
     let drawn = |id: &str| shares.split_of(draw(shares.seed, "split", id));
@@ -44,6 +46,24 @@ pub fn assign(facts: &[FlightFacts], shares: &SplitShares) -> Assignment {
     };
     let (splits, groups) = facts.iter().enumerate().map(assigned).unzip();
     Assignment { splits, groups, subset_ranks: subset_ranks(facts, shares) }
+}
+
+/// Gives each kind without a split the one that lacks most flights: large kinds first, those of about one size as they are
+/// drawn.
+fn share_out(places: &mut Places, shares: &SplitShares) {
+    let mut flights = vec![0_usize; places.all.len()];
+    places.of_flight.iter().for_each(|place| flights[*place] += 1);
+    let is_open = |at: &usize| flights[*at] > 0 && places.all[*at].split.is_none();
+    let mut open: Vec<usize> = (0..flights.len()).filter(is_open).collect();
+    let drawn = |at: usize| draw(shares.seed, "split", &places.all[at].name).to_bits();
+    open.sort_by_cached_key(|at| (flights[*at].leading_zeros(), drawn(*at)));
+    let total: usize = open.iter().map(|at| flights[*at]).sum();
+    let mut lacking = shares.asked().map(|share| share * total as f64);
+    for at in open {
+        let most = (1..3).fold(0, |most, split| if lacking[split] > lacking[most] { split } else { most });
+        lacking[most] -= flights[at] as f64;
+        places.all[at].split = Some(Split::ALL[most]);
+    }
 }
 
 fn draw(seed: u64, purpose: &str, id: &str) -> f64 {
@@ -174,15 +194,26 @@ mod tests {
     }
 
     #[test]
-    fn all_towns_of_a_kind_go_to_one_split_which_other_kinds_do_not_move() {
-        let of = |town, digest| in_town(town, digest, (0..6).map(|id| walker(id, 40.0 * id as f64, 0.0)).collect());
-        let by_kind = SplitShares { by: SplitBy::Kind, ..SplitShares::default() };
-        let villages = [of("village_1", "ab"), of("village_2", "cd")].concat();
-        let alone = assign(&villages, &by_kind);
-        let all = assign(&[villages, of("campus_1", "ef"), of("campus_2", "09")].concat(), &by_kind);
-        assert_eq!((&all.splits[..12], &all.groups[..12]), (&alone.splits[..], &alone.groups[..]));
-        assert!(all.groups[..12].iter().all(|group| group == "village"));
-        assert!(all.groups[12..].iter().all(|group| group == "campus"));
+    fn kinds_go_to_one_split_each_and_meet_the_shares_with_any_seed() {
+        let town = |name: String, number: usize| {
+            in_town(&name, &format!("{number:02x}"), (0..4).map(|id| walker(id, 40.0 * id as f64, 0.0)).collect())
+        };
+        // Thirteen kinds, of which the first three have two towns.
+        let names = ('a'..='m').map(|kind| format!("{kind}_1")).chain(('a'..='c').map(|kind| format!("{kind}_2")));
+        let facts: Vec<FlightFacts> = names.zip(0..).flat_map(|(name, number)| town(name, number)).collect();
+        let assigned = |seed| {
+            let shares =
+                SplitShares { by: SplitBy::Kind, seed, train: 0.75, val: 0.1, test: 0.15, ..SplitShares::default() };
+            assign(&facts, &shares)
+        };
+        for seed in 0..20 {
+            let found = assigned(seed);
+            let of = |split| found.splits.iter().filter(|it| **it == split).count();
+            assert_eq!((of(Split::Train), of(Split::Val), of(Split::Test)), (48, 8, 8));
+            assert!(facts.iter().zip(&found.groups).all(|(it, group)| it.town.starts_with(group.as_str())));
+            assert_eq!(found.splits[..12], found.splits[52..]);
+        }
+        assert!((1..20).any(|seed| assigned(seed).splits != assigned(0).splits));
     }
 
     #[test]

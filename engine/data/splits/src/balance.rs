@@ -112,7 +112,7 @@ impl Balance {
             }
             SplitBy::Area => "no lines with guard bands give these shares for the walks of all towns".to_owned(),
             SplitBy::Town => format!("whole towns are drawn; {largest}"),
-            SplitBy::Kind => format!("all towns of a kind are drawn together; {largest}"),
+            SplitBy::Kind => format!("all towns of a kind go together; {largest}"),
             SplitBy::Pedestrian => format!("whole groups are drawn; {largest}"),
         }
     }

@@ -6,7 +6,7 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type};
 use arrow_schema::DataType;
 use cosfly_diagnose::Diagnostic;
-use cosfly_frames::{DVec3, Pose, action};
+use cosfly_frames::{DVec3, Pose, action, real};
 use cosfly_read::{FrameRow, PublishedFlight, Rows, Shared, TableFile};
 use cosfly_schema::tables::{self, DatasetItem, FileRecord, Files, Frames, Kind, Table, Trajectories, Waypoints};
 use std::ops::Deref;
@@ -137,6 +137,13 @@ impl PlacedFlight {
         let (u, v, depth_m) = self.camera.project(camera_pose, point_in_world)?;
         let (u, v) = self.lens.bend(&self.camera, (u, v));
         Some((u, v, depth_m))
+    }
+
+    /// Whether the picture shows a world point at a pixel, if anywhere: a lens's curve may turn and lead back.
+    pub fn shows(&self, camera_pose: &Pose, point_in_world: DVec3, pixel: (f64, f64)) -> bool {
+        let ideal = self.camera.project(camera_pose, point_in_world);
+        let through = self.lens.unbend(&self.camera, pixel);
+        ideal.zip(through).is_some_and(|((u, v, _), (x, y))| real::hypot(x - u, y - v) <= 1e-3)
     }
 }
 

@@ -9,6 +9,7 @@ use arrow_schema::ArrowError;
 use cosfly_frames::{DMat3, DQuat, DVec3, Pose, real};
 use cosfly_schema::extras::is_taken;
 use cosfly_schema::log::reading::TRUE;
+use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -76,8 +77,13 @@ fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &SensedRows)) -> Result<
     if !(has_truth && has("trajectory_id") && has("frame") && has("time_s")) {
         return Ok(());
     }
+    // Clouds of lidars stay unread: a batch of them may be larger than an array can be.
+    let fields = builder.schema().fields().iter().enumerate();
+    let is_read = |field: &arrow_schema::FieldRef| field.data_type().is_numeric() || field.name() == "trajectory_id";
+    let kept: Vec<usize> = fields.filter(|(_, field)| is_read(field)).map(|(place, _)| place).collect();
+    let mask = ProjectionMask::roots(builder.parquet_schema(), kept);
     let (mut id, mut rows) = (String::new(), SensedRows::default());
-    for batch in builder.build()? {
+    for batch in builder.with_projection(mask).build()? {
         let batch = batch?;
         let Some(ids) = batch.column_by_name("trajectory_id").and_then(|column| column.as_string_opt::<i32>()) else {
             return Ok(());

@@ -287,7 +287,8 @@ impl RenderConfig {
         let widest = Camera { horizontal_fov_rad: widest_deg.to_radians(), ..self.camera() };
         if self.lens.widening(&widest).is_none_or(|widening| widening > 3.0) {
             let message = format!(
-                "the lens (`{}`, `k1` {k1}, `k2` {k2}) has no picture in the corners of a field of view of {widest_deg} degrees",
+                "the lens (`{}`, k {k1}, {k2}, {k3}, {k4}) has no picture in the corners of a field of view of {widest_deg} degrees, \
+                 or needs one more than three times as wide",
                 model.name()
             );
             return problem("lens", message, "take coefficients nearer to 0 or a smaller field of view");

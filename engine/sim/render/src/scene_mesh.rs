@@ -44,7 +44,8 @@ impl SceneMesh {
             })
         };
         let known = areas().zip(&looks).filter(|(_, look)| !look.is_unknown).map(|(area, _)| area).sum::<f64>();
-        let known_share = known / areas().sum::<f64>();
+        // Triangles that all are too small for 32-bit numbers have no area.
+        let known_share = known / areas().sum::<f64>().max(f64::MIN_POSITIVE);
         let clusters = (0..mesh.triangles.len()).step_by(CLUSTER_TRIANGLES).map(|first| {
             let triangles = first..(first + CLUSTER_TRIANGLES).min(mesh.triangles.len());
             let corners = || mesh.triangles[triangles.clone()].iter().flat_map(|triangle| triangle.corners());

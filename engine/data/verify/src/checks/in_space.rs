@@ -71,7 +71,9 @@ fn point_problem(it: &FlightRows<'_>, camera: &Pose, point: &SeenKeyPoint, seen:
     let (width, height) = (f64::from(it.flight.camera.width), f64::from(it.flight.camera.height));
     let within = |slack: f64| (-slack..width + slack).contains(&right) && (-slack..height + slack).contains(&down);
     if point.shown == 0 {
-        return within(-SLACK_PX).then(|| "is in the picture, and said to be out of it".into());
+        // Beyond the place where a lens's curve turns, nothing shows the point.
+        let is_shown = within(-SLACK_PX) && it.flight.shows(camera, point.point_in_world, (right, down));
+        return is_shown.then(|| "is in the picture, and said to be out of it".into());
     }
     if !within(SLACK_PX) || (right - u).abs() > SLACK_PX || (down - v).abs() > SLACK_PX {
         return Some(format!("is at pixel ({u:.2}, {v:.2}); its place is at ({right:.2}, {down:.2})"));

@@ -22,6 +22,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Rows kept together in tables of plugins.
 const EXTRA_ROWS_PER_GROUP: usize = 50_000;
+/// Bytes at which a row group of a plugin's or sensor's table ends: clouds of lidars are large.
+const EXTRA_BYTES_PER_GROUP: usize = 256 << 20;
 
 /// Facts that a dataset has to know of one group of walks.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -178,6 +180,9 @@ impl Writing<'_> {
                     let batch = extras::write_batch(trajectory_id, &extra).map_err(|error| failed(error.into()))?;
                     rows += batch.num_rows() as u64;
                     writer.write(&batch).map_err(failed)?;
+                    if writer.in_progress_size() > EXTRA_BYTES_PER_GROUP {
+                        writer.flush().map_err(failed)?;
+                    }
                 }
                 writer.close().map(drop).map_err(failed)
             })?;

@@ -8,7 +8,7 @@ use cosfly_frames::DVec3;
 use cosfly_scans::obj::in_triangles;
 use cosfly_town::MapError;
 use cosfly_town::text::decoded;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Most corners of a polygon.
 const MOST_CORNERS: usize = 10_000;
@@ -23,6 +23,7 @@ pub(super) fn read(bytes: &[u8], beside: &[(String, Vec<u8>)], place: &MeshPlace
         colours: vec![],
         texture_places: vec![],
         known: BTreeMap::new(),
+        libraries: BTreeSet::new(),
         pictures: BTreeMap::new(),
         numbers: BTreeMap::new(),
         material: 0,
@@ -58,6 +59,8 @@ struct Reader<'a> {
     texture_places: Vec<[f32; 2]>,
     /// Materials of the files that were named so far.
     known: BTreeMap<String, NamedMaterial>,
+    /// Those files.
+    libraries: BTreeSet<String>,
     /// Numbers of textures by the names of their files.
     pictures: BTreeMap<String, u32>,
     /// Numbers of materials by name.
@@ -154,6 +157,9 @@ impl Reader<'_> {
     }
 
     fn materials_of(&mut self, path: &str) -> Result<(), MapError> {
+        if !self.libraries.insert(path.to_owned()) {
+            return Ok(());
+        }
         let all = materials::read(self.file(path)?)?;
         self.known.extend(all.into_iter().map(|material| (material.name.clone(), material)));
         Ok(())

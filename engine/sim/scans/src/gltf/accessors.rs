@@ -14,11 +14,13 @@ const REAL: u32 = 5126;
 const MOST_PLACES: usize = 1_000_000;
 
 impl Document {
-    /// Corners and indices that a shape says it has, no more than there are bytes: what reading it costs, whether it can be read or not.
+    /// Numbers of corners and indices that a shape says it has, with all their colours and texture places, no more than there are bytes: what reading it costs, whether it can be read or not.
     pub fn elements_of_shape(&self, shape: &Primitive) -> usize {
         let bytes: usize = self.data.iter().map(Vec::len).sum();
         let count = |accessor: &usize| self.accessors.get(*accessor).map_or(0, |accessor| accessor.count.min(bytes));
-        1 + shape.attributes.get("POSITION").map_or(0, count) + shape.indices.as_ref().map_or(0, count)
+        let named = |name: &str| ["POSITION", "COLOR_0"].contains(&name) || name.starts_with("TEXCOORD_");
+        let attributes = shape.attributes.iter().filter(|(name, _)| named(name.as_str()));
+        1 + attributes.map(|(_, accessor)| count(accessor)).sum::<usize>() + shape.indices.as_ref().map_or(0, count)
     }
 
     /// Bytes of a view.

@@ -79,8 +79,8 @@ static HDL64E: Lidar = Lidar {
 
 static MID360: Lidar = Lidar {
     name: "mid360",
-    doc: "Livox Mid-360: one beam all around, from 7 degrees below to 52 above, that does not repeat, 200,000 shots a second, 70 m, 2 cm; \
-          the paths of its mirror are a model.",
+    doc: "Livox Mid-360: one beam all around, from 7 degrees below to 52 above, 200,000 shots a second, 70 m, 2 cm; \
+          the paths of its mirror are a model that repeats after 10 s.",
     version: 1,
     rates_hz: [1.0, 10.0, 100.0],
     shots_hz: 200_000,
@@ -111,7 +111,7 @@ static MID40: Lidar = Lidar {
 
 static OS1_64: Lidar = Lidar {
     name: "os1_64",
-    doc: "Ouster OS1-64: 64 rings from 22.5 degrees below to 22.5 above, 1,310,720 shots a second, 120 m, 2 cm.",
+    doc: "Ouster OS1-64, revision C: 64 even rings from 22.5 degrees below to 22.5 above, 1,310,720 shots a second, 120 m, 2 cm.",
     version: 1,
     rates_hz: [10.0, 10.0, 20.0],
     shots_hz: 20_480,

@@ -3,10 +3,11 @@
 use cosfly_experts::map_files::ReadMap;
 use cosfly_models::mesh::{MeshConfig, MeshSurvey, NamedFile, TexturedMesh, named_files};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Largest file beside a mesh that is read, bytes.
+/// Most bytes of all files beside a mesh that are read.
 const MOST_BYTES_BESIDE: u64 = 1 << 30;
 
 /// Figures for programs; none for other formats. `parameters` are those of the stage `map`, which tell the unit.
@@ -45,14 +46,18 @@ pub fn figures(file: &Path, map: &ReadMap, parameters: &[String]) -> Option<Valu
 fn beside(file: &Path, bytes: &[u8]) -> Vec<NamedFile> {
     let mut files: Vec<NamedFile> = vec![];
     let mut names = named_files(bytes);
+    let (mut seen, mut left) = (BTreeSet::new(), MOST_BYTES_BESIDE);
     while let Some(name) = names.pop() {
-        let path = file.with_file_name(&name);
-        let is_read = files.iter().any(|(known, _)| *known == name);
-        let is_plain = std::fs::metadata(&path).is_ok_and(|it| it.is_file() && it.len() <= MOST_BYTES_BESIDE);
-        if is_read || !is_plain || Path::new(&name).components().count() != 1 {
+        if Path::new(&name).components().count() != 1 || !seen.insert(name.clone()) {
             continue;
         }
+        let path = file.with_file_name(&name);
+        let Some(length) = std::fs::metadata(&path).ok().filter(std::fs::Metadata::is_file).map(|it| it.len()) else {
+            continue;
+        };
+        let Some(rest) = left.checked_sub(length) else { continue };
         let Ok(bytes) = std::fs::read(&path) else { continue };
+        left = rest;
         if Path::new(&name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtl")) {
             names.extend(named_files(&bytes));
         }
