@@ -54,12 +54,12 @@ impl SpaceRow {
         let places = rows.get(Bodies3d::key_points_in_world_m, row)?;
         let shown = rows.get(Bodies3d::key_points_shown, row)?;
         let points = pixels.as_chunks::<2>().0.iter().zip(depths_m).zip(places.as_chunks::<3>().0).zip(shown);
-        let point = |(((pixel, depth_m), place), shown): (((&[f64; 2], f64), &[f64; 3]), f64)| SeenKeyPoint {
+        let points = points.map(|(((pixel, depth_m), place), shown)| SeenKeyPoint {
             pixel: *pixel,
             depth_m,
             point_in_world: DVec3::from_array(*place),
             shown: shown as u8,
-        };
+        });
         Ok(Self {
             frame: rows.get(Bodies3d::frame, row)?,
             instance: rows.get(Bodies3d::instance, row)?,
@@ -68,7 +68,7 @@ impl SpaceRow {
             yaw_in_world_deg: rows.get(Bodies3d::yaw_in_world_deg, row)?,
             centre_in_camera: DVec3::from_array(rows.get(Bodies3d::centre_in_camera_m, row)?),
             yaw_in_camera_deg: rows.get(Bodies3d::yaw_in_camera_deg, row)?,
-            key_points: points.map(point).collect(),
+            key_points: points.collect(),
         })
     }
 }

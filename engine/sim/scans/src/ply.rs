@@ -11,6 +11,9 @@ use cosfly_frames::DVec3;
 use cosfly_town::remarks::speaks_of_a_place;
 use cosfly_town::{MapError, MapFormat};
 
+/// Takes a function from columns to the numbers of a row.
+type VisitRow<'a> = &'a mut dyn FnMut(&dyn Fn(usize) -> f64);
+
 /// Longest head, bytes.
 const LONGEST_HEAD: usize = 64 << 10;
 /// Vertices of faces farther apart than this are corners of a drawing, not a scan, metres.
@@ -234,12 +237,7 @@ impl Head {
     }
 
     /// Visits the rows of a binary file: `visit` takes a function from columns to numbers.
-    fn each_row(
-        &self,
-        mut data: &[u8],
-        is_big_endian: bool,
-        visit: &mut dyn FnMut(&dyn Fn(usize) -> f64),
-    ) -> Result<(), MapError> {
+    fn each_row(&self, mut data: &[u8], is_big_endian: bool, visit: VisitRow<'_>) -> Result<(), MapError> {
         for (count, properties) in &self.before {
             data = without_rows(data, *count, properties, is_big_endian).ok_or_else(|| self.cut_off())?;
         }
@@ -266,12 +264,7 @@ impl Head {
     }
 
     /// [`Self::each_row`] of a text up to its column `last`.
-    fn each_line(
-        &self,
-        data: &[u8],
-        last: usize,
-        visit: &mut dyn FnMut(&dyn Fn(usize) -> f64),
-    ) -> Result<(), MapError> {
+    fn each_line(&self, data: &[u8], last: usize, visit: VisitRow<'_>) -> Result<(), MapError> {
         let text = String::from_utf8_lossy(data);
         let skipped = self.before.iter().map(|(count, _)| *count).fold(0, usize::saturating_add);
         let mut lines = text.lines().filter(|line| !line.trim().is_empty()).skip(skipped);

@@ -63,8 +63,11 @@ impl<'a> Readings<'a> {
     }
 }
 
-/// Clouds and poses of the sweeps of a lidar; `None` of other sensors.
-fn sweeps_of<'a>(sensor: &LoggedSensor, quantities: &'a [Values]) -> Option<(&'a [Vec<u8>], [&'a [f64]; 7])> {
+/// Clouds, and the numbers of the poses, of the sweeps of a lidar.
+type Sweeps<'a> = (&'a [Vec<u8>], [&'a [f64]; 7]);
+
+/// The sweeps of a lidar; `None` of other sensors.
+fn sweeps_of<'a>(sensor: &LoggedSensor, quantities: &'a [Values]) -> Option<Sweeps<'a>> {
     let of = |name: &str| sensor.quantities.iter().position(|it| it == name).map(|place| &quantities[place]);
     let Values::Bytes(clouds) = of(cloud::COLUMN)? else { return None };
     let mut pose: [&[f64]; 7] = [&[]; 7];
