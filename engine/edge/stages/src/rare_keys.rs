@@ -40,6 +40,7 @@ const RARE: &[(&str, &str, &str)] = &[
     ("plan", "search/keyframe_frames", "2"),
     ("plan", "search/relative_motion", "1.5"),
     ("plan", "view/safety_influence_m", "6.0"),
+    ("pedestrians", "restless_share", "0.5"),
     ("pedestrians", "speed/deviation_mps", "0.2"),
     ("pedestrians", "speed/mean_mps", "1.2"),
     ("pedestrians", "speed/min_mps", "0.6"),

@@ -28,6 +28,11 @@ pub struct PedestrianConfig {
     pub speed_variation_share: f64,
     /// Random stops.
     pub stops: StopConfig,
+    /// Share of restless pedestrians, who turn about every few metres, as children at play and people who search. Flights
+    /// behind them are hard (`difficulty`). Default 0.
+    #[serde(skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restless_share: f64,
     /// Body height.
     pub height: HeightRange,
     /// Body radius seen from above; the largest is the least distance from obstacles for all.
@@ -46,6 +51,10 @@ pub struct PedestrianConfig {
     pub min_route_m: f64,
 }
 
+fn is_zero(share: &f64) -> bool {
+    *share == 0.0
+}
+
 impl Default for PedestrianConfig {
     fn default() -> Self {
         Self {
@@ -56,6 +65,7 @@ impl Default for PedestrianConfig {
             turn_slowdown_m: 1.0,
             speed_variation_share: 0.1,
             stops: StopConfig::default(),
+            restless_share: 0.0,
             height: HeightRange::default(),
             radius: RadiusRange::default(),
             grid_m: 0.5,
@@ -153,7 +163,7 @@ impl PedestrianConfig {
 
     /// Checks what the schema cannot say (order of limits) and, for callers without a schema, finiteness.
     pub fn check(&self) -> Result<(), PedestrianConfigRule> {
-        let numbers: [(&'static [&'static str], f64, f64, f64); 17] = [
+        let numbers: [(&'static [&'static str], f64, f64, f64); 18] = [
             (&["dt_s"], self.dt_s, 0.01, 10.0),
             (&["speed", "mean_mps"], self.speed.mean_mps, 0.05, 10.0),
             (&["speed", "deviation_mps"], self.speed.deviation_mps, 0.0, 5.0),
@@ -164,6 +174,7 @@ impl PedestrianConfig {
             (&["stops", "per_100m"], self.stops.per_100m, 0.0, 50.0),
             (&["stops", "min_s"], self.stops.min_s, 0.0, 3600.0),
             (&["stops", "max_s"], self.stops.max_s, 0.0, 3600.0),
+            (&["restless_share"], self.restless_share, 0.0, 1.0),
             (&["height", "min_m"], self.height.min_m, 0.5, 3.0),
             (&["height", "max_m"], self.height.max_m, 0.5, 3.0),
             (&["radius", "min_m"], self.radius.min_m, 0.05, 2.0),

@@ -10,6 +10,12 @@ pub(crate) const LONGEST_LEG_M: f64 = 120.0;
 /// Largest angle between the direction of the walk so far and that to the next goal, radians.
 const AHEAD_RAD: f64 = 1.9;
 
+/// Straight distances between the turns of restless people, metres; smoothing takes about a metre of each.
+const RESTLESS_LEG_M: [f64; 2] = [3.0, 6.0];
+
+/// Largest angle between the way back and the next direction of restless people, radians.
+const ABOUT_RAD: f64 = 1.7;
+
 /// Attempts to find a start, or a goal that a route leads to.
 pub(crate) const GOAL_ATTEMPTS: usize = 48;
 
@@ -81,6 +87,27 @@ pub(crate) fn draw_goal(
     let node = grid.node_near(center + distance_m * DVec2::new(cos, sin), piece, 10)?;
     let apart_m = (grid.center(node) - center).length();
     (is_goal(grid, node) && apart_m > 0.25 * distance_m && node != here).then_some(node)
+}
+
+/// A node a few metres from the node `here`, where restless people turn to: to the sides or back towards `before`.
+pub(crate) fn draw_turn(
+    grid: &WalkableGrid,
+    piece: u32,
+    (here, before): (u32, Option<u32>),
+    stream: &mut RandomStream,
+) -> Option<u32> {
+    let center = grid.center(here);
+    let back = before.map_or(DVec2::X, |before| grid.center(before) - center);
+    let angle = real::atan2(back.y, back.x) + ABOUT_RAD * stream.uniform(-1.0, 1.0);
+    let distance_m = stream.uniform(RESTLESS_LEG_M[0], RESTLESS_LEG_M[1]);
+    let (sin, cos) = real::sin_cos(angle);
+    let way = distance_m * DVec2::new(cos, sin);
+    let node = grid.node_near(center + way, piece, 10)?;
+    let taken = grid.center(node) - center;
+    (is_goal(grid, node)
+        && taken.length() > 0.5 * RESTLESS_LEG_M[0]
+        && taken.dot(back) > -0.3 * taken.length() * back.length())
+    .then_some(node)
 }
 
 /// Whether a walk may start or choose a new goal here.

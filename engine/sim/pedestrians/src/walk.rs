@@ -1,6 +1,6 @@
 //! One pedestrian's walk: a person, a chain of goals, a smooth path, and its frames.
 
-use crate::goal::{GOAL_ATTEMPTS, LONGEST_LEG_M, draw_goal, draw_start, roomy_pieces};
+use crate::goal::{GOAL_ATTEMPTS, LONGEST_LEG_M, draw_goal, draw_start, draw_turn, roomy_pieces};
 use crate::motion::{self, ArcPath};
 use crate::route::{LONE_COSTS, RouteSearch, TASTE_SHARE};
 use crate::smooth::smooth;
@@ -17,6 +17,11 @@ const BEHIND_NODES: usize = 60;
 /// A route that begins by going back this many steps is given up for another goal, at most so many times.
 const TURNING_BACK_STEPS: usize = 6;
 const TURNING_BACK_REFUSALS: usize = 3;
+
+/// Nodes of the route that tell restless people where they came from, and the longest way to their next turn, metres of
+/// pavement.
+const TURN_NODES: usize = 4;
+const LONGEST_TURN_M: f32 = 20.0;
 
 /// Smoothing cuts corners; routes are made longer by this.
 const SPARE: f64 = 1.12;
@@ -105,6 +110,8 @@ struct GoalChain<'a> {
     component: u32,
     nodes: Vec<u32>,
     length_m: f64,
+    /// Whether the person turns about every few metres.
+    restless: bool,
     /// No route leads on.
     ended: bool,
 }
@@ -121,6 +128,7 @@ impl<'a> GoalChain<'a> {
             component: start.0,
             nodes: vec![start.1],
             length_m: 0.0,
+            restless: seed.stream("restless").unit() < config.restless_share,
             ended: false,
         })
     }
@@ -145,6 +153,26 @@ impl<'a> GoalChain<'a> {
 
     /// Adds the route to one more goal; false when none was found.
     fn grow(&mut self, leg_m: f64) -> bool {
+        (self.restless && self.turn_about()) || self.go_on(leg_m)
+    }
+
+    /// Adds a few metres to the side or back; false when no such way was found.
+    fn turn_about(&mut self) -> bool {
+        let here = self.nodes[self.nodes.len() - 1];
+        let before = self.nodes.len().checked_sub(1 + TURN_NODES).map(|place| self.nodes[place]);
+        for _ in 0..GOAL_ATTEMPTS {
+            let goal = draw_turn(self.grid, self.component, (here, before), &mut self.stream);
+            let way = goal.and_then(|goal| self.search.find_within(here, goal, &[], LONGEST_TURN_M));
+            if let Some(way) = way.filter(|way| way.len() > 1) {
+                self.add(&way);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Adds the route to a goal ahead.
+    fn go_on(&mut self, leg_m: f64) -> bool {
         let here = self.nodes[self.nodes.len() - 1];
         let mut refusals = 0;
         for attempt in 0..GOAL_ATTEMPTS {
@@ -162,15 +190,17 @@ impl<'a> GoalChain<'a> {
                     refusals += 1;
                     continue;
                 }
-                self.length_m += way
-                    .windows(2)
-                    .map(|pair| (self.grid.center(pair[1]) - self.grid.center(pair[0])).length())
-                    .sum::<f64>();
-                self.nodes.extend(&way[1..]);
+                self.add(&way);
                 return true;
             }
         }
         false
+    }
+
+    fn add(&mut self, way: &[u32]) {
+        let steps = way.windows(2).map(|pair| (self.grid.center(pair[1]) - self.grid.center(pair[0])).length());
+        self.length_m += steps.sum::<f64>();
+        self.nodes.extend(&way[1..]);
     }
 }
 
@@ -253,6 +283,24 @@ mod tests {
         walk(&grid, &config, seed(2)).unwrap();
         assert_eq!(first, walk(&again, &config, seed(1)).unwrap());
         assert_ne!(first, walk(&grid, &config, seed(2)).unwrap());
+    }
+
+    #[test]
+    fn restless_people_turn_a_quarter_in_most_windows() {
+        let (town, config) = (streets(), PedestrianConfig { restless_share: 1.0, ..PedestrianConfig::default() });
+        let grid = WalkableGrid::build(&town, &config).unwrap();
+        let turns_deg = (0..20).map(|item| {
+            let walked = walk(&grid, &config, seed(item)).unwrap();
+            check_walk(&town, &grid, &config, &walked);
+            let headings: Vec<f64> = walked.track.states.iter().map(|state| state.heading_rad).collect();
+            let turn = |pair: &[f64]| cosfly_frames::real::wrap_angle_rad(pair[1] - pair[0]).abs().to_degrees();
+            let mut windows: Vec<f64> = headings.windows(10).map(|of| of.windows(2).map(turn).sum()).collect();
+            windows.sort_by(f64::total_cmp);
+            windows[windows.len() / 2]
+        });
+        let turns_deg: Vec<f64> = turns_deg.collect();
+        println!("{turns_deg:.0?}");
+        assert!(turns_deg.iter().all(|turn| *turn >= 90.0), "{turns_deg:.0?}");
     }
 
     #[test]
