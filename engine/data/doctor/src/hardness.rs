@@ -54,6 +54,6 @@ pub fn too_many(is_hard: &[bool], share: f64) -> Result<Vec<usize>> {
     };
     let message = format!("{lacking}; {} % are to be", 100.0 * share);
     Err(Diagnostic::new("inspect-hard", Fault::Recipe, message).hint(
-        "make more flights, of walks with tight turns and in places that hide the target, or leave `hard_share` out",
+        "set `restless_share` of stage `pedestrians` to about the same share, make more flights, or leave `hard_share` out",
     ))
 }
