@@ -3,6 +3,7 @@
 use super::area;
 use super::facts::{FlightFacts, published_windows};
 use super::overlap::{Overlaps, overlaps};
+use super::places::kind_of;
 use super::route;
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_read::PublishedDataset;
@@ -23,6 +24,8 @@ pub struct LintRules {
     pub overlap_direction: OverlapDirection,
     /// Whether a place must be in one split only, whatever its name.
     pub by_town: bool,
+    /// Whether all places of a kind must be in one split.
+    pub by_kind: bool,
 }
 
 impl LintRules {
@@ -34,14 +37,15 @@ impl LintRules {
     /// Rules that follow from the shares of a recipe or of `splits.json`.
     pub fn of_shares(shares: &SplitShares) -> Self {
         let SplitShares { max_route_overlap, overlap_direction, by, .. } = *shares;
-        Self { max_route_overlap, overlap_direction, by_town: matches!(by, SplitBy::Town | SplitBy::Kind) }
+        let by_town = matches!(by, SplitBy::Town | SplitBy::Kind);
+        Self { max_route_overlap, overlap_direction, by_town, by_kind: by == SplitBy::Kind }
     }
 }
 
 /// Two flights or towns that must not be in different splits.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Leak {
-    /// `split-town`, `split-pedestrian`, `split-twin`, `split-group`, `split-window`, `split-route` or `split-area`.
+    /// `split-town`, `split-kind`, `split-pedestrian`, `split-twin`, `split-group`, `split-window`, `split-route` or `split-area`.
     pub rule: &'static str,
     /// Flight that the finding is reported for.
     pub trajectory_id: String,
@@ -88,6 +92,9 @@ impl Leaks {
 pub fn lint(facts: &[FlightFacts], rules: &LintRules) -> Leaks {
     let mut leaks = Leaks::default();
     towns(facts, rules, &mut leaks);
+    if rules.by_kind {
+        kinds(facts, &mut leaks);
+    }
     pedestrians(facts, &mut leaks);
     windows(facts, &mut leaks);
     routes(facts, rules, &mut leaks);
@@ -143,6 +150,22 @@ fn towns(facts: &[FlightFacts], rules: &LintRules, leaks: &mut Leaks) {
                 let message = format!("towns `{name}` and `{other}` {alike}: {} and {}", named(a), named(b));
                 leaks.add("split-town", b, message);
             }
+        }
+    }
+}
+
+/// Finds kinds of places in several splits.
+fn kinds(facts: &[FlightFacts], leaks: &mut Leaks) {
+    let mut kinds: BTreeMap<&str, BTreeMap<&str, &FlightFacts>> = BTreeMap::new();
+    for it in facts {
+        kinds.entry(kind_of(&it.town)).or_default().entry(&it.split).or_insert(it);
+    }
+    for (kind, splits) in kinds {
+        let mut flights = splits.into_values();
+        let Some(first) = flights.next() else { continue };
+        for it in flights {
+            let message = format!("kind `{kind}` is in two splits: {} and {}", named(first), named(it));
+            leaks.add("split-kind", it, message);
         }
     }
 }
@@ -374,7 +397,7 @@ mod tests {
     }
 
     const RULES: LintRules =
-        LintRules { max_route_overlap: 0.5, overlap_direction: OverlapDirection::Same, by_town: false };
+        LintRules { max_route_overlap: 0.5, overlap_direction: OverlapDirection::Same, by_town: false, by_kind: false };
 
     #[test]
     fn sound_splits_have_no_leak() {
@@ -430,6 +453,13 @@ mod tests {
             assert!(refusal(&found).unwrap().to_string().contains("splits leak"));
         }
         let by_town = LintRules { by_town: true, ..RULES };
-        assert_eq!(lint(&[a, b], &by_town).kept[0].rule, "split-town");
+        assert_eq!(lint(&[a.clone(), b.clone()], &by_town).kept[0].rule, "split-town");
+        let by_kind = LintRules { by_kind: true, ..RULES };
+        let mut another = FlightFacts { town: "north_2".into(), ..b };
+        another.layout = Arc::new(TownLayout { digest: "cd".repeat(32), sketch: vec![-1; 64] });
+        let found = lint(&[a.clone(), another.clone()], &by_kind);
+        assert!(found.kept[0].message.starts_with("kind `north` is in two splits"), "{found:?}");
+        another.split = a.split.clone();
+        assert_eq!(lint(&[a, another], &by_kind).found, 0);
     }
 }

@@ -68,7 +68,7 @@ fn join_kinds(facts: &[FlightFacts], layouts: &[&TownLayout], same: &mut Disjoin
 }
 
 /// Kind of a town: its name without the number at its end.
-fn kind_of(town: &str) -> &str {
+pub(crate) fn kind_of(town: &str) -> &str {
     let kind = town.trim_end_matches(|letter: char| letter.is_ascii_digit()).trim_end_matches(['_', '-', '.', ' ']);
     if kind.is_empty() { town } else { kind }
 }

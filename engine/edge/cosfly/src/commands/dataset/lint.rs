@@ -60,6 +60,7 @@ impl Command for Arguments {
                 _ => OverlapDirection::Either,
             },
             by_town: self.by_town || policies.iter().all(|policy| policy.rules().by_town),
+            by_kind: policies.iter().all(|policy| policy.rules().by_kind),
         };
         let window = policies.first().map_or(10, |policy| policy.windows.shape().size());
         let stop = console.stop();
@@ -145,7 +146,11 @@ fn compared(facts: &[FlightFacts], rules: &LintRules) -> String {
             splits.iter().map(|(split, flights)| format!("{} in `{split}`", count(*flights, "flight"))).collect();
         let _ = writeln!(text, "town `{town}` (ground plan {layout}): {}", splits.join(", "));
     }
-    let places = if rules.by_town { "one split per town" } else { "towns may be in all splits" };
+    let places = match (rules.by_kind, rules.by_town) {
+        (true, _) => "one split per kind of town",
+        (false, true) => "one split per town",
+        (false, false) => "towns may be in all splits",
+    };
     let way = match rules.overlap_direction {
         OverlapDirection::Same => " in the same direction",
         OverlapDirection::Either => ", there or back",
