@@ -1,6 +1,6 @@
 //! [`PedestrianConfig`]: the parameters of pedestrians in a recipe, and the rules between them.
 
-use crate::PedestrianConfigRule;
+use crate::{AreaConfig, PedestrianConfigRule};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -49,6 +49,10 @@ pub struct PedestrianConfig {
     /// Ground whose pieces are all smaller than this across is refused, metres. Default 20.
     #[schemars(range(min = 1.0, max = 10_000.0))]
     pub min_route_m: f64,
+    /// Areas where walks begin and have goals more or less often, and areas that nobody enters. Default none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub areas: Vec<AreaConfig>,
 }
 
 fn is_zero(share: &f64) -> bool {
@@ -72,6 +76,7 @@ impl Default for PedestrianConfig {
             simplify_m: 0.2,
             edge_distance_m: 0.8,
             min_route_m: 20.0,
+            areas: vec![],
         }
     }
 }
@@ -186,6 +191,7 @@ impl PedestrianConfig {
         for (path, value, min, max) in numbers {
             PedestrianConfigRule::within(path, value, min, max)?;
         }
+        AreaConfig::check(&self.areas)?;
         PedestrianConfigRule::within(&["min_route_m"], self.min_route_m, 1.0, 10_000.0)?;
         PedestrianConfigRule::within(&["frames"], f64::from(self.frames), 2.0, 100_000.0)?;
         let duration_s = f64::from(self.frames) * self.dt_s;
@@ -216,6 +222,11 @@ mod tests {
         let rule = config.check().unwrap_err();
         assert_eq!(rule.path, ["speed", "min_mps"]);
         assert_eq!(rule.message, "`min_mps` is `3`; it must not be more than `max_mps`, which is `2.2`");
+        let corners = vec![[0.0, 0.0], [1.0, f64::INFINITY], [2.0, 0.0]];
+        let area = AreaConfig { polygon_m: corners, weight: 1.0, closed: false };
+        let far = PedestrianConfig { areas: vec![area], ..PedestrianConfig::default() };
+        let message = "area 0 has a corner at `inf`; corners must be within `100000` m of the origin";
+        assert_eq!(far.check().unwrap_err().message, message);
         let nan = PedestrianConfig { dt_s: f64::NAN, ..PedestrianConfig::default() };
         assert_eq!(nan.check().unwrap_err().message, "`dt_s` is `NaN`; it must be within `0.01` and `10`");
     }

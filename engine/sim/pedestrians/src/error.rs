@@ -76,6 +76,8 @@ pub enum PedestrianError {
         /// Asked extent, metres.
         min_route_m: f64,
     },
+    /// No piece of ground that is large enough has a weight above 0.
+    NoWeight,
     /// The people of a crowd do not all find a place to begin at.
     TooCrowded {
         /// People who found one.
@@ -122,6 +124,9 @@ impl PedestrianError {
                     largest_m.floor().max(1.0)
                 )
             }
+            Self::NoWeight => {
+                "give an area over walkable ground a `weight` above 0; corners are in the world: x, y, metres".into()
+            }
             Self::TooCrowded { placed, .. } => {
                 format!("set `count` to {} or less, or choose a map with more walkable ground", placed * 4 / 5)
             }
@@ -154,6 +159,7 @@ impl fmt::Display for PedestrianError {
                 "the largest connected piece of walkable ground is {largest_m:.1} m across; `min_route_m` asks for \
                  {min_route_m} m"
             ),
+            Self::NoWeight => f.write_str("`areas` give all walkable ground the weight 0, so no walk can begin"),
             Self::TooCrowded { placed, count } => {
                 write!(f, "only {placed} of {count} people find a place to begin at on the walkable ground")
             }

@@ -31,6 +31,10 @@ pub(crate) fn roomy_pieces(grid: &WalkableGrid, min_route_m: f64) -> Result<Vec<
         let largest_m = grid.components.iter().map(|piece| piece.extent_m).fold(0.0, f64::max);
         return Err(PedestrianError::NoRoom { largest_m, min_route_m });
     }
+    let roomy: Vec<u32> = roomy.into_iter().filter(|piece| grid.components[*piece as usize].weight > 0.0).collect();
+    if roomy.is_empty() {
+        return Err(PedestrianError::NoWeight);
+    }
     Ok(roomy)
 }
 
@@ -41,6 +45,13 @@ pub(crate) fn draw_start(grid: &WalkableGrid, roomy: &[u32], stream: &mut Random
     let total: usize = roomy.iter().map(size).sum();
     let mut start = (0, 0);
     for _ in 0..GOAL_ATTEMPTS {
+        if grid.is_weighted() {
+            start = draw_by_weight(grid, roomy, stream);
+            if is_goal(grid, start.1) {
+                break;
+            }
+            continue;
+        }
         let mut place = stream.index(total);
         for piece in roomy {
             if place < size(piece) {
@@ -70,7 +81,11 @@ pub(crate) fn draw_goal(
     let late = attempt as f64 / GOAL_ATTEMPTS as f64;
     if late > 0.8 {
         let nodes = &grid.components[piece as usize].nodes;
-        let node = nodes[stream.index(nodes.len())];
+        let node = if grid.is_weighted() {
+            draw_by_weight(grid, &[piece], stream).1
+        } else {
+            nodes[stream.index(nodes.len())]
+        };
         let apart_m = (grid.center(node) - center).length();
         return (node != here && apart_m <= 2.0 * LONGEST_LEG_M).then_some(node);
     }
@@ -86,7 +101,7 @@ pub(crate) fn draw_goal(
     let (sin, cos) = real::sin_cos(angle);
     let node = grid.node_near(center + distance_m * DVec2::new(cos, sin), piece, 10)?;
     let apart_m = (grid.center(node) - center).length();
-    (is_goal(grid, node) && apart_m > 0.25 * distance_m && node != here).then_some(node)
+    (is_goal(grid, node) && apart_m > 0.25 * distance_m && node != here && is_drawn(grid, node, stream)).then_some(node)
 }
 
 /// A node a few metres from the node `here`, where restless people turn to: to the sides or back towards `before`.
@@ -105,9 +120,40 @@ pub(crate) fn draw_turn(
     let node = grid.node_near(center + way, piece, 10)?;
     let taken = grid.center(node) - center;
     (is_goal(grid, node)
+        && grid.weight(node) > 0.0
         && taken.length() > 0.5 * RESTLESS_LEG_M[0]
         && taken.dot(back) > -0.3 * taken.length() * back.length())
     .then_some(node)
+}
+
+/// Piece and node, each square metre as likely as its weight says.
+fn draw_by_weight(grid: &WalkableGrid, pieces: &[u32], stream: &mut RandomStream) -> (u32, u32) {
+    let total: f64 = pieces.iter().map(|piece| grid.components[*piece as usize].weight).sum();
+    let mut left = total * stream.unit();
+    let mut last = (0, 0);
+    for piece in pieces {
+        let own = &grid.components[*piece as usize];
+        if left >= own.weight {
+            left -= own.weight;
+            continue;
+        }
+        for &node in &own.nodes {
+            let weight = grid.weight(node);
+            if weight > 0.0 {
+                last = (*piece, node);
+                left -= weight;
+            }
+            if left < 0.0 {
+                return last;
+            }
+        }
+    }
+    last
+}
+
+/// Whether the weight of a node lets it be a goal; draws a number where weights differ.
+fn is_drawn(grid: &WalkableGrid, node: u32, stream: &mut RandomStream) -> bool {
+    !grid.is_weighted() || stream.unit() < grid.weight(node)
 }
 
 /// Whether a walk may start or choose a new goal here.

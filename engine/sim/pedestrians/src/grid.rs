@@ -1,5 +1,6 @@
 //! The walkable grid of a town: cells on walkable ground and the steps between them that are free.
 
+use crate::areas::Weights;
 use crate::ground::Ground;
 use crate::obstruction::Obstruction;
 use crate::polygon::Cut;
@@ -49,6 +50,8 @@ pub(crate) struct Component {
     pub nodes: Vec<u32>,
     /// Diagonal of its bounds, metres.
     pub extent_m: f64,
+    /// Sum of the weights of its nodes for starts and goals.
+    pub weight: f64,
 }
 
 /// The walkable ground of a town as a graph of cells, shared between all pedestrians.
@@ -65,6 +68,7 @@ pub struct WalkableGrid {
     pub(crate) components: Vec<Component>,
     ground: Ground,
     obstruction: Obstruction,
+    weights: Weights,
     radius_m: f64,
     height_m: f64,
 }
@@ -73,7 +77,7 @@ impl WalkableGrid {
     /// Builds the grid of a town: walkable polygons minus obstacles grown by the largest body radius.
     pub fn build(town: &Town, config: &PedestrianConfig) -> Result<Self, PedestrianError> {
         config.check()?;
-        let mut ground = Ground::new(town)?;
+        let mut ground = Ground::new(town, &config.areas)?;
         let size = (ground.max - ground.min).truncate() / config.grid_m;
         // One cell of margin all round, so that neighbours never leave the array.
         let cells = (size.x + 4.0) * (size.y + 4.0);
@@ -98,6 +102,7 @@ impl WalkableGrid {
             components: vec![],
             ground,
             obstruction,
+            weights: Weights::new(&config.areas),
             radius_m: config.radius.max_m,
             height_m: config.height.max_m,
         };
@@ -198,6 +203,16 @@ impl WalkableGrid {
         closed.map(|(_, way)| -DVec2::new(way.0 as f64, way.1 as f64).normalize()).sum()
     }
 
+    /// Weight of a node for starts and goals, 0..=1: 1 on the ground of the largest weight.
+    pub(crate) fn weight(&self, node: u32) -> f64 {
+        if self.weights.are_one() { 1.0 } else { self.weights.at(self.center(node)) / self.weights.largest }
+    }
+
+    /// Whether ground differs in weight.
+    pub(crate) fn is_weighted(&self) -> bool {
+        !self.weights.are_one()
+    }
+
     /// Centre of a node's cell in plan.
     pub(crate) fn center(&self, node: u32) -> DVec2 {
         self.center_of_cell(self.nodes[node as usize].cell as usize)
@@ -241,8 +256,7 @@ impl WalkableGrid {
     }
 
     fn center_of_cell(&self, cell: usize) -> DVec2 {
-        let (column, row) = self.numbering.column_row(cell);
-        self.corner + self.cell_m * DVec2::new(column as f64 + 0.5, row as f64 + 0.5)
+        self.lattice().center(cell)
     }
 
     fn cell_at(&self, point: DVec2) -> Option<usize> {
@@ -281,8 +295,12 @@ impl WalkableGrid {
                 });
             }
         }
+        for (from, to) in self.ground.closed.edges() {
+            raster::cells_on_segment(&lattice, from, to, &mut |cell| cells.values.get_mut(cell).outlined = true);
+        }
+        let is_closed = |cell| self.ground.closed.contains(lattice.center(cell));
         cells.values.visit(|cell, ground| {
-            if let Some(kind) = ground.kind {
+            if let Some(kind) = ground.kind.filter(|_| !is_closed(cell)) {
                 *self.node_of_cell.get_mut(cell) = self.nodes.len() as u32;
                 self.nodes.push(Node {
                     cell: cell as u32,
@@ -393,7 +411,8 @@ impl WalkableGrid {
                 }
             }
             nodes.sort_unstable();
-            self.components.push(Component { nodes, extent_m: (high - low).length() });
+            let weight = nodes.iter().map(|node| self.weight(*node)).sum();
+            self.components.push(Component { nodes, extent_m: (high - low).length(), weight });
         }
     }
 

@@ -1,5 +1,6 @@
 //! The exact walkable ground: kind and height under a point, and whether a step stays on it.
 
+use crate::areas::{AreaConfig, Closed};
 use crate::polygon::{Cut, Polygon};
 use crate::{PedestrianError, polygon::Interval};
 use cosfly_domain::{Town, WalkableKind};
@@ -21,6 +22,8 @@ pub struct Ground {
     pub(crate) polygons: Vec<Polygon>,
     pub(crate) min: DVec3,
     pub(crate) max: DVec3,
+    /// Areas that nobody enters.
+    pub(crate) closed: Closed,
     columns: usize,
     buckets: Vec<Vec<u32>>,
 }
@@ -37,8 +40,8 @@ pub(crate) fn rank(kind: WalkableKind) -> u8 {
 }
 
 impl Ground {
-    /// Reads the town's walkable polygons; those with fewer than three corners are no ground.
-    pub(crate) fn new(town: &Town) -> Result<Self, PedestrianError> {
+    /// Reads the town's walkable polygons, without closed areas; those with fewer than three corners are no ground.
+    pub(crate) fn new(town: &Town, areas: &[AreaConfig]) -> Result<Self, PedestrianError> {
         let mut polygons = Vec::with_capacity(town.walkable.len());
         for (polygon, walkable) in town.walkable.iter().enumerate() {
             // 1e8 m is far beyond any map and keeps the sums below finite.
@@ -54,7 +57,7 @@ impl Ground {
         }
         let min = polygons.iter().fold(DVec3::INFINITY, |low, polygon| low.min(polygon.min));
         let max = polygons.iter().fold(DVec3::NEG_INFINITY, |high, polygon| high.max(polygon.max));
-        Ok(Self { polygons, min, max, columns: 0, buckets: vec![] })
+        Ok(Self { polygons, min, max, closed: Closed::new(areas), columns: 0, buckets: vec![] })
     }
 
     /// Builds the index; called when the extent is known to be sane.
@@ -105,6 +108,9 @@ impl Ground {
     }
 
     pub(crate) fn exactly_at(&self, point: DVec2, near_z_m: f64) -> Option<(WalkableKind, f64)> {
+        if self.closed.contains(point) {
+            return None;
+        }
         let mut cut = Cut::default();
         let mut best: Option<(bool, u8, f64, WalkableKind)> = None;
         self.polygons_near(point, point, &mut |polygon| {
@@ -152,7 +158,7 @@ impl Ground {
             covered = covered.max(piece.to);
         }
         // The two ends themselves may lie in a seam, but at most half its width from ground.
-        !pieces.is_empty() && covered >= length - 0.5 * SEAM_M
+        !pieces.is_empty() && covered >= length - 0.5 * SEAM_M && !self.closed.meets(from.truncate(), to.truncate())
     }
 }
 
@@ -162,7 +168,7 @@ mod tests {
     use crate::grid::test_towns::{rectangle, town};
 
     fn ground(walkable: Vec<cosfly_domain::WalkablePolygon>) -> Ground {
-        let mut ground = Ground::new(&town(walkable, vec![])).unwrap();
+        let mut ground = Ground::new(&town(walkable, vec![]), &[]).unwrap();
         ground.index();
         ground
     }

@@ -207,6 +207,7 @@ impl<'a> GoalChain<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::AreaConfig;
     use crate::grid::test_towns::{rectangle, streets, town};
 
     fn seed(item: u32) -> Seed {
@@ -301,6 +302,33 @@ mod tests {
         let turns_deg: Vec<f64> = turns_deg.collect();
         println!("{turns_deg:.0?}");
         assert!(turns_deg.iter().all(|turn| *turn >= 90.0), "{turns_deg:.0?}");
+    }
+
+    #[test]
+    fn areas_say_where_walks_begin_and_where_nobody_goes() {
+        let area = |min: [f64; 2], max: [f64; 2], weight, closed| AreaConfig {
+            polygon_m: vec![min, [max[0], min[1]], max, [min[0], max[1]]],
+            weight,
+            closed,
+        };
+        let everywhere = area([-500.0, -500.0], [500.0, 500.0], 0.0, false);
+        let (west, east) =
+            (area([-1.0, -1.0], [41.0, 200.0], 1.0, false), area([60.3, -20.0], [70.7, 200.0], 1.0, true));
+        let config = PedestrianConfig { areas: vec![everywhere.clone(), west, east], ..PedestrianConfig::default() };
+        let town = streets();
+        let grid = WalkableGrid::build(&town, &config).unwrap();
+        let mut farthest_m = 0.0_f64;
+        for item in 0..20 {
+            let walked = walk(&grid, &config, seed(item)).unwrap();
+            check_walk(&town, &grid, &config, &walked);
+            assert!(walked.track.states[0].feet_in_world.x < 41.0);
+            farthest_m = walked.track.states.iter().map(|state| state.feet_in_world.x).fold(farthest_m, f64::max);
+        }
+        assert!(farthest_m > 35.0 && farthest_m < 60.3, "{farthest_m}");
+        let nowhere = PedestrianConfig { areas: vec![everywhere], ..PedestrianConfig::default() };
+        let grid = WalkableGrid::build(&town, &nowhere).unwrap();
+        let error = walk(&grid, &nowhere, seed(0)).unwrap_err();
+        assert_eq!(error.to_string(), "`areas` give all walkable ground the weight 0, so no walk can begin");
     }
 
     #[test]

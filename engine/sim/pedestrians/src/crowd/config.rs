@@ -1,6 +1,6 @@
 //! [`CrowdConfig`]: the parameters of people who walk a town together, and the rules between them.
 
-use crate::{HeightRange, PedestrianConfig, PedestrianConfigRule, RadiusRange, SpeedConfig};
+use crate::{AreaConfig, HeightRange, PedestrianConfig, PedestrianConfigRule, RadiusRange, SpeedConfig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -47,6 +47,10 @@ pub struct CrowdConfig {
     /// Ground whose pieces are all smaller than this across is refused, metres. Default 20.
     #[schemars(range(min = 1.0, max = 10_000.0))]
     pub min_route_m: f64,
+    /// Areas where people begin and have goals more or less often, and areas that nobody enters. Default none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub areas: Vec<AreaConfig>,
 }
 
 impl Default for CrowdConfig {
@@ -68,6 +72,7 @@ impl Default for CrowdConfig {
             grid_m: lone.grid_m,
             edge_distance_m: 1.6,
             min_route_m: lone.min_route_m,
+            areas: lone.areas,
         }
     }
 }
@@ -210,6 +215,7 @@ impl CrowdConfig {
             grid_m: self.grid_m,
             edge_distance_m: self.edge_distance_m,
             min_route_m: self.min_route_m,
+            areas: self.areas.clone(),
             ..PedestrianConfig::default()
         }
     }

@@ -51,6 +51,14 @@ pub struct Lattice {
     pub numbering: Numbering,
 }
 
+impl Lattice {
+    /// Centre of a cell in plan.
+    pub fn center(&self, cell: usize) -> DVec2 {
+        let (column, row) = self.numbering.column_row(cell);
+        self.corner + self.cell_m * DVec2::new(column as f64 + 0.5, row as f64 + 0.5)
+    }
+}
+
 /// Values of cells. A tile takes room from its first value on.
 #[derive(Clone, Debug)]
 pub struct Tiles<T> {
