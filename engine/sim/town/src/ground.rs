@@ -219,7 +219,14 @@ fn clipped(a: DVec2, b: DVec2, low_y: f64, high_y: f64) -> Option<(f64, f64)> {
 fn height_on(corners: [DVec3; 3], at: DVec2) -> Option<f64> {
     let [a, b, c] = corners.map(|corner| corner.truncate() - at);
     let whole = twice_area([a, b, c]);
-    let weights = [b.perp_dot(c) / whole, c.perp_dot(a) / whole, a.perp_dot(b) / whole];
+    let parts = [b.perp_dot(c), c.perp_dot(a), a.perp_dot(b)];
+    // Most triangles of a cell are far from the point: told without a division or a root, by more than the seam below allows.
+    let far = 1.01 * SEAM_M * ((b - a).abs().element_sum() + (c - a).abs().element_sum());
+    let least = if whole < 0.0 { -parts[0].max(parts[1]).max(parts[2]) } else { parts[0].min(parts[1]).min(parts[2]) };
+    if least < -far {
+        return None;
+    }
+    let weights = parts.map(|part| part / whole);
     // The seam in metres becomes a share by the triangle's extent.
     let extent_m = (b - a).length().max((c - a).length());
     let slack = SEAM_M * extent_m / whole.abs();
