@@ -9,6 +9,7 @@ use glam::Vec3A as Vec3;
 use std::collections::BTreeMap;
 
 /// An obstacle's box with what drawing it needs.
+#[derive(Clone)]
 pub struct SceneBox {
     /// Corners: bit 0 of the number is high x, bit 1 high y, bit 2 high z.
     pub corners_in_world: [DVec3; 8],
@@ -20,6 +21,8 @@ pub struct SceneBox {
     pub half_extents_m: Vec3,
     /// Unit vectors of the box's own x and y axes.
     pub axes_in_world: [DVec3; 2],
+    /// Outward unit normals of its upright faces; they rise where the box was cut to the slopes of a roof.
+    pub sides_in_world: [DVec3; 4],
     /// Kind.
     pub kind: ObstacleKind,
     /// CARLA label id.
@@ -52,8 +55,7 @@ impl SceneBox {
     /// Outward unit normal of face `face`.
     #[inline]
     pub fn normal_in_world(&self, face: usize) -> DVec3 {
-        let (axis, sign, _) = BOX_FACES[face];
-        sign * if axis == 2 { DVec3::Z } else { self.axes_in_world[axis] }
+        self.sides_in_world.get(face).copied().unwrap_or(BOX_FACES[face].1 * DVec3::Z)
     }
 }
 
@@ -117,12 +119,14 @@ fn scene_box(obstacle: &Obstacle, look_seed: u32) -> Option<SceneBox> {
     }
     let (sin, cos) = real::sin_cos(shape.yaw_rad);
     let (low, high) = shape.bounds_in_world();
+    let axes_in_world = [DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0)];
     Some(SceneBox {
         corners_in_world: shape.corners_in_world(),
         center_in_world: shape.center_in_world,
         half_bounds_m: 0.5 * (high - low),
         half_extents_m: half.as_vec3a(),
-        axes_in_world: [DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0)],
+        axes_in_world,
+        sides_in_world: [-axes_in_world[0], axes_in_world[0], -axes_in_world[1], axes_in_world[1]],
         kind: obstacle.kind,
         label: obstacle.kind.label().id(),
         instance: obstacle.object_id.saturating_add(2),

@@ -9,6 +9,8 @@ pub struct RoofStep {
     pub top: Option<TopSlope>,
     /// Foot and height of the wall below, metres.
     pub wall_m: [f64; 2],
+    /// Height of the slope below the upper face, metres; 0 where something stands on a level upper face.
+    pub slope_m: f64,
 }
 
 /// Look of an upright face.

@@ -7,11 +7,11 @@ use cosfly_frames::DVec2;
 use std::collections::BTreeMap;
 
 /// Highest step, metres: readers of maps make steps of 0.75 and 1 m.
-const HIGHEST_M: f64 = 1.05;
+pub const HIGHEST_M: f64 = 1.05;
 /// A box that begins this close to another's upper face stands on it, metres.
 const CLOSE_M: f64 = 0.03;
 /// A face that stands back by less continues the wall below, metres.
-const FLUSH_M: f64 = 0.05;
+pub(crate) const FLUSH_M: f64 = 0.05;
 /// Flattest slope, run over rise.
 const FLATTEST: f64 = 4.0;
 /// Steps beside a strip of a roof are at most so many times their height away.
@@ -58,16 +58,16 @@ impl Rectangle {
     }
 }
 
-fn half_m(b: &SceneBox) -> DVec2 {
+pub(crate) fn half_m(b: &SceneBox) -> DVec2 {
     b.half_extents_m.truncate().as_dvec2()
 }
 
-fn ends_m(b: &SceneBox) -> [f64; 2] {
+pub(crate) fn ends_m(b: &SceneBox) -> [f64; 2] {
     let half = f64::from(b.half_extents_m.z);
     [b.center_in_world.z - half, b.center_in_world.z + half]
 }
 
-fn pitch(rise_m: f64, run_m: f64) -> RoofPitch {
+pub(crate) fn pitch(rise_m: f64, run_m: f64) -> RoofPitch {
     let run_m = run_m.clamp(0.3 * rise_m, FLATTEST * rise_m).max(1e-3);
     let length_m = cosfly_frames::real::hypot(rise_m, run_m).max(1e-3);
     [(rise_m / length_m) as f32, (run_m / length_m) as f32]
@@ -110,10 +110,16 @@ pub fn roof_steps(boxes: &[SceneBox]) -> Vec<Option<RoofStep>> {
             within(2.0 * CLOSE_M).into_iter().for_each(|other| below.entry(other).or_default().push(index));
         }
         steps[index] = match below.get(&index) {
-            Some(lower) => Some(step(boxes, index, lower, slope, &steps)),
+            Some(lower) => {
+                let step = step(boxes, index, lower, slope, &steps);
+                let slope_m = if slope.is_some() || over.is_empty() { step.slope_m } else { 0.0 };
+                Some(RoofStep { slope_m, ..step })
+            }
             None => slope.map(|slope| {
                 let [foot_m, top_m] = ends_m(b);
-                RoofStep { sides: [FaceLook::Wall; 4], top: Some(slope), wall_m: [foot_m, top_m - foot_m] }
+                let slope_m = rise_m.min(top_m - foot_m);
+                let wall_m = [foot_m, top_m - slope_m - foot_m];
+                RoofStep { sides: [FaceLook::Wall; 4], top: Some(slope), wall_m, slope_m }
             }),
         };
     }
@@ -161,7 +167,7 @@ fn step(
     let wall = lower.iter().filter_map(|other| steps[*other].as_ref()).map(|step| step.wall_m).next();
     let run_m = gaps_m.into_iter().filter(|gap| *gap >= FLUSH_M).fold(f64::INFINITY, f64::min);
     let top = slope.or_else(|| run_m.is_finite().then(|| ridge(half_m(b), &sides, pitch(rise_m, run_m))));
-    RoofStep { sides, top, wall_m: wall.unwrap_or([foot_m, rise_m]) }
+    RoofStep { sides, top, wall_m: wall.unwrap_or([foot_m, rise_m]), slope_m: rise_m }
 }
 
 /// The last step falls to both sides of a ridge: between gables, else along the longer side.

@@ -3,18 +3,24 @@
 use cosfly_domain::{ObstacleKind, OrientedBox, Town};
 use cosfly_frames::{DVec3, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_materials::roof_steps::HIGHEST_M;
 
 /// Length by which each face of a building is moved inwards, metres: nothing that is seen past an edge counts as hidden.
 const EDGE_M: f64 = 0.1;
 
-/// Buildings, a little smaller than they are.
+/// Buildings, a little smaller than they are, and without the highest step of a roof, whose slopes lie below it.
 pub struct Buildings(BoxBvh);
 
 impl Buildings {
     /// Buildings of `town`.
     pub fn of(town: &Town) -> Self {
         let buildings = town.obstacles.iter().filter(|obstacle| obstacle.kind == ObstacleKind::Building);
-        let smaller = |shape: &OrientedBox| OrientedBox { half_extents_m: shape.half_extents_m - EDGE_M, ..*shape };
+        let off_m = DVec3::new(EDGE_M, EDGE_M, EDGE_M + 0.5 * HIGHEST_M);
+        let smaller = |shape: &OrientedBox| OrientedBox {
+            center_in_world: shape.center_in_world - 0.5 * HIGHEST_M * DVec3::Z,
+            half_extents_m: shape.half_extents_m - off_m,
+            ..*shape
+        };
         let boxes = buildings.map(|obstacle| smaller(&obstacle.shape));
         Self(BoxBvh::build(boxes.filter(|shape| shape.half_extents_m.min_element() > 0.0).collect()))
     }

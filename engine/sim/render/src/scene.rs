@@ -19,6 +19,7 @@ use cosfly_materials::leaves::Leaves;
 use cosfly_materials::parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox, boxes_of, join_crowns};
 use cosfly_materials::pattern::{NoiseTexture, noise_texture};
 use cosfly_materials::roof_edges::roofs_that_go_on;
+use cosfly_materials::roof_slopes::cut_to_slopes;
 use cosfly_materials::roof_step::{FaceLook, RoofStep};
 use cosfly_materials::roof_steps::roof_steps;
 use cosfly_materials::vector::Vec3;
@@ -77,17 +78,23 @@ impl Scene {
         Self::with_models(town, seed, &[])
     }
 
-    /// Prepares a town whose cars are boxes like all other things: the scene of the faces of [`Self::faces_of`].
+    /// Prepares a town whose cars and roofs are boxes like all other things: the scene of the faces of [`Self::faces_of`].
     pub fn of_boxes(town: &Town, seed: Seed) -> Self {
-        Self::of(town, seed, &[], |_| vec![])
+        Self::of(town, seed, &[], |_| {}, |_| vec![])
     }
 
     /// Prepares a town some of whose things are drawn by models.
     pub fn with_models(town: &Town, seed: Seed, models: &[SceneModel]) -> Self {
-        Self::of(town, seed, models, |props| parked_cars(town, props, seed))
+        Self::of(town, seed, models, cut_to_slopes, |props| parked_cars(town, props, seed))
     }
 
-    fn of(town: &Town, seed: Seed, models: &[SceneModel], cars: impl FnOnce(&Props) -> Vec<Bystander>) -> Self {
+    fn of(
+        town: &Town,
+        seed: Seed,
+        models: &[SceneModel],
+        cut: impl FnOnce(&mut Vec<SceneBox>),
+        cars: impl FnOnce(&Props) -> Vec<Bystander>,
+    ) -> Self {
         let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
         let mut boxes = boxes_of(town, look_seed);
         join_crowns(&mut boxes);
@@ -100,6 +107,7 @@ impl Scene {
         let grid = LightGrid::new(&boxes, &clusters);
         let season = cosfly_materials::season::of_town(look_seed);
         let outskirts = Outskirts::of(&grid, season);
+        cut(&mut boxes);
         let props = Props::new(town, models, look_seed);
         props.replace(&mut boxes);
         let parked = cars(&props);
