@@ -1,4 +1,4 @@
-//! Which boxes of a building are steps of a pitched roof: they are drawn as slopes, whatever their faces.
+//! Which boxes of a building are steps of a pitched roof: they are drawn as slopes.
 
 use crate::parts::SceneBox;
 use crate::roof_step::{FaceLook, RoofPitch, RoofStep, TopSlope};
