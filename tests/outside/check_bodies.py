@@ -12,13 +12,9 @@ from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
-import pyarrow.dataset as ds
+from shared import end_with, place, rows, turned
 
 BETWEEN = 20
-
-
-def rows(folder, name, columns):
-    return ds.dataset(folder / "data" / name, format="parquet").to_table(columns=columns).to_pylist()
 
 
 def axes(yaw):
@@ -79,26 +75,23 @@ def main(folder):
                         overlaps += 1
                         wrong.append(f"{name} frame {frame}: bodies {listed[i]['body_id']} and {listed[j]['body_id']} overlap by {-apart:.3f} m")
             here, there = frames[name][frame], frames[name].get(frame + 1)
-            place = lambda row: np.array([row[f"drone_{axis}_m"] for axis in "xyz"])
+            start, end = (place(row, "drone") for row in (here, there or here))
             for share in np.arange(BETWEEN) / BETWEEN if there else [0.0]:
-                drone = place(here) + share * (place(there or here) - place(here))
+                drone = start + share * (end - start)
                 for body in listed + flying:
                     later = by_frame.get(frame + 1, {}).get(body["body_id"], body)
                     feet = np.array(body["feet_in_world_m"]) + share * (np.array(later["feet_in_world_m"]) - body["feet_in_world_m"])
                     if np.abs(drone - feet).max() > 40:
                         continue
-                    turn = (later["heading_deg"] - body["heading_deg"] + 180) % 360 - 180
+                    turn = turned(later["heading_deg"], body["heading_deg"])
                     apart = to_box(drone, feet, np.radians(body["heading_deg"] + share * turn), body["size_m"])
                     nearest_flight = min(nearest_flight, apart)
                     if apart < least - 0.01:
                         wrong.append(f"{name} frame {frame}: the drone is {apart:.2f} m from body {body['body_id']}; the certificate says {least:.2f} m")
-    alike = defaultdict(int)
-    for row in rows(folder, "bodies", ["trajectory_id", "frame", "kind", "top_colour", "trousers_colour", "has_backpack", "visible_pixels"]):
-        if not row["visible_pixels"]:
-            continue
-        flight = flights[row["trajectory_id"]]
-        own = [flight[f"target_{key}"] for key in ("kind", "top_colour", "trousers_colour", "has_backpack")]
-        alike[row["trajectory_id"], row["frame"]] += [row[key] for key in ("kind", "top_colour", "trousers_colour", "has_backpack")] == own
+    alike, looks = defaultdict(int), ["kind", "top_colour", "trousers_colour", "has_backpack"]
+    for row in rows(folder, "bodies", ["trajectory_id", "frame", "visible_pixels", *looks]):
+        own = [flights[row["trajectory_id"]][f"target_{key}"] for key in looks]
+        alike[row["trajectory_id"], row["frame"]] += row["visible_pixels"] > 0 and [row[key] for key in looks] == own
     stated = {(row["trajectory_id"], row["start_frame"]): row for row in rows(folder, "target_losses", [
         "trajectory_id", "start_frame", "end_frame", "duration_s", "frames_out_of_view", "reacquired", "look_alikes"])}
     losses = 0
@@ -126,7 +119,4 @@ def main(folder):
     return wrong
 
 
-if __name__ == "__main__":
-    problems = main(Path(sys.argv[1]))
-    print(*problems[:20], sep="\n")
-    sys.exit(bool(problems))
+end_with(main(Path(sys.argv[1])))

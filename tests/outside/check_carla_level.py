@@ -8,26 +8,17 @@ Bounding boxes with every label and any rotation are the `carla` package's own; 
 coordinates; pavements come from `carla.Map`, and the middles of its sidewalk lanes must lie on walkable ground.
 """
 
-import importlib.util
 import json
-import math
 import random
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import carla
+from shapely import Point
+from shared import ground_of_boxes, is_in, json_of, module
 
-ROOT = Path(__file__).resolve().parents[2]
 NOT_SOLID = {"NONE", "Any", "Ground", "Pedestrians", "RailTrack", "Rider", "RoadLines", "Roads", "Sidewalks", "Sky", "Terrain", "Water"}
-
-
-def export_level():
-    spec = importlib.util.spec_from_file_location("export_level", ROOT / "plugins/carla/export_level.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def some_box(stream):
@@ -41,38 +32,29 @@ def some_box(stream):
 
 
 def lies_in(box, point, slack=2e-3):
-    (x, y, z), (half_x, half_y, half_z), yaw = box["center_m"], box["half_m"], box["yaw_rad"]
-    dx, dy = point.x - x, point.y - y
-    along, across = math.cos(yaw) * dx + math.sin(yaw) * dy, math.cos(yaw) * dy - math.sin(yaw) * dx
-    return abs(along) <= half_x + slack and abs(across) <= half_y + slack and abs(point.z - z) <= half_z + slack
-
-
-def in_polygon(outline, x, y):
-    odd = False
-    for (ax, ay, _), (bx, by, _) in zip(outline, outline[1:] + outline[:1]):
-        if (ay > y) != (by > y) and x < ax + (bx - ax) * (y - ay) / (by - ay):
-            odd = not odd
-    return odd
+    (plan,) = ground_of_boxes([box])
+    is_level = abs(point.z - box["center_m"][2]) <= box["half_m"][2] + slack
+    return is_level and plan.distance(Point(point.x, point.y)) <= slack
 
 
 def is_on(outline, transform):
     """Whether a place lies in a polygon; the first and last ones of a lane lie on its edge."""
     at, ahead = transform.location, transform.get_forward_vector()
-    return any(in_polygon(outline, at.x + step * ahead.x, at.y + step * ahead.y) for step in (0.0, 0.2, -0.2))
+    return any(is_in(outline, at.x + step * ahead.x, at.y + step * ahead.y) for step in (0.0, 0.2, -0.2))
 
 
 def check(inspect, path):
     stream = random.Random(7)
     names = [name for name in carla.CityObjectLabel.names if name not in ("NONE", "Any")]
     boxes = {name: [some_box(stream) for _ in range(4)] for name in names}
-    exporter = export_level()
+    exporter = module("plugins/carla/export_level.py")
     by_label = {carla.CityObjectLabel.names[name]: found for name, found in boxes.items()}
     town_map = carla.Map(path.stem, path.read_text(encoding="utf-8-sig"))
     level = exporter.level(lambda label: by_label[label], town_map)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "level.json"
         file.write_text(json.dumps(level))
-        town = json.loads(subprocess.run([inspect, file], check=True, capture_output=True).stdout)
+        town = json_of(inspect, file)
     assert town["offset_m"] == [0.0, 0.0, 0.0], town["offset_m"]
     assert set(exporter.LABELS) == set(names) - NOT_SOLID, set(names) ^ set(exporter.LABELS)
     corners = 0
@@ -110,5 +92,4 @@ def main():
         check(inspect, Path(path))
 
 
-if __name__ == "__main__":
-    main()
+main()

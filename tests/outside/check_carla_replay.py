@@ -6,9 +6,6 @@ CARLA's encodings. What comes back must be the dataset's logs again. Poses, weat
 What it cannot check: how a real server draws, how its walkers move, how long it takes.
 """
 
-import importlib.util
-import io
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -16,38 +13,27 @@ from pathlib import Path
 import carla
 import numpy as np
 from mcap.reader import make_reader
-from mcap_protobuf.decoder import DecoderFactory
 from PIL import Image
+from shared import messages, module, picture, pixels, require, run, said
 
 WALKER = 4242  # the raw instance id of the walker
 
 
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"check_carla_replay: {message}")
-
-
-def said(check, detail=""):
-    print(f"ok  {check:<28} {detail}", flush=True)
-
-
 def read_log(path):
-    """Messages by topic."""
-    messages = {}
-    with path.open("rb") as file:
-        for schema, channel, message, decoded in make_reader(file, decoder_factories=[DecoderFactory()]).iter_decoded_messages():
-            messages.setdefault(channel.topic, []).append((message.log_time, decoded, schema))
-    return messages
+    """Time, message and schema of messages by topic."""
+    log = {}
+    for topic, message, time, schema in messages(path):
+        log.setdefault(topic, []).append((time, message, schema))
+    return log
 
 
-def pixels(message):
-    kind = {"mono8": "u1", "16UC1": "<u2", "32UC1": "<u4", "32FC1": "<f4"}[message.encoding]
-    return np.frombuffer(message.data, kind).reshape(message.height, message.width)
+def numbers(vector):
+    return np.array([vector.x, vector.y, vector.z])
 
 
 def rotated(q, v):
     """A vector turned by a quaternion."""
-    u = np.array([q.x, q.y, q.z])
+    u = numbers(q)
     return v + 2.0 * np.cross(u, np.cross(u, v) + q.w * v)
 
 
@@ -61,13 +47,11 @@ class Transforms:
             place, axis, frame = np.zeros(3), np.array([0.0, 0.0, 1.0]), "camera_optical"
             while frame != "map":
                 t = by_child[frame]
-                move = np.array([t.translation.x, t.translation.y, t.translation.z])
-                place, axis, frame = move + rotated(t.rotation, place), rotated(t.rotation, axis), t.parent_frame_id
-            feet = by_child["target"].translation
+                place, axis, frame = numbers(t.translation) + rotated(t.rotation, place), rotated(t.rotation, axis), t.parent_frame_id
             flip = np.array([1.0, -1.0, 1.0])
             self.camera.append(place * flip + offset)
             self.ahead.append(axis * flip)
-            self.feet.append(np.array([feet.x, feet.y, feet.z]) * flip + offset)
+            self.feet.append(numbers(by_child["target"].translation) * flip + offset)
 
 
 class StandIn:
@@ -77,7 +61,7 @@ class StandIn:
         self.log, self.transforms = log, transforms
         self.frame, self.ticks, self.sensors, self.weather, self.alive = 100, 0, [], None, set()
         self.settings = carla.WorldSettings()
-        self.history, self.shown = [], []
+        self.history = []
         self.lagging = False
 
     # the world
@@ -119,24 +103,20 @@ class StandIn:
         self.frame += 1
         self.ticks += 1
         for sensor in self.sensors:
-            place = sensor.transform.location
-            found = np.array([place.x, place.y, place.z])
-            distances = [np.abs(found - camera).max() for camera in self.transforms.camera]
+            distances = [np.abs(numbers(sensor.transform.location) - camera).max() for camera in self.transforms.camera]
             number = int(np.argmin(distances))
             require(distances[number] < 2e-3, f"the camera is {distances[number]} m from every frame")
-            ahead = sensor.transform.get_forward_vector()
-            turned = np.abs(np.array([ahead.x, ahead.y, ahead.z]) - self.transforms.ahead[number]).max()
+            turned = np.abs(numbers(sensor.transform.get_forward_vector()) - self.transforms.ahead[number]).max()
             require(turned < 1e-4, f"the camera of frame {number} is turned by {turned}")
             sensor.callback(self.picture(sensor, number))
         return self.frame
 
     def picture(self, sensor, number):
         kind = sensor.blueprint.id.split(".")[-1]
-        picture = type("Picture", (), {})()
+        drawn = type("Picture", (), {})()
         if kind == "rgb":
-            rgb = np.asarray(Image.open(io.BytesIO(self.log["/camera/rgb/image"][number][1].data)).convert("RGB"))
+            rgb = np.asarray(picture(self.log["/camera/rgb/image"][number][1]).convert("RGB"))
             channels = [rgb[:, :, 2], rgb[:, :, 1], rgb[:, :, 0]]
-            self.shown.append(number)
         elif kind == "depth":
             depth = pixels(self.log["/camera/depth/image"][number][1]).astype(np.float64)
             bits = np.rint(np.minimum(depth, 1000.0) * (2**24 - 1) / 1000.0).astype(np.uint32)
@@ -147,12 +127,12 @@ class StandIn:
             raw = np.where(ids == 1, WALKER, np.maximum(ids - 2, 0))
             channels = [raw >> 8, raw & 255, label] if kind == "instance_segmentation" else [label * 0, label * 0, label]
         bgra = np.stack([*channels, np.full_like(channels[0], 255)], axis=2).astype(np.uint8)
-        picture.raw_data, picture.height, picture.width = bgra.tobytes(), bgra.shape[0], bgra.shape[1]
-        picture.frame, picture.transform = self.frame, sensor.transform
+        drawn.raw_data, drawn.height, drawn.width = bgra.tobytes(), bgra.shape[0], bgra.shape[1]
+        drawn.frame, drawn.transform = self.frame, sensor.transform
         if self.lagging:
             place = sensor.transform.location
-            picture.transform = carla.Transform(carla.Location(x=place.x - 1.0, y=place.y, z=place.z))
-        return picture
+            drawn.transform = carla.Transform(carla.Location(x=place.x - 1.0, y=place.y, z=place.z))
+        return drawn
 
 
 class Blueprint:
@@ -214,10 +194,10 @@ class Client:
 
 
 def same_pictures(before, after, world):
-    for topic, messages in before.items():
+    for topic, logged in before.items():
         require(topic in after, f"{topic} is missing")
-        require([m[0] for m in messages] == [m[0] for m in after[topic]], f"times of {topic}")
-        require(messages[0][2].data == after[topic][0][2].data, f"schema of {topic}")
+        require([m[0] for m in logged] == [m[0] for m in after[topic]], f"times of {topic}")
+        require(logged[0][2] == after[topic][0][2], f"schema of {topic}")
     untouched = [t for t in before if not t.startswith("/camera/") and t != "/target/state"] + ["/camera/rgb/camera_info"]
     for topic in untouched:
         bytes_of = [[m[1].SerializeToString() for m in log[topic]] for log in (before, after)]
@@ -236,12 +216,12 @@ def same_pictures(before, after, world):
         require(state[0].visible_pixels == state[1].visible_pixels, f"visible pixels of frame {number}")
         require(list(state[0].visible_box_px) == list(state[1].visible_box_px), f"visible box of frame {number}")
         require(state[0].feet_x_m == state[1].feet_x_m and state[0].distance_m == state[1].distance_m, "the plan's numbers")
-        images = [Image.open(io.BytesIO(log["/camera/rgb/image"].data)).convert("RGB") for log in (old, new)]
+        images = [picture(log["/camera/rgb/image"]).convert("RGB") for log in (old, new)]
         difference = np.abs(np.asarray(images[0], np.int16) - np.asarray(images[1], np.int16)).mean()
         require(difference < 3.0, f"colours of frame {number} differ by {difference}")
         for topic in ("/camera/rgb/preview", "/camera/depth/preview", "/camera/semantic/preview"):
             if topic in new:
-                Image.open(io.BytesIO(new[topic].data)).load()
+                picture(new[topic]).load()
         outlines = new["/camera/rgb/annotations"].points
         require(len(outlines) == (len(state[1].full_box_px) > 0) + (len(state[1].visible_box_px) > 0), "annotations")
     require(worst <= 1000.0 / 2**24 + 1e-4, f"depth differs by {worst} m")
@@ -252,7 +232,7 @@ def check_walker(world, flight, transforms):
     walker = world.walker
     require(len(walker.places) == len(flight["frames"]), "one place per frame")
     for place, control, feet, frame in zip(walker.places, walker.controls, transforms.feet, flight["frames"]):
-        found = np.array([place.location.x, place.location.y, place.location.z - 0.93])
+        found = numbers(place.location) - [0, 0, 0.93]
         require(np.abs(found - feet).max() < 2e-3, f"the walker stands at {found}, not {feet}")
         require(abs(control.speed - frame["target"][4]) < 1e-5, "its speed")
         ahead = place.get_forward_vector()
@@ -301,13 +281,10 @@ def check_refusals(replay, dataset, scratch, flight, log, offset):
 
 def main():
     cosfly, dataset = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-    script = Path(__file__).resolve().parents[2] / "plugins" / "carla" / "replay.py"
-    specification = importlib.util.spec_from_file_location("replay", script)
-    replay = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(replay)
+    replay = module("plugins/carla/replay.py")
     with tempfile.TemporaryDirectory() as scratch:
         scratch = Path(scratch)
-        subprocess.run([cosfly, "carla-job", dataset, "--out", scratch / "job.json"], check=True, capture_output=True)
+        run(cosfly, "carla-job", dataset, "--out", scratch / "job.json")
         job = replay.load_job(scratch / "job.json")
         said("cosfly carla-job", f"{len(job['flights'])} flights")
         for flight in job["flights"][:2]:
@@ -320,5 +297,4 @@ def main():
         check_refusals(replay, dataset, scratch, flight, log, offset)
 
 
-if __name__ == "__main__":
-    main()
+main()

@@ -9,9 +9,7 @@ The town is judged by the survey's outlines: it cannot be truer than they are. H
 for houses one by one, and for groups: what is one outline in one file may be several houses in the other one.
 """
 
-import json
 import statistics
-import subprocess
 import sys
 import xml.etree.ElementTree as xml
 
@@ -20,6 +18,7 @@ import numpy as np
 from check_cityjson import things_of
 from shapely import STRtree, make_valid, union_all
 from shapely.geometry import Polygon
+from shared import json_of
 
 
 def local(element):
@@ -77,8 +76,7 @@ def quartiles(values):
 
 def main():
     inspect, survey, *models = sys.argv[1:]
-    town = json.loads(subprocess.run([inspect, survey], check=True, capture_output=True).stdout)
-    things = list(things_of(town, "Building"))
+    things = list(things_of(json_of(inspect, survey), "Building"))
     plans, (names, drawn) = [plan for plan, *_ in things], zip(*(house[:2] for house in check_outlines.houses(survey)))
     tree = STRtree(plans)
     fidelity = [max((overlap(shape, plans[at]) for at in tree.query(shape, "intersects")), default=0.0) for shape in drawn]
@@ -107,5 +105,4 @@ def main():
     assert abs(statistics.median(bases)) <= 0.5 and abs(statistics.median(tops)) <= 1.0, "heights are off"
 
 
-if __name__ == "__main__":
-    main()
+main()

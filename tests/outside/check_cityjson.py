@@ -9,14 +9,13 @@ the roofs that reach over it one of at least 0.97, and its lowest and highest po
 """
 
 import json
-import math
 import statistics
-import subprocess
 import sys
 
 import numpy as np
 from shapely import STRtree, make_valid, union_all
 from shapely.geometry import Polygon
+from shared import ground_of_boxes, json_of
 
 
 def faces_of(geometry):
@@ -82,14 +81,6 @@ class Source:
         return [shape for shape in (polygon(rings, self.points) for rings in ground) if shape]
 
 
-def box_polygon(box, offset):
-    """Plan of a box in the file's frame."""
-    (x, y, _), (half_x, half_y, _), yaw = box["center_m"], box["half_m"], box["yaw_rad"]
-    cos, sin = math.cos(yaw), math.sin(yaw)
-    around = [(half_x, half_y), (-half_x, half_y), (-half_x, -half_y), (half_x, -half_y)]
-    return Polygon([(x + offset[0] + cos * u - sin * v, -(y + offset[1] + sin * u + cos * v)) for u, v in around])
-
-
 def things_of(town, kind):
     """Plan, lowest and highest point of each thing's boxes."""
     groups = {}
@@ -97,7 +88,7 @@ def things_of(town, kind):
         if box["kind"] == kind:
             groups.setdefault(box["object"], []).append(box)
     for boxes in groups.values():
-        plan = union_all([box_polygon(box, town["offset_m"]) for box in boxes])
+        plan = union_all(list(ground_of_boxes(boxes, town["offset_m"], -1)))
         low = min(box["center_m"][2] - box["half_m"][2] for box in boxes)
         yield plan, low, max(box["center_m"][2] + box["half_m"][2] for box in boxes), len(boxes)
 
@@ -136,13 +127,8 @@ def check_buildings(name, source, town):
 def check_ground(name, source, town):
     walks = {"voetpad", "voetgangersgebied", "voetpad op trap"}
     for kind, is_of_kind in (("Sidewalk", lambda f: f in walks), ("Road", lambda f: f not in walks)):
-        faces = [
-            polygon(rings, source.points)
-            for it in source.objects("Road").values()
-            if is_of_kind(it["attributes"].get("function"))
-            for geometry in it["geometry"]
-            for _, rings in faces_of(geometry)
-        ]
+        roads = [it for it in source.objects("Road").values() if is_of_kind(it["attributes"].get("function"))]
+        faces = [polygon(rings, source.points) for it in roads for geometry in it["geometry"] for _, rings in faces_of(geometry)]
         truth = union_all([face for face in faces if face])
         offset = town["offset_m"]
         outlines = [it["outline_m"] for it in town["walkable"] if it["kind"] == kind]
@@ -157,7 +143,7 @@ def check_ground(name, source, town):
 def main():
     inspect, *paths = sys.argv[1:]
     for path in paths:
-        town = json.loads(subprocess.run([inspect, path], check=True, capture_output=True).stdout)
+        town = json_of(inspect, path)
         source, name = Source(path), path.rsplit("/", 1)[-1]
         check_buildings(name, source, town)
         check_ground(name, source, town)

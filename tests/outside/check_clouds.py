@@ -4,13 +4,13 @@ INSPECT_JSON is the example of `cosfly-maps`. Points of buildings must lie in bo
 the ground must pass through them; open ground must be walkable.
 """
 
-import json
-import subprocess
 import sys
 import tempfile
 
 import laspy
 import numpy as np
+from shapely import Polygon, contains_xy
+from shared import ground_of_boxes, json_of
 
 FOOT = 0.3048
 
@@ -55,7 +55,7 @@ def ground_heights(surfaces, points):
 
 
 def check(inspect, path):
-    report = json.loads(subprocess.run([inspect, path, "--surfaces"], check=True, capture_output=True, text=True).stdout)
+    report = json_of(inspect, path, "--surfaces")
     cloud = laspy.read(path)
     unit = FOOT if any(b"foot" in vlr.record_data_bytes().lower() for vlr in cloud.header.vlrs if vlr.record_id == 2112) else 1.0
     x, y, z = (np.asarray(values) * unit for values in (cloud.x, cloud.y, cloud.z))
@@ -105,7 +105,7 @@ def check(inspect, path):
         crowns = [box for box in boxes if box["kind"] in ("TreeCrown", "Bush", "Building")]
         near = float((distance_to_boxes(plants, crowns, 5.0) <= 0.5).mean())
         expect("points of plants within 0.5 m of a crown", round(near, 4), near >= 0.9)
-    area = sum(polygon_area(np.array(one["outline_m"])) for one in report["walkable"])
+    area = sum(Polygon(one["outline_m"]).area for one in report["walkable"])
     extent = np.ptp(points[:, :2], axis=0).prod()
     expect("walkable share of the extent", round(area / extent, 3), area / extent > 0.05)
     return failures
@@ -121,7 +121,7 @@ def check_without_classes(inspect, path):
     with tempfile.TemporaryDirectory() as folder:
         stripped = f"{folder}/stripped.laz"
         cloud.write(stripped)
-        report = json.loads(subprocess.run([inspect, stripped, "--surfaces"], check=True, capture_output=True, text=True).stdout)
+        report = json_of(inspect, stripped, "--surfaces")
     points = np.stack([np.asarray(cloud.x), -np.asarray(cloud.y), np.asarray(cloud.z)], axis=1) - np.array(report["offset_m"])
     ground = points[classes == 2]
     some = ground[:: max(1, len(ground) // 4000)]
@@ -139,24 +139,12 @@ def check_without_classes(inspect, path):
 def roof_cells(buildings):
     """Cells of 1 m whose middle lies in the footprint of a building's box."""
     cells = set()
-    for box in buildings:
-        (x, y, _), (a, b, _), yaw = box["center_m"], box["half_m"], box["yaw_rad"]
-        cos, sin = np.cos(yaw), np.sin(yaw)
-        reach = np.hypot(a, b)
-        columns = np.arange(np.floor(x - reach), np.ceil(x + reach) + 1)
-        rows = np.arange(np.floor(y - reach), np.ceil(y + reach) + 1)
-        column, row = (grid.ravel() for grid in np.meshgrid(columns, rows))
-        dx, dy = column + 0.5 - x, row + 0.5 - y
-        hit = (np.abs(cos * dx + sin * dy) <= a) & (np.abs(cos * dy - sin * dx) <= b)
-        cells.update(zip(column[hit].astype(int).tolist(), row[hit].astype(int).tolist()))
+    for shape in ground_of_boxes(buildings):
+        west, south, east, north = np.floor(shape.bounds).astype(int)
+        column, row = (grid.ravel() for grid in np.meshgrid(np.arange(west, east + 1), np.arange(south, north + 1)))
+        hit = contains_xy(shape, column + 0.5, row + 0.5)
+        cells.update(zip(column[hit].tolist(), row[hit].tolist()))
     return cells
 
 
-def polygon_area(outline):
-    x, y = outline[:, 0], outline[:, 1]
-    return 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
-
-
-if __name__ == "__main__":
-    failures = [one for path in sys.argv[2:] for test in (check, check_without_classes) for one in test(sys.argv[1], path)]
-    sys.exit("\n".join(failures) if failures else 0)
+sys.exit("\n".join(one for path in sys.argv[2:] for test in (check, check_without_classes) for one in test(sys.argv[1], path)) or 0)

@@ -44,9 +44,9 @@ def planted(name, source, work, damage):
     shutil.rmtree(copy)
 
 
-def tables(folder, table, change):
-    """Rewrites all files of a table, row dictionaries in and out."""
-    for path in (folder / "data" / table).glob("*.parquet"):
+def tables(folder, files, change):
+    """Rewrites Parquet files, lists of row dictionaries in and out."""
+    for path in folder.glob(f"data/{files}/*.parquet"):
         old = parquet.read_table(path)
         parquet.write_table(pyarrow.Table.from_pylist(change(old.to_pylist()), schema=old.schema), path)
 
@@ -58,22 +58,24 @@ POSE = [f"{whose}_{what}" for whose, whats in (
 ) for what in whats] + ["action_in_world"]
 
 
+def pairs_of(rows):
+    """Rows as they were, each with the next one of the same flight, which may be changed."""
+    return [(dict(before), row) for before, row in zip(rows, rows[1:]) if before["trajectory_id"] == row["trajectory_id"]]
+
+
 def shift_frames(rows):
     """Poses of the frame before beside boxes and images of this one."""
-    moved = [dict(row) for row in rows]
-    for before, row in zip(rows, moved[1:]):
-        if before["trajectory_id"] == row["trajectory_id"]:
-            row.update({name: before[name] for name in POSE})
-    return moved
+    for before, row in pairs_of(rows):
+        row.update({name: before[name] for name in POSE})
+    return rows
 
 
 def shift_all(rows):
     """All numbers of the frame before, consistent with each other and not with the images; experts alone, who fly smoothly."""
-    moved = [dict(row) for row in rows]
-    for before, row in zip(rows, moved[1:]):
-        if before["trajectory_id"] == row["trajectory_id"] and row["trajectory_id"].startswith("expert"):
+    for before, row in pairs_of(rows):
+        if row["trajectory_id"].startswith("expert"):
             row.update({name: value for name, value in before.items() if name not in ("frame", "time_s", "preview")})
-    return moved
+    return rows
 
 
 def flip_yaw(rows):
@@ -91,10 +93,9 @@ def sunk(rows):
 
 def wrong_actions(rows):
     """The action of the frame before in every frame."""
-    actions = [row["action_in_world"] for row in rows]
-    for action, before, row in zip(actions, rows, rows[1:]):
-        if before["trajectory_id"] == row["trajectory_id"] and row["action_in_world"] is not None:
-            row["action_in_world"] = action
+    for before, row in pairs_of(rows):
+        if row["action_in_world"] is not None:
+            row["action_in_world"] = before["action_in_world"]
     return rows
 
 
@@ -112,8 +113,8 @@ def lying(rows):
     return rows
 
 
-def truncate(folder):
-    path = sorted((folder / "data" / "frames").glob("*.parquet"))[0]
+def truncate(folder, files="frames"):
+    path = sorted(folder.glob(f"data/{files}/*.parquet"))[0]
     path.write_bytes(path.read_bytes()[:-700])
 
 
@@ -176,12 +177,12 @@ def shift_pictures(folder):
 
 def lerobot(folder, change):
     """Rewrites the frames of a LeRobot dataset, episode by episode: lists of row dictionaries, changed in place."""
-    for path in folder.glob("data/*/*.parquet"):
-        old = parquet.read_table(path)
-        rows = old.to_pylist()
+    def changed(rows):
         for number in {row["episode_index"] for row in rows}:
             change([row for row in rows if row["episode_index"] == number])
-        parquet.write_table(pyarrow.Table.from_pylist(rows, schema=old.schema), path)
+        return rows
+
+    tables(folder, "*", changed)
 
 
 def lerobot_jump(rows):
@@ -210,11 +211,6 @@ def lerobot_gap(folder):
     path = sorted(folder.glob("data/*/*.parquet"))[0]
     table = parquet.read_table(path)
     parquet.write_table(pyarrow.concat_tables([table.slice(0, 5), table.slice(6)]), path)
-
-
-def truncate_data(folder):
-    path = sorted(folder.glob("data/*/*.parquet"))[0]
-    path.write_bytes(path.read_bytes()[:-700])
 
 
 def box(kind, body):
@@ -273,11 +269,6 @@ def foreign(folder):
     (folder / VIDEO).write_bytes(box(b"ftyp", b"isom") + box(b"mdat", bytes(4000)) + moov)
 
 
-def foreign_actions(rows):
-    for row, action in reversed(list(zip(rows[1:], [row["action"] for row in rows]))):
-        row["action"] = action
-
-
 def foreign_jump(rows):
     for row in rows[30:]:
         row["observation.pose"][0] += 30.0
@@ -288,47 +279,50 @@ def repeat_pictures(folder):
         shutil.copy(frames / "frame_00011/rgb.png", frames / "frame_00012/rgb.png")
 
 
+def each(change, files="frames"):
+    """A change of tables of a dataset of cosfly."""
+    return lambda folder: tables(folder, files, change)
+
+
+def of_v7(change):
+    return lambda folder: documents(folder, change)
+
+
+def of_lerobot(change):
+    return lambda folder: lerobot(folder, change)
+
+
+PLANTS = {
+    "dataset": {
+        None: lambda folder: None, "frame-shift": each(shift_frames), "image-shift": each(shift_all), "yaw-sign": each(flip_yaw),
+        "action-mismatch": each(wrong_actions), "below-ground": each(sunk), "timestamps": each(late),
+        "caption-mismatch": each(lying, "captions"), "parquet-damaged": truncate, "log-damaged": flip_byte, "split-leak": leak,
+    },
+    "v7": {
+        None: lambda folder: None, "yaw-sign": of_v7(v7_yaw), "below-ground": of_v7(v7_sunk), "timestamps": of_v7(v7_stop),
+        "action-mismatch": of_v7(v7_waypoints), "depth-unit": millimetres, "image-shift": shift_pictures, "duplicate-frames": repeat_pictures,
+    },
+    "lerobot": {
+        None: lambda folder: None, "timestamps": of_lerobot(lerobot_jump), "action-mismatch": of_lerobot(lerobot_actions),
+        "yaw-sign": of_lerobot(lerobot_yaw), "duplicate-frames": of_lerobot(lerobot_repeated), "index-mismatch": lerobot_gap,
+        "parquet-damaged": lambda folder: truncate(folder, "*"),
+    },
+    "foreign": {
+        None: lambda folder: None, "timestamps": of_lerobot(lerobot_jump), "action-mismatch": of_lerobot(lerobot_actions),
+        "pose-jump": of_lerobot(foreign_jump), "video-missing": lambda folder: (folder / VIDEO).unlink(),
+        "video-damaged": lambda folder: (folder / VIDEO).write_bytes((folder / VIDEO).read_bytes()[:-40]),
+    },
+}
+
 with tempfile.TemporaryDirectory() as place:
     work = pathlib.Path(place)
-    v7 = work / "v7"
-    subprocess.run([cosfly, "export", dataset, "--format", "v7", "--out", v7], check=True, capture_output=True)
-    planted(None, dataset, work, lambda folder: None)
-    planted("frame-shift", dataset, work, lambda folder: tables(folder, "frames", shift_frames))
-    planted("image-shift", dataset, work, lambda folder: tables(folder, "frames", shift_all))
-    planted("yaw-sign", dataset, work, lambda folder: tables(folder, "frames", flip_yaw))
-    planted("action-mismatch", dataset, work, lambda folder: tables(folder, "frames", wrong_actions))
-    planted("below-ground", dataset, work, lambda folder: tables(folder, "frames", sunk))
-    planted("timestamps", dataset, work, lambda folder: tables(folder, "frames", late))
-    planted("caption-mismatch", dataset, work, lambda folder: tables(folder, "captions", lying))
-    planted("parquet-damaged", dataset, work, truncate)
-    planted("log-damaged", dataset, work, flip_byte)
-    planted("split-leak", dataset, work, leak)
-    planted(None, v7, work, lambda folder: None)
-    planted("yaw-sign", v7, work, lambda folder: documents(folder, v7_yaw))
-    planted("below-ground", v7, work, lambda folder: documents(folder, v7_sunk))
-    planted("timestamps", v7, work, lambda folder: documents(folder, v7_stop))
-    planted("action-mismatch", v7, work, lambda folder: documents(folder, v7_waypoints))
-    planted("depth-unit", v7, work, millimetres)
-    planted("image-shift", v7, work, shift_pictures)
-    planted("duplicate-frames", v7, work, repeat_pictures)
-
-    export = work / "lerobot"
-    subprocess.run([cosfly, "export", dataset, "--format", "lerobot", "--out", export], check=True, capture_output=True)
-    ours = next(path for path in sorted(export.iterdir()) if path.is_dir())  # the dataset of one split
-    planted(None, ours, work, lambda folder: None)
-    planted("timestamps", ours, work, lambda folder: lerobot(folder, lerobot_jump))
-    planted("action-mismatch", ours, work, lambda folder: lerobot(folder, lerobot_actions))
-    planted("yaw-sign", ours, work, lambda folder: lerobot(folder, lerobot_yaw))
-    planted("duplicate-frames", ours, work, lambda folder: lerobot(folder, lerobot_repeated))
-    planted("index-mismatch", ours, work, lerobot_gap)
-    planted("parquet-damaged", ours, work, truncate_data)
-    others = work / "foreign"
-    foreign(others)
-    planted(None, others, work, lambda folder: None)
-    planted("timestamps", others, work, lambda folder: lerobot(folder, lerobot_jump))
-    planted("action-mismatch", others, work, lambda folder: lerobot(folder, foreign_actions))
-    planted("pose-jump", others, work, lambda folder: lerobot(folder, foreign_jump))
-    planted("video-missing", others, work, lambda folder: (folder / VIDEO).unlink())
-    planted("video-damaged", others, work, lambda folder: (folder / VIDEO).write_bytes((folder / VIDEO).read_bytes()[:-40]))
+    for layout in ("v7", "lerobot"):
+        subprocess.run([cosfly, "export", dataset, "--format", layout, "--out", work / layout], check=True, capture_output=True)
+    foreign(work / "foreign")
+    of_one_split = next(path for path in sorted((work / "lerobot").iterdir()) if path.is_dir())
+    for layout, plants in PLANTS.items():
+        source = {"dataset": dataset, "lerobot": of_one_split}.get(layout, work / layout)
+        for name, damage in plants.items():
+            planted(name, source, work, damage)
 
 sys.exit(f"missed: {failures}" if failures else 0)

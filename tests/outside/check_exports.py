@@ -11,22 +11,15 @@ from pathlib import Path
 
 import datasets
 import numpy as np
-import pyarrow.parquet as parquet
 import webdataset
 from PIL import Image
 from pycocotools import mask as masks
 from pycocotools.coco import COCO
+from shared import place, rows
 
 dataset, folder, cache = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
-frames = {}
-flights = {}
-for path in sorted(glob.glob(str(dataset / "data/frames/*.parquet"))):
-    for row in parquet.read_table(path).drop(["preview"]).to_pylist():
-        assert row["split"] == Path(path).name.split("-")[0]
-        frames[row["trajectory_id"], row["frame"]] = row
-for path in sorted(glob.glob(str(dataset / "data/trajectories/*.parquet"))):
-    for row in parquet.read_table(path).to_pylist():
-        flights[row["trajectory_id"]] = row
+frames = {(row["trajectory_id"], row["frame"]): row for row in rows(dataset, "frames")}
+flights = {row["trajectory_id"]: row for row in rows(dataset, "trajectories")}
 torch_is_there = importlib.util.find_spec("torch") is not None
 splits = sorted({row["split"] for row in frames.values()})
 
@@ -83,8 +76,8 @@ def web_dataset():
         sample = next(iter(decoded))
         row = frames[sample["json"]["trajectory_id"], sample["json"]["frame"]]
         labels_of(sample, row, sample["depth.npy.gz"].shape[::-1])
-    rows = datasets.load_dataset(str(root), split=splits[0], streaming=True, cache_dir=cache)
-    first = next(iter(rows))
+    found = datasets.load_dataset(str(root), split=splits[0], streaming=True, cache_dir=cache)
+    first = next(iter(found))
     row = frames[first["json"]["trajectory_id"], first["json"]["frame"]]
     kinds = {"depth.npy.gz": np.float32, "semantic.npy.gz": np.uint8, "instance.npy.gz": np.uint32}
     parts = {name: np.array(first[name], kind) for name, kind in kinds.items()}
@@ -105,14 +98,14 @@ def labels_of(sample, row, size):
 
 
 def image_folder():
-    rows = datasets.load_dataset(str(folder / "imagefolder"), cache_dir=cache)
-    assert sum(len(part) for part in rows.values()) == len(frames)
-    for part in rows.values():
+    splits = datasets.load_dataset(str(folder / "imagefolder"), cache_dir=cache)
+    assert sum(len(part) for part in splits.values()) == len(frames)
+    for part in splits.values():
         row = part[len(part) // 2]
         known = frames[row["trajectory_id"], row["frame"]]
         assert row["image"].size == row["semantic"].size == row["depth"].size
         assert row["visible_box_px"] == known["visible_box_px"] and row["instruction"]
-    return f"{len(frames)} rows, columns {sorted(rows[next(iter(rows))].features)[:6]} ..."
+    return f"{len(frames)} rows, columns {sorted(splits[next(iter(splits))].features)[:6]} ..."
 
 
 def as_llama_factory_reads(row, entry, media_dir):
@@ -153,8 +146,8 @@ def vlm():
     root, windows = folder / "vlm", 0
     for name, entry in json.loads((root / "dataset_info.json").read_text()).items():
         assert entry["formatting"] == "sharegpt" and entry["columns"] == {"messages": "messages", "images": "images"}
-        rows = datasets.load_dataset("json", data_files=str(root / entry["file_name"]), split="train", cache_dir=cache)
-        for row in rows:
+        lines = datasets.load_dataset("json", data_files=str(root / entry["file_name"]), split="train", cache_dir=cache)
+        for row in lines:
             as_llama_factory_reads(row, entry, root)
             as_ms_swift_reads(row)
             roles = [message["role"] for message in row["messages"]]
@@ -168,12 +161,10 @@ def vlm():
             deltas = json.loads(row["messages"][2]["content"])["waypoint_deltas"]
             assert len(deltas) == 5 and all(len(delta) == 6 for delta in deltas)
             known = frames[row["trajectory_id"], row["frame"] + 4]
-            place = np.array([known[f"drone_{axis}_m"] for axis in "xyz"])
-            expert = flights[row["trajectory_id"]]["expert_id"]
+            at, expert = place(known, "drone"), flights[row["trajectory_id"]]["expert_id"]
             for step, delta in enumerate(deltas):
-                place = place + delta[:3]
-                truth = frames[expert, known["expert_frame"] + 1 + step]
-                assert np.abs(place - [truth[f"drone_{axis}_m"] for axis in "xyz"]).max() < 6e-4
+                at = at + delta[:3]
+                assert np.abs(at - place(frames[expert, known["expert_frame"] + 1 + step], "drone")).max() < 6e-4
             windows += 1
     assert windows
     return f"{windows} windows"

@@ -9,49 +9,17 @@ a rolling shutter. `--plant` spoils the flow first: the check must then fail.
 """
 
 import argparse
-import sys
 from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
-import pyarrow.dataset as ds
+from shared import axes_of, end_with, messages, pixels, place, require, rows, world_from_body
 
 RIDER = 13
 MOST_PX = 0.01
 STEP_M = 0.5 / 1024
 LIMB_MPS = 8.0
-TYPES = {"32FC1": ("<f4", 1), "32FC2": ("<f4", 2), "mono8": ("u1", 1), "16UC1": ("<u2", 1), "32UC1": ("<u4", 1)}
-
-
-def rows(folder, name, columns):
-    return ds.dataset(folder / "data" / name, format="parquet").to_table(columns=columns).to_pylist()
-
-
-def images(path):
-    """Raw images of a log: topic -> list of arrays in the order of frames."""
-    from mcap.reader import make_reader
-    from mcap_protobuf.decoder import DecoderFactory
-
-    found = defaultdict(list)
-    names = ["depth", "instance", "semantic", "flow_forward", "flow_forward_valid", "flow_back", "flow_back_valid"]
-    with open(path, "rb") as file:
-        reader = make_reader(file, decoder_factories=[DecoderFactory()])
-        for _, channel, _, image in reader.iter_decoded_messages([f"/camera/{name}/image" for name in names]):
-            kind, parts = TYPES[image.encoding]
-            shape = (image.height, image.width) + ((parts,) if parts > 1 else ())
-            found[channel.topic.split("/")[2]].append(np.frombuffer(image.data, kind).reshape(shape))
-    return found
-
-
-def world_from_camera(row):
-    """Columns: ahead, right, up, in CARLA's world (left-handed, z up)."""
-    pitch, yaw, roll = np.radians([row[f"camera_{axis}_deg"] for axis in ("pitch", "yaw", "roll")])
-    (sp, sy, sr), (cp, cy, cr) = np.sin([pitch, yaw, roll]), np.cos([pitch, yaw, roll])
-    return np.array([
-        [cp * cy, cy * sp * sr - sy * cr, -cy * sp * cr - sy * sr],
-        [cp * sy, sy * sp * sr + cy * cr, -sy * sp * cr + cy * sr],
-        [sp, -cp * sr, cp * cr],
-    ])
+CHANNELS = ["depth", "instance", "semantic", "flow_forward", "flow_forward_valid", "flow_back", "flow_back_valid"]
 
 
 class Lens:
@@ -77,24 +45,19 @@ class Lens:
         return np.floor(np.round((ideal - 0.5) * 256) / 256 + 0.5) + 0.5
 
 
-def turn(degrees):
-    sin, cos = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
-    return np.array([[cos, -sin, 0], [sin, cos, 0], [0, 0, 1]])
-
-
 def moved(points, here, there):
     """Points of a rigid body that goes from one state to another."""
     feet = lambda row: np.array(row["feet_in_world_m"])
-    return feet(there) + (points - feet(here)) @ turn(there["heading_deg"] - here["heading_deg"]).T
+    return feet(there) + (points - feet(here)) @ world_from_body(0, there["heading_deg"] - here["heading_deg"], 0).T
 
 
 def eye(row):
     """Position of the camera."""
-    return np.array(row["camera_in_world_m"] or [row[f"drone_{axis}_m"] for axis in "xyz"])
+    return np.array(row["camera_in_world_m"] or place(row, "drone"))
 
 
 def project(points, row, lens):
-    seen = (points - eye(row)) @ world_from_camera(row)
+    seen = (points - eye(row)) @ axes_of(row)
     ahead = np.where(seen[..., 0] > 0.05, seen[..., 0], np.nan)
     ideal = lens.centre + lens.focal * np.stack([seen[..., 1], -seen[..., 2]], -1) / ahead[..., None]
     return lens.bend(ideal), ahead
@@ -109,13 +72,8 @@ class Judge:
         self.plant, self.wrong, self.counts, self.worst = plant, [], defaultdict(int), defaultdict(float)
         self.objects = {row["instance"] for row in rows(folder, "objects", ["instance"])}
         self.folder = folder
-        self.flights = rows(folder, "trajectories", [
-            "trajectory_id", "mcap_path", "dt_s", "target_kind", "camera_width_px", "camera_height_px", "camera_focal_px", "camera_k1",
-            "camera_k2", "camera_k3", "camera_k4", "camera_lens_model", "camera_readout_s"])  # fmt: skip
-        self.frames = defaultdict(dict)
-        angles = [*(f"camera_{axis}_deg" for axis in ("pitch", "yaw", "roll")), "camera_in_world_m"]
-        target = [*(f"target_{axis}_m" for axis in "xyz"), "target_heading_deg"]
-        for row in rows(folder, "frames", ["trajectory_id", "frame", *(f"drone_{axis}_m" for axis in "xyz"), *angles, *target]):
+        self.flights, self.frames = rows(folder, "trajectories"), defaultdict(dict)
+        for row in rows(folder, "frames"):
             self.frames[row["trajectory_id"]][row["frame"]] = row
         self.bodies = defaultdict(dict)
         for row in rows(folder, "bodies", ["trajectory_id", "frame", "instance", "kind", "feet_in_world_m", "heading_deg"]):
@@ -124,11 +82,13 @@ class Judge:
     def about(self, flight, frame):
         """Bodies of a frame by instance id, the target among them."""
         row = self.frames[flight["trajectory_id"]][frame]
-        target = {"kind": flight["target_kind"], "feet_in_world_m": [row[f"target_{axis}_m"] for axis in "xyz"], "heading_deg": row["target_heading_deg"]}
+        target = {"kind": flight["target_kind"], "feet_in_world_m": place(row, "target"), "heading_deg": row["target_heading_deg"]}
         return {1: target, **self.bodies[flight["trajectory_id"], frame]}
 
     def flight(self, flight):
-        logged = images(self.folder / flight["mcap_path"])
+        logged = defaultdict(list)
+        for topic, image, *_ in messages(self.folder / flight["mcap_path"], [f"/camera/{name}/image" for name in CHANNELS]):
+            logged[topic.split("/")[2]].append(pixels(image))
         for name, step in (("flow_forward", 1), ("flow_back", -1)):
             for frame, flow in enumerate(logged[name]):
                 other = frame + step + (self.plant == "frame")
@@ -147,7 +107,7 @@ class Judge:
         depth = depth.astype(float)
         rows_, columns = np.indices(depth.shape)
         centre = lens.sampled(np.stack([columns, rows_], -1) + 0.5)
-        ray = np.concatenate([np.ones((*depth.shape, 1)), (centre - lens.centre) / lens.focal * [1, -1]], -1) @ world_from_camera(here).T
+        ray = np.concatenate([np.ones((*depth.shape, 1)), (centre - lens.centre) / lens.focal * [1, -1]], -1) @ axes_of(here).T
         around, around_there = self.about(flight, frame), self.about(flight, other)
         points = lambda depth_m: eye(here) + np.minimum(depth_m, 1e9)[..., None] * ray
 
@@ -214,8 +174,7 @@ def main():
     given = options.parse_args()
     judge = Judge(given.folder, given.plant)
     for flight in judge.flights:
-        if flight["camera_readout_s"]:
-            sys.exit("check_flow: it has a rolling shutter, whose rows the tables do not place")
+        require(not flight["camera_readout_s"], "it has a rolling shutter, whose rows the tables do not place")
         judge.flight(flight)
     counts = judge.counts
     print(", ".join(f"{name} {count}" for name, count in counts.items()), "| worst beyond the depth's step, px:",
@@ -224,10 +183,7 @@ def main():
         judge.wrong.append(f"only {counts['standing']} pixels were compared")
     if counts["people seen"] and counts["landed"] < 0.85 * counts["people seen"]:
         judge.wrong.append(f"{counts['landed']} of {counts['people seen']} ways of people end on the same person")
-    for message in judge.wrong[:20]:
-        print("check_flow:", message)
-    sys.exit(1 if judge.wrong else 0)
+    end_with(judge.wrong)
 
 
-if __name__ == "__main__":
-    main()
+main()

@@ -1,6 +1,6 @@
 """Reads the goals of table `goals` and the descriptions of table `captions` from their own words and judges every claim by the other tables.
 
-    venv/bin/python tests/outside/check_goals.py DATASET_FOLDER [DATASET_FOLDER ...] [--texts FILE] [--least-skeletons N]
+    venv/bin/python tests/outside/check_goals.py DATASET_FOLDER [DATASET_FOLDER ...] [--least-skeletons N]
 
 Shares no code with cosfly. The words of a goal must say what its column `claims` says, no more and no less, in English and in Chinese.
 Then every claim is judged by brute force over tables `frames`, `bodies`, `objects` and `trajectories`: all claims of goals that fit, and all but
@@ -9,14 +9,11 @@ those of the stated subject of goals that do not. Turns, times, lengths and pace
 
 import argparse
 import re
-import sys
 from collections import Counter, defaultdict
-from pathlib import Path
 
 import numpy as np
-import pyarrow.dataset as ds
-
 from goal_words import read, skeleton
+from shared import Town, end_with, flown, is_in, pixel, place, rows, turned
 from walk_words import Way, when_said, wrongs
 
 REACH_M = {"building": 10.0}
@@ -25,67 +22,23 @@ HIDERS = {"tree": {"tree_trunk", "tree_crown"}, "parked_car": {"car"}}
 WORN = {"people": ("top_colour", "trousers_colour", "has_backpack"), "flights": ("target_top_colour", "target_trousers_colour", "target_has_backpack")}
 
 
-def turned(to, of):
-    return (to - of + 180) % 360 - 180
-
-
-class Town:
-    """The boxes of a town."""
-
-    def __init__(self, rows):
-        self.kind_of = {row["instance"]: row["kind"] for row in rows}
-        self.kinds = defaultdict(set)
-        for row in rows:
-            self.kinds[row["instance"]].add(row["kind"])
-        self.boxes = defaultdict(list)
-        for row in rows:
-            self.boxes[row["kind"]].append((row["instance"], np.array(row["center_in_world_m"]), np.array(row["size_m"]) / 2, np.radians(row["yaw_deg"])))
-        self.arrays = {kind: (np.array([it[0] for it in boxes]), np.array([it[1] for it in boxes]), np.array([it[2] for it in boxes]), np.array([it[3] for it in boxes])) for kind, boxes in self.boxes.items()}
-
-    def beside(self, kind, feet, heading, reach):
-        """Instances of a kind that are beside a walker, with their sides: -1 left, 1 right, 0 neither."""
-        if kind not in self.arrays:
-            return {}
-        instance, center, half, yaw = self.arrays[kind]
-        cos, sin = np.cos(yaw), np.sin(yaw)
-        dx, dy = feet[0] - center[:, 0], feet[1] - center[:, 1]
-        own = np.stack([cos * dx + sin * dy, cos * dy - sin * dx], 1)
-        to = np.clip(own, -half[:, :2], half[:, :2]) - own
-        x, y = cos * to[:, 0] - sin * to[:, 1], sin * to[:, 0] + cos * to[:, 1]
-        before, aside = np.cos(heading) * x + np.sin(heading) * y, np.cos(heading) * y - np.sin(heading) * x
-        level = np.abs(center[:, 2] - half[:, 2] - feet[2]) <= 3.0
-        there = level & (np.abs(before) <= 1.0) & (np.abs(aside) <= reach)
-        return {int(instance[at]): (0 if abs(aside[at]) < 0.5 else int(np.sign(aside[at]))) for at in np.flatnonzero(there)}
-
-
 class Flight:
     def __init__(self, row, frames, people, town, crossings):
-        self.row, self.town, self.people, self.crossings = row, town, people, crossings
-        frames = sorted(frames, key=lambda it: it["frame"])
-        column = lambda name: np.array([it[name] for it in frames])
-        self.feet = np.stack([column(f"target_{axis}_m") for axis in "xyz"], 1)
+        self.row, self.town, self.crossings = row, town, crossings
+        self.frames = [frames[number] for number in sorted(frames)]
+        self.people = {number: people[row["trajectory_id"], number] for number in frames}
+        column = lambda name: np.array([it[name] for it in self.frames])
+        self.feet = np.array([place(it, "target") for it in self.frames])
         self.heading, self.speed, self.distance = column("target_heading_deg"), column("target_speed_mps"), column("distance_m")
         self.pixels, self.share, self.cause = column("visible_pixels"), column("visible_by_pixels"), column("occluder_instance")
-        self.eye = np.stack([column(f"drone_{axis}_m") for axis in "xyz"], 1)
-        self.angles = np.radians(np.stack([column(f"camera_{name}_deg") for name in ("pitch", "yaw", "roll")], 1))
-        self.dt = float(row["dt_s"])
-        self.count = len(frames)
-        self.names = {}
-        for rows in people.values():
-            self.names.update({it["instance"]: it["kind"] for it in rows})
-        self.runs = {}
+        self.dt, self.count = float(row["dt_s"]), len(frames)
+        self.names = {it["instance"]: it["kind"] for present in self.people.values() for it in present}
         self.way = Way(self.feet, self.speed >= 0.05, self.dt)
 
     def is_outside(self, frame):
         """Whether the middle of the body is outside of the picture, or within a pixel of its edge."""
-        (cp, cy, cr), (sp, sy, sr) = np.cos(self.angles[frame]), np.sin(self.angles[frame])
-        axes = np.array([[cp * cy, cp * sy, sp], [cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, -cp * sr], [-cy * sp * cr - sy * sr, -sy * sp * cr + cy * sr, cp * cr]])
-        ahead, right, up = axes @ (self.feet[frame] + [0, 0, self.row["target_height_m"] / 2] - self.eye[frame])
-        width, height, focal = (self.row[f"camera_{name}_px"] for name in ("width", "height", "focal"))
-        if ahead <= 0:
-            return True
-        u, v = width / 2 + focal * right / ahead, height / 2 - focal * up / ahead
-        return not (1 <= u < width - 1 and 1 <= v < height - 1)
+        at = pixel(self.row, self.frames[frame], self.feet[frame] + [0, 0, self.row["target_height_m"] / 2])
+        return at is None or (at < 1).any() or (at >= [self.row["camera_width_px"] - 1, self.row["camera_height_px"] - 1]).any()
 
     def hidden_by(self, name, frames):
         cause = set(self.cause[frames])
@@ -94,15 +47,17 @@ class Flight:
         cause = int(cause.pop())
         if cause in self.names:
             return self.names[cause] == name
-        return bool(self.town.kinds.get(cause, set()) & HIDERS.get(name, {name}))
+        return bool(set(self.town.kind[self.town.instance == cause]) & HIDERS.get(name, {name}))
 
     def passes(self, kind, side, count, start, end):
-        sides = defaultdict(set)
-        table_kind = KIND_OF.get(kind, kind)
+        """Whether exactly so many instances of a kind are beside the target in these frames, all on one side: -1 left, 1 right, 0 neither."""
+        sides, reach = defaultdict(set), 1.2 * REACH_M.get(kind, 5.0)
         for frame in range(start, end):
-            there = self.town.beside(table_kind, self.feet[frame], np.radians(self.heading[frame]), 1.2 * REACH_M.get(kind, 5.0))
-            for instance, on in there.items():
-                sides[instance].add(on)
+            feet = self.feet[frame]
+            which, before, aside = self.town.nearest(KIND_OF.get(kind, kind), feet, np.radians(self.heading[frame]), reach + 1)
+            level = np.abs(self.town.center[which, 2] - self.town.half[which, 2] - feet[2]) <= 3.0
+            for at in np.flatnonzero(level & (np.abs(before) <= 1.0) & (np.abs(aside) <= reach)):
+                sides[self.town.instance[which[at]]].add(0 if abs(aside[at]) < 0.5 else int(np.sign(aside[at])))
         sign = {"left": -1, "right": 1}[side]
         return sum(sign in on for on in sides.values()) == count and all(on == {sign} for on in sides.values() if sign in on)
 
@@ -116,16 +71,9 @@ class Flight:
         return sum(times >= 0.5 * (end - start) for times in seen.values()) == count
 
     def on_crossing(self, frame):
-        """Whether the target stands on a marked crossing, by the number of its sides that a ray along x meets."""
         x, y, z = self.feet[frame]
-        for row in self.crossings:
-            corners = list(zip(row["outline_x_m"], row["outline_y_m"]))
-            if abs(np.mean(row["outline_z_m"]) - z) > 1.5:
-                continue
-            sides = zip(corners, corners[1:] + corners[:1])
-            if sum((a[1] > y) != (b[1] > y) and x < a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) for a, b in sides) % 2:
-                return True
-        return False
+        near = [row for row in self.crossings if abs(np.mean(row["outline_z_m"]) - z) <= 1.5]
+        return any(is_in(list(zip(row["outline_x_m"], row["outline_y_m"])), x, y) for row in near)
 
     def crosses(self, start, end):
         """On a crossing in these frames and neither before nor after, and far enough to be on the other side of the street."""
@@ -147,20 +95,6 @@ class Flight:
                 aside.append(abs(way @ [-np.sin(heading), np.cos(heading)]))
             turned_deg = abs(turned(it["heading_deg"], self.heading[start]))
             if ahead[0] > 0 >= ahead[1] and max(aside) <= reach and turned_by[0] <= turned_deg <= turned_by[1]:
-                return True
-        return False
-
-    def meets(self, top, start, end):
-        for it in self.people.get(start, []):
-            later = next((its for its in self.people.get(end - 1, []) if its["instance"] == it["instance"]), None)
-            if it["kind"] != "pedestrian" or it["top_colour"] != top or later is None:
-                continue
-            ahead = []
-            for frame, person in ((start, it), (end - 1, later)):
-                heading = np.radians(self.heading[frame])
-                way = np.array(person["feet_in_world_m"][:2]) - self.feet[frame, :2]
-                ahead.append(way @ [np.cos(heading), np.sin(heading)])
-            if ahead[0] > 0 >= ahead[1] and abs(turned(it["heading_deg"], self.heading[start])) > 140:
                 return True
         return False
 
@@ -206,7 +140,7 @@ class Flight:
         if name == "walks_with":
             return self.walks_with(int(rest[0]), start, end)
         if name == "meets":
-            return self.meets(rest[0], start, end)
+            return self.is_passed("pedestrian", rest[0], 1, (140, 180), start, end, np.inf)
         raise SystemExit(f"unknown claim {claim}")
 
 
@@ -236,7 +170,7 @@ def judge(goal, flight, wrong, counts):
     for claim in claims:
         *name, start, end = claim
         holds = flight.is_true([str(word) for word in name], start, end)
-        counts[name[0], goal["grain"]] += 1
+        counts[name[0]] += 1
         is_false_one = goal["grain"] == "negative" and SUBJECTS[name[0]] == goal["false_subject"]
         if not holds and not is_false_one:
             wrong.append(f"{where}: {claim} is not so")
@@ -289,53 +223,36 @@ def judge_descriptions(captions, flights, wrong):
 
 
 def check(folder, texts):
-    table = lambda name, columns=None: ds.dataset(Path(folder) / "data" / name, format="parquet").to_table(columns=columns).to_pylist()
-    objects = defaultdict(list)
-    for row in table("objects"):
-        objects[row["town"]].append(row)
-    towns = {name: Town(rows) for name, rows in objects.items()}
-    frames, people = defaultdict(list), defaultdict(lambda: defaultdict(list))
-    for row in table("frames", ["trajectory_id", "frame", *[f"target_{axis}_m" for axis in "xyz"], "target_heading_deg", "target_speed_mps", "distance_m", "visible_pixels", "visible_by_pixels", "occluder_instance", "drone_x_m", "drone_y_m", "drone_z_m", "camera_pitch_deg", "camera_yaw_deg", "camera_roll_deg"]):
-        frames[row["trajectory_id"]].append(row)
-    for row in table("bodies", ["trajectory_id", "frame", "instance", "kind", "feet_in_world_m", "heading_deg", "speed_mps", "top_colour", "trousers_colour", "visible_pixels"]):
-        if row["visible_pixels"]:
-            people[row["trajectory_id"]][row["frame"]].append(row)
-    crossings = defaultdict(list)
-    for row in table("crossings"):
+    found, frames, people = flown(folder)
+    towns, crossings = Town.all_of(folder), defaultdict(list)
+    for row in rows(folder, "crossings"):
         crossings[row["trajectory_id"]].append(row)
-    flights = {row["trajectory_id"]: Flight(row, frames[row["trajectory_id"]], people[row["trajectory_id"]], towns[row["town"]], crossings[row["trajectory_id"]]) for row in table("trajectories")}
-    goals, wrong, counts, skeletons = table("goals"), [], Counter(), defaultdict(Counter)
-    judge_descriptions(table("captions", ["trajectory_id", "language", "style", "writer", "text"]), flights, wrong)
+    flights = {name: Flight(row, frames[name], people, towns[row["town"]], crossings[name]) for name, row in found.items()}
+    goals, wrong, counts = rows(folder, "goals"), [], Counter()
+    judge_descriptions(rows(folder, "captions"), flights, wrong)
+    texts += goals
     for goal in goals:
         judge(goal, flights[goal["trajectory_id"]], wrong, counts)
-        texts.append(goal)
-        skeletons[goal["language"]].update(skeleton(" / ".join(goal["lines"]), goal["language"]) for _ in (0,))
     grains = Counter((goal["grain"], goal["language"]) for goal in goals)
     print(f"{folder}: {len(goals)} goals of {len(flights)} flights, {len(wrong)} wrong; {dict(sorted(grains.items()))}")
-    print("  claims:", dict(sorted(Counter({}).items())) or dict(sum((Counter({name: times}) for (name, _), times in counts.items()), Counter())))
+    print("  claims:", dict(counts))
     return wrong
 
 
 def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("folders", nargs="+")
-    arguments.add_argument("--show", help="prints so many goals of each language", type=int, default=0)
     arguments.add_argument("--least-skeletons", type=int, default=0)
     given = arguments.parse_args()
     texts = []
     wrong = [it for folder in given.folders for it in check(folder, texts)]
     for language in ("en", "zh"):
         own = [goal for goal in texts if goal["language"] == language]
-        lines = [line for goal in own for line in ([" / ".join(goal["lines"])])]
-        different = {skeleton(line, language) for line in lines}
-        print(f"{language}: {len(different)} skeletons in {len(lines)} goals")
+        different = {skeleton(" / ".join(goal["lines"]), language) for goal in own}
+        print(f"{language}: {len(different)} skeletons in {len(own)} goals")
         if len(different) < given.least_skeletons:
             wrong.append(f"{language} has {len(different)} skeletons; wanted are {given.least_skeletons}")
-        for goal in own[: given.show]:
-            print(f"  {goal['grain']:8}", " / ".join(goal["lines"]), "|", goal["false_subject"] or "")
-    print(*wrong[:20], sep="\n")
-    sys.exit(bool(wrong))
+    end_with(wrong)
 
 
-if __name__ == "__main__":
-    main()
+main()

@@ -8,14 +8,13 @@ are moved near the origin first, because carla works in float32.
 """
 
 import decimal
-import json
 import math
 import re
-import subprocess
 import sys
 import tempfile
 
 import carla
+from shared import json_of, turned
 
 MOST_SHOWN = 5
 LEAST_CROSSWALKS = 0.85
@@ -26,10 +25,6 @@ GEOMETRY = re.compile(r"<geometry\b[^>]*>")
 def float32_step(value):
     """Distance between neighbouring float32 numbers at this size."""
     return 2.0 ** (math.floor(math.log2(max(abs(value), 1.0))) - 23)
-
-
-def wrapped(degrees):
-    return (degrees + 180.0) % 360.0 - 180.0
 
 
 def quantile(values, share):
@@ -55,7 +50,7 @@ def dumped(binary, text):
     with tempfile.NamedTemporaryFile("w", suffix=".xodr", encoding="utf-8") as file:
         file.write(text)
         file.flush()
-        return json.loads(subprocess.run([binary, file.name, "2.5", "shoulders"], check=True, capture_output=True, text=True).stdout)
+        return json_of(binary, file.name, 2.5, "shoulders")
 
 
 def compare_crosswalks(town, dump):
@@ -93,7 +88,7 @@ def compare(binary, path):
         off = math.hypot(location.x - x, location.y - y)
         allowed = limit + 2.0 * max(float32_step(x), float32_step(y))
         yaw = sample["yaw_deg"] + (180.0 if sample["lane"] > 0 else 0.0)
-        heading = abs(wrapped(other.transform.rotation.yaw - yaw))
+        heading = abs(turned(other.transform.rotation.yaw, yaw))
         width = abs(other.lane_width - sample["width"])
         offsets.append(off)
         steady = abs(sample["drift"]) < 0.02
@@ -119,11 +114,7 @@ def compare(binary, path):
 
 
 def main():
-    if len(sys.argv) < 3:
-        raise SystemExit(__doc__)
-    results = [compare(sys.argv[1], path) for path in sys.argv[2:]]
-    raise SystemExit(0 if all(results) else 1)
+    sys.exit(not all([compare(sys.argv[1], path) for path in sys.argv[2:]]))
 
 
-if __name__ == "__main__":
-    main()
+main()

@@ -11,17 +11,13 @@ from pathlib import Path
 import datasets
 import numpy as np
 import pandas as pd
-import pyarrow.parquet as parquet
+from shared import rows as rows_of
+from shared import turned, world_from_body
 
 dataset, export, cache = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
 QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
-poses, flights = {}, {}
-for path in glob.glob(str(dataset / "data/frames/*.parquet")):
-    for row in parquet.read_table(path).drop(["preview"]).to_pylist():
-        poses[row["trajectory_id"], row["frame"]] = row
-for path in glob.glob(str(dataset / "data/trajectories/*.parquet")):
-    for row in parquet.read_table(path).to_pylist():
-        flights[row["trajectory_id"]] = row
+poses = {(row["trajectory_id"], row["frame"]): row for row in rows_of(dataset, "frames")}
+flights = {row["trajectory_id"]: row for row in rows_of(dataset, "trajectories")}
 
 
 def state(flight, frame):
@@ -36,16 +32,6 @@ def expert(flight, frame):
     return state(expert_id, row["expert_frame"] if row["expert_frame"] is not None else row["frame"])
 
 
-def world_from_body(pitch, yaw, roll):
-    """CARLA's matrix: columns are the body's axes ahead, right and up in the world."""
-    (cp, cy, cr), (sp, sy, sr) = np.cos(np.radians([pitch, yaw, roll])), np.sin(np.radians([pitch, yaw, roll]))
-    return np.array([
-        [cp * cy, cy * sp * sr - sy * cr, -cy * sp * cr - sy * sr],
-        [cp * sy, sy * sp * sr + cy * cr, -sy * sp * cr + cy * sr],
-        [sp, -cp * sr, cp * cr],
-    ])
-
-
 def moved(pose, increment):
     """A pose moved along the axes of its own body; angles are differences."""
     return np.concatenate([pose[:3] + world_from_body(*pose[3:]) @ increment[:3], pose[3:] + increment[3:]])
@@ -53,7 +39,7 @@ def moved(pose, increment):
 
 def gap(a, b):
     """Largest difference of two poses, metres and degrees."""
-    return max(np.abs(a[:3] - b[:3]).max(), np.abs((a[3:] - b[3:] + 180) % 360 - 180).max())
+    return max(np.abs(a[:3] - b[:3]).max(), np.abs(turned(a[3:], b[3:])).max())
 
 
 def as_lerobot_reads(root, info):
@@ -67,6 +53,11 @@ def as_lerobot_reads(root, info):
     features = datasets.Features({name: feature(it) for name, it in info["features"].items()})
     paths = sorted(map(str, root.glob("data/*/*.parquet")))
     return datasets.Dataset.from_parquet(paths, features=features, cache_dir=cache)
+
+
+def statistics(values):
+    wanted = {"mean": values.mean(0), "std": values.std(0), "min": values.min(0), "max": values.max(0)}
+    return wanted | {key: np.quantile(values, share, axis=0) for key, share in QUANTILES.items()}
 
 
 def check(split):
@@ -106,8 +97,7 @@ def check(split):
     assert set(stats) == set(info["features"])
     for name in ("observation.state", "action", "privileged.target"):
         values = np.array(rows[name])
-        wanted = {"mean": values.mean(0), "std": values.std(0), "min": values.min(0), "max": values.max(0)}
-        wanted |= {key: np.quantile(values, share, axis=0) for key, share in QUANTILES.items()}
+        wanted = statistics(values)
         assert stats[name]["count"] == [len(rows)] and set(stats[name]) == {*wanted, "count"}
         for key, want in wanted.items():
             assert np.abs(np.array(stats[name][key]) - want).max() < 1e-6, (name, key)
@@ -132,10 +122,8 @@ def check_episodes(root, info, rows, stats):
         for name in ("observation.state", "action", "privileged.box", "timestamp", "index"):
             values = np.array(rows[name])[numbers == episode["episode_index"]]
             values = values.reshape(len(values), -1)
-            want = {"mean": values.mean(0), "std": values.std(0), "min": values.min(0), "max": values.max(0)}
-            want |= {key: np.quantile(values, share, axis=0) for key, share in QUANTILES.items()}
             assert own[name]["count"].tolist() == [len(values)]
-            for key, it in want.items():
+            for key, it in statistics(values).items():
                 assert np.abs(own[name][key] - it).max() < 1e-5, (name, key)
     for name in info["features"]:
         shape = (3, 1, 1) if name.startswith("observation.images") else tuple(info["features"][name]["shape"])

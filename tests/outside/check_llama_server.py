@@ -22,7 +22,8 @@ if any(importlib.util.find_spec(name) is None for name in ("gguf", "llama_cpp", 
 
 import gguf
 import numpy as np
-import pyarrow.parquet as pq
+from shared import rows as rows_of
+from shared import run
 
 WIDTH, LAYERS, HEADS, INNER = 64, 2, 4, 128
 
@@ -92,11 +93,11 @@ def main():
             "stages.captions.teacher.server.timeout_s": 120.0, "stages.captions.teacher.server.concurrency": 1,
         }
         sets = [word for key, value in settings.items() for word in ("--set", f"{key}={json.dumps(value)}")]
-        subprocess.run([cosfly, "run", "recipes/small.toml", "--out", work / "dataset", "--store", work / "store", "--quiet", *sets], check=True)
+        run(cosfly, "run", "recipes/small.toml", "--out", work / "dataset", "--store", work / "store", "--quiet", *sets)
     finally:
         process.terminate()
         process.wait()
-    rows = [row for path in sorted(work.glob("dataset/data/captions/*.parquet")) for row in pq.read_table(path).to_pylist()]
+    rows = rows_of(work / "dataset", "captions")
     answers = sum(row["attempts"] for row in rows)
     with_text = sum(why != "the answer has no `text`, or an empty one" and "one JSON object" not in why for row in rows for why in row["refused_because"])
     print(f"{len(rows)} texts, {answers} answers of the server, {with_text} with a text by its grammar, all refused")
@@ -104,5 +105,4 @@ def main():
     assert with_text, "the grammar gave no text"
 
 
-if __name__ == "__main__":
-    main()
+main()

@@ -6,10 +6,8 @@ INSPECT is the example `inspect_json` of cosfly-maps, FOLDER holds extracts. Com
 lamps, footprints (intersection over union), stated heights, and whether the middle lines of footpaths are walkable.
 """
 
-import json
 import math
 import statistics
-import subprocess
 import sys
 import tempfile
 from collections import Counter
@@ -19,8 +17,8 @@ import numpy
 import osmium
 from pyproj import Proj
 from shapely import Point, Polygon, STRtree, distance, get_coordinates, points, transform, wkb
-from shapely.affinity import rotate
 from shapely.ops import unary_union
+from shared import ground_of_boxes, json_of
 
 STOREY_M = 3.0
 BUILDING_MARGIN_M = 1000.0
@@ -104,12 +102,6 @@ def is_kept(tags):
     return tags.get("location") != "underground" and not below and is_there
 
 
-def rectangle(box):
-    (x, y, _), (a, b, _) = box["center_m"], box["half_m"]
-    shape = Polygon([(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b)])
-    return rotate(shape, box["yaw_rad"], origin=(x, y), use_radians=True)
-
-
 def stated_top_m(tags):
     if number(tags.get("height")):
         return number(tags["height"])
@@ -130,7 +122,7 @@ class Town:
 
     def __init__(self, inspect, path):
         self.name = path.name
-        self.town = json.loads(subprocess.run([inspect, path], check=True, capture_output=True, text=True).stdout)
+        self.town = json_of(inspect, path)
         assert self.town["format"] == "OpenStreetMap", self.town["format"]
         projection = Proj(self.town["geo_reference"])
         self.plan = lambda lon, lat: (lambda x, y: (x, -y))(*projection(lon, lat))
@@ -148,7 +140,7 @@ class Town:
 
     def check(self):
         boxes = [box for box in self.town["boxes"] if box["kind"] == "Building"]
-        shapes = [rectangle(box) for box in boxes]
+        shapes = list(ground_of_boxes(boxes))
         index = STRtree(shapes)
         near = [(name, tags, shape) for name, tags, shape in self.areas if any(self.holds(at, BUILDING_MARGIN_M) for at in shape.exterior.coords)]
         outlines = [one for one in near if one[1].get("building", "no") != "no"]
@@ -272,5 +264,4 @@ def main():
     print(f"{len(files)} extracts agree with pyosmium")
 
 
-if __name__ == "__main__":
-    main()
+main()

@@ -11,7 +11,6 @@ has an intersection over union of at least 0.9 in the median. Without guessed ro
 import json
 import math
 import statistics
-import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ET
@@ -19,6 +18,7 @@ import xml.etree.ElementTree as ET
 from check_cityjson import things_of
 from shapely import STRtree, make_valid, union_all
 from shapely.geometry import Polygon
+from shared import json_of
 
 
 def numbers(element, *names):
@@ -119,7 +119,7 @@ def town_of(inspect, path, roofs):
     with tempfile.NamedTemporaryFile("w", suffix=".json") as options:
         json.dump({"roofs": roofs}, options)
         options.flush()
-        town = json.loads(subprocess.run([inspect, path, options.name], check=True, capture_output=True).stdout)
+        town = json_of(inspect, path, options.name)
     lift = town["offset_m"][2]
     return [(plan, low + lift, high + lift) for plan, low, high, _ in things_of(town, "Building")]
 

@@ -9,15 +9,10 @@ it may fit must be the stated one. Prints how often each property is named.
 
 import re
 import sys
-from collections import Counter, defaultdict
-from pathlib import Path
+from collections import Counter
 
-import pyarrow.dataset as ds
+from shared import IN_CHINESE, end_with, flown, rows
 
-COLOURS = dict(zip(
-    "black grey white red orange yellow green blue purple pink brown beige".split(),
-    "黑色 灰色 白色 红色 橙色 黄色 绿色 蓝色 紫色 粉色 棕色 米色".split(),
-))
 KINDS = {
     "pedestrian": ("person", "人"), "bicycle": ("cyclist", "骑自行车的人"), "motorcycle": ("motorcyclist", "骑摩托车的人"),
     "car": ("car", "汽车"), "van": ("van", "面包车"), "truck": ("lorry", "卡车"), "bus": ("bus", "公交车"), "drone": ("drone", "无人机"),
@@ -41,7 +36,7 @@ def english(text):
 
 def chinese(text):
     kind = next(kind for kind in ("bicycle", "motorcycle", "van", "truck", "bus", "car", "pedestrian") if text.endswith(KINDS[kind][1]))
-    colour = {zh: en for en, zh in COLOURS.items()}
+    colour = {zh: en for en, zh in IN_CHINESE.items()}
     any_colour = "|".join(colour)
     found = {name: re.search(pattern, text) for name, pattern in {
         "top": f"穿({any_colour})上衣" if kind in ("pedestrian", "bicycle", "motorcycle") else f"({any_colour})", "trousers": f"({any_colour})裤子",
@@ -63,18 +58,16 @@ def may_fit(meant, body):
     return body["kind"] == meant["kind"] and all(agrees)
 
 
+def described(body, of, speed, at):
+    """What a phrase may say of a body or, with the prefix `target_`, of a target."""
+    looks = {name: body[of + column] for name, column in (("kind", "kind"), ("top", "top_colour"), ("trousers", "trousers_colour"), ("backpack", "has_backpack"))}
+    return {**looks, "shoulder_bag": body[of + "bag"] == "shoulder_bag", "speed": speed, "at": at}
+
+
 def check(folder):
-    table = lambda name: ds.dataset(Path(folder) / "data" / name, format="parquet").to_table(
-        columns=[column for column in ds.dataset(Path(folder) / "data" / name, format="parquet").schema.names if column != "preview"]).to_pylist()
-    flights = {row["trajectory_id"]: row for row in table("trajectories")}
-    frames, others = defaultdict(dict), defaultdict(list)
-    for row in table("frames"):
-        frames[row["trajectory_id"]][row["frame"]] = row
-    for row in table("bodies"):
-        if row["visible_pixels"]:
-            others[row["trajectory_id"], row["frame"]].append(row)
+    flights, frames, others = flown(folder)
     wrong, named, unique = [], Counter(), Counter()
-    phrases = table("phrases")
+    phrases = rows(folder, "phrases")
     for row in phrases:
         flight = flights[row["trajectory_id"]]
         meant = english(row["text_en"])
@@ -87,13 +80,10 @@ def check(folder):
         named.update(said)
         middle = lambda edges: (edges[0] + edges[2]) / 2 / flight["camera_width_px"]
         for frame, state in frames[row["trajectory_id"]].items():
-            bodies = [{"kind": it["kind"], "top": it["top_colour"], "trousers": it["trousers_colour"], "backpack": it["has_backpack"], "shoulder_bag": it["bag"] == "shoulder_bag",
-                       "speed": it["speed_mps"], "at": middle(it["visible_box_px"])} for it in others[row["trajectory_id"], frame]]
-            fits = sum(may_fit(meant, body) for body in bodies)
+            fits = sum(may_fit(meant, described(it, "", it["speed_mps"], middle(it["visible_box_px"]))) for it in others[row["trajectory_id"], frame])
             target = None
             if state["visible_box_px"] is not None:
-                target = {"kind": flight["target_kind"], "top": flight["target_top_colour"], "trousers": flight["target_trousers_colour"],
-                          "backpack": flight["target_has_backpack"], "shoulder_bag": flight["target_bag"] == "shoulder_bag", "speed": state["target_speed_mps"], "at": middle(state["visible_box_px"])}
+                target = described(flight, "target_", state["target_speed_mps"], middle(state["visible_box_px"]))
             is_target = target is not None and may_fit(meant, target)
             if (row["candidates"][frame], row["fits_target"][frame]) != (fits + is_target, int(is_target)):
                 wrong.append(f"{row['trajectory_id']} frame {frame}: `{row['text_en']}` may mean {fits + is_target} bodies; the table says {row['candidates'][frame]}")
@@ -105,7 +95,4 @@ def check(folder):
     return wrong
 
 
-if __name__ == "__main__":
-    problems = [problem for folder in sys.argv[1:] for problem in check(folder)]
-    print(*problems[:20], sep="\n")
-    sys.exit(bool(problems))
+end_with([problem for folder in sys.argv[1:] for problem in check(folder)])

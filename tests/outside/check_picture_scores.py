@@ -8,23 +8,19 @@ EXPORTS has imagefolder/ and coco/ of the dataset. Each check prints one line. E
 
 import contextlib
 import copy
-import glob
 import io
 import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet as parquet
-from mcap.reader import make_reader
-from mcap_protobuf.decoder import DecoderFactory
 from PIL import Image
 from pycocotools import mask as masks
 from pycocotools.coco import COCO
 from pycocotools.cocoeval import COCOeval
-from sklearn.metrics import jaccard_score
+from shared import agree, flown, json_of, messages, pixels, said
+from sklearn.metrics import jaccard_score, mean_absolute_percentage_error, root_mean_squared_error
 
 binary, dataset, exports = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
 scratch = tempfile.TemporaryDirectory()
@@ -33,67 +29,48 @@ rng = np.random.default_rng(7)
 CAP_M = 80.0
 
 
-def require(name, ours, theirs, tolerance=1e-9):
-    ours, theirs = np.asarray(ours, dtype=float), np.asarray(theirs, dtype=float)
-    worst = np.abs(ours - theirs).max()
-    if ours.shape != theirs.shape or not worst <= tolerance:
-        raise SystemExit(f"check_picture_scores: {name} differs by {worst}:\n ours {ours}\n theirs {theirs}")
-    print(f"ok  {name:<60} {ours.size} numbers, largest difference {worst:.1e}", flush=True)
+flights = flown(dataset)[0].values()
 
 
 def evaluate(predictions, *options, code=0):
-    command = [binary, "eval", dataset, predictions, "--out", work / "scores", "--json", "--resamples", "50", *options]
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if done.returncode != code:
-        raise SystemExit(f"check_picture_scores: exit code {done.returncode}: {done.stderr}")
-    return json.loads(done.stdout)
+    return json_of(binary, "eval", dataset, predictions, "--out", work / "scores", "--json", "--resamples", 50, *options, code=code)
 
 
 def scores(report, *keys):
     return [report["scores"][key]["value"] for key in keys]
 
 
-def flights():
-    for path in sorted(glob.glob(str(dataset / "data/trajectories/*.parquet"))):
-        split = Path(path).name.split("-")[0]
-        for row in parquet.read_table(path).to_pylist():
-            yield row | {"split": split}
-
-
-def pictures(row, topic, kind):
-    with open(dataset / row["mcap_path"], "rb") as file:
-        reader = make_reader(file, decoder_factories=[DecoderFactory()])
-        for _, _, _, image in reader.iter_decoded_messages(topics=[topic]):
-            yield np.frombuffer(image.data, kind).reshape(image.height, image.width)
+def pictures(row, topic):
+    return (pixels(image) for _, image, *_ in messages(dataset / row["mcap_path"], [topic]))
 
 
 def depth():
-    """Noisy depths as NumPy arrays: every image by numpy, then means, overall and by weather."""
+    """Noisy depths as NumPy arrays: every image by scikit-learn, then means, overall and by weather."""
     folder, found = work / "depth", []
-    for row in flights():
+    for row in flights:
         place = folder / row["trajectory_id"]
         place.mkdir(parents=True)
-        for frame, truth in enumerate(pictures(row, "/camera/depth/image", "<f4")):
+        for frame, truth in enumerate(pictures(row, "/camera/depth/image")):
             guess = (truth * rng.normal(1, 0.2, truth.shape)).astype(np.float32)
             guess[rng.random(truth.shape) < 0.01] = np.inf
             np.save(place / f"{frame:06d}.npy", guess)
             valid = np.isfinite(truth) & (truth > 0) & (truth <= CAP_M)
             t, p = truth[valid].astype(float), np.clip(guess[valid].astype(float), 1e-3, CAP_M)
-            ratio = np.maximum(t / p, p / t)
-            found.append((row["weather_preset"], np.mean(np.abs(p - t) / t), np.sqrt(np.mean((p - t) ** 2)), np.mean(ratio < 1.25)))
+            errors = mean_absolute_percentage_error(t, p), root_mean_squared_error(t, p), np.mean(np.maximum(t / p, p / t) < 1.25)
+            found.append((row["weather_preset"], *errors))
     report = evaluate(folder)
     keys = ["abs_rel", "rmse_m", "delta1"]
-    require("depth: AbsRel, RMSE, delta1 against numpy", scores(report, *keys), np.mean([row[1:] for row in found], axis=0))
+    agree("depth: AbsRel, RMSE, delta1 against scikit-learn", scores(report, *keys), np.mean([row[1:] for row in found], axis=0))
     for weather, ours in report["strata"]["weather"].items():
         theirs = np.mean([row[1:] for row in found if row[0] == weather], axis=0)
-        require(f"depth: the same in {weather}", scores(ours, *keys), theirs)
+        agree(f"depth: the same in {weather}", scores(ours, *keys), theirs)
     report = evaluate(exports / "imagefolder", "--kind", "depth")
-    require("depth: the ImageFolder export of the truth", scores(report, *keys), [0, 0, 1], tolerance=0.005)
+    agree("depth: the ImageFolder export of the truth", scores(report, *keys), [0, 0, 1], tolerance=0.005)
     assert report["frames"]["scored"] == len(found) and report["files"]["malformed"] == 0
     # Whole numbers in millimetres, every second frame.
     folder = work / "millimetres"
-    for row in flights():
-        for frame, truth in enumerate(pictures(row, "/camera/depth/image", "<f4")):
+    for row in flights:
+        for frame, truth in enumerate(pictures(row, "/camera/depth/image")):
             if frame % 2 == 0:
                 place = folder / f"{row['trajectory_id']}_{frame}.png"
                 place.parent.mkdir(exist_ok=True)
@@ -101,17 +78,17 @@ def depth():
     wrong = evaluate(folder, "--every", "2")
     assert any("a wrong unit?" in note for note in wrong["notes"]), wrong["notes"]
     right = evaluate(folder, "--every", "2", "--depth-per-metre", "1000", "--max-depth-m", "60")
-    require("depth: millimetres, every second frame", scores(right, *keys), [0, 0, 1], tolerance=0.001)
+    agree("depth: millimetres, every second frame", scores(right, *keys), [0, 0, 1], tolerance=0.001)
     assert right["frames"]["without_prediction"] == 0 and right["notes"] == []
 
 
 def labels():
     """Labels of which some are wrong: IoU by scikit-learn over all pixels at once."""
     folder, truths, guesses = work / "labels", [], []
-    for row in flights():
+    for row in flights:
         place = folder / row["split"] / "semantic" / row["trajectory_id"]
         place.mkdir(parents=True)
-        for frame, truth in enumerate(pictures(row, "/camera/semantic/image", "u1")):
+        for frame, truth in enumerate(pictures(row, "/camera/semantic/image")):
             guess = np.where(rng.random(truth.shape) < 0.2, rng.integers(0, 25, truth.shape, dtype=np.uint8), truth)
             Image.fromarray(guess).save(place / f"frame_{frame}.png")
             truths.append(truth.ravel())
@@ -120,10 +97,10 @@ def labels():
     truth, guess = np.concatenate(truths), np.concatenate(guesses)
     names = np.union1d(truth, guess)
     theirs = jaccard_score(truth, guess, labels=names, average=None)
-    require("labels: IoU of every class against scikit-learn", [row["scores"]["iou"] for row in report["classes"]], theirs)
-    require("labels: mIoU and accuracy", scores(report, "miou", "pixel_accuracy"), [theirs.mean(), np.mean(truth == guess)])
+    agree("labels: IoU of every class against scikit-learn", [row["scores"]["iou"] for row in report["classes"]], theirs)
+    agree("labels: mIoU and accuracy", scores(report, "miou", "pixel_accuracy"), [theirs.mean(), np.mean(truth == guess)])
     report = evaluate(exports / "imagefolder", "--kind", "semantic")
-    require("labels: the ImageFolder export of the truth", scores(report, "miou", "pixel_accuracy"), [1, 1])
+    agree("labels: the ImageFolder export of the truth", scores(report, "miou", "pixel_accuracy"), [1, 1])
 
 
 def average_precision(truth, found, kind, categories):
@@ -168,30 +145,30 @@ def things():
         path.write_text(json.dumps(rows))
         ours = evaluate(path, "--images", listed)
         assert ours["settings"]["kind"] == name
-        require(f"{name}: AP50, AP75, AP against pycocotools", scores(ours, *keys), average_precision(truth, rows, kind, None))
+        agree(f"{name}: AP50, AP75, AP against pycocotools", scores(ours, *keys), average_precision(truth, rows, kind, None))
         ours = evaluate(path, "--images", listed, "--category", "12")
-        require(f"{name}: the same of pedestrians alone", scores(ours, *keys), average_precision(truth, rows, kind, [12]))
+        agree(f"{name}: the same of pedestrians alone", scores(ours, *keys), average_precision(truth, rows, kind, [12]))
         lines = work / "found.jsonl"
         with lines.open("w") as file:
             for row in rows:
                 image = truth.imgs[row["image_id"]]
                 row = row | {"trajectory_id": image["trajectory_id"], "frame": image["frame"]}
                 file.write(json.dumps(plain([row], "image_id")[0]) + "\n")
-        require(f"{name}: the same by flight and frame", scores(evaluate(lines, "--category", "12", "--split", split), *keys), scores(ours, *keys))
+        agree(f"{name}: the same by flight and frame", scores(evaluate(lines, "--category", "12", "--split", split), *keys), scores(ours, *keys))
     exact = [{"image_id": ann["image_id"], "category_id": ann["category_id"], "bbox": ann["bbox"], "segmentation": ann["segmentation"], "score": 0.5} for ann in truth.anns.values()]
     path.write_text(json.dumps(exact))
     for kind in ["boxes", "masks"]:
         report = evaluate(path, "--images", listed, "--kind", kind)
-        require(f"{kind}: the annotations themselves", scores(report, *keys, "mean_overlap"), [1, 1, 1, 1])
+        agree(f"{kind}: the annotations themselves", scores(report, *keys, "mean_overlap"), [1, 1, 1, 1])
 
 
 def malformed():
     """What is wrong is counted and named, and the rest is scored."""
     folder = work / "faulty"
-    row = next(flights())
+    row = next(iter(flights))
     name, place = row["trajectory_id"], work / "faulty" / row["trajectory_id"]
     place.mkdir(parents=True)
-    truth = list(pictures(row, "/camera/depth/image", "<f4"))
+    truth = list(pictures(row, "/camera/depth/image"))
     for frame, depth_m in enumerate(truth[:-2]):
         np.save(place / f"{frame}.npy", depth_m)
     np.save(place / "0.npy", truth[0][:-1])
@@ -209,14 +186,14 @@ def malformed():
     last = len(truth) - 2
     assert report["frames"]["missing"][name] == f"{last}-{last + 1}", report["frames"]
     assert report["files"]["passed_over"] == 1 and report["frames"]["scored"] == len(truth) - 5
-    require("files: the sound ones of a faulty folder", scores(report, "abs_rel", "delta1"), [0, 1])
+    agree("files: the sound ones of a faulty folder", scores(report, "abs_rel", "delta1"), [0, 1])
     path = work / "faulty.json"
     sound = {"trajectory_id": name, "frame": 0, "category_id": 12, "bbox": [1, 2, 3, 4], "score": 0.5}
     rows = [sound, sound | {"frame": 10**6}, sound | {"trajectory_id": "nobody"}, sound | {"category_id": 99}, sound | {"bbox": [1]}, {"image_id": 1, "category_id": 12, "bbox": [1, 2, 3, 4], "score": 1}]
     path.write_text(json.dumps(rows))
     report = evaluate(path, code=1)
     assert report["files"]["kinds"] == {"no-frame": 1, "unknown-trajectory": 1, "category": 1, "field-type": 1, "image": 1}
-    print("ok  malformed files and rows are counted and named", flush=True)
+    said("malformed files and rows are counted and named")
 
 
 depth()

@@ -9,13 +9,13 @@ Grass on road is the share of the raster's road whose pixels are grass in our su
 Exits 1 below the shares listed in LEAST, and above those in MOST_GRASS.
 """
 
-import json
 import pathlib
 import subprocess
 import sys
 
 import h5py
 import numpy
+from shared import json_of
 
 # Shares: lane centres on road, pavement centres on pavement, area of pavement polygons on pavement,
 # area of the raster's pavement that is ours.
@@ -80,8 +80,7 @@ def grass_on_road(examples, xodr, raster):
 
 
 def check(examples, xodr, raster_path):
-    command = [examples / "dump_lanes", xodr, "2"]
-    dump = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    dump = json_of(examples / "dump_lanes", xodr, 2)
     raster = Raster(raster_path)
     grass = grass_on_road(examples, xodr, raster)
     centres = {"Carriageway": [], "Sidewalk": [], "Shoulder": []}
@@ -108,8 +107,6 @@ def check(examples, xodr, raster_path):
 
 
 def main():
-    if len(sys.argv) != 4:
-        raise SystemExit(__doc__)
     examples, xodr_folder, raster_folder = map(pathlib.Path, sys.argv[1:])
     results = []
     for xodr in sorted(xodr_folder.glob("*.xodr")):
@@ -118,8 +115,7 @@ def main():
             results.append(check(examples, xodr, found[0]))
     if not results:
         print("skipped: no town has a raster")
-    raise SystemExit(0 if all(results) else 1)
+    sys.exit(not all(results))
 
 
-if __name__ == "__main__":
-    main()
+main()

@@ -7,11 +7,9 @@ Needs the package `playwright`, `axe-playwright-python`, and a Chromium: that of
 
 import argparse
 import pathlib
-import shutil
-import sys
 
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import sync_playwright
+from shared import chromium_of, end_with, faults_of_page, watch
 
 WIDTHS = (1280, 400)
 SCHEMES = ("light", "dark")
@@ -23,19 +21,6 @@ arguments = parser.parse_args()
 page_file = (arguments.dataset / "report" / "index.html").resolve()
 address = page_file.as_uri()
 problems = []
-
-
-def check(page, name):
-    """What must hold at every width in every colour scheme."""
-    width, inside = page.evaluate("[document.documentElement.scrollWidth, innerWidth]")
-    if width > inside:
-        problems.append(f"{name}: the page is {width} px wide in a window of {inside}")
-    broken = page.evaluate("[...document.images].filter(it => !it.complete || it.naturalWidth == 0).length")
-    if broken:
-        problems.append(f"{name}: {broken} pictures are broken")
-    for violation in Axe().run(page).response["violations"]:
-        nodes = violation["nodes"]
-        problems.append(f"{name}: {violation['id']}: {violation['help']} ({len(nodes)} times, first {nodes[0]['html'][:120]})")
 
 
 def contents(page):
@@ -57,27 +42,21 @@ def contents(page):
 
 
 with sync_playwright() as playwright:
-    path = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+    browser = chromium_of(playwright)
     for width in WIDTHS:
         for scheme in SCHEMES:
             name = f"{width} px, {scheme}"
             page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
-            page.on("console", lambda it, name=name: problems.append(f"{name}: console: {it.text}"))
-            page.on("pageerror", lambda it, name=name: problems.append(f"{name}: error: {it}"))
-            page.on(
-                "request",
-                lambda it, name=name: it.url.startswith(("data:", address)) or problems.append(f"{name}: loads {it.url}"),
-            )
+            watch(page, name, problems, address)
             page.goto(address)
             if arguments.screenshots:
                 arguments.screenshots.mkdir(parents=True, exist_ok=True)
                 page.screenshot(path=arguments.screenshots / f"report-{width}-{scheme}.png", full_page=True)
             counts = contents(page)
-            check(page, name)
+            problems.extend(faults_of_page(page, name))
+            broken = page.evaluate("[...document.images].filter(it => !it.complete || it.naturalWidth == 0).length")
+            problems += [f"{name}: {broken} pictures are broken"] * (broken > 0)
     browser.close()
 
 print(f"report of {page_file.stat().st_size} bytes: " + ", ".join(f"{count} {name}" for name, count in counts.items()))
-for problem in problems:
-    print("WRONG:", problem)
-sys.exit(1 if problems else 0)
+end_with(problems)

@@ -5,18 +5,16 @@ python check_ros2.py DATASET EXPORT
 """
 
 import dataclasses
-import glob
-import subprocess
 import sys
 import tempfile
 from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet as parquet
 from mcap_ros2.reader import read_ros2_messages
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
+from shared import axes_of, flown, place, rows, run
 
 dataset, export = Path(sys.argv[1]), Path(sys.argv[2])
 MIRROR = np.diag([1.0, -1.0, 1.0])
@@ -25,32 +23,11 @@ OPTICAL = np.array([[0.0, 0, 1], [1, 0, 0], [0, -1, 0]])
 LATCHED = {"/tf_static", "/town", "/instruction"}
 
 
-def rows_of(table, without=()):
-    for path in sorted(glob.glob(str(dataset / f"data/{table}/*.parquet"))):
-        yield from parquet.read_table(path).drop(list(without)).to_pylist()
-
-
-frames, people = defaultdict(dict), defaultdict(list)
-flights = {row["trajectory_id"]: row for row in rows_of("trajectories")}
-for row in rows_of("frames", ["preview"]):
-    frames[row["trajectory_id"]][row["frame"]] = row
-for row in rows_of("bodies"):
-    if row["visible_pixels"]:
-        people[row["trajectory_id"], row["frame"]].append(row)
+flights, frames, people = flown(dataset)
 objects = defaultdict(set)
-for row in rows_of("objects"):
+for row in rows(dataset, "objects"):
     x, y, z = row["center_in_world_m"]
     objects[row["town"]].add(tuple(np.round([x, -y, z, *row["size_m"]], 6)))
-
-
-def world_from_body(pitch_deg, yaw_deg, roll_deg):
-    """CARLA's: columns ahead, right, up."""
-    (sp, sy, sr), (cp, cy, cr) = (f(np.radians([pitch_deg, yaw_deg, roll_deg])) for f in (np.sin, np.cos))
-    return np.array([
-        [cp * cy, cy * sp * sr - sy * cr, -cy * sp * cr - sy * sr],
-        [cp * sy, sy * sp * sr + cy * cr, -sy * sp * cr + cy * sr],
-        [sp, -cp * sr, cp * cr],
-    ])
 
 
 def matrix(q):
@@ -100,16 +77,15 @@ class Tree:
 
 
 def check_tree(tree, row):
-    drone = MIRROR @ world_from_body(row["drone_pitch_deg"], row["drone_yaw_deg"], row["drone_roll_deg"]) @ MIRROR
-    place = MIRROR @ [row["drone_x_m"], row["drone_y_m"], row["drone_z_m"]]
+    drone, at = MIRROR @ axes_of(row, "drone") @ MIRROR, MIRROR @ place(row, "drone")
     rotation, found = tree.in_map("base_link")
-    assert np.allclose(rotation, drone, atol=1e-9) and np.allclose(found, place, atol=1e-9)
+    assert np.allclose(rotation, drone, atol=1e-9) and np.allclose(found, at, atol=1e-9)
     # The optical frame is right-handed in the mirrored world: right, down and ahead of the camera.
-    camera = MIRROR @ world_from_body(row["camera_pitch_deg"], row["camera_yaw_deg"], row["camera_roll_deg"]) @ OPTICAL
+    camera = MIRROR @ axes_of(row) @ OPTICAL
     rotation, found = tree.in_map("camera_optical_frame")
-    assert np.allclose(rotation, camera, atol=1e-7) and np.allclose(found, place, atol=1e-9) and np.linalg.det(rotation) > 0
+    assert np.allclose(rotation, camera, atol=1e-7) and np.allclose(found, at, atol=1e-9) and np.linalg.det(rotation) > 0
     rotation, found = tree.in_map("target")
-    assert np.allclose(found, MIRROR @ [row["target_x_m"], row["target_y_m"], row["target_z_m"]], atol=1e-9)
+    assert np.allclose(found, MIRROR @ place(row, "target"), atol=1e-9)
     assert np.allclose(rotation, turn([0, 0, -np.radians(row["target_heading_deg"])]), atol=1e-9)
 
 
@@ -231,11 +207,10 @@ def definitions_are_those_of_ros(bag):
 def rerun_imports(bag):
     """The importer of Rerun knows the types: it makes pictures, depths and transforms of them."""
     (file,), rerun = bag.glob("*.mcap"), Path(sys.executable).with_name("rerun")
-    subprocess.run([rerun, "analytics", "disable"], capture_output=True)
-    with tempfile.TemporaryDirectory() as place:
-        recording = str(Path(place) / "bag.rrd")
-        subprocess.run([rerun, "mcap", "convert", str(file), "-o", recording], check=True, capture_output=True)
-        printed = subprocess.run([rerun, "rrd", "print", "-vv", recording], check=True, capture_output=True, text=True).stdout
+    run(rerun, "analytics", "disable")
+    with tempfile.TemporaryDirectory() as scratch:
+        run(rerun, "mcap", "convert", file, "-o", f"{scratch}/bag.rrd")
+        printed = run(rerun, "rrd", "print", "-vv", f"{scratch}/bag.rrd")
     for word in ("EncodedImage", "DepthImage", "Transform3D", "Pinhole"):
         assert word in printed, word
     return "EncodedImage, DepthImage, Transform3D, Pinhole"

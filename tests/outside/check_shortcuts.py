@@ -16,16 +16,11 @@ from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
-import pyarrow.dataset as ds
+from shared import axes_of, flown, messages, picture, place, turned
 
 NEAR, WHOLE, SIDE_DEG, FULL = 0.1, 0.1, 30, 0.08
 BRIGHTNESS = [0.2126, 0.7152, 0.0722]
 CROPS = (0.5, 0.33, 0.25)
-
-
-def rows(folder, name, columns):
-    found = ds.dataset(folder / "data" / name, format="parquet")
-    return found.to_table(columns=[it for it in columns if it in found.schema.names]).to_pylist() if found.files else []
 
 
 def above(a, b):
@@ -50,13 +45,12 @@ def probe(by_flight):
 def body(flight, frame, feet, height_m, box, pixels, heading_deg, top, backpack):
     """Box, distance from the middle, distance from the camera, the height in metres that the picture shows (none if partly hidden), the side that
     is seen (0 degrees from behind), the share of the box that is filled, and what the tables say of the looks."""
-    yaw, pitch, roll = np.radians([frame[f"camera_{it}_deg"] for it in ("yaw", "pitch", "roll")])
-    ahead = np.array([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)])
-    right = np.array([-np.sin(yaw), np.cos(yaw), 0.0])
-    up = np.array([-np.sin(pitch) * np.cos(yaw), -np.sin(pitch) * np.sin(yaw), np.cos(pitch)])
-    up = up * np.cos(roll) + right * np.sin(roll)
-    away = np.array(feet) - [frame[f"drone_{axis}_m"] for axis in "xyz"]
-    row = lambda it: flight["camera_cy_px"] - flight["camera_focal_px"] * (it @ up) / (it @ ahead) if it @ ahead > 1e-6 else None
+    axes, away = axes_of(frame), np.array(feet) - place(frame, "drone")
+
+    def row(it):
+        ahead, _, up = it @ axes
+        return flight["camera_cy_px"] - flight["camera_focal_px"] * up / ahead if ahead > 1e-6 else None
+
     low, high = row(away), row(away + [0, 0, height_m])
     metres = None
     if low is not None and high is not None and low > high:
@@ -68,30 +62,20 @@ def body(flight, frame, feet, height_m, box, pixels, heading_deg, top, backpack)
             "side": heading_deg - np.degrees(np.arctan2(away[1], away[0])), "top": float(np.dot(top, BRIGHTNESS)) if top else None, "backpack": backpack}
 
 
-def seen(folder):
+def shown(folder):
     """Flights, and target and others of its kind in all expert frames in which the target is seen."""
-    flights = {it["trajectory_id"]: it for it in rows(folder, "trajectories", [
-        "trajectory_id", "expert_id", "town", "pedestrian_id", "mcap_path", "target_kind", "target_height_m", "target_top_linear_rgb", "target_has_backpack",
-        "target_bag", "target_build", "target_gait", "camera_width_px", "camera_height_px", "camera_focal_px", "camera_cy_px"])}
-    people = defaultdict(list)
-    for it in rows(folder, "bodies", ["trajectory_id", "frame", "body_id", "kind", "feet_in_world_m", "heading_deg", "size_m",
-                                      "visible_pixels", "visible_box_px",
-                                      "top_linear_rgb", "has_backpack", "bag", "build", "gait"]):
-        if it["visible_pixels"]:
-            people[it["trajectory_id"], it["frame"]].append({**it, "height_m": it["size_m"][2]})
+    flights, of_flights, people = flown(folder)
     frames = []
-    for it in rows(folder, "frames", ["trajectory_id", "frame", "visible_pixels", "visible_box_px", "target_x_m", "target_y_m", "target_z_m",
-                                      "target_heading_deg"]
-                   + [f"drone_{axis}_m" for axis in "xyz"] + [f"camera_{turn}_deg" for turn in ("yaw", "pitch", "roll")]):
-        flight = flights[it["trajectory_id"]]
+    for name, it in ((name, it) for name, found in of_flights.items() for it in found.values()):
+        flight = flights[name]
         if flight["expert_id"] or it["visible_box_px"] is None:
             continue
-        target = body(flight, it, [it[f"target_{axis}_m"] for axis in "xyz"], flight["target_height_m"], it["visible_box_px"],
+        target = body(flight, it, place(it, "target"), flight["target_height_m"], it["visible_box_px"],
                       it["visible_pixels"], it["target_heading_deg"], flight["target_top_linear_rgb"], flight["target_has_backpack"])
-        others = [body(flight, it, other["feet_in_world_m"], other["height_m"], other["visible_box_px"], other["visible_pixels"],
+        others = [body(flight, it, other["feet_in_world_m"], other["size_m"][2], other["visible_box_px"], other["visible_pixels"],
                        other["heading_deg"], other["top_linear_rgb"], other["has_backpack"])
-                  for other in people[it["trajectory_id"], it["frame"]] if other["kind"] == flight["target_kind"]]
-        frames.append((it["trajectory_id"], it["frame"], target, others))
+                  for other in people[name, it["frame"]] if other["kind"] == flight["target_kind"]]
+        frames.append((name, it["frame"], target, others))
     return flights, people, frames
 
 
@@ -118,7 +102,7 @@ def of_looks(flights, people):
     }
     targets = {(it["town"], it["pedestrian_id"]): [it[f"target_{key}"] for key in ("top_linear_rgb", "height_m", "bag", "build", "gait")]
                for it in flights.values() if it["target_kind"] == "pedestrian"}
-    others = {(flights[name]["town"], it["body_id"]): [it[key] for key in ("top_linear_rgb", "height_m", "bag", "build", "gait")]
+    others = {(flights[name]["town"], it["body_id"]): [it["top_linear_rgb"], it["size_m"][2], *(it[key] for key in ("bag", "build", "gait"))]
               for (name, _), there in people.items() for it in there if it["kind"] == "pedestrian"}
     if not targets or not others:
         return {"targets": len(targets), "others": len(others), "looks": None}
@@ -142,12 +126,7 @@ def in_crops(flights, frames, share):
     return probe(shares), kept / max(len(frames), 1)
 
 
-def turned(a, b):
-    """Degrees between two directions."""
-    return abs((a["side"] - b["side"] + 180) % 360 - 180)
-
-
-def pixels(picture, box):
+def of_box(picture, box):
     """Brightness and colourfulness of the middle half of a box."""
     left, top, right, bottom = box
     x, y = (right - left) / 4, (bottom - top) / 4
@@ -158,22 +137,13 @@ def pixels(picture, box):
 
 def with_pixels(folder, flights, frames, number):
     """Name, target and others of the frames of so many flights, with their pixels."""
-    import io
-
-    from mcap.reader import make_reader
-    from mcap_protobuf.decoder import DecoderFactory
-    from PIL import Image
-
     listed = {(name, frame): (target, others) for name, frame, target, others in frames}
     for name in sorted({name for name, *_ in frames})[:number]:
-        with (folder / flights[name]["mcap_path"]).open("rb") as file:
-            reader = make_reader(file, decoder_factories=[DecoderFactory()])
-            for frame, (_, _, _, message) in enumerate(reader.iter_decoded_messages(topics=["/camera/rgb/image"])):
-                if (name, frame) not in listed:
-                    continue
-                picture = np.asarray(Image.open(io.BytesIO(message.data)).convert("RGB"), dtype=float)
+        for frame, (_, message, *_) in enumerate(messages(folder / flights[name]["mcap_path"], ["/camera/rgb/image"])):
+            if (name, frame) in listed:
+                colours = np.asarray(picture(message).convert("RGB"), dtype=float)
                 target, others = listed[name, frame]
-                yield name, {**target, **pixels(picture, target["box"])}, [{**it, **pixels(picture, it["box"])} for it in others]
+                yield name, {**target, **of_box(colours, target["box"])}, [{**it, **of_box(colours, it["box"])} for it in others]
 
 
 def of_pixels(folder, flights, frames, number):
@@ -188,7 +158,7 @@ def of_pixels(folder, flights, frames, number):
              "brightness less the top's": lambda it: it["brightness"] - slope * np.log(it["top"])}
     for name, target, others in seen_by_frame:
         far = [it for it in others if abs(np.log(it["far"] / target["far"])) <= np.log(1 + NEAR) and None not in (it["m"], target["m"])]
-        side = [it for it in far if turned(it, target) <= SIDE_DEG and it["backpack"] == target["backpack"]]
+        side = [it for it in far if abs(turned(it["side"], target["side"])) <= SIDE_DEG and it["backpack"] == target["backpack"]]
         full = [it for it in side if abs(it["full"] - target["full"]) <= FULL]
         for sign, value in signs.items():
             for whom, compared in (("all", others), ("as far away", far), ("same side and backpack, too", side),
@@ -217,7 +187,7 @@ def main():
     parser.add_argument("--doctor", type=Path, help="JSON file of cosfly doctor, which must agree")
     parser.add_argument("--pictures", type=int, default=0, help="read the pictures of so many flights")
     arguments = parser.parse_args()
-    flights, people, frames = seen(arguments.folder)
+    flights, people, frames = shown(arguments.folder)
     own = {"frames": len(frames), **in_pictures(flights, frames), **of_looks(flights, people)}
     for name in ("place", "height", "height_in_the_same_place"):
         say(name, own[name])
@@ -235,5 +205,4 @@ def main():
     return bool(wrong)
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+sys.exit(main())

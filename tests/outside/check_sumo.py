@@ -13,13 +13,13 @@ import io
 import json
 import math
 import random
-import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import sumo
+from shared import require, run
 
 sys.path.append(str(Path(sumo.SUMO_HOME) / "tools"))
 import sumolib  # noqa: E402
@@ -32,13 +32,6 @@ SIZES = {
 }
 STEP_S = 0.5
 END_S = 90
-
-
-def run(*command):
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"check_sumo: {' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
-    return done.stdout
 
 
 def tool(name):
@@ -92,19 +85,14 @@ def expected(steps, time):
     """Everybody who is in the step before and the step after a time."""
     before = round(math.floor(time / STEP_S + 1e-9) * STEP_S, 6)
     share = (time - before) / STEP_S
+    here = steps.get(before, {})
     if share < 1e-9:
-        return steps.get(before, {})
-    after = steps.get(round(before + STEP_S, 6), {})
-    out = {}
-    for name, (x, y, yaw, speed) in steps.get(before, {}).items():
-        if name in after:
-            other = after[name]
-            out[name] = (
-                x + share * (other[0] - x),
-                y + share * (other[1] - y),
-                yaw + share * turned(other[2] - yaw),
-                speed + share * (other[3] - speed),
-            )
+        return here
+    after, out = steps.get(round(before + STEP_S, 6), {}), {}
+    for name in here.keys() & after.keys():
+        ways = [b - a for a, b in zip(here[name], after[name])]
+        ways[2] = turned(ways[2])
+        out[name] = [a + share * way for a, way in zip(here[name], ways)]
     return out
 
 
@@ -117,8 +105,7 @@ def compare(frames_of, town, net, fcd, steps, dt):
     for row in rows:
         frame = int(row["frame"])
         there = expected(steps, frame * dt)
-        if row["source"] not in there:
-            sys.exit(f"check_sumo: {row['source']} is in frame {frame}, but not in the file at {frame * dt} s")
+        require(row["source"] in there, f"{row['source']} is in frame {frame}, but not in the file at {frame * dt} s")
         x, y, yaw, speed = there[row["source"]]
         worst_m = max(worst_m, math.hypot(float(row["x"]) - x, float(row["y"]) - y))
         worst_rad = max(worst_rad, abs(turned(float(row["heading_rad"]) - yaw)))
@@ -128,14 +115,10 @@ def compare(frames_of, town, net, fcd, steps, dt):
             off_lane.append(float(row["from_lane_m"]))
     for frame in range(frames):
         missing = set(expected(steps, frame * dt)) - seen.get(frame, set())
-        if missing:
-            sys.exit(f"check_sumo: frame {frame} lacks {sorted(missing)[:5]}")
-    if not (worst_m < 1e-3 and worst_rad < 1e-3 and worst_mps < 1e-3):
-        sys.exit(f"check_sumo: off by {worst_m} m, {worst_rad} rad, {worst_mps} m/s")
-    off_lane.sort()
+        require(not missing, f"frame {frame} lacks {sorted(missing)[:5]}")
+    require(max(worst_m, worst_rad, worst_mps) < 1e-3, f"off by {worst_m} m, {worst_rad} rad, {worst_mps} m/s")
     on_lane = sum(away < 1.0 for away in off_lane) / len(off_lane)
-    if on_lane < 0.95:
-        sys.exit(f"check_sumo: only {on_lane:.3f} of the cars' places lie within 1 m of our lanes")
+    require(on_lane >= 0.95, f"only {on_lane:.3f} of the cars' places lie within 1 m of our lanes")
     kinds = sorted({row["kind"] for row in rows})
     print(
         f"ok  {Path(town).name} at {dt} s: {len(rows)} states in {frames} frames ({', '.join(kinds)}), off by at most "
@@ -161,5 +144,4 @@ def main():
                 compare(frames_of, town, net, fcd, steps, dt)
 
 
-if __name__ == "__main__":
-    main()
+main()

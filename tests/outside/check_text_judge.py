@@ -12,17 +12,16 @@ import argparse
 import copy
 import json
 import random
-import subprocess
 import sys
 from collections import Counter, defaultdict
 from pathlib import Path
 
 from made_up_flights import flights as made_up_flights
+from shared import COLOURS, IN_CHINESE, run
 
 LEAST_CAUGHT, MOST_REFUSED = 0.98, 0.02
-COLOURS = "black grey white red orange yellow green blue purple pink brown beige".split()
 DIRECTIONS = "north northeast east southeast south southwest west northwest".split()
-ZH = dict(zip([*COLOURS, *DIRECTIONS, "left", "right", "around"], "黑色 灰色 白色 红色 橙色 黄色 绿色 蓝色 紫色 粉色 棕色 米色 北 东北 东 东南 南 西南 西 西北 左转 右转 掉头".split()))
+ZH = IN_CHINESE | dict(zip([*DIRECTIONS, "left", "right", "around"], "北 东北 东 东南 南 西南 西 西北 左转 右转 掉头".split()))
 EN_DIGITS, ZH_DIGITS = "zero one two three four five six seven eight nine ten".split(), "零 一 两 三 四 五 六 七 八 九 十".split()
 
 
@@ -173,8 +172,7 @@ def planted(writer, flight, slot):
 def judged(program, facts, language, texts):
     """The contradictions that the judge finds in each text."""
     lines = "".join(json.dumps({"facts": facts[name], "language": language, "text": text}, ensure_ascii=False) + "\n" for name, text in texts)
-    done = subprocess.run([program], input=lines, capture_output=True, text=True, encoding="utf-8", check=True)
-    return [json.loads(line) for line in done.stdout.splitlines()]
+    return [json.loads(line) for line in run(program, input=lines, encoding="utf-8").splitlines()]
 
 
 def main():
@@ -209,5 +207,4 @@ def main():
     sys.exit(not is_good)
 
 
-if __name__ == "__main__":
-    main()
+main()

@@ -7,19 +7,10 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-import pyarrow.dataset
+from shared import rows
 
 folder = Path(sys.argv[1])
-
-
-def rows(table, *columns):
-    return pyarrow.dataset.dataset(folder / "data" / table).to_table(columns=list(columns)).to_pylist()
-
-
-flights = rows(
-    "trajectories", "trajectory_id", "town", "town_layout_blake3", "town_geometry_blake3", "scene", "split_group",
-    "mcap_path", "expert_id", "pedestrian_id",
-)
+flights = rows(folder, "trajectories")
 town_of = {row["trajectory_id"]: row["town"] for row in flights}
 assert len(town_of) == len(flights), "two flights have the same name"
 towns = set(town_of.values())
@@ -34,24 +25,22 @@ for row in flights:
     assert row["mcap_path"].startswith(f"mcap/{row['town']}/") and (folder / row["mcap_path"]).is_file()
 
 # Instance ids are those of the flight's own town.
-objects = {(row["town"], row["instance"]) for row in rows("objects", "town", "instance")}
+objects = {(row["town"], row["instance"]) for row in rows(folder, "objects", ["town", "instance"])}
 assert {town for town, _ in objects} == towns
-bodies = {(row["trajectory_id"], row["instance"]) for row in rows("bodies", "trajectory_id", "instance")}
-for row in rows("frames", "trajectory_id", "frame", "occluder_instance"):
+bodies = {(row["trajectory_id"], row["instance"]) for row in rows(folder, "bodies", ["trajectory_id", "instance"])}
+for row in rows(folder, "frames", ["trajectory_id", "frame", "occluder_instance"]):
     flight, occluder = row["trajectory_id"], row["occluder_instance"]
     known = occluder == 0 or (town_of[flight], occluder) in objects or (flight, occluder) in bodies
     assert known, f"nothing in {town_of[flight]} is called {occluder}: {row}"
 
 # Seen are the towns of split `train`, and no others.
 trained, splits = set(), defaultdict(set)
-for path in sorted((folder / "data/trajectories").iterdir()):
-    split = path.name.split("-")[0]
-    for row in pyarrow.dataset.dataset(path).to_table(columns=["trajectory_id", "split_group"]).to_pylist():
-        splits[row["split_group"]].add(split)
-        if split == "train":
-            trained.add(town_of[row["trajectory_id"]])
+for row in flights:
+    splits[row["split_group"]].add(row["split"])
+    if row["split"] == "train":
+        trained.add(town_of[row["trajectory_id"]])
 assert all(len(of_group) == 1 for of_group in splits.values()), "a group is in two splits"
 for table in ("trajectories", "windows"):
-    for row in rows(table, "trajectory_id", "scene"):
+    for row in rows(folder, table, ["trajectory_id", "scene"]):
         assert (row["scene"] == 0) == (town_of[row["trajectory_id"]] in trained), row
 print(f"{len(flights)} flights in {', '.join(sorted(towns))}; seen in training: {', '.join(sorted(trained)) or 'none'}")

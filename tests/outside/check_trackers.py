@@ -7,7 +7,6 @@ python check_trackers.py COSFLY DATASET FOLDER     FOLDER has mot/, otb/, uav123
 import configparser
 import glob
 import json
-import subprocess
 import sys
 import tempfile
 from collections import defaultdict
@@ -16,26 +15,16 @@ from pathlib import Path
 import got10k.datasets
 import got10k.experiments
 import numpy as np
-import pyarrow.parquet as parquet
 import trackeval
 from PIL import Image
+from shared import flown, json_of
 
 cosfly, dataset, folder = Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3])
 CLASSES = {1: "pedestrian", 3: "car", 4: "bicycle", 5: "motorcycle"}
 random = np.random.default_rng(11)
 
 
-def rows_of(table, without=()):
-    for path in sorted(glob.glob(str(dataset / f"data/{table}/*.parquet"))):
-        yield from parquet.read_table(path).drop(list(without)).to_pylist()
-
-
-frames, people, flights = defaultdict(dict), defaultdict(list), {row["trajectory_id"]: row for row in rows_of("trajectories")}
-for row in rows_of("frames", ["preview"]):
-    frames[row["trajectory_id"]][row["frame"]] = row
-for row in rows_of("bodies"):
-    if row["visible_pixels"]:
-        people[row["trajectory_id"], row["frame"]].append(row)
+flights, frames, people = flown(dataset)
 
 
 def box(edges):
@@ -67,10 +56,8 @@ def evaluated(results, *options):
         tracker.mkdir()
         for name, text in results.items():
             (tracker / f"{name}.txt").write_text(text)
-        command = [cosfly, "eval", dataset, tracker, "--json", "--resamples", "20", "--out", Path(place) / "scores", *options]
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-        assert done.returncode == 0, done.stderr + done.stdout[:2000]
-        return json.loads(done.stdout)
+        options = ["--json", "--resamples", 20, "--out", Path(place) / "scores", *options]
+        return json_of(cosfly, "eval", dataset, tracker, *options)
 
 
 def scores(split, results, root=folder / "mot"):
@@ -198,8 +185,9 @@ def mot():
     return f"{sum(count for count, _ in counts.values())} boxes, scored by TrackEval"
 
 
-def check_target(row, boxes, absent):
+def check_target(row, files, boxes, absent):
     """Boxes of the target against the table; `absent` tells rows without one."""
+    check_pictures(row, files)
     assert len(boxes) == row["pictures"]
     for picture, found in enumerate(boxes, 1):
         known = frames[row["trajectory_id"]][frame_of(row, picture)]["visible_box_px"]
@@ -211,6 +199,10 @@ def without_a_box(found):
     return bool(np.isnan(found).all())
 
 
+def is_nought(found):
+    return list(found) == [0, 0, 0, 0]
+
+
 def otb():
     names = defaultdict(list)
     for row in sequences("otb"):
@@ -220,19 +212,15 @@ def otb():
         data = got10k.datasets.OTB(str(folder / "otb" / split), "cosfly", download=False)
         assert len(data) == len(rows)
         for row in rows:
-            files, boxes = data[row["sequence"]]
-            check_pictures(row, files)
-            check_target(row, boxes, without_a_box)
+            check_target(row, *data[row["sequence"]], without_a_box)
     return f"{sum(map(len, names.values()))} sequences, read by got10k"
 
 
 class Metas:
     """Stands for `json` in got10k's reader, which knows the names of UAV123's own sequences."""
 
-    @staticmethod
-    def load(_):
-        entry = {row["sequence"]: {"folder_name": row["sequence"], "start_frame": 1, "end_frame": row["pictures"]} for row in sequences("uav123")}
-        return {"UAV123": entry}
+    load = lambda _: {"UAV123": {
+        row["sequence"]: {"folder_name": row["sequence"], "start_frame": 1, "end_frame": row["pictures"]} for row in sequences("uav123")}}
 
 
 def uav123():
@@ -242,9 +230,7 @@ def uav123():
     for split in sorted({row["split"] for row in sequences("uav123")}):
         data = got10k.datasets.UAV123(str(folder / "uav123" / split))
         for row in (row for row in sequences("uav123") if row["split"] == split):
-            files, boxes = data[row["sequence"]]
-            check_pictures(row, files)
-            check_target(row, boxes, without_a_box)
+            check_target(row, *data[row["sequence"]], without_a_box)
             count += 1
         assert len(data) == len(list((folder / "uav123" / split / "data_seq/UAV123").iterdir()))
     return f"{count} sequences, read by got10k"
@@ -259,8 +245,7 @@ def lasot():
         place = folder / "lasot" / row["split"] / name[: name.rfind("-")] / name
         data.seq_names, data.seq_dirs, data.anno_files, data.return_meta = [name], [str(place / "img")], [str(place / "groundtruth.txt")], True
         files, boxes, meta = data[name]
-        check_pictures(row, files)
-        check_target(row, boxes, lambda found: list(found) == [0, 0, 0, 0])
+        check_target(row, files, boxes, is_nought)
         for picture in range(1, row["pictures"] + 1):
             known = frames[row["trajectory_id"]][frame_of(row, picture)]
             is_hidden = known["in_view"] and known["visible_box_px"] is None
@@ -299,7 +284,7 @@ def targets():
     """A tracker of the target that drifts, in all layouts."""
     count = 0
     for export in ("otb", "lasot"):
-        absent = without_a_box if export == "otb" else (lambda found: list(found) == [0, 0, 0, 0])
+        absent = without_a_box if export == "otb" else is_nought
         results, theirs = {}, {}
         for row in sequences(export):
             name = row["sequence"]

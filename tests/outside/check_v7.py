@@ -4,7 +4,6 @@ python check_v7.py EXPORT
 """
 
 import json
-import math
 import re
 import sys
 from collections import defaultdict
@@ -12,18 +11,19 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
+from shared import world_from_body
 
+
+def numbers_of(point):
+    return [float(point["drone_pose"][key]) for key in ("x", "y", "z", "pitch", "yaw", "roll")]
 
 
 def positions_by_points(path):
     """As readers do that look for `points` and `trace_timestamp`, and refuse gaps: times and places of the drone."""
     document = json.loads(path.read_text())
-    if document.get("schema") != "drone_nav_traj_v7":
-        raise ValueError(f"{path}: not a flight of v7")
     points = document["points"]
     assert [point["index"] for point in points] == list(range(len(points)))
-    pose = lambda point: [float(point["drone_pose"][key]) for key in ("x", "y", "z", "pitch", "yaw", "roll")]
-    return [float(point["timing"]["trace_timestamp"]) for point in points], np.array([pose(point) for point in points])
+    return [float(point["timing"]["trace_timestamp"]) for point in points], np.array([numbers_of(point) for point in points])
 
 
 def positions_by_waypoints(path):
@@ -32,8 +32,7 @@ def positions_by_waypoints(path):
     times, poses = [], []
     for waypoint in document["waypoints"]:
         times.append(waypoint["timing"]["timestamp"])
-        pose = waypoint["drone_pose"]
-        poses.append([pose["x"], pose["y"], pose["z"], pose["pitch"], pose["yaw"], pose["roll"]])
+        poses.append(numbers_of(waypoint))
         frame = path.parent / "frames_playback" / f"frame_{waypoint['index']:05d}" / "rgb.png"
         assert frame.is_file(), frame
     velocities = np.diff(np.array(poses), axis=0) / np.diff(times)[:, None]
@@ -69,10 +68,9 @@ for folder in sorted(root.glob("Town*/trajectory_*")):
         last_time = -1.0
         for i, point in enumerate(points):
             frames += 1
-            pose = point["drone_pose"]
             assert point["index"] == i and point["timing"]["trace_timestamp"] > last_time
             last_time = point["timing"]["trace_timestamp"]
-            assert list(pose) and all(math.isfinite(pose[key]) for key in ("x", "y", "z", "pitch", "yaw", "roll"))
+            assert np.isfinite(numbers_of(point)).all()
             waypoint = point["nav_waypoint"]["t1_world"]
             if i + 1 < len(points):
                 following = points[i + 1]["drone_pose"]
@@ -107,17 +105,8 @@ for folder in sorted(root.glob("Town*/trajectory_*")):
                 assert abs(np.median(depth[rows, columns]) - target["depth"]) < 1.5
                 seen += 1
             camera_pose = point["cosfly"]["camera_pose"]
-            p, y, r = (math.radians(camera_pose[key]) for key in ("pitch", "yaw", "roll"))
-            cp, sp, cy, sy, cr, sr = math.cos(p), math.sin(p), math.cos(y), math.sin(y), math.cos(r), math.sin(r)
-            world_from_body = np.array(  # CARLA's own matrix
-                [
-                    [cp * cy, cy * sp * sr - sy * cr, -cy * sp * cr - sy * sr],
-                    [cp * sy, sy * sp * sr + cy * cr, -sy * sp * cr + cy * sr],
-                    [sp, -cp * sr, cp * cr],
-                ]
-            )
             away = [target["world_location"][axis] - camera_pose[axis] for axis in "xyz"]
-            ahead, right, up = world_from_body.T @ np.array(away)
+            ahead, right, up = world_from_body(*(camera_pose[key] for key in ("pitch", "yaw", "roll"))).T @ away
             assert abs(ahead - target["depth"]) < 1e-6
             if target["image_uv"] is not None:
                 u, v, one = K @ np.array([right / ahead, -up / ahead, 1.0])

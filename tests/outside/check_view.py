@@ -11,13 +11,12 @@ import argparse
 import pathlib
 import shutil
 import subprocess
-import sys
 import time
 
 import pyarrow as pa
 import pyarrow.parquet as pq
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import sync_playwright
+from shared import chromium_of, end_with, faults_of_page, watch, with_column
 
 FIRST_VIEW_S = 2.0
 PAINTED_MS = 100.0
@@ -68,9 +67,7 @@ def open_page(browser, address, name, **options):
     """A page that notes errors and requests to others."""
     page = browser.new_page(**{"viewport": {"width": 1360, "height": 900}, **options})
     own = address.split("?")[0]
-    page.on("console", lambda it: it.type == "error" and "422" not in it.text and problems.append(f"{name}: console: {it.text}"))
-    page.on("pageerror", lambda it: problems.append(f"{name}: error: {it}"))
-    page.on("request", lambda it: it.url.startswith(("data:", own)) or problems.append(f"{name}: loads {it.url}"))
+    watch(page, name, problems, own, lambda it: it.type == "error" and "422" not in it.text)  # a wrong filter
     page.goto(address)
     page.wait_for_selector("#flight:not([hidden]) #map[data-frame]")
     return page
@@ -81,10 +78,7 @@ def shoot(page, name):
     if arguments.screenshots:
         arguments.screenshots.mkdir(parents=True, exist_ok=True)
         page.screenshot(path=arguments.screenshots / f"view-{name}.png")
-    width, inside = page.evaluate("[document.documentElement.scrollWidth, innerWidth]")
-    expect(width <= inside, f"{name}: the page is {width} px wide in a window of {inside}")
-    for violation in Axe().run(page).response["violations"]:
-        problems.append(f"{name}: {violation['id']}: {violation['help']}: {violation['nodes'][0]['html'][:120]}")
+    problems.extend(faults_of_page(page, name))
 
 
 def painted(page, frame):
@@ -224,14 +218,11 @@ def check_hostile(browser):
     for path in folder.glob("data/trajectories/*.parquet"):
         table = pq.read_table(path)
         for name, text in (("town", HOSTILE), ("weather_preset", CHINESE), ("pedestrian_id", HOSTILE)):
-            at = table.schema.get_field_index(name)
-            table = table.set_column(at, table.schema.field(at), pa.array([text] * len(table), table.schema.field(at).type))
+            table = with_column(table, name, [text] * len(table))
         pq.write_table(table, path)
     for path in folder.glob("data/captions/*.parquet"):
         table = pq.read_table(path)
-        at = table.schema.get_field_index("text")
-        table = table.set_column(at, table.schema.field(at), pa.array([HOSTILE + CHINESE] * len(table)))
-        pq.write_table(table, path)
+        pq.write_table(with_column(table, "text", [HOSTILE + CHINESE] * len(table)), path)
     for path in sorted(folder.glob("mcap/**/*.mcap")):
         path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
     with Viewer(folder) as viewer:
@@ -269,18 +260,13 @@ def multiplied(count):
         table = pa.concat_tables([it.select(names) for it in tables])
         flights = len(set(table["trajectory_id"].to_pylist()))
         with pq.ParquetWriter(paths[0], table.schema) as writer:
-            parts = []
-            for number in range(-(-count // flights)):
-                again = table
-                for name in {"trajectory_id", "flight_id", "expert_id"} & set(names):
-                    at = table.schema.get_field_index(name)
-                    ids = pa.array([it and f"{it}-{number:05}" for it in table[name].to_pylist()], table.schema.field(at).type)
-                    again = again.set_column(at, table.schema.field(at), ids)
-                parts.append(again)
-                if len(parts) == 100:  # row groups as large as those of real datasets
-                    writer.write_table(pa.concat_tables(parts).combine_chunks())
-                    parts = []
-            if parts:
+            for begin in range(0, -(-count // flights), 100):  # row groups as large as those of real datasets
+                parts = []
+                for number in range(begin, min(begin + 100, -(-count // flights))):
+                    again = table
+                    for name in {"trajectory_id", "flight_id", "expert_id"} & set(names):
+                        again = with_column(again, name, [it and f"{it}-{number:05}" for it in table[name].to_pylist()])
+                    parts.append(again)
                 writer.write_table(pa.concat_tables(parts).combine_chunks())
         for path in paths[1:]:
             path.unlink()
@@ -331,18 +317,10 @@ def check_many(browser):
 
 
 with sync_playwright() as playwright:
-    program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    chromium = playwright.chromium.launch(executable_path=program, args=["--no-sandbox", "--enable-unsafe-swiftshader"])
+    chromium = chromium_of(playwright)
     arguments.work.mkdir(parents=True, exist_ok=True)
-    check_whole(chromium)
-    check_places(chromium)
-    check_empty(chromium)
-    check_hostile(chromium)
-    check_exported(chromium)
-    if arguments.many:
-        check_many(chromium)
+    for check in [check_whole, check_places, check_empty, check_hostile, check_exported] + [check_many] * bool(arguments.many):
+        check(chromium)
     chromium.close()
 
-for problem in problems:
-    print("WRONG:", problem)
-sys.exit(1 if problems else 0)
+end_with(problems)

@@ -2,8 +2,9 @@
 
 import re
 
-COLOURS = "black grey white red orange yellow green blue purple pink brown beige".split()
-ZH = dict(zip("黑色 灰色 白色 红色 橙色 黄色 绿色 蓝色 紫色 粉色 棕色 米色".split(), COLOURS))
+from shared import COLOURS, IN_CHINESE
+
+ZH = {zh: en for en, zh in IN_CHINESE.items()}
 EN_NUMBERS = {word: at for at, word in enumerate("no one two three four five six seven eight".split())} | {"a": 1, "an": 1}
 ORDINALS = {word: at for at, word in enumerate("zeroth first second third fourth fifth sixth".split())}
 ZH_NUMBERS = {word: at for at, word in enumerate("零一二三四五六七八九")} | {"两": 2, "十": 10}

@@ -4,17 +4,14 @@ Reads datasets (boxes from the tables, pictures from the logs) and folders of re
 """
 
 import hashlib
-import io
 import json
 import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-import pyarrow.dataset as tables
+import shared
 from brisque import BRISQUE
-from mcap.reader import make_reader
-from mcap_protobuf.decoder import DecoderFactory
 from PIL import Image
 
 LEAST_PX, LEAST_SIDE_PX, HEIGHTS = 12, 64, 5
@@ -73,10 +70,6 @@ def cut(picture, box):
     return picture.crop((x, y, x + side, y + side)), inside
 
 
-def rows_of(dataset, table):
-    return tables.dataset(Path(dataset) / "data" / table, format="parquet").to_table().to_pylist()
-
-
 def size_of(height_px):
     """Name of the bin of a target's height."""
     edges = (LEAST_PX, 30, 60, 120, 240)
@@ -99,9 +92,9 @@ def is_seen(row, film, visible):
 def crops_of_dataset(dataset, visible, per_film, by_camera, where):
     """Crops of the targets of a dataset, at most `per_film` of a flight and camera, and the first picture of each."""
     frames, crops, kept = {}, [], {}
-    for row in sorted(rows_of(dataset, "frames"), key=lambda row: row["frame"]):
+    for row in sorted(shared.rows(dataset, "frames"), key=lambda row: row["frame"]):
         frames.setdefault(row["trajectory_id"], []).append(row)
-    for film in sorted(rows_of(dataset, "trajectories"), key=lambda row: row["trajectory_id"]):
+    for film in sorted(shared.rows(dataset, "trajectories"), key=lambda row: row["trajectory_id"]):
         seen = [row for row in frames[film["trajectory_id"]] if is_seen(row, film, visible)]
         chosen = {row["frame"]: row for row in evenly(seen, per_film)}
         for number, picture in pictures_of_log(Path(dataset) / film["mcap_path"], chosen):
@@ -119,11 +112,9 @@ def crops_of_dataset(dataset, visible, per_film, by_camera, where):
 
 
 def pictures_of_log(path, numbers):
-    with path.open("rb") as file:
-        reader = make_reader(file, decoder_factories=[DecoderFactory()])
-        for number, (_, _, _, message) in enumerate(reader.iter_decoded_messages(topics=["/camera/rgb/image"])):
-            if number in numbers:
-                yield number, Image.open(io.BytesIO(message.data)).convert("RGB")
+    for number, (_, message, *_) in enumerate(shared.messages(path, ["/camera/rgb/image"])):
+        if number in numbers:
+            yield number, shared.picture(message).convert("RGB")
 
 
 def crops_of_frames(folder, boxes, kind, first, count):

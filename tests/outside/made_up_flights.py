@@ -3,7 +3,8 @@
 import math
 import random
 
-COLOURS = "Black Grey White Red Orange Yellow Green Blue Purple Pink Brown Beige".split()
+from shared import COLOURS
+
 DIRECTIONS = "east southeast south southwest west northwest north northeast".split()
 
 
@@ -33,7 +34,7 @@ def flight(rng):
         "pitch_down_deg": rng.choice([aimed] * 3 + [rng.uniform(-20, 5), 0.0, rng.uniform(-30, 70)]),
         "altitude_m": altitude,
         "visibility": 0.9,
-        "wear": None if rng.random() < 0.15 else {"top": rng.choice(COLOURS), "trousers": rng.choice(COLOURS), "backpack": rng.random() < 0.5},
+        "wear": None if rng.random() < 0.15 else {"top": rng.choice(COLOURS).capitalize(), "trousers": rng.choice(COLOURS).capitalize(), "backpack": rng.random() < 0.5},
     }
 
 

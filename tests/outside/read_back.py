@@ -8,15 +8,17 @@ Each check prints one line. Exit code 0: every reader read everything.
 
 import argparse
 import hashlib
-import io
 import json
 import logging
+import math
 import math
 import os
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from shared import picture, require, run, said
 
 os.environ.setdefault("HF_HUB_OFFLINE", "1")
 os.environ.setdefault("HF_DATASETS_OFFLINE", "1")
@@ -31,15 +33,6 @@ FRAME_TOPICS = [
 ON_REQUEST = {"/camera/mask/image": ("mono8", 1), "/camera/normals/image": ("rgb8", 3)}
 PREVIEW_TOPICS = [f"/camera/{name}/preview" for name in ("rgb", "depth", "semantic", "mask", "normals")]
 ONCE_TOPICS = ["/drone/path", "/target/path", "/scene"]
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"read_back: {message}")
-
-
-def said(check, detail=""):
-    print(f"ok  {check:<28} {detail}", flush=True)
 
 
 def check_hashes(folder):
@@ -104,11 +97,8 @@ def check_croissant(folder, counts):
     import mlcroissant as mlc
 
     path = folder / "croissant.json"
-    result = subprocess.run(
-        [Path(sys.executable).with_name("mlcroissant"), "validate", "--jsonld", path], capture_output=True, text=True
-    )
-    require(result.returncode == 0, f"mlcroissant validate: {result.stderr[-2000:]}")
-    require("WARNING" not in result.stderr.upper(), f"mlcroissant warns: {result.stderr[-2000:]}")
+    told = run(Path(sys.executable).with_name("mlcroissant"), "validate", "--jsonld", path, stderr=subprocess.STDOUT)
+    require("WARNING" not in told.upper(), f"mlcroissant warns: {told[-2000:]}")
     said("mlcroissant validate")
     logging.getLogger().setLevel(logging.ERROR)  # mlcroissant tries its path expressions on split names, too
     document = json.loads(path.read_text())
@@ -176,15 +166,11 @@ def check_message(row, topic, decoded, path):
         encoding, size = ON_REQUEST[topic]
         require(decoded.encoding == encoding and len(decoded.data) == size * pixels, f"{path}: {topic}")
     elif topic == "/camera/rgb/image":
-        from PIL import Image
-
-        image = Image.open(io.BytesIO(decoded.data))
+        image = picture(decoded)
         image.load()
         require(image.size == (row["camera_width_px"], row["camera_height_px"]), f"{path}: rgb {image.size}")
     elif topic == "/camera/semantic/preview":
-        from PIL import Image
-
-        require(Image.open(io.BytesIO(decoded.data)).mode == "P", f"{path}: semantic preview")
+        require(picture(decoded).mode == "P", f"{path}: semantic preview")
     elif topic == "/camera/rgb/camera_info":
         require(math.isclose(decoded.K[0], row["camera_focal_px"]), f"{path}: focal length")
     elif topic == "/target/state":
@@ -193,17 +179,14 @@ def check_message(row, topic, decoded, path):
 
 def check_rerun(folder, trajectories):
     rerun = Path(sys.executable).with_name("rerun")
-    subprocess.run([rerun, "analytics", "disable"], capture_output=True)
+    run(rerun, "analytics", "disable")
     for row in trajectories:
-        result = subprocess.run([rerun, "mcap", "check", folder / row["mcap_path"]], capture_output=True, text=True)
-        require(result.returncode == 0, f"rerun mcap check {row['mcap_path']}: {result.stdout}{result.stderr}")
+        run(rerun, "mcap", "check", folder / row["mcap_path"])
     said("rerun mcap check", f"{len(trajectories)} logs")
     with tempfile.TemporaryDirectory() as scratch:
-        saved = Path(scratch) / "flight.rrd"
-        script = [sys.executable, folder / "layouts" / "show_in_rerun.py", folder / trajectories[0]["mcap_path"]]
-        for command in ([*script, "--every", "10", "--save", saved], [rerun, "rrd", "verify", saved]):
-            result = subprocess.run(command, capture_output=True, text=True)
-            require(result.returncode == 0, f"show_in_rerun: {result.stdout}{result.stderr}")
+        script, saved = folder / "layouts/show_in_rerun.py", Path(scratch) / "flight.rrd"
+        run(sys.executable, script, folder / trajectories[0]["mcap_path"], "--every", 10, "--save", saved)
+        run(rerun, "rrd", "verify", saved)
     said("layouts/show_in_rerun.py, rerun rrd verify")
 
 
@@ -211,7 +194,6 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--cache", default=None, help="cache folder of the datasets library")
-    parser.add_argument("--skip-rerun", action="store_true", help="when rerun-sdk is not installed")
     arguments = parser.parse_args()
     folder = arguments.folder.resolve()
     check_hashes(folder)
@@ -219,10 +201,8 @@ def main():
     check_datasets(folder, counts, arguments.cache)
     check_croissant(folder, counts)
     check_mcap(folder, trajectories)
-    if not arguments.skip_rerun:
-        check_rerun(folder, trajectories)
+    check_rerun(folder, trajectories)
     print("read_back: all readers read everything")
 
 
-if __name__ == "__main__":
-    main()
+main()

@@ -8,13 +8,10 @@ import re
 from functools import cache
 
 import numpy as np
+from shared import turned
 
 STEP_M = 0.25
 CHORDS_M = (3.0, 5.0)
-
-
-def turned(to, of):
-    return (to - of + 180) % 360 - 180
 
 
 class Way:

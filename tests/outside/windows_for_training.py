@@ -7,18 +7,13 @@ handed to `cosfly eval` as predictions, which must then be perfect, along both k
 """
 
 import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
 import pyarrow.dataset as ds
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"windows_for_training: {message}")
+from shared import json_of, require, rows, said, turned
 
 
 def steps(column):
@@ -64,22 +59,22 @@ def contrastive_pairs(windows):
     return steps(experts["input_steps_in_body"])[partner], steps(twins["input_steps_in_body"])
 
 
+def way(of, to):
+    """From a pose to another one: metres, degrees."""
+    return np.concatenate([to[:3] - of[:3], turned(to[3:], of[3:])])
+
+
 def check_against_poses(folder, windows):
-    rows = ds.dataset(folder / "data" / "waypoints").to_table(["trajectory_id", "step", "pose_in_world"]).to_pylist()
-    poses = {(row["trajectory_id"], row["step"]): np.array(row["pose_in_world"]) for row in rows}
+    poses = {(row["trajectory_id"], row["step"]): np.array(row["pose_in_world"]) for row in rows(folder, "waypoints")}
     corrections, deltas = steps(windows["correction_in_world"]), steps(windows["waypoint_deltas_in_world"])
-    turn = lambda angle: (angle + 180.0) % 360.0 - 180.0
     for number, row in enumerate(windows.select(["trajectory_id", "expert_id", "start_frame"]).to_pylist()):
         history = corrections.shape[1]
         own = [poses[row["trajectory_id"], row["start_frame"] + k] for k in range(history)]
         expert = [poses[row["expert_id"], row["start_frame"] + k] for k in range(history + deltas.shape[1])]
         for k in range(history):
-            difference = expert[k] - own[k]
-            difference[3:] = turn(difference[3:])
-            require(np.allclose(corrections[number, k], difference, atol=1e-4), f"correction {k} of {row}")
+            require(np.allclose(corrections[number, k], way(own[k], expert[k]), atol=1e-4), f"correction {k} of {row}")
         reached = own[-1] + deltas[number].cumsum(axis=0)[-1]
-        difference = reached - expert[-1]
-        difference[3:] = turn(difference[3:])
+        difference = way(expert[-1], reached)
         require(np.abs(difference).max() < 1e-3, f"the waypoints of {row} end {difference} away")
 
 
@@ -93,15 +88,12 @@ def check_eval(cosfly, folder, windows, axes):
                 line = {"trajectory_id": row["trajectory_id"], "frame": row["start_frame"], "waypoint_deltas": delta.tolist()}
                 file.write(json.dumps(line) + "\n")
         splits = sorted({path.name.split("-")[0] for path in (folder / "data" / "windows").iterdir()})
-        command = [cosfly, "eval", folder, path, "--frame", axes, "--json", "--out", Path(scratch) / "out"]
-        command += [part for split in splits for part in ("--split", split)]
-        result = subprocess.run(command, capture_output=True, text=True)
-        require(result.returncode == 0, f"cosfly eval: {result.stderr}")
-        report = json.loads(result.stdout)
+        options = [part for split in splits for part in ("--split", split)]
+        report = json_of(cosfly, "eval", folder, path, "--frame", axes, "--json", "--out", Path(scratch) / "out", *options)
     method = next(it for it in report["methods"] if it["name"] == "predictions")
     fde, count = method["scores"]["fde_m"]["value"], report["rows"]["scored"]
     require(count == len(of_twins) and fde < 1e-4, f"{count} windows scored, FDE {fde} m")
-    print(f"ok  cosfly eval --frame {axes:<6} {count} windows, FDE {fde:.1e} m", flush=True)
+    said(f"cosfly eval --frame {axes}", f"{count} windows, FDE {fde:.1e} m")
 
 
 def main():
@@ -116,7 +108,7 @@ def main():
         "contrastive pairs": contrastive_pairs(windows),
     }.items():
         require(len(seen) == len(learnt) > 0 and np.isfinite(seen).all() and np.isfinite(learnt).all(), name)
-        print(f"ok  {name:<24} {seen.shape} {learnt.shape}", flush=True)
+        said(name, f"{seen.shape} {learnt.shape}")
     require(not prediction(windows.filter(windows["role"].to_numpy() == 0), 0)[0].size == 0, "no expert's windows")
     ranks = windows["subset_rank"].to_numpy()
     quarter, half = set(np.flatnonzero(ranks < 0.25)), set(np.flatnonzero(ranks < 0.5))
@@ -126,5 +118,4 @@ def main():
         check_eval(cosfly, folder, windows, axes)
 
 
-if __name__ == "__main__":
-    main()
+main()

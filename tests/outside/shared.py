@@ -1,0 +1,227 @@
+"""What several of these scripts need: tables, logs, rotations, runs of programs. Shares no code with cosfly."""
+
+import json
+import re
+import subprocess
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+
+COLOURS = "black grey white red orange yellow green blue purple pink brown beige".split()
+IN_CHINESE = dict(zip(COLOURS, "黑色 灰色 白色 红色 橙色 黄色 绿色 蓝色 紫色 粉色 棕色 米色".split()))
+# Kinds of a number and numbers of a pixel.
+ENCODINGS = {"mono8": ("u1", 1), "rgb8": ("u1", 3), "16UC1": ("<u2", 1), "32UC1": ("<u4", 1), "32FC1": ("<f4", 1), "32FC2": ("<f4", 2)}
+
+
+def require(condition, message):
+    """Ends the script with its name and a message where a condition does not hold."""
+    if not condition:
+        sys.exit(f"{Path(sys.argv[0]).stem}: {message}")
+
+
+def said(check, detail=""):
+    print(f"ok  {check:<28} {detail}", flush=True)
+
+
+def agree(name, ours, theirs, tolerance=1e-9):
+    """Numbers of one shape that are equal to the tolerance."""
+    ours, theirs = np.asarray(ours, dtype=float), np.asarray(theirs, dtype=float)
+    worst = np.abs(ours - theirs).max() if ours.size else 0.0
+    require(ours.shape == theirs.shape and worst <= tolerance, f"{name} differs by {worst}:\n ours {ours}\n theirs {theirs}")
+    said(f"{name:<60}", f"{ours.size} numbers, largest difference {worst:.1e}")
+
+
+def run(*command, code=0, **options):
+    """What a program prints; another exit code ends the script with its words."""
+    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, **options}
+    done = subprocess.run([str(part) for part in command], **options)
+    require(done.returncode == code, f"{' '.join(map(str, command))}: exit code {done.returncode}\n{done.stdout[-2000:]}{(done.stderr or '')[-2000:]}")
+    return done.stdout
+
+
+def json_of(*command, **options):
+    return json.loads(run(*command, **options))
+
+
+def end_with(wrong):
+    """Prints the first faults; the exit code is 1 where there are any."""
+    print(*wrong[:20], sep="\n")
+    sys.exit(bool(wrong))
+
+
+def blocks(page, *languages):
+    """Pairs of language and text of the code blocks of a page."""
+    return re.findall(rf"^```({'|'.join(languages)})\n(.*?)^```$", Path(page).read_text(encoding="utf-8"), re.M | re.S)
+
+
+def rows(folder, table, columns=None):
+    """Rows of a table of a dataset: these columns, or all but previews."""
+    import pyarrow.dataset
+
+    found = pyarrow.dataset.dataset(Path(folder) / "data" / table, format="parquet")
+    return found.to_table(columns or [name for name in found.schema.names if name != "preview"]).to_pylist()
+
+
+def flown(folder, of_frames=None, of_bodies=None):
+    """Flights by id, their frames by id and number, and the bodies that a frame shows by id and number; columns as in `rows`."""
+    flights = {row["trajectory_id"]: row for row in rows(folder, "trajectories")}
+    frames, seen, key = defaultdict(dict), defaultdict(list), ["trajectory_id", "frame"]
+    for row in rows(folder, "frames", of_frames and key + of_frames):
+        frames[row["trajectory_id"]][row["frame"]] = row
+    for row in rows(folder, "bodies", of_bodies and [*key, "visible_pixels", *of_bodies]):
+        if row["visible_pixels"]:
+            seen[row["trajectory_id"], row["frame"]].append(row)
+    return flights, frames, seen
+
+
+def messages(path, topics=None):
+    """Topic, decoded message, time and schema of each message of a log."""
+    from mcap.reader import make_reader
+    from mcap_protobuf.decoder import DecoderFactory
+
+    with open(path, "rb") as file:
+        for schema, channel, message, decoded in make_reader(file, decoder_factories=[DecoderFactory()]).iter_decoded_messages(topics):
+            yield channel.topic, decoded, message.log_time, schema.data
+
+
+def pixels(image):
+    """A raw image of a log as an array."""
+    kind, parts = ENCODINGS[image.encoding]
+    return np.frombuffer(image.data, kind).reshape((image.height, image.width) + ((parts,) if parts > 1 else ()))
+
+
+def picture(message):
+    """A compressed image of a log."""
+    import io
+
+    from PIL import Image
+
+    return Image.open(io.BytesIO(message.data))
+
+
+def turned(to, of):
+    """Difference of angles, degrees, -180 to 180."""
+    return (to - of + 180) % 360 - 180
+
+
+def place(row, of):
+    return np.array([row[f"{of}_{axis}_m"] for axis in "xyz"])
+
+
+def world_from_body(pitch, yaw, roll):
+    """CARLA's matrix, of degrees: columns are the body's axes ahead, right and up in the world (left-handed, z up)."""
+    (sp, sy, sr), (cp, cy, cr) = np.sin(np.radians([pitch, yaw, roll])), np.cos(np.radians([pitch, yaw, roll]))
+    return np.array([
+        [cp * cy, cy * sp * sr - sy * cr, -cy * sp * cr - sy * sr],
+        [cp * sy, sy * sp * sr + cy * cr, -sy * sp * cr + cy * sr],
+        [sp, -cp * sr, cp * cr],
+    ])
+
+
+def axes_of(row, of="camera"):
+    return world_from_body(*(row[f"{of}_{name}_deg"] for name in ("pitch", "yaw", "roll")))
+
+
+def pixel(flight, frame, point):
+    """Place of a point in the picture of a camera without a lens, pixels; none behind the camera."""
+    ahead, right, up = axes_of(frame).T @ (point - place(frame, "drone"))
+    middle = np.array([flight["camera_width_px"], flight["camera_height_px"]]) / 2
+    return None if ahead <= 0 else middle + flight["camera_focal_px"] * np.array([right, -up]) / ahead
+
+
+class Town:
+    """The boxes of a town from table `objects`."""
+
+    def __init__(self, boxes):
+        self.kind, self.instance = (np.array([row[name] for row in boxes]) for name in ("kind", "instance"))
+        self.center, size = (np.array([row[name] for row in boxes], float).reshape(-1, 3) for name in ("center_in_world_m", "size_m"))
+        self.half, yaw = size / 2, np.radians([row["yaw_deg"] for row in boxes])
+        self.cos, self.sin = np.cos(yaw), np.sin(yaw)
+        self.reach = np.hypot(self.half[:, 0], self.half[:, 1])
+
+    @staticmethod
+    def all_of(folder):
+        """The towns of a dataset by name."""
+        boxes = defaultdict(list)
+        for row in rows(folder, "objects"):
+            boxes[row["town"]].append(row)
+        return {name: Town(of_town) for name, of_town in boxes.items()}
+
+    def own(self, which, vectors):
+        """Vectors along the axes of boxes."""
+        cos, sin = self.cos[which], self.sin[which]
+        x, y, z = np.moveaxis(vectors, -1, 0)
+        return np.stack([cos * x + sin * y, cos * y - sin * x, z], -1)
+
+    def nearest(self, kind, feet, heading, reach_m):
+        """Boxes of a kind, and the ways along the ground from the feet to their footprints: ahead and to the right of a heading, radians."""
+        away = np.hypot(*(self.center[:, :2] - feet[:2]).T) - self.reach
+        which = np.flatnonzero((self.kind == kind) & (away < reach_m))
+        local = self.own(which, feet - self.center[which])
+        way = np.clip(local, -self.half[which], self.half[which]) - local
+        cos, sin = self.cos[which], self.sin[which]
+        x, y = cos * way[:, 0] - sin * way[:, 1], sin * way[:, 0] + cos * way[:, 1]
+        return which, np.cos(heading) * x + np.sin(heading) * y, np.cos(heading) * y - np.sin(heading) * x
+
+
+def ground_of_boxes(boxes, offset=(0, 0), mirror=1):
+    """Plans of boxes that `inspect_json` prints; with `mirror` -1 in a file's frame, whose y goes to the north."""
+    from shapely import Polygon
+
+    for box in boxes:
+        (x, y, _), (a, b, _), cos, sin = box["center_m"], box["half_m"], np.cos(box["yaw_rad"]), np.sin(box["yaw_rad"])
+        corners = [(a, b), (-a, b), (-a, -b), (a, -b)]
+        yield Polygon([(x + offset[0] + cos * u - sin * v, mirror * (y + offset[1] + sin * u + cos * v)) for u, v in corners])
+
+
+def is_in(outline, x, y):
+    """Whether a point lies in a polygon: it has an odd number of sides that a ray along x meets."""
+    sides = zip(outline, [*outline[1:], outline[0]])
+    return sum((a[1] > y) != (b[1] > y) and x < a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]) for a, b in sides) % 2 == 1
+
+
+def module(path):
+    """A script of the repository as a module."""
+    import importlib.util
+
+    file = Path(__file__).resolve().parents[2] / path
+    specification = importlib.util.spec_from_file_location(file.stem, file)
+    loaded = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(loaded)
+    return loaded
+
+
+def with_column(table, name, values):
+    """A table of pyarrow with other values in a column."""
+    import pyarrow
+
+    at = table.schema.get_field_index(name)
+    return table.set_column(at, table.schema.field(at), pyarrow.array(values, table.schema.field(at).type))
+
+
+def chromium_of(playwright):
+    """Chromium without a window: that of the PATH, or that of playwright."""
+    import shutil
+
+    found = filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome")))
+    return playwright.chromium.launch(executable_path=next(found, None), args=["--no-sandbox", "--enable-unsafe-swiftshader"])
+
+
+def watch(page, name, problems, own, is_fault=lambda it: True):
+    """Notes errors of a page, requests to others, and messages on the console that are faults."""
+    page.on("console", lambda it: is_fault(it) and problems.append(f"{name}: console: {it.text}"))
+    page.on("pageerror", lambda it: problems.append(f"{name}: error: {it}"))
+    page.on("request", lambda it: it.url.startswith(("data:", own)) or problems.append(f"{name}: loads {it.url}"))
+
+
+def faults_of_page(page, name):
+    """What must hold in every window: nothing is cut off, everybody can read it."""
+    from axe_playwright_python.sync_playwright import Axe
+
+    width, inside = page.evaluate("[document.documentElement.scrollWidth, innerWidth]")
+    if width > inside:
+        yield f"{name}: the page is {width} px wide in a window of {inside}"
+    for fault in Axe().run(page).response["violations"]:
+        yield f"{name}: {fault['id']}: {fault['help']} ({len(fault['nodes'])} times, first {fault['nodes'][0]['html'][:120]})"
