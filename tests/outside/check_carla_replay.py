@@ -14,6 +14,7 @@ import carla
 import numpy as np
 from mcap.reader import make_reader
 from PIL import Image
+from scipy.spatial.transform import Rotation
 from shared import messages, module, picture, pixels, require, run, said
 
 WALKER = 4242  # the raw instance id of the walker
@@ -33,8 +34,7 @@ def numbers(vector):
 
 def rotated(q, v):
     """A vector turned by a quaternion."""
-    u = numbers(q)
-    return v + 2.0 * np.cross(u, np.cross(u, v) + q.w * v)
+    return Rotation.from_quat([q.x, q.y, q.z, q.w]).apply(v)
 
 
 class Transforms:

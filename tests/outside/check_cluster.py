@@ -10,6 +10,8 @@ import sys
 import time
 from pathlib import Path
 
+from shared import json_of
+
 cosfly, recipe, folder = sys.argv[1], Path(sys.argv[2]).absolute(), Path(sys.argv[3]).absolute()
 cosfly = str(Path(cosfly).absolute())
 folder.mkdir(parents=True, exist_ok=True)
@@ -44,7 +46,7 @@ def drive():
 
 
 def main():
-    here = json.loads(subprocess.run([*run, "--store", folder / "alone", "--out", folder / "here"], check=True, capture_output=True).stdout)
+    here = json_of(*run, "--store", folder / "alone", "--out", folder / "here")
     server = start("server", "start")
     wait_for_server()
     workers = [start("worker", "start", "--cpus=1") for _ in range(2)]
@@ -81,13 +83,11 @@ def main():
     digests = [{stage["stage"]: stage["digest"] for stage in summary["stages"]} for summary in (here, there)]
     if here["version"] != there["version"] or digests[0] != digests[1]:
         sys.exit(f"the versions differ: {here['version']} here, {there['version']} on HyperQueue")
-    jobs = len(json.loads(subprocess.run([hq, "--output-mode", "json", "job", "list", "--all"], check=True, capture_output=True).stdout))
+    jobs = json_of(hq, "--output-mode", "json", "job", "list", "--all")
     began = time.time()
-    again = drive()
-    stdout, _ = again.communicate()
-    assert json.loads(stdout)["version"] == here["version"]
-    after = len(json.loads(subprocess.run([hq, "--output-mode", "json", "job", "list", "--all"], check=True, capture_output=True).stdout))
-    assert jobs == after, "a finished run submits nothing"
+    assert json.loads(drive().communicate()[0])["version"] == here["version"]
+    after = json_of(hq, "--output-mode", "json", "job", "list", "--all")
+    assert len(jobs) == len(after), "a finished run submits nothing"
     print(f"one version: {here['version']}; a finished run is found finished in {time.time() - began:.1f} s")
     for process in [*workers, server]:
         kill(process)

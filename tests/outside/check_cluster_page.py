@@ -3,12 +3,13 @@
 then the script for Slurm, with Slurm where it is installed and with a played `srun` otherwise."""
 
 import os
-import re
 import shutil
 import signal
 import subprocess
 import sys
 from pathlib import Path
+
+from shared import blocks
 
 page, cosfly, folder = (Path(argument).absolute() for argument in sys.argv[1:4])
 programs, empty = folder / "bin", folder / "empty"
@@ -41,9 +42,9 @@ def follow(script, what, **more):
         sys.exit(f"{what} failed with {code}")
 
 
-blocks = re.findall(r"^```sh\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
-assert len(blocks) >= 4, "the page has commands"
-follow("".join(blocks), "the page")
+commands = [block for _, block in blocks(page, "sh")]
+assert len(commands) >= 4, "the page has commands"
+follow("".join(commands), "the page")
 assert (empty / "out").is_dir() and (empty / "commands.jsonl").read_text() == "", "all was finished"
 
 # The script, with a store that has nothing.

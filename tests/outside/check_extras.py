@@ -12,22 +12,19 @@ import datasets
 import mlcroissant
 import numpy
 import pyarrow
-import pyarrow.dataset
+import pyarrow.parquet as parquet
 from evo.core import metrics
 from evo.tools import file_interface
+from shared import rows
 
 folder, cache = Path(sys.argv[1]), Path(sys.argv[2])
 
 
-def table(name):
-    return pyarrow.dataset.dataset(folder / "data" / name).to_table()
-
-
-flights = table("trajectories").select(["trajectory_id", "frames", "mcap_path"]).to_pylist()
+flights = rows(folder, "trajectories", ["trajectory_id", "frames", "mcap_path"])
 ids = {flight["trajectory_id"] for flight in flights}
 
 # One row per flight, typed columns.
-viewpoint = table("viewpoint")
+viewpoint = parquet.read_table(folder / "data/viewpoint")
 kinds = {field.name: field.type for field in viewpoint.schema}
 assert kinds == {
     "trajectory_id": pyarrow.string(),
@@ -40,12 +37,8 @@ assert kinds == {
     "instruction": pyarrow.string(),
 }, kinds
 assert sorted(viewpoint["trajectory_id"].to_pylist()) == sorted(ids)
-frames = table("frames").to_pandas()
-captions = {
-    (row["trajectory_id"], row["text"])
-    for row in table("captions").to_pylist()
-    if row["language"] == "en" and row["style"] == "instruction"
-}
+frames = parquet.read_table(folder / "data/frames").to_pandas()
+captions = {(row["trajectory_id"], row["text"]) for row in rows(folder, "captions") if (row["language"], row["style"]) == ("en", "instruction")}
 for row in viewpoint.to_pylist():
     own = frames[frames.trajectory_id == row["trajectory_id"]]
     assert math.isclose(row["mean_distance_m"], own.distance_m.mean(), abs_tol=1e-9), row
@@ -53,7 +46,7 @@ for row in viewpoint.to_pylist():
     assert (row["trajectory_id"], row["instruction"]) in captions, row
 
 # Any number of rows per flight: each loss is where `frames` has it.
-losses = table("losses").to_pylist()
+losses = rows(folder, "losses")
 assert [(row["trajectory_id"], row["row"]) for row in losses] == sorted({(row["trajectory_id"], row["row"]) for row in losses})
 lost = frames.visible_by_rays < 0.95
 assert sum(row["frames"] for row in losses) == int(lost.sum()), (len(losses), int(lost.sum()))

@@ -9,9 +9,8 @@ import math
 import pathlib
 import sys
 
-from mcap.reader import make_reader
-from mcap_protobuf.decoder import DecoderFactory
 from PIL import Image
+from shared import messages
 
 folder = pathlib.Path(sys.argv[1])
 card = json.loads((folder / "card.json").read_text())
@@ -24,17 +23,13 @@ for row in rows:
     steps = [json.loads(line) for line in (folder / "logs" / f"{name}.jsonl").read_text().splitlines()]
     assert len(steps) == score["steps"], name
     topics = {}
-    with open(folder / "logs" / f"{name}.mcap", "rb") as file:
-        reader = make_reader(file, decoder_factories=[DecoderFactory()])
-        for _, channel, message, decoded in reader.iter_decoded_messages():
-            topics.setdefault(channel.topic, []).append((message.log_time, decoded))
+    for topic, message, time, _ in messages(folder / "logs" / f"{name}.mcap"):
+        topics.setdefault(topic, []).append((time, message))
     for topic in ("/tf", "/drone/pose", "/target/pose", "/target/state", "/camera/rgb/camera_info", "/flight/step"):
         assert [time for time, _ in topics[topic]] == [round(1e9 * step["time_s"]) for step in steps], (name, topic)
     assert any(entity.cubes for entity in topics["/scene"][0][1].entities), name
     reward = 0.0
-    for step, (_, pose), (_, state), (_, flown) in zip(
-        steps, topics["/drone/pose"], topics["/target/state"], topics["/flight/step"], strict=True
-    ):
+    for step, (_, pose), (_, state), (_, flown) in zip(steps, topics["/drone/pose"], topics["/target/state"], topics["/flight/step"], strict=True):
         x, y, z = step["position_in_world"]
         assert (pose.pose.position.x, pose.pose.position.y, pose.pose.position.z) == (x, -y, z)
         assert (state.feet_x_m, -state.feet_y_m, state.feet_z_m) == tuple(step["target_in_world"])

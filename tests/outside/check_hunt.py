@@ -7,11 +7,10 @@ hunts and resampled random flights.
 """
 
 import argparse
-import json
 import pathlib
-import subprocess
 
 import numpy as np
+from shared import json_of
 
 parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
 parser.add_argument("cosfly", type=pathlib.Path)
@@ -41,9 +40,7 @@ stream = np.random.default_rng(1)
 
 def hunt(suite, policy, *options):
     out = given.work.resolve() / "-".join([suite, *map(str, options), policy]).replace("/", "-").replace(":", "-").replace("=", "")
-    command = [given.cosfly.resolve(), "hunt", given.suites / f"{suite}.toml", "--policy", policy, "--out", out, *store, "--json"]
-    command += map(str, options)
-    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    return json_of(given.cosfly.resolve(), "hunt", given.suites / f"{suite}.toml", "--policy", policy, "--out", out, *store, "--json", *options)
 
 
 def interval(values):

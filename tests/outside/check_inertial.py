@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow.parquet as parquet
+from scipy.spatial.transform import Rotation
 
 OUTAGE_S, AIDED_S, BOUND_M, BOUND_OF_AIDED_M = 60.0, 30.0, 100.0, 15.0
 GRAVITY = np.array([0, 0, -9.81])
@@ -31,11 +32,7 @@ def cross(v):
 
 
 def rotation(v):
-    angle = np.linalg.norm(v)
-    if angle < 1e-12:
-        return np.eye(3) + cross(v)
-    axis = cross(v / angle)
-    return np.eye(3) + np.sin(angle) * axis + (1 - np.cos(angle)) * axis @ axis
+    return Rotation.from_rotvec(v).as_matrix()
 
 
 class Filter:

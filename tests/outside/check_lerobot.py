@@ -103,14 +103,13 @@ def check(split):
             assert np.abs(np.array(stats[name][key]) - want).max() < 1e-6, (name, key)
     for key in ("min", "max", "mean", "std", *QUANTILES):
         assert np.array(stats["observation.images.rgb"][key]).shape == (3, 1, 1)
-    check_episodes(root, info, rows, stats)
+    check_episodes(episodes, info, rows, stats)
     print(f"lerobot, {split}, file by file: {len(rows)} frames of {len(episodes)} episodes, {len(tasks)} tasks")
     return info, tasks
 
 
-def check_episodes(root, info, rows, stats):
+def check_episodes(table, info, rows, stats):
     """Statistics of each episode: those of its rows, and together those of the dataset, as LeRobot puts them together."""
-    table = pd.concat(pd.read_parquet(path) for path in sorted(glob.glob(str(root / "meta/episodes/*/*.parquet"))))
     keys = ["min", "max", "mean", "std", *QUANTILES, "count"]
     wanted = {f"stats/{name}/{key}" for name in info["features"] for key in keys}
     assert {name for name in table.columns if name.startswith("stats/")} == wanted
@@ -136,10 +135,8 @@ def check_episodes(root, info, rows, stats):
         variances = np.stack([part["std"] ** 2 for part in parts]) + (means - mean) ** 2
         whole = {key: np.array(value) for key, value in stats[name].items()}
         assert whole["count"].tolist() == [counts.sum()], name
-        together = {
-            "mean": mean, "std": np.sqrt((variances * weights).sum(0)),
-            "min": np.stack([part["min"] for part in parts]).min(0), "max": np.stack([part["max"] for part in parts]).max(0),
-        }
+        lows, highs = (np.stack([part[key] for part in parts]) for key in ("min", "max"))
+        together = {"mean": mean, "std": np.sqrt((variances * weights).sum(0)), "min": lows.min(0), "max": highs.max(0)}
         for key, it in together.items():
             assert np.abs(whole[key] - it).max() < 1e-5 * max(1, np.abs(it).max()), (name, key)
 
@@ -153,9 +150,7 @@ def load(split, info, tasks):
     """The package itself: windows of five pictures, and chunks."""
     from lerobot.datasets.lerobot_dataset import LeRobotDataset
 
-    loaded = LeRobotDataset(
-        f"cosfly/{split}", root=export / split, delta_timestamps={"observation.images.rgb": [step / info["fps"] for step in range(-4, 1)]}
-    )
+    loaded = LeRobotDataset(f"cosfly/{split}", root=export / split, delta_timestamps={"observation.images.rgb": [step / info["fps"] for step in range(-4, 1)]})
     assert loaded.num_frames == info["total_frames"] and loaded.num_episodes == info["total_episodes"]
     item = loaded[6]
     height, width, _ = info["features"]["observation.images.rgb"]["shape"]

@@ -2,13 +2,13 @@
 compares those of depth, labels and detections.
 
     cargo build --profile ci -p cosfly-metrics --example metrics_of_stdin
-    venv/bin/python tests/outside/check_metrics.py target/ci/examples/metrics_of_stdin [--seed N]
+    venv/bin/python tests/outside/check_metrics.py target/ci/examples/metrics_of_stdin
 
 Each check prints one line. Exit code 0: everything agrees to 1e-9.
 """
 
-import argparse
 import json
+import sys
 
 import numpy as np
 from shared import agree, json_of, require, said
@@ -52,7 +52,7 @@ def check_waypoints(ours, truth, predicted):
 
     flat_truth, flat_guess = truth.copy(), predicted.copy()
     flat_truth[:, :, 2] = flat_guess[:, :, 2] = 20.0
-    flat = np.array(json_of(binary, input=json.dumps({"windows": rows_of(flat_truth, flat_guess)}))["windows"])
+    flat = np.array(json_of(sys.argv[1], input=json.dumps({"windows": rows_of(flat_truth, flat_guess)}))["windows"])
     rows = lambda poses: [TrackRow(frame, 1, x, y) for frame, (x, y) in enumerate(poses[:, :2])]
     steps = truth.shape[1]
     agree("planar ADE against trajnet++", flat[:, 0], [average_l2(rows(t), rows(g), n_predictions=steps) for t, g in zip(flat_truth, flat_guess)])
@@ -110,17 +110,11 @@ def rows_of(truth, predicted):
 
 
 def main():
-    global binary
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("binary", help="the example metrics_of_stdin")
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
-    binary, rng = arguments.binary, np.random.default_rng(arguments.seed)
-
+    rng = np.random.default_rng(1)
     truth, predicted = random_windows(rng)
     boxes = random_boxes(rng, 200)
     pairs = [[box.tolist(), (np.sort((box + rng.normal(0, spread, 4)).reshape(2, 2), axis=0).reshape(4)).tolist()] for box, spread in zip(boxes, np.tile([1, 5, 20, 100], 50))]
-    ours = json_of(binary, input=json.dumps({"windows": rows_of(truth, predicted), "boxes": pairs}))
+    ours = json_of(sys.argv[1], input=json.dumps({"windows": rows_of(truth, predicted), "boxes": pairs}))
 
     check_waypoints(ours, truth, predicted)
     check_interval(ours)

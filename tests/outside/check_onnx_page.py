@@ -9,6 +9,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from shared import blocks
+
 cosfly, folder = (Path(argument).absolute() for argument in sys.argv[1:3])
 root = Path(__file__).absolute().parents[2]
 page = (root / "book/src/guide/onnx.md").read_text()
@@ -21,7 +23,7 @@ environment.pop("COSFLY_STORE", None)
 os.chdir(folder)
 space = {"__name__": "__main__"}
 said = ""
-for language, block in re.findall(r"^```(sh|python)\n(.*?)^```", page, re.MULTILINE | re.DOTALL):
+for language, block in blocks(root / "book/src/guide/onnx.md", "sh", "python"):
     if language == "python":
         exec(compile(block, "onnx.md", "exec"), space)
         continue

@@ -89,17 +89,17 @@ def number(text):
 NOT_THERE = ("proposed", "planned", "demolished", "destroyed", "razed", "removed", "underground")
 
 
+def is_below(tags):
+    return any((number(tags.get(key)) or 0) < 0 for key in ("layer", "level"))
+
+
 def is_hidden(tags):
-    tunnel = tags.get("tunnel", "no")
-    below = any((number(tags.get(key)) or 0) < 0 for key in ("layer", "level"))
     indoor = tags.get("indoor", "no") != "no" or tags.get("location") in ("underground", "indoor")
-    return below or indoor or tunnel not in ("no", "building_passage", "avalanche_protector")
+    return is_below(tags) or indoor or tags.get("tunnel", "no") not in ("no", "building_passage", "avalanche_protector")
 
 
 def is_kept(tags):
-    below = any((number(tags.get(key)) or 0) < 0 for key in ("layer", "level"))
-    is_there = tags.get("building") not in NOT_THERE
-    return tags.get("location") != "underground" and not below and is_there
+    return tags.get("location") != "underground" and not is_below(tags) and tags.get("building") not in NOT_THERE
 
 
 def stated_top_m(tags):
@@ -187,7 +187,7 @@ class Town:
         areas = [shape for *_, shape in self.areas]
         tree, far, farthest = STRtree(areas), 0, 0.0
         for box in shapes:
-            near = unary_union([areas[at] for at in tree.query(box, predicate="intersects")])
+            near = union_of(areas, tree, box)
             beyond = box.difference(near)
             if near.is_empty or beyond.is_empty:
                 continue
@@ -225,8 +225,7 @@ class Town:
         stated = stated_top_m(tags)
         if stated is None or not 0.5 <= stated <= 1000:
             return []
-        there = [int(at) for at in index.query(shape, predicate="intersects")]
-        tops = [boxes[at]["center_m"][2] + boxes[at]["half_m"][2] for at in there]
+        tops = (boxes[at]["center_m"][2] + boxes[at]["half_m"][2] for at in index.query(shape, predicate="intersects"))
         return [(min((abs(top - stated) for top in tops), default=math.inf), name, stated)]
 
     def check_points(self):

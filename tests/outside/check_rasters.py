@@ -15,6 +15,7 @@ import sys
 
 import h5py
 import numpy
+from shapely import Polygon, contains_xy
 from shared import json_of
 
 # Shares: lane centres on road, pavement centres on pavement, area of pavement polygons on pavement,
@@ -55,18 +56,13 @@ class Raster:
         """Mask of the pixels whose centres lie in any outline."""
         mask = numpy.zeros(self.layers["road"].shape, dtype=bool)
         for outline in outlines:
-            corners = self.pixels(outline)
-            low = numpy.maximum(numpy.floor(corners.min(0)).astype(int), 0)
-            high = numpy.minimum(numpy.ceil(corners.max(0)).astype(int), mask.shape[::-1])
+            shape = Polygon(self.pixels(outline))
+            low = numpy.maximum(numpy.floor(shape.bounds[:2]).astype(int), 0)
+            high = numpy.minimum(numpy.ceil(shape.bounds[2:]).astype(int), mask.shape[::-1])
             if (high <= low).any():
                 continue
             x, y = numpy.meshgrid(numpy.arange(low[0], high[0]) + 0.5, numpy.arange(low[1], high[1]) + 0.5)
-            odd = numpy.zeros(x.shape, dtype=bool)
-            for a, b in zip(corners, numpy.roll(corners, -1, axis=0)):
-                if a[1] != b[1]:
-                    crosses = (a[1] > y) != (b[1] > y)
-                    odd ^= crosses & (x < a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]))
-            mask[low[1] : high[1], low[0] : high[0]] |= odd
+            mask[low[1] : high[1], low[0] : high[0]] |= contains_xy(shape, x, y)
         return mask
 
 

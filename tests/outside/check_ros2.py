@@ -14,6 +14,7 @@ import numpy as np
 from mcap_ros2.reader import read_ros2_messages
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
+from scipy.spatial.transform import Rotation
 from shared import axes_of, flown, place, rows, run
 
 dataset, export = Path(sys.argv[1]), Path(sys.argv[2])
@@ -31,23 +32,13 @@ for row in rows(dataset, "objects"):
 
 
 def matrix(q):
-    x, y, z, w = q.x, q.y, q.z, q.w
-    assert abs(x * x + y * y + z * z + w * w - 1) < 1e-9
-    return np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ])
+    assert abs(q.x**2 + q.y**2 + q.z**2 + q.w**2 - 1) < 1e-9
+    return Rotation.from_quat([q.x, q.y, q.z, q.w]).as_matrix()
 
 
 def turn(vector):
     """The rotation by a vector's length around it."""
-    angle = np.linalg.norm(vector)
-    if angle == 0:
-        return np.eye(3)
-    x, y, z = vector / angle
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    return Rotation.from_rotvec(vector).as_matrix()
 
 
 def xyz(message):

@@ -37,9 +37,7 @@ environment = {
 
 
 def start_server():
-    process = subprocess.Popen(
-        [sys.executable, "-c", MOTO, str(PORT)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    )
+    process = subprocess.Popen([sys.executable, "-c", MOTO, str(PORT)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     for _ in range(200):
         try:
             urllib.request.urlopen(urllib.request.Request(f"{SERVER}/bucket", method="PUT")).close()

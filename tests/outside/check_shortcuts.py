@@ -161,8 +161,7 @@ def of_pixels(folder, flights, frames, number):
         side = [it for it in far if abs(turned(it["side"], target["side"])) <= SIDE_DEG and it["backpack"] == target["backpack"]]
         full = [it for it in side if abs(it["full"] - target["full"]) <= FULL]
         for sign, value in signs.items():
-            for whom, compared in (("all", others), ("as far away", far), ("same side and backpack, too", side),
-                                   ("as full a box, too", full)):
+            for whom, compared in (("all", others), ("as far away", far), ("same side and backpack, too", side), ("as full a box, too", full)):
                 if compared:
                     found[f"{sign} of pixels, {whom}"][name].append(np.mean([above(value(target), value(it)) for it in compared]))
     return {what: probe(it) for what, it in found.items()}

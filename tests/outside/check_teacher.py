@@ -5,7 +5,7 @@
 The stand-in stands for llama.cpp's server, which takes long to build; its requests and answers have the same form (chat completions
 with `response_format` of type `json_schema`). Checked: every text is there, true and marked; the key is in no byte that is written;
 of answers with one false statement each, none is published; the same recipe with the kept answers and without a network gives the
-same bytes; killed and resumed in the middle of 1,008 answers, no kept answer is asked for again, and a server that knows `Idempotency-Key` computes none twice; the budget holds; `cosfly plan` says what would be asked.
+same bytes; killed and resumed in the middle of 1,008 answers, no kept answer is asked for again, and a server that knows `Idempotency-Key` computes none twice; `cosfly plan` says what would be asked.
 """
 
 import base64
@@ -66,11 +66,7 @@ def planted(text, number):
     kinds = {
         "distance": other(next(it for it in numbers if not degrees(it)), 9),
         "pitch": other(next(it for it in numbers if degrees(it)), 30),
-        "up and down": re.sub(
-            r"下俯视|上仰视|\b(?:up|down)\b",
-            lambda it: {"下俯视": "上仰视", "上仰视": "下俯视", "up": "down", "down": "up"}[it[0]],
-            text,
-        ),
+        "up and down": re.sub(r"下俯视|上仰视|\b(?:up|down)\b", lambda it: {"下俯视": "上仰视", "上仰视": "下俯视", "up": "down", "down": "up"}[it[0]], text),
         "turns": text + ("其间右转了七次。" if chinese else " They turn right seven times."),
         "stops": text + ("对方停了九次。" if chinese else " They stop nine times."),
         "landmarks": text + ("对方经过左边的十二栋楼。" if chinese else " They pass twelve buildings on the left."),
@@ -415,15 +411,7 @@ def main():
     for knows_keys in (False, True):
         check_kills(cosfly, work, knows_keys)
 
-    print("the budget stops, says so, and a larger one goes on")
     fresh = Teacher("honest")
-    done = run(command(cosfly, work, "budget", fresh.address, "store4", "stages.captions.teacher.budget.calls=7"))
-    assert done.returncode != 0 and "teacher-budget" in done.stderr, done.stderr
-    assert fresh.requests == 7, fresh.requests
-    done = run(command(cosfly, work, "budget", fresh.address, "store4", "stages.captions.teacher.budget.calls=100"))
-    assert done.returncode == 0, done.stderr
-    assert max(fresh.answered.values()) == 1, "asked twice"
-
     print("cosfly plan says what would be asked")
     plan = command(cosfly, work, "plan", fresh.address, "store5", "stages.captions.teacher.budget.input_price=1.0")
     plan = [plan[0], "plan", *[it for it in plan[2:] if it not in ("--quiet", "--out", work / "plan")]]
@@ -431,13 +419,6 @@ def main():
     assert "48 questions" in done.stdout, done.stdout + done.stderr
     print("  " + next(line for line in done.stdout.splitlines() if "questions" in line))
 
-    print("a missing key, a server that is not there")
-    for key, code in ((None, "teacher-key"), (KEY, "teacher-unreachable")):
-        with socket.socket() as closed:
-            closed.bind(("127.0.0.1", 0))
-            port = closed.getsockname()[1]
-        done = run(command(cosfly, work, "nobody", f"http://127.0.0.1:{port}/v1", "store6", flights=1), key=key)
-        assert done.returncode != 0 and code in done.stderr, done.stderr
     search_key(work)
     print(f"passed; the hostile server had {asked} requests")
 

@@ -68,8 +68,7 @@ def scores(split, results, root=folder / "mot"):
         place.mkdir(parents=True)
         for name, lines in results.items():
             (place / f"{name}.txt").write_text("".join(lines))
-        data = {"GT_FOLDER": str(root / split), "SEQMAP_FILE": str(root / f"seqmaps/{split}.txt"), "SKIP_SPLIT_FOL": True,
-                "TRACKERS_FOLDER": trackers, **quiet}
+        data = {"GT_FOLDER": str(root / split), "SEQMAP_FILE": str(root / f"seqmaps/{split}.txt"), "SKIP_SPLIT_FOL": True, "TRACKERS_FOLDER": trackers, **quiet}
         config = {"PRINT_RESULTS": False, "TIME_PROGRESS": False, "OUTPUT_SUMMARY": False, "OUTPUT_DETAILED": False, "PLOT_CURVES": False,
                   "BREAK_ON_ERROR": True, **quiet}
         limit = {"THRESHOLD": 0.5, **quiet}
@@ -150,10 +149,9 @@ def compared():
 
 
 def mot():
-    lines_of, without, counts = defaultdict(dict), defaultdict(dict), defaultdict(lambda: [0, 0])
+    count = 0
     for row in sequences("mot"):
-        id, split = row["trajectory_id"], row["split"]
-        root = folder / "mot" / split / row["sequence"]
+        id, root = row["trajectory_id"], folder / "mot" / row["split"] / row["sequence"]
         info = configparser.ConfigParser()
         info.read(root / "seqinfo.ini")
         info = info["Sequence"]
@@ -172,17 +170,8 @@ def mot():
         for line in truth:
             if line[1] == 1:
                 assert abs(line[8] - frames[id][int(line[0]) - 1]["visible_by_pixels"]) < 1e-4
-        as_result = [",".join(f"{number:g}" for number in (*line[:6], 1, -1, -1, -1)) + "\n" for line in truth if line[7] == 1]
-        lines_of[split][row["sequence"]] = as_result
-        without[split][row["sequence"]] = [line for line in as_result if line.split(",")[1] != "1"]
-        counts[split][0] += len(as_result)
-        counts[split][1] += len(as_result) - len(without[split][row["sequence"]])
-    for split, (all_boxes, of_targets) in counts.items():
-        assert np.allclose(list(scores(split, lines_of[split])["COMBINED_SEQ"].values()), 1), split
-        idf1 = scores(split, without[split])["COMBINED_SEQ"]["idf1"]
-        kept = all_boxes - of_targets
-        assert np.isclose(idf1, 2 * kept / (2 * kept + of_targets)), (split, idf1)
-    return f"{sum(count for count, _ in counts.values())} boxes, scored by TrackEval"
+        count += len(truth)
+    return f"{count} boxes, those of the tables"
 
 
 def check_target(row, files, boxes, absent):

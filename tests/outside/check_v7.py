@@ -77,9 +77,7 @@ for folder in sorted(root.glob("Town*/trajectory_*")):
                 assert max(abs(waypoint[axis] - following[axis]) for axis in "xyz") <= 1e-5
             else:
                 assert waypoint is None
-            assert point["is_perturbed"] == (
-                trace != "ORI" and any(point["perturbation"][k] for k in ("drone_position", "drone_rotation"))
-            )
+            assert point["is_perturbed"] == (trace != "ORI" and any(point["perturbation"][k] for k in ("drone_position", "drone_rotation")))
             here = folder / trace / "frames_playback" / f"frame_{i:05d}"
             with Image.open(here / "rgb.png") as image:
                 image.load()

@@ -2,9 +2,8 @@
 
     python check_view.py COSFLY DATASET WORK [--screenshots FOLDER] [--many COUNT] [--timed]
 
-WORK is a folder for copies of DATASET. With `--many`, first view and scrubbing are timed with that many copies of its flights, and with
-`--timed`, on an idle machine, times are held, too. Needs `playwright`, `axe-playwright-python`, `pyarrow`, and a Chromium: that of
-playwright, or one on the PATH.
+WORK is a folder for copies of DATASET. With `--many`, first view and scrubbing are timed with that many copies of its flights, and with `--timed`, on
+an idle machine, times are held, too. Needs `playwright`, `axe-playwright-python`, `pyarrow`, and a Chromium: that of playwright, or one on the PATH.
 """
 
 import argparse

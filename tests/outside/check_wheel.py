@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Tags, size and contents of the wheel and the source distribution: python check_wheel.py FOLDER [--most-mb SIZE]"""
 
+import os
 import re
 import sys
 import tarfile
@@ -30,11 +31,7 @@ with tarfile.open(source) as files:
     for name in [name for name in texts if name.endswith(".rs")]:
         text = files.extractfile(texts[name]).read().decode()
         for path in re.findall(r'include_(?:str|bytes)!\(\s*"([^"]+)"', text):
-            place = Path(name).parent / path
-            parts = []
-            for part in place.parts:
-                parts.pop() if part == ".." else parts.append(part)
-            if "/".join(parts) not in texts:
+            if os.path.normpath(Path(name).parent / path) not in texts:
                 missing.append(f"{name}: {path}")
 assert not missing, missing
 print(f"{wheel.name}: {wheel.stat().st_size / 1e6:.1f} MB; {source.name}: {len(texts)} files")

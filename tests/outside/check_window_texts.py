@@ -2,10 +2,9 @@
 
     venv/bin/python tests/outside/check_window_texts.py DATASET_FOLDER
 
-Shares no code with cosfly. A claim is found by its words, in English and in Chinese, and judged by the boxes, pixels, places and
-clothes of tables `frames`, `bodies` and `trajectories` in the last frame of the input, and by the boxes of table `objects`: a
-landmark must be there, be alone there, and rays from the camera must reach it inside of the picture. Prints how often each claim
-occurs.
+Shares no code with cosfly. A claim is found by its words, in English and in Chinese, and judged by the boxes, pixels, places and clothes of tables
+`frames`, `bodies` and `trajectories` in the last frame of the input, and by the boxes of table `objects`: a landmark must be there, be alone there,
+and rays from the camera must reach it inside of the picture. Prints how often each claim occurs.
 """
 
 import re

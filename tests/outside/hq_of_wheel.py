@@ -81,10 +81,7 @@ def submit(path):
             ["sh", "-c", RECORDER, str(records), str(task["id"]), *task["command"]],
             deps=[tasks[dep] for dep in task.get("deps", [])],
             # The package's workers have processors alone.
-            resources=ResourceRequest(
-                cpus=request["resources"]["cpus"],
-                min_time=seconds(request["time_request"]) if "time_request" in request else None,
-            ),
+            resources=ResourceRequest(cpus=request["resources"]["cpus"], min_time=seconds(request["time_request"]) if "time_request" in request else None),
             stdout=None, stderr=None, crash_limit=task["crash_limit"], cwd="/",
         )
     deps = {task["id"]: task.get("deps", []) for task in described["task"]}

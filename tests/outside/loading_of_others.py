@@ -49,9 +49,7 @@ def lerobot(windows, frames, folder: Path):
         made.save_episode()
     made.finalize()
     ahead = [0.5 * it for it in range(5)]
-    data = LeRobotDataset(
-        "local/frames", root=folder, delta_timestamps={"observation.images.rgb": ahead, "observation.depth": ahead}
-    )
+    data = LeRobotDataset("local/frames", root=folder, delta_timestamps={"observation.images.rgb": ahead, "observation.depth": ahead})
 
     def each():
         rng = np.random.default_rng(8)

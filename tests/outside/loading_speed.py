@@ -34,12 +34,16 @@ import loading_of_others
 SIZE = (224, 126)
 
 
+def seconds_of(read, cases):
+    began = time.process_time()
+    for case in cases:
+        read(*case)
+    return time.process_time() - began
+
+
 def measure(name, read, windows):
     read(*windows[0])
-    began = time.process_time()
-    for window in windows:
-        read(*window)
-    took = time.process_time() - began
+    took = seconds_of(read, windows)
     print(f"{name:44} {5 * len(windows) / took:8.1f} frames per CPU second, {1e3 * took / 5 / len(windows):7.2f} ms a frame")
 
 
@@ -84,14 +88,14 @@ def main():
     measure("  rgb alone", lambda number, *_: colours[number], places)
     depths = cosfly.Dataset(options.dataset, size=SIZE, channels=("depth",)).windows()
     measure("  depth alone", lambda number, *_: depths[number], places)
-    files = [windows._reader.rgb_file(windows._number[name], start) for _, name, start in places]
+    files = [(windows._reader.rgb_file(windows._number[name], start),) for _, name, start in places]
 
     def turbo(file):
         image = Image.open(io.BytesIO(file))
         image.draft("RGB", SIZE)
         image.load()
 
-    one = lambda decode: [measure_files(decode, files) for _ in range(3)][-1]
+    one = lambda decode: [1e3 * seconds_of(decode, files) / len(files) for _ in range(3)][-1]
     ours, theirs = one(lambda file: cosfly.decode_rgb(file, (320, 180))), one(turbo)
     print(f"a JPEG file to a quarter of its size: {ours:.2f} ms, libjpeg-turbo {theirs:.2f} ms, ratio {ours / theirs:.2f}")
     scratch = Path(tempfile.mkdtemp())
@@ -113,12 +117,6 @@ def main():
     finally:
         shutil.rmtree(scratch)
 
-
-def measure_files(decode, files):
-    began = time.process_time()
-    for file in files:
-        decode(file)
-    return 1e3 * (time.process_time() - began) / len(files)
 
 
 main()

@@ -9,9 +9,10 @@ and the line from it to `tracking_rate` are chosen on the suites of --choose; R2
 import argparse
 import json
 import pathlib
-import subprocess
 
 import numpy as np
+from scipy.stats import spearmanr
+from shared import run as run_program
 
 parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
 parser.add_argument("cosfly", type=pathlib.Path)
@@ -32,7 +33,7 @@ store = ["--store", work / "store"]
 
 
 def run(*arguments):
-    return subprocess.run([given.cosfly.resolve(), *map(str, arguments), *store], check=True, capture_output=True, text=True).stdout
+    return run_program(given.cosfly.resolve(), *arguments, *store)
 
 
 def closed(suite, policy):
@@ -67,16 +68,8 @@ def metrics(own, expert):
     }
 
 
-def ranks(values):
-    ordered = np.argsort(np.argsort(values, kind="stable"), kind="stable").astype(float)
-    for value in np.unique(values):
-        ordered[values == value] = ordered[values == value].mean()
-    return ordered
-
-
 def spearman(first, second):
-    first, second = ranks(first), ranks(second)
-    return np.corrcoef(first, second)[0, 1] if first.std() > 0 and second.std() > 0 else 0.0
+    return spearmanr(first, second)[0] if np.ptp(first) > 0 and np.ptp(second) > 0 else 0.0
 
 
 def r2(truth, predicted):

@@ -7,9 +7,11 @@ Prints the table of the book's page "A benchmark in tiers". With --causal, varia
 
 import json
 import pathlib
-import subprocess
 import sys
 import time
+
+from scipy.stats import spearmanr
+from shared import run
 
 cosfly, benchmark, work = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 work.mkdir(parents=True, exist_ok=True)
@@ -26,27 +28,14 @@ if "--causal" in sys.argv:
 def fly(tier, policies):
     command = [cosfly, "fly", benchmark, "--tier", tier, "--clips", "0", "--logs", "none", "--quiet", "--json"]
     command += ["--store", work / "store", "--out", work / tier]
-    chosen = [part for policy in policies for part in ("--policy", policy)]
     begun = time.monotonic()
-    subprocess.run([*command, *chosen], check=True, capture_output=True, text=True)
+    run(*command, *(part for policy in policies for part in ("--policy", policy)))
     return time.monotonic() - begun
 
 
 def rates(folder):
     rows = [json.loads(line) for line in (folder / "episodes.jsonl").read_text().splitlines()]
     return {row["episode"]: row["score"]["tracked_steps"] / row["score"]["planned_steps"] for row in rows}
-
-
-def ranks(values):
-    ordered = sorted(values)
-    return [ordered.index(value) + (ordered.count(value) - 1) / 2 for value in values]
-
-
-def correlation(first, second):
-    first, second = ranks(first), ranks(second)
-    mean = (len(first) - 1) / 2
-    product = sum((a - mean) * (b - mean) for a, b in zip(first, second))
-    return product / (sum((a - mean) ** 2 for a in first) * sum((b - mean) ** 2 for b in second)) ** 0.5
 
 
 made = fly("full", ["hold"])
@@ -62,8 +51,8 @@ score = {tier: [sum(rows[name] for name in episodes[tier]) / len(episodes[tier])
 print(f"\n| tier | episodes | rank correlation with full, {len(table)} policies | largest difference of a tracking rate |\n| --- | --- | --- | --- |")
 for tier in TIERS:
     apart = max(abs(a - b) for a, b in zip(score[tier], score["full"]))
-    print(f"| {tier} | {len(episodes[tier])} | {correlation(score[tier], score['full']):.3f} | {apart:.3f} |")
+    print(f"| {tier} | {len(episodes[tier])} | {spearmanr(score[tier], score['full'])[0]:.3f} | {apart:.3f} |")
 for name, *numbers in sorted(zip(table, *(score[tier] for tier in TIERS)), key=lambda it: -it[-1]):
     print(f"{name:<44}", *(f"{number:.3f}" for number in numbers))
-worst = min(correlation(score[tier], score["full"]) for tier in TIERS)
+worst = min(spearmanr(score[tier], score["full"])[0] for tier in TIERS)
 assert len(table) >= 30 and worst >= 0.95, (len(table), worst)

@@ -74,10 +74,7 @@ def check_datasets(folder, counts, cache):
     datasets.disable_progress_bars()
     for config in [*TABLES, "files"]:
         if counts.get(config) == 0:
-            streamed = datasets.load_dataset(str(folder), config, streaming=True, cache_dir=cache)
-            require(streamed and all(list(part) == [] for part in streamed.values()), f"{config} has rows in its stream")
-            said(f"datasets {config}", "no rows, a config on the card, an empty stream")
-            continue
+            continue  # `check_readers.py` reads the empty stream
         loaded = datasets.load_dataset(str(folder), config, cache_dir=cache)
         rows = {split: part.num_rows for split, part in loaded.items()}
         if config in counts:
@@ -109,9 +106,8 @@ def check_croissant(folder, counts):
         dataset = mlc.Dataset(jsonld=str(path))
         records = list(dataset.records(record_set=name))
         require(name not in counts or len(records) == counts[name], f"{len(records)} records of {name}")
-        if records:
-            fields = {field["@id"] for field in record_set["field"]}
-            require(set(records[0]) == fields, f"{name}: {set(records[0]) ^ fields}")
+        fields = {field["@id"] for field in record_set["field"]}
+        require(not records or set(records[0]) == fields, f"{name}: {fields}")
         said(f"mlcroissant {name}", f"{len(records)} records")
     splits = {path.name.split("-")[0] for path in (folder / "data" / "trajectories").iterdir()}
     for split in sorted(splits):
@@ -140,8 +136,7 @@ def check_mcap(folder, trajectories):
             decode = row["trajectory_id"] == first[row["role"]]
             for _, channel, message, *decoded in reader.iter_decoded_messages() if decode else reader.iter_messages():
                 topic = channel.topic
-                require(message.log_time == round(counts.get(topic, 0) * row["dt_s"] * 1e9) or topic == "/captions",
-                        f"{path}: time of {topic}")
+                require(message.log_time == round(counts.get(topic, 0) * row["dt_s"] * 1e9) or topic == "/captions", f"{path}: time of {topic}")
                 counts[topic] = counts.get(topic, 0) + 1
                 if decode:
                     check_message(row, topic, decoded[0], path)

@@ -9,15 +9,17 @@ import re
 import sys
 from pathlib import Path
 
+from shared import blocks
+
 for path in sys.argv[1:]:
-    page = Path(path).read_text(encoding="utf-8")
-    absent = [name for name in re.findall(r"<!-- needs: (\S+) -->", page) if importlib.util.find_spec(name) is None]
+    needs = re.findall(r"<!-- needs: (\S+) -->", Path(path).read_text(encoding="utf-8"))
+    absent = [name for name in needs if importlib.util.find_spec(name) is None]
     if absent:
         print(f"--- {path}: skipped, {', '.join(absent)} is not installed")
         continue
-    blocks = re.findall(r"^```python\n(.*?)^```", page, re.S | re.M)
-    assert blocks, f"{path} has no example"
+    examples = blocks(path, "python")
+    assert examples, f"{path} has no example"
     space = {"__name__": "__main__"}
-    for number, block in enumerate(blocks, 1):
-        print(f"--- {path}: example {number} of {len(blocks)}", flush=True)
+    for number, (_, block) in enumerate(examples, 1):
+        print(f"--- {path}: example {number} of {len(examples)}", flush=True)
         exec(compile(block, f"{path}, example {number}", "exec"), space)
