@@ -7,7 +7,7 @@ use cosfly_diagnose::{ParameterError, Result};
 use cosfly_experts::artifacts;
 use cosfly_experts::map_files::{ReadMap, checked, read_files, refusal, unreadable};
 use cosfly_frames::Seed;
-use cosfly_maps::{FORMATS, MapConfig, recognise};
+use cosfly_maps::{MapConfig, options, recognise};
 use cosfly_stage::parameters;
 use cosfly_stage::{
     InputPort, Inputs, Produced, Source, SourceCheck, Stage, StageKind, StagePart, StageProperties, StageRole,
@@ -32,7 +32,7 @@ impl StageKind for Map {
     }
 
     fn schema(&self) -> Value {
-        let mut options = options_schema();
+        let mut options = options::schema();
         // References are to definitions of the whole schema.
         let definitions = options.as_object_mut().and_then(|table| table.remove("$defs")).unwrap_or_default();
         let own = parameters::schema_of::<MapConfig>();
@@ -76,42 +76,12 @@ fn sources(files: Vec<PathBuf>) -> Vec<Source> {
     files.into_iter().enumerate().map(source).collect()
 }
 
-/// Schema of the options of all formats.
-fn options_schema() -> Value {
-    let none =
-        json!({ "type": "object", "description": "Options of the file's format.", "additionalProperties": false });
-    FORMATS.iter().fold(none, |all, format| parameters::merged_into(all, named_schema(format)))
-}
-
-/// Schema of the options of a format; their descriptions begin with the names of the formats that have them.
-fn named_schema(format: &Format) -> Value {
-    let mut schema = format.schema();
-    for (name, option) in schema["properties"].as_object_mut().into_iter().flatten() {
-        let owners: Vec<&str> =
-            FORMATS.iter().filter(|one| one.option_names().contains(name)).map(Format::name).collect();
-        let description = option["description"].as_str().unwrap_or_default();
-        option["description"] = format!("{}: {description}", owners.join(", ")).into();
-    }
-    schema
-}
-
-/// Options of OpenDRIVE that are in all keys: there was no other format once.
-const IN_ALL_KEYS: [&str; 6] =
-    ["shoulders_as_sidewalks", "signals", "road_marks", "unmarked_crossings", "roofs", "sample_step_m"];
-
-/// Parameters for keys, options among the others. Any other option at its default is left out, so that a new one moves no key.
+/// Parameters for keys, options of formats among the others.
 fn canonical(config: &MapConfig) -> Result<Value, ParameterError> {
-    let filled = |format: &Format, options: &FormatOptions| {
-        format.filled(options).map_err(|error| parameters::refused_at("", error.message))
-    };
     let mut all = parameters::canonical(&MapConfig { options: FormatOptions::default(), ..config.clone() });
-    for format in FORMATS {
-        let (own, defaults) = (filled(format, &config.options)?, filled(format, &FormatOptions::default())?);
-        for ((name, value), (_, default)) in own.iter().zip(defaults.iter()) {
-            if IN_ALL_KEYS.contains(&name.as_str()) || value != default {
-                all[name] = value.clone();
-            }
-        }
+    let more = options::in_keys(&config.options).map_err(|error| parameters::refused_at("", error.message))?;
+    for (name, value) in more {
+        all[name] = value;
     }
     Ok(all)
 }
@@ -124,25 +94,9 @@ fn own_options_only() -> SourceCheck {
             .and_then(|file| file.take(Format::HEAD_BYTES as u64).read_to_end(&mut head))
             .map_err(|error| unreadable(path, &error))?;
         let format = recognise(&head).map_err(|error| refusal(error, path.to_owned(), &head))?;
-        Ok(without_foreign_options(format, path))
+        Ok(options::without_foreign(format, &path.display().to_string()))
     };
     SourceCheck { describes: String::new(), read: Arc::new(read), settle: None }
-}
-
-/// Schema that allows all options but those of other formats than `own`.
-fn without_foreign_options(own: &Format, path: &Path) -> Value {
-    let (mut properties, own_names) = (serde_json::Map::new(), own.option_names());
-    for foreign in FORMATS.iter().filter(|format| format.name() != own.name()) {
-        let reason = format!(
-            "is an option of maps in the format {}, but `{}` is in the format {}",
-            foreign.name(),
-            path.display(),
-            own.name()
-        );
-        let names = foreign.option_names().into_iter().filter(|name| !own_names.contains(name));
-        properties.extend(names.map(|name| (name, json!({ "not": {}, "description": reason }))));
-    }
-    json!({ "properties": { "options": { "properties": properties } } })
 }
 
 struct MapStage {
@@ -188,6 +142,7 @@ impl Stage for MapStage {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_maps::FORMATS;
     use std::collections::BTreeSet;
 
     fn keys_of(parameters: Value) -> Value {

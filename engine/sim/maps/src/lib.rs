@@ -9,6 +9,7 @@ pub mod config;
 pub mod fill;
 pub mod form;
 pub mod formats;
+pub mod options;
 mod paving;
 pub mod read;
 mod recognise;
