@@ -19,5 +19,5 @@ pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
 pub use log::{WrittenLog, write_log};
 pub use publish::{
     DatasetSource, FlightNote, GroupFlights, GroupName, GroupPlan, GroupSource, PublishedLog, Shard, Shards, Summary,
-    plan_groups, write_dataset, write_shard,
+    nothing_left, plan_groups, write_dataset, write_shard,
 };

@@ -8,14 +8,14 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_experts::codec;
 use cosfly_experts::published_towns::PublishedTowns;
 use cosfly_fingerprint::canonical_json;
+use cosfly_schema::DatasetConfig;
 use cosfly_schema::config::SplitShares;
-use cosfly_schema::{DatasetConfig, Rejection};
 use cosfly_stage::parameters;
 use cosfly_stage::{
     Fan, InputPort, Inputs, ItemName, Produced, Resources, Sees, Stage, StagePart, StageProperties, StageRole,
     TaskContext,
 };
-use cosfly_write::{GroupPlan, plan_groups};
+use cosfly_write::{GroupPlan, nothing_left, plan_groups};
 use std::collections::BTreeMap;
 
 /// Name of the part and of the port that reads it.
@@ -101,21 +101,4 @@ impl Stage for SplitsStage {
         outputs.put(POLICY, canonical_json(&plan.splits).as_bytes())?;
         Ok(Produced { warnings: plan.warnings, ..Produced::default() })
     }
-}
-
-/// Refusal of a dataset without a flight, with the first reasons.
-fn nothing_left(rejections: &[Rejection]) -> Box<Diagnostic> {
-    let refusal =
-        Diagnostic::new("dataset-empty", Fault::Input, "every trajectory was rejected: there is nothing to publish");
-    let refusal = rejections
-        .iter()
-        .take(3)
-        .fold(refusal, |refusal, rejection| {
-            refusal.because(format!("`{}`: {}", rejection.trajectory_id, rejection.reason))
-        })
-        .hint("the planner found no safe view of any target: look at the reasons, loosen the limits of the `plan` stage, or choose other walks (another `seed`) or another town");
-    if rejections.iter().any(|rejection| ["m/s^2", "m/s^3"].iter().any(|unit| rejection.reason.contains(unit))) {
-        return refusal.hint("flights of a planner that bounds no acceleration or jerk (`paper.make_flyable = false`, say) are published with `limits.require_kinematics = false`");
-    }
-    refusal
 }

@@ -21,13 +21,13 @@ mod planning;
 mod plugin;
 mod ports;
 mod quotas;
-#[cfg(test)]
-mod rare_keys;
 mod rejections;
 mod render;
 mod scan;
 mod sense;
 mod shards;
+#[cfg(test)]
+mod tests;
 mod traffic;
 mod verdict;
 

@@ -36,7 +36,7 @@ pub use notes::FlightNote;
 pub use plan::{FlightPlan, GroupName, GroupPlan};
 pub use shard::{Shard, write_shard};
 pub use source::{DatasetSource, GroupSource, PublishedLog};
-pub use split::{SplitPlan, plan_groups};
+pub use split::{SplitPlan, nothing_left, plan_groups};
 pub use summary::{Summary, TownSummary};
 pub use write::{Shards, write_dataset};
 

@@ -24,6 +24,23 @@ pub struct SplitPlan {
     pub warnings: Vec<String>,
 }
 
+/// Refusal of a dataset without a flight, with the first reasons.
+pub fn nothing_left(rejections: &[Rejection]) -> Box<Diagnostic> {
+    let refusal =
+        Diagnostic::new("dataset-empty", Fault::Input, "every trajectory was rejected: there is nothing to publish");
+    let refusal = rejections
+        .iter()
+        .take(3)
+        .fold(refusal, |refusal, rejection| {
+            refusal.because(format!("`{}`: {}", rejection.trajectory_id, rejection.reason))
+        })
+        .hint("the planner found no safe view of any target: look at the reasons, loosen the limits of the `plan` stage, or choose other walks (another `seed`) or another town");
+    if rejections.iter().any(|rejection| ["m/s^2", "m/s^3"].iter().any(|unit| rejection.reason.contains(unit))) {
+        return refusal.hint("flights of a planner that bounds no acceleration or jerk (`paper.make_flyable = false`, say) are published with `limits.require_kinematics = false`");
+    }
+    refusal
+}
+
 /// Plans of all groups, from the notes about their flights. `layout_of` gives the ground plan of the town of a flight.
 ///
 /// # Errors
