@@ -20,7 +20,8 @@ Examples:
   cosfly-lab render --json                                 the same for machines
   cosfly-lab render --weather ClearSunset --rounds 3       another weather, less noise
   cosfly-lab render --width 3840 --height 2160 --views 4   4K
-  cosfly-lab render --town my.xodr                         another town";
+  cosfly-lab render --town my.xodr                         another town
+  cosfly-lab render --boxes boxes.json                     boxes and cameras for the scripts in tests/outside/render_anchors";
 
 /// Arguments of `render`.
 #[derive(Args, Debug)]
@@ -52,11 +53,21 @@ pub struct RenderArguments {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
+    /// Measure nothing; write the boxes and cameras of the second town as JSON
+    #[arg(long, value_name = "FILE")]
+    pub boxes: Option<PathBuf>,
 }
 
-/// Measures.
+/// Measures, or exports the boxes.
 pub fn render(arguments: &RenderArguments) -> Outcome {
     let camera = camera(arguments)?;
+    if let Some(file) = &arguments.boxes {
+        let scene = Ground::of_boxes(arguments.box_count, camera, arguments.views).exported();
+        let text = serde_json::to_string(&scene).unwrap_or_default() + "\n";
+        std::fs::write(file, text)
+            .map_err(|error| vec![Diagnostic::io(format!("write `{}`", file.display()), &error)])?;
+        return print(&format!("{} boxes and {} views in {}\n", scene.boxes.len(), scene.views.len(), file.display()));
+    }
     let scratch = std::env::current_dir()
         .and_then(tempfile::tempdir_in)
         .map_err(|error| vec![Diagnostic::io("make a scratch folder here", &error)])?;
