@@ -27,6 +27,8 @@ pub struct PlacedBody {
     /// Edges around the visible pixels: left, top, right, bottom.
     pub visible_box: Option<[f64; 4]>,
     body_id: String,
+    /// Length, width and height, metres.
+    pub size_m: DVec3,
     /// Place of the body, and the space that it may fill.
     pub space: Body,
 }
@@ -89,6 +91,11 @@ impl BodiesIndex {
     /// Rows of table `bodies_3d` of some flights, each with its number in the file.
     pub fn in_space(&self, wanted: &BTreeSet<usize>, flights: &FlightList) -> BTreeMap<usize, SpaceOfFlight> {
         let mut found: BTreeMap<usize, SpaceOfFlight> = BTreeMap::new();
+        for (file, name) in self.names.iter().enumerate() {
+            let numbers = self.index.numbers_in(file).iter().map(|number| *number as usize);
+            found.extend(numbers.filter(|it| wanted.contains(it)).map(|number| (number, (name.clone(), vec![]))));
+        }
+        // The rows could be read before; what cannot be read now is missing in the comparison with the bodies seen.
         let _ = self.index.visit(wanted, &mut |rows, path| {
             let (ids, first) = (rows.values(Bodies3d::trajectory_id)?, rows.first());
             let file = self.index.files().iter().position(|it| it == path).map_or("", |file| &self.names[file]);
@@ -124,6 +131,7 @@ impl BodiesIndex {
                     pixels: rows.get(Bodies::visible_pixels, row)?,
                     visible_box: rows.get(Bodies::visible_box_px, row)?.map(|edges| edges.map(f64::from)),
                     body_id: rows.get(Bodies::body_id, row)?,
+                    size_m: DVec3::new(length_m, width_m, height_m),
                     space: Body {
                         feet: DVec3::from_array(rows.get(Bodies::feet_in_world_m, row)?),
                         height_m,

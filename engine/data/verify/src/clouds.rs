@@ -2,10 +2,9 @@
 
 use crate::flights::Flights;
 use crate::report::VerifyReport;
-use crate::rows;
+use crate::rows::{self, ReadResult};
 use arrow_array::cast::AsArray;
-use arrow_array::types::Float64Type;
-use arrow_schema::ArrowError;
+use arrow_array::types::{Float64Type, Int64Type};
 use cosfly_domain::{OrientedBox, SemanticLabel};
 use cosfly_frames::{DMat3, DQuat, DVec3, Pose};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
@@ -47,8 +46,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
         if file.split('/').nth(1).is_none_or(is_taken) {
             continue;
         }
-        // Damage of the file is found, and reported, where its columns are compared with their description.
-        let _ = each_flight(&flights.folder.join(file), &mut |id, sweeps| {
+        let read = each_flight(&flights.folder.join(file), &mut |id, sweeps| {
             let Some(number) = flights.tables.flights.number(id).filter(|number| flights.wanted.has(*number)) else {
                 return;
             };
@@ -60,6 +58,9 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
                 report.find(file, format!("`{id}`"), "verify-cloud", message);
             }
         });
+        if let Err(message) = read {
+            report.find_damage(file, message);
+        }
     }
 }
 
@@ -90,15 +91,21 @@ fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, Boxes> {
 }
 
 /// Gives the sweeps of each flight of a file; none where it has no clouds.
-fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &[Sweep])) -> Result<(), ArrowError> {
-    let builder = ParquetRecordBatchReaderBuilder::try_new(File::open(path)?)?.with_batch_size(16);
+///
+/// # Errors
+/// Damage of the file or of a cloud, in words.
+fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &[Sweep])) -> ReadResult<()> {
+    let in_words = |error: &dyn std::fmt::Display| format!("it cannot be read: {error}");
+    let opened = File::open(path).map_err(|error| in_words(&error))?;
+    let builder = ParquetRecordBatchReaderBuilder::try_new(opened).map_err(|error| in_words(&error))?;
+    let builder = builder.with_batch_size(16);
     let has = |name: &str| builder.schema().field_with_name(name).is_ok();
     if !["trajectory_id", "time_s", COLUMN].into_iter().chain(POSE).all(has) {
         return Ok(());
     }
-    let (mut id, mut sweeps) = (String::new(), vec![]);
-    for batch in builder.build()? {
-        let batch = batch?;
+    let (mut id, mut sweeps, mut first) = (String::new(), vec![], 0);
+    for batch in builder.build().map_err(|error| in_words(&error))? {
+        let batch = batch.map_err(|error| format!("row {first} or one after it cannot be read: {error}"))?;
         let column = |name: &str| batch.column_by_name(name);
         let reals = |name: &str| column(name)?.as_primitive_opt::<Float64Type>();
         let ids = column("trajectory_id").and_then(|it| it.as_string_opt::<i32>());
@@ -107,6 +114,7 @@ fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &[Sweep])) -> Result<(),
         let (Some(ids), Some(clouds), Some(times_s), Some(pose)) = (ids, clouds, reals("time_s"), pose) else {
             return Ok(());
         };
+        let counts = column("points").and_then(|it| it.as_primitive_opt::<Int64Type>());
         for row in 0..batch.num_rows() {
             if ids.value(row) != id {
                 visit(&id, &std::mem::take(&mut sweeps));
@@ -118,12 +126,34 @@ fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &[Sweep])) -> Result<(),
                 time_s: times_s.value(row),
                 position: DVec3::new(at(0), at(1), at(2)),
                 world_from_sensor: DMat3::from_quat(turn),
-                points: clouds.value(row).as_chunks::<POINT_BYTES>().0.iter().map(CloudPoint::of).collect(),
+                points: points_of(clouds.value(row), counts.map(|it| it.value(row)))
+                    .map_err(|message| format!("row {}, `{id}`: {message}", first + row))?,
             });
         }
+        first += batch.num_rows();
     }
     visit(&id, &sweeps);
     Ok(())
+}
+
+/// The points of a cloud whose row says that there are `count`.
+///
+/// # Errors
+/// The cloud is cut, has another number of points, or has a number that is not finite.
+fn points_of(cloud: &[u8], count: Option<i64>) -> ReadResult<Vec<CloudPoint>> {
+    let (points, rest) = cloud.as_chunks::<POINT_BYTES>();
+    if !rest.is_empty() {
+        return Err(format!("column `{COLUMN}` has {} bytes, no multiple of {POINT_BYTES}", cloud.len()));
+    }
+    if let Some(count) = count.filter(|count| usize::try_from(*count) != Ok(points.len())) {
+        return Err(format!("column `points` says {count}, column `{COLUMN}` has {} points", points.len()));
+    }
+    let points: Vec<CloudPoint> = points.iter().map(CloudPoint::of).collect();
+    let is_finite = |it: &CloudPoint| it.place_m.iter().chain([&it.intensity, &it.time_s]).all(|it| it.is_finite());
+    match points.iter().position(|point| !is_finite(point)) {
+        Some(place) => Err(format!("point {place} has a number that is not finite")),
+        None => Ok(points),
+    }
 }
 
 /// What is wrong with the sweeps of a flight with these poses.
@@ -176,6 +206,9 @@ fn is_right(boxes: &Boxes, instance: u32, (from, ray): (DVec3, DVec3), range_m: 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use arrow_array::{ArrayRef, BinaryArray, Float64Array, Int64Array, RecordBatch, StringArray};
+    use parquet::arrow::ArrowWriter;
+    use std::sync::Arc;
 
     const DT_S: f64 = 0.1;
 
@@ -205,6 +238,41 @@ mod tests {
             Sweep { time_s, position: start.position_in_world, world_from_sensor: start.world_from_body, points }
         };
         ((0..10).map(sweep).collect(), poses, boxes)
+    }
+
+    /// What is read of a table of two sweeps whose clouds have these bytes, after `spoil` has changed the file.
+    fn read(clouds: [&[u8]; 2], spoil: fn(&mut Vec<u8>)) -> ReadResult<usize> {
+        let reals = || Arc::new(Float64Array::from(vec![0.0, 0.1])) as ArrayRef;
+        let ids = Arc::new(StringArray::from(vec!["a"; 2])) as ArrayRef;
+        let points = Arc::new(Int64Array::from(vec![40; 2])) as ArrayRef;
+        let mut columns = vec![("trajectory_id", ids), ("time_s", reals()), ("points", points)];
+        columns.extend(POSE.map(|name| (name, reals())));
+        columns.push((COLUMN, Arc::new(BinaryArray::from(clouds.to_vec()))));
+        let batch = RecordBatch::try_from_iter(columns).expect("columns of one length");
+        let mut bytes = vec![];
+        let mut writer = ArrowWriter::try_new(&mut bytes, batch.schema(), None).expect("a writer");
+        writer.write(&batch).and_then(|()| writer.close()).expect("a file");
+        spoil(&mut bytes);
+        let file = tempfile::NamedTempFile::new().expect("a file");
+        std::fs::write(file.path(), bytes).expect("written");
+        let mut count = 0;
+        each_flight(file.path(), &mut |_, sweeps| count += sweeps.len()).map(|()| count)
+    }
+
+    #[test]
+    fn clouds_that_are_cut_or_damaged_are_named() {
+        let sound: Vec<u8> = (0..40).flat_map(|ring| CloudPoint { ring, ..CloudPoint::default() }.bytes()).collect();
+        let mut endless = sound.clone();
+        endless[28 * 7..28 * 7 + 4].copy_from_slice(&f32::NAN.to_le_bytes());
+        let second = |cloud: &[u8]| read([&sound, cloud], |_| ()).expect_err("found");
+        assert_eq!(read([&sound, &sound], |_| ()), Ok(2));
+        assert_eq!(second(&sound[..1119]), "row 1, `a`: column `cloud` has 1119 bytes, no multiple of 28");
+        assert_eq!(second(&sound[28..]), "row 1, `a`: column `points` says 40, column `cloud` has 39 points");
+        assert_eq!(second(&endless), "row 1, `a`: point 7 has a number that is not finite");
+        let cut = read([&sound, &sound], |bytes| bytes.truncate(bytes.len() / 2)).expect_err("found");
+        assert!(cut.starts_with("it cannot be read: "), "{cut}");
+        let overwritten = read([&sound, &sound], |bytes| bytes[4..400].fill(0xff)).expect_err("found");
+        assert!(overwritten.starts_with("row 0 or one after it cannot be read: "), "{overwritten}");
     }
 
     #[test]

@@ -111,6 +111,13 @@ impl VerifyReport {
         }
     }
 
+    /// Notes what keeps a file from being read, unless a check before found it.
+    pub(super) fn find_damage(&mut self, file: &str, message: String) {
+        if self.findings.iter().all(|it| it.file != file || it.rule != "verify-schema") {
+            self.find(file, "", "verify-schema", message);
+        }
+    }
+
     /// Notes a finding.
     pub(super) fn find(
         &mut self,

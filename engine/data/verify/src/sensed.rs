@@ -53,8 +53,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
         if file.split('/').nth(1).is_none_or(is_taken) {
             continue;
         }
-        // Damage of the file is found, and reported, where its columns are compared with their description.
-        let _ = each_flight(&flights.folder.join(file), &mut |id, rows| {
+        let read = each_flight(&flights.folder.join(file), &mut |id, rows| {
             let Some(number) = flights.tables.flights.number(id).filter(|number| flights.wanted.has(*number)) else {
                 return;
             };
@@ -66,6 +65,9 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
                 report.find(file, format!("`{id}`"), "verify-sensor", message);
             }
         });
+        if let Err(error) = read {
+            report.find_damage(file, format!("it cannot be read: {error}"));
+        }
     }
 }
 

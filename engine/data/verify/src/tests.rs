@@ -196,17 +196,34 @@ fn disparities_that_depth_and_base_line_do_not_have_are_found() {
     }
 }
 
+/// The boxes of a body beside the target, which has no key points.
+fn others_in_space(flight: &SampleFlight) -> impl Iterator<Item = BodyInSpace> {
+    flight.record.sightings.iter().map(|sighting| {
+        let size_m = flight.record.others[sighting.other as usize].plan.size_m;
+        BodyInSpace {
+            frame: sighting.frame,
+            instance: sighting.view.instance,
+            centre_in_world: sighting.state.feet_in_world + DVec3::Z * (0.5 * size_m.z),
+            size_m,
+            heading_rad: sighting.state.heading_rad,
+            key_points: vec![],
+        }
+    })
+}
+
 /// The target's box, with all key points in its middle.
 fn in_space(flight: &SampleFlight, frame: usize) -> BodyInSpace {
     let (record, state) = (&flight.record, &flight.record.trajectory.track.states[frame]);
-    let centre_in_world = state.feet_in_world + DVec3::Z * 0.9;
+    let track = &record.trajectory.track;
+    let size_m = DVec3::new(2.0 * track.radius_m, 2.0 * track.radius_m, track.height_m);
+    let centre_in_world = state.feet_in_world + DVec3::Z * (0.5 * size_m.z);
     let (u, v, depth_m) = record.camera.project(&record.camera_pose(frame), centre_in_world).unwrap();
     let point = KeyPoint { point_in_world: centre_in_world, pixel: [u, v], depth_m, shown: Shown::Visible };
     BodyInSpace {
         frame: frame as u32,
         instance: 1,
         centre_in_world,
-        size_m: DVec3::new(0.7, 0.7, 1.8),
+        size_m,
         heading_rad: state.heading_rad,
         key_points: vec![point; 17],
     }
@@ -214,22 +231,30 @@ fn in_space(flight: &SampleFlight, frame: usize) -> BodyInSpace {
 
 #[test]
 fn boxes_and_key_points_that_poses_and_pictures_do_not_have_are_found() {
-    type Fault = fn(&mut BodyInSpace);
-    let faults: [Fault; 9] = [
-        |body| body.centre_in_world.y = -body.centre_in_world.y,
-        |body| body.frame += 1,
-        |body| body.instance = 900,
-        |body| body.heading_rad += 0.01,
-        |body| body.key_points.truncate(16),
-        |body| body.key_points[3].pixel.reverse(),
-        |body| body.key_points[3].depth_m += 0.1,
-        |body| body.key_points[16].shown = Shown::Outside,
-        |body| body.key_points[0].point_in_world.z += 3.0,
+    type Fault = fn(&mut Vec<BodyInSpace>);
+    let faults: [Fault; 14] = [
+        |bodies| bodies[2].centre_in_world.y = -bodies[2].centre_in_world.y,
+        |bodies| bodies[2].frame += 1,
+        |bodies| bodies[2].instance = 900,
+        |bodies| bodies[2].heading_rad += 0.01,
+        |bodies| bodies[2].size_m.x *= 1.1,
+        |bodies| bodies[2].key_points.truncate(16),
+        |bodies| bodies[2].key_points[3].pixel.reverse(),
+        |bodies| bodies[2].key_points[3].depth_m += 0.1,
+        |bodies| bodies[2].key_points[16].shown = Shown::Outside,
+        |bodies| bodies[2].key_points[0].point_in_world.z += 3.0,
+        |bodies| bodies.last_mut().unwrap().size_m.y *= 1.1,
+        |bodies| bodies.truncate(bodies.len() - 1),
+        |bodies| drop(bodies.remove(2)),
+        |bodies| bodies.push(bodies[2].clone()),
     ];
     let marked = |fault: Fault| {
         let mut flights = sample::flights();
-        let mut bodies: Vec<BodyInSpace> = (0..3).map(|frame| in_space(&flights[0], frame)).collect();
-        fault(&mut bodies[2]);
+        let views = &flights[0].record.views;
+        let shown = (0..views.len()).filter(|frame| views[*frame].pixels > 0);
+        let mut bodies: Vec<BodyInSpace> = shown.map(|frame| in_space(&flights[0], frame)).collect();
+        bodies.extend(others_in_space(&flights[0]));
+        fault(&mut bodies);
         flights[0].record.bodies_3d = bodies;
         rules_of(&published(flights))
     };

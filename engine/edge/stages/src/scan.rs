@@ -17,6 +17,7 @@ use cosfly_frames::Seed;
 use cosfly_render::{Scene, SceneTriangle};
 use cosfly_schema::RenderedTrajectory;
 use cosfly_schema::extras::{Extra, ExtraSource, check_names};
+use cosfly_schema::flight_table::MOST_ROWS;
 use cosfly_schema::log::cloud::{self, CloudPoint, SweepRows};
 use cosfly_sensors::lidar::{
     LidarPattern, LidarPoint, LidarScene, LidarTriangle, MOST_BEAMS, ScanConfig, ScannedFlight,
@@ -118,10 +119,12 @@ impl Stage for ScanStage {
             weather: &record.weather,
             seed: Seed(context.seed),
         };
-        let beams = flight.beams(&self.pattern);
-        if beams > MOST_BEAMS {
-            let message = format!("a flight would have {beams} beams of a lidar; {MOST_BEAMS} are allowed");
-            let hint = "choose a device with fewer shots a second, or shorter walks";
+        let (sweeps, beams) = (flight.sweeps(), flight.beams(&self.pattern));
+        if beams > MOST_BEAMS || sweeps > MOST_ROWS {
+            let message = format!(
+                "a flight would have {sweeps} sweeps and {beams} beams of a lidar; {MOST_ROWS} and {MOST_BEAMS} are allowed"
+            );
+            let hint = "choose a device with fewer shots or sweeps a second, or shorter walks";
             return Err(Diagnostic::new("sense-readings", Fault::Recipe, message).hint(hint));
         }
         let mut rows = SweepRows::default();

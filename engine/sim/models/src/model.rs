@@ -142,12 +142,7 @@ impl<'a> Reader<'a> {
         if let Some(known) = self.pictures.get(&picture) {
             return Ok((Some(*known), places));
         }
-        let read = pictures::read(&document.picture(picture)?, picture)?;
-        self.left[1] = self.left[1].checked_sub(read.width * read.height).ok_or_else(|| {
-            let error =
-                MapError::new(format!("the pictures of the model have more than {} pixels", pictures::MOST_PIXELS));
-            error.hint("export it with smaller pictures: 1,024 pixels a side are kept")
-        })?;
+        let read = pictures::read(&document.picture(picture)?, picture, &mut self.left[1])?;
         let number = self.textures.len() as u32;
         self.textures.push(Texture::new(&read));
         self.pictures.insert(picture, number);

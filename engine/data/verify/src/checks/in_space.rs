@@ -3,39 +3,59 @@
 use crate::flight_rows::FlightRows;
 use crate::report::VerifyReport;
 use crate::rows::PlacedFrame;
-use cosfly_domain::KEY_POINTS;
+use cosfly_domain::{KEY_POINTS, TARGET_INSTANCE};
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_read::{SeenKeyPoint, SpaceRow};
+use std::collections::BTreeSet;
 
 /// Angles pass through degrees, metres.
 const TOLERANCE: f64 = 1e-6;
 /// Pixels of points that pass through degrees.
 const SLACK_PX: f64 = 1e-3;
 
-/// Every row is of a body that its frame shows, and says the same in the world, before the camera and in the picture.
+/// Every row is of a body that its frame shows, and says the same in the world, before the camera and in the picture; in a flight
+/// with rows every body that a frame shows has one.
 pub fn check(it: &FlightRows<'_>, report: &mut VerifyReport) {
     let Some((file, rows)) = it.in_space else { return };
+    let mut known = BTreeSet::new();
     for (number, row) in rows {
         let Some(frame) = it.frames.get(row.frame as usize) else {
             let place = format!("row {number}, `{}`", it.flight.trajectory_id);
             report.find(file, place, "verify-reference", "the flight has no such frame");
             continue;
         };
-        if let Some(message) = problem(it, frame, row) {
+        let is_second = !known.insert((row.frame, row.instance));
+        let second = is_second.then(|| format!("a second row of the body with the id {}", row.instance));
+        if let Some(message) = second.or_else(|| problem(it, frame, row)) {
             let place = format!("row {number}, `{}` frame {}", it.flight.trajectory_id, row.frame);
             report.find(file, place, "verify-3d", message);
         }
     }
+    let targets = it.frames.iter().filter(|frame| frame.visible_pixels > 0).map(|it| (it.frame, TARGET_INSTANCE));
+    let others = it.bodies.iter().filter(|body| body.pixels > 0).filter_map(|it| Some((it.frame, it.instance?)));
+    for (frame, instance) in targets.chain(others).filter(|shown| !known.contains(shown)) {
+        let place = format!("`{}` frame {frame}", it.flight.trajectory_id);
+        report.find(
+            file,
+            place,
+            "verify-3d",
+            format!("the frame shows the body with the id {instance}; it has no row"),
+        );
+    }
 }
 
 fn problem(it: &FlightRows<'_>, frame: &PlacedFrame, row: &SpaceRow) -> Option<String> {
-    let is_target = row.instance == 1;
+    let is_target = row.instance == TARGET_INSTANCE;
     let other = it.bodies.iter().find(|body| body.frame == row.frame && body.instance == Some(row.instance));
-    let (feet, seen) = match other {
-        _ if is_target => (frame.target.feet_in_world, frame.visible_box()),
-        Some(body) => (body.space.feet, body.visible_box),
+    let (feet, seen, size_m) = match other {
+        _ if is_target => (frame.target.feet_in_world, frame.visible_box(), size_of_target(it, row)),
+        Some(body) => (body.space.feet, body.visible_box, body.size_m),
         None => return Some(format!("no body of table `bodies` has the id {} in this frame", row.instance)),
     };
+    let off_m = (row.size_m - size_m).length();
+    if off_m.is_nan() || off_m > TOLERANCE {
+        return Some(format!("the box is {} m large, the body {size_m} m", row.size_m));
+    }
     let apart_m = (row.centre_in_world - feet - DVec3::Z * (0.5 * row.size_m.z)).length();
     if apart_m.is_nan() || apart_m > TOLERANCE {
         return Some(format!("the middle of the box is {apart_m:.6} m from the body's"));
@@ -57,6 +77,12 @@ fn problem(it: &FlightRows<'_>, frame: &PlacedFrame, row: &SpaceRow) -> Option<S
     }
     let points = row.key_points.iter().zip(KEY_POINTS);
     points.into_iter().find_map(|(point, name)| Some(format!("`{name}` {}", point_problem(it, camera, point, seen)?)))
+}
+
+/// Size of the target: of a person on foot the cylinder of the flight; other targets have no size in tables.
+fn size_of_target(it: &FlightRows<'_>, row: &SpaceRow) -> DVec3 {
+    let across_m = 2.0 * it.flight.target_radius_m;
+    if row.key_points.is_empty() { row.size_m } else { DVec3::new(across_m, across_m, it.flight.target_height_m) }
 }
 
 /// What is wrong with a key point of a body whose visible pixels have these edges.

@@ -65,11 +65,7 @@ impl<'a> Builder<'a> {
 
     /// Number of a new picture.
     pub fn texture(&mut self, bytes: &[u8], shown: &str) -> Result<u32, MapError> {
-        let picture: Picture = pictures::read_named(bytes, shown)?;
-        self.pixels_left = self.pixels_left.checked_sub(picture.width * picture.height).ok_or_else(|| {
-            let error = MapError::new(format!("the pictures of the mesh have more than {MOST_PIXELS} pixels"));
-            error.hint("export the mesh with fewer or smaller pictures")
-        })?;
+        let picture: Picture = pictures::read_named(bytes, shown, &mut self.pixels_left)?;
         self.mesh.textures.push(MeshTexture::new(picture));
         Ok((self.mesh.textures.len() - 1) as u32)
     }

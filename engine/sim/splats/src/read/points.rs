@@ -17,6 +17,8 @@ const SPREAD: f64 = 0.5;
 const USUAL: [f64; 2] = [0.25, 4.0];
 /// Points in a cell in which neighbours are looked for, about.
 const POINTS_OF_CELL: f64 = 4.0;
+/// One point of so many is left out at each end of an axis where the size of a cloud is measured.
+const ENDS: usize = 20;
 /// Most points of a cell that are compared.
 const MOST_COMPARED: usize = 64;
 /// Opacity of a point.
@@ -75,12 +77,22 @@ fn spreads(positions: &[DVec3]) -> Vec<f32> {
     distances.into_iter().map(|away| (SPREAD * away.clamp(least, most)) as f32).collect()
 }
 
-/// Side of cells that hold some points each: points lie on surfaces, so that their number grows with the square of it.
+/// Side of cells that hold some points each: points lie on surfaces, so that their number grows with the square of it. Few points
+/// far from all others do not change it.
 fn side_of_cell(positions: &[DVec3]) -> f64 {
-    let low = positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-    let size = high - low;
-    let area = (size.x * size.y).max(size.y * size.z).max(size.x * size.z);
+    let axes = [0, 1, 2].map(|axis| {
+        let mut sorted: Vec<f64> = positions.iter().map(|position| position[axis]).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        sorted
+    });
+    let last = positions.len() - 1;
+    let area = |left_out: usize| {
+        // As long as all points would be if they lay as those of the middle do.
+        let longer = last as f64 / (last - 2 * left_out).max(1) as f64;
+        let [x, y, z] = axes.each_ref().map(|sorted| longer * (sorted[last - left_out] - sorted[left_out]));
+        (x * y).max(y * z).max(x * z)
+    };
+    let area = [last / ENDS, 0].map(area).into_iter().find(|area| *area > 0.0).unwrap_or(0.0);
     (POINTS_OF_CELL * area / positions.len() as f64).sqrt().max(1e-3)
 }
 
@@ -109,6 +121,15 @@ mod tests {
             let spread = f64::from(cloud.blocks()[2].covariance[0][0]).sqrt();
             assert!((spread - SPREAD * gap).abs() < 0.3 * gap, "{spread} of {gap}");
         }
+    }
+
+    #[test]
+    fn a_point_far_from_all_others_changes_no_other() {
+        let mut text = String::from_utf8(sheet(0.1)).expect("text").replace("vertex 400", "vertex 401");
+        text += "530000 4030000 900 200 100 50\n";
+        let cloud = read(text.as_bytes()).expect("a cloud");
+        let spread = f64::from(cloud.blocks()[2].covariance[0][0]).sqrt();
+        assert!((spread - SPREAD * 0.1).abs() < 0.03, "{spread}");
     }
 
     #[test]
