@@ -6,7 +6,7 @@ use crate::rows::{self, ReadResult};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
 use cosfly_domain::{OrientedBox, SemanticLabel};
-use cosfly_frames::{DMat3, DQuat, DVec3, Pose};
+use cosfly_frames::{DMat3, DQuat, DVec3, Pose, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_schema::extras::is_taken;
 use cosfly_schema::log::cloud::{COLUMN, CloudPoint, POINT_BYTES, POSE};
@@ -24,11 +24,32 @@ const ALLOWED_M: f64 = 0.15;
 /// Share of the points that may be wrong: rounded rays beside edges.
 const ALLOWED_SHARE: f64 = 0.02;
 
+/// Steps of pitched roofs, whose slopes rays meet somewhere within, are at most so high, metres.
+const ROOF_STEP_M: f64 = 1.05;
+
 /// Boxes of a town that rays meet as boxes: cars are drawn as vehicles.
 struct Boxes {
-    tree: BoxBvh,
-    /// Instance id of each.
-    instances: Vec<u32>,
+    /// What no ray passes: buildings without the highest step of a roof.
+    solid: BoxBvh,
+    /// All boxes by their instance id.
+    things: BTreeMap<u32, Vec<OrientedBox>>,
+}
+
+impl Boxes {
+    fn new(list: &[(u32, SemanticLabel, OrientedBox)]) -> Self {
+        let mut things: BTreeMap<u32, Vec<OrientedBox>> = BTreeMap::new();
+        list.iter().for_each(|(instance, _, shape)| things.entry(*instance).or_default().push(*shape));
+        let solid = list.iter().map(|(_, label, shape)| {
+            let off_m = if *label == SemanticLabel::Building { 0.5 * ROOF_STEP_M * DVec3::Z } else { DVec3::ZERO };
+            OrientedBox {
+                center_in_world: shape.center_in_world - off_m,
+                half_extents_m: shape.half_extents_m - off_m,
+                ..*shape
+            }
+        });
+        let solid = BoxBvh::build(solid.filter(|shape| shape.half_extents_m.min_element() > 0.0).collect());
+        Self { solid, things }
+    }
 }
 
 /// A sweep of a table.
@@ -66,7 +87,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
 
 /// Boxes of each town; damage of the table is reported elsewhere.
 fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, Boxes> {
-    let mut found: BTreeMap<String, Vec<(u32, OrientedBox)>> = BTreeMap::new();
+    let mut found: BTreeMap<String, Vec<(u32, SemanticLabel, OrientedBox)>> = BTreeMap::new();
     for file in flights.files.sound_below("data/objects/") {
         let _ = rows::read(&flights.folder.join(file), &tables::of_objects(), &mut |rows| {
             for row in 0..rows.len() {
@@ -76,18 +97,15 @@ fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, Boxes> {
                     half_extents_m: 0.5 * DVec3::from_array(rows.get(Objects::size_m, row)?),
                     yaw_rad: rows.get(Objects::yaw_deg, row)?.to_radians(),
                 };
-                if rows.get(Objects::label, row)? != SemanticLabel::Car {
-                    list.push((rows.get(Objects::instance, row)?, shape));
+                let label = rows.get(Objects::label, row)?;
+                if label != SemanticLabel::Car {
+                    list.push((rows.get(Objects::instance, row)?, label, shape));
                 }
             }
             Ok(())
         });
     }
-    let boxes = |list: Vec<(u32, OrientedBox)>| {
-        let (instances, shapes) = list.into_iter().unzip();
-        Boxes { tree: BoxBvh::build(shapes), instances }
-    };
-    found.into_iter().map(|(town, list)| (town, boxes(list))).collect()
+    found.into_iter().map(|(town, list)| (town, Boxes::new(&list))).collect()
 }
 
 /// Gives the sweeps of each flight of a file; none where it has no clouds.
@@ -193,14 +211,19 @@ fn finding(sweeps: &[Sweep], poses: &[Pose], dt_s: f64, boxes: &Boxes) -> Result
     Ok(())
 }
 
-/// Whether a ray meets a thing at a range, and no box before it.
+/// Whether a ray meets a thing at a range, and nothing solid before it.
 fn is_right(boxes: &Boxes, instance: u32, (from, ray): (DVec3, DVec3), range_m: f64) -> bool {
-    let hit = boxes.tree.closest_hit(from, ray, range_m + 1.0);
-    match hit {
-        Some(hit) if hit.t < range_m - ALLOWED_M => false,
-        Some(hit) if boxes.instances[hit.primitive as usize] == instance => hit.t < range_m + ALLOWED_M,
-        _ => !boxes.instances.contains(&instance),
-    }
+    let is_free = boxes.solid.closest_hit(from, ray, range_m + 1.0).is_none_or(|hit| hit.t >= range_m - ALLOWED_M);
+    let point = from + range_m * ray;
+    is_free && boxes.things.get(&instance).is_none_or(|list| list.iter().any(|shape| is_at(shape, point)))
+}
+
+/// Whether a point lies in a box or beside it.
+fn is_at(shape: &OrientedBox, point: DVec3) -> bool {
+    let (sin, cos) = real::sin_cos(shape.yaw_rad);
+    let off = point - shape.center_in_world;
+    let own = DVec3::new(cos * off.x + sin * off.y, cos * off.y - sin * off.x, off.z);
+    (own.abs() - shape.half_extents_m).max_element() < ALLOWED_M
 }
 
 #[cfg(test)]
@@ -221,7 +244,7 @@ mod tests {
         };
         let poses: Vec<Pose> = (0..11).map(pose).collect();
         let wall = OrientedBox::from_corners(DVec3::new(-90.0, 20.0, 0.0), DVec3::new(90.0, 22.0, 40.0));
-        let boxes = Boxes { tree: BoxBvh::build(vec![wall]), instances: vec![7] };
+        let boxes = Boxes::new(&[(7, SemanticLabel::Wall, wall)]);
         let smooth = SmoothFlight::new(&poses, DT_S);
         let sweep = |number: u32| {
             let time_s = f64::from(number) * DT_S;
@@ -230,7 +253,7 @@ mod tests {
                 let (time_s, azimuth_rad) = (f64::from(shot) * 1e-4, f64::from(shot) * 3e-3);
                 let in_sensor = DVec3::new(0.3, 1.0, 0.2 - 0.1 * azimuth_rad).normalize();
                 let at = smooth.at(f64::from(number) + time_s / DT_S);
-                let hit = boxes.tree.closest_hit(at.position_in_world, at.world_from_body * in_sensor, 200.0)?;
+                let hit = boxes.solid.closest_hit(at.position_in_world, at.world_from_body * in_sensor, 200.0)?;
                 let place_m = (hit.t * in_sensor).to_array().map(|it| it as f32);
                 Some(CloudPoint { place_m, time_s: time_s as f32, instance: 7, ..CloudPoint::default() })
             };
@@ -257,6 +280,17 @@ mod tests {
         std::fs::write(file.path(), bytes).expect("written");
         let mut count = 0;
         each_flight(file.path(), &mut |_, sweeps| count += sweeps.len()).map(|()| count)
+    }
+
+    #[test]
+    fn slopes_of_roofs_lie_within_the_highest_step_of_a_building() {
+        let house = OrientedBox::from_corners(DVec3::ZERO, DVec3::new(10.0, 10.0, 6.0));
+        let is_right = |label, z_m: f64, range_m| {
+            is_right(&Boxes::new(&[(7, label, house)]), 7, (DVec3::new(5.0, -20.0, z_m), DVec3::Y), range_m)
+        };
+        assert!(is_right(SemanticLabel::Building, 5.5, 24.0) && is_right(SemanticLabel::Building, 3.0, 20.0));
+        assert!(!is_right(SemanticLabel::Building, 3.0, 24.0) && !is_right(SemanticLabel::Building, 5.5, 19.0));
+        assert!(!is_right(SemanticLabel::Wall, 5.5, 24.0));
     }
 
     #[test]
