@@ -22,7 +22,12 @@ pub struct SolidBox {
     instance: u32,
     /// Number of its first face in the scene.
     first_face: u32,
+    /// Place of its planes among those of [`Boxes`], for a step of a pitched roof that is cut to its slopes.
+    slopes: Option<u32>,
 }
+
+/// The six planes of a box whose sides lean inwards: unit normals outwards, and the component of their points along them.
+type Slopes = [(DVec3, f64); 6];
 
 /// Neighbouring boxes.
 struct Group {
@@ -41,6 +46,7 @@ pub struct Grouped {
 /// All boxes of a town.
 pub struct Boxes {
     all: Vec<SolidBox>,
+    slopes: Vec<Slopes>,
     large: Grouped,
     small: Grouped,
 }
@@ -48,8 +54,12 @@ pub struct Boxes {
 impl Boxes {
     /// Boxes by their faces, six of each.
     pub fn of(faces: &[SceneFace]) -> Self {
-        let mut boxes: Vec<SolidBox> =
-            (0u32..).step_by(6).zip(faces.chunks_exact(6)).map(|(first, faces)| SolidBox::of(first, faces)).collect();
+        let mut slopes = vec![];
+        let mut boxes: Vec<SolidBox> = (0u32..)
+            .step_by(6)
+            .zip(faces.chunks_exact(6))
+            .map(|(first, faces)| SolidBox::of(first, faces, &mut slopes))
+            .collect();
         let low = boxes.iter().map(|b| b.bounds.center_in_world).fold(DVec3::INFINITY, DVec3::min);
         let is_large = |b: &SolidBox| b.bounds.half_m.truncate().max_element() > 0.5 * LARGE_M;
         boxes.sort_by_cached_key(|b| {
@@ -58,11 +68,17 @@ impl Boxes {
         });
         let large = boxes.partition_point(is_large);
         let (large, small) = (Grouped::of(&boxes[..large], 0), Grouped::of(&boxes[large..], large));
-        Self { all: boxes, large, small }
+        Self { all: boxes, slopes, large, small }
     }
 
-    pub fn get(&self, index: u32) -> &SolidBox {
-        &self.all[index as usize]
+    /// The planes of a box; its faces that are seen are appended to `faces`. `None` when the camera is inside.
+    #[inline]
+    pub fn on_screen(&self, index: u32, eye: &Eye, faces: &mut Vec<DrawnFace>) -> Option<BoxOnScreen> {
+        let own = &self.all[index as usize];
+        match own.slopes {
+            None => own.on_screen(eye, faces),
+            Some(place) => own.slopes_on_screen(&self.slopes[place as usize], eye, faces),
+        }
     }
 
     /// Boxes that hide much.
@@ -76,19 +92,21 @@ impl Boxes {
     }
 
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.all) + self.large.bytes() + self.small.bytes()
+        size_of_val(&*self.all) + size_of_val(&*self.slopes) + self.large.bytes() + self.small.bytes()
     }
 }
 
 impl SolidBox {
-    fn of(first_face: u32, faces: &[SceneFace]) -> Self {
+    fn of(first_face: u32, faces: &[SceneFace], slopes: &mut Vec<Slopes>) -> Self {
         // Faces 0 and 1 look along the box's x axis, 2 and 3 along y, 4 and 5 along z.
         let (low, high) = (&faces[4].corners_in_world, &faces[5].corners_in_world);
-        let axis = faces[1].normal_in_world;
+        let is_cut = faces[..4].iter().any(|face| face.normal_in_world.z != 0.0);
+        let axis =
+            if is_cut { faces[1].normal_in_world.truncate().normalize() } else { faces[1].normal_in_world.truncate() };
         let half = |from: usize, to: usize| 0.5 * (low[to] - low[from]).length();
         Self {
             bounds: Bounds {
-                center_in_world: 0.5 * (low[0] + high[2]),
+                center_in_world: 0.5 * (low[0] + low[2].with_z(high[2].z)),
                 half_m: DVec3::new(half(0, 1), half(1, 2), 0.5 * (high[0].z - low[0].z)),
                 axis: [axis.x, axis.y],
             },
@@ -96,11 +114,40 @@ impl SolidBox {
             label: faces[0].label,
             instance: faces[0].instance,
             first_face,
+            slopes: is_cut.then(|| {
+                let plane = |number: usize| {
+                    let face = &faces[number];
+                    (face.normal_in_world, face.normal_in_world.dot(face.point_in_world))
+                };
+                slopes.push(std::array::from_fn(plane));
+                slopes.len() as u32 - 1
+            }),
         }
     }
 
+    /// As [`Self::on_screen`], by planes of any direction: those that the camera is before are entered, the others left.
+    fn slopes_on_screen(&self, slopes: &Slopes, eye: &Eye, faces: &mut Vec<DrawnFace>) -> Option<BoxOnScreen> {
+        let mut shape = BoxOnScreen { planes: [[0.0; 3]; 6], entries: 0, faces: [0.0; 5] };
+        let mut exits = 6;
+        let lift = 1.0 + self.lift;
+        for ((normal, offset_m), number) in slopes.iter().zip(self.first_face..) {
+            let way_m = offset_m - normal.dot(eye.position_in_world);
+            if way_m >= 0.0 || shape.entries == shape.faces.len() {
+                exits -= 1;
+                shape.planes[exits] = in_single(scaled(eye.along(*normal), lift / way_m.max(1e-12)));
+                continue;
+            }
+            let plane = scaled(eye.along(*normal), 1.0 / way_m);
+            shape.planes[shape.entries] = in_single(scaled(plane, lift));
+            shape.faces[shape.entries] = faces.len() as f32;
+            faces.push(DrawnFace { plane, instance: self.instance, number, triangle: 0, label: self.label });
+            shape.entries += 1;
+        }
+        (shape.entries > 0).then_some(shape)
+    }
+
     /// The planes of its faces; the faces that are seen are appended to `faces`. `None` when the camera is inside.
-    pub fn on_screen(&self, eye: &Eye, faces: &mut Vec<DrawnFace>) -> Option<BoxOnScreen> {
+    fn on_screen(&self, eye: &Eye, faces: &mut Vec<DrawnFace>) -> Option<BoxOnScreen> {
         let Bounds { center_in_world, half_m, axis: [cos, sin] } = self.bounds;
         let away = center_in_world - eye.position_in_world;
         let center = [cos * away.x + sin * away.y, cos * away.y - sin * away.x, away.z];
@@ -112,7 +159,7 @@ impl SolidBox {
             [rays[0].z, rays[1].z, rays[2].z],
         ];
         let mut planes = [[0.0f32; 3]; 6];
-        let mut numbers = [0.0f32; 3];
+        let mut numbers = [0.0f32; 5];
         let (mut entries, mut exits) = (0, 6);
         let lift = 1.0 + self.lift;
         let mut leave = |axis: usize, way: f64| {

@@ -112,7 +112,7 @@ impl Painter {
         near_first(&mut self.candidates);
         for Candidate { index, part, nearest } in &self.candidates {
             if !hidden.hides(canvas, *part, *nearest)
-                && let Some(shape) = boxes.get(*index).on_screen(eye, &mut self.faces)
+                && let Some(shape) = boxes.on_screen(*index, eye, &mut self.faces)
             {
                 draw_box(*level, canvas, *part, &shape);
             }

@@ -23,10 +23,10 @@ const OUTSIDE: f32 = 1e30;
 pub struct BoxOnScreen {
     /// Inverse depths of the six planes, those of entry first.
     pub planes: [[f32; 3]; 6],
-    /// Number of planes of entry, 1 to 3.
+    /// Number of planes of entry, 1 to 3; 1 to 5 of steps of roofs.
     pub entries: usize,
     /// Face number of each plane of entry.
-    pub faces: [f32; 3],
+    pub faces: [f32; 5],
 }
 
 /// Width by which polygons reach beyond their edges, so that neighbours leave no gap, pixels.
@@ -155,7 +155,9 @@ simd_kernel! {
             match shape.entries {
                 1 => rows.draw_small_box::<1>(shape),
                 2 => rows.draw_small_box::<2>(shape),
-                _ => rows.draw_small_box::<3>(shape),
+                3 => rows.draw_small_box::<3>(shape),
+                4 => rows.draw_small_box::<4>(shape),
+                _ => rows.draw_small_box::<5>(shape),
             }
             return;
         }

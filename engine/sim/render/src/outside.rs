@@ -1,10 +1,11 @@
 //! The static faces of a town, for renderers that find elsewhere which one is nearest at each pixel.
 
 use crate::faces::{box_lift, ground_lift};
-use crate::scene::{Scene, clusters_of};
+use crate::scene::{Scene, clusters_of, set_roofs};
 use cosfly_domain::Town;
 use cosfly_frames::DVec3;
 use cosfly_materials::parts::{BOX_FACES, Cluster, SceneBox, boxes_of};
+use cosfly_materials::roof_slopes::cut_to_slopes;
 
 /// A static face: numbered by its place in [`Scene::faces_of`].
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +30,10 @@ impl Scene {
     /// Faces of a town's scene, without people: six of each box, then the ground's. Light and looks are not prepared.
     pub fn faces_of(town: &Town) -> Vec<SceneFace> {
         // Looks alone depend on a seed.
-        faces(&boxes_of(town, 0), &clusters_of(town))
+        let mut boxes = boxes_of(town, 0);
+        set_roofs(&mut boxes);
+        cut_to_slopes(&mut boxes);
+        faces(&boxes, &clusters_of(town))
     }
 }
 

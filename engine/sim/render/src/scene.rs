@@ -61,6 +61,12 @@ pub struct Scene {
     pub(crate) identity: u64,
 }
 
+/// Tells all boxes their places in pitched roofs.
+pub(crate) fn set_roofs(boxes: &mut [SceneBox]) {
+    let steps = roof_steps(boxes);
+    boxes.iter_mut().zip(steps).for_each(|(b, step)| b.roof = step.map(Box::new));
+}
+
 /// A triangle of the static scene as rays see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SceneTriangle {
@@ -78,28 +84,21 @@ impl Scene {
         Self::with_models(town, seed, &[])
     }
 
-    /// Prepares a town whose cars and roofs are boxes like all other things: the scene of the faces of [`Self::faces_of`].
+    /// Prepares a town whose cars are boxes like all other things: the scene of the faces of [`Self::faces_of`].
     pub fn of_boxes(town: &Town, seed: Seed) -> Self {
-        Self::of(town, seed, &[], |_| {}, |_| vec![])
+        Self::of(town, seed, &[], |_| vec![])
     }
 
     /// Prepares a town some of whose things are drawn by models.
     pub fn with_models(town: &Town, seed: Seed, models: &[SceneModel]) -> Self {
-        Self::of(town, seed, models, cut_to_slopes, |props| parked_cars(town, props, seed))
+        Self::of(town, seed, models, |props| parked_cars(town, props, seed))
     }
 
-    fn of(
-        town: &Town,
-        seed: Seed,
-        models: &[SceneModel],
-        cut: impl FnOnce(&mut Vec<SceneBox>),
-        cars: impl FnOnce(&Props) -> Vec<Bystander>,
-    ) -> Self {
+    fn of(town: &Town, seed: Seed, models: &[SceneModel], cars: impl FnOnce(&Props) -> Vec<Bystander>) -> Self {
         let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
         let mut boxes = boxes_of(town, look_seed);
         join_crowns(&mut boxes);
-        let steps = roof_steps(&boxes);
-        boxes.iter_mut().zip(steps).for_each(|(b, step)| b.roof = step.map(Box::new));
+        set_roofs(&mut boxes);
         let sides = roofs_that_go_on(&boxes);
         boxes.iter_mut().zip(sides).for_each(|(b, sides)| b.roof_goes_on = sides);
         let clusters = clusters_of(town);
@@ -107,7 +106,7 @@ impl Scene {
         let grid = LightGrid::new(&boxes, &clusters);
         let season = cosfly_materials::season::of_town(look_seed);
         let outskirts = Outskirts::of(&grid, season);
-        cut(&mut boxes);
+        cut_to_slopes(&mut boxes);
         let props = Props::new(town, models, look_seed);
         props.replace(&mut boxes);
         let parked = cars(&props);
