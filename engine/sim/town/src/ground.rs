@@ -9,6 +9,8 @@ const MOST_CELLS: f64 = 1024.0;
 const SMALLEST_CELL_M: f64 = 4.0;
 /// Most entries in the lists of the cells; absurdly wide ground gets larger cells.
 const MOST_ENTRIES: f64 = 1e8;
+/// Steps of a side of a cell in which it is told what a triangle may reach.
+const STEPS: f64 = 256.0;
 /// A point this far outside a triangle still lies on it, so that seams have no gaps, metres.
 const SEAM_M: f64 = 1e-6;
 
@@ -32,12 +34,24 @@ pub struct GroundIndex {
     /// Start of each cell's list in `members`; one more entry than cells.
     starts: Vec<u32>,
     members: Vec<u32>,
+    /// The part of its cell that each member may reach, in steps of the cell: least and most across, least and most along.
+    reaches: Vec<[u8; 4]>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct GroundTriangle {
     corners: [DVec3; 3],
     label: SemanticLabel,
+}
+
+impl GroundTriangle {
+    /// Corners of the rectangle outside of which [`height_on`] finds nothing: no weight of a corner is below its slack.
+    fn reach(&self) -> (DVec2, DVec2) {
+        let [a, b, c] = self.corners.map(DVec3::truncate);
+        let extent_m = (b - a).length().max((c - a).length()).max((c - b).length());
+        let beyond_m = 2.1 * SEAM_M * extent_m * extent_m / twice_area([a, b, c]).abs() + 1e-9;
+        (a.min(b).min(c) - beyond_m, a.max(b).max(c) + beyond_m)
+    }
 }
 
 impl GroundIndex {
@@ -70,7 +84,8 @@ impl GroundIndex {
             cell_m *= 2.0;
         }
         let [columns, rows] = size.to_array().map(|side| (side / cell_m) as usize + 1);
-        let mut index = Self { triangles, low, cell_m, columns, rows, starts: Vec::new(), members: Vec::new() };
+        let mut index =
+            Self { triangles, low, cell_m, columns, rows, starts: vec![], members: vec![], reaches: vec![] };
         index.sort_into_cells();
         index
     }
@@ -85,13 +100,17 @@ impl GroundIndex {
         }
         let mut next = counts.clone();
         let mut members = vec![0; counts[counts.len() - 1] as usize];
+        let mut reaches = vec![[0; 4]; members.len()];
         for triangle in 0..self.triangles.len() {
+            let (low, high) = self.triangles[triangle].reach();
             self.visit_cells(triangle, |cell| {
                 members[next[cell] as usize] = triangle as u32;
+                let ([left, top], [right, bottom]) = (self.steps_in(cell, low), self.steps_in(cell, high));
+                reaches[next[cell] as usize] = [left, right, top, bottom];
                 next[cell] += 1;
             });
         }
-        (self.starts, self.members) = (counts, members);
+        (self.starts, self.members, self.reaches) = (counts, members, reaches);
     }
 
     /// Calls `visit` with every cell that the triangle's footprint touches (rows by the triangle's own extent).
@@ -117,6 +136,12 @@ impl GroundIndex {
         }
     }
 
+    /// Place of a point in a cell, in steps from its corner; at its edge where the point lies outside.
+    fn steps_in(&self, cell: usize, point: DVec2) -> [u8; 2] {
+        let corner = DVec2::new((cell % self.columns) as f64, (cell / self.columns) as f64);
+        ((point - self.low) / self.cell_m * STEPS - corner * STEPS).to_array().map(|steps| steps as u8)
+    }
+
     fn held(&self, cell: f64, count: usize) -> usize {
         (cell.max(0.0) as usize).min(count - 1)
     }
@@ -129,7 +154,12 @@ impl GroundIndex {
             return;
         }
         let cell = self.held(at.y, self.rows) * self.columns + self.held(at.x, self.columns);
-        for member in &self.members[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
+        let [x, y] = self.steps_in(cell, DVec2::new(x_m, y_m));
+        let listed = self.starts[cell] as usize..self.starts[cell + 1] as usize;
+        for (member, [left, right, top, bottom]) in self.members[listed.clone()].iter().zip(&self.reaches[listed]) {
+            if x < *left || x > *right || y < *top || y > *bottom {
+                continue;
+            }
             let triangle = &self.triangles[*member as usize];
             if let Some(height_m) = height_on(triangle.corners, DVec2::new(x_m, y_m)) {
                 visit(GroundPoint { height_m, label: triangle.label });
@@ -219,14 +249,7 @@ fn clipped(a: DVec2, b: DVec2, low_y: f64, high_y: f64) -> Option<(f64, f64)> {
 fn height_on(corners: [DVec3; 3], at: DVec2) -> Option<f64> {
     let [a, b, c] = corners.map(|corner| corner.truncate() - at);
     let whole = twice_area([a, b, c]);
-    let parts = [b.perp_dot(c), c.perp_dot(a), a.perp_dot(b)];
-    // Most triangles of a cell are far from the point: told without a division or a root, by more than the seam below allows.
-    let far = 1.01 * SEAM_M * ((b - a).abs().element_sum() + (c - a).abs().element_sum());
-    let least = if whole < 0.0 { -parts[0].max(parts[1]).max(parts[2]) } else { parts[0].min(parts[1]).min(parts[2]) };
-    if least < -far {
-        return None;
-    }
-    let weights = parts.map(|part| part / whole);
+    let weights = [b.perp_dot(c) / whole, c.perp_dot(a) / whole, a.perp_dot(b) / whole];
     // The seam in metres becomes a share by the triangle's extent.
     let extent_m = (b - a).length().max((c - a).length());
     let slack = SEAM_M * extent_m / whole.abs();
@@ -239,6 +262,7 @@ fn height_on(corners: [DVec3; 3], at: DVec2) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cosfly_frames::Seed;
 
     fn mesh(label: SemanticLabel, vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> SurfaceMesh {
         SurfaceMesh {
@@ -292,6 +316,23 @@ mod tests {
             let index = GroundIndex::of_surfaces(&layers, |_| true);
             let label = |z: f64| index.ground_seen(DVec3::new(3.0, 4.0, z), 0.5).map(|seen| seen.label);
             assert_eq!((label(1.2), label(2.0)), (Some(SemanticLabel::Roads), None));
+        }
+    }
+
+    #[test]
+    fn no_triangle_under_a_point_is_passed_over() {
+        let mut random = Seed([3; 32]).stream("ground");
+        let mut corner = |reach_m: f64| [random.uniform(-reach_m, reach_m), random.uniform(-reach_m, reach_m), 0.0];
+        let vertices: Vec<[f64; 3]> = (0..900).map(|at| corner(if at % 3 == 0 { 60.0 } else { 50.0 })).collect();
+        let triangles: Vec<[u32; 3]> = (0..300).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect();
+        let town = Town { surfaces: vec![mesh(SemanticLabel::Terrain, &vertices, &triangles)], ..Town::default() };
+        let index = GroundIndex::new(&town);
+        for _ in 0..2000 {
+            let [x, y, _] = corner(65.0);
+            let mut found = 0;
+            index.visit_at(x, y, |_| found += 1);
+            let by_hand = index.triangles.iter().filter(|it| height_on(it.corners, DVec2::new(x, y)).is_some()).count();
+            assert_eq!(found, by_hand, "{x} {y}");
         }
     }
 
