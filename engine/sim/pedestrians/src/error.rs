@@ -115,7 +115,7 @@ impl PedestrianError {
             }
             Self::NoGround => "choose a map with pavements or streets; check `bounds_m` and `more` of the stage `map`".into(),
             Self::NothingFree { .. } => {
-                "make `grid_m` or `radius.max_m` smaller, or fill in fewer buildings and trees in the `map` stage"
+                "make `grid_m` or `radius.max_m` smaller, close less of the ground with `areas`, or fill in fewer buildings and trees in the `map` stage"
                     .into()
             }
             Self::NoRoom { largest_m, .. } => {
