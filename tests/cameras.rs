@@ -33,7 +33,7 @@ fn several_cameras_film_every_flight_at_the_same_moments() {
         "bodies_3d = true\nchannels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"disparity\"]\n\
          [stages.frames.cameras.front]\nbase_line_m = 0.3\n\
          gimbal = { position_in_body_m = [0.2, -0.15, 0.05], roll_deg = 4.0, levelled = false }\n\
-         [stages.frames.cameras.down]\nwidth = 64\nheight = 64\nfov_deg = 70.0\nlens = { model = \"fisheye\", k1 = -0.02 }\n\
+         [stages.frames.cameras.down]\nwidth = 64\nheight = 64\nfov_deg = 70.0\nevery = 2\nlens = { model = \"fisheye\", k1 = -0.02 }\n\
          gimbal = { pitch_range_deg = [-90, -90], yaw_range_deg = [0, 0] }",
     );
     assert_eq!(ran(&street, &[], "frames"), 18);
@@ -61,6 +61,15 @@ fn several_cameras_film_every_flight_at_the_same_moments() {
     };
     assert_eq!(of_film("camera_mount_right_m", "front_left"), vec!["0E0"; 6]);
     assert_eq!(of_film("camera_mount_right_m", "front_right"), vec!["0.3"; 6]);
+    // One camera films every second frame, at the same moments.
+    assert_eq!((of_film("dt_s", "down"), of_film("dt_s", "front_left")), (vec!["1E0"; 6], vec!["0.5"; 6]));
+    let poses = |film: &str| {
+        let all = column(&dataset, "frames", "trajectory_id").into_iter().zip(column(&dataset, "frames", "drone_x_m"));
+        let own = all.filter(|(id, _)| id.contains(&format!("expert-p00000-{film}")));
+        own.map(|(_, x_m)| x_m).collect::<Vec<_>>()
+    };
+    let every_second: Vec<String> = poses("front_left").into_iter().step_by(2).collect();
+    assert!(every_second.len() > 2 && poses("down") == every_second);
     assert_eq!(of_film("camera_lens_model", "down"), vec!["\"fisheye\""; 6]);
     // Key points of somebody are seen, and COCO's file has them.
     let shown = column(&dataset, "bodies_3d", "key_points_shown");
@@ -82,6 +91,7 @@ fn cameras_that_cannot_be_are_refused_with_their_key() {
         ("[stages.frames.cameras.Down]\nwidth = 64", "lower-case letter"),
         ("[stages.frames.cameras.down]\nbase_line_m = 0.0", "`cameras.down.base_line_m` is `0"),
         ("[stages.frames.cameras.a]\nbase_line_m = 0.1\n[stages.frames.cameras.a_left]", "makes a film of this name"),
+        ("[stages.frames.cameras.down]\nevery = 0", "`cameras.down.every` is `0`"),
         ("channels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"disparity\"]", "no camera is one"),
         ("gimbal = { position_in_body_m = [0.0, 0.0, 40.0] }", "position_in_body_m"),
         ("lens = { model = \"fisheye\" }\nfov_deg = 140.0", "no picture in the corners"),

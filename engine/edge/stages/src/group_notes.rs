@@ -44,7 +44,7 @@ pub fn group_name(item: &ItemName) -> GroupName {
 pub fn part(config: &DatasetConfig, frames: InputPort) -> StagePart {
     let window = config.windows.shape().size();
     let properties = StageProperties {
-        version: 1,
+        version: 2,
         parameters: serde_json::json!({ "window": window }),
         inputs: vec![ports::group(frames)],
         items: items(config),

@@ -8,7 +8,7 @@ use crate::{nearby, traffic};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{ParameterError, Result};
 use cosfly_domain::{
-    Around, BodyInSpace, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, largest_object_instance,
+    BodyInSpace, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, largest_object_instance,
 };
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{check_same_town, link_town, world};
@@ -17,11 +17,10 @@ use cosfly_figures::{Bystander, outfit_of};
 use cosfly_film::Shooting;
 use cosfly_film::body_rays::BodyRays;
 use cosfly_film::in_space::Taken;
-use cosfly_film::walks::walked_m;
+use cosfly_film::rate::{FilmedFlight, filmed_around, filmed_flight};
 use cosfly_flight::World;
 use cosfly_frames::{Pose, Seed};
 use cosfly_geometry::SpatialQuery;
-use cosfly_optics::{pose_at, target_state_at};
 use cosfly_render::{Effects, FrameBeside, Moment, Neighbours, RenderConfig, Renderer, Scene, Shot};
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{EncodingConfig, PairInfo, Rejection, RenderedTrajectory, Role, Sighting, TownInfo};
@@ -122,7 +121,7 @@ impl Stage for RenderStage {
         let config = self.config.of_camera(film);
         let target = traffic::followed(inputs, artifact)?;
         let shooting = |trajectory: &Trajectory| Shooting::of(&config, trajectory, target.as_ref(), film);
-        let (trajectory, shooting) = match filmable(&world, outcome, &shooting)? {
+        let (trajectory, shooting) = match filmable(&world, outcome, &shooting, config.every)? {
             Ok(filmed) => filmed,
             Err(reason) => {
                 let rejection = Rejection {
@@ -166,7 +165,7 @@ impl Stage for RenderStage {
             // A trajectory has the name of the walk that it follows.
             pedestrian_id: walker(&artifact.id.item).to_string(),
             town,
-            trajectory,
+            trajectory: filmed_flight(trajectory, config.every),
             camera_name: film.filter(|_| !self.config.cameras.is_empty()).map(str::to_owned),
             camera: shooting.camera,
             lens: config.lens,
@@ -182,7 +181,7 @@ impl Stage for RenderStage {
             views: seen.views,
             visible_by_dense_rays: seen.by_dense_rays,
             outfit: has_body.then(|| outfit_of(shooting.body, &shooting.clothes_seed)),
-            around: Around::clone(&*traffic::around(inputs, artifact)?),
+            around: filmed_around(&*traffic::around(inputs, artifact)?, config.every),
             followed: target,
             others: crowd.into_bodies(),
             sightings: seen.sightings,
@@ -217,18 +216,23 @@ fn filmable(
     world: &World,
     outcome: PlanOutcome,
     shooting: &dyn Fn(&Trajectory) -> Result<Shooting>,
+    every: u32,
 ) -> Result<Result<(Trajectory, Shooting), String>> {
     let flight = match outcome {
         PlanOutcome::Planned(flight) => *flight,
         PlanOutcome::Rejected { reason, .. } => return Ok(Err(reason)),
     };
     let shooting = shooting(&flight)?;
-    Ok(camera_inside(world, &shooting.poses(&flight)).map_or(Ok((flight, shooting)), Err))
+    let film = FilmedFlight::new(&shooting, &flight, every);
+    let too_short = (film.frames().count() < 2 && every > 1)
+        .then(|| format!("every {every}th of {} frames is one picture", flight.track.len()));
+    let inside = too_short.or_else(|| camera_inside(world, film.poses()));
+    Ok(inside.map_or(Ok((flight, shooting)), Err))
 }
 
 /// Reason why a flight cannot be filmed: a camera in a wall would look out through it.
-fn camera_inside(world: &World, poses: &[Pose]) -> Option<String> {
-    poses.iter().enumerate().find_map(|(frame, pose)| {
+fn camera_inside<'a>(world: &World, poses: impl Iterator<Item = &'a Pose>) -> Option<String> {
+    poses.enumerate().find_map(|(frame, pose)| {
         let nearest = world.exact.nearest(pose.position_in_world, 0.0).filter(|nearest| nearest.distance_m < 0.0)?;
         let obstacle = &world.town.obstacles[nearest.primitive as usize];
         let (kind, id) = (kind_name(obstacle.kind), obstacle.object_id);
@@ -297,59 +301,49 @@ impl RenderStage {
         rig.effects.set_noise(shooting.noise);
         let Camera { width, height, .. } = shooting.camera;
         let largest_instance = largest_object_instance(&world.town).max(crowd.largest_instance());
+        let film = &FilmedFlight::new(shooting, trajectory, config.every);
         let header = PackHeader {
             channels: config.channels.clone(),
-            ..PackHeader::new(width, height, largest_instance, self.encoding, trajectory.track.dt_s)
+            ..PackHeader::new(width, height, largest_instance, self.encoding, film.dt_s())
         };
-        let track = &trajectory.track;
-        let poses: Vec<Pose> = shooting.poses(trajectory);
-        let walked_m = walked_m(&track.states);
-        let moment_of = |frame: usize, offset_s: f64| {
-            let at = frame as f64 + offset_s / track.dt_s;
-            let state = target_state_at(&track.states, at);
-            let target = shooting.target(track, state, walked_m[frame] + offset_s * state.speed_mps);
-            // A target without extent is a point: it is watched, not drawn.
-            Moment { pose: pose_at(&poses, at), target: Some(target).filter(|target| target.radius_m > 0.0) }
-        };
-        let time_s = |frame: usize| frame as f64 * track.dt_s;
         let frame_at = |frame: usize| {
-            let others = move |offset_s: f64, list: &mut Vec<Bystander>| crowd.at(time_s(frame) + offset_s, list);
-            (move |offset_s: f64| moment_of(frame, offset_s), others)
+            let time_s = film.time_s(frame);
+            let others = move |offset_s: f64, list: &mut Vec<Bystander>| crowd.at(time_s + offset_s, list);
+            (move |offset_s: f64| film.moment(frame, offset_s), others)
         };
         let (mut seen, mut body_rays, mut about) = (SeenPeople::default(), BodyRays::default(), vec![]);
         outputs.stream(PACK, &mut |file| {
             seen = SeenPeople::default();
             let mut pack = FramePackWriter::new(file, &header)?;
-            for (frame, visible_by_rays) in trajectory.visibility.iter().copied().enumerate() {
+            for (number, frame) in film.frames().enumerate() {
                 context.check_cancelled()?;
                 let noise_seed = Seed(context.seed).child("frame", frame as u64);
-                let (before, (moment, others), after) =
-                    (frame_at(frame.saturating_sub(1)), frame_at(frame), frame_at(frame + 1));
-                let neighbours = Neighbours {
-                    previous: (frame > 0).then_some(FrameBeside { moment: &before.0, others: &before.1 }),
-                    next: (frame + 1 < trajectory.visibility.len())
-                        .then_some(FrameBeside { moment: &after.0, others: &after.1 }),
-                };
+                let beside = [film.before(frame), film.after(frame)].map(|beside| beside.map(frame_at));
+                let (moment, others) = frame_at(frame);
+                let [previous, next] = beside.each_ref().map(|beside| {
+                    beside.as_ref().map(|(moment, others)| FrameBeside { moment, others })
+                });
+                let neighbours = Neighbours { previous, next };
                 let shot =
                     Shot { weather: &shooting.weather, moment: &moment, others: &others, neighbours, noise_seed };
                 let rendered = rig.effects.film(&mut rig.renderer, scene, &shot);
                 pack.frame(rendered.images)?;
-                let sightings = crowd.sightings(frame, time_s(frame), rendered.others);
+                let sightings = crowd.sightings(number, film.time_s(frame), rendered.others);
                 let view = rendered.target_view;
                 let Moment { pose, target } = moment(0.0);
                 let target = target.filter(|_| view.in_view);
                 about.clear();
-                crowd.at(time_s(frame), &mut about);
+                crowd.at(film.time_s(frame), &mut about);
                 if config.bodies_3d {
                     let (images, camera, lens) = (rendered.images, shooting.camera, config.lens);
                     let all = target.map(|walker| Bystander { walker, instance: TARGET_INSTANCE });
-                    let taken = Taken { frame, images, camera, lens, pose };
+                    let taken = Taken { frame: number, images, camera, lens, pose };
                     seen.bodies_3d.extend(taken.bodies(all.into_iter().chain(about.iter().copied())));
                 }
                 seen.by_dense_rays.push(
                     target.and_then(|it| body_rays.visible_share(&world.exact, &about, &shooting.camera, &pose, &it)),
                 );
-                seen.views.push(TargetView { visible_by_rays, ..view });
+                seen.views.push(TargetView { visible_by_rays: trajectory.visibility[frame], ..view });
                 seen.sightings.extend(sightings);
                 seen.splats_off_m.extend(rig.renderer.splats_off_m());
             }
@@ -387,8 +381,8 @@ mod tests {
         let world = World::new(town);
         let at = |position: DVec3| Pose::looking_at(position, position + DVec3::X);
         let poses = [at(wall + 5.0 * DVec3::Z), at(wall + 0.1 * DVec3::Z), at(wall)];
-        let reason = camera_inside(&world, &poses).expect("it is inside");
+        let reason = camera_inside(&world, poses.iter()).expect("it is inside");
         assert_eq!(reason, "the camera is inside of obstacle 4 (wall) at frame 1");
-        assert_eq!(camera_inside(&world, &poses[..1]), None);
+        assert_eq!(camera_inside(&world, poses[..1].iter()), None);
     }
 }

@@ -234,11 +234,12 @@ impl Filming<'_> {
         let Self { shooting, scenery, flight, .. } = self;
         let effects = self.config.effects(shooting.camera);
         let (camera, moments_s): (Camera, Vec<f64>) = (effects.ideal_camera(), effects.moments_s());
+        let every = self.config.every.max(1) as usize;
         let poses: Vec<Pose> = shooting.poses(flight);
         let track = &flight.track;
         others.iter_mut().for_each(|other| other.person.dress_for(shooting));
         let mut near = vec![];
-        for (frame, target) in track.states.iter().enumerate() {
+        for (frame, target) in track.states.iter().enumerate().step_by(every) {
             check()?;
             let target = shooting.target(track, *target, 0.0);
             for offset_s in &moments_s {

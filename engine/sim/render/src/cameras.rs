@@ -26,6 +26,11 @@ pub struct CameraConfig {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.001, max = 10))]
     pub base_line_m: Option<f64>,
+    /// Films every n-th frame of a flight, from the first one on, 1 to 1000: 0.1 s between frames and 5 are two pictures a second.
+    /// Left out: every frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 1000))]
+    pub every: Option<u32>,
     /// Place and turn of the camera on the drone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gimbal: Option<GimbalConfig>,

@@ -96,6 +96,9 @@ pub struct RenderConfig {
     /// Which camera of a stereo pair this is; set by [`Self::of_camera`].
     #[serde(skip)]
     pub stereo: Option<StereoEye>,
+    /// Frames of the flight from one picture to the next; set by [`Self::of_camera`].
+    #[serde(skip)]
+    pub every: u32,
 }
 
 impl Default for RenderConfig {
@@ -125,6 +128,7 @@ impl Default for RenderConfig {
             splats: None,
             bodies_3d: false,
             stereo: None,
+            every: 1,
         }
     }
 }

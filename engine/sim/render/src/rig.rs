@@ -36,7 +36,7 @@ impl RenderConfig {
         let Some((camera, stereo)) = film.and_then(|film| behind(&self.cameras, film)) else { return config };
         let CameraConfig { width, height, fov_deg, gimbal, optics, lens, motion_blur, rolling_shutter, noise, .. } =
             camera.clone();
-        config.stereo = stereo;
+        (config.stereo, config.every) = (stereo, camera.every.unwrap_or(1));
         if stereo.is_none() {
             config.channels = self.channels.without(&channels::disparity::CHANNEL);
         }
@@ -85,6 +85,10 @@ impl RenderConfig {
             if let Some(base_line_m) = camera.base_line_m.filter(|it| !(0.001..=10.0).contains(it)) {
                 let path = format!("cameras.{name}.base_line_m");
                 return problem(path, format!("the base line is `{base_line_m}` m"), "0.001 to 10 metres");
+            }
+            if let Some(every) = camera.every.filter(|it| !(1..=1000).contains(it)) {
+                let path = format!("cameras.{name}.every");
+                return problem(path, format!("the camera films every `{every}`th frame"), "1 to 1000: whole frames");
             }
             for film in films(name, camera) {
                 if film != *name && self.cameras.contains_key(&film) {

@@ -20,6 +20,8 @@ pub struct FlightNote {
     pub town_digest: String,
     /// Time between frames, seconds.
     pub dt_s: f64,
+    /// Name of the camera, where several film each flight.
+    pub camera_name: Option<String>,
     /// Route of the target.
     pub route: cosfly_splits::route::Route,
     /// Hash of the training window that starts at each frame.
@@ -38,6 +40,7 @@ impl FlightNote {
             town: facts.town,
             town_digest,
             dt_s: record.dt_s(),
+            camera_name: record.camera_name.clone(),
             route: facts.route,
             windows: facts.windows,
         }

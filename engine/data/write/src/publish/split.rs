@@ -126,10 +126,11 @@ fn leave_out(
     kept.into_iter().unzip()
 }
 
-/// Increments from frame to frame are one quantity in tables only if all frames are equally far apart.
+/// Increments from frame to frame are one quantity in tables only if all frames of a camera are equally far apart.
 fn check_rates(notes: &[FlightNote]) -> Result<()> {
-    let Some((first, rest)) = notes.split_first() else { return Ok(()) };
-    let Some(other) = rest.iter().find(|other| other.dt_s != first.dt_s) else { return Ok(()) };
+    let mut rates: BTreeMap<Option<&str>, &FlightNote> = BTreeMap::new();
+    let mut pairs = notes.iter().map(|note| (*rates.entry(note.camera_name.as_deref()).or_insert(note), note));
+    let Some((first, other)) = pairs.find(|(first, other)| first.dt_s != other.dt_s) else { return Ok(()) };
     let message = format!(
         "frames are {} s apart in `{}` and {} s in `{}`: they cannot be in one dataset",
         first.dt_s, first.trajectory_id, other.dt_s, other.trajectory_id
