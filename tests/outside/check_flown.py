@@ -1,6 +1,8 @@
 """The logs, clips and page of a result of `cosfly fly`, read by others: the package mcap, pillow, an HTML parser.
 
-Usage: check_flown.py RESULT_FOLDER
+With the folder that `cosfly fly bags` made of it, its bags are read by rosbags and compared with the steps.
+
+Usage: check_flown.py RESULT_FOLDER [BAGS]
 """
 
 import html.parser
@@ -69,3 +71,35 @@ page.feed((folder / "report.html").read_text())
 links = [link for link in page.links if not link.startswith("data:")]
 assert links and all((folder / link).is_file() for link in links), links
 print(f"{len(rows)} logs with {lost} losses, {len(clips)} clips and the page hold together")
+
+
+def check_bag(bag, steps):
+    from rosbags.highlevel import AnyReader
+
+    topics = {}
+    with AnyReader([bag]) as reader:
+        for connection, time, raw in reader.messages():
+            topics.setdefault(connection.topic, []).append((time, reader.deserialize(raw, connection.msgtype)))
+    times = [round(1e9 * step["time_s"]) + 10**9 for step in steps]
+    assert topics["/town"][0][1].markers
+    for topic in ("/clock", "/odom", "/target/odom", "/flight/step"):
+        assert [time for time, _ in topics[topic]] == times, topic
+    asked = dict(topics.get("/cmd_vel", topics.get("/flight/action")))
+    for time, step, (_, drone), (_, target), (_, flown) in zip(times, steps, topics["/odom"], topics["/target/odom"], topics["/flight/step"]):
+        for message, key in (drone, "position_in_world"), (target, "target_in_world"):
+            place, (x, y, z) = message.pose.pose.position, step[key]
+            assert (place.x, place.y, place.z) == (x, -y, z), key
+        assert list(flown.data[:2]) == [step["tracked"], step["visible"]] and list(flown.data[4:]) == step["reward"]
+        if "action" in step and "/cmd_vel" in topics:
+            ahead, right, up, pitch, yaw = step["action"]
+            linear, angular = asked[time].twist.linear, asked[time].twist.angular
+            assert (linear.x, linear.y, linear.z) == (ahead, -right, up)
+            assert math.isclose(math.degrees(-angular.y), pitch) and math.isclose(math.degrees(-angular.z), yaw)
+    return len(steps)
+
+
+if len(sys.argv) > 2:
+    bags = sorted(path.parent for path in pathlib.Path(sys.argv[2]).glob("*/*/metadata.yaml"))
+    log = lambda name: [json.loads(line) for line in (folder / "logs" / f"{name}.jsonl").read_text().splitlines()]
+    assert {bag.name for bag in bags} == {row["episode"] for row in rows}
+    print(f"{len(bags)} bags, {sum(check_bag(bag, log(bag.name)) for bag in bags)} steps")

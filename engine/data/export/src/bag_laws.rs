@@ -1,8 +1,11 @@
 //! Bags of ROS 2 have every topic at every frame, and say what the dataset says.
 
-use crate::Choice;
 use crate::laws::{export_with, files, published};
-use cosfly_frames::DVec3;
+use crate::{Choice, flown_bags};
+use cosfly_domain::Camera;
+use cosfly_frames::{DVec3, Pose, TargetState};
+use cosfly_schema::log::reading::LoggedSensor;
+use cosfly_write::log::{FlownFlight, FlownStep, SensedSample, write_flown_log};
 use mcap::MessageStream;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -71,4 +74,65 @@ fn every_nth_frame_keeps_its_time_and_the_instruction_its_language() {
         let said = messages.iter().find(|it| it.0 == "/instruction").unwrap();
         assert!(String::from_utf8_lossy(&said.3).contains("跟随行人前进2米。"));
     }
+}
+
+#[test]
+fn a_closed_loop_flight_becomes_a_bag_with_its_actions_and_sensors() {
+    let home = tempfile::tempdir().unwrap();
+    let target = TargetState { feet_in_world: DVec3::new(1.0, 2.0, 0.0), heading_rad: 0.5, speed_mps: 1.0 };
+    let step = |step: u32| FlownStep {
+        step,
+        time_s: 0.1 * f64::from(step),
+        pose: Pose::looking_at(DVec3::new(0.0, f64::from(step), 20.0), target.feet_in_world),
+        velocity_in_world: DVec3::Y,
+        target,
+        visible: 1.0,
+        in_picture: true,
+        tracked: true,
+        clearance_m: 3.0,
+        action: if step == 1 { vec![] } else { vec![4.0, 3.0, 2.0, 30.0, 60.0] },
+        reward: 1.0,
+        reward_terms: vec![1.0; 6],
+        others: vec![],
+        attitude_xyzw: None,
+        sensed: vec![SensedSample {
+            time_s: 0.1 * f64::from(step) - 0.05,
+            rates_rad_s: DVec3::X,
+            force_mps2: DVec3::Z,
+            height_m: None,
+            fix: None,
+        }],
+        readings: vec![vec![f64::from(step)]],
+        events: if step == 3 { vec![(true, "lost".to_owned())] } else { vec![] },
+    };
+    let flight = FlownFlight {
+        about: &BTreeMap::new(),
+        town: &cosfly_sample::town(),
+        camera: Camera { width: 64, height: 48, horizontal_fov_rad: 1.5 },
+        target_size_m: [1.7, 0.3],
+        sensors: &[LoggedSensor { name: "laser".to_owned(), quantities: vec!["range_m".to_owned()] }],
+        walk: &[target],
+        steps: &(1..=3).map(step).collect::<Vec<_>>(),
+    };
+    let (result, out) = (home.path().join("result"), home.path().join("bags"));
+    std::fs::create_dir(&result).unwrap();
+    let log = result.join("e.mcap");
+    write_flown_log(&mut std::fs::File::create(&log).unwrap(), &flight).unwrap();
+    flown_bags(&[("e".to_owned(), log)], &result, &out, &|_, _| {}).unwrap();
+    let messages = messages(&files(&out)[Path::new("000/e/e_0.mcap")]);
+    assert!(messages.is_sorted_by_key(|message| message.2));
+    let of = |topic: &str| messages.iter().filter(|it| it.0 == topic).cloned().collect::<Messages>();
+    for (topic, count) in
+        [("/clock", 3), ("/odom", 3), ("/imu", 3), ("/sensor/laser", 3), ("/flight/events", 1), ("/town", 1)]
+    {
+        assert_eq!(of(topic).len(), count, "{topic}");
+    }
+    let [asked, _] = &of("/cmd_vel")[..] else { panic!("two actions") };
+    let numbers: Vec<f64> = asked.3[4 + 24..].as_chunks::<8>().0.iter().map(|it| f64::from_le_bytes(*it)).collect();
+    let (pitch, yaw) = (30_f64.to_radians(), 60_f64.to_radians());
+    assert_eq!((asked.2, &numbers[..]), (1_200_000_000, &[4.0, -3.0, 2.0, 0.0, -pitch, -yaw][..]));
+    let (home, dataset) = published();
+    let log = dataset.folder().join(&dataset.flights()[0].mcap_path);
+    let refused = flown_bags(&[("e".to_owned(), log)], dataset.folder(), &home.path().join("bags"), &|_, _| {});
+    assert_eq!(refused.unwrap_err().code, "dataset-damaged");
 }

@@ -32,6 +32,7 @@ pub mod source;
 pub use folder::{OutFolder, Written};
 pub use format::{Export, Format, Prepared};
 pub use formats::FORMATS;
+pub use formats::ros2::flown::flown_bags;
 pub use option::{ExportOption, OptionKind};
 pub use prepare::{flag, joined_options, on_threads, prepare};
 pub use source::{Choice, Source};

@@ -27,6 +27,7 @@ pub mod columns;
 mod damage;
 mod dataset;
 pub mod drawn_ground;
+mod flown;
 mod foreign;
 mod frames;
 mod goals;
@@ -52,6 +53,7 @@ mod whole_files;
 
 pub use captions::CaptionReader;
 pub use dataset::PublishedDataset;
+pub use flown::{FlownLog, FlownLogStep, FlownSample};
 pub use foreign::{ForeignRows, foreign_rows};
 pub use frames::{Disturbance, FrameRow};
 pub use goals::PublishedGoal;

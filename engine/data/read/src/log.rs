@@ -204,12 +204,12 @@ impl LogReader {
         Ok(sweeps)
     }
 
-    fn damaged(&self, what: &str) -> Box<Diagnostic> {
+    pub(super) fn damaged(&self, what: &str) -> Box<Diagnostic> {
         damaged(&self.path, what, "it was written by another program, or incompletely")
     }
 
     /// Calls `visit` with the messages of `topics` at the times `times_ns`, in the order of their times.
-    fn messages(&mut self, times_ns: RangeInclusive<u64>, topics: &[&str], visit: Visit<'_>) -> Result<()> {
+    pub(super) fn messages(&mut self, times_ns: RangeInclusive<u64>, topics: &[&str], visit: Visit<'_>) -> Result<()> {
         let options = IndexedReaderOptions::new()
             .include_topics(topics.iter().copied())
             .starting_at(*times_ns.start())

@@ -10,7 +10,7 @@ mod lasot;
 mod lerobot;
 mod mot;
 mod otb;
-mod ros2;
+pub(crate) mod ros2;
 pub(crate) mod v7;
 mod vlm;
 mod webdataset;

@@ -5,6 +5,7 @@
 mod bag;
 mod cdr;
 mod definitions;
+pub(crate) mod flown;
 mod messages;
 mod readings;
 
@@ -14,7 +15,7 @@ use crate::format::Format;
 use crate::media::{FOLDER_LIMIT, ending};
 use crate::shared_options::PictureAndTextOptions;
 use crate::source::{ExportedFlight, LidarSweeps, SensorReadings, Source};
-use bag::{Bag, Topic};
+use bag::{Bag, Topic, topics_of_flight};
 use cosfly_diagnose::Result;
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::{DQuat, DVec3, Pose, real};
@@ -47,7 +48,7 @@ impl Format for Ros2 {
             let sensors: Vec<LoggedSensor> = readings.iter().map(|(sensor, _)| sensor.clone()).collect();
             let lidars = episode.sweeps()?;
             let recording = Recording::of(episode, bodies.at(source.dataset, place)?, &readings, &lidars);
-            let mut bag = Bag::begin(out, folder, &sensors, &lidars)?;
+            let mut bag = Bag::begin(out, folder, topics_of_flight(&sensors, &lidars))?;
             recording.write_once(&mut bag, source, episode.instruction(options.instructions.language))?;
             recording.write_frames(&mut bag, options.pictures.every)?;
             bag.finish()

@@ -1,5 +1,6 @@
 //! `cosfly fly`: flies the episodes of a suite with policies, in closed loop, and scores them.
 
+mod bags;
 mod bundle;
 mod commit;
 mod compare;
@@ -42,6 +43,7 @@ Examples:
   cosfly fly recipes/suites/street.toml --policy onnx:policy.onnx
   cosfly fly recipes/benchmarks/track_1.toml --tier mini --policy follow
   cosfly fly compare out/fly/street/follow out/fly/street/mine
+  cosfly fly bags out/fly/street/mine --out out/mine-bags
   cosfly fly bundle out/fly/street/mine
   cosfly fly verify out/fly/street/mine.jsonl.zst recipes/suites/street.toml
 
@@ -114,6 +116,7 @@ pub struct Arguments {
 /// Other work with results.
 #[derive(Debug, Subcommand)]
 enum Other {
+    Bags(bags::Arguments),
     Bundle(bundle::Arguments),
     Commit(commit::Arguments),
     Compare(compare::Arguments),
@@ -181,6 +184,7 @@ impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         match &self.other {
             Some(Other::Compare(arguments)) => return arguments.run(console),
+            Some(Other::Bags(arguments)) => return arguments.run(console),
             Some(Other::Bundle(arguments)) => return arguments.run(console),
             Some(Other::Commit(arguments)) => return arguments.run(console),
             Some(Other::Verify(arguments)) => return arguments.run(console),

@@ -46,11 +46,28 @@ pub enum Topic {
     Sensor(usize),
     /// Sweeps of the flight's lidar of this number.
     Lidar(usize),
+    /// Velocities that a policy asked for.
+    Command,
+    /// Numbers of an action of another kind.
+    Action,
+    /// State and reward after a step.
+    Step,
+    /// Losses, collisions, the end.
+    Event,
+    /// Inertial unit of a closed-loop flight.
+    Inertial,
+    /// Its barometer.
+    Height,
+    /// Its satellite receiver.
+    Fix,
 }
+
+/// A topic with its name and the type of its messages, and whether those who come late still get the last one.
+pub type NamedTopic = (Topic, String, &'static str, bool);
 
 use Topic as T;
 
-/// Topics of every bag with their names and types, and whether those who come late still get the last message.
+/// Topics of every flight of a dataset.
 const TOPICS: [(Topic, &str, &str, bool); 13] = [
     (T::TfStatic, "/tf_static", "tf2_msgs/TFMessage", true),
     (T::Town, "/town", "visualization_msgs/MarkerArray", true),
@@ -96,31 +113,38 @@ pub struct Bag<'a> {
     /// Name of the MCAP file in the folder.
     file: String,
     writer: Writer<BufWriter<File>>,
-    /// Topics as [`TOPICS`] has them, and those of the sensors.
-    topics: Vec<(Topic, String, &'static str, bool)>,
+    topics: Vec<NamedTopic>,
     /// Numbers of the channels, and of the messages so far.
     channels: BTreeMap<Topic, (u16, u32)>,
     times_ns: Option<[u64; 2]>,
 }
 
+/// Topics of a flight of a dataset with these sensors and lidars.
+pub fn topics_of_flight(sensors: &[LoggedSensor], lidars: &[LidarSweeps]) -> Vec<NamedTopic> {
+    let own = TOPICS.into_iter().map(|(topic, name, kind, is_latched)| (topic, name.to_owned(), kind, is_latched));
+    let of_lidar = |(number, (name, _)): (usize, &LidarSweeps)| {
+        (Topic::Lidar(number), format!("{}{name}", reading::TOPICS), "sensor_msgs/PointCloud2", false)
+    };
+    own.chain(topics_of_sensors(sensors)).chain(lidars.iter().enumerate().map(of_lidar)).collect()
+}
+
+/// Topics of these sensors.
+pub fn topics_of_sensors(sensors: &[LoggedSensor]) -> impl Iterator<Item = NamedTopic> {
+    sensors
+        .iter()
+        .enumerate()
+        .map(|(number, sensor)| (Topic::Sensor(number), sensor.topic_name(), ReadingCoder::of(sensor).message(), false))
+}
+
 impl<'a> Bag<'a> {
-    /// Begins the bag of a flight with these sensors and lidars in a new folder, named after its last part.
-    pub fn begin(out: &'a OutFolder, folder: String, sensors: &[LoggedSensor], lidars: &[LidarSweeps]) -> Result<Self> {
+    /// Begins a bag of these topics in a new folder, named after its last part.
+    pub fn begin(out: &'a OutFolder, folder: String, topics: Vec<NamedTopic>) -> Result<Self> {
         let file = format!("{}_0.mcap", folder.rsplit('/').next().unwrap_or_default());
         // Threads of the compressor would show in the bytes.
         let options = WriteOptions::new().profile("ros2").library("cosfly").compression_threads(0);
         let output = out.create(&format!("{folder}/{file}"))?;
         let refused = |error: McapError| refusal(out, &folder, &file, error);
         let mut writer = options.create(output).map_err(refused)?;
-        let own = TOPICS.into_iter().map(|(topic, name, kind, is_latched)| (topic, name.to_owned(), kind, is_latched));
-        let of_sensor = |(number, sensor): (usize, &LoggedSensor)| {
-            (Topic::Sensor(number), sensor.topic_name(), ReadingCoder::of(sensor).message(), false)
-        };
-        let of_lidar = |(number, (name, _)): (usize, &LidarSweeps)| {
-            (Topic::Lidar(number), format!("{}{name}", reading::TOPICS), "sensor_msgs/PointCloud2", false)
-        };
-        let of_lidars = lidars.iter().enumerate().map(of_lidar);
-        let topics: Vec<_> = own.chain(sensors.iter().enumerate().map(of_sensor)).chain(of_lidars).collect();
         let mut channels = BTreeMap::new();
         for (topic, name, kind, is_latched) in &topics {
             let definition = whole_definition(kind);

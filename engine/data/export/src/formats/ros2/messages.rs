@@ -131,6 +131,29 @@ pub fn odometry(header: Header<'_>, child: &str, placed: &Placed, motion: &Motio
     cdr.finish()
 }
 
+/// `geometry_msgs/TwistStamped`.
+pub fn twist(header: Header<'_>, motion: &Motion) -> Vec<u8> {
+    let mut cdr = Cdr::new();
+    cdr.header(header);
+    cdr.vector(motion.linear);
+    cdr.vector(motion.angular);
+    cdr.finish()
+}
+
+/// `sensor_msgs/Imu` of rates (rad/s) and specific forces (m/s^2) along right-handed axes, without orientation.
+pub fn imu(header: Header<'_>, rates_rad_s: &[f64], force_mps2: &[f64]) -> Vec<u8> {
+    let mut cdr = Cdr::new();
+    cdr.header(header);
+    cdr.f64s(&[0.0, 0.0, 0.0, 1.0]);
+    // -1: there is no orientation.
+    cdr.f64s(&[-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    cdr.f64s(rates_rad_s);
+    cdr.f64s(&[0.0; 9]);
+    cdr.f64s(force_mps2);
+    cdr.f64s(&[0.0; 9]);
+    cdr.finish()
+}
+
 /// `sensor_msgs/CameraInfo`. The middle of the top-left pixel is (0, 0), as ROS and OpenCV have it.
 pub fn camera_info(header: Header<'_>, camera: &Camera, lens: &Lens, mount: &Mount) -> Vec<u8> {
     let focal = camera.focal_px();

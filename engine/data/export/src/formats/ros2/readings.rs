@@ -87,16 +87,7 @@ fn picked(places: &[usize], values: &[f64]) -> Vec<f64> {
 /// `sensor_msgs/Imu`, without orientation. A vector changes the sign of y, an angular velocity those of x and z.
 fn imu(header: Header<'_>, values: &[f64]) -> Vec<u8> {
     let [fx, fy, fz, wx, wy, wz] = values.try_into().unwrap_or_default();
-    let mut cdr = Cdr::new();
-    cdr.header(header);
-    cdr.f64s(&[0.0, 0.0, 0.0, 1.0]);
-    // -1: there is no orientation.
-    cdr.f64s(&[-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    cdr.f64s(&[-wx, wy, -wz]);
-    cdr.f64s(&[0.0; 9]);
-    cdr.f64s(&[fx, -fy, fz]);
-    cdr.f64s(&[0.0; 9]);
-    cdr.finish()
+    messages::imu(header, &[-wx, wy, -wz], &[fx, -fy, fz])
 }
 
 /// `sensor_msgs/NavSatFix`; the height is that above the world's origin.
