@@ -16,6 +16,9 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// Field of view with which a focal length is pixels per radian of an equirectangular picture: 2 atan(pi).
+    pub const ALL_AROUND_FOV_RAD: f64 = 2.525_254_511_357_823_5;
+
     /// Focal length in pixels, the same for both axes: width / (2 tan(fov / 2)).
     pub fn focal_px(&self) -> f64 {
         f64::from(self.width) / (2.0 * real::tan(0.5 * self.horizontal_fov_rad))
@@ -29,7 +32,11 @@ impl Camera {
     /// Pixel coordinates (u right, v down) and planar depth (metres along the optical axis) of a world point;
     /// `None` when it is not in front of the camera.
     pub fn project(&self, pose: &Pose, point_in_world: DVec3) -> Option<(f64, f64, f64)> {
-        let seen = pose.body_from_world_point(point_in_world);
+        self.project_seen(pose.body_from_world_point(point_in_world))
+    }
+
+    /// Pixel coordinates and planar depth of a point before the camera (x ahead, y right, z up, metres).
+    pub fn project_seen(&self, seen: DVec3) -> Option<(f64, f64, f64)> {
         if seen.x <= 1e-6 {
             return None;
         }
@@ -121,13 +128,7 @@ impl Mount {
             return Pose { pitch_rad, yaw_rad, roll_rad: self.roll_rad, ..*body };
         }
         let world_from_camera = body.world_from_body() * self.body_from_camera();
-        let [ahead, right, up] = [world_from_camera.x_axis, world_from_camera.y_axis, world_from_camera.z_axis];
-        Pose {
-            position_in_world: body.position_in_world,
-            pitch_rad: real::asin(ahead.z.clamp(-1.0, 1.0)),
-            yaw_rad: real::atan2(ahead.y, ahead.x),
-            roll_rad: real::atan2(-right.z, up.z),
-        }
+        Pose::of_axes(body.position_in_world, world_from_camera)
     }
 }
 

@@ -1,15 +1,21 @@
 //! [`Lens`]: radial distortion after Brown, `r_seen = r (1 + k1 r^2 + k2 r^4)`, with r the tangent of the angle from the optical axis;
-//! or a fisheye after Kannala and Brandt, `r_seen = a (1 + k1 a^2 + k2 a^4 + k3 a^6 + k4 a^8)`, with a the angle itself, radians.
+//! or a fisheye after Kannala and Brandt, `r_seen = a (1 + k1 a^2 + k2 a^4 + k3 a^6 + k4 a^8)`, with a the angle itself, radians;
+//! or an equirectangular picture all around, whose columns are angles to the right and whose rows are angles upwards.
 
 use crate::Camera;
-use cosfly_frames::real;
+use cosfly_frames::{DVec3, real};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Angle from the optical axis from which on a fisheye shows nothing, radians: its picture is drawn by one ideal camera.
+/// Angle from the optical axis up to which one ideal camera draws the picture of a fisheye, radians.
 const MOST_ANGLE_RAD: f64 = 1.4;
+/// Width of an ideal picture from which on views all around draw that of a fisheye, widths of the finished one.
+const MOST_WIDENING: f64 = 3.0;
 /// Steps of a half turn in which the end of a fisheye's picture is looked for.
 const LADDER: u32 = 3600;
+
+/// Distance between a point and the place that its pixel shows, pixels of the ideal picture.
+const SAME_PX: f64 = 1e-3;
 
 /// Curve from the angle of a ray to its distance from the middle of the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -20,6 +26,8 @@ pub enum LensModel {
     Brown,
     /// Fisheye after Kannala and Brandt, as OpenCV's `fisheye` with `D = [k1, k2, k3, k4]`; all 0: equidistant.
     Fisheye,
+    /// All directions, 360 x 180 degrees: columns are even angles to the right, rows even angles upwards.
+    Equirectangular,
 }
 
 /// Lens before the ideal camera; all numbers 0: a pinhole, or an equidistant fisheye.
@@ -48,12 +56,13 @@ impl LensModel {
         match self {
             Self::Brown => "brown",
             Self::Fisheye => "fisheye",
+            Self::Equirectangular => "equirectangular",
         }
     }
 
     /// The model called `name`.
     pub fn called(name: &str) -> Option<Self> {
-        [Self::Brown, Self::Fisheye].into_iter().find(|model| model.name() == name)
+        [Self::Brown, Self::Fisheye, Self::Equirectangular].into_iter().find(|model| model.name() == name)
     }
 
     /// Name of the model in `camera_info` of ROS 2 and in Foxglove's calibration.
@@ -61,6 +70,7 @@ impl LensModel {
         match self {
             Self::Brown => "plumb_bob",
             Self::Fisheye => "equidistant",
+            Self::Equirectangular => "equirectangular",
         }
     }
 }
@@ -81,18 +91,24 @@ impl Lens {
         *self == Self::default()
     }
 
+    /// Whether one of its numbers is not 0.
+    pub fn coefficients_are_any(&self) -> bool {
+        [self.k1, self.k2, self.k3, self.k4] != [0.0; 4]
+    }
+
     /// The numbers that calibrations of this model have.
     pub fn coefficients(&self) -> Vec<f64> {
         match self.model {
             LensModel::Brown => vec![self.k1, self.k2, 0.0, 0.0, 0.0],
             LensModel::Fisheye => vec![self.k1, self.k2, self.k3, self.k4],
+            LensModel::Equirectangular => vec![],
         }
     }
 
     /// From the ideal to the seen radius.
     pub fn seen_radius(&self, ideal: f64) -> f64 {
         match self.model {
-            LensModel::Brown => self.curve(ideal),
+            LensModel::Brown | LensModel::Equirectangular => self.curve(ideal),
             LensModel::Fisheye => self.curve(real::atan2(ideal, 1.0)),
         }
     }
@@ -102,7 +118,7 @@ impl Lens {
     pub fn ideal_radius(&self, seen: f64) -> Option<f64> {
         let bent = self.root(seen)?;
         match self.model {
-            LensModel::Brown => Some(bent),
+            LensModel::Brown | LensModel::Equirectangular => Some(bent),
             LensModel::Fisheye => (bent < MOST_ANGLE_RAD).then(|| real::tan(bent)),
         }
     }
@@ -118,15 +134,25 @@ impl Lens {
         1.0 + q * (3.0 * self.k1 + q * (5.0 * self.k2 + q * (7.0 * self.k3 + q * 9.0 * self.k4)))
     }
 
+    /// Whether the curve rises up to a place, told by its falling terms alone; `false` says nothing.
+    fn surely_rises_to(&self, x: f64) -> bool {
+        let [k1, k2, k3, k4] = [self.k1, self.k2, self.k3, self.k4].map(|k| k.min(0.0));
+        Self { k1, k2, k3, k4, ..*self }.slope(x) > 0.0
+    }
+
     /// The place at which the curve reaches `seen` before it turns back.
     fn root(&self, seen: f64) -> Option<f64> {
-        let turn = self.turning_place();
         // Newton's steps from the seen radius; the curve grows up to where it turns, so a root below is the only one.
         let mut bent = seen;
         for _ in 0..12 {
             bent -= (self.curve(bent) - seen) / self.slope(bent);
         }
-        if (0.0..turn).contains(&bent) && (self.curve(bent) - seen).abs() <= 1e-13 * seen.max(1.0) {
+        let is_root = bent >= 0.0 && (self.curve(bent) - seen).abs() <= 1e-13 * seen.max(1.0);
+        if is_root && self.surely_rises_to(bent) {
+            return Some(bent);
+        }
+        let turn = self.turning_place();
+        if is_root && bent < turn {
             return Some(bent);
         }
         let (mut low, mut high) = (0.0, if turn.is_finite() { turn } else { 64.0 * seen });
@@ -201,6 +227,68 @@ impl Lens {
         Self::scaled(camera, (u, v), |seen| self.ideal_radius(seen))
     }
 
+    /// Whether the picture is put together from views all around; its depth is the distance along the ray of a pixel, not along the
+    /// optical axis.
+    pub fn is_wide(&self, camera: &Camera) -> bool {
+        match self.model {
+            LensModel::Brown => false,
+            LensModel::Fisheye => self.widening(camera).is_none_or(|widening| widening > MOST_WIDENING),
+            LensModel::Equirectangular => true,
+        }
+    }
+
+    /// Pixel coordinates and depth of a point before the camera (x ahead, y right, z up, metres); none where no picture shows it.
+    pub fn project(&self, camera: &Camera, point: DVec3) -> Option<(f64, f64, f64)> {
+        if !self.is_wide(camera) {
+            let (u, v, depth_m) = camera.project_seen(point)?;
+            let (u, v) = self.bend(camera, (u, v));
+            return Some((u, v, depth_m));
+        }
+        let (cx, cy, focal) = camera.centre_and_focal_px();
+        let (right, down) = if self.model == LensModel::Equirectangular {
+            let flat = real::hypot(point.x, point.y);
+            (real::atan2(point.y, point.x), -real::atan2(point.z, flat))
+        } else {
+            let across = real::hypot(point.y, point.z);
+            let angle = real::atan2(across, point.x);
+            let scale = if across > 0.0 { self.curve(angle) / across } else { 0.0 };
+            if !self.surely_rises_to(angle) && angle >= self.turning_place() {
+                return None;
+            }
+            (scale * point.y, -scale * point.z)
+        };
+        Some((cx + focal * right, cy + focal * down, point.length()))
+    }
+
+    /// Ray of pixel coordinates before the camera (x ahead, y right, z up): times the depth it is the point that the pixel shows. None
+    /// outside of the lens's reach.
+    pub fn ray(&self, camera: &Camera, (u, v): (f64, f64)) -> Option<DVec3> {
+        let (cx, cy, focal) = camera.centre_and_focal_px();
+        if !self.is_wide(camera) {
+            let (u, v) = self.unbend(camera, (u, v))?;
+            return Some(DVec3::new(1.0, (u - cx) / focal, (cy - v) / focal));
+        }
+        let (right, up) = ((u - cx) / focal, (cy - v) / focal);
+        if self.model == LensModel::Equirectangular {
+            let ((sin_yaw, cos_yaw), (sin, cos)) = (real::sin_cos(right), real::sin_cos(up));
+            return Some(DVec3::new(cos * cos_yaw, cos * sin_yaw, sin));
+        }
+        let off = real::hypot(right, up);
+        let angle = if off > 0.0 { self.root(off)? } else { 0.0 };
+        let (sin, cos) = real::sin_cos(angle);
+        let scale = if off > 0.0 { sin / off } else { 0.0 };
+        (angle < real::PI).then(|| DVec3::new(cos, scale * right, scale * up))
+    }
+
+    /// Whether the pixel that [`Self::project`] gives shows the point, if any does: a curve may turn and lead back.
+    pub fn shows(&self, camera: &Camera, point: DVec3, pixel: (f64, f64)) -> bool {
+        if self.is_wide(camera) {
+            return true;
+        }
+        let through = self.unbend(camera, pixel);
+        camera.project_seen(point).zip(through).is_some_and(|((u, v, _), (x, y))| real::hypot(x - u, y - v) <= SAME_PX)
+    }
+
     /// Width of the ideal picture that this lens needs, in widths of the picture; `None` when there is none.
     pub fn widening(&self, camera: &Camera) -> Option<f64> {
         let corner = self.unbend(camera, (0.0, 0.0))?;
@@ -250,5 +338,29 @@ mod tests {
         // The curve turns back at 1 / sqrt(3) rad, where it reaches 0.385.
         assert!(Lens::fisheye([-1.0, 0.0, 0.0, 0.0]).ideal_radius(0.38).is_some());
         assert_eq!(Lens::fisheye([-1.0, 0.0, 0.0, 0.0]).ideal_radius(0.39), None);
+    }
+
+    #[test]
+    fn wide_lenses_show_every_ray_where_its_pixel_says_at_the_distance_along_it() {
+        let around = Camera { width: 400, height: 200, horizontal_fov_rad: Camera::ALL_AROUND_FOV_RAD };
+        let wide = Camera { width: 300, height: 300, horizontal_fov_rad: 115f64.to_radians() };
+        let all = Lens { model: LensModel::Equirectangular, ..Lens::default() };
+        for (lens, camera) in
+            [(all, around), (Lens::fisheye([0.0; 4]), wide), (Lens::fisheye([-0.02, 0.0, 0.0, 0.0]), wide)]
+        {
+            assert!(lens.is_wide(&camera));
+            for seen in [(0.5, 0.5), (33.0, 150.0), (camera.centre_and_focal_px().0, 80.0), (299.0, 120.5)] {
+                let ray = lens.ray(&camera, seen).expect("in reach");
+                let (u, v, depth_m) = lens.project(&camera, 7.0 * ray).expect("in the picture");
+                assert!((u - seen.0).abs() < 1e-9 && (v - seen.1).abs() < 1e-9 && (depth_m - 7.0).abs() < 1e-12);
+            }
+        }
+        // A quarter of the width is a right angle; up is up.
+        let at = |point: DVec3| all.project(&around, point).map(|(u, v, _)| (u.round(), v.round()));
+        assert_eq!(at(DVec3::Y), Some((300.0, 100.0)));
+        assert_eq!(at(DVec3::new(-1.0, -1e-9, 1e-9)), Some((0.0, 100.0)));
+        assert_eq!(at(DVec3::new(1.0, 0.0, 1.0)), Some((200.0, 50.0)));
+        // A straight lens of the same size is of one ideal picture.
+        assert!(!Lens::fisheye([0.0; 4]).is_wide(&CAMERA) && !Lens::default().is_wide(&wide));
     }
 }

@@ -28,6 +28,16 @@ impl Pose {
         Self { position_in_world, pitch_rad, yaw_rad, roll_rad: 0.0 }
     }
 
+    /// Pose with the body's axes as columns of a rotation matrix; a body that points straight up or down has no roll.
+    pub fn of_axes(position_in_world: DVec3, world_from_body: DMat3) -> Self {
+        let [ahead, right, up] = [world_from_body.x_axis, world_from_body.y_axis, world_from_body.z_axis];
+        let pitch_rad = asin(ahead.z.clamp(-1.0, 1.0));
+        if ahead.x.abs() + ahead.y.abs() < 1e-9 {
+            return Self { position_in_world, pitch_rad, yaw_rad: atan2(-right.x, right.y), roll_rad: 0.0 };
+        }
+        Self { position_in_world, pitch_rad, yaw_rad: atan2(ahead.y, ahead.x), roll_rad: atan2(-right.z, up.z) }
+    }
+
     /// Rotation matrix whose columns are the body's x, y and z axes in the world frame (the rotation part of
     /// `carla.Transform.get_matrix`).
     pub fn world_from_body(&self) -> DMat3 {
@@ -50,6 +60,15 @@ impl Pose {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn axes_give_their_pose_back_straight_down_as_well() {
+        for (pitch_rad, roll_rad) in [(-0.6, 0.3), (-0.5 * crate::real::PI, 0.0), (0.5 * crate::real::PI, 0.7)] {
+            let axes = Pose { position_in_world: DVec3::ONE, pitch_rad, yaw_rad: 2.9, roll_rad }.world_from_body();
+            let pose = Pose::of_axes(DVec3::ONE, axes);
+            assert!(pose.world_from_body().abs_diff_eq(axes, 1e-9), "{pose:?}");
+        }
+    }
 
     #[test]
     fn a_looking_pose_sees_its_target_straight_ahead() {

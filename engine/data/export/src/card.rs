@@ -89,6 +89,7 @@ fn optics(source: &Source<'_>) -> Result<String> {
             match model {
                 LensModel::Brown => format!("{:?}", [k1, k2]),
                 LensModel::Fisheye => format!("fisheye {:?}", it.lens.coefficients()),
+                LensModel::Equirectangular => "all around, equirectangular".to_owned(),
             }
         })
         .collect();

@@ -22,7 +22,7 @@ pub fn records(
         ("cosfly.trajectory", trajectory(record)),
         ("cosfly.weather", weather(record)),
         ("cosfly.camera", camera(record)),
-        ("cosfly.conventions", conventions(header)),
+        ("cosfly.conventions", conventions(header, record.lens.is_wide(&record.camera))),
         ("cosfly.semantic_labels", labels()),
         ("cosfly.instances", instances(town, record)),
     ]
@@ -120,18 +120,19 @@ fn camera(record: &RenderedTrajectory) -> BTreeMap<String, String> {
     all
 }
 
-fn conventions(header: &PackHeader) -> BTreeMap<String, String> {
+fn conventions(header: &PackHeader, is_wide: bool) -> BTreeMap<String, String> {
     let depth_grid = match header.encoding.depth {
         DepthEncoding::Grid => "rounded to multiples of 2^-10 m",
         DepthEncoding::Lossless => "as rendered",
     };
+    let depth = if is_wide { "distance along the ray of the pixel" } else { "planar: distance along the optical axis" };
     let mut conventions = entries([
         ("time", "frame i is at i * dt_s; time 0 is the first frame".into()),
         ("map_frame", "right-handed, metres: x = x of CARLA, y = -y of CARLA, z up".into()),
         ("drone_frame", "x ahead, y left, z up; the camera sits and looks as its mount says, along x from the origin where that is 0".into()),
         ("camera_optical_frame", "x right, y down, z ahead".into()),
         ("target_frame", "origin on the ground between the feet, x in walking direction, z up".into()),
-        ("depth", "planar: distance along the optical axis, metres, 32-bit float; +inf for sky".into()),
+        ("depth", format!("{depth}, metres, 32-bit float; +inf for sky")),
         ("depth_values", depth_grid.into()),
         ("semantic", "CARLA label ids of 0.9.14 and later".into()),
         ("instance", "0 ground and sky, 1 the target, object id + 2, then people; unsigned, little-endian".into()),

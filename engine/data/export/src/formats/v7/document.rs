@@ -149,14 +149,15 @@ fn target(flight: &PublishedFlight, row: &FrameRow) -> Value {
 
 /// Place in the image of a point of the camera's body frame (x ahead, y right, z up), pixels; none outside of the image.
 fn image_uv(flight: &PublishedFlight, point: DVec3) -> Option<[f64; 2]> {
-    if point.x <= 0.0 {
-        return None;
-    }
     let camera = &flight.camera;
-    let (right, down) = (point.y / point.x, -point.z / point.x);
-    let [cx, cy] = middle_px(camera);
-    let focal = camera.focal_px();
-    let (u, v) = flight.lens.bend(camera, (cx + focal * right, cy + focal * down));
+    let (u, v) = if flight.lens.is_wide(camera) {
+        let (u, v, _) = flight.lens.project(camera, point)?;
+        (u, v)
+    } else {
+        let (right, down) = (point.y / point.x, -point.z / point.x);
+        let ([cx, cy], focal) = (middle_px(camera), camera.focal_px());
+        (point.x > 0.0).then(|| flight.lens.bend(camera, (cx + focal * right, cy + focal * down)))?
+    };
     let uv = [u, v];
     let is_inside =
         (0.0..=f64::from(camera.width)).contains(&uv[0]) && (0.0..=f64::from(camera.height)).contains(&uv[1]);

@@ -19,8 +19,12 @@ columns! { Trajectories::CAMERA of DatasetItem;
     camera_cx_px: f64 = |item, _| 0.5 * f64::from(item.record.camera.width);
     /// Optical centre, from the top edge.
     camera_cy_px: f64 = |item, _| 0.5 * f64::from(item.record.camera.height);
-    /// Model of the lens: `brown` (radial distortion of a pinhole) or `fisheye` (Kannala and Brandt's, OpenCV's `fisheye`).
+    /// Model of the lens: `brown` (radial distortion of a pinhole), `fisheye` (Kannala and Brandt's, OpenCV's `fisheye`) or
+    /// `equirectangular` (360 x 180 degrees; the focal length is pixels per radian).
     camera_lens_model: String = |item, _| item.record.lens.model.name().to_owned();
+    /// Whether depth pictures have the distance along the ray of a pixel, as of pictures all around and of fisheyes that see beyond 80
+    /// degrees from their axis; otherwise the distance along the optical axis.
+    camera_depth_is_along_rays: bool = |item, _| item.record.lens.is_wide(&item.record.camera);
     /// Lens distortion, OpenCV's k1: r (1 + k1 r^2 + k2 r^4), r the tangent of the angle from the optical axis. Of a fisheye:
     /// a (1 + k1 a^2 + k2 a^4 + k3 a^6 + k4 a^8), a the angle itself, radians.
     camera_k1: f64 = |item, _| item.record.lens.k1;
