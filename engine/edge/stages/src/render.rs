@@ -15,7 +15,7 @@ use cosfly_experts::world::{check_same_town, link_town, world};
 use cosfly_experts::{artifacts, pictures, render_files};
 use cosfly_figures::{Bystander, outfit_of};
 use cosfly_film::Shooting;
-use cosfly_film::body_rays::BodyRays;
+use cosfly_film::body_rays::{self, BodyRays};
 use cosfly_film::in_space::Taken;
 use cosfly_film::rate::{FilmedFlight, filmed_around, filmed_flight};
 use cosfly_flight::World;
@@ -311,7 +311,7 @@ impl RenderStage {
             let others = move |offset_s: f64, list: &mut Vec<Bystander>| crowd.at(time_s + offset_s, list);
             (move |offset_s: f64| film.moment(frame, offset_s), others)
         };
-        let (mut seen, mut body_rays, mut about) = (SeenPeople::default(), BodyRays::default(), vec![]);
+        let (mut seen, mut rays, mut about) = (SeenPeople::default(), BodyRays::default(), vec![]);
         outputs.stream(PACK, &mut |file| {
             seen = SeenPeople::default();
             let mut pack = FramePackWriter::new(file, &header)?;
@@ -320,9 +320,9 @@ impl RenderStage {
                 let noise_seed = Seed(context.seed).child("frame", frame as u64);
                 let beside = [film.before(frame), film.after(frame)].map(|beside| beside.map(frame_at));
                 let (moment, others) = frame_at(frame);
-                let [previous, next] = beside.each_ref().map(|beside| {
-                    beside.as_ref().map(|(moment, others)| FrameBeside { moment, others })
-                });
+                let [previous, next] = beside
+                    .each_ref()
+                    .map(|beside| beside.as_ref().map(|(moment, others)| FrameBeside { moment, others }));
                 let neighbours = Neighbours { previous, next };
                 let shot =
                     Shot { weather: &shooting.weather, moment: &moment, others: &others, neighbours, noise_seed };
@@ -340,9 +340,10 @@ impl RenderStage {
                     let taken = Taken { frame: number, images, camera, lens, pose };
                     seen.bodies_3d.extend(taken.bodies(all.into_iter().chain(about.iter().copied())));
                 }
-                seen.by_dense_rays.push(
-                    target.and_then(|it| body_rays.visible_share(&world.exact, &about, &shooting.camera, &pose, &it)),
-                );
+                seen.by_dense_rays.push(target.and_then(|it| {
+                    let (camera, pose) = body_rays::aimed(&config.lens, &shooting.camera, &pose, &it);
+                    rays.visible_share(&world.exact, &about, &camera, &pose, &it)
+                }));
                 seen.views.push(TargetView { visible_by_rays: trajectory.visibility[frame], ..view });
                 seen.sightings.extend(sightings);
                 seen.splats_off_m.extend(rig.renderer.splats_off_m());

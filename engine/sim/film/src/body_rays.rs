@@ -1,7 +1,7 @@
 //! Share of the target's body that hundreds of rays reach: the figure's triangles against the town's boxes and other
 //! people in double precision, without any code of the renderer, so that its pixels can be compared with it.
 
-use cosfly_domain::Camera;
+use cosfly_domain::{Camera, Lens};
 use cosfly_figures::{Bystander, Walker, walker_triangles};
 use cosfly_frames::{DVec3, Pose};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
@@ -64,6 +64,15 @@ impl BodyRays {
         let free = self.blocked.iter().zip(cells).filter(|it| is_free(*it)).count();
         (!self.blocked.is_empty()).then(|| free as f64 / self.blocked.len() as f64)
     }
+}
+
+/// Camera and pose of rays to a target: those of the picture, of a wide lens those of an ideal camera that looks at it.
+pub fn aimed(lens: &Lens, camera: &Camera, pose: &Pose, target: &Walker) -> (Camera, Pose) {
+    if !lens.is_wide(camera) {
+        return (*camera, *pose);
+    }
+    let pose = Pose::looking_at(pose.position_in_world, middle(target));
+    (Camera { width: 640, height: 640, horizontal_fov_rad: 2.0 }, pose)
 }
 
 /// True where somebody may hide a part of the target from an eye.

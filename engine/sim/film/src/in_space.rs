@@ -2,15 +2,12 @@
 
 use cosfly_domain::{BodyInSpace, Camera, FrameImages, KeyPoint, Lens, Shown};
 use cosfly_figures::{BodyShape, Bystander, Walker, key_points};
-use cosfly_frames::{DVec3, Pose, real};
+use cosfly_frames::{DVec3, Pose};
 use std::collections::BTreeSet;
 
 /// A joint is seen where the body's own surface before it is nearer by no more than this, body heights: limbs are thinner, trunk and
 /// head are thicker.
 const WITHIN: f64 = 0.085;
-
-/// Distance between a point and the place that its pixel shows, pixels of the ideal picture.
-const SAME_PX: f64 = 1e-3;
 
 /// A frame and how it was taken.
 pub struct Taken<'a> {
@@ -53,12 +50,9 @@ impl Taken<'_> {
 
     fn point(&self, point_in_world: DVec3, instance: u32, within_m: f64) -> KeyPoint {
         let outside = |depth_m: f64| KeyPoint { point_in_world, pixel: [0.0; 2], depth_m, shown: Shown::Outside };
-        let Some((u, v, depth_m)) = self.camera.project(&self.pose, point_in_world) else { return outside(0.0) };
-        let ideal = (u, v);
-        let (u, v) = self.lens.bend(&self.camera, ideal);
-        // Beyond the place where the lens's curve turns, it leads back into the picture, where nothing shows the point.
-        let seen_through = self.lens.unbend(&self.camera, (u, v));
-        if seen_through.is_none_or(|(x, y)| real::hypot(x - ideal.0, y - ideal.1) > SAME_PX) {
+        let point = self.pose.body_from_world_point(point_in_world);
+        let Some((u, v, depth_m)) = self.lens.project(&self.camera, point) else { return outside(0.0) };
+        if !self.lens.shows(&self.camera, point, (u, v)) {
             return outside(depth_m);
         }
         let (width, height) = (f64::from(self.camera.width), f64::from(self.camera.height));

@@ -243,16 +243,18 @@ impl Filming<'_> {
             check()?;
             let target = shooting.target(track, *target, 0.0);
             for offset_s in &moments_s {
-                let pose = pose_at(&poses, frame as f64 + offset_s / track.dt_s);
-                let outlook = Outlook::new(&camera, &shooting.weather, &pose);
-                let eye_in_world = pose.position_in_world;
-                let matters = |other: &mut Candidate| {
-                    let walker = other.person.walker(frame as f64 * track.dt_s + offset_s);
-                    let Some(walker) = walker else { return false };
-                    (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, &target))
-                        && !scenery.buildings.hide(eye_in_world, &outlook.hull(&walker, scenery.lowest_m))
-                };
-                near.extend(others.extract_if(.., matters));
+                let eye = pose_at(&poses, frame as f64 + offset_s / track.dt_s);
+                for pose in effects.poses(eye) {
+                    let outlook = Outlook::new(&camera, &shooting.weather, &pose);
+                    let eye_in_world = pose.position_in_world;
+                    let matters = |other: &mut Candidate| {
+                        let walker = other.person.walker(frame as f64 * track.dt_s + offset_s);
+                        let Some(walker) = walker else { return false };
+                        (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, &target))
+                            && !scenery.buildings.hide(eye_in_world, &outlook.hull(&walker, scenery.lowest_m))
+                    };
+                    near.extend(others.extract_if(.., matters));
+                }
             }
         }
         Ok(near)

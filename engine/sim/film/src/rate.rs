@@ -197,7 +197,8 @@ mod tests {
         let traffic = Traffic { dt_s: 0.5, frames: 9, bodies, ..Traffic::default() };
         let film = filmed_around(&Around { numbers: vec![5, 6, 7, 8], traffic }, 3);
         assert_eq!((film.numbers, film.traffic.frames, film.traffic.dt_s), (vec![5, 7], 3, 1.5));
-        let found = film.traffic.bodies.iter().map(|body| (body.first_frame, body.states.iter().map(|it| it.feet_in_world.x)));
+        let found =
+            film.traffic.bodies.iter().map(|body| (body.first_frame, body.states.iter().map(|it| it.feet_in_world.x)));
         let found: Vec<(u32, Vec<f64>)> = found.map(|(first, places)| (first, places.collect())).collect();
         assert_eq!(found, [(0, vec![0.0, 3.0, 6.0]), (1, vec![3.0, 6.0])]);
     }

@@ -4,7 +4,6 @@ use crate::cameras::{CameraConfig, GimbalConfig};
 use crate::dry_days;
 use crate::effects::Effects;
 use crate::look::PictureLook;
-use cosfly_domain::channels;
 use cosfly_domain::{
     Camera, ChannelSet, Lens, LensModel, MotionBlur, Mount, Noise, RollingShutter, Season, StereoEye, Weather,
 };
@@ -259,13 +258,6 @@ impl RenderConfig {
             value.map_or(Ok(()), |value| in_range(path, value, bounds))?;
         }
         self.check_lens()?;
-        if !self.lens.is_none() && self.channels.contains(&channels::depth_sensor::CHANNEL) {
-            return Err(ConfigProblem {
-                path: "channels".into(),
-                message: "`depth_sensor` measures in rectified pictures, and `lens` bends them".into(),
-                hint: "leave out `depth_sensor`, or `lens`".into(),
-            });
-        }
         in_range("motion_blur.shutter_s", self.motion_blur.shutter_s, [0.0, 0.5])?;
         in_range("motion_blur.samples", f64::from(self.motion_blur.samples), [3.0, 65.0])?;
         in_range("rolling_shutter.readout_s", self.rolling_shutter.readout_s, [0.0, 0.5])?;
@@ -273,42 +265,22 @@ impl RenderConfig {
         Ok(())
     }
 
-    fn check_lens(&self) -> Result<(), ConfigProblem> {
-        let Lens { model, k1, k2, k3, k4 } = self.lens;
-        let problem = |path: &str, message: String, hint: &str| {
-            Err(ConfigProblem { path: path.into(), message, hint: hint.into() })
-        };
-        for (path, value) in [("lens.k1", k1), ("lens.k2", k2), ("lens.k3", k3), ("lens.k4", k4)] {
-            if !(-1.0..=1.0).contains(&value) {
-                return problem(path, format!("the value is `{value}`"), "allowed are -1 to 1");
-            }
-        }
-        if model == LensModel::Brown && (k3 != 0.0 || k4 != 0.0) {
-            let message = "`k3` and `k4` are of a fisheye, and the model is `brown`".to_owned();
-            return problem("lens.model", message, "write `model = \"fisheye\"`, or leave out `k3` and `k4`");
-        }
-        let widest_deg = self.fov_range_deg.map_or(self.fov_deg, |range| range[1]);
-        let widest = Camera { horizontal_fov_rad: widest_deg.to_radians(), ..self.camera() };
-        if self.lens.widening(&widest).is_none_or(|widening| widening > 3.0) {
-            let message = format!(
-                "the lens (`{}`, k {k1}, {k2}, {k3}, {k4}) has no picture in the corners of a field of view of {widest_deg} degrees, \
-                 or needs one more than three times as wide",
-                model.name()
-            );
-            return problem("lens", message, "take coefficients nearer to 0 or a smaller field of view");
-        }
-        Ok(())
+    /// The camera, with the field of view of `fov_deg`; of a picture all around, with its pixels per radian as the focal length.
+    pub fn camera(&self) -> Camera {
+        self.camera_of(self.fov_deg)
     }
 
-    /// The camera, with the field of view of `fov_deg`.
-    pub fn camera(&self) -> Camera {
-        Camera { width: self.width, height: self.height, horizontal_fov_rad: self.fov_deg.to_radians() }
+    /// The camera with a field of view, degrees.
+    pub(crate) fn camera_of(&self, fov_deg: f64) -> Camera {
+        let is_around = self.lens.model == LensModel::Equirectangular;
+        let horizontal_fov_rad = if is_around { Camera::ALL_AROUND_FOV_RAD } else { fov_deg.to_radians() };
+        Camera { width: self.width, height: self.height, horizontal_fov_rad }
     }
 
     /// The camera of all flights behind one walk.
     pub fn draw_camera(&self, walk_seed: &Seed) -> Camera {
         let fov_deg = self.fov_range_deg.map_or(self.fov_deg, |range| draw(walk_seed, "fov", range));
-        Camera { horizontal_fov_rad: fov_deg.to_radians(), ..self.camera() }
+        self.camera_of(fov_deg)
     }
 
     /// Turn of the camera against the drone on all flights behind one walk.
@@ -523,7 +495,8 @@ mod tests {
         let [down, left, right] = ["down", "front_left", "front_right"].map(|film| config.of_camera(Some(film)));
         let right_m = |config: &RenderConfig| config.draw_mount(&Seed([1; 32])).right_m;
         assert_eq!([right_m(&down), right_m(&left), right_m(&right)], [0.0, 0.0, 0.12]);
-        let has_disparity = |config: &RenderConfig| config.channels.contains(&channels::disparity::CHANNEL);
+        let has_disparity =
+            |config: &RenderConfig| config.channels.contains(&cosfly_domain::channels::disparity::CHANNEL);
         assert!(!has_disparity(&down) && has_disparity(&left) && has_disparity(&right));
     }
 

@@ -11,21 +11,25 @@ mod depth_sensor;
 mod disparity;
 mod lens;
 mod shot;
+mod views;
 
 use crate::frame::RenderedFrame;
 use crate::renderer::Renderer;
 use crate::renderer::flow::SeenThrough;
 use crate::scene::Scene;
+use crate::setup::FrameSetup;
 use crate::target_view;
 use comparison::Comparison;
 use cosfly_domain::{BodyView, Camera, ChannelImage, FrameImages, Lens, MotionBlur, Noise, RollingShutter};
 use cosfly_figures::Bystander;
+use cosfly_frames::Pose;
 use cosfly_frames::simd::Level;
 use cosfly_optics::{Exposure, add_noise};
 use lens::LensMap;
 use shot::setup;
 pub use shot::{FrameBeside, Moment, Neighbours, Shot};
 use std::ops::Range;
+use views::{AHEAD, View, turned};
 
 /// The effects of one camera with their buffers; keep one per thread beside its renderer.
 pub struct Effects {
@@ -89,6 +93,15 @@ impl Effects {
         self.lens.as_ref().map_or(self.finished.camera, LensMap::ideal_camera)
     }
 
+    /// Ideal views of a camera in a pose; one, but of a wide lens.
+    pub fn poses(&self, pose: Pose) -> impl Iterator<Item = Pose> {
+        self.views().iter().map(move |view| turned(&pose, view))
+    }
+
+    fn views(&self) -> &[View] {
+        self.lens.as_ref().map_or(&[AHEAD][..], LensMap::views)
+    }
+
     /// Moments at which [`Self::film`] looks at what is in front of the camera, seconds from the middle of the shutter.
     pub fn moments_s(&self) -> Vec<f64> {
         let strips = self.rolling.strips(self.ideal_camera().height as usize);
@@ -109,28 +122,34 @@ impl Effects {
             self.comparison.draw(renderer, &setup, &(0..self.finished.camera.height as usize), &self.finished);
             return renderer.finished();
         }
-        let strips = self.rolling.strips(self.ideal_camera().height as usize);
-        let Self { blur, exposure, rolled, rolled_target, bystanders, comparison, finished, .. } = self;
+        let ideal = self.ideal_camera();
+        let strips: Vec<_> = self.rolling.strips(ideal.height as usize).collect();
+        let Self { blur, exposure, rolled, rolled_target, bystanders, comparison, finished, lens, .. } = self;
+        let views = lens.as_ref().map_or(&[AHEAD][..], LensMap::views);
         rolled_target.clear();
-        for (rows, moment_s) in strips {
+        size(rolled, ideal.width, ideal.height * views.len() as u32);
+        let shots = views.iter().enumerate().flat_map(|view| strips.iter().map(move |strip| (view, strip)));
+        for ((number, view), (rows, moment_s)) in shots {
             exposure.open();
             for offset_s in blur.offsets_s() {
-                let setup = setup(shot, moment_s + offset_s, bystanders);
+                let setup = seen_in(view, setup(shot, moment_s + offset_s, bystanders));
                 exposure.add(&renderer.render(scene, &setup).images.rgb);
             }
             // The middle comes last: its depth and ids are what stays.
-            let setup = setup(shot, moment_s, bystanders);
+            let setup = seen_in(view, setup(shot, *moment_s, bystanders));
             renderer.render(scene, &setup);
-            comparison.draw(renderer, &setup, &rows, finished);
+            comparison.draw(renderer, &setup, rows, finished);
             let frame = renderer.finished();
             if !blur.is_none() {
                 exposure.add(&frame.images.rgb);
             }
             let rgb = exposure.developed().unwrap_or(&frame.images.rgb);
-            add_rows(frame.images, rgb, rows.clone(), rolled);
-            let width = frame.images.width as usize;
+            let width = ideal.width as usize;
+            let first = number * width * ideal.height as usize;
+            add_rows(frame.images, rgb, rows.start * width..rows.end * width, (first, &mut *rolled));
             let pixels = (rows.start * width) as u32..(rows.end * width) as u32;
-            rolled_target.extend(frame.target_pixels.iter().filter(|pixel| pixels.contains(*pixel)));
+            let target = frame.target_pixels.iter().filter(|pixel| pixels.contains(*pixel));
+            rolled_target.extend(target.map(|pixel| first as u32 + pixel));
         }
         match &self.lens {
             None => {
@@ -151,24 +170,33 @@ impl Effects {
     }
 }
 
-/// Copies rows of all channels, those of `rgb` for colours, without new buffers when the sizes agree.
-fn add_rows(from: &FrameImages, rgb: &[u8], rows: Range<usize>, to: &mut FrameImages) {
-    (to.width, to.height) = (from.width, from.height);
-    let width = from.width as usize;
-    let pixels = rows.start * width..rows.end * width;
-    let colours = 3 * pixels.start..3 * pixels.end;
-    to.rgb.resize(from.rgb.len(), 0);
-    to.depth_m.resize(from.depth_m.len(), 0.0);
-    to.semantic.resize(from.semantic.len(), 0);
-    to.instance.resize(from.instance.len(), 0);
-    to.rgb[colours.clone()].copy_from_slice(&rgb[colours]);
-    to.depth_m[pixels.clone()].copy_from_slice(&from.depth_m[pixels.clone()]);
-    to.semantic[pixels.clone()].copy_from_slice(&from.semantic[pixels.clone()]);
-    to.instance[pixels.clone()].copy_from_slice(&from.instance[pixels.clone()]);
-    ChannelImage::match_channels(&mut to.on_request, &from.on_request, from.depth_m.len());
+/// A frame in a view of its camera.
+fn seen_in<'a>(view: &View, setup: FrameSetup<'a>) -> FrameSetup<'a> {
+    FrameSetup { pose: turned(&setup.pose, view), ..setup }
+}
+
+/// Makes room for a picture without new buffers when its size stays.
+fn size(images: &mut FrameImages, width: u32, height: u32) {
+    let pixels = width as usize * height as usize;
+    (images.width, images.height) = (width, height);
+    images.rgb.resize(3 * pixels, 0);
+    images.depth_m.resize(pixels, 0.0);
+    images.semantic.resize(pixels, 0);
+    images.instance.resize(pixels, 0);
+}
+
+/// Copies pixels of all channels, those of `rgb` for colours, to where the pixels from `first` on are those of the view.
+fn add_rows(from: &FrameImages, rgb: &[u8], pixels: Range<usize>, (first, to): (usize, &mut FrameImages)) {
+    let there = first + pixels.start..first + pixels.end;
+    to.rgb[3 * there.start..3 * there.end].copy_from_slice(&rgb[3 * pixels.start..3 * pixels.end]);
+    to.depth_m[there.clone()].copy_from_slice(&from.depth_m[pixels.clone()]);
+    to.semantic[there.clone()].copy_from_slice(&from.semantic[pixels.clone()]);
+    to.instance[there.clone()].copy_from_slice(&from.instance[pixels.clone()]);
+    let all = to.depth_m.len();
+    ChannelImage::match_channels(&mut to.on_request, &from.on_request, all);
     for (to, from) in to.on_request.iter_mut().zip(&from.on_request) {
         let size = from.channel.bytes_on_request();
-        let bytes = size * pixels.start..size * pixels.end;
-        to.bytes[bytes.clone()].copy_from_slice(&from.bytes[bytes]);
+        to.bytes[size * there.start..size * there.end]
+            .copy_from_slice(&from.bytes[size * pixels.start..size * pixels.end]);
     }
 }

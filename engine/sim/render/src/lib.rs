@@ -17,6 +17,7 @@ mod found;
 pub mod frame;
 mod ground_polygons;
 mod kerb_lines;
+mod lenses;
 mod look;
 mod mesh_labels;
 mod outlook;

@@ -2,7 +2,7 @@
 
 use crate::cameras::CameraConfig;
 use crate::config::{ConfigProblem, RenderConfig};
-use cosfly_domain::{StereoEye, channels};
+use cosfly_domain::{LensModel, StereoEye, channels};
 use std::collections::BTreeMap;
 
 /// Endings of the films of a stereo pair.
@@ -89,6 +89,11 @@ impl RenderConfig {
             if let Some(every) = camera.every.filter(|it| !(1..=1000).contains(it)) {
                 let path = format!("cameras.{name}.every");
                 return problem(path, format!("the camera films every `{every}`th frame"), "1 to 1000: whole frames");
+            }
+            let lens = camera.lens.unwrap_or(self.lens);
+            if camera.fov_deg.is_some() && lens.model == LensModel::Equirectangular {
+                let message = "an equirectangular picture shows 360 x 180 degrees".into();
+                return problem(format!("cameras.{name}.fov_deg"), message, "leave the key out");
             }
             for film in films(name, camera) {
                 if film != *name && self.cameras.contains_key(&film) {

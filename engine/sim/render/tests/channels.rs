@@ -4,8 +4,8 @@ mod small_town;
 
 use cosfly_domain::channels::{disparity, flow, normals};
 use cosfly_domain::{
-    BodyKind, Camera, Channel, ChannelSet, FrameImages, Lens, MotionBlur, Mount, RollingShutter, SemanticLabel,
-    TARGET_INSTANCE, Weather,
+    BodyKind, Camera, Channel, ChannelSet, FrameImages, Lens, LensModel, MotionBlur, Mount, RollingShutter,
+    SemanticLabel, TARGET_INSTANCE, Weather,
 };
 use cosfly_figures::{BodyShape, Bystander, Walker};
 use cosfly_frames::{DMat3, DVec3, Pose, Seed, TargetState, real};
@@ -302,4 +302,58 @@ fn a_fisheye_shows_every_point_at_the_angle_of_its_ray() {
     assert!(same * 100 > all * 93, "{same} of {all}");
     // Its corners show more than the pinhole's.
     assert!(wide.rgb != plain.rgb);
+}
+
+#[test]
+fn wide_lenses_show_every_point_in_the_direction_and_at_the_distance_of_its_ray() {
+    let all_around = Lens { model: LensModel::Equirectangular, ..Lens::default() };
+    let around = Camera { width: 400, height: 200, horizontal_fov_rad: Camera::ALL_AROUND_FOV_RAD };
+    let wide = Camera { width: 200, height: 200, horizontal_fov_rad: 115f64.to_radians() };
+    let eye = Pose { roll_rad: 0.1, ..pose() };
+    for (camera, lens) in [(around, all_around), (wide, Lens::fisheye([-0.01, 0.0, 0.0, 0.0]))] {
+        let mut effects = Effects::new(camera, lens, MotionBlur::default(), RollingShutter::default());
+        let mut renderer = Renderer::new(effects.ideal_camera());
+        renderer.set_channels(&ChannelSet::of(|channel| *channel == normals::CHANNEL || !channel.is_on_request()));
+        let moment = move |_: f64| Moment { pose: eye, target: moving(0.0).0.target };
+        let (neighbours, noise_seed) = (Neighbours::default(), Seed([1; 32]));
+        let shot = Shot { weather: &noon(), moment: &moment, others: &|_, _| {}, neighbours, noise_seed };
+        let images = effects.film(&mut renderer, &scene(), &shot).images.clone();
+        assert_eq!((images.width, images.height), (camera.width, camera.height));
+        assert!(
+            normals_of(&images)
+                .iter()
+                .zip(&images.depth_m)
+                .all(|(it, depth_m)| (*it == [0; 3]) == depth_m.is_infinite())
+        );
+        // Pinholes that look in directions of their own meet the same points.
+        let (mut same, mut all, mut behind) = (0, 0, 0);
+        for yaw in 0..8 {
+            let turned = Pose { yaw_rad: 0.8 * f64::from(yaw), pitch_rad: 0.5 - 0.15 * f64::from(yaw), ..eye };
+            let plain = {
+                let mut renderer = Renderer::new(CAMERA);
+                let target = moving(0.0).0.target;
+                renderer
+                    .render(&scene(), &FrameSetup { pose: turned, weather: &noon(), target, others: &[] })
+                    .images
+                    .clone()
+            };
+            for at in (0..160 * 90).step_by(7) {
+                let ray = CAMERA.ray_in_world(&turned, (at % 160) as f64 + 0.5, (at / 160) as f64 + 0.5);
+                let before = eye.world_from_body().transpose() * ray;
+                let Some((u, v, _)) = lens.project(&camera, before) else { continue };
+                if !((0.0..f64::from(camera.width)).contains(&u) && (0.0..f64::from(camera.height)).contains(&v)) {
+                    continue;
+                }
+                let there = camera.width as usize * v as usize + u as usize;
+                let distance_m = f64::from(plain.depth_m[at]) * ray.length();
+                let ratio = f64::from(images.depth_m[there]) / distance_m;
+                let is_same =
+                    plain.semantic[at] == images.semantic[there] && plain.instance[at] == images.instance[there];
+                all += 1;
+                behind += usize::from(before.x < 0.0);
+                same += usize::from((ratio.is_nan() || (ratio - 1.0).abs() < 0.05) && is_same);
+            }
+        }
+        assert!(same * 100 > all * 92 && behind * 4 > all, "{camera:?}: {same} of {all}, {behind} behind");
+    }
 }

@@ -136,16 +136,16 @@ fn is_seen(view: &WindowView, landmarks: &Landmarks, object: u32, shape: &Orient
     let size = DVec2::new(f64::from(view.optics.width), f64::from(view.optics.height));
     let (mut points, mut seen) = (0, 0);
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let depth_m = view.camera.body_from_world_point(shape.center_in_world).x;
+    let Some((.., depth_m)) = view.project(shape.center_in_world) else { return false };
     let width_m = 2.0 * shape.half_extents_m.truncate().max_element();
-    if depth_m <= 0.0 || view.optics.focal_px() * width_m / depth_m < THINNEST_PX {
+    if view.optics.focal_px() * width_m / depth_m < THINNEST_PX {
         return false;
     }
     for part in landmarks.boxes_of(object) {
         for share in [-0.7, 0.0, 0.7] {
             points += 1;
             let point = part.center_in_world + share * part.half_extents_m.z * DVec3::Z;
-            let Some((u, v, _)) = view.optics.project(&view.camera, point) else { continue };
+            let Some((u, v, _)) = view.project(point) else { continue };
             let (at, border) = (DVec2::new(u, v), BORDER * size);
             let is_inside = at.cmpge(border).all() && at.cmple(size - border).all();
             let first = landmarks.first_between(view.camera.position_in_world, point);
@@ -162,7 +162,7 @@ fn is_seen(view: &WindowView, landmarks: &Landmarks, object: u32, shape: &Orient
 fn side(view: &WindowView, shape: &OrientedBox) -> Option<OnSide> {
     let (_, right_m) = along(view.target.heading_rad, way_to(shape, view.target.feet_in_world));
     let beside = shape.center_in_world.with_z(view.target.feet_in_world.z + MIDDLE_M);
-    let ((u, ..), edges) = (view.optics.project(&view.camera, beside)?, view.target.box_px?);
+    let ((u, ..), edges) = (view.project(beside)?, view.target.box_px?);
     let aside_px = ASIDE * f64::from(view.optics.width);
     match () {
         () if right_m < -0.3 && u < edges[0] - aside_px => Some(OnSide::Left),

@@ -49,6 +49,7 @@ pub(crate) fn view(target: SeenPerson, others: Vec<SeenPerson>) -> WindowView {
     WindowView {
         camera: Pose::looking_at(DVec3::Z * 5.0, DVec3::new(12.0, 0.0, 1.0)),
         optics: Camera { width: 640, height: 480, horizontal_fov_rad: 90f64.to_radians() },
+        wide_lens: None,
         wear: Some(Wear { top: target.top, trousers: Colour::Blue, backpack: false }),
         moved_in_world: 2.0 * target.speed_mps * DVec3::new(cos, sin, 0.0),
         target,

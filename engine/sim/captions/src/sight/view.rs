@@ -1,7 +1,7 @@
 //! One picture: the target, everybody else, the camera.
 
 use crate::facts::Wear;
-use cosfly_domain::{Camera, Colour};
+use cosfly_domain::{Camera, Colour, Lens};
 use cosfly_frames::{DVec3, Pose};
 
 /// A person with fewer visible pixels is not clear: texts do not mention and do not count such a person, and do not say how
@@ -41,6 +41,14 @@ impl SeenPerson {
     }
 }
 
+impl WindowView {
+    /// Pixel coordinates and depth of a point.
+    pub(super) fn project(&self, point_in_world: DVec3) -> Option<(f64, f64, f64)> {
+        let point = self.camera.body_from_world_point(point_in_world);
+        self.wide_lens.map_or_else(|| self.optics.project_seen(point), |lens| lens.project(&self.optics, point))
+    }
+}
+
 /// The picture that ends the input of a window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WindowView {
@@ -48,6 +56,8 @@ pub struct WindowView {
     pub camera: Pose,
     /// Size of the picture and its field of view.
     pub optics: Camera,
+    /// The lens, where it sees all around; otherwise landmarks are where the ideal camera sees them.
+    pub wide_lens: Option<Lens>,
     /// The target.
     pub target: SeenPerson,
     /// Clothes of the target.
