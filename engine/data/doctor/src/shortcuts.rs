@@ -101,7 +101,8 @@ const PERSON: &str = "pedestrian";
 
 /// A body as the camera sees it; crown and feet of people only.
 fn seen(body: &SeenBody, flight: &PublishedFlight, camera_pose: &Pose) -> Seen {
-    let is_person = body.kind == PERSON;
+    // Rows of a wide lens are angles.
+    let is_person = body.kind == PERSON && !flight.lens.is_wide(&flight.camera);
     let row = |point| flight.camera.project(camera_pose, point).filter(|_| is_person).map(|(_, row, _)| row);
     let crown = row(body.feet_in_world + body.height_m * DVec3::Z);
     Seen {

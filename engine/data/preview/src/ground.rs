@@ -25,7 +25,6 @@ impl SeenGround {
     pub fn add(&mut self, flight: &PublishedFlight, frame: &LoggedFrame) {
         let (width, height) = (frame.width as usize, frame.height as usize);
         let step = |side: usize| (side / SAMPLES).max(1);
-        let focal = flight.camera.focal_px();
         for v in (0..height).step_by(step(height)) {
             for u in (0..width).step_by(step(width)) {
                 let at = v * width + u;
@@ -34,10 +33,8 @@ impl SeenGround {
                     continue;
                 }
                 let seen = (u as f64 + 0.5, v as f64 + 0.5);
-                let Some((u, v)) = flight.lens.unbend(&flight.camera, seen) else { continue };
-                let x = (u - 0.5 * width as f64) / focal;
-                let y = (v - 0.5 * height as f64) / focal;
-                let ray = frame.map_from_optical * DVec3::new(x, y, 1.0);
+                let Some(ray) = flight.lens.ray(&flight.camera, seen) else { continue };
+                let ray = frame.map_from_optical * DVec3::new(ray.y, -ray.z, ray.x);
                 let point = frame.camera_in_map + ray * f64::from(depth);
                 // The map's y is minus the world's.
                 let cell = [point.x / CELL_M, -point.y / CELL_M].map(|it| it.floor() as i32);

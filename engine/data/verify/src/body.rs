@@ -8,6 +8,8 @@ const REACH_PER_HEIGHT: f64 = 0.42;
 /// Highest point, in body heights: of a head while it bobs, of an umbrella.
 const TOP_PER_HEIGHT: f64 = 1.03;
 const UMBRELLA_PER_HEIGHT: f64 = 1.25;
+/// Slack of edges through a wide lens, share of width and height together.
+const WIDE_SLACK: f64 = 0.1;
 /// Slack of projected edges, pixels: pixels are sampled at their centres.
 pub const SLACK_PX: f64 = 1.5;
 
@@ -52,16 +54,36 @@ impl Body {
         })
     }
 
-    /// Edges of the projected prism, pixels: left, top, right, bottom; `None` when part of it is behind the camera.
+    /// Edges of the projected prism, pixels: left, top, right, bottom; `None` when part of it is behind the camera, or where it is
+    /// all around it.
     pub fn hull(&self, flight: &PlacedFlight, pose: &Pose) -> Option<[f64; 4]> {
+        let hull = self.corners_in(flight, pose)?;
+        if !flight.lens.is_wide(&flight.camera) {
+            return Some(hull);
+        }
+        // Edges of the prism are curves in such a picture, and a body across its seam is on both sides.
+        let [left, top, right, bottom] = hull;
+        let bow = WIDE_SLACK * (right - left + bottom - top);
+        let is_whole = right - left < 0.25 * f64::from(flight.camera.width);
+        is_whole.then_some([left - bow, top - bow, right + bow, bottom + bow])
+    }
+
+    fn corners_in(&self, flight: &PlacedFlight, pose: &Pose) -> Option<[f64; 4]> {
         self.corners().try_fold([f64::MAX, f64::MAX, f64::MIN, f64::MIN], |hull, corner| {
             let (u, v, depth) = flight.project(pose, corner)?;
             (depth > 0.1).then(|| [hull[0].min(u), hull[1].min(v), hull[2].max(u), hull[3].max(v)])
         })
     }
 
-    /// Nearest and farthest planar depth of the prism, metres.
-    pub fn depths_m(&self, pose: &Pose) -> (f64, f64) {
+    /// Nearest and farthest depth of the prism, metres: along the optical axis, of a wide lens along the rays.
+    pub fn depths_m(&self, flight: &PlacedFlight, pose: &Pose) -> (f64, f64) {
+        if flight.lens.is_wide(&flight.camera) {
+            let eye = pose.position_in_world;
+            let far_m = self.corners().map(|corner| corner.distance(eye)).fold(0.0, f64::max);
+            let nearest = self.on_axis(((eye.z - self.feet.z) / self.height_m).clamp(0.0, 1.0));
+            let reach_m = self.corners().map(|corner| corner.distance(self.on_axis(0.0))).fold(f64::MAX, f64::min);
+            return (nearest.distance(eye) - reach_m - 0.25 * self.height_m, far_m);
+        }
         let ahead = pose.world_from_body() * DVec3::X;
         self.corners()
             .map(|corner| (corner - pose.position_in_world).dot(ahead))

@@ -2,6 +2,8 @@
 
 use super::body::{Body, SLACK_PX};
 use super::rows::{PlacedFlight, PlacedFrame};
+use cosfly_domain::LensModel;
+use cosfly_frames::{DVec3, Pose, real};
 
 /// Heights on the axis that the silhouette covers, in body heights.
 const AXIS_HEIGHTS: [f64; 3] = [0.12, 0.65, 0.93];
@@ -40,6 +42,7 @@ pub fn box_problem(flight: &PlacedFlight, frame: &PlacedFrame) -> Option<String>
             return Some("the body is behind the camera and has a box".into());
         };
         let slack = axis_slack_px(flight.camera.focal_px() * body.height_m / depth, limb);
+        let slack = slack * stretch(flight, &frame.camera_pose, body.on_axis(share));
         if inside_image(u, v) && !contains(&full, u, v, slack) {
             return Some(format!(
                 "its body at {share} of its height projects to pixel ({u:.1}, {v:.1}), outside of box {full:?}"
@@ -52,6 +55,13 @@ pub fn box_problem(flight: &PlacedFlight, frame: &PlacedFrame) -> Option<String>
         && full[2] <= hull[2] + SLACK_PX
         && full[3] <= hull[3] + SLACK_PX;
     (!fits).then(|| format!("the box {full:?} is larger than the projected body {hull:.1?}"))
+}
+
+/// How much wider than long an equirectangular picture shows a point near its upper and lower edge; 1 of other lenses.
+fn stretch(flight: &PlacedFlight, pose: &Pose, point_in_world: DVec3) -> f64 {
+    let seen = pose.body_from_world_point(point_in_world);
+    let is_around = flight.lens.model == LensModel::Equirectangular;
+    if is_around { (seen.length() / real::hypot(seen.x, seen.y).max(1e-6)).clamp(1.0, 20.0) } else { 1.0 }
 }
 
 /// How far a point on the axis may lie outside of the box of a body that is `height_px` high, when it is `limb` body

@@ -326,7 +326,7 @@ impl LogCheck<'_> {
         if self.flight.readout_s > 0.0 {
             return;
         }
-        let (near, far) = Body::of_target(self.flight, row).depths_m(&row.camera_pose);
+        let (near, far) = Body::of_target(self.flight, row).depths_m(self.flight, &row.camera_pose);
         let depth_m = |at: usize| {
             image
                 .data

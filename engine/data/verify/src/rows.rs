@@ -6,7 +6,7 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::{Float32Type, Float64Type};
 use arrow_schema::DataType;
 use cosfly_diagnose::Diagnostic;
-use cosfly_frames::{DVec3, Pose, action, real};
+use cosfly_frames::{DVec3, Pose, action};
 use cosfly_read::{FrameRow, PublishedFlight, Rows, Shared, TableFile};
 use cosfly_schema::tables::{self, DatasetItem, FileRecord, Files, Frames, Kind, Table, Trajectories, Waypoints};
 use std::ops::Deref;
@@ -132,18 +132,14 @@ impl Deref for PlacedFlight {
 }
 
 impl PlacedFlight {
-    /// Pixel coordinates and planar depth of a world point through camera and lens; `None` behind the camera.
+    /// Pixel coordinates and depth of a world point through camera and lens; `None` where no picture shows it.
     pub fn project(&self, camera_pose: &Pose, point_in_world: DVec3) -> Option<(f64, f64, f64)> {
-        let (u, v, depth_m) = self.camera.project(camera_pose, point_in_world)?;
-        let (u, v) = self.lens.bend(&self.camera, (u, v));
-        Some((u, v, depth_m))
+        self.lens.project(&self.camera, camera_pose.body_from_world_point(point_in_world))
     }
 
     /// Whether the picture shows a world point at a pixel, if anywhere: a lens's curve may turn and lead back.
     pub fn shows(&self, camera_pose: &Pose, point_in_world: DVec3, pixel: (f64, f64)) -> bool {
-        let ideal = self.camera.project(camera_pose, point_in_world);
-        let through = self.lens.unbend(&self.camera, pixel);
-        ideal.zip(through).is_some_and(|((u, v, _), (x, y))| real::hypot(x - u, y - v) <= 1e-3)
+        self.lens.shows(&self.camera, camera_pose.body_from_world_point(point_in_world), pixel)
     }
 }
 

@@ -85,7 +85,11 @@ fn is_outside(record: &RenderedTrajectory, frame: usize) -> bool {
     let track = &record.trajectory.track;
     let middle = track.states[frame].feet_in_world + 0.5 * track.height_m * DVec3::Z;
     let [width, height] = [record.camera.width, record.camera.height].map(f64::from);
-    let at = record.camera.project(&record.camera_pose(frame), middle);
+    let middle = record.camera_pose(frame).body_from_world_point(middle);
+    let at = match record.lens.is_wide(&record.camera) {
+        true => record.lens.project(&record.camera, middle),
+        false => record.camera.project_seen(middle),
+    };
     at.is_none_or(|(u, v, _)| !((0.0..width).contains(&u) && (0.0..height).contains(&v)))
 }
 

@@ -34,6 +34,7 @@ fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<Windo
     Some(WindowView {
         camera: record.camera_pose(frame),
         optics: record.camera,
+        wide_lens: Some(record.lens).filter(|lens| lens.is_wide(&record.camera)),
         target: person(&states[frame], seen.visible_box.as_ref(), seen.pixels, outfit.top.name),
         wear: Some(Wear::from(outfit)),
         moved_in_world: states[frame].feet_in_world - states[start].feet_in_world,

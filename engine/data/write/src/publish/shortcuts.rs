@@ -44,7 +44,8 @@ fn looks(outfit: &Outfit, height_m: f64) -> Looks {
 /// A body in the picture; crown and feet of a person only.
 fn seen(record: &RenderedTrajectory, pose: &Pose, visible: &PixelBox, (state, height_m): (&TargetState, f64)) -> Seen {
     let feet = state.feet_in_world;
-    let is_person = record.target_kind().is_some_and(BodyKind::is_person);
+    // Rows of a wide lens are angles.
+    let is_person = !record.lens.is_wide(&record.camera) && record.target_kind().is_some_and(BodyKind::is_person);
     let row = |point| record.camera.project(pose, point).filter(|_| is_person).map(|(_, row, _)| row);
     Seen {
         edges_px: edges_px(visible).map(|edge| edge as f64),

@@ -47,7 +47,8 @@ class Dataset:
     ``cosfly export`` or of others). ``dataset[i]`` is a dictionary. Pictures are read at random, decoded and scaled in Rust:
 
     * ``rgb``: uint8, (H, W, 3);
-    * ``depth``: float32 metres, planar, infinite for the sky; ``semantic``: uint8, CARLA's labels; ``instance``: uint32;
+    * ``depth``: float32 metres, planar, of wide lenses along the rays; infinite for the sky;
+    * ``semantic``: uint8, CARLA's labels; ``instance``: uint32;
     * ``trajectory_id``, ``frame``, and each of ``columns`` of table ``frames``; boxes are in pixels of the pictures that the
       sample has, scaled with ``size``, those of :meth:`table` in pixels of the stored pictures;
     * ``captions`` where ``captions`` is a language: the text of each style, by its name (``""`` in other layouts).
