@@ -30,7 +30,8 @@ fn ran(street: &Street, arguments: &[&str], stage: &str) -> u64 {
 #[test]
 fn several_cameras_film_every_flight_at_the_same_moments() {
     let street = filmed_by(
-        "bodies_3d = true\nchannels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"disparity\"]\n\
+        "bodies_3d = true\n\
+         channels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"depth_stereo\", \"disparity\"]\n\
          [stages.frames.cameras.front]\nbase_line_m = 0.3\n\
          gimbal = { position_in_body_m = [0.2, -0.15, 0.05], roll_deg = 4.0, levelled = false }\n\
          [stages.frames.cameras.down]\nwidth = 64\nheight = 64\nfov_deg = 70.0\nevery = 2\nlens = { model = \"fisheye\", k1 = -0.02 }\n\
@@ -93,6 +94,7 @@ fn cameras_that_cannot_be_are_refused_with_their_key() {
         ("[stages.frames.cameras.a]\nbase_line_m = 0.1\n[stages.frames.cameras.a_left]", "makes a film of this name"),
         ("[stages.frames.cameras.down]\nevery = 0", "`cameras.down.every` is `0`"),
         ("channels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"disparity\"]", "no camera is one"),
+        ("channels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"depth_stereo\"]", "`depth_stereo` is of a"),
         ("gimbal = { position_in_body_m = [0.0, 0.0, 40.0] }", "position_in_body_m"),
         ("lens = { model = \"fisheye\" }\nfov_deg = 140.0", "no picture in the corners"),
         ("[stages.frames.cameras.down]\nwidth = 8", "`cameras.down.width` is `8`"),

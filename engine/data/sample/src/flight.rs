@@ -2,7 +2,7 @@
 
 use crate::drawn::{COMPANION, HEIGHT_M, RADIUS_M, ahead_of, flow_px, look, point};
 use crate::town::town;
-use cosfly_domain::channels::{ALL, ChannelSource, FlowTo, SeenPoint};
+use cosfly_domain::channels::{ALL, ChannelSource, FlowTo, SeenPoint, disparity};
 use cosfly_domain::{
     Around, BodyKind, BodyPlan, Camera, Certificate, ChannelImage, ChannelSet, FrameImages, FramePerturbation, Lens,
     Limits, MotionBlur, Mount, Noise, Optics, Outfit, Perturbation, PerturbationKind, RollingShutter, Season,
@@ -66,7 +66,7 @@ impl SampleFlight {
                 let beside = beside.filter(|beside| *beside < FRAMES).map(|beside| &poses[beside]);
                 for (pixel, point) in pixels.zip(&points) {
                     image.channel.draw(point, pixel);
-                    if matches!(image.channel.source, ChannelSource::Disparity) {
+                    if *image.channel == disparity::CHANNEL {
                         let disparity_px = camera.focal_px() * BASE_LINE_M / f64::from(point.depth_m);
                         pixel.copy_from_slice(&(disparity_px as f32).to_le_bytes());
                     }

@@ -327,7 +327,7 @@ impl RenderConfig {
     /// Effects on ideal pictures of `camera`.
     pub fn effects(&self, camera: Camera) -> Effects {
         let effects = Effects::new(camera, self.lens, self.motion_blur, self.rolling_shutter);
-        effects.of_pair(self.stereo.map(|eye| eye.base_line_m))
+        effects.of_pair(self.stereo)
     }
 }
 
@@ -498,6 +498,7 @@ mod tests {
         let has_disparity =
             |config: &RenderConfig| config.channels.contains(&cosfly_domain::channels::disparity::CHANNEL);
         assert!(!has_disparity(&down) && has_disparity(&left) && has_disparity(&right));
+        assert!(!down.channels.contains(&channels::depth_stereo::CHANNEL));
     }
 
     #[test]

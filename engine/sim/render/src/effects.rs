@@ -8,6 +8,7 @@
 
 mod comparison;
 mod depth_sensor;
+mod depth_stereo;
 mod disparity;
 mod lens;
 mod shot;
@@ -20,11 +21,13 @@ use crate::scene::Scene;
 use crate::setup::FrameSetup;
 use crate::target_view;
 use comparison::Comparison;
-use cosfly_domain::{BodyView, Camera, ChannelImage, FrameImages, Lens, MotionBlur, Noise, RollingShutter};
+use cosfly_domain::channels;
+use cosfly_domain::{BodyView, Camera, ChannelImage, FrameImages, Lens, MotionBlur, Noise, RollingShutter, StereoEye};
 use cosfly_figures::Bystander;
-use cosfly_frames::Pose;
+use cosfly_frames::{Pose, Seed};
 use cosfly_frames::simd::Level;
 use cosfly_optics::{Exposure, add_noise};
+use depth_stereo::PairMatcher;
 use lens::LensMap;
 use shot::setup;
 pub use shot::{FrameBeside, Moment, Neighbours, Shot};
@@ -37,7 +40,9 @@ pub struct Effects {
     blur: MotionBlur,
     rolling: RollingShutter,
     noise: Noise,
-    base_line_m: Option<f64>,
+    stereo: Option<StereoEye>,
+    /// There from the first frame on that has the depth of the pair.
+    other_eye: Option<Box<OtherEye>>,
     lens: Option<LensMap>,
     exposure: Exposure,
     /// Strips put together, and the target's pixels in them.
@@ -52,6 +57,13 @@ pub struct Effects {
     comparison: Comparison,
 }
 
+/// The other camera of a pair.
+struct OtherEye {
+    effects: Effects,
+    renderer: Renderer,
+    pair: PairMatcher,
+}
+
 impl Effects {
     /// The effects of a camera whose finished pictures have the size and field of view of `camera`. The field of view is
     /// that of the ideal camera without the lens: its focal length stays the same.
@@ -63,7 +75,8 @@ impl Effects {
             blur,
             rolling,
             noise: Noise::default(),
-            base_line_m: None,
+            stereo: None,
+            other_eye: None,
             lens,
             exposure: Exposure::default(),
             rolled: FrameImages::default(),
@@ -78,9 +91,9 @@ impl Effects {
         }
     }
 
-    /// Effects of a camera of a stereo pair with this base line, where there is one.
-    pub fn of_pair(self, base_line_m: Option<f64>) -> Self {
-        Self { base_line_m, ..self }
+    /// Effects of this camera of a stereo pair, where it is one.
+    pub fn of_pair(self, stereo: Option<StereoEye>) -> Self {
+        Self { stereo, ..self }
     }
 
     /// Adds this noise from now on; none at first.
@@ -114,11 +127,12 @@ impl Effects {
         let noise = self.noise;
         let grain = |rgb: &mut [u8]| add_noise(Level::best(), &noise, rgb, &shot.noise_seed);
         self.comparison.look((renderer, scene), (shot.weather, &shot.neighbours), &self.rolling);
+        self.look_beside(renderer, scene, shot);
         if self.lens.is_none() && self.blur.is_none() && self.rolling.is_none() {
             let setup = setup(shot, 0.0, &mut self.bystanders);
             renderer.render_retouched(scene, &setup, grain);
-            depth_sensor::draw(renderer.images_mut(), &self.finished.camera, &shot.noise_seed);
-            disparity::draw(renderer.images_mut(), &self.finished.camera, self.base_line_m);
+            let Self { finished, stereo, other_eye, .. } = self;
+            measure(renderer.images_mut(), (&finished.camera, *stereo), other_eye, &shot.noise_seed);
             self.comparison.draw(renderer, &setup, &(0..self.finished.camera.height as usize), &self.finished);
             return renderer.finished();
         }
@@ -162,11 +176,48 @@ impl Effects {
             }
         }
         grain(&mut self.images.rgb);
-        depth_sensor::draw(&mut self.images, &self.finished.camera, &shot.noise_seed);
-        disparity::draw(&mut self.images, &self.finished.camera, self.base_line_m);
+        let Self { finished, stereo, other_eye, .. } = self;
+        measure(&mut self.images, (&finished.camera, *stereo), other_eye, &shot.noise_seed);
         let view = target_view::measure(&self.images, &self.covered, &mut self.occluders);
         target_view::measure_bodies(Level::best(), &self.images, bystanders, &mut self.seen);
         RenderedFrame { images: &self.images, target_view: view, target_pixels: &self.covered, others: &self.seen }
+    }
+
+    /// Takes the picture of the other camera of a pair, where a channel needs it.
+    fn look_beside(&mut self, renderer: &mut Renderer, scene: &Scene, shot: &Shot<'_>) {
+        let is_asked = |image: &ChannelImage| *image.channel == channels::depth_stereo::CHANNEL;
+        let SeenThrough { camera, lens } = self.finished;
+        let eye = self.stereo.filter(|_| lens.is_none() && renderer.images_mut().on_request.iter().any(is_asked));
+        let Some(eye) = eye else { return };
+        let other = self.other_eye.get_or_insert_with(|| {
+            let effects = Self::new(camera, lens, self.blur, self.rolling);
+            Box::new(OtherEye { effects, renderer: renderer.beside(), pair: PairMatcher::new(eye, &camera) })
+        });
+        let OtherEye { effects, renderer: beside, pair } = &mut **other;
+        beside.look_as(renderer);
+        effects.set_noise(self.noise);
+        let moment = |offset_s: f64| {
+            let Moment { pose, target } = (shot.moment)(offset_s);
+            Moment { pose: pair.other_pose(&pose), target }
+        };
+        // Its own noise, for this purpose: that of its film is another stage's task.
+        let noise_seed = shot.noise_seed.child("other-eye", 0);
+        let frame = effects.film(beside, scene, &Shot { moment: &moment, noise_seed, ..*shot });
+        pair.other_rgb.clone_from(&frame.images.rgb);
+    }
+}
+
+/// Draws what follows from the finished depths and colours of a camera, one of a pair where there is one.
+fn measure(
+    images: &mut FrameImages,
+    (camera, stereo): (&Camera, Option<StereoEye>),
+    other_eye: &mut Option<Box<OtherEye>>,
+    seed: &Seed,
+) {
+    depth_sensor::draw(images, camera, seed);
+    disparity::draw(images, camera, stereo.map(|eye| eye.base_line_m));
+    if let Some(other) = other_eye {
+        other.pair.draw(images);
     }
 }
 

@@ -198,6 +198,22 @@ impl Renderer {
     }
 
     /// Images of the frame that was drawn last.
+    /// A renderer of the same camera, with no channels on request.
+    pub(crate) fn beside(&self) -> Self {
+        let mut beside = Self::new(self.camera);
+        beside.set_level(self.level);
+        beside.set_parallel(self.parallel);
+        beside
+    }
+
+    /// Draws in the look and through the optics of another renderer from now on.
+    pub(crate) fn look_as(&mut self, other: &Self) {
+        self.set_look(other.look);
+        if self.optics != other.optics {
+            self.set_optics(other.optics);
+        }
+    }
+
     pub(crate) fn images_mut(&mut self) -> &mut FrameImages {
         &mut self.images
     }

@@ -2,11 +2,14 @@
 
 use crate::cameras::CameraConfig;
 use crate::config::{ConfigProblem, RenderConfig};
-use cosfly_domain::{LensModel, StereoEye, channels};
+use cosfly_domain::channels::{depth_stereo, disparity};
+use cosfly_domain::{Channel, LensModel, StereoEye};
 use std::collections::BTreeMap;
 
 /// Endings of the films of a stereo pair.
 const EYES: [(&str, bool); 2] = [("_left", false), ("_right", true)];
+/// Channels that only pairs have.
+const OF_PAIRS: [&Channel; 2] = [&depth_stereo::CHANNEL, &disparity::CHANNEL];
 
 /// Names of the films of a camera: its own, or those of the two cameras of a pair.
 fn films<'a>(name: &'a str, camera: &'a CameraConfig) -> impl Iterator<Item = String> + use<'a> {
@@ -38,7 +41,7 @@ impl RenderConfig {
             camera.clone();
         (config.stereo, config.every) = (stereo, camera.every.unwrap_or(1));
         if stereo.is_none() {
-            config.channels = self.channels.without(&channels::disparity::CHANNEL);
+            config.channels = OF_PAIRS.iter().fold(self.channels.clone(), |all, of_pairs| all.without(of_pairs));
         }
         config.width = width.unwrap_or(config.width);
         config.height = height.unwrap_or(config.height);
@@ -110,20 +113,17 @@ impl RenderConfig {
 
     /// Checks what only pairs have.
     fn check_pairs(&self) -> Result<(), ConfigProblem> {
-        let problem = |message: &str, hint: &str| {
-            Err(ConfigProblem { path: "channels".into(), message: message.into(), hint: hint.into() })
-        };
-        if !self.channels.contains(&channels::disparity::CHANNEL) {
-            return Ok(());
-        }
+        let problem = |message, hint| Err(ConfigProblem { path: "channels".into(), message, hint });
+        let asked = OF_PAIRS.into_iter().find(|channel| self.channels.contains(channel));
+        let Some(Channel { name, .. }) = asked else { return Ok(()) };
         let is_pair = self.stereo.is_some() || self.cameras.values().any(|camera| camera.base_line_m.is_some());
         if !is_pair {
-            let hint = "give a camera of `cameras` a `base_line_m`, or leave out `disparity`";
-            return problem("`disparity` is of a stereo pair, and no camera is one", hint);
+            let hint = format!("give a camera of `cameras` a `base_line_m`, or leave out `{name}`");
+            return problem(format!("`{name}` is of a stereo pair, and no camera is one"), hint);
         }
         if self.stereo.is_some() && !self.lens.is_none() {
-            let message = "`disparity` is of rectified pictures, and `lens` bends them";
-            return problem(message, "leave out `disparity`, or `lens`");
+            let message = format!("`{name}` is of rectified pictures, and `lens` bends them");
+            return problem(message, format!("leave out `{name}`, or `lens`"));
         }
         Ok(())
     }

@@ -2,10 +2,10 @@
 
 mod small_town;
 
-use cosfly_domain::channels::{disparity, flow, normals};
+use cosfly_domain::channels::{depth_stereo, disparity, flow, normals};
 use cosfly_domain::{
     BodyKind, Camera, Channel, ChannelSet, FrameImages, Lens, LensModel, MotionBlur, Mount, RollingShutter,
-    SemanticLabel, TARGET_INSTANCE, Weather,
+    SemanticLabel, StereoEye, TARGET_INSTANCE, Weather,
 };
 use cosfly_figures::{BodyShape, Bystander, Walker};
 use cosfly_frames::{DMat3, DVec3, Pose, Seed, TargetState, real};
@@ -248,10 +248,13 @@ fn through_a_rolling_shutter_a_point_is_looked_for_when_its_row_is_taken() {
 }
 
 /// A picture of a pose by a camera with this lens, one of a pair 0.3 m apart.
-fn taken(pose: Pose, lens: Lens) -> FrameImages {
-    let mut effects = Effects::new(CAMERA, lens, MotionBlur::default(), RollingShutter::default()).of_pair(Some(0.3));
+fn taken(pose: Pose, lens: Lens, is_right: bool) -> FrameImages {
+    let mut effects = Effects::new(CAMERA, lens, MotionBlur::default(), RollingShutter::default())
+        .of_pair(Some(StereoEye { base_line_m: 0.3, is_right }));
     let mut renderer = Renderer::new(effects.ideal_camera());
-    renderer.set_channels(&ChannelSet::of(|channel| *channel == disparity::CHANNEL || !channel.is_on_request()));
+    renderer.set_channels(&ChannelSet::of(|channel| {
+        ["depth_stereo", "disparity"].contains(&channel.name) || !channel.is_on_request()
+    }));
     let moment = move |_: f64| Moment { pose, target: None };
     let (neighbours, noise_seed) = (Neighbours::default(), Seed([1; 32]));
     let shot = Shot { weather: &noon(), moment: &moment, others: &|_, _| {}, neighbours, noise_seed };
@@ -261,8 +264,8 @@ fn taken(pose: Pose, lens: Lens) -> FrameImages {
 #[test]
 fn the_right_picture_of_a_pair_shows_each_point_a_disparity_to_the_left_in_the_same_row() {
     let right = Mount { right_m: 0.3, ..Mount::default() }.camera_pose(&pose());
-    let [left, right] = [pose(), right].map(|pose| taken(pose, Lens::default()));
-    let (disparities, _) = left.on_request[0].bytes.as_chunks::<4>();
+    let [left, right] = [(pose(), false), (right, true)].map(|(pose, is_right)| taken(pose, Lens::default(), is_right));
+    let (disparities, _) = on_request(&left, &disparity::CHANNEL).as_chunks::<4>();
     let (mut found, mut all) = (0, 0);
     for (at, four) in disparities.iter().enumerate() {
         let (disparity_px, depth_m) = (f64::from(f32::from_le_bytes(*four)), f64::from(left.depth_m[at]));
@@ -279,10 +282,36 @@ fn the_right_picture_of_a_pair_shows_each_point_a_disparity_to_the_left_in_the_s
     assert!(all > 12_000 && found * 100 > all * 95, "{found} of {all}");
 }
 
+/// Stored bytes of a channel.
+fn on_request<'a>(images: &'a FrameImages, channel: &Channel) -> &'a [u8] {
+    &images.on_request.iter().find(|image| image.channel == channel).expect("it was asked for").bytes
+}
+
+#[test]
+fn depths_matched_in_both_pictures_of_a_pair_are_those_of_the_scene_with_holes() {
+    let right = Mount { right_m: 0.3, ..Mount::default() }.camera_pose(&pose());
+    let scale = 80.0 / real::tan(0.7) * 0.3;
+    for (pose, is_right) in [(pose(), false), (right, true)] {
+        let images = taken(pose, Lens::default(), is_right);
+        let (measured, _) = on_request(&images, &depth_stereo::CHANNEL).as_chunks::<4>();
+        let pairs = measured.iter().zip(&images.depth_m).map(|(four, exact_m)| (f32::from_le_bytes(*four), *exact_m));
+        let found = pairs.clone().filter(|(depth_m, _)| !depth_m.is_nan());
+        let mut errors_px: Vec<f64> =
+            found.map(|(depth_m, exact_m)| (scale / f64::from(depth_m) - scale / f64::from(exact_m)).abs()).collect();
+        errors_px.sort_by(f64::total_cmp);
+        let (median, share) = (errors_px[errors_px.len() / 2], errors_px.len() as f64 / images.depth_m.len() as f64);
+        assert!(median < 0.25 && (0.3..0.99).contains(&share), "right {is_right}: {median} px, {share}");
+        // Surfaces grow into the sky by the census's few pixels.
+        let sky: Vec<f32> = pairs.filter(|(_, exact_m)| exact_m.is_infinite()).map(|(depth_m, _)| depth_m).collect();
+        let holes = sky.iter().filter(|depth_m| depth_m.is_nan()).count();
+        assert!(holes * 10 > sky.len() * 7, "{holes} of {}", sky.len());
+    }
+}
+
 #[test]
 fn a_fisheye_shows_every_point_at_the_angle_of_its_ray() {
     let [k1, k2, k3, k4] = [-0.03, 0.01, -0.004, 0.001];
-    let (plain, wide) = (taken(pose(), Lens::default()), taken(pose(), Lens::fisheye([k1, k2, k3, k4])));
+    let [plain, wide] = [Lens::default(), Lens::fisheye([k1, k2, k3, k4])].map(|lens| taken(pose(), lens, false));
     let focal = 80.0 / real::tan(0.7);
     let (mut same, mut all) = (0, 0);
     for at in 0..160 * 90 {

@@ -43,10 +43,8 @@ pub enum ChannelSource {
     Flow(FlowTo),
     /// Whether the neighbouring frame shows that point; drawn as the flow is.
     FlowValid(FlowTo),
-    /// Depth as a stereo camera measures it, a number for each pixel; drawn in films where somebody asks for the channel.
-    DepthSensor,
-    /// Disparity of a rectified pair of cameras, a number for each pixel; drawn in films where somebody asks for the channel.
-    Disparity,
+    /// A number for each pixel that needs more than the point there; drawn in films where somebody asks for the channel.
+    FilmNumber,
 }
 
 /// A frame beside another one of a film.
@@ -100,9 +98,7 @@ impl Channel {
     pub fn element(&self) -> Element {
         match self.source {
             ChannelSource::Colour => Element::Colour,
-            ChannelSource::Depth | ChannelSource::Number(_) | ChannelSource::DepthSensor | ChannelSource::Disparity => {
-                Element::Float
-            }
+            ChannelSource::Depth | ChannelSource::Number(_) | ChannelSource::FilmNumber => Element::Float,
             ChannelSource::Labels => Element::Label,
             ChannelSource::Ids => Element::Id,
             ChannelSource::Target | ChannelSource::TargetAlone | ChannelSource::FlowValid(_) => Element::Flag,
@@ -120,8 +116,8 @@ impl Channel {
     /// Whether a pixel needs more than the point at its centre, such as other pixels or frames: films have the channel,
     /// environments do not.
     pub fn is_of_films(&self) -> bool {
-        use ChannelSource::{DepthSensor, Disparity, Flow, FlowValid, TargetAlone};
-        matches!(self.source, TargetAlone | Flow(_) | FlowValid(_) | DepthSensor | Disparity)
+        use ChannelSource::{FilmNumber, Flow, FlowValid, TargetAlone};
+        matches!(self.source, TargetAlone | Flow(_) | FlowValid(_) | FilmNumber)
     }
 
     /// Whether a log may hold small pictures of the channel: of all but ids, whose numbers are no picture.
@@ -144,7 +140,7 @@ impl Channel {
     pub fn bytes_on_request(&self) -> usize {
         match self.source {
             ChannelSource::Target | ChannelSource::TargetAlone | ChannelSource::FlowValid(_) => 1,
-            ChannelSource::Number(_) | ChannelSource::DepthSensor | ChannelSource::Disparity => 4,
+            ChannelSource::Number(_) | ChannelSource::FilmNumber => 4,
             ChannelSource::Bytes(_) => 3,
             ChannelSource::Flow(_) => 8,
             _ => 0,

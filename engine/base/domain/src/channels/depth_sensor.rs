@@ -6,7 +6,7 @@ use super::channel::{Channel, ChannelSource};
 pub static CHANNEL: Channel = Channel {
     name: "depth_sensor",
     doc: "planar depth with the errors of a stereo camera, metres; NaN where it measures none.",
-    source: ChannelSource::DepthSensor,
+    source: ChannelSource::FilmNumber,
     notes: &[
         ("unit", "m"),
         ("model", "depth_sensor/1"),

@@ -6,7 +6,7 @@ use super::channel::{Channel, ChannelSource};
 pub static CHANNEL: Channel = Channel {
     name: "disparity",
     doc: "disparity of the stereo pair, pixels: columns from a point in the right picture to it in the left one; 0 for the sky.",
-    source: ChannelSource::Disparity,
+    source: ChannelSource::FilmNumber,
     notes: &[
         ("unit", "px"),
         ("value", "focal length x base line / depth; both pictures have the rows of a point in common"),

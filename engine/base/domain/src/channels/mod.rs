@@ -5,6 +5,7 @@ mod channel;
 mod channel_set;
 pub mod depth;
 pub mod depth_sensor;
+pub mod depth_stereo;
 pub mod disparity;
 pub mod flow;
 mod image;
@@ -28,6 +29,7 @@ pub static ALL: &[&Channel] = &[
     &instance::CHANNEL,
     // On request, sorted by name.
     &depth_sensor::CHANNEL,
+    &depth_stereo::CHANNEL,
     &disparity::CHANNEL,
     &flow::BACK,
     &flow::BACK_VALID,

@@ -54,10 +54,8 @@ impl Renderer {
             return;
         }
         let mut bare = self.bare.take().unwrap_or_else(|| {
-            let mut bare = Renderer::new(self.camera);
-            bare.set_level(self.level);
+            let mut bare = self.beside();
             bare.set_optics(self.optics);
-            bare.set_parallel(self.parallel);
             Box::new(bare)
         });
         // A target without extent is not drawn; the town's shadows lie where they lie with it.
