@@ -89,6 +89,9 @@ fn readings_are_in_logs_and_in_exports() {
         let arguments = ["export", out.to_str().expect("UTF-8"), "--format", format, "--out", format];
         cosfly(&arguments).within(street.path()).run_ok();
     };
+    let arguments =
+        ["export", out.to_str().expect("UTF-8"), "--format", "clouds", "--cloud-files", "las", "--out", "las"];
+    cosfly(&arguments).within(street.path()).run_ok();
     export("ros2");
     export("lerobot");
     export("clouds");
@@ -108,6 +111,13 @@ fn readings_are_in_logs_and_in_exports() {
     assert!(poses.lines().count() >= 20 && poses.lines().all(|line| line.split(' ').count() == 12), "{poses}");
     let size = |name: &str| std::fs::metadata(clouds.join(name)).expect("a file").len();
     assert_eq!(size("velodyne/000019.bin"), 4 * size("labels/000019.label"));
+    // LAS 1.4 counts its points in eight bytes.
+    let las = street.path().join("las").join(clouds.strip_prefix(street.path().join("clouds")).expect("below"));
+    let las = std::fs::read(las.join("las/000019.las")).expect("a file");
+    assert_eq!(
+        (&las[..4], las[247..255].to_vec()),
+        (&b"LASF"[..], (size("velodyne/000019.bin") / 16).to_le_bytes().to_vec())
+    );
     let info = street.path().join("lerobot").join(&*flight.split).join("meta/info.json");
     let info: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(info).expect("a dataset")).expect("JSON");

@@ -1,4 +1,6 @@
-//! Clouds of lidars: a file per sweep, as KITTI and SemanticKITTI have them, or PLY.
+//! Clouds of lidars: a file per sweep, as KITTI and SemanticKITTI have them, PLY, or LAS.
+
+mod las;
 
 use crate::card::ExportCard;
 use crate::folder::OutFolder;
@@ -31,6 +33,8 @@ pub enum CloudFiles {
     /// `velodyne/000000.bin` and `labels/000000.label`
     #[default]
     Kitti,
+    /// `las/000000.las`, LAS 1.4 with all numbers of each point
+    Las,
     /// `ply/000000.ply`, with all numbers of each point
     Ply,
 }
@@ -38,7 +42,7 @@ pub enum CloudFiles {
 impl Format for Clouds {
     const NAME: &'static str = "clouds";
     const DOC: &'static str =
-        "Lidar clouds: a file per sweep as in KITTI and SemanticKITTI, or PLY, with poses and times";
+        "Lidar clouds: a file per sweep as in KITTI and SemanticKITTI, PLY, or LAS, with poses and times";
     type Options = Options;
 
     fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
@@ -64,6 +68,7 @@ impl CloudFiles {
     fn body(self) -> &'static str {
         match self {
             Self::Kitti => KITTI_BODY,
+            Self::Las => LAS_BODY,
             Self::Ply => PLY_BODY,
         }
     }
@@ -82,6 +87,9 @@ fn write_lidar(files: CloudFiles, folder: &str, all: &[LoggedSweep], out: &OutFo
                 let label = |it: &CloudPoint| (it.instance << 16 | u32::from(it.label)).to_le_bytes();
                 let bytes: Vec<u8> = points.iter().flat_map(label).collect();
                 out.put(&format!("{folder}/labels/{number:06}.label"), &bytes)?;
+            }
+            CloudFiles::Las => {
+                out.put(&format!("{folder}/las/{number:06}.las"), &las::file(sweep.time_ns as f64 * 1e-9, &points))?;
             }
             CloudFiles::Ply => out.put(&format!("{folder}/ply/{number:06}.ply"), &ply(&points))?,
         }
@@ -140,6 +148,25 @@ const PLY_BODY: &str = "\
 ```
 
 A file has x, y, z, intensity, time since the sweep's beginning in seconds, ring, CARLA's label and the instance id of each point.
+";
+
+const LAS_BODY: &str = "\
+```
+<split>/<thousands of flights>/<flight>/<lidar>/las/<sweep>.las
+<split>/<thousands of flights>/<flight>/<lidar>/poses.txt, times.txt
+```
+
+```python
+from pathlib import Path
+import laspy
+
+for path in sorted(Path(\".\").glob(\"*/*/*/*/las/*.las\")):
+    cloud = laspy.read(path)
+    assert len(cloud.xyz) == len(cloud.gps_time) == len(cloud[\"instance\"])
+```
+
+Files are LAS 1.4, point format 6, in steps of 0.1 mm. `intensity` is 65535 times that of the dataset, `classification` CARLA's label, which is not
+a class of the ASPRS. `gps_time` is the time of the shot in seconds since the first frame. `instance` (32 bits) and `ring` (16 bits) are extra bytes.
 ";
 
 const BODY: &str = "
