@@ -195,8 +195,13 @@ impl LogReader {
             let position = pose.position.map_or(DVec3::ZERO, |it| DVec3::new(it.x, it.y, it.z));
             let rotation = pose.orientation.map_or(DQuat::IDENTITY, |it| DQuat::from_xyzw(it.x, it.y, it.z, it.w));
             let (points, rest) = cloud.data.as_chunks();
+            let number = sweeps.len();
             if cloud.point_stride as usize != cloud::POINT_BYTES || !rest.is_empty() {
-                return Err(format!("its points do not have {} bytes", cloud::POINT_BYTES));
+                let bytes = cloud.data.len();
+                return Err(format!("sweep {number} is cut: {bytes} bytes, no multiple of {}", cloud::POINT_BYTES));
+            }
+            if let Some(place) = points.iter().position(|point| !cloud::CloudPoint::of(point).is_finite()) {
+                return Err(format!("point {place} of sweep {number} has a number that is not finite"));
             }
             sweeps.push(LoggedSweep { time_ns, position, rotation, points: points.to_vec() });
             Ok(())

@@ -8,8 +8,10 @@ use arrow_array::types::{Float64Type, Int64Type};
 use cosfly_domain::{OrientedBox, SemanticLabel};
 use cosfly_frames::{DMat3, DQuat, DVec3, Pose, real};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_read::{LogReader, LoggedSweep};
 use cosfly_schema::extras::is_taken;
 use cosfly_schema::log::cloud::{COLUMN, CloudPoint, POINT_BYTES, POSE};
+use cosfly_schema::log::reading::TOPICS;
 use cosfly_schema::tables::{self, Objects};
 use cosfly_sensors::SmoothFlight;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
@@ -64,9 +66,7 @@ struct Sweep {
 pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
     let mut towns = None;
     for file in flights.files.sound_below("data/") {
-        if file.split('/').nth(1).is_none_or(is_taken) {
-            continue;
-        }
+        let Some(table) = file.split('/').nth(1).filter(|table| !is_taken(table)) else { continue };
         let read = each_flight(&flights.folder.join(file), &mut |id, sweeps| {
             let Some(number) = flights.tables.flights.number(id).filter(|number| flights.wanted.has(*number)) else {
                 return;
@@ -77,6 +77,14 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
                 && let Err(message) = finding(sweeps, &track.poses, flight.dt_s, boxes)
             {
                 report.find(file, format!("`{id}`"), "verify-cloud", message);
+            }
+            // A log that cannot be opened is found elsewhere.
+            let log = flights.folder.join(&flight.mcap_path);
+            if let (Ok(mut log), false) = (LogReader::open(&log, flight.dt_s), sweeps.is_empty()) {
+                let logged = log.sweeps(table).map_err(|error| error.to_string());
+                if let Err(message) = logged.and_then(|logged| compare(sweeps, &logged)) {
+                    report.find(&flight.mcap_path, format!("`{TOPICS}{table}`"), "verify-cloud", message);
+                }
             }
         });
         if let Err(message) = read {
@@ -167,11 +175,35 @@ fn points_of(cloud: &[u8], count: Option<i64>) -> ReadResult<Vec<CloudPoint>> {
         return Err(format!("column `points` says {count}, column `{COLUMN}` has {} points", points.len()));
     }
     let points: Vec<CloudPoint> = points.iter().map(CloudPoint::of).collect();
-    let is_finite = |it: &CloudPoint| it.place_m.iter().chain([&it.intensity, &it.time_s]).all(|it| it.is_finite());
-    match points.iter().position(|point| !is_finite(point)) {
+    match points.iter().position(|point| !point.is_finite()) {
         Some(place) => Err(format!("point {place} has a number that is not finite")),
         None => Ok(points),
     }
+}
+
+/// Compares the sweeps of a flight with those of its log, where y is to the left.
+///
+/// # Errors
+/// The first difference, in words.
+fn compare(sweeps: &[Sweep], logged: &[LoggedSweep]) -> ReadResult<()> {
+    if sweeps.len() != logged.len() {
+        return Err(format!("it has {} sweeps, the table has {}", logged.len(), sweeps.len()));
+    }
+    for (number, (sweep, logged)) in sweeps.iter().zip(logged).enumerate() {
+        if sweep.points.len() != logged.points.len() {
+            let [here, there] = [logged.points.len(), sweep.points.len()];
+            return Err(format!("sweep {number} has {here} points, that of the table has {there}"));
+        }
+        let same = |(point, bytes): (&CloudPoint, &[u8; POINT_BYTES])| {
+            let mut logged = CloudPoint::of(bytes);
+            logged.place_m[1] = -logged.place_m[1];
+            logged == *point
+        };
+        if let Some(place) = sweep.points.iter().zip(&logged.points).position(|both| !same(both)) {
+            return Err(format!("point {place} of sweep {number} is not that of the table"));
+        }
+    }
+    Ok(())
 }
 
 /// What is wrong with the sweeps of a flight with these poses.
@@ -280,6 +312,36 @@ mod tests {
         std::fs::write(file.path(), bytes).expect("written");
         let mut count = 0;
         each_flight(file.path(), &mut |_, sweeps| count += sweeps.len()).map(|()| count)
+    }
+
+    #[test]
+    fn clouds_of_logs_that_are_cut_or_moved_are_found() {
+        let (sweeps, ..) = scanned();
+        let logged = |sweep: &Sweep| LoggedSweep {
+            time_ns: 0,
+            position: sweep.position,
+            rotation: DQuat::IDENTITY,
+            points: sweep.points.iter().map(|it| right_handed(*it).bytes()).collect(),
+        };
+        let spoilt = |spoil: fn(&mut Vec<LoggedSweep>)| {
+            let mut all: Vec<LoggedSweep> = sweeps.iter().map(logged).collect();
+            spoil(&mut all);
+            compare(&sweeps, &all).err()
+        };
+        let faults: [(fn(&mut Vec<LoggedSweep>), &str); 3] = [
+            (|all| drop(all.pop()), "it has 9 sweeps, the table has 10"),
+            (|all| drop(all[3].points.pop()), "sweep 3 has "),
+            (|all| all[4].points[5][1] ^= 4, "point 5 of sweep 4 "),
+        ];
+        assert_eq!(spoilt(|_| ()), None);
+        for (fault, words) in faults {
+            assert!(spoilt(fault).is_some_and(|message| message.starts_with(words)), "{words}");
+        }
+    }
+
+    fn right_handed(mut point: CloudPoint) -> CloudPoint {
+        point.place_m[1] = -point.place_m[1];
+        point
     }
 
     #[test]

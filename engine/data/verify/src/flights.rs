@@ -258,11 +258,12 @@ impl<'a> Flights<'a> {
         OF_FLIGHTS.iter().for_each(|check| check(&all, report));
         if self.files.check_log(self.folder, &flight.mcap_path, report)? >= State::Regular {
             let captions = self.tables.captions.of(number);
+            let boxes = rows.in_space.map_or(0, |(_, boxes)| boxes.len());
             log::check(
                 self.folder,
                 flight,
                 frames,
-                &Known { captions, objects, others, stop: &self.files.stop },
+                &Known { captions, objects, others, boxes, stop: &self.files.stop },
                 report,
             );
         }

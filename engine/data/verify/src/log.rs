@@ -15,7 +15,9 @@ use cosfly_domain::{Channel, ChannelSet, SemanticLabel, TARGET_INSTANCE, channel
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_read::read_records;
 use cosfly_schema::log::messages::shift_px;
-use cosfly_schema::log::{Frequency, TargetStateMessage, formats, frame_time_ns, right_handed, topic, topics};
+use cosfly_schema::log::{
+    BODIES_3D_ROWS, Frequency, TargetStateMessage, formats, frame_time_ns, right_handed, topic, topics,
+};
 use foxglove::messages;
 use prost::Message;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,6 +37,8 @@ pub struct Known<'a> {
     pub objects: Option<&'a BTreeSet<u32>>,
     /// Bodies around the target, by frame.
     pub others: &'a [PlacedBody],
+    /// Number of its rows in table `bodies_3d`.
+    pub boxes: usize,
     /// Ends the check.
     pub stop: &'a Stop,
 }
@@ -120,6 +124,11 @@ impl LogCheck<'_> {
             }
             Record::Metadata(metadata) if metadata.name == "cosfly.trajectory" => {
                 self.is_ours = metadata.metadata.get("trajectory_id") == Some(&self.flight.trajectory_id);
+                let boxes = metadata.metadata.get(BODIES_3D_ROWS);
+                if let Some(boxes) = boxes.filter(|boxes| **boxes != self.known.boxes.to_string()) {
+                    let message = format!("it had {boxes} rows in table `bodies_3d`; there are {}", self.known.boxes);
+                    self.find(String::new(), "verify-3d", message);
+                }
             }
             Record::Message { header, data } => {
                 let topic = self.topics.get(&header.channel_id).cloned().unwrap_or_default();

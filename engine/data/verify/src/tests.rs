@@ -196,6 +196,33 @@ fn disparities_that_depth_and_base_line_do_not_have_are_found() {
     }
 }
 
+#[test]
+fn matched_depths_of_another_base_line_are_found() {
+    let measured = |share: f32| {
+        let mut flights = sample::flights();
+        flights[0].draw_on_request();
+        let images = &mut flights[0].images[1];
+        let image = images.on_request.iter_mut().find(|image| image.channel.name == "depth_stereo");
+        let pixels = image.unwrap().bytes.as_chunks_mut::<4>().0.iter_mut();
+        pixels.zip(&images.depth_m).for_each(|(four, depth_m)| *four = (share * depth_m).to_le_bytes());
+        rules_of(&published(flights))
+    };
+    assert_eq!((measured(1.0), measured(0.2)), (vec![], vec!["verify-disparity"]));
+}
+
+#[test]
+fn a_flight_whose_boxes_are_all_missing_is_found() {
+    let mut flights = sample::flights();
+    flights[0].record.bodies_3d = vec![in_space(&flights[0], 0)];
+    let (with, without) = (published(flights), published(sample::flights()));
+    for file in std::fs::read_dir(with.path().join("data/bodies_3d")).unwrap().map(|file| file.unwrap().path()) {
+        std::fs::copy(without.path().join(file.strip_prefix(with.path()).unwrap()), file).unwrap();
+    }
+    let report = verify(with.path(), &Options::default(), &mut |_, _| {}).unwrap();
+    let found = report.findings.iter().find(|it| it.rule == "verify-3d").expect("it is found");
+    assert!(found.file.ends_with(".mcap") && found.message.contains("it had 1 rows"), "{found}");
+}
+
 /// The boxes of a body beside the target, which has no key points.
 fn others_in_space(flight: &SampleFlight) -> impl Iterator<Item = BodyInSpace> {
     flight.record.sightings.iter().map(|sighting| {

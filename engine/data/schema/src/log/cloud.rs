@@ -53,16 +53,20 @@ pub struct CloudPoint {
 impl CloudPoint {
     /// The point of some bytes.
     pub fn of(bytes: &[u8; POINT_BYTES]) -> Self {
-        let (words, rest) = bytes.split_at(20);
-        let reals: Vec<f32> = words.as_chunks::<4>().0.iter().map(|it| f32::from_le_bytes(*it)).collect();
+        let word = |at: usize| [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
         Self {
-            place_m: [reals[0], reals[1], reals[2]],
-            intensity: reals[3],
-            time_s: reals[4],
-            ring: u16::from_le_bytes([rest[0], rest[1]]),
-            label: u16::from_le_bytes([rest[2], rest[3]]),
-            instance: u32::from_le_bytes([rest[4], rest[5], rest[6], rest[7]]),
+            place_m: [0, 4, 8].map(|at| f32::from_le_bytes(word(at))),
+            intensity: f32::from_le_bytes(word(12)),
+            time_s: f32::from_le_bytes(word(16)),
+            ring: u16::from_le_bytes([bytes[20], bytes[21]]),
+            label: u16::from_le_bytes([bytes[22], bytes[23]]),
+            instance: u32::from_le_bytes(word(24)),
         }
+    }
+
+    /// Whether all of its numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        self.place_m.iter().chain([&self.intensity, &self.time_s]).all(|number| number.is_finite())
     }
 
     /// The bytes.

@@ -17,6 +17,9 @@ pub use raw_format::{RawFormat, formats};
 pub use target_state::TargetStateMessage;
 pub use topic::{Frequency, Topic, flown_topics, topics};
 
+/// Key of the record `cosfly.trajectory` of flights with rows in table `bodies_3d`: their number.
+pub const BODIES_3D_ROWS: &str = "bodies_3d_rows";
+
 /// Time of frame `frame`, nanoseconds after the file's time 0.
 pub fn frame_time_ns(dt_s: f64, frame: usize) -> u64 {
     (frame as f64 * dt_s * 1e9).round_ties_even() as u64

@@ -3,6 +3,7 @@
 use crate::frame_pack::PackHeader;
 use cosfly_domain::channels::instance;
 use cosfly_domain::{BodyKindRow, Obstacle, SemanticLabel, TARGET_INSTANCE, Town, object_instance};
+use cosfly_schema::log::BODIES_3D_ROWS;
 use cosfly_schema::tables::kind_name;
 use cosfly_schema::{DepthEncoding, OtherBody, RenderedTrajectory};
 use serde::Serialize;
@@ -34,7 +35,7 @@ fn entries<const N: usize>(pairs: [(&str, String); N]) -> BTreeMap<String, Strin
 
 fn trajectory(record: &RenderedTrajectory) -> BTreeMap<String, String> {
     let synthetic = &record.town.synthetic;
-    entries([
+    let mut all = entries([
         ("log_version", LOG_VERSION.to_string()),
         ("trajectory_id", record.trajectory_id.clone()),
         ("flight_id", record.flight_id.clone()),
@@ -52,7 +53,12 @@ fn trajectory(record: &RenderedTrajectory) -> BTreeMap<String, String> {
         ("synthetic_trees", synthetic.trees.to_string()),
         ("synthetic_furniture", synthetic.furniture.to_string()),
         ("synthetic_notes", synthetic.notes.join("\n")),
-    ])
+    ]);
+    // By this number somebody notices that the flight's boxes are missing.
+    if !record.bodies_3d.is_empty() {
+        all.insert(BODIES_3D_ROWS.to_owned(), record.bodies_3d.len().to_string());
+    }
+    all
 }
 
 /// The numbers of a noun by the names of its fields.
