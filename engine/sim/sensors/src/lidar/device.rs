@@ -68,10 +68,10 @@ static HDL32E: Lidar = Lidar {
 
 static HDL64E: Lidar = Lidar {
     name: "hdl64e",
-    doc: "Velodyne HDL-64E: 64 rings from 24.33 degrees below to 2 above, dense in the upper half, 1,300,480 shots a second, 120 m, 2 cm.",
-    version: 1,
+    doc: "Velodyne HDL-64E S2: 64 rings from 24.33 degrees below to 2 above, dense in the upper half, 1,331,200 shots a second, 120 m, 2 cm.",
+    version: 2,
     rates_hz: [5.0, 10.0, 20.0],
-    shots_hz: 20_320,
+    shots_hz: 20_800,
     range_m: [1.0, 120.0],
     deviation_m: 0.02,
     beams: DeviceBeams::Rings(64, |ring| if ring < 32.0 { 0.5 * ring - 73.0 / 3.0 } else { (ring - 57.0) / 3.0 }),
