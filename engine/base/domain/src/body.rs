@@ -11,7 +11,8 @@ pub struct BodyPlan {
     pub source: String,
     /// Kind of the body.
     pub kind: BodyKind,
-    /// Length along the heading, width and height, metres. A person is a cylinder: length and width are twice its radius.
+    /// Length along the heading, width and height, metres. A person is a cylinder: length and width are twice its radius, unless the
+    /// person takes something along.
     pub size_m: DVec3,
     /// Seed of clothes or paint.
     pub looks: Seed,
@@ -33,10 +34,7 @@ pub struct Body {
 impl BodyPlan {
     /// Radius of a person seen from above; of a vehicle, of the circle around its outline, metres.
     pub fn radius_m(&self) -> f64 {
-        match self.kind {
-            BodyKind::Pedestrian => 0.5 * self.size_m.x,
-            _ => 0.5 * self.size_m.truncate().length(),
-        }
+        if self.kind.is_person() { 0.5 * self.size_m.x } else { 0.5 * self.size_m.truncate().length() }
     }
 
     /// Upright box around the body in a state, world frame.

@@ -28,7 +28,7 @@ mod weather;
 
 pub use around::{Around, Followed};
 pub use body::{Body, BodyPlan};
-pub use body_kind::{BodyKind, BodyKindRow, Driving};
+pub use body_kind::{BodyKind, BodyKindRow, Driving, Walking};
 pub use camera::{Camera, Mount, StereoEye};
 pub use channels::{Channel, ChannelImage, ChannelSet};
 pub use frame_images::FrameImages;

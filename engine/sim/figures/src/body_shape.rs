@@ -2,7 +2,7 @@
 
 use crate::region::Region;
 use crate::umbrella;
-use cosfly_domain::{BodyKind, SemanticLabel};
+use cosfly_domain::{BodyKind, SemanticLabel, Walking};
 use cosfly_frames::{DVec3, Seed, real};
 
 /// Largest vehicle that is drawn, metres along each axis.
@@ -11,12 +11,14 @@ const LARGEST_M: f64 = 60.0;
 /// Shape of a body: a person, or a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BodyShape {
-    /// A person on foot.
+    /// A person on foot who takes nothing along but bags.
     Person {
         /// Whether the person holds an open umbrella, which is a part of the figure: see [`BodyShape::in_rain`].
         umbrella: bool,
+        /// How the person bears the body.
+        posture: Posture,
     },
-    /// A vehicle, with its rider where it has one, or a drone.
+    /// A vehicle, with its rider where it has one, a person with what the person takes along, or a drone.
     Vehicle {
         /// Kind of the vehicle; a pedestrian is drawn as a car.
         kind: BodyKind,
@@ -25,23 +27,43 @@ pub enum BodyShape {
     },
 }
 
+/// How a person on foot bears the body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Posture {
+    /// Upright, arms free.
+    #[default]
+    Upright,
+    /// Stooped, with short steps and a stick.
+    Stooped,
+    /// Both hands ahead on a handle.
+    Pushing,
+    /// The right hand on a leash.
+    Leading,
+}
+
 impl Default for BodyShape {
     /// A person without an umbrella.
     fn default() -> Self {
-        Self::Person { umbrella: false }
+        Self::Person { umbrella: false, posture: Posture::Upright }
     }
 }
 
 impl BodyShape {
     /// The shape of a body of a kind and size.
     pub fn of(kind: BodyKind, size_m: DVec3) -> Self {
-        if kind.is_person() { Self::default() } else { Self::Vehicle { kind, size_m } }
+        match kind.row().walking {
+            Some(Walking { outline_m: None, .. }) if kind == BodyKind::Elder => {
+                Self::Person { umbrella: false, posture: Posture::Stooped }
+            }
+            Some(Walking { outline_m: None, .. }) => Self::default(),
+            _ => Self::Vehicle { kind, size_m },
+        }
     }
 
     /// The shape of somebody with these looks in the rain, followed or not: people on foot may open umbrellas.
     pub fn in_rain(self, precipitation: f64, looks: &Seed) -> Self {
         match self {
-            Self::Person { .. } => Self::Person { umbrella: umbrella::opens(precipitation, looks) },
+            Self::Person { posture, .. } => Self::Person { umbrella: umbrella::opens(precipitation, looks), posture },
             vehicle @ Self::Vehicle { .. } => vehicle,
         }
     }
@@ -53,13 +75,24 @@ impl BodyShape {
 
     /// Whether somebody holds an open umbrella.
     pub fn has_umbrella(&self) -> bool {
-        matches!(self, Self::Person { umbrella: true })
+        matches!(self, Self::Person { umbrella: true, .. })
     }
 
-    /// CARLA's label of a region of the body. Vans are cars; riders have a label of their own; drones are dynamic things.
+    /// How a person bears the body.
+    pub(crate) fn posture(&self) -> Posture {
+        if let Self::Person { posture, .. } = self { *posture } else { Posture::Upright }
+    }
+
+    /// CARLA's label of a region of the body. Vans are cars; riders have a label of their own; drones, and what
+    /// people on foot take along, are dynamic things.
     pub fn label(&self, region: Region) -> SemanticLabel {
         let Self::Vehicle { kind, .. } = self else { return SemanticLabel::Pedestrian };
-        if region.is_of_people() { SemanticLabel::Rider } else { kind.row().label }
+        let row = kind.row();
+        match (&row.walking, region.is_of_people()) {
+            (Some(_), false) => SemanticLabel::Dynamic,
+            (None, true) => SemanticLabel::Rider,
+            (Some(_), true) | (None, false) => row.label,
+        }
     }
 
     /// Half the diagonal of a vehicle's box, metres; 0 for people, whose extent every bound counts in.

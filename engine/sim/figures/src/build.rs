@@ -60,6 +60,10 @@ pub enum ArmBearing {
     Pocket,
     /// Holds something before the chest.
     Holds,
+    /// Holds a stick or a leash before the hip; no build draws it.
+    Leads,
+    /// Pushes something before the belly; no build draws it.
+    Pushes,
 }
 
 impl Build {

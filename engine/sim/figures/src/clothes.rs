@@ -2,6 +2,7 @@
 
 use crate::body_shape::BodyShape;
 use crate::build::{Build, Hair};
+use crate::region::Region;
 use crate::umbrella;
 use crate::vehicles::Livery;
 use cosfly_domain::{Bag, Outfit, Traits};
@@ -44,7 +45,7 @@ pub fn outfit_of(body: BodyShape, seed: &Seed) -> Outfit {
             Outfit { top: paint, trousers: paint, backpack: false, umbrella: false, traits: None }
         }
         BodyShape::Vehicle { .. } => Outfit { traits: None, ..Clothes::draw(seed).outfit },
-        BodyShape::Person { umbrella } => Outfit { umbrella, ..Clothes::draw(seed).outfit },
+        BodyShape::Person { umbrella, .. } => Outfit { umbrella, ..Clothes::draw(seed).outfit },
     }
 }
 
@@ -151,6 +152,15 @@ pub fn clothes_seed_of_target(own: &Seed, stands_out: f64) -> Seed {
     }
     let mut drawn = (0..100).map(|number| own.child("bright clothes", number));
     drawn.find(|seed| Clothes::draw(seed).stand_out()).unwrap_or(*own)
+}
+
+/// Seed of the looks of an old person, whose own seed is given: hair is grey, or hidden.
+pub fn grey_haired(own: &Seed) -> Seed {
+    let is_old = |seed: &Seed| {
+        let clothes = Clothes::draw(seed);
+        clothes.colours[Region::Hair as usize] == HAIR[4] || matches!(clothes.build.hair, Hair::Cap | Hair::Hat)
+    };
+    (0..100).map(|number| own.child("grey hair", number)).find(is_old).unwrap_or(*own)
 }
 
 fn one_of<T: Copy>(stream: &mut RandomStream, palette: &[T]) -> T {

@@ -1,32 +1,22 @@
-//! People: jointed figures of frustums whose limbs swing with the gait; and the entry to the figures of vehicles.
+//! People: jointed figures of frustums whose limbs swing with the gait.
 
 use crate::Clothes;
-use crate::body_shape::BodyShape;
+use crate::body_shape::Posture;
 use crate::build::Hair;
 use crate::frustum::{FigurePart, FigureTriangle, Ring, Surface, around, ring};
 use crate::joints::{ArmJoints, Bearing, LegJoints, Limbs};
 use crate::region::Region;
+use crate::umbrella;
 use crate::walker::Walker;
-use crate::{umbrella, vehicles};
 use cosfly_frames::{DVec3, real};
 
-/// Somebody's surface as bare triangles, for rays.
-pub fn walker_triangles(walker: &Walker) -> Vec<[DVec3; 3]> {
-    let mut triangles = Vec::new();
-    figure(walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
-    triangles.iter().map(|triangle| triangle.corners_in_world).collect()
-}
-
-/// Appends the figure of `person` to `triangles`. All limbs stay near the upright cylinder of the walker; a vehicle stays
-/// within its box.
-pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut Vec<FigureTriangle>) {
-    if !walker.has_body() {
-        return;
-    }
-    if let BodyShape::Vehicle { kind, size_m } = walker.body {
-        vehicles::add(walker, kind, size_m, clothes, person, triangles);
-        return;
-    }
+/// Appends the figure of a person on foot whose parts are numbered from `first_part`.
+pub(crate) fn person_on_foot(
+    walker: &Walker,
+    clothes: &Clothes,
+    (person, first_part): (u32, u32),
+    triangles: &mut Vec<FigureTriangle>,
+) {
     let first = triangles.len();
     let (sin, cos) = real::sin_cos(walker.state.heading_rad);
     let mut surface = Surface {
@@ -36,7 +26,7 @@ pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut V
         height: walker.height_m,
         around: around(),
         person,
-        parts: 0,
+        parts: first_part,
         triangles,
     };
     for FigurePart { low, high, region } in FigureParts::of(walker, clothes).all() {
@@ -54,7 +44,7 @@ pub fn figure(walker: &Walker, clothes: &Clothes, person: u32, triangles: &mut V
 }
 
 /// Most parts of a figure.
-pub const MOST_PARTS: usize = 30;
+pub const MOST_PARTS: usize = 31;
 
 /// The parts of a figure, before it sinks to the ground: closed frustums of [`SIDES`] sides.
 pub struct FigureParts {
@@ -96,6 +86,9 @@ impl FigureParts {
             body.luggage(clothes.outfit.backpack, build.shoulder_bag);
             legs.iter().for_each(|leg| body.leg(leg));
             arms.iter().for_each(|arm| body.arm(arm));
+            if walker.body.posture() == Posture::Stooped {
+                body.stick(&arms[0]);
+            }
             body.bear(&bearing);
             if walker.body.has_umbrella() {
                 umbrella::parts().into_iter().for_each(|FigurePart { low, high, region }| body.part(low, high, region));
@@ -231,6 +224,12 @@ impl Body<'_> {
         );
     }
 
+    /// A stick from the hand to the level of the lower sole.
+    fn stick(&mut self, arm: &ArmJoints) {
+        let foot = ring(arm.hand.0 + 0.05, arm.far, self.parts.lowest(), 0.008, 0.008);
+        self.part(foot, ring(arm.hand.0, arm.far, arm.hand.1 + 0.02, 0.008, 0.008), Region::Shoes);
+    }
+
     fn arm(&mut self, joints: &ArmJoints) {
         let ArmJoints { right, out, far, tip, shoulder, elbow, wrist, hand } = *joints;
         self.part(ring(elbow.0, out, elbow.1, 0.025, 0.028), ring(shoulder.0, right, 0.79, 0.031, 0.038), Region::Top);
@@ -244,6 +243,7 @@ impl Body<'_> {
 mod tests {
     use super::*;
     use crate::walker::gait_phase_rad;
+    use crate::{BodyShape, figure, walker_triangles};
     use cosfly_frames::{Seed, TargetState};
 
     fn walking(phase: f64) -> Walker {

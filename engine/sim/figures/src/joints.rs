@@ -1,11 +1,15 @@
 //! Joints of a walking person. Places before the person's heading: forward, right, up in body heights.
 
 use crate::Walker;
+use crate::body_shape::Posture;
 use crate::build::{ArmBearing, Build, head_size};
 use cosfly_frames::real;
 
 /// Height of the chin: the head is above.
 const CHIN: f64 = 0.865;
+
+/// Share of the swing of the legs, and lean beyond the usual, of stooped people.
+const STOOPED: (f64, f64) = (0.65, 0.22);
 
 /// Forward and up.
 pub(crate) type Side = (f64, f64);
@@ -51,17 +55,25 @@ impl Limbs {
         let (shoulders, hips) = (build.shoulders * stout, build.hips * stout);
         let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
         let (left, right) = (walker.gait_phase_rad, walker.gait_phase_rad + real::PI);
-        let (stride, arm_swing) = (swing * build.stride, 0.8 * swing * build.arm_swing + 0.08);
+        let posture = walker.body.posture();
+        let (steps, stoop) = if posture == Posture::Stooped { STOOPED } else { (1.0, 0.0) };
+        let (stride, arm_swing) = (steps * swing * build.stride, 0.8 * swing * build.arm_swing + 0.08);
         let right_arm = if walker.body.has_umbrella() { ArmBearing::Holds } else { build.right_arm };
+        let (left_arm, right_arm) = match posture {
+            Posture::Upright => (ArmBearing::Swings, right_arm),
+            Posture::Stooped => (ArmBearing::Leads, right_arm),
+            Posture::Pushing => (ArmBearing::Pushes, ArmBearing::Pushes),
+            Posture::Leading => (ArmBearing::Swings, ArmBearing::Leads),
+        };
         Self {
             shoulders,
             hips,
             legs: [LegJoints::of(-0.047 * hips, left, stride), LegJoints::of(0.047 * hips, right, stride)],
             arms: [
-                ArmJoints::of((-1.0, shoulders), right, arm_swing, ArmBearing::Swings),
+                ArmJoints::of((-1.0, shoulders), right, arm_swing, left_arm),
                 ArmJoints::of((1.0, shoulders), left, arm_swing, right_arm),
             ],
-            bearing: Bearing { lean: build.lean, head: head_size(walker.height_m) },
+            bearing: Bearing { lean: build.lean + stoop, head: head_size(walker.height_m) },
         }
     }
 }
@@ -85,6 +97,8 @@ impl ArmJoints {
             ArmBearing::Swings => (swing * real::sin(phase), 0.25 + 0.5 * swing),
             ArmBearing::Pocket => (-0.25 + 0.1 * swing * real::sin(phase), 0.55),
             ArmBearing::Holds => (0.15 + 0.1 * swing * real::sin(phase), 2.0),
+            ArmBearing::Leads => (0.25 + 0.2 * swing * real::sin(phase), 0.5),
+            ArmBearing::Pushes => (0.55, 0.6),
         };
         let right = side * (0.112 * shoulders + 0.014);
         let shoulder = (0.0, 0.815);

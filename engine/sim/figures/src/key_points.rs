@@ -5,11 +5,10 @@ use crate::{Clothes, FigureParts, Walker};
 use cosfly_frames::{DVec3, real};
 
 /// COCO's seventeen key points of a person on foot, world frame, in the order of [`cosfly_domain::KEY_POINTS`]; `None` for others.
+/// A person with a push-chair or a dog has them as well.
 /// They are the joints of the figure, within its limbs; eyes, ears and nose are on the face.
 pub fn key_points(walker: &Walker) -> Option<[DVec3; 17]> {
-    if !walker.has_body() || !walker.body.is_person() {
-        return None;
-    }
+    let walker = &walker.on_foot().filter(Walker::has_body)?;
     let clothes = Clothes::draw(&walker.clothes_seed);
     let Limbs { legs: [left, right], arms: [left_arm, right_arm], bearing, .. } = Limbs::of(walker, &clothes.build);
     let sink = FigureParts::of(walker, &clothes).lowest();

@@ -45,7 +45,7 @@ pub fn parts() -> [FigurePart; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BodyShape, Walker, walker_triangles};
+    use crate::{BodyShape, Posture, Walker, walker_triangles};
     use cosfly_domain::BodyKind;
     use cosfly_frames::{DVec3, TargetState};
 
@@ -76,7 +76,7 @@ mod tests {
             let (height_m, clothes_seed) = (1.0 + 0.005 * number as f64, looks(number));
             let body = BodyShape::default();
             let dry = Walker { state, height_m, radius_m: 0.3, clothes_seed, gait_phase_rad: 0.3, body };
-            let wet = Walker { body: BodyShape::Person { umbrella: true }, ..dry };
+            let wet = Walker { body: BodyShape::Person { umbrella: true, posture: Posture::Upright }, ..dry };
             let (low, high) = wet.bounds_in_world();
             let corners: Vec<DVec3> = walker_triangles(&wet).into_iter().flatten().collect();
             assert!(corners.iter().all(|corner| corner.cmpge(low).all() && corner.cmple(high).all()), "{number}");

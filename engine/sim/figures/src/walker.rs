@@ -1,8 +1,11 @@
 //! People and vehicles that a picture shows: where they are, how they move, what draws their looks.
 
-use crate::body_shape::BodyShape;
-use cosfly_domain::BodyPlan;
-use cosfly_frames::{Seed, TargetState, real};
+use crate::body_shape::{BodyShape, Posture};
+use cosfly_domain::{BodyKind, BodyPlan};
+use cosfly_frames::{DVec3, Seed, TargetState, real};
+
+/// Steps of people who take something along are those of people who walk no faster than this, m/s.
+const SHORT_STEPS_MPS: f64 = 0.75;
 
 /// Somebody in the picture: a person, or a vehicle with its rider.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +36,25 @@ impl Walker {
             gait_phase_rad: gait_phase_rad(covered_m, height_m),
             body: BodyShape::of(plan.kind, plan.size_m),
         }
+    }
+
+    /// The person on foot in the body, beside what the person takes along; `None` for vehicles and wheelchairs.
+    pub(crate) fn on_foot(&self) -> Option<Self> {
+        let BodyShape::Vehicle { kind, size_m } = self.body else { return Some(*self) };
+        let (posture, ahead_m, right_m) = match kind {
+            BodyKind::PushChair => (Posture::Pushing, -0.36, 0.0),
+            BodyKind::DogWalker => (Posture::Leading, -0.40, -0.12),
+            _ => return None,
+        };
+        let (sin, cos) = real::sin_cos(self.state.heading_rad);
+        let away = DVec3::new(cos * ahead_m - sin * right_m, sin * ahead_m + cos * right_m, 0.0);
+        let state = TargetState {
+            feet_in_world: self.state.feet_in_world + away,
+            speed_mps: self.state.speed_mps.min(SHORT_STEPS_MPS),
+            ..self.state
+        };
+        let body = BodyShape::Person { umbrella: false, posture };
+        Some(Self { state, height_m: size_m.z, radius_m: 0.14 * size_m.z, body, ..*self })
     }
 
     /// Whether a vehicle has not moved yet, as parked ones never do: its lamps are off.

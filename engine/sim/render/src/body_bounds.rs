@@ -138,7 +138,7 @@ impl Bounds {
 mod tests {
     use super::*;
     use cosfly_domain::{BodyKind, Camera};
-    use cosfly_figures::{BodyShape, walker_triangles};
+    use cosfly_figures::{BodyShape, Posture, walker_triangles};
     use cosfly_frames::{Pose, Seed, TargetState};
 
     #[test]
@@ -155,7 +155,7 @@ mod tests {
                 clothes_seed: Seed([step as u8; 32]),
                 gait_phase_rad: 1.3 * turn,
                 body: match step % 3 {
-                    0 => BodyShape::Person { umbrella: step % 2 == 0 },
+                    0 => BodyShape::Person { umbrella: step % 2 == 0, posture: Posture::Upright },
                     1 => BodyShape::Vehicle { kind: BodyKind::Bus, size_m: DVec3::new(5.0, 2.5, 3.0) },
                     _ => BodyShape::Vehicle { kind: BodyKind::Bicycle, size_m: DVec3::new(1.8, 0.65, 1.75) },
                 },

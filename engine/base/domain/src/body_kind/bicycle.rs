@@ -16,5 +16,6 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
         brake_mps2: 1.8,
         sideways_mps2: 1.6,
     }),
+    walking: None,
     lamps: Some([0.35, 0.4]),
 };

@@ -16,5 +16,6 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
         brake_mps2: 2.0,
         sideways_mps2: 2.2,
     }),
+    walking: None,
     lamps: Some([1.0, 1.0]),
 };

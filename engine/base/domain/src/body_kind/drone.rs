@@ -10,5 +10,6 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
     is_dressed: false,
     class_size_m: [0.6, 0.6, 0.2],
     driving: None,
+    walking: None,
     lamps: None,
 };

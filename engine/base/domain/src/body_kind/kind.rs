@@ -1,7 +1,9 @@
 //! [`BodyKind`]: the kinds of bodies.
 
 use super::row::BodyKindRow;
-use super::{bicycle, bus, car, drone, motorcycle, pedestrian, truck, van};
+use super::{
+    bicycle, bus, car, child, dog_walker, drone, elder, motorcycle, pedestrian, push_chair, truck, van, wheelchair,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +28,16 @@ pub enum BodyKind {
     /// A drone: another one behind the same target. No traffic has drones, so recipes cannot name the kind.
     #[schemars(skip)]
     Drone,
+    /// A child on foot.
+    Child,
+    /// An old person on foot, stooped, with a stick.
+    Elder,
+    /// A wheelchair with its user.
+    Wheelchair,
+    /// A person with a push-chair.
+    PushChair,
+    /// A person with a dog on a leash.
+    DogWalker,
 }
 
 impl BodyKind {
@@ -39,6 +51,11 @@ impl BodyKind {
         Self::Van,
         Self::Truck,
         Self::Bus,
+        Self::Child,
+        Self::Elder,
+        Self::Wheelchair,
+        Self::PushChair,
+        Self::DogWalker,
     ];
 
     /// Row of the kind.
@@ -52,6 +69,11 @@ impl BodyKind {
             Self::Truck => &truck::ROW,
             Self::Bus => &bus::ROW,
             Self::Drone => &drone::ROW,
+            Self::Child => &child::ROW,
+            Self::Elder => &elder::ROW,
+            Self::Wheelchair => &wheelchair::ROW,
+            Self::PushChair => &push_chair::ROW,
+            Self::DogWalker => &dog_walker::ROW,
         }
     }
 
@@ -60,8 +82,13 @@ impl BodyKind {
         self.row().name
     }
 
-    /// Whether the body is a person on foot.
+    /// Whether the body is a person who keeps to the pavements, on foot or in a wheelchair: seen from above, a circle.
     pub fn is_person(self) -> bool {
-        self == Self::Pedestrian
+        self.row().walking.is_some()
+    }
+
+    /// Whether the body is a person on foot, whatever the person takes along.
+    pub fn is_on_foot(self) -> bool {
+        self.is_person() && self != Self::Wheelchair
     }
 }

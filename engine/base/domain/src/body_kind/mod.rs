@@ -5,13 +5,18 @@
 mod bicycle;
 mod bus;
 mod car;
+mod child;
+mod dog_walker;
 mod drone;
+mod elder;
 mod kind;
 mod motorcycle;
 mod pedestrian;
+mod push_chair;
 mod row;
 mod truck;
 mod van;
+mod wheelchair;
 
 pub use kind::BodyKind;
-pub use row::{BodyKindRow, Driving};
+pub use row::{BodyKindRow, Driving, Walking};

@@ -1,6 +1,6 @@
 //! Row of kind `pedestrian`.
 
-use super::row::BodyKindRow;
+use super::row::{BodyKindRow, Walking};
 use crate::SemanticLabel;
 
 pub(super) static ROW: BodyKindRow = BodyKindRow {
@@ -10,5 +10,6 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
     is_dressed: true,
     class_size_m: [0.478, 0.478, 1.719],
     driving: None,
+    walking: Some(Walking { heights_m: None, pace: [1.0, 1.0], outline_m: None }),
     lamps: None,
 };

@@ -9,7 +9,7 @@ pub struct BodyKindRow {
     pub name: &'static str,
     /// Noun in logs.
     pub noun: &'static str,
-    /// CARLA's label of all but a rider.
+    /// CARLA's label of all but a rider; of those who walk, that of the person: what they take along is `Dynamic`.
     pub label: SemanticLabel,
     /// Whether a person is seen, whose clothes tell the body from others.
     pub is_dressed: bool,
@@ -17,8 +17,21 @@ pub struct BodyKindRow {
     pub class_size_m: [f64; 3],
     /// Driving in traffic; none of what does not drive.
     pub driving: Option<Driving>,
+    /// Walking in a crowd; none of what does not walk.
+    pub walking: Option<Walking>,
     /// Strength of the lamps at night, and their reach as a share of that of a car; none without lamps.
     pub lamps: Option<[f32; 2]>,
+}
+
+/// Size and pace of a kind of people in a crowd.
+#[derive(Clone, Copy, Debug)]
+pub struct Walking {
+    /// Range of heights, metres; none: that of the crowd.
+    pub heights_m: Option<[f64; 2]>,
+    /// Range of the free speed, as a share of that of the crowd.
+    pub pace: [f64; 2],
+    /// Length and width with what they take along, metres; none: people are cylinders.
+    pub outline_m: Option<[f64; 2]>,
 }
 
 /// Sizes and limits of a kind of vehicle in traffic: passenger cars after Treiber's parameters for towns, the others slower in the order of

@@ -16,5 +16,6 @@ pub(super) static ROW: BodyKindRow = BodyKindRow {
         brake_mps2: 1.8,
         sideways_mps2: 1.5,
     }),
+    walking: None,
     lamps: Some([1.0, 1.0]),
 };

@@ -12,6 +12,8 @@ pub struct Livery {
     pub paint: Dye,
     /// Colour of a lorry's box.
     pub cargo: Dye,
+    /// Fur of a dog, linear RGB.
+    pub fur: [f32; 3],
 }
 
 /// Paints with their shares: those of new cars in the world in the early 2020s, by the yearly reports of paint makers.
@@ -32,6 +34,16 @@ const PAINTS: [(f64, Dye); 14] = [
     (0.01, Dye::new(Colour::Yellow, [0.70, 0.52, 0.04])),
 ];
 
+/// Furs of dogs, linear RGB.
+const FURS: [[f32; 3]; 6] = [
+    [0.015, 0.013, 0.012],
+    [0.10, 0.055, 0.025],
+    [0.30, 0.19, 0.09],
+    [0.45, 0.36, 0.24],
+    [0.58, 0.56, 0.52],
+    [0.13, 0.13, 0.13],
+];
+
 impl Livery {
     /// The livery that a seed draws.
     pub fn draw(seed: &Seed) -> Self {
@@ -47,16 +59,18 @@ impl Livery {
         let (paint, other) = (draw(), draw());
         // Most boxes of lorries are white.
         let cargo = if stream.chance(0.6) { PAINTS[0].1 } else { other };
-        Self { paint, cargo }
+        let fur = FURS[seed.stream("fur").index(FURS.len())];
+        Self { paint, cargo, fur }
     }
 
     /// Colours of all regions, linear RGB; those of people are black.
     pub fn colours(&self, body: &BodyShape) -> [[f32; 3]; Region::COUNT] {
         let mut colours = [[0.0; 3]; Region::COUNT];
         // The frame of a two-wheeler is seen as its paint, all the rest is black.
+        let has_dog = matches!(body, BodyShape::Vehicle { kind: BodyKind::DogWalker, .. });
         let is_light = matches!(body, BodyShape::Vehicle { kind: BodyKind::Bicycle, .. });
         for (region, colour) in [
-            (Region::Paint, self.paint.linear_rgb),
+            (Region::Paint, if has_dog { self.fur } else { self.paint.linear_rgb }),
             (Region::Cargo, self.cargo.linear_rgb),
             (Region::Trim, [0.014; 3]),
             (Region::Glass, [0.020, 0.023, 0.025]),

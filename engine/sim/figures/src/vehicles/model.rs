@@ -1,5 +1,7 @@
 //! Flat faces of a vehicle's model, in the vehicle's own axes.
 
+use crate::Clothes;
+use crate::figure::person_on_foot;
 use crate::frustum::{FigureTriangle, Surface, around};
 use crate::region::Region;
 use crate::walker::Walker;
@@ -136,13 +138,13 @@ impl<'a> Model<'a> {
     }
 
     /// An open wheel in the middle plane: x of its middle, radius and width in metres; elliptic where the box is.
-    pub fn spoked_wheel(&mut self, x_m: f64, radius_m: DVec3, width_m: f64) {
-        let at = |share: f64, y_m: f64| {
-            rim(0.0, 1.0, share, y_m).map(|p| DVec3::new(x_m + p.x * radius_m.x, p.y, radius_m.z * p.z))
+    pub fn spoked_wheel(&mut self, [x_m, y_m]: [f64; 2], radius_m: DVec3, width_m: f64) {
+        let at = |share: f64, aside_m: f64| {
+            rim(0.0, 1.0, share, y_m + aside_m).map(|p| DVec3::new(x_m + p.x * radius_m.x, p.y, radius_m.z * p.z))
         };
         let half_m = 0.5 * width_m;
         let rings = [at(1.0, -half_m), at(1.0, half_m), at(0.88, -half_m), at(0.88, half_m)];
-        let middle = DVec3::new(x_m, 0.0, radius_m.z);
+        let middle = DVec3::new(x_m, y_m, radius_m.z);
         for k in 0..SPOKES {
             let next = (k + 1) % SPOKES;
             let [outer, outer_right, inner, inner_right] = &rings;
@@ -183,6 +185,13 @@ impl<'a> Model<'a> {
         for k in 0..4 {
             let corners = [corner(from, k), corner(from, k + 1), corner(to, k + 1), corner(to, k)];
             self.face(region, &corners, 0.5 * (from + to));
+        }
+    }
+
+    /// Appends the figure of a person on foot.
+    pub fn on_foot(&mut self, walker: Option<Walker>, clothes: &Clothes) {
+        if let Some(walker) = walker {
+            person_on_foot(&walker, clothes, (self.person, Region::COUNT as u32), self.triangles);
         }
     }
 

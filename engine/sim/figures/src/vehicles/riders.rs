@@ -11,17 +11,17 @@ const BICYCLE_M: DVec3 = DVec3::new(1.80, 0.65, 1.75);
 const MOTORCYCLE_M: DVec3 = DVec3::new(2.10, 0.80, 1.60);
 
 /// Places of a rider, in box heights forward and up.
-struct Seat {
-    hip: [f64; 2],
-    shoulder: [f64; 2],
-    hand: [f64; 2],
+pub(super) struct Seat {
+    pub hip: [f64; 2],
+    pub shoulder: [f64; 2],
+    pub hand: [f64; 2],
     /// Half the distance between the hands.
-    half_grip: f64,
-    feet: [[f64; 2]; 2],
+    pub half_grip: f64,
+    pub feet: [[f64; 2]; 2],
     /// Half the distance between the feet.
-    half_stand: f64,
+    pub half_stand: f64,
     /// Whether a helmet covers the head.
-    helmet: bool,
+    pub helmet: bool,
 }
 
 /// A bicycle; `phase_rad` turns its pedals.
@@ -31,7 +31,7 @@ pub(super) fn bicycle(model: &mut Model<'_>, clothes: &Clothes, phase_rad: f64) 
     let radius_m = 0.34;
     let axle_m = 0.90 - radius_m;
     for sign in [-1.0, 1.0] {
-        model.spoked_wheel(sign * axle_m * stretch.x, radius_m * stretch, 0.034 * stretch.y);
+        model.spoked_wheel([sign * axle_m * stretch.x, 0.0], radius_m * stretch, 0.034 * stretch.y);
     }
     let (rear, front) = (at(-axle_m, 0.0, radius_m), at(axle_m, 0.0, radius_m));
     let (crank, seat, head) = (at(-0.08, 0.0, 0.28), at(-0.22, 0.0, 0.90), at(0.40, 0.0, 0.92));
@@ -154,12 +154,12 @@ fn handlebar(model: &mut Model<'_>, x_m: f64, z_m: f64, thick_m: f64) {
 }
 
 /// Forearms, bare or covered.
-fn forearm(clothes: &Clothes) -> Region {
+pub(super) fn forearm(clothes: &Clothes) -> Region {
     if clothes.short_sleeves { Region::Skin } else { Region::Top }
 }
 
 /// Somebody who sits; the head reaches the top of the box.
-fn rider(body: &mut Surface<'_>, seat: &Seat, forearm: Region) {
+pub(super) fn rider(body: &mut Surface<'_>, seat: &Seat, forearm: Region) {
     let ([hip_x, hip_z], [neck_x, neck_z]) = (seat.hip, seat.shoulder);
     let (head, face) = if seat.helmet { (Region::Hair, 1.3) } else { (Region::Skin, 1.0) };
     body.part(

@@ -5,10 +5,9 @@ use super::model::Model;
 use super::shapes::{CARS, VANS};
 use crate::Clothes;
 use crate::body_shape::BodyShape;
-use crate::figure::figure;
 use crate::region::Region;
 use crate::walker::Walker;
-use crate::walker_triangles;
+use crate::{figure, walker_triangles};
 use cosfly_domain::{BodyKind, BodyPlan, SemanticLabel};
 use cosfly_frames::{DVec3, Seed, TargetState};
 
@@ -18,13 +17,14 @@ const BOUND_M: f64 = 0.01;
 /// Most triangles of a car or van.
 const MOST_TRIANGLES: usize = 1000;
 
-const KINDS: [(BodyKind, [f64; 3], SemanticLabel); 7] = [
+const KINDS: [(BodyKind, [f64; 3], SemanticLabel); 8] = [
     (BodyKind::Bicycle, [1.8, 0.65, 1.75], SemanticLabel::Bicycle),
     (BodyKind::Motorcycle, [2.1, 0.8, 1.6], SemanticLabel::Motorcycle),
     (BodyKind::Car, [4.5, 1.85, 1.5], SemanticLabel::Car),
     (BodyKind::Van, [5.4, 2.0, 2.3], SemanticLabel::Car),
     (BodyKind::Truck, [8.5, 2.5, 3.4], SemanticLabel::Truck),
     (BodyKind::Bus, [12.0, 2.55, 3.1], SemanticLabel::Bus),
+    (BodyKind::Wheelchair, [1.05, 0.65, 1.32], SemanticLabel::Dynamic),
     (BodyKind::Drone, [0.6, 0.6, 0.2], SemanticLabel::Dynamic),
 ];
 
@@ -63,13 +63,37 @@ fn models_fill_their_boxes_and_stay_inside() {
 }
 
 #[test]
+fn people_stay_in_the_box_with_what_they_take_along_and_keep_their_label() {
+    for (kind, [length_m, width_m]) in [(BodyKind::PushChair, [1.5, 0.7]), (BodyKind::DogWalker, [1.6, 0.92])] {
+        for number in 0..60 {
+            let size_m = DVec3::new(length_m, width_m, 1.5 + 0.007 * number as f64);
+            let mut walker = vehicle(kind, size_m, number);
+            (walker.state.heading_rad, walker.state.feet_in_world) = (0.0, DVec3::ZERO);
+            let mut triangles = vec![];
+            figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
+            for triangle in &triangles {
+                for corner in triangle.corners_in_world {
+                    let inside = corner.x.abs() <= 0.5 * length_m && corner.y.abs() <= 0.5 * width_m;
+                    assert!(inside && (-0.03..size_m.z + 0.01).contains(&corner.z), "{kind:?} {number}: {corner}");
+                }
+            }
+            let labels: std::collections::BTreeSet<_> =
+                triangles.iter().map(|it| walker.body.label(it.region)).collect();
+            assert_eq!(labels.into_iter().collect::<Vec<_>>(), [SemanticLabel::Pedestrian, SemanticLabel::Dynamic]);
+            let points = crate::key_points(&walker).expect("a person");
+            assert!(points.iter().all(|point| point.x < 0.2 && point.z > 0.0 && point.z < size_m.z));
+        }
+    }
+}
+
+#[test]
 fn faces_look_outward_and_have_the_labels_of_their_kind() {
     for (kind, size_m, label) in KINDS {
         let walker = vehicle(kind, DVec3::from_array(size_m), 3);
         let mut triangles = vec![];
         figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
         let labels: std::collections::BTreeSet<_> = triangles.iter().map(|it| walker.body.label(it.region)).collect();
-        let is_ridden = matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle);
+        let is_ridden = matches!(kind, BodyKind::Bicycle | BodyKind::Motorcycle | BodyKind::Wheelchair);
         assert!(labels.contains(&label), "{kind:?}");
         assert_eq!(labels.contains(&SemanticLabel::Rider), is_ridden, "{kind:?}");
         assert_eq!(labels.len(), 1 + usize::from(is_ridden));

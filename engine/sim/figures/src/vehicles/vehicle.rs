@@ -1,7 +1,7 @@
 //! Triangles of a vehicle with its rider, by its kind.
 
 use super::model::Model;
-use super::{cars, coaches, drones, lorries, riders};
+use super::{cars, coaches, drones, lorries, riders, taken_along};
 use crate::Clothes;
 use crate::frustum::FigureTriangle;
 use crate::walker::Walker;
@@ -28,7 +28,10 @@ pub fn add(
         BodyKind::Truck => lorries::lorry(&mut model, phase_rad, &mut looks),
         BodyKind::Bus => coaches::bus(&mut model, phase_rad, &mut looks),
         BodyKind::Drone => drones::quadrotor(&mut model),
-        BodyKind::Car | BodyKind::Van | BodyKind::Pedestrian => {
+        BodyKind::Wheelchair => taken_along::wheelchair(&mut model, clothes),
+        BodyKind::PushChair => taken_along::push_chair(&mut model, clothes, walker),
+        BodyKind::DogWalker => taken_along::dog(&mut model, clothes, walker),
+        BodyKind::Car | BodyKind::Van | BodyKind::Pedestrian | BodyKind::Child | BodyKind::Elder => {
             let shape = cars::shape(kind, size_m, &mut looks);
             cars::car(&mut model, shape, phase_rad, &mut looks);
         }
