@@ -55,7 +55,7 @@ pub struct PedestrianConfig {
     pub areas: Vec<AreaConfig>,
 }
 
-fn is_zero(share: &f64) -> bool {
+pub(crate) fn is_zero(share: &f64) -> bool {
     *share == 0.0
 }
 

@@ -5,6 +5,7 @@
 
 mod company;
 mod config;
+mod kinds;
 mod limits;
 mod one_way;
 mod pace;
@@ -22,6 +23,7 @@ pub use config::{CrowdConfig, CrowdStopConfig, GroundCostConfig, GroupConfig, Si
 use cosfly_domain::{BodyPlan, Town};
 use cosfly_frames::{DVec2, Seed, TargetState};
 use cosfly_world::{Clock, Population, Present, Snapshot};
+pub use kinds::KindShares;
 use limits::Limits;
 use person::{HARDEST_MPS2, Person};
 use roads::Right;
@@ -132,7 +134,7 @@ impl Crowd {
         let person = &mut self.people[number];
         person.wander(&self.config, step_s);
         if (self.steps + number).is_multiple_of(PURSUIT_STEPS) {
-            person.target = pursuit::target(&self.grid, &self.config, company, person, number, places);
+            person.target = pursuit::target(&self.grid, company, person, number, places);
         }
         let ahead = (person.target - person.at).try_normalize().unwrap_or(DVec2::ZERO);
         surroundings.look(everybody, own.start + number as u32, (person.at, person.radius_m, ahead), &own, &mates);

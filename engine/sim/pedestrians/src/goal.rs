@@ -13,6 +13,11 @@ const AHEAD_RAD: f64 = 1.9;
 /// Straight distances between the turns of restless people, metres; smoothing takes about a metre of each.
 const RESTLESS_LEG_M: [f64; 2] = [3.0, 6.0];
 
+/// Nodes of the route that tell restless people where they came from, and the longest way to their next turn, metres of
+/// pavement.
+pub(crate) const TURN_NODES: usize = 4;
+pub(crate) const LONGEST_TURN_M: f32 = 20.0;
+
 /// Largest angle between the way back and the next direction of restless people, radians.
 const ABOUT_RAD: f64 = 1.7;
 

@@ -1,6 +1,8 @@
 //! One pedestrian's walk: a person, a chain of goals, a smooth path, and its frames.
 
-use crate::goal::{GOAL_ATTEMPTS, LONGEST_LEG_M, draw_goal, draw_start, draw_turn, roomy_pieces};
+use crate::goal::{
+    GOAL_ATTEMPTS, LONGEST_LEG_M, LONGEST_TURN_M, TURN_NODES, draw_goal, draw_start, draw_turn, roomy_pieces,
+};
 use crate::motion::{self, ArcPath};
 use crate::route::{LONE_COSTS, RouteSearch, TASTE_SHARE};
 use crate::smooth::smooth;
@@ -17,11 +19,6 @@ const BEHIND_NODES: usize = 60;
 /// A route that begins by going back this many steps is given up for another goal, at most so many times.
 const TURNING_BACK_STEPS: usize = 6;
 const TURNING_BACK_REFUSALS: usize = 3;
-
-/// Nodes of the route that tell restless people where they came from, and the longest way to their next turn, metres of
-/// pavement.
-const TURN_NODES: usize = 4;
-const LONGEST_TURN_M: f32 = 20.0;
 
 /// Smoothing cuts corners; routes are made longer by this.
 const SPARE: f64 = 1.12;

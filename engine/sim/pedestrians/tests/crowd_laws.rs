@@ -2,7 +2,8 @@
 //! of; scripts are played as written.
 
 use cosfly_domain::{Body, BodyKind, BodyPlan, Town, Traffic, WalkableKind, WalkablePolygon};
-use cosfly_frames::{DVec2, DVec3, Seed, TargetState};
+use cosfly_frames::{DVec2, DVec3, Seed, TargetState, real};
+use cosfly_pedestrians::crowd::KindShares;
 use cosfly_pedestrians::{Crowd, CrowdConfig, ScriptedPerson, WalkableGrid, Waypoint, path_of, scripted};
 use cosfly_world::{Clock, Population, Prescribed, contacts, simulate};
 use std::sync::Arc;
@@ -120,6 +121,29 @@ fn frames_of_any_length_keep_bodies_apart_and_feet_on_the_ground() {
             assert_eq!((path.ground.len(), path.standing.len()), (frames as usize, frames as usize));
         }
     }
+}
+
+#[test]
+fn children_and_wide_people_keep_apart_and_restless_ones_turn_about() {
+    let kinds = KindShares { child: 0.2, dog_walker: 0.2, elder: 0.2, push_chair: 0.2, wheelchair: 0.2 };
+    let config = CrowdConfig { count: 40, kinds, ..CrowdConfig::default() };
+    let (town, clock) = (street(), Clock::new(120, 0.5, 0.1));
+    let traffic = simulated(vec![crowd(&grid(&town, &config), &config, clock, 5)], clock);
+    assert_eq!(contacts(&traffic, 0.0), []);
+    let kinds: std::collections::BTreeSet<BodyKind> = traffic.bodies.iter().map(|body| body.plan.kind).collect();
+    assert_eq!(kinds.len(), 5);
+    let way_m = traffic.bodies.iter().map(Body::length_m).sum::<f64>() / 40.0;
+    let turned_deg = |restless_share: f64| {
+        let config = CrowdConfig { count: 20, restless_share, ..CrowdConfig::default() };
+        let traffic = simulated(vec![crowd(&grid(&town, &config), &config, clock, 5)], clock);
+        assert_eq!(contacts(&traffic, 0.0), []);
+        let turn = |pair: &[TargetState]| real::wrap_angle_rad(pair[1].heading_rad - pair[0].heading_rad).abs();
+        let turns = traffic.bodies.iter().flat_map(|body| body.states.windows(2).map(turn));
+        turns.sum::<f64>().to_degrees() / (20.0 * 12.0)
+    };
+    let (calm, restless) = (turned_deg(0.0), turned_deg(1.0));
+    println!("mean way {way_m:.1} m; turns in 5 s: {calm:.0} and {restless:.0} degrees");
+    assert!(way_m > 25.0 && restless > 90.0 && restless > 1.5 * calm, "{way_m} m, {calm}, {restless} degrees");
 }
 
 #[test]

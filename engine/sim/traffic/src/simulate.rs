@@ -4,8 +4,8 @@ use crate::avoided::{Avoided, take_out};
 use crate::config::TrafficConfig;
 use crate::populations::{self, TrackFile};
 use cosfly_diagnose::Result;
-use cosfly_domain::{Town, Traffic, Traits};
-use cosfly_figures::{BodyShape, outfit_of};
+use cosfly_domain::{BodyKind, Town, Traffic, Traits};
+use cosfly_figures::{BodyShape, grey_haired, outfit_of};
 use cosfly_frames::Seed;
 use cosfly_world::{OutfitsBySeed, dress, give_looks, simulate};
 
@@ -48,6 +48,9 @@ pub fn simulate_traffic(
     let traits = |looks: &Seed| outfit(looks).traits.unwrap_or(Traits::PLAIN);
     let alike = |a: &Seed, b: &Seed| outfit(a).is_like(&outfit(b));
     let looks_note = give_looks(&mut traffic, &config.looks, &traits, &seed.child("looks", 0));
+    for body in traffic.bodies.iter_mut().filter(|body| body.plan.kind == BodyKind::Elder) {
+        body.plan.looks = grey_haired(&body.plan.looks);
+    }
     let outfits = OutfitsBySeed { alike: &alike, traits: &traits };
     let note = dress(&mut traffic, &followed, &config.look_alikes, outfits, &seed.child("look-alikes", 0));
     let about = traffic.notes.join("; ");

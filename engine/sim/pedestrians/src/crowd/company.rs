@@ -3,7 +3,7 @@
 use crate::WalkableGrid;
 use crate::crowd::CrowdConfig;
 use crate::crowd::person::Person;
-use crate::goal::{GOAL_ATTEMPTS, LONGEST_LEG_M, draw_goal};
+use crate::goal::{GOAL_ATTEMPTS, LONGEST_LEG_M, LONGEST_TURN_M, TURN_NODES, draw_goal, draw_turn};
 use crate::route::RouteSearch;
 use cosfly_domain::WalkableKind;
 use cosfly_frames::{DVec2, RandomStream, Seed, real};
@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 /// A route whose end is nearer than this many nodes is led on.
 const SPARE_NODES: usize = 40;
+const SPARE_RESTLESS_NODES: usize = 14;
 
 /// Nodes behind that are kept, and those that the way on avoids.
 const KEPT_NODES: usize = 60;
@@ -51,10 +52,14 @@ pub(crate) struct Company {
     pub route: Vec<u32>,
     /// Free speed of the slowest member, m/s.
     pub cruise_mps: f64,
+    /// Distance between neighbours, metres.
+    pub abreast_m: f64,
     pub activity: Activity,
     /// Number of the piece of ground.
     pub piece: u32,
     stream: RandomStream,
+    /// Turns about every few metres.
+    pub restless: bool,
     /// Distance to the next stop, metres.
     until_stop_m: f64,
     /// Place of the first member and time when it was last seen to get on.
@@ -77,9 +82,11 @@ impl Company {
             group,
             route: vec![start],
             cruise_mps: f64::INFINITY,
+            abreast_m: config.groups.abreast_m,
             activity: if stands { Activity::Standing { until_s: f64::INFINITY } } else { Activity::Walking },
             piece,
             stream,
+            restless: seed.stream("restless").unit() < config.restless_share,
             until_stop_m: 0.0,
             seen: (DVec2::ZERO, 0.0),
         };
@@ -115,7 +122,8 @@ impl Company {
             self.seen = (people[0].at, time_s);
         }
         let hindmost = people.iter().map(|person| person.progress).min().unwrap_or_default();
-        if self.route.len() - hindmost < SPARE_NODES {
+        let spare = if self.restless { SPARE_RESTLESS_NODES } else { SPARE_NODES };
+        if self.route.len() - hindmost < spare && !(self.restless && self.turn_about(search, grid)) {
             self.lead_on(search, grid);
         }
         if hindmost > 4 * KEPT_NODES {
@@ -154,6 +162,21 @@ impl Company {
         let range = person.progress.saturating_sub(2)..(person.progress + AHEAD_NODES).min(self.route.len());
         let away = |place: &usize| (grid.center(self.route[*place]) - person.at).length_squared();
         person.progress = range.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(person.progress);
+    }
+
+    /// Adds a few metres to the side or back; false where no such way was found.
+    fn turn_about(&mut self, search: &mut RouteSearch<Arc<WalkableGrid>>, grid: &WalkableGrid) -> bool {
+        let Some(&here) = self.route.last() else { return false };
+        let before = self.route.len().checked_sub(1 + TURN_NODES).map(|place| self.route[place]);
+        for _ in 0..GOAL_ATTEMPTS {
+            let goal = draw_turn(grid, self.piece, (here, before), &mut self.stream);
+            let way = goal.and_then(|goal| search.find_within(here, goal, &[], LONGEST_TURN_M));
+            if let Some(way) = way.filter(|way| way.len() > 1) {
+                self.route.extend(&way[1..]);
+                return true;
+            }
+        }
+        false
     }
 
     /// Adds the way to one more goal.

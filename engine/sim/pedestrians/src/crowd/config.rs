@@ -1,5 +1,7 @@
 //! [`CrowdConfig`]: the parameters of people who walk a town together, and the rules between them.
 
+use crate::config::is_zero;
+use crate::crowd::KindShares;
 use crate::{AreaConfig, HeightRange, PedestrianConfig, PedestrianConfigRule, RadiusRange, SpeedConfig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,6 +14,14 @@ pub struct CrowdConfig {
     /// Number of people. Default 100.
     #[schemars(range(min = 0, max = 20_000))]
     pub count: u32,
+    /// Children, old people and people who take something along, by share. Default none.
+    #[serde(skip_serializing_if = "KindShares::is_default")]
+    pub kinds: KindShares,
+    /// Share of the companies who are restless and turn about every few metres, as children at play and people who search. Flights
+    /// behind them are hard (`difficulty`). Default 0.
+    #[serde(skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub restless_share: f64,
     /// Free walking speed, drawn for each person.
     pub speed: SpeedConfig,
     /// Random variation of a person's own speed, standard deviation as a share of it. Default 0.06.
@@ -58,6 +68,8 @@ impl Default for CrowdConfig {
         let lone = PedestrianConfig::default();
         Self {
             count: 100,
+            kinds: KindShares::default(),
+            restless_share: 0.0,
             speed: lone.speed,
             speed_deviation_share: 0.06,
             step_deviation_mps: 0.1,
@@ -179,7 +191,9 @@ impl CrowdConfig {
     pub fn check(&self) -> Result<(), PedestrianConfigRule> {
         PedestrianConfigRule::within(&["count"], f64::from(self.count), 0.0, 20_000.0)?;
         self.body_and_grid().check()?;
-        let numbers: [(&'static [&'static str], f64, f64, f64); 17] = [
+        self.kinds.check()?;
+        let numbers: [(&'static [&'static str], f64, f64, f64); 18] = [
+            (&["restless_share"], self.restless_share, 0.0, 1.0),
             (&["speed_deviation_share"], self.speed_deviation_share, 0.0, 0.5),
             (&["step_deviation_mps"], self.step_deviation_mps, 0.0, 1.0),
             (&["braking_mps2"], self.braking_mps2, 0.1, 5.0),
@@ -211,7 +225,7 @@ impl CrowdConfig {
         PedestrianConfig {
             speed: self.speed.clone(),
             height: self.height.clone(),
-            radius: self.radius.clone(),
+            radius: RadiusRange { max_m: self.kinds.clearance_m(self.radius.max_m), ..self.radius.clone() },
             grid_m: self.grid_m,
             edge_distance_m: self.edge_distance_m,
             min_route_m: self.min_route_m,

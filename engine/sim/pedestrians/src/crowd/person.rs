@@ -1,7 +1,7 @@
 //! [`Person`]: one member of a crowd: what is drawn once, and the present state.
 
 use crate::crowd::CrowdConfig;
-use cosfly_domain::{BodyKind, BodyPlan};
+use cosfly_domain::{BodyKind, BodyPlan, Walking};
 use cosfly_frames::{DVec2, DVec3, RandomStream, Seed, TargetState, real};
 
 /// Largest acceleration that people choose, m/s2.
@@ -37,6 +37,7 @@ pub(crate) struct Person {
     pub cruise_mps: f64,
     pub radius_m: f64,
     pub height_m: f64,
+    kind: BodyKind,
     /// Own distance to the right of the middle of the way, metres.
     pub side_m: f64,
     /// Number of the company that the person belongs to.
@@ -70,12 +71,13 @@ impl Person {
     pub fn drawn(config: &CrowdConfig, company: usize, seed: Seed) -> Self {
         let mut stream = seed.stream("person");
         let speed = &config.speed;
-        Self {
+        let person = Self {
             cruise_mps: stream.normal(speed.mean_mps, speed.deviation_mps).clamp(speed.min_mps, speed.max_mps),
             height_m: stream.uniform(config.height.min_m, config.height.max_m),
             radius_m: stream.uniform(config.radius.min_m, config.radius.max_m),
             side_m: stream.normal(config.side.mean_m, config.side.deviation_m),
             company,
+            kind: BodyKind::Pedestrian,
             looks: seed.child("looks", 0),
             sway_m: stream.normal(0.0, config.side.drift_m),
             tempo: stream.normal(0.0, config.speed_deviation_share),
@@ -90,7 +92,21 @@ impl Person {
             target: DVec2::ZERO,
             progress: 0,
             pace_mps: 0.0,
+        };
+        person.of_kind(config.kinds.draw(&seed), &seed)
+    }
+
+    /// The person with the size and pace of a kind.
+    fn of_kind(self, kind: BodyKind, seed: &Seed) -> Self {
+        let Some(Walking { heights_m, pace: [slow, fast], outline_m }) = kind.row().walking else { return self };
+        if kind == self.kind {
+            return self;
         }
+        let mut stream = seed.stream("kind size");
+        let cruise_mps = self.cruise_mps * stream.uniform(slow, fast);
+        let height_m = heights_m.map_or(self.height_m, |[low, high]| stream.uniform(low, high));
+        let radius_m = outline_m.map_or(self.radius_m * height_m / self.height_m, |[length_m, _]| 0.5 * length_m);
+        Self { kind, cruise_mps, height_m, radius_m, ..self }
     }
 
     /// Puts the person at a place.
@@ -131,10 +147,12 @@ impl Person {
 
     /// Properties that do not change.
     pub fn plan(&self, group: Option<u32>) -> BodyPlan {
+        let outline_m = self.kind.row().walking.as_ref().and_then(|it| it.outline_m);
+        let [length_m, width_m] = outline_m.unwrap_or([2.0 * self.radius_m; 2]);
         BodyPlan {
             source: String::new(),
-            kind: BodyKind::Pedestrian,
-            size_m: DVec3::new(2.0 * self.radius_m, 2.0 * self.radius_m, self.height_m),
+            kind: self.kind,
+            size_m: DVec3::new(length_m, width_m, self.height_m),
             looks: self.looks,
             group,
         }

@@ -69,6 +69,11 @@ impl Crowd {
             groups += u32::from(size > 1);
             let mut company = Company::new(first..first + size, group, start, &self.config, own);
             company.cruise_mps = people.iter().map(|person| person.cruise_mps).fold(f64::INFINITY, f64::min);
+            if let Some(widest_m) = people.iter().map(|it| it.radius_m).max_by(f64::total_cmp)
+                && widest_m > self.config.radius.max_m
+            {
+                company.abreast_m = company.abreast_m.max(2.0 * widest_m + APART_M);
+            }
             let side_m = people[0].side_m;
             for person in &mut people {
                 // A company keeps to one line; its members' places are beside each other on it.
@@ -111,9 +116,9 @@ impl Crowd {
         let heading_rad = stream.uniform(-real::PI, real::PI);
         let (sin, cos) = real::sin_cos(heading_rad);
         let first_m = -0.5 * (people.len() - 1) as f64;
+        let widest_m = people.iter().map(|person| person.radius_m).fold(self.config.radius.max_m, f64::max);
         for (rank, person) in people.iter_mut().enumerate() {
-            let across_m =
-                (first_m + rank as f64) * self.config.groups.abreast_m.max(2.0 * self.config.radius.max_m + APART_M);
+            let across_m = (first_m + rank as f64) * self.config.groups.abreast_m.max(2.0 * widest_m + APART_M);
             person.place(middle + across_m * DVec2::new(-sin, cos));
             person.heading_rad = heading_rad;
         }

@@ -1,7 +1,6 @@
 //! The place that a person walks towards: a little way ahead on the company's route, beside its middle.
 
 use crate::WalkableGrid;
-use crate::crowd::CrowdConfig;
 use crate::crowd::company::Company;
 use crate::crowd::person::Person;
 use cosfly_frames::DVec2;
@@ -18,7 +17,6 @@ const KERB_M: f64 = 0.3;
 /// The farthest place ahead that the person can walk straight to.
 pub(crate) fn target(
     grid: &WalkableGrid,
-    config: &CrowdConfig,
     company: &Company,
     person: &Person,
     number: usize,
@@ -26,7 +24,8 @@ pub(crate) fn target(
 ) -> DVec2 {
     let route = &company.route;
     let here = grid.center(route[person.progress]);
-    for (first, end) in WINDOWS {
+    // The ways of restless people are too short for the far one.
+    for &(first, end) in &WINDOWS[usize::from(company.restless)..] {
         let window = (person.progress + first).min(route.len() - 1)..(person.progress + end).min(route.len());
         if window.is_empty() {
             continue;
@@ -35,7 +34,7 @@ pub(crate) fn target(
         let middle = route[window].iter().map(|node| grid.center(*node)).sum::<DVec2>() / count;
         let Some(ahead) = (middle - here).try_normalize() else { continue };
         let right = DVec2::new(-ahead.y, ahead.x);
-        let beside_m = person.side_m + person.sway_m + slot_m(config, company, person, number, places, right);
+        let beside_m = person.side_m + person.sway_m + slot_m(company, person, number, places, right);
         for share in SHARES {
             let beside_m = share * beside_m;
             let place = middle + beside_m * right;
@@ -56,21 +55,14 @@ pub(crate) fn target(
 }
 
 /// Place of a member in the row of a company, metres to the right; members keep the order in which they walk now.
-fn slot_m(
-    config: &CrowdConfig,
-    company: &Company,
-    person: &Person,
-    number: usize,
-    places: &[DVec2],
-    right: DVec2,
-) -> f64 {
+fn slot_m(company: &Company, person: &Person, number: usize, places: &[DVec2], right: DVec2) -> f64 {
     let own = right.dot(person.at);
     let is_left = |mate: usize| {
         let other = right.dot(places[mate]);
         other < own || (other == own && mate < number)
     };
     let rank = company.members.clone().filter(|mate| *mate != number && is_left(*mate)).count();
-    (rank as f64 - 0.5 * (company.members.len() - 1) as f64) * config.groups.abreast_m
+    (rank as f64 - 0.5 * (company.members.len() - 1) as f64) * company.abreast_m
 }
 
 /// How far the person is behind the middle of the company, metres along the way.

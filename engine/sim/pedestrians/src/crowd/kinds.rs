@@ -1,0 +1,101 @@
+//! [`KindShares`]: which shares of a crowd are children, old people, and people who take something along.
+
+use crate::PedestrianConfigRule;
+use cosfly_domain::BodyKind;
+use cosfly_frames::Seed;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Distance that everybody keeps from obstacles where somebody takes something along, metres.
+const ROOM_M: f64 = 0.5;
+
+/// Shares of the people by kind; all others are grown people on foot.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct KindShares {
+    /// Children, 0.98 to 1.45 m tall. Default 0.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub child: f64,
+    /// People with a dog on a leash. Default 0.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub dog_walker: f64,
+    /// Old people, slow, stooped, with a stick. Default 0.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub elder: f64,
+    /// People with a push-chair. Default 0.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub push_chair: f64,
+    /// People in a wheelchair. Default 0.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub wheelchair: f64,
+}
+
+impl KindShares {
+    /// Whether all are grown people on foot.
+    pub(crate) fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
+    fn shares(&self) -> [(BodyKind, &'static [&'static str], f64); 5] {
+        [
+            (BodyKind::Child, &["kinds", "child"], self.child),
+            (BodyKind::DogWalker, &["kinds", "dog_walker"], self.dog_walker),
+            (BodyKind::Elder, &["kinds", "elder"], self.elder),
+            (BodyKind::PushChair, &["kinds", "push_chair"], self.push_chair),
+            (BodyKind::Wheelchair, &["kinds", "wheelchair"], self.wheelchair),
+        ]
+    }
+
+    pub(super) fn check(&self) -> Result<(), PedestrianConfigRule> {
+        for (_, path, share) in self.shares() {
+            PedestrianConfigRule::within(path, share, 0.0, 1.0)?;
+        }
+        let sum: f64 = self.shares().iter().map(|it| it.2).sum();
+        if sum > 1.0 + 1e-9 {
+            let message =
+                format!("the shares add up to `{sum}`; they must add up to at most `1`, the rest are grown people");
+            return Err(PedestrianConfigRule { path: vec!["kinds"], message });
+        }
+        Ok(())
+    }
+
+    /// The kind of somebody, drawn from a seed.
+    pub(super) fn draw(&self, seed: &Seed) -> BodyKind {
+        if self.is_default() {
+            return BodyKind::Pedestrian;
+        }
+        let mut left = seed.stream("kind").unit();
+        let is_drawn = |(_, _, share): &(BodyKind, &[&str], f64)| {
+            left -= share;
+            left < 0.0
+        };
+        self.shares().into_iter().find(is_drawn).map_or(BodyKind::Pedestrian, |it| it.0)
+    }
+
+    /// Distance that the middle of everybody keeps from obstacles, metres; `of_people` where nobody takes anything along.
+    pub(super) fn clearance_m(&self, of_people: f64) -> f64 {
+        let takes_room = |kind: BodyKind| kind.row().walking.as_ref().is_some_and(|it| it.outline_m.is_some());
+        let is_wide = self.shares().iter().any(|(kind, _, share)| *share > 0.0 && takes_room(*kind));
+        if is_wide { of_people.max(ROOM_M) } else { of_people }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::CrowdConfig;
+
+    #[test]
+    fn kinds_have_their_shares_and_those_that_cannot_be_are_refused() {
+        let kinds = KindShares { child: 0.3, wheelchair: 0.1, ..KindShares::default() };
+        let drawn: Vec<BodyKind> = (0..2000).map(|number| kinds.draw(&Seed([4; 32]).child("person", number))).collect();
+        for (kind, share) in [(BodyKind::Child, 0.3), (BodyKind::Wheelchair, 0.1), (BodyKind::Pedestrian, 0.6)] {
+            let found = drawn.iter().filter(|it| **it == kind).count() as f64 / 2000.0;
+            assert!((found - share).abs() < 0.03, "{kind:?}: {found}");
+        }
+        let refused = |kinds: KindShares| CrowdConfig { kinds, ..CrowdConfig::default() }.check().unwrap_err();
+        assert_eq!(refused(KindShares { elder: -0.1, ..KindShares::default() }).path, ["kinds", "elder"]);
+        let all = refused(KindShares { elder: 0.75, child: 0.5, ..KindShares::default() });
+        assert!(all.path == ["kinds"] && all.message.starts_with("the shares add up to `1.25`; they must"), "{all:?}");
+    }
+}
