@@ -123,7 +123,8 @@ impl BodiesIndex {
                     continue;
                 };
                 let [length_m, width_m, height_m] = rows.get(Bodies::size_m, row)?;
-                let is_person = rows.get(Bodies::kind, row)? == BodyKind::Pedestrian.name();
+                let kind = rows.get(Bodies::kind, row)?;
+                let is_person = BodyKind::ON_THE_GROUND.iter().any(|it| it.is_person() && it.name() == kind);
                 found.entry(number).or_insert_with(|| (file.to_owned(), vec![])).1.push(PlacedBody {
                     row: first + row,
                     frame: rows.get(Bodies::frame, row)?,

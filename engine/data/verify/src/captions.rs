@@ -4,6 +4,7 @@ use super::files::CheckedFiles;
 use super::flight_list::FlightList;
 use super::report::VerifyReport;
 use super::rows::{self, split_of};
+use cosfly_domain::BodyKind;
 use cosfly_schema::tables::Captions;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -91,8 +92,9 @@ impl CaptionList {
     }
 
     fn check_languages(&self, flights: &FlightList, report: &mut VerifyReport) {
+        let is_on_foot = |kind: &str| BodyKind::ON_THE_GROUND.iter().any(|it| it.is_on_foot() && it.name() == kind);
         for (number, flight) in
-            flights.iter().enumerate().filter(|(_, flight)| flight.target_kind.as_deref() == Some("pedestrian"))
+            flights.iter().enumerate().filter(|(_, flight)| flight.target_kind.as_deref().is_some_and(is_on_foot))
         {
             let of_flight = self.of(number);
             for (at, language) in LANGUAGES.into_iter().enumerate() {

@@ -317,9 +317,10 @@ impl LogCheck<'_> {
     /// Labels by their number alone: they come before the ids, which say whose pixels are whose.
     fn check_labels(&mut self, image: &messages::RawImage, row: &PlacedFrame, place: String) {
         let last = SemanticLabel::ALL.len() as u8;
-        // People, riders, vehicles: whatever may be followed.
+        // People, riders, vehicles, and what people take along: whatever may be followed.
         let moving = SemanticLabel::Pedestrian.id()..=SemanticLabel::Bicycle.id();
-        let bodies = image.data.iter().filter(|label| moving.contains(label)).count();
+        let is_of_body = |label: &&u8| moving.contains(label) || **label == SemanticLabel::Dynamic.id();
+        let bodies = image.data.iter().filter(is_of_body).count();
         if image.data.iter().any(|label| *label >= last) || bodies < row.visible_pixels as usize {
             self.find(
                 place,

@@ -124,9 +124,9 @@ impl Stage for CaptionStage {
             }
         };
         let followed = traffic::followed(inputs, inputs.one("trajectories")?)?;
-        let is_person = followed.as_ref().is_none_or(|followed| followed.plan.kind.is_person());
+        let is_person = followed.as_ref().is_none_or(|followed| followed.plan.kind.is_on_foot());
         if trajectory.track.radius_m == 0.0 || !is_person {
-            // The texts are about walkers only.
+            // The texts are about people on foot only.
             outputs.put("captions", &captions_to_bytes(&[]))?;
             return Ok(Produced::default());
         }

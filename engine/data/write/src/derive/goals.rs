@@ -18,7 +18,7 @@ const CLEAR_PIXELS: u32 = 30;
 
 /// All goals of a flight; none for a target that is no person on foot.
 pub fn of(record: &RenderedTrajectory, losses: &[Loss], landmarks: &Landmarks) -> Vec<Goal> {
-    let is_person = record.target_kind() == Some(BodyKind::Pedestrian);
+    let is_person = record.target_kind().is_some_and(BodyKind::is_on_foot);
     let Some(outfit) = record.outfit.as_ref().filter(|_| is_person && !record.is_empty()) else { return vec![] };
     let flight = flight(record, outfit, losses, landmarks);
     let seed = Seed::of_item(record.seed, "goals", &record.trajectory_id);
@@ -124,13 +124,13 @@ fn samples(record: &RenderedTrajectory, place: usize) -> Vec<Sample> {
 }
 
 fn neighbours(record: &RenderedTrajectory) -> Vec<Neighbour> {
-    let is_walker = |it: &(usize, &OtherBody)| it.1.plan.kind == BodyKind::Pedestrian;
+    let is_walker = |it: &(usize, &OtherBody)| it.1.plan.kind.is_on_foot();
     let others = record.others.iter().enumerate().filter(is_walker);
     others.map(|(place, it)| Neighbour { wear: Wear::from(&it.outfit), samples: samples(record, place) }).collect()
 }
 
 fn vehicles(record: &RenderedTrajectory) -> Vec<(BodyKind, Vec<Sample>)> {
-    let is_vehicle = |it: &(usize, &OtherBody)| !matches!(it.1.plan.kind, BodyKind::Pedestrian | BodyKind::Drone);
+    let is_vehicle = |it: &(usize, &OtherBody)| !it.1.plan.kind.is_person() && it.1.plan.kind != BodyKind::Drone;
     let others = record.others.iter().enumerate().filter(is_vehicle);
     others.map(|(place, it)| (it.plan.kind, samples(record, place))).collect()
 }

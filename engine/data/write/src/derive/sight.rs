@@ -22,7 +22,7 @@ pub fn instruction(
 
 /// The picture of frame `frame`; `None` for a target that is no person.
 fn view(record: &RenderedTrajectory, frame: usize, start: usize) -> Option<WindowView> {
-    let outfit = record.outfit.as_ref().filter(|_| record.target_kind() == Some(BodyKind::Pedestrian))?;
+    let outfit = record.outfit.as_ref().filter(|_| record.target_kind().is_some_and(BodyKind::is_on_foot))?;
     let states = &record.trajectory.track.states;
     let seen = &record.views[frame];
     let other = |(body, sighting): (&OtherBody, &Sighting)| {

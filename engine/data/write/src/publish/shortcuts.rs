@@ -6,17 +6,18 @@ use cosfly_metrics::shortcuts::{Looks, Seen, Shortcuts};
 use cosfly_schema::log::messages::edges_px;
 use cosfly_schema::{RenderedTrajectory, Role};
 
-/// Counts a flight: the frames of experts, where others are those of the target's kind, and the people of all flights.
+/// Counts a flight: the frames of experts, where others are those of the target's kind, and the grown
+/// people on foot of all flights.
 pub fn count(record: &RenderedTrajectory, shortcuts: &mut Shortcuts) {
     let town = &record.town.name;
     let kind = record.target_kind();
     let track = &record.trajectory.track;
-    if let Some(outfit) = record.outfit.as_ref().filter(|_| kind.is_some_and(BodyKind::is_person)) {
+    if let Some(outfit) = record.outfit.as_ref().filter(|_| kind == Some(BodyKind::Pedestrian)) {
         shortcuts.add_target(&format!("{town} {}", record.pedestrian_id), looks(outfit, track.height_m));
     }
     for sighting in &record.sightings {
         let other = &record.others[sighting.other as usize];
-        if other.plan.kind.is_person() {
+        if other.plan.kind == BodyKind::Pedestrian {
             shortcuts.add_other(&format!("{town} {}", other.body_id), looks(&other.outfit, other.plan.size_m.z));
         }
     }
@@ -41,11 +42,11 @@ fn looks(outfit: &Outfit, height_m: f64) -> Looks {
     Looks::of_words(outfit.top.linear_rgb.map(f64::from), height_m, [bag.name(), build.name(), gait.name()])
 }
 
-/// A body in the picture; crown and feet of a person only.
+/// A body in the picture; crown and feet of a grown person only.
 fn seen(record: &RenderedTrajectory, pose: &Pose, visible: &PixelBox, (state, height_m): (&TargetState, f64)) -> Seen {
     let feet = state.feet_in_world;
     // Rows of a wide lens are angles.
-    let is_person = !record.lens.is_wide(&record.camera) && record.target_kind().is_some_and(BodyKind::is_person);
+    let is_person = !record.lens.is_wide(&record.camera) && record.target_kind() == Some(BodyKind::Pedestrian);
     let row = |point| record.camera.project(pose, point).filter(|_| is_person).map(|(_, row, _)| row);
     Seen {
         edges_px: edges_px(visible).map(|edge| edge as f64),

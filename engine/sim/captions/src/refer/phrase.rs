@@ -122,7 +122,9 @@ impl Phrase {
             Property::Motion => body.moves().is_none_or(|moves| Some(moves) == self.of.moves()),
             Property::Part => body.part().is_none_or(|part| Some(part) == self.of.part()),
         };
-        body.kind == self.of.kind && self.properties.iter().all(agrees)
+        // Everybody on the pavement is a person.
+        let is_called_so = body.kind == self.of.kind || self.of.kind == BodyKind::Pedestrian && body.kind.is_person();
+        is_called_so && self.properties.iter().all(agrees)
     }
 
     pub(super) fn names(&self, property: Property) -> bool {
@@ -171,6 +173,15 @@ mod tests {
         // At the border of the picture's parts, and of motion, nobody could deny that the phrase fits.
         assert_eq!(texts(&target, &[twin(true, 0.2, 0.35)]), None);
         assert_eq!(texts(&target, &[Candidate { kind: BodyKind::Bicycle, ..target }]).unwrap()[0], "the person");
+        // A child is a person, too; a person is no child.
+        let child = Candidate { kind: BodyKind::Child, ..target };
+        assert_eq!(texts(&target, &[child]), None);
+        assert_eq!(texts(&child, &[target]).unwrap(), ["the child", "那个孩子"]);
+        let user = Candidate { kind: BodyKind::Wheelchair, ..target };
+        assert_eq!(
+            texts(&user, &[Candidate { speed_mps: 0.0, ..user }]).unwrap(),
+            ["the moving wheelchair user", "正在行驶的坐轮椅的人"]
+        );
     }
 
     #[test]

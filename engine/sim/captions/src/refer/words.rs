@@ -52,9 +52,9 @@ fn phrase_in(phrase: &Phrase, messages: &Messages) -> String {
 }
 
 fn motion(kind: BodyKind, moves: bool) -> &'static str {
-    match (kind, moves) {
-        (BodyKind::Pedestrian, true) => "phrase-motion[walks]",
-        (BodyKind::Pedestrian, false) => "phrase-motion[stands]",
+    match (kind.is_on_foot(), moves) {
+        (true, true) => "phrase-motion[walks]",
+        (true, false) => "phrase-motion[stands]",
         (_, true) => "phrase-motion[drives]",
         (_, false) => "phrase-motion[halts]",
     }
