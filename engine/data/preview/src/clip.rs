@@ -7,6 +7,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::SemanticLabel;
 use cosfly_plot::canvas::{Canvas, ChartColour, INK, WHITE};
 use std::borrow::Cow;
+use std::cell::OnceCell;
 
 /// Width of the colour image.
 const WIDE: usize = 480;
@@ -141,8 +142,8 @@ struct Palette {
 struct Learnt {
     first: usize,
     colours: Vec<ChartColour>,
-    /// By 6 bits of red, green and blue.
-    nearest: Vec<u8>,
+    /// By 6 bits of red, green and blue; found when a picture has the colour, which few colours are.
+    nearest: Vec<OnceCell<u8>>,
 }
 
 /// Colours that are used as they are.
@@ -177,17 +178,18 @@ impl Learnt {
         let learnt = NeuQuant::new(7, count - kept.len(), &rgba).color_map_rgb();
         let mut colours: Vec<ChartColour> = learnt.chunks_exact(3).map(|it| [it[0], it[1], it[2]]).collect();
         colours.extend(kept);
-        let nearest = (0..1 << 18).map(|cell: usize| {
-            let colour = [cell >> 12, cell >> 6, cell].map(|bits| ((bits & 63) * 255 / 63) as i32);
-            let distance = |other: &ChartColour| {
-                let d: [i32; 3] = core::array::from_fn(|i| colour[i] - i32::from(other[i]));
-                2 * d[0] * d[0] + 4 * d[1] * d[1] + 3 * d[2] * d[2]
-            };
-            let nearest = colours.iter().enumerate().min_by_key(|(_, other)| distance(other));
-            (first + nearest.map_or(0, |(at, _)| at)) as u8
-        });
-        let nearest = nearest.collect();
-        Self { first, colours, nearest }
+        Self { first, colours, nearest: vec![OnceCell::new(); 1 << 18] }
+    }
+
+    /// The entry that is nearest to a colour of 6 bits each.
+    fn find(&self, cell: usize) -> u8 {
+        let colour = [cell >> 12, cell >> 6, cell].map(|bits| ((bits & 63) * 255 / 63) as i32);
+        let distance = |other: &ChartColour| {
+            let d: [i32; 3] = core::array::from_fn(|i| colour[i] - i32::from(other[i]));
+            2 * d[0] * d[0] + 4 * d[1] * d[1] + 3 * d[2] * d[2]
+        };
+        let nearest = self.colours.iter().enumerate().min_by_key(|(_, other)| distance(other));
+        (self.first + nearest.map_or(0, |(at, _)| at)) as u8
     }
 
     /// The entry for a colour at a place: ordered dithering, so that still parts of a picture stay still.
@@ -195,7 +197,8 @@ impl Learnt {
         const ORDER: [[i32; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
         let shift = (ORDER[y % 4][x % 4] - 7) / 2;
         let bits = colour.map(|value| ((i32::from(value) + shift).clamp(0, 255) as usize * 63 + 127) / 255);
-        let entry = self.nearest[bits[0] << 12 | bits[1] << 6 | bits[2]];
+        let cell = bits[0] << 12 | bits[1] << 6 | bits[2];
+        let entry = *self.nearest[cell].get_or_init(|| self.find(cell));
         debug_assert!(usize::from(entry) >= self.first);
         entry
     }
