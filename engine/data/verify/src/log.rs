@@ -252,13 +252,11 @@ impl LogCheck<'_> {
     /// The target's pixels in the instance image; and what is wrong with them or with those of others against counts and
     /// boxes of the tables, or ids that are of no object.
     fn bodies_in(&self, image: &messages::RawImage, row: &PlacedFrame) -> (Vec<usize>, Option<String>) {
-        let bytes = if image.encoding == "32UC1" { 4 } else { 2 };
         let width = self.flight.camera.width as usize;
-        let ids: Vec<u32> = image
-            .data
-            .chunks_exact(bytes)
-            .map(|id| id.iter().rev().fold(0u32, |sum, byte| sum << 8 | u32::from(*byte)))
-            .collect();
+        let ids: Vec<u32> = match image.encoding == "32UC1" {
+            true => image.data.as_chunks().0.iter().map(|id| u32::from_le_bytes(*id)).collect(),
+            false => image.data.as_chunks().0.iter().map(|id| u16::from_le_bytes(*id).into()).collect(),
+        };
         let mut pixels: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         let mut start = 0;
         for run in ids.chunk_by(|a, b| a == b) {
@@ -316,12 +314,14 @@ impl LogCheck<'_> {
 
     /// Labels by their number alone: they come before the ids, which say whose pixels are whose.
     fn check_labels(&mut self, image: &messages::RawImage, row: &PlacedFrame, place: String) {
-        let last = SemanticLabel::ALL.len() as u8;
+        let mut pixels = [0u32; 256];
+        for label in &image.data {
+            pixels[usize::from(*label)] += 1;
+        }
         // People, riders, vehicles, and what people take along: whatever may be followed.
-        let moving = SemanticLabel::Pedestrian.id()..=SemanticLabel::Bicycle.id();
-        let is_of_body = |label: &&u8| moving.contains(label) || **label == SemanticLabel::Dynamic.id();
-        let bodies = image.data.iter().filter(is_of_body).count();
-        if image.data.iter().any(|label| *label >= last) || bodies < row.visible_pixels as usize {
+        let moving = usize::from(SemanticLabel::Pedestrian.id())..=usize::from(SemanticLabel::Bicycle.id());
+        let bodies = pixels[moving].iter().sum::<u32>() + pixels[usize::from(SemanticLabel::Dynamic.id())];
+        if pixels[SemanticLabel::ALL.len()..].iter().any(|count| *count > 0) || bodies < row.visible_pixels {
             self.find(
                 place,
                 "verify-pixels",
