@@ -51,8 +51,8 @@ class Server:
             connection.socket.close()
 
 
-def fly(out, *arguments, code=0, cwd=here):
-    command = [cosfly, "fly", suite, "--store", work / "store", "--out", work / out, "--json", *arguments]
+def fly(out, *arguments, code=0, cwd=here, clips=0):
+    command = [cosfly, "fly", suite, "--store", work / "store", "--out", work / out, "--clips", str(clips), "--json", *arguments]
     ended = subprocess.run(command, cwd=cwd, capture_output=True, text=True, timeout=900)
     assert ended.returncode == code, (arguments, ended.returncode, ended.stderr)
     return json.loads(ended.stdout) if code == 0 else ended
@@ -79,7 +79,7 @@ def good(connection, observation):
 
 # Baselines rank as they should; the expert sees what its certificates say.
 names = ["random", "hold", "constant-velocity", "causal", "expert"]
-scores = fly("baselines", *[part for name in names for part in ("--policy", name)])
+scores = fly("baselines", *[part for name in names for part in ("--policy", name)], clips=3)
 rate = {name: scores[name]["all"]["tracking_rate"]["mean"] for name in names}
 print("tracking rates:", {name: round(value, 3) for name, value in rate.items()})
 assert max(rate["random"], rate["hold"], rate["constant-velocity"]) < rate["causal"] <= rate["expert"] + 1e-9, rate
@@ -92,9 +92,9 @@ assert abs(stated - reached) < 0.01
 # The real codec, and the same policy in a process of its own: the same bytes, for 1 job and 2.
 server = Server(good)
 address = f"ws://127.0.0.1:{server.port}"
-by_socket = fly("one", "--policy", address, "--name", "mine", "--jobs", "1")
+by_socket = fly("one", "--policy", address, "--name", "mine", "--jobs", "1", clips=1)
 assert seen, "the server was never asked"
-assert fly("two", "--policy", address, "--name", "mine", "--jobs", "2") == by_socket
+assert fly("two", "--policy", address, "--name", "mine", "--jobs", "2", clips=1) == by_socket
 assert bytes_of("one") == bytes_of("two")
 by_python = fly("three", "--policy", "python:follow_policy:act", "--python", sys.executable, "--name", "mine")
 assert by_python == by_socket, "a function in Python flies as the server does"
@@ -102,9 +102,9 @@ print("socket and function: tracking rate", round(by_socket["mine"]["all"]["trac
 
 # In four shares, in another order; then killed again and again and resumed: the same bytes.
 for share in ("3/4", "1/4", "4/4", "2/4"):
-    fly("shares", "--policy", address, "--name", "mine", "--shard", share)
+    fly("shares", "--policy", address, "--name", "mine", "--shard", share, clips=1)
 assert bytes_of("shares") == bytes_of("one")
-command = [cosfly, "fly", suite, "--store", work / "store", "--out", work / "killed", "--json", "--quiet"]
+command = [cosfly, "fly", suite, "--store", work / "store", "--out", work / "killed", "--clips", "1", "--json", "--quiet"]
 command += ["--policy", address, "--name", "mine", "--jobs", "1"]
 for _ in range(4):
     process = subprocess.Popen(command, cwd=here, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -142,7 +142,7 @@ few = ["--set", "stages.walkers.count=2", "--jobs", "1"]
 for name, (fault, words) in faults.items():
     server = Server(at_step_5(fault))
     patience = "60" if name == "a_gigabyte" else "1"
-    score = fly(name, "--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", "--timeout-s", patience, *few)
+    score = fly(name, "--policy", f"ws://127.0.0.1:{server.port}", "--name", "mine", "--timeout-s", patience, *few, clips=int(name == "late"))
     reasons = [row.get("policy_failure") for row in rows(f"{name}/mine")]
     assert all(reason and reason.startswith("at step 5: ") and words in reason for reason in reasons), (name, reasons)
     assert score["mine"]["all"]["policy_failure"]["mean"] == 1.0
