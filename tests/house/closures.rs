@@ -10,7 +10,7 @@ const OF_CLOSURES: [(&str, usize); 3] = [("cosfly-read", 10_000), ("cosfly-image
 /// Most code lines of a crate.
 const OF_CRATE: usize = 8_000;
 /// Most code lines of a crate that adapts others.
-const OF_ADAPTERS: [(&str, usize); 1] = [("cosfly-stages", 3_060)];
+const OF_ADAPTERS: [(&str, usize); 1] = [("cosfly-stages", 3_000)];
 
 /// Code lines of each crate on a shelf, without those of tests.
 fn lines_of_crates(rooms: &BTreeMap<String, Room>) -> BTreeMap<&str, usize> {

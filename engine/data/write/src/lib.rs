@@ -2,10 +2,12 @@
 //!
 //! * [`frame_pack`]: the images of one trajectory between rendering and publishing.
 //! * [`log`]: one MCAP file per trajectory.
+//! * [`check_clothes`]: texts against the clothes in the pictures.
 //! * [`table_file`]: Parquet files.
 //! * [`derive`]: rows that are worked out once for a flight, texts among them.
 //! * [`croissant`] and [`publish`]: metadata, card, hashes, and the dataset as a whole.
 
+mod clothes;
 pub mod croissant;
 pub mod derive;
 pub mod frame_pack;
@@ -15,6 +17,7 @@ mod message_head;
 pub mod publish;
 pub mod table_file;
 
+pub use clothes::check_clothes;
 pub use frame_pack::{FramePackReader, FramePackWriter, PackHeader, PackedFrame};
 pub use log::{WrittenLog, write_log};
 pub use publish::{

@@ -12,14 +12,13 @@ use cosfly_experts::artifacts;
 use cosfly_figures::Clothes;
 use cosfly_film::looks::walk_seed;
 use cosfly_frames::Seed;
-use cosfly_schema::CaptionRecord;
 use cosfly_schema::record::captions_to_bytes;
 use cosfly_stage::parameters;
 use cosfly_stage::{
     Asks, InputPort, Inputs, ItemRule, Produced, Resources, Stage, StageKind, StagePart, StageProperties, StageRole,
     TaskContext,
 };
-use cosfly_teacher::{Teacher, TeacherConfig, TeacherFrames, TextRequest, record_of};
+use cosfly_teacher::{Teacher, TeacherConfig, TeacherFrames, TextRequest, record_of, told};
 
 /// Table of a teacher's parameters.
 const TEACHER: &str = "teacher";
@@ -145,22 +144,6 @@ impl Stage for CaptionStage {
         outputs.put("captions", &captions_to_bytes(&records))?;
         Ok(told(&records))
     }
-}
-
-/// Notes and warnings about the texts of a teacher.
-fn told(records: &[CaptionRecord]) -> Produced {
-    let mut produced = Produced::default();
-    let fallen: Vec<&str> = records.iter().filter_map(|record| record.fallback.as_deref()).collect();
-    let taught = records.len() - fallen.len();
-    produced.notes.insert("texts of the teacher".to_owned(), format!("{taught} of {}", records.len()));
-    if let Some(first) = fallen.first() {
-        produced.warnings.push(format!(
-            "{} of {} texts are the template's and not the teacher's ({first})",
-            fallen.len(),
-            records.len()
-        ));
-    }
-    produced
 }
 
 /// The templates' texts say what the trajectory does.

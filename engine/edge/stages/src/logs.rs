@@ -4,8 +4,7 @@ use crate::ports::{self, EXTRAS, LOG, PACK};
 use crate::rejections::handed_on;
 use crate::sense::READINGS;
 use cosfly_blobs::{BlobPart, OutputSink, PassingFile};
-use cosfly_captions::{Language, Wear, check_clothes as clothes_in};
-use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_diagnose::Result;
 use cosfly_domain::ChannelSet;
 use cosfly_experts::codec;
 use cosfly_experts::world::world_of;
@@ -16,7 +15,7 @@ use cosfly_stage::{
     Artifact, InputPort, Inputs, ItemRule, PortSource, Produced, Resources, Sees, Stage, StagePart, StageProperties,
     StageRole, TaskContext,
 };
-use cosfly_write::{FramePackReader, write_log};
+use cosfly_write::{FramePackReader, check_clothes, write_log};
 use std::io::BufReader;
 
 /// Name of the part and of the port that reads it.
@@ -123,20 +122,4 @@ impl Stage for LogStage {
         outputs.put(PREVIEWS_BLOB, &codec::encode(PREVIEWS, &previews.unwrap_or_default())?)?;
         Ok(Produced::default())
     }
-}
-
-/// Refuses texts that name other clothes than the target wears in the pictures.
-fn check_clothes(record: &RenderedTrajectory, captions: &[CaptionRecord]) -> Result<()> {
-    let Some(wear) = record.outfit.as_ref().map(Wear::from) else { return Ok(()) };
-    for caption in captions {
-        let language = Language::of_code(&caption.language);
-        let checked = language.map_or(Ok(()), |language| clothes_in(&caption.text, language, wear));
-        checked.map_err(|mismatch| {
-            let message = format!("a text of `{}` names other clothes than the pictures show", record.trajectory_id);
-            Diagnostic::new("caption-clothes", Fault::Recipe, message)
-                .because(mismatch)
-                .hint("set `clothes = false` in the `caption` stage, or `target_stands_out = 0` in the `render` stage")
-        })?;
-    }
-    Ok(())
 }

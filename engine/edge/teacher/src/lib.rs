@@ -23,4 +23,4 @@ pub use ask::{Reply, Teacher};
 pub use config::{BudgetConfig, JsonMode, ServerConfig, TeacherConfig, TeacherFrames, WhenSpent};
 pub use question::Question;
 pub use record::Answer;
-pub use texts::{TextRequest, record_of};
+pub use texts::{TextRequest, record_of, told};

@@ -6,7 +6,7 @@ use cosfly_captions::teaching::{Lesson, believe, rules, task};
 use cosfly_captions::{Caption as Text, Facts, Language, claimed, facts_in_words};
 use cosfly_diagnose::Result;
 use cosfly_schema::CaptionRecord;
-use cosfly_stage::{Answers, TaskContext};
+use cosfly_stage::{Answers, Produced, TaskContext};
 use std::collections::BTreeSet;
 
 /// A request for the texts of a flight.
@@ -109,6 +109,22 @@ pub fn record_of(text: &Text) -> CaptionRecord {
         writer: "template".to_owned(),
         ..CaptionRecord::default()
     }
+}
+
+/// Notes and warnings about the texts of a teacher.
+pub fn told(records: &[CaptionRecord]) -> Produced {
+    let mut produced = Produced::default();
+    let fallen: Vec<&str> = records.iter().filter_map(|record| record.fallback.as_deref()).collect();
+    let taught = records.len() - fallen.len();
+    produced.notes.insert("texts of the teacher".to_owned(), format!("{taught} of {}", records.len()));
+    if let Some(first) = fallen.first() {
+        produced.warnings.push(format!(
+            "{} of {} texts are the template's and not the teacher's ({first})",
+            fallen.len(),
+            records.len()
+        ));
+    }
+    produced
 }
 
 fn accepted(record: CaptionRecord, text: String, language: Language) -> CaptionRecord {

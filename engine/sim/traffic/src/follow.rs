@@ -1,5 +1,6 @@
 //! [`Follow`]: the bodies of traffic that flights follow.
 
+use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{BodyKind, Traffic};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -32,6 +33,15 @@ impl Follow {
     /// Parameters that no single followed body depends on; not in its key.
     pub const NOT_IN_KEY: &[&str] = &["count"];
 
+    /// Number of the body in place `place` among those that may be followed.
+    ///
+    /// # Errors
+    /// A name in `named` that nobody has who is there all the time; too few bodies of the kinds.
+    pub fn number(&self, traffic: &Traffic, place: usize) -> Result<u32> {
+        let eligible = self.eligible(traffic).map_err(|name| nobody(name, traffic))?;
+        eligible.get(place).copied().ok_or_else(|| self.too_few(eligible.len()))
+    }
+
     /// Numbers of all bodies that may be followed, in the order in which they are: those with names, then the first of each
     /// kind, the second of each kind and so on, so that further ones change nothing.
     ///
@@ -61,9 +71,39 @@ impl Follow {
         Ok(named.iter().copied().chain(others).collect())
     }
 
-    /// Names of the kinds, for messages.
-    pub fn names(&self) -> String {
-        let names: Vec<String> = self.kinds.iter().map(|kind| format!("`{}`", kind.name())).collect();
-        names.join(", ")
+    fn too_few(&self, eligible: usize) -> Box<Diagnostic> {
+        let kinds: Vec<String> = self.kinds.iter().map(|kind| format!("`{}`", kind.name())).collect();
+        let message = format!(
+            "`follow.count` is {}, but {} of the kinds {} are there all the time and cover {} m",
+            self.count,
+            if eligible == 0 { "no bodies".to_owned() } else { format!("only {eligible} bodies") },
+            kinds.join(", "),
+            self.min_length_m
+        );
+        Diagnostic::new("traffic-few", Fault::Recipe, message)
+            .hint("follow fewer, move more people or vehicles, name further kinds, or lower `follow.min_length_m`")
     }
+}
+
+/// The refusal of a name in `named`.
+fn nobody(name: &str, traffic: &Traffic) -> Box<Diagnostic> {
+    const MOST: usize = 8;
+    let called = traffic.bodies.iter().filter(|body| body.plan.source == name).count();
+    let message = match called {
+        0 => format!("`follow.named` names `{name}`, but nobody is called so"),
+        _ => format!("`follow.named` names `{name}`, who is not there in all frames"),
+    };
+    let whole = (0..traffic.bodies.len()).filter(|number| traffic.track(*number as u32).is_some());
+    let names = whole.map(|number| &traffic.bodies[number].plan.source).filter(|name| !name.is_empty());
+    let names: Vec<String> = names.take(MOST).map(|name| format!("`{name}`")).collect();
+    let has_names = traffic.bodies.iter().any(|body| !body.plan.source.is_empty());
+    let hint = match names.len() {
+        0 if !has_names => {
+            "names are those of `scripted` and `recorded` people and of bodies of `sumo`; this stage has none"
+                .to_owned()
+        }
+        0 => "nobody with a name is there all the time: use fewer frames, or another `start_s` or `begin_s`".to_owned(),
+        _ => format!("there all the time, among others: {}", names.join(", ")),
+    };
+    Diagnostic::new("traffic-few", Fault::Recipe, message).hint(hint)
 }

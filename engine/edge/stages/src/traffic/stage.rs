@@ -4,7 +4,7 @@ use super::moving::traffic_of;
 use crate::ports::{self, TRAFFIC, WALK};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
-use cosfly_domain::{Body, Followed, Traffic};
+use cosfly_domain::{Body, Followed};
 use cosfly_experts::artifacts;
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{check_same_town, link_town, world};
@@ -21,7 +21,7 @@ use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Blob of a walk that was taken out of traffic, with the whole [`Traffic`]; and the part that makes it.
+/// Blob of a walk that was taken out of traffic, with the whole [`cosfly_domain::Traffic`]; and the part that makes it.
 const BODIES: &str = artifacts::TRAFFIC.blob;
 /// Port of the walks of those who are avoided.
 const AVOID: &str = "avoid";
@@ -166,9 +166,7 @@ impl Stage for WalksStage {
     fn run(&self, inputs: &Inputs<'_>, outputs: &mut dyn OutputSink, context: &TaskContext) -> Result<Produced> {
         let artifact = inputs.one(BODIES)?;
         let traffic = traffic_of(inputs, artifact)?.ok_or_else(|| missing(artifact))?;
-        let eligible = self.config.follow.eligible(&traffic).map_err(|name| nobody(name, &traffic))?;
-        let place = context.id.item.number().unwrap_or(0) as usize;
-        let number = *eligible.get(place).ok_or_else(|| too_few(&self.config, eligible.len()))?;
+        let number = self.config.follow.number(&traffic, context.id.item.number().unwrap_or(0) as usize)?;
         let body: &Body = &traffic.bodies[number as usize];
         let track = traffic.track(number).ok_or_else(|| missing(artifact))?;
         let digest = inputs.one("town")?.blobs[artifacts::TOWN.blob].digest;
@@ -188,40 +186,4 @@ impl Stage for WalksStage {
 
 fn missing(artifact: &Artifact) -> Box<Diagnostic> {
     Diagnostic::new("artifact-decode", Fault::Bug, format!("`{}` holds no traffic", artifact.id))
-}
-
-/// The refusal of a name in `follow.named`.
-fn nobody(name: &str, traffic: &Traffic) -> Box<Diagnostic> {
-    const MOST: usize = 8;
-    let called = traffic.bodies.iter().filter(|body| body.plan.source == name).count();
-    let message = match called {
-        0 => format!("`follow.named` names `{name}`, but nobody is called so"),
-        _ => format!("`follow.named` names `{name}`, who is not there in all frames"),
-    };
-    let whole = (0..traffic.bodies.len()).filter(|number| traffic.track(*number as u32).is_some());
-    let names = whole.map(|number| &traffic.bodies[number].plan.source).filter(|name| !name.is_empty());
-    let names: Vec<String> = names.take(MOST).map(|name| format!("`{name}`")).collect();
-    let has_names = traffic.bodies.iter().any(|body| !body.plan.source.is_empty());
-    let hint = match names.len() {
-        0 if !has_names => {
-            "names are those of `scripted` and `recorded` people and of bodies of `sumo`; this stage has none"
-                .to_owned()
-        }
-        0 => "nobody with a name is there all the time: use fewer frames, or another `start_s` or `begin_s`".to_owned(),
-        _ => format!("there all the time, among others: {}", names.join(", ")),
-    };
-    Diagnostic::new("traffic-few", Fault::Recipe, message).hint(hint)
-}
-
-fn too_few(config: &TrafficConfig, eligible: usize) -> Box<Diagnostic> {
-    let follow = &config.follow;
-    let message = format!(
-        "`follow.count` is {}, but {} of the kinds {} are there all the time and cover {} m",
-        follow.count,
-        if eligible == 0 { "no bodies".to_owned() } else { format!("only {eligible} bodies") },
-        follow.names(),
-        follow.min_length_m
-    );
-    Diagnostic::new("traffic-few", Fault::Recipe, message)
-        .hint("follow fewer, move more people or vehicles, name further kinds, or lower `follow.min_length_m`")
 }
