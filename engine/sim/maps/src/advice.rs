@@ -17,8 +17,10 @@ pub fn advice(town: &Town, config: &MapConfig) -> Vec<String> {
     let has_houses = town.obstacles.iter().any(|one| one.kind == ObstacleKind::Building);
     let is_street = |label| label == SemanticLabel::Roads;
     let mut seen = town.surfaces.iter().filter(|mesh| !mesh.synthetic && !mesh.triangles.is_empty());
-    let has_streets = !town.lanes.is_empty() || seen.any(|mesh| is_street(mesh.label));
-    let has_pavements = town.walkable.iter().any(|polygon| polygon.kind == WalkableKind::Sidewalk);
+    let are_invented = town.surfaces.iter().any(|mesh| mesh.synthetic && is_street(mesh.label))
+        && !town.surfaces.iter().any(|mesh| !mesh.synthetic && is_street(mesh.label));
+    let has_streets = seen.any(|mesh| is_street(mesh.label)) || !town.lanes.is_empty() && !are_invented;
+    let has_pavements = town.walkable.iter().any(|polygon| polygon.kind == WalkableKind::Sidewalk && !are_invented);
     let is_placed = town.origin.geo_reference.is_some() && why_not_compared(town).is_none();
     let place = if is_placed { "" } else { ", shift_m = [X, Y, Z]" };
     let mut advice = vec![];
@@ -32,9 +34,16 @@ pub fn advice(town: &Town, config: &MapConfig) -> Vec<String> {
         ));
     }
     if has_houses && !has_streets && !has_pavements {
+        let (state, without) = match are_invented {
+            true => ("the streets of the town are invented", "`streets = \"file\"` leaves them out"),
+            false => (
+                "the town has no streets",
+                "`streets = \"invented\"` lays some between rows of houses; without both, people walk on the open ground",
+            ),
+        };
         advice.push(format!(
-            "the town has no streets: `more = [{{ source = \"FILE\", take = [\"ground\"]{place} }}]` takes those of another \
-             file, such as an extract of OpenStreetMap; without it people walk on the open ground"
+            "{state}: `more = [{{ source = \"FILE\", take = [\"ground\"]{place} }}]` takes those of another file, such as an \
+             extract of OpenStreetMap; {without}"
         ));
     }
     advice

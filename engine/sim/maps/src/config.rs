@@ -2,6 +2,7 @@
 
 use crate::combine::FurtherSource;
 use crate::fill::FillConfig;
+use crate::streets::Streets;
 use cosfly_town::FormatOptions;
 use cosfly_town::simplify::SimplifyConfig;
 use schemars::JsonSchema;
@@ -24,6 +25,9 @@ pub struct MapConfig {
     /// `cosfly map inspect` shows. Houses that reach over its edge stay whole. Default: everything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bounds_m: Option<[f64; 4]>,
+    /// Streets of the town. Default: `invented` for CityJSON, else `file`. A town whose files have a street keeps to those.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub streets: Option<Streets>,
     /// Things to invent beside the streets of a town whose file has nothing there. None by default.
     pub fill: FillConfig,
     /// Merge, crop and prune of the boxes that the planner sees.

@@ -13,9 +13,11 @@ pub mod options;
 mod paving;
 pub mod read;
 mod recognise;
+mod streets;
 
 pub use bounds::PlanRectangle;
 pub use config::MapConfig;
 pub use formats::FORMATS;
 pub use read::{read_town, read_town_of};
 pub use recognise::recognise;
+pub use streets::Streets;

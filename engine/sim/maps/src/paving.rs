@@ -31,8 +31,9 @@ const BARE: u8 = 4;
 const SEEN: u8 = 8;
 
 /// Gives the terrain of courts, yards and slits in dense quarters the label of bare ground. Lawns and parks that the file
-/// states are left alone, as is ground that the file itself has.
-pub(crate) fn pave_quarters(town: &mut Town) {
+/// states are left alone, as is ground that the file itself has. In a town of `invented_streets`, all terrain of dense quarters is
+/// bare: nobody knows where its streets and squares end.
+pub(crate) fn pave_quarters(town: &mut Town, invented_streets: bool) {
     let is_terrain = |mesh: &SurfaceMesh| mesh.synthetic && mesh.label == SemanticLabel::Terrain;
     if !town.surfaces.iter().any(is_terrain) {
         return;
@@ -44,7 +45,7 @@ pub(crate) fn pave_quarters(town: &mut Town) {
         }
     }
     let houses = Sums::of_houses(&cells);
-    cells.find_bare(&houses);
+    cells.find_bare(&houses, invented_streets);
     let mut bare_meshes = Vec::new();
     for mesh in town.surfaces.iter_mut().filter(|mesh| is_terrain(mesh)) {
         let (bare, open): (Vec<_>, Vec<_>) = mesh.triangles.iter().partition(|triangle| {
@@ -134,7 +135,7 @@ impl Cells {
     }
 
     /// Marks the pieces of open ground that are small, enclosed and in dense quarters.
-    fn find_bare(&mut self, houses: &Sums) {
+    fn find_bare(&mut self, houses: &Sums, everywhere: bool) {
         let [largest, small] = [LARGEST_M2, SMALL_M2].map(|area_m2| (area_m2 / (self.cell_m * self.cell_m)) as usize);
         let mut queue = VecDeque::new();
         let mut piece = Vec::new();
@@ -162,9 +163,13 @@ impl Cells {
             }
             let is_yard = piece.len() <= small || walls as f64 >= HOUSES_AROUND * border as f64;
             let is_dense = share >= DENSE_SHARE * piece.len() as f64;
-            if is_enclosed && is_yard && is_dense && piece.len() <= largest {
-                piece.iter().for_each(|cell| self.uses[*cell] |= BARE);
-                self.bare_cells += piece.len();
+            let is_bare = is_enclosed && is_yard && is_dense && piece.len() <= largest;
+            for cell in &piece {
+                let share = || houses.share_around(cell % self.columns, cell / self.columns);
+                if is_bare || everywhere && share() >= DENSE_SHARE {
+                    self.uses[*cell] |= BARE;
+                    self.bare_cells += 1;
+                }
             }
         }
     }
@@ -272,7 +277,7 @@ mod tests {
         let mut town = blocks(8.0);
         let triangles = |town: &Town| town.surfaces.iter().map(|mesh| mesh.triangles.len()).sum::<usize>();
         let before = triangles(&town);
-        pave_quarters(&mut town);
+        pave_quarters(&mut town, false);
         assert_eq!(label_at(&town, 116.0, 116.0), SemanticLabel::Ground, "a court");
         assert_eq!(label_at(&town, 116.0, 92.0), SemanticLabel::Roads, "a street");
         assert_eq!(label_at(&town, -40.0, 116.0), SemanticLabel::Terrain, "outside");
@@ -283,9 +288,13 @@ mod tests {
             town.synthetic.notes
         );
         let mut thin = blocks(1.0);
-        pave_quarters(&mut thin);
+        pave_quarters(&mut thin, false);
         assert_eq!(label_at(&thin, 116.0, 116.0), SemanticLabel::Terrain);
         assert!(thin.synthetic.notes.is_empty());
+        let mut invented = blocks(8.0);
+        pave_quarters(&mut invented, true);
+        assert_eq!(label_at(&invented, -12.0, 116.0), SemanticLabel::Ground, "beside the outermost street");
+        assert_eq!(label_at(&invented, -55.0, 116.0), SemanticLabel::Terrain, "outside the town");
     }
 
     #[test]
@@ -293,7 +302,7 @@ mod tests {
         let mut town = blocks(8.0);
         town.surfaces.iter_mut().for_each(|mesh| mesh.synthetic = false);
         let before = town.clone();
-        pave_quarters(&mut town);
+        pave_quarters(&mut town, true);
         assert_eq!(town, before);
     }
 }

@@ -5,11 +5,13 @@ use crate::combine::add_source;
 use crate::fill::fill;
 use crate::paving::pave_quarters;
 use crate::recognise::recognise;
+use crate::streets::{Streets, has_houses_alone, invent_streets};
 use crate::{MapConfig, apart};
 use cosfly_domain::{ObstacleKind, Town};
 use cosfly_frames::Seed;
-use cosfly_town::MapError;
+use cosfly_geodata::cityjson::CityJson;
 use cosfly_town::simplify::simplify;
+use cosfly_town::{MapError, MapFormat};
 use std::collections::BTreeMap;
 
 /// Fewer houses may have any height.
@@ -52,7 +54,13 @@ pub fn read_town_of(files: &[&[u8]], config: &MapConfig, seed: Seed) -> Result<(
         let more_warnings = added.map_err(|error| (index + 1, error))?;
         warnings.extend(more_warnings.into_iter().map(|warning| format!("{}: {warning}", further.source)));
     }
-    finished(town, warnings, config, seed).map_err(|error| (0, error))
+    let format = recognise(first).map_err(|error| (0, error))?.name();
+    let is_asked = config.streets == Some(Streets::Invented);
+    let is_usual = config.streets.is_none() && format == CityJson::NAME && has_houses_alone(&town);
+    let invented = (is_asked || is_usual).then(|| invent_streets(&mut town));
+    let has_invented = matches!(invented, Some(Ok(())));
+    warnings.extend(invented.and_then(Result::err).filter(|_| is_asked));
+    finished(town, warnings, config, (seed, has_invented)).map_err(|error| (0, error))
 }
 
 /// Cuts a town.
@@ -75,7 +83,7 @@ fn finished(
     mut town: Town,
     mut warnings: Vec<String>,
     config: &MapConfig,
-    seed: Seed,
+    (seed, invented_streets): (Seed, bool),
 ) -> Result<(Town, Vec<String>), MapError> {
     if config.bounds_m.is_some() && town.walkable.is_empty() {
         let error = MapError::new("no ground for people lies within `bounds_m`");
@@ -85,7 +93,7 @@ fn finished(
     if config.fill.is_on() {
         warnings.extend(fill(&mut town, &config.fill, seed));
     }
-    pave_quarters(&mut town);
+    pave_quarters(&mut town, invented_streets);
     (town.planning_boxes, town.simplification) = simplify(&town.obstacles, &town.walkable, &config.simplify);
     cosfly_town::lanes::link_lanes(&mut town);
     town.update_bounds();

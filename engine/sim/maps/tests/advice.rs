@@ -1,10 +1,10 @@
 //! Advice of the stage `map` and of refusals: each piece is carried out here, and helps.
 
-use cosfly_domain::{ObstacleKind, Town, WalkableKind};
-use cosfly_frames::Seed;
+use cosfly_domain::{ObstacleKind, SemanticLabel, Town, WalkableKind, WalkablePolygon};
+use cosfly_frames::{DVec2, DVec3, Seed};
 use cosfly_maps::advice::{advice, busiest_part};
 use cosfly_maps::{MapConfig, read_town_of, recognise};
-use cosfly_town::MapError;
+use cosfly_town::{GroundIndex, MapError};
 use serde_json::{Value, json};
 
 /// A street with a house, of OpenDRIVE; and one without, with a projection.
@@ -89,6 +89,71 @@ fn a_town_without_streets_gets_them_of_a_further_file() {
     let more = json!({ "more": [{ "source": "FILE", "take": ["ground"], "shift_m": [-60, -30, 0] }] });
     let (town, _, config) = read(&[boxes.as_bytes(), street.as_bytes()], &more).unwrap();
     assert_eq!(advice(&town, &config), Vec::<String>::new());
+}
+
+/// Houses of 50 x 12 m, three in each of four rows with 13 m between them, as CityJSON.
+fn rows_of_houses() -> String {
+    let (mut vertices, mut objects) = (vec![], vec![]);
+    for house in 0..12 {
+        let [x, y] = [63 * (house % 3), 25 * (house / 3)];
+        vertices.extend([[x, y, 0], [x + 50, y, 0], [x + 50, y + 12, 0], [x, y + 12, 0]]);
+        let corners = [0, 1, 2, 3].map(|corner| 4 * house + corner);
+        objects.push((
+            format!("house {house}"),
+            json!({ "type": "Building", "attributes": { "measuredHeight": 9 },
+                "geometry": [{ "type": "MultiSurface", "lod": "0", "boundaries": [[corners]] }] }),
+        ));
+    }
+    json!({ "type": "CityJSON", "version": "2.0", "transform": { "scale": [1, 1, 1], "translate": [0, 0, 0] },
+        "CityObjects": objects.into_iter().collect::<serde_json::Map<_, _>>(), "vertices": vertices })
+    .to_string()
+}
+
+#[test]
+fn a_town_of_houses_alone_gets_invented_streets_that_keep_off_the_houses() {
+    let text = rows_of_houses();
+    let (plain, ..) = read(&[text.as_bytes()], &json!({ "streets": "file" })).unwrap();
+    let invented = json!({ "streets": "invented" });
+    let (town, warnings, config) = read(&[text.as_bytes()], &json!({})).unwrap();
+    assert!(plain.lanes.is_empty() && warnings.is_empty(), "{warnings:?}");
+    let said = advice(&town, &config);
+    assert!(
+        said.len() == 1 && said[0].contains("are invented") && said[0].contains("`streets = \"file\"`"),
+        "{said:?}"
+    );
+    assert!(town.synthetic.notes.iter().any(|note| note.contains("streets of 0.")), "{:?}", town.synthetic.notes);
+
+    // Two streets along the rows and two across, at least, with ways through all four junctions.
+    assert!(town.lanes.iter().filter(|lane| !lane.in_junction).count() >= 8, "{} lanes", town.lanes.len());
+    let ways = town.lanes.iter().filter(|lane| lane.in_junction);
+    assert!(ways.clone().count() >= 20 && ways.clone().all(|way| way.successors.len() == 1));
+    assert!(town.lanes.iter().any(|lane| !lane.crossings.is_empty()), "people cross");
+    let ground = GroundIndex::new(&town);
+    let clear_m = |at: DVec3| {
+        let away = |house: &cosfly_domain::Obstacle| {
+            let aside = (at - house.shape.center_in_world).truncate().abs() - house.shape.half_extents_m.truncate();
+            aside.max(DVec2::ZERO).length()
+        };
+        town.obstacles.iter().map(away).fold(f64::INFINITY, f64::min)
+    };
+    for lane in &town.lanes {
+        for at in &lane.middle_in_world {
+            assert!(clear_m(*at) >= 0.5 * lane.width_m, "a lane at {at} in a house");
+            let seen = ground.ground_below(at.with_z(3.0), 0.0).unwrap();
+            assert_eq!(seen.label, SemanticLabel::Roads, "{at}: no land shows through the street");
+        }
+    }
+    let is_pavement = |polygon: &&WalkablePolygon| polygon.kind == WalkableKind::Sidewalk;
+    let pavements: Vec<&WalkablePolygon> = town.walkable.iter().filter(is_pavement).collect();
+    assert!(!pavements.is_empty() && pavements.iter().all(|polygon| polygon.synthetic));
+    assert!(pavements.iter().flat_map(|it| &it.outline_in_world).all(|at| clear_m(*at) > 0.0));
+
+    let (again, ..) = read(&[text.as_bytes()], &invented).unwrap();
+    assert_eq!(again, town);
+    let (_, warnings, _) = read(&[street().as_bytes()], &invented).unwrap();
+    assert!(warnings.iter().any(|warning| warning.contains("the town has streets or pavements")), "{warnings:?}");
+    let (_, warnings, _) = read(&[houses_of_osm().as_bytes()], &invented).unwrap();
+    assert!(warnings.iter().any(|warning| warning.contains("no ground of 8 to 30 m")), "{warnings:?}");
 }
 
 #[test]

@@ -10,5 +10,6 @@ pub mod kinds;
 mod lot;
 mod net;
 mod site;
+pub mod streets;
 mod things;
 mod xml;

@@ -8,6 +8,9 @@ use cosfly_frames::{DVec2, real};
 const BEND_M: f64 = 30.0;
 /// Shortest distance from the middle of a junction to the mouth of an arm, metres.
 const SHORTEST_MOUTH_M: f64 = 2.0;
+/// Least angle between neighbouring arms, radians, and what a street keeps of each of its end legs, metres.
+const LEAST_BETWEEN_RAD: f64 = 0.872;
+const LEAST_LEG_M: f64 = 1.5;
 /// Turning circles leave so much room inside the pavement, metres.
 const CIRCLE_ROOM_M: f64 = 1.0;
 
@@ -38,6 +41,8 @@ pub struct Network {
     pub streets: Vec<Street>,
     /// Arms of each junction, counter-clockwise.
     pub junctions: Vec<Vec<Arm>>,
+    /// Whether dead ends just end.
+    open_ends: bool,
 }
 
 /// An arm with its direction from the middle of the junction.
@@ -50,21 +55,20 @@ struct Spoke {
 impl Network {
     /// Lays the streets of a plan.
     pub fn lay(plan: &StreetPlan) -> Self {
-        let mut cuts_m = vec![[0.0; 2]; plan.links.len()];
-        let mut junctions = Vec::new();
-        for node in 0..plan.nodes.len() {
-            let spokes = spokes(plan, node);
-            for (spoke, mouth_m) in spokes.iter().zip(mouths_m(&spokes)) {
-                cuts_m[spoke.arm.street][usize::from(spoke.arm.at_end)] = mouth_m;
-            }
-            junctions.push(spokes.into_iter().map(|spoke| spoke.arm).collect());
-        }
+        let nodes: Vec<Vec<Spoke>> = (0..plan.nodes.len()).map(|node| spokes(plan, node)).collect();
+        let cuts_m = cuts_m(plan, &nodes);
+        let junctions = nodes.into_iter().map(|spokes| spokes.into_iter().map(|spoke| spoke.arm).collect()).collect();
         let streets = plan.links.iter().zip(cuts_m).map(|(link, cut_m)| Street {
             line: Alignment::through(&plan.points(link), cut_m, BEND_M),
             profile: link.profile,
             junctions: link.ends,
         });
-        Self { streets: streets.collect(), junctions }
+        Self { streets: streets.collect(), junctions, open_ends: plan.open_ends }
+    }
+
+    /// Whether ways lead through a junction: none do where a dead end just ends.
+    pub fn has_ways(&self, junction: usize) -> bool {
+        self.junctions[junction].len() > usize::from(self.open_ends)
     }
 
     /// Pose at an arm's mouth, looking out of the junction.
@@ -88,6 +92,38 @@ impl Network {
         let [low, high] = points.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], around);
         [low - margin_m, high + margin_m]
     }
+}
+
+/// Streets of a plan that leave a point at less than 50 degrees from a longer one, and whether that is their end: one at each
+/// point at most.
+pub fn acute_ends(plan: &StreetPlan) -> Vec<(usize, bool)> {
+    let nodes: Vec<Vec<Spoke>> = (0..plan.nodes.len()).map(|node| spokes(plan, node)).collect();
+    let length_m = |street: usize| legs_m(plan, street).iter().sum::<f64>();
+    let acute = |spokes: &Vec<Spoke>| {
+        let at = (0..spokes.len()).find(|at| spokes.len() > 1 && between_rad(spokes, *at) < LEAST_BETWEEN_RAD)?;
+        let [one, other] = [at, (at + 1) % spokes.len()].map(|spoke| spokes[spoke].arm);
+        let shorter = if length_m(one.street) <= length_m(other.street) { one } else { other };
+        Some((shorter.street, shorter.at_end))
+    };
+    nodes.iter().filter_map(acute).collect()
+}
+
+/// Streets of a plan that are too short for the mouths at their ends.
+pub fn short_streets(plan: &StreetPlan) -> Vec<usize> {
+    let nodes: Vec<Vec<Spoke>> = (0..plan.nodes.len()).map(|node| spokes(plan, node)).collect();
+    let lacks = |room_m: f64| room_m < LEAST_LEG_M;
+    let is_short = |street: usize, [start_m, end_m]: [f64; 2]| match legs_m(plan, street)[..] {
+        [only_m] => lacks(only_m - start_m - end_m),
+        [first_m, .., last_m] => lacks(first_m - start_m) || lacks(last_m - end_m),
+        [] => true,
+    };
+    let cuts_m = cuts_m(plan, &nodes).into_iter().enumerate();
+    cuts_m.filter(|(street, cuts_m)| is_short(*street, *cuts_m)).map(|(street, _)| street).collect()
+}
+
+/// Lengths of a street's straight parts.
+fn legs_m(plan: &StreetPlan, street: usize) -> Vec<f64> {
+    plan.points(&plan.links[street]).windows(2).map(|leg| leg[0].distance(leg[1])).collect()
 }
 
 /// The pose that looks back.
@@ -117,6 +153,23 @@ fn spokes(plan: &StreetPlan, node: usize) -> Vec<Spoke> {
     spokes
 }
 
+/// Distance from each end of all streets to the mouth there.
+fn cuts_m(plan: &StreetPlan, nodes: &[Vec<Spoke>]) -> Vec<[f64; 2]> {
+    let mut cuts_m = vec![[0.0; 2]; plan.links.len()];
+    for spokes in nodes.iter().filter(|spokes| spokes.len() > usize::from(plan.open_ends)) {
+        for (spoke, mouth_m) in spokes.iter().zip(mouths_m(spokes)) {
+            cuts_m[spoke.arm.street][usize::from(spoke.arm.at_end)] = mouth_m;
+        }
+    }
+    cuts_m
+}
+
+/// Angle from an arm to the next one.
+fn between_rad(spokes: &[Spoke], at: usize) -> f64 {
+    let between_rad = spokes[(at + 1) % spokes.len()].angle_rad - spokes[at].angle_rad;
+    if between_rad <= 0.0 { between_rad + 2.0 * real::PI } else { between_rad }
+}
+
 /// Distance from the middle to the mouth of each arm, so that pavements go around all corners in arcs.
 fn mouths_m(spokes: &[Spoke]) -> Vec<f64> {
     if let [only] = spokes {
@@ -127,8 +180,7 @@ fn mouths_m(spokes: &[Spoke]) -> Vec<f64> {
     for at in 0..spokes.len() {
         let next = (at + 1) % spokes.len();
         let [one, other] = [&spokes[at], &spokes[next]];
-        let mut between_rad = other.angle_rad - one.angle_rad;
-        between_rad += if between_rad <= 0.0 { 2.0 * real::PI } else { 0.0 };
+        let between_rad = between_rad(spokes, at);
         if between_rad < real::PI - 1e-6 {
             let width_m = one.profile.half_width_m().max(other.profile.half_width_m());
             let corner_m = one.profile.corner_m.max(other.profile.corner_m);

@@ -46,6 +46,8 @@ pub struct StreetPlan {
     pub nodes: Vec<DVec2>,
     /// The streets.
     pub links: Vec<Link>,
+    /// Whether dead ends just end, without a turning circle.
+    pub open_ends: bool,
 }
 
 impl StreetPlan {

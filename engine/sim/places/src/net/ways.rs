@@ -38,7 +38,7 @@ impl Way {
 /// the pavement between the two.
 pub fn all_ways(network: &Network) -> Vec<Way> {
     let mut ways = Vec::new();
-    for (junction, arms) in network.junctions.iter().enumerate() {
+    for (junction, arms) in network.junctions.iter().enumerate().filter(|(junction, _)| network.has_ways(*junction)) {
         for (at, from) in arms.iter().enumerate() {
             let onward = if arms.len() == 1 { 1..2 } else { 1..arms.len() };
             ways.extend(onward.map(|step| way(network, junction, [*from, arms[(at + step) % arms.len()]], step == 1)));

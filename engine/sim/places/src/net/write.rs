@@ -44,7 +44,7 @@ pub fn write_opendrive(
         write_way(&mut text, index, way, network);
     }
     write_land(&mut text, 2 * network.streets.len() + 1, things, [low, high]);
-    for junction in 0..network.junctions.len() {
+    for junction in (0..network.junctions.len()).filter(|junction| network.has_ways(*junction)) {
         write_junction(&mut text, junction, ways, network);
     }
     line(&mut text, "</OpenDRIVE>");
@@ -60,13 +60,13 @@ fn write_street(text: &mut String, index: usize, street: &Street, network: &Netw
     let (length_m, profile) = (street.line.length_m(), street.profile);
     let id = (index + 1).to_string();
     begin_road(text, [&format!("street {id}"), &id, "-1"], length_m);
-    let [start, end] = street.junctions.map(|junction| junction + FIRST_JUNCTION);
-    line(
-        text,
-        &format!(
-            "<link><predecessor elementType=\"junction\" elementId=\"{start}\"/><successor elementType=\"junction\" elementId=\"{end}\"/></link>"
-        ),
-    );
+    let end = |(name, junction): (&str, usize)| {
+        let id = FIRST_JUNCTION + junction;
+        let link = format!("<{name} elementType=\"junction\" elementId=\"{id}\"/>");
+        if network.has_ways(junction) { link } else { String::new() }
+    };
+    let [start, end] = [("predecessor", street.junctions[0]), ("successor", street.junctions[1])].map(end);
+    line(text, &format!("<link>{start}{end}</link>"));
     line(text, "<type s=\"0\" type=\"town\"><speed max=\"50\" unit=\"km/h\"/></type>");
     write_plan_view(text, &street.line);
     let lanes = i64::from(profile.lanes);
@@ -102,7 +102,7 @@ fn write_crossings(text: &mut String, index: usize, street: &Street, network: &N
     let [from_mouth_m, along_m, onto_pavement_m] = CROSSING_M;
     let reach_m = street.profile.carriageway_m() + onto_pavement_m;
     for (end, s_m) in [from_mouth_m, street.line.length_m() - from_mouth_m].into_iter().enumerate() {
-        if network.junctions[street.junctions[end]].len() == 2 {
+        if network.junctions[street.junctions[end]].len() == 2 || !network.has_ways(street.junctions[end]) {
             continue;
         }
         write_crossing(text, 2 * index + end + 1, s_m, [along_m, reach_m]);

@@ -9,6 +9,7 @@ use cosfly_diagnose::Diagnostic;
 use cosfly_experts::map_files::{ReadMap, read_map};
 use cosfly_maps::advice::why_not_compared;
 use cosfly_maps::form::form;
+use cosfly_town::census::{Census, census};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -81,7 +82,7 @@ impl Arguments {
 /// Figures of the town for programs.
 fn figures(map: &ReadMap) -> Value {
     let ReadMap { town, format, warnings, advice } = map;
-    let census = cosfly_town::census::census(town);
+    let census = census(town);
     let kinds = census.kinds.iter().map(|(kind, it)| {
         let figures = json!({
             "objects": it.objects, "boxes": it.boxes, "synthetic_objects": it.synthetic_objects,
@@ -98,6 +99,7 @@ fn figures(map: &ReadMap) -> Value {
     let ground = census.ground.iter().map(|(label, it)| {
         ((*label).to_owned(), json!({ "area_m2": it.area_m2, "synthetic_area_m2": it.synthetic_area_m2 }))
     });
+    let [things, walkable_ground, all_ground] = shares(&census);
     let report = &town.simplification;
     json!({
         "name": town.name, "format": format,
@@ -106,6 +108,7 @@ fn figures(map: &ReadMap) -> Value {
         "obstacles": kinds.collect::<serde_json::Map<_, _>>(),
         "walkable": walkable.collect::<serde_json::Map<_, _>>(),
         "ground": ground.collect::<serde_json::Map<_, _>>(),
+        "invented_share": { "things": things, "walkable": walkable_ground, "ground": all_ground },
         "planning_boxes": {
             "before": report.input_boxes, "after": report.output_boxes,
             "tolerance_m": report.tolerance_m, "added_volume_share": report.added_volume_share,
@@ -120,6 +123,19 @@ fn figures(map: &ReadMap) -> Value {
     })
 }
 
+/// Invented shares of the number of things, of the walkable ground and of all ground.
+fn shares(census: &Census) -> [f64; 3] {
+    let share = |parts: &mut dyn Iterator<Item = [f64; 2]>| {
+        let [invented, all] = parts.fold([0.0, 0.0], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
+        if all > 0.0 { invented / all } else { 0.0 }
+    };
+    [
+        share(&mut census.kinds.values().map(|it| [it.synthetic_objects as f64, it.objects as f64])),
+        share(&mut census.walkable.values().map(|it| [it.synthetic_area_m2, it.area_m2])),
+        share(&mut census.ground.values().map(|it| [it.synthetic_area_m2, it.area_m2])),
+    ]
+}
+
 fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
     let town = &map.town;
     let extent_m = town.max_in_world - town.min_in_world;
@@ -130,7 +146,7 @@ fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
         "\n{:<14} {:>8} {:>8}  {:>24}  {:>8}",
         "kind", "objects", "boxes", "height m (median)", "invented"
     );
-    let census = cosfly_town::census::census(town);
+    let census = census(town);
     for (kind, it) in &census.kinds {
         let heights = &it.heights_m;
         let range = format!("{:.1} to {:.1} ({:.1})", heights.least, heights.most, heights.median);
@@ -145,6 +161,11 @@ fn text(map: &ReadMap, figures: &Value, plan: Option<&Path>) -> String {
     for (label, it) in &census.ground {
         let _ = writeln!(text, "{label:<14} {:>8} {:>12.0}  {:>12.0}", "", it.area_m2, it.synthetic_area_m2);
     }
+    let [things, walkable, ground] = shares(&census).map(|share| (100.0 * share).round());
+    let _ = writeln!(
+        text,
+        "\ninvented: {things} % of the things, {walkable} % of the walkable ground, {ground} % of the ground"
+    );
     if figures["mesh"].is_object() {
         let _ = writeln!(text, "\n{}", mesh::text(&figures["mesh"]));
     }

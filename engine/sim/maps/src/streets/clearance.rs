@@ -1,0 +1,106 @@
+//! [`Clearance`]: distance of open ground from what stands on it, in square cells by rows.
+
+use crate::fill::land::{Plot, visit_rows};
+use cosfly_domain::{Obstacle, SemanticLabel, SurfaceMesh, Town};
+use cosfly_frames::DVec2;
+use cosfly_town::terrain::stands_on_ground;
+
+/// Ground farther from all houses is open, metres: streets end there.
+pub(super) const OPEN_M: f64 = 24.0;
+/// Distances count up to so many cells.
+const FARTHEST: usize = 30;
+
+/// The ground around all houses.
+pub(super) struct Clearance {
+    low: DVec2,
+    /// Side of a cell, metres.
+    pub cell_m: f64,
+    /// Cells along x.
+    pub columns: usize,
+    /// Cells along y.
+    pub rows: usize,
+    /// Squared distance of each cell from the nearest taken one, cells.
+    pub squared: Vec<u32>,
+}
+
+impl Clearance {
+    /// The ground between two corners, taken where things stand and where the file has ground of its own, such as water.
+    pub fn of(town: &Town, low: DVec2, high: DVec2, cell_m: f64) -> Self {
+        let [columns, rows] = ((high - low) / cell_m).ceil().max(DVec2::ONE).to_array().map(|side| side as usize);
+        let mut is_taken = vec![false; columns * rows];
+        let mut take = |outline: &[DVec2]| {
+            visit_rows(low, cell_m, columns, rows, outline, &mut |row, from, to| {
+                is_taken[row * columns + from..=row * columns + to].fill(true);
+                true
+            });
+        };
+        for Obstacle { shape, .. } in town.obstacles.iter().filter(|one| stands_on_ground(one.kind)) {
+            let half_m = shape.half_extents_m.truncate();
+            let plot = Plot { center: shape.center_in_world.truncate(), half_m, yaw_rad: shape.yaw_rad };
+            take(&plot.corners(0.0));
+        }
+        let is_open = |mesh: &SurfaceMesh| matches!(mesh.label, SemanticLabel::Terrain | SemanticLabel::Ground);
+        for mesh in town.surfaces.iter().filter(|mesh| !is_open(mesh)) {
+            for triangle in &mesh.triangles {
+                take(&triangle.map(|corner| mesh.vertices_in_world[corner as usize].truncate()));
+            }
+        }
+        let squared = squared_distances(&is_taken, columns, rows);
+        Self { low, cell_m, columns, rows, squared }
+    }
+
+    /// Distance from the middle of a cell to the nearest taken one, metres.
+    pub fn of_cell_m(&self, cell: usize) -> f64 {
+        (f64::from(self.squared[cell]).sqrt() - 0.5).max(0.0) * self.cell_m
+    }
+
+    /// Distance at a place; 0 outside the cells.
+    pub fn at_m(&self, at: DVec2) -> f64 {
+        let [x, y] = ((at - self.low) / self.cell_m).floor().to_array();
+        let is_inside = x >= 0.0 && y >= 0.0 && x < self.columns as f64 && y < self.rows as f64;
+        if is_inside { self.of_cell_m(y as usize * self.columns + x as usize) } else { 0.0 }
+    }
+
+    /// Middle of a cell.
+    pub fn middle(&self, cell: usize) -> DVec2 {
+        self.low + self.cell_m * (DVec2::new((cell % self.columns) as f64, (cell / self.columns) as f64) + 0.5)
+    }
+
+    /// Whether a cell lies at the edge.
+    pub fn is_edge(&self, cell: usize) -> bool {
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        column == 0 || row == 0 || column + 1 == self.columns || row + 1 == self.rows
+    }
+
+    /// The eight cells around one that is not at the edge, in order around it.
+    pub fn around(&self, cell: usize) -> [usize; 8] {
+        let (up, down) = (cell + self.columns, cell - self.columns);
+        [cell + 1, up + 1, up, up - 1, cell - 1, down - 1, down, down + 1]
+    }
+}
+
+/// Squared distances to the nearest taken cell: along the columns first, then along the rows.
+fn squared_distances(is_taken: &[bool], columns: usize, rows: usize) -> Vec<u32> {
+    let mut along = vec![FARTHEST as u32; is_taken.len()];
+    for column in 0..columns {
+        let mut pass = |rows: &mut dyn Iterator<Item = usize>| {
+            let mut distance = FARTHEST as u32;
+            for cell in rows.map(|row| row * columns + column) {
+                distance = if is_taken[cell] { 0 } else { (distance + 1).min(FARTHEST as u32) };
+                along[cell] = along[cell].min(distance);
+            }
+        };
+        pass(&mut (0..rows));
+        pass(&mut (0..rows).rev());
+    }
+    let squared = |cell: usize| {
+        let (column, row) = (cell % columns, cell / columns);
+        let reach = column.saturating_sub(FARTHEST)..(column + FARTHEST + 1).min(columns);
+        let nearest = reach.map(|other| {
+            let (aside, along) = (column.abs_diff(other) as u32, along[row * columns + other]);
+            aside * aside + along * along
+        });
+        nearest.min().unwrap_or(0).min((FARTHEST * FARTHEST) as u32)
+    };
+    (0..is_taken.len()).map(squared).collect()
+}
