@@ -18,6 +18,8 @@ const MOST_CELLS: f64 = 16e6;
 const QUARTER_M: f64 = 50.0;
 /// Least share of a dense quarter that houses cover: old towns and city blocks have 0.25 to 0.6, rows of villas 0.1 to 0.18.
 const DENSE_SHARE: f64 = 0.2;
+/// In towns of invented streets, ground so near to houses and streets is bare in any piece, metres.
+const BESIDE_M: f64 = 7.0;
 /// Largest piece of open ground that is bare; larger ones are taken for parks, square metres.
 const LARGEST_M2: f64 = 6000.0;
 /// Least share of houses in the border of a piece; pieces with fewer are taken for green squares, unless they are small.
@@ -31,8 +33,8 @@ const BARE: u8 = 4;
 const SEEN: u8 = 8;
 
 /// Gives the terrain of courts, yards and slits in dense quarters the label of bare ground. Lawns and parks that the file
-/// states are left alone, as is ground that the file itself has. In a town of `invented_streets`, all terrain of dense quarters is
-/// bare: nobody knows where its streets and squares end.
+/// states are left alone, as is ground that the file itself has. In a town of `invented_streets`, so has all terrain beside
+/// the houses and streets of dense quarters.
 pub(crate) fn pave_quarters(town: &mut Town, invented_streets: bool) {
     let is_terrain = |mesh: &SurfaceMesh| mesh.synthetic && mesh.label == SemanticLabel::Terrain;
     if !town.surfaces.iter().any(is_terrain) {
@@ -44,7 +46,7 @@ pub(crate) fn pave_quarters(town: &mut Town, invented_streets: bool) {
             cells.mark(&triangle.map(|corner| mesh.vertices_in_world[corner as usize].truncate()), COVERED);
         }
     }
-    let houses = Sums::of_houses(&cells);
+    let houses = Sums::of(&cells, HOUSE, QUARTER_M);
     cells.find_bare(&houses, invented_streets);
     let mut bare_meshes = Vec::new();
     for mesh in town.surfaces.iter_mut().filter(|mesh| is_terrain(mesh)) {
@@ -65,8 +67,9 @@ pub(crate) fn pave_quarters(town: &mut Town, invented_streets: bool) {
         } else {
             String::new()
         };
+        let places = if invented_streets { "land" } else { "courts, yards and slits" };
         town.synthetic.notes.push(format!(
-            "{bare_m2:.0} m2 of courts, yards and slits between close houses are taken for bare ground, not lawn{cells}"
+            "{bare_m2:.0} m2 of {places} between close houses are taken for bare ground, not lawn{cells}"
         ));
     }
 }
@@ -134,9 +137,10 @@ impl Cells {
         });
     }
 
-    /// Marks the pieces of open ground that are small, enclosed and in dense quarters.
+    /// Marks the pieces of open ground that are small, enclosed and in dense quarters; `everywhere` also the land beside things there.
     fn find_bare(&mut self, houses: &Sums, everywhere: bool) {
         let [largest, small] = [LARGEST_M2, SMALL_M2].map(|area_m2| (area_m2 / (self.cell_m * self.cell_m)) as usize);
+        let beside_things = everywhere.then(|| Sums::of(self, COVERED, BESIDE_M));
         let mut queue = VecDeque::new();
         let mut piece = Vec::new();
         for first in 0..self.uses.len() {
@@ -165,8 +169,9 @@ impl Cells {
             let is_dense = share >= DENSE_SHARE * piece.len() as f64;
             let is_bare = is_enclosed && is_yard && is_dense && piece.len() <= largest;
             for cell in &piece {
-                let share = || houses.share_around(cell % self.columns, cell / self.columns);
-                if is_bare || everywhere && share() >= DENSE_SHARE {
+                let share = |of: &Sums| of.share_around(cell % self.columns, cell / self.columns);
+                let is_beside = || beside_things.as_ref().is_some_and(|it| share(it) > 0.0) && share(houses) >= DENSE_SHARE;
+                if is_bare || is_beside() {
                     self.uses[*cell] |= BARE;
                     self.bare_cells += 1;
                 }
@@ -192,7 +197,7 @@ impl Cells {
     }
 }
 
-/// Cells of houses left of and below each corner of the cells.
+/// Cells of one use left of and below each corner of the cells.
 struct Sums {
     columns: usize,
     rows: usize,
@@ -201,20 +206,20 @@ struct Sums {
 }
 
 impl Sums {
-    fn of_houses(cells: &Cells) -> Self {
+    fn of(cells: &Cells, bit: u8, reach_m: f64) -> Self {
         let (columns, rows) = (cells.columns + 1, cells.rows + 1);
         let mut sums = vec![0_u32; columns * rows];
         for row in 1..rows {
             let mut line = 0;
             for column in 1..columns {
-                line += u32::from(cells.uses[(row - 1) * cells.columns + column - 1] & HOUSE != 0);
+                line += u32::from(cells.uses[(row - 1) * cells.columns + column - 1] & bit != 0);
                 sums[row * columns + column] = sums[(row - 1) * columns + column] + line;
             }
         }
-        Self { columns, rows, reach: (QUARTER_M / cells.cell_m).ceil() as usize, sums }
+        Self { columns, rows, reach: (reach_m / cells.cell_m).ceil() as usize, sums }
     }
 
-    /// Share of houses in the square around a cell; ground beyond the cells has none.
+    /// Share of the use in the square around a cell; ground beyond the cells has none.
     fn share_around(&self, column: usize, row: usize) -> f64 {
         let (left, right) = (column.saturating_sub(self.reach), (column + self.reach + 1).min(self.columns - 1));
         let (low, high) = (row.saturating_sub(self.reach), (row + self.reach + 1).min(self.rows - 1));

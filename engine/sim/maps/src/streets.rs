@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 
 /// Side of the cells in which the ground is measured, metres, and most of them.
 const CELL_M: f64 = 1.0;
-const MOST_CELLS: f64 = 16e6;
+const MOST_CELLS: f64 = 6e6;
 /// Ground that is looked at around the houses, metres.
 const MARGIN_M: f64 = 30.0;
 /// Longest piece of a street that lies straight on the ground, metres.

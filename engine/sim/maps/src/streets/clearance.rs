@@ -1,7 +1,7 @@
 //! [`Clearance`]: distance of open ground from what stands on it, in square cells by rows.
 
 use crate::fill::land::{Plot, visit_rows};
-use cosfly_domain::{Obstacle, SemanticLabel, SurfaceMesh, Town};
+use cosfly_domain::{Obstacle, ObstacleKind, SemanticLabel, SurfaceMesh, Town};
 use cosfly_frames::DVec2;
 use cosfly_town::terrain::stands_on_ground;
 
@@ -21,44 +21,69 @@ pub(super) struct Clearance {
     pub rows: usize,
     /// Squared distance of each cell from the nearest taken one, cells.
     pub squared: Vec<u32>,
+    /// The same from the nearest house.
+    from_houses: Vec<u32>,
 }
 
 impl Clearance {
     /// The ground between two corners, taken where things stand and where the file has ground of its own, such as water.
     pub fn of(town: &Town, low: DVec2, high: DVec2, cell_m: f64) -> Self {
         let [columns, rows] = ((high - low) / cell_m).ceil().max(DVec2::ONE).to_array().map(|side| side as usize);
-        let mut is_taken = vec![false; columns * rows];
-        let mut take = |outline: &[DVec2]| {
+        let mut is_house = vec![false; columns * rows];
+        let take = |is_taken: &mut [bool], outline: &[DVec2]| {
             visit_rows(low, cell_m, columns, rows, outline, &mut |row, from, to| {
                 is_taken[row * columns + from..=row * columns + to].fill(true);
                 true
             });
         };
-        for Obstacle { shape, .. } in town.obstacles.iter().filter(|one| stands_on_ground(one.kind)) {
+        let mut is_taken = is_house.clone();
+        for Obstacle { shape, kind, .. } in town.obstacles.iter().filter(|one| stands_on_ground(one.kind)) {
             let half_m = shape.half_extents_m.truncate();
             let plot = Plot { center: shape.center_in_world.truncate(), half_m, yaw_rad: shape.yaw_rad };
-            take(&plot.corners(0.0));
+            take(&mut is_taken, &plot.corners(0.0));
+            if *kind == ObstacleKind::Building {
+                take(&mut is_house, &plot.corners(0.0));
+            }
         }
         let is_open = |mesh: &SurfaceMesh| matches!(mesh.label, SemanticLabel::Terrain | SemanticLabel::Ground);
         for mesh in town.surfaces.iter().filter(|mesh| !is_open(mesh)) {
             for triangle in &mesh.triangles {
-                take(&triangle.map(|corner| mesh.vertices_in_world[corner as usize].truncate()));
+                take(&mut is_taken, &triangle.map(|corner| mesh.vertices_in_world[corner as usize].truncate()));
             }
         }
-        let squared = squared_distances(&is_taken, columns, rows);
-        Self { low, cell_m, columns, rows, squared }
+        let [squared, from_houses] = [is_taken, is_house].map(|taken| squared_distances(&taken, columns, rows));
+        Self { low, cell_m, columns, rows, squared, from_houses }
+    }
+
+    /// The ground between two corners, taken by some meshes.
+    pub fn of_meshes(meshes: &[SurfaceMesh], low: DVec2, high: DVec2, cell_m: f64) -> Self {
+        let town = Town { surfaces: meshes.to_vec(), ..Town::default() };
+        Self::of(&town, low, high, cell_m)
     }
 
     /// Distance from the middle of a cell to the nearest taken one, metres.
     pub fn of_cell_m(&self, cell: usize) -> f64 {
-        (f64::from(self.squared[cell]).sqrt() - 0.5).max(0.0) * self.cell_m
+        self.metres(self.squared[cell])
     }
 
     /// Distance at a place; 0 outside the cells.
     pub fn at_m(&self, at: DVec2) -> f64 {
+        self.cell_at(at).map_or(0.0, |cell| self.of_cell_m(cell))
+    }
+
+    /// Distance at a place from the nearest house; 0 outside the cells.
+    pub fn from_house_m(&self, at: DVec2) -> f64 {
+        self.cell_at(at).map_or(0.0, |cell| self.metres(self.from_houses[cell]))
+    }
+
+    fn metres(&self, squared: u32) -> f64 {
+        (f64::from(squared).sqrt() - 0.5).max(0.0) * self.cell_m
+    }
+
+    fn cell_at(&self, at: DVec2) -> Option<usize> {
         let [x, y] = ((at - self.low) / self.cell_m).floor().to_array();
         let is_inside = x >= 0.0 && y >= 0.0 && x < self.columns as f64 && y < self.rows as f64;
-        if is_inside { self.of_cell_m(y as usize * self.columns + x as usize) } else { 0.0 }
+        is_inside.then(|| y as usize * self.columns + x as usize)
     }
 
     /// Middle of a cell.

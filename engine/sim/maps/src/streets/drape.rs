@@ -1,5 +1,6 @@
 //! [`drape`]: streets of a level map on the ground of a town.
 
+use super::clearance::Clearance;
 use cosfly_domain::{SemanticLabel, SurfaceMesh, Town, WalkableKind, WalkablePolygon};
 use cosfly_frames::{DVec2, DVec3};
 use cosfly_town::GroundIndex;
@@ -8,10 +9,12 @@ use cosfly_town::open_ground::OpenGround;
 /// Carriageways lie so far above the ground, which lies so far below them after, metres.
 const ABOVE_M: f64 = 0.04;
 const BELOW_M: f64 = 0.11;
-/// Side of the cells in which open ground is kept off the carriageways, metres.
+/// Plazas reach so far from streets, metres: people walk there.
+const REACH_M: f64 = 8.0;
+/// Side of the cells in which plazas are laid, metres.
 const CELL_M: f64 = 1.0;
 
-/// Lays the streets of a town without relief onto the ground of another. Invented plazas there make room for carriageways.
+/// Lays the streets of a town without relief onto the ground of another. Of invented plazas there, those beside the streets stay.
 pub(super) fn drape(town: &mut Town, mut streets: Town) {
     streets.surfaces.retain(|mesh| mesh.label != SemanticLabel::Terrain);
     let ground = GroundIndex::of_surfaces(&town.surfaces, |_| true);
@@ -30,7 +33,7 @@ pub(super) fn drape(town: &mut Town, mut streets: Town) {
     }
     streets.lanes.iter_mut().for_each(|lane| lane.middle_in_world.iter_mut().for_each(lay));
     lower_below(&mut town.surfaces, &streets.surfaces);
-    keep_plazas_off(town, &streets.surfaces);
+    keep_plazas_beside(town, &streets.surfaces);
     town.surfaces.append(&mut streets.surfaces);
     town.walkable.append(&mut streets.walkable);
     town.lanes.append(&mut streets.lanes);
@@ -46,8 +49,8 @@ fn lower_below(ground: &mut [SurfaceMesh], streets: &[SurfaceMesh]) {
     }
 }
 
-/// Lays invented plazas anew without what is carriageway.
-fn keep_plazas_off(town: &mut Town, streets: &[SurfaceMesh]) {
+/// Lays invented plazas anew: beside the streets, and not on carriageways.
+fn keep_plazas_beside(town: &mut Town, streets: &[SurfaceMesh]) {
     let is_invented = |polygon: &WalkablePolygon| polygon.synthetic && polygon.kind == WalkableKind::Plaza;
     let mut plazas = SurfaceMesh {
         label: SemanticLabel::Ground,
@@ -62,13 +65,11 @@ fn keep_plazas_off(town: &mut Town, streets: &[SurfaceMesh]) {
         let corners = cosfly_town::polygons::triangulated(&plaza.plan());
         plazas.triangles.extend(corners.into_iter().map(|triangle| triangle.map(|corner| first + corner)));
     }
-    let flat = |point: &DVec3| point.truncate();
-    let low = plazas.vertices_in_world.iter().map(flat).fold(DVec2::INFINITY, DVec2::min);
-    let high = plazas.vertices_in_world.iter().map(flat).fold(DVec2::NEG_INFINITY, DVec2::max);
-    if !low.is_finite() {
-        return;
-    }
+    let corners = || streets.iter().flat_map(|mesh| &mesh.vertices_in_world).map(|point| point.truncate());
+    let low = corners().fold(DVec2::INFINITY, DVec2::min) - REACH_M;
+    let high = corners().fold(DVec2::NEG_INFINITY, DVec2::max) + REACH_M;
     let plazas = GroundIndex::of_surfaces(&[plazas], |_| true);
+    let from_streets = Clearance::of_meshes(streets, low, high, CELL_M);
     let roads = GroundIndex::of_surfaces(streets, |mesh| mesh.label == SemanticLabel::Roads);
     let height_m = |at: DVec2| plazas.ground_height_m(at.x, at.y);
     let mut open = OpenGround::new(low, high, CELL_M);
@@ -77,7 +78,7 @@ fn keep_plazas_off(town: &mut Town, streets: &[SurfaceMesh]) {
         .map(|cell| {
             let middle = open.middle(cell);
             let mut around = corners.iter().map(|corner| middle + 0.5 * open.cell_m * *corner);
-            height_m(middle).is_some() && around.all(|at| roads.ground_height_m(at.x, at.y).is_none())
+            from_streets.at_m(middle) <= REACH_M && height_m(middle).is_some() && around.all(|at| roads.ground_height_m(at.x, at.y).is_none())
         })
         .collect();
     town.walkable.retain(|polygon| !is_invented(polygon));
