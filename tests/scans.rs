@@ -133,3 +133,53 @@ fn meshes_that_cannot_be_drawn_are_refused_before_anything_runs() {
     let printed = cosfly(&["plan", "recipe.toml"]).within(street.path()).run_ok();
     assert!(!printed.stdout.is_empty());
 }
+
+#[test]
+fn a_town_is_converted_to_a_mesh_and_to_splats_that_lie_where_it_lies() {
+    let street = Street::with(&RECIPE.replacen("width = 96\n", "width = 96\nweathers = [\"ClearNoon\"]\n", 1), &map());
+    for (out, key) in [
+        ("town.glb", "mesh = { source = \"town.glb\" }"),
+        ("town.ply", "splats = { source = \"town.ply\", up_axis = \"z\" }"),
+    ] {
+        let convert = ["map", "convert", "street.xodr", "--out", out, "--texel-m", "0.5"];
+        let printed = cosfly(&convert).within(street.path()).run_ok();
+        assert!(printed.stdout.contains(key), "{}", printed.stdout);
+        let set = format!("stages.frames.{key}");
+        let printed = cosfly(&["run", "recipe.toml", "--set", &set]).within(street.path()).run_ok();
+        for words in ["the splats lie", "of the mesh lie", "comes within"] {
+            assert!(!printed.stderr.contains(words), "{}", printed.stderr);
+        }
+    }
+    for (arguments, code, words) in [
+        (["--out", "town.obj", "--texel-m", "0.5"], 3, ".glb"),
+        (["--out", "town.glb", "--texel-m", "5"], 3, "0.02 to 1"),
+        (["--out", "town.ply", "--texel-m", "0.02"], 3, "bounds_m"),
+        (["--out", "nowhere/town.ply", "--texel-m", "1"], 5, "nowhere"),
+    ] {
+        let all = [&["map", "convert", "street.xodr"], &arguments[..]].concat();
+        let printed = cosfly(&all).within(street.path()).run();
+        assert_eq!(printed.code, Some(code), "{arguments:?}: {}", printed.stderr);
+        assert!(printed.stderr.contains(words), "{arguments:?}: {}", printed.stderr);
+    }
+}
+
+#[test]
+fn fly_draws_the_scan_of_the_recipe_and_tells_other_scans_apart() {
+    let street = meshed("source = \"scan.glb\", license = \"CC BY 4.0, Ana Kos\"");
+    let fly = |out: &str, mesh: &str| {
+        let set = format!("stages.frames.mesh={{ source = \"scan.glb\"{mesh} }}");
+        let arguments = ["fly", "recipe.toml", "--policy", "hold", "--clips", "1", "--out", out, "--set", &set];
+        let printed = cosfly(&arguments).within(street.path()).run();
+        let clips = std::fs::read_dir(street.path().join(out).join("hold/clips")).expect("clips");
+        let clip = clips.map(|clip| std::fs::read(clip.expect("readable").path()).expect("readable")).next();
+        (printed.code, printed.stderr, clip.expect("a clip"))
+    };
+    let (code, errors, as_it_is) = fly("plain", "");
+    assert_eq!(code, Some(0), "{errors}");
+    let (code, errors, bright) = fly("bright", ", exposure_ev = 3");
+    assert_eq!(code, Some(0), "{errors}");
+    assert!(as_it_is != bright, "the clips show the mesh");
+    let (code, errors, _) = fly("plain", ", exposure_ev = 3");
+    assert_eq!(code, Some(3), "{errors}");
+    assert!(errors.contains("another evaluation"), "{errors}");
+}

@@ -1,15 +1,16 @@
 //! Models, mesh and splats of a `render` stage: files of the recipe, checked before any stage runs.
 
 use cosfly_diagnose::{Diagnostic, Fault, Result};
-use cosfly_domain::Town;
+use cosfly_domain::{Town, Trajectory};
 use cosfly_frames::DVec3;
 use cosfly_models::Model;
 use cosfly_models::mesh::{MeshConfig, NamedFile, TexturedMesh};
-use cosfly_render::{RenderConfig, SceneMesh, SceneModel, SceneSplats};
+use cosfly_render::{RenderConfig, Scene, SceneMesh, SceneModel, SceneScan, SceneSplats};
 use cosfly_splats::SplatCloud;
 use cosfly_stage::{Settle, Source, SourceCheck};
 use cosfly_town::MapError;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -21,6 +22,10 @@ const MOST_MESH_BYTES: u64 = 4 << 30;
 const MOST_OFF_M: f32 = 0.5;
 /// A mesh with less of its area on the map's boxes and ground seems to be of another place.
 const LEAST_KNOWN: f64 = 0.8;
+/// Distances from a mesh are told up to this much beyond the certified ones, metres.
+const FARTHER_M: f64 = 1.0;
+/// Distances from a mesh are good to this much: its corners are 32-bit numbers.
+const ROUNDING_M: f64 = 0.01;
 
 /// Files of the models, of the mesh and of the splats, whose paths leave the parameters: what a file holds counts, not where it lies.
 pub fn take_sources(config: &mut RenderConfig) -> Vec<Source> {
@@ -64,11 +69,17 @@ pub fn take_sources(config: &mut RenderConfig) -> Vec<Source> {
     sources
 }
 
-/// Reads the mesh of a stage from its files, for a town whose labels it has.
+/// Reads the mesh and the splats of a stage from its files, for a town whose labels the mesh has.
 ///
 /// # Errors
-/// Files that cannot be read, or are no mesh.
-pub fn read_scene_mesh(config: &RenderConfig, files: &[PathBuf], town: &Town) -> Result<Option<SceneMesh>> {
+/// Files that cannot be read, or are no scan.
+pub fn read_scan(config: &RenderConfig, files: &[PathBuf], town: &Town) -> Result<SceneScan> {
+    let mesh = read_scene_mesh(config, files, town)?.map(Arc::new);
+    let splats = read_scene_splats(config, files, town.origin.offset_m)?.map(Arc::new);
+    Ok(SceneScan { mesh, splats })
+}
+
+fn read_scene_mesh(config: &RenderConfig, files: &[PathBuf], town: &Town) -> Result<Option<SceneMesh>> {
     let own = config.mesh.as_ref().and_then(|mesh| {
         let files = files.get(config.models.len()..)?;
         Some((mesh, files.get(mesh.files.len())?, &files[..mesh.files.len()]))
@@ -106,14 +117,7 @@ fn read_mesh(config: &MeshConfig, path: &Path, beside: &[PathBuf], world_origin_
 }
 
 /// Reads the splats of a stage from its last file, for a town whose reader took `world_origin_m` off its map's points.
-///
-/// # Errors
-/// Files that cannot be read, or hold no splats.
-pub fn read_scene_splats(
-    config: &RenderConfig,
-    files: &[PathBuf],
-    world_origin_m: DVec3,
-) -> Result<Option<SceneSplats>> {
+fn read_scene_splats(config: &RenderConfig, files: &[PathBuf], world_origin_m: DVec3) -> Result<Option<SceneSplats>> {
     let (Some(splats), Some(file)) = (&config.splats, files.last()) else { return Ok(None) };
     let placed = SceneSplats::new(read_splats(file)?, splats, world_origin_m);
     placed
@@ -177,8 +181,41 @@ pub fn scan_notes(config: &RenderConfig) -> (Vec<String>, Vec<String>) {
     (notes, warnings)
 }
 
+/// Notes on the scan of a film by their names, and warnings where it does not belong to the geometry of the map and of the flight.
+pub fn compared(
+    config: &RenderConfig,
+    scene: &Scene,
+    flight: &Trajectory,
+    splats_off_m: Option<f32>,
+) -> (BTreeMap<String, String>, Vec<String>) {
+    let mesh = scene.mesh().map(|mesh| ("mesh", vec![matched(mesh), kept_away(mesh, flight)]));
+    let splats = config.splats.as_ref().map(|_| ("splats", vec![lying(splats_off_m)]));
+    let (mut notes, mut warnings) = (BTreeMap::new(), vec![]);
+    for (name, found) in mesh.into_iter().chain(splats) {
+        let words: Vec<String> = found.iter().map(|(note, _)| note.clone()).collect();
+        notes.insert(name.to_owned(), words.join("; "));
+        warnings.extend(found.into_iter().filter_map(|(_, warning)| warning));
+    }
+    (notes, warnings)
+}
+
+/// The note about a flight and the triangles of a mesh, and the warning where it comes nearer than is certified.
+fn kept_away(mesh: &SceneMesh, flight: &Trajectory) -> (String, Option<String>) {
+    let certified_m = flight.certificate.min_clearance_m;
+    let path: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
+    let most_m = certified_m + FARTHER_M;
+    let away_m = mesh.clearance_m(&path, most_m);
+    let word = if away_m < most_m { "" } else { "more than " };
+    let note = format!("the flight stays {word}{away_m:.2} m away from them, {certified_m:.2} m are certified");
+    let warning = format!(
+        "the flight comes within {away_m:.2} m of the mesh, its certificate says {certified_m:.2} m: the map's boxes do not hold all of \
+         the mesh; read the map from the same file, and check `mesh.origin_m`"
+    );
+    (note, (away_m < certified_m - ROUNDING_M).then_some(warning))
+}
+
 /// The note about splats and geometry, and the warning where they do not belong together.
-pub fn compared(off_m: Option<f32>) -> (String, Option<String>) {
+fn lying(off_m: Option<f32>) -> (String, Option<String>) {
     let Some(off_m) = off_m else {
         let note = "no picture shows splats over the geometry".to_owned();
         let warning = format!("{note}: check `splats.up_axis`, its scale and its place");
@@ -193,7 +230,7 @@ pub fn compared(off_m: Option<f32>) -> (String, Option<String>) {
 }
 
 /// The note about a mesh and the geometry, and the warning where they do not belong together.
-pub fn matched(mesh: &SceneMesh) -> (String, Option<String>) {
+fn matched(mesh: &SceneMesh) -> (String, Option<String>) {
     let share = mesh.known_share();
     let note =
         format!("{} triangles, {:.1} % of their area on the map's boxes and ground", mesh.triangles(), 100.0 * share);
@@ -210,8 +247,8 @@ mod tests {
 
     #[test]
     fn splats_that_lie_elsewhere_or_nowhere_are_a_warning() {
-        assert_eq!(compared(Some(0.04)), ("half of the pixels within 0.04 m of the geometry".to_owned(), None));
-        let warning = |off_m| compared(off_m).1.expect("a warning");
+        assert_eq!(lying(Some(0.04)), ("half of the pixels within 0.04 m of the geometry".to_owned(), None));
+        let warning = |off_m| lying(off_m).1.expect("a warning");
         assert!(warning(Some(2.0)).contains("2.0 m") && warning(None).contains("splats.up_axis"));
     }
 }

@@ -5,18 +5,19 @@ use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::{PlanOutcome, Town};
 use cosfly_env::policies::Knowledge;
 use cosfly_env::{Episode, FlightSite, Others, Start};
-use cosfly_experts::{Kind, RecipeExpert, artifacts, pictures};
+use cosfly_experts::{Kind, RecipeExpert, artifacts, pictures, render_files};
 use cosfly_film::Shooting;
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Seed};
 use cosfly_recipe::{Recipe, RecipeStage};
-use cosfly_render::RenderConfig;
+use cosfly_render::{RenderConfig, Scene, SceneScan};
 use cosfly_runner::{Plan, RunOptions, RunOutcome, run};
 use cosfly_stage::{BlobSource, Blobs, RunEvent, StageRole};
 use cosfly_store::Store;
 use serde::de::DeserializeOwned;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Version of the environment: raised when an episode's rows change for the same actions, or what a number of its state means.
@@ -44,7 +45,7 @@ pub struct EpisodeTask {
 impl EpisodeTask {
     /// An episode in a town that is not drawn: empty ground under a clear sky.
     pub fn undrawn(episode: Episode, knowledge: Knowledge, certified_visibility: f64) -> Self {
-        let scenery = Arc::new(SuiteTown { town: Arc::default(), looks: episode.seed });
+        let scenery = Arc::new(SuiteTown { town: Arc::default(), looks: episode.seed, scan: SceneScan::default() });
         let shooting = Arc::new(Shooting::plain(episode.looks));
         let digest = Digest::of(episode.name.as_bytes());
         Self { episode: Arc::new(episode), knowledge, certified_visibility, scenery, shooting, part: 0, digest }
@@ -57,6 +58,15 @@ pub struct SuiteTown {
     pub town: Arc<Town>,
     /// Seed of colours and patterns.
     pub looks: Seed,
+    /// The scan that it is drawn as.
+    pub scan: SceneScan,
+}
+
+impl SuiteTown {
+    /// The town ready to be drawn.
+    pub fn scene(&self) -> Scene {
+        Scene::new(&self.town, self.looks).with_scan(self.scan.clone())
+    }
 }
 
 /// The episodes of a recipe, or of a tier of a benchmark.
@@ -155,8 +165,8 @@ impl Suite {
 struct Reader<'a> {
     plan: Plan<'a>,
     store: &'a Store,
-    /// By the index of the stage that made the town, and its item.
-    places: BTreeMap<(usize, usize), (Arc<FlightSite>, Arc<SuiteTown>)>,
+    /// By the index of the stage that made the town, its item, and the stage that films it.
+    places: BTreeMap<(usize, usize, Option<usize>), (Arc<FlightSite>, Arc<SuiteTown>)>,
 }
 
 impl Reader<'_> {
@@ -174,7 +184,9 @@ impl Reader<'_> {
             let town = described.connection("town").and_then(|connection| connection.arrivals.first());
             let town = town.map(|arrival| (arrival.stage, arrival.item));
             let town = town.ok_or_else(|| broken(format!("`{}` has no town", described.name)))?;
-            let pictures = pictures_of(recipe, stage).map_err(|error| broken(error.message))?;
+            let films = films_of(recipe, stage);
+            let pictures = pictures_of(recipe, films).map_err(|error| broken(error.message))?;
+            let scan = films.map(|films| scan_of(&recipe.stages[films], &pictures)).transpose()?.unwrap_or_default();
             for (item, name) in described.items.iter().enumerate() {
                 let blobs = self.blobs(stage, item)?.clone();
                 let begun = listed.len();
@@ -191,8 +203,9 @@ impl Reader<'_> {
                 let shooting = Shooting::of(&pictures, &flight, followed.as_ref(), name.variant())?;
                 // Pictures of policies show it.
                 let _ = writeln!(listed, "{}/{name}/weather {:?}", described.name, shooting.weather);
+                listed.push_str(&scan);
                 let followed = followed.map(|followed| followed.plan);
-                let (place, scenery) = self.place(town)?;
+                let (place, scenery) = self.place(town, films, &pictures)?;
                 let name = name.of_stage(&described.name).to_string();
                 let seed = Seed::of_item(recipe.seed, "fly", &name);
                 let waypoints: Vec<DVec3> = flight.poses_in_world.iter().map(|pose| pose.position_in_world).collect();
@@ -228,15 +241,24 @@ impl Reader<'_> {
         Ok(Suite { name: recipe.name.clone(), digest, parts: vec![part], tasks, rejected })
     }
 
-    fn place(&mut self, at: (usize, usize)) -> Result<(Arc<FlightSite>, Arc<SuiteTown>)> {
-        if let Some(known) = self.places.get(&at) {
+    fn place(
+        &mut self,
+        at: (usize, usize),
+        films: Option<usize>,
+        pictures: &RenderConfig,
+    ) -> Result<(Arc<FlightSite>, Arc<SuiteTown>)> {
+        let key = (at.0, at.1, films);
+        if let Some(known) = self.places.get(&key) {
             return Ok(known.clone());
         }
         let stored = self.blobs(at.0, at.1)?[artifacts::TOWN.blob];
         let (town, looks) = (Arc::new(artifacts::TOWN.decode(&self.store.read(&stored)?)?), Seed(stored.digest.0));
         // Buildings look as in films.
-        let known = (Arc::new(FlightSite::new(Arc::clone(&town), looks)), Arc::new(SuiteTown { town, looks }));
-        self.places.insert(at, known.clone());
+        let files = films.map(|films| files_of(&self.plan.recipe.stages[films])).unwrap_or_default();
+        let scan = render_files::read_scan(pictures, &files, &town)?;
+        let site = FlightSite::new(Arc::clone(&town), looks).with_scan(scan.clone());
+        let known = (Arc::new(site), Arc::new(SuiteTown { town, looks, scan }));
+        self.places.insert(key, known.clone());
         Ok(known)
     }
 
@@ -255,18 +277,41 @@ impl Reader<'_> {
     }
 }
 
-/// The settings of the pictures that a recipe makes of the flights of a stage; those of the default under a clear sky where it
-/// makes none.
-fn pictures_of(recipe: &Recipe, flights: usize) -> std::result::Result<RenderConfig, ParameterError> {
+/// The first stage that films the flights of a stage.
+fn films_of(recipe: &Recipe, flights: usize) -> Option<usize> {
     let films = |stage: &&RecipeStage| {
         let mut upstreams = stage.connections.iter().flat_map(|connection| &connection.upstreams);
         let is_of_flights = upstreams.any(|upstream| are_of(recipe, *upstream, flights));
         stage.has_role(StageRole::Films) && is_of_flights
     };
-    match recipe.stages.iter().find(films) {
-        Some(stage) => pictures::read(stage.parameters.clone()).map(|(config, _)| config),
+    recipe.stages.iter().position(|stage| films(&stage))
+}
+
+/// The settings of the pictures of a stage; those of the default under a clear sky without one.
+fn pictures_of(recipe: &Recipe, films: Option<usize>) -> std::result::Result<RenderConfig, ParameterError> {
+    match films {
+        Some(films) => pictures::read(recipe.stages[films].parameters.clone()).map(|(config, _)| config),
         None => Ok(RenderConfig { weathers: vec!["ClearNoon".to_owned()], ..RenderConfig::default() }),
     }
+}
+
+fn files_of(films: &RecipeStage) -> Vec<PathBuf> {
+    films.sources.iter().map(|source| source.path.clone()).collect()
+}
+
+/// What a suite's digest holds of the scan that pictures show: policies see it. Nothing where there is none.
+fn scan_of(films: &RecipeStage, pictures: &RenderConfig) -> Result<String> {
+    if pictures.mesh.is_none() && pictures.splats.is_none() {
+        return Ok(String::new());
+    }
+    let parameters = &films.stage.properties().parameters;
+    let mut listed = format!("scan {} {}\n", parameters["mesh"], parameters["splats"]);
+    for path in files_of(films) {
+        let bytes = std::fs::read(&path)
+            .map_err(|error| Diagnostic::io(format!("read the scan's file `{}`", path.display()), &error))?;
+        let _ = writeln!(listed, "scan {}", Digest::of(&bytes));
+    }
+    Ok(listed)
 }
 
 /// Whether the artifacts of a stage are those of `flights`, or were made of them by stages that change flights.

@@ -138,10 +138,9 @@ impl Stage for RenderStage {
         // Buildings look the same in every flight through the town.
         let scene = self.scene.get(town_digest, || -> Result<_> {
             let models = render_files::read_models(&self.config, &context.sources)?;
-            let splats = render_files::read_scene_splats(&self.config, &context.sources, world.town.origin.offset_m)?;
-            let mesh = render_files::read_scene_mesh(&self.config, &context.sources, &world.town)?;
+            let scan = render_files::read_scan(&self.config, &context.sources, &world.town)?;
             let scene = Scene::with_models(&world.town, Seed(town_digest.0), &models);
-            Ok(scene.in_season(self.config.season).with_mesh(mesh).with_splats(splats))
+            Ok(scene.in_season(self.config.season).with_scan(scan))
         })?;
         let crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
         let crowd = crowd.dressed_for(&shooting);
@@ -149,7 +148,9 @@ impl Stage for RenderStage {
         let mut seen = self.draw(outputs, context, &place, &trajectory, (&config, &shooting))?;
         let mut notes = notes_of(&crowd, &seen.sightings);
         let (on_card, mut warnings) = render_files::scan_notes(&self.config);
-        self.compare_scans(&scene, seen.median_off_m(), &mut notes, &mut warnings);
+        let (found, more) = render_files::compared(&self.config, &scene, &trajectory, seen.median_off_m());
+        notes.extend(found);
+        warnings.extend(more);
         let mut town = TownInfo::of(&world.town, town_digest);
         town.synthetic.notes.extend(on_card);
         let pair = trajectory.perturbation.as_ref().map(|twin| {
@@ -190,24 +191,6 @@ impl Stage for RenderStage {
         };
         outputs.put("index", &record.to_bytes())?;
         Ok(Produced { notes, warnings, rejected: None })
-    }
-}
-
-impl RenderStage {
-    /// Adds what is to say of the splats and of the mesh of a recipe beside the town.
-    fn compare_scans(
-        &self,
-        scene: &Scene,
-        splats_off_m: Option<f32>,
-        notes: &mut BTreeMap<String, String>,
-        warnings: &mut Vec<String>,
-    ) {
-        let splats = self.config.splats.as_ref().map(|_| ("splats", render_files::compared(splats_off_m)));
-        let mesh = scene.mesh().map(|mesh| ("mesh", render_files::matched(mesh)));
-        for (name, (note, warning)) in splats.into_iter().chain(mesh) {
-            notes.insert(name.to_owned(), note);
-            warnings.extend(warning);
-        }
     }
 }
 

@@ -2,20 +2,17 @@
 
 use crate::canvas::{Canvas, WIDE};
 use crate::faces::{BODY, DrawnFace};
+use crate::outputs::Outputs;
 use crate::view::BatchView;
-use cosfly_domain::{Camera, Weather};
+use cosfly_domain::{Camera, TARGET_INSTANCE, Weather};
 use cosfly_frames::simd::Level;
 use cosfly_raster::visibility::NO_FACE;
-use cosfly_render::{BodyPart, FoundFace, FoundPicture, FoundSource, FrameSetup, Renderer};
-
-/// Weather of views without any.
-const WEATHER: &str = "ClearNoon";
+use cosfly_render::{BodyPart, FoundFace, FoundPicture, FoundSource, FrameParts, FrameSetup, Renderer, Scene};
 
 /// The shading of one painter; its buffers are there once somebody asks for colours.
 #[derive(Default)]
 pub struct Colours {
-    renderer: Option<Renderer>,
-    noon: Option<Weather>,
+    drawing: Drawing,
     /// The picture's faces that are seen, and which of them is nearest at each pixel.
     faces: Vec<FoundFace>,
     nearest: Vec<u32>,
@@ -37,27 +34,33 @@ impl Colours {
         (faces, parts): (&[DrawnFace], &[BodyPart]),
         rgb: &mut [u8],
     ) {
-        let Some(scene) = &view.scene.large else {
-            panic!("colours are asked for of a scene that was prepared without them");
-        };
         self.find(canvas, faces);
-        let Self { renderer, noon, faces, nearest, inverse_depth, .. } = self;
-        let (width, height) = (canvas.width as u32, canvas.height as u32);
-        let camera = Camera { width, height, horizontal_fov_rad: view.horizontal_fov_rad };
-        let renderer = match renderer {
-            Some(known) if known.camera() == camera => known,
-            other => other.insert(new_renderer(camera)),
-        };
-        renderer.set_level(level);
-        renderer.set_look(view.look);
-        if noon.is_none() {
-            *noon = cosfly_materials::presets::preset(WEATHER);
-        }
-        let Some(weather) = view.weather.or(noon.as_ref()) else { return };
-        let target = view.target;
-        let setup = FrameSetup { pose: view.pose, weather, target, others: view.others };
+        let Self { drawing, faces, nearest, inverse_depth, .. } = self;
         let picture = FoundPicture { nearest, inverse_depth, faces, parts };
-        rgb.copy_from_slice(renderer.colours_of(scene, &setup, &picture));
+        drawing.with(level, view, [canvas.width, canvas.height], &mut |renderer, scene, setup| {
+            rgb.copy_from_slice(renderer.colours_of(scene, setup, &picture));
+        });
+    }
+
+    /// Draws a picture of a scan, all of it.
+    pub fn draw_scan(&mut self, level: Level, view: &BatchView<'_>, size: [usize; 2], outputs: &mut Outputs<'_>) {
+        let parts = if outputs.rgb.is_some() { FrameParts::All } else { FrameParts::Ids };
+        self.drawing.with(level, view, size, &mut |renderer, scene, setup| {
+            let images = renderer.render_parts(scene, setup, parts).images;
+            copy(&mut outputs.rgb, &images.rgb);
+            copy(&mut outputs.depth_m, &images.depth_m);
+            copy(&mut outputs.semantic, &images.semantic);
+            copy(&mut outputs.instance, &images.instance);
+            if let Some(mask) = &mut outputs.target_mask {
+                let is_target = images.instance.iter().map(|id| u8::from(*id == TARGET_INSTANCE));
+                mask.iter_mut().zip(is_target).for_each(|(to, from)| *to = from);
+            }
+            if !outputs.on_request.is_empty() {
+                renderer.for_each_point(&view.pose, &mut |at, point| {
+                    outputs.on_request.iter_mut().for_each(|channel| channel.set(at, point));
+                });
+            }
+        });
     }
 
     /// Lists the faces that are seen, in the order of the pixels.
@@ -104,6 +107,48 @@ fn number_of(face: usize, faces: &[DrawnFace], numbers: &mut [u32], seen: &mut V
         seen.push(FoundFace { plane, of, triangle, label, instance });
     }
     *number
+}
+
+fn copy<T: Copy>(to: &mut Option<&mut [T]>, from: &[T]) {
+    if let Some(to) = to {
+        to.copy_from_slice(from);
+    }
+}
+
+/// The large renderer for pictures of one size.
+#[derive(Default)]
+struct Drawing {
+    renderer: Option<Renderer>,
+    noon: Option<Weather>,
+}
+
+impl Drawing {
+    /// Calls `draw` with the renderer, the scene and the setup of a view.
+    ///
+    /// # Panics
+    /// Where the scene of the view was made without colours.
+    fn with(
+        &mut self,
+        level: Level,
+        view: &BatchView<'_>,
+        [width, height]: [usize; 2],
+        draw: &mut dyn FnMut(&mut Renderer, &Scene, &FrameSetup<'_>),
+    ) {
+        let Some(scene) = &view.scene.large else {
+            panic!("colours are asked for of a scene that was prepared without them");
+        };
+        let Self { renderer, noon } = self;
+        let (width, height) = (width as u32, height as u32);
+        let camera = Camera { width, height, horizontal_fov_rad: view.horizontal_fov_rad };
+        let renderer = match renderer {
+            Some(known) if known.camera() == camera => known,
+            other => other.insert(new_renderer(camera)),
+        };
+        renderer.set_level(level);
+        renderer.set_look(view.look);
+        let weather = view.weather.unwrap_or_else(|| &*noon.get_or_insert_with(cosfly_materials::presets::clear_noon));
+        draw(renderer, scene, &FrameSetup { pose: view.pose, weather, target: view.target, others: view.others });
+    }
 }
 
 fn new_renderer(camera: Camera) -> Renderer {

@@ -31,7 +31,8 @@ impl<'a> OnRequest<'a> {
         }
     }
 
-    fn set(&mut self, at: usize, point: &SeenPoint) {
+    /// Fills a pixel.
+    pub(crate) fn set(&mut self, at: usize, point: &SeenPoint) {
         match self {
             Self::Numbers(number, numbers) => numbers[at] = number(point),
             Self::Bytes(three, bytes) => bytes[3 * at..3 * at + 3].copy_from_slice(&three(point)),

@@ -71,6 +71,9 @@ impl Painter {
 
     /// Draws a picture into buffers of its own size.
     pub fn paint(&mut self, view: &BatchView<'_>, outputs: &mut Outputs<'_>) {
+        if view.scene.is_scan {
+            return self.colours.draw_scan(self.level, view, [self.canvas.width, self.canvas.height], outputs);
+        }
         let eye = Eye::new(&view.pose, self.canvas.width, self.canvas.height, view.horizontal_fov_rad);
         self.canvas.clear();
         self.faces.clear();

@@ -5,7 +5,7 @@ use crate::buried::seen_from_above;
 use crate::ground::Ground;
 use cosfly_domain::Town;
 use cosfly_frames::Seed;
-use cosfly_render::Scene;
+use cosfly_render::{Scene, SceneScan};
 use cosfly_town::GroundIndex;
 
 /// Everything that the cameras of one town share. Immutable: any number of threads may draw from it.
@@ -14,6 +14,8 @@ pub struct BatchScene {
     pub(crate) ground: Ground,
     /// The scene of the large renderer, which draws colours.
     pub(crate) large: Option<Scene>,
+    /// Whether that is a scan, which it draws whole.
+    pub(crate) is_scan: bool,
 }
 
 impl BatchScene {
@@ -27,6 +29,11 @@ impl BatchScene {
         Self { large: Some(Scene::of_boxes(town, seed)), ..self }
     }
 
+    /// Scene of a scan: its pictures are those of the large renderer, in all channels.
+    pub fn with_scan(self, town: &Town, seed: Seed, scan: SceneScan) -> Self {
+        Self { large: Some(Scene::new(town, seed).with_scan(scan)), is_scan: true, ..self }
+    }
+
     /// Prepares a town with the index of its ground for all channels but colours: a small part of the memory.
     pub fn without_colours(town: &Town, index: &GroundIndex) -> Self {
         let mut faces = Scene::faces_of(town);
@@ -38,7 +45,7 @@ impl BatchScene {
         }
         let ground = seen_from_above(&faces[boxes..], index);
         let ground = Ground::of(ground.iter().collect());
-        Self { boxes: Boxes::of(&faces[..boxes]), ground, large: None }
+        Self { boxes: Boxes::of(&faces[..boxes]), ground, large: None, is_scan: false }
     }
 
     /// Memory that the scene holds without what colours need, bytes.

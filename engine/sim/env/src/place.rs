@@ -4,6 +4,7 @@ use cosfly_batch::BatchScene;
 use cosfly_domain::{BodyId, OrientedBox, Town, largest_object_instance};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
+use cosfly_render::SceneScan;
 use cosfly_sensors::GeoOrigin;
 use cosfly_town::GroundIndex;
 use std::sync::{Arc, OnceLock};
@@ -18,6 +19,8 @@ pub struct FlightSite {
     lowest_m: f64,
     largest_object: u32,
     looks: Seed,
+    /// The scan that pictures show.
+    scan: SceneScan,
     /// The town as pictures show it.
     town: Arc<Town>,
     without_colours: OnceLock<BatchScene>,
@@ -34,10 +37,17 @@ impl FlightSite {
             lowest_m: town.min_in_world.z.min(0.0),
             largest_object: largest_object_instance(&town),
             looks,
+            scan: SceneScan::default(),
             town,
             without_colours: OnceLock::new(),
             with_colours: OnceLock::new(),
         }
+    }
+
+    /// These surroundings, whose pictures show a scan.
+    #[must_use]
+    pub fn with_scan(self, scan: SceneScan) -> Self {
+        Self { scan, ..self }
     }
 
     /// Boxes on flat ground at height 0.
@@ -54,6 +64,10 @@ impl FlightSite {
     /// The surroundings prepared for pictures, at the first call, which takes about a second in a town. Boxes on flat ground are not
     /// in pictures. What colours need is prepared where they are asked for only: it is most of the memory.
     pub fn scene(&self, has_colours: bool) -> &BatchScene {
+        if !self.scan.is_empty() {
+            let scanned = || self.prepared().with_scan(&self.town, self.looks, self.scan.clone());
+            return self.with_colours.get_or_init(scanned);
+        }
         if has_colours {
             return self.with_colours.get_or_init(|| self.prepared().with_colours(&self.town, self.looks));
         }

@@ -11,7 +11,7 @@ use cosfly_raster::visibility::{PlaneOnScreen, Screen};
 /// The faces of a picture.
 #[derive(Clone, Copy)]
 pub struct FoundPicture<'a> {
-    /// Number of the nearest one of `faces` at each pixel centre; [`crate::outside::NO_FACE`] for none.
+    /// Number of the nearest one of `faces` at each pixel centre; [`cosfly_raster::visibility::NO_FACE`] for none.
     pub nearest: &'a [u32],
     /// Inverse depth at each pixel centre, 1/m, for telling who hides whom: a margin of 10^-5 of it does not matter.
     pub inverse_depth: &'a [f32],

@@ -48,7 +48,7 @@ pub use look::PictureLook;
 pub use outlook::Outlook;
 pub use props::SceneModel;
 pub use renderer::{FrameParts, Renderer};
-pub use scene::{Scene, SceneTriangle};
+pub use scene::{Scene, SceneScan, SceneTriangle};
 pub use scene_mesh::SceneMesh;
 pub use scene_splats::SceneSplats;
 pub use setup::FrameSetup;

@@ -21,12 +21,13 @@ use crate::shade::shader::Shader;
 use crate::shade::smooth;
 use crate::stages::{Stages, Stopwatch};
 use crate::target_view;
+use cosfly_domain::channels::SeenPoint;
 use cosfly_domain::{
     BodyView, Camera, ChannelImage, ChannelSet, FrameImages, Optics, SemanticLabel, TARGET_INSTANCE, TargetView,
 };
 use cosfly_figures::Region;
-use cosfly_frames::DVec3;
 use cosfly_frames::simd::Level;
+use cosfly_frames::{DVec3, Pose};
 use cosfly_materials::parts::BOX_FACES;
 use cosfly_optics::Glass;
 use cosfly_raster::eye::Eye;
@@ -195,6 +196,12 @@ impl Renderer {
         self.draw(scene, setup, FrameParts::All, &mut Stopwatch::new(None));
         retouch(&mut self.images.rgb);
         self.finished()
+    }
+
+    /// Visits what is seen at each pixel of the frame that was drawn last, from its pose.
+    pub fn for_each_point(&self, pose: &Pose, visit: &mut dyn FnMut(usize, &SeenPoint)) {
+        let seen = (&self.nearest.face[..], &self.faces[..]);
+        on_request::for_each_point(&self.images, seen, (&Eye::new(pose), &self.screen), visit);
     }
 
     /// Images of the frame that was drawn last.

@@ -24,6 +24,7 @@ use cosfly_materials::roof_step::{FaceLook, RoofStep};
 use cosfly_materials::roof_steps::roof_steps;
 use cosfly_materials::vector::Vec3;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Polygons in one cluster of ground.
@@ -52,9 +53,9 @@ pub struct Scene {
     /// Cars of the town as vehicles.
     pub(crate) parked: Vec<Bystander>,
     /// A scan's triangles, in the place of boxes, models and parked cars; ground shows through its holes.
-    pub(crate) mesh: Option<SceneMesh>,
+    pub(crate) mesh: Option<Arc<SceneMesh>>,
     /// A scan's colours, in the place of those of boxes and ground.
-    pub(crate) splats: Option<SceneSplats>,
+    pub(crate) splats: Option<Arc<SceneSplats>>,
     /// Shadows of everything above, drawn as views need them.
     pub(crate) sun_maps: SunMaps,
     /// Tells scenes of one process apart; buffers that outlive a frame remember it.
@@ -76,6 +77,22 @@ pub struct SceneTriangle {
     pub label: u8,
     /// Instance id.
     pub instance: u32,
+}
+
+/// A scan of a town's place, which several scenes share.
+#[derive(Clone, Default)]
+pub struct SceneScan {
+    /// Triangles in the place of boxes.
+    pub mesh: Option<Arc<SceneMesh>>,
+    /// Colours in the place of those of boxes and ground.
+    pub splats: Option<Arc<SceneSplats>>,
+}
+
+impl SceneScan {
+    /// Whether there is nothing of a scan.
+    pub fn is_empty(&self) -> bool {
+        self.mesh.is_none() && self.splats.is_none()
+    }
 }
 
 impl Scene {
@@ -155,21 +172,20 @@ impl Scene {
         self
     }
 
-    /// This town drawn as a textured mesh; without one, as it is.
-    pub fn with_mesh(mut self, mesh: Option<SceneMesh>) -> Self {
-        self.mesh = mesh;
-        self
+    /// This town drawn as a scan; where that is empty, as it is.
+    pub fn with_scan(self, scan: SceneScan) -> Self {
+        let SceneScan { mesh, splats } = scan;
+        Self { mesh, splats, ..self }
     }
 
     /// The textured mesh that it is drawn as.
     pub fn mesh(&self) -> Option<&SceneMesh> {
-        self.mesh.as_ref()
+        self.mesh.as_deref()
     }
 
-    /// This town with the colours of a scan; without one, as it is.
-    pub fn with_splats(mut self, splats: Option<SceneSplats>) -> Self {
-        self.splats = splats;
-        self
+    /// Cars of the town as vehicles, which are drawn in the place of their boxes.
+    pub fn parked(&self) -> &[Bystander] {
+        &self.parked
     }
 
     /// Whether a face of a box is the wall of a building, not its roof.

@@ -3,6 +3,7 @@
 use crate::mesh_labels::{MeshLook, looks};
 use cosfly_domain::Town;
 use cosfly_frames::{DVec3, real};
+use cosfly_geometry::{Shape, Triangle};
 use cosfly_models::mesh::{MeshConfig, TexturedMesh};
 use std::ops::Range;
 
@@ -61,6 +62,25 @@ impl SceneMesh {
     /// Share of its area that lies on boxes or ground of the town.
     pub fn known_share(&self) -> f64 {
         self.known_share
+    }
+
+    /// Smallest distance of a path to triangles that are not ground, metres; `within_m` where it is no smaller.
+    pub fn clearance_m(&self, path_in_world: &[DVec3], within_m: f64) -> f64 {
+        let mut best_m = within_m;
+        for (from, to) in path_in_world.iter().zip(path_in_world.iter().skip(1)) {
+            let (middle, half_m) = (0.5 * (*from + *to), 0.5 * from.distance(*to));
+            for cluster in &self.clusters {
+                let gap = (middle - cluster.center_in_world).abs() - cluster.half_bounds_m;
+                if gap.max(DVec3::ZERO).length() - half_m >= best_m {
+                    continue;
+                }
+                for number in cluster.triangles.clone().filter(|number| self.looks[*number].instance != 0) {
+                    let triangle = Triangle { corners_in_world: self.mesh.triangles[number].corners() };
+                    best_m = triangle.segment_distance(*from, *to, best_m).unwrap_or(best_m);
+                }
+            }
+        }
+        best_m
     }
 
     /// Number of triangles.

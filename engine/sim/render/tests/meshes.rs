@@ -1,35 +1,32 @@
-//! Textured meshes in pictures: the depth and labels of a known town, baked light, cut-outs, bodies and their shadows; bounds of boxes.
+//! Textured meshes in pictures: baked light, cut-outs, bodies and their shadows.
 
-mod meshed;
-mod small_town;
-
-use cosfly_domain::{Camera, FrameImages, SemanticLabel, TARGET_INSTANCE, Town, Weather};
+use cosfly_domain::{Camera, FrameImages, SemanticLabel, TARGET_INSTANCE, Weather};
 use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose, Seed, TargetState};
-use cosfly_geometry::{BoxBvh, SpatialQuery};
 use cosfly_maps::{MapConfig, read_town};
 use cosfly_models::mesh::{MeshConfig, TexturedMesh};
-use cosfly_render::{FrameSetup, Renderer, Scene, SceneMesh};
+use cosfly_render::{FrameSetup, Renderer, Scene, SceneMesh, SceneScan};
+use std::sync::Arc;
 
 const CAMERA: Camera = Camera { width: 320, height: 180, horizontal_fov_rad: 1.2 };
 /// On the pavement before the example's house, world axes.
 const FEET: DVec3 = DVec3::new(-4.0, 4.0, 0.12);
 
 /// A file as the map and as the mesh of a scene.
-fn scene_of(bytes: &[u8], exposure_ev: f64) -> (Town, Scene) {
+fn scene_of(bytes: &[u8], exposure_ev: f64) -> Scene {
     let (town, _) = read_town(bytes, &MapConfig::default(), Seed([5; 32])).expect("a town");
     let config = MeshConfig { exposure_ev, ..MeshConfig::new("scan.glb") };
     let place = config.place(town.origin.offset_m).expect("a place");
     let mesh = TexturedMesh::read(bytes, &[], &place).expect("a mesh");
     let mesh = SceneMesh::new(mesh, &config, &town);
     assert!(mesh.known_share() > 0.99, "{}", mesh.known_share());
-    let scene = Scene::new(&town, Seed([1; 32])).with_mesh(Some(mesh));
-    (town, scene)
+    let scan = SceneScan { mesh: Some(Arc::new(mesh)), ..SceneScan::default() };
+    Scene::new(&town, Seed([1; 32])).with_scan(scan)
 }
 
 fn example() -> Scene {
-    scene_of(TexturedMesh::EXAMPLE, 0.0).1
+    scene_of(TexturedMesh::EXAMPLE, 0.0)
 }
 
 fn noon(sun_azimuth_angle: f64) -> Weather {
@@ -76,42 +73,6 @@ fn off_edges(images: &FrameImages) -> impl Iterator<Item = usize> + '_ {
     (width + 1..images.semantic.len() - width - 1).filter(is_inner)
 }
 
-/// The label that the name of a part says: readers of meshes take road marks as roads.
-fn named(label: u8) -> u8 {
-    if label == SemanticLabel::RoadLine.id() { SemanticLabel::Roads.id() } else { label }
-}
-
-#[test]
-fn a_known_town_has_its_depth_and_labels_as_a_mesh() {
-    let known = Scene::new(&small_town::small_town(1, 1), Seed([1; 32]));
-    let triangles = known.triangles();
-    let text = meshed::obj_of(&triangles);
-    let (town, meshed) = scene_of(text.as_bytes(), 0.0);
-    for from in [DVec3::new(-22.0, -16.0, 12.0), DVec3::new(-25.0, 8.0, 6.0), DVec3::new(1.0, 2.0, 60.0)] {
-        let pose = look_at(from, DVec3::new(-2.0, 2.0, 2.0));
-        let (truth, drawn) = (draw(&known, pose, None, &noon(200.0)), draw(&meshed, pose, None, &noon(200.0)));
-        let (mut pixels, mut deep, mut other) = (0, 0, 0);
-        for at in off_edges(&truth).filter(|at| truth.depth_m[*at].is_finite()) {
-            pixels += 1;
-            deep += usize::from((truth.depth_m[at] - drawn.depth_m[at]).abs() > 0.02);
-            other += usize::from(named(truth.semantic[at]) != drawn.semantic[at]);
-        }
-        assert!(pixels > 10_000, "{pixels}");
-        // Layers of ground in one place may change their order along their edges.
-        assert!(1000 * deep <= pixels, "{deep} of {pixels} pixels are more than 2 cm off");
-        assert!(200 * other <= pixels, "{other} of {pixels} pixels have another label");
-    }
-    // What is solid in the mesh lies in the boxes that the planner keeps away from.
-    let boxes = BoxBvh::build(town.obstacles.iter().map(|obstacle| obstacle.shape).collect());
-    for triangle in triangles.iter().filter(|it| it.instance != 0) {
-        let middle = triangle.corners_in_world.into_iter().sum::<DVec3>() / 3.0;
-        for point in triangle.corners_in_world.into_iter().chain([middle]) {
-            let out_m = boxes.nearest(point, 1.0).map_or(1.0, |near| near.distance_m);
-            assert!(out_m < 0.01, "{point} of label {} lies {out_m} m outside of all boxes", triangle.label);
-        }
-    }
-}
-
 #[test]
 fn light_is_that_of_the_file_and_exposure_is_a_key() {
     let pose = look_at(DVec3::new(8.0, 16.0, 5.0), DVec3::new(-5.0, -4.0, 3.0));
@@ -129,7 +90,7 @@ fn light_is_that_of_the_file_and_exposure_is_a_key() {
     let count = |keep: &dyn Fn(&&[u8; 3]) -> bool| walls.iter().filter(|pixel| keep(pixel)).count();
     assert!(2 * count(&|pixel| pixel[0] > pixel[1].saturating_add(40)) > walls.len(), "bricks");
     assert!(count(&|pixel| pixel[1] > 130) > 20, "mortar");
-    let bright = draw(&scene_of(TexturedMesh::EXAMPLE, 1.0).1, pose, None, &noon(200.0));
+    let bright = draw(&scene_of(TexturedMesh::EXAMPLE, 1.0), pose, None, &noon(200.0));
     let sum = |images: &FrameImages| inner.iter().map(|at| u64::from(images.rgb[3 * at + 1])).sum::<u64>();
     assert!(10 * sum(&bright) > 12 * sum(&images));
 }

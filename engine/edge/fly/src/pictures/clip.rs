@@ -30,7 +30,7 @@ pub fn clip(task: &EpisodeTask, settings: &EnvironmentSettings, steps: &[LogLine
     if shown.is_empty() {
         return Ok(None);
     }
-    let scene = Scene::new(&task.scenery.town, task.scenery.looks);
+    let scene = task.scenery.scene();
     let height = (f64::from(WIDTH_PX) * settings.lens.aspect) as u32;
     let horizontal_fov_rad = settings.lens.horizontal_deg.to_radians();
     let mut renderer = Renderer::new(Camera { width: WIDTH_PX, height: height.max(1), horizontal_fov_rad });

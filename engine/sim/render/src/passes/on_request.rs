@@ -9,6 +9,23 @@ use cosfly_raster::visibility::Screen;
 
 /// Fills the channels on request of a frame whose other channels are finished; `nearest` are the faces seen.
 pub(crate) fn draw(images: &mut FrameImages, nearest: &[u32], faces: &[DrawnFace], eye: &Eye, screen: &Screen) {
+    let mut on_request = core::mem::take(&mut images.on_request);
+    for_each_point(images, (nearest, faces), (eye, screen), &mut |at, point| {
+        for image in on_request.iter_mut().filter(|image| !image.channel.is_of_films()) {
+            let size = image.channel.bytes_on_request();
+            image.channel.draw(point, &mut image.bytes[size * at..size * (at + 1)]);
+        }
+    });
+    images.on_request = on_request;
+}
+
+/// Visits what is seen at each pixel of a frame, by its number.
+pub(crate) fn for_each_point(
+    images: &FrameImages,
+    (nearest, faces): (&[u32], &[DrawnFace]),
+    (eye, screen): (&Eye, &Screen),
+    visit: &mut dyn FnMut(usize, &SeenPoint),
+) {
     let turn = eye.world_from_body;
     for (at, &face) in nearest.iter().enumerate() {
         let (column, row) = ((at % screen.width) as f64, (at / screen.width) as f64);
@@ -24,9 +41,6 @@ pub(crate) fn draw(images: &mut FrameImages, nearest: &[u32], faces: &[DrawnFace
             ray_in_world,
             camera_in_world: eye.position_in_world,
         };
-        for image in images.on_request.iter_mut().filter(|image| !image.channel.is_of_films()) {
-            let size = image.channel.bytes_on_request();
-            image.channel.draw(&point, &mut image.bytes[size * at..size * (at + 1)]);
-        }
+        visit(at, &point);
     }
 }

@@ -1,12 +1,12 @@
 //! `cosfly map inspect`: the town that is read from a map file, in figures and as a plan.
 
-use super::mesh;
+use super::{mesh, town};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
 use clap::Parser;
 use cosfly_diagnose::Diagnostic;
-use cosfly_experts::map_files::{ReadMap, read_map};
+use cosfly_experts::map_files::ReadMap;
 use cosfly_maps::advice::why_not_compared;
 use cosfly_maps::form::form;
 use cosfly_town::census::{Census, census};
@@ -44,7 +44,7 @@ pub struct Arguments {
 
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
-        let map = self.read()?;
+        let map = town::read("map inspect", &self.file, &self.parameters)?;
         let plan = match (&self.plan, self.json) {
             (Some(path), _) => Some(path.clone()),
             (None, true) => None,
@@ -62,20 +62,6 @@ impl Command for Arguments {
         }
         console.print(&if self.json { format!("{figures:#}\n") } else { text(&map, &figures, plan.as_deref()) })?;
         Ok(exit::SUCCESS)
-    }
-}
-
-impl Arguments {
-    /// The town; the parameters are checked as those of a recipe.
-    fn read(&self) -> Result<ReadMap, crate::command::Refusals> {
-        // TOML and JSON write strings alike.
-        let file = Value::from(self.file.to_string_lossy().as_ref());
-        let recipe = format!("name = \"map\"\n\n[stages.map]\nuse = \"map\"\nsource = {file}\n");
-        let changes: Vec<String> = self.parameters.iter().map(|change| format!("stages.map.{change}")).collect();
-        let recipe = cosfly_recipe::read(Path::new("map inspect"), &recipe, &changes, &cosfly_stages::registry())?;
-        let stage = &recipe.stages[0];
-        let files: Vec<PathBuf> = stage.sources.iter().map(|source| source.path.clone()).collect();
-        Ok(read_map(stage.parameters.clone(), &files)?)
     }
 }
 
