@@ -71,12 +71,20 @@ impl<T> Kind<T> {
 }
 
 impl<T: Serialize> Kind<T> {
+    /// A value as the bytes of a blob.
+    ///
+    /// # Errors
+    /// Values that cannot be written.
+    pub fn encode(&self, value: &T) -> Result<Vec<u8>> {
+        codec::encode(self.artifact, value)
+    }
+
     /// Writes a value as the blob of an item.
     ///
     /// # Errors
     /// Those of the disk.
     pub fn put(&self, outputs: &mut dyn OutputSink, value: &T) -> Result<()> {
-        outputs.put(self.blob, &codec::encode(self.artifact, value)?)
+        outputs.put(self.blob, &self.encode(value)?)
     }
 }
 

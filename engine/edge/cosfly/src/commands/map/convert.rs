@@ -8,6 +8,7 @@ use clap::Parser;
 use cosfly_bake::{BakeProblem, MOST_TEXELS, bake};
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_domain::{Town, Weather};
+use cosfly_experts::artifacts;
 use cosfly_fingerprint::Digest;
 use cosfly_frames::Seed;
 use cosfly_splats::MOST_SPLATS;
@@ -94,7 +95,8 @@ impl Arguments {
     }
 
     fn baked(&self, town: &Town) -> Result<cosfly_bake::BakedTown, Box<Diagnostic>> {
-        let looks = Seed(Digest::of(town.name.as_bytes()).0);
+        // As in films of the town.
+        let looks = Seed(Digest::of(&artifacts::TOWN.encode(town)?).0);
         bake(town, looks, &weather(), self.texel_m)
             .map_err(|BakeProblem { texels }| self.too_large(texels, "pixels", MOST_TEXELS))
     }
