@@ -35,7 +35,8 @@ fn main() {
     let mut renderer = Renderer::new(RenderConfig::default().camera());
     let now = || cpu_ns(started);
     println!("{:14}{} CPU ms a frame", "", Stages::NAMES.map(|name| format!("{name:>10}")).join(""));
-    for (name, away) in [("follow", [-17.0, -10.0, 20.0]), ("high", [40.0, -60.0, 120.0]), ("street", [-14.0, -8.0, 5.0])]
+    for (name, away) in
+        [("follow", [-17.0, -10.0, 20.0]), ("high", [40.0, -60.0, 120.0]), ("street", [-14.0, -8.0, 5.0])]
     {
         let mut sum = [0; Stages::NAMES.len()];
         for frame in 0..=FRAMES {
