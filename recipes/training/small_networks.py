@@ -56,6 +56,7 @@ class Windows:
         )
         flights = {row["trajectory_id"]: row for row in flights.to_pylist()}
         lists = lambda name, width: table[name].combine_chunks().flatten().to_numpy().reshape(len(table), -1, width)
+        self.table = table
         self.trajectory_id = table["trajectory_id"].to_pylist()
         self.start_frame = table["start_frame"].to_pylist()
         self.current = lists("current_pose_in_world", 6)[:, 0]
@@ -68,6 +69,7 @@ class Windows:
         self.focal_px = np.array([row["camera_focal_px"] for row in rows])
         self.boxes_px = lists("input_boxes_px", 4).astype(np.float64)
         self.depth_m = None
+        self.town = np.array([row["town"] for row in rows])
         walkers = [(row["town"], row["pedestrian_id"]) for row in rows]
         numbers = {walker: number for number, walker in enumerate(dict.fromkeys(walkers))}
         self.walker = np.array([numbers[walker] for walker in walkers], dtype=int)
@@ -165,6 +167,14 @@ def outcomes(windows):
     return relative(windows.current, waypoints).reshape(len(windows), -1)
 
 
+def as_deltas(found, current):
+    """Increments along the world's axes, from waypoint to waypoint, of outcomes."""
+    found = found.reshape(len(found), -1, 6)
+    place = turned(found[..., :3], -current[:, None, 4])
+    reached = np.concatenate([place, found[..., 3:]], axis=-1)
+    return np.diff(reached, axis=1, prepend=np.zeros_like(reached[:, :1]))
+
+
 class Scale:
     """Columns with mean 0 and spread 1; columns that never change become 0."""
 
@@ -220,10 +230,7 @@ class Network:
 
     def deltas(self, x, current):
         """Predicted increments along the world's axes, from waypoint to waypoint."""
-        found = self.learnt.undo(self.forward(self.seen.apply(x))[-1]).reshape(len(x), -1, 6)
-        place = turned(found[..., :3], -current[:, None, 4])
-        reached = np.concatenate([place, found[..., 3:]], axis=-1)
-        return np.diff(reached, axis=1, prepend=np.zeros_like(reached[:, :1]))
+        return as_deltas(self.learnt.undo(self.forward(self.seen.apply(x))[-1]), current)
 
 
 def errors(deltas, windows):

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""The paper's tables, by one command: makes the data, trains every row, and says which findings hold.
+
+    python recipes/training/paper/run.py --out out/paper
+    python recipes/training/paper/run.py --out out/paper --data out/hundred     # another dataset with perturbed twins
+    python recipes/training/paper/run.py --out out/paper --pictures             # rows with pictures, too: for a card
+
+Needs `cosfly` on the path, torch 1.13 or newer, numpy and pyarrow; rows with pictures need the package cosfly, `mcap` and
+`mcap-protobuf-support` besides. A row's result of one seed is a file: what is there is not trained again, so that a run that was ended
+(`--minutes`) goes on. Writes `report.md`, and prints it. The book's page "The paper's tables" has the figures.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import BinaryIO, Callable, Dict, List, Optional
+
+import numpy as np
+
+try:
+    import torch
+except ImportError:
+    raise SystemExit("torch is missing: `apt-get install python3-torch libopenblas0` on Debian and Ubuntu, `pip install torch` elsewhere") from None
+
+import report
+from rows import PERTURBED, EXPERT, ROWS, ZERO, PaperWindows, Row, trained
+
+# Pictures in which a person has 16 pixels of height, in the full look.
+WITH_PICTURES = ["stages.frames.look=full", "stages.frames.width=640", "stages.frames.height=360"]
+
+
+def make_data(chosen: argparse.Namespace) -> Path:
+    if chosen.data:
+        return chosen.data
+    folder = chosen.out / ("data_with_pictures" if chosen.pictures else "data")
+    settings = (WITH_PICTURES if chosen.pictures else []) + chosen.set
+    command = [chosen.cosfly, "run", str(Path(__file__).parent / "data.toml"), "--out", str(folder), "--quiet"]
+    try:
+        done = subprocess.run(command + [part for it in settings for part in ("--set", it)])
+    except OSError as error:
+        raise SystemExit(f"cannot start `{chosen.cosfly}`: {error}; name the program with `--cosfly`") from None
+    if done.returncode:
+        raise SystemExit(done.returncode)
+    return folder
+
+
+def write_whole(path: Path, write: Callable[[BinaryIO], object]) -> None:
+    """A file that is there is whole."""
+    part = path.with_name(path.name + ".part")
+    with part.open("wb") as file:
+        write(file)
+    os.replace(part, path)
+
+
+class Jobs:
+    """Results of jobs as files; no job begins after the minutes are over."""
+
+    def __init__(self, folder: Path, minutes: Optional[float]) -> None:
+        self.folder, self.end = folder, None if minutes is None else time.monotonic() + 60 * minutes
+        self.left = 0
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def result(self, name: str, make: Callable[[], np.ndarray]) -> Optional[np.ndarray]:
+        path = self.folder / f"{name}.npy"
+        if not path.exists():
+            if self.end is not None and time.monotonic() > self.end:
+                self.left += 1
+                return None
+            began = time.monotonic()
+            made = make()
+            write_whole(path, lambda file: np.save(file, made))
+            print(f"{name}: {time.monotonic() - began:.1f} s", file=sys.stderr, flush=True)
+        return np.load(path)
+
+
+def scene_job(chosen: argparse.Namespace, pack: "object", lessons: PaperWindows, judged: PaperWindows, seed: int) -> np.ndarray:
+    import pictures
+
+    learnt_from = np.unique(pack.rows(lessons))
+    is_judged = np.ones(len(judged), bool) if judged.is_seen.all() else ~judged.is_seen
+    places, first = np.unique(pack.rows(judged)[is_judged, -1], return_index=True)
+    flights = judged.walker[is_judged][first]
+    found = pictures.scene_scores(pack, learnt_from, places, flights, chosen.steps, seed)
+    return np.array([found[name] for name in pictures.METRICS])
+
+
+def main() -> None:
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("--out", type=Path, required=True, help="folder of data, results and the report")
+    arguments.add_argument("--data", type=Path, help="a finished dataset with windows of split train and of others, instead of data.toml")
+    arguments.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="setting of data.toml, as of `cosfly run`")
+    arguments.add_argument("--cosfly", default="cosfly", help="the program (default cosfly)")
+    arguments.add_argument("--pictures", action="store_true", help="rows with pictures, too")
+    arguments.add_argument("--anchor", choices=["expert", "input"], default="expert", help="where waypoints begin (default expert, the paper's)")
+    arguments.add_argument("--steps", type=int, default=3000, help="steps of training (default 3000)")
+    arguments.add_argument("--seeds", type=int, default=3, help="networks of each row (default 3)")
+    arguments.add_argument("--minutes", type=float, help="begin no job after so many minutes; run again to go on")
+    chosen = arguments.parse_args()
+    # Small networks gain nothing from more, and the same seed gives the same results on machines of any size.
+    torch.set_num_threads(1)
+    data = make_data(chosen)
+    identity = (data / "SHA256SUMS").read_bytes()
+    key = hashlib.sha256(identity + f"{chosen.anchor} {chosen.steps} {torch.__version__}".encode()).hexdigest()[:12]
+    jobs = Jobs(chosen.out / "rows" / key, chosen.minutes)
+    names = {file.name.split("-")[0] for file in (data / "data/windows").glob("*.parquet")}
+    if "train" not in names or len(names) < 2:
+        raise SystemExit(f"`{data}` needs windows of split `train` and of another split; it has {sorted(names)}")
+    lessons = PaperWindows(data, ["train"], [PERTURBED, EXPERT], chosen.anchor)
+    judged = PaperWindows(data, sorted(names - {"train"}), [PERTURBED], chosen.anchor)
+    pack = None
+    if chosen.pictures:
+        from pictures import Pack
+
+        pack = Pack(data, chosen.out / f"pack-{key}")
+        for windows in (lessons, judged):
+            windows.read_depth(data)
+            windows.seen_m, windows.depth_m = windows.depth_m, None
+    results: Dict[Row, List[np.ndarray]] = {}
+    for row in ROWS:
+        if (row.needs_pictures() and not chosen.pictures) or (row != ZERO and not lessons.chosen(row).any()):
+            continue
+        for seed in range(1 if row == ZERO else chosen.seeds):
+            make = lambda: trained(row, lessons, judged, pack, chosen.steps, seed)
+            result = jobs.result(f"{row.slug()}-{seed}", make)
+            if result is not None:
+                results.setdefault(row, []).append(result)
+    scene = jobs.result("scene-0", lambda: scene_job(chosen, pack, lessons, judged, 0)) if pack else None
+    counts = {row: int(lessons.chosen(row).sum()) for row in results if row != ZERO}
+    text = report.written(results, counts, judged, scene, chosen.anchor)
+    write_whole(chosen.out / "report.md", lambda file: file.write(text.encode()))
+    print(text)
+    if jobs.left:
+        print(f"{jobs.left} jobs are left: run the command again", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()
