@@ -498,7 +498,7 @@ mod tests {
         let has_disparity =
             |config: &RenderConfig| config.channels.contains(&cosfly_domain::channels::disparity::CHANNEL);
         assert!(!has_disparity(&down) && has_disparity(&left) && has_disparity(&right));
-        assert!(!down.channels.contains(&channels::depth_stereo::CHANNEL));
+        assert!(!down.channels.contains(&cosfly_domain::channels::depth_stereo::CHANNEL));
     }
 
     #[test]
