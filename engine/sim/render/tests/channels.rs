@@ -9,7 +9,7 @@ use cosfly_domain::{
 };
 use cosfly_figures::{BodyShape, Bystander, Walker};
 use cosfly_frames::{DMat3, DVec3, Pose, Seed, TargetState, real};
-use cosfly_render::{Effects, FrameBeside, FrameSetup, Moment, Neighbours, Renderer, Scene, Shot};
+use cosfly_render::{Effects, FrameBeside, FrameParts, FrameSetup, Moment, Neighbours, Renderer, Scene, Shot};
 
 const CAMERA: Camera = Camera { width: 160, height: 90, horizontal_fov_rad: 1.4 };
 
@@ -338,7 +338,8 @@ fn wide_lenses_show_every_point_in_the_direction_and_at_the_distance_of_its_ray(
     let all_around = Lens { model: LensModel::Equirectangular, ..Lens::default() };
     let around = Camera { width: 400, height: 200, horizontal_fov_rad: Camera::ALL_AROUND_FOV_RAD };
     let wide = Camera { width: 200, height: 200, horizontal_fov_rad: 115f64.to_radians() };
-    let eye = Pose { roll_rad: 0.1, ..pose() };
+    let (scene, eye) = (scene(), Pose { roll_rad: 0.1, ..pose() });
+    let mut pinhole = Renderer::new(CAMERA);
     for (camera, lens) in [(around, all_around), (wide, Lens::fisheye([-0.01, 0.0, 0.0, 0.0]))] {
         let mut effects = Effects::new(camera, lens, MotionBlur::default(), RollingShutter::default());
         let mut renderer = Renderer::new(effects.ideal_camera());
@@ -346,7 +347,7 @@ fn wide_lenses_show_every_point_in_the_direction_and_at_the_distance_of_its_ray(
         let moment = move |_: f64| Moment { pose: eye, target: moving(0.0).0.target };
         let (neighbours, noise_seed) = (Neighbours::default(), Seed([1; 32]));
         let shot = Shot { weather: &noon(), moment: &moment, others: &|_, _| {}, neighbours, noise_seed };
-        let images = effects.film(&mut renderer, &scene(), &shot).images.clone();
+        let images = effects.film(&mut renderer, &scene, &shot).images.clone();
         assert_eq!((images.width, images.height), (camera.width, camera.height));
         assert!(
             normals_of(&images)
@@ -358,14 +359,9 @@ fn wide_lenses_show_every_point_in_the_direction_and_at_the_distance_of_its_ray(
         let (mut same, mut all, mut behind) = (0, 0, 0);
         for yaw in 0..8 {
             let turned = Pose { yaw_rad: 0.8 * f64::from(yaw), pitch_rad: 0.5 - 0.15 * f64::from(yaw), ..eye };
-            let plain = {
-                let mut renderer = Renderer::new(CAMERA);
-                let target = moving(0.0).0.target;
-                renderer
-                    .render(&scene(), &FrameSetup { pose: turned, weather: &noon(), target, others: &[] })
-                    .images
-                    .clone()
-            };
+            let target = moving(0.0).0.target;
+            let setup = FrameSetup { pose: turned, weather: &noon(), target, others: &[] };
+            let plain = pinhole.render_parts(&scene, &setup, FrameParts::Ids).images.clone();
             for at in (0..160 * 90).step_by(7) {
                 let ray = CAMERA.ray_in_world(&turned, (at % 160) as f64 + 0.5, (at / 160) as f64 + 0.5);
                 let before = eye.world_from_body().transpose() * ray;
