@@ -36,6 +36,7 @@ FULL, POSE, BOX = "Modality pose + box", "Modality pose", "Modality box"
 DENOISING, EXPERTS = "Paradigm denoising", "Paradigm expert only"
 FINDINGS = [
     Finding("Training beats predicting zero", FDE, ("Baseline predict zero", "all"), (FULL, "all"), "2.87 - 1.30"),
+    Finding("Training beats predicting zero on yaw", YAW, ("Baseline predict zero", "all"), (FULL, "all"), "not told"),
     Finding("Pose history is the decisive input", FDE, (BOX, "all"), (POSE, "all"), "3.81 - 1.25"),
     Finding("Boxes add little to poses on the path", FDE, (POSE, "all"), (FULL, "all"), "1.248 - 1.249", is_alike=True),
     Finding("Pictures add little to poses and boxes", FDE, (FULL, "all"), ("Modality RGB + pose + box", "all"), "1.264 - 1.249", is_alike=True),
@@ -80,7 +81,7 @@ def cell(values: Interval) -> str:
 
 def table(name: str, results: Results, counts: Dict[Row, int], judged: PaperWindows) -> List[str]:
     columns = COLUMNS.get(name, USUAL)
-    head = [name, "windows learnt"] + [METRICS[it] for it in columns] + ["the paper"]
+    head = [name, "windows learnt"] + [METRICS[it] for it in columns] + ["the paper, same columns"]
     lines = [f"| {' | '.join(head)} |", f"| {' | '.join(['---', '---:'] + ['---:'] * (len(columns) + 1))} |"]
     whole = np.ones(len(judged), bool)
     for row in (row for row in ROWS if row.table == name):
@@ -140,7 +141,7 @@ def written(results: Results, counts: Dict[Row, int], judged: PaperWindows, scen
     seeds = max((len(it) for row, it in results.items() if row != ZERO), default=0)
     lines = [
         f"{len(judged)} perturbed windows of {judged.walker.max() + 1} walkers judged; waypoints begin at the {anchor}'s pose; mean of {seeds} "
-        f"seed{'s' * (seeds != 1)}; in brackets the middle 95 % of {RESAMPLES} resamples of whole flights. The paper's networks have 0.8 billion weights.\n"
+        f"seed{'s' * (seeds != 1)};\nin brackets the middle 95 % of {RESAMPLES} resamples of whole flights. The paper's networks have 0.8 billion weights.\n"
     ]
     for name in dict.fromkeys(row.table for row in ROWS):
         lines += table(name, results, counts, judged)
