@@ -169,7 +169,7 @@ fn options_of_other_formats_and_values_out_of_range_are_refused() {
     let text = refused("v7", json!({"every": 2}));
     assert!(
         text.contains("`v7` has no option `--every`")
-            && text.contains("an option of `coco`, `imagefolder`, `lasot`, `mot`"),
+            && text.contains("an option of `coco`, `grounding`, `imagefolder`, `lasot`, `mot`"),
         "{text}"
     );
     let text = refused("v7", json!({"town": ["street"]}));

@@ -5,6 +5,7 @@
 
 mod clouds;
 mod coco;
+mod grounding;
 mod image_folder;
 mod lasot;
 mod lerobot;
@@ -21,6 +22,7 @@ use crate::format::Export;
 pub static FORMATS: &[Export] = &[
     Export::of::<clouds::Clouds>(),
     Export::of::<coco::Coco>(),
+    Export::of::<grounding::Grounding>(),
     Export::of::<image_folder::ImageFolder>(),
     Export::of::<lasot::LaSot>(),
     Export::of::<lerobot::LeRobot>(),

@@ -1,0 +1,246 @@
+//! Grounding: a line of JSON per frame: the target's box and visibility, why it is lost and where it comes back, and the expert's next steps.
+
+use crate::card::ExportCard;
+use crate::folder::OutFolder;
+use crate::format::Format;
+use crate::media::{ending, picture_path};
+use crate::sample_text::frame_facts;
+use crate::shared_options::PictureAndTextOptions;
+use crate::source::{ExportedFlight, Source};
+use cosfly_diagnose::Result;
+use cosfly_frames::{action, real};
+use cosfly_read::{FrameRow, PublishedDataset, read};
+use cosfly_schema::losses::cause;
+use cosfly_schema::tables::Objects;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::ops::Range;
+
+/// Boxes, visibility, steps and reasons.
+pub struct Grounding;
+
+/// Number of steps of the expert.
+const STEPS: usize = 5;
+
+impl Format for Grounding {
+    const NAME: &'static str = "grounding";
+    const DOC: &'static str = "JSON lines of frames: box and visibility of the target, why it is lost, where it comes back, the expert's next steps";
+    type Options = PictureAndTextOptions;
+
+    fn write(options: &PictureAndTextOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+        let kinds = kinds(source.dataset)?;
+        for split in source.splits() {
+            write_split(options, source, out, split, &kinds)?;
+        }
+        let mut front_matter = String::from("configs:\n- config_name: default\n  data_files:\n");
+        for split in source.splits() {
+            front_matter.push_str(&format!("  - split: {split}\n    path: {split}.jsonl\n"));
+        }
+        ExportCard { format: "grounding", front_matter, body: BODY.into() }.write(source, out)?;
+        Ok(vec![])
+    }
+}
+
+/// Kinds of objects by town and instance id.
+type Kinds = BTreeMap<(String, u32), String>;
+
+fn kinds(dataset: &PublishedDataset) -> Result<Kinds> {
+    let mut kinds = Kinds::new();
+    for (_, path) in dataset.files("objects")? {
+        read(&path, &mut |rows| {
+            for row in 0..rows.len() {
+                let key = (rows.get(Objects::town, row)?, rows.get(Objects::instance, row)?);
+                kinds.insert(key, rows.get(Objects::kind, row)?);
+            }
+            Ok(())
+        })?;
+    }
+    Ok(kinds)
+}
+
+fn write_split(
+    options: &PictureAndTextOptions,
+    source: &Source<'_>,
+    out: &OutFolder,
+    split: &str,
+    kinds: &Kinds,
+) -> Result<()> {
+    let name = format!("{split}.jsonl");
+    let mut file = out.create(&name)?;
+    let mut number = 0;
+    source.each_flight_of(&|flight| flight.split == split, &mut |episode| {
+        let (flight, rows) = (episode.flight, &episode.frames[..]);
+        let text = episode.instruction(options.instructions.language);
+        let expert = episode.expert_poses()?;
+        let losses = losses(episode);
+        episode.each_picture(
+            &episode.every_nth_frame(options.pictures.every),
+            |frame, logged| {
+                let path = format!(
+                    "images/{split}/{}",
+                    picture_path(number, &flight.trajectory_id, frame, ending(&logged.rgb_format))
+                );
+                out.put(&path, &logged.rgb_file)?;
+                let mut line = frame_facts(flight, &rows[frame], frame, text);
+                line["image"] = json!(path);
+                let poses = std::iter::once(&rows[frame].pose).chain(expert.iter().skip(frame + 1).take(STEPS));
+                let poses: Vec<_> = poses.collect();
+                line["expert_steps_in_body"] =
+                    poses.windows(2).map(|pair| json!(action::in_body(pair[0], pair[1]))).collect();
+                let loss = losses.iter().find(|loss| loss.frames.contains(&frame));
+                let named = |instance| named(kinds, &flight.town, instance);
+                line["loss"] = loss.map_or(Value::Null, |loss| loss.facts(rows, frame, flight.dt_s, &named));
+                line["reason"] = json!(reason(&rows[frame], &line["loss"], &named));
+                Ok(line)
+            },
+            |_, line| writeln!(file, "{line}").map_err(|error| out.refusal(&name, &error)),
+        )?;
+        number += 1;
+        Ok(())
+    })?;
+    file.flush().map_err(|error| out.refusal(&name, &error))
+}
+
+/// Frames in a row without a visible pixel of the target: a row of table `target_losses`.
+struct Loss {
+    frames: Range<usize>,
+    cause_instance: u32,
+    frames_out_of_view: usize,
+}
+
+/// The losses of a flight; none for a target without a body.
+fn losses(episode: &ExportedFlight<'_>) -> Vec<Loss> {
+    let mut begin = 0;
+    let mut losses = vec![];
+    for rows in episode.frames.chunk_by(|a, b| (a.visible_pixels == 0) == (b.visible_pixels == 0)) {
+        if rows[0].visible_pixels == 0 && episode.flight.target_kind.is_some() {
+            losses.push(Loss {
+                frames: begin..begin + rows.len(),
+                cause_instance: cause(rows.iter().map(|row| row.occluder_instance)),
+                frames_out_of_view: rows.iter().filter(|row| !row.in_view).count(),
+            });
+        }
+        begin += rows.len();
+    }
+    losses
+}
+
+impl Loss {
+    /// The loss as frame `now` knows it in hindsight; where the target comes back is seen from the camera's pose now.
+    fn facts(&self, rows: &[FrameRow], now: usize, dt_s: f64, named: &dyn Fn(u32) -> String) -> Value {
+        let is_out_of_view = self.cause_instance == 0 && 2 * self.frames_out_of_view > self.frames.len();
+        let comes_back = rows.get(self.frames.end).map(|row| {
+            let place = rows[now].camera_pose.body_from_world_point(row.target.feet_in_world);
+            json!({
+                "frame": self.frames.end,
+                "in_s": tenths((self.frames.end - now) as f64 * dt_s),
+                "distance_m": tenths(place.length()),
+                "bearing_deg": real::atan2(place.y, place.x).to_degrees().round() + 0.0,
+            })
+        });
+        json!({
+            "start_frame": self.frames.start,
+            "end_frame": self.frames.end,
+            "lost_for_s": tenths((now - self.frames.start) as f64 * dt_s),
+            "cause_instance": self.cause_instance,
+            "cause": if is_out_of_view { "out of view".into() } else { named(self.cause_instance) },
+            "comes_back": comes_back,
+        })
+    }
+}
+
+fn tenths(value: f64) -> f64 {
+    (10.0 * value).round() / 10.0 + 0.0
+}
+
+/// Words for what hides a target: trunk and crown are parts of one tree.
+fn named(kinds: &Kinds, town: &str, instance: u32) -> String {
+    match kinds.get(&(town.to_owned(), instance)).map(String::as_str) {
+        _ if instance == 0 => "the ground".into(),
+        Some("tree_trunk" | "tree_crown") => format!("tree {instance}"),
+        Some(kind) => format!("{} {instance}", kind.replace('_', " ")),
+        None => format!("body {instance}"),
+    }
+}
+
+/// The facts of a frame in words, with the numbers of the line.
+fn reason(row: &FrameRow, loss: &Value, named: &dyn Fn(u32) -> String) -> String {
+    if loss.is_null() {
+        let hidden = 100.0 * (1.0 - row.visible_by_pixels);
+        return match row.occluder_instance {
+            _ if row.visible_pixels == 0 => "The target has no body to see.".into(),
+            0 => "The target is in view.".into(),
+            instance => format!("The target is in view; {} hides {hidden:.0} % of it.", named(instance)),
+        };
+    }
+    let why = match loss["cause"].as_str() {
+        Some("out of view") => "it is out of view".to_owned(),
+        cause => format!("{} hides it", cause.unwrap_or_default()),
+    };
+    let back = &loss["comes_back"];
+    let since = match loss["lost_for_s"].as_f64() {
+        Some(lost_for_s) if lost_for_s > 0.0 => format!("The target has been lost for {lost_for_s} s: {why}."),
+        _ => format!("The target is lost just now: {why}."),
+    };
+    if back.is_null() {
+        return format!("{since} It does not come back in this flight.");
+    }
+    let bearing_deg = back["bearing_deg"].as_f64().unwrap_or_default();
+    let way = match bearing_deg {
+        0.0 => "straight ahead of the camera".to_owned(),
+        _ if bearing_deg < 0.0 => format!("{} degrees to the left of the camera's axis", -bearing_deg),
+        _ => format!("{bearing_deg} degrees to the right of the camera's axis"),
+    };
+    format!("{since} It comes back in {} s, {} m away, {way}.", back["in_s"], back["distance_m"])
+}
+
+const BODY: &str = "\
+```python
+import json
+for line in open(\"train.jsonl\"):
+    row = json.loads(line)
+    row[\"image\"], row[\"visible_box_px\"], row[\"visible_by_pixels\"], row[\"expert_steps_in_body\"], row[\"reason\"]
+```
+
+A line is a frame: path of the picture, facts of tables `trajectories` and `frames`, and
+
+* `visible_box_px`: left, top, right, bottom of what is seen of the target, null where nothing is; `visible_by_pixels`: its share, 0 to 1;
+* `expert_steps_in_body`: up to five steps, from the drone's own pose to the expert's next one, and on along the expert: dx ahead, dy right,
+  dz up (m), dpitch, dyaw, droll (degrees); fewer at the end of a flight;
+* `loss`: null, or the row of table `target_losses` with this `trajectory_id` and `start_frame`: what hides the target in most of its frames,
+  and where it comes back, from the camera's place now (metres to its feet, degrees right of the camera's axis along its picture);
+  `comes_back` is null where the flight ends first;
+* `reason`: the same in words. All numbers in it are in the line. A policy does not know when a target comes back: it is what to learn.
+";
+
+#[cfg(test)]
+mod tests {
+    use crate::laws::{export_with, files, published};
+    use crate::source::Choice;
+    use serde_json::{Map, Value};
+    use std::path::Path;
+
+    #[test]
+    fn every_number_of_a_reason_is_in_the_line() {
+        let (home, dataset) = published();
+        let out = home.path().join("out");
+        export_with(&dataset, "grounding", Map::new(), &Choice::default(), &out).unwrap();
+        let written = files(&out);
+        let mut lines = 0;
+        for (path, bytes) in written.iter().filter(|(path, _)| path.extension().is_some_and(|it| it == "jsonl")) {
+            for line in std::str::from_utf8(bytes).unwrap().lines() {
+                let row: Value = serde_json::from_str(line).unwrap();
+                assert!(written.contains_key(Path::new(row["image"].as_str().unwrap())), "{}: {line}", path.display());
+                let reason = row["reason"].as_str().unwrap();
+                assert_eq!(row["loss"].is_null(), !reason.contains("lost"), "{line}");
+                for fact in ["in_s", "distance_m"] {
+                    let back = &row["loss"]["comes_back"][fact];
+                    assert!(back.is_null() || reason.contains(&back.to_string()), "{line}");
+                }
+                lines += 1;
+            }
+        }
+        assert!(lines > 0);
+    }
+}
