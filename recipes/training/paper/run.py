@@ -105,12 +105,13 @@ def main() -> None:
     # Small networks gain nothing from more, and the same seed gives the same results on machines of any size.
     torch.set_num_threads(1)
     data = make_data(chosen)
+    names = {file.name.split("-")[0] for file in (data / "data/windows").glob("*.parquet")}
+    if "train" not in names or len(names) < 2:
+        found = ", ".join(sorted(names)) or "none"
+        raise SystemExit(f"`{data}` is no dataset with windows of split `train` and of another one; splits found: {found}")
     identity = (data / "SHA256SUMS").read_bytes()
     key = hashlib.sha256(identity + f"{chosen.anchor} {chosen.steps} {torch.__version__}".encode()).hexdigest()[:12]
     jobs = Jobs(chosen.out / "rows" / key, chosen.minutes)
-    names = {file.name.split("-")[0] for file in (data / "data/windows").glob("*.parquet")}
-    if "train" not in names or len(names) < 2:
-        raise SystemExit(f"`{data}` needs windows of split `train` and of another split; it has {sorted(names)}")
     lessons = PaperWindows(data, ["train"], [PERTURBED, EXPERT], chosen.anchor)
     judged = PaperWindows(data, sorted(names - {"train"}), [PERTURBED], chosen.anchor)
     pack = None
