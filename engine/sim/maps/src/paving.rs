@@ -298,7 +298,7 @@ mod tests {
         assert!(thin.synthetic.notes.is_empty());
         let mut invented = blocks(8.0);
         pave_quarters(&mut invented, true);
-        assert_eq!(label_at(&invented, -12.0, 116.0), SemanticLabel::Ground, "beside the outermost street");
+        assert_eq!(label_at(&invented, -9.5, 116.0), SemanticLabel::Ground, "beside the outermost street");
         assert_eq!(label_at(&invented, -55.0, 116.0), SemanticLabel::Terrain, "outside the town");
     }
 
