@@ -26,6 +26,9 @@ const LARGEST_M2: f64 = 6000.0;
 const HOUSES_AROUND: f64 = 0.1;
 const SMALL_M2: f64 = 400.0;
 
+/// Triangles at the edge of bare ground are split until their longest side is shorter than this, metres.
+const SPLIT_M: f64 = 1.2;
+
 /// How a cell is used, as bits.
 const HOUSE: u8 = 1;
 const COVERED: u8 = 2;
@@ -50,6 +53,9 @@ pub(crate) fn pave_quarters(town: &mut Town, invented_streets: bool) {
     cells.find_bare(&houses, invented_streets);
     let mut bare_meshes = Vec::new();
     for mesh in town.surfaces.iter_mut().filter(|mesh| is_terrain(mesh)) {
+        if invented_streets {
+            cells.split_mixed(mesh);
+        }
         let (bare, open): (Vec<_>, Vec<_>) = mesh.triangles.iter().partition(|triangle| {
             cells.is_bare(&triangle.map(|corner| mesh.vertices_in_world[corner as usize].truncate()), &houses)
         });
@@ -170,7 +176,8 @@ impl Cells {
             let is_bare = is_enclosed && is_yard && is_dense && piece.len() <= largest;
             for cell in &piece {
                 let share = |of: &Sums| of.share_around(cell % self.columns, cell / self.columns);
-                let is_beside = || beside_things.as_ref().is_some_and(|it| share(it) > 0.0) && share(houses) >= DENSE_SHARE;
+                let is_beside =
+                    || beside_things.as_ref().is_some_and(|it| share(it) > 0.0) && share(houses) >= DENSE_SHARE;
                 if is_bare || is_beside() {
                     self.uses[*cell] |= BARE;
                     self.bare_cells += 1;
@@ -179,8 +186,29 @@ impl Cells {
         }
     }
 
-    /// Whether more of a triangle's open cells are bare than not; without open cells, whether the quarter is dense.
-    fn is_bare(&self, triangle: &[DVec2; 3], houses: &Sums) -> bool {
+    /// Splits the triangles that hold both bare and open cells into four, again and again, so that land is bare along a fine line.
+    fn split_mixed(&self, mesh: &mut SurfaceMesh) {
+        let mut waiting = std::mem::take(&mut mesh.triangles);
+        while let Some(triangle) = waiting.pop() {
+            let corners = triangle.map(|corner| mesh.vertices_in_world[corner as usize].truncate());
+            let [a, b, c] = triangle;
+            let (bare, open) = self.bare_and_open(&corners);
+            if bare.min(open) == 0 || corners[0].distance(corners[2]) < SPLIT_M {
+                mesh.triangles.push(triangle);
+                continue;
+            }
+            let [ab, bc, ca] = [[a, b], [b, c], [c, a]].map(|[from, to]| {
+                let [from, to] = [from as usize, to as usize];
+                mesh.vertices_in_world.push(0.5 * (mesh.vertices_in_world[from] + mesh.vertices_in_world[to]));
+                mesh.along_across_m.push(0.5 * (mesh.along_across_m[from] + mesh.along_across_m[to]));
+                (mesh.vertices_in_world.len() - 1) as u32
+            });
+            waiting.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+        }
+    }
+
+    /// Numbers of bare and of open cells that a triangle touches.
+    fn bare_and_open(&self, triangle: &[DVec2; 3]) -> (usize, usize) {
         let (mut bare, mut open) = (0, 0);
         visit_rows(self.low, self.cell_m, self.columns, self.rows, triangle, &mut |row, from, to| {
             for cell in &self.uses[row * self.columns + from..=row * self.columns + to] {
@@ -189,6 +217,12 @@ impl Cells {
             }
             true
         });
+        (bare, open)
+    }
+
+    /// Whether more of a triangle's open cells are bare than not; without open cells, whether the quarter is dense.
+    fn is_bare(&self, triangle: &[DVec2; 3], houses: &Sums) -> bool {
+        let (bare, open) = self.bare_and_open(triangle);
         let middle = ((triangle.iter().sum::<DVec2>() / 3.0 - self.low) / self.cell_m).floor();
         let is_within =
             middle.cmpge(DVec2::ZERO).all() && middle.cmplt(DVec2::new(self.columns as f64, self.rows as f64)).all();
