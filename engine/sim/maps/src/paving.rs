@@ -26,7 +26,7 @@ const LARGEST_M2: f64 = 6000.0;
 const HOUSES_AROUND: f64 = 0.1;
 const SMALL_M2: f64 = 400.0;
 
-/// Triangles at the edge of bare ground are split until their longest side is shorter than this, metres.
+/// Triangles at the edge of bare ground are split until the side from their first to their last corner is shorter than this, metres.
 const SPLIT_M: f64 = 1.2;
 
 /// How a cell is used, as bits.
