@@ -47,7 +47,7 @@ fn places_and_names_of_finished_data_are_given_as_the_refusals_say() {
     refused(&street, &with(&["mot"]), "give the folder that `cosfly run` delivered");
     helps(&street, &["run", "recipe.toml", "--quiet"]);
     helps(&street, &["verify", "out/street"]);
-    refused(&street, &with(&["mto"]), "possible values: clouds, coco, imagefolder, lasot, lerobot, mot,");
+    refused(&street, &with(&["mto"]), "possible values: clouds, coco, grounding, imagefolder, lasot, lerobot, mot,");
     refused(&street, &with(&["mot", "--shard-mb", "5"]), "`--shard-mb` is an option of `webdataset`");
     helps(&street, &with(&["mot"]));
     refused(&street, &with(&["mot"]), "give another one with `--out`, or remove this one");
