@@ -20,8 +20,8 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Callback for the topic, time and bytes of a message; returns what is wrong with it.
-type Visit<'a> = &'a mut dyn FnMut(&str, u64, &[u8]) -> Result<(), String>;
+/// Callback for the topic, time (nanoseconds) and bytes of a message; returns what is wrong with it.
+pub type Visit<'a> = &'a mut dyn FnMut(&str, u64, &[u8]) -> Result<(), String>;
 
 /// An open log.
 pub struct LogReader {
@@ -209,12 +209,16 @@ impl LogReader {
         Ok(sweeps)
     }
 
-    pub(super) fn damaged(&self, what: &str) -> Box<Diagnostic> {
+    /// The error of a log that is incomplete.
+    pub fn damaged(&self, what: &str) -> Box<Diagnostic> {
         damaged(&self.path, what, "it was written by another program, or incompletely")
     }
 
     /// Calls `visit` with the messages of `topics` at the times `times_ns`, in the order of their times.
-    pub(super) fn messages(&mut self, times_ns: RangeInclusive<u64>, topics: &[&str], visit: Visit<'_>) -> Result<()> {
+    ///
+    /// # Errors
+    /// `dataset-damaged`.
+    pub fn messages(&mut self, times_ns: RangeInclusive<u64>, topics: &[&str], visit: Visit<'_>) -> Result<()> {
         let options = IndexedReaderOptions::new()
             .include_topics(topics.iter().copied())
             .starting_at(*times_ns.start())

@@ -4,7 +4,7 @@ use super::bodies::PlacedBody;
 use super::rows::{PlacedFlight, PlacedFrame};
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::DVec3;
-use cosfly_read::drawn_ground::{BELOW_GROUND_M, DrawnGround, is_below};
+use cosfly_metrics::drawn_ground::{BELOW_GROUND_M, DrawnGround, is_below};
 use std::collections::BTreeMap;
 
 /// Bodies of one flight by their ids in instance images.

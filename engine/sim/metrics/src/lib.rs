@@ -7,6 +7,7 @@
 //! * [`deltas`]: waypoints from predicted increments.
 //! * [`waypoint`]: errors of waypoints; [`scores`]: their reported means.
 //! * [`boxes`], [`depth`], [`segmentation`], [`detection`]: metrics of pictures.
+//! * [`drawn_ground`]: the ground in a picture around somebody's feet.
 //! * [`single_target`], [`tracking`]: metrics of trackers, of one target and of many bodies.
 //! * [`bootstrap`]: intervals by resampling whole trajectories.
 //! * [`shortcuts`]: signs that give the target away.
@@ -19,6 +20,7 @@ pub mod boxes;
 pub mod deltas;
 pub mod depth;
 pub mod detection;
+pub mod drawn_ground;
 pub mod scores;
 pub mod segmentation;
 pub mod shortcuts;

@@ -2,7 +2,7 @@
 
 use super::median::median;
 use crate::{ExaminedEpisode, Flag};
-use cosfly_read::drawn_ground::{BELOW_GROUND_M, is_below};
+use cosfly_metrics::drawn_ground::{BELOW_GROUND_M, is_below};
 
 /// Compares stated feet with the ground in depth images.
 pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {

@@ -9,7 +9,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_domain::{Colour, TARGET_INSTANCE};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
-use cosfly_read::drawn_ground::DrawnGround;
+use cosfly_metrics::drawn_ground::DrawnGround;
 use cosfly_read::{
     BoxInWorld, CaptionReader, FrameRow, LoggedFrame, PublishedDataset, PublishedFlight, log_problem, parquet_problem,
 };

@@ -8,7 +8,7 @@ use cosfly_domain::Camera;
 use cosfly_fingerprint::Digest;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_images::read::{decoded, png_size};
-use cosfly_read::drawn_ground::DrawnGround;
+use cosfly_metrics::drawn_ground::DrawnGround;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};

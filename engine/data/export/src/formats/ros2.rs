@@ -6,6 +6,7 @@ mod bag;
 mod cdr;
 mod definitions;
 pub(crate) mod flown;
+mod flown_log;
 mod messages;
 mod readings;
 

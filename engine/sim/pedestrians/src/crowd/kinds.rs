@@ -6,9 +6,6 @@ use cosfly_frames::Seed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Distance that everybody keeps from obstacles where somebody takes something along, metres.
-const ROOM_M: f64 = 0.5;
-
 /// Shares of the people by kind; all others are grown people on foot.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -72,11 +69,12 @@ impl KindShares {
         self.shares().into_iter().find(is_drawn).map_or(BodyKind::Pedestrian, |it| it.0)
     }
 
-    /// Distance that the middle of everybody keeps from obstacles, metres; `of_people` where nobody takes anything along.
+    /// Distance that the middle of everybody keeps from obstacles, metres: half the length of the longest
+    /// kind that is present, at least `of_people`.
     pub(super) fn clearance_m(&self, of_people: f64) -> f64 {
-        let takes_room = |kind: BodyKind| kind.row().walking.as_ref().is_some_and(|it| it.outline_m.is_some());
-        let is_wide = self.shares().iter().any(|(kind, _, share)| *share > 0.0 && takes_room(*kind));
-        if is_wide { of_people.max(ROOM_M) } else { of_people }
+        let present = self.shares().into_iter().filter(|(.., share)| *share > 0.0);
+        let outlines = present.filter_map(|(kind, ..)| kind.row().walking.as_ref()?.outline_m);
+        outlines.map(|[length_m, _]| 0.5 * length_m).fold(of_people, f64::max)
     }
 }
 
@@ -93,6 +91,9 @@ mod tests {
             let found = drawn.iter().filter(|it| **it == kind).count() as f64 / 2000.0;
             assert!((found - share).abs() < 0.03, "{kind:?}: {found}");
         }
+        let with_dogs = KindShares { dog_walker: 0.1, ..KindShares::default() };
+        assert_eq!([kinds.clearance_m(0.3), with_dogs.clearance_m(0.3)], [0.525, 0.8]);
+        assert_eq!(KindShares { child: 0.3, ..KindShares::default() }.clearance_m(0.3), 0.3);
         let refused = |kinds: KindShares| CrowdConfig { kinds, ..CrowdConfig::default() }.check().unwrap_err();
         assert_eq!(refused(KindShares { elder: -0.1, ..KindShares::default() }).path, ["kinds", "elder"]);
         let all = refused(KindShares { elder: 0.75, child: 0.5, ..KindShares::default() });

@@ -1,6 +1,7 @@
 //! Bags of closed-loop flights, from the logs that `cosfly fly` writes.
 
 use super::bag::{Bag, NamedTopic, Topic, topics_of_sensors};
+use super::flown_log::{FlownLog, FlownLogStep, FlownSample};
 use super::messages::{self, Header, Motion, OPTICAL, Placed};
 use super::readings::ReadingCoder;
 use super::{START_NS, motion};
@@ -9,7 +10,7 @@ use crate::media::FOLDER_LIMIT;
 use cosfly_diagnose::Result;
 use cosfly_domain::{Lens, Mount};
 use cosfly_frames::{DQuat, DVec3};
-use cosfly_read::{FlownLog, FlownLogStep, FlownSample, LogReader, LoggedBox};
+use cosfly_read::{LogReader, LoggedBox};
 use cosfly_schema::log::right_handed;
 use std::path::{Path, PathBuf};
 
@@ -49,7 +50,7 @@ pub fn flown_bags(
     let folder = OutFolder::begin(out, result)?;
     for (number, (name, log)) in flights.iter().enumerate() {
         let mut log = LogReader::open(log, 0.0)?;
-        let (boxes, log) = (log.scene()?, log.flown()?);
+        let (boxes, log) = (log.scene()?, FlownLog::read(&mut log)?);
         let topics =
             TOPICS.into_iter().map(|(topic, name, kind, is_latched)| (topic, name.to_owned(), kind, is_latched));
         let topics: Vec<NamedTopic> = topics.chain(topics_of_sensors(&log.sensors)).collect();

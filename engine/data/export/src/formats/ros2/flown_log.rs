@@ -1,9 +1,9 @@
 //! [`FlownLog`]: the log of a closed-loop flight, as `cosfly fly` writes it.
 
-use super::log::LogReader;
 use cosfly_diagnose::Result;
 use cosfly_domain::Camera;
 use cosfly_frames::{DQuat, DVec3, real};
+use cosfly_read::LogReader;
 use cosfly_schema::log::flown_step::{FixMessage, FlownStepMessage, HeightMessage, InertialMessage};
 use cosfly_schema::log::reading::{LoggedSensor, ReadingMessage};
 use cosfly_schema::log::topic;
@@ -57,20 +57,20 @@ pub enum FlownSample {
     Reading(usize, Vec<f64>),
 }
 
-impl LogReader {
+impl FlownLog {
     /// The flight of the log of a closed-loop flight.
     ///
     /// # Errors
     /// `dataset-damaged` where a step is incomplete, or the log is none of a closed-loop flight.
-    pub fn flown(&mut self) -> Result<FlownLog> {
-        let sensors = self.sensors();
+    pub fn read(log: &mut LogReader) -> Result<Self> {
+        let sensors = log.sensors();
         let mut readings: Vec<String> = sensors.iter().map(LoggedSensor::topic_name).collect();
         let own = [topic::TF, topic::DRONE_POSE, topic::TARGET_POSE, topic::STEP, topic::EVENTS, topic::CAMERA];
         readings.extend([topic::INERTIAL, topic::BAROMETER, topic::FIX].map(str::to_owned));
         let topics: Vec<&str> = own.into_iter().chain(readings.iter().map(String::as_str)).collect();
         let (mut camera, mut samples) = (None, vec![]);
         let mut steps: BTreeMap<u64, (FlownLogStep, Vec<&str>)> = BTreeMap::new();
-        self.messages(0..=u64::MAX, &topics, &mut |name, time_ns, data| {
+        log.messages(0..=u64::MAX, &topics, &mut |name, time_ns, data| {
             let unreadable = |error: DecodeError| error.to_string();
             if name == topic::CAMERA {
                 camera = Some(camera_of(&messages::CameraCalibration::decode(data).map_err(unreadable)?));
@@ -86,14 +86,14 @@ impl LogReader {
         let needed = [topic::TF, topic::DRONE_POSE, topic::TARGET_POSE, topic::STEP];
         for (time_ns, (_, seen)) in &steps {
             if let Some(missing) = needed.iter().find(|it| !seen.contains(it)) {
-                return Err(self.damaged(&format!("its step at {time_ns} ns has no message on `{missing}`")));
+                return Err(log.damaged(&format!("its step at {time_ns} ns has no message on `{missing}`")));
             }
         }
         let Some(camera) = camera.filter(|_| !steps.is_empty()) else {
-            return Err(self.damaged("it has no steps of a closed-loop flight"));
+            return Err(log.damaged("it has no steps of a closed-loop flight"));
         };
         let steps = steps.into_iter().map(|(time_ns, (step, _))| FlownLogStep { time_ns, ..step }).collect();
-        Ok(FlownLog { camera, sensors, steps, samples })
+        Ok(Self { camera, sensors, steps, samples })
     }
 }
 
