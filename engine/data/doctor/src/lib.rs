@@ -22,6 +22,7 @@ mod texts;
 pub mod verdict;
 mod walk;
 pub mod walls;
+mod whole_files;
 
 pub use cosfly_metrics::shortcuts::{Probe, ShortcutFigures};
 pub use episode::{ExaminedEpisode, ExaminedLook, ExaminedMoment};

@@ -47,7 +47,6 @@ mod sightings;
 mod tracks;
 mod trajectory;
 mod ways;
-mod whole_files;
 
 pub use captions::CaptionReader;
 pub use dataset::PublishedDataset;
@@ -68,7 +67,6 @@ pub use rows::{RowValues, Rows, TableFile, read};
 pub use sightings::{SeenBody, SightingReader};
 pub use tracks::FlightTrack;
 pub use trajectory::{PublishedFlight, Shared};
-pub use whole_files::{log_problem, parquet_problem};
 
 #[cfg(test)]
 mod tests;

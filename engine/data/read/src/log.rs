@@ -195,9 +195,8 @@ impl LogReader {
             let position = pose.position.map_or(DVec3::ZERO, |it| DVec3::new(it.x, it.y, it.z));
             let rotation = pose.orientation.map_or(DQuat::IDENTITY, |it| DQuat::from_xyzw(it.x, it.y, it.z, it.w));
             let (points, rest) = cloud.data.as_chunks();
-            let number = sweeps.len();
+            let (number, bytes) = (sweeps.len(), cloud.data.len());
             if cloud.point_stride as usize != cloud::POINT_BYTES || !rest.is_empty() {
-                let bytes = cloud.data.len();
                 return Err(format!("sweep {number} is cut: {bytes} bytes, no multiple of {}", cloud::POINT_BYTES));
             }
             if let Some(place) = points.iter().position(|point| !cloud::CloudPoint::of(point).is_finite()) {

@@ -15,9 +15,10 @@ mod listed;
 pub mod video;
 
 use crate::files::files_below;
+use crate::whole_files::parquet_problem;
 use crate::{ExaminedEpisode, Flag};
 use cosfly_diagnose::{Fault, Result, Stop};
-use cosfly_read::{foreign_rows, parquet_problem};
+use cosfly_read::foreign_rows;
 use features::Features;
 use frames::Frames;
 use listed::Listed;

@@ -3,6 +3,7 @@
 use super::stretch;
 use crate::episode::{OFFSETS, depth_in_box};
 use crate::walls::{self, Walls};
+use crate::whole_files::{log_problem, parquet_problem};
 use crate::{ExaminedEpisode, ExaminedLook, ExaminedMoment, Flag};
 use cosfly_captions::Wear;
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
@@ -10,9 +11,7 @@ use cosfly_domain::{Colour, TARGET_INSTANCE};
 use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
 use cosfly_metrics::drawn_ground::DrawnGround;
-use cosfly_read::{
-    BoxInWorld, CaptionReader, FrameRow, LoggedFrame, PublishedDataset, PublishedFlight, log_problem, parquet_problem,
-};
+use cosfly_read::{BoxInWorld, CaptionReader, FrameRow, LoggedFrame, PublishedDataset, PublishedFlight};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

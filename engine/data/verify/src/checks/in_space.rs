@@ -3,7 +3,7 @@
 use crate::flight_rows::FlightRows;
 use crate::report::VerifyReport;
 use crate::rows::PlacedFrame;
-use cosfly_domain::{KEY_POINTS, TARGET_INSTANCE};
+use cosfly_domain::{BodyKind, KEY_POINTS, TARGET_INSTANCE};
 use cosfly_frames::{DVec3, Pose, real};
 use cosfly_read::{SeenKeyPoint, SpaceRow};
 use std::collections::BTreeSet;
@@ -79,10 +79,15 @@ fn problem(it: &FlightRows<'_>, frame: &PlacedFrame, row: &SpaceRow) -> Option<S
     points.into_iter().find_map(|(point, name)| Some(format!("`{name}` {}", point_problem(it, camera, point, seen)?)))
 }
 
-/// Size of the target: of a person on foot the cylinder of the flight; other targets have no size in tables.
+/// Size of the target: of a person on foot the cylinder of the flight, with what the person takes along the outline of the kind; other
+/// targets have no size in tables.
 fn size_of_target(it: &FlightRows<'_>, row: &SpaceRow) -> DVec3 {
-    let across_m = 2.0 * it.flight.target_radius_m;
-    if row.key_points.is_empty() { row.size_m } else { DVec3::new(across_m, across_m, it.flight.target_height_m) }
+    let is_kind = |kind: &&BodyKind| it.flight.target_kind.as_deref() == Some(kind.name());
+    let kind = BodyKind::ON_THE_GROUND.iter().find(is_kind);
+    let outline_m = kind.and_then(|kind| kind.row().walking.as_ref()?.outline_m);
+    let [length_m, width_m] = outline_m.unwrap_or([2.0 * it.flight.target_radius_m; 2]);
+    let is_known = outline_m.is_some() || !row.key_points.is_empty();
+    if is_known { DVec3::new(length_m, width_m, it.flight.target_height_m) } else { row.size_m }
 }
 
 /// What is wrong with a key point of a body whose visible pixels have these edges.

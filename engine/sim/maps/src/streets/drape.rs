@@ -78,7 +78,9 @@ fn keep_plazas_beside(town: &mut Town, streets: &[SurfaceMesh]) {
         .map(|cell| {
             let middle = open.middle(cell);
             let mut around = corners.iter().map(|corner| middle + 0.5 * open.cell_m * *corner);
-            from_streets.at_m(middle) <= REACH_M && height_m(middle).is_some() && around.all(|at| roads.ground_height_m(at.x, at.y).is_none())
+            from_streets.at_m(middle) <= REACH_M
+                && height_m(middle).is_some()
+                && around.all(|at| roads.ground_height_m(at.x, at.y).is_none())
         })
         .collect();
     town.walkable.retain(|polygon| !is_invented(polygon));

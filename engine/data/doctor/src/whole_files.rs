@@ -1,8 +1,7 @@
 //! Checks whether files can be read to their ends.
 
-use super::records::read_records;
-use super::rows::TableFile;
 use cosfly_diagnose::Stop;
+use cosfly_read::{TableFile, read_records};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
