@@ -314,6 +314,9 @@ mod tests {
         each_flight(file.path(), &mut |_, sweeps| count += sweeps.len()).map(|()| count)
     }
 
+    /// Damages sweeps.
+    type Spoil = fn(&mut Vec<LoggedSweep>);
+
     #[test]
     fn clouds_of_logs_that_are_cut_or_moved_are_found() {
         let (sweeps, ..) = scanned();
@@ -323,12 +326,12 @@ mod tests {
             rotation: DQuat::IDENTITY,
             points: sweep.points.iter().map(|it| right_handed(*it).bytes()).collect(),
         };
-        let spoilt = |spoil: fn(&mut Vec<LoggedSweep>)| {
+        let spoilt = |spoil: Spoil| {
             let mut all: Vec<LoggedSweep> = sweeps.iter().map(logged).collect();
             spoil(&mut all);
             compare(&sweeps, &all).err()
         };
-        let faults: [(fn(&mut Vec<LoggedSweep>), &str); 3] = [
+        let faults: [(Spoil, &str); 3] = [
             (|all| drop(all.pop()), "it has 9 sweeps, the table has 10"),
             (|all| _ = all[3].points.pop(), "sweep 3 has "),
             (|all| all[4].points[5][1] ^= 4, "point 5 of sweep 4 "),

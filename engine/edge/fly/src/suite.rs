@@ -162,11 +162,13 @@ impl Suite {
     }
 }
 
+/// Index of the stage that made a town, its item, and the stage that films it.
+type PlaceKey = (usize, usize, Option<usize>);
+
 struct Reader<'a> {
     plan: Plan<'a>,
     store: &'a Store,
-    /// By the index of the stage that made the town, its item, and the stage that films it.
-    places: BTreeMap<(usize, usize, Option<usize>), (Arc<FlightSite>, Arc<SuiteTown>)>,
+    places: BTreeMap<PlaceKey, (Arc<FlightSite>, Arc<SuiteTown>)>,
 }
 
 impl Reader<'_> {

@@ -72,7 +72,7 @@ impl Clearance {
     }
 
     /// Distance at a place from the nearest house; 0 outside the cells.
-    pub fn from_house_m(&self, at: DVec2) -> f64 {
+    pub fn house_distance_m(&self, at: DVec2) -> f64 {
         self.cell_at(at).map_or(0.0, |cell| self.metres(self.from_houses[cell]))
     }
 

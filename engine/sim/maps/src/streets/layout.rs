@@ -172,7 +172,7 @@ impl Net {
         let points = &mut self.points;
         self.middles.retain_mut(|middle| {
             let [start, end] = middle.ends.map(|end| if degrees[end] == 1 { BEFORE_END } else { 0 });
-            let is_street = |at: &DVec2| ground.from_house_m(*at) <= OPEN_M;
+            let is_street = |at: &DVec2| ground.house_distance_m(*at) <= OPEN_M;
             let mut kept = (start..middle.line.len().saturating_sub(end)).filter(|at| is_street(&middle.line[*at]));
             let Some(first) = kept.next() else { return false };
             let last = kept.next_back().unwrap_or(first);
@@ -183,7 +183,7 @@ impl Net {
                 }
             }
             middle.line = middle.line[first..=last].to_vec();
-            let narrow = middle.line.iter().filter(|at| ground.from_house_m(**at) <= WIDEST_M).count();
+            let narrow = middle.line.iter().filter(|at| ground.house_distance_m(**at) <= WIDEST_M).count();
             middle.line.iter().all(is_street) && middle.line.len() > 2 && 2 * narrow >= middle.line.len()
         });
     }
