@@ -33,7 +33,7 @@ pub struct SceneBox {
     pub seed: u32,
     /// Seed shared by all boxes of a town.
     pub town: u32,
-    /// Middle and half size of the whole crown that a crown's box belongs to; of the box itself for other kinds.
+    /// Middle and half size of the whole crown or building that the box belongs to; of the box itself for other kinds.
     pub whole: [Vec3; 2],
     /// Place in a pitched roof; none for most boxes.
     pub roof: Option<Box<RoofStep>>,
@@ -138,15 +138,17 @@ fn scene_box(obstacle: &Obstacle, look_seed: u32) -> Option<SceneBox> {
     })
 }
 
-/// Tells the boxes of each crown how large the whole crown is, so that light falls on it as on one round thing.
-pub fn join_crowns(boxes: &mut [SceneBox]) {
+/// Tells the boxes of each crown and building how large the whole is: light falls on a crown as on one round thing, and a building
+/// has one facade.
+pub fn join_wholes(boxes: &mut [SceneBox]) {
+    let has_whole = |b: &SceneBox| matches!(b.kind, ObstacleKind::TreeCrown | ObstacleKind::Building);
     let mut bounds: BTreeMap<u32, (DVec3, DVec3)> = BTreeMap::new();
-    for b in boxes.iter().filter(|b| b.kind == ObstacleKind::TreeCrown) {
+    for b in boxes.iter().filter(|b| has_whole(b)) {
         let (low, high) = bounds.entry(b.instance).or_insert((DVec3::INFINITY, DVec3::NEG_INFINITY));
         *low = low.min(b.center_in_world - b.half_bounds_m);
         *high = high.max(b.center_in_world + b.half_bounds_m);
     }
-    for b in boxes.iter_mut().filter(|b| b.kind == ObstacleKind::TreeCrown) {
+    for b in boxes.iter_mut().filter(|b| has_whole(b)) {
         if let Some((low, high)) = bounds.get(&b.instance) {
             b.whole = [(0.5 * (*low + *high)).as_vec3a(), (0.5 * (*high - *low)).as_vec3a()];
         }

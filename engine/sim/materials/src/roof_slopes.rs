@@ -38,7 +38,6 @@ fn set_ends(b: &mut SceneBox, [low_m, high_m]: [f64; 2]) {
     b.center_in_world.z = 0.5 * (low_m + high_m);
     b.half_bounds_m.z = 0.5 * (high_m - low_m);
     b.half_extents_m.z = b.half_bounds_m.z as f32;
-    b.whole = [b.center_in_world.as_vec3a(), b.half_extents_m];
     for (number, corner) in b.corners_in_world.iter_mut().enumerate() {
         corner.z = if number & 4 == 0 { low_m } else { high_m };
     }

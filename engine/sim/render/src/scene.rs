@@ -16,7 +16,7 @@ use cosfly_materials::grid::LightGrid;
 use cosfly_materials::kerbs::{KerbLine, tone_of_town};
 use cosfly_materials::lane_wear::LaneWear;
 use cosfly_materials::leaves::Leaves;
-use cosfly_materials::parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox, boxes_of, join_crowns};
+use cosfly_materials::parts::{BOX_FACES, Cluster, ClusterPolygon, SceneBox, boxes_of, join_wholes};
 use cosfly_materials::pattern::{NoiseTexture, noise_texture};
 use cosfly_materials::roof_edges::roofs_that_go_on;
 use cosfly_materials::roof_slopes::cut_to_slopes;
@@ -114,7 +114,7 @@ impl Scene {
     fn of(town: &Town, seed: Seed, models: &[SceneModel], cars: impl FnOnce(&Props) -> Vec<Bystander>) -> Self {
         let look_seed = (seed.child("looks", 0).as_u64() >> 32) as u32;
         let mut boxes = boxes_of(town, look_seed);
-        join_crowns(&mut boxes);
+        join_wholes(&mut boxes);
         set_roofs(&mut boxes);
         let sides = roofs_that_go_on(&boxes);
         boxes.iter_mut().zip(sides).for_each(|(b, sides)| b.roof_goes_on = sides);

@@ -92,7 +92,7 @@ impl Facade {
                 if self.shops && in_street != 0 {
                     group.put_shops(block, [&grain, &courses]);
                 }
-                if !self.shops && in_street != 0 {
+                if self.has_doors && !self.shops && in_street != 0 {
                     group.put_entrances(block);
                 }
                 if self.balconies > 0.0 && group.any_coarse != 0 {

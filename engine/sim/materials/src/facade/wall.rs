@@ -46,14 +46,16 @@ pub struct Facade {
     /// Share of the columns of bays that have balconies.
     pub(super) balconies: f32,
     pub(super) shops: bool,
+    /// Whether the wall stands in the street: doors are there.
+    pub(super) has_doors: bool,
     pub(super) height_m: f32,
     pub(super) shift: f32,
 }
 
 impl Facade {
-    /// The facade of a building `seed` in a town on a face of this size.
-    pub fn new(seed: u32, town: u32, face: u32, width_m: f32, height_m: f32) -> Self {
-        let family = Family::of(seed, town, height_m);
+    /// The facade of a building `seed` in a town on a face of this size; the whole building is `house_m` high.
+    pub fn new(seed: u32, town: u32, face: u32, [width_m, height_m]: [f32; 2], house_m: f32) -> Self {
+        let family = Family::of(seed, town, house_m);
         let [wall, trim] = family.colours(seed);
         let floors = (height_m / between(family.storey_m, seed, draws::STOREY)).round().max(1.0);
         let bay_m = width_m / (width_m / between(family.bay_m, seed, draws::BAY)).round().max(1.0);
@@ -88,14 +90,20 @@ impl Facade {
                 0.0
             },
             shops: draw(seed, draws::SHOPS) < family.shops && height_m > 5.0,
+            has_doors: true,
             height_m,
             shift: 200.0 * draw(seed, draws::SHIFT),
         }
     }
 
-    /// Wall of this kind without anything in it: a gable.
+    /// The facade of a part that stands above the street, on a lower part or out of a wall: no shop and no door is there.
+    pub fn above_street(self) -> Self {
+        Self { shops: false, has_doors: false, ..self }
+    }
+
+    /// Wall of this kind without anything in it: a gable, or a part that is too small for a window.
     pub fn bare(self) -> Self {
-        let bare = Self { window: [0.5; 2], shops: false, balconies: 0.0, ledge: 0.0, joint: 0.0, ..self };
+        let bare = Self { window: [0.5; 2], balconies: 0.0, ledge: 0.0, joint: 0.0, ..self.above_street() };
         // No cornice.
         Self { height_m: self.height_m + 100.0, ..bare }
     }

@@ -34,6 +34,11 @@ pub(super) enum Material {
 /// Ground that a mesh is shaded as: its own colours come over it, darker where bodies darken that ground.
 pub(super) const UNDER_A_SCAN: SemanticLabel = SemanticLabel::Ground;
 
+/// Half the width and height of a wall below which no window is in it, metres.
+const SMALLEST_HALF_M: f32 = 0.8;
+/// A part of a building whose foot is higher than this above the foot of the whole does not stand in the street, metres.
+const IN_STREET_M: f32 = 2.0;
+
 /// The axes of flat ground.
 pub(super) const FLAT: FaceAxes = FaceAxes { along: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) };
 
@@ -82,7 +87,15 @@ pub(super) fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
         Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y], b.roof_goes_on))
     } else {
         let half_width = if axis == 0 { half.y } else { half.x };
-        let look = Facade::new(b.seed, b.town, face as u32, 2.0 * half_width, 2.0 * half.z);
+        let [middle, half_whole] = b.whole;
+        let look = Facade::new(b.seed, b.town, face as u32, [2.0 * half_width, 2.0 * half.z], 2.0 * half_whole.z);
+        let look = if half_width.min(half.z) < SMALLEST_HALF_M {
+            look.bare()
+        } else if center.z - half.z > middle.z - half_whole.z + IN_STREET_M {
+            look.above_street()
+        } else {
+            look
+        };
         let edge_m = center.dot(Vec3::new(along.x, along.y, 0.0)) - half_width;
         Material::Facade(look, BoxFace { along, edge_m, foot_m: center.z - half.z })
     }
@@ -102,7 +115,7 @@ fn roof_material(b: &SceneBox, face: usize, (center, axes): (Vec3, [Vec3; 2])) -
         FaceLook::Gable => {
             let half_width = if axis == 0 { b.half_extents_m.y } else { b.half_extents_m.x };
             let [foot_m, height_m] = step.wall_m.map(|value| value as f32);
-            let look = Facade::new(b.seed, b.town, face as u32, 2.0 * half_width, height_m).bare();
+            let look = Facade::new(b.seed, b.town, face as u32, [2.0 * half_width, height_m], 2.0 * b.whole[1].z).bare();
             let along = axes[usize::from(axis == 0)];
             let edge_m = center.dot(along) - half_width;
             Some(Material::Facade(look, BoxFace { along, edge_m, foot_m }))

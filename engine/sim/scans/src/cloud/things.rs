@@ -1,9 +1,10 @@
-//! Things that are neither building nor plant: cars, walls, masts, bridges, as boxes around the points of each cell.
+//! Things that are neither building nor plant: cars, walls, masts, bridges, as boxes around their points.
 
 use super::class;
 use super::numbers::next_id;
-use super::survey::{Survey, is_ground};
-use crate::grid::parts;
+use super::survey::{Survey, is_ground, plan_of};
+use crate::grid::{Grid, parts};
+use crate::plan::{convex_hull, smallest_rectangle_rad};
 use crate::solid_cells::{BoxCover, boxes_of};
 use crate::window_cover::{Bases, Column, Volumes};
 use cosfly_domain::{Obstacle, ObstacleKind};
@@ -34,27 +35,6 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
     volumes
 }
 
-/// Column of points over a cell that `belongs` accepts, and their number.
-fn column(survey: &Survey<'_>, cell: usize, belongs: fn(u8) -> bool) -> (Option<Column>, usize) {
-    let (mut ground_m, mut ends, mut count) = (f64::NEG_INFINITY, [f64::INFINITY, f64::NEG_INFINITY], 0);
-    for point in survey.points_of(cell) {
-        let at = survey.cloud.point(point);
-        if is_ground(survey.cloud.classes[point]) {
-            ground_m = ground_m.max(at.z);
-        } else if belongs(survey.cloud.classes[point]) && survey.height_m(point) > LOWEST_M {
-            ends = [ends[0].min(at.z), ends[1].max(at.z)];
-            count += 1;
-        }
-    }
-    if count == 0 {
-        return (None, 0);
-    }
-    let foot_m = survey.relief.height_m(survey.grid.center(cell));
-    let lowest_m = foot_m.max(ground_m) + ABOVE_GROUND_M;
-    let base_m = if ends[0] - foot_m < STANDS_M { lowest_m } else { (ends[0] - THINNEST_M).max(lowest_m) };
-    (Some(Column { base_m, top_m: ends[1].max(base_m + THINNEST_M) }), count)
-}
-
 fn add_kind(
     survey: &Survey<'_>,
     kind: ObstacleKind,
@@ -65,28 +45,68 @@ fn add_kind(
     if !cloud.classes.par_iter().any(|class| belongs(*class)) {
         return Volumes::default();
     }
-    let columns = (0..grid.cells()).into_par_iter().map(|cell| column(survey, cell, belongs));
-    let (mut columns, counts): (Vec<Option<Column>>, Vec<usize>) = columns.unzip();
-    let (part, count) = parts(grid, |cell| columns[cell].is_some());
-    let mut sizes = vec![0_usize; count as usize + 1];
-    for (cell, number) in part.iter().enumerate() {
-        sizes[*number as usize] += counts[cell];
+    let is_of_thing = |point: &usize| belongs(cloud.classes[*point]) && survey.height_m(*point) > LOWEST_M;
+    let has_thing: Vec<bool> =
+        (0..grid.cells()).into_par_iter().map(|cell| survey.points_of(cell).any(|point| is_of_thing(&point))).collect();
+    let (part, count) = parts(grid, |cell| has_thing[cell]);
+    let mut things = vec![Thing::default(); count as usize];
+    for (cell, number) in part.iter().enumerate().filter(|(_, number)| **number != 0) {
+        let thing = &mut things[*number as usize - 1];
+        thing.points.extend(survey.points_of(cell).filter(is_of_thing));
+        thing.ground.extend(survey.points_of(cell).filter(|point| is_ground(cloud.classes[*point])));
     }
-    for (cell, column) in columns.iter_mut().enumerate() {
-        if sizes[part[cell] as usize] < LEAST_POINTS {
-            *column = None;
-        }
-    }
+    let is_large = |thing: &Thing| thing.points.len() >= LEAST_POINTS;
+    let cover = |thing: &Thing| if is_large(thing) { thing.cover(survey) } else { BoxCover::default() };
+    let covers: Vec<BoxCover> = things.par_iter().map(cover).collect();
     let first_id = next_id(obstacles);
-    let BoxCover { shapes, volumes } = boxes_of(grid, &columns, survey.step_m, Bases::Highest, |_| false);
-    let number = |shape: &cosfly_domain::OrientedBox| part[grid.cell_of(shape.center_in_world.truncate())];
-    let mut numbered: Vec<_> = shapes.into_iter().map(|shape| (number(&shape), shape)).collect();
-    numbered.sort_by_key(|(number, _)| *number);
-    obstacles.extend(numbered.into_iter().map(|(number, shape)| Obstacle {
-        shape,
-        kind,
-        object_id: first_id + number,
-        synthetic: false,
-    }));
+    let mut volumes = Volumes::default();
+    for (number, cover) in covers.into_iter().enumerate() {
+        volumes = volumes.plus(cover.volumes, 1.0);
+        let object_id = first_id + number as u32;
+        let obstacle = |shape| Obstacle { shape, kind, object_id, synthetic: false };
+        obstacles.extend(cover.shapes.into_iter().map(obstacle));
+    }
     volumes
+}
+
+/// One thing: the points on it, and those of the ground in its cells.
+#[derive(Clone, Default)]
+struct Thing {
+    points: Vec<usize>,
+    ground: Vec<usize>,
+}
+
+impl Thing {
+    /// Boxes around its points, along the map or along the thing, as takes fewer: a wall is one box, no flight of steps.
+    fn cover(&self, survey: &Survey<'_>) -> BoxCover {
+        let hull = convex_hull(plan_of(survey.cloud, &self.points).collect());
+        let covers = [0.0, smallest_rectangle_rad(&hull)].map(|yaw_rad| {
+            let grid = Grid::flush(plan_of(survey.cloud, &self.points), survey.grid.cell_m, yaw_rad);
+            boxes_of(&grid, &self.columns(survey, &grid), survey.step_m, Bases::Highest, |_| false)
+        });
+        covers.into_iter().min_by_key(|cover| cover.shapes.len()).unwrap_or_default()
+    }
+
+    /// Columns of the points over each cell of a grid.
+    fn columns(&self, survey: &Survey<'_>, grid: &Grid) -> Vec<Option<Column>> {
+        let place = |point: &usize| (grid.cell_of(survey.cloud.point(*point).truncate()), survey.cloud.point(*point).z);
+        let mut columns: Vec<Option<Column>> = vec![None; grid.cells()];
+        for (cell, z) in self.points.iter().map(place) {
+            let column = columns[cell].get_or_insert(Column { base_m: z, top_m: z });
+            *column = Column { base_m: column.base_m.min(z), top_m: column.top_m.max(z) };
+        }
+        let mut ground_m = vec![f64::NEG_INFINITY; grid.cells()];
+        for (cell, z) in self.ground.iter().map(place) {
+            ground_m[cell] = ground_m[cell].max(z);
+        }
+        for (cell, column) in columns.iter_mut().enumerate() {
+            let Some(column) = column else { continue };
+            let foot_m = survey.relief.height_m(grid.center(cell));
+            let lowest_m = foot_m.max(ground_m[cell]) + ABOVE_GROUND_M;
+            let stands = column.base_m - foot_m < STANDS_M;
+            column.base_m = if stands { lowest_m } else { (column.base_m - THINNEST_M).max(lowest_m) };
+            column.top_m = column.top_m.max(column.base_m + THINNEST_M);
+        }
+        columns
+    }
 }
