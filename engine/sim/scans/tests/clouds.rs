@@ -176,6 +176,24 @@ fn narrow_plants_on_a_wall_are_parts_of_the_house() {
 }
 
 #[test]
+fn a_wall_at_a_slant_is_one_box_around_its_points() {
+    // 10 m at 30 degrees, 1.6 m high.
+    let wall = (0..50).flat_map(|i| (0..9).map(move |j| [0.2 * f64::from(i), 0.2 * f64::from(j)]));
+    let wall: Vec<_> = wall.map(|[along, up]| [26.0 + 0.866 * along, 8.0 + 0.5 * along, 1.0 + up]).collect();
+    let points: Vec<_> = scene().into_iter().chain(wall.iter().map(|at| (*at, 64))).collect();
+    let statics = |points: &[write_clouds::Point]| {
+        let town = read::<Las>(&las(points, false).unwrap(), &CloudOptions::default()).unwrap();
+        of_kind(&town, ObstacleKind::Static).into_iter().map(|one| one.shape).collect::<Vec<_>>()
+    };
+    let shapes = statics(&points);
+    assert_eq!(shapes.len(), statics(&scene()).len() + 1, "{shapes:?}");
+    let boxes = BoxBvh::build(shapes);
+    for [x, y, z] in wall {
+        assert!(boxes.nearest(DVec3::new(x, -y, z), 0.01).is_some(), "{x} {y} {z}");
+    }
+}
+
+#[test]
 fn degrees_and_corners_of_drawings_are_no_clouds() {
     let options = CloudOptions::default();
     let degrees = |([x, y, z], class): write_clouds::Point| ([2.0 + 1e-5 * x, 48.0 + 1e-5 * y, z], class);

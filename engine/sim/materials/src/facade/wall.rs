@@ -45,9 +45,10 @@ pub struct Facade {
     pub(super) age: f32,
     /// Share of the columns of bays that have balconies.
     pub(super) balconies: f32,
-    pub(super) shops: bool,
+    /// Whether shops are in the street floor.
+    pub shops: bool,
     /// Whether the wall stands in the street: doors are there.
-    pub(super) has_doors: bool,
+    pub has_doors: bool,
     pub(super) height_m: f32,
     pub(super) shift: f32,
 }

@@ -115,7 +115,8 @@ fn roof_material(b: &SceneBox, face: usize, (center, axes): (Vec3, [Vec3; 2])) -
         FaceLook::Gable => {
             let half_width = if axis == 0 { b.half_extents_m.y } else { b.half_extents_m.x };
             let [foot_m, height_m] = step.wall_m.map(|value| value as f32);
-            let look = Facade::new(b.seed, b.town, face as u32, [2.0 * half_width, height_m], 2.0 * b.whole[1].z).bare();
+            let look =
+                Facade::new(b.seed, b.town, face as u32, [2.0 * half_width, height_m], 2.0 * b.whole[1].z).bare();
             let along = axes[usize::from(axis == 0)];
             let edge_m = center.dot(along) - half_width;
             Some(Material::Facade(look, BoxFace { along, edge_m, foot_m }))
@@ -155,6 +156,36 @@ impl Material {
                 _ => matt,
             },
             Self::Sky | Self::Even | Self::Cloth | Self::Leaves | Self::Skin(_) | Self::Tiles(_) => matt,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cosfly_domain::{Obstacle, OrientedBox, Town};
+    use cosfly_frames::DVec3;
+    use cosfly_materials::parts::{boxes_of, join_wholes};
+
+    #[test]
+    fn boxes_of_a_building_have_one_wall_and_doors_in_the_street_alone() {
+        let part = |low: DVec3, high: DVec3, object_id| Obstacle {
+            shape: OrientedBox::from_corners(low, high),
+            kind: ObstacleKind::Building,
+            object_id,
+            synthetic: false,
+        };
+        for object_id in 0..40 {
+            let attic = part(DVec3::new(2.0, 2.0, 18.0), DVec3::new(18.0, 8.0, 21.0), object_id);
+            let obstacles = vec![part(DVec3::ZERO, DVec3::new(20.0, 10.0, 18.0), object_id), attic];
+            let mut boxes = boxes_of(&Town { obstacles, ..Town::default() }, 7);
+            join_wholes(&mut boxes);
+            let [lower, upper] = [0, 1].map(|number: usize| match box_material(&boxes[number], 2, 0.0) {
+                Material::Facade(look, _) => look,
+                _ => panic!("a wall is a facade"),
+            });
+            assert_eq!(lower.wall_colour(), upper.wall_colour());
+            assert!(lower.has_doors && !upper.has_doors && !upper.shops);
         }
     }
 }
