@@ -50,8 +50,8 @@ for suite in order:
 
 # A suite with a quadrotor, wind and gusts gives the same bytes again, in shares.
 for share in ("2/3", "1/3", "3/3"):
-    run("fly", suites / "night_rain.toml", "--policy", "causal", "--shard", share, "--jobs", "1", "--out", work / "shares")
-run("fly", suites / "night_rain.toml", "--policy", "causal", "--jobs", "2", "--out", work / "whole")
+    run("fly", suites / "night_rain.toml", "--policy", "causal", "--shard", share, "--jobs", "1", "--clips", "1", "--out", work / "shares")
+run("fly", suites / "night_rain.toml", "--policy", "causal", "--jobs", "2", "--clips", "1", "--out", work / "whole")
 assert bytes_of(work / "shares") == bytes_of(work / "whole")
 
 # Labels: how many a second; a small student gains by three rounds.
