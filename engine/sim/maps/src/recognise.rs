@@ -26,13 +26,8 @@ const RELATIVES: &[(IsIt, &str)] = &[
         "the file is GeoJSON: take an extract of OpenStreetMap, or CityJSON, of the same place",
     ),
     (
-        |head| is_tile(head) && holds(head, "RTC_CENTER"),
-        "the file is a tile of 3D Tiles whose corners count from its `RTC_CENTER`, which a GLB that is taken out of it lacks: export the \
-         tiles together as GLB, in metres along the axes of a plan",
-    ),
-    (
         |head| is_tile(head) || holds(head, "\"geometricError\""),
-        "the file is of 3D Tiles: export the tiles together as GLB, in metres along the axes of a plan",
+        "the file is of 3D Tiles: `cosfly map tiles tileset.json --out scan.glb` joins the tiles to one mesh",
     ),
     (|head| head.starts_with(b"ISO-10303-21"), "the file is IFC: export it as GLB, OBJ or CityJSON"),
     (

@@ -17,5 +17,6 @@ pub mod ply;
 pub mod relief;
 pub mod scalar;
 pub mod solid_cells;
+pub mod tiles;
 pub mod way_out;
 pub mod window_cover;

@@ -10,7 +10,7 @@ use cosfly_town::MapError;
 /// Most triangles of a mesh.
 const MOST_TRIANGLES: usize = 10_000_000;
 /// Most corners and indices that are read, in triangles or not.
-const MOST_ELEMENTS: usize = 60_000_000;
+const MOST_ELEMENTS: usize = 100_000_000;
 /// Most pixels of all pictures of a mesh.
 const MOST_PIXELS: usize = 4 * pictures::MOST_PIXELS;
 /// Farthest coordinate in the world, metres.

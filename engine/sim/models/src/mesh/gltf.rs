@@ -91,7 +91,8 @@ impl Reader<'_> {
     fn texture(&mut self, index: usize) -> Result<u32, MapError> {
         let Some(picture) = self.document.picture_of(index) else {
             let error = MapError::new(format!("texture {index} names no picture that is read: it may be KTX2 or WebP"));
-            return Err(error.hint("export the mesh with PNG or JPEG pictures"));
+            let hint = "export the mesh with PNG or JPEG pictures: `gltf-transform ktxdecompress` makes PNG of KTX2, `gltf-transform png` of WebP";
+            return Err(error.hint(hint));
         };
         if let Some(known) = self.pictures.get(&picture) {
             return Ok(*known);

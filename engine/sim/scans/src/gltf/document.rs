@@ -36,6 +36,8 @@ pub struct Document {
     images: Vec<Image>,
     extensions_required: Vec<String>,
     extensions: DocumentExtensions,
+    /// What a tileset has, and no glTF file.
+    geometric_error: Option<f64>,
     /// Bytes of the buffers.
     #[serde(skip)]
     pub(super) data: Vec<Vec<u8>>,
@@ -196,7 +198,13 @@ impl Document {
         })?;
         if let Some(packing) = document.extensions_required.iter().find(|name| PACKINGS.contains(&name.as_str())) {
             let error = MapError::new(format!("the meshes are compressed by `{packing}`, which is not read"));
-            return Err(error.hint("export the file without compression of meshes"));
+            return Err(error.hint(
+                "`gltf-transform cp FILE plain.glb` unpacks the meshes, or export the file without compression",
+            ));
+        }
+        if document.geometric_error.is_some() {
+            let error = MapError::new("the file is a tileset of 3D Tiles, no glTF file");
+            return Err(error.hint("`cosfly map tiles tileset.json --out scan.glb` joins the tiles to one mesh"));
         }
         if let Some(Centre { center }) = &document.extensions.centre
             && center.iter().any(|number| *number != 0.0)
@@ -292,7 +300,7 @@ impl Buffer {
 }
 
 /// Data that an address holds; none where they are damaged.
-fn embedded(uri: &str) -> Result<Option<Vec<u8>>, MapError> {
+pub(crate) fn embedded(uri: &str) -> Result<Option<Vec<u8>>, MapError> {
     let Some((_, data)) = uri.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")) else {
         // A file names no other file that is opened, wherever it lies.
         let shown: String = uri.chars().take(60).collect();
@@ -304,7 +312,7 @@ fn embedded(uri: &str) -> Result<Option<Vec<u8>>, MapError> {
 }
 
 /// Text and data of a binary file.
-fn chunks(file: &[u8]) -> Result<(&[u8], Option<&[u8]>), MapError> {
+pub(crate) fn chunks(file: &[u8]) -> Result<(&[u8], Option<&[u8]>), MapError> {
     let bytes = Bytes(file);
     let version = bytes.u32(4, "the version")?;
     if version != 2 {

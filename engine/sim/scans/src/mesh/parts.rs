@@ -7,9 +7,9 @@ use cosfly_town::MapError;
 const FARTHEST_M: f64 = 1e8;
 /// Most corners and triangles of a file, instances of one mesh counted each: a bound, a number for every file, and one for each of its
 /// bytes. Memory follows the size of the file.
-const MOST_ELEMENTS: usize = 40_000_000;
+const MOST_ELEMENTS: usize = 100_000_000;
 const ELEMENTS_OF_ANY_FILE: usize = 4_000_000;
-const BYTES_OF_ELEMENT: usize = 8;
+const BYTES_OF_ELEMENT: usize = 2;
 /// Corners closer than this are one, metres.
 const SAME_M: f64 = 1e-3;
 

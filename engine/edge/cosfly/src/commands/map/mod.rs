@@ -3,12 +3,14 @@
 mod convert;
 mod inspect;
 mod mesh;
+mod tiles;
 mod town;
 
 use crate::command::{Entry, dispatch, with_commands};
 
 /// The commands, sorted by name.
-const COMMANDS: &[Entry] = &[Entry::of::<convert::Arguments>(), Entry::of::<inspect::Arguments>()];
+const COMMANDS: &[Entry] =
+    &[Entry::of::<convert::Arguments>(), Entry::of::<inspect::Arguments>(), Entry::of::<tiles::Arguments>()];
 
 /// The group.
 pub const MAP: Entry = Entry { command: group, run: |matches, console| dispatch(COMMANDS, matches, console) };

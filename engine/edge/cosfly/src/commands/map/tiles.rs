@@ -1,0 +1,147 @@
+//! `cosfly map tiles`: a folder of 3D Tiles as one mesh at one level of detail.
+
+use crate::command::{Command, Outcome};
+use crate::console::Console;
+use crate::exit;
+use clap::Parser;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_scans::tiles::{JoinedTiles, TilesChoice, join};
+use cosfly_town::MapError;
+use std::path::{Path, PathBuf};
+
+/// Join a folder of 3D Tiles to one mesh (.glb) that maps and pictures are made of
+#[derive(Debug, Parser)]
+#[command(
+    name = "tiles",
+    after_help = "\
+Examples:
+  cosfly map tiles city/tileset.json --out city.glb                              the finest level of all tiles
+  cosfly map tiles city/tileset.json --out square.glb --area-m=-150,-150,150,150 tiles within 150 m of the middle
+  cosfly map tiles city/tileset.json --out city.glb --error-m 0.5                a level true to half a metre
+  cosfly map tiles city/tileset.json --out city.glb --origin 48.2082,16.3738,171 counted from a place on the Earth
+
+Opens files of the folder alone; nothing is fetched. The page \"Scans\" of the book goes on from there."
+)]
+pub struct Arguments {
+    /// The file `tileset.json` of the folder
+    #[arg(value_name = "TILESET")]
+    file: PathBuf,
+    /// File to write, ending in .glb
+    #[arg(long, value_name = "GLB")]
+    out: PathBuf,
+    /// Largest geometric error of a tile that is not refined, metres, 0 to 1000: a pixel N m away covers N / focal length in pixels
+    #[arg(long, value_name = "M", default_value_t = 0.0)]
+    error_m: f64,
+    /// Area that tiles must meet: metres to the west, south, east and north of the origin, negative to the west and south
+    #[arg(long, value_name = "W,S,E,N", value_delimiter = ',', num_args = 4, allow_negative_numbers = true)]
+    area_m: Option<Vec<f64>>,
+    /// Origin of the mesh: latitude and longitude in degrees, height above the ellipsoid in metres [default: the tileset's middle]
+    #[arg(long, value_name = "LAT,LON,H", value_delimiter = ',', num_args = 3, allow_negative_numbers = true)]
+    origin: Option<Vec<f64>>,
+}
+
+/// Longest file of a tile.
+const MOST_BYTES: u64 = 4 << 30;
+
+impl Command for Arguments {
+    fn run(&self, console: &dyn Console) -> Outcome {
+        let choice = self.choice()?;
+        let folder = match self.file.parent() {
+            Some(folder) if folder != Path::new("") => folder,
+            _ => Path::new("."),
+        };
+        let shown = self.file.display();
+        let name = self.file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let root =
+            folder.canonicalize().map_err(|error| Diagnostic::io(format!("open the folder of `{shown}`"), &error))?;
+        let (stop, mut stopped) = (console.stop(), None);
+        let joined = join(&name, &choice, &mut |path| {
+            if let Err(end) = stop.check("map tiles") {
+                stopped = Some(end);
+                return Err(MapError::new("stopped"));
+            }
+            opened(&root, path)
+        });
+        if let Some(end) = stopped {
+            return Err(end.into());
+        }
+        let joined = joined.map_err(|error| {
+            let refused = Diagnostic::new("map-tiles", Fault::Input, error.message).because(format!("in `{shown}`"));
+            error.hints.into_iter().fold(refused, |refused, hint| refused.hint(hint))
+        })?;
+        cosfly_whole::write_file(&self.out, &joined.glb)
+            .map_err(|error| Diagnostic::io(format!("write `{}`", self.out.display()), &error))?;
+        console.print(&self.told(&joined))?;
+        Ok(exit::SUCCESS)
+    }
+}
+
+impl Arguments {
+    fn choice(&self) -> Result<TilesChoice> {
+        let refused = |message: String, hint: &str| Diagnostic::new("map-tiles", Fault::Recipe, message).hint(hint);
+        if self.out.extension().is_none_or(|ending| ending != "glb") {
+            let message = format!("`--out {}` does not end in `.glb`", self.out.display());
+            return Err(refused(message, "the tiles become one GLB file"));
+        }
+        if !(0.0..=1000.0).contains(&self.error_m) {
+            return Err(refused(
+                format!("`--error-m` is `{}`", self.error_m),
+                "0 to 1000 metres; 0 is the finest level",
+            ));
+        }
+        let area_m: Option<[f64; 4]> = self.area_m.as_ref().and_then(|it| it[..].try_into().ok());
+        let is_area = |[west, south, east, north]: [f64; 4]| west < east && south < north;
+        if area_m.is_some_and(|area| !is_area(area) || area.iter().any(|it| !(-1e5..=1e5).contains(it))) {
+            let hint = "west, south, east, north within 100 km, such as `--area-m=-150,-150,150,150`";
+            return Err(refused(format!("`--area-m` is `{area_m:?}`"), hint));
+        }
+        let origin: Option<[f64; 3]> = self.origin.as_ref().and_then(|it| it[..].try_into().ok());
+        let is_place = |[lat, lon, height]: [f64; 3]| {
+            (-90.0..=90.0).contains(&lat) && (-180.0..=180.0).contains(&lon) && (-1e4..=1e4).contains(&height)
+        };
+        if !origin.is_none_or(is_place) {
+            let hint = "latitude -90 to 90, longitude -180 to 180 degrees, height -10,000 to 10,000 m";
+            return Err(refused(format!("`--origin` is `{origin:?}`"), hint));
+        }
+        Ok(TilesChoice { geometric_error_m: self.error_m, area_m, origin })
+    }
+
+    fn told(&self, joined: &JoinedTiles) -> String {
+        let JoinedTiles { origin, tiles, tilesets, geometric_error_m, points, glb } = joined;
+        let name = self.out.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let mut text = format!(
+            "{tiles} tiles of {tilesets} tilesets, true to {geometric_error_m} m by their own statement: {} bytes\n",
+            glb.len()
+        );
+        if *points > 0 {
+            text += &format!("{points} parts show points alone and are left out\n");
+        }
+        text += &match origin {
+            Some([lat, lon, height]) => format!(
+                "origin: latitude {lat:.7}, longitude {lon:.7} degrees, {height:.2} m above the ellipsoid; x to the east, z to the south\n"
+            ),
+            None => "origin: that of the tileset, which does not say where on the Earth it is\n".to_owned(),
+        };
+        text + &format!(
+            "in a recipe, in stage `map`: source = {name:?}, and where it is one surface `options = {{ one_surface = true }}`;\n\
+             in stage `render`: mesh = {{ source = {name:?} }}\n"
+        )
+    }
+}
+
+/// A file of the tileset's folder, and of no other.
+fn opened(root: &Path, path: &str) -> Result<Vec<u8>, MapError> {
+    let failed = |error: std::io::Error| {
+        MapError::new(format!("the file cannot be read: {error}"))
+            .hint("fetch all tiles of the tileset into its folder")
+    };
+    let file = root.join(path).canonicalize().map_err(failed)?;
+    if !file.starts_with(root) {
+        return Err(MapError::new("the file lies beyond the tileset's folder").hint("put copies in the place of links"));
+    }
+    let metadata = std::fs::metadata(&file).map_err(failed)?;
+    if !metadata.is_file() || metadata.len() > MOST_BYTES {
+        return Err(MapError::new(format!("it is no file of at most {MOST_BYTES} bytes")).hint("split the tile"));
+    }
+    std::fs::read(&file).map_err(failed)
+}
