@@ -25,6 +25,7 @@ mod flow;
 mod frames;
 mod ground;
 mod log;
+mod mesh;
 mod options;
 mod report;
 mod resume;
@@ -39,6 +40,7 @@ mod verify;
 mod waypoints;
 mod windows;
 
+pub use mesh::ScannedMesh;
 pub use options::Options;
 pub use report::{Finding, LabelGap, VerifyReport};
 pub use verify::verify;

@@ -1,8 +1,10 @@
 //! Options of a check: its parts and its manner.
 
 use super::flight_list::FlightList;
+use super::mesh::ScannedMesh;
 use cosfly_diagnose::Stop;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Options of a check.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +15,8 @@ pub struct Options {
     pub sample: Option<usize>,
     /// File that notes the flights found sound, so that an interrupted check goes on where it ended.
     pub resume: Option<PathBuf>,
+    /// Scan that the flights keep their clearance from.
+    pub mesh: Option<Arc<ScannedMesh>>,
     /// Ends the check, within a second.
     pub stop: Stop,
 }

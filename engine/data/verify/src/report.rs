@@ -73,6 +73,8 @@ pub struct VerifyReport {
     pub boxes: u64,
     /// Frames whose visible shares by rays and by pixels were compared.
     pub labels: u64,
+    /// Flights that were compared with the mesh of a scan.
+    pub meshed: u64,
     /// Frames in which those are more than 5 points apart.
     pub gaps: u64,
     /// The first of them, in the order of the rows.
@@ -98,6 +100,7 @@ impl VerifyReport {
         self.boxes += part.boxes;
         self.labels += part.labels;
         self.gaps += part.gaps;
+        self.meshed += part.meshed;
         self.resumed += part.resumed;
         let room = KEPT_FINDINGS.saturating_sub(self.label_gaps.len());
         self.label_gaps.extend(part.label_gaps.into_iter().take(room));

@@ -6,7 +6,7 @@ use crate::options::{Options, Wanted};
 use crate::report::VerifyReport;
 use crate::resume::ResumeFile;
 use crate::tables::SmallTables;
-use crate::{clouds, croissant, extras, files, sensed, splits, tables, waypoints, windows};
+use crate::{clouds, croissant, extras, files, mesh, sensed, splits, tables, waypoints, windows};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use std::path::Path;
 use std::sync::mpsc;
@@ -83,6 +83,7 @@ fn check_flights(
     clouds::check(&flights, report);
     let motions = flights.check_all(report, progress)?;
     waypoints::check(&flights, &motions, report);
+    mesh::check(&flights, options.mesh.as_deref(), report)?;
     Ok(())
 }
 

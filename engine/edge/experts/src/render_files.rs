@@ -89,7 +89,11 @@ fn read_scene_mesh(config: &RenderConfig, files: &[PathBuf], town: &Town) -> Res
     Ok(Some(SceneMesh::new(read, mesh, town)))
 }
 
-fn read_mesh(config: &MeshConfig, path: &Path, beside: &[PathBuf], world_origin_m: DVec3) -> Result<TexturedMesh> {
+/// Reads a mesh, whose pictures and materials lie in the files `beside`, for a world whose reader took `world_origin_m` off its map.
+///
+/// # Errors
+/// Files that cannot be read, or are no mesh; numbers that no place has.
+pub fn read_mesh(config: &MeshConfig, path: &Path, beside: &[PathBuf], world_origin_m: DVec3) -> Result<TexturedMesh> {
     let shown = path.display();
     let refused = |error: MapError| {
         let refused = Diagnostic::new("mesh-refused", Fault::Input, error.message).because(format!("in `{shown}`"));

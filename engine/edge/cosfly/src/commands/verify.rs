@@ -1,5 +1,6 @@
 //! `cosfly verify`: checks a finished dataset.
 
+mod mesh;
 mod regenerate;
 
 use crate::arguments::{RecipeArguments, StoreArguments};
@@ -25,6 +26,7 @@ Examples:
   cosfly verify out/carla_town
   cosfly verify /data/large --sample 500             some flights in full, all tables, sizes of all logs
   cosfly verify /data/large --resume large.notes     goes on where an interrupted check ended
+  cosfly verify out/street --mesh street.glb         clearance from the triangles of the scan
   cosfly verify out/carla_town --regenerate 2 --recipe recipes/carla_town.toml
 
 Exits with 1 when something is wrong."
@@ -52,6 +54,8 @@ pub struct Arguments {
     #[arg(long = "set", value_name = "PATH=VALUE", requires = "recipe")]
     overrides: Vec<String>,
     #[command(flatten)]
+    mesh: mesh::MeshArguments,
+    #[command(flatten)]
     store: StoreArguments,
     /// Print JSON
     #[arg(long)]
@@ -65,6 +69,7 @@ impl Command for Arguments {
             jobs: self.jobs.map(usize::from),
             sample: self.sample.map(|sample| sample as usize),
             resume: self.resume.clone(),
+            mesh: self.mesh.read(&self.dir)?,
             stop: console.stop(),
         };
         let report = cosfly_verify::verify(&self.dir, &options, &mut |done, all| progress(done, all))?;
@@ -102,7 +107,7 @@ fn json(dir: &Path, report: &VerifyReport, regenerated: Option<String>, wrong: u
         "sample": report.sample, "flights_of_dataset": report.flights_of_dataset, "resumed": report.resumed,
         "files": report.files, "bytes": report.bytes, "flights": report.flights, "frames": report.frames,
         "target_boxes": report.boxes, "visibility_labels": report.labels, "visibility_gaps": report.gaps,
-        "regenerated": regenerated, "regenerated_wrong": wrong,
+        "flights_by_mesh": report.meshed, "regenerated": regenerated, "regenerated_wrong": wrong,
     });
     format!("{whole:#}\n")
 }
@@ -141,6 +146,10 @@ fn told(report: &VerifyReport) -> String {
     let hidden = report.gaps - report.label_gaps.len() as u64;
     if hidden > 0 {
         let _ = writeln!(text, "  ... and {hidden} more");
+    }
+    if report.meshed > 0 {
+        let flights = count(report.meshed, "flight");
+        let _ = writeln!(text, "{flights} held against the mesh: those of its town whose certificate holds");
     }
     if report.resumed > 0 {
         let _ = writeln!(text, "{} of these were found sound by an earlier check", count(report.resumed, "flight"));

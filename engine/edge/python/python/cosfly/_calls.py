@@ -168,6 +168,8 @@ class VerifyResult:
     regenerated_wrong: int
     dataset: str = ""
     """Identity of the dataset that was checked, as :attr:`cosfly.Dataset.identity`."""
+    flights_by_mesh: int = 0
+    """Flights that were held against ``mesh``."""
 
     def __bool__(self) -> bool:
         return self.sound
@@ -286,15 +288,16 @@ def verify(
     regenerate: Optional[int] = None,
     recipe: Optional[PathLike] = None,
     set: Settings = None,
+    mesh: Optional[PathLike] = None,
     store: Optional[PathLike] = None,
     progress: Progress = True,
 ) -> VerifyResult:
     """Check a finished dataset: hashes, counts, schemas, reprojection, actions; ``regenerate`` makes flights again.
 
     ``sample`` flights are checked in full instead of all; ``resume`` is a file of notes with which an interrupted check
-    goes on.
+    goes on. ``mesh`` is the scan that was flown in: flights keep their clearance from its triangles.
     """
-    given = _options(sample=sample, resume=resume, jobs=jobs, regenerate=regenerate, recipe=recipe, store=store)
+    given = _options(sample=sample, resume=resume, jobs=jobs, regenerate=regenerate, recipe=recipe, mesh=mesh, store=store)
     arguments = ["verify", os.fspath(dataset), "--json", *given, *_settings(set)]
     _, text, _ = _call(arguments, b"", progress)
     return _known(VerifyResult, json.loads(text))

@@ -1,0 +1,72 @@
+//! `cosfly verify --mesh`: the scan that flights are held against.
+
+use clap::Args;
+use cosfly_diagnose::{Diagnostic, Fault, Result};
+use cosfly_experts::render_files::read_mesh;
+use cosfly_models::mesh::{MeshConfig, MeshTriangle};
+use cosfly_read::PublishedDataset;
+use cosfly_verify::ScannedMesh;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The scan and its place.
+#[derive(Debug, Args)]
+pub struct MeshArguments {
+    /// Mesh of the scan that was flown in (.glb, .gltf, .obj): flights keep the clearance of their certificates from its triangles
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<PathBuf>,
+    /// Key of `mesh` as in the recipe, such as up_axis=z or origin_m=[0, 0, 2] (repeatable)
+    #[arg(long, value_name = "KEY=VALUE", requires = "mesh")]
+    mesh_set: Vec<String>,
+    /// Town that the mesh is of, where the dataset has several
+    #[arg(long, value_name = "TOWN", requires = "mesh")]
+    mesh_town: Option<String>,
+}
+
+impl MeshArguments {
+    /// The mesh in the world of the dataset's flights.
+    ///
+    /// # Errors
+    /// Files that cannot be read, keys that no mesh has, a town that is not told.
+    pub fn read(&self, dataset: &Path) -> Result<Option<Arc<ScannedMesh>>> {
+        let Some(file) = &self.mesh else { return Ok(None) };
+        let refused = |message: String, hint: String| Diagnostic::new("verify-mesh", Fault::Recipe, message).hint(hint);
+        let mut keys = serde_json::Map::from_iter([("source".to_owned(), "".into())]);
+        for change in &self.mesh_set {
+            let Some((key, value)) = change.split_once('=') else {
+                let hint = "`up_axis=z`, `origin_m=[0, 0, 2]`".into();
+                return Err(refused(format!("`--mesh-set {change}` is no key with a value"), hint));
+            };
+            let value = serde_json::from_str(value).unwrap_or_else(|_| Value::from(value.trim()));
+            keys.insert(key.trim().to_owned(), value);
+        }
+        let config: MeshConfig = serde_json::from_value(keys.into()).map_err(|error| {
+            let hint =
+                "keys are those of `mesh` in stage `render`: `up_axis`, `unit_m`, `turn_deg`, `origin_m`, `files`"
+                    .into();
+            refused(format!("the mesh cannot be placed: {error}"), hint)
+        })?;
+        let dataset = PublishedDataset::open(dataset)?;
+        let flights = dataset.flights();
+        let mut towns: Vec<&str> = flights.iter().map(|flight| flight.town.as_str()).collect();
+        towns.sort_unstable();
+        towns.dedup();
+        let town = match (&self.mesh_town, &towns[..]) {
+            (Some(town), _) if towns.contains(&town.as_str()) => town.as_str(),
+            (None, [town]) => town,
+            (given, _) => {
+                let message = given.as_ref().map_or_else(
+                    || "the dataset has flights in several towns".to_owned(),
+                    |town| format!("no flight is in a town `{town}`"),
+                );
+                return Err(refused(message, format!("give one with `--mesh-town`: {}", towns.join(", "))));
+            }
+        };
+        let offset_m =
+            flights.iter().find(|flight| flight.town == town).map_or_else(Default::default, |it| it.town_offset_m);
+        let beside: Vec<PathBuf> = config.files.iter().map(|name| file.with_file_name(name)).collect();
+        let mesh = read_mesh(&config, file, &beside, offset_m)?;
+        Ok(Some(Arc::new(ScannedMesh::new(town.to_owned(), mesh.triangles.iter().map(MeshTriangle::corners)))))
+    }
+}
