@@ -3,6 +3,7 @@
 use crate::street::{RECIPE, Street, map};
 use crate::support::cosfly;
 use cosfly_models::mesh::TexturedMesh;
+use cosfly_read::PublishedDataset;
 use cosfly_splats::{Splat, to_ply};
 
 /// A splat in yellow.
@@ -161,6 +162,99 @@ fn a_town_is_converted_to_a_mesh_and_to_splats_that_lie_where_it_lies() {
         assert_eq!(printed.code, Some(code), "{arguments:?}: {}", printed.stderr);
         assert!(printed.stderr.contains(words), "{arguments:?}: {}", printed.stderr);
     }
+}
+
+/// Writes a tileset of these tiles into the street.
+fn tileset(street: &Street, uris: &[&str]) {
+    let leaf = |uri: &&str| format!(r#"{{"geometricError":0,"content":{{"uri":"{uri}"}}}}"#);
+    let children = uris.iter().map(leaf).collect::<Vec<_>>().join(",");
+    let root = format!(r#"{{"geometricError":9,"refine":"REPLACE","children":[{children}]}}"#);
+    let text = format!(r#"{{"asset":{{"version":"1.1"}},"geometricError":9,"root":{root}}}"#);
+    std::fs::write(street.path().join("tiles/tileset.json"), text).expect("writable");
+}
+
+#[test]
+fn tiles_become_one_mesh_and_nothing_beyond_their_folder_is_opened() {
+    let street = meshed("source = \"scan.glb\", license = \"mine\"");
+    let folder = street.path().join("tiles");
+    std::fs::create_dir(&folder).expect("a folder");
+    std::fs::rename(street.path().join("scan.glb"), folder.join("0.glb")).expect("movable");
+    std::fs::write(street.path().join("secret.glb"), TexturedMesh::EXAMPLE).expect("writable");
+    tileset(&street, &["0.glb"]);
+    let join = |more: &[&str]| {
+        let all = [&["map", "tiles", "tiles/tileset.json", "--out", "scan.glb"], more].concat();
+        cosfly(&all).within(street.path()).run()
+    };
+    let printed = join(&[]);
+    assert!(printed.code == Some(0) && printed.stdout.contains("1 tile of 1 tileset,"), "{}", printed.stderr);
+    let printed = cosfly(&["run", "recipe.toml"]).within(street.path()).run_ok();
+    for words in ["of the mesh lie", "comes within"] {
+        assert!(!printed.stderr.contains(words), "{}", printed.stderr);
+    }
+    let set = ["run", "recipe.toml", "--set", "stages.town.source=tiles/tileset.json"];
+    let printed = cosfly(&set).within(street.path()).run();
+    assert!(printed.code == Some(4) && printed.stderr.contains("cosfly map tiles"), "{}", printed.stderr);
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("../secret.glb", folder.join("link.glb")).expect("a link");
+    for (uri, words) in [
+        ("../secret.glb", "leads out"),
+        ("https://example.org/0.glb", "an address"),
+        ("none.glb", "cannot be read"),
+        ("tileset.json", "nested deeper"),
+        #[cfg(unix)]
+        ("link.glb", "beyond the tileset's folder"),
+    ] {
+        tileset(&street, &[uri]);
+        let printed = join(&[]);
+        assert_eq!(printed.code, Some(4), "{uri}: {}", printed.stderr);
+        assert!(printed.stderr.contains(words) && printed.stderr.contains("help: "), "{uri}: {}", printed.stderr);
+    }
+    for (more, words) in [
+        ("--error-m=-1", "0 to 1000"),
+        ("--area-m=1,1,0,2", "west"),
+        ("--area-m=1,2", "four"),
+        ("--origin=91,0,0", "latitude"),
+    ] {
+        let printed = join(&[more]);
+        assert!(printed.code == Some(3) && printed.stderr.contains(words), "{more}: {}", printed.stderr);
+    }
+}
+
+#[test]
+fn finished_flights_are_held_against_the_mesh_and_a_planted_triangle_is_found() {
+    let street = meshed("source = \"scan.glb\", license = \"mine\"");
+    cosfly(&["run", "recipe.toml"]).within(street.path()).run_ok();
+    let dataset = street.dataset();
+    let shown = dataset.to_str().expect("UTF-8");
+    let verify = |more: &[&str]| cosfly(&[&["verify", shown], more].concat()).within(street.path()).run();
+    let printed = verify(&["--mesh", "scan.glb"]);
+    assert_eq!(printed.code, Some(0), "{}", printed.stdout);
+    assert!(printed.stdout.contains("flights held against the mesh"), "{}", printed.stdout);
+
+    // A hand's width of a wall half a metre beside one point of one flight, in no box of the map.
+    let published = PublishedDataset::open(&dataset).expect("a dataset");
+    let flight = &published.flights()[0];
+    let index = published.row_index("frames").expect("an index");
+    let frame = &published.frames(&index, flight).expect("frames")[5];
+    let at = frame.pose.position_in_world + flight.town_offset_m;
+    let corner = |aside: f64, up: f64| format!("v {} {} {}\n", at.x + 0.5, at.z + up, at.y + aside);
+    let wall = [corner(0.0, 0.0), corner(0.1, 0.0), corner(0.0, 0.1), "f 1 2 3\n".to_owned()].concat();
+    std::fs::write(street.path().join("wall.obj"), wall).expect("writable");
+    let printed = verify(&["--mesh", "wall.obj"]);
+    assert_eq!(printed.code, Some(1), "{}", printed.stdout);
+    let named = format!("`{}` frame", flight.trajectory_id);
+    for words in ["[verify-mesh]", "comes within 0.", &named] {
+        assert!(printed.stdout.contains(words), "{words}: {}", printed.stdout);
+    }
+    // Far away it hurts nobody.
+    let printed = verify(&["--mesh", "wall.obj", "--mesh-set", "origin_m=[0, 0, 300]"]);
+    assert_eq!(printed.code, Some(0), "{}", printed.stdout);
+    for (more, words) in [("origin_m", "no key"), ("up=z", "up_axis")] {
+        let printed = verify(&["--mesh", "scan.glb", "--mesh-set", more]);
+        assert!(printed.code == Some(3) && printed.stderr.contains(words), "{more}: {}", printed.stderr);
+    }
+    let printed = verify(&["--mesh", "scan.glb", "--mesh-town", "elsewhere"]);
+    assert!(printed.code == Some(3) && printed.stderr.contains("--mesh-town"), "{}", printed.stderr);
 }
 
 #[test]

@@ -12,6 +12,7 @@ use cosfly_onnx::{OnnxModel, Tensor};
 #[cfg(feature = "plugins")]
 use cosfly_plugin_host::{Host, PluginLimits};
 use cosfly_read::predictions::run_lengths::Runs;
+use cosfly_scans::tiles::{TilesChoice, join};
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, read_answer};
 use cosfly_splats::{SplatRenderer, SplatUpAxis, SplatView, SplatsConfig};
 use cosfly_town::MapError;
@@ -49,6 +50,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("recipes", recipes),
     ("run_lengths", run_lengths),
     ("splats", splats),
+    ("tiles", tiles),
 ];
 
 /// The target called `name`.
@@ -208,6 +210,28 @@ fn meshes(bytes: &[u8]) {
     for triangle in mesh.triangles.iter().take(100) {
         let look = mesh.look_at(triangle, [0.2, 0.3, 0.5], 3.0);
         assert!(look.iter().all(|share| (0.0..=1.001).contains(share)), "{look:?}");
+    }
+}
+
+/// A tileset with a mesh in the place of each tile, or any file as the only tile of one; what is joined is read again.
+fn tiles(bytes: &[u8]) {
+    const ONE: &str = r#"{"asset":{"version":"1.0"},"root":{"content":{"uri":"0.b3dm"}}}"#;
+    let is_text = bytes.starts_with(b"{");
+    let plain = if is_text { TexturedMesh::EXAMPLE } else { bytes };
+    let tileset = if is_text { bytes } else { ONE.as_bytes() };
+    let choice = TilesChoice { area_m: Some([-1e4, -1e4, 1e4, 1e4]), ..TilesChoice::default() };
+    let mut opened = 0;
+    let joined = join("tileset.json", &choice, &mut |path| {
+        assert!(!path.starts_with('/') && !path.split('/').any(|part| part == ".."), "`{path}` leads out");
+        opened += 1;
+        let is_known = opened < 200;
+        is_known
+            .then(|| if path == "tileset.json" { tileset } else { plain }.to_vec())
+            .ok_or_else(|| MapError::new("enough"))
+    });
+    match joined {
+        Ok(joined) => meshes(&joined.glb),
+        Err(error) => assert!(!error.hints.is_empty(), "{error}"),
     }
 }
 

@@ -207,7 +207,8 @@ fn batched(glb: &[u8], center: [f64; 3]) -> Vec<u8> {
     let mut table = json!({ "BATCH_LENGTH": 0, "RTC_CENTER": center }).to_string().into_bytes();
     table.resize((28 + table.len()).next_multiple_of(8) - 28, b' ');
     let number = |of: usize| (of as u32).to_le_bytes();
-    let head = [&b"b3dm"[..], &number(1), &number(28 + table.len() + glb.len()), &number(table.len()), &number(0)].concat();
+    let head =
+        [&b"b3dm"[..], &number(1), &number(28 + table.len() + glb.len()), &number(table.len()), &number(0)].concat();
     [&head[..], &number(0), &number(0), &table, glb].concat()
 }
 

@@ -65,7 +65,7 @@ pub fn join(
     or_advice(walk.tileset(name, None, 0), WAY_OUT)?;
     let Walk { joined, mut found, frame, .. } = walk;
     if found.tiles == 0 {
-        let error = MapError::new("no tile has shapes in the area");
+        let error = MapError::new("no tile has shapes");
         return Err(error.hint("give a wider area, or none; it counts in metres from the origin"));
     }
     found.glb = joined.to_glb();

@@ -111,7 +111,7 @@ impl Tile {
     pub fn uris(&self) -> Result<Vec<&str>, MapError> {
         if self.implicit_tiling.is_some() || self.extensions.contains_key("3DTILES_implicit_tiling") {
             let error = MapError::new("the tileset states its tiles by a rule (`implicitTiling`), which is not read");
-            return Err(error.hint("`npx 3d-tiles-tools convert` or the tool that made it writes explicit tiles"));
+            return Err(error.hint("ask the tool that made it for explicit tiles"));
         }
         let all = self.content.iter().chain(&self.contents);
         Ok(all.filter_map(|content| content.uri.as_deref().or(content.url.as_deref())).collect())

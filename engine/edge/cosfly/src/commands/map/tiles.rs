@@ -3,6 +3,7 @@
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
+use crate::text::count;
 use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_scans::tiles::{JoinedTiles, TilesChoice, join};
@@ -33,13 +34,16 @@ pub struct Arguments {
     #[arg(long, value_name = "M", default_value_t = 0.0)]
     error_m: f64,
     /// Area that tiles must meet: metres to the west, south, east and north of the origin, negative to the west and south
-    #[arg(long, value_name = "W,S,E,N", value_delimiter = ',', num_args = 4, allow_negative_numbers = true)]
+    #[arg(long, value_name = "W,S,E,N", value_delimiter = ',', allow_negative_numbers = true)]
     area_m: Option<Vec<f64>>,
     /// Origin of the mesh: latitude and longitude in degrees, height above the ellipsoid in metres [default: the tileset's middle]
-    #[arg(long, value_name = "LAT,LON,H", value_delimiter = ',', num_args = 3, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LAT,LON,H", value_delimiter = ',', allow_negative_numbers = true)]
     origin: Option<Vec<f64>>,
 }
 
+/// Farthest side of an area from the origin, and highest origin, metres.
+const FARTHEST_M: f64 = 1e5;
+const HIGHEST_M: f64 = 1e4;
 /// Longest file of a tile.
 const MOST_BYTES: u64 = 4 << 30;
 
@@ -89,20 +93,24 @@ impl Arguments {
                 "0 to 1000 metres; 0 is the finest level",
             ));
         }
-        let area_m: Option<[f64; 4]> = self.area_m.as_ref().and_then(|it| it[..].try_into().ok());
-        let is_area = |[west, south, east, north]: [f64; 4]| west < east && south < north;
-        if area_m.is_some_and(|area| !is_area(area) || area.iter().any(|it| !(-1e5..=1e5).contains(it))) {
-            let hint = "west, south, east, north within 100 km, such as `--area-m=-150,-150,150,150`";
-            return Err(refused(format!("`--area-m` is `{area_m:?}`"), hint));
-        }
-        let origin: Option<[f64; 3]> = self.origin.as_ref().and_then(|it| it[..].try_into().ok());
-        let is_place = |[lat, lon, height]: [f64; 3]| {
-            (-90.0..=90.0).contains(&lat) && (-180.0..=180.0).contains(&lon) && (-1e4..=1e4).contains(&height)
+        let area_m = self.area_m.as_deref().map(<[f64; 4]>::try_from).transpose().ok().filter(|area| {
+            area.is_none_or(|[west, south, east, north]| {
+                west < east && south < north && [west, south, east, north].iter().all(|it| it.abs() <= FARTHEST_M)
+            })
+        });
+        let Some(area_m) = area_m else {
+            let hint = "four numbers: west, south, east, north within 100 km, such as `--area-m=-150,-150,150,150`";
+            return Err(refused(format!("`--area-m` is `{:?}`", self.area_m.as_deref().unwrap_or_default()), hint));
         };
-        if !origin.is_none_or(is_place) {
-            let hint = "latitude -90 to 90, longitude -180 to 180 degrees, height -10,000 to 10,000 m";
-            return Err(refused(format!("`--origin` is `{origin:?}`"), hint));
-        }
+        let origin = self.origin.as_deref().map(<[f64; 3]>::try_from).transpose().ok().filter(|origin| {
+            origin.is_none_or(|[lat, lon, height_m]| {
+                lat.abs() <= 90.0 && lon.abs() <= 180.0 && height_m.abs() <= HIGHEST_M
+            })
+        });
+        let Some(origin) = origin else {
+            let hint = "three numbers: latitude -90 to 90, longitude -180 to 180 degrees, height -10,000 to 10,000 m";
+            return Err(refused(format!("`--origin` is `{:?}`", self.origin.as_deref().unwrap_or_default()), hint));
+        };
         Ok(TilesChoice { geometric_error_m: self.error_m, area_m, origin })
     }
 
@@ -110,7 +118,9 @@ impl Arguments {
         let JoinedTiles { origin, tiles, tilesets, geometric_error_m, points, glb } = joined;
         let name = self.out.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let mut text = format!(
-            "{tiles} tiles of {tilesets} tilesets, true to {geometric_error_m} m by their own statement: {} bytes\n",
+            "{} of {}, true to {geometric_error_m} m by their own statement: {} bytes\n",
+            count(*tiles as u64, "tile"),
+            count(*tilesets as u64, "tileset"),
             glb.len()
         );
         if *points > 0 {
