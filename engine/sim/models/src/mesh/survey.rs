@@ -57,7 +57,8 @@ fn open_edges_m(mesh: &TexturedMesh) -> f64 {
     }
     edges.sort_unstable_by_key(|(ends, _)| *ends);
     let alone = edges.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() == 1);
-    alone.map(|same| same[0].1).sum()
+    // A sum of nothing is -0.
+    alone.map(|same| same[0].1).sum::<f64>() + 0.0
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ impl Part {
     pub fn merged_corners(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.vertices.len()).collect();
         let key = |at: &usize| (self.vertices[*at] / SAME_M).round().as_i64vec3().to_array();
-        order.sort_by_key(key);
+        order.sort_by_cached_key(key);
         let mut first: Vec<usize> = (0..self.vertices.len()).collect();
         for same in order.chunk_by(|a, b| key(a) == key(b)) {
             same.iter().for_each(|at| first[*at] = same[0]);

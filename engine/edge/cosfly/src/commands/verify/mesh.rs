@@ -31,7 +31,7 @@ impl MeshArguments {
     /// Files that cannot be read, keys that no mesh has, a town that is not told.
     pub fn read(&self, dataset: &Path) -> Result<Option<Arc<ScannedMesh>>> {
         let Some(file) = &self.mesh else { return Ok(None) };
-        let refused = |message: String, hint: String| Diagnostic::new("verify-mesh", Fault::Recipe, message).hint(hint);
+        let refused = |message: String, hint: String| Diagnostic::new("mesh-placed", Fault::Recipe, message).hint(hint);
         let mut keys = serde_json::Map::from_iter([("source".to_owned(), "".into())]);
         for change in &self.mesh_set {
             let Some((key, value)) = change.split_once('=') else {
