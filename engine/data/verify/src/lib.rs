@@ -30,6 +30,7 @@ mod options;
 mod report;
 mod resume;
 mod rows;
+mod scanned_mesh;
 mod sensed;
 mod splits;
 mod sums;
@@ -40,7 +41,7 @@ mod verify;
 mod waypoints;
 mod windows;
 
-pub use mesh::ScannedMesh;
 pub use options::Options;
 pub use report::{Finding, LabelGap, VerifyReport};
+pub use scanned_mesh::ScannedMesh;
 pub use verify::verify;

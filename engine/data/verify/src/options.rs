@@ -1,7 +1,7 @@
 //! Options of a check: its parts and its manner.
 
 use super::flight_list::FlightList;
-use super::mesh::ScannedMesh;
+use super::scanned_mesh::ScannedMesh;
 use cosfly_diagnose::Stop;
 use std::path::PathBuf;
 use std::sync::Arc;

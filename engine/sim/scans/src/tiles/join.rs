@@ -68,7 +68,7 @@ pub fn join(
         let error = MapError::new("no tile has shapes");
         return Err(error.hint("give a wider area, or none; it counts in metres from the origin"));
     }
-    found.glb = joined.to_glb();
+    found.glb = joined.into_glb();
     found.origin = frame.and_then(|frame| frame.origin).map(|origin| origin.degrees());
     Ok(found)
 }

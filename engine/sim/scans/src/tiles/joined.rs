@@ -46,8 +46,8 @@ struct Part<'a> {
 }
 
 impl Joined {
-    /// Adds a file whose frame `from_file` takes to that of the whole. `scene_from_tile` and `up` make it: corners of the file are
-    /// turned upright, moved by the file's own centre, then placed. `read` opens a file that this one names.
+    /// Adds a file. `place` gives the way from its frame to that of the whole, by the place from which its corners count; `read` opens a
+    /// file that this one names.
     ///
     /// # Errors
     /// Other versions, packed shapes and pictures, damaged files, more than a file can hold.
@@ -139,7 +139,7 @@ impl Joined {
     }
 
     /// The file.
-    pub fn to_glb(mut self) -> Vec<u8> {
+    pub fn into_glb(mut self) -> Vec<u8> {
         let mut document = json!({
             "asset": { "version": "2.0", "generator": "cosfly" }, "scene": 0, "scenes": [{ "nodes": self.roots }],
             "extensionsUsed": ["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"],
