@@ -123,3 +123,41 @@ fn people_of_another_town_are_refused() {
     assert_eq!(printed.code, Some(3), "{}", printed.stderr);
     assert!(printed.stderr.contains("inputs.others"), "{}", printed.stderr);
 }
+
+/// A mask picture of the street, white west of x = 30: walks begin and have goals there, by both stages, and `map inspect` shows it.
+#[test]
+fn a_mask_picture_says_where_walks_begin_and_its_pixels_are_part_of_the_key() {
+    let place = "min_m = [-60, -80], max_m = [180, 90] }]";
+    let street = Street::with(RECIPE, &map());
+    let mask = crate::support::repository_root().join("tests/towns/west.png");
+    std::fs::copy(&mask, street.path().join("west.png")).expect("copied");
+    let change = format!("stages.walkers.areas=[{{ picture = \"west.png\", {place}");
+    made(&street, &["stages.walkers.count=12", &change]);
+    let poses = crate::support::column(&street.dataset(), "frames", "target_x_m");
+    let first: Vec<f64> = poses.chunks(12).map(|flight| flight[0].parse().expect("a number")).collect();
+    assert!(first.len() >= 12 && first.iter().all(|x| *x < 31.0), "{first:?}");
+    // A copy elsewhere makes nothing again; other pixels do.
+    std::fs::copy(&mask, street.path().join("copy.png")).expect("copied");
+    let copy = change.replace("west", "copy");
+    assert_eq!(made(&street, &["stages.walkers.count=12", &copy]), BTreeMap::new());
+    let crowd = RECIPE.replacen("[stages.walkers]\nuse = \"pedestrians\"", "[stages.walkers]\nuse = \"traffic\"", 1);
+    let crowd = crowd.replacen("count = 3", "people.count = 12\nfollow.count = 3\nfollow.min_length_m = 0.0", 1);
+    std::fs::write(street.path().join("crowd.toml"), crowd).expect("writable");
+    let within = change.replace("walkers.areas", "walkers.people.areas");
+    cosfly(&["run", "crowd.toml", "--set", &within]).within(street.path()).run_ok();
+    let shown = |file: &str, table: &str| {
+        cosfly(&["map", "inspect", "street.xodr", "--plan", file, "--area", table]).within(street.path())
+    };
+    let table = change.split_once('[').expect("a table").1.trim_end_matches(']').to_owned();
+    let text = shown("plan.png", &table).run_ok().stdout;
+    assert!(text.contains("areas: ") && text.contains("walks begin on"), "{text}");
+    cosfly(&["map", "inspect", "street.xodr", "--plan", "bare.png"]).within(street.path()).run_ok();
+    let read = |file: &str| std::fs::read(street.path().join(file)).expect("a plan");
+    assert_ne!(read("plan.png"), read("bare.png"));
+    let off = table.replace("-60, -80", "960, 920").replace("180, 90", "1200, 1090");
+    let said = shown("off.png", &off).run();
+    assert!(said.code != Some(0) && said.stderr.contains("lies beside the walkable ground"), "{}", said.stderr);
+    let wide = table.replace("180, 90", "180, 180");
+    let said = shown("wide.png", &wide).run().stderr;
+    assert!(said.contains("pixels must be square") && said.contains("west.png"), "{said}");
+}

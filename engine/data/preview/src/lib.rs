@@ -15,4 +15,4 @@ pub use cosfly_read::LoggedFrame;
 pub use pictures::{FlightPictures, clip, draw};
 pub use selection::FrameList;
 pub use shot::ClipShot;
-pub use town::town_plan;
+pub use town::{PlanShade, town_plan};

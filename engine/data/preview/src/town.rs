@@ -14,8 +14,11 @@ const HEADER: usize = 34;
 const LEGEND: usize = 34;
 const EMPTY: ChartColour = [244, 243, 240];
 
-/// The plan of a town; north is up. `title` stands above it.
-pub fn town_plan(town: &Town, title: &str) -> Canvas {
+/// Colour over a place of a plan, and its share there.
+pub type PlanShade = dyn Fn(DVec2) -> Option<(ChartColour, f64)>;
+
+/// The plan of a town; north is up. `title` stands above it; `shade` colours places, under houses and trees.
+pub fn town_plan(town: &Town, title: &str, shade: Option<&PlanShade>) -> Canvas {
     let view = View::of(town);
     let mut canvas = Canvas::new(view.size[0].max(700), view.size[1] + HEADER + LEGEND, EMPTY);
     // Land fills the picture: seams between its many triangles would show.
@@ -34,6 +37,9 @@ pub fn town_plan(town: &Town, title: &str) -> Canvas {
         let colour = walkable_colour(polygon.kind);
         canvas.area(&corners, colour, 0.35);
         canvas.outline(&corners, 0.6, colour, 0.6);
+    }
+    if let Some(shade) = shade {
+        draw_shade(&view, &mut canvas, shade);
     }
     let top_m = |it: &Obstacle| it.shape.center_in_world.z + it.shape.half_extents_m.z;
     let mut obstacles: Vec<&Obstacle> = town.obstacles.iter().collect();
@@ -80,6 +86,17 @@ fn draw_mesh(view: &View, canvas: &mut Canvas, mesh: &SurfaceMesh) {
     for triangle in &mesh.triangles {
         let corners = triangle.map(|corner| view.place(mesh.vertices_in_world[corner as usize].truncate()));
         canvas.area(&corners, colour, 1.0);
+    }
+}
+
+fn draw_shade(view: &View, canvas: &mut Canvas, shade: &PlanShade) {
+    for row in 0..view.size[1] {
+        for column in 0..view.size[0] {
+            let point = view.low + DVec2::new(column as f64 + 0.5, row as f64 + 0.5) / view.scale;
+            if let Some((colour, share)) = shade(point) {
+                canvas.blend(column as i64, (HEADER + row) as i64, colour, share);
+            }
+        }
     }
 }
 
@@ -181,7 +198,7 @@ mod tests {
         let walkable = vec![WalkablePolygon { kind: WalkableKind::Sidewalk, outline_in_world, synthetic: false }];
         let (min_in_world, max_in_world) = (DVec3::ZERO, DVec3::new(40.0, 40.0, 1.0));
         let town = Town { walkable, min_in_world, max_in_world, ..Town::default() };
-        let (plan, view) = (town_plan(&town, "bend"), View::of(&town));
+        let (plan, view) = (town_plan(&town, "bend", None), View::of(&town));
         let at = |x: f64, y: f64| {
             let [x, y] = view.place(DVec2::new(x, y));
             plan.pixel(x as usize, y as usize)

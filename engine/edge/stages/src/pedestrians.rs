@@ -4,6 +4,7 @@ use crate::ports::{self, WALK};
 use crate::single;
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
+use cosfly_experts::area_pictures;
 use cosfly_experts::artifacts;
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{link_town, world};
@@ -36,14 +37,15 @@ impl StageKind for Pedestrians {
     }
 
     fn build(&self, given: serde_json::Value) -> Result<Vec<StagePart>, ParameterError> {
-        let config: PedestrianConfig = parameters::read(given)?;
+        let mut config: PedestrianConfig = parameters::read(given)?;
         config.check().map_err(|rule| parameters::refused_at(&rule.path.join("."), rule.message))?;
-        let count = config.count;
+        let (count, sources) = (config.count, area_pictures::take_sources(&mut config.areas, ""));
         let canonical = parameters::without(parameters::canonical(&config), PedestrianConfig::NOT_IN_KEY);
         let properties = StageProperties {
             version: 1,
             parameters: canonical,
             inputs: self.ports(),
+            sources,
             items: ItemRule::Count { prefix: "p", count },
             bytes_per_item: 60 * u64::from(config.frames),
             resources: Resources { memory_mib: 512, batch: 16 },
@@ -68,7 +70,11 @@ impl Stage for PedestrianStage {
         let world = world(inputs)?;
         let digest = inputs.one("town")?.blobs["town"].digest;
         let refused = |error: PedestrianError| refusal(error, &world.town.name);
-        let grid = self.grid.get(digest, || WalkableGrid::build(&world.town, &self.config)).map_err(refused)?;
+        let build = || {
+            let areas = area_pictures::with_pixels(&self.config.areas, &context.sources)?;
+            WalkableGrid::build(&world.town, &PedestrianConfig { areas, ..self.config.clone() }).map_err(refused)
+        };
+        let grid = self.grid.get(digest, build)?;
         let path = walk(&grid, &self.config, Seed(context.seed)).map_err(refused)?;
         artifacts::WALK.put(outputs, &path)?;
         link_town(inputs, outputs)?;

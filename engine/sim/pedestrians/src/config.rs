@@ -223,7 +223,7 @@ mod tests {
         assert_eq!(rule.path, ["speed", "min_mps"]);
         assert_eq!(rule.message, "`min_mps` is `3`; it must not be more than `max_mps`, which is `2.2`");
         let corners = vec![[0.0, 0.0], [1.0, f64::INFINITY], [2.0, 0.0]];
-        let area = AreaConfig { polygon_m: corners, weight: 1.0, closed: false };
+        let area = AreaConfig { polygon_m: corners, ..AreaConfig::default() };
         let far = PedestrianConfig { areas: vec![area], ..PedestrianConfig::default() };
         let message = "area 0 has a corner at `inf`; corners must be within `100000` m of the origin";
         assert_eq!(far.check().unwrap_err().message, message);

@@ -78,6 +78,15 @@ pub enum PedestrianError {
     },
     /// No piece of ground that is large enough has a weight above 0.
     NoWeight,
+    /// The picture of an area lies where no ground is.
+    PictureOff {
+        /// Index of the area.
+        area: usize,
+        /// Smallest and largest x and y of the picture, metres.
+        picture_m: [[f64; 2]; 2],
+        /// Smallest and largest x and y of the ground, metres.
+        ground_m: [[f64; 2]; 2],
+    },
     /// The people of a crowd do not all find a place to begin at.
     TooCrowded {
         /// People who found one.
@@ -127,6 +136,9 @@ impl PedestrianError {
             Self::NoWeight => {
                 "give an area over walkable ground a `weight` above 0; corners are in the world: x, y, metres".into()
             }
+            Self::PictureOff { .. } => {
+                "give `min_m` and `max_m` as places of the world, x and y in metres; `cosfly map inspect MAP --area '{ picture = \"FILE\", min_m = [..], max_m = [..] }'` shows the picture over the town".into()
+            }
             Self::TooCrowded { placed, .. } => {
                 format!("set `count` to {} or less, or choose a map with more walkable ground", placed * 4 / 5)
             }
@@ -160,6 +172,11 @@ impl fmt::Display for PedestrianError {
                  {min_route_m} m"
             ),
             Self::NoWeight => f.write_str("`areas` give all walkable ground the weight 0, so no walk can begin"),
+            Self::PictureOff { area, picture_m: [from, to], ground_m: [low, high] } => write!(
+                f,
+                "the picture of area {area} lies beside the walkable ground: it reaches from {from:.1?} to {to:.1?}, the ground \
+                 from {low:.1?} to {high:.1?}"
+            ),
             Self::TooCrowded { placed, count } => {
                 write!(f, "only {placed} of {count} people find a place to begin at on the walkable ground")
             }

@@ -131,6 +131,11 @@ impl WalkableGrid {
         self.nodes.len()
     }
 
+    /// Number of walkable cells where walks may begin and lead to.
+    pub fn start_cells(&self) -> usize {
+        (0..self.nodes.len() as u32).filter(|node| self.weight(*node) > 0.0).count()
+    }
+
     /// Never true for a grid that was built.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
@@ -295,9 +300,9 @@ impl WalkableGrid {
                 });
             }
         }
-        for (from, to) in self.ground.closed.edges() {
+        self.ground.closed.visit_edges(&mut |from, to| {
             raster::cells_on_segment(&lattice, from, to, &mut |cell| cells.values.get_mut(cell).outlined = true);
-        }
+        });
         let is_closed = |cell| self.ground.closed.contains(lattice.center(cell));
         cells.values.visit(|cell, ground| {
             if let Some(kind) = ground.kind.filter(|_| !is_closed(cell)) {

@@ -57,6 +57,15 @@ impl Ground {
         }
         let min = polygons.iter().fold(DVec3::INFINITY, |low, polygon| low.min(polygon.min));
         let max = polygons.iter().fold(DVec3::NEG_INFINITY, |high, polygon| high.max(polygon.max));
+        for (area, config) in areas.iter().enumerate() {
+            let (Some(from), Some(to)) = (config.min_m, config.max_m) else { continue };
+            let (low, high) = (DVec2::from(from), DVec2::from(to));
+            let meets = |it: &Polygon| it.min.truncate().cmple(high).all() && it.max.truncate().cmpge(low).all();
+            if !polygons.iter().any(meets) {
+                let ground_m = [min, max].map(|corner| corner.truncate().to_array());
+                return Err(PedestrianError::PictureOff { area, picture_m: [from, to], ground_m });
+            }
+        }
         Ok(Self { polygons, min, max, closed: Closed::new(areas), columns: 0, buckets: vec![] })
     }
 

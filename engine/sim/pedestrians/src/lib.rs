@@ -3,6 +3,7 @@
 //! [`WalkableGrid::build`] once per town. [`walk`] once per person who walks alone: a pure function of the grid, the config and
 //! the seed. [`Crowd`], [`Recording::placed`] and [`scripted()`] make populations of a moving world.
 
+mod area_picture;
 pub mod areas;
 pub mod config;
 pub mod crowd;
@@ -20,7 +21,8 @@ pub mod scripted;
 mod smooth;
 pub mod walk;
 
-pub use areas::AreaConfig;
+pub use area_picture::AreaPicture;
+pub use areas::{AreaConfig, AreaMap};
 pub use config::{HeightRange, PedestrianConfig, RadiusRange, SpeedConfig, StopConfig};
 pub use crowd::{Crowd, CrowdConfig};
 pub use error::{PedestrianConfigRule, PedestrianError};

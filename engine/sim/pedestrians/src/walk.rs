@@ -204,8 +204,9 @@ impl<'a> GoalChain<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::AreaConfig;
     use crate::grid::test_towns::{rectangle, streets, town};
+    use crate::{AreaConfig, AreaPicture};
+    use std::sync::Arc;
 
     fn seed(item: u32) -> Seed {
         Seed::of_item(11, "walkers", &format!("p{item}"))
@@ -307,6 +308,7 @@ mod tests {
             polygon_m: vec![min, [max[0], min[1]], max, [min[0], max[1]]],
             weight,
             closed,
+            ..AreaConfig::default()
         };
         let everywhere = area([-500.0, -500.0], [500.0, 500.0], 0.0, false);
         let (west, east) =
@@ -322,6 +324,24 @@ mod tests {
             farthest_m = walked.track.states.iter().map(|state| state.feet_in_world.x).fold(farthest_m, f64::max);
         }
         assert!(farthest_m > 35.0 && farthest_m < 60.3, "{farthest_m}");
+        // The same as pictures: white in the west, where walks begin, and closed in the east.
+        let picture = |is_white: fn(usize) -> bool, closed| {
+            let grey = (0..250_000).map(|pixel| if is_white(pixel % 500) { 255 } else { 0 }).collect();
+            let (min_m, max_m) = (Some([-500.0; 2]), Some([500.0; 2]));
+            let pixels = Some(Arc::new(AreaPicture { size: [500, 500], grey }));
+            AreaConfig { picture: Some(String::new()), min_m, max_m, closed, pixels, ..AreaConfig::default() }
+        };
+        let areas = vec![picture(|column| column < 270, false), picture(|column| column >= 280, true)];
+        let config = PedestrianConfig { areas, ..PedestrianConfig::default() };
+        let grid = WalkableGrid::build(&town, &config).unwrap();
+        farthest_m = 0.0;
+        for item in 0..20 {
+            let walked = walk(&grid, &config, seed(item)).unwrap();
+            check_walk(&town, &grid, &config, &walked);
+            assert!(walked.track.states[0].feet_in_world.x < 40.0);
+            farthest_m = walked.track.states.iter().map(|state| state.feet_in_world.x).fold(farthest_m, f64::max);
+        }
+        assert!(farthest_m > 35.0 && farthest_m < 60.0, "{farthest_m}");
         let nowhere = PedestrianConfig { areas: vec![everywhere], ..PedestrianConfig::default() };
         let grid = WalkableGrid::build(&town, &nowhere).unwrap();
         let error = walk(&grid, &nowhere, seed(0)).unwrap_err();

@@ -5,6 +5,7 @@ use crate::ports::{self, TRAFFIC, WALK};
 use cosfly_blobs::OutputSink;
 use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::{Body, Followed};
+use cosfly_experts::area_pictures;
 use cosfly_experts::artifacts;
 use cosfly_experts::memo::Memo;
 use cosfly_experts::world::{check_same_town, link_town, world};
@@ -80,7 +81,7 @@ impl StageKind for TrafficKind {
     }
 }
 
-/// Files of recorded tracks, then the two of SUMO. Their names are left out of the parameters: contents count.
+/// Files of recorded tracks, then the two of SUMO, then the pictures of areas. Their names are left out of the parameters: contents count.
 fn take_sources(config: &mut TrafficConfig) -> Vec<Source> {
     let mut sources = vec![];
     for (number, recorded) in config.recorded.iter_mut().enumerate() {
@@ -90,6 +91,7 @@ fn take_sources(config: &mut TrafficConfig) -> Vec<Source> {
         sources.push(Source::new("sumo.source", std::mem::take(&mut sumo.source)));
         sources.push(Source::new("sumo.net", std::mem::take(&mut sumo.net)));
     }
+    sources.extend(area_pictures::take_sources(&mut config.people.areas, "people."));
     sources
 }
 
@@ -134,10 +136,14 @@ impl Stage for BodiesStage {
         check_same_town(inputs, AVOID)?;
         let world = world(inputs)?;
         let name = context.id.stage.recipe_name();
-        let files: Vec<TrackFile> = context.sources.iter().map(|path| track_file(path)).collect();
+        let mut config = TrafficConfig::clone(&self.config);
+        let tracks = config.recorded.len() + 2 * usize::from(config.sumo.is_some());
+        let (tracks, pictures) = context.sources.split_at(tracks);
+        config.people.areas = area_pictures::with_pixels(&config.people.areas, pictures)?;
+        let files: Vec<TrackFile> = tracks.iter().map(|path| track_file(path)).collect();
         let check = || context.check_cancelled();
         let SimulatedTraffic { traffic, about, warnings, avoided, left_out } =
-            simulate_traffic(&self.config, (name, Seed(context.seed)), &world.town, &files, avoided(inputs)?, &check)?;
+            simulate_traffic(&config, (name, Seed(context.seed)), &world.town, &files, avoided(inputs)?, &check)?;
         artifacts::TRAFFIC.put(outputs, &traffic)?;
         link_town(inputs, outputs)?;
         let mut notes = BTreeMap::from([("bodies".to_owned(), traffic.bodies.len().to_string())]);

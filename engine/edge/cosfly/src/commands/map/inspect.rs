@@ -1,6 +1,6 @@
 //! `cosfly map inspect`: the town that is read from a map file, in figures and as a plan.
 
-use super::{mesh, town};
+use super::{areas, mesh, town};
 use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
@@ -24,6 +24,7 @@ Examples:
   cosfly map inspect Town01.xodr --set fill.buildings=true --plan out/town01.png
   cosfly map inspect tile.laz --set options.voxel_m=0.5 --json
   cosfly map inspect region.osm.pbf --set 'bounds_m=[-500, -500, 500, 500]'   a part of the town
+  cosfly map inspect town.json --area '{ picture = \"mask.png\", min_m = [-60, -40], max_m = [60, 40] }'
 
 `--set` takes the parameters of the stage `map`; see the page \"Recipe\" of the book."
 )]
@@ -34,6 +35,9 @@ pub struct Arguments {
     /// Parameter of the stage `map`, such as fill.trees=true (repeatable)
     #[arg(long = "set", value_name = "PARAMETER=VALUE")]
     parameters: Vec<String>,
+    /// Area of people to draw over the plan, a table as in `areas` of the stages `pedestrians` and `traffic` (repeatable)
+    #[arg(long = "area", value_name = "TABLE")]
+    areas: Vec<String>,
     /// File for the plan [default: <FILE's name>-plan.png in the current folder]
     #[arg(long, value_name = "PNG")]
     plan: Option<PathBuf>,
@@ -45,6 +49,7 @@ pub struct Arguments {
 impl Command for Arguments {
     fn run(&self, console: &dyn Console) -> Outcome {
         let map = town::read("map inspect", &self.file, &self.parameters)?;
+        let areas = if self.areas.is_empty() { vec![] } else { areas::read("map inspect", &self.file, &self.areas)? };
         let plan = match (&self.plan, self.json) {
             (Some(path), _) => Some(path.clone()),
             (None, true) => None,
@@ -52,7 +57,8 @@ impl Command for Arguments {
         };
         if let Some(path) = &plan {
             let title = format!("{} ({})", map.town.name, map.format);
-            let picture = cosfly_preview::town_plan(&map.town, &title).png()?;
+            let shade = (!areas.is_empty()).then(|| areas::shade(&areas));
+            let picture = cosfly_preview::town_plan(&map.town, &title, shade.as_deref()).png()?;
             cosfly_whole::write_file(path, &picture)
                 .map_err(|error| Diagnostic::io(format!("write the plan `{}`", path.display()), &error))?;
         }
@@ -60,7 +66,12 @@ impl Command for Arguments {
         if let Some(mesh) = mesh::figures(&self.file, &map, &self.parameters) {
             figures["mesh"] = mesh;
         }
-        console.print(&if self.json { format!("{figures:#}\n") } else { text(&map, &figures, plan.as_deref()) })?;
+        if !areas.is_empty() {
+            figures["areas"] = areas::text(&map.town, &areas)?.into();
+        }
+        let areas = figures["areas"].as_str().map_or_else(String::new, |areas| format!("\n{areas}\n"));
+        let text = || text(&map, &figures, plan.as_deref()) + &areas;
+        console.print(&if self.json { format!("{figures:#}\n") } else { text() })?;
         Ok(exit::SUCCESS)
     }
 }

@@ -1,5 +1,6 @@
 //! `cosfly map`: work with map files; one file per command.
 
+mod areas;
 mod convert;
 mod inspect;
 mod mesh;
