@@ -78,30 +78,60 @@ fn piece(ground: &Clearance, first: usize, marks: &mut [bool], mark: bool) -> Ve
 
 /// The open cells that are far from all lines and from each other's ways there.
 fn dead_ends(ground: &Clearance, is_open: &[bool], is_line: &[bool]) -> Vec<usize> {
-    let mut is_near = is_line.to_vec();
+    let may_end: Vec<usize> = (0..is_open.len()).filter(|cell| ground.of_cell_m(*cell) <= OPEN_M).collect();
+    let mut ways = Ways { rank: vec![u64::MAX; is_open.len()], before: vec![usize::MAX; is_open.len()] };
+    ways.spread(ground, is_open, (0..is_line.len()).filter(|cell| is_line[*cell]).collect());
     let mut ends = Vec::new();
     while ends.len() < MOST_DEAD_ENDS {
-        let mut queue: VecDeque<usize> = (0..is_near.len()).filter(|cell| is_near[*cell]).collect();
-        let mut before: Vec<usize> = (0..is_near.len()).map(|c| if is_near[c] { c } else { usize::MAX }).collect();
-        let mut last = None;
+        let reached = may_end.iter().copied().filter(|cell| ways.rank[*cell] != u64::MAX);
+        let Some(end) = reached.reduce(|a, b| ways.later(ground, a, b)) else { break };
+        let mut way: Vec<usize> =
+            std::iter::successors(Some(end), |at| Some(ways.before[*at]).filter(|to| to != at)).collect();
+        if (way.len() as f64) * ground.cell_m < DEAD_END_M {
+            break;
+        }
+        way.sort_unstable();
+        ways.spread(ground, is_open, way);
+        ends.push(end);
+    }
+    ends
+}
+
+/// Shortest ways over open cells from the nearest line; of equal ones, the way from the cell of the smallest number.
+struct Ways {
+    /// Steps from the line, then the number of the line's cell; the largest where no way leads.
+    rank: Vec<u64>,
+    before: Vec<usize>,
+}
+
+impl Ways {
+    /// Makes a line of further cells, in ascending order.
+    fn spread(&mut self, ground: &Clearance, is_open: &[bool], line: Vec<usize>) {
+        let mut queue: VecDeque<usize> = line.into_iter().filter(|cell| (*cell as u64) < self.rank[*cell]).collect();
+        queue.iter().for_each(|cell| (self.rank[*cell], self.before[*cell]) = (*cell as u64, *cell));
         while let Some(cell) = queue.pop_front() {
-            last = if ground.of_cell_m(cell) <= OPEN_M { Some(cell) } else { last };
+            let rank = self.rank[cell] + (1 << 32);
             for next in cosfly_town::terrain::beside(cell, ground.columns, ground.rows) {
-                if is_open[next] && before[next] == usize::MAX {
-                    before[next] = cell;
+                if is_open[next] && rank < self.rank[next] {
+                    (self.rank[next], self.before[next]) = (rank, cell);
                     queue.push_back(next);
                 }
             }
         }
-        let Some(end) = last else { break };
-        let way: Vec<usize> = std::iter::successors(Some(end), |at| Some(before[*at]).filter(|to| to != at)).collect();
-        if (way.len() as f64) * ground.cell_m < DEAD_END_M {
-            break;
-        }
-        way.into_iter().for_each(|cell| is_near[cell] = true);
-        ends.push(end);
     }
-    ends
+
+    /// The one of two cells that a search in the breadth from all lines comes to later.
+    fn later(&self, ground: &Clearance, a: usize, b: usize) -> usize {
+        if a == b || self.rank[a] != self.rank[b] {
+            return if self.rank[b] < self.rank[a] { a } else { b };
+        }
+        let (mut of_a, mut of_b) = (a, b);
+        while self.before[of_a] != self.before[of_b] {
+            (of_a, of_b) = (self.before[of_a], self.before[of_b]);
+        }
+        let mut beside = cosfly_town::terrain::beside(self.before[of_a], ground.columns, ground.rows);
+        if beside.find(|next| *next == of_a || *next == of_b) == Some(of_a) { b } else { a }
+    }
 }
 
 /// Takes cells away, nearest to houses first, while that parts and joins nothing. Cells at the edge and some others stay.
