@@ -18,6 +18,7 @@ from walk_words import Way, when_said, wrongs
 
 REACH_M = {"building": 10.0}
 KIND_OF = {"tree": "tree_trunk", "parked_car": "car"}
+ON_FOOT = ("pedestrian", "child", "elder", "push_chair", "dog_walker")
 HIDERS = {"tree": {"tree_trunk", "tree_crown"}, "parked_car": {"car"}}
 WORN = {"people": ("top_colour", "trousers_colour", "has_backpack"), "flights": ("target_top_colour", "target_trousers_colour", "target_has_backpack")}
 
@@ -66,7 +67,7 @@ class Flight:
         for frame in range(start, end):
             for it in self.people.get(frame, []):
                 away = np.hypot(*(np.array(it["feet_in_world_m"][:2]) - self.feet[frame, :2]))
-                if it["kind"] == "pedestrian" and away < 3.6 and abs(turned(it["heading_deg"], self.heading[frame])) < 36 and it["speed_mps"] > 0.25:
+                if it["kind"] in ON_FOOT and away < 3.6 and abs(turned(it["heading_deg"], self.heading[frame])) < 36 and it["speed_mps"] > 0.25:
                     seen[it["instance"]] += 1
         return sum(times >= 0.5 * (end - start) for times in seen.values()) == count
 
@@ -81,11 +82,11 @@ class Flight:
         way = np.hypot(*(self.feet[end - 1, :2] - self.feet[start, :2]))
         return all(map(self.on_crossing, range(start, end))) and len(around) == 2 and not any(around) and way >= 5.0
 
-    def is_passed(self, kind, top, ways, turned_by, start, end, reach=3.6):
+    def is_passed(self, kinds, top, ways, turned_by, start, end, reach=3.6):
         """Whether somebody goes from ahead to behind the target (ways 1), or from behind to ahead (-1), between two frames."""
         for it in self.people.get(start, []):
             later = next((its for its in self.people.get(end - 1, []) if its["instance"] == it["instance"]), None)
-            if it["kind"] != kind or top not in (None, it["top_colour"]) or later is None:
+            if it["kind"] not in kinds or top not in (None, it["top_colour"]) or later is None:
                 continue
             ahead, aside = [], []
             for frame, body in ((start, it), (end - 1, later)):
@@ -125,11 +126,11 @@ class Flight:
         if name == "crosses":
             return self.crosses(start, end)
         if name == "overtakes":
-            return self.is_passed("pedestrian", rest[0], 1, (0, 40), start, end)
+            return self.is_passed(ON_FOOT, rest[0], 1, (0, 40), start, end)
         if name == "meets_vehicle":
-            return self.is_passed(rest[0], None, 1, (140, 180), start, end, 8.5)
+            return self.is_passed((rest[0],), None, 1, (140, 180), start, end, 8.5)
         if name == "overtaken_by":
-            return self.is_passed(rest[0], None, -1, (0, 40), start, end, 8.5)
+            return self.is_passed((rest[0],), None, -1, (0, 40), start, end, 8.5)
         if name == "lost":
             behind, seconds, end_of = rest
             hidden = (self.pixels[frames] == 0).all() and all(self.pixels[frame] > 0 for frame in (start - 1, end) if 0 <= frame < self.count)
@@ -140,7 +141,7 @@ class Flight:
         if name == "walks_with":
             return self.walks_with(int(rest[0]), start, end)
         if name == "meets":
-            return self.is_passed("pedestrian", rest[0], 1, (140, 180), start, end, np.inf)
+            return self.is_passed(ON_FOOT, rest[0], 1, (140, 180), start, end, np.inf)
         raise SystemExit(f"unknown claim {claim}")
 
 
@@ -189,7 +190,7 @@ def judge_dialogue(goal, flight, where, wrong):
         return wrong.append(f"{where}: the pilot says nothing")
     start, end = goal["start_frame"], goal["end_frame"]
     if goal["false_subject"] == "clothes":
-        others = [it for it in flight.people.get(start, []) if it["kind"] == "pedestrian"]
+        others = [it for it in flight.people.get(start, []) if it["kind"] in ON_FOOT]
         top = pilot[0][1]
         if top == flight.row["target_top_colour"] or sum(it["top_colour"] == top for it in others) != 1:
             wrong.append(f"{where}: the pilot's colour is nobody else's, or several people's")

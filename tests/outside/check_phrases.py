@@ -16,9 +16,12 @@ from shared import IN_CHINESE, end_with, flown, rows
 KINDS = {
     "pedestrian": ("person", "人"), "bicycle": ("cyclist", "骑自行车的人"), "motorcycle": ("motorcyclist", "骑摩托车的人"),
     "car": ("car", "汽车"), "van": ("van", "面包车"), "truck": ("lorry", "卡车"), "bus": ("bus", "公交车"), "drone": ("drone", "无人机"),
+    "child": ("child", "孩子"), "elder": ("old person", "老人"), "wheelchair": ("wheelchair user", "坐轮椅的人"), "sitter": ("seated person", "坐着的人"),
+    "push_chair": ("person with a push-chair", "推婴儿车的人"), "dog_walker": ("dog walker", "遛狗的人"),
 }
+PEOPLE = ("pedestrian", "child", "elder", "wheelchair", "sitter", "push_chair", "dog_walker")
 ENGLISH = re.compile(
-    r"the (?:(?P<motion>walking|moving|standing|stationary) )?(?:(?P<paint>[a-z]+) )??(?P<kind>person|cyclist|motorcyclist|car|van|lorry|bus)"
+    r"the (?:(?P<motion>walking|moving|standing|stationary) )?(?:(?P<paint>[a-z]+) )??(?P<kind>" + "|".join(word for word, _ in KINDS.values()) + ")"
     r"(?: in an? (?P<top>[a-z]+) top)?(?:(?: and| in) (?P<trousers>[a-z]+) trousers)?(?P<backpack> with a backpack)?(?P<shoulder_bag> with a shoulder bag)?"
     r"(?: (?:on|in) the (?P<part>left|right|middle) of the picture)?"
 )
@@ -35,11 +38,11 @@ def english(text):
 
 
 def chinese(text):
-    kind = next(kind for kind in ("bicycle", "motorcycle", "van", "truck", "bus", "car", "pedestrian") if text.endswith(KINDS[kind][1]))
+    kind = max((kind for kind in KINDS if text.endswith(KINDS[kind][1])), key=lambda kind: len(KINDS[kind][1]))
     colour = {zh: en for en, zh in IN_CHINESE.items()}
     any_colour = "|".join(colour)
     found = {name: re.search(pattern, text) for name, pattern in {
-        "top": f"穿({any_colour})上衣" if kind in ("pedestrian", "bicycle", "motorcycle") else f"({any_colour})", "trousers": f"({any_colour})裤子",
+        "top": f"穿({any_colour})上衣" if kind in (*PEOPLE, "bicycle", "motorcycle") else f"({any_colour})", "trousers": f"({any_colour})裤子",
         "part": "画面(左侧|右侧|中间)", "motion": "(正在行走|正在行驶|站着不动|停着不动)", "backpack": "背着背包", "shoulder_bag": "挎着单肩包"}.items()}
     word = lambda name: found[name] and found[name].group(1)
     return {"kind": kind, "motion": {"正在行走": True, "正在行驶": True, "站着不动": False, "停着不动": False}.get(word("motion")),
@@ -55,7 +58,8 @@ def may_fit(meant, body):
     agrees = [meant[name] is None or meant[name] == body[name] for name in ("top", "trousers", "backpack", "shoulder_bag")]
     agrees.append(meant["motion"] is None or moves is None or moves == meant["motion"])
     agrees.append(meant["part"] is None or part is None or part == meant["part"])
-    return body["kind"] == meant["kind"] and all(agrees)
+    is_called_so = body["kind"] == meant["kind"] or meant["kind"] == "pedestrian" and body["kind"] in PEOPLE
+    return is_called_so and all(agrees)
 
 
 def described(body, of, speed, at):
