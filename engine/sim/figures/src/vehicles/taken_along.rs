@@ -11,6 +11,8 @@ use cosfly_frames::{DVec3, real};
 /// Size that the lengths of a wheelchair are made for, and height of its user when standing, metres.
 const WHEELCHAIR_M: DVec3 = DVec3::new(1.05, 0.65, 1.32);
 const USER_M: f64 = 1.72;
+/// Length of a leash, metres.
+const LEASH_M: f64 = 1.3;
 
 /// A wheelchair with its user, who sits in it.
 pub(super) fn wheelchair(model: &mut Model<'_>, clothes: &Clothes) {
@@ -112,7 +114,14 @@ pub(super) fn dog(model: &mut Model<'_>, clothes: &Clothes, walker: &Walker) {
     }
     let height_m = model.size_m.z;
     let hand = DVec3::new(0.18 * height_m - 0.40, 0.138 * height_m - 0.12, 0.51 * height_m);
-    model.bar(Region::Trim, hand, at(0.27, 0.0, 0.58), 0.014);
+    // A slack leash hangs in a parabola.
+    let collar = at(0.27, 0.0, 0.58);
+    let apart_m = (collar - hand).length();
+    let sag_m = apart_m * (0.375 * (LEASH_M / apart_m - 1.0)).max(0.0).sqrt();
+    let point = |share: f64| hand.lerp(collar, share) - DVec3::Z * (4.0 * sag_m * share * (1.0 - share));
+    for piece in 0..8 {
+        model.bar(Region::Trim, point(0.125 * f64::from(piece)), point(0.125 * f64::from(piece + 1)), 0.014);
+    }
 }
 
 /// A round body of fur through sections across its length, each with its half width.
