@@ -132,6 +132,9 @@ impl Crowd {
         let mates = self.numbers(&company.members);
         let Scratch { surroundings, limits, places, vehicles } = &mut self.scratch;
         let person = &mut self.people[number];
+        if person.sits() {
+            return;
+        }
         person.wander(&self.config, step_s);
         if (self.steps + number).is_multiple_of(PURSUIT_STEPS) {
             person.target = pursuit::target(&self.grid, company, person, number, places);

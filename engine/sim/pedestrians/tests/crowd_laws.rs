@@ -125,7 +125,14 @@ fn frames_of_any_length_keep_bodies_apart_and_feet_on_the_ground() {
 
 #[test]
 fn children_and_wide_people_keep_apart_and_restless_ones_turn_about() {
-    let kinds = KindShares { child: 0.2, dog_walker: 0.2, elder: 0.2, push_chair: 0.2, wheelchair: 0.2 };
+    let kinds = KindShares {
+        child: 0.2,
+        dog_walker: 0.2,
+        elder: 0.2,
+        push_chair: 0.2,
+        wheelchair: 0.2,
+        ..KindShares::default()
+    };
     let config = CrowdConfig { count: 40, kinds, ..CrowdConfig::default() };
     let (town, clock) = (street(), Clock::new(120, 0.5, 0.1));
     let traffic = simulated(vec![crowd(&grid(&town, &config), &config, clock, 5)], clock);
@@ -133,6 +140,22 @@ fn children_and_wide_people_keep_apart_and_restless_ones_turn_about() {
     let kinds: std::collections::BTreeSet<BodyKind> = traffic.bodies.iter().map(|body| body.plan.kind).collect();
     assert_eq!(kinds.len(), 5);
     let way_m = traffic.bodies.iter().map(Body::length_m).sum::<f64>() / 40.0;
+    let kinds = KindShares { sitter: 0.3, ..KindShares::default() };
+    let config = CrowdConfig { count: 40, kinds, ..CrowdConfig::default() };
+    let ground = grid(&town, &config);
+    let traffic = simulated(vec![crowd(&ground, &config, clock, 5)], clock);
+    assert_eq!(contacts(&traffic, 0.0), []);
+    let sitters = traffic.bodies.iter().filter(|body| body.plan.kind == BodyKind::Sitter);
+    assert!(sitters.clone().count() > 5 && sitters.clone().all(|body| body.length_m() == 0.0));
+    // Nobody who sits has ground of people close behind, and everybody has some ahead.
+    for body in sitters {
+        let state = body.states[0];
+        let (sin, cos) = real::sin_cos(state.heading_rad);
+        let ahead = DVec2::new(cos, sin);
+        let is_free =
+            |way: DVec2| ground.step_is_free(state.feet_in_world.truncate(), state.feet_in_world.truncate() + way);
+        assert!(is_free(0.8 * ahead) && !is_free(-1.2 * ahead), "{state:?}");
+    }
     let turned_deg = |restless_share: f64| {
         let config = CrowdConfig { count: 20, restless_share, ..CrowdConfig::default() };
         let traffic = simulated(vec![crowd(&grid(&town, &config), &config, clock, 5)], clock);

@@ -9,11 +9,12 @@ use std::fs::File;
 use std::path::Path;
 
 /// Kinds with their sizes, metres.
-const PARK: [(BodyKind, [f64; 3]); 16] = [
+const PARK: [(BodyKind, [f64; 3]); 17] = [
     (BodyKind::Drone, [0.6, 0.6, 0.2]),
     (BodyKind::DogWalker, [1.6, 0.92, 1.78]),
     (BodyKind::Wheelchair, [1.05, 0.65, 1.32]),
     (BodyKind::PushChair, [1.5, 0.7, 1.65]),
+    (BodyKind::Sitter, [1.05, 0.65, 1.32]),
     (BodyKind::Elder, [0.5, 0.5, 1.65]),
     (BodyKind::Child, [0.35, 0.35, 1.15]),
     (BodyKind::Bus, [12.0, 2.55, 3.1]),

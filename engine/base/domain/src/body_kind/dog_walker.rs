@@ -1,15 +1,11 @@
 //! Row of kind `dog_walker`.
 
-use super::row::{BodyKindRow, Walking};
-use crate::SemanticLabel;
+use super::row::{BodyKindRow, PERSON, Walking};
 
 pub(super) static ROW: BodyKindRow = BodyKindRow {
     name: "dog_walker",
     noun: "person with a dog",
-    label: SemanticLabel::Pedestrian,
-    is_dressed: true,
     class_size_m: [1.6, 0.92, 1.719],
-    driving: None,
     walking: Some(Walking { heights_m: None, pace: [0.7, 1.05], outline_m: Some([1.6, 0.92]) }),
-    lamps: None,
+    ..PERSON
 };

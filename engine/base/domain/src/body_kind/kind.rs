@@ -2,7 +2,8 @@
 
 use super::row::BodyKindRow;
 use super::{
-    bicycle, bus, car, child, dog_walker, drone, elder, motorcycle, pedestrian, push_chair, truck, van, wheelchair,
+    bicycle, bus, car, child, dog_walker, drone, elder, motorcycle, pedestrian, push_chair, sitter, truck, van,
+    wheelchair,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -38,6 +39,8 @@ pub enum BodyKind {
     PushChair,
     /// A person with a dog on a leash.
     DogWalker,
+    /// A person who sits on a chair and stays there.
+    Sitter,
 }
 
 impl BodyKind {
@@ -56,6 +59,7 @@ impl BodyKind {
         Self::Wheelchair,
         Self::PushChair,
         Self::DogWalker,
+        Self::Sitter,
     ];
 
     /// Row of the kind.
@@ -74,6 +78,7 @@ impl BodyKind {
             Self::Wheelchair => &wheelchair::ROW,
             Self::PushChair => &push_chair::ROW,
             Self::DogWalker => &dog_walker::ROW,
+            Self::Sitter => &sitter::ROW,
         }
     }
 
@@ -82,13 +87,13 @@ impl BodyKind {
         self.row().name
     }
 
-    /// Whether the body is a person who keeps to the pavements, on foot or in a wheelchair: seen from above, a circle.
+    /// Whether the body is a person who keeps to the pavements, on foot or seated: seen from above, a circle.
     pub fn is_person(self) -> bool {
         self.row().walking.is_some()
     }
 
     /// Whether the body is a person on foot, whatever the person takes along.
     pub fn is_on_foot(self) -> bool {
-        self.is_person() && self != Self::Wheelchair
+        self.is_person() && !matches!(self, Self::Wheelchair | Self::Sitter)
     }
 }

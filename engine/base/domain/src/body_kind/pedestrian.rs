@@ -1,15 +1,5 @@
 //! Row of kind `pedestrian`.
 
-use super::row::{BodyKindRow, Walking};
-use crate::SemanticLabel;
+use super::row::{BodyKindRow, PERSON};
 
-pub(super) static ROW: BodyKindRow = BodyKindRow {
-    name: "pedestrian",
-    noun: "person",
-    label: SemanticLabel::Pedestrian,
-    is_dressed: true,
-    class_size_m: [0.478, 0.478, 1.719],
-    driving: None,
-    walking: Some(Walking { heights_m: None, pace: [1.0, 1.0], outline_m: None }),
-    lamps: None,
-};
+pub(super) static ROW: BodyKindRow = PERSON;

@@ -23,6 +23,18 @@ pub struct BodyKindRow {
     pub lamps: Option<[f32; 2]>,
 }
 
+/// A grown person on foot: what other kinds of people have, too, stands here alone.
+pub(super) const PERSON: BodyKindRow = BodyKindRow {
+    name: "pedestrian",
+    noun: "person",
+    label: SemanticLabel::Pedestrian,
+    is_dressed: true,
+    class_size_m: [0.478, 0.478, 1.719],
+    driving: None,
+    walking: Some(Walking { heights_m: None, pace: [1.0, 1.0], outline_m: None }),
+    lamps: None,
+};
+
 /// Size and pace of a kind of people in a crowd.
 #[derive(Clone, Copy, Debug)]
 pub struct Walking {

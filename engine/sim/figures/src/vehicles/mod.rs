@@ -11,6 +11,7 @@ mod model;
 mod riders;
 mod shapes;
 mod shell;
+mod sitters;
 mod taken_along;
 #[cfg(test)]
 mod tests;

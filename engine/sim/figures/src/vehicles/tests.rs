@@ -80,9 +80,34 @@ fn people_stay_in_the_box_with_what_they_take_along_and_keep_their_label() {
             let labels: std::collections::BTreeSet<_> =
                 triangles.iter().map(|it| walker.body.label(it.region)).collect();
             assert_eq!(labels.into_iter().collect::<Vec<_>>(), [SemanticLabel::Pedestrian, SemanticLabel::Dynamic]);
+            let leash = triangles.iter().filter(|it| it.region == Region::Trim).flat_map(|it| it.corners_in_world);
+            let lowest_m = leash.map(|corner| corner.z).fold(f64::INFINITY, f64::min);
+            let hangs = (0.05..0.42).contains(&lowest_m);
+            assert!(hangs || kind == BodyKind::PushChair, "{number}: the leash ends {lowest_m} m above the ground");
             let points = crate::key_points(&walker).expect("a person");
             assert!(points.iter().all(|point| point.x < 0.2 && point.z > 0.0 && point.z < size_m.z));
         }
+    }
+}
+
+#[test]
+fn seated_people_stay_in_their_box_stand_on_the_ground_and_keep_their_label() {
+    for number in 0..40 {
+        let size_m = DVec3::new(1.05, 0.65, 1.25 + 0.00375 * number as f64);
+        let mut walker = vehicle(BodyKind::Sitter, size_m, number);
+        (walker.state.heading_rad, walker.state.feet_in_world) = (0.0, DVec3::ZERO);
+        let mut triangles = vec![];
+        figure(&walker, &Clothes::draw(&walker.clothes_seed), 0, &mut triangles);
+        let corners: Vec<DVec3> = triangles.iter().flat_map(|it| it.corners_in_world).collect();
+        let inside =
+            |it: &DVec3| it.x.abs() <= 0.525 && it.y.abs() <= 0.325 && (-0.02..size_m.z + 0.01).contains(&it.z);
+        assert_eq!(corners.iter().find(|it| !inside(it)), None, "{number}");
+        let labels: std::collections::BTreeSet<_> = triangles.iter().map(|it| walker.body.label(it.region)).collect();
+        assert_eq!(labels.into_iter().collect::<Vec<_>>(), [SemanticLabel::Pedestrian, SemanticLabel::Dynamic]);
+        let people = triangles.iter().filter(|it| it.region.is_of_people()).flat_map(|it| it.corners_in_world);
+        let (low, high) =
+            people.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), it| (low.min(it.z), high.max(it.z)));
+        assert!(low.abs() < 0.03 && high > size_m.z - 0.02, "{number}: {low} to {high} of {}", size_m.z);
     }
 }
 

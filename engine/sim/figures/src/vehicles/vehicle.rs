@@ -1,7 +1,7 @@
 //! Triangles of a vehicle with its rider, by its kind.
 
 use super::model::Model;
-use super::{cars, coaches, drones, lorries, riders, taken_along};
+use super::{cars, coaches, drones, lorries, riders, sitters, taken_along};
 use crate::Clothes;
 use crate::frustum::FigureTriangle;
 use crate::walker::Walker;
@@ -29,6 +29,7 @@ pub fn add(
         BodyKind::Bus => coaches::bus(&mut model, phase_rad, &mut looks),
         BodyKind::Drone => drones::quadrotor(&mut model),
         BodyKind::Wheelchair => taken_along::wheelchair(&mut model, clothes),
+        BodyKind::Sitter => sitters::sitter(&mut model, clothes),
         BodyKind::PushChair => taken_along::push_chair(&mut model, clothes, walker),
         BodyKind::DogWalker => taken_along::dog(&mut model, clothes, walker),
         BodyKind::Car | BodyKind::Van | BodyKind::Pedestrian | BodyKind::Child | BodyKind::Elder => {

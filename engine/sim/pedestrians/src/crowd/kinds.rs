@@ -22,6 +22,10 @@ pub struct KindShares {
     /// People with a push-chair. Default 0.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub push_chair: f64,
+    /// People who sit on a chair at an edge of the walkable ground and stay there. Default 0.
+    #[serde(skip_serializing_if = "crate::config::is_zero")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub sitter: f64,
     /// People in a wheelchair. Default 0.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub wheelchair: f64,
@@ -33,13 +37,14 @@ impl KindShares {
         *self == Self::default()
     }
 
-    fn shares(&self) -> [(BodyKind, &'static [&'static str], f64); 5] {
+    fn shares(&self) -> [(BodyKind, &'static [&'static str], f64); 6] {
         [
             (BodyKind::Child, &["kinds", "child"], self.child),
             (BodyKind::DogWalker, &["kinds", "dog_walker"], self.dog_walker),
             (BodyKind::Elder, &["kinds", "elder"], self.elder),
             (BodyKind::PushChair, &["kinds", "push_chair"], self.push_chair),
             (BodyKind::Wheelchair, &["kinds", "wheelchair"], self.wheelchair),
+            (BodyKind::Sitter, &["kinds", "sitter"], self.sitter),
         ]
     }
 

@@ -109,6 +109,11 @@ impl Person {
         Self { kind, cruise_mps, height_m, radius_m, ..self }
     }
 
+    /// Whether the person sits and never moves.
+    pub fn sits(&self) -> bool {
+        self.kind == BodyKind::Sitter
+    }
+
     /// Puts the person at a place.
     pub fn place(&mut self, at: DVec2) {
         (self.at, self.frame_place, self.target) = (at, at, at);

@@ -74,6 +74,9 @@ impl Crowd {
             {
                 company.abreast_m = company.abreast_m.max(2.0 * widest_m + APART_M);
             }
+            if people.iter().any(Person::sits) {
+                company.activity = Activity::Standing { until_s: f64::INFINITY };
+            }
             let side_m = people[0].side_m;
             for person in &mut people {
                 // A company keeps to one line; its members' places are beside each other on it.
@@ -113,7 +116,15 @@ impl Crowd {
         let within = 0.5 * self.grid.cell_m;
         let middle =
             self.grid.center(start) + DVec2::new(stream.uniform(-within, within), stream.uniform(-within, within));
-        let heading_rad = stream.uniform(-real::PI, real::PI);
+        let mut heading_rad = stream.uniform(-real::PI, real::PI);
+        if people.iter().any(Person::sits) {
+            // Chairs stand at an edge and face away from it.
+            let away = self.grid.away_from_edge(self.grid.center(start));
+            if away.length() < 0.5 {
+                return false;
+            }
+            heading_rad = real::atan2(away.y, away.x);
+        }
         let (sin, cos) = real::sin_cos(heading_rad);
         let first_m = -0.5 * (people.len() - 1) as f64;
         let widest_m = people.iter().map(|person| person.radius_m).fold(self.config.radius.max_m, f64::max);
