@@ -14,6 +14,7 @@ use cosfly_plugin_host::{Host, PluginLimits};
 use cosfly_read::predictions::run_lengths::Runs;
 use cosfly_scans::tiles::{TilesChoice, join};
 use cosfly_schema::flight_table::{ColumnKind, DeclaredColumn, MOST_ROWS, read_answer};
+use cosfly_schema::log::FrameTimes;
 use cosfly_splats::{SplatRenderer, SplatUpAxis, SplatView, SplatsConfig};
 use cosfly_town::MapError;
 use cosfly_write::FramePackReader;
@@ -111,11 +112,13 @@ fn frame_pack(bytes: &[u8]) {
     let _ = pack.preview_strip();
 }
 
+const FRAMES: FrameTimes = FrameTimes { begins_ns: 0, dt_s: 0.5 };
+
 /// The log of a flight.
 fn mcap(bytes: &[u8]) {
     let _ = cosfly_read::read_records(&mut Cursor::new(bytes), &mut |_| {});
     in_a_file(bytes, "mcap", |path| {
-        if let Ok(mut log) = cosfly_read::LogReader::open(path, 0.5) {
+        if let Ok(mut log) = cosfly_read::LogReader::open(path, FRAMES) {
             let _ = (log.topics(), log.frame(0), log.frame_with_instances(1));
         }
     });
@@ -124,7 +127,7 @@ fn mcap(bytes: &[u8]) {
 /// The images of a log, at random.
 fn image_log(bytes: &[u8]) {
     in_a_file(bytes, "mcap", |path| {
-        let Ok(log) = cosfly_read::ImageLog::open(path, 0.5) else { return };
+        let Ok(log) = cosfly_read::ImageLog::open(path, FRAMES) else { return };
         for (channel, frame) in channels::ALL.iter().flat_map(|channel| [1, 0, 2].map(|frame| (channel, frame))) {
             if let Ok(cosfly_read::StoredImage::Raw { data, width, height, pixel_bytes }) = log.image(channel, frame) {
                 assert_eq!(data.len(), width as usize * height as usize * pixel_bytes, "an image has its bytes");

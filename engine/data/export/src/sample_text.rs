@@ -10,7 +10,7 @@ pub fn frame_facts(flight: &PublishedFlight, row: &FrameRow, frame: usize, instr
     json!({
         "trajectory_id": flight.trajectory_id,
         "frame": frame,
-        "time_s": frame as f64 * flight.dt_s,
+        "time_s": flight.times().s(frame),
         "split": flight.split,
         "town": flight.town,
         "weather": flight.weather,

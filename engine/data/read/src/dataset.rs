@@ -215,14 +215,14 @@ impl PublishedDataset {
 
     /// Opens the log of `flight`.
     pub fn log(&self, flight: &PublishedFlight) -> Result<LogReader> {
-        let log = LogReader::open(&self.log_path(flight)?, flight.dt_s);
+        let log = LogReader::open(&self.log_path(flight)?, flight.times());
         self.identity.check()?;
         log
     }
 
     /// Opens the log of `flight` for random access to its images.
     pub fn image_log(&self, flight: &PublishedFlight) -> Result<ImageLog> {
-        let log = ImageLog::open(&self.log_path(flight)?, flight.dt_s);
+        let log = ImageLog::open(&self.log_path(flight)?, flight.times());
         self.identity.check()?;
         log
     }

@@ -9,7 +9,7 @@ use super::records::RECORD_LIMIT;
 use cosfly_diagnose::{Diagnostic, Result};
 use cosfly_domain::Channel;
 use cosfly_domain::channels::Element;
-use cosfly_schema::log::{formats, frame_time_ns, topic};
+use cosfly_schema::log::{FrameTimes, formats, topic};
 use foxglove::messages;
 use prost::Message;
 use prost::bytes::Bytes;
@@ -28,7 +28,7 @@ pub struct ImageLog {
     file: File,
     bytes: u64,
     path: PathBuf,
-    dt_s: f64,
+    times: FrameTimes,
     /// Channel numbers of the file by the names of our channels.
     channels: Vec<(&'static str, u16)>,
     /// By first time.
@@ -71,7 +71,7 @@ impl ImageLog {
     ///
     /// # Errors
     /// The file cannot be opened, or is no log with an index.
-    pub fn open(path: &Path, dt_s: f64) -> Result<Self> {
+    pub fn open(path: &Path, times: FrameTimes) -> Result<Self> {
         let (file, summary) = summary(path)?;
         let channel = |number: &u16| topic::channel_of(&summary.channels.get(number)?.topic).map(|it| it.name);
         let mut channels: Vec<_> =
@@ -94,7 +94,7 @@ impl ImageLog {
         chunks.sort_by_key(|chunk| (chunk.first_ns, chunk.start));
         let bytes =
             file.metadata().map_err(|error| Diagnostic::io(format!("read `{}`", path.display()), &error))?.len();
-        Ok(Self { file, bytes, path: path.to_owned(), dt_s, channels, chunks })
+        Ok(Self { file, bytes, path: path.to_owned(), times, channels, chunks })
     }
 
     /// Names of the channels with images.
@@ -107,7 +107,7 @@ impl ImageLog {
     /// # Errors
     /// The log has no such image, or is damaged there.
     pub fn image(&self, channel: &Channel, frame: usize) -> Result<StoredImage> {
-        let time = frame_time_ns(self.dt_s, frame);
+        let time = self.times.ns(frame);
         let absent = || damaged(&self.path, "an image is missing", format!("`{}` of frame {frame}", channel.name));
         let (_, number) = self.channels.iter().find(|(name, _)| *name == channel.name).ok_or_else(absent)?;
         // Chunks before the first one that begins later; those that end earlier do not count.

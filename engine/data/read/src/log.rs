@@ -11,7 +11,7 @@ use cosfly_domain::{Channel, ChannelImage, channels};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_schema::log::messages::{MAP_FRAME, OPTICAL_FRAME};
 use cosfly_schema::log::reading::{LoggedSensor, ReadingMessage, TOPICS};
-use cosfly_schema::log::{TargetStateMessage, cloud, formats, frame_time_ns, topic};
+use cosfly_schema::log::{FrameTimes, TargetStateMessage, cloud, formats, topic};
 use foxglove::messages;
 use prost::Message;
 use std::fs::File;
@@ -27,7 +27,7 @@ pub type Visit<'a> = &'a mut dyn FnMut(&str, u64, &[u8]) -> Result<(), String>;
 pub struct LogReader {
     file: File,
     path: PathBuf,
-    dt_s: f64,
+    times: FrameTimes,
     summary: Summary,
     /// The channels of every frame, and those on request that the log has.
     channels: Vec<&'static Channel>,
@@ -90,12 +90,12 @@ pub struct LoggedBox {
 
 impl LogReader {
     /// Reads the index of the log at `path`, whose frames are `dt_s` apart.
-    pub fn open(path: &Path, dt_s: f64) -> Result<Self> {
+    pub fn open(path: &Path, times: FrameTimes) -> Result<Self> {
         let (file, summary) = summary(path)?;
         let is_logged = |name: &str| summary.channels.values().any(|channel| channel.topic == name);
         let is_needed = |channel: &&Channel| !channel.is_on_request() || is_logged(&topic::images(channel));
         let channels = channels::ALL.iter().copied().filter(is_needed).collect();
-        Ok(Self { file, path: path.to_owned(), dt_s, summary, channels })
+        Ok(Self { file, path: path.to_owned(), times, summary, channels })
     }
 
     /// Sorted topics of the log.
@@ -123,7 +123,7 @@ impl LogReader {
     }
 
     fn read_frame(&mut self, frame: usize, is_wanted: impl Fn(&Channel) -> bool) -> Result<LoggedFrame> {
-        let time = frame_time_ns(self.dt_s, frame);
+        let time = self.times.ns(frame);
         let mut logged = LoggedFrame::default();
         let images = self.channels.iter().filter(|channel| is_wanted(channel)).map(|channel| topic::images(channel));
         let topics: Vec<String> = images.chain([topic::TF.to_owned(), topic::TARGET_STATE.to_owned()]).collect();

@@ -5,6 +5,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{Camera, Lens, LensModel, Mount};
 use cosfly_frames::DVec3;
 use cosfly_schema::TownLayout;
+use cosfly_schema::log::FrameTimes;
 use cosfly_schema::tables::{Trajectories, WEATHER_NUMBERS};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -40,6 +41,8 @@ pub struct PublishedFlight {
     pub frames: usize,
     /// Time between frames, seconds.
     pub dt_s: f64,
+    /// Time of the first frame after the beginning of the flight, nanoseconds: the offset of the camera.
+    pub begins_ns: u64,
     /// Name of the camera, where several film each flight.
     pub camera_name: Option<String>,
     /// Ideal camera of all frames, without its lens.
@@ -91,6 +94,9 @@ impl PublishedFlight {
             return Err(Diagnostic::new("dataset-damaged", Fault::Input, message)
                 .hint("ids are letters, digits, `.`, `_` and `-`; somebody has changed table `trajectories`"));
         }
+        let (frames, dt_s) = (rows.get(Trajectories::frames, row)? as usize, rows.get(Trajectories::dt_s, row)?);
+        let filmed_s = frames.saturating_sub(1) as f64 * dt_s;
+        let begins_s = rows.get_or(Trajectories::duration_s, row, filmed_s)? - filmed_s;
         Ok(Self {
             trajectory_id,
             flight_id: rows.get_or(Trajectories::flight_id, row, String::new())?,
@@ -103,8 +109,9 @@ impl PublishedFlight {
             town_offset_m: DVec3::from_array(rows.get(Trajectories::town_offset_m, row)?),
             weather: rows.get(Trajectories::weather_preset, row)?,
             weather_numbers: Arc::new(weather_numbers),
-            frames: rows.get(Trajectories::frames, row)? as usize,
-            dt_s: rows.get(Trajectories::dt_s, row)?,
+            frames,
+            dt_s,
+            begins_ns: (begins_s * 1e9).round() as u64,
             camera_name: rows.get_or(Trajectories::camera_name, row, None)?,
             camera: Camera {
                 width: rows.get(Trajectories::camera_width_px, row)?,
@@ -149,6 +156,11 @@ impl PublishedFlight {
             mcap_path: rows.get(Trajectories::mcap_path, row)?,
             split: split.to_owned(),
         })
+    }
+
+    /// Times of the frames.
+    pub fn times(&self) -> FrameTimes {
+        FrameTimes { begins_ns: self.begins_ns, dt_s: self.dt_s }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The record model: one rendered trajectory with everything that tables, logs and cards contain about it.
 
+use crate::log::FrameTimes;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::{
     Around, BodyInSpace, BodyKind, BodyPlan, BodyView, Camera, Followed, Lens, MapOrigin, MotionBlur, Mount, Noise,
@@ -7,7 +8,7 @@ use cosfly_domain::{
     Weather,
 };
 use cosfly_frames::{Pose, TargetState};
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Deserializer, Serialize, de::DeserializeOwned};
 
 /// Role of a flight behind a pedestrian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -149,6 +150,17 @@ pub struct RenderedTrajectory {
     pub bodies_3d: Vec<BodyInSpace>,
     /// Relation to the expert; set for perturbed flights.
     pub pair: Option<PairInfo>,
+    /// Time of the first picture after the beginning of the flight, nanoseconds: the offset of the camera. Not written where it is 0.
+    #[serde(skip_serializing_if = "is_zero", deserialize_with = "zero_at_the_end")]
+    pub begins_ns: u64,
+}
+
+fn is_zero(offset: &u64) -> bool {
+    *offset == 0
+}
+
+fn zero_at_the_end<'de, D: Deserializer<'de>>(from: D) -> std::result::Result<u64, D::Error> {
+    Ok(u64::deserialize(from).unwrap_or_default())
 }
 
 impl RenderedTrajectory {
@@ -165,6 +177,11 @@ impl RenderedTrajectory {
     /// Time between frames, seconds.
     pub fn dt_s(&self) -> f64 {
         self.trajectory.track.dt_s
+    }
+
+    /// Times of the frames.
+    pub fn times(&self) -> FrameTimes {
+        FrameTimes { begins_ns: self.begins_ns, dt_s: self.dt_s() }
     }
 
     /// Pose of the camera in a frame.

@@ -72,6 +72,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
                 return;
             };
             let flight = flights.tables.flights.at(number);
+            sweeps.iter_mut().for_each(|sweep| sweep.time_s -= flight.times().s(0));
             let towns = towns.get_or_insert_with(|| boxes_of_towns(flights));
             if let (Some(track), Some(boxes)) = (flights.tracks(&[number].into()).get(&number), towns.get(&flight.town))
                 && let Err(message) = finding(sweeps, &track.poses, flight.dt_s, boxes)
@@ -80,9 +81,9 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
             }
             // A log that cannot be opened is found elsewhere.
             let log = flights.folder.join(&flight.mcap_path);
-            if let (Ok(mut log), false) = (LogReader::open(&log, flight.dt_s), sweeps.is_empty()) {
+            if let (Ok(mut log), false) = (LogReader::open(&log, flight.times()), sweeps.is_empty()) {
                 let logged = log.sweeps(table).map_err(|error| error.to_string());
-                if let Err(message) = logged.and_then(|logged| compare(sweeps, &logged)) {
+                if let Err(message) = logged.and_then(|logged| compare(sweeps, &logged, flight.begins_ns)) {
                     report.find(&flight.mcap_path, format!("`{TOPICS}{table}`"), "verify-cloud", message);
                 }
             }
@@ -120,7 +121,7 @@ fn boxes_of_towns(flights: &Flights<'_>) -> BTreeMap<String, Boxes> {
 ///
 /// # Errors
 /// Damage of the file or of a cloud, in words.
-fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &[Sweep])) -> ReadResult<()> {
+fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &mut [Sweep])) -> ReadResult<()> {
     let in_words = |error: &dyn std::fmt::Display| format!("it cannot be read: {error}");
     let opened = File::open(path).map_err(|error| in_words(&error))?;
     let builder = ParquetRecordBatchReaderBuilder::try_new(opened).map_err(|error| in_words(&error))?;
@@ -143,7 +144,7 @@ fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &[Sweep])) -> ReadResult
         let counts = column("points").and_then(|it| it.as_primitive_opt::<Int64Type>());
         for row in 0..batch.num_rows() {
             if ids.value(row) != id {
-                visit(&id, &std::mem::take(&mut sweeps));
+                visit(&id, &mut std::mem::take(&mut sweeps));
                 ids.value(row).clone_into(&mut id);
             }
             let at = |place: usize| pose[place].value(row);
@@ -158,7 +159,7 @@ fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &[Sweep])) -> ReadResult
         }
         first += batch.num_rows();
     }
-    visit(&id, &sweeps);
+    visit(&id, &mut sweeps);
     Ok(())
 }
 
@@ -185,7 +186,7 @@ fn points_of(cloud: &[u8], count: Option<i64>) -> ReadResult<Vec<CloudPoint>> {
 ///
 /// # Errors
 /// The first difference, in words.
-fn compare(sweeps: &[Sweep], logged: &[LoggedSweep]) -> ReadResult<()> {
+fn compare(sweeps: &[Sweep], logged: &[LoggedSweep], begins_ns: u64) -> ReadResult<()> {
     if sweeps.len() != logged.len() {
         return Err(format!("it has {} sweeps, the table has {}", logged.len(), sweeps.len()));
     }
@@ -193,6 +194,12 @@ fn compare(sweeps: &[Sweep], logged: &[LoggedSweep]) -> ReadResult<()> {
         if sweep.points.len() != logged.points.len() {
             let [here, there] = [logged.points.len(), sweep.points.len()];
             return Err(format!("sweep {number} has {here} points, that of the table has {there}"));
+        }
+        let at_s = (logged.time_ns as f64 - begins_ns as f64) / 1e9;
+        let off_m = logged.position.distance(sweep.position * DVec3::new(1.0, -1.0, 1.0));
+        if (at_s - sweep.time_s).abs() > 1e-6 || off_m > 1e-6 {
+            let (there_s, here_s) = (sweep.time_s, at_s);
+            return Err(format!("sweep {number} is {here_s} s after the first frame, {off_m} m from that of the table, at {there_s} s"));
         }
         let same = |(point, bytes): (&CloudPoint, &[u8; POINT_BYTES])| {
             let mut logged = CloudPoint::of(bytes);
@@ -321,17 +328,19 @@ mod tests {
     fn clouds_of_logs_that_are_cut_or_moved_are_found() {
         let (sweeps, ..) = scanned();
         let logged = |sweep: &Sweep| LoggedSweep {
-            time_ns: 0,
-            position: sweep.position,
+            time_ns: (1e9 * sweep.time_s).round() as u64,
+            position: sweep.position * DVec3::new(1.0, -1.0, 1.0),
             rotation: DQuat::IDENTITY,
             points: sweep.points.iter().map(|it| right_handed(*it).bytes()).collect(),
         };
         let spoilt = |spoil: Spoil| {
             let mut all: Vec<LoggedSweep> = sweeps.iter().map(logged).collect();
             spoil(&mut all);
-            compare(&sweeps, &all).err()
+            compare(&sweeps, &all, 0).err()
         };
-        let faults: [(Spoil, &str); 3] = [
+        let faults: [(Spoil, &str); 5] = [
+            (|all| all[2].time_ns += 50_000_000, "sweep 2 is 0.25"),
+            (|all| all[2].position.y *= -1.0, "sweep 2 is "),
             (|all| drop(all.pop()), "it has 9 sweeps, the table has 10"),
             (|all| _ = all[3].points.pop(), "sweep 3 has "),
             (|all| all[4].points[5][1] ^= 4, "point 5 of sweep 4 "),

@@ -23,7 +23,7 @@ pub fn check_frames(file: &str, flight: &PlacedFlight, frames: &[PlacedFrame], r
         let mut find = |rule, message: String| {
             report.find(file, format!("row {}, `{id}` frame {number}", frame.row), rule, message);
         };
-        let time_s = number as f64 * flight.dt_s;
+        let time_s = flight.times().s(number);
         if frame.frame as usize != number || (frame.time_s - time_s).abs() > TOLERANCE {
             find(
                 "verify-order",

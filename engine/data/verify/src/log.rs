@@ -16,7 +16,7 @@ use cosfly_frames::{DQuat, DVec3};
 use cosfly_read::read_records;
 use cosfly_schema::log::messages::shift_px;
 use cosfly_schema::log::{
-    BODIES_3D_ROWS, Frequency, TargetStateMessage, formats, frame_time_ns, right_handed, topic, topics,
+    BODIES_3D_ROWS, Frequency, TargetStateMessage, formats, right_handed, topic, topics,
 };
 use foxglove::messages;
 use prost::Message;
@@ -154,7 +154,7 @@ impl LogCheck<'_> {
         let is_at_every_frame = channel.is_some() || self.at_every_frame.contains(topic);
         let (Some(row), true) = (frames.get(frame), is_at_every_frame) else { return };
         let place = format!("`{topic}` frame {frame}");
-        if time_ns != frame_time_ns(self.flight.dt_s, frame) {
+        if time_ns != self.flight.times().ns(frame) {
             self.find(place.clone(), "verify-time", format!("it is at {time_ns} ns"));
         }
         let problem = match topic {

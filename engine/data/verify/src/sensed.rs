@@ -60,6 +60,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
             let tracks = flights.tracks(&[number].into());
             let Some(track) = tracks.get(&number) else { return };
             let flight = flights.tables.flights.at(number);
+            rows.times_s.iter_mut().for_each(|time_s| *time_s -= flight.times().s(0));
             // Perturbed flights jump as no drone does: their readings are too far apart to be added up.
             if let Err(message) = rows.finding(&track.poses, flight.dt_s, flight.expert_id.is_none()) {
                 report.find(file, format!("`{id}`"), "verify-sensor", message);
@@ -72,7 +73,7 @@ pub fn check(flights: &Flights<'_>, report: &mut VerifyReport) {
 }
 
 /// Gives the readings of each flight of a file; none where it has no true columns.
-fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &SensedRows)) -> Result<(), ArrowError> {
+fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &mut SensedRows)) -> Result<(), ArrowError> {
     let builder = ParquetRecordBatchReaderBuilder::try_new(File::open(path)?)?;
     let has = |name: &str| builder.schema().field_with_name(name).is_ok();
     let has_truth = builder.schema().fields().iter().any(|field| field.name().starts_with(TRUE));
@@ -95,14 +96,14 @@ fn each_flight(path: &Path, visit: &mut dyn FnMut(&str, &SensedRows)) -> Result<
             let own = ids.value(from);
             let count = (from..batch.num_rows()).take_while(|row| ids.value(*row) == own).count();
             if own != id {
-                visit(&id, &std::mem::take(&mut rows));
+                visit(&id, &mut std::mem::take(&mut rows));
                 own.clone_into(&mut id);
             }
             rows.push(&batch.slice(from, count));
             from += count;
         }
     }
-    visit(&id, &rows);
+    visit(&id, &mut rows);
     Ok(())
 }
 

@@ -82,7 +82,7 @@ impl Stage for NearbyStage {
         let world = world(inputs)?;
         let target = followed(inputs, artifact)?;
         let stages: Vec<&[Artifact]> = inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).collect();
-        let mut candidates = Candidates::new(&world.town, &flight, target.as_ref());
+        let mut candidates = Candidates::new(&world.town, (&flight, 0.0), target.as_ref());
         let walk_id = artifacts::WALK_ID.find(inputs, artifact)?;
         for (stage, artifacts) in stages.iter().enumerate() {
             add(inputs, &mut candidates, (stage, artifacts), walk_id.as_deref())?;

@@ -6,7 +6,7 @@ use crate::ports::{self, FRAMES, PACK};
 use crate::rejections::reject;
 use crate::{nearby, traffic};
 use cosfly_blobs::OutputSink;
-use cosfly_diagnose::{ParameterError, Result};
+use cosfly_diagnose::{Diagnostic, Fault, ParameterError, Result};
 use cosfly_domain::{
     BodyInSpace, Camera, PlanOutcome, TARGET_INSTANCE, TargetView, Trajectory, largest_object_instance,
 };
@@ -121,7 +121,7 @@ impl Stage for RenderStage {
         let config = self.config.of_camera(film);
         let target = traffic::followed(inputs, artifact)?;
         let shooting = |trajectory: &Trajectory| Shooting::of(&config, trajectory, target.as_ref(), film);
-        let (trajectory, shooting) = match filmable(&world, outcome, &shooting, config.every)? {
+        let (trajectory, shooting) = match filmable(&world, outcome, &shooting, (&config, context))? {
             Ok(filmed) => filmed,
             Err(reason) => {
                 let rejection = Rejection {
@@ -145,7 +145,10 @@ impl Stage for RenderStage {
         let crowd = Crowd::around(inputs)?.and_drones(inputs, artifact, &world, trajectory.track.dt_s)?;
         let crowd = crowd.dressed_for(&shooting);
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
-        let mut seen = self.draw(outputs, context, &place, &trajectory, (&config, &shooting))?;
+        let around = traffic::around(inputs, artifact)?;
+        let filmed = filmed_flight(trajectory.clone(), &config, &world.exact, &around);
+        let flights = (&trajectory, &filmed);
+        let mut seen = self.draw(outputs, context, &place, flights, (&config, &shooting))?;
         let mut notes = notes_of(&crowd, &seen.sightings);
         let (on_card, mut warnings) = render_files::scan_notes(&self.config);
         let (found, more) = render_files::compared(&self.config, &scene, &trajectory, seen.median_off_m());
@@ -166,7 +169,7 @@ impl Stage for RenderStage {
             // A trajectory has the name of the walk that it follows.
             pedestrian_id: walker(&artifact.id.item).to_string(),
             town,
-            trajectory: filmed_flight(trajectory, config.every),
+            trajectory: filmed,
             camera_name: film.filter(|_| !self.config.cameras.is_empty()).map(str::to_owned),
             camera: shooting.camera,
             lens: config.lens,
@@ -182,12 +185,13 @@ impl Stage for RenderStage {
             views: seen.views,
             visible_by_dense_rays: seen.by_dense_rays,
             outfit: has_body.then(|| outfit_of(shooting.body, &shooting.clothes_seed)),
-            around: filmed_around(&*traffic::around(inputs, artifact)?, config.every),
+            around: filmed_around(&around, &config),
             followed: target,
             others: crowd.into_bodies(),
             sightings: seen.sightings,
             bodies_3d: seen.bodies_3d,
             pair,
+            begins_ns: config.begins_ns,
         };
         outputs.put("index", &record.to_bytes())?;
         Ok(Produced { notes, warnings, rejected: None })
@@ -199,22 +203,29 @@ fn filmable(
     world: &World,
     outcome: PlanOutcome,
     shooting: &dyn Fn(&Trajectory) -> Result<Shooting>,
-    every: u32,
+    (config, context): (&RenderConfig, &TaskContext),
 ) -> Result<Result<(Trajectory, Shooting), String>> {
     let flight = match outcome {
         PlanOutcome::Planned(flight) => *flight,
         PlanOutcome::Rejected { reason, .. } => return Ok(Err(reason)),
     };
     let shooting = shooting(&flight)?;
-    let film = FilmedFlight::new(&shooting, &flight, every);
-    let too_short = (film.frames().count() < 2 && every > 1)
-        .then(|| format!("every {every}th of {} frames is one picture", flight.track.len()));
+    let film = FilmedFlight::new(&shooting, &flight, config);
+    let (every, offset_s, step_s) = (config.every, config.begins_ns as f64 / 1e9, film.dt_s());
+    if offset_s + 1e-9 > step_s {
+        let camera = context.id.item.variant().unwrap_or_default();
+        let message = format!("film `{camera}` begins `{offset_s}` s after its flight, with a picture every {step_s} s");
+        let hint = format!("set its `offset_s` in `stages.{}.cameras` to less than {step_s}", context.id.stage);
+        return Err(Diagnostic::new("camera-offset", Fault::Recipe, message).hint(hint));
+    }
+    let too_short = (film.frames().count() < 2 && (every > 1 || offset_s > 0.0))
+        .then(|| format!("every {every}th of {} frames, from {offset_s} s on, is one picture", flight.track.len()));
     let inside = too_short.or_else(|| camera_inside(world, film.poses()));
     Ok(inside.map_or(Ok((flight, shooting)), Err))
 }
 
 /// Reason why a flight cannot be filmed: a camera in a wall would look out through it.
-fn camera_inside<'a>(world: &World, poses: impl Iterator<Item = &'a Pose>) -> Option<String> {
+fn camera_inside(world: &World, poses: impl Iterator<Item = Pose>) -> Option<String> {
     poses.enumerate().find_map(|(frame, pose)| {
         let nearest = world.exact.nearest(pose.position_in_world, 0.0).filter(|nearest| nearest.distance_m < 0.0)?;
         let obstacle = &world.town.obstacles[nearest.primitive as usize];
@@ -275,7 +286,7 @@ impl RenderStage {
         outputs: &mut dyn OutputSink,
         context: &TaskContext,
         place: &Place<'_>,
-        trajectory: &Trajectory,
+        (trajectory, filmed): (&Trajectory, &Trajectory),
         (config, shooting): (&RenderConfig, &Shooting),
     ) -> Result<SeenPeople> {
         let Place { scene, world, crowd } = *place;
@@ -284,9 +295,10 @@ impl RenderStage {
         rig.effects.set_noise(shooting.noise);
         let Camera { width, height, .. } = shooting.camera;
         let largest_instance = largest_object_instance(&world.town).max(crowd.largest_instance());
-        let film = &FilmedFlight::new(shooting, trajectory, config.every);
+        let film = &FilmedFlight::new(shooting, trajectory, config);
         let header = PackHeader {
             channels: config.channels.clone(),
+            begins_ns: config.begins_ns,
             ..PackHeader::new(width, height, largest_instance, self.encoding, film.dt_s())
         };
         let frame_at = |frame: usize| {
@@ -327,7 +339,7 @@ impl RenderStage {
                     let (camera, pose) = body_rays::aimed(&config.lens, &shooting.camera, &pose, &it);
                     rays.visible_share(&world.exact, &about, &camera, &pose, &it)
                 }));
-                seen.views.push(TargetView { visible_by_rays: trajectory.visibility[frame], ..view });
+                seen.views.push(TargetView { visible_by_rays: filmed.visibility[number], ..view });
                 seen.sightings.extend(sightings);
                 seen.splats_off_m.extend(rig.renderer.splats_off_m());
             }
@@ -365,8 +377,8 @@ mod tests {
         let world = World::new(town);
         let at = |position: DVec3| Pose::looking_at(position, position + DVec3::X);
         let poses = [at(wall + 5.0 * DVec3::Z), at(wall + 0.1 * DVec3::Z), at(wall)];
-        let reason = camera_inside(&world, poses.iter()).expect("it is inside");
+        let reason = camera_inside(&world, poses.iter().copied()).expect("it is inside");
         assert_eq!(reason, "the camera is inside of obstacle 4 (wall) at frame 1");
-        assert_eq!(camera_inside(&world, poses[..1].iter()), None);
+        assert_eq!(camera_inside(&world, poses[..1].iter().copied()), None);
     }
 }

@@ -129,7 +129,7 @@ impl Stage for ScanStage {
         }
         let mut rows = SweepRows::default();
         flight.scan(&self.pattern, &mut |sweep| {
-            rows.add(sweep.frame, sweep.time_s, &sweep.pose(), sweep.points.iter().map(written));
+            rows.add(sweep.frame, record.times().s(0) + sweep.time_s, &sweep.pose(), sweep.points.iter().map(written));
         });
         let notes = BTreeMap::from([("rows".to_owned(), rows.len().to_string())]);
         let extra = codec::encode(EXTRAS, &Extra { source: self.source.clone(), values: rows.into_values() })?;

@@ -135,7 +135,7 @@ impl Stage for SenseStage {
         let mut numbers = vec![vec![]; self.sensor.count()];
         flown.read(self.sensor, &mut |reading| {
             at.push(reading.frame as i64);
-            times_s.push(reading.time_s);
+            times_s.push(record.times().s(0) + reading.time_s);
             numbers.iter_mut().zip(reading.values).for_each(|(column, value)| column.push(*value));
         });
         let notes = BTreeMap::from([("rows".to_owned(), at.len().to_string())]);
@@ -152,7 +152,7 @@ impl Stage for SenseStage {
 /// traffic around the target, and the target.
 pub fn people(inputs: &Inputs<'_>, world: &World, record: &RenderedTrajectory) -> Result<Vec<(u32, Person)>> {
     let (flight, target) = (&record.trajectory, record.followed.as_ref());
-    let mut candidates = Candidates::new(&world.town, flight, target);
+    let mut candidates = Candidates::new(&world.town, (flight, record.times().s(0)), target);
     for (stage, artifacts) in inputs.all("others").chunk_by(|a, b| a.id.stage == b.id.stage).enumerate() {
         // The followed walk is left out like all that cross the target's body.
         nearby::add(inputs, &mut candidates, (stage, artifacts), None)?;

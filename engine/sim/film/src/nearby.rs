@@ -1,6 +1,7 @@
 //! Who is near a flight: the people and vehicles who may appear in its pictures, or throw a shadow into them.
 
 use crate::body_rays;
+use crate::rate::Rate;
 use crate::shooting::Shooting;
 use crate::walks::{Person, touch};
 use cosfly_diagnose::Result;
@@ -64,6 +65,7 @@ pub struct Candidates<'a> {
     flight: &'a Trajectory,
     target: Option<&'a Followed>,
     largest_object: u32,
+    begins_s: f64,
     /// The candidates.
     pub all: Vec<Candidate>,
     /// Number of those whose walk crosses the target's body.
@@ -71,9 +73,10 @@ pub struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    /// Nobody yet, around `flight` behind `target` in `town`.
-    pub fn new(town: &Town, flight: &'a Trajectory, target: Option<&'a Followed>) -> Self {
-        Self { flight, target, largest_object: largest_object_instance(town), all: vec![], left_out: 0 }
+    /// Nobody yet, around `flight` behind `target` in `town`; the flight begins some seconds after the walks.
+    pub fn new(town: &Town, (flight, begins_s): (&'a Trajectory, f64), target: Option<&'a Followed>) -> Self {
+        let largest_object = largest_object_instance(town);
+        Self { flight, target, largest_object, begins_s, all: vec![], left_out: 0 }
     }
 
     /// Adds the bodies of the traffic that stage number `stage` made.
@@ -117,7 +120,8 @@ impl<'a> Candidates<'a> {
     }
 
     fn add(&mut self, instance: u32, origin: Origin, person: Person) {
-        self.all.push(Candidate { instance, place: self.all.len(), origin, person });
+        let (place, person) = (self.all.len(), person.since(self.begins_s));
+        self.all.push(Candidate { instance, place, origin, person });
     }
 }
 
@@ -234,21 +238,21 @@ impl Filming<'_> {
         let Self { shooting, scenery, flight, .. } = self;
         let effects = self.config.effects(shooting.camera);
         let (camera, moments_s): (Camera, Vec<f64>) = (effects.ideal_camera(), effects.moments_s());
-        let every = self.config.every.max(1) as usize;
         let poses: Vec<Pose> = shooting.poses(flight);
         let track = &flight.track;
         others.iter_mut().for_each(|other| other.person.dress_for(shooting));
         let mut near = vec![];
-        for (frame, target) in track.states.iter().enumerate().step_by(every) {
+        let rate = Rate::of(self.config, track.dt_s);
+        for frame in rate.frames(track.len()) {
             check()?;
-            let target = shooting.target(track, *target, 0.0);
+            let target = shooting.target(track, rate.state(track, frame), 0.0);
             for offset_s in &moments_s {
-                let eye = pose_at(&poses, frame as f64 + offset_s / track.dt_s);
+                let eye = pose_at(&poses, rate.at(frame, *offset_s));
                 for pose in effects.poses(eye) {
                     let outlook = Outlook::new(&camera, &shooting.weather, &pose);
                     let eye_in_world = pose.position_in_world;
                     let matters = |other: &mut Candidate| {
-                        let walker = other.person.walker(frame as f64 * track.dt_s + offset_s);
+                        let walker = other.person.walker(rate.time_s(frame) + offset_s);
                         let Some(walker) = walker else { return false };
                         (outlook.may_show(&walker) || body_rays::is_before(&walker, eye_in_world, &target))
                             && !scenery.buildings.hide(eye_in_world, &outlook.hull(&walker, scenery.lowest_m))

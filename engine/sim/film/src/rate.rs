@@ -1,11 +1,83 @@
-//! A film of every n-th frame: the moments that a camera with a rate of its own takes, and the flight as its film has it.
+//! A film of every n-th frame, or of moments between frames: what a camera with a rate or an offset of its own takes, and the flight
+//! as its film has it.
 
+use crate::walks::{Person, walked_m};
 use crate::Shooting;
-use crate::walks::walked_m;
-use cosfly_domain::{Around, Trajectory};
-use cosfly_frames::{Pose, TargetTrack, real};
+use cosfly_domain::{Around, FramePerturbation, Trajectory};
+use cosfly_frames::{Pose, TargetState, TargetTrack, real};
+use cosfly_geometry::SpatialQuery;
 use cosfly_optics::{pose_at, target_state_at};
-use cosfly_render::Moment;
+use cosfly_render::{Moment, RenderConfig};
+use cosfly_surroundings::exact::ExactMap;
+
+/// Largest distance from obstacles that is stated, metres.
+const CLEARANCE_CAP_M: f64 = 50.0;
+
+/// The moments of a film: frames of the flight, and a time after each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rate {
+    first: usize,
+    every: usize,
+    /// Time after each frame, less than that between two, seconds.
+    after_s: f64,
+    dt_s: f64,
+}
+
+impl Rate {
+    /// The moments that a camera films along a flight with `dt_s` between its frames.
+    pub fn of(config: &RenderConfig, dt_s: f64) -> Self {
+        let offset_s = config.begins_ns as f64 / 1e9;
+        // A nanosecond before a frame is that frame.
+        let first = ((offset_s + 1e-9) / dt_s).floor();
+        let after_s = offset_s - first * dt_s;
+        let after_s = if after_s > 1e-9 { after_s } else { 0.0 };
+        Self { first: first as usize, every: config.every.max(1) as usize, after_s, dt_s }
+    }
+
+    /// Whether the film has the flight's frames, all of them.
+    fn is_whole(&self) -> bool {
+        (self.first, self.every, self.after_s) == (0, 1, 0.0)
+    }
+
+    /// Number of frames after which there is a flight of `frames` frames at the time of the film.
+    fn count(&self, frames: usize) -> usize {
+        frames - usize::from(self.after_s > 0.0 && frames > 0)
+    }
+
+    /// Frames of a flight of `frames` frames that the film has.
+    pub fn frames(&self, frames: usize) -> impl Iterator<Item = usize> + use<> {
+        (self.first..self.count(frames)).step_by(self.every)
+    }
+
+    /// Place among the frames of the flight, some seconds after a frame of the film.
+    pub fn at(&self, frame: usize, offset_s: f64) -> f64 {
+        frame as f64 + (self.after_s + offset_s) / self.dt_s
+    }
+
+    /// Time of a frame of the film since the flight's first frame, seconds.
+    pub fn time_s(&self, frame: usize) -> f64 {
+        frame as f64 * self.dt_s + self.after_s
+    }
+
+    /// State of the target in a frame of the film.
+    pub fn state(&self, track: &TargetTrack, frame: usize) -> TargetState {
+        if self.after_s > 0.0 { target_state_at(&track.states, self.at(frame, 0.0)) } else { track.states[frame] }
+    }
+
+    /// Pose in a frame of the film.
+    fn pose(&self, poses: &[Pose], frame: usize) -> Pose {
+        if self.after_s > 0.0 { pose_at(poses, self.at(frame, 0.0)) } else { poses[frame] }
+    }
+
+    /// Keeps those of the flight's frames that the film has.
+    fn thin<T>(&self, all: &mut Vec<T>) {
+        let mut place = 0..;
+        all.truncate(self.count(all.len()));
+        all.retain(|_| {
+            place.next().is_some_and(|it: usize| it >= self.first && (it - self.first).is_multiple_of(self.every))
+        });
+    }
+}
 
 /// The moments of a flight that a camera films.
 pub struct FilmedFlight<'a> {
@@ -14,83 +86,130 @@ pub struct FilmedFlight<'a> {
     /// Poses of the camera in all frames of the flight.
     poses: Vec<Pose>,
     walked_m: Vec<f64>,
-    every: usize,
+    rate: Rate,
 }
 
 impl<'a> FilmedFlight<'a> {
-    /// The film of every n-th frame of a flight.
-    pub fn new(shooting: &'a Shooting, flight: &'a Trajectory, every: u32) -> Self {
+    /// The film of a flight as the settings of a camera ask.
+    pub fn new(shooting: &'a Shooting, flight: &'a Trajectory, config: &RenderConfig) -> Self {
         let (poses, walked_m) = (shooting.poses(flight), walked_m(&flight.track.states));
-        Self { shooting, track: &flight.track, poses, walked_m, every: every.max(1) as usize }
+        Self { shooting, track: &flight.track, poses, walked_m, rate: Rate::of(config, flight.track.dt_s) }
     }
 
     /// Frames of the flight that the film has.
     pub fn frames(&self) -> impl Iterator<Item = usize> + use<> {
-        (0..self.track.len()).step_by(self.every)
+        self.rate.frames(self.track.len())
     }
 
     /// Poses of the camera, one per frame of the film.
-    pub fn poses(&self) -> impl Iterator<Item = &Pose> {
-        self.poses.iter().step_by(self.every)
+    pub fn poses(&self) -> impl Iterator<Item = Pose> {
+        self.frames().map(|frame| self.rate.pose(&self.poses, frame))
     }
 
     /// Frame of the flight before a frame of the film; none before the first one.
     pub fn before(&self, frame: usize) -> Option<usize> {
-        frame.checked_sub(self.every)
+        frame.checked_sub(self.rate.every).filter(|before| *before >= self.rate.first)
     }
 
     /// Frame of the flight after a frame of the film; none after the last one.
     pub fn after(&self, frame: usize) -> Option<usize> {
-        Some(frame + self.every).filter(|next| *next < self.track.len())
+        Some(frame + self.rate.every).filter(|next| *next < self.rate.count(self.track.len()))
     }
 
     /// Time between frames of the film, seconds.
     pub fn dt_s(&self) -> f64 {
-        self.track.dt_s * self.every as f64
+        self.track.dt_s * self.rate.every as f64
     }
 
-    /// Time of a frame of the flight since the first one, seconds.
+    /// Time of a frame of the film since the flight's first frame, seconds.
     pub fn time_s(&self, frame: usize) -> f64 {
-        frame as f64 * self.track.dt_s
+        self.rate.time_s(frame)
     }
 
-    /// Camera and target some seconds after a frame of the flight.
+    /// Camera and target some seconds after a frame of the film.
     pub fn moment(&self, frame: usize, offset_s: f64) -> Moment {
-        let at = frame as f64 + offset_s / self.track.dt_s;
+        let at = self.rate.at(frame, offset_s);
         let state = target_state_at(&self.track.states, at);
-        let target = self.shooting.target(self.track, state, self.walked_m[frame] + offset_s * state.speed_mps);
+        let way_m = self.walked_m[frame] + (self.rate.after_s + offset_s) * state.speed_mps;
+        let target = self.shooting.target(self.track, state, way_m);
         // A target without extent is a point: it is watched, not drawn.
         Moment { pose: pose_at(&self.poses, at), target: Some(target).filter(|target| target.radius_m > 0.0) }
     }
 }
 
-/// The flight as a film of every n-th frame has it. Means and lengths of the certificate are those of the film's frames; limits, and what
-/// was measured against them between frames, stay those of the flight.
-pub fn filmed_flight(mut flight: Trajectory, every: u32) -> Trajectory {
-    let n = every.max(1) as usize;
-    if n == 1 {
+/// The flight as a film has it: every n-th frame, or moments between frames. Means and lengths of the certificate are those of the film's
+/// frames; limits, and what was measured against them between frames, stay those of the flight. `boxes` and `around` are what stands and
+/// moves there.
+pub fn filmed_flight(
+    mut flight: Trajectory,
+    config: &RenderConfig,
+    boxes: &dyn SpatialQuery,
+    around: &Around,
+) -> Trajectory {
+    let rate = Rate::of(config, flight.track.dt_s);
+    if rate.is_whole() {
         return flight;
     }
-    flight.track.dt_s *= n as f64;
-    thin(&mut flight.track.states, n);
-    thin(&mut flight.poses_in_world, n);
-    thin(&mut flight.visibility, n);
-    thin(&mut flight.clearance_m, n);
-    flight.labels.iter_mut().for_each(|label| thin(&mut label.per_frame, n));
+    if rate.after_s > 0.0 {
+        let movers = later_around(around, rate.after_s).boxes();
+        be_later(&mut flight, &rate, ExactMap::among(boxes, &movers));
+    }
+    flight.track.dt_s *= rate.every as f64;
+    // What was seen first since the frame before.
+    let frames = rate.frames(flight.coverage.len()).count();
+    let (start, rest) = flight.coverage.split_at(flight.coverage.len().min(rate.first + 1));
+    let stretches = start.chunks(rate.first + 1).chain(rest.chunks_exact(rate.every)).take(frames);
+    flight.coverage = stretches.map(|stretch| stretch.iter().sum()).collect();
+    flight.labels.iter_mut().for_each(|label| rate.thin(&mut label.per_frame));
     for term in &mut flight.terms {
-        thin(&mut term.per_frame, n);
+        rate.thin(&mut term.per_frame);
         term.sum = term.per_frame.iter().sum();
     }
-    // What was seen first since the frame before.
-    let (first, rest) = flight.coverage.split_at(flight.coverage.len().min(1));
-    let rest = rest.chunks_exact(n).map(|stretch| stretch.iter().sum());
-    flight.coverage = first.iter().copied().chain(rest).collect();
+    rate.thin(&mut flight.track.states);
+    rate.thin(&mut flight.poses_in_world);
+    rate.thin(&mut flight.visibility);
+    rate.thin(&mut flight.clearance_m);
     if let Some(twin) = &mut flight.perturbation {
-        thin(&mut twin.frames, n);
-        twin.frames.iter_mut().for_each(|frame| frame.expert_frame /= every);
+        rate.thin(&mut twin.frames);
+        let of_film = |frame: u32| frame.saturating_sub(rate.first as u32) / rate.every as u32;
+        twin.frames.iter_mut().for_each(|frame| frame.expert_frame = of_film(frame.expert_frame));
     }
     measure_frames(&mut flight);
     flight
+}
+
+/// Puts what has a place in the world where it is some time after each frame but the last. Costs and labels stay those of the frame.
+fn be_later(flight: &mut Trajectory, rate: &Rate, map: ExactMap<'_>) {
+    let (frames, track) = (0..rate.count(flight.poses_in_world.len()), &flight.track);
+    let wrapped = |pose: Pose| Pose { yaw_rad: real::wrap_angle_rad(pose.yaw_rad), ..pose };
+    let poses = frames.clone().map(|frame| wrapped(rate.pose(&flight.poses_in_world, frame)));
+    let wrapped = |state: TargetState| TargetState { heading_rad: real::wrap_angle_rad(state.heading_rad), ..state };
+    let states = frames.clone().map(|frame| wrapped(rate.state(track, frame)));
+    let (poses, states): (Vec<Pose>, Vec<TargetState>) = (poses.collect(), states.collect());
+    for frame in frames {
+        let (place, state) = (poses[frame].position_in_world, &states[frame]);
+        flight.visibility[frame] = map.visibility(frame, place, state, track.height_m);
+        flight.clearance_m[frame] = map.nearest(frame, place, CLEARANCE_CAP_M).map_or(CLEARANCE_CAP_M, |near| near.0);
+    }
+    // The last ones leave with the frames that the film does not have.
+    flight.track.states.splice(..states.len(), states);
+    flight.poses_in_world.splice(..poses.len(), poses);
+    if let Some(twin) = &mut flight.perturbation {
+        let share = rate.after_s / rate.dt_s;
+        for frame in 1..twin.frames.len() {
+            let next = twin.frames[frame];
+            let own = &mut twin.frames[frame - 1];
+            *own = FramePerturbation {
+                position: own.position || next.position,
+                rotation: own.rotation || next.rotation,
+                drone_offset_in_world: own.drone_offset_in_world.lerp(next.drone_offset_in_world, share),
+                aim_offset_in_world: own.aim_offset_in_world.lerp(next.aim_offset_in_world, share),
+                pitch_offset_rad: own.pitch_offset_rad + share * (next.pitch_offset_rad - own.pitch_offset_rad),
+                yaw_offset_rad: own.yaw_offset_rad + share * (next.yaw_offset_rad - own.yaw_offset_rad),
+                ..*own
+            };
+        }
+    }
 }
 
 /// Works out those figures of the certificate that follow from the frames.
@@ -112,41 +231,65 @@ fn measure_frames(flight: &mut Trajectory) {
 }
 
 /// Bodies of traffic around a flight, by the frames of a film.
-pub fn filmed_around(around: &Around, every: u32) -> Around {
-    let n = every.max(1);
-    let mut film = around.clone();
-    if n == 1 {
-        return film;
+pub fn filmed_around(around: &Around, config: &RenderConfig) -> Around {
+    let rate = Rate::of(config, around.traffic.dt_s);
+    if rate.is_whole() || around.traffic.bodies.is_empty() {
+        return around.clone();
     }
+    let mut film = if rate.after_s > 0.0 { later_around(around, rate.after_s) } else { around.clone() };
+    let (first, n) = (rate.first as u32, rate.every as u32);
     film.traffic.dt_s *= f64::from(n);
-    film.traffic.frames = film.traffic.frames.div_ceil(n);
+    film.traffic.frames = film.traffic.frames.saturating_sub(first).div_ceil(n);
     for body in &mut film.traffic.bodies {
-        let first_frame = body.first_frame.div_ceil(n);
-        body.states.drain(..body.states.len().min((first_frame * n - body.first_frame) as usize));
-        body.first_frame = first_frame;
-        thin(&mut body.states, n as usize);
+        let own = body.first_frame.saturating_sub(first).div_ceil(n);
+        body.states.drain(..body.states.len().min((own * n + first - body.first_frame) as usize));
+        body.first_frame = own;
+        let mut place = 0..;
+        body.states.retain(|_| place.next().is_some_and(|it: usize| it.is_multiple_of(rate.every)));
     }
-    let kept: Vec<bool> = film.traffic.bodies.iter().map(|body| !body.states.is_empty()).collect();
-    let mut places = kept.iter();
-    film.numbers.retain(|_| places.next() == Some(&true));
-    film.traffic.bodies.retain(|body| !body.states.is_empty());
-    film
+    present(film)
 }
 
-/// Keeps the first of each `n`.
-fn thin<T>(all: &mut Vec<T>, n: usize) {
-    let mut place = 0..;
-    all.retain(|_| place.next().is_some_and(|place| place % n == 0));
+/// Bodies of traffic some time after each frame but the last.
+fn later_around(around: &Around, after_s: f64) -> Around {
+    let mut later = around.clone();
+    let traffic = &mut later.traffic;
+    traffic.frames = traffic.frames.saturating_sub(1);
+    for body in &mut traffic.bodies {
+        let person = Person::of(body, traffic.dt_s);
+        let state = |frame: u32| person.state(f64::from(frame) * traffic.dt_s + after_s);
+        body.first_frame = (0..traffic.frames).find(|frame| state(*frame).is_some()).unwrap_or_default();
+        body.states = (0..traffic.frames).filter_map(state).collect();
+    }
+    present(later)
+}
+
+/// Leaves out bodies that no frame has.
+fn present(mut around: Around) -> Around {
+    let kept: Vec<bool> = around.traffic.bodies.iter().map(|body| !body.states.is_empty()).collect();
+    let mut places = kept.iter();
+    around.numbers.retain(|_| places.next() == Some(&true));
+    around.traffic.bodies.retain(|body| !body.states.is_empty());
+    around
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use cosfly_domain::{Body, BodyKind, BodyPlan, Certificate, Traffic};
-    use cosfly_frames::{DVec3, Seed, TargetState};
+    use cosfly_frames::{DVec3, Seed};
+    use cosfly_geometry::BoxBvh;
 
     fn state(x: f64) -> TargetState {
         TargetState { feet_in_world: DVec3::X * x, heading_rad: 0.0, speed_mps: 1.0 }
+    }
+
+    fn every(every: u32) -> RenderConfig {
+        RenderConfig { every, ..RenderConfig::default() }
+    }
+
+    fn nothing() -> BoxBvh {
+        BoxBvh::build(vec![])
     }
 
     #[test]
@@ -174,7 +317,7 @@ mod tests {
             certificate: Certificate { max_speed_mps: 2.0, ..Certificate::default() },
             perturbation: None,
         };
-        let film = filmed_flight(flight.clone(), 3);
+        let film = filmed_flight(flight.clone(), &every(3), &nothing(), &Around::default());
         assert_eq!((film.track.dt_s, &film.visibility[..]), (1.5, &[1.0, 0.25, 1.0][..]));
         assert!(film.poses_in_world.iter().eq([0, 3, 6].map(|k| &flight.poses_in_world[k])));
         assert_eq!(film.coverage, [1.0, 2.0 + 3.0 + 4.0, 5.0 + 6.0 + 7.0]);
@@ -182,7 +325,7 @@ mod tests {
         assert_eq!((it.mean_visibility, it.length_m, it.max_speed_mps), (0.75, 6.0, 2.0));
         assert!((it.frames_half_visible - 2.0 / 3.0).abs() < 1e-12 && (it.mean_distance_m - 5.0).abs() < 1e-12);
         assert!((it.max_yaw_rate_deg_s - 0.1f64.to_degrees() / 1.5).abs() < 1e-9);
-        assert_eq!(filmed_flight(flight.clone(), 1), flight);
+        assert_eq!(filmed_flight(flight.clone(), &every(1), &nothing(), &Around::default()), flight);
     }
 
     #[test]
@@ -195,7 +338,7 @@ mod tests {
         };
         let bodies = vec![body(0, 9), body(4, 2), body(2, 5), body(7, 1)];
         let traffic = Traffic { dt_s: 0.5, frames: 9, bodies, ..Traffic::default() };
-        let film = filmed_around(&Around { numbers: vec![5, 6, 7, 8], traffic }, 3);
+        let film = filmed_around(&Around { numbers: vec![5, 6, 7, 8], traffic }, &every(3));
         assert_eq!((film.numbers, film.traffic.frames, film.traffic.dt_s), (vec![5, 7], 3, 1.5));
         let found =
             film.traffic.bodies.iter().map(|body| (body.first_frame, body.states.iter().map(|it| it.feet_in_world.x)));

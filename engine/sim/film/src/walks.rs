@@ -53,6 +53,11 @@ impl Person {
         Self { walked_m: walked_m(&track.states), track, first_s, comes_and_goes: true, plan, body: shape }
     }
 
+    /// The person by a clock that begins some seconds later.
+    pub fn since(self, begins_s: f64) -> Self {
+        Self { first_s: self.first_s - begins_s, ..self }
+    }
+
     /// Properties of the person that do not change.
     pub fn plan(&self) -> &BodyPlan {
         &self.plan

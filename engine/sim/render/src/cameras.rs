@@ -31,6 +31,11 @@ pub struct CameraConfig {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 1000))]
     pub every: Option<u32>,
+    /// Time of each picture after its frame, seconds: at least 0 and less than the time from one picture to the next. People,
+    /// vehicles, poses and time stamps are those of that time. Left out: 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub offset_s: Option<f64>,
     /// Place and turn of the camera on the drone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gimbal: Option<GimbalConfig>,

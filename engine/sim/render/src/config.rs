@@ -98,6 +98,9 @@ pub struct RenderConfig {
     /// Frames of the flight from one picture to the next; set by [`Self::of_camera`].
     #[serde(skip)]
     pub every: u32,
+    /// Time of the first picture after the beginning of the flight, nanoseconds; set by [`Self::of_camera`].
+    #[serde(skip)]
+    pub begins_ns: u64,
 }
 
 impl Default for RenderConfig {
@@ -128,6 +131,7 @@ impl Default for RenderConfig {
             bodies_3d: false,
             stereo: None,
             every: 1,
+            begins_ns: 0,
         }
     }
 }

@@ -40,6 +40,7 @@ impl RenderConfig {
         let CameraConfig { width, height, fov_deg, gimbal, optics, lens, motion_blur, rolling_shutter, noise, .. } =
             camera.clone();
         (config.stereo, config.every) = (stereo, camera.every.unwrap_or(1));
+        config.begins_ns = (camera.offset_s.unwrap_or(0.0) * 1e9).round() as u64;
         if stereo.is_none() {
             config.channels = OF_PAIRS.iter().fold(self.channels.clone(), |all, of_pairs| all.without(of_pairs));
         }
@@ -92,6 +93,11 @@ impl RenderConfig {
             if let Some(every) = camera.every.filter(|it| !(1..=1000).contains(it)) {
                 let path = format!("cameras.{name}.every");
                 return problem(path, format!("the camera films every `{every}`th frame"), "1 to 1000: whole frames");
+            }
+            if let Some(offset_s) = camera.offset_s.filter(|it| !(0.0..=1e6).contains(it)) {
+                let path = format!("cameras.{name}.offset_s");
+                let hint = "0 or more, and less than the time from one picture to the next";
+                return problem(path, format!("the pictures are `{offset_s}` s after their frames"), hint);
             }
             let lens = camera.lens.unwrap_or(self.lens);
             if camera.fov_deg.is_some() && lens.model == LensModel::Equirectangular {

@@ -48,7 +48,7 @@ fn moment(record: &RenderedTrajectory, frame: usize) -> ExaminedMoment {
     let (pose, state, view) = (trajectory.poses_in_world[frame], trajectory.track.states[frame], &record.views[frame]);
     let next = trajectory.poses_in_world.get(frame + 1);
     ExaminedMoment {
-        time_s: frame as f64 * record.dt_s(),
+        time_s: record.times().s(frame),
         drone: pose,
         camera: record.camera_pose(frame),
         next_in_world: next.map(|next| next.position_in_world),

@@ -15,7 +15,6 @@ use crate::source::{ExportedFlight, SensorReadings, Source};
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_frames::Pose;
 use cosfly_read::PublishedFlight;
-use cosfly_schema::log::frame_time_ns;
 use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::tables::Table;
 use cosfly_write::table_file::TableWriter;
@@ -76,7 +75,7 @@ fn names_of(sensor: &LoggedSensor) -> Vec<String> {
 fn sensed_by_frame(episode: &ExportedFlight<'_>, kind: &Kind) -> Result<Vec<Vec<f64>>> {
     let sensors = episode.readings()?;
     let names: Vec<String> = sensors.iter().flat_map(|(sensor, _)| names_of(sensor)).collect();
-    let begins = |(_, readings): &SensorReadings| readings.first().is_some_and(|(time_ns, _)| *time_ns == 0);
+    let begins = |(_, readings): &SensorReadings| readings.first().is_some_and(|(time_ns, _)| *time_ns == episode.flight.begins_ns);
     if names != kind.sensed || !sensors.iter().all(begins) {
         let id = &episode.flight.trajectory_id;
         let message =
@@ -85,7 +84,7 @@ fn sensed_by_frame(episode: &ExportedFlight<'_>, kind: &Kind) -> Result<Vec<Vec<
             .hint("LeRobot has one list of sensors; choose flights with `--trajectory` or `--split`"));
     }
     let at = |frame: usize| {
-        let time_ns = frame_time_ns(episode.flight.dt_s, frame);
+        let time_ns = episode.flight.times().ns(frame);
         let last = |(sensor, readings): &SensorReadings| -> Vec<f64> {
             let until = readings.partition_point(|(at_ns, _)| *at_ns <= time_ns);
             let values = readings.get(until.saturating_sub(1)).map_or(&[][..], |(_, values)| &values[..]);

@@ -20,9 +20,9 @@ use bag::{Bag, Topic, topics_of_flight};
 use cosfly_diagnose::Result;
 use cosfly_domain::TARGET_INSTANCE;
 use cosfly_frames::{DQuat, DVec3, Pose, real};
-use cosfly_read::{LoggedFrame, LoggedSweep, SeenBody, SightingReader};
+use cosfly_read::{LoggedFrame, LoggedSweep, PublishedFlight, SeenBody, SightingReader};
 use cosfly_schema::log::reading::LoggedSensor;
-use cosfly_schema::log::{frame_time_ns, messages::feet_pose, right_handed};
+use cosfly_schema::log::{messages::feet_pose, right_handed};
 use messages::{Detected, Header, Motion, OPTICAL, Placed};
 use readings::ReadingCoder;
 
@@ -100,8 +100,8 @@ impl Pictures {
 }
 
 /// Time of a frame, nanoseconds.
-fn time_ns(dt_s: f64, frame: usize) -> u64 {
-    START_NS + frame_time_ns(dt_s, frame)
+fn time_ns(flight: &PublishedFlight, frame: usize) -> u64 {
+    START_NS + flight.times().ns(frame)
 }
 
 impl<'a> Recording<'a> {
@@ -151,18 +151,18 @@ impl<'a> Recording<'a> {
     }
 
     fn write_frames(&self, bag: &mut Bag<'_>, every: usize) -> Result<()> {
-        let dt_s = self.episode.flight.dt_s;
-        let make = |frame: usize, logged: LoggedFrame| Ok(Pictures::of(time_ns(dt_s, frame), &logged));
+        let flight = self.episode.flight;
+        let make = |frame: usize, logged: LoggedFrame| Ok(Pictures::of(time_ns(flight, frame), &logged));
         let (mut rest, mut sweeps) = (&self.readings[..], &self.sweeps[..]);
         self.episode.each_picture(&self.episode.every_nth_frame(every), make, |frame, pictures| {
-            let due = rest.partition_point(|(at_ns, ..)| *at_ns <= time_ns(dt_s, frame));
+            let due = rest.partition_point(|(at_ns, ..)| *at_ns <= time_ns(flight, frame));
             self.write_readings(bag, &rest[..due])?;
             rest = &rest[due..];
-            let due = sweeps.partition_point(|(at_ns, ..)| *at_ns <= time_ns(dt_s, frame));
+            let due = sweeps.partition_point(|(at_ns, ..)| *at_ns <= time_ns(flight, frame));
             self.write_sweeps(bag, &sweeps[..due])?;
             sweeps = &sweeps[due..];
             self.write_motion(bag, frame)?;
-            let (time_ns, flight) = (time_ns(dt_s, frame), self.episode.flight);
+            let time_ns = time_ns(flight, frame);
             let header = Header { time_ns, frame: OPTICAL };
             let info = messages::camera_info(header, &flight.camera, &flight.lens, &flight.mount);
             bag.write(Topic::CameraInfo, time_ns, &info)?;
@@ -201,7 +201,7 @@ impl<'a> Recording<'a> {
     /// Clock, transforms and odometry.
     fn write_motion(&self, bag: &mut Bag<'_>, frame: usize) -> Result<()> {
         let flight = self.episode.flight;
-        let time_ns = time_ns(flight.dt_s, frame);
+        let time_ns = time_ns(flight, frame);
         bag.write(Topic::Clock, time_ns, &messages::clock(time_ns))?;
         let mut list = vec![("odom", "base_link", self.drone[frame])];
         if flight.mount.levelled {

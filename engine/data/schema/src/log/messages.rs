@@ -159,7 +159,7 @@ pub fn target_state(record: &RenderedTrajectory, frame: usize) -> TargetStateMes
     let edges = |pixel_box: &Option<PixelBox>| pixel_box.iter().flat_map(edges_px).collect();
     TargetStateMessage {
         frame: frame as u32,
-        time_s: frame as f64 * record.dt_s(),
+        time_s: record.times().s(frame),
         feet_x_m: feet.x,
         feet_y_m: feet.y,
         feet_z_m: feet.z,

@@ -30,7 +30,7 @@ columns! { Frames::COLUMNS of DatasetItem;
     /// Number of the frame, from 0.
     frame: u32 = |_, i| i as u32;
     /// Time of the frame, `frame * dt_s`; the same as in the log.
-    time_s: f64 = |item, i| i as f64 * item.record.dt_s();
+    time_s: f64 = |item, i| item.record.times().s(i);
     /// Expert or perturbed trajectory.
     role: Role = |item, _| item.record.role;
 

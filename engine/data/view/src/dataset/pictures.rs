@@ -40,7 +40,7 @@ impl Logs {
             Some(log) => log,
             None => {
                 let path = inside(opened.dataset.folder(), &flight.mcap_path)?;
-                let log = ImageLog::open(&path, flight.dt_s)?;
+                let log = ImageLog::open(&path, flight.times())?;
                 opened.dataset.identity().check()?;
                 Arc::new(FlightLog { log })
             }

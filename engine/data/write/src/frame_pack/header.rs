@@ -4,7 +4,7 @@ use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_domain::channels::Element;
 use cosfly_domain::{Channel, ChannelSet};
 use cosfly_schema::config::EncodingConfig;
-use cosfly_schema::log::{RawFormat, formats};
+use cosfly_schema::log::{FrameTimes, RawFormat, formats};
 use serde::{Deserialize, Serialize};
 
 const MAX_SIDE: u32 = 16_384;
@@ -23,9 +23,16 @@ pub struct PackHeader {
     pub encoding: EncodingConfig,
     /// Time between frames, seconds.
     pub dt_s: f64,
+    /// Time of the first frame after the beginning of the flight, nanoseconds.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub begins_ns: u64,
     /// Channels of every frame.
     #[serde(default, skip_serializing_if = "ChannelSet::is_default")]
     pub channels: ChannelSet,
+}
+
+fn is_zero(offset: &u64) -> bool {
+    *offset == 0
 }
 
 impl PackHeader {
@@ -33,7 +40,12 @@ impl PackHeader {
     /// `largest_instance`.
     pub fn new(width: u32, height: u32, largest_instance: u32, encoding: EncodingConfig, dt_s: f64) -> Self {
         let instance = if largest_instance <= u32::from(u16::MAX) { InstanceFormat::U16 } else { InstanceFormat::U32 };
-        Self { width, height, instance, encoding, dt_s, channels: ChannelSet::default() }
+        Self { width, height, instance, encoding, dt_s, begins_ns: 0, channels: ChannelSet::default() }
+    }
+
+    /// Times of the frames.
+    pub fn times(&self) -> FrameTimes {
+        FrameTimes { begins_ns: self.begins_ns, dt_s: self.dt_s }
     }
 
     /// Layout of a raw channel's pixels.

@@ -3,7 +3,6 @@
 use super::header::PackHeader;
 use crate::message_head::message_head;
 use cosfly_domain::Channel;
-use cosfly_schema::log::frame_time_ns;
 use cosfly_schema::log::messages::{OPTICAL_FRAME, timestamp};
 use foxglove::messages::RawImage;
 use prost::Message;
@@ -24,7 +23,7 @@ const DATA_KEY: u8 = 6 << 3 | 2;
 impl ImageRecord {
     /// The record of one channel in one frame; `number` is the channel's in every log made from the pack.
     pub fn new(header: &PackHeader, (number, channel): (u16, &'static Channel), frame: usize) -> Self {
-        let (time_ns, format) = (frame_time_ns(header.dt_s, frame), header.format_of(channel));
+        let (time_ns, format) = (header.times().ns(frame), header.format_of(channel));
         let pixel_bytes = format.pixel_bytes * header.pixels();
         let front = RawImage {
             timestamp: Some(timestamp(time_ns)),

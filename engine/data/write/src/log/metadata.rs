@@ -122,6 +122,9 @@ fn camera(record: &RenderedTrajectory) -> BTreeMap<String, String> {
         ("noise_shot", record.noise.shot.to_string()),
     ]);
     all.extend(numbers(&record.optics));
+    if record.begins_ns > 0 {
+        all.insert("offset_s".to_owned(), record.times().s(0).to_string());
+    }
     all.extend(record.camera_name.iter().map(|name| ("name".to_owned(), name.clone())));
     all
 }

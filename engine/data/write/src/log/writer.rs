@@ -12,7 +12,7 @@ use cosfly_domain::channels::rgb;
 use cosfly_fingerprint::Digest;
 use cosfly_fingerprint::sha256::HashingWriter;
 use cosfly_schema::extras::Extra;
-use cosfly_schema::log::{Frequency, frame_time_ns, messages, topic, topics};
+use cosfly_schema::log::{Frequency, messages, topic, topics};
 use cosfly_schema::{CaptionRecord, LogRecord, RenderedTrajectory, RgbEncoding};
 use std::io::{Read, Seek, Write};
 
@@ -55,7 +55,7 @@ pub fn write_log<R: Read + Seek>(
         let images = pack.frame(frame)?;
         // A reading that rounding puts behind the last frame is one of that frame.
         let is_last = frame + 1 == record.len();
-        readings.write(&mut log, if is_last { u64::MAX } else { frame_time_ns(record.dt_s(), frame) })?;
+        readings.write(&mut log, if is_last { u64::MAX } else { record.times().ns(frame) })?;
         previews.extend(write_frame(&mut log, record, frame, images, pack.header())?);
     }
     let messages = log.finish()?;
@@ -76,7 +76,7 @@ pub fn write_log<R: Read + Seek>(
 fn check_pack<R: Read + Seek>(record: &RenderedTrajectory, pack: &FramePackReader<R>) -> Result<()> {
     let (header, camera) = (pack.header(), &record.camera);
     let same_size = (header.width, header.height) == (camera.width, camera.height);
-    if pack.len() != record.len() || !same_size || header.dt_s != record.dt_s() {
+    if pack.len() != record.len() || !same_size || header.times() != record.times() {
         return Err(Diagnostic::new(
             "mcap-pack",
             Fault::Bug,
@@ -121,7 +121,7 @@ fn write_frame<W: Write>(
     images: PackedFrame,
     header: &PackHeader,
 ) -> Result<Option<BlobPart>> {
-    let time = frame_time_ns(record.dt_s(), frame);
+    let time = record.times().ns(frame);
     let camera = &record.camera;
     let pose = &record.trajectory.poses_in_world[frame];
     let target = messages::target_pose(record, frame);

@@ -11,7 +11,7 @@ use cosfly_diagnose::Result;
 use cosfly_domain::{Lens, Mount};
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_read::{LogReader, LoggedBox};
-use cosfly_schema::log::right_handed;
+use cosfly_schema::log::{FrameTimes, right_handed};
 use std::path::{Path, PathBuf};
 
 /// Topics of every flight.
@@ -49,7 +49,7 @@ pub fn flown_bags(
 ) -> Result<Written> {
     let folder = OutFolder::begin(out, result)?;
     for (number, (name, log)) in flights.iter().enumerate() {
-        let mut log = LogReader::open(log, 0.0)?;
+        let mut log = LogReader::open(log, FrameTimes::default())?;
         let (boxes, log) = (log.scene()?, FlownLog::read(&mut log)?);
         let topics =
             TOPICS.into_iter().map(|(topic, name, kind, is_latched)| (topic, name.to_owned(), kind, is_latched));

@@ -48,7 +48,7 @@ columns! { Trajectories::IDENTITY of DatasetItem;
     /// Time between frames.
     dt_s: f64 = |item, _| item.record.dt_s();
     /// Time of the last frame.
-    duration_s: f64 = |item, _| item.record.trajectory.track.duration_s();
+    duration_s: f64 = |item, _| item.record.times().s(item.record.len().saturating_sub(1));
 
     /// Name of the town.
     town: String = |item, _| item.record.town.name.clone();

@@ -5,6 +5,7 @@ use cosfly_fly::flight::Row;
 use cosfly_fly::log::{self, LogLine};
 use cosfly_fly::results::{Folder, ending};
 use cosfly_read::LogReader;
+use cosfly_schema::log::FrameTimes;
 use cosfly_view::{FewPoints, Index, ViewSubject, ViewedPicture, inside, short, unknown};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -151,7 +152,7 @@ impl ViewSubject for ResultsSubject {
         // The log for Foxglove has the town; `--logs` may have left it out.
         let name = format!("logs/{}.mcap", flight.row.episode);
         let boxes = match flight.folder.join(&name).exists() {
-            true => LogReader::open(&inside(&flight.folder, &name)?, flight.row.step_s)?.scene()?,
+            true => LogReader::open(&inside(&flight.folder, &name)?, FrameTimes::default())?.scene()?,
             false => vec![],
         };
         let mut kinds: BTreeMap<String, Vec<f64>> = BTreeMap::new();
