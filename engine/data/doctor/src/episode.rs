@@ -1,6 +1,6 @@
 //! A flight as the checks see it: the values of its files, absent where the files have none.
 
-use cosfly_captions::Wear;
+use cosfly_captions::{Facts, Wear};
 use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose};
 
@@ -40,6 +40,8 @@ pub struct ExaminedEpisode {
     pub followed: Option<Vec<Pose>>,
     /// Pictures of some frames.
     pub looks: Vec<ExaminedLook>,
+    /// Facts of the whole flight, of which the episode's frames are a part: those of the film that texts speak of.
+    pub whole: Option<Facts>,
     /// Language code and text of the instructions.
     pub captions: Vec<(String, String)>,
     /// Parked vehicles: middle (m), half lengths (m) and yaw (radians).

@@ -38,6 +38,9 @@ const WALK_M: f64 = 1.0;
 
 /// Facts of a flight; none where the target is unknown in some frames.
 pub fn facts_of(episode: &ExaminedEpisode) -> Option<Facts> {
+    if episode.whole.is_some() {
+        return episode.whole.clone();
+    }
     let moments = &episode.moments;
     let feet: Vec<DVec3> = (moments.iter())
         .map(|it| it.target_in_world.map(|middle| middle - DVec3::Z * (0.5 * episode.target_height_m)))

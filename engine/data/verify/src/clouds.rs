@@ -199,7 +199,9 @@ fn compare(sweeps: &[Sweep], logged: &[LoggedSweep], begins_ns: u64) -> ReadResu
         let off_m = logged.position.distance(sweep.position * DVec3::new(1.0, -1.0, 1.0));
         if (at_s - sweep.time_s).abs() > 1e-6 || off_m > 1e-6 {
             let (there_s, here_s) = (sweep.time_s, at_s);
-            return Err(format!("sweep {number} is {here_s} s after the first frame, {off_m} m from that of the table, at {there_s} s"));
+            return Err(format!(
+                "sweep {number} is {here_s} s after the first frame, {off_m} m from that of the table, at {there_s} s"
+            ));
         }
         let same = |(point, bytes): (&CloudPoint, &[u8; POINT_BYTES])| {
             let mut logged = CloudPoint::of(bytes);

@@ -28,4 +28,6 @@ pub struct FlightRows<'a> {
     pub extent: Option<&'a Extent>,
     /// Motion of the expert of a perturbed flight.
     pub expert: Option<&'a FlightTrack>,
+    /// Another film of the same flight, the one with the most frames, and its motion.
+    pub film: Option<(&'a PlacedFlight, &'a FlightTrack)>,
 }

@@ -8,7 +8,7 @@ use super::log::{self, Known};
 use super::options::Wanted;
 use super::report::VerifyReport;
 use super::resume::ResumeFile;
-use super::rows::{self, PlacedFrame};
+use super::rows::{self, PlacedFlight, PlacedFrame};
 use super::tables::SmallTables;
 use cosfly_diagnose::Result;
 use cosfly_read::{FlightTrack, RowIndex};
@@ -64,6 +64,7 @@ struct Rows<'a> {
     bodies: &'a [PlacedBody],
     in_space: Option<&'a SpaceOfFlight>,
     expert: Option<&'a FlightTrack>,
+    film: Option<(&'a PlacedFlight, &'a FlightTrack)>,
 }
 
 impl<'a> Flights<'a> {
@@ -201,16 +202,19 @@ impl<'a> Flights<'a> {
         let number = |frames: &[PlacedFrame]| flights.number(&frames[0].trajectory_id).unwrap_or_default();
         let numbers: BTreeSet<usize> = batch.iter().map(|frames| number(frames)).collect();
         let expert = |number: usize| flights.number(flights.at(number).expert_id.as_ref()?);
-        let experts = self.tracks(&numbers.iter().filter_map(|number| expert(*number)).collect());
+        let film = |number: usize| self.tables.films.get(&flights.at(number).flight_id).filter(|film| **film != number);
+        let beside = |number: &usize| [expert(*number), film(*number).copied()];
+        let tracks = self.tracks(&numbers.iter().flat_map(beside).flatten().collect());
         let bodies = self.bodies.of(&numbers, flights);
         let in_space = self.in_space.in_space(&numbers, flights);
         let check = |frames: &Vec<PlacedFrame>| {
             let number = number(frames);
             let (bodies_file, bodies) = bodies.get(&number).map_or(("", &[][..]), |(file, rows)| (file, rows));
-            let expert = expert(number).and_then(|number| experts.get(&number));
+            let expert = expert(number).and_then(|number| tracks.get(&number));
+            let film = film(number).and_then(|film| Some((flights.at(*film), tracks.get(film)?)));
             let checked = self.check_flight(
                 number,
-                &Rows { file, frames, bodies_file, bodies, in_space: in_space.get(&number), expert },
+                &Rows { file, frames, bodies_file, bodies, in_space: in_space.get(&number), expert, film },
             );
             count();
             checked
@@ -254,6 +258,7 @@ impl<'a> Flights<'a> {
             pairs: &self.tables.pairs,
             extent: self.tables.extents.get(&flight.town),
             expert: rows.expert,
+            film: rows.film,
         };
         OF_FLIGHTS.iter().for_each(|check| check(&all, report));
         if self.files.check_log(self.folder, &flight.mcap_path, report)? >= State::Regular {

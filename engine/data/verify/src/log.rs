@@ -15,9 +15,7 @@ use cosfly_domain::{Channel, ChannelSet, SemanticLabel, TARGET_INSTANCE, channel
 use cosfly_frames::{DQuat, DVec3};
 use cosfly_read::read_records;
 use cosfly_schema::log::messages::shift_px;
-use cosfly_schema::log::{
-    BODIES_3D_ROWS, Frequency, TargetStateMessage, formats, right_handed, topic, topics,
-};
+use cosfly_schema::log::{BODIES_3D_ROWS, Frequency, TargetStateMessage, formats, right_handed, topic, topics};
 use foxglove::messages;
 use prost::Message;
 use std::collections::{BTreeMap, BTreeSet};

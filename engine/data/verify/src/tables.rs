@@ -24,6 +24,8 @@ pub struct SmallTables {
     pub captions: CaptionList,
     /// Instance ids by town.
     pub instances: BTreeMap<String, BTreeSet<u32>>,
+    /// The film with the most frames of each flight that several cameras film.
+    pub films: BTreeMap<String, usize>,
     /// Extents of the objects by town: least and largest x and y, metres.
     pub extents: BTreeMap<String, Extent>,
 }
@@ -59,8 +61,14 @@ pub fn digest(frames: impl Iterator<Item = i64>) -> blake3::Hash {
 pub fn read(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> SmallTables {
     let flights = read_flights(folder, files, report);
     let captions = CaptionList::read(folder, files, &flights, report);
-    let mut small =
-        SmallTables { flights, pairs: BTreeMap::new(), captions, instances: BTreeMap::new(), extents: BTreeMap::new() };
+    let mut small = SmallTables {
+        flights,
+        pairs: BTreeMap::new(),
+        captions,
+        instances: BTreeMap::new(),
+        films: BTreeMap::new(),
+        extents: BTreeMap::new(),
+    };
     let rejected = read_rejected(folder, files, report);
     for flight in small.flights.iter().filter(|flight| rejected.contains(&flight.trajectory_id)) {
         report.find(
@@ -72,6 +80,7 @@ pub fn read(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> S
     }
     read_objects(folder, files, &mut small, report);
     check_weathers(&small, report);
+    small.films = most_frames(&small.flights);
     read_pairs(folder, files, &mut small, report);
     small
 }
@@ -165,6 +174,19 @@ fn check_weathers(small: &SmallTables, report: &mut VerifyReport) {
             report.find(&flight.place.0, place, "verify-duplicate", message);
         }
     }
+}
+
+/// The film of each flight with the most frames a second, of cameras of a rig.
+fn most_frames(flights: &FlightList) -> BTreeMap<String, usize> {
+    let mut films: BTreeMap<String, usize> = BTreeMap::new();
+    for (number, flight) in flights.iter().enumerate().filter(|(_, flight)| flight.camera_name.is_some()) {
+        let best = films.entry(flight.flight_id.clone()).or_insert(number);
+        let rank = |number: usize| (flights.at(number).dt_s, flights.at(number).begins_ns);
+        if rank(number) < rank(*best) {
+            *best = number;
+        }
+    }
+    films
 }
 
 fn read_pairs(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, report: &mut VerifyReport) {

@@ -214,7 +214,8 @@ fn filmable(
     let (every, offset_s, step_s) = (config.every, config.begins_ns as f64 / 1e9, film.dt_s());
     if offset_s + 1e-9 > step_s {
         let camera = context.id.item.variant().unwrap_or_default();
-        let message = format!("film `{camera}` begins `{offset_s}` s after its flight, with a picture every {step_s} s");
+        let message =
+            format!("film `{camera}` begins `{offset_s}` s after its flight, with a picture every {step_s} s");
         let hint = format!("set its `offset_s` in `stages.{}.cameras` to less than {step_s}", context.id.stage);
         return Err(Diagnostic::new("camera-offset", Fault::Recipe, message).hint(hint));
     }

@@ -1,8 +1,8 @@
 //! A film of every n-th frame, or of moments between frames: what a camera with a rate or an offset of its own takes, and the flight
 //! as its film has it.
 
-use crate::walks::{Person, walked_m};
 use crate::Shooting;
+use crate::walks::{Person, walked_m};
 use cosfly_domain::{Around, FramePerturbation, Trajectory};
 use cosfly_frames::{Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::SpatialQuery;

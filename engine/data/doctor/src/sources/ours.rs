@@ -2,10 +2,11 @@
 
 use super::stretch;
 use crate::episode::{OFFSETS, depth_in_box};
+use crate::walk::facts_of;
 use crate::walls::{self, Walls};
 use crate::whole_files::{log_problem, parquet_problem};
 use crate::{ExaminedEpisode, ExaminedLook, ExaminedMoment, Flag};
-use cosfly_captions::Wear;
+use cosfly_captions::{Facts, Wear};
 use cosfly_diagnose::{Diagnostic, Fault, Result, Stop};
 use cosfly_domain::{Colour, TARGET_INSTANCE};
 use cosfly_fingerprint::Digest;
@@ -13,6 +14,7 @@ use cosfly_frames::DVec3;
 use cosfly_metrics::drawn_ground::DrawnGround;
 use cosfly_read::{BoxInWorld, CaptionReader, FrameRow, LoggedFrame, PublishedDataset, PublishedFlight};
 use rayon::prelude::*;
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -112,6 +114,7 @@ fn read(
         episode.looks = looks(dataset, &flight, &rows, walls, stop).unwrap_or_default();
         episode
     };
+    let whole = facts_of_whole_flights(dataset)?;
     let (mut done, all) = (0, dataset.flights().len() as u64);
     let mut visit_all = |together: &mut Vec<Read>| {
         let episodes: Vec<ExaminedEpisode> = std::mem::take(together).into_par_iter().map(logged).collect();
@@ -124,6 +127,8 @@ fn read(
     let mut together: Vec<Read> = vec![];
     let outcome = dataset.walk(&|_| true, &mut |flight, rows| {
         let mut episode = episode(flight, &rows);
+        let is_part = flight.camera_name.is_some();
+        episode.whole = whole.get(&flight.flight_id).filter(|_| is_part).cloned();
         let place = dataset.place(&flight.trajectory_id).unwrap_or_default();
         episode.captions =
             captions.at(dataset, place)?.iter().map(|it| (it.language.clone(), it.text.clone())).collect();
@@ -136,6 +141,29 @@ fn read(
     });
     visit_all(&mut together);
     outcome
+}
+
+/// Facts of the flights of which a camera films a part, by the film of another camera that begins first and has the most frames: texts
+/// are of the whole flight.
+fn facts_of_whole_flights(dataset: &PublishedDataset) -> Result<BTreeMap<String, Facts>> {
+    let mut films: BTreeMap<&str, Vec<&PublishedFlight>> = BTreeMap::new();
+    for flight in dataset.flights().iter().filter(|flight| flight.camera_name.is_some()) {
+        films.entry(&flight.flight_id).or_default().push(flight);
+    }
+    films.retain(|_, films| films.iter().any(|film| film.times() != films[0].times()));
+    let longest = |films: &Vec<&PublishedFlight>| {
+        let first = films.iter().min_by_key(|film| (film.begins_ns, Reverse(film.frames)));
+        first.map(|film| film.trajectory_id.clone())
+    };
+    let wanted: BTreeSet<String> = films.values().filter_map(longest).collect();
+    let mut facts = BTreeMap::new();
+    if !wanted.is_empty() {
+        dataset.walk(&|flight| wanted.contains(&flight.trajectory_id), &mut |flight, rows| {
+            facts.extend(facts_of(&episode(flight, &rows)).map(|facts| (flight.flight_id.clone(), facts)));
+            Ok(())
+        })?;
+    }
+    Ok(facts)
 }
 
 fn named(flight: &PublishedFlight) -> ExaminedEpisode {

@@ -75,7 +75,9 @@ fn names_of(sensor: &LoggedSensor) -> Vec<String> {
 fn sensed_by_frame(episode: &ExportedFlight<'_>, kind: &Kind) -> Result<Vec<Vec<f64>>> {
     let sensors = episode.readings()?;
     let names: Vec<String> = sensors.iter().flat_map(|(sensor, _)| names_of(sensor)).collect();
-    let begins = |(_, readings): &SensorReadings| readings.first().is_some_and(|(time_ns, _)| *time_ns == episode.flight.begins_ns);
+    let begins = |(_, readings): &SensorReadings| {
+        readings.first().is_some_and(|(time_ns, _)| *time_ns == episode.flight.begins_ns)
+    };
     if names != kind.sensed || !sensors.iter().all(begins) {
         let id = &episode.flight.trajectory_id;
         let message =

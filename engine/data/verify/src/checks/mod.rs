@@ -2,6 +2,7 @@
 //!
 //! To add one, write its file here and add two lines: its `mod` and its entry in [`OF_FLIGHTS`].
 
+mod films;
 mod in_space;
 mod labels;
 mod twins;
@@ -23,5 +24,6 @@ pub const OF_FLIGHTS: &[Check] = &[
     |it, report| frames::check_pair(it.pairs, it.flight, it.frames, report),
     |it, report| frames::check_town(it.file, it.extent, it.flight, it.frames, report),
     twins::check,
+    films::check,
     in_space::check,
 ];
