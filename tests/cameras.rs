@@ -88,11 +88,49 @@ fn several_cameras_film_every_flight_at_the_same_moments() {
 }
 
 #[test]
+fn a_camera_with_an_offset_films_between_the_steps() {
+    let street = filmed_by(
+        "channels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"flow_forward\", \"flow_forward_valid\"]\n\
+         [stages.frames.cameras.front]\n[stages.frames.cameras.late]\noffset_s = 0.2\n\
+         [stages.frames.cameras.slow]\nevery = 2\noffset_s = 0.7",
+    );
+    assert_eq!(ran(&street, &[], "frames"), 18);
+    let dataset = street.dataset();
+    let folder = dataset.to_str().expect("UTF-8");
+    cosfly(&["verify", folder]).within(street.path()).run_ok();
+    let examined = cosfly(&["doctor", folder]).within(street.path()).run();
+    assert!(!examined.stdout.contains("caption-mismatch"), "{}", examined.stdout);
+    let [ids, times, places] = ["trajectory_id", "time_s", "drone_x_m"].map(|name| column(&dataset, "frames", name));
+    let film = |camera: &str| -> Vec<(f64, f64)> {
+        let number = |text: &String| text.parse().expect("a number");
+        let rows = ids.iter().zip(times.iter().zip(&places));
+        rows.filter(|it| it.0.contains(&format!("expert-p00000-{camera}")))
+            .map(|it| (number(it.1.0), number(it.1.1)))
+            .collect()
+    };
+    let front = film("front");
+    for (camera, first_s, step_s, count) in [("late", 0.2, 0.5, 11), ("slow", 0.7, 1.0, 5)] {
+        let own = film(camera);
+        assert_eq!(own.len(), count, "{camera}: {own:?}");
+        for (number, (time_s, x_m)) in own.iter().enumerate() {
+            let (at, due_s) = (time_s / 0.5, first_s + number as f64 * step_s);
+            let [from, to] = [0, 1].map(|next| front[at as usize + next].1);
+            assert!((time_s - due_s).abs() < 1e-9 && (from + (to - from) * at.fract() - x_m).abs() < 1e-9, "{camera}");
+        }
+    }
+    cosfly(&["export", folder, "--format", "ros2", "--out", "bags"]).within(street.path()).run_ok();
+    let late = filmed_by("[stages.frames.cameras.late]\noffset_s = 0.5");
+    let printed = cosfly(&["run", "recipe.toml"]).within(late.path()).run();
+    assert!(printed.code == Some(3) && printed.stderr.contains("camera-offset"), "{}", printed.stderr);
+}
+
+#[test]
 fn cameras_that_cannot_be_are_refused_with_their_key() {
     for (lines, words) in [
         ("[stages.frames.cameras.Down]\nwidth = 64", "lower-case letter"),
         ("[stages.frames.cameras.down]\nbase_line_m = 0.0", "`cameras.down.base_line_m` is `0"),
         ("[stages.frames.cameras.a]\nbase_line_m = 0.1\n[stages.frames.cameras.a_left]", "makes a film of this name"),
+        ("[stages.frames.cameras.down]\noffset_s = -0.1", "`cameras.down.offset_s`"),
         ("[stages.frames.cameras.down]\nevery = 0", "`cameras.down.every` is `0`"),
         ("channels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"disparity\"]", "no camera is one"),
         ("channels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"depth_stereo\"]", "`depth_stereo` is of a"),

@@ -82,6 +82,7 @@ impl SampleFlight {
     pub fn pack(&self, encoding: EncodingConfig) -> Vec<u8> {
         let camera = &self.record.camera;
         let header = PackHeader {
+            begins_ns: self.record.begins_ns,
             channels: self.channels(),
             ..PackHeader::new(camera.width, camera.height, 9, encoding, self.record.dt_s())
         };

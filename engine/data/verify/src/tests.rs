@@ -68,6 +68,22 @@ fn a_flight_kilometres_from_the_objects_of_its_town_is_found() {
 }
 
 #[test]
+fn time_stamps_that_are_shifted_everywhere_are_found_in_the_other_film_of_the_flight() {
+    let films = |begins_ns: u64| {
+        let mut flights = sample::flights();
+        flights[0].record.camera_name = Some("front".into());
+        let mut late = sample::flights().remove(0);
+        late.record.camera_name = Some("late".into());
+        late.record.trajectory_id += "-late";
+        late.record.begins_ns = begins_ns;
+        flights.push(late);
+        rules_of(&published(flights))
+    };
+    assert_eq!(films(0), Vec::<&str>::new());
+    assert_eq!(films(100_000_000), ["verify-film"]);
+}
+
+#[test]
 fn a_flipped_byte_is_found_wherever_it_is() {
     for name in ["README.md", "croissant.json", "files.parquet", "SHA256SUMS", "schemas/cosfly.proto"] {
         let folder = published(sample::flights());

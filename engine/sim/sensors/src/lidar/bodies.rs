@@ -3,6 +3,7 @@
 use super::scene::{Echo, LidarScene, LidarTriangle};
 use cosfly_figures::{Bystander, Clothes, figure};
 use cosfly_frames::DVec3;
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 /// Adds those who are there at a time, seconds since the first frame.
@@ -12,10 +13,18 @@ pub(super) type BodiesAt<'a> = &'a dyn Fn(f64, &mut Vec<Bystander>);
 pub(super) struct MovingBodies(Vec<MovingBody>);
 
 struct MovingBody {
+    at: Bystander,
+    /// Sphere around all that the body may be, from its feet.
+    most_m: f64,
+    velocity_in_world: DVec3,
+    /// Made when the first ray comes near: most bodies stand behind something, or beside all rays.
+    figure: OnceCell<Figure>,
+}
+
+struct Figure {
     mesh: LidarScene,
     center_in_world: DVec3,
     reach_m: f64,
-    velocity_in_world: DVec3,
 }
 
 impl MovingBodies {
@@ -30,15 +39,19 @@ impl MovingBodies {
             at(time_s).iter().map(|it| (it.instance, it.walker.state.feet_in_world)).collect()
         };
         let (before, after) = (places(time_s - half_s), places(time_s + half_s));
-        let is_near = |it: &&Bystander| {
-            let reach_m = range_m + it.walker.height_m + it.walker.body.reach_m();
-            it.walker.has_body() && it.walker.state.feet_in_world.distance(from) < reach_m
-        };
-        let moving = |it: &Bystander| {
+        let moving = |it: Bystander| {
             let way = before.get(&it.instance).zip(after.get(&it.instance)).map(|(before, after)| *after - *before);
-            MovingBody::of(it, way.unwrap_or_default() / (2.0 * half_s))
+            let velocity_in_world = way.unwrap_or_default() / (2.0 * half_s);
+            // Arms, umbrellas and mirrors are within.
+            let most_m = 1.0 + 2.0 * it.walker.height_m + it.walker.body.reach_m();
+            MovingBody { at: it, most_m, velocity_in_world, figure: OnceCell::new() }
         };
-        Self(at(time_s).iter().filter(is_near).map(moving).collect())
+        let is_near = |it: &MovingBody| {
+            let walker = &it.at.walker;
+            let reach_m = range_m + walker.height_m + walker.body.reach_m();
+            walker.has_body() && walker.state.feet_in_world.distance(from) < reach_m
+        };
+        Self(at(time_s).into_iter().map(moving).filter(is_near).collect())
     }
 
     /// The first body along a unit vector within `range_m`, `after_s` after the moment.
@@ -46,21 +59,29 @@ impl MovingBodies {
         let mut nearest: Option<Echo> = None;
         for body in &self.0 {
             let from = from - after_s * body.velocity_in_world;
-            let to_center = body.center_in_world - from;
-            let along_m = to_center.dot(ray);
-            let is_beside = to_center.length_squared() - along_m * along_m > body.reach_m * body.reach_m;
-            if is_beside || along_m < -body.reach_m {
+            let range_m = nearest.map_or(range_m, |echo| echo.distance_m);
+            if !may_meet((from, ray, range_m), body.at.walker.state.feet_in_world, body.most_m) {
                 continue;
             }
-            let reach_m = nearest.map_or(range_m, |echo| echo.distance_m);
-            nearest = body.mesh.echo(from, ray, reach_m).or(nearest);
+            let figure = body.figure.get_or_init(|| Figure::of(&body.at));
+            if may_meet((from, ray, range_m), figure.center_in_world, figure.reach_m) {
+                nearest = figure.mesh.echo(from, ray, range_m).or(nearest);
+            }
         }
         nearest
     }
 }
 
-impl MovingBody {
-    fn of(it: &Bystander, velocity_in_world: DVec3) -> Self {
+/// Whether a ray may meet something in a sphere within its range.
+fn may_meet((from, ray, range_m): (DVec3, DVec3, f64), center_in_world: DVec3, reach_m: f64) -> bool {
+    let to_center = center_in_world - from;
+    let along_m = to_center.dot(ray);
+    let is_beside = to_center.length_squared() - along_m * along_m > reach_m * reach_m;
+    !is_beside && along_m >= -reach_m && along_m - reach_m <= range_m
+}
+
+impl Figure {
+    fn of(it: &Bystander) -> Self {
         let mut surface = vec![];
         figure(&it.walker, &Clothes::draw(&it.walker.clothes_seed), 0, &mut surface);
         let triangle = |triangle: &cosfly_figures::FigureTriangle| LidarTriangle {
@@ -73,6 +94,6 @@ impl MovingBody {
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
         let (center_in_world, reach_m) = (0.5 * (low + high), 0.5 * (high - low).length() + 1e-6);
-        Self { mesh: LidarScene::new(&triangles), center_in_world, reach_m, velocity_in_world }
+        Self { mesh: LidarScene::new(&triangles), center_in_world, reach_m }
     }
 }

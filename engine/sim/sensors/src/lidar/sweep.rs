@@ -109,7 +109,7 @@ impl Carried<'_> {
         let mut stream = self.flight.seed.child("sweep", number as u64).stream("lidar");
         let parts = (1.0 / (self.flight.rate_hz * EVEN_S)).ceil().max(1.0) as usize;
         let shots_of_part = self.shots.div_ceil(parts);
-        let mut points = vec![];
+        let mut points = Vec::with_capacity(self.shots * self.pattern.beams());
         for first in (0..self.shots).step_by(shots_of_part) {
             let shots = first..(first + shots_of_part).min(self.shots);
             self.scan_part(time_s, shots, &mut stream, &mut points);
