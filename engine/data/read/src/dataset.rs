@@ -8,8 +8,8 @@ use super::rows::read;
 use super::trajectory::{PublishedFlight, Shared};
 use cosfly_diagnose::{Diagnostic, Fault, Result, nearest_name};
 use cosfly_schema::Split;
-use cosfly_schema::tables::{Bodies, Pairs, Rejected};
-use std::collections::{BTreeMap, BTreeSet};
+use cosfly_schema::tables::Rejected;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -132,25 +132,6 @@ impl PublishedDataset {
         Ok(found)
     }
 
-    /// Longest displacement of each perturbed trajectory in a single frame, metres: of kind `jumps`; 0 of kinds that could be flown.
-    ///
-    /// # Errors
-    /// Damage of table `pairs`.
-    pub fn displacements(&self) -> Result<BTreeMap<String, f64>> {
-        let mut found = BTreeMap::new();
-        for (_, path) in self.files("pairs")? {
-            read(&path, &mut |rows| {
-                for row in 0..rows.len() {
-                    let jumps = rows.get(Pairs::position_probability, row)?.is_some();
-                    let displaced_m = if jumps { rows.get(Pairs::max_offset_m, row)? } else { 0.0 };
-                    found.insert(rows.get(Pairs::perturbed_id, row)?, displaced_m);
-                }
-                Ok(())
-            })?;
-        }
-        Ok(found)
-    }
-
     /// Place of the trajectory `id` in [`Self::flights`].
     pub fn place(&self, id: &str) -> Option<usize> {
         let id_of = |place: &u32| self.flights[*place as usize].trajectory_id.as_str();
@@ -183,34 +164,6 @@ impl PublishedDataset {
         let mut family: Vec<_> = self.flights.iter().filter(|it| it.trajectory_id == expert).collect();
         family.extend(self.flights.iter().filter(|it| it.expert_id.as_deref() == Some(expert)));
         family
-    }
-
-    /// Number of other bodies in the pictures of some trajectories, each counted once per trajectory.
-    ///
-    /// # Errors
-    /// Damage of table `bodies`.
-    pub fn others_seen(&self, flights: &[&PublishedFlight]) -> Result<usize> {
-        let wanted: BTreeSet<&str> = flights.iter().map(|flight| flight.trajectory_id.as_str()).collect();
-        // The rows of a trajectory are together.
-        let (mut last, mut seen, mut count) = (String::new(), BTreeSet::new(), 0);
-        for (_, path) in self.files("bodies")? {
-            read(&path, &mut |rows| {
-                let (ids, instances) = (rows.values(Bodies::trajectory_id)?, rows.values(Bodies::instance)?);
-                let pixels = rows.values(Bodies::visible_pixels)?;
-                for row in (0..rows.len()).filter(|row| wanted.contains(ids.text(*row))) {
-                    if pixels.at(row)? == 0 {
-                        continue;
-                    }
-                    if ids.text(row) != last {
-                        last = ids.text(row).to_owned();
-                        seen.clear();
-                    }
-                    count += usize::from(seen.insert(instances.at(row)?));
-                }
-                Ok(())
-            })?;
-        }
-        Ok(count)
     }
 
     /// Opens the log of `flight`.

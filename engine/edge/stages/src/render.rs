@@ -147,8 +147,7 @@ impl Stage for RenderStage {
         let place = Place { scene: &scene, world: &world, crowd: &crowd };
         let around = traffic::around(inputs, artifact)?;
         let filmed = filmed_flight(trajectory.clone(), &config, &world.exact, &around);
-        let flights = (&trajectory, &filmed);
-        let mut seen = self.draw(outputs, context, &place, flights, (&config, &shooting))?;
+        let mut seen = self.draw(outputs, context, &place, (&trajectory, &filmed), (&config, &shooting))?;
         let mut notes = notes_of(&crowd, &seen.sightings);
         let (on_card, mut warnings) = render_files::scan_notes(&self.config);
         let (found, more) = render_files::compared(&self.config, &scene, &trajectory, seen.median_off_m());
@@ -161,7 +160,6 @@ impl Stage for RenderStage {
             // The expert is published in the same weather, by the same camera.
             PairInfo { expert_id: film.map_or(expert.clone(), |film| expert.with_variant(film)).to_string() }
         });
-        let has_body = trajectory.track.radius_m > 0.0;
         let record = RenderedTrajectory {
             trajectory_id: context.id.item.to_string(),
             flight_id: artifact.name.to_string(),
@@ -184,7 +182,7 @@ impl Stage for RenderStage {
             seed: Seed(context.seed).as_u64(),
             views: seen.views,
             visible_by_dense_rays: seen.by_dense_rays,
-            outfit: has_body.then(|| outfit_of(shooting.body, &shooting.clothes_seed)),
+            outfit: (trajectory.track.radius_m > 0.0).then(|| outfit_of(shooting.body, &shooting.clothes_seed)),
             around: filmed_around(&around, &config),
             followed: target,
             others: crowd.into_bodies(),

@@ -13,6 +13,7 @@ use cosfly_fingerprint::Digest;
 use cosfly_frames::DVec3;
 use cosfly_metrics::drawn_ground::DrawnGround;
 use cosfly_read::{BoxInWorld, CaptionReader, FrameRow, LoggedFrame, PublishedDataset, PublishedFlight};
+use cosfly_schema::tables::Pairs;
 use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -103,7 +104,7 @@ fn read(
             _ => walls.entry(object.town).or_default().entry(object.instance).or_default().push(object.shape),
         }
     }
-    let displaced = dataset.displacements()?;
+    let displaced = displacements(dataset)?;
     let logged = |(mut episode, flight, rows): Read| {
         episode.displaced_m = match &flight.expert_id {
             Some(_) => displaced.get(&flight.trajectory_id).copied(),
@@ -164,6 +165,22 @@ fn facts_of_whole_flights(dataset: &PublishedDataset) -> Result<BTreeMap<String,
         })?;
     }
     Ok(facts)
+}
+
+/// Longest displacement of each perturbed trajectory in a single frame, metres: of kind `jumps`; 0 of kinds that could be flown.
+fn displacements(dataset: &PublishedDataset) -> Result<BTreeMap<String, f64>> {
+    let mut found = BTreeMap::new();
+    for (_, path) in dataset.files("pairs")? {
+        cosfly_read::read(&path, &mut |rows| {
+            for row in 0..rows.len() {
+                let jumps = rows.get(Pairs::position_probability, row)?.is_some();
+                let displaced_m = if jumps { rows.get(Pairs::max_offset_m, row)? } else { 0.0 };
+                found.insert(rows.get(Pairs::perturbed_id, row)?, displaced_m);
+            }
+            Ok(())
+        })?;
+    }
+    Ok(found)
 }
 
 fn named(flight: &PublishedFlight) -> ExaminedEpisode {

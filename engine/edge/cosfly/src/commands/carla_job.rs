@@ -8,7 +8,9 @@ use clap::Parser;
 use cosfly_diagnose::{Diagnostic, Result, plausible};
 use cosfly_export::carla_job;
 use cosfly_frames::DVec3;
-use cosfly_read::{PublishedDataset, PublishedFlight};
+use cosfly_read::{PublishedDataset, PublishedFlight, read};
+use cosfly_schema::tables::Bodies;
+use std::collections::BTreeSet;
 use std::io::BufWriter;
 use std::path::PathBuf;
 
@@ -74,7 +76,7 @@ fn written(arguments: &Arguments) -> Result<String> {
     carla_job::write(&dataset, &flights, ignored_m, &mut file)?;
     let file = file.into_inner().map_err(|error| failed(error.into_error()))?;
     file.persist(&arguments.out).map_err(|error| failed(error.error))?;
-    let left_out = match dataset.others_seen(&flights)? {
+    let left_out = match others_seen(&dataset, &flights)? {
         0 => String::new(),
         seen => format!(
             "left out: {} beside the targets; the server shows the targets alone\n",
@@ -88,4 +90,29 @@ fn written(arguments: &Arguments) -> Result<String> {
         count(frames as u64, "frame"),
         arguments.dir.display()
     ))
+}
+
+/// Number of other bodies in the pictures of some trajectories, each counted once per trajectory.
+fn others_seen(dataset: &PublishedDataset, flights: &[&PublishedFlight]) -> Result<usize> {
+    let wanted: BTreeSet<&str> = flights.iter().map(|flight| flight.trajectory_id.as_str()).collect();
+    // The rows of a trajectory are together.
+    let (mut last, mut seen, mut count) = (String::new(), BTreeSet::new(), 0);
+    for (_, path) in dataset.files("bodies")? {
+        read(&path, &mut |rows| {
+            let (ids, instances) = (rows.values(Bodies::trajectory_id)?, rows.values(Bodies::instance)?);
+            let pixels = rows.values(Bodies::visible_pixels)?;
+            for row in (0..rows.len()).filter(|row| wanted.contains(ids.text(*row))) {
+                if pixels.at(row)? == 0 {
+                    continue;
+                }
+                if ids.text(row) != last {
+                    last = ids.text(row).to_owned();
+                    seen.clear();
+                }
+                count += usize::from(seen.insert(instances.at(row)?));
+            }
+            Ok(())
+        })?;
+    }
+    Ok(count)
 }
