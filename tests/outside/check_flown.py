@@ -1,6 +1,6 @@
 """The logs, clips and page of a result of `cosfly fly`, read by others: the package mcap, pillow, an HTML parser.
 
-With the folder that `cosfly fly bags` made of it, its bags are read by rosbags and compared with the steps.
+With the folder that `cosfly fly bags` made of it, its bags are read by rosbags and mcap-ros2-support, compared with the steps, and imported by Rerun.
 
 Usage: check_flown.py RESULT_FOLDER [BAGS]
 """
@@ -10,9 +10,10 @@ import json
 import math
 import pathlib
 import sys
+import tempfile
 
 from PIL import Image
-from shared import messages
+from shared import messages, run
 
 folder = pathlib.Path(sys.argv[1])
 card = json.loads((folder / "card.json").read_text())
@@ -74,12 +75,15 @@ print(f"{len(rows)} logs with {lost} losses, {len(clips)} clips and the page hol
 
 
 def check_bag(bag, steps):
+    from mcap_ros2.reader import read_ros2_messages
     from rosbags.highlevel import AnyReader
 
-    topics = {}
+    (file,), topics = bag.glob("*.mcap"), {}
     with AnyReader([bag]) as reader:
         for connection, time, raw in reader.messages():
             topics.setdefault(connection.topic, []).append((time, reader.deserialize(raw, connection.msgtype)))
+    theirs = [it.channel.topic for it in read_ros2_messages(str(file))]
+    assert sorted(theirs) == sorted(topic for topic, all_of_it in topics.items() for _ in all_of_it)
     times = [round(1e9 * step["time_s"]) + 10**9 for step in steps]
     assert topics["/town"][0][1].markers
     for topic in ("/clock", "/odom", "/target/odom", "/flight/step"):
@@ -103,3 +107,8 @@ if len(sys.argv) > 2:
     log = lambda name: [json.loads(line) for line in (folder / "logs" / f"{name}.jsonl").read_text().splitlines()]
     assert {bag.name for bag in bags} == {row["episode"] for row in rows}
     print(f"{len(bags)} bags, {sum(check_bag(bag, log(bag.name)) for bag in bags)} steps")
+    (file,), rerun = bags[0].glob("*.mcap"), pathlib.Path(sys.executable).with_name("rerun")
+    with tempfile.TemporaryDirectory() as scratch:
+        run(rerun, "mcap", "convert", file, "-o", f"{scratch}/bag.rrd")
+        printed = run(rerun, "rrd", "print", "-vv", f"{scratch}/bag.rrd")
+    assert "Transform3D" in printed and "Pinhole" in printed
