@@ -24,6 +24,8 @@ pub struct ExaminedEpisode {
     pub displaced_m: Option<f64>,
     /// Camera of all frames; none where it is unknown or its lens is bent.
     pub camera: Option<Camera>,
+    /// Whether depth is the distance along the ray of a pixel, as of pictures all around, and not along the optical axis.
+    pub depth_is_along_rays: bool,
     /// Height of the target's body, metres.
     pub target_height_m: f64,
     /// Clothes of the target, where they are known.
@@ -98,11 +100,11 @@ pub struct ExaminedLook {
 pub const OFFSETS: [i64; 5] = [0, -1, 1, -2, 2];
 
 impl ExaminedEpisode {
-    /// Planar depth of the target's middle in a frame.
+    /// Depth of the target's middle in a frame, as its images have depth.
     pub fn depth_of_target(&self, frame: usize) -> Option<f64> {
         let moment = self.moments.get(frame)?;
         let seen = moment.camera.body_from_world_point(moment.target_in_world?);
-        (seen.x > 0.0).then_some(seen.x)
+        if self.depth_is_along_rays { Some(seen.length()) } else { (seen.x > 0.0).then_some(seen.x) }
     }
 
     /// Lengths, in seconds, of the stretches with less than half of the target visible.

@@ -65,3 +65,37 @@ pub fn check(episode: &ExaminedEpisode) -> Vec<Flag> {
         _ => vec![],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ExaminedLook, ExaminedMoment};
+    use cosfly_frames::{DVec3, Pose};
+
+    #[test]
+    fn depth_of_pictures_all_around_is_compared_along_rays() {
+        // 20 m ahead and 20 m beside: 20 m along the axis, 28.3 m along the ray.
+        let pose = Pose::looking_at(DVec3::ZERO, DVec3::X);
+        let moment = ExaminedMoment {
+            time_s: 0.0,
+            drone: pose,
+            camera: pose,
+            next_in_world: None,
+            turn_deg: None,
+            target_in_world: Some(DVec3::new(20.0, 20.0, 0.0)),
+            heading_and_speed: None,
+            in_image: None,
+            visible_box: None,
+            visible: Some(1.0),
+            clearance_m: None,
+        };
+        let named = |depth_m: f64, depth_is_along_rays: bool| {
+            let look = |frame| ExaminedLook { frame, depth_m: vec![Some(depth_m); OFFSETS.len()], ..Default::default() };
+            let (moments, looks) = (vec![moment.clone(); 5], (0..5).map(look).collect());
+            let episode = ExaminedEpisode { depth_is_along_rays, moments, looks, ..Default::default() };
+            check(&episode).iter().map(|flag| flag.name).collect::<Vec<_>>()
+        };
+        assert_eq!((named(28.3, true), named(20.0, false)), (vec![], vec![]));
+        assert_eq!((named(20.0, true), named(28.3, false)), (vec!["depth-mismatch"], vec!["depth-mismatch"]));
+    }
+}

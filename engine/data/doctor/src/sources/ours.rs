@@ -227,6 +227,7 @@ fn episode(flight: &PublishedFlight, rows: &[FrameRow]) -> ExaminedEpisode {
     };
     ExaminedEpisode {
         camera: is_plain.then_some(flight.camera),
+        depth_is_along_rays: flight.lens.is_wide(&flight.camera),
         target_height_m: flight.target_height_m,
         wear: wear(flight),
         is_unlike_all: flight.target_clothes.as_ref().map(|_| rows.iter().all(|row| row.look_alikes == 0)),

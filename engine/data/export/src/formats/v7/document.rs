@@ -69,6 +69,13 @@ fn own_part(episode: &ExportedFlight<'_>, place: &Place, ids: &ShortIds) -> Valu
         "target": {"height_m": flight.target_height_m, "radius_m": flight.target_radius_m},
         "captions": captions,
     });
+    if !flight.lens.is_none() {
+        own["lens"] = json!({
+            "model": flight.lens.model.name(),
+            "coefficients": flight.lens.coefficients(),
+            "depth_is_along_rays": flight.lens.is_wide(&flight.camera),
+        });
+    }
     let instances: Vec<[u32; 2]> = ids.changed().collect();
     if !instances.is_empty() {
         own["instances"] = json!(instances);
@@ -140,7 +147,7 @@ fn target(flight: &PublishedFlight, row: &FrameRow) -> Value {
         "enabled": true,
         "visible": row.visible_pixels > 0,
         "in_view": row.in_view,
-        "depth": seen.x,
+        "depth": if flight.lens.is_wide(&flight.camera) { seen.length() } else { seen.x },
         "world_location": place_value(middle + flight.town_offset_m),
         "image_uv": image_uv(flight, seen),
         "bbox_2d": row.visible_box_px.map(box_value),
