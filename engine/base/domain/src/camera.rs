@@ -40,10 +40,8 @@ impl Camera {
         if seen.x <= 1e-6 {
             return None;
         }
-        let focal = self.focal_px();
-        let u = 0.5 * f64::from(self.width) + focal * seen.y / seen.x;
-        let v = 0.5 * f64::from(self.height) - focal * seen.z / seen.x;
-        Some((u, v, seen.x))
+        let (cx, cy, focal) = self.centre_and_focal_px();
+        Some((cx + focal * seen.y / seen.x, cy - focal * seen.z / seen.x, seen.x))
     }
 
     /// The world direction through pixel coordinates (u, v), scaled so that its length along the optical

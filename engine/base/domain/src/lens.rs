@@ -91,11 +91,6 @@ impl Lens {
         *self == Self::default()
     }
 
-    /// Whether one of its numbers is not 0.
-    pub fn coefficients_are_any(&self) -> bool {
-        [self.k1, self.k2, self.k3, self.k4] != [0.0; 4]
-    }
-
     /// The numbers that calibrations of this model have.
     pub fn coefficients(&self) -> Vec<f64> {
         match self.model {
@@ -280,6 +275,12 @@ impl Lens {
         (angle < real::PI).then(|| DVec3::new(cos, scale * right, scale * up))
     }
 
+    /// Angle that the middle row of the picture spans, radians: of a pinhole its field of view, of pictures all around a whole turn.
+    pub fn span_rad(&self, camera: &Camera) -> f64 {
+        let left = self.ray(camera, (0.0, 0.5 * f64::from(camera.height)));
+        left.map_or(camera.horizontal_fov_rad, |left| 2.0 * real::atan2(left.y.abs(), left.x))
+    }
+
     /// Whether the pixel that [`Self::project`] gives shows the point, if any does: a curve may turn and lead back.
     pub fn shows(&self, camera: &Camera, point: DVec3, pixel: (f64, f64)) -> bool {
         if self.is_wide(camera) {
@@ -317,6 +318,23 @@ mod tests {
                 let back = lens.bend(&CAMERA, ideal);
                 assert!((back.0 - seen.0).abs() < 1e-9 && (back.1 - seen.1).abs() < 1e-9, "{seen:?} {back:?}");
             }
+        }
+    }
+
+    #[test]
+    fn a_picture_spans_what_its_lens_sees() {
+        let wide = |fov_deg: f64| Camera { width: 300, height: 200, horizontal_fov_rad: fov_deg.to_radians() };
+        let around = Lens { model: LensModel::Equirectangular, ..Lens::default() };
+        for (lens, fov_deg, expected_deg) in [
+            (Lens::default(), 90.0, 90.0),
+            (Lens::brown(-0.1, 0.0), 90.0, 98.15),
+            (Lens::fisheye([0.0; 4]), 90.0, 114.6),
+            (Lens::fisheye([0.0; 4]), 115.0, 179.9),
+            (Lens::fisheye([0.0; 4]), 127.6, 232.9),
+            (around, Camera::ALL_AROUND_FOV_RAD.to_degrees(), 360.0),
+        ] {
+            let found_deg = lens.span_rad(&wide(fov_deg)).to_degrees();
+            assert!((found_deg - expected_deg).abs() < 0.1, "{lens:?}: {found_deg}");
         }
     }
 

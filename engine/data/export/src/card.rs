@@ -74,7 +74,7 @@ fn optics(source: &Source<'_>) -> Result<String> {
     let mut sizes: BTreeSet<String> = BTreeSet::new();
     for flight in source.flights() {
         *weathers.entry(&flight.weather).or_default() += 1;
-        let fov_deg = flight.camera.horizontal_fov_rad.to_degrees();
+        let fov_deg = flight.lens.span_rad(&flight.camera).to_degrees();
         sizes.insert(format!("{} x {} pixels, {fov_deg:.1}° wide", flight.camera.width, flight.camera.height));
     }
     let weathers: Vec<String> =
@@ -87,8 +87,8 @@ fn optics(source: &Source<'_>) -> Result<String> {
         .map(|it| {
             let Lens { model, k1, k2, .. } = it.lens;
             match model {
-                LensModel::Brown => format!("{:?}", [k1, k2]),
-                LensModel::Fisheye => format!("fisheye {:?}", it.lens.coefficients()),
+                LensModel::Brown => format!("Brown's radial terms {:?} (k1, k2)", [k1, k2]),
+                LensModel::Fisheye => format!("OpenCV's `fisheye` {:?} (k1 to k4)", it.lens.coefficients()),
                 LensModel::Equirectangular => "all around, equirectangular".to_owned(),
             }
         })
@@ -97,10 +97,16 @@ fn optics(source: &Source<'_>) -> Result<String> {
         true => writeln!(text, "* Lens: a pinhole; nothing is bent."),
         false => writeln!(
             text,
-            "* Lens: bent by k1, k2 (Brown's radial terms, or those of OpenCV's `fisheye`): {}. Intrinsics are those of the pinhole.",
-            bends.into_iter().collect::<Vec<_>>().join(", ")
+            "* Lens: {}. Focal lengths are those in the middle of the picture.",
+            bends.into_iter().collect::<Vec<_>>().join("; ")
         ),
     };
+    if source.flights().any(|it| it.lens.is_wide(&it.camera)) {
+        text.push_str(
+            "* Depth of pictures all around, and of fisheyes that see beyond 80° from their axis, is the distance along the ray of a \
+             pixel, not along the optical axis.\n",
+        );
+    }
     for column in Trajectories::OPTICS {
         let values = columns.get(column.name()).map_or(&[][..], Vec::as_slice);
         let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

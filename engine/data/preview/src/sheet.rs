@@ -52,7 +52,7 @@ impl<'a> Sheet<'a> {
         let mut sheet = Canvas::new(width, height, [244, 243, 240]);
         let flight = self.flight;
         let end = sheet.text(GAP as i64 + 2, 10, 2, INK, &flight.trajectory_id);
-        let (fov_deg, camera) = (flight.camera.horizontal_fov_rad.to_degrees(), &flight.camera);
+        let (fov_deg, camera) = (flight.lens.span_rad(&flight.camera).to_degrees(), &flight.camera);
         let about = format!(
             "{}  {}  {} frames, {} s apart  {} x {}, {fov_deg:.0} degrees",
             flight.town, flight.weather, flight.frames, flight.dt_s, camera.width, camera.height

@@ -69,7 +69,8 @@ impl RenderConfig {
         let problem = |path: &str, message: &str, hint: &str| {
             Err(ConfigProblem { path: path.into(), message: message.into(), hint: hint.into() })
         };
-        if self.lens.coefficients_are_any() {
+        let Lens { k1, k2, k3, k4, .. } = self.lens;
+        if [k1, k2, k3, k4] != [0.0; 4] {
             return problem("lens", "an equirectangular picture has no coefficients", "leave out `k1` to `k4`");
         }
         if self.width != 2 * self.height {

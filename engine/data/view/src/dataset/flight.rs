@@ -31,7 +31,7 @@ pub fn flight(opened: &Opened, number: usize, log: Result<Arc<FlightLog>>) -> Re
     value.insert("dt_s".into(), json!(flight.dt_s));
     value.insert("family".into(), json!(family));
     value.insert("size".into(), json!([flight.camera.width, flight.camera.height]));
-    value.insert("fov_deg".into(), json!(short(flight.camera.horizontal_fov_rad.to_degrees())));
+    value.insert("fov_deg".into(), json!(short(flight.lens.span_rad(&flight.camera).to_degrees())));
     value.insert("facts".into(), facts(flight));
     value.insert("losses".into(), losses(opened, flight, &frames, is_point));
     value.insert("crossings".into(), json!(crossings(opened, number)?));

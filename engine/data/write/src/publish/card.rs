@@ -46,7 +46,14 @@ pub fn readme(config: &DatasetConfig, summary: &Summary) -> String {
     let _ = write!(text, "\n# {}\n\n{}\n\n", markdown(&config.title), visible_text(&config.description));
     text.push_str(&figures(config, summary));
     text.push_str(&loading(config, summary));
-    text.push_str(CONVENTIONS);
+    let camera = match summary.has_lens {
+        true => "the lens that `camera_lens_model` and `camera_k1` to `camera_k4` of table `trajectories` state",
+        false => "pinhole without distortion",
+    };
+    text.push_str(&CONVENTIONS.replace("pinhole without distortion", camera));
+    if summary.has_depth_along_rays {
+        text.push_str("* Depth where `camera_depth_is_along_rays` is true: along the ray of the pixel, not along the optical axis.\n");
+    }
     for channel in summary.channels.iter().filter(|channel| channel.is_on_request()) {
         let _ = writeln!(text, "* Channel `{}`: {}", channel.name, channel.doc);
     }

@@ -39,6 +39,12 @@ pub struct Summary {
     pub weathers: BTreeSet<String>,
     /// Image sizes that occur: width, height.
     pub image_sizes: BTreeSet<(u32, u32)>,
+    /// Whether the lens of some flight bends its pictures.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub has_lens: bool,
+    /// Whether the depth of some flight is that along the rays of its pixels.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub has_depth_along_rays: bool,
     /// Mean visibility by rays of each flight, summed over expert and over perturbed flights.
     pub visibility_sums: [f64; 2],
     /// Flights and frames by split name.
@@ -82,6 +88,8 @@ impl Summary {
         self.visibility_sums[record.role as usize] += record.trajectory.certificate.mean_visibility;
         self.weathers.insert(record.weather.name.clone());
         self.image_sizes.insert((record.camera.width, record.camera.height));
+        self.has_lens |= !record.lens.is_none();
+        self.has_depth_along_rays |= record.lens.is_wide(&record.camera);
         self.languages.extend(item.captions.iter().map(|caption| caption.language.clone()));
         let town = self.towns.entry(record.town.name.clone()).or_default();
         town.flights += 1;
@@ -132,6 +140,8 @@ impl Summary {
         self.languages.extend(other.languages);
         self.weathers.extend(other.weathers);
         self.image_sizes.extend(other.image_sizes);
+        self.has_lens |= other.has_lens;
+        self.has_depth_along_rays |= other.has_depth_along_rays;
         self.visibility_sums.iter_mut().zip(other.visibility_sums).for_each(|(sum, more)| *sum += more);
         for (split, (flights, frames)) in other.splits {
             let sums = self.splits.entry(split).or_default();
