@@ -125,6 +125,28 @@ fn a_camera_with_an_offset_films_between_the_steps() {
 }
 
 #[test]
+fn cards_and_checks_know_what_a_wide_lens_sees() {
+    let street = filmed_by(
+        "[stages.frames.cameras.around]\nwidth = 128\nheight = 64\nlens = { model = \"equirectangular\" }\n\
+         [stages.frames.cameras.dome]\nwidth = 96\nheight = 96\nfov_deg = 115.0\nlens = { model = \"fisheye\" }\n\
+         gimbal = { pitch_range_deg = [-90, -90], yaw_range_deg = [0, 0] }",
+    );
+    cosfly(&["run", "recipe.toml", "--quiet"]).within(street.path()).run_ok();
+    let dataset = street.dataset();
+    let folder = dataset.to_str().expect("UTF-8");
+    let card = |folder: &std::path::Path| std::fs::read_to_string(folder.join("README.md")).expect("a card");
+    assert!(card(&dataset).contains("along the ray of the pixel") && !card(&dataset).contains("pinhole without"));
+    cosfly(&["export", folder, "--format", "v7", "--out", "v7"]).within(street.path()).run_ok();
+    let exported = card(&street.path().join("v7"));
+    assert!(exported.contains("360.0° wide") && exported.contains("179.9° wide"), "{exported}");
+    for data in [folder, "v7"] {
+        let found = cosfly(&["doctor", data]).within(street.path()).run().stdout;
+        let is_off = ["depth-mismatch", "pose-mismatch"].iter().any(|name| found.contains(name));
+        assert!(!is_off && found.contains("episodes with"), "{found}");
+    }
+}
+
+#[test]
 fn cameras_that_cannot_be_are_refused_with_their_key() {
     for (lines, words) in [
         ("[stages.frames.cameras.Down]\nwidth = 64", "lower-case letter"),

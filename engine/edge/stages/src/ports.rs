@@ -38,7 +38,7 @@ pub const NOTES: &str = "notes/1";
 /// Artifact of the splits of all flights, by group.
 pub const SPLITS: &str = "splits/1";
 /// Artifact of the tables and logs of a group of walks.
-pub const SHARD: &str = "shard/1";
+pub const SHARD: &str = "shard/2";
 /// Artifact of the verdict over all inspected flights.
 pub const VERDICT: &str = "verdict/1";
 /// Artifact of a whole dataset.

@@ -90,7 +90,8 @@ mod tests {
             clearance_m: None,
         };
         let named = |depth_m: f64, depth_is_along_rays: bool| {
-            let look = |frame| ExaminedLook { frame, depth_m: vec![Some(depth_m); OFFSETS.len()], ..Default::default() };
+            let look =
+                |frame| ExaminedLook { frame, depth_m: vec![Some(depth_m); OFFSETS.len()], ..Default::default() };
             let (moments, looks) = (vec![moment.clone(); 5], (0..5).map(look).collect());
             let episode = ExaminedEpisode { depth_is_along_rays, moments, looks, ..Default::default() };
             check(&episode).iter().map(|flag| flag.name).collect::<Vec<_>>()

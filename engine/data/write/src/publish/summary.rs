@@ -40,10 +40,8 @@ pub struct Summary {
     /// Image sizes that occur: width, height.
     pub image_sizes: BTreeSet<(u32, u32)>,
     /// Whether the lens of some flight bends its pictures.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub has_lens: bool,
     /// Whether the depth of some flight is that along the rays of its pixels.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub has_depth_along_rays: bool,
     /// Mean visibility by rays of each flight, summed over expert and over perturbed flights.
     pub visibility_sums: [f64; 2],

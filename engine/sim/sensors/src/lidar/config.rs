@@ -118,7 +118,9 @@ impl ScanConfig {
             (Some(_), Some(_)) => {
                 return refused("pattern", "`lidar` names a device with a pattern; leave one of the two out");
             }
-            (None, None) => return refused("lidar", "choose a device, such as `lidar = \"vlp16\"`, or give a `pattern`"),
+            (None, None) => {
+                return refused("lidar", "choose a device, such as `lidar = \"vlp16\"`, or give a `pattern`");
+            }
         };
         let rate_hz = self.rate_hz();
         if pattern.shots(rate_hz).is_none() {
