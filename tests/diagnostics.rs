@@ -158,3 +158,12 @@ fn a_full_disk_is_named_and_nothing_half_written_is_trusted() {
     );
     assert!(!street.dataset().exists());
 }
+
+#[test]
+fn commands_that_are_told_can_be_pasted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let printed = cosfly(&["init", "my street", "--template", "small"]).within(folder.path()).run_ok();
+    assert!(printed.stdout.contains("cosfly run 'my street'\n"), "{}", printed.stdout);
+    let page = std::fs::read_to_string(folder.path().join("my street/README.md")).expect("a page");
+    assert!(page.starts_with("# my street\n") && page.contains("cosfly plan 'my street' "), "{page}");
+}

@@ -5,7 +5,7 @@
 //! * [`Request`]: processors, memory, time of a task; never part of a key.
 //! * [`json_lines`]: the commands for any engine.
 //! * [`job_file`], [`Hq`], [`Driver`]: HyperQueue.
-//! * [`slurm_script`]: HyperQueue within one allocation of Slurm.
+//! * [`slurm_script`]: HyperQueue within one allocation of Slurm; [`shell_word`]: a word of a command line.
 
 mod chains;
 mod driver;
@@ -23,4 +23,4 @@ pub use hq::{Hq, Job};
 pub use job_file::job_file;
 pub use leaves::{Command, Leaf, kept_stages, leaves};
 pub use request::{Request, RequestChange, requests_of};
-pub use slurm::{Allocation, slurm_script};
+pub use slurm::{Allocation, shell_word, slurm_script};

@@ -28,7 +28,7 @@ pub fn slurm_script(allocation: &Allocation) -> String {
     for option in &allocation.options {
         let _ = writeln!(text, "#SBATCH {option}");
     }
-    let command: Vec<String> = allocation.command.iter().map(|word| quoted(word)).collect();
+    let command: Vec<String> = allocation.command.iter().map(|word| shell_word(word)).collect();
     let _ = write!(
         text,
         r#"
@@ -54,7 +54,7 @@ wait "$run"
 }
 
 /// A word of a shell's command line.
-fn quoted(word: &str) -> String {
+pub fn shell_word(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,@%+".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
         word.to_owned()
@@ -69,8 +69,8 @@ mod tests {
 
     #[test]
     fn words_are_quoted_where_a_shell_would_split_or_expand_them() {
-        assert_eq!(quoted("stages.walkers.count=20"), "stages.walkers.count=20");
-        assert_eq!(quoted("it's $HOME"), r"'it'\''s $HOME'");
-        assert_eq!(quoted(""), "''");
+        assert_eq!(shell_word("stages.walkers.count=20"), "stages.walkers.count=20");
+        assert_eq!(shell_word("it's $HOME"), r"'it'\''s $HOME'");
+        assert_eq!(shell_word(""), "''");
     }
 }

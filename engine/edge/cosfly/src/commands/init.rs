@@ -4,6 +4,7 @@ use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
 use clap::Parser;
+use cosfly_cluster::shell_word;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_whole::{Appeared, NewFolder};
 use std::path::{Path, PathBuf};
@@ -70,9 +71,14 @@ impl Command for Arguments {
             let message = format!("`{shown}` is there already");
             return Err(Diagnostic::new("init-exists", Fault::Recipe, message).hint("choose another name").into());
         }
-        console.print(&format!("wrote `{shown}`: {}. Next:\n  cosfly run {shown}\n", start.doc))?;
+        console.print(&format!("wrote `{shown}`: {}. Next:\n  cosfly run {}\n", start.doc, word(&self.folder)))?;
         Ok(exit::SUCCESS)
     }
+}
+
+/// The folder in a command.
+fn word(folder: &Path) -> String {
+    shell_word(&folder.to_string_lossy())
 }
 
 /// Writes the files beside the folder first, so that the folder is whole when it appears.
@@ -80,13 +86,14 @@ fn write(folder: &Path, start: &Start) -> Result<Appeared> {
     let refused = |error: std::io::Error| Diagnostic::io(format!("write `{}`", folder.display()), &error);
     let draft = NewFolder::beside(folder).map_err(refused)?;
     let page = format!(
-        "# {}\n\n`recipe.toml` describes {}.\n\n\
+        "# {2}\n\n`recipe.toml` describes {1}.\n\n\
          ```sh\ncosfly plan {0}                    # what would run, and why\ncosfly run {0}                     # make the dataset\n\
          cosfly verify out/...              # the folder that `cosfly run` names: check it\n\
          cosfly run {0} --set stages.walkers.count=20   # another dataset; finished items are kept\n```\n\n\
          Change `recipe.toml` with any editor: its first line names the schema for completion (`cosfly schema`).\n",
-        folder.display(),
-        start.doc
+        word(folder),
+        start.doc,
+        folder.display()
     );
     let schema = cosfly_recipe::schema(&cosfly_stages::registry());
     let schema = serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n";

@@ -4,6 +4,7 @@ use crate::command::{Command, Outcome};
 use crate::console::Console;
 use crate::exit;
 use clap::{Parser, ValueEnum};
+use cosfly_cluster::shell_word;
 use cosfly_diagnose::{Diagnostic, Fault};
 use cosfly_whole::{Appeared, NewFolder};
 use std::fs;
@@ -88,9 +89,10 @@ fn new(arguments: &Arguments, console: &dyn Console) -> Outcome {
     }
     let built = format!("target/wasm32-unknown-unknown/release/{name}.wasm");
     console.print(&format!(
-        "wrote `{0}`: what it does is in `{0}/src/lib.rs`. Then:\n  cd {0}\n  cargo test\n  cargo build --release --target \
+        "wrote `{0}`: what it does is in `{0}/src/lib.rs`. Then:\n  cd {1}\n  cargo test\n  cargo build --release --target \
          wasm32-unknown-unknown     (once before: rustup target add wasm32-unknown-unknown)\n  cosfly plugin check {built}\n",
-        arguments.path.display()
+        arguments.path.display(),
+        shell_word(&arguments.path.to_string_lossy())
     ))?;
     Ok(exit::SUCCESS)
 }

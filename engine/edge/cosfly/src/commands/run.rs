@@ -7,6 +7,7 @@ use crate::console::Console;
 use crate::exit;
 use crate::text::{bytes, count, duration};
 use clap::Parser;
+use cosfly_cluster::shell_word;
 use cosfly_diagnose::{Diagnostic, Fault, Result};
 use cosfly_fingerprint::Digest;
 use cosfly_recipe::Recipe;
@@ -191,8 +192,9 @@ fn result(delivery: &Delivery, wanted: &StageName, out: &Path, store: &Path, too
                 return text;
             }
             let _ = writeln!(text, "  start with  {}", out.join("README.md").display());
-            let _ = writeln!(text, "  check it    cosfly verify {}", out.display());
-            let _ = writeln!(text, "  draw it     cosfly preview {}", out.display());
+            let folder = shell_word(&out.to_string_lossy());
+            let _ = writeln!(text, "  check it    cosfly verify {folder}");
+            let _ = writeln!(text, "  draw it     cosfly preview {folder}");
             if let Some(log) = first_log(out) {
                 let _ = writeln!(text, "  look at it  {} (Foxglove, Rerun)", log.display());
             }
