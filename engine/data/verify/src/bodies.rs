@@ -1,6 +1,6 @@
 //! Table `bodies`: the bodies around the target, against frames, objects and pixels.
 
-use super::body::{Body, SLACK_PX};
+use super::body::{Body, SLACK_PX, size_problem};
 use super::files::CheckedFiles;
 use super::flight_list::FlightList;
 use super::report::VerifyReport;
@@ -27,6 +27,7 @@ pub struct PlacedBody {
     /// Edges around the visible pixels: left, top, right, bottom.
     pub visible_box: Option<[f64; 4]>,
     body_id: String,
+    kind: Option<BodyKind>,
     /// Length, width and height, metres.
     pub size_m: DVec3,
     /// Place of the body, and the space that it may fill.
@@ -124,7 +125,8 @@ impl BodiesIndex {
                 };
                 let [length_m, width_m, height_m] = rows.get(Bodies::size_m, row)?;
                 let kind = rows.get(Bodies::kind, row)?;
-                let is_person = BodyKind::ON_THE_GROUND.iter().any(|it| it.is_person() && it.name() == kind);
+                let kind = BodyKind::ON_THE_GROUND.iter().copied().find(|it| it.name() == kind);
+                let is_person = kind.is_some_and(BodyKind::is_person);
                 found.entry(number).or_insert_with(|| (file.to_owned(), vec![])).1.push(PlacedBody {
                     row: first + row,
                     frame: rows.get(Bodies::frame, row)?,
@@ -132,6 +134,7 @@ impl BodiesIndex {
                     pixels: rows.get(Bodies::visible_pixels, row)?,
                     visible_box: rows.get(Bodies::visible_box_px, row)?.map(|edges| edges.map(f64::from)),
                     body_id: rows.get(Bodies::body_id, row)?,
+                    kind,
                     size_m: DVec3::new(length_m, width_m, height_m),
                     space: Body {
                         feet: DVec3::from_array(rows.get(Bodies::feet_in_world_m, row)?),
@@ -167,6 +170,10 @@ pub fn check(
             find("verify-order", "the rows of a flight are in the order of frames and ids".to_owned());
         }
         last = Some((body.frame, &body.body_id));
+        let DVec3 { x, y, z } = body.size_m;
+        if let Some(message) = body.kind.and_then(|kind| size_problem(kind, z, Some([x, y]))) {
+            find("verify-kind", message);
+        }
         if let Some(instance) = body.instance {
             if instance <= largest {
                 find("verify-reference", format!("the id {instance} is not after those of all objects"));

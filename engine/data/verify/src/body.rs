@@ -1,6 +1,7 @@
 //! The space that a walking body may fill, projected into the image.
 
 use super::rows::{PlacedFlight, PlacedFrame};
+use cosfly_domain::BodyKind;
 use cosfly_frames::{DVec3, Pose, real};
 
 /// A walking body reaches this far from its axis, in body heights: arms and legs swing beyond its radius.
@@ -10,8 +11,23 @@ const TOP_PER_HEIGHT: f64 = 1.03;
 const UMBRELLA_PER_HEIGHT: f64 = 1.25;
 /// Slack of edges through a wide lens, share of width and height together.
 const WIDE_SLACK: f64 = 0.1;
+/// Difference between sizes that are the same, metres.
+const NEAR_M: f64 = 1e-6;
 /// Slack of projected edges, pixels: pixels are sampled at their centres.
 pub const SLACK_PX: f64 = 1.5;
+
+/// What is wrong with the size of a body of a kind, metres; the outline is asked of those who take something along.
+pub fn size_problem(kind: BodyKind, height_m: f64, outline_m: Option<[f64; 2]>) -> Option<String> {
+    let (name, walking) = (kind.name(), kind.row().walking.as_ref()?);
+    if let Some([low, high]) =
+        walking.heights_m.filter(|[low, high]| height_m < low - NEAR_M || height_m > high + NEAR_M)
+    {
+        return Some(format!("it is {height_m} m tall; the kind `{name}` is {low} to {high} m"));
+    }
+    let (found, expected) = (outline_m?, walking.outline_m?);
+    let is_off = found.iter().zip(expected).any(|(found, expected)| (found - expected).abs() > NEAR_M);
+    is_off.then(|| format!("it is {found:?} m long and wide; the kind `{name}` is {expected:?} m"))
+}
 
 /// The space a walking body may fill: an upright cylinder, with the umbrella.
 #[derive(Clone, Debug, PartialEq)]

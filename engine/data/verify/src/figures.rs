@@ -12,6 +12,8 @@ pub struct Figures {
     pub role: Role,
     /// Focal length and optical centre.
     pub focal_and_centre_px: [f64; 3],
+    /// Whether depth is said to be along the rays of pixels.
+    pub depth_is_along_rays: bool,
     /// Number of frames with the target in the image.
     pub frames_in_view: u32,
     /// Values of [`MEANS`].
@@ -52,6 +54,7 @@ impl Figures {
         Ok(Self {
             role: rows.get(Trajectories::role, row)?,
             focal_and_centre_px: numbers(rows, row, &CAMERA)?,
+            depth_is_along_rays: rows.get(Trajectories::camera_depth_is_along_rays, row)?,
             frames_in_view: rows.get(Trajectories::frames_in_view, row)?,
             means: numbers(rows, row, &MEANS)?,
             min_clearance_m: rows.get(Trajectories::min_clearance_m, row)?,

@@ -2,7 +2,7 @@
 
 use crate::bodies::{PlacedBody, SpaceOfFlight};
 use crate::rows::{PlacedFlight, PlacedFrame};
-use crate::tables::{Extent, PairRow};
+use crate::tables::{Extent, LossRow, PairRow};
 use cosfly_read::FlightTrack;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -24,6 +24,8 @@ pub struct FlightRows<'a> {
     pub objects: Option<&'a BTreeSet<u32>>,
     /// Rows of table `pairs` by the perturbed flight.
     pub pairs: &'a BTreeMap<String, PairRow>,
+    /// Rows of table `target_losses`, in the order of the file.
+    pub losses: &'a [LossRow],
     /// Reach of the town, metres.
     pub extent: Option<&'a Extent>,
     /// Motion of the expert of a perturbed flight.

@@ -256,6 +256,7 @@ impl<'a> Flights<'a> {
             in_space: rows.in_space,
             objects,
             pairs: &self.tables.pairs,
+            losses: self.tables.losses.get(&number).map_or(&[], Vec::as_slice),
             extent: self.tables.extents.get(&flight.town),
             expert: rows.expert,
             film: rows.film,

@@ -1,9 +1,10 @@
 //! The figures of table `trajectories`: against its frames, and against its own limits.
 
+use super::body::size_problem;
 use super::figures::{MAXIMA, MEANS};
 use super::report::VerifyReport;
 use super::rows::{PlacedFlight, PlacedFrame};
-use cosfly_domain::Camera;
+use cosfly_domain::{BodyKind, Camera};
 use cosfly_frames::real;
 use cosfly_schema::Role;
 use cosfly_schema::tables::Trajectories;
@@ -34,6 +35,14 @@ pub fn check_row(flight: &PlacedFlight, report: &mut VerifyReport) {
             "verify-camera",
             format!("focal length and centre are {found:?}; size and field of view give {expected:?}"),
         );
+    }
+    let (said, is_wide) = (figures.depth_is_along_rays, flight.lens.is_wide(&flight.camera));
+    if said != is_wide {
+        find("verify-camera", format!("`camera_depth_is_along_rays` is {said}; the lens gives {is_wide}"));
+    }
+    let kind = BodyKind::ON_THE_GROUND.iter().copied().find(|kind| flight.target_kind.as_deref() == Some(kind.name()));
+    if let Some(message) = kind.and_then(|kind| size_problem(kind, flight.target_height_m, None)) {
+        find("verify-kind", message);
     }
     if (figures.role == Role::Perturbed) != flight.expert_id.is_some() {
         find("verify-pair", "`role` and `expert_id` contradict each other".into());

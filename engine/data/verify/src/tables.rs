@@ -9,7 +9,7 @@ use super::sums;
 use cosfly_diagnose::Result;
 use cosfly_metrics::spread::{APART_M, widest_gap_m};
 use cosfly_read::{Rows, Shared};
-use cosfly_schema::tables::{self, Objects, Pairs, Rejected};
+use cosfly_schema::tables::{self, Objects, Pairs, Rejected, TargetLosses};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
@@ -20,6 +20,8 @@ pub struct SmallTables {
     pub flights: FlightList,
     /// Twins by name.
     pub pairs: BTreeMap<String, PairRow>,
+    /// Losses of the target by number of the flight.
+    pub losses: BTreeMap<usize, Vec<LossRow>>,
     /// Captions by flight.
     pub captions: CaptionList,
     /// Instance ids by town.
@@ -48,6 +50,25 @@ pub struct PairRow {
     pub expert_frames: blake3::Hash,
 }
 
+/// A row of table `target_losses`.
+#[derive(Clone)]
+pub struct LossRow {
+    /// File and row it stands in.
+    pub place: (Arc<str>, usize),
+    /// First frame, and the one after the last.
+    pub frames: (u32, u32),
+    /// Length, seconds.
+    pub duration_s: f64,
+    /// Instance id of the cause.
+    pub cause_instance: u32,
+    /// Frames in which the target is outside of the image.
+    pub frames_out_of_view: u32,
+    /// Whether the flight sees the target again.
+    pub reacquired: bool,
+    /// Others in its clothes in the frame in which it is seen again.
+    pub look_alikes: Option<u32>,
+}
+
 /// Digest of frames of an expert.
 pub fn digest(frames: impl Iterator<Item = i64>) -> blake3::Hash {
     let mut hasher = blake3::Hasher::new();
@@ -61,14 +82,10 @@ pub fn digest(frames: impl Iterator<Item = i64>) -> blake3::Hash {
 pub fn read(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> SmallTables {
     let flights = read_flights(folder, files, report);
     let captions = CaptionList::read(folder, files, &flights, report);
-    let mut small = SmallTables {
-        flights,
-        pairs: BTreeMap::new(),
-        captions,
-        instances: BTreeMap::new(),
-        films: BTreeMap::new(),
-        extents: BTreeMap::new(),
-    };
+    let losses = read_losses(folder, files, &flights, report);
+    let (pairs, instances, extents) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+    let films = most_frames(&flights);
+    let mut small = SmallTables { flights, pairs, losses, captions, instances, films, extents };
     let rejected = read_rejected(folder, files, report);
     for flight in small.flights.iter().filter(|flight| rejected.contains(&flight.trajectory_id)) {
         report.find(
@@ -79,8 +96,7 @@ pub fn read(folder: &Path, files: &CheckedFiles, report: &mut VerifyReport) -> S
         );
     }
     read_objects(folder, files, &mut small, report);
-    check_weathers(&small, report);
-    small.films = most_frames(&small.flights);
+    check_films(&small, report);
     read_pairs(folder, files, &mut small, report);
     small
 }
@@ -159,11 +175,19 @@ fn read_objects(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, re
     }
 }
 
-/// Rows of the same flight are in different weathers or by different cameras, else one of them is there twice.
-fn check_weathers(small: &SmallTables, report: &mut VerifyReport) {
+/// Rows of the same flight are behind one target, and in different weathers or by different cameras, else one of them is there twice.
+fn check_films(small: &SmallTables, report: &mut VerifyReport) {
     let mut seen: BTreeMap<(&str, &str, Option<&str>), &str> = BTreeMap::new();
+    let mut first_of: BTreeMap<&str, &PlacedFlight> = BTreeMap::new();
     for flight in small.flights.iter() {
         let id = &flight.trajectory_id;
+        let first = *first_of.entry(&flight.flight_id).or_insert(flight);
+        let target = |it: &PlacedFlight| (it.town.clone(), it.pedestrian_id.clone(), it.target_kind.clone());
+        if target(first) != target(flight) {
+            let (place, film) = (format!("row {}, `{id}`", flight.place.1), &first.trajectory_id);
+            let message = format!("it shows flight `{}` as `{film}` does, behind another target", flight.flight_id);
+            report.find(&flight.place.0, place, "verify-flight", message);
+        }
         let film = (flight.flight_id.as_str(), flight.weather.as_str(), flight.camera_name.as_deref());
         if let Some(first) = seen.insert(film, id) {
             let place = format!("row {}, `{id}`", flight.place.1);
@@ -218,6 +242,48 @@ fn read_pairs(folder: &Path, files: &CheckedFiles, small: &mut SmallTables, repo
         }
     }
     check_experts(small, report);
+}
+
+fn read_losses(
+    folder: &Path,
+    files: &CheckedFiles,
+    flights: &FlightList,
+    report: &mut VerifyReport,
+) -> BTreeMap<usize, Vec<LossRow>> {
+    let mut losses: BTreeMap<usize, Vec<LossRow>> = BTreeMap::new();
+    for file in files.sound_below("data/target_losses/") {
+        let (name, mut place): (Arc<str>, usize) = (file.into(), 0);
+        let mut unknown = vec![];
+        let outcome = rows::read(&folder.join(file), &rows::table("target_losses"), &mut |rows| {
+            for row in 0..rows.len() {
+                let id = rows.get(TargetLosses::trajectory_id, row)?;
+                let loss = loss_row(rows, row, (Arc::clone(&name), place))?;
+                match flights.number(&id) {
+                    Some(number) => losses.entry(number).or_default().push(loss),
+                    None => unknown.push((place, id)),
+                }
+                place += 1;
+            }
+            Ok(())
+        });
+        note(report, file, outcome);
+        for (row, id) in unknown {
+            report.find(file, format!("row {row}, `{id}`"), "verify-reference", "there is no such flight");
+        }
+    }
+    losses
+}
+
+fn loss_row(rows: &Rows<'_>, row: usize, place: (Arc<str>, usize)) -> Result<LossRow> {
+    Ok(LossRow {
+        place,
+        frames: (rows.get(TargetLosses::start_frame, row)?, rows.get(TargetLosses::end_frame, row)?),
+        duration_s: rows.get(TargetLosses::duration_s, row)?,
+        cause_instance: rows.get(TargetLosses::cause_instance, row)?,
+        frames_out_of_view: rows.get(TargetLosses::frames_out_of_view, row)?,
+        reacquired: rows.get(TargetLosses::reacquired, row)?,
+        look_alikes: rows.get(TargetLosses::look_alikes, row)?,
+    })
 }
 
 fn pair_row(rows: &Rows<'_>, row: usize) -> Result<(String, PairRow)> {

@@ -1,7 +1,7 @@
 //! A sound dataset passes; every kind of damage is found and named.
 
 use crate::{Options, VerifyReport, files, frames, rows, tables, verify};
-use cosfly_domain::{BodyInSpace, KeyPoint, Shown};
+use cosfly_domain::{BodyInSpace, BodyKind, KeyPoint, Shown};
 use cosfly_frames::DVec3;
 use cosfly_sample as sample;
 use cosfly_sample::SampleFlight;
@@ -495,6 +495,24 @@ fn an_interrupted_check_goes_on_and_reads_changed_logs_again() {
     assert!(third.resumed == 3 && third.findings.iter().any(|it| it.rule == "verify-hash"));
     let other = published(sample::flights().into_iter().take(2).collect());
     assert_eq!(verify(other.path(), &options, &mut |_, _| {}).unwrap_err().code, "verify-resume");
+}
+
+#[test]
+fn kinds_that_sizes_deny_and_films_of_another_target_are_found() {
+    type Spoil = (&'static str, fn(&mut [SampleFlight]));
+    let spoils: [Spoil; 4] = [
+        // Nobody of that height is a child, nobody so narrow has a wheelchair.
+        ("verify-kind", |all| all[0].record.others[0].plan.kind = BodyKind::Child),
+        ("verify-kind", |all| all[0].record.others[0].plan.kind = BodyKind::Wheelchair),
+        ("verify-flight", |all| all[0].record.flight_id = all[2].record.flight_id.clone()),
+        ("verify-flight", |all| all[2].record.flight_id = all[0].record.flight_id.clone()),
+    ];
+    for (rule, spoil) in spoils {
+        let mut flights = sample::flights();
+        spoil(&mut flights);
+        let rules = rules_of(&published(flights));
+        assert!(rules.contains(&rule), "{rule}: {rules:?}");
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@
 mod films;
 mod in_space;
 mod labels;
+mod losses;
 mod twins;
 
 use crate::flight_rows::FlightRows;
@@ -25,5 +26,6 @@ pub const OF_FLIGHTS: &[Check] = &[
     |it, report| frames::check_town(it.file, it.extent, it.flight, it.frames, report),
     twins::check,
     films::check,
+    losses::check,
     in_space::check,
 ];
