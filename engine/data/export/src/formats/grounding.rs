@@ -8,8 +8,8 @@ use crate::sample_text::frame_facts;
 use crate::shared_options::PictureAndTextOptions;
 use crate::source::{ExportedFlight, Source};
 use cosfly_diagnose::Result;
-use cosfly_frames::{action, real};
-use cosfly_read::{FrameRow, PublishedDataset, read};
+use cosfly_frames::{DVec3, action, real};
+use cosfly_read::{FrameRow, PublishedDataset, PublishedFlight, read};
 use cosfly_schema::losses::cause;
 use cosfly_schema::tables::Objects;
 use serde_json::{Value, json};
@@ -20,6 +20,8 @@ use std::ops::Range;
 /// Boxes, visibility, steps and reasons.
 pub struct Grounding;
 
+/// Cause of a loss whose target is in the picture.
+const TOO_SMALL: &str = "smaller than a pixel";
 /// Number of steps of the expert.
 const STEPS: usize = 5;
 
@@ -107,6 +109,8 @@ struct Loss {
     frames: Range<usize>,
     cause_instance: u32,
     frames_out_of_view: usize,
+    /// Those of them in which the target is before the camera and covers no pixel's centre.
+    frames_too_small: usize,
 }
 
 /// The losses of a flight; none for a target without a body.
@@ -119,6 +123,7 @@ fn losses(episode: &ExportedFlight<'_>) -> Vec<Loss> {
                 frames: begin..begin + rows.len(),
                 cause_instance: cause(rows.iter().map(|row| row.occluder_instance)),
                 frames_out_of_view: rows.iter().filter(|row| !row.in_view).count(),
+                frames_too_small: rows.iter().filter(|row| !row.in_view && is_in_picture(episode.flight, row)).count(),
             });
         }
         begin += rows.len();
@@ -126,10 +131,24 @@ fn losses(episode: &ExportedFlight<'_>) -> Vec<Loss> {
     losses
 }
 
+/// Whether the middle of the target is in the picture, whatever hides it.
+fn is_in_picture(flight: &PublishedFlight, row: &FrameRow) -> bool {
+    let middle = row.target.feet_in_world + DVec3::Z * (0.5 * flight.target_height_m);
+    let (camera, seen) = (&flight.camera, row.camera_pose.body_from_world_point(middle));
+    flight.lens.project(camera, seen).is_some_and(|(u, v, _)| {
+        (0.0..f64::from(camera.width)).contains(&u) && (0.0..f64::from(camera.height)).contains(&v)
+    })
+}
+
 impl Loss {
     /// The loss as frame `now` knows it in hindsight; where the target comes back is seen from the camera's pose now.
     fn facts(&self, rows: &[FrameRow], now: usize, dt_s: f64, named: &dyn Fn(u32) -> String) -> Value {
-        let is_out_of_view = self.cause_instance == 0 && 2 * self.frames_out_of_view > self.frames.len();
+        let is_most = |frames: usize| self.cause_instance == 0 && 2 * frames > self.frames.len();
+        let cause = match () {
+            () if is_most(self.frames_too_small) => TOO_SMALL.to_owned(),
+            () if is_most(self.frames_out_of_view) => "out of view".to_owned(),
+            () => named(self.cause_instance),
+        };
         let comes_back = rows.get(self.frames.end).map(|row| {
             let place = rows[now].camera_pose.body_from_world_point(row.target.feet_in_world);
             json!({
@@ -144,7 +163,7 @@ impl Loss {
             "end_frame": self.frames.end,
             "lost_for_s": tenths((now - self.frames.start) as f64 * dt_s),
             "cause_instance": self.cause_instance,
-            "cause": if is_out_of_view { "out of view".into() } else { named(self.cause_instance) },
+            "cause": cause,
             "comes_back": comes_back,
         })
     }
@@ -175,7 +194,7 @@ fn reason(row: &FrameRow, loss: &Value, named: &dyn Fn(u32) -> String) -> String
         };
     }
     let why = match loss["cause"].as_str() {
-        Some("out of view") => "it is out of view".to_owned(),
+        Some(cause @ ("out of view" | TOO_SMALL)) => format!("it is {cause}"),
         cause => format!("{} hides it", cause.unwrap_or_default()),
     };
     let back = &loss["comes_back"];
@@ -208,9 +227,9 @@ A line is a frame: path of the picture, facts of tables `trajectories` and `fram
 * `visible_box_px`: left, top, right, bottom of what is seen of the target, null where nothing is; `visible_by_pixels`: its share, 0 to 1;
 * `expert_steps_in_body`: up to five steps, from the drone's own pose to the expert's next one, and on along the expert: dx ahead, dy right,
   dz up (m), dpitch, dyaw, droll (degrees); fewer at the end of a flight;
-* `loss`: null, or the row of table `target_losses` with this `trajectory_id` and `start_frame`: what hides the target in most of its frames,
-  and where it comes back, from the camera's place now (metres to its feet, degrees right of the camera's axis along its picture);
-  `comes_back` is null where the flight ends first;
+* `loss`: null, or the row of table `target_losses` with this `trajectory_id` and `start_frame`: what hides the target in most of its frames
+  (`smaller than a pixel`: it is before the camera, and covers no pixel's middle), and where it comes back, from the camera's place now
+  (metres to its feet, degrees right of the camera's axis along its picture); `comes_back` is null where the flight ends first;
 * `reason`: the same in words. All numbers in it are in the line. A policy does not know when a target comes back: it is what to learn.
 ";
 
@@ -218,8 +237,39 @@ A line is a frame: path of the picture, facts of tables `trajectories` and `fram
 mod tests {
     use crate::laws::{export_with, files, published};
     use crate::source::Choice;
+    use cosfly_read::PublishedDataset;
+    use cosfly_sample as sample;
+    use cosfly_schema::{DatasetConfig, EncodingConfig};
     use serde_json::{Map, Value};
     use std::path::Path;
+
+    #[test]
+    fn a_target_before_the_camera_is_not_out_of_view() {
+        let home = tempfile::tempdir().unwrap();
+        let mut flights = sample::flights();
+        flights.truncate(1);
+        // Without a pixel in frames 0 and 3, in the latter because the drone looks away.
+        flights[0].record.trajectory.poses_in_world[3].yaw_rad += 3.0;
+        for frame in [0, 3] {
+            let view = &mut flights[0].record.views[frame];
+            (view.in_view, view.visible_box, view.full_box, view.pixels) = (false, None, None, 0);
+            view.visible_by_pixels = 0.0;
+        }
+        let (data, out) = (home.path().join("data"), home.path().join("out"));
+        sample::write_flights(&data, &DatasetConfig::default(), EncodingConfig::default(), flights).unwrap();
+        let dataset = PublishedDataset::open(&data).unwrap();
+        export_with(&dataset, "grounding", Map::new(), &Choice::default(), &out).unwrap();
+        let written: Vec<u8> =
+            files(&out).into_iter().filter(|it| it.0.ends_with("train.jsonl")).flat_map(|it| it.1).collect();
+        let rows: Vec<Value> =
+            std::str::from_utf8(&written).unwrap().lines().map(|it| serde_json::from_str(it).unwrap()).collect();
+        let causes: Vec<&Value> =
+            rows.iter().map(|row| &row["loss"]["cause"]).filter(|cause| !cause.is_null()).collect();
+        assert_eq!(causes, ["smaller than a pixel", "out of view"]);
+        assert!(
+            rows[0]["reason"].as_str().unwrap().contains("lost just now: it is smaller than a pixel. It comes back")
+        );
+    }
 
     #[test]
     fn every_number_of_a_reason_is_in_the_line() {
