@@ -61,8 +61,8 @@ pub struct Arguments {
     /// Episodes that the policy flies
     #[arg(long, value_name = "N", default_value_t = 50, value_parser = count())]
     budget: usize,
-    /// Candidates that baselines fly first
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = count())]
+    /// Candidates that baselines fly first: 32 for each episode of the budget find most
+    #[arg(long, value_name = "N", default_value_t = 1600, value_parser = count())]
     pool: usize,
     /// Order of the candidates
     #[arg(long, value_enum, value_name = "ORDER", default_value_t = SearchChoice::Likeliest)]
