@@ -139,8 +139,7 @@ impl Environment {
             let is_near = eye.distance(middle) <= settings.farthest_m;
             is_near && settings.lens.shows(&camera, middle) && !place.exact.blocked(eye, middle)
         };
-        let present = self.episode.others.at(self.observation.time_s);
-        present.filter(|present| present.mover.is_look_alike).filter(is_seen).count()
+        self.episode.others.look_alikes(self.observation.time_s).filter(is_seen).count()
     }
 
     /// Distance that the target covered so far, metres.
