@@ -8,8 +8,6 @@ use crate::region::Region;
 use cosfly_domain::BodyKind;
 use cosfly_frames::{DVec3, RandomStream};
 
-/// Half the width of the sheet, in widths: mirrors and wheels reach farther.
-const SHEET: f64 = 0.486;
 /// Half the width of panels at both ends, in half widths.
 const END: [f64; 2] = [0.494, 0.494];
 
@@ -39,13 +37,18 @@ pub(super) fn car(model: &mut Model<'_>, shape: &Shape, phase_rad: f64, looks: &
         roof_window(&mut shell, shape);
     }
     shell.draw(model);
+    if let Some([first, _]) = roof_ends(shape) {
+        let fin = [[first + 0.02, 0.93], [first + 0.06, 0.93], [first + 0.025, 0.995]];
+        model.hull(Region::Paint, &fin, [0.012, 0.006]);
+    }
     ends(model, shape);
     mirrors(model, shape);
     let radius_m = shape.wheel * model.size_m.z;
     let turn_rad = turn_rad(phase_rad, model.size_m.z, radius_m);
     for x in shape.axles {
         let arch_from_m = Some(shape.foot * model.size_m.z);
-        model.axle(&Axle { x_m: x * model.size_m.x, radius_m, arch_from_m, turn_rad });
+        let (x_m, half_width_m) = (x * model.size_m.x, (shape.sheet + 0.014) * model.size_m.y);
+        model.axle(&Axle { x_m, half_width_m, radius_m, arch_from_m, turn_rad });
     }
 }
 
@@ -53,7 +56,7 @@ pub(super) fn car(model: &mut Model<'_>, shape: &Shape, phase_rad: f64, looks: &
 fn half_width(shape: &Shape, x: f64) -> f64 {
     let t = ((x.abs() - 0.3) / 0.2).clamp(0.0, 1.0);
     let (t2, t4) = (t * t, t * t * t * t);
-    SHEET * (1.0 - 0.06 * t2 - shape.narrow * t4 * t4 * t2)
+    shape.sheet * (1.0 - 0.05 * t2 - shape.narrow * t4 * t2)
 }
 
 /// Cross-sections of a shape.
@@ -90,13 +93,18 @@ pub(super) fn shell(model: &Model<'_>, shape: &Shape) -> Shell {
     shell
 }
 
+/// How far the sheet of an end rises above that of the sides, in heights.
+fn end_rise(x: f64) -> f64 {
+    if x < 0.0 { 0.085 } else { 0.05 }
+}
+
 /// Points of the right half of a cross-section from sill to roof, in box sizes.
 fn outline(shape: &Shape, section: &Section) -> [[f64; 3]; POINTS] {
     let Section { x, shoulder, top, roofed, .. } = *section;
     let w = half_width(shape, x);
-    // Both ends rise above the ground.
+    // Both ends rise above the ground: behind, the tyres are seen below.
     let rise = ((x.abs() - 0.38) / 0.12).clamp(0.0, 1.0);
-    let foot = shape.foot + 0.045 * rise * rise;
+    let foot = shape.foot + end_rise(x) * rise * rise;
     let at = |y: f64, z: f64| [x, y * w, z];
     let height = shoulder - foot;
     let crease = at(1.0, foot + CREASE * height);
@@ -104,10 +112,10 @@ fn outline(shape: &Shape, section: &Section) -> [[f64; 3]; POINTS] {
     let upper = if roofed {
         let drop = shape.drop;
         let edge = shape.tumble;
-        [at(edge, top - drop), at(0.92 * edge, top - 0.35 * drop), at(0.55 * edge, top - 0.08 * drop), at(0.0, top)]
+        [at(edge, top - drop), at(0.90 * edge, top - 0.35 * drop), at(0.55 * edge, top - 0.08 * drop), at(0.0, top)]
     } else {
         let drop = top - shoulder;
-        [at(0.90, top - 0.45 * drop), at(0.76, top - 0.14 * drop), at(0.4, top - 0.03 * drop), at(0.0, top)]
+        [at(0.92, top - 0.45 * drop), at(0.79, top - 0.14 * drop), at(0.4, top - 0.03 * drop), at(0.0, top)]
     };
     core::array::from_fn(|k| if k < 4 { lower[k] } else { upper[k - 4] })
 }
@@ -115,15 +123,24 @@ fn outline(shape: &Shape, section: &Section) -> [[f64; 3]; POINTS] {
 /// Grille, air intake, plates.
 fn ends(model: &mut Model<'_>, shape: &Shape) {
     let (Some(tail), Some(nose)) = (shape.sections.first(), shape.sections.last()) else { return };
-    let foot = shape.foot + 0.045;
+    let foot = shape.foot + end_rise(1.0);
     let reach = 1.0 - shape.narrow - 0.12;
     model.cross_panel(Region::Trim, [[0.5, foot + 0.01], [0.5, foot + 0.075]], [-reach, reach], END);
     model.cross_panel(Region::Plate, [[0.5, foot + 0.085], [0.5, foot + 0.15]], [-0.28, 0.28], END);
     let grille = [[0.5, foot + 0.16], [0.5, nose.shoulder.max(foot + 0.2)]];
     model.cross_panel(Region::Trim, grille, [-0.8 * reach, 0.8 * reach], END);
-    model.cross_panel(Region::Trim, [[-0.5, foot - 0.004], [-0.5, foot + 0.075]], [-reach, reach], END);
-    let plate = (tail.shoulder - 0.10).max(foot + 0.07);
+    let plate = rear_plate(shape, tail);
     model.cross_panel(Region::Plate, [[-0.5, plate], [-0.5, plate + 0.065]], [-0.28, 0.28], END);
+}
+
+/// Lower edge of the number plate at the tail.
+pub(super) fn rear_plate(shape: &Shape, tail: &Section) -> f64 {
+    (tail.shoulder - 0.10).max(skirt(shape) + 0.02)
+}
+
+/// Upper edge of the dark lower part of both bumpers.
+pub(super) fn skirt(shape: &Shape) -> f64 {
+    shape.foot + end_rise(-1.0) + 0.065
 }
 
 /// Mirrors beside the windscreen.
@@ -164,7 +181,7 @@ fn roof_ends(shape: &Shape) -> Option<[f64; 2]> {
 fn rails(model: &mut Model<'_>, shape: &Shape) {
     let Some([first, last]) = roof_ends(shape) else { return };
     let size_m = model.size_m;
-    let y_m = 0.9 * shape.tumble * SHEET * size_m.y;
+    let y_m = 0.9 * shape.tumble * shape.sheet * size_m.y;
     let (z_m, thick_m) = (0.993 * size_m.z - 0.02, 0.035);
     for sign in [-1.0, 1.0] {
         let at = |x: f64| DVec3::new(x * size_m.x, sign * y_m, z_m);

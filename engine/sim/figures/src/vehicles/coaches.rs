@@ -111,6 +111,7 @@ pub(super) fn axles(model: &mut Model<'_>, wheel: f64, places: &[f64], phase_rad
     let turn_rad = turn_rad(phase_rad, model.size_m.z, radius_m);
     let arch_from_m = Some(0.10 * model.size_m.z);
     for x in places {
-        model.axle(&Axle { x_m: x * model.size_m.x, radius_m, arch_from_m, turn_rad });
+        let (x_m, half_width_m) = (x * model.size_m.x, 0.5 * model.size_m.y);
+        model.axle(&Axle { x_m, half_width_m, radius_m, arch_from_m, turn_rad });
     }
 }

@@ -6,7 +6,7 @@ use crate::body_shape::BodyShape;
 use crate::region::Region;
 use crate::walker::Walker;
 use cosfly_domain::BodyKind;
-use cosfly_frames::DVec3;
+use cosfly_frames::{DVec3, RandomStream};
 
 /// Places of gaps and seats, shares of the box: x forward of its middle, z up from its foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +25,12 @@ pub struct Fittings {
     pub gutter: f64,
     /// Upper edge of the bumpers.
     pub bumper: f64,
+    /// Lamps at the tail: place that they begin at, from the middle, in half widths of the box; lower and upper edge.
+    pub tail_lamps: [f64; 3],
+    /// Upper edge of the dark lower part of the bumpers.
+    pub skirt: f64,
+    /// Middle of the number plate at the tail.
+    pub rear_plate: f64,
     /// Backs of the rows of seats.
     pub seats: [f64; 2],
     /// How dirty the vehicle is, 0..=1.
@@ -50,6 +56,9 @@ impl Fittings {
             boot: [-NOWHERE; 2],
             gutter: NOWHERE,
             bumper: NOWHERE,
+            tail_lamps: [NOWHERE; 3],
+            skirt: -NOWHERE,
+            rear_plate: NOWHERE,
             seats: [NOWHERE; 2],
             dirt,
             flakes,
@@ -57,7 +66,8 @@ impl Fittings {
         match walker.body {
             BodyShape::Vehicle { kind: kind @ (BodyKind::Car | BodyKind::Van), size_m } => {
                 let shape = cars::shape(kind, size_m, &mut walker.clothes_seed.stream("shape"));
-                Self { size_m, ..bare.with(shape) }
+                let tail_lamps = tail_lamps(shape, &mut looks);
+                Self { size_m, tail_lamps, ..bare.with(shape) }
             }
             BodyShape::Vehicle { size_m, .. } => Self { size_m, ..bare },
             BodyShape::Person { .. } => bare,
@@ -79,8 +89,21 @@ impl Fittings {
             boot: boot.map_or([-NOWHERE; 2], |section| [-0.462, section.x - 0.012]),
             gutter: 0.415 * shape.tumble,
             bumper: shape.foot + 0.24,
+            skirt: cars::skirt(shape),
+            rear_plate: shape.sections.first().map_or(NOWHERE, |tail| cars::rear_plate(shape, tail) + 0.032),
             seats: [middle, if has_rear { middle - 0.19 } else { NOWHERE }],
             ..self
         }
+    }
+}
+
+/// Lamps at the tail: upright ones at the corners, level ones that reach inwards, or a band from side to side.
+fn tail_lamps(shape: &Shape, looks: &mut RandomStream) -> [f64; 3] {
+    let top = shape.sections.get(1).map_or(0.55, |section| section.shoulder);
+    if top < 0.5 || looks.chance(0.3) {
+        [0.74, top - 0.22, top + 0.01]
+    } else {
+        let inner = if looks.chance(0.15) { 0.0 } else { looks.uniform(0.45, 0.62) };
+        [inner, top - looks.uniform(0.07, 0.11), top + 0.01]
     }
 }

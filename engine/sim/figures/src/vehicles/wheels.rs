@@ -16,6 +16,8 @@ const OPENINGS: usize = 5;
 pub(super) struct Axle {
     /// From the middle of the box forwards, metres.
     pub x_m: f64,
+    /// Half the width between the outer sides of the tyres, metres.
+    pub half_width_m: f64,
     pub radius_m: f64,
     /// Lowest edge of the sheet beside it, metres; no arch where there is none.
     pub arch_from_m: Option<f64>,
@@ -30,9 +32,9 @@ pub(super) fn turn_rad(phase_rad: f64, height_m: f64, radius_m: f64) -> f64 {
 }
 
 impl Model<'_> {
-    /// A wheel on either side, flush with the sides of the box.
+    /// A wheel on either side.
     pub fn axle(&mut self, axle: &Axle) {
-        let (outer_m, Axle { x_m, radius_m, turn_rad, .. }) = (0.5 * self.size_m.y, *axle);
+        let Axle { x_m, half_width_m: outer_m, radius_m, turn_rad, .. } = *axle;
         for sign in [-1.0, 1.0] {
             let at = |share: f64, in_m: f64| rim(x_m, radius_m, share, sign * (outer_m - in_m));
             let inside = DVec3::new(x_m, 0.0, radius_m);

@@ -12,6 +12,12 @@ use cosfly_materials::vector::Vec3;
 const HALF_GAP_M: f32 = 0.006;
 /// Dust of roads.
 const DUST: Vec3 = Vec3::new(0.17, 0.15, 0.125);
+/// Red glass of lamps at the tail, and how much they glow at night.
+const TAIL_LAMP: Vec3 = Vec3::new(0.22, 0.008, 0.010);
+const TAIL_GLOW: f32 = 1.9;
+/// Bumpers below, and badges.
+const PLASTIC: Vec3 = Vec3::new(0.014, 0.014, 0.014);
+const BADGE: Vec3 = Vec3::new(0.30, 0.31, 0.32);
 /// Light that comes into a cabin and out of it again.
 const BEHIND_GLASS: f32 = 0.30;
 
@@ -40,6 +46,11 @@ pub(super) struct Coach {
     gutter_m: f32,
     bumper_m: f32,
     half_length_m: f32,
+    /// Lamps at the tail: where they begin from the middle, lower and upper edge, metres; their light at night.
+    tail_lamps: [f32; 3],
+    glow: f32,
+    skirt_m: f32,
+    rear_plate_m: f32,
     seats: [f32; 2],
     dirt: f32,
     /// Share of light lost where paint is seen along.
@@ -69,11 +80,11 @@ impl Coach {
             Region::Glass => (1.7, 0.0, Kind::Glass),
             Region::Metal => (4.0, 0.0, Kind::Other),
             Region::HeadLamp => (1.6, 2.4, Kind::Other),
-            Region::TailLamp => (1.6, 1.9, Kind::Other),
+            Region::TailLamp => (1.6, TAIL_GLOW, Kind::Other),
             Region::Trim => (0.3, 0.0, Kind::Other),
             _ => (0.0, 0.0, Kind::Other),
         };
-        let size_m = fittings.size_m;
+        let (size_m, [inner, low, high]) = (fittings.size_m, fittings.tail_lamps);
         let along_m = |x: f64| (x * size_m.x) as f32;
         Self {
             colour,
@@ -94,6 +105,10 @@ impl Coach {
             gutter_m: (fittings.gutter * size_m.y) as f32,
             bumper_m: (fittings.bumper * size_m.z) as f32,
             half_length_m: (0.5 * size_m.x) as f32,
+            tail_lamps: [(0.5 * inner * size_m.y) as f32, (low * size_m.z) as f32, (high * size_m.z) as f32],
+            glow: night,
+            skirt_m: (fittings.skirt * size_m.z) as f32,
+            rear_plate_m: (fittings.rear_plate * size_m.z) as f32,
             seats: fittings.seats.map(along_m),
             dirt: fittings.dirt as f32,
             flakes: if fittings.flakes { 0.45 } else { 0.0 },
@@ -134,6 +149,28 @@ impl Coach {
         let lids = most(lid(self.bonnet, self.bonnet[1]), lid(self.boot, self.boot[0]));
         let gutters = line(across - self.gutter_m) * share((own.z - 0.88 * self.height_m) / reach);
         aside * (1.0 - upward) + most(lids, gutters) * upward
+    }
+
+    /// Share of a pixel that lamps at the tail take. They reach round the corners.
+    #[inline(always)]
+    fn tail_lamp(&self, own: Vec3, footprint_m: f32) -> f32 {
+        let (per_reach, [inner, low, high]) = (1.0 / (0.008 + footprint_m), self.tail_lamps);
+        let within = |away_m: f32| share(0.5 + away_m * per_reach);
+        let behind = within(-own.x - self.half_length_m + 0.24);
+        within(own.z - low) * within(high - own.z) * within(own.y.abs() - inner) * behind
+    }
+
+    /// Shares of a pixel that dark plastic and metal take: the lower part of the bumpers, the recess of the plate at the tail, a badge.
+    #[inline(always)]
+    fn fascia(&self, own: Vec3, footprint_m: f32) -> [f32; 2] {
+        let per_reach = 1.0 / (0.006 + footprint_m);
+        let within = |away_m: f32| share(0.5 + away_m * per_reach);
+        let at_end = within(own.x.abs() - 0.90 * self.half_length_m);
+        let behind = within(-own.x - 0.93 * self.half_length_m);
+        let (across, above_m) = (own.y.abs(), own.z - self.rear_plate_m);
+        let recess = behind * within(0.33 - across) * within(0.085 - above_m.abs());
+        let badge = behind * within(0.055 - across) * within(0.045 - (above_m - 0.20).abs());
+        [most(within(self.skirt_m - own.z) * at_end, 0.85 * recess), badge]
     }
 
     /// Light sent back from seats behind glass: where a ray meets their upper ends.
@@ -187,9 +224,14 @@ fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTex
                 let dust = look.dirt * (0.75 * low2 + 0.10) * (0.4 + 1.2 * specks);
                 let aside = 1.0 - upward;
                 let shade = (1.0 - 0.8 * gap) * (1.0 - aside * (0.16 + 0.50 * low2)) * flakes[k];
-                set(&mut block.albedo, k, look.colour.lerp(DUST, share(dust)) * shade);
-                set(&mut block.emission, k, look.emission);
-                block.mirror[k] = look.mirror * (1.0 - gap) * (1.0 - 0.7 * share(dust));
+                let lamp = look.tail_lamp(own, footprint_m[k]);
+                let [plastic, badge] = look.fascia(own, footprint_m[k]);
+                let paint = look.colour.lerp(DUST, share(dust)) * shade;
+                let paint = paint.lerp(PLASTIC, plastic).lerp(BADGE, badge);
+                set(&mut block.albedo, k, paint.lerp(TAIL_LAMP, lamp));
+                set(&mut block.emission, k, TAIL_LAMP * (lamp * look.glow * TAIL_GLOW));
+                block.mirror[k] =
+                    look.mirror * (1.0 - gap) * (1.0 - 0.7 * share(dust)) * (1.0 - 0.7 * plastic) + 0.6 * lamp + badge;
             }
         }
     }

@@ -116,7 +116,7 @@ pub(super) fn run_kernels(
             Material::Coach(_) => Mirror::COAT,
             _ => Mirror::PANE,
         };
-        lighting::mirrored(level, shared, light, mirror, (grid.tables(), &grid.frame()));
+        lighting::mirrored(level, shared, light, mirror, (grid.tables(), &grid.frame()), noise);
     }
     let mut glows = answers.glows && light.night > 0.0;
     if light.night > 0.0 {

@@ -13,6 +13,9 @@ use cosfly_materials::vector::Vec3;
 /// Rays that rise or fall by less (sine of the angle) may have others beside them on the other side of the horizon.
 const LEVEL: f32 = 1e-3;
 
+/// Texels of noise to the height of mirrored clouds.
+const CLOUDS: f32 = 30.0;
+
 /// Which kinds of light a material answers to.
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
@@ -33,18 +36,19 @@ pub struct Mirror {
     /// Strength of the sun's image, and how small it is: 0 to 1.
     image: f32,
     sharp: f32,
-    /// Brightness of the sky in it, in brightnesses of the sky that is drawn.
+    /// Brightness of the sky in it, in brightnesses of the sky that is drawn, and how much clouds differ from it.
     sky: f32,
+    clouds: f32,
 }
 
 impl Mirror {
     /// A film of water: it mirrors more along it than from above.
-    pub const FILM: Self = Self { from_above: 0.26, along: 2.0, image: 1.6, sharp: 0.0, sky: 1.0 };
+    pub const FILM: Self = Self { from_above: 0.26, along: 2.0, image: 1.6, sharp: 0.0, sky: 1.0, clouds: 0.0 };
     /// Panes and paint of houses and things.
-    pub const PANE: Self = Self { from_above: 0.30, along: 0.9, image: 1.6, sharp: 0.0, sky: 1.0 };
+    pub const PANE: Self = Self { from_above: 0.30, along: 0.9, image: 1.6, sharp: 0.0, sky: 1.0, clouds: 0.0 };
     /// The smooth coat over the paint of vehicles, and their glass: as much as its optics say. The sky sends more light than its
     /// picture shows, and a coat mirrors what it sends.
-    pub const COAT: Self = Self { from_above: 0.0, along: 1.0, image: 24.0, sharp: 1.0, sky: 2.4 };
+    pub const COAT: Self = Self { from_above: 0.0, along: 1.0, image: 24.0, sharp: 1.0, sky: 2.4, clouds: 1.0 };
 }
 
 simd_kernel! {
@@ -88,9 +92,17 @@ simd_kernel! {
 
 simd_kernel! {
     /// Sky, houses across the street and lamps as surfaces mirror them.
-    pub fn mirrored(shared: &mut [Shared], light: &Light, mirror: Mirror, grid: (&GridTables, &GridFrame)) {
+    pub fn mirrored(
+        shared: &mut [Shared],
+        light: &Light,
+        mirror: Mirror,
+        grid: (&GridTables, &GridFrame),
+        noise: &NoiseTexture,
+    ) {
         let (light, tables, frame) = (*light, grid.0, *grid.1);
-        let Mirror { from_above, along, image, sharp, sky } = mirror;
+        let Mirror { from_above, along, image, sharp, sky, clouds } = mirror;
+        // Most differs a sky of which a half is blue.
+        let uneven = clouds * most(4.0 * light.clouds * (1.0 - light.clouds), 0.3);
         for shared in shared.iter_mut() {
             for k in 0..WIDE {
                 let (ray, normal) = (get(&shared.ray, k), get(&shared.normal, k));
@@ -114,7 +126,14 @@ simd_kernel! {
                 let level = 1.0 - share(1.4 * out.z);
                 let from_lamps = shared.lamps[k] * (0.6 + 2.4 * level * level);
                 let near = light.ambient(normal) * (0.10 * shared.sky[k]) + light.lamp * from_lamps;
-                set(&mut shared.mirrored, k, light.sky(out) * (open * sky) + near);
+                let cloud = if uneven > 0.0 {
+                    let per_height = CLOUDS / (most(out.z, 0.0) + 0.22);
+                    let there = noise.clumps(out.x * per_height, out.y * per_height, 3.0);
+                    1.0 + uneven * lerp(-0.55, 0.75, smoothstep(0.38, 0.62, there))
+                } else {
+                    1.0
+                };
+                set(&mut shared.mirrored, k, light.sky(out) * (open * sky * cloud) + near);
                 // The sun's own image, from facets that lean halfway to it: wide on rough water, and long where the view is flat.
                 let halfway = light.to_sun - view;
                 let lean = most(halfway.dot(normal), 0.0);
