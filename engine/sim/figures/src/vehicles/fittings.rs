@@ -31,12 +31,61 @@ pub struct Fittings {
     pub skirt: f64,
     /// Middle of the number plate at the tail.
     pub rear_plate: f64,
+    /// A sign on the sides of a van, a lorry's box or a bus.
+    pub sign: Sign,
     /// Backs of the rows of seats.
     pub seats: [f64; 2],
     /// How dirty the vehicle is, 0..=1.
     pub dirt: f64,
     /// Whether the paint has flakes of metal: it is darker where it is seen along.
     pub flakes: bool,
+}
+
+/// A word and a band on both sides of a vehicle, shares of the box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sign {
+    /// Linear RGB.
+    pub colour: [f32; 3],
+    /// Back and front end of the word; its lower and upper edge.
+    pub word: [f64; 2],
+    pub heights: [f64; 2],
+    /// Lower and upper edge of the band.
+    pub band: [f64; 2],
+    /// Which letters the word has.
+    pub letters: u32,
+}
+
+/// Colours of signs, linear RGB.
+const SIGNS: [[f32; 3]; 6] = [
+    [0.45, 0.02, 0.02],
+    [0.02, 0.06, 0.32],
+    [0.02, 0.20, 0.06],
+    [0.02, 0.02, 0.025],
+    [0.60, 0.22, 0.01],
+    [0.03, 0.25, 0.42],
+];
+
+impl Sign {
+    const NONE: Self =
+        Self { colour: [0.0; 3], word: [NOWHERE; 2], heights: [0.0; 2], band: [-NOWHERE; 2], letters: 0 };
+
+    /// The sign that a vehicle draws: two of three lorries and vans without windows have a word, all buses a band.
+    fn draw(kind: BodyKind, has_panes: bool, looks: &mut RandomStream) -> Self {
+        let (colour, letters) = (SIGNS[looks.index(SIGNS.len())], looks.index(1 << 16) as u32);
+        let is_signed = looks.chance(0.67);
+        let bare = Self { colour, letters, ..Self::NONE };
+        match kind {
+            BodyKind::Truck if is_signed => {
+                let band = if looks.chance(0.5) { [0.34, 0.44] } else { bare.band };
+                Self { word: [-0.44, looks.uniform(0.02, 0.2)], heights: [0.56, 0.82], band, ..bare }
+            }
+            BodyKind::Van if is_signed && !has_panes => {
+                Self { word: [-0.40, looks.uniform(-0.12, 0.04)], heights: [0.58, 0.74], ..bare }
+            }
+            BodyKind::Bus => Self { band: [0.13, looks.uniform(0.24, 0.36)], ..bare },
+            _ => Self::NONE,
+        }
+    }
 }
 
 /// A place that no body reaches.
@@ -59,6 +108,7 @@ impl Fittings {
             tail_lamps: [NOWHERE; 3],
             skirt: -NOWHERE,
             rear_plate: NOWHERE,
+            sign: Sign::NONE,
             seats: [NOWHERE; 2],
             dirt,
             flakes,
@@ -67,9 +117,12 @@ impl Fittings {
             BodyShape::Vehicle { kind: kind @ (BodyKind::Car | BodyKind::Van), size_m } => {
                 let shape = cars::shape(kind, size_m, &mut walker.clothes_seed.stream("shape"));
                 let tail_lamps = tail_lamps(shape, &mut looks);
-                Self { size_m, tail_lamps, ..bare.with(shape) }
+                let has_panes =
+                    shape.sections.iter().any(|it| it.roofed && it.x < -0.1 && it.regions[1] == Region::Glass);
+                let sign = Sign::draw(kind, has_panes, &mut looks);
+                Self { size_m, tail_lamps, sign, ..bare.with(shape) }
             }
-            BodyShape::Vehicle { size_m, .. } => Self { size_m, ..bare },
+            BodyShape::Vehicle { kind, size_m } => Self { size_m, sign: Sign::draw(kind, true, &mut looks), ..bare },
             BodyShape::Person { .. } => bare,
         }
     }

@@ -186,6 +186,28 @@ fn cars_of_all_sizes_have_several_shapes() {
 }
 
 #[test]
+fn lamps_bumpers_and_signs_are_on_the_sheet() {
+    let mut signed = 0;
+    for (kind, size_m, _) in KINDS {
+        for number in 0..60 {
+            let fittings = crate::Fittings::of(&vehicle(kind, DVec3::from_array(size_m), number));
+            let (sign, [inner, low, high]) = (fittings.sign, fittings.tail_lamps);
+            signed += u32::from(kind == BodyKind::Truck && sign.word[0] < 1.0);
+            if matches!(kind, BodyKind::Car | BodyKind::Van) {
+                assert!((0.0..0.8).contains(&inner) && 0.1 < low && low < high && high < 0.7, "{kind:?} {number}");
+                assert!(fittings.skirt < fittings.rear_plate && fittings.skirt < low, "{kind:?} {number}");
+            }
+            match kind {
+                BodyKind::Truck | BodyKind::Van => {}
+                BodyKind::Bus => assert!(sign.band[0] > 0.0 && sign.word[0] > 1.0),
+                _ => assert!(sign.band[1] < 0.0 && sign.word[0] > 1.0, "{kind:?} {number}"),
+            }
+        }
+    }
+    assert!((30..50).contains(&signed), "{signed}");
+}
+
+#[test]
 fn a_size_that_is_none_is_not_drawn() {
     for size_m in [[4.0, 0.0, 1.5], [f64::NAN, 2.0, 1.5], [400.0, 2.0, 1.5]] {
         assert!(walker_triangles(&vehicle(BodyKind::Car, DVec3::from_array(size_m), 1)).is_empty());

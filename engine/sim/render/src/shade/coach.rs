@@ -5,7 +5,7 @@ use cosfly_figures::{Fittings, Region};
 use cosfly_frames::DVec3;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::lanes::{Block, Shared, WIDE, get, groups, set};
-use cosfly_materials::pattern::{NoiseTexture, Noises, least, most, share};
+use cosfly_materials::pattern::{NoiseTexture, Noises, band, floor_int, hash, least, most, one_if, share, stripes};
 use cosfly_materials::vector::Vec3;
 
 /// Half the width of a gap between two panels of sheet, metres.
@@ -18,6 +18,8 @@ const TAIL_GLOW: f32 = 1.9;
 /// Bumpers below, and badges.
 const PLASTIC: Vec3 = Vec3::new(0.014, 0.014, 0.014);
 const BADGE: Vec3 = Vec3::new(0.30, 0.31, 0.32);
+/// Tape along the boxes of lorries.
+const TAPE: Vec3 = Vec3::new(0.40, 0.02, 0.02);
 /// Light that comes into a cabin and out of it again.
 const BEHIND_GLASS: f32 = 0.30;
 
@@ -51,6 +53,12 @@ pub(super) struct Coach {
     glow: f32,
     skirt_m: f32,
     rear_plate_m: f32,
+    /// The sign on both sides: ends of the word, its edges, those of the band, metres.
+    sign: Vec3,
+    word: [f32; 2],
+    word_heights: [f32; 2],
+    band: [f32; 2],
+    letters: u32,
     seats: [f32; 2],
     dirt: f32,
     /// Share of light lost where paint is seen along.
@@ -60,6 +68,7 @@ pub(super) struct Coach {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Sheet,
+    Cargo,
     Glass,
     Other,
 }
@@ -76,7 +85,7 @@ impl Coach {
     ) -> Self {
         let (mirror, glow, kind) = match region {
             Region::Paint => (1.0, 0.0, Kind::Sheet),
-            Region::Cargo => (0.5, 0.0, Kind::Other),
+            Region::Cargo => (0.5, 0.0, Kind::Cargo),
             Region::Glass => (1.7, 0.0, Kind::Glass),
             Region::Metal => (4.0, 0.0, Kind::Other),
             Region::HeadLamp => (1.6, 2.4, Kind::Other),
@@ -84,7 +93,8 @@ impl Coach {
             Region::Trim => (0.3, 0.0, Kind::Other),
             _ => (0.0, 0.0, Kind::Other),
         };
-        let (size_m, [inner, low, high]) = (fittings.size_m, fittings.tail_lamps);
+        let (size_m, [inner, low, high], [red, green, blue]) =
+            (fittings.size_m, fittings.tail_lamps, fittings.sign.colour);
         let along_m = |x: f64| (x * size_m.x) as f32;
         Self {
             colour,
@@ -107,6 +117,11 @@ impl Coach {
             half_length_m: (0.5 * size_m.x) as f32,
             tail_lamps: [(0.5 * inner * size_m.y) as f32, (low * size_m.z) as f32, (high * size_m.z) as f32],
             glow: night,
+            sign: Vec3::new(red, green, blue),
+            word: fittings.sign.word.map(along_m),
+            word_heights: fittings.sign.heights.map(|z| (z * size_m.z) as f32),
+            band: fittings.sign.band.map(|z| (z * size_m.z) as f32),
+            letters: fittings.sign.letters,
             skirt_m: (fittings.skirt * size_m.z) as f32,
             rear_plate_m: (fittings.rear_plate * size_m.z) as f32,
             seats: fittings.seats.map(along_m),
@@ -173,6 +188,30 @@ impl Coach {
         [most(within(self.skirt_m - own.z) * at_end, 0.85 * recess), badge]
     }
 
+    /// Share of a pixel that the sign on the sides takes; `aside` is 1 on a side.
+    #[inline(always)]
+    fn signed(&self, own: Vec3, aside: f32, footprint_m: f32) -> f32 {
+        let per_reach = 1.0 / (0.01 + footprint_m);
+        let within = |away_m: f32| share(0.5 + away_m * per_reach);
+        let (word, [low, high]) = (self.word, self.word_heights);
+        let letter_m = 0.8 * (high - low);
+        // On the left, words run backwards.
+        let from_m = if own.y < 0.0 { word[1] - own.x } else { own.x - word[0] };
+        let [u, v] = [from_m / letter_m, (own.z - low) / (high - low)];
+        let letter = floor_int(u);
+        let (bits, u) = (hash(self.letters, letter as u32), u - letter as f32);
+        let has = |bit: u32| one_if((bits >> bit) & 1 == 1);
+        let bar = |at: f32, place: f32, length_m: f32| within((0.11 - (at - place).abs()) * length_m);
+        let stems = most(bar(u, 0.13, letter_m), bar(u, 0.67, letter_m) * has(3));
+        let bars = [bar(v, 0.89, letter_m) * has(4), bar(v, 0.5, letter_m) * has(5), bar(v, 0.11, letter_m) * has(6)];
+        let across = within(most(0.78 - u, 0.0) * letter_m) * one_if(u < 0.78);
+        let strokes = most(stems, most(bars[0], most(bars[1], bars[2])) * across);
+        let is_whole = one_if((letter + 1) as f32 * letter_m < word[1] - word[0]);
+        let inside = within(own.x - word[0]) * within(word[1] - own.x) * within(own.z - low) * within(high - own.z);
+        let band = within(own.z - self.band[0]) * within(self.band[1] - own.z);
+        most(strokes * inside * is_whole, band) * aside
+    }
+
     /// Light sent back from seats behind glass: where a ray meets their upper ends.
     #[inline(always)]
     fn seats(&self, own: Vec3, ray: Vec3) -> f32 {
@@ -195,6 +234,7 @@ simd_kernel! {
         let look = *look;
         match look.kind {
             Kind::Sheet => sheet(shared, blocks, &look, noise),
+            Kind::Cargo => cargo(shared, blocks, &look),
             Kind::Glass => glass(shared, blocks, &look),
             Kind::Other => even(blocks, &look),
         }
@@ -227,11 +267,44 @@ fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTex
                 let lamp = look.tail_lamp(own, footprint_m[k]);
                 let [plastic, badge] = look.fascia(own, footprint_m[k]);
                 let paint = look.colour.lerp(DUST, share(dust)) * shade;
+                let paint = paint.lerp(look.sign, look.signed(own, aside, footprint_m[k]));
                 let paint = paint.lerp(PLASTIC, plastic).lerp(BADGE, badge);
                 set(&mut block.albedo, k, paint.lerp(TAIL_LAMP, lamp));
                 set(&mut block.emission, k, TAIL_LAMP * (lamp * look.glow * TAIL_GLOW));
                 block.mirror[k] =
                     look.mirror * (1.0 - gap) * (1.0 - 0.7 * share(dust)) * (1.0 - 0.7 * plastic) + 0.6 * lamp + badge;
+            }
+        }
+    }
+}
+
+/// The box of a lorry: its sign, seams of its walls, bars of its doors, tape that shines along its lower edge.
+#[inline(always)]
+fn cargo(shared: &[Shared], blocks: &mut [Block], look: &Coach) {
+    for (shared, four) in groups(shared, blocks) {
+        let mut footprint_m = [0.0; WIDE];
+        for k in 0..WIDE {
+            let way = get(&shared.middle, k) - look.eye;
+            footprint_m[k] = look.pixel * way.dot(way).sqrt() * 1.5;
+        }
+        for block in four {
+            for k in 0..WIDE {
+                let point = block.point(shared, k);
+                let (own, wide_m) = (look.own(point.world), footprint_m[k]);
+                let along = point.normal.dot(look.along).abs();
+                let aside = point.normal.dot(look.side).abs();
+                let seams = stripes(own.x / 1.22, 0.0, 0.016, wide_m / 1.22) * aside;
+                let across = own.y.abs() / look.half_width_m;
+                let [inner, outer] = [0.30, 0.72].map(|at| band(across, at, at + 0.035, wide_m / look.half_width_m));
+                let bars = (inner + outer) * along;
+                let tape_m = own.z - 0.315 * look.height_m;
+                let dashes = stripes(own.x + own.y, 0.0, 0.5, wide_m);
+                let tape = band(tape_m, -0.03, 0.03, wide_m) * (along + aside) * dashes;
+                let wall = look.colour * (1.0 - 0.45 * seams);
+                let wall = wall.lerp(look.sign, look.signed(own, aside, wide_m)).lerp(BADGE, share(bars));
+                set(&mut block.albedo, k, wall.lerp(TAPE, share(tape)));
+                set(&mut block.emission, k, look.emission);
+                block.mirror[k] = look.mirror;
             }
         }
     }
