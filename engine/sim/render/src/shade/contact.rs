@@ -23,7 +23,7 @@ pub(super) fn contact(level: Level, shared: &[Shared], blocks: &mut [Block], wal
             // Two-wheelers touch the ground along a line.
             let width = if size_m.y < 1.0 { 0.15 } else { 1.0 };
             let half_m = [0.5 * size_m.x as f32, 0.5 * width * size_m.y as f32];
-            Footprint { feet, along: [cos as f32, sin as f32], half_m, reach_m: 0.55, taken: 0.85 }
+            Footprint { feet, along: [cos as f32, sin as f32], half_m, reach_m: 0.79, taken: 0.75 }
         }
     };
     darken(level, shared, blocks, &footprint);
@@ -107,9 +107,9 @@ mod tests {
 
     #[test]
     fn ground_is_darker_from_pixel_to_pixel_towards_a_car() {
-        let open = openness(&[[2.6, 0.0], [2.5, 0.0], [2.4, 0.0], [2.3, 0.0]]);
+        let open = openness(&[[2.9, 0.0], [2.7, 0.0], [2.5, 0.0], [2.3, 0.0]]);
         assert!(open.windows(2).all(|pair| pair[0] > pair[1] + 0.01), "{open:?}");
-        assert!((openness(&[[0.0, 0.0]; FOUR])[0] - 0.15).abs() < 1e-6);
+        assert!((openness(&[[0.0, 0.0]; FOUR])[0] - 0.25).abs() < 1e-6);
         assert_eq!(openness(&[[0.0, 1.8], [0.0, 2.0], [3.1, 0.0], [-3.1, 0.0]]), [1.0; FOUR]);
         // Of a wide four, only the end is near.
         let open = openness(&[[12.0, 0.0], [9.0, 0.0], [6.0, 0.0], [2.4, 0.0]]);
