@@ -6,6 +6,7 @@
 //! and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
 //! the lamps each place of a town sees. [`season`] turns leaves and lawns.
 
+pub mod dry_days;
 pub mod facade;
 pub mod grid;
 pub mod ground;
@@ -24,5 +25,6 @@ pub mod roof_steps;
 pub mod season;
 pub mod surface;
 pub mod things;
+pub mod tone;
 pub mod vector;
 pub mod weather;

@@ -1,13 +1,13 @@
 //! Parameters of a recipe's pictures: renderer, camera, effects, weathers.
 
 use crate::cameras::{CameraConfig, GimbalConfig};
-use crate::dry_days;
 use crate::effects::Effects;
 use crate::look::PictureLook;
 use cosfly_domain::{
     Camera, ChannelSet, Lens, LensModel, MotionBlur, Mount, Noise, RollingShutter, Season, StereoEye, Weather,
 };
 use cosfly_frames::{DVec3, Seed};
+use cosfly_materials::dry_days;
 use cosfly_materials::weather::WeatherRanges;
 use cosfly_models::ModelConfig;
 use cosfly_models::mesh::MeshConfig;

@@ -9,7 +9,6 @@ mod body_bounds;
 mod buildings;
 mod cameras;
 pub mod config;
-mod dry_days;
 pub mod effects;
 mod faces;
 mod far_light;

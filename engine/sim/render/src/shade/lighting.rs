@@ -2,12 +2,12 @@
 
 use super::geometry::View;
 use super::outskirts::{self, Outskirts, Sight};
-use super::tone::ToneCurve;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::grid::{GridFrame, GridTables};
 use cosfly_materials::lanes::{Block, FOUR, PendingFours, Shared, WIDE, get, groups, set};
 use cosfly_materials::light::Light;
 use cosfly_materials::pattern::{NoiseTexture, Noises, least, lerp, most, share, smoothstep};
+use cosfly_materials::tone::ToneCurve;
 use cosfly_materials::vector::Vec3;
 
 /// Rays that rise or fall by less (sine of the angle) may have others beside them on the other side of the horizon.

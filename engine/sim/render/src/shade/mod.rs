@@ -32,4 +32,3 @@ mod sun_map;
 pub(crate) mod sun_tiles;
 mod sun_window;
 mod sunlight;
-pub mod tone;

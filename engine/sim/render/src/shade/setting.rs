@@ -2,7 +2,6 @@
 
 use super::geometry::View;
 use super::shadow::Shadows;
-use super::tone::ToneCurve;
 use crate::faces::DrawnFace;
 use crate::look::PictureLook;
 use crate::people::People;
@@ -12,6 +11,7 @@ use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose};
 use cosfly_materials::light::Light;
 use cosfly_materials::pattern::hash;
+use cosfly_materials::tone::ToneCurve;
 use cosfly_materials::vector::Vec3;
 use cosfly_raster::eye::Eye;
 use cosfly_raster::visibility::{Screen, Visibility};

@@ -2,12 +2,12 @@
 //! shadows, textures or smooth edges. Colours are worked out once for four pixels; windows for each.
 
 use super::geometry::View;
-use super::tone::ToneCurve;
 use cosfly_domain::SemanticLabel;
 use cosfly_frames::simd_kernel;
 use cosfly_materials::facade::{BoxFace, Facade};
 use cosfly_materials::lanes::{Block, FOUR, PendingFours, Shared, StageRow, WIDE, get, groups, three_of, write_three};
 use cosfly_materials::light::Light;
+use cosfly_materials::tone::ToneCurve;
 use cosfly_materials::vector::Vec3;
 
 /// The albedo of ground.

@@ -1,7 +1,7 @@
 //! From linear light to sRGB bytes: a filmic curve and gamma, through one table.
 
-use cosfly_materials::pattern::{fixed_size, least, most};
-use cosfly_materials::vector::Vec3;
+use crate::pattern::{fixed_size, least, most};
+use crate::vector::Vec3;
 
 /// Entries of the table: 128 for each doubling of light, so darkness is as fine-grained as brightness.
 const ENTRIES: usize = 2048;

@@ -1,11 +1,11 @@
 //! Days that pictures of scans can show: the light of a scan is in its colours.
 
+use crate::presets::{PRESETS, preset};
+use crate::weather::WeatherRanges;
 use cosfly_domain::Season;
-use cosfly_materials::presets::{PRESETS, preset};
-use cosfly_materials::weather::WeatherRanges;
 
 /// The key of a stage that pictures of the scan under `scan` cannot follow, what is wrong with it, and what is allowed.
-pub(crate) fn refusal(
+pub fn refusal(
     scan: &str,
     weathers: &[String],
     ranges: &WeatherRanges,
