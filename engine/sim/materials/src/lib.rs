@@ -8,6 +8,7 @@
 
 pub mod dry_days;
 pub mod facade;
+pub mod far_light;
 pub mod grid;
 pub mod ground;
 pub mod kerbs;

@@ -1,9 +1,9 @@
 //! Bounds of a body and of all that it may darken or light, in the world and on the screen.
 
-use crate::far_light::FarLight;
 use crate::shade::headlights;
 use cosfly_figures::Walker;
 use cosfly_frames::{DVec2, DVec3};
+use cosfly_materials::far_light::FarLight;
 use cosfly_raster::eye::Eye;
 use cosfly_raster::nearer::Nearer;
 use cosfly_raster::visibility::{NEAR_M, Screen};

@@ -11,7 +11,6 @@ mod cameras;
 pub mod config;
 pub mod effects;
 mod faces;
-mod far_light;
 mod found;
 pub mod frame;
 mod ground_polygons;

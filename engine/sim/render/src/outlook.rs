@@ -1,10 +1,10 @@
 //! People who may change a picture, told without drawing it.
 
 use crate::body_bounds::Bounds;
-use crate::far_light::FarLight;
 use cosfly_domain::{Camera, Weather};
 use cosfly_figures::Walker;
 use cosfly_frames::{DVec3, Pose};
+use cosfly_materials::far_light::FarLight;
 use cosfly_raster::eye::Eye;
 use cosfly_raster::visibility::Screen;
 

@@ -1,7 +1,6 @@
 //! The people of a frame: who of them can be seen, or throws a shadow that can, and their figures.
 
 use crate::body_bounds::{Bounds, Reach};
-use crate::far_light::FarLight;
 use crate::found::BodyPart;
 use crate::setup::FrameSetup;
 use cosfly_domain::{ObstacleKind, SemanticLabel, TARGET_INSTANCE};
@@ -9,6 +8,7 @@ use cosfly_figures::{
     BodyShape, Bystander, Clothes, FigureTriangle, Fittings, Livery, Region, Walker, Wardrobe, figure,
 };
 use cosfly_frames::{DVec3, real};
+use cosfly_materials::far_light::FarLight;
 use cosfly_materials::vector::Vec3;
 use cosfly_raster::eye::Eye;
 use cosfly_raster::nearer::Nearer;

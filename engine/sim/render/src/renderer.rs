@@ -7,7 +7,6 @@ mod mesh;
 mod splats;
 
 use crate::faces::{DrawnFace, FaceSource, box_lift};
-use crate::far_light::FarLight;
 use crate::frame::RenderedFrame;
 use crate::look::PictureLook;
 use crate::passes::ids::{SeenRuns, for_each_band};
@@ -28,6 +27,7 @@ use cosfly_domain::{
 use cosfly_figures::Region;
 use cosfly_frames::simd::Level;
 use cosfly_frames::{DVec3, Pose};
+use cosfly_materials::far_light::FarLight;
 use cosfly_materials::parts::BOX_FACES;
 use cosfly_optics::Glass;
 use cosfly_raster::eye::Eye;

@@ -1,11 +1,11 @@
 //! Colours alone, of a picture whose faces were found elsewhere.
 
 use super::Renderer;
-use crate::far_light::FarLight;
 use crate::found::{Adoption, FoundPicture};
 use crate::look::PictureLook;
 use crate::scene::Scene;
 use crate::setup::FrameSetup;
+use cosfly_materials::far_light::FarLight;
 use cosfly_raster::eye::Eye;
 
 impl Renderer {

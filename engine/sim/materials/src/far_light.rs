@@ -1,12 +1,12 @@
 //! Light by which a body changes what lies away from it: the sun's, and that of its lamps.
 
+use crate::light::Light;
 use cosfly_domain::Weather;
 use cosfly_frames::DVec3;
-use cosfly_materials::light::Light;
 
 /// Light by which a body changes what lies away from it.
 #[derive(Clone, Copy)]
-pub(crate) struct FarLight {
+pub struct FarLight {
     /// Direction to the sun, or to the moon at night; unit length, above the horizon.
     pub to_sun: DVec3,
     /// Whether vehicles have their lamps on.
