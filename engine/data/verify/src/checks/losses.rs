@@ -94,6 +94,7 @@ mod tests {
                 losses,
                 extent: None,
                 expert: None,
+                film: None,
             };
             check(&it, &mut report);
             report.findings.len()
