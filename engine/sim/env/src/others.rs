@@ -294,7 +294,7 @@ mod tests {
         let mut stream = Seed::of_item(1, "others", "left out").stream("t");
         let mut place = |most_m: f64| DVec3::new(stream.uniform(-most_m, most_m), stream.uniform(-most_m, most_m), 0.0);
         let body = |number: u32| {
-            let (kind, size_m) = if number % 5 == 0 {
+            let (kind, size_m) = if number.is_multiple_of(5) {
                 (BodyKind::Car, DVec3::new(4.5, 1.9, 1.5))
             } else {
                 (BodyKind::Pedestrian, DVec3::new(0.5, 0.5, 1.7))

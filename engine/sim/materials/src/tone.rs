@@ -18,12 +18,14 @@ pub struct ToneCurve {
     pub gains: Vec3,
 }
 
-impl ToneCurve {
+impl Default for ToneCurve {
     /// The film curve.
-    pub fn new() -> Self {
+    fn default() -> Self {
         Self::with_contrast(0.0)
     }
+}
 
+impl ToneCurve {
     /// The film curve, steepened by the share `contrast` of an S; gains stay.
     pub fn set_contrast(&mut self, contrast: f32) {
         if contrast != self.contrast {
@@ -71,7 +73,7 @@ mod tests {
 
     #[test]
     fn brighter_light_is_never_a_darker_byte() {
-        let mut curve = ToneCurve::new();
+        let mut curve = ToneCurve::default();
         curve.set_contrast(1.0);
         assert!(curve.bytes.windows(2).all(|pair| pair[0] <= pair[1]));
         curve.set_contrast(0.0);

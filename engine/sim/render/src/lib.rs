@@ -26,7 +26,6 @@ mod people;
 mod props;
 pub mod renderer;
 mod rig;
-mod scan_light;
 pub mod scene;
 mod scene_mesh;
 mod scene_splats;

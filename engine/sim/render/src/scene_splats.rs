@@ -1,8 +1,8 @@
 //! Splats of a scene: the colours of a scan over the geometry of a town, and bodies among them.
 
-use crate::scan_light::Curve;
 use cosfly_domain::Camera;
 use cosfly_frames::{DVec3, Pose, real};
+use cosfly_materials::scan_light::CodeCurve;
 use cosfly_splats::{Placement, SplatCloud, SplatRenderer, SplatView, SplatsConfig, SplatsProblem};
 
 /// Splats this little before a body do not cover it, metres: ground that was measured a little too high leaves feet free.
@@ -33,7 +33,7 @@ impl SceneSplats {
 #[derive(Default)]
 pub(crate) struct Composer {
     renderer: SplatRenderer,
-    curve: Option<Box<Curve>>,
+    curve: Option<Box<CodeCurve>>,
     /// Depth of bodies by pixel, metres; infinite elsewhere.
     pub limit_m: Vec<f32>,
     /// Share of its light that each pixel has left in the shadow of bodies; empty: all of it.
@@ -61,7 +61,7 @@ impl Composer {
         let both = picture.depth_m.iter().zip(depth_m).zip(&self.limit_m).step_by(BETWEEN_LOOKS);
         let both = both.filter(|((own, there), limit)| own.is_finite() && there.is_finite() && limit.is_infinite());
         self.off_m.extend(both.map(|((own, there), _)| (own - there).abs()));
-        let curve = self.curve.get_or_insert_with(|| Box::new(Curve::new()));
+        let curve = self.curve.get_or_insert_with(|| Box::new(CodeCurve::default()));
         let seen = picture.colour.iter().zip(&picture.transmittance);
         for (pixel, (rgb, (colour, light))) in rgb.as_chunks_mut::<3>().0.iter_mut().zip(seen).enumerate() {
             let factor = splats.exposure * self.lit.get(pixel).copied().unwrap_or(1.0);

@@ -2,6 +2,7 @@
 
 use super::draws;
 use super::family::{Family, SIGNS, between, chance};
+use crate::parts::SceneBox;
 use crate::pattern::{NoiseLevel, NoiseTexture, Noises, band, draw, hash, one_if, smoothstep, stripes};
 use crate::surface::{Look, SurfacePoint};
 use crate::vector::Vec3;
@@ -11,6 +12,11 @@ pub(super) const GRAIN_PER_M: f32 = 14.0;
 /// Height of the darker foot of a wall, and of its cornice, metres.
 const FOOT_M: f32 = 2.2;
 const CORNICE_M: f32 = 0.45;
+
+/// Half the width and height of a wall below which no window is in it, metres.
+const SMALLEST_HALF_M: f32 = 0.8;
+/// A part of a building whose foot is higher than this above the foot of the whole does not stand in the street, metres.
+const IN_STREET_M: f32 = 2.0;
 
 /// Properties of a whole facade.
 #[derive(Clone, Copy, Debug)]
@@ -45,10 +51,9 @@ pub struct Facade {
     pub(super) age: f32,
     /// Share of the columns of bays that have balconies.
     pub(super) balconies: f32,
-    /// Whether shops are in the street floor.
-    pub shops: bool,
+    pub(super) shops: bool,
     /// Whether the wall stands in the street: doors are there.
-    pub has_doors: bool,
+    pub(super) has_doors: bool,
     pub(super) height_m: f32,
     pub(super) shift: f32,
 }
@@ -94,6 +99,19 @@ impl Facade {
             has_doors: true,
             height_m,
             shift: 200.0 * draw(seed, draws::SHIFT),
+        }
+    }
+
+    /// The facade of an upright face of a building's box: of the whole building's kind.
+    pub fn of_box(b: &SceneBox, face: usize, half_width_m: f32) -> Self {
+        let ([middle, half_whole], half_m) = (b.whole, b.half_extents_m.z);
+        let look = Self::new(b.seed, b.town, face as u32, [2.0 * half_width_m, 2.0 * half_m], 2.0 * half_whole.z);
+        if half_width_m.min(half_m) < SMALLEST_HALF_M {
+            look.bare()
+        } else if b.center_in_world.z as f32 - half_m > middle.z - half_whole.z + IN_STREET_M {
+            look.above_street()
+        } else {
+            look
         }
     }
 
@@ -173,5 +191,32 @@ impl Facade {
     pub(super) fn is_middle(&self, point: &SurfacePoint, up_m: f32) -> bool {
         let dv = point.footprints_m[1];
         (up_m - dv > FOOT_M) & (up_m + dv < self.height_m - CORNICE_M)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parts::{boxes_of, join_wholes};
+    use cosfly_domain::{Obstacle, ObstacleKind, OrientedBox, Town};
+    use cosfly_frames::DVec3;
+
+    #[test]
+    fn boxes_of_a_building_have_one_wall_and_doors_in_the_street_alone() {
+        let part = |low: DVec3, high: DVec3, object_id| Obstacle {
+            shape: OrientedBox::from_corners(low, high),
+            kind: ObstacleKind::Building,
+            object_id,
+            synthetic: false,
+        };
+        for object_id in 0..40 {
+            let attic = part(DVec3::new(2.0, 2.0, 18.0), DVec3::new(18.0, 8.0, 21.0), object_id);
+            let obstacles = vec![part(DVec3::ZERO, DVec3::new(20.0, 10.0, 18.0), object_id), attic];
+            let mut boxes = boxes_of(&Town { obstacles, ..Town::default() }, 7);
+            join_wholes(&mut boxes);
+            let [lower, upper] = [0, 1].map(|number: usize| Facade::of_box(&boxes[number], 2, 10.0));
+            assert_eq!(lower.wall_colour(), upper.wall_colour());
+            assert!(lower.has_doors && !upper.has_doors && !upper.shops);
+        }
     }
 }

@@ -3,12 +3,12 @@
 use super::Renderer;
 use crate::faces::{DrawnFace, FaceSource, ground_lift};
 use crate::passes::ids::Run;
-use crate::scan_light::Curve;
 use crate::scene::Scene;
 use crate::scene_mesh::{MeshCluster, SceneMesh};
 use crate::setup::FrameSetup;
 use cosfly_domain::SemanticLabel;
 use cosfly_frames::DVec3;
+use cosfly_materials::scan_light::CodeCurve;
 use cosfly_models::mesh::{MeshTriangle, TexturedMesh};
 use cosfly_raster::eye::Eye;
 use cosfly_raster::visibility::{NEAR_M, PlaneOnScreen, Screen, bounds};
@@ -109,7 +109,7 @@ impl Renderer {
         let eye = Eye::new(&setup.pose);
         let Self { runs, faces, images, composer, screen, parallel, .. } = self;
         let (faces, lit, screen) = (&*faces, &composer.lit, *screen);
-        let curve = Curve::new();
+        let curve = CodeCurve::default();
         let fill = |row: usize, runs: &[Run], rgb: &mut [u8]| {
             for run in runs {
                 let Some(DrawnFace { source: FaceSource::Mesh { triangle }, plane, .. }) = faces.get(run.face as usize)

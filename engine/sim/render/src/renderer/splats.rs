@@ -4,11 +4,11 @@ use super::Renderer;
 use crate::faces::FaceSource;
 use crate::look::PictureLook;
 use crate::people::Person;
-use crate::scan_light::lit_shares;
 use crate::scene::Scene;
 use crate::scene_splats::BEFORE_BODIES_M;
 use crate::setup::FrameSetup;
 use cosfly_figures::Walker;
+use cosfly_materials::scan_light::lit_shares;
 
 impl Renderer {
     /// Median distance along the optical axis between the scene's splats and its geometry in the last frame, metres; none without

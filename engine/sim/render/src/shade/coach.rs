@@ -283,14 +283,14 @@ fn sheet(shared: &[Shared], blocks: &mut [Block], look: &Coach, noise: &NoiseTex
 fn cargo(shared: &[Shared], blocks: &mut [Block], look: &Coach) {
     for (shared, four) in groups(shared, blocks) {
         let mut footprint_m = [0.0; WIDE];
-        for k in 0..WIDE {
+        for (k, wide_m) in footprint_m.iter_mut().enumerate() {
             let way = get(&shared.middle, k) - look.eye;
-            footprint_m[k] = look.pixel * way.dot(way).sqrt() * 1.5;
+            *wide_m = look.pixel * way.dot(way).sqrt() * 1.5;
         }
         for block in four {
-            for k in 0..WIDE {
+            for (k, wide_m) in footprint_m.into_iter().enumerate() {
                 let point = block.point(shared, k);
-                let (own, wide_m) = (look.own(point.world), footprint_m[k]);
+                let own = look.own(point.world);
                 let along = point.normal.dot(look.along).abs();
                 let aside = point.normal.dot(look.side).abs();
                 let seams = stripes(own.x / 1.22, 0.0, 0.016, wide_m / 1.22) * aside;

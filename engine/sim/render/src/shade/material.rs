@@ -34,11 +34,6 @@ pub(super) enum Material {
 /// Ground that a mesh is shaded as: its own colours come over it, darker where bodies darken that ground.
 pub(super) const UNDER_A_SCAN: SemanticLabel = SemanticLabel::Ground;
 
-/// Half the width and height of a wall below which no window is in it, metres.
-const SMALLEST_HALF_M: f32 = 0.8;
-/// A part of a building whose foot is higher than this above the foot of the whole does not stand in the street, metres.
-const IN_STREET_M: f32 = 2.0;
-
 /// The axes of flat ground.
 pub(super) const FLAT: FaceAxes = FaceAxes { along: Vec3::new(1.0, 0.0, 0.0), up: Vec3::new(0.0, 1.0, 0.0) };
 
@@ -87,15 +82,7 @@ pub(super) fn box_material(b: &SceneBox, face: usize, night: f32) -> Material {
         Material::Roof(Roof::new(b.seed, center, axes, [half.x, half.y], b.roof_goes_on))
     } else {
         let half_width = if axis == 0 { half.y } else { half.x };
-        let [middle, half_whole] = b.whole;
-        let look = Facade::new(b.seed, b.town, face as u32, [2.0 * half_width, 2.0 * half.z], 2.0 * half_whole.z);
-        let look = if half_width.min(half.z) < SMALLEST_HALF_M {
-            look.bare()
-        } else if center.z - half.z > middle.z - half_whole.z + IN_STREET_M {
-            look.above_street()
-        } else {
-            look
-        };
+        let look = Facade::of_box(b, face, half_width);
         let edge_m = center.dot(Vec3::new(along.x, along.y, 0.0)) - half_width;
         Material::Facade(look, BoxFace { along, edge_m, foot_m: center.z - half.z })
     }
@@ -156,36 +143,6 @@ impl Material {
                 _ => matt,
             },
             Self::Sky | Self::Even | Self::Cloth | Self::Leaves | Self::Skin(_) | Self::Tiles(_) => matt,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use cosfly_domain::{Obstacle, OrientedBox, Town};
-    use cosfly_frames::DVec3;
-    use cosfly_materials::parts::{boxes_of, join_wholes};
-
-    #[test]
-    fn boxes_of_a_building_have_one_wall_and_doors_in_the_street_alone() {
-        let part = |low: DVec3, high: DVec3, object_id| Obstacle {
-            shape: OrientedBox::from_corners(low, high),
-            kind: ObstacleKind::Building,
-            object_id,
-            synthetic: false,
-        };
-        for object_id in 0..40 {
-            let attic = part(DVec3::new(2.0, 2.0, 18.0), DVec3::new(18.0, 8.0, 21.0), object_id);
-            let obstacles = vec![part(DVec3::ZERO, DVec3::new(20.0, 10.0, 18.0), object_id), attic];
-            let mut boxes = boxes_of(&Town { obstacles, ..Town::default() }, 7);
-            join_wholes(&mut boxes);
-            let [lower, upper] = [0, 1].map(|number: usize| match box_material(&boxes[number], 2, 0.0) {
-                Material::Facade(look, _) => look,
-                _ => panic!("a wall is a facade"),
-            });
-            assert_eq!(lower.wall_colour(), upper.wall_colour());
-            assert!(lower.has_doors && !upper.has_doors && !upper.shops);
         }
     }
 }

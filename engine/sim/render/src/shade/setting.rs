@@ -51,7 +51,7 @@ impl Setting {
             haze: Vec3::ZERO,
             shadows: Shadows::new(),
             exposure: 1.0,
-            tone: ToneCurve::new(),
+            tone: ToneCurve::default(),
         }
     }
 

@@ -3,8 +3,8 @@
 use cosfly_frames::real;
 
 /// Light of pixels without the shadows of bodies, and with them, as shares of the first.
-pub(crate) fn lit_shares(without: &[u8], with: &[u8], lit: &mut Vec<f32>) {
-    let curve = Curve::new();
+pub fn lit_shares(without: &[u8], with: &[u8], lit: &mut Vec<f32>) {
+    let curve = CodeCurve::default();
     let light: [f32; 256] = core::array::from_fn(|code| curve.decoded(code as f32 / 255.0));
     let sum = |rgb: &[u8; 3]| rgb.iter().map(|code| light[usize::from(*code)]).sum::<f32>();
     let pixels = without.as_chunks::<3>().0.iter().zip(with.as_chunks::<3>().0);
@@ -20,13 +20,13 @@ pub(crate) fn lit_shares(without: &[u8], with: &[u8], lit: &mut Vec<f32>) {
 const STEPS: usize = 4096;
 
 /// The curve between sRGB codes and light, both 0 to 1.
-pub(crate) struct Curve {
+pub struct CodeCurve {
     light: [f32; STEPS + 1],
     code: [f32; STEPS + 1],
 }
 
-impl Curve {
-    pub fn new() -> Self {
+impl Default for CodeCurve {
+    fn default() -> Self {
         let at = |step: usize| step as f64 / STEPS as f64;
         let light = |code: f64| {
             if code <= 0.04045 { code / 12.92 } else { real::powf((code + 0.055) / 1.055, 2.4) }
@@ -39,7 +39,9 @@ impl Curve {
             code: core::array::from_fn(|step| code(at(step)) as f32),
         }
     }
+}
 
+impl CodeCurve {
     /// Light of a code.
     pub fn decoded(&self, code: f32) -> f32 {
         between(&self.light, code)
@@ -64,7 +66,7 @@ mod tests {
 
     #[test]
     fn half_the_light_is_half_the_light_whatever_the_code() {
-        let curve = Curve::new();
+        let curve = CodeCurve::default();
         for code in [0.02, 0.3, 0.9] {
             let light = curve.decoded(code);
             assert!((curve.encoded(light) - code).abs() < 2e-4, "{code}");
