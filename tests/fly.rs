@@ -229,6 +229,8 @@ fn a_result_is_one_file_whose_actions_come_to_the_same_rows() {
         let printed = verify(name, &[]);
         (printed.code, printed.stdout + &printed.stderr)
     };
+    let (code, said) = changed("older.zst", &|bundle| bundle.card.cosfly = "0.0.9".to_owned());
+    assert!(code == Some(0) && said.contains("flown by cosfly 0.0.9 before"), "{said}");
     let last = bundle.episodes[0].steps.len() - 1;
     let (code, text) = changed("action", &|it| {
         let action = it.episodes[0].steps[4].action.as_mut().expect("an action");

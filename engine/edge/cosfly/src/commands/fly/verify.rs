@@ -85,6 +85,10 @@ impl Arguments {
         if differ.len() > SHOWN {
             let _ = writeln!(text, "  and {} more", differ.len() - SHOWN);
         }
+        let here = env!("CARGO_PKG_VERSION");
+        if bundle.card.cosfly != here {
+            let _ = writeln!(text, "  flown by cosfly {} before, by cosfly {here} now", bundle.card.cosfly);
+        }
         console.print(&text)?;
         Ok(if differ.is_empty() { exit::SUCCESS } else { exit::FOUND_PROBLEMS })
     }
