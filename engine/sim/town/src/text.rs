@@ -25,7 +25,9 @@ pub fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, MapError> {
             let text = core::str::from_utf8(&bytes[..good]).unwrap_or_default();
             let place = LineStarts::new(text).place(good..good + 1, String::new());
             let message = format!("byte 0x{:02x} is not UTF-8 text", bytes[good]);
-            Err(MapError::new(message).at(place).hint("save the file as UTF-8, or check that it is an XML file"))
+            Err(MapError::new(message)
+                .at(place)
+                .hint("save the file as UTF-8; a file that is no text is of a format that is not read here"))
         }
     }
 }

@@ -14,7 +14,11 @@ use std::collections::{BTreeMap, BTreeSet};
 const MOST_CORNERS: usize = 10_000;
 
 pub(super) fn read(bytes: &[u8], beside: &[(String, Vec<u8>)], place: &MeshPlace) -> Result<TexturedMesh, MapError> {
-    let text = decoded(bytes)?;
+    let no_mesh = |what: &str| {
+        let error = MapError::new(format!("the file is neither glTF nor OBJ: it {what}"));
+        error.hint("export the mesh as GLB, or as OBJ with its materials")
+    };
+    let text = decoded(bytes).map_err(|error| no_mesh(&format!("is no text ({})", error.message)))?;
     let builder = Builder::new("OBJ", place);
     let mut reader = Reader {
         builder,
@@ -44,8 +48,7 @@ pub(super) fn read(bytes: &[u8], beside: &[(String, Vec<u8>)], place: &MeshPlace
         })?;
     }
     if !reader.is_mesh {
-        let error = MapError::new("the file is neither glTF nor OBJ: it has no line of corners");
-        return Err(error.hint("export the mesh as GLB, or as OBJ with its materials"));
+        return Err(no_mesh("has no line of corners"));
     }
     Ok(reader.builder.mesh)
 }
@@ -230,5 +233,8 @@ mod tests {
         let error = read("v 0 0 0\nv 1 0 0\nf 1 2 3\n", &[]).expect_err("refused");
         assert!(error.message.contains("line 3"), "{error}");
         assert!(read("hello", &[]).expect_err("refused").message.contains("neither glTF nor OBJ"));
+        let place = MeshConfig::new("scan.obj").place(DVec3::ZERO).expect("a place");
+        let picture = TexturedMesh::read(b"\x89PNG\r\n\x1a\n", &[], &place).expect_err("refused");
+        assert!(picture.message.contains("neither glTF nor OBJ: it is no text"), "{picture}");
     }
 }
