@@ -6,6 +6,10 @@ use crate::frustum::{Surface, ring};
 use crate::region::Region;
 use cosfly_frames::{DVec3, real};
 
+/// Size of the box that a person who sits is made for, and height of that person when standing, metres.
+pub(super) const SEATED_M: DVec3 = DVec3::new(1.05, 0.65, 1.32);
+const STANDING_M: f64 = 1.72;
+
 /// Sizes that the shares of both vehicles are made for, metres.
 const BICYCLE_M: DVec3 = DVec3::new(1.80, 0.65, 1.75);
 const MOTORCYCLE_M: DVec3 = DVec3::new(2.10, 0.80, 1.60);
@@ -156,6 +160,16 @@ fn handlebar(model: &mut Model<'_>, x_m: f64, z_m: f64, thick_m: f64) {
 /// Forearms, bare or covered.
 pub(super) fn forearm(clothes: &Clothes) -> Region {
     if clothes.short_sleeves { Region::Skin } else { Region::Top }
+}
+
+/// Somebody who sits on what stands on the ground, in a box that was made for [`SEATED_M`]. Places of the seat are shares of the height of
+/// the person when standing: the surface is that of somebody who stands so deep that the head reaches the top of the box.
+pub(super) fn seated(model: &mut Model<'_>, seat: &Seat, clothes: &Clothes) {
+    let stretch = model.size_m.z / SEATED_M.z;
+    let mut person = model.rider(SEATED_M);
+    person.feet -= DVec3::Z * ((STANDING_M - SEATED_M.z) * stretch);
+    person.height = STANDING_M * stretch;
+    rider(&mut person, seat, forearm(clothes));
 }
 
 /// Somebody who sits; the head reaches the top of the box.

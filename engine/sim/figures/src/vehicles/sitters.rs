@@ -1,15 +1,10 @@
 //! People who sit on a chair.
 
 use super::model::Model;
-use super::riders::{Seat, forearm, rider};
+use super::riders::{SEATED_M, Seat, seated};
 use crate::Clothes;
-use crate::frustum::Surface;
 use crate::region::Region;
 use cosfly_frames::DVec3;
-
-/// Size that the lengths are made for, and height of the person when standing, metres.
-const SEATED_M: DVec3 = DVec3::new(1.05, 0.65, 1.32);
-const STANDING_M: f64 = 1.72;
 
 /// A person on a chair of wood and steel, who looks ahead.
 pub(super) fn sitter(model: &mut Model<'_>, clothes: &Clothes) {
@@ -32,7 +27,6 @@ pub(super) fn sitter(model: &mut Model<'_>, clothes: &Clothes) {
             model.bar(Region::Metal, from, to, thick_m);
         }
     }
-    // Places of the person are shares of the standing height above the ground below the chair: see `feet`.
     let seat = Seat {
         hip: [-0.085, 0.535],
         shoulder: [-0.125, 0.80],
@@ -42,9 +36,5 @@ pub(super) fn sitter(model: &mut Model<'_>, clothes: &Clothes) {
         half_stand: 0.07,
         helmet: false,
     };
-    let mut person: Surface<'_> = model.rider(SEATED_M);
-    // The surface is that of somebody who stands so deep that the head reaches the top of the box.
-    person.feet -= DVec3::Z * ((STANDING_M - SEATED_M.z) * stretch.z);
-    person.height = STANDING_M * stretch.z;
-    rider(&mut person, &seat, forearm(clothes));
+    seated(model, &seat, clothes);
 }

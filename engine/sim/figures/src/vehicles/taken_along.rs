@@ -1,24 +1,21 @@
 //! What people take along: wheelchairs with their users, push-chairs, dogs on a leash.
 
 use super::model::Model;
-use super::riders::{Seat, forearm, rider};
+use super::riders::{SEATED_M, Seat, seated};
 use crate::Clothes;
-use crate::frustum::{SIDES, Surface, around};
+use crate::frustum::{SIDES, around};
 use crate::region::Region;
 use crate::walker::Walker;
 use cosfly_frames::{DVec3, real};
 
-/// Size that the lengths of a wheelchair are made for, and height of its user when standing, metres.
-const WHEELCHAIR_M: DVec3 = DVec3::new(1.05, 0.65, 1.32);
-const USER_M: f64 = 1.72;
 /// Length of a leash, metres.
 const LEASH_M: f64 = 1.3;
 
 /// A wheelchair with its user, who sits in it.
 pub(super) fn wheelchair(model: &mut Model<'_>, clothes: &Clothes) {
-    let stretch = model.size_m / WHEELCHAIR_M;
+    let stretch = model.size_m / SEATED_M;
     let at = |x_m: f64, y_m: f64, z_m: f64| stretch * DVec3::new(x_m, y_m, z_m);
-    let share = |x_m: f64, z_m: f64| [x_m / WHEELCHAIR_M.x, z_m / WHEELCHAIR_M.z];
+    let share = |x_m: f64, z_m: f64| [x_m / SEATED_M.x, z_m / SEATED_M.z];
     model.hull(
         Region::Trim,
         &[share(-0.24, 0.42), share(0.20, 0.42), share(0.20, 0.50), share(-0.24, 0.50)],
@@ -59,11 +56,7 @@ pub(super) fn wheelchair(model: &mut Model<'_>, clothes: &Clothes) {
         half_stand: 0.075,
         helmet: false,
     };
-    let mut user: Surface<'_> = model.rider(WHEELCHAIR_M);
-    // The surface is that of somebody who stands so deep that the head reaches the top of the box.
-    user.feet -= DVec3::Z * ((USER_M - WHEELCHAIR_M.z) * stretch.z);
-    user.height = USER_M * stretch.z;
-    rider(&mut user, &seat, forearm(clothes));
+    seated(model, &seat, clothes);
 }
 
 /// A push-chair before the person who pushes it.

@@ -79,12 +79,16 @@ struct Thing {
 impl Thing {
     /// Boxes around its points, along the map or along the thing, as takes fewer: a wall is one box, no flight of steps.
     fn cover(&self, survey: &Survey<'_>) -> BoxCover {
-        let hull = convex_hull(plan_of(survey.cloud, &self.points).collect());
-        let covers = [0.0, smallest_rectangle_rad(&hull)].map(|yaw_rad| {
+        let along = |yaw_rad| {
             let grid = Grid::flush(plan_of(survey.cloud, &self.points), survey.grid.cell_m, yaw_rad);
             boxes_of(&grid, &self.columns(survey, &grid), survey.step_m, Bases::Highest, |_| false)
-        });
-        covers.into_iter().min_by_key(|cover| cover.shapes.len()).unwrap_or_default()
+        };
+        let by_map = along(0.0);
+        if by_map.shapes.len() < 2 {
+            return by_map;
+        }
+        let by_thing = along(smallest_rectangle_rad(&convex_hull(plan_of(survey.cloud, &self.points).collect())));
+        if by_thing.shapes.len() < by_map.shapes.len() { by_thing } else { by_map }
     }
 
     /// Columns of the points over each cell of a grid.

@@ -21,7 +21,7 @@ Examples:
   cosfly map tiles city/tileset.json --out city.glb --error-m 0.5                a level true to half a metre
   cosfly map tiles city/tileset.json --out city.glb --origin 48.2082,16.3738,171 counted from a place on the Earth
 
-Opens files of the folder alone; nothing is fetched. The page \"Scans\" of the book goes on from there."
+Opens files of the folder alone; nothing is fetched. The page \"3D Tiles as a scan\" of the book goes on from there."
 )]
 pub struct Arguments {
     /// The file `tileset.json` of the folder
