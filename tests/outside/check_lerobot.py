@@ -11,10 +11,11 @@ from pathlib import Path
 import datasets
 import numpy as np
 import pandas as pd
+from shared import messages, pixels, turned, world_from_body
 from shared import rows as rows_of
-from shared import turned, world_from_body
 
 dataset, export, cache = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
+RGB, DEPTH = "observation.images.rgb", "observation.images.depth"
 QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
 poses = {(row["trajectory_id"], row["frame"]): row for row in rows_of(dataset, "frames")}
 flights = {row["trajectory_id"]: row for row in rows_of(dataset, "trajectories")}
@@ -70,8 +71,8 @@ def check(split):
     assert len(episodes) == info["total_episodes"] and episodes["length"].sum() == info["total_frames"]
     assert info["splits"] == {split: f"0:{len(episodes)}"} and set(episodes["split"]) == {split}
     assert all(flights[flight]["split"] == split for flight in episodes["trajectory_id"])
-    inputs = [name for name in info["features"] if name.startswith("observation")]
-    assert sorted(inputs) == ["observation.images.rgb", "observation.state"], "policies take these as inputs"
+    inputs = sorted(name for name in info["features"] if name.startswith("observation"))
+    assert inputs in ([RGB, "observation.state"], [DEPTH, RGB, "observation.state"]), "policies take these as inputs"
 
     rows = datasets.load_dataset("parquet", data_files=str(root / "data/*/*.parquet"), split="train", cache_dir=cache)
     typed = as_lerobot_reads(root, info)
@@ -81,7 +82,7 @@ def check(split):
         episode = episodes.iloc[row["episode_index"]]
         flight, frame = episode["trajectory_id"], row["frame_index"]
         assert episode["dataset_from_index"] + frame == row["index"] and abs(row["timestamp"] * info["fps"] - frame) < 1e-5
-        assert row["observation.images.rgb"].size == tuple(info["features"]["observation.images.rgb"]["shape"][1::-1])
+        assert row[RGB].size == tuple(info["features"][RGB]["shape"][1::-1])
         own, seen = state(flight, frame), np.array(row["observation.state"])
         assert np.abs(own - row["privileged.pose"]).max() < 1e-9
         assert np.abs(seen[6:] - own[[3, 5]]).max() < 1e-9
@@ -102,10 +103,35 @@ def check(split):
         for key, want in wanted.items():
             assert np.abs(np.array(stats[name][key]) - want).max() < 1e-6, (name, key)
     for key in ("min", "max", "mean", "std", *QUANTILES):
-        assert np.array(stats["observation.images.rgb"][key]).shape == (3, 1, 1)
+        assert np.array(stats[RGB][key]).shape == (3, 1, 1)
     check_episodes(episodes, info, rows, stats)
+    if DEPTH in inputs:
+        check_depth(info, rows, episodes, stats[DEPTH])
     print(f"lerobot, {split}, file by file: {len(rows)} frames of {len(episodes)} episodes, {len(tasks)} tasks")
     return info, tasks
+
+
+def depths(flight):
+    """Depth of all frames of a flight, from its log."""
+    return np.stack([pixels(image) for _, image, _, _ in messages(dataset / flights[flight]["mcap_path"], ["/camera/depth/image"])])
+
+
+def check_depth(info, rows, episodes, stats):
+    """Every pixel is that of the log, up to a greatest depth, which the sky has; statistics to a millimetre."""
+    assert info["features"][DEPTH]["info"] == {"is_depth_map": True, "depth_unit": "m"}
+    sampled, most = [], max(np.array(row[DEPTH]).max() for row in rows)
+    for _, episode in episodes.iterrows():
+        logged = np.minimum(depths(episode["trajectory_id"]), most)
+        own = rows.select(range(episode["dataset_from_index"], episode["dataset_to_index"]))
+        for row, wanted in zip(own, logged, strict=True):
+            assert row[DEPTH].mode == "F" and (np.array(row[DEPTH]) == wanted).all(), (episode["trajectory_id"], row["frame_index"])
+        step = min(max(len(logged) // 10, 1), 10)
+        sampled.append(np.concatenate([it.ravel()[::16] for it in logged[::step]]).astype(float))
+        for key, want in statistics(sampled[-1]).items():
+            assert abs(nested(episode[f"stats/{DEPTH}/{key}"]).item() - want) < 1e-3, key
+    for key, want in statistics(np.concatenate(sampled)).items():
+        assert abs(np.array(stats[key]).item() - want) < 1e-3, key
+    print(f"lerobot, depth of {len(rows)} frames is that of the logs, up to {most} m")
 
 
 def check_episodes(table, info, rows, stats):
@@ -125,7 +151,8 @@ def check_episodes(table, info, rows, stats):
             for key, it in statistics(values).items():
                 assert np.abs(own[name][key] - it).max() < 1e-5, (name, key)
     for name in info["features"]:
-        shape = (3, 1, 1) if name.startswith("observation.images") else tuple(info["features"][name]["shape"])
+        shape = info["features"][name]["shape"]
+        shape = (shape[2], 1, 1) if name.startswith("observation.images") else tuple(shape)
         parts = [own[name] for own in of_episodes]
         assert all(part[key].shape == shape for part in parts for key in keys[:-1]), name
         counts = np.array([part["count"][0] for part in parts], float)
@@ -146,18 +173,45 @@ def nested(value):
     return np.array(value.tolist() if value.dtype != object else [nested(it) for it in value])
 
 
+def load_depth(split, loaded, info):
+    """Depth as the package gives it: metres, from 0.6 on millimetres unless it is asked for metres; 12-bit video by its own tool."""
+    from lerobot.datasets.lerobot_dataset import LeRobotDataset
+
+    flight, stats = loaded.meta.episodes[0]["trajectory_id"], json.loads((export / split / "meta/stats.json").read_text())
+    wanted = np.minimum(depths(flight)[6], stats[DEPTH]["max"][0][0][0])
+    knows_depth = hasattr(loaded.meta, "depth_keys")
+    for unit, per_m in ([("m", 1), ("mm", 1000)] if knows_depth else [(None, 1)]):
+        loaded = LeRobotDataset(f"cosfly/{split}", root=export / split, **({"depth_output_unit": unit} if unit else {}))
+        found, mean = loaded[6][DEPTH], loaded.meta.stats[DEPTH]["mean"].item()
+        assert str(found.dtype) == "torch.float32" and found.shape[0] == 1
+        assert np.abs(found.numpy()[0] / per_m - wanted).max() < 1e-4, unit
+        assert abs(mean / per_m - stats[DEPTH]["mean"][0][0][0]) < 1e-6, unit
+    if knows_depth:
+        assert loaded.meta.depth_keys == [DEPTH]
+        from lerobot.configs import DepthEncoderConfig
+        from lerobot.datasets.dataset_tools import convert_image_to_video_dataset
+
+        film = Path(cache) / f"lerobot-film-{split}"
+        convert_image_to_video_dataset(loaded, film, f"cosfly/{split}-film", depth_encoder=DepthEncoderConfig(depth_min=0.5, depth_max=float(wanted.max())))
+        filmed = LeRobotDataset(f"cosfly/{split}-film", root=film, depth_output_unit="m")[6][DEPTH].numpy()[0]
+        assert (np.abs(filmed - wanted) / wanted).max() < 2e-3
+    print(f"lerobot, {split}: depth in {'metres, millimetres and 12-bit video' if knows_depth else 'metres'}")
+
+
 def load(split, info, tasks):
     """The package itself: windows of five pictures, and chunks."""
     from lerobot.datasets.lerobot_dataset import LeRobotDataset
 
-    loaded = LeRobotDataset(f"cosfly/{split}", root=export / split, delta_timestamps={"observation.images.rgb": [step / info["fps"] for step in range(-4, 1)]})
+    loaded = LeRobotDataset(f"cosfly/{split}", root=export / split, delta_timestamps={RGB: [step / info["fps"] for step in range(-4, 1)]})
     assert loaded.num_frames == info["total_frames"] and loaded.num_episodes == info["total_episodes"]
     item = loaded[6]
-    height, width, _ = info["features"]["observation.images.rgb"]["shape"]
-    assert tuple(item["observation.images.rgb"].shape) == (5, 3, height, width), item["observation.images.rgb"].shape
+    height, width, _ = info["features"][RGB]["shape"]
+    assert tuple(item[RGB].shape) == (5, 3, height, width), item[RGB].shape
     assert tuple(item["action"].shape) == (30,) and str(item["action"].dtype) == "torch.float32"
     assert item["task"] in tasks.index, item["task"]
     assert {"q01", "q99"} <= set(loaded.meta.stats["action"])
+    if DEPTH in info["features"]:
+        load_depth(split, loaded, info)
     # LeRobot's own tool writes a part of the dataset, with true statistics.
     if loaded.num_episodes > 1:
         from lerobot.datasets.dataset_tools import delete_episodes

@@ -24,6 +24,7 @@ pub(crate) fn published() -> (tempfile::TempDir, PublishedDataset) {
 fn options(name: &str) -> Map<String, Value> {
     let options = match name {
         "vlm" => json!({"history": 3, "horizon": 2, "stride": 1}),
+        "lerobot" => json!({"depth": true, "max_depth_m": 200}),
         _ => json!({}),
     };
     options.as_object().unwrap().clone()

@@ -1,5 +1,6 @@
 //! LeRobot v3.0: episodes in Parquet files with pictures inside, tasks as strings, statistics of every feature.
 
+mod depth;
 mod episodes;
 mod motion;
 mod statistics;
@@ -18,7 +19,10 @@ use cosfly_read::PublishedFlight;
 use cosfly_schema::log::reading::LoggedSensor;
 use cosfly_schema::tables::Table;
 use cosfly_write::table_file::TableWriter;
+use depth::tiff;
 use episodes::EpisodeFile;
+use schemars::JsonSchema;
+use serde::Deserialize;
 use serde_json::{Value, json};
 use statistics::Statistics;
 use std::collections::BTreeMap;
@@ -34,21 +38,47 @@ const SAMPLED_FRAMES: usize = 10;
 const SAMPLED_PIXELS: usize = 16;
 const LEAST_FRAMES: usize = 10;
 
+/// Greatest depth, metres.
+const MAX_DEPTH_M: u32 = 1000;
+
 /// Episodes for robot learning.
 pub struct LeRobot;
+
+/// Options of `lerobot`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+pub struct Options {
+    #[serde(flatten)]
+    instructions: InstructionOptions,
+    /// With depth as TIFF files, metres
+    #[serde(default)]
+    depth: bool,
+    /// Greatest depth, which the sky has, too, metres
+    #[serde(default = "max_depth_m")]
+    #[schemars(range(min = 1, max = 10_000), title = "M")]
+    max_depth_m: u32,
+}
+
+fn max_depth_m() -> u32 {
+    MAX_DEPTH_M
+}
 
 impl Format for LeRobot {
     const NAME: &'static str = "lerobot";
     const DOC: &'static str =
         "LeRobot v3.0: a dataset per split; episodes with pictures, motion, the way to the expert, tasks as strings";
-    type Options = InstructionOptions;
+    type Options = Options;
 
-    fn write(options: &InstructionOptions, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
-        let kind = Kind { fps: check(source)?, sensed: sensed(source)? };
-        for split in source.splits() {
-            write_split(options.language, source, out, split, &kind)?;
+    fn write(options: &Options, source: &Source<'_>, out: &OutFolder) -> Result<Vec<String>> {
+        if options.max_depth_m != MAX_DEPTH_M && !options.depth {
+            let message = "`--max-depth-m` limits depth, which this export leaves out";
+            return Err(Diagnostic::new("export-lerobot", Fault::Recipe, message).hint("add `--depth`"));
         }
-        card(&source.splits()).write(source, out)?;
+        let max_depth_m = options.depth.then_some(options.max_depth_m as f32);
+        let kind = Kind { fps: check(source)?, sensed: sensed(source)?, max_depth_m };
+        for split in source.splits() {
+            write_split(options.instructions.language, source, out, split, &kind)?;
+        }
+        card(&source.splits(), max_depth_m).write(source, out)?;
         Ok(vec![])
     }
 }
@@ -59,6 +89,8 @@ struct Kind {
     fps: u32,
     /// Names of the numbers of all sensors that are no cameras.
     sensed: Vec<String>,
+    /// Greatest depth, metres; none without depth.
+    max_depth_m: Option<f32>,
 }
 
 /// Names of the numbers that the first flight's sensors measured.
@@ -105,7 +137,7 @@ fn write_split(
     split: &str,
     kind: &Kind,
 ) -> Result<()> {
-    let table = tables::data(kind.sensed.len());
+    let table = tables::data(kind.sensed.len(), kind.max_depth_m.is_some());
     let mut data = DataFiles { out, split, table: &table, file: 0, bytes: 0, open: None };
     let mut statistics = Statistics::default();
     let mut tasks: BTreeMap<String, usize> = BTreeMap::new();
@@ -120,8 +152,9 @@ fn write_split(
         });
         let expert = episode.expert_poses()?;
         let mut own = Statistics::default();
-        let rows = rows_of(episode, &expert, [count, index, task_index], &mut [&mut own, &mut statistics])?;
-        let rows = DataRows { readings: sensed_by_frame(episode, kind)?, ..rows };
+        let mut rows = rows_of(episode, &expert, [count, index, task_index], &mut [&mut own, &mut statistics])?;
+        rows.readings = sensed_by_frame(episode, kind)?;
+        append_pictures(episode, kind.max_depth_m, &mut rows, &mut [&mut own, &mut statistics])?;
         for statistics in [&mut own, &mut statistics].into_iter().filter(|_| !kind.sensed.is_empty()) {
             rows.readings.iter().for_each(|numbers| statistics.push(tables::SENSORS, numbers));
         }
@@ -168,8 +201,8 @@ fn check(source: &Source<'_>) -> Result<u32> {
     Ok(fps as u32)
 }
 
-/// The rows of a flight; its pictures and numbers count in both `statistics`. `numbers` are those of the episode, of its first frame and
-/// of its task.
+/// The rows of a flight without its pictures; its numbers count in both `statistics`. `numbers` are those of the episode, of its first
+/// frame and of its task.
 fn rows_of(
     episode: &ExportedFlight<'_>,
     expert: &[Pose],
@@ -202,22 +235,42 @@ fn rows_of(
         }
         rows.vectors.push(vectors);
     }
+    Ok(rows)
+}
+
+/// Appends the pictures of a flight to its rows; those of some frames count in both `statistics`.
+fn append_pictures(
+    episode: &ExportedFlight<'_>,
+    max_depth_m: Option<f32>,
+    rows: &mut DataRows,
+    statistics: &mut [&mut Statistics; 2],
+) -> Result<()> {
     let step = (episode.frames.len() / LEAST_FRAMES).clamp(1, SAMPLED_FRAMES);
     episode.each_picture(
         &episode.all_frames(),
-        |frame, logged| {
-            let sampled = if frame % step == 0 { Some(rgb_of(&logged)?) } else { None };
-            Ok((logged.rgb_file, sampled))
+        |frame, mut logged| {
+            let is_sampled = frame % step == 0;
+            let sampled = if is_sampled { Some(rgb_of(&logged)?) } else { None };
+            let Some(most) = max_depth_m else { return Ok((logged.rgb_file, sampled, None)) };
+            logged.depth_m.iter_mut().for_each(|depth| *depth = depth.min(most));
+            let file = tiff(&logged.depth_m, [logged.width, logged.height])?;
+            Ok((logged.rgb_file, sampled, Some((file, if is_sampled { logged.depth_m } else { vec![] }))))
         },
-        |_, (file, sampled)| {
-            if let Some(rgb) = sampled {
-                statistics.iter_mut().for_each(|it| it.push_picture(&rgb, SAMPLED_PIXELS));
+        |_, (file, rgb, depth)| {
+            let (depth, sampled) = depth.unzip();
+            for it in statistics.iter_mut().filter(|_| rgb.is_some()) {
+                let pixels = rgb.iter().flat_map(|rgb| rgb.as_chunks::<3>().0).step_by(SAMPLED_PIXELS);
+                it.push_picture(tables::PICTURE, 255.0, pixels.map(|pixel| pixel.map(usize::from)));
+                let Some(depths) = &sampled else { continue };
+                let steps = |depth: &f32| [(f64::from(*depth) * depth::STATISTICS_PER_M).round_ties_even() as usize];
+                let pixels = depths.iter().step_by(SAMPLED_PIXELS).map(steps);
+                it.push_picture(tables::DEPTH, depth::STATISTICS_PER_M, pixels);
             }
             rows.pictures.push(file);
+            rows.depths.extend(depth);
             Ok(())
         },
-    )?;
-    Ok(rows)
+    )
 }
 
 /// The files of `data`, one of them open.
@@ -245,7 +298,7 @@ impl DataFiles<'_> {
         if let Some(writer) = &mut self.open {
             writer.append(rows)?;
         }
-        self.bytes += rows.pictures.iter().map(|picture| picture.len() as u64).sum::<u64>();
+        self.bytes += rows.pictures.iter().chain(&rows.depths).map(|file| file.len() as u64).sum::<u64>();
         Ok(self.file)
     }
 
@@ -268,6 +321,9 @@ fn info(source: &Source<'_>, split: &str, kind: &Kind, totals: [usize; 3]) -> Va
         tables::PICTURE.to_owned(),
         json!({"dtype": "image", "shape": [height, width, 3], "names": ["height", "width", "channels"]}),
     )]);
+    if kind.max_depth_m.is_some() {
+        features.insert(tables::DEPTH.into(), depth::feature([width, height]));
+    }
     for (name, names) in VECTORS {
         features.insert(name.to_owned(), json!({"dtype": "float32", "shape": [names.len()], "names": names}));
     }
@@ -296,7 +352,7 @@ fn info(source: &Source<'_>, split: &str, kind: &Kind, totals: [usize; 3]) -> Va
     })
 }
 
-fn card(splits: &[&str]) -> ExportCard {
+fn card(splits: &[&str], max_depth_m: Option<f32>) -> ExportCard {
     let mut front_matter = String::from(
         "task_categories:\n- robotics\ntags:\n- LeRobot\nconfigs:\n- config_name: default\n  data_files:\n",
     );
@@ -305,7 +361,9 @@ fn card(splits: &[&str]) -> ExportCard {
         front_matter.push_str(&format!("  - split: {split}\n    path: {split}/data/*/*.parquet\n"));
         loading.push_str(&format!("{split} = LeRobotDataset(\"cosfly/{split}\", root=\"{split}\")\n"));
     }
-    ExportCard { format: "LeRobot v3.0", front_matter, body: BODY.replace("LOADING\n", &loading) }
+    let depth = max_depth_m.map_or(String::new(), |most| DEPTH.replace("MOST", &most.to_string()));
+    let body = BODY.replace("LOADING\n", &loading).replace("DEPTH\n", &depth);
+    ExportCard { format: "LeRobot v3.0", front_matter, body }
 }
 
 const BODY: &str = "\
@@ -319,6 +377,7 @@ statistics. On the hub, each folder is a repository of its own, with the git tag
 them and has the statistics of each (`stats/...`), from which LeRobot makes those of parts and mixtures. Metres and degrees.
 
 * `observation.images.rgb`: the colours. `task`: the instruction.
+DEPTH
 * `observation.state`: dx, dy, dz, dpitch, dyaw, droll since the frame before, along the axes of the body in this frame (x ahead, y
   right, z up), 0 in the first frame; then pitch and roll. No place and no direction of the map.
 * `action`: five increments of dx, dy, dz, dpitch, dyaw, droll, all of them along the axes of the body in *this* frame; angles
@@ -329,4 +388,9 @@ them and has the statistics of each (`stats/...`), from which LeRobot makes thos
 * `privileged.pose`: the drone's x, y, z, pitch, yaw, roll. `privileged.target`: the place between the person's feet. `privileged.box`:
   left, top, right, bottom edges of what can be seen of the person, pixels; -1 where nothing is. World: CARLA's axes. These are
   labels that no drone has; policies of LeRobot take only features called `observation...` as inputs.
+";
+
+const DEPTH: &str = "\
+* `observation.images.depth`: metres along the optical axis, 32-bit floats in TIFF files; at most MOST, which is also the sky. LeRobot from
+  0.6 on gives millimetres unless `depth_output_unit=\"m\"`; 0.4 gives metres.
 ";

@@ -60,7 +60,7 @@ pub struct Features {
     pub action: Option<Parts<3>>,
     /// The three angles of actions.
     pub turn: Option<Parts<3>>,
-    /// Pictures inside of tables.
+    /// Pictures inside of tables, of colours.
     pub pictures: Vec<String>,
     /// Pictures in video files.
     pub videos: Vec<String>,
@@ -76,6 +76,7 @@ impl Features {
         let mut found = Self::default();
         for (name, feature) in features.as_object().into_iter().flatten() {
             match feature["dtype"].as_str() {
+                Some("image") if feature["info"]["is_depth_map"] == true => {}
                 Some("image") => found.pictures.push(name.clone()),
                 Some("video") => found.videos.push(name.clone()),
                 _ => found.vector(name, feature),
@@ -207,6 +208,7 @@ mod tests {
         let vector = |names: &[&str]| json!({"dtype": "float32", "shape": [names.len()], "names": names});
         let found = Features::of(&json!({
             "observation.images.rgb": {"dtype": "image", "shape": [4, 4, 3], "names": ["height", "width", "channels"]},
+            "observation.images.depth": {"dtype": "image", "shape": [4, 4, 1], "info": {"is_depth_map": true, "depth_unit": "m"}},
             "observation.state": vector(&["dx", "dy", "dz", "dpitch", "dyaw", "droll", "pitch", "roll"]),
             "privileged.pose": vector(&["x", "y", "z", "pitch", "yaw", "roll"]),
             "privileged.target": vector(&["x", "y", "z"]),

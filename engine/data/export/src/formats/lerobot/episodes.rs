@@ -1,7 +1,7 @@
 //! The table of episodes: where each is, and its own statistics, from which LeRobot makes those of parts of a dataset.
 
 use super::statistics::{FIGURES, Figures, Statistics};
-use super::tables::{self, EpisodeRow, PICTURE};
+use super::tables::{self, EpisodeRow};
 use arrow_array::builder::{Float64Builder, Int64Builder, ListBuilder};
 use arrow_array::{ArrayRef, RecordBatch};
 use arrow_schema::{Field, Schema};
@@ -53,7 +53,7 @@ fn row(episode: &EpisodeRow, statistics: &Statistics) -> Result<RecordBatch> {
     for (feature, figures) in statistics.features() {
         for (at, figure) in FIGURES.iter().enumerate() {
             let numbers = figures.numbers.iter().map(|number| number[at]);
-            columns.push(if feature == PICTURE { of_channels(numbers) } else { of_numbers(numbers) });
+            columns.push(if figures.is_picture { of_channels(numbers) } else { of_numbers(numbers) });
             fields.push(Field::new(
                 format!("stats/{feature}/{figure}"),
                 columns[columns.len() - 1].data_type().clone(),
@@ -81,7 +81,7 @@ fn of_numbers(numbers: impl Iterator<Item = f64>) -> ArrayRef {
     Arc::new(list.finish())
 }
 
-/// A row with a number for each colour, of the shape (3, 1, 1).
+/// A row with a number for each channel, of the shape (channels, 1, 1).
 fn of_channels(numbers: impl Iterator<Item = f64>) -> ArrayRef {
     let mut list = ListBuilder::new(ListBuilder::new(ListBuilder::new(Float64Builder::new())));
     for number in numbers {

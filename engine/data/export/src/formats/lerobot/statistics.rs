@@ -1,6 +1,5 @@
 //! Smallest, largest, mean, deviation and quantiles of every feature, gathered frame by frame in bounded memory.
 
-use super::tables::PICTURE;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
@@ -15,8 +14,7 @@ const KEPT: usize = 1 << 15;
 #[derive(Clone, Debug, Default)]
 pub struct Statistics {
     features: BTreeMap<String, Vec<Moments>>,
-    pictures: [Histogram; 3],
-    picture_count: u64,
+    pictures: BTreeMap<&'static str, Picture>,
 }
 
 /// Statistics of a feature.
@@ -26,6 +24,17 @@ pub struct Figures {
     pub numbers: Vec<Vec<f64>>,
     /// Frames behind them.
     pub count: u64,
+    /// Whether the numbers are those of a picture's channels.
+    pub is_picture: bool,
+}
+
+/// Statistics of the channels of pictures.
+#[derive(Clone, Debug)]
+struct Picture {
+    channels: Vec<Histogram>,
+    /// Steps of a value in a unit.
+    per_unit: f64,
+    count: u64,
 }
 
 /// Statistics of one number. Mean and deviation by Welford's update; quantiles from every `step`-th value.
@@ -78,22 +87,23 @@ impl Moments {
     }
 }
 
-/// Counts of the 256 values of a colour.
-#[derive(Clone, Debug)]
-struct Histogram([u64; 256]);
-
-impl Default for Histogram {
-    fn default() -> Self {
-        Self([0; 256])
-    }
-}
+/// Counts of whole values.
+#[derive(Clone, Debug, Default)]
+struct Histogram(Vec<u64>);
 
 impl Histogram {
-    /// min, max, mean, deviation, quantiles, as shares of full brightness.
-    fn figures(&self) -> Vec<f64> {
+    fn push(&mut self, value: usize) {
+        if value >= self.0.len() {
+            self.0.resize(value + 1, 0);
+        }
+        self.0[value] += 1;
+    }
+
+    /// min, max, mean, deviation, quantiles, in units of so many steps.
+    fn figures(&self, per_unit: f64) -> Vec<f64> {
         let count: u64 = self.0.iter().sum();
         let sum = |of: &dyn Fn(f64) -> f64| {
-            let terms = self.0.iter().enumerate().map(|(value, count)| *count as f64 * of(value as f64 / 255.0));
+            let terms = self.0.iter().enumerate().map(|(value, count)| *count as f64 * of(value as f64 / per_unit));
             terms.sum::<f64>() / count.max(1) as f64
         };
         let at = |rank: u64| {
@@ -102,7 +112,7 @@ impl Histogram {
                 seen += count;
                 seen > rank
             });
-            value.unwrap_or_default() as f64 / 255.0
+            value.unwrap_or_default() as f64 / per_unit
         };
         let mean = sum(&|value| value);
         let deviation = sum(&|value| (value - mean) * (value - mean)).sqrt();
@@ -129,30 +139,41 @@ impl Statistics {
         moments.zip(values).for_each(|(moments, value)| moments.push(*value));
     }
 
-    /// Counts every `step`-th pixel of a row-major RGB picture, as shares of full brightness.
-    pub fn push_picture(&mut self, rgb: &[u8], step: usize) {
-        self.picture_count += 1;
-        for pixel in rgb.chunks_exact(3).step_by(step.max(1)) {
-            self.pictures.iter_mut().zip(pixel).for_each(|(histogram, value)| histogram.0[usize::from(*value)] += 1);
+    /// Counts the pixels of a picture, whole numbers of `per_unit` steps in a unit.
+    pub fn push_picture<const N: usize>(
+        &mut self,
+        feature: &'static str,
+        per_unit: f64,
+        pixels: impl Iterator<Item = [usize; N]>,
+    ) {
+        let new = || Picture { channels: vec![Histogram::default(); N], per_unit, count: 0 };
+        let picture = self.pictures.entry(feature).or_insert_with(new);
+        picture.count += 1;
+        for pixel in pixels {
+            picture.channels.iter_mut().zip(pixel).for_each(|(histogram, value)| histogram.push(value));
         }
     }
 
-    /// Figures of every feature, by its name; those of pictures are of their three colours.
+    /// Figures of every feature, by its name; those of pictures are of their channels.
     pub fn features(&self) -> BTreeMap<&str, Figures> {
         let vectors = self.features.iter().map(|(name, moments)| {
-            let count = moments.first().map_or(0, |it| it.count);
-            (name.as_str(), Figures { numbers: moments.iter().map(Moments::figures).collect(), count })
+            let (numbers, count) =
+                (moments.iter().map(Moments::figures).collect(), moments.first().map_or(0, |it| it.count));
+            (name.as_str(), Figures { numbers, count, is_picture: false })
         });
-        let pictures = self.pictures.iter().map(Histogram::figures).collect();
-        vectors.chain([(PICTURE, Figures { numbers: pictures, count: self.picture_count })]).collect()
+        let pictures = self.pictures.iter().map(|(name, it)| {
+            let numbers = it.channels.iter().map(|channel| channel.figures(it.per_unit)).collect();
+            (*name, Figures { numbers, count: it.count, is_picture: true })
+        });
+        vectors.chain(pictures).collect()
     }
 
     /// The content of `meta/stats.json`.
     pub fn to_json(&self) -> Value {
-        let wrap = |feature: &str, number: f64| if feature == PICTURE { json!([[number]]) } else { json!(number) };
         let entry = |(feature, figures): (&str, Figures)| {
+            let wrap = |number: f64| if figures.is_picture { json!([[number]]) } else { json!(number) };
             let of_figure = |(at, name): (usize, &&str)| {
-                ((*name).to_owned(), figures.numbers.iter().map(|it| wrap(feature, it[at])).collect())
+                ((*name).to_owned(), figures.numbers.iter().map(|it| wrap(it[at])).collect())
             };
             let mut entry: Map<String, Value> = FIGURES.iter().enumerate().map(of_figure).collect();
             entry.insert("count".into(), json!([figures.count]));
@@ -170,7 +191,8 @@ mod tests {
     fn moments_are_those_of_the_population() {
         let mut statistics = Statistics::default();
         [[1.0, 5.0], [2.0, 5.0], [6.0, 5.0]].iter().for_each(|values| statistics.push("a", values));
-        statistics.push_picture(&[255, 0, 51, 255, 0, 51], 1);
+        statistics.push_picture("rgb", 255.0, [[255, 0, 51]; 2].into_iter());
+        statistics.push_picture("depth", 1000.0, [[1500], [200_000], [2500]].into_iter());
         let json = statistics.to_json();
         assert_eq!(
             (&json["a"]["mean"], &json["a"]["max"], &json["a"]["count"]),
@@ -179,8 +201,10 @@ mod tests {
         assert!((json["a"]["std"][0].as_f64().unwrap() - (14.0f64 / 3.0).sqrt()).abs() < 1e-12);
         assert_eq!((&json["a"]["q50"], &json["a"]["q90"][1]), (&json!([2.0, 5.0]), &json!(5.0)));
         assert!((json["a"]["q90"][0].as_f64().unwrap() - 5.2).abs() < 1e-12, "between 2 and 6");
-        assert_eq!(json[PICTURE]["mean"], json!([[[1.0]], [[0.0]], [[0.2]]]));
-        assert_eq!(json[PICTURE]["q99"], json!([[[1.0]], [[0.0]], [[0.2]]]));
+        assert_eq!(json["rgb"]["mean"], json!([[[1.0]], [[0.0]], [[0.2]]]));
+        assert_eq!(json["rgb"]["q99"], json!([[[1.0]], [[0.0]], [[0.2]]]));
+        assert_eq!((&json["depth"]["mean"], &json["depth"]["q50"]), (&json!([[[68.0]]]), &json!([[[2.5]]])));
+        assert_eq!((&json["depth"]["max"], &json["depth"]["count"]), (&json!([[[200.0]]]), &json!([1])));
     }
 
     #[test]

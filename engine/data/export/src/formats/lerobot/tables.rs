@@ -9,6 +9,8 @@ use std::sync::Arc;
 
 /// Name of the pictures' feature.
 pub const PICTURE: &str = "observation.images.rgb";
+/// Name of the feature of depth.
+pub const DEPTH: &str = "observation.images.depth";
 /// Names of the features that are vectors, and of their parts. Policies take all features whose names begin with
 /// `observation` as inputs, so that names of what a drone does not know begin with `privileged`.
 pub const VECTORS: [(&str, &[&str]); 5] = [
@@ -44,6 +46,8 @@ pub struct DataRows {
     pub readings: Vec<Vec<f64>>,
     /// Picture files.
     pub pictures: Vec<Vec<u8>>,
+    /// Files of depth, where it is wanted.
+    pub depths: Vec<Vec<u8>>,
 }
 
 /// An episode.
@@ -110,8 +114,10 @@ impl AnyColumn<DataRows> for SensorColumn {
     }
 }
 
-/// A row per frame; with so many numbers of sensors.
-pub fn data(sensed: usize) -> Table<DataRows> {
+/// A row per frame; with so many numbers of sensors, and with depth.
+pub fn data(sensed: usize, has_depth: bool) -> Table<DataRows> {
+    const DEPTHS: &dyn AnyColumn<DataRows> =
+        &Column::named(DEPTH, "", |it: &DataRows, i| ImageFile(it.depths[i].clone()));
     const COLUMNS: &[&dyn AnyColumn<DataRows>] = &[
         &Column::named(PICTURE, "", |it: &DataRows, i| ImageFile(it.pictures[i].clone())),
         &Column::named(VECTORS[0].0, "", |it: &DataRows, i| numbers::<8>(&it.vectors[i][0])),
@@ -127,6 +133,7 @@ pub fn data(sensed: usize) -> Table<DataRows> {
     ];
     let rows = |it: &DataRows| it.pictures.len();
     let mut table = Table { rows_per_group: 200, ..Table::new("data", "", &[], rows, COLUMNS) };
+    table.columns.extend(has_depth.then_some(DEPTHS));
     if sensed > 0 {
         // Columns live as long as the program; there are few widths.
         table.columns.push(Box::leak(Box::new(SensorColumn(sensed))));
