@@ -104,3 +104,33 @@ def test_lerobot_makes_the_environment_from_its_configuration():
     features = env_to_policy_features(config)
     for name, shape in (("observation.state", (16,)), ("observation.image", (3, 48, 48))):
         assert features[name].shape == shape and tuple(told[name].shape) == (2, *shape)
+
+
+def test_lerobot_makes_the_environment_from_a_folder_of_its_hub(tmp_path, monkeypatch):
+    pytest.importorskip("lerobot.envs.factory")
+    import shutil
+    from pathlib import Path
+
+    import huggingface_hub.constants
+    from lerobot.configs.parser import load_plugin
+    from lerobot.envs.factory import make_env
+
+    load_plugin("cosfly.lerobot")  # as `--env.discover_packages_path=cosfly.lerobot` does
+    # What the hub's client keeps of a repository that it has fetched.
+    monkeypatch.setattr(huggingface_hub.constants, "HF_HUB_OFFLINE", True)
+    repository, revision = tmp_path / "models--someone--drones", "0123456789" * 4
+    folder = Path(__file__).resolve().parents[4] / "recipes/training/lerobot_env"
+    shutil.copytree(folder, repository / "snapshots" / revision)
+    (repository / "refs").mkdir()
+    (repository / "refs/main").write_text(revision)
+    with pytest.raises(RuntimeError, match="trust_remote_code"):
+        make_env("someone/drones")
+    for options in ({}, {"use_async_envs": True}):
+        ((envs,),) = (made.values() for made in make_env("someone/drones", 2, hub_cache_dir=tmp_path, trust_remote_code=True, **options).values())
+        observation, _ = envs.reset(seed=[1, 2])
+        assert observation["agent_pos"].shape == (2, 16)
+        observation, *_ = envs.step(np.zeros((2, 5), np.float32))
+        pictures = np.stack(envs.call("render"))
+        assert pictures.shape == (2, 128, 128, 3) and pictures.std() > 5
+        assert envs.call("_max_episode_steps")[0] > 0
+        envs.close()

@@ -3,7 +3,7 @@
 `lerobot-eval --env.discover_packages_path=cosfly.lerobot --env.type=cosfly --env.recipe=recipes/suites/street.toml ...`, or
 `lerobot.envs.factory.make_env(CosflyEnv(recipe=...), n_envs=4)`. Observations have `agent_pos` (16 numbers), which
 LeRobot calls `observation.state`, and with `size` colours as `pixels`, which LeRobot calls `observation.image`; an action is five
-numbers: velocity ahead, right, up (m/s), pitch rate, yaw rate (degrees/s).
+numbers: velocity ahead, right, up (m/s), pitch rate, yaw rate (degrees/s). A package, because LeRobot discovers no modules.
 """
 
 from __future__ import annotations
@@ -14,26 +14,38 @@ from typing import Any
 import gymnasium
 import numpy as np
 
-from ._outcome import Outcome
-from .gym import Track, action_space
+from .._outcome import Outcome
+from ..gym import Track, action_space
 
 ID = "cosfly/LeRobotTrack-v0"
+_RENDERED_SIZE = 128
 PROMPT = "Follow the person and keep them in view."
 
 
 class LeRobotTrack(gymnasium.Env):
     """:class:`cosfly.gym.Track` with the names of observations and infos that LeRobot expects."""
 
-    metadata = {"render_modes": [], "render_fps": 10}
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
 
     def __init__(
-        self, recipe: str, step_s: float = 0.1, prompt: str = PROMPT, size: int = 0, **more: Any
+        self,
+        recipe: str,
+        step_s: float = 0.1,
+        prompt: str = PROMPT,
+        size: int = 0,
+        render_mode: str | None = None,
+        **more: Any,
     ) -> None:
-        pictures = {"obs": ("state", "rgb"), "size": size} if size else {}
+        is_drawn = bool(size or render_mode)
+        pictures = {"obs": ("state", "rgb"), "size": size or _RENDERED_SIZE} if is_drawn else {}
         self._track = Track(recipe, step_s=step_s, **pictures, **more)
+        self.render_mode, self._size, self._picture = render_mode, size, None
+        self.metadata = {**type(self).metadata, "render_fps": max(round(1.0 / step_s), 1)}
         self._step_s, self.task_description, self.task = step_s, prompt, prompt
         space = self._track.observation_space
-        names = {"agent_pos": space["state"], "pixels": space["rgb"]} if size else {"agent_pos": space}
+        names = {"agent_pos": space["state"] if is_drawn else space}
+        if size:
+            names["pixels"] = space["rgb"]
         self.observation_space = gymnasium.spaces.Dict(names)
         self.action_space = action_space()
         self._outcome = Outcome(1, step_s)
@@ -56,11 +68,15 @@ class LeRobotTrack(gymnasium.Env):
         told = {**info, "is_success": self._outcome.success, "tracking_rate": self._outcome.tracking_rate}
         return self._named(observation), reward, terminated, truncated, told
 
-    @staticmethod
-    def _named(observation: Any) -> dict[str, np.ndarray]:
-        if isinstance(observation, dict):
-            return {"agent_pos": observation["state"], "pixels": observation["rgb"]}
-        return {"agent_pos": observation}
+    def render(self) -> Any:
+        """The picture of the last step; none without ``render_mode="rgb_array"``."""
+        return self._picture if self.render_mode else None
+
+    def _named(self, observation: Any) -> dict[str, np.ndarray]:
+        if not isinstance(observation, dict):
+            return {"agent_pos": observation}
+        self._picture = observation["rgb"]
+        return {"agent_pos": observation["state"], **({"pixels": self._picture} if self._size else {})}
 
 
 def _register() -> None:
@@ -119,4 +135,5 @@ else:
         @property
         def gym_kwargs(self) -> dict[str, Any]:
             """Arguments of the environment."""
-            return {"recipe": self.recipe, "step_s": 1.0 / self.fps, "size": self.size, "look": self.look}
+            drawn = {"size": self.size, "look": self.look, "render_mode": "rgb_array"}
+            return {"recipe": self.recipe, "step_s": 1.0 / self.fps, **drawn}
