@@ -1,4 +1,5 @@
 //! The Dockerfile, held without a daemon: what it copies is there, what it runs is a shell's, its compiler is that of the workspace.
+//! `.ci/run container` carries it out.
 
 use crate::support::repository_root;
 use std::process::Command;
