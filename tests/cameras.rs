@@ -90,8 +90,9 @@ fn several_cameras_film_every_flight_at_the_same_moments() {
 #[test]
 fn a_camera_with_an_offset_films_between_the_steps() {
     let street = filmed_by(
-        "channels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"flow_forward\", \"flow_forward_valid\"]\n\
+        "channels = [\"rgb\", \"depth\", \"semantic\", \"instance\", \"flow_forward\", \"flow_forward_valid\"]\nbodies_3d = true\n\
          [stages.frames.cameras.front]\n[stages.frames.cameras.late]\noffset_s = 0.2\n\
+         gimbal = { position_in_body_m = [0.5, 0.3, 0.2], roll_deg = 9.0, levelled = false }\n\
          [stages.frames.cameras.slow]\nevery = 2\noffset_s = 0.7",
     );
     assert_eq!(ran(&street, &[], "frames"), 18);

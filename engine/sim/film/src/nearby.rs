@@ -1,13 +1,12 @@
 //! Who is near a flight: the people and vehicles who may appear in its pictures, or throw a shadow into them.
 
 use crate::body_rays;
-use crate::rate::Rate;
+use crate::rate::{FilmedFlight, Rate};
 use crate::shooting::Shooting;
 use crate::walks::{Person, touch};
 use cosfly_diagnose::Result;
 use cosfly_domain::{Around, BodyId, Camera, Followed, Town, Traffic, Trajectory, largest_object_instance};
 use cosfly_frames::{Pose, TargetState};
-use cosfly_optics::pose_at;
 use cosfly_pedestrians::PedestrianPath;
 use cosfly_render::{Buildings, Outlook, RenderConfig};
 use serde::{Deserialize, Serialize};
@@ -238,7 +237,7 @@ impl Filming<'_> {
         let Self { shooting, scenery, flight, .. } = self;
         let effects = self.config.effects(shooting.camera);
         let (camera, moments_s): (Camera, Vec<f64>) = (effects.ideal_camera(), effects.moments_s());
-        let poses: Vec<Pose> = shooting.poses(flight);
+        let film = FilmedFlight::new(shooting, flight, self.config);
         let track = &flight.track;
         others.iter_mut().for_each(|other| other.person.dress_for(shooting));
         let mut near = vec![];
@@ -247,8 +246,7 @@ impl Filming<'_> {
             check()?;
             let target = shooting.target(track, rate.state(track, frame), 0.0);
             for offset_s in &moments_s {
-                let eye = pose_at(&poses, rate.at(frame, *offset_s));
-                for pose in effects.poses(eye) {
+                for pose in effects.poses(film.pose(frame, *offset_s)) {
                     let outlook = Outlook::new(&camera, &shooting.weather, &pose);
                     let eye_in_world = pose.position_in_world;
                     let matters = |other: &mut Candidate| {

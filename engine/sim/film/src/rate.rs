@@ -4,11 +4,12 @@
 use crate::Shooting;
 use crate::walks::{Person, walked_m};
 use cosfly_domain::{Around, FramePerturbation, Trajectory};
-use cosfly_frames::{Pose, TargetState, TargetTrack, real};
+use cosfly_frames::{DVec3, Pose, TargetState, TargetTrack, real};
 use cosfly_geometry::SpatialQuery;
 use cosfly_optics::{pose_at, target_state_at};
 use cosfly_render::{Moment, RenderConfig};
 use cosfly_surroundings::exact::ExactMap;
+use cosfly_surroundings::moving::{OtherDrones, drone_boxes};
 
 /// Largest distance from obstacles that is stated, metres.
 const CLEARANCE_CAP_M: f64 = 50.0;
@@ -83,7 +84,7 @@ impl Rate {
 pub struct FilmedFlight<'a> {
     shooting: &'a Shooting,
     track: &'a TargetTrack,
-    /// Poses of the camera in all frames of the flight.
+    /// Poses in all frames of the flight: of the camera, of a film between frames of the drone, which the camera turns with.
     poses: Vec<Pose>,
     walked_m: Vec<f64>,
     rate: Rate,
@@ -92,8 +93,15 @@ pub struct FilmedFlight<'a> {
 impl<'a> FilmedFlight<'a> {
     /// The film of a flight as the settings of a camera ask.
     pub fn new(shooting: &'a Shooting, flight: &'a Trajectory, config: &RenderConfig) -> Self {
-        let (poses, walked_m) = (shooting.poses(flight), walked_m(&flight.track.states));
-        Self { shooting, track: &flight.track, poses, walked_m, rate: Rate::of(config, flight.track.dt_s) }
+        let (rate, walked_m) = (Rate::of(config, flight.track.dt_s), walked_m(&flight.track.states));
+        let poses = if rate.after_s > 0.0 { flight.poses_in_world.clone() } else { shooting.poses(flight) };
+        Self { shooting, track: &flight.track, poses, walked_m, rate }
+    }
+
+    /// Pose of the camera some seconds after a frame of the film.
+    pub fn pose(&self, frame: usize, offset_s: f64) -> Pose {
+        let pose = pose_at(&self.poses, self.rate.at(frame, offset_s));
+        if self.rate.after_s > 0.0 { self.shooting.mount.camera_pose(&pose) } else { pose }
     }
 
     /// Frames of the flight that the film has.
@@ -103,7 +111,7 @@ impl<'a> FilmedFlight<'a> {
 
     /// Poses of the camera, one per frame of the film.
     pub fn poses(&self) -> impl Iterator<Item = Pose> {
-        self.frames().map(|frame| self.rate.pose(&self.poses, frame))
+        self.frames().map(|frame| self.pose(frame, 0.0))
     }
 
     /// Frame of the flight before a frame of the film; none before the first one.
@@ -133,26 +141,43 @@ impl<'a> FilmedFlight<'a> {
         let way_m = self.walked_m[frame] + (self.rate.after_s + offset_s) * state.speed_mps;
         let target = self.shooting.target(self.track, state, way_m);
         // A target without extent is a point: it is watched, not drawn.
-        Moment { pose: pose_at(&self.poses, at), target: Some(target).filter(|target| target.radius_m > 0.0) }
+        Moment { pose: self.pose(frame, offset_s), target: Some(target).filter(|target| target.radius_m > 0.0) }
     }
 }
 
+/// Drones that the distances of a flight count.
+#[derive(Clone, Debug, Default)]
+pub struct DronesBeside {
+    /// Places of each, frame by frame, world frame, metres.
+    pub places: Vec<Vec<DVec3>>,
+    /// Smallest distance from drone to drone, metres.
+    pub separation_m: f64,
+}
+
 /// The flight as a film has it: every n-th frame, or moments between frames. Means and lengths of the certificate are those of the film's
-/// frames; limits, and what was measured against them between frames, stay those of the flight. `boxes` and `around` are what stands and
-/// moves there.
+/// frames; limits, and what was measured against them between frames, stay those of the flight. `boxes`, `around` and `drones` are what
+/// stands and moves there.
 pub fn filmed_flight(
     mut flight: Trajectory,
     config: &RenderConfig,
     boxes: &dyn SpatialQuery,
-    around: &Around,
+    (around, drones): (&Around, &DronesBeside),
 ) -> Trajectory {
     let rate = Rate::of(config, flight.track.dt_s);
     if rate.is_whole() {
         return flight;
     }
     if rate.after_s > 0.0 {
-        let movers = later_around(around, rate.after_s).boxes();
-        be_later(&mut flight, &rate, ExactMap::among(boxes, &movers));
+        let mut movers = later_around(around, rate.after_s).boxes();
+        let later = |places: &Vec<DVec3>| {
+            let share = rate.after_s / rate.dt_s;
+            let places: Vec<DVec3> = places.windows(2).map(|pair| pair[0].lerp(pair[1], share)).collect();
+            drone_boxes(&places)
+        };
+        movers.extend(drones.places.iter().map(later));
+        let kept = OtherDrones { count: drones.places.len(), separation_m: drones.separation_m };
+        let clearance_m = flight.certificate.limits.clearance_m;
+        be_later(&mut flight, &rate, ExactMap { drones: kept, clearance_m, ..ExactMap::among(boxes, &movers) });
     }
     flight.track.dt_s *= rate.every as f64;
     // What was seen first since the frame before.
@@ -277,7 +302,7 @@ fn present(mut around: Around) -> Around {
 mod tests {
     use super::*;
     use cosfly_domain::{Body, BodyKind, BodyPlan, Certificate, Traffic};
-    use cosfly_frames::{DVec3, Seed};
+    use cosfly_frames::Seed;
     use cosfly_geometry::BoxBvh;
 
     fn state(x: f64) -> TargetState {
@@ -317,7 +342,7 @@ mod tests {
             certificate: Certificate { max_speed_mps: 2.0, ..Certificate::default() },
             perturbation: None,
         };
-        let film = filmed_flight(flight.clone(), &every(3), &nothing(), &Around::default());
+        let film = filmed_flight(flight.clone(), &every(3), &nothing(), (&Around::default(), &DronesBeside::default()));
         assert_eq!((film.track.dt_s, &film.visibility[..]), (1.5, &[1.0, 0.25, 1.0][..]));
         assert!(film.poses_in_world.iter().eq([0, 3, 6].map(|k| &flight.poses_in_world[k])));
         assert_eq!(film.coverage, [1.0, 2.0 + 3.0 + 4.0, 5.0 + 6.0 + 7.0]);
@@ -325,7 +350,18 @@ mod tests {
         assert_eq!((it.mean_visibility, it.length_m, it.max_speed_mps), (0.75, 6.0, 2.0));
         assert!((it.frames_half_visible - 2.0 / 3.0).abs() < 1e-12 && (it.mean_distance_m - 5.0).abs() < 1e-12);
         assert!((it.max_yaw_rate_deg_s - 0.1f64.to_degrees() / 1.5).abs() < 1e-9);
-        assert_eq!(filmed_flight(flight.clone(), &every(1), &nothing(), &Around::default()), flight);
+        assert_eq!(
+            filmed_flight(flight.clone(), &every(1), &nothing(), (&Around::default(), &DronesBeside::default())),
+            flight
+        );
+        // Between frames, the drone beside it is where it is then: 4 m aside, less half its box.
+        let drones = DronesBeside {
+            places: vec![(0..8).map(|k| DVec3::new(f64::from(k), 4.0, 5.0)).collect()],
+            separation_m: 0.0,
+        };
+        let late = RenderConfig { begins_ns: 250_000_000, ..RenderConfig::default() };
+        let film = filmed_flight(flight, &late, &nothing(), (&Around::default(), &drones));
+        assert!(film.clearance_m.len() == 7 && film.clearance_m.iter().all(|it| (it - 3.7).abs() < 1e-9), "{film:?}");
     }
 
     #[test]

@@ -40,6 +40,11 @@ impl Formation {
         self.drones.iter().take(self.own as usize).flatten().map(Drone::places)
     }
 
+    /// Places of the drones that the distances of a flight count: those before it, of a perturbed twin all others.
+    pub fn counted(&self, of_twin: bool) -> Vec<Vec<DVec3>> {
+        if of_twin { self.others().map(Drone::places).collect() } else { self.before().collect() }
+    }
+
     /// Adds the boxes of all other drones to those that move; says what is kept from them.
     pub fn join(&self, movers: &mut Vec<Vec<OrientedBox>>) -> OtherDrones {
         let count = self.others().count();
