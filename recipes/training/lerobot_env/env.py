@@ -16,12 +16,15 @@ import cosfly
 from cosfly.lerobot import CosflyEnv
 from lerobot.envs.factory import make_env as make_env_of
 
+# Gone when the program ends.
+_OWN = tempfile.TemporaryDirectory(prefix="cosfly-")
+
 
 def _recipe() -> Path:
     beside = Path(__file__).with_name("recipe.toml")
     if beside.is_file():
         return beside
-    folder = Path(tempfile.mkdtemp(prefix="cosfly-")) / "small"
+    folder = Path(tempfile.mkdtemp(dir=_OWN.name)) / "small"
     cosfly.init(folder)
     return folder / "recipe.toml"
 

@@ -9,6 +9,7 @@ mod flights_stages;
 mod flights_steps;
 mod geometry;
 mod ground;
+mod lidar;
 mod look;
 mod outcome;
 mod people;
@@ -51,6 +52,9 @@ enum Command {
     /// Box queries per second on one core: cosfly's tree, the trees of parry and obvhs, and a brute-force loop
     #[command(after_help = geometry::EXAMPLES)]
     Geometry(geometry::GeometryArguments),
+    /// Lidars: beams a second of a core by device, over a town
+    #[command(after_help = lidar::EXAMPLES)]
+    Lidar(lidar::LidarArguments),
     /// Statistics of pictures beside those of real ones: spectral slope, flat pixels, edges, spread of colours
     #[command(after_help = look::EXAMPLES)]
     Look(look::LookArguments),
@@ -92,6 +96,7 @@ impl Arguments {
             Command::Flights(arguments) => flights::flights(arguments),
             Command::Fleet(arguments) => fleet::fleet(arguments),
             Command::Geometry(arguments) => geometry::geometry(arguments),
+            Command::Lidar(arguments) => lidar::lidar(arguments),
             Command::Look(arguments) => look::look(arguments),
             Command::People(arguments) => people::people(arguments),
             Command::Planner(arguments) => planner::planner(arguments),

@@ -1,12 +1,13 @@
 //! `vehicles`: how simulated vehicles drive.
 
-use super::outcome::{Outcome, print};
+use super::outcome::{Outcome, Refusals, print};
 use clap::Args;
 use cosfly_diagnose::{Diagnostic, Fault};
+use cosfly_domain::Town;
 use cosfly_frames::Seed;
 use cosfly_lab::vehicles::driving;
 use cosfly_maps::{MapConfig, read_town};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Examples of `vehicles`.
 pub const EXAMPLES: &str = "\
@@ -43,16 +44,23 @@ pub fn vehicles(arguments: &VehiclesArguments) -> Outcome {
         let message = format!("`--frame-s` is {}; it must be from 0.01 to 10", arguments.frame_s);
         return Err(vec![Diagnostic::new("bench-vehicles", Fault::Recipe, message)]);
     }
-    let refused = |code, message: String| vec![Diagnostic::new(code, Fault::Input, message)];
-    let path = &arguments.town;
-    let map =
-        std::fs::read(path).map_err(|error| vec![Diagnostic::io(format!("read `{}`", path.display()), &error)])?;
-    let seed = Seed::of_item(arguments.seed, "vehicles", "town");
-    let read = read_town(&map, &MapConfig::default(), seed);
-    let (mut town, ..) = read.map_err(|error| refused("bench-town", error.to_string()))?;
-    town.name = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("town").to_owned();
+    let town = town_of(&arguments.town, arguments.seed)?;
     let driving = driving(&town, arguments.count, (arguments.frames, arguments.frame_s), arguments.seed)
-        .map_err(|error| refused("bench-vehicles", error.to_string()))?;
+        .map_err(|error| refused("bench-vehicles", error))?;
     let as_json = || serde_json::to_string_pretty(&driving).unwrap_or_default() + "\n";
     print(&if arguments.json { as_json() } else { driving.to_string() })
+}
+
+/// The town of a map file, called like the file.
+pub fn town_of(path: &Path, seed: u64) -> Result<Town, Refusals> {
+    let map =
+        std::fs::read(path).map_err(|error| vec![Diagnostic::io(format!("read `{}`", path.display()), &error)])?;
+    let read = read_town(&map, &MapConfig::default(), Seed::of_item(seed, "vehicles", "town"));
+    let (mut town, ..) = read.map_err(|error| refused("bench-town", error))?;
+    town.name = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("town").to_owned();
+    Ok(town)
+}
+
+fn refused(code: &'static str, error: impl ToString) -> Refusals {
+    vec![Diagnostic::new(code, Fault::Input, error.to_string())]
 }
