@@ -10,6 +10,7 @@ use crate::suite::EpisodeTask;
 use cosfly_env::pictures::{PictureBatch, PictureFormat, Pictures};
 use cosfly_env::{Environment, EnvironmentSettings, Reward};
 use member::{Shared, VectorMember, stream_of};
+use outputs::Row;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuildError};
 use std::sync::Arc;
@@ -207,12 +208,31 @@ impl VectorEnvironment {
 
     /// Moves every environment on by one step, with one action of [`cosfly_env::Action::of_numbers`] each.
     pub fn step(&mut self, actions: &[[f64; ACTIONS]]) {
-        let before = if self.shared.is_team { team::places(&self.members) } else { vec![] };
-        self.fly(actions);
-        if self.shared.is_team {
-            team::meet(&mut self.members, &before, &self.shared);
+        let began = Instant::now();
+        let Self { shared, members, outputs, pool, .. } = self;
+        // As exact as the action space.
+        let fly = |member: &mut VectorMember, action: &[f64; ACTIONS]| {
+            member.step(&action.map(|number| number as f32), shared);
+        };
+        if shared.is_team {
+            let before = team::places(members);
+            members.iter_mut().zip(actions).for_each(|(member, action)| fly(member, action));
+            team::meet(members, &before, shared);
+            self.tell_team();
+        } else {
+            let step = |((member, action), mut row): ((&mut VectorMember, _), Row<'_>)| {
+                fly(member, action);
+                row.tell_whole(member);
+            };
+            match pool.as_ref().filter(|_| members.len() >= 2 * FEWEST_A_THREAD) {
+                Some(pool) => pool.install(|| {
+                    let all = members.par_iter_mut().zip(actions).zip(outputs.rows());
+                    all.with_min_len(FEWEST_A_THREAD).for_each(step);
+                }),
+                None => (0..).zip(members.iter_mut().zip(actions)).for_each(|(n, it)| step((it, outputs.row(n)))),
+            }
         }
-        self.tell_all();
+        self.shared_s += began.elapsed().as_secs_f64();
         self.draw(|_| true);
         if self.shared.mode == Autoreset::SameStep {
             self.begin_ended();
@@ -228,38 +248,12 @@ impl VectorEnvironment {
             member.environment.reset(episode);
             (member.reward, member.end) = (Reward::default(), None);
         }
-        self.tell_all();
+        self.tell_team();
         self.draw(|_| true);
     }
 
-    /// Moves every environment on by one step.
-    fn fly(&mut self, actions: &[[f64; ACTIONS]]) {
-        let began = Instant::now();
-        let Self { shared, members, pool, .. } = self;
-        // As exact as the action space.
-        let step = |(member, action): (&mut VectorMember, &[f64; ACTIONS])| {
-            member.step(&action.map(|number| number as f32), shared);
-        };
-        match pool.as_ref().filter(|_| members.len() >= 2 * FEWEST_A_THREAD) {
-            Some(pool) => pool.install(|| {
-                members.par_iter_mut().zip(actions).with_min_len(FEWEST_A_THREAD).for_each(step);
-            }),
-            None => members.iter_mut().zip(actions).for_each(step),
-        }
-        self.shared_s += began.elapsed().as_secs_f64();
-    }
-
-    fn tell_all(&mut self) {
-        let began = Instant::now();
-        let Self { members, outputs, pool, .. } = self;
-        match pool.as_ref().filter(|_| members.len() >= 2 * FEWEST_A_THREAD) {
-            Some(pool) => pool.install(|| {
-                let rows = members.par_iter().zip(outputs.rows()).with_min_len(FEWEST_A_THREAD);
-                rows.for_each(|(member, mut row)| row.tell_whole(member));
-            }),
-            None => (0..).zip(&*members).for_each(|(number, member)| outputs.row(number).tell_whole(member)),
-        }
-        self.shared_s += began.elapsed().as_secs_f64();
+    fn tell_team(&mut self) {
+        (0..).zip(&self.members).for_each(|(number, member)| self.outputs.row(number).tell_whole(member));
         for (number, told) in self.outputs.beside.iter_mut().enumerate() {
             *told = team::beside(&self.members, number);
         }

@@ -211,9 +211,10 @@ impl PyFlock {
             self.put(told, "expert_action", outputs.expert_actions.as_flattened(), &[count, ACTIONS])?;
         }
         self.put(told, "last_terms", outputs.terms.as_flattened(), &[count, TERMS])?;
-        for (at, name) in cosfly_env::Reward::NAMES.iter().enumerate() {
-            let name = format!("reward_{name}");
-            if !told.contains(&name)? {
+        // Views of the terms are made with their array.
+        if !told.contains("reward_visibility")? {
+            for (at, name) in cosfly_env::Reward::NAMES.iter().enumerate() {
+                let name = format!("reward_{name}");
                 let column = (PySlice::full(told.py()), at);
                 told.set_item(name, told.as_any().get_item("last_terms")?.get_item(column)?)?;
             }

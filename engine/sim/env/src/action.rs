@@ -113,7 +113,7 @@ impl Action {
     pub fn numbers(&self, yaw_rad: f64) -> [f64; 5] {
         let velocity = match self.axes {
             VelocityAxes::Heading => self.velocity_mps,
-            VelocityAxes::World => heading_from_world(self.velocity_mps, yaw_rad),
+            VelocityAxes::World => heading_from_world(yaw_rad)(self.velocity_mps),
         };
         let view = [self.view.pitch_rad_s, self.view.yaw_rad_s].map(f64::to_degrees);
         [velocity.x, velocity.y, velocity.z, view[0], view[1]]
@@ -121,14 +121,12 @@ impl Action {
 
     /// The command for a drone with this yaw.
     pub fn command(&self, yaw_rad: f64) -> VelocityCommand {
-        let in_world = |vector: DVec3| match self.axes {
-            VelocityAxes::Heading => world_from_heading(vector, yaw_rad),
-            VelocityAxes::World => vector,
-        };
-        VelocityCommand {
-            velocity_in_world: in_world(self.velocity_mps),
-            acceleration_in_world: in_world(self.acceleration_mps2),
+        let mut vectors = [self.velocity_mps, self.acceleration_mps2];
+        if self.axes == VelocityAxes::Heading {
+            vectors = vectors.map(world_from_heading(yaw_rad));
         }
+        let [velocity_in_world, acceleration_in_world] = vectors;
+        VelocityCommand { velocity_in_world, acceleration_in_world }
     }
 }
 
@@ -141,13 +139,13 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// Turns a vector from the axes of a heading into the world's.
-pub fn world_from_heading(vector: DVec3, yaw_rad: f64) -> DVec3 {
+/// Turns vectors from the axes of a heading into the world's.
+pub fn world_from_heading(yaw_rad: f64) -> impl Fn(DVec3) -> DVec3 {
     let (sin, cos) = real::sin_cos(yaw_rad);
-    DVec3::new(cos * vector.x - sin * vector.y, sin * vector.x + cos * vector.y, vector.z)
+    move |vector| DVec3::new(cos * vector.x - sin * vector.y, sin * vector.x + cos * vector.y, vector.z)
 }
 
-/// Turns a vector from the world's axes into those of a heading.
-pub fn heading_from_world(vector: DVec3, yaw_rad: f64) -> DVec3 {
-    world_from_heading(vector, -yaw_rad)
+/// Turns vectors from the world's axes into those of a heading.
+pub fn heading_from_world(yaw_rad: f64) -> impl Fn(DVec3) -> DVec3 {
+    world_from_heading(-yaw_rad)
 }

@@ -120,7 +120,7 @@ fn air(settings: &EnvironmentSettings, episode: &Episode, start: DVec3) -> Air {
     let DroneSettings { wind_mps, gusts, .. } = settings.drone;
     let towards_rad = episode.seed.stream("wind").uniform(0.0, real::TAU);
     let (sin, cos) = real::sin_cos(towards_rad);
-    let height_m = start.z - episode.place.ground_m(start.x, start.y);
+    let height_m = episode.place.above_ground_m(start);
     let turbulence = gusts.then(|| Turbulence::near_ground(height_m, wind_mps));
     Air::new(wind_mps * DVec3::new(cos, sin, 0.0), turbulence, episode.seed)
 }

@@ -10,7 +10,7 @@ use crate::score::{End, EpisodeScore};
 use crate::settings::EnvironmentSettings;
 use cosfly_drone::quadrotor::TrackingError;
 use cosfly_drone::{Gimbal, Motion, Sensed};
-use cosfly_frames::{Pose, TargetState, real};
+use cosfly_frames::{DMat3, Pose, TargetState, real};
 use cosfly_geometry::SpatialQuery;
 use cosfly_sensors::Airframe;
 use cosfly_surroundings::visibility::aim_point;
@@ -77,7 +77,7 @@ impl Environment {
             motion,
             yaw_rad: gimbal.yaw_rad,
             pitch_rad: gimbal.pitch_rad,
-            above_ground_m: 0.0,
+            above_ground_m: episode.place.above_ground_m(motion.position_in_world),
             visible: 0.0,
             in_picture: true,
             tracked: true,
@@ -99,7 +99,7 @@ impl Environment {
             target_covered_m,
             score,
         };
-        new.observe(target);
+        new.observe(target, &new.camera().world_from_body());
         new
     }
 
@@ -230,8 +230,9 @@ impl Environment {
         let step = target.feet_in_world - self.episode.target_at(begins_s).feet_in_world;
         self.target_covered_m += step.length();
         touched |= self.touches(&target);
-        self.observe(target);
-        let reward = self.judge(&before, &target, touched);
+        let world_from_camera = self.camera().world_from_body();
+        self.observe(target, &world_from_camera);
+        let reward = self.judge(&before, &target, &world_from_camera, touched);
         Step { observation: self.observation, reward, end: self.score.end }
     }
 
@@ -252,7 +253,9 @@ impl Environment {
         self.drone.step(&self.action, self.gimbal.yaw_rad, to_s - from_s);
         self.gimbal.step(&self.action.view, to_s - from_s);
         let (to, radius_m, episode) = (self.drone.motion().position_in_world, self.settings.radius_m, &self.episode);
-        episode.place.collides(from, to, radius_m)
+        let above_m = episode.place.above_ground_m(to);
+        self.observation.above_ground_m = above_m;
+        episode.place.collides([from, to], above_m, radius_m)
             || episode.others.clearance_m([from_s, to_s], [from, to], radius_m) < radius_m
             || episode.vehicle_clearance_m([from_s, to_s], [from, to], radius_m) < radius_m
     }
@@ -266,8 +269,8 @@ impl Environment {
             && away.truncate().length() < track.radius_m + radius_m
     }
 
-    /// Fills the observation from the present state.
-    fn observe(&mut self, target: TargetState) {
+    /// Fills the observation from the present state, but the height above ground.
+    fn observe(&mut self, target: TargetState, world_from_camera: &DMat3) {
         let is_blind = self.is_blind();
         let (episode, settings) = (&self.episode, &self.settings);
         let position = self.drone.motion().position_in_world;
@@ -275,10 +278,9 @@ impl Environment {
         let observation = &mut self.observation;
         (observation.motion, observation.yaw_rad) = (self.drone.motion(), self.gimbal.yaw_rad);
         observation.pitch_rad = self.gimbal.pitch_rad;
-        observation.above_ground_m = position.z - episode.place.ground_m(position.x, position.y);
         observation.visible = episode.visible(observation.time_s, position, &target);
-        observation.in_picture =
-            !is_blind && settings.lens.shows(&self.gimbal.pose(position), aim_point(&target, height_m));
+        let seen = world_from_camera.transpose() * (aim_point(&target, height_m) - position);
+        observation.in_picture = !is_blind && settings.lens.holds(seen);
         let is_near = position.distance(target.feet_in_world) <= settings.farthest_m;
         observation.tracked = observation.visible >= settings.least_visible && observation.in_picture && is_near;
         if observation.tracked {
@@ -288,14 +290,13 @@ impl Environment {
     }
 
     /// Counts the step.
-    fn judge(&mut self, before: &Motion, target: &TargetState, touched: bool) -> Reward {
+    fn judge(&mut self, before: &Motion, target: &TargetState, world_from_camera: &DMat3, touched: bool) -> Reward {
         let (settings, observation, score) = (&self.settings, &self.observation, &mut self.score);
         let motion = self.drone.motion();
         score.count(observation.tracked, settings.step_s);
         let distance_m = motion.position_in_world.distance(target.feet_in_world);
         let seen = aim_point(target, self.episode.target.height_m) - motion.position_in_world;
-        let axis = self.gimbal.pose(motion.position_in_world).world_from_body().x_axis;
-        let off_rad = real::acos((axis.dot(seen) / seen.length().max(1e-9)).clamp(-1.0, 1.0));
+        let off_rad = real::acos((world_from_camera.x_axis.dot(seen) / seen.length().max(1e-9)).clamp(-1.0, 1.0));
         let share = motion.acceleration_in_world.length() / settings.motion.acceleration_mps2;
         let reward = Reward {
             visibility: if observation.in_picture { observation.visible } else { 0.0 },

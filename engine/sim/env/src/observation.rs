@@ -70,7 +70,8 @@ impl Observation {
     /// 9-11 its acceleration (m/s^2), 12 pitch of the camera (degrees), 13 height above ground, 14 whether the target is tracked
     /// (0 or 1), 15 age of the sighting (s).
     pub fn features(&self) -> [f64; FEATURES] {
-        let along = |vector: DVec3| self.along_heading(vector).to_array();
+        let turn = heading_from_world(self.yaw_rad);
+        let along = |vector: DVec3| turn(vector).to_array();
         let place = along(self.sighting.target.feet_in_world - self.motion.position_in_world);
         let [velocity, own, acceleration] =
             [self.sighting.velocity_in_world, self.motion.velocity_in_world, self.motion.acceleration_in_world]
@@ -91,7 +92,7 @@ impl Observation {
 
     /// A vector of the world along the axes of the heading: ahead, right, up.
     pub fn along_heading(&self, vector_in_world: DVec3) -> DVec3 {
-        heading_from_world(vector_in_world, self.yaw_rad)
+        heading_from_world(self.yaw_rad)(vector_in_world)
     }
 
     /// Place of the target's feet as a policy may suppose it at a time: it walks on as it was last seen, for `trust_s` seconds at

@@ -98,9 +98,13 @@ impl FlightSite {
         self.ground.ground_height_m(x, y).unwrap_or(self.lowest_m)
     }
 
-    /// Whether a sphere that moves from one point to another touches a box or the ground at its end.
-    pub fn collides(&self, from_in_world: DVec3, to_in_world: DVec3, radius_m: f64) -> bool {
-        let above_m = to_in_world.z - self.ground_m(to_in_world.x, to_in_world.y);
+    /// Height of a point above the ground, metres.
+    pub fn above_ground_m(&self, point_in_world: DVec3) -> f64 {
+        point_in_world.z - self.ground_m(point_in_world.x, point_in_world.y)
+    }
+
+    /// Whether a sphere that moves from one point to another, `above_m` over the ground at its end, touches a box or the ground there.
+    pub fn collides(&self, [from_in_world, to_in_world]: [DVec3; 2], above_m: f64, radius_m: f64) -> bool {
         above_m < radius_m || self.exact.segment_clearance(from_in_world, to_in_world, radius_m) < radius_m
     }
 }

@@ -45,7 +45,11 @@ impl Blackouts {
 impl FieldOfView {
     /// Whether a point is inside the picture's borders.
     pub fn shows(&self, camera: &Pose, point_in_world: DVec3) -> bool {
-        let seen = camera.body_from_world_point(point_in_world);
+        self.holds(camera.body_from_world_point(point_in_world))
+    }
+
+    /// Whether a point in the camera's frame is inside the picture's borders.
+    pub fn holds(&self, seen: DVec3) -> bool {
         let right = real::tan(0.5 * self.horizontal_deg.to_radians());
         seen.x > 0.0 && seen.y.abs() <= right * seen.x && seen.z.abs() <= self.aspect * right * seen.x
     }

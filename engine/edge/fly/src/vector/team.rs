@@ -41,7 +41,8 @@ fn start_beside(episode: &Episode, taken: &[Start], share: f64, radius_m: f64) -
     };
     let is_free = |place: &DVec3| {
         let is_apart = taken.iter().all(|start| start.position_in_world.distance(*place) >= APART_M);
-        is_apart && !episode.place.collides(*place, *place, radius_m + 1.0)
+        let above_m = episode.place.above_ground_m(*place);
+        is_apart && !episode.place.collides([*place; 2], above_m, radius_m + 1.0)
     };
     let free = (0..ANGLES * LEVELS).map(place).find(is_free);
     // Above all levels there is room.
