@@ -142,14 +142,21 @@ fn a_varied_expert_is_no_entry_of_another_name_and_sensors_are_flown_again() {
     let fly = ["fly", "recipe.toml", "--out", "more", "--clips", "0", "--logs", "none", "--quiet"];
     let policies = [
         &["--policy", "expert:gain=0.5", "--name", "mine"][..],
-        &["--policy", "follow", "--name", "high", "--obs", "laser_altimeter"],
+        // Options for other policies of the same command: a baseline gets no pictures and answers each step.
+        &["--policy", "follow", "--name", "high", "--obs", "laser_altimeter,depth", "--every", "3"],
     ];
     for policy in policies {
         cosfly(&[&fly[..], policy].concat()).within(street.path()).run_ok();
         let (result, file) = (format!("more/{}", policy[3]), format!("board/{}.jsonl.zst", policy[3]));
         cosfly(&["fly", "bundle", &result, "--out", &file]).within(street.path()).run_ok();
-        cosfly(&["fly", "verify", &file, "recipe.toml"]).within(street.path()).run_ok();
+        cosfly(&["fly", "verify", &file, "recipe.toml", "--run-policy"]).within(street.path()).run_ok();
     }
+    let mut slow = Bundle::read(&street.path().join("board/high.jsonl.zst")).expect("a bundle");
+    slow.card.policy.every = 3;
+    std::fs::write(street.path().join("slow.jsonl.zst"), slow.bytes().expect("bytes")).expect("written");
+    let refused =
+        cosfly(&["fly", "verify", "slow.jsonl.zst", "recipe.toml", "--run-policy"]).within(street.path()).run();
+    assert!(refused.stderr.contains("says other things of its policy"), "{}", refused.stderr);
     std::fs::write(street.path().join("board/high.toml"), "sees = \"laser_altimeter\"").expect("written");
     let board = table(street.path());
     let suite = &board["suites"][0];

@@ -24,8 +24,8 @@ impl Runnable {
     /// Why the policy is not the one of the card, in words.
     pub fn of(card: &PolicyCard, onnx: Option<&[u8]>) -> Result<Option<Self>, String> {
         if let Some(name) = &card.baseline {
-            let is_other = card.kind != "baseline" || card.source.is_some() || card.pictures.is_some();
-            if is_other || !card.observations.is_empty() {
+            let own = PolicyCard::of_baseline(name.clone(), &card.name, card.version.clone());
+            if *card != (PolicyCard { sensors: card.sensors.clone(), ..own }) {
                 return Err("its card names a baseline and says other things of its policy".to_owned());
             }
             return match Place::of_baseline(name) {

@@ -2,7 +2,7 @@
 
 use super::differences::differences;
 use crate::flight::Latency;
-use crate::pilot::OnnxPolicy;
+use crate::pilot::{ActionKind, OnnxPolicy};
 use crate::settings::FlySettings;
 use crate::suite::{Suite, SuitePart};
 use cosfly_domain::Channel;
@@ -127,6 +127,24 @@ impl PolicyCard {
             sensors: sees.iter().copied().filter(is_sensor).map(str::to_owned).collect(),
             observations: sees.into_iter().map(str::to_owned).collect(),
             baseline: None,
+        }
+    }
+
+    /// The card of a baseline, which is sent no pictures and answers each step.
+    pub fn of_baseline(baseline: String, name: &str, version: Option<String>) -> Self {
+        Self {
+            name: name.to_owned(),
+            version,
+            kind: "baseline".to_owned(),
+            source: None,
+            timeout_s: None,
+            actions: ActionKind::Velocity.name().to_owned(),
+            every: 1,
+            prompt: String::new(),
+            pictures: None,
+            sensors: vec![],
+            observations: vec![],
+            baseline: Some(baseline),
         }
     }
 

@@ -177,27 +177,30 @@ impl PolicyArguments {
 
     /// Card of the policy at a place.
     pub fn card(&self, place: &Place, name: &str) -> PolicyCard {
+        let manners = self.without_key();
+        let sensors = self.sensors(place).iter().map(|sensor| sensor.name.to_owned()).collect();
         let kind = match place {
             Place::Onnx(policy) => return PolicyCard::of_onnx(policy, name, self.version.clone()),
-            Place::Baseline { .. } => "baseline",
+            Place::Baseline { .. } => {
+                let own = PolicyCard::of_baseline(place.name(), name, self.version.clone());
+                return PolicyCard { prompt: manners.prompt, sensors, ..own };
+            }
             Place::Socket(_) => "socket",
             Place::Python { .. } => "python",
         };
-        let manners = self.without_key();
-        let is_baseline = matches!(place, Place::Baseline { .. });
         PolicyCard {
             name: name.to_owned(),
             version: self.version.clone(),
             kind: kind.to_owned(),
             source: source_of(place, &manners),
-            timeout_s: (!is_baseline).then_some(self.timeout_s),
+            timeout_s: Some(self.timeout_s),
             actions: manners.actions.name().to_owned(),
             every: manners.every,
             prompt: manners.prompt,
             pictures: manners.pictures.map(|format| PicturesCard::of(&format)),
             observations: vec![],
-            sensors: self.sensors(place).iter().map(|sensor| sensor.name.to_owned()).collect(),
-            baseline: is_baseline.then(|| place.name()),
+            sensors,
+            baseline: None,
         }
     }
 }
