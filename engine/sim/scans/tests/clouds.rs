@@ -8,6 +8,7 @@ use cosfly_scans::las::Las;
 use cosfly_scans::pcd::Pcd;
 use cosfly_scans::ply::Ply;
 use cosfly_town::{MapError, MapFormat};
+use std::collections::BTreeSet;
 
 #[path = "../examples/write_clouds.rs"]
 #[expect(dead_code, reason = "the program's own `main`")]
@@ -161,14 +162,21 @@ fn a_class_that_a_survey_does_not_tell_is_found_by_shape() {
 #[test]
 fn narrow_plants_on_a_wall_are_parts_of_the_house() {
     let mut points = scene();
+    // Bushes before and behind it in the order of the plan.
+    points.extend((0..240).map(|i| {
+        let [x, y] = [[4.0, 3.0], [4.0, 27.0], [26.0, 3.0], [26.0, 27.0]][i % 4];
+        ([x + 0.1 * (i / 4 % 6) as f64, y + 0.1 * (i / 24) as f64, 1.8 + 0.002 * i as f64], 4)
+    }));
+    let plain = read::<Las>(&las(&points, false).unwrap(), &CloudOptions::default()).unwrap();
     points.extend((0..60).map(|i| {
         let aside_m = 0.2 * f64::from(i % 5) - 0.4;
         ([14.0 + aside_m, 17.5 + 0.1 * f64::from(i % 3), 3.4 + 0.02 * f64::from(i)], 5)
     }));
     let town = read::<Las>(&las(&points, false).unwrap(), &CloudOptions::default()).unwrap();
     let trees = |town: &Town| of_kind(town, ObstacleKind::TreeTrunk).len();
-    let plain = read::<Las>(&las(&scene(), false).unwrap(), &CloudOptions::default()).unwrap();
     assert_eq!(trees(&town), trees(&plain), "no tree stands on the wall");
+    let things = |town: &Town| town.obstacles.iter().map(|one| one.object_id).collect::<BTreeSet<_>>().len();
+    assert_eq!(things(&town), things(&plain), "each thing has an id of its own");
     let houses = of_kind(&town, ObstacleKind::Building);
     let house = BoxBvh::build(houses.iter().map(|one| one.shape).collect());
     let near = house.nearest(DVec3::new(14.0, -17.5, 4.0), 0.3).expect("the plant is solid");

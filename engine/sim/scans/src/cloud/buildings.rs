@@ -51,11 +51,13 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) -> Volumes {
         })
         .collect();
     let mut volumes = Volumes::default();
+    let mut object_id = next_id(obstacles);
     for cover in covers {
         volumes = volumes.plus(cover.volumes, 1.0);
-        let object_id = next_id(obstacles);
+        let has_boxes = !cover.shapes.is_empty();
         let obstacle = |shape| Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: false };
         obstacles.extend(cover.shapes.into_iter().map(obstacle));
+        object_id += u32::from(has_boxes);
     }
     volumes
 }

@@ -1,8 +1,8 @@
-//! Numbers of things, which rise.
+//! Numbers of things.
 
 use cosfly_domain::Obstacle;
 
-/// Number for the next thing.
+/// Smallest number that is greater than those of all things.
 pub fn next_id(obstacles: &[Obstacle]) -> u32 {
-    obstacles.last().map_or(0, |last| last.object_id) + 1
+    obstacles.iter().map(|one| one.object_id).max().unwrap_or(0) + 1
 }

@@ -61,13 +61,15 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
     };
     let crowns: Vec<(usize, Vec<OrientedBox>)> = (0..grid.cells()).into_par_iter().filter(is_peak).map(crown).collect();
     let houses = Houses::of(obstacles);
+    // Parts of houses have numbers of their own between: those of plants rise apart.
+    let mut object_id = next_id(obstacles);
     for (peak, crown) in crowns {
         if let Some(object_id) = houses.behind(&crown).filter(|_| f64::from(top_m[peak]) >= LOWEST_TREE_M) {
             let part = |shape| Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: false };
             obstacles.extend(crown.into_iter().map(part));
             continue;
         }
-        let object_id = next_id(obstacles);
+        let has_boxes = !crown.is_empty();
         let obstacle = |shape, kind, synthetic| Obstacle { shape, kind, object_id, synthetic };
         let height_m = f64::from(top_m[peak]);
         let is_tree = height_m >= LOWEST_TREE_M;
@@ -77,6 +79,7 @@ pub fn add(survey: &Survey<'_>, obstacles: &mut Vec<Obstacle>) {
                 .extend(trunk(survey, lowest, height_m).map(|shape| obstacle(shape, ObstacleKind::TreeTrunk, true)));
         }
         obstacles.extend(crown.into_iter().map(|shape| obstacle(shape, kind, false)));
+        object_id += u32::from(has_boxes);
     }
 }
 
