@@ -38,6 +38,8 @@ pub struct Facade {
     pub(super) gloss: f32,
     /// How much its panes differ in what they mirror.
     pub(super) uneven: f32,
+    /// Light of cloth that its glass lets out.
+    pub(super) clear: f32,
     /// 1 where windows have a bar in the middle.
     pub(super) mullions: f32,
     /// 1 for walls of bricks.
@@ -81,8 +83,9 @@ impl Facade {
             sill: [between(family.sill[0], seed, draws::SILL), between(family.sill[1], seed, draws::LINTEL)],
             reveal_m: family.reveal_m,
             gloss: family.gloss,
-            // Where all is glass, differences show.
-            uneven: if share > 0.8 { 0.9 } else { 0.4 },
+            uneven: 0.4,
+            // Where all is glass, it is tinted: walls are no chequers of blinds.
+            clear: if share > 0.8 { 0.3 } else { 1.0 },
             mullions: if family.mullion { 1.0 } else { 0.0 },
             brick: if family.brick { 1.0 } else { 0.0 },
             ledge: family.ledge,

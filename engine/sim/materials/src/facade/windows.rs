@@ -77,7 +77,7 @@ impl Facade {
         let drawn = one_if(curtains > 0.5) * cloth;
         // Rooms are dark to a different degree; cloth is white to sand.
         let room = GLASS * (0.45 + 1.5 * pane * pane);
-        let colour = Vec3::splat(0.52).lerp(Vec3::new(0.30, 0.25, 0.18), pane) * (1.3 * curtains - 0.45);
+        let colour = Vec3::splat(0.52).lerp(Vec3::new(0.30, 0.25, 0.18), pane) * (self.clear * (1.3 * curtains - 0.45));
         let inside = room.lerp(colour, drawn);
         let inside = inside.lerp(Vec3::new(0.09, 0.09, 0.085), mean);
         look.albedo = look.albedo.lerp(inside, share);
