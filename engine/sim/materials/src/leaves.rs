@@ -5,7 +5,7 @@
 use super::lanes::{
     Block, EMPTY_ROW, FOUR, PendingFours, Shared, StageRow, WIDE, get, groups, set, three_of, write_row, write_three,
 };
-use super::pattern::{NoiseTexture, Noises, draw, least, lerp, most, share, smoothstep, unit};
+use super::pattern::{NoiseLevel, NoiseTexture, Noises, draw, least, lerp, most, one_if, share, smoothstep, unit};
 use super::surface::{Look, SurfacePoint};
 use super::vector::Vec3;
 use crate::parts::SceneBox;
@@ -49,6 +49,9 @@ const EVERGREEN_BUSHES: f32 = 0.6;
 
 /// How far leaves of a clump are aside of where it is, for shadows, metres.
 const ASIDE_M: f32 = 1.2;
+
+/// Texels of clumps per metre.
+const PER_M: f32 = 20.0;
 
 /// Frequency of boughs, in frequencies of clumps.
 const BOUGHS: f32 = 0.36;
@@ -249,9 +252,8 @@ simd_kernel! {
             let [shifts, throughs] = [&crowns.shift, &crowns.through].map(|row| PendingFours::lane(row, group));
             for block in four {
                 for k in 0..WIDE {
-                    let [middle, half, shrink, tint] = [&crowns.middle, &crowns.half, &crowns.shrink, &crowns.tint]
-                        .map(|rows| three_of(rows, group, k));
-                    let crown = OnMap { middle, half, shrink, tint, through: throughs[k], shift: shifts[k] };
+                    let [middle, tint] = [&crowns.middle, &crowns.tint].map(|rows| three_of(rows, group, k));
+                    let crown = OnMap { middle, tint, through: throughs[k], shift: shifts[k] };
                     let point = block.point(shared, k);
                     let (look, aside) = look(&point, &crown, noise);
                     block.put_bent(k, &look);
@@ -279,23 +281,25 @@ simd_kernel! {
     }
 }
 
-/// The look of a place on a round crown. Patterns lie on a map that keeps shapes (stereographic) of its upper half, and on the
-/// mirrored one of its lower half: there are no seams. Also the way that its clump is turned.
+/// The look of a place on a round crown. Each pattern is seen along a way of its own: none has seams, and where one is drawn
+/// out long, others are not, however high or flat the crown is. Also the way that its clump is turned.
 #[inline(always)]
 fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec3) {
     let out = point.normal;
     let size = point.footprint_m;
-    let (u, v, scale) = crown.place(point.world);
-    let clumps = |offset: f32| noise.clumps(u + offset, v - offset, size * scale) - 0.5;
-    let (big, aside) = (clumps(crown.shift), clumps(crown.shift + 91.0));
+    let place = (point.world - crown.middle) * PER_M;
+    let (near, far) = (NoiseLevel::of(size * PER_M), NoiseLevel::of(size * PER_M * BOUGHS));
+    let big = clumps(along(place, 1.0, 0.0), crown.shift, near, noise);
+    let aside = clumps(along(place, -0.5, 0.866), crown.shift, near, noise);
     // Boughs: clumps of clumps, with deep shade between them.
-    let bough = noise.clumps((u + 173.0) * BOUGHS + crown.shift, v * BOUGHS, size * scale * BOUGHS) - 0.5;
+    let bough = clumps(along(place * BOUGHS, -0.5, -0.866), crown.shift, far, noise);
     let fine = lerp(0.85, 0.55, crown.through);
-    let small = noise.grain(u * fine, v * fine, size * scale * fine) - 0.5;
+    let (u, v) = facing(place, out);
+    let small = noise.grain(u * fine, v * fine, size * PER_M * fine) - 0.5;
     // Twigs are lines, level sets of the same noise, with what lies below the crown between them; they fade where a
     // pixel is as large as a texel.
     let bare = 1.0 - crown.through;
-    let open = bare * share((small.abs() - 0.01) / (0.10 + 0.40 * least(size * scale * fine, 1.0)));
+    let open = bare * share((small.abs() - 0.01) / (0.10 + 0.40 * least(size * PER_M * fine, 1.0)));
     let small = small * crown.through;
     // Every clump of leaves faces its own way.
     let turn = Vec3::new(aside - big, aside + big - bough, bough + 0.5 * big);
@@ -314,19 +318,28 @@ fn look(point: &SurfacePoint, crown: &OnMap, noise: &NoiseTexture) -> (Look, Vec
 /// A crown as its patterns know it.
 struct OnMap {
     middle: Vec3,
-    half: Vec3,
-    shrink: Vec3,
     tint: Vec3,
     through: f32,
     shift: f32,
 }
 
-impl OnMap {
-    /// Where a place of the crown lies on its map, and the map's scale there, per metre.
-    #[inline(always)]
-    fn place(&self, world: Vec3) -> (f32, f32, f32) {
-        let out = ((world - self.middle) * self.shrink).unit();
-        let scale = 30.0 / (1.0 + out.z.abs());
-        (out.x * self.half.x * scale, out.y * self.half.y * scale, scale)
-    }
+/// Where a place lies seen along a way that leans from upright to a horizontal direction. Directions are a third of a turn
+/// from each other.
+#[inline(always)]
+fn along(place: Vec3, cos: f32, sin: f32) -> (f32, f32) {
+    (cos * place.y - sin * place.x, 0.57 * (cos * place.x + sin * place.y) - 0.82 * place.z)
+}
+
+/// Clumps about 0.
+#[inline(always)]
+fn clumps((u, v): (f32, f32), shift: f32, level: NoiseLevel, noise: &NoiseTexture) -> f32 {
+    noise.clumps_at(u + shift, v - shift, level) - 0.5
+}
+
+/// Where a place lies seen along the axis that faces it most.
+#[inline(always)]
+fn facing(place: Vec3, normal: Vec3) -> (f32, f32) {
+    let (x, y, z) = (normal.x.abs(), normal.y.abs(), normal.z.abs());
+    let (up, ahead) = (one_if(z > most(x, y)), one_if(x > y));
+    (lerp(lerp(place.x, place.y, ahead), place.x, up), lerp(place.z, place.y, up))
 }
