@@ -28,10 +28,14 @@ const ALLOWED_SHARE: f64 = 0.02;
 
 /// Steps of pitched roofs, whose slopes rays meet somewhere within, are at most so high, metres.
 const ROOF_STEP_M: f64 = 1.05;
+/// Share of a crown's box around its middle that round crowns fill; boxes so many times longer than wide are rows of trees,
+/// with gaps anywhere.
+const CORE: f64 = 0.25;
+const ROW: f64 = 3.0;
 
 /// Boxes of a town that rays meet as boxes: cars are drawn as vehicles.
 struct Boxes {
-    /// What no ray passes: buildings without the highest step of a roof.
+    /// What no ray passes: buildings without the highest step of a roof, the middles of crowns.
     solid: BoxBvh,
     /// All boxes by their instance id.
     things: BTreeMap<u32, Vec<OrientedBox>>,
@@ -43,9 +47,18 @@ impl Boxes {
         list.iter().for_each(|(instance, _, shape)| things.entry(*instance).or_default().push(*shape));
         let solid = list.iter().map(|(_, label, shape)| {
             let off_m = if *label == SemanticLabel::Building { 0.5 * ROOF_STEP_M * DVec3::Z } else { DVec3::ZERO };
+            let [least_m, most_m] = [
+                shape.half_extents_m.x.min(shape.half_extents_m.y),
+                shape.half_extents_m.x.max(shape.half_extents_m.y),
+            ];
+            let core = match label {
+                SemanticLabel::Vegetation if most_m >= ROW * least_m => DVec3::ZERO,
+                SemanticLabel::Vegetation => DVec3::new(CORE, CORE, 1.0),
+                _ => DVec3::ONE,
+            };
             OrientedBox {
                 center_in_world: shape.center_in_world - off_m,
-                half_extents_m: shape.half_extents_m - off_m,
+                half_extents_m: core * (shape.half_extents_m - off_m),
                 ..*shape
             }
         });
@@ -367,6 +380,8 @@ mod tests {
         assert!(is_right(SemanticLabel::Building, 5.5, 24.0) && is_right(SemanticLabel::Building, 3.0, 20.0));
         assert!(!is_right(SemanticLabel::Building, 3.0, 24.0) && !is_right(SemanticLabel::Building, 5.5, 19.0));
         assert!(!is_right(SemanticLabel::Wall, 5.5, 24.0));
+        // Crowns are round within their boxes.
+        assert!(is_right(SemanticLabel::Vegetation, 5.5, 23.5) && !is_right(SemanticLabel::Vegetation, 5.5, 24.5));
     }
 
     #[test]

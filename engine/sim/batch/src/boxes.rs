@@ -96,20 +96,36 @@ impl Boxes {
     }
 }
 
+/// Bounds of a box by its foot and the height of its top.
+fn upright(foot: &[DVec3], top_m: f64, axis: DVec3) -> Bounds {
+    let half = |from: usize, to: usize| 0.5 * (foot[to] - foot[from]).length();
+    Bounds {
+        center_in_world: 0.5 * (foot[0] + foot[2].with_z(top_m)),
+        half_m: DVec3::new(half(0, 1), half(1, 2), 0.5 * (top_m - foot[0].z)),
+        axis: [axis.x, axis.y],
+    }
+}
+
+/// Bounds of corners: sides that lean may lean outwards, and those of round crowns are not square.
+fn around<'a>(corners: impl Iterator<Item = &'a DVec3>, axis: DVec3) -> Bounds {
+    let across = DVec3::new(-axis.y, axis.x, 0.0);
+    let own = corners.map(|corner| DVec3::new(corner.dot(axis), corner.dot(across), corner.z));
+    let (low, high) = own.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), it| (low.min(it), high.max(it)));
+    let middle = 0.5 * (low + high);
+    let center_in_world = (middle.x * axis + middle.y * across).with_z(middle.z);
+    Bounds { center_in_world, half_m: 0.5 * (high - low), axis: [axis.x, axis.y] }
+}
+
 impl SolidBox {
     fn of(first_face: u32, faces: &[SceneFace], slopes: &mut Vec<Slopes>) -> Self {
         // Faces 0 and 1 look along the box's x axis, 2 and 3 along y, 4 and 5 along z.
         let (low, high) = (&faces[4].corners_in_world, &faces[5].corners_in_world);
         let is_cut = faces[..4].iter().any(|face| face.normal_in_world.z != 0.0);
-        let axis =
-            if is_cut { faces[1].normal_in_world.truncate().normalize() } else { faces[1].normal_in_world.truncate() };
-        let half = |from: usize, to: usize| 0.5 * (low[to] - low[from]).length();
+        let axis = faces[1].normal_in_world.with_z(0.0);
+        let axis = if is_cut { axis.normalize() } else { axis };
+        let bounds = if is_cut { around(low.iter().chain(high), axis) } else { upright(low, high[0].z, axis) };
         Self {
-            bounds: Bounds {
-                center_in_world: 0.5 * (low[0] + low[2].with_z(high[2].z)),
-                half_m: DVec3::new(half(0, 1), half(1, 2), 0.5 * (high[0].z - low[0].z)),
-                axis: [axis.x, axis.y],
-            },
+            bounds,
             lift: faces[0].lift,
             label: faces[0].label,
             instance: faces[0].instance,

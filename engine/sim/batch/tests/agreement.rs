@@ -5,7 +5,7 @@ mod shared;
 mod towns;
 
 use cosfly_batch::{BatchRenderer, BatchScene, BatchView, Outputs};
-use cosfly_domain::{BodyKind, Camera, Town, Weather, object_instance};
+use cosfly_domain::{BodyKind, Camera, ObstacleKind, Town, Weather, object_instance};
 use cosfly_figures::{BodyShape, Walker};
 use cosfly_frames::{DVec3, Seed};
 use cosfly_geometry::{BoxBvh, SpatialQuery};
@@ -111,6 +111,21 @@ fn agrees_with_large(town: &Town, count: usize, people: u32, rare: usize) {
 #[test]
 fn downtown_is_as_in_large_pictures() {
     agrees_with_large(&towns::shipped("downtown.xodr"), 24, 40, 1500);
+}
+
+#[test]
+fn round_crowns_are_as_in_large_pictures() {
+    let mut town = towns::shipped("downtown.xodr");
+    let mut crowned = None;
+    // One box a crown, some longer than wide.
+    town.obstacles.retain_mut(|one| {
+        let is_crown = one.kind == ObstacleKind::TreeCrown;
+        if is_crown {
+            one.shape.half_extents_m *= DVec3::new(if one.object_id % 3 == 0 { 4.0 } else { 1.7 }, 1.7, 1.0);
+        }
+        !is_crown || crowned.replace(one.object_id) != Some(one.object_id)
+    });
+    agrees_with_large(&town, 12, 20, 800);
 }
 
 #[test]

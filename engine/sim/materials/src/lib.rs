@@ -2,10 +2,11 @@
 //! light on them. No camera and no picture: a material is a kernel that answers for sixteen points at a time.
 //!
 //! [`parts`] are the boxes and ground of a town that carry materials; [`roof_steps`] and [`roof_edges`] say which of their
-//! faces make one roof, [`roof_slopes`] cuts pitched ones straight. [`facade`], [`ground`], [`kerbs`], [`lane_wear`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`]
-//! and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
+//! faces make one roof, [`roof_slopes`] cuts pitched ones straight, [`round_crowns`] stacks of boxes round. [`facade`], [`ground`],
+//! [`kerbs`], [`lane_wear`], [`leaves`] and [`things`] are the materials: they read points from [`lanes`] and write looks ([`surface`]). [`light`] is the sun, sky and lamps of a [`weather`]; [`grid`] how much of the sky and of
 //! the lamps each place of a town sees; [`scan_light`] the light of scans. [`season`] turns leaves and lawns.
 
+pub mod drawn_shapes;
 pub mod dry_days;
 pub mod facade;
 pub mod far_light;
@@ -23,6 +24,7 @@ pub mod roof_edges;
 pub mod roof_slopes;
 pub mod roof_step;
 pub mod roof_steps;
+pub mod round_crowns;
 pub mod scan_light;
 pub mod season;
 pub mod surface;

@@ -4,8 +4,8 @@ use crate::faces::{box_lift, ground_lift};
 use crate::scene::{Scene, clusters_of, set_roofs};
 use cosfly_domain::Town;
 use cosfly_frames::DVec3;
+use cosfly_materials::drawn_shapes::cut_to_drawn;
 use cosfly_materials::parts::{BOX_FACES, Cluster, SceneBox, boxes_of};
-use cosfly_materials::roof_slopes::cut_to_slopes;
 
 /// A static face: numbered by its place in [`Scene::faces_of`].
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ impl Scene {
         // Looks alone depend on a seed.
         let mut boxes = boxes_of(town, 0);
         set_roofs(&mut boxes);
-        cut_to_slopes(&mut boxes);
+        cut_to_drawn(&mut boxes);
         faces(&boxes, &clusters_of(town))
     }
 }

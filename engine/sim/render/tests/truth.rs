@@ -90,7 +90,9 @@ fn random_scene(random: &mut RandomStream) -> Town {
             half_extents_m: DVec3::new(random.uniform(0.05, 5.0), random.uniform(0.05, 5.0), random.uniform(0.05, 7.0)),
             yaw_rad: random.uniform(-3.2, 3.2),
         };
-        town.obstacles.push(Obstacle { shape, kind: ObstacleKind::Building, object_id, synthetic: true });
+        // Crowns are cut round.
+        let kind = if object_id % 4 == 0 { ObstacleKind::TreeCrown } else { ObstacleKind::Building };
+        town.obstacles.push(Obstacle { shape, kind, object_id, synthetic: true });
     }
     let mut terrain = SurfaceMesh {
         label: SemanticLabel::Terrain,

@@ -1,0 +1,11 @@
+//! The shapes that pictures show of boxes: slopes of pitched roofs, round crowns.
+
+use crate::parts::SceneBox;
+use crate::roof_slopes::cut_to_slopes;
+use crate::round_crowns::round_crowns;
+
+/// Cuts boxes to what is drawn of them.
+pub fn cut_to_drawn(boxes: &mut Vec<SceneBox>) {
+    cut_to_slopes(boxes);
+    round_crowns(boxes);
+}
