@@ -1,6 +1,7 @@
 //! Elements that all generated towns share as OpenDRIVE 1.6 text, floats with fixed decimals.
 
 use crate::alignment::{Alignment, Curve};
+use crate::relief::Relief;
 use crate::things::{Footprint, GeneratedThing, ThingKind};
 use cosfly_frames::{DVec2, real};
 use std::fmt::Write;
@@ -21,8 +22,8 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     if is_zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
-/// Reference line of a road, on level ground.
-pub fn write_plan_view(text: &mut String, alignment: &Alignment) {
+/// Reference line of a road and its heights.
+pub fn write_plan_view(text: &mut String, alignment: &Alignment, relief: &Relief) {
     line(text, "<planView>");
     let mut s_m = 0.0;
     for piece in &alignment.pieces {
@@ -47,7 +48,26 @@ pub fn write_plan_view(text: &mut String, alignment: &Alignment) {
         s_m += piece.length_m;
     }
     line(text, "</planView>");
-    line(text, "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>");
+    if relief.is_level() {
+        line(text, "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>");
+        return;
+    }
+    for ((parent, name), records) in PROFILES.iter().zip(relief.profiles(alignment)) {
+        line(text, &format!("<{parent}>"));
+        for [s_m, cubic @ ..] in records {
+            let [a, b, c, d] = cubic.map(|factor| fixed(factor, 9));
+            line(text, &format!("<{name} s=\"{}\" a=\"{a}\" b=\"{b}\" c=\"{c}\" d=\"{d}\"/>", fixed(s_m, 9)));
+        }
+        line(text, &format!("</{parent}>"));
+    }
+}
+
+/// Elements of the profiles of a road, and of their records.
+const PROFILES: [(&str, &str); 2] = [("elevationProfile", "elevation"), ("lateralProfile", "superelevation")];
+
+/// A height of a corner or a foot.
+fn level(height_m: f64) -> String {
+    if height_m == 0.0 { "0.0".to_owned() } else { fixed(height_m, 3) }
 }
 
 /// One lane: its id, width at start and end, links and marking.
@@ -98,9 +118,20 @@ pub fn road_mark(kind: &str) -> String {
     )
 }
 
-/// A crossing at a station; `along_m` wide along the street, to `reach_m` on either side. The outline repeats its first corner, as
+/// A crossing at a station of a line; `along_m` wide along the street, to `reach_m` on either side. The outline repeats its first corner, as
 /// CARLA's own towns do.
-pub fn write_crossing(text: &mut String, id: usize, s_m: f64, [along_m, reach_m]: [f64; 2]) {
+pub fn write_crossing(
+    text: &mut String,
+    id: usize,
+    (alignment, s_m): (&Alignment, f64),
+    [along_m, reach_m]: [f64; 2],
+    relief: &Relief,
+) {
+    let height_m = |u_m: f64, v_m: f64| {
+        let pose = alignment.pose_at(s_m + u_m);
+        relief.height_m(pose.at) + v_m * relief.rise(pose.at).dot(pose.left())
+    };
+
     line(
         text,
         &format!(
@@ -113,8 +144,10 @@ pub fn write_crossing(text: &mut String, id: usize, s_m: f64, [along_m, reach_m]
     );
     text.push_str("<outline closed=\"true\">");
     for (u, v) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-        let (u_m, v_m) = (fixed(0.5 * u * along_m, 3), fixed(v * reach_m, 3));
-        let _ = write!(text, "<cornerLocal u=\"{u_m}\" v=\"{v_m}\" z=\"0.0\" height=\"0.0\"/>");
+        let (u_m, v_m) = (0.5 * u * along_m, v * reach_m);
+        let z_m = level(height_m(u_m, v_m) - height_m(0.0, 0.0));
+        let (u_m, v_m) = (fixed(u_m, 3), fixed(v_m, 3));
+        let _ = write!(text, "<cornerLocal u=\"{u_m}\" v=\"{v_m}\" z=\"{z_m}\" height=\"0.0\"/>");
     }
     line(text, "</outline></object>");
 }
@@ -131,6 +164,8 @@ pub struct Foot {
     pub origin: DVec2,
     /// Direction of the street, radians.
     pub heading_rad: f64,
+    /// Heights of the ground.
+    pub relief: Relief,
 }
 
 /// An `<object>`.
@@ -138,6 +173,17 @@ pub fn write_object(text: &mut String, id: usize, thing: &GeneratedThing, foot: 
     let (kind, name) = thing.kind.type_and_name();
     let (level_m, height_m) =
         if thing.kind == ThingKind::Ground { (thing.height_m, 0.0) } else { (0.0, thing.height_m) };
+    let relief = &foot.relief;
+    // Where ground is not level, things start at its lowest point and are as much taller.
+    let base_m = match &thing.footprint {
+        Footprint::Rectangle(lot) => lot.corners().map(|at| relief.height_m(at)).into_iter().fold(f64::INFINITY, f64::min),
+        Footprint::Polygon(_) => 0.0,
+        Footprint::Disc { center, .. } => relief.height_m(*center),
+    };
+    let height_m = match &thing.footprint {
+        Footprint::Rectangle(lot) if height_m > 0.0 => height_m + relief.height_m(lot.center) - base_m,
+        _ => height_m,
+    };
     let subtype = if name == "wall" { " subtype=\"wall\"" } else { "" };
     let corners = match &thing.footprint {
         Footprint::Polygon(corners) => Some(corners.clone()),
@@ -155,9 +201,10 @@ pub fn write_object(text: &mut String, id: usize, thing: &GeneratedThing, foot: 
     };
     let _ = write!(
         text,
-        "<object id=\"{id}\" name=\"{name}\" type=\"{kind}\"{subtype} s=\"{}\" t=\"{}\" zOffset=\"0.0\" hdg=\"{}\" pitch=\"0.0\" roll=\"0.0\" orientation=\"none\"{size} height=\"{}\"",
+        "<object id=\"{id}\" name=\"{name}\" type=\"{kind}\"{subtype} s=\"{}\" t=\"{}\" zOffset=\"{}\" hdg=\"{}\" pitch=\"0.0\" roll=\"0.0\" orientation=\"none\"{size} height=\"{}\"",
         fixed(foot.s_m, 4),
         fixed(foot.t_m, 4),
+        level(base_m),
         fixed(hdg_rad, 9),
         fixed(height_m, 2)
     );
@@ -173,7 +220,11 @@ pub fn write_object(text: &mut String, id: usize, thing: &GeneratedThing, foot: 
                 "<cornerLocal u=\"{}\" v=\"{}\" z=\"{}\" height=\"{}\"/>",
                 fixed(u_m, 4),
                 fixed(v_m, 4),
-                if level_m == 0.0 { "0.0".to_owned() } else { fixed(level_m, 2) },
+                if relief.is_level() && level_m != 0.0 {
+                    fixed(level_m, 2)
+                } else {
+                    level(level_m + relief.height_m(corner))
+                },
                 fixed(height_m, 2)
             );
         }

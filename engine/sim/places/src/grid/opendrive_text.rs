@@ -3,6 +3,7 @@
 use super::streets::{Arm, LANE_WIDTH_M, Network, RoadEnd, Street};
 use super::turns::JunctionWay;
 use crate::things::GeneratedThing;
+use crate::relief::Relief;
 use crate::xml::{Foot, Lane, fixed, line, road_mark, write_crossing, write_lane, write_object, write_plan_view};
 use cosfly_frames::DVec2;
 
@@ -59,7 +60,7 @@ fn write_street(text: &mut String, index: usize, street: &Street, objects: &str)
         ),
     );
     line(text, "<type s=\"0\" type=\"town\"><speed max=\"50\" unit=\"km/h\"/></type>");
-    write_plan_view(text, &street.line);
+    write_plan_view(text, &street.line, &Relief::default());
     line(text, "<lanes><laneSection s=\"0\">");
     let lanes = i64::from(street.profile.lanes);
     let lane = |id: i64| {
@@ -97,7 +98,7 @@ fn write_crossings(text: &mut String, index: usize, street: &Street) {
     let [from_mouth_m, along_m, onto_pavement_m] = CROSSING_M;
     let reach_m = street.profile.carriageway_m() + onto_pavement_m;
     for (end, s_m) in [from_mouth_m, street.line.length_m() - from_mouth_m].into_iter().enumerate() {
-        write_crossing(text, 2 * index + end + 1, s_m, [along_m, reach_m]);
+        write_crossing(text, 2 * index + end + 1, (&street.line, s_m), [along_m, reach_m], &Relief::default());
     }
 }
 
@@ -145,7 +146,7 @@ fn write_turn(text: &mut String, index: usize, turn: &JunctionWay, network: &Net
         ),
     );
     line(text, "<type s=\"0\" type=\"town\"><speed max=\"30\" unit=\"km/h\"/></type>");
-    write_plan_view(text, &turn.line);
+    write_plan_view(text, &turn.line, &Relief::default());
     line(
         text,
         &format!(
@@ -216,7 +217,7 @@ fn foot_on_street(network: &Network, point: DVec2) -> Option<(usize, Foot)> {
         let badness = 100.0 * beyond_m.abs() + t_m.abs();
         if best.as_ref().is_none_or(|(least, ..)| badness < *least) {
             let origin = start.moved(s_m, t_m).at;
-            best = Some((badness, index, Foot { s_m, t_m, beyond_m, origin, heading_rad: start.heading_rad }));
+            best = Some((badness, index, Foot { s_m, t_m, beyond_m, origin, heading_rad: start.heading_rad, relief: Relief::default() }));
         }
     }
     best.map(|(_, index, foot)| (index, foot))

@@ -6,6 +6,7 @@ mod campus;
 mod car_park;
 mod forest_edge;
 mod garden_rows;
+mod hillside;
 mod houses;
 mod industrial;
 pub mod kind;
@@ -33,6 +34,7 @@ pub const ALL: &[&PlaceKind] = &[
     &campus::KIND,
     &forest_edge::KIND,
     &garden_rows::KIND,
+    &hillside::KIND,
     &industrial::KIND,
     &old_town::KIND,
     &perimeter_blocks::KIND,

@@ -2,6 +2,7 @@
 
 use super::plan::{Profile, StreetPlan};
 use crate::alignment::{Alignment, Pose2};
+use crate::relief::Relief;
 use cosfly_frames::{DVec2, real};
 
 /// Radius of bends between junctions, metres.
@@ -41,6 +42,8 @@ pub struct Network {
     pub streets: Vec<Street>,
     /// Arms of each junction, counter-clockwise.
     pub junctions: Vec<Vec<Arm>>,
+    /// Heights of the ground.
+    pub relief: Relief,
     /// Whether dead ends just end.
     open_ends: bool,
 }
@@ -63,7 +66,7 @@ impl Network {
             profile: link.profile,
             junctions: link.ends,
         });
-        Self { streets: streets.collect(), junctions, open_ends: plan.open_ends }
+        Self { streets: streets.collect(), junctions, relief: Relief::default(), open_ends: plan.open_ends }
     }
 
     /// Whether ways lead through a junction: none do where a dead end just ends.

@@ -2,6 +2,7 @@
 
 use super::network::{Arm, Network, Street};
 use super::ways::Way;
+use crate::relief::Relief;
 use crate::things::{Footprint, GeneratedThing};
 use crate::xml::{Foot, Lane, fixed, line, road_mark, write_crossing, write_lane, write_object, write_plan_view};
 use cosfly_frames::DVec2;
@@ -43,7 +44,7 @@ pub fn write_opendrive(
     for (index, way) in ways.iter().enumerate() {
         write_way(&mut text, index, way, network);
     }
-    write_land(&mut text, 2 * network.streets.len() + 1, things, [low, high]);
+    write_land(&mut text, 2 * network.streets.len() + 1, things, network.relief, [low, high]);
     for junction in (0..network.junctions.len()).filter(|junction| network.has_ways(*junction)) {
         write_junction(&mut text, junction, ways, network);
     }
@@ -68,7 +69,7 @@ fn write_street(text: &mut String, index: usize, street: &Street, network: &Netw
     let [start, end] = [("predecessor", street.junctions[0]), ("successor", street.junctions[1])].map(end);
     line(text, &format!("<link>{start}{end}</link>"));
     line(text, "<type s=\"0\" type=\"town\"><speed max=\"50\" unit=\"km/h\"/></type>");
-    write_plan_view(text, &street.line);
+    write_plan_view(text, &street.line, &network.relief);
     let lanes = i64::from(profile.lanes);
     let lane = |id: i64| {
         let is_sidewalk = id.abs() == lanes + 1;
@@ -105,7 +106,7 @@ fn write_crossings(text: &mut String, index: usize, street: &Street, network: &N
         if network.junctions[street.junctions[end]].len() == 2 || !network.has_ways(street.junctions[end]) {
             continue;
         }
-        write_crossing(text, 2 * index + end + 1, s_m, [along_m, reach_m]);
+        write_crossing(text, 2 * index + end + 1, (&street.line, s_m), [along_m, reach_m], &network.relief);
     }
 }
 
@@ -130,7 +131,7 @@ fn write_way(text: &mut String, index: usize, way: &Way, network: &Network) {
     };
     line(text, &format!("<link>{}{}</link>", end("predecessor", way.arms[0]), end("successor", way.arms[1])));
     line(text, "<type s=\"0\" type=\"town\"><speed max=\"30\" unit=\"km/h\"/></type>");
-    write_plan_view(text, &way.line);
+    write_plan_view(text, &way.line, &network.relief);
     let center = format!("<center><lane id=\"0\" type=\"none\" level=\"false\">{}</lane></center>", road_mark("none"));
     line(text, &format!("<lanes><laneSection s=\"0\">{center}<right>"));
     let lanes = i64::from(way.lanes);
@@ -143,7 +144,7 @@ fn write_way(text: &mut String, index: usize, way: &Way, network: &Network) {
 }
 
 /// A straight road without lanes from west to east, along which all things have their places: s is east, t north.
-fn write_land(text: &mut String, first_id: usize, things: &[GeneratedThing], [low, high]: [DVec2; 2]) {
+fn write_land(text: &mut String, first_id: usize, things: &[GeneratedThing], relief: Relief, [low, high]: [DVec2; 2]) {
     let (origin, length_m) = (DVec2::new(low.x.floor(), 0.0), (high.x - low.x).ceil() + 1.0);
     begin_road(text, ["land", &LAND.to_string(), "-1"], length_m);
     let (x, length_m) = (fixed(origin.x, 1), fixed(length_m, 1));
@@ -158,14 +159,14 @@ fn write_land(text: &mut String, first_id: usize, things: &[GeneratedThing], [lo
         "<lanes><laneSection s=\"0\"><center><lane id=\"0\" type=\"none\" level=\"false\"/></center></laneSection></lanes>",
     );
     line(text, "<objects>");
-    for (index, thing) in things.iter().enumerate() {
+    for (index, thing) in things.iter().flat_map(|thing| relief.pieces(thing)).enumerate() {
         let at = match &thing.footprint {
             // Outlines are told from any point; that of the land's road must be on it.
             Footprint::Polygon(corners) => DVec2::new(corners[0].x.clamp(low.x, high.x), corners[0].y),
             footprint => footprint.center(),
         };
-        let foot = Foot { s_m: at.x - origin.x, t_m: at.y, beyond_m: 0.0, origin: at, heading_rad: 0.0 };
-        write_object(text, first_id + index, thing, &foot);
+        let foot = Foot { s_m: at.x - origin.x, t_m: at.y, beyond_m: 0.0, origin: at, heading_rad: 0.0, relief };
+        write_object(text, first_id + index, &thing, &foot);
     }
     line(text, "</objects></road>");
 }
