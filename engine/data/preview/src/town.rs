@@ -12,6 +12,11 @@ const DENSEST: f64 = 8.0;
 const MARGIN_M: f64 = 20.0;
 const HEADER: usize = 34;
 const LEGEND: usize = 34;
+/// Ground whose heights differ by less than this has no contour lines, metres; the most lines, and their distances, metres.
+const LEAST_RELIEF_M: f64 = 4.0;
+const MOST_CONTOURS: f64 = 16.0;
+const CONTOURS_M: [f64; 8] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
+const CONTOUR: ChartColour = [150, 104, 62];
 const EMPTY: ChartColour = [244, 243, 240];
 
 /// Colour over a place of a plan, and its share there.
@@ -38,6 +43,8 @@ pub fn town_plan(town: &Town, title: &str, shade: Option<&PlanShade>) -> Canvas 
         canvas.area(&corners, colour, 0.35);
         canvas.outline(&corners, 0.6, colour, 0.6);
     }
+    let contour_m = contour_m(town);
+    contour_m.into_iter().for_each(|step_m| draw_contours(&view, &mut canvas, town, step_m));
     if let Some(shade) = shade {
         draw_shade(&view, &mut canvas, shade);
     }
@@ -48,7 +55,7 @@ pub fn town_plan(town: &Town, title: &str, shade: Option<&PlanShade>) -> Canvas 
     for obstacle in obstacles {
         draw_obstacle(&view, &mut canvas, obstacle, highest_m);
     }
-    draw_frame(&view, &mut canvas, title);
+    draw_frame(&view, &mut canvas, title, contour_m);
     canvas
 }
 
@@ -86,6 +93,37 @@ fn draw_mesh(view: &View, canvas: &mut Canvas, mesh: &SurfaceMesh) {
     for triangle in &mesh.triangles {
         let corners = triangle.map(|corner| view.place(mesh.vertices_in_world[corner as usize].truncate()));
         canvas.area(&corners, colour, 1.0);
+    }
+}
+
+/// The terrain, also where it is bare; not the patches on it.
+fn land(town: &Town) -> impl Iterator<Item = &SurfaceMesh> {
+    let is_land = |mesh: &&SurfaceMesh| layer(mesh.label) == 0 || layer(mesh.label) == 1 && mesh.synthetic;
+    town.surfaces.iter().filter(is_land)
+}
+
+/// Distance in height of the contour lines of a town with relief, metres.
+fn contour_m(town: &Town) -> Option<f64> {
+    let heights = land(town).flat_map(|mesh| &mesh.vertices_in_world).map(|corner| corner.z);
+    let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)]);
+    let is_wide_enough = |step_m: &f64| high - low <= MOST_CONTOURS * step_m;
+    CONTOURS_M.into_iter().find(is_wide_enough).filter(|_| high - low >= LEAST_RELIEF_M)
+}
+
+fn draw_contours(view: &View, canvas: &mut Canvas, town: &Town, step_m: f64) {
+    for (mesh, triangle) in land(town).flat_map(|mesh| mesh.triangles.iter().map(move |triangle| (mesh, triangle))) {
+        let corners = triangle.map(|corner| mesh.vertices_in_world[corner as usize]);
+        let [low, high] = [f64::min, f64::max].map(|pick| corners.map(|it| it.z / step_m).into_iter().reduce(pick));
+        for level in low.unwrap_or(0.0).ceil() as i64..=high.unwrap_or(0.0).floor() as i64 {
+            let z = level as f64 * step_m;
+            let sides = [0, 1, 2].map(|side| [corners[side], corners[(side + 1) % 3]]);
+            let crossed = sides.into_iter().filter(|[a, b]| (a.z < z) != (b.z < z));
+            let ends: Vec<Point> =
+                crossed.map(|[a, b]| view.place(a.lerp(b, (z - a.z) / (b.z - a.z)).truncate())).collect();
+            if let [from, to] = ends[..] {
+                canvas.line(from, to, 1.0, CONTOUR, 0.7);
+            }
+        }
     }
 }
 
@@ -156,7 +194,7 @@ fn walkable_colour(kind: WalkableKind) -> ChartColour {
 }
 
 /// Title above; legend and scale below.
-fn draw_frame(view: &View, canvas: &mut Canvas, title: &str) {
+fn draw_frame(view: &View, canvas: &mut Canvas, title: &str, contour_m: Option<f64>) {
     let (width, bottom) = (canvas.width as i64, (canvas.height - LEGEND) as i64);
     canvas.fill([0, 0], [width, HEADER as i64], EMPTY, 1.0);
     canvas.fill([0, bottom], [width, LEGEND as i64], EMPTY, 1.0);
@@ -177,6 +215,10 @@ fn draw_frame(view: &View, canvas: &mut Canvas, title: &str) {
         canvas.fill([x, y - 1], [14, 9], colour, 1.0);
         x = canvas.text(x + 18, y, 1, INK, words) + 8;
     }
+    if let Some(step_m) = contour_m {
+        canvas.fill([x, y + 3], [14, 1], CONTOUR, 1.0);
+        canvas.text(x + 18, y, 1, INK, &format!("every {step_m} m of height"));
+    }
     let wanted_m = 120.0 / view.scale;
     let power = 10_f64.powi(wanted_m.log10().floor() as i32);
     let length_m = [5.0, 2.0, 1.0].into_iter().map(|step| step * power).find(|it| *it <= wanted_m).unwrap_or(power);
@@ -190,6 +232,32 @@ fn draw_frame(view: &View, canvas: &mut Canvas, title: &str) {
 mod tests {
     use super::*;
     use cosfly_domain::WalkablePolygon;
+
+    #[test]
+    fn land_with_relief_has_contour_lines_and_level_land_has_none() {
+        let plan = |rise_m: f64| {
+            let corners = [(0.0, 0.0, 0.0), (40.0, 0.0, rise_m), (40.0, 40.0, rise_m), (0.0, 40.0, 0.0)];
+            let land = SurfaceMesh {
+                label: SemanticLabel::Terrain,
+                vertices_in_world: corners.map(DVec3::from).to_vec(),
+                along_across_m: vec![],
+                triangles: vec![[0, 1, 2], [0, 2, 3]],
+                synthetic: true,
+            };
+            let (min_in_world, max_in_world) = (DVec3::ZERO, DVec3::new(40.0, 40.0, 1.0));
+            let town = Town { surfaces: vec![land], min_in_world, max_in_world, ..Town::default() };
+            let (plan, view) = (town_plan(&town, "slope", None), View::of(&town));
+            [20.0, 22.0].map(|x| {
+                let [x, y] = view.place(DVec2::new(x, 13.0));
+                plan.pixel(x as usize, y as usize)
+            })
+        };
+        // Every metre of height, one line each 4 m.
+        let [line, land] = plan(10.0);
+        assert_eq!(land, ground_colour(SemanticLabel::Terrain));
+        assert_ne!(line, land);
+        assert_eq!(plan(1.0), [land; 2]);
+    }
 
     #[test]
     fn pavements_that_bend_are_filled_along_both_arms_and_not_between_them() {

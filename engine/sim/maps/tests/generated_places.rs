@@ -138,6 +138,44 @@ fn buildings_stand_clear_of_what_is_walked_and_driven_and_trees_clear_of_lanes()
     }
 }
 
+#[test]
+fn nothing_floats_above_the_ground_and_people_walk_on_what_is_seen() {
+    for (name, town) in places() {
+        let ground = cosfly_town::GroundIndex::of_surfaces(&town.surfaces, |_| true);
+        let stands = cosfly_town::terrain::standing(&town.obstacles);
+        for obstacle in town.obstacles.iter().zip(stands).filter_map(|(obstacle, stands)| stands.then_some(obstacle)) {
+            for corner in obstacle.shape.corners_in_world().into_iter().take(8) {
+                let foot_m = obstacle.shape.center_in_world.z - obstacle.shape.half_extents_m.z;
+                let above_m = foot_m - ground.ground_height_m(corner.x, corner.y).unwrap();
+                assert!(above_m < 0.4, "{name}: {obstacle:?} is {above_m} m above the ground");
+            }
+        }
+        for corner in town.walkable.iter().flat_map(|area| &area.outline_in_world) {
+            let below_m = ground.ground_height_m(corner.x, corner.y).map_or(0.0, |seen_m| seen_m - corner.z);
+            assert!(below_m.abs() < 0.3, "{name}: {below_m} m at {corner}");
+        }
+    }
+}
+
+#[test]
+fn a_hillside_climbs_as_steeply_as_asked_and_no_steeper() {
+    let kind = ALL.iter().find(|kind| kind.name == "hillside").unwrap();
+    for percent in [3.0, 16.0] {
+        let settings = kind.settings(&BTreeMap::from([("steepest_percent".to_owned(), percent)])).unwrap();
+        let text = kind.open_drive(&settings, 5);
+        let (town, warnings) = read_town(text.as_bytes(), &MapConfig::default(), Seed([1; 32])).unwrap();
+        assert_eq!(warnings, Vec::<String>::new());
+        let slope = |[a, b]: [cosfly_frames::DVec3; 2]| (b.z - a.z).abs() / (b - a).truncate().length();
+        let middles = town.lanes.iter().flat_map(|lane| lane.middle_in_world.windows(2));
+        let steps = middles.filter(|step| step[0].distance(step[1]) > 1.0).map(|step| slope([step[0], step[1]]));
+        let steepest_percent = 100.0 * steps.fold(0.0, f64::max);
+        assert!((0.9 * percent..1.03 * percent).contains(&steepest_percent), "{steepest_percent} % of {percent} %");
+    }
+    let refused = kind.settings(&BTreeMap::from([("steepest_percent".to_owned(), 40.0)])).unwrap_err();
+    assert!(refused.message.contains("is 40, out of its range"), "{}", refused.message);
+    assert_eq!(refused.hint, "it must be 3 to 16: Steepest slope of the ground, percent; people climb no steeper ones");
+}
+
 fn page(name: &str) -> String {
     std::fs::read_to_string(format!("{}/../../../book/src/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }

@@ -78,7 +78,9 @@ impl Relief {
             Footprint::Polygon(outline) if thing.kind == ThingKind::Ground => {
                 self.strips(outline).into_iter().map(|strip| piece(Footprint::Polygon(strip))).collect()
             }
-            Footprint::Rectangle(lot) if matches!(thing.kind, ThingKind::Wall | ThingKind::Fence | ThingKind::Hedge) => {
+            Footprint::Rectangle(lot)
+                if matches!(thing.kind, ThingKind::Wall | ThingKind::Fence | ThingKind::Hedge) =>
+            {
                 let count = (2.0 * lot.half_m.x / STEP_M).ceil().max(1.0);
                 let half_m = DVec2::new(lot.half_m.x / count, lot.half_m.y);
                 let along = lot.axes()[0];

@@ -176,7 +176,9 @@ pub fn write_object(text: &mut String, id: usize, thing: &GeneratedThing, foot: 
     let relief = &foot.relief;
     // Where ground is not level, things start at its lowest point and are as much taller.
     let base_m = match &thing.footprint {
-        Footprint::Rectangle(lot) => lot.corners().map(|at| relief.height_m(at)).into_iter().fold(f64::INFINITY, f64::min),
+        Footprint::Rectangle(lot) => {
+            lot.corners().map(|at| relief.height_m(at)).into_iter().fold(f64::INFINITY, f64::min)
+        }
         Footprint::Polygon(_) => 0.0,
         Footprint::Disc { center, .. } => relief.height_m(*center),
     };

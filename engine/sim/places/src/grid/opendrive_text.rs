@@ -2,8 +2,8 @@
 
 use super::streets::{Arm, LANE_WIDTH_M, Network, RoadEnd, Street};
 use super::turns::JunctionWay;
-use crate::things::GeneratedThing;
 use crate::relief::Relief;
+use crate::things::GeneratedThing;
 use crate::xml::{Foot, Lane, fixed, line, road_mark, write_crossing, write_lane, write_object, write_plan_view};
 use cosfly_frames::DVec2;
 
@@ -217,7 +217,11 @@ fn foot_on_street(network: &Network, point: DVec2) -> Option<(usize, Foot)> {
         let badness = 100.0 * beyond_m.abs() + t_m.abs();
         if best.as_ref().is_none_or(|(least, ..)| badness < *least) {
             let origin = start.moved(s_m, t_m).at;
-            best = Some((badness, index, Foot { s_m, t_m, beyond_m, origin, heading_rad: start.heading_rad, relief: Relief::default() }));
+            best = Some((
+                badness,
+                index,
+                Foot { s_m, t_m, beyond_m, origin, heading_rad: start.heading_rad, relief: Relief::default() },
+            ));
         }
     }
     best.map(|(_, index, foot)| (index, foot))
