@@ -176,6 +176,18 @@ fn a_hillside_climbs_as_steeply_as_asked_and_no_steeper() {
     assert_eq!(refused.hint, "it must be 3 to 16: Steepest slope of the ground, percent; people climb no steeper ones");
 }
 
+#[test]
+fn courts_are_bare_where_the_kind_says_so_and_lawn_elsewhere() {
+    for (name, town) in places() {
+        let has_bare_courts = town.synthetic.notes.iter().any(|note| note.contains("taken for bare ground"));
+        assert_eq!(has_bare_courts, name.starts_with("old_town") || name.starts_with("perimeter"), "{name}");
+    }
+    let villas = ALL.iter().find(|kind| kind.name == "villas").unwrap();
+    let text = villas.open_drive(&villas.settings(&BTreeMap::new()).unwrap(), 1).replace("\"lawn\"", "\"moss\"");
+    let (_, warnings) = read_town(text.as_bytes(), &MapConfig::default(), Seed([1; 32])).unwrap();
+    assert!(warnings[0].contains("`open_ground` must be `lawn`"), "{warnings:?}");
+}
+
 fn page(name: &str) -> String {
     std::fs::read_to_string(format!("{}/../../../book/src/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }

@@ -61,7 +61,8 @@ pub struct Site {
 impl Site {
     /// Empty land beside the streets of a plan.
     pub fn of(plan: &StreetPlan) -> Self {
-        let network = Network::lay(plan);
+        let mut network = Network::lay(plan);
+        network.has_lawn = true;
         let ways = all_ways(&network);
         let faces = faces(&network, &ways);
         let edges = faces.iter().flat_map(|face| edges(&face.outline)).collect();

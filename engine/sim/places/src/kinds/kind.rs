@@ -79,7 +79,7 @@ impl PlaceKind {
         let comment = format!(
             "A place made by cosfly ({}, seed {seed}); no survey, nobody else's data. Lengths in metres. Our own userData: \
              crown_radius and crown_base of trees, whose radius is the trunk's; roof and roof_rise, above the height of the \
-             walls; surface and walkable of patches of ground.",
+             walls; surface and walkable of patches of ground; open_ground of all other land.",
             self.name
         );
         write_opendrive(&site.network, &site.ways, &site.things, [self.name, &comment])

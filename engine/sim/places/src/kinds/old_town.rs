@@ -44,6 +44,7 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
     };
     let profile = Profile { lanes: 1, lane_m: 2.75, sidewalk_m: 1.9, corner_m: 1.5 };
     let mut site = Site::of(&mesh.plan(&mut stream, |_| Some(profile)));
+    site.network.has_lawn = false;
     let mut town = OldTown { lane_m: settings.get("lane_m"), storeys: settings.get("storeys"), cells: Vec::new() };
     for (number, block) in site.blocks().iter().enumerate() {
         let mut stream = seed.child("block", number as u64).stream("lanes");

@@ -39,6 +39,7 @@ fn build(settings: &PlaceSettings, seed: Seed) -> Site {
     let corner_m = stream.uniform(2.5, 9.0).round();
     let profile = Profile { lanes: 1, lane_m: 3.5, sidewalk_m: 4.2, corner_m };
     let mut site = Site::of(&mesh.plan(&mut stream, |_| Some(profile)));
+    site.network.has_lawn = false;
     let style = Style {
         depth_m: stream.uniform(11.0, 13.5),
         storeys: settings.get("storeys"),

@@ -8,7 +8,7 @@ use crate::things::ThingKind;
 use cosfly_frames::{DVec2, real};
 
 /// How far the water reaches out and beyond the last streets, metres.
-const WATER_M: [f64; 2] = [190.0, 150.0];
+const WATER_M: [f64; 2] = [190.0, 300.0];
 
 /// The straight outer edge of the southern streets of a mesh; the water lies to its left.
 pub struct Shore {

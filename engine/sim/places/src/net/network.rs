@@ -44,6 +44,8 @@ pub struct Network {
     pub junctions: Vec<Vec<Arm>>,
     /// Heights of the ground.
     pub relief: Relief,
+    /// Whether land without a surface is lawn, also between houses; elsewhere readers may take courts for bare.
+    pub has_lawn: bool,
     /// Whether dead ends just end.
     open_ends: bool,
 }
@@ -66,7 +68,7 @@ impl Network {
             profile: link.profile,
             junctions: link.ends,
         });
-        Self { streets: streets.collect(), junctions, relief: Relief::default(), open_ends: plan.open_ends }
+        Self { streets: streets.collect(), junctions, open_ends: plan.open_ends, ..Self::default() }
     }
 
     /// Whether ways lead through a junction: none do where a dead end just ends.

@@ -35,7 +35,8 @@ pub fn write_opendrive(
     line(
         &mut text,
         &format!(
-            "<header revMajor=\"1\" revMinor=\"6\" name=\"{name}\" version=\"1.00\" vendor=\"cosfly\" north=\"{north}\" south=\"{south}\" east=\"{east}\" west=\"{west}\"/>"
+            "<header revMajor=\"1\" revMinor=\"6\" name=\"{name}\" version=\"1.00\" vendor=\"cosfly\" north=\"{north}\" south=\"{south}\" east=\"{east}\" west=\"{west}\"{}",
+            if network.has_lawn { "><userData code=\"open_ground\" value=\"lawn\"/></header>" } else { "/>" }
         ),
     );
     for (index, street) in network.streets.iter().enumerate() {

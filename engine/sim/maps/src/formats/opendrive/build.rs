@@ -292,7 +292,11 @@ impl Parts {
                 self.obstacles.guessed_roofs
             ));
         }
-        let surfaces = self.meshes.finish();
+        let mut surfaces = self.meshes.finish();
+        // What the file states is no invention.
+        for mesh in surfaces.iter_mut().filter(|mesh| mesh.label == cosfly_domain::SemanticLabel::Terrain) {
+            mesh.synthetic &= !network.has_lawn;
+        }
         let mut obstacles = self.obstacles.obstacles;
         settle(&mut obstacles, &GroundIndex::of_surfaces(&surfaces, |_| true));
         let town = Town {

@@ -16,6 +16,8 @@ pub(super) struct Header {
     pub(super) offset_m: DVec3,
     /// Turn of all coordinates about the origin, counter-clockwise.
     pub(super) turn_rad: f64,
+    /// Our own `userData`: land without a surface is lawn, also between houses.
+    pub(super) has_lawn: bool,
 }
 
 /// Reads the header; a file may have none.
@@ -40,7 +42,11 @@ pub(super) fn read<'d>(source: &Source<'d>, root: Node<'d, 'd>) -> Result<Header
         header.turn_rad = number("hdg", ANGLE)?;
     }
     for data in node.children().filter(|child| child.tag_name().name() == "userData") {
-        warn_of_places(source, data);
+        match (data.attribute("code"), data.attribute("value")) {
+            (Some("open_ground"), Some("lawn")) => header.has_lawn = true,
+            (Some("open_ground"), _) => source.warn(data, "`open_ground` must be `lawn`; courts may become bare"),
+            _ => warn_of_places(source, data),
+        }
     }
     Ok(header)
 }

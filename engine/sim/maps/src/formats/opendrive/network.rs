@@ -15,6 +15,8 @@ pub struct RoadNetwork {
     pub geo_reference: Option<String>,
     /// `<offset>` of the header: the projection's coordinates are those of the file and this, metres.
     pub offset_m: DVec3,
+    /// `userData` of the header: land without a surface is lawn, also between houses.
+    pub has_lawn: bool,
     /// Roads in file order.
     pub roads: Vec<Road>,
 }

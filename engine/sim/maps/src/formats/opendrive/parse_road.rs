@@ -1,12 +1,13 @@
 //! `<header>`, `<road>`, `<planView>`, `<elevationProfile>` and `<lateralProfile>` into the model.
 
 use super::attributes::{ANGLE, COEFFICIENT, COORDINATE, CURVATURE, LENGTH, STATION, Source, children};
+use super::header::{self, Header};
 use super::network::{Road, RoadNetwork, ShapeSection};
 use super::parse_lanes::{lane_sections, speed_limit_mps};
 use super::parse_objects::{objects, signals};
 use super::plan_view::{Curve, PlanElement, PlanPoint};
 use super::polynomial::{Cubic, CubicProfile};
-use super::{header, repeats, unread};
+use super::{repeats, unread};
 use cosfly_frames::DVec2;
 use cosfly_town::error::MapError;
 use roxmltree::Node;
@@ -15,7 +16,7 @@ use std::collections::BTreeMap;
 /// The whole file.
 pub(super) fn network(source: &Source<'_>) -> Result<RoadNetwork, MapError> {
     let root = source.document.root_element();
-    let header = header::read(source, root)?;
+    let Header { name, geo_reference, offset_m, turn_rad, has_lawn } = header::read(source, root)?;
     unread::warn(source, root);
     repeats::warn(source, root);
     let mut lines: BTreeMap<&str, u32> = BTreeMap::new();
@@ -30,9 +31,8 @@ pub(super) fn network(source: &Source<'_>) -> Result<RoadNetwork, MapError> {
     if roads.is_empty() {
         return Err(source.refuse(root, "the file has no road").hint("give a file with elements `<road>`"));
     }
-    let mut network =
-        RoadNetwork { name: header.name, geo_reference: header.geo_reference, offset_m: header.offset_m, roads };
-    network.turn(header.turn_rad);
+    let mut network = RoadNetwork { name, geo_reference, offset_m, has_lawn, roads };
+    network.turn(turn_rad);
     Ok(network)
 }
 
