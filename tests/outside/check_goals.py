@@ -18,7 +18,7 @@ from walk_words import Way, when_said, wrongs
 
 REACH_M = {"building": 10.0}
 KIND_OF = {"tree": "tree_trunk", "parked_car": "car"}
-ON_FOOT = ("pedestrian", "child", "elder", "push_chair", "dog_walker")
+ON_FOOT = ("pedestrian", "child", "elder", "push_chair", "dog_walker", "runner")
 HIDERS = {"tree": {"tree_trunk", "tree_crown"}, "parked_car": {"car"}}
 WORN = {"people": ("top_colour", "trousers_colour", "has_backpack"), "flights": ("target_top_colour", "target_trousers_colour", "target_has_backpack")}
 

@@ -14,12 +14,12 @@ from collections import Counter
 from shared import IN_CHINESE, end_with, flown, rows
 
 KINDS = {
-    "pedestrian": ("person", "人"), "bicycle": ("cyclist", "骑自行车的人"), "motorcycle": ("motorcyclist", "骑摩托车的人"),
+    "pedestrian": ("person", "人"), "bicycle": ("cyclist", "骑车人"), "motorcycle": ("motorcyclist", "摩托车手"),
     "car": ("car", "汽车"), "van": ("van", "面包车"), "truck": ("lorry", "卡车"), "bus": ("bus", "公交车"), "drone": ("drone", "无人机"),
-    "child": ("child", "孩子"), "elder": ("old person", "老人"), "wheelchair": ("wheelchair user", "坐轮椅的人"), "sitter": ("seated person", "坐着的人"),
-    "push_chair": ("person with a push-chair", "推婴儿车的人"), "dog_walker": ("dog walker", "遛狗的人"),
+    "child": ("child", "孩子"), "elder": ("old person", "老人"), "wheelchair": ("wheelchair user", "轮椅使用者"), "sitter": ("seated person", "就座者"),
+    "push_chair": ("person with a push-chair", "推婴儿车者"), "dog_walker": ("dog walker", "遛狗者"), "runner": ("runner", "跑步者"),
 }
-PEOPLE = ("pedestrian", "child", "elder", "wheelchair", "sitter", "push_chair", "dog_walker")
+PEOPLE = ("pedestrian", "child", "elder", "wheelchair", "sitter", "push_chair", "dog_walker", "runner")
 ENGLISH = re.compile(
     r"the (?:(?P<motion>walking|moving|standing|stationary) )?(?:(?P<paint>[a-z]+) )??(?P<kind>" + "|".join(word for word, _ in KINDS.values()) + ")"
     r"(?: in an? (?P<top>[a-z]+) top)?(?:(?: and| in) (?P<trousers>[a-z]+) trousers)?(?P<backpack> with a backpack)?(?P<shoulder_bag> with a shoulder bag)?"

@@ -13,12 +13,12 @@ ZH_THINGS = {"个红绿灯": "traffic_light", "盏路灯": "lamp", "块交通标
 EN_HIDERS = {
     "a building": "building", "a wall": "wall", "a fence": "fence", "a tree": "tree", "a bush": "bush", "a bridge": "bridge", "a parked car": "parked_car",
     "another person": "pedestrian", "a cyclist": "bicycle", "a motorcyclist": "motorcycle", "a car": "car", "a van": "van", "a lorry": "truck", "a bus": "bus", "another drone": "drone", "a child": "child", "an old person": "elder", "a wheelchair user": "wheelchair", "a seated person": "sitter",
-    "a person with a push-chair": "push_chair", "a person with a dog": "dog_walker",
+    "a person with a push-chair": "push_chair", "a person with a dog": "dog_walker", "a runner": "runner",
 }
 ZH_HIDERS = {
     "一栋楼": "building", "一堵墙": "wall", "一道围栏": "fence", "一棵树": "tree", "一丛灌木": "bush", "一座桥": "bridge", "一辆停着的汽车": "parked_car",
     "另一个人": "pedestrian", "一个骑自行车的人": "bicycle", "一个骑摩托车的人": "motorcycle", "一辆汽车": "car", "一辆面包车": "van", "一个孩子": "child", "一位老人": "elder", "一个坐轮椅的人": "wheelchair", "一个坐着的人": "sitter", "一个推婴儿车的人": "push_chair",
-    "一个遛狗的人": "dog_walker", "一辆卡车": "truck", "一辆公交车": "bus", "另一架无人机": "drone",
+    "一个遛狗的人": "dog_walker", "一个跑步的人": "runner", "一辆卡车": "truck", "一辆公交车": "bus", "另一架无人机": "drone",
 }
 any_of = lambda words: "(" + "|".join(sorted(map(re.escape, words), key=len, reverse=True)) + ")"
 

@@ -71,6 +71,7 @@ const RARE: &[(&str, &str, &str)] = &[
     ("traffic", "people/kinds/dog_walker", "0.2"),
     ("traffic", "people/kinds/elder", "0.2"),
     ("traffic", "people/kinds/push_chair", "0.2"),
+    ("traffic", "people/kinds/runner", "0.2"),
     ("traffic", "people/kinds/sitter", "0.2"),
     ("traffic", "people/kinds/wheelchair", "0.2"),
     ("traffic", "people/restless_share", "0.5"),

@@ -35,6 +35,8 @@ pub enum Posture {
     Upright,
     /// Stooped, with short steps and a stick.
     Stooped,
+    /// Leaning ahead, with long steps and bent arms.
+    Running,
     /// Both hands ahead on a handle.
     Pushing,
     /// The right hand on a leash.
@@ -52,10 +54,14 @@ impl BodyShape {
     /// The shape of a body of a kind and size.
     pub fn of(kind: BodyKind, size_m: DVec3) -> Self {
         match kind.row().walking {
-            Some(Walking { outline_m: None, .. }) if kind == BodyKind::Elder => {
-                Self::Person { umbrella: false, posture: Posture::Stooped }
+            Some(Walking { outline_m: None, .. }) => {
+                let posture = match kind {
+                    BodyKind::Elder => Posture::Stooped,
+                    BodyKind::Runner => Posture::Running,
+                    _ => Posture::Upright,
+                };
+                Self::Person { umbrella: false, posture }
             }
-            Some(Walking { outline_m: None, .. }) => Self::default(),
             _ => Self::Vehicle { kind, size_m },
         }
     }
@@ -63,7 +69,10 @@ impl BodyShape {
     /// The shape of somebody with these looks in the rain, followed or not: people on foot may open umbrellas.
     pub fn in_rain(self, precipitation: f64, looks: &Seed) -> Self {
         match self {
-            Self::Person { posture, .. } => Self::Person { umbrella: umbrella::opens(precipitation, looks), posture },
+            Self::Person { posture, .. } => {
+                let umbrella = posture != Posture::Running && umbrella::opens(precipitation, looks);
+                Self::Person { umbrella, posture }
+            }
             vehicle @ Self::Vehicle { .. } => vehicle,
         }
     }

@@ -11,6 +11,9 @@ const CHIN: f64 = 0.865;
 /// Share of the swing of the legs, and lean beyond the usual, of stooped people.
 const STOOPED: (f64, f64) = (0.65, 0.22);
 
+/// Swing of the legs and bend of the knees relative to those of walkers as fast, and lean, of people who run.
+const RUNNING: (f64, f64, f64) = (0.9, 1.5, 0.16);
+
 /// Forward and up.
 pub(crate) type Side = (f64, f64);
 
@@ -56,11 +59,17 @@ impl Limbs {
         let swing = 0.5 * (walker.state.speed_mps / 1.3).clamp(0.0, 1.2);
         let (left, right) = (walker.gait_phase_rad, walker.gait_phase_rad + real::PI);
         let posture = walker.body.posture();
-        let (steps, stoop) = if posture == Posture::Stooped { STOOPED } else { (1.0, 0.0) };
+        let is_fast = posture == Posture::Running && walker.state.speed_mps > 0.5;
+        let (steps, knees, stoop) = match posture {
+            Posture::Stooped => (STOOPED.0, 1.0, STOOPED.1),
+            Posture::Running if is_fast => RUNNING,
+            _ => (1.0, 1.0, 0.0),
+        };
         let (stride, arm_swing) = (steps * swing * build.stride, 0.8 * swing * build.arm_swing + 0.08);
         let right_arm = if walker.body.has_umbrella() { ArmBearing::Holds } else { build.right_arm };
         let (left_arm, right_arm) = match posture {
-            Posture::Upright => (ArmBearing::Swings, right_arm),
+            Posture::Running if is_fast => (ArmBearing::Runs, ArmBearing::Runs),
+            Posture::Upright | Posture::Running => (ArmBearing::Swings, right_arm),
             Posture::Stooped => (ArmBearing::Leads, right_arm),
             Posture::Pushing => (ArmBearing::Pushes, ArmBearing::Pushes),
             Posture::Leading => (ArmBearing::Swings, ArmBearing::Leads),
@@ -68,7 +77,10 @@ impl Limbs {
         Self {
             shoulders,
             hips,
-            legs: [LegJoints::of(-0.047 * hips, left, stride), LegJoints::of(0.047 * hips, right, stride)],
+            legs: [
+                LegJoints::of(-0.047 * hips, left, stride, knees),
+                LegJoints::of(0.047 * hips, right, stride, knees),
+            ],
             arms: [
                 ArmJoints::of((-1.0, shoulders), right, arm_swing, left_arm),
                 ArmJoints::of((1.0, shoulders), left, arm_swing, right_arm),
@@ -80,9 +92,9 @@ impl Limbs {
 
 impl LegJoints {
     /// A leg whose hip angle is `swing * sin(phase)`, with the knee bent while it comes forward.
-    fn of(right: f64, phase: f64, swing: f64) -> Self {
+    fn of(right: f64, phase: f64, swing: f64, knees: f64) -> Self {
         let hip_angle = swing * real::sin(phase);
-        let knee_angle = swing * 1.3 * real::sin(phase + 0.5 * real::PI).max(0.0);
+        let knee_angle = swing * 1.3 * knees * real::sin(phase + 0.5 * real::PI).max(0.0);
         let hip = (0.0, 0.49);
         let knee = reach(hip, hip_angle, 0.235);
         let ankle = reach(knee, hip_angle - knee_angle, 0.225);
@@ -98,6 +110,7 @@ impl ArmJoints {
             ArmBearing::Pocket => (-0.25 + 0.1 * swing * real::sin(phase), 0.55),
             ArmBearing::Holds => (0.15 + 0.1 * swing * real::sin(phase), 2.0),
             ArmBearing::Leads => (0.25 + 0.2 * swing * real::sin(phase), 0.5),
+            ArmBearing::Runs => (1.2 * swing * real::sin(phase), 1.5),
             ArmBearing::Pushes => (0.55, 0.6),
         };
         let right = side * (0.112 * shoulders + 0.014);

@@ -7,6 +7,9 @@ use cosfly_frames::{DVec3, Seed, TargetState, real};
 /// Steps of people who take something along are those of people who walk no faster than this, m/s.
 const SHORT_STEPS_MPS: f64 = 0.75;
 
+/// Steps of people who run, relative to those of people who walk.
+const RUNNING_STEP: f64 = 1.4;
+
 /// Somebody in the picture: a person, or a vehicle with its rider.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Walker {
@@ -28,12 +31,13 @@ impl Walker {
     /// The figure of a body that has covered `covered_m` metres since its first state.
     pub fn of(plan: &BodyPlan, state: TargetState, covered_m: f64) -> Self {
         let height_m = plan.size_m.z;
+        let stretch = if plan.kind == BodyKind::Runner { RUNNING_STEP } else { 1.0 };
         Self {
             state,
             height_m,
             radius_m: plan.radius_m(),
             clothes_seed: plan.looks,
-            gait_phase_rad: gait_phase_rad(covered_m, height_m),
+            gait_phase_rad: gait_phase_rad(covered_m / stretch, height_m),
             body: BodyShape::of(plan.kind, plan.size_m),
         }
     }

@@ -180,7 +180,7 @@ fn a_hillside_climbs_as_steeply_as_asked_and_no_steeper() {
 fn courts_are_bare_where_the_kind_says_so_and_lawn_elsewhere() {
     for (name, town) in places() {
         let has_bare_courts = town.synthetic.notes.iter().any(|note| note.contains("taken for bare ground"));
-        assert_eq!(has_bare_courts, name.starts_with("old_town") || name.starts_with("perimeter"), "{name}");
+        assert_eq!(has_bare_courts, name.starts_with("perimeter_blocks"), "{name}");
     }
     let villas = ALL.iter().find(|kind| kind.name == "villas").unwrap();
     let text = villas.open_drive(&villas.settings(&BTreeMap::new()).unwrap(), 1).replace("\"lawn\"", "\"moss\"");

@@ -163,7 +163,7 @@ impl Crowd {
             change = -person.velocity_mps / RELAXATION_S.max(step_s);
         }
         let velocity = person.velocity_mps + change.clamp_length_max(HARDEST_MPS2) * step_s;
-        let velocity = velocity.clamp_length_max(1.25 * self.config.speed.max_mps);
+        let velocity = velocity.clamp_length_max((1.25 * self.config.speed.max_mps).max(person.cruise_mps));
         limits.beside(neighbours, step_s, velocity.length() * step_s + 0.3);
         let step = limits.on_ground(&self.grid, person.frame_place, at, velocity * step_s);
         person.velocity_mps = step / step_s;

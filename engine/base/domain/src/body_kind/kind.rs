@@ -1,10 +1,6 @@
 //! [`BodyKind`]: the kinds of bodies.
 
 use super::row::BodyKindRow;
-use super::{
-    bicycle, bus, car, child, dog_walker, drone, elder, motorcycle, pedestrian, push_chair, sitter, truck, van,
-    wheelchair,
-};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +37,8 @@ pub enum BodyKind {
     DogWalker,
     /// A person who sits on a chair and stays there.
     Sitter,
+    /// A person who runs.
+    Runner,
 }
 
 impl BodyKind {
@@ -60,25 +58,27 @@ impl BodyKind {
         Self::PushChair,
         Self::DogWalker,
         Self::Sitter,
+        Self::Runner,
     ];
 
     /// Row of the kind.
     pub const fn row(self) -> &'static BodyKindRow {
         match self {
-            Self::Pedestrian => &pedestrian::ROW,
-            Self::Bicycle => &bicycle::ROW,
-            Self::Motorcycle => &motorcycle::ROW,
-            Self::Car => &car::ROW,
-            Self::Van => &van::ROW,
-            Self::Truck => &truck::ROW,
-            Self::Bus => &bus::ROW,
-            Self::Drone => &drone::ROW,
-            Self::Child => &child::ROW,
-            Self::Elder => &elder::ROW,
-            Self::Wheelchair => &wheelchair::ROW,
-            Self::PushChair => &push_chair::ROW,
-            Self::DogWalker => &dog_walker::ROW,
-            Self::Sitter => &sitter::ROW,
+            Self::Pedestrian => &super::pedestrian::ROW,
+            Self::Bicycle => &super::bicycle::ROW,
+            Self::Motorcycle => &super::motorcycle::ROW,
+            Self::Car => &super::car::ROW,
+            Self::Van => &super::van::ROW,
+            Self::Truck => &super::truck::ROW,
+            Self::Bus => &super::bus::ROW,
+            Self::Drone => &super::drone::ROW,
+            Self::Child => &super::child::ROW,
+            Self::Elder => &super::elder::ROW,
+            Self::Wheelchair => &super::wheelchair::ROW,
+            Self::PushChair => &super::push_chair::ROW,
+            Self::DogWalker => &super::dog_walker::ROW,
+            Self::Sitter => &super::sitter::ROW,
+            Self::Runner => &super::runner::ROW,
         }
     }
 

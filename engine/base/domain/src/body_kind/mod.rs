@@ -14,6 +14,7 @@ mod motorcycle;
 mod pedestrian;
 mod push_chair;
 mod row;
+mod runner;
 mod sitter;
 mod truck;
 mod van;

@@ -35,6 +35,11 @@ pub(super) const PERSON: BodyKindRow = BodyKindRow {
     lamps: None,
 };
 
+/// People of another kind: name and noun, length, width and height, size and pace in a crowd.
+pub(super) const fn people([name, noun]: [&'static str; 2], class_size_m: [f64; 3], walking: Walking) -> BodyKindRow {
+    BodyKindRow { name, noun, class_size_m, walking: Some(walking), ..PERSON }
+}
+
 /// Size and pace of a kind of people in a crowd.
 #[derive(Clone, Copy, Debug)]
 pub struct Walking {

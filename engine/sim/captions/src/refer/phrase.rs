@@ -92,7 +92,8 @@ impl Candidate {
             Property::Trousers => is_rider,
             Property::Backpack => is_rider && self.backpack,
             Property::ShoulderBag => self.kind.is_person() && self.shoulder_bag,
-            Property::Motion => self.moves().is_some(),
+            // Runners run: nobody asks for the walking one.
+            Property::Motion => self.kind != BodyKind::Runner && self.moves().is_some(),
             Property::Part => self.part().is_some(),
         }
     }
@@ -180,7 +181,7 @@ mod tests {
         let user = Candidate { kind: BodyKind::Wheelchair, ..target };
         assert_eq!(
             texts(&user, &[Candidate { speed_mps: 0.0, ..user }]).unwrap(),
-            ["the moving wheelchair user", "正在行驶的坐轮椅的人"]
+            ["the moving wheelchair user", "正在行驶的轮椅使用者"]
         );
     }
 
@@ -195,7 +196,7 @@ mod tests {
         let rider = Candidate { kind: BodyKind::Bicycle, ..red };
         assert_eq!(
             texts(&rider, &[Candidate { top: Colour::Blue, ..rider }]).unwrap(),
-            ["the cyclist in a red top", "穿红色上衣的骑自行车的人"]
+            ["the cyclist in a red top", "穿红色上衣的骑车人"]
         );
     }
 }

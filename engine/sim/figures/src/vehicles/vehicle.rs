@@ -32,7 +32,7 @@ pub fn add(
         BodyKind::Sitter => sitters::sitter(&mut model, clothes),
         BodyKind::PushChair => taken_along::push_chair(&mut model, clothes, walker),
         BodyKind::DogWalker => taken_along::dog(&mut model, clothes, walker),
-        BodyKind::Car | BodyKind::Van | BodyKind::Pedestrian | BodyKind::Child | BodyKind::Elder => {
+        BodyKind::Car | BodyKind::Van | BodyKind::Pedestrian | BodyKind::Child | BodyKind::Elder | BodyKind::Runner => {
             let shape = cars::shape(kind, size_m, &mut looks);
             cars::car(&mut model, shape, phase_rad, &mut looks);
         }

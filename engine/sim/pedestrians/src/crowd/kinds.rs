@@ -22,6 +22,10 @@ pub struct KindShares {
     /// People with a push-chair. Default 0.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub push_chair: f64,
+    /// People who run, 1.8 to 2.4 times as fast as they would walk; in company they keep to its pace. Default 0.
+    #[serde(skip_serializing_if = "crate::config::is_zero")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub runner: f64,
     /// People who sit on a chair at an edge of the walkable ground and stay there. Default 0.
     #[serde(skip_serializing_if = "crate::config::is_zero")]
     #[schemars(range(min = 0.0, max = 1.0))]
@@ -37,7 +41,7 @@ impl KindShares {
         *self == Self::default()
     }
 
-    fn shares(&self) -> [(BodyKind, &'static [&'static str], f64); 6] {
+    fn shares(&self) -> [(BodyKind, &'static [&'static str], f64); 7] {
         [
             (BodyKind::Child, &["kinds", "child"], self.child),
             (BodyKind::DogWalker, &["kinds", "dog_walker"], self.dog_walker),
@@ -45,6 +49,7 @@ impl KindShares {
             (BodyKind::PushChair, &["kinds", "push_chair"], self.push_chair),
             (BodyKind::Wheelchair, &["kinds", "wheelchair"], self.wheelchair),
             (BodyKind::Sitter, &["kinds", "sitter"], self.sitter),
+            (BodyKind::Runner, &["kinds", "runner"], self.runner),
         ]
     }
 
