@@ -192,7 +192,10 @@ pub fn compared(
     flight: &Trajectory,
     splats_off_m: Option<f32>,
 ) -> (BTreeMap<String, String>, Vec<String>) {
-    let mesh = scene.mesh().map(|mesh| ("mesh", vec![matched(mesh), kept_away(mesh, flight)]));
+    let mesh = scene.mesh().map(|mesh| {
+        let remarks = mesh.remarks().iter().map(|remark| (remark.clone(), Some(format!("the mesh: {remark}"))));
+        ("mesh", [vec![matched(mesh), kept_away(mesh, flight)], remarks.collect()].concat())
+    });
     let splats = config.splats.as_ref().map(|_| ("splats", vec![lying(splats_off_m)]));
     let (mut notes, mut warnings) = (BTreeMap::new(), vec![]);
     for (name, found) in mesh.into_iter().chain(splats) {

@@ -3,7 +3,8 @@
 use crate::pictures;
 use crate::texture::Texture;
 use cosfly_frames::DVec3;
-use cosfly_scans::gltf::document::{Document, MAGIC, Material, Primitive};
+use cosfly_scans::gltf::document::{Document, MAGIC, Primitive};
+use cosfly_scans::gltf::materials::{Material, TextureUse};
 use cosfly_scans::gltf::{for_each_shape, triangles};
 use cosfly_town::MapError;
 use std::collections::BTreeMap;
@@ -109,13 +110,13 @@ impl<'a> Reader<'a> {
             return Err(error.hint("export it with less detail: a few thousand triangles suffice"));
         }
         let points: Vec<DVec3> = points.into_iter().map(in_thing).collect();
-        let colours = shape.material.and_then(|number| self.document.material(number));
-        let (texture, places) = match colours {
-            Some(material) => self.texture_of(material, shape)?,
+        let of_file = shape.material.and_then(|number| self.document.material(number));
+        let ([red, green, blue, _], of_file) = of_file.map_or(([1.0; 4], None), Material::base);
+        let colour = [red, green, blue];
+        let (texture, places) = match of_file {
+            Some(texture) => self.texture_of(texture, shape)?,
             None => (None, vec![]),
         };
-        let [red, green, blue, _] = colours.map_or([1.0; 4], |it| it.pbr_metallic_roughness.base_color_factor);
-        let colour = [red, green, blue].map(|share| if share.is_finite() { share.clamp(0.0, 1.0) } else { 1.0 });
         for three in corners {
             let corner = |k: usize| points.get(three[k] as usize).copied();
             let (Some(a), Some(b), Some(c)) = (corner(0), corner(1), corner(2)) else { continue };
@@ -130,15 +131,15 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The number of a material's texture, and the places of all points in it.
-    fn texture_of(&mut self, material: &Material, shape: &Primitive) -> Result<(Option<u32>, Vec<[f32; 2]>), MapError> {
+    /// The number of a texture, and the places of all points in it.
+    fn texture_of(
+        &mut self,
+        texture: &TextureUse,
+        shape: &Primitive,
+    ) -> Result<(Option<u32>, Vec<[f32; 2]>), MapError> {
         let document = self.document;
-        let Some(texture) = &material.pbr_metallic_roughness.base_color_texture else { return Ok((None, vec![])) };
-        let Some(picture) = document.picture_of(texture.index) else { return Ok((None, vec![])) };
-        let set = shape.attributes.get(&format!("TEXCOORD_{}", texture.tex_coord));
-        let Some(places) = set.and_then(|accessor| document.texture_coordinates(*accessor)) else {
-            return Ok((None, vec![]));
-        };
+        let Ok((picture, _)) = document.picture_of(texture.index) else { return Ok((None, vec![])) };
+        let Some(places) = document.texture_places(shape, texture) else { return Ok((None, vec![])) };
         if let Some(known) = self.pictures.get(&picture) {
             return Ok((Some(*known), places));
         }

@@ -14,6 +14,7 @@ const LARGEST_SIDE: usize = 8192;
 pub const MOST_PIXELS: usize = LARGEST_SIDE * LARGEST_SIDE;
 
 /// A picture: width, height, and sRGB bytes.
+#[derive(Clone)]
 pub struct Picture {
     /// Pixels in a row.
     pub width: usize,

@@ -83,6 +83,11 @@ impl SceneMesh {
         best_m
     }
 
+    /// What is drawn otherwise than its file means it.
+    pub fn remarks(&self) -> &[String] {
+        &self.mesh.remarks
+    }
+
     /// Number of triangles.
     pub fn triangles(&self) -> usize {
         self.mesh.triangles.len()

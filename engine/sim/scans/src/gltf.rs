@@ -2,6 +2,7 @@
 
 mod accessors;
 pub mod document;
+pub mod materials;
 mod views;
 
 use crate::mesh::{MeshOptions, PartBuilder, town_of};
@@ -58,7 +59,7 @@ fn town(bytes: &[u8], options: &MeshOptions) -> Result<(Town, Vec<String>), MapE
         nodes: 0,
     };
     for_each_shape(&document, &mut |name, matrix, shape| reader.add(name, matrix, shape))?;
-    let mut warnings = reader.parts.warnings();
+    let mut warnings = [reader.parts.warnings(), document.remarks()].concat();
     if reader.skipped > 0 {
         warnings.push(format!(
             "{} meshes were left out: points or lines, compressed data, or data beyond the end of the file",

@@ -5,6 +5,7 @@ use super::texture::MeshTexture;
 use super::textured::{MeshMaterial, MeshTriangle, TexturedMesh};
 use crate::pictures::{self, Picture};
 use cosfly_frames::DVec3;
+use cosfly_scans::gltf::materials::TextureWrap;
 use cosfly_town::MapError;
 
 /// Most triangles of a mesh.
@@ -64,9 +65,9 @@ impl<'a> Builder<'a> {
     }
 
     /// Number of a new picture.
-    pub fn texture(&mut self, bytes: &[u8], shown: &str) -> Result<u32, MapError> {
+    pub fn texture(&mut self, bytes: &[u8], shown: &str, wraps: [TextureWrap; 2]) -> Result<u32, MapError> {
         let picture: Picture = pictures::read_named(bytes, shown, &mut self.pixels_left)?;
-        self.mesh.textures.push(MeshTexture::new(picture));
+        self.mesh.textures.push(MeshTexture::new(picture, wraps));
         Ok((self.mesh.textures.len() - 1) as u32)
     }
 }

@@ -15,6 +15,27 @@ pub struct NamedMaterial {
     pub colour: [f32; 3],
     /// Name of its picture, without folders.
     pub picture: Option<String>,
+    /// Where places lie in the picture.
+    pub placing: Placing,
+    /// Whether it is more see-through than not.
+    pub is_glass: bool,
+}
+
+/// Options of a picture: `-s`, `-o` and `-clamp on`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placing {
+    /// Factors of the places, across and up.
+    pub scale: [f32; 2],
+    /// What is added to them then.
+    pub shift: [f32; 2],
+    /// Whether the edge goes on beyond the picture.
+    pub is_clamped: bool,
+}
+
+impl Default for Placing {
+    fn default() -> Self {
+        Self { scale: [1.0; 2], shift: [0.0; 2], is_clamped: false }
+    }
 }
 
 /// The last part of a path, whichever way its folders are written.
@@ -22,13 +43,20 @@ pub fn name_of(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
+/// Paths of a line `mtllib`: several, or one with blanks.
+pub fn libraries(rest: &str) -> Vec<&str> {
+    let several: Vec<&str> = rest.split_whitespace().collect();
+    let is_one = |path: &&str| path.len() > 4 && path.as_bytes()[path.len() - 4..].eq_ignore_ascii_case(b".mtl");
+    if several.iter().all(is_one) { several } else { vec![rest.trim()] }
+}
+
 /// Files that an OBJ file or a file of materials names, without folders.
 pub fn named_files(bytes: &[u8]) -> Vec<String> {
     let Ok(text) = decoded(bytes) else { return vec![] };
-    let names = text.lines().filter_map(|line| match line.trim().split_once([' ', '\t'])? {
-        ("mtllib", rest) => Some(name_of(rest.trim()).to_owned()),
-        ("map_Kd", rest) => Some(name_of(without_options(rest)).to_owned()),
-        _ => None,
+    let names = text.lines().flat_map(|line| match line.trim().split_once([' ', '\t']) {
+        Some(("mtllib", rest)) => libraries(rest).into_iter().map(|path| name_of(path).to_owned()).collect(),
+        Some(("map_Kd", rest)) => vec![name_of(placed(rest).0).to_owned()],
+        _ => vec![],
     });
     let mut names: Vec<String> = names.take(MOST_NAMES).collect();
     names.sort_unstable();
@@ -46,7 +74,11 @@ pub fn read(bytes: &[u8]) -> Result<Vec<NamedMaterial>, MapError> {
         let (word, rest) = line.trim().split_once([' ', '\t']).unwrap_or((line.trim(), ""));
         let rest = rest.trim();
         match (word, all.last_mut()) {
-            ("newmtl", _) => all.push(NamedMaterial { name: rest.to_owned(), colour: [1.0; 3], picture: None }),
+            ("newmtl", _) => {
+                let (name, placing) = (rest.to_owned(), Placing::default());
+                all.push(NamedMaterial { name, colour: [1.0; 3], picture: None, placing, is_glass: false });
+            }
+            ("d", Some(last)) => last.is_glass = rest.parse::<f32>().is_ok_and(|share| share < 0.5),
             ("Kd", Some(last)) => {
                 let mut numbers = rest.split_whitespace().map_while(|number| number.parse::<f32>().ok());
                 if let (Some(red), Some(green), Some(blue)) = (numbers.next(), numbers.next(), numbers.next()) {
@@ -54,7 +86,10 @@ pub fn read(bytes: &[u8]) -> Result<Vec<NamedMaterial>, MapError> {
                     last.colour = [red, green, blue].map(share);
                 }
             }
-            ("map_Kd", Some(last)) => last.picture = Some(name_of(without_options(rest)).to_owned()),
+            ("map_Kd", Some(last)) => {
+                let (path, placing) = placed(rest);
+                (last.picture, last.placing) = (Some(name_of(path).to_owned()), placing);
+            }
             _ => {}
         }
     }
@@ -63,9 +98,9 @@ pub fn read(bytes: &[u8]) -> Result<Vec<NamedMaterial>, MapError> {
     Ok(all)
 }
 
-/// The name behind options such as `-s 1 1 1`.
-fn without_options(rest: &str) -> &str {
-    let mut rest = rest.trim();
+/// The name behind options such as `-s 1 1 1`, and what they say.
+fn placed(rest: &str) -> (&str, Placing) {
+    let (mut rest, mut placing) = (rest.trim(), Placing::default());
     while let Some(option) = rest.strip_prefix('-') {
         let (word, mut values) = option.split_once([' ', '\t']).unwrap_or((option, ""));
         let most = match word {
@@ -75,14 +110,21 @@ fn without_options(rest: &str) -> &str {
         };
         for number in 0..most {
             let Some((value, after)) = values.trim_start().split_once([' ', '\t']) else { break };
-            if number > 0 && value.parse::<f64>().is_err() {
+            let parsed = value.parse::<f32>().ok().filter(|it| it.is_finite());
+            if number > 0 && parsed.is_none() {
                 break;
+            }
+            match (word, parsed) {
+                ("s", Some(factor)) if number < 2 => placing.scale[number] = factor,
+                ("o", Some(shift)) if number < 2 => placing.shift[number] = shift,
+                ("clamp", _) => placing.is_clamped = value == "on",
+                _ => {}
             }
             values = after;
         }
         rest = values.trim();
     }
-    rest
+    (rest, placing)
 }
 
 #[cfg(test)]
@@ -91,9 +133,13 @@ mod tests {
 
     #[test]
     fn names_of_pictures_lose_folders_and_options() {
-        let text = b"# a scan\nKd 0 0 0\nnewmtl wall\nKd 0 0 0\nmap_Kd -s 1 1 1 -clamp on C:\\scans\\my wall.png\nnewmtl roof\n\tKd .5 nan 0.2\n";
+        let text = b"# a scan\nKd 0 0 0\nnewmtl wall\nKd 0 0 0\nmap_Kd -s 2 3 1 -o .5 -clamp on C:\\scans\\my wall.png\nnewmtl roof\n\tKd .5 nan 0.2\nd 0.1\n";
         let [wall, roof] = &read(text).expect("materials")[..] else { panic!("two materials") };
         assert_eq!((wall.name.as_str(), wall.picture.as_deref(), wall.colour), ("wall", Some("my wall.png"), [1.0; 3]));
+        assert_eq!(wall.placing, Placing { scale: [2.0, 3.0], shift: [0.5, 0.0], is_clamped: true });
+        assert!(roof.is_glass && !wall.is_glass && roof.placing == Placing::default());
+        assert_eq!(libraries(" a.mtl B.MTL"), ["a.mtl", "B.MTL"]);
+        assert_eq!(libraries("my scan.mtl "), ["my scan.mtl"]);
         assert_eq!((roof.name.as_str(), roof.picture.as_deref(), roof.colour), ("roof", None, [0.5, 1.0, 0.2]));
     }
 }

@@ -2,9 +2,10 @@
 
 use super::builder::Builder;
 use super::config::MeshPlace;
-use super::materials::{self, NamedMaterial, name_of};
+use super::materials::{self, NamedMaterial, Placing, libraries, name_of};
 use super::textured::{MeshMaterial, MeshTriangle, TexturedMesh};
 use cosfly_frames::DVec3;
+use cosfly_scans::gltf::materials::TextureWrap;
 use cosfly_scans::obj::in_triangles;
 use cosfly_town::MapError;
 use cosfly_town::text::decoded;
@@ -30,10 +31,12 @@ pub(super) fn read(bytes: &[u8], beside: &[(String, Vec<u8>)], place: &MeshPlace
         libraries: BTreeSet::new(),
         pictures: BTreeMap::new(),
         numbers: BTreeMap::new(),
-        material: 0,
+        material: (0, Placing::default()),
+        unknown: BTreeSet::new(),
+        glass: 0,
         is_mesh: false,
     };
-    reader.material = reader.plain([1.0; 3], None);
+    reader.plain([1.0; 3], None);
     let mut whole = String::new();
     for (at, line) in text.lines().enumerate() {
         if let Some(begun) = line.strip_suffix('\\') {
@@ -50,6 +53,12 @@ pub(super) fn read(bytes: &[u8], beside: &[(String, Vec<u8>)], place: &MeshPlace
     if !reader.is_mesh {
         return Err(no_mesh("has no line of corners"));
     }
+    for (count, what) in [
+        (reader.unknown.len(), "materials are in no file that the mesh names: they are drawn white"),
+        (reader.glass, "materials let light through (`d`): they are drawn opaque"),
+    ] {
+        reader.builder.mesh.remarks.extend((count > 0).then(|| format!("{count} {what}")));
+    }
     Ok(reader.builder.mesh)
 }
 
@@ -64,12 +73,16 @@ struct Reader<'a> {
     known: BTreeMap<String, NamedMaterial>,
     /// Those files.
     libraries: BTreeSet<String>,
-    /// Numbers of textures by the names of their files.
-    pictures: BTreeMap<String, u32>,
-    /// Numbers of materials by name.
-    numbers: BTreeMap<String, u32>,
+    /// Numbers of textures by the names of their files and whether their edges go on.
+    pictures: BTreeMap<(String, bool), u32>,
+    /// Numbers of materials by name, and where places lie in their pictures.
+    numbers: BTreeMap<String, (u32, Placing)>,
     /// The material of the faces that come now.
-    material: u32,
+    material: (u32, Placing),
+    /// Names of materials that no file has.
+    unknown: BTreeSet<String>,
+    /// Materials that light goes through.
+    glass: usize,
     is_mesh: bool,
 }
 
@@ -86,12 +99,11 @@ impl Reader<'_> {
             "vt" => {
                 let mut numbers = rest.split_whitespace().map(|number| number.parse::<f32>().unwrap_or(0.0));
                 let (u, v) = (numbers.next().unwrap_or(0.0), numbers.next().unwrap_or(0.0));
-                // Places count from below here, from above in textures.
-                self.texture_places.push([u, 1.0 - v]);
+                self.texture_places.push([u, v]);
                 self.builder.count(1)?;
             }
             "f" => self.face(rest)?,
-            "mtllib" => self.materials_of(rest.trim())?,
+            "mtllib" => libraries(rest).into_iter().try_for_each(|path| self.materials_of(path))?,
             "usemtl" => self.material = self.number_of(rest.trim())?,
             _ => {}
         }
@@ -134,13 +146,17 @@ impl Reader<'_> {
         self.builder.count(corners.len())?;
         let points: Vec<DVec3> = corners.iter().map(|corner| self.points[*corner]).collect();
         let numbers: Vec<u32> = (0..points.len() as u32).collect();
+        let (material, Placing { scale, shift, .. }) = self.material;
+        // Places count from below here, from above in textures.
+        let in_picture = |[u, v]: [f32; 2]| [u * scale[0] + shift[0], 1.0 - (v * scale[1] + shift[1])];
         for three in in_triangles(&numbers, &points) {
             let three = three.map(|corner| corner as usize);
             let look = MeshTriangle {
                 corners_in_world: [[0.0; 3]; 3],
-                texture_places: three.map(|k| places[k].map_or([0.0; 2], |place| self.texture_places[place])),
+                texture_places: three
+                    .map(|k| places[k].map_or([0.0; 2], |place| in_picture(self.texture_places[place]))),
                 colours: three.map(|k| self.colours.get(corners[k]).copied().unwrap_or([u8::MAX; 3])),
-                material: self.material,
+                material,
             };
             self.builder.push(three.map(|k| points[k]), look)?;
         }
@@ -169,27 +185,30 @@ impl Reader<'_> {
     }
 
     /// The number of a material by its name; of the plain one where no file has it.
-    fn number_of(&mut self, name: &str) -> Result<u32, MapError> {
+    fn number_of(&mut self, name: &str) -> Result<(u32, Placing), MapError> {
         if let Some(number) = self.numbers.get(name) {
             return Ok(*number);
         }
-        let Some(NamedMaterial { colour, picture, .. }) = self.known.get(name).cloned() else { return Ok(0) };
-        let texture = match picture {
-            Some(picture) => Some(self.texture(&picture)?),
-            None => None,
+        let Some(NamedMaterial { colour, picture, placing, is_glass, .. }) = self.known.get(name).cloned() else {
+            self.unknown.insert(name.to_owned());
+            return Ok((0, Placing::default()));
         };
-        let number = self.plain(colour, texture);
+        self.glass += usize::from(is_glass);
+        let texture = picture.map(|picture| self.texture(&picture, placing.is_clamped)).transpose()?;
+        let number = (self.plain(colour, texture), placing);
         self.numbers.insert(name.to_owned(), number);
         Ok(number)
     }
 
-    fn texture(&mut self, name: &str) -> Result<u32, MapError> {
-        if let Some(known) = self.pictures.get(name) {
+    fn texture(&mut self, name: &str, is_clamped: bool) -> Result<u32, MapError> {
+        let key = (name.to_owned(), is_clamped);
+        if let Some(known) = self.pictures.get(&key) {
             return Ok(*known);
         }
         let bytes = self.file(name)?.to_vec();
-        let number = self.builder.texture(&bytes, &format!("`{name}`"))?;
-        self.pictures.insert(name.to_owned(), number);
+        let wrap = if is_clamped { TextureWrap::Clamp } else { TextureWrap::Repeat };
+        let number = self.builder.texture(&bytes, &format!("`{name}`"), [wrap; 2])?;
+        self.pictures.insert(key, number);
         Ok(number)
     }
 

@@ -23,6 +23,8 @@ pub struct MeshSurvey {
     pub textured_share: f64,
     /// Length of all edges that one triangle alone has, rims of holes and of the scan, metres; none for very large meshes.
     pub open_edges_m: Option<f64>,
+    /// What is drawn otherwise than the file means it.
+    pub remarks: Vec<String>,
 }
 
 impl MeshSurvey {
@@ -37,6 +39,7 @@ impl MeshSurvey {
             has_colours: mesh.triangles.iter().any(|it| it.colours != [[u8::MAX; 3]; 3]),
             textured_share: textured as f64 / mesh.triangles.len().max(1) as f64,
             open_edges_m: (mesh.triangles.len() <= MOST_COMPARED).then(|| open_edges_m(mesh)),
+            remarks: mesh.remarks.clone(),
         }
     }
 }

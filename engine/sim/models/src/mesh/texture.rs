@@ -2,13 +2,16 @@
 
 use crate::pictures::Picture;
 use cosfly_frames::real;
+use cosfly_scans::gltf::materials::TextureWrap;
 use std::sync::OnceLock;
 
-/// A picture that repeats in both directions.
+/// A picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshTexture {
     /// The picture, then copies of half the size, down to one texel.
     levels: Vec<Level>,
+    /// What is beyond its edges, across and down.
+    wraps: [TextureWrap; 2],
     has_holes: bool,
 }
 
@@ -41,7 +44,7 @@ pub fn code(value: f32) -> u8 {
 
 impl MeshTexture {
     /// Takes over a picture.
-    pub(crate) fn new(picture: Picture) -> Self {
+    pub(crate) fn new(picture: Picture, wraps: [TextureWrap; 2]) -> Self {
         let Picture { width, height, rgb, alpha } = picture;
         let alpha = alpha.into_iter().chain(core::iter::repeat(u8::MAX));
         let texels: Vec<[u8; 4]> =
@@ -52,7 +55,7 @@ impl MeshTexture {
             let next = last.halved();
             levels.push(next);
         }
-        Self { levels, has_holes }
+        Self { levels, wraps, has_holes }
     }
 
     /// Texels of the whole picture, across and down.
@@ -65,16 +68,15 @@ impl MeshTexture {
         self.has_holes
     }
 
-    /// Linear colour and opacity at a place (0 to 1 over the picture, which repeats) for a pixel that covers `texels` of the whole picture
-    /// a side.
+    /// Linear colour and opacity at a place (0 to 1 over the picture) for a pixel that covers `texels` of the whole picture a side.
     pub fn sample(&self, place: [f32; 2], texels: f32) -> [f32; 4] {
         let step = libm::log2f(texels.max(1.0)).min((self.levels.len() - 1) as f32);
         let (fine, share) = (step.floor(), step - step.floor());
-        let near = self.levels[fine as usize].sample(place);
+        let near = self.levels[fine as usize].sample(place, self.wraps);
         if share <= 0.0 {
             return near;
         }
-        let far = self.levels[(fine as usize + 1).min(self.levels.len() - 1)].sample(place);
+        let far = self.levels[(fine as usize + 1).min(self.levels.len() - 1)].sample(place, self.wraps);
         [0, 1, 2, 3].map(|k| near[k] + (far[k] - near[k]) * share)
     }
 }
@@ -102,16 +104,23 @@ impl Level {
     }
 
     /// Between the four texels around a place.
-    fn sample(&self, [u, v]: [f32; 2]) -> [f32; 4] {
+    fn sample(&self, [u, v]: [f32; 2], [across, down]: [TextureWrap; 2]) -> [f32; 4] {
         let light = light();
-        let place = |at: f32, count: usize| {
-            let at = at - at.floor();
+        let place = |at: f32, count: usize, wrap: TextureWrap| {
+            let at = match wrap {
+                TextureWrap::Repeat => at - at.floor(),
+                TextureWrap::Mirror => 1.0 - (2.0 * (0.5 * at - (0.5 * at).floor()) - 1.0).abs(),
+                TextureWrap::Clamp => at.clamp(0.0, 1.0),
+            };
             let texel = (if at.is_finite() { at } else { 0.0 }) * count as f32 - 0.5;
-            let (first, share) = (texel.floor(), texel - texel.floor());
-            let first = (first as i64).rem_euclid(count as i64) as usize;
-            (first, if first + 1 == count { 0 } else { first + 1 }, share)
+            let (first, share) = (texel.floor() as i64, texel - texel.floor());
+            let next = (first + 1) as usize;
+            match wrap {
+                TextureWrap::Repeat => (first.rem_euclid(count as i64) as usize, next % count, share),
+                _ => (first.max(0) as usize, next.min(count - 1), share),
+            }
         };
-        let ((left, right, x), (top, below, y)) = (place(u, self.width), place(v, self.height));
+        let ((left, right, x), (top, below, y)) = (place(u, self.width, across), place(v, self.height, down));
         let texel = |column: usize, row: usize| {
             let [red, green, blue, alpha] = self.texels[row * self.width + column];
             let [red, green, blue] = [red, green, blue].map(|code| light[usize::from(code)]);
@@ -134,13 +143,20 @@ mod tests {
     fn samples_lie_between_texels_and_far_ones_are_the_mean_of_their_light() {
         let picture =
             Picture { width: 4, height: 1, rgb: vec![[0; 3], [255; 3], [0; 3], [255; 3]], alpha: vec![255, 0, 255, 0] };
-        let texture = MeshTexture::new(picture);
+        let texture = MeshTexture::new(picture.clone(), [TextureWrap::Repeat; 2]);
         assert_eq!(texture.sample([0.125, 0.5], 1.0), [0.0, 0.0, 0.0, 1.0]);
         assert_eq!(texture.sample([0.375, 0.5], 1.0), [1.0, 1.0, 1.0, 0.0]);
         // Half the light is the code 188, half the opacity 128 of 255.
         let mean = texture.sample([0.1, 0.1], 1e9);
         assert!((mean[0] - 0.5).abs() < 5e-3 && (mean[3] - 0.5).abs() < 5e-3, "{mean:?}");
         assert!(texture.sample([f32::NAN, f32::INFINITY], f32::NAN).iter().all(|it| it.is_finite()));
+        for (wrap, beyond) in [(TextureWrap::Clamp, 1.0), (TextureWrap::Mirror, 1.0), (TextureWrap::Repeat, 0.0)] {
+            let texture = MeshTexture::new(picture.clone(), [wrap; 2]);
+            assert_eq!(texture.sample([1.125, 0.5], 1.0)[0], beyond, "{wrap:?}");
+            // At the edge itself, a repeated picture is between its two sides.
+            assert_eq!(texture.sample([1.0, 0.5], 1.0)[0], if beyond == 1.0 { 1.0 } else { 0.5 }, "{wrap:?}");
+            assert!(texture.sample([-7.3, f32::NAN], 3.0).iter().all(|it| it.is_finite()));
+        }
         assert!((0..=255).all(|own: u8| code(light()[usize::from(own)]) == own));
         assert_eq!((code(-1.0), code(2.0), code(f32::NAN)), (0, 255, 0));
     }

@@ -49,7 +49,12 @@ impl Document {
     }
 
     /// Elements of `N` numbers, plain or sparse.
-    fn vectors<const N: usize>(&self, accessor: usize, kind: &str) -> Option<Vec<[f64; N]>> {
+    fn vectors<const N: usize, T: Clone>(
+        &self,
+        accessor: usize,
+        kind: &str,
+        make: impl Fn([f64; N]) -> T,
+    ) -> Option<Vec<T>> {
         let accessor = self.accessors.get(accessor).filter(|accessor| accessor.kind == kind)?;
         let scalar = scalar(accessor.component_type)?;
         let most = match (accessor.normalized, scalar) {
@@ -61,12 +66,12 @@ impl Document {
             let number = scalar.read(&own[at * scalar.bytes()..], false).unwrap_or(f64::NAN) / most;
             if accessor.normalized { number.max(-1.0) } else { number }
         };
-        let vector = |own: &[u8]| core::array::from_fn(|at| number(own, at));
+        let vector = |own: &[u8]| make(core::array::from_fn(|at| number(own, at)));
         let bytes = N * scalar.bytes();
-        let mut all: Vec<[f64; N]> = match accessor.buffer_view {
+        let mut all: Vec<T> = match accessor.buffer_view {
             Some(view) => self.elements_of(view, accessor.byte_offset, accessor.count, bytes)?.map(vector).collect(),
             // Zeros cost a file nothing: it must have as many bytes.
-            None if accessor.count <= self.data.iter().map(Vec::len).sum() => vec![[0.0; N]; accessor.count],
+            None if accessor.count <= self.data.iter().map(Vec::len).sum() => vec![make([0.0; N]); accessor.count],
             None => return None,
         };
         if let Some(Sparse { count, indices, values }) = &accessor.sparse {
@@ -82,7 +87,7 @@ impl Document {
 
     /// Points of an accessor, of real or of packed numbers.
     pub fn positions(&self, accessor: usize) -> Option<Vec<DVec3>> {
-        Some(self.vectors(accessor, "VEC3")?.into_iter().map(DVec3::from_array).collect())
+        self.vectors(accessor, "VEC3", DVec3::from_array)
     }
 
     /// From the places of a node's mesh to the node: one, or those of `EXT_mesh_gpu_instancing`.
@@ -97,48 +102,34 @@ impl Document {
             let error = MapError::new(format!("a mesh stands in more than {MOST_PLACES} places"));
             return Err(error.hint("cut the scene into pieces"));
         }
-        let shifts = attributes.get("TRANSLATION").map(|at| self.vectors::<3>(*at, "VEC3").ok_or_else(missing));
-        let turns = attributes.get("ROTATION").map(|at| self.vectors::<4>(*at, "VEC4").ok_or_else(missing));
-        let scales = attributes.get("SCALE").map(|at| self.vectors::<3>(*at, "VEC3").ok_or_else(missing));
+        let shifts =
+            attributes.get("TRANSLATION").map(|at| self.vectors(*at, "VEC3", DVec3::from_array).ok_or_else(missing));
+        let turns =
+            attributes.get("ROTATION").map(|at| self.vectors(*at, "VEC4", DQuat::from_array).ok_or_else(missing));
+        let scales = attributes.get("SCALE").map(|at| self.vectors(*at, "VEC3", DVec3::from_array).ok_or_else(missing));
         let (shifts, turns, scales) = (shifts.transpose()?, turns.transpose()?, scales.transpose()?);
         let counts = [shifts.as_ref().map(Vec::len), turns.as_ref().map(Vec::len), scales.as_ref().map(Vec::len)];
         let count = counts.into_iter().flatten().min().unwrap_or(0);
         let place = |at: usize| {
             DMat4::from_scale_rotation_translation(
-                scales.as_ref().map_or(DVec3::ONE, |all| DVec3::from_array(all[at])),
-                turns.as_ref().map_or(DQuat::IDENTITY, |all| DQuat::from_array(all[at])),
-                shifts.as_ref().map_or(DVec3::ZERO, |all| DVec3::from_array(all[at])),
+                scales.as_ref().map_or(DVec3::ONE, |all| all[at]),
+                turns.as_ref().map_or(DQuat::IDENTITY, |all| all[at]),
+                shifts.as_ref().map_or(DVec3::ZERO, |all| all[at]),
             )
         };
         Ok((0..count).map(place).collect())
     }
 
-    /// Texture coordinates of an accessor: from the left and from the top, 0 to 1 over the picture.
-    pub fn texture_coordinates(&self, accessor: usize) -> Option<Vec<[f32; 2]>> {
-        let accessor = self.accessors.get(accessor)?;
-        if accessor.kind != "VEC2" {
-            return None;
-        }
-        let short = |bytes: &[u8]| f32::from(u16::from_le_bytes([bytes[0], bytes[1]])) / 65535.0;
-        let real = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
-        Some(match accessor.component_type {
-            5121 => self.elements(accessor, 2)?.map(|own| [0, 1].map(|k| f32::from(own[k]) / 255.0)).collect(),
-            5123 => self.elements(accessor, 4)?.map(|own| [0, 2].map(|k| short(&own[k..]))).collect(),
-            REAL => self.elements(accessor, 8)?.map(|own| [0, 4].map(|k| real(&own[k..]))).collect(),
-            _ => return None,
-        })
+    /// Texture coordinates of an accessor, of real or of packed numbers.
+    pub(super) fn texture_coordinates(&self, accessor: usize) -> Option<Vec<[f32; 2]>> {
+        self.vectors(accessor, "VEC2", |place: [f64; 2]| place.map(|number| number as f32))
     }
 
     /// Colours of an accessor: linear red, green and blue.
     pub fn colours(&self, accessor: usize) -> Option<Vec<[f32; 3]>> {
         let linear = |[red, green, blue]: [f64; 3]| [red as f32, green as f32, blue as f32];
-        match self.vectors::<3>(accessor, "VEC3") {
-            Some(plain) => Some(plain.into_iter().map(linear).collect()),
-            None => {
-                let with_alpha = self.vectors::<4>(accessor, "VEC4")?.into_iter();
-                Some(with_alpha.map(|[red, green, blue, _]| linear([red, green, blue])).collect())
-            }
-        }
+        let with_alpha = |[red, green, blue, _]: [f64; 4]| linear([red, green, blue]);
+        self.vectors(accessor, "VEC3", linear).or_else(|| self.vectors(accessor, "VEC4", with_alpha))
     }
 
     /// Numbers of corners of an accessor.

@@ -1,5 +1,6 @@
 //! [`Document`]: the parts of a glTF file that shapes need. Every index and every range is checked where it is used.
 
+use super::materials::{Material, Sampler, Texture};
 use super::views::{Accessor, Instances, View};
 use crate::bytes::Bytes;
 use crate::mesh::options::IN_A_PLAN;
@@ -17,8 +18,19 @@ pub const MAGIC: &[u8] = b"glTF";
 /// Marks of its two chunks.
 const TEXT_CHUNK: u32 = 0x4E4F_534A;
 const DATA_CHUNK: u32 = 0x004E_4942;
-/// Extensions that keep shapes in a packing of their own.
-const PACKINGS: [&str; 3] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
+/// Extensions that are read, or change nothing about shapes and base colours; those of materials are, too.
+const READ: [&str; 10] = [
+    "CESIUM_RTC",
+    "CESIUM_primitive_outline",
+    "EXT_instance_features",
+    "EXT_mesh_features",
+    "EXT_mesh_gpu_instancing",
+    "EXT_structural_metadata",
+    "KHR_lights_punctual",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_xmp_json_ld",
+];
 
 /// A file.
 #[derive(Debug, Default, Deserialize)]
@@ -32,7 +44,8 @@ pub struct Document {
     pub(super) buffer_views: Vec<View>,
     buffers: Vec<Buffer>,
     materials: Vec<Material>,
-    textures: Vec<Texture>,
+    pub(super) textures: Vec<Texture>,
+    pub(super) samplers: Vec<Sampler>,
     images: Vec<Image>,
     extensions_required: Vec<String>,
     extensions: DocumentExtensions,
@@ -77,6 +90,8 @@ pub struct Node {
     translation: Option<[f64; 3]>,
     rotation: Option<[f64; 4]>,
     scale: Option<[f64; 3]>,
+    skin: Option<usize>,
+    weights: Vec<f64>,
     pub(super) extensions: NodeExtensions,
 }
 
@@ -109,6 +124,7 @@ pub struct Mesh {
     pub name: Option<String>,
     /// Its shapes.
     pub primitives: Vec<Primitive>,
+    weights: Vec<f64>,
 }
 
 /// One shape.
@@ -123,50 +139,6 @@ pub struct Primitive {
     pub mode: Option<u32>,
     /// Number of the material.
     pub material: Option<usize>,
-}
-
-/// Looks of a shape.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub struct Material {
-    /// Colours of metallic-roughness shading, the only ones that are read.
-    pub pbr_metallic_roughness: Colours,
-    /// `OPAQUE`, `MASK` or `BLEND`; none is opaque.
-    pub alpha_mode: Option<String>,
-    /// Least opacity that is drawn with `MASK`; none is a half.
-    pub alpha_cutoff: Option<f32>,
-}
-
-/// Base colour of a material.
-#[derive(Debug, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub struct Colours {
-    /// Factor of the base colour: linear red, green, blue, and alpha.
-    pub base_color_factor: [f32; 4],
-    /// Picture of the base colour.
-    pub base_color_texture: Option<TextureUse>,
-}
-
-impl Default for Colours {
-    fn default() -> Self {
-        Self { base_color_factor: [1.0; 4], base_color_texture: None }
-    }
-}
-
-/// A texture as a material has it.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub struct TextureUse {
-    /// Number of the texture.
-    pub index: usize,
-    /// Number of the set of texture coordinates.
-    pub tex_coord: usize,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Texture {
-    source: Option<usize>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -196,12 +168,9 @@ impl Document {
                 if error.is_eof() { "the file seems to be cut off: export it again" } else { "glTF 2.0 is read" };
             MapError::new(format!("the glTF file cannot be read: {error}")).hint(hint)
         })?;
-        if let Some(packing) = document.extensions_required.iter().find(|name| PACKINGS.contains(&name.as_str())) {
-            let error = MapError::new(format!("the meshes are compressed by `{packing}`, which is not read"));
-            return Err(error.hint(
-                "`gltf-transform cp FILE plain.glb` unpacks the meshes, or export the file without compression",
-            ));
-        }
+        // Pictures are read, or refused, where they are drawn.
+        let required = document.extensions_required.iter().map(String::as_str);
+        check_required(required.filter(|name| !name.contains("_texture_")))?;
         if document.geometric_error.is_some() {
             let error = MapError::new("the file is a tileset of 3D Tiles, no glTF file");
             return Err(error.hint("`cosfly map tiles tileset.json --out scan.glb` joins the tiles to one mesh"));
@@ -232,6 +201,23 @@ impl Document {
         }
     }
 
+    /// What is read otherwise than the file means it.
+    pub fn remarks(&self) -> Vec<String> {
+        let is_morphed = |node: &&Node| {
+            let of_mesh = node.mesh.and_then(|mesh| self.meshes.get(mesh)).map_or(&[][..], |mesh| &mesh.weights);
+            let weights = if node.weights.is_empty() { of_mesh } else { &node.weights };
+            weights.iter().any(|weight| *weight != 0.0)
+        };
+        let bent = self.nodes.iter().filter(|node| node.skin.is_some() && node.mesh.is_some()).count();
+        let morphed = self.nodes.iter().filter(is_morphed).count();
+        let words = [(bent, "bend with a skeleton (`skin`)"), (morphed, "change their shape by `weights`")];
+        let seen = words.into_iter().filter(|(count, _)| *count > 0);
+        seen.map(|(count, what)| {
+            format!("meshes of {count} nodes {what}, which is not read: export the scene as it stands")
+        })
+        .collect()
+    }
+
     /// A node.
     ///
     /// # Errors
@@ -249,11 +235,6 @@ impl Document {
     /// A material.
     pub fn material(&self, index: usize) -> Option<&Material> {
         self.materials.get(index)
-    }
-
-    /// Number of the picture of a texture.
-    pub fn picture_of(&self, texture: usize) -> Option<usize> {
-        self.textures.get(texture)?.source
     }
 
     /// Bytes of a picture, PNG or JPEG.
@@ -297,6 +278,21 @@ impl Buffer {
             error.hint("the file seems to be cut off: export it again")
         })
     }
+}
+
+/// Refuses what a file requires and nobody here reads.
+pub(crate) fn check_required<'a>(names: impl IntoIterator<Item = &'a str>) -> Result<(), MapError> {
+    let is_read = |name: &&str| name.starts_with("KHR_materials_") || READ.contains(name);
+    let Some(name) = names.into_iter().find(|name| !is_read(name)) else { return Ok(()) };
+    let hint = match name {
+        "KHR_texture_basisu" => "`gltf-transform ktxdecompress FILE plain.glb` makes PNG of KTX2 pictures",
+        "EXT_texture_webp" => "`gltf-transform png FILE plain.glb --formats webp` makes PNG of WebP pictures",
+        _ if name.contains("compression") => {
+            "`gltf-transform cp FILE plain.glb` unpacks shapes, or export the file without compression"
+        }
+        _ => "export the file without this extension",
+    };
+    Err(MapError::new(format!("the file requires the extension `{name}`, which is not read")).hint(hint))
 }
 
 /// Data that an address holds; none where they are damaged.

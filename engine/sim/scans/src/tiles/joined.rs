@@ -1,32 +1,27 @@
 //! [`Joined`]: one glTF file that is made of many.
 
-use crate::gltf::document::{MAGIC, chunks, embedded};
+use crate::gltf::document::{MAGIC, check_required, chunks, embedded};
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 use glam::DMat4;
 use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
 
 /// Most bytes of the text of one file and of all.
 const MOST_TEXT: usize = 16 << 20;
 const MOST_TEXTS: usize = 256 << 20;
 /// Most bytes of a GLB file, which states its length in 32 bits; a part is kept for its text.
 const MOST_BYTES: usize = u32::MAX as usize - MOST_TEXTS;
-/// Extensions that change nothing about shapes and base colours, or are carried over.
-const HARMLESS: [&str; 7] = [
-    "CESIUM_RTC",
-    "CESIUM_primitive_outline",
-    "EXT_instance_features",
-    "EXT_mesh_features",
-    "EXT_mesh_gpu_instancing",
-    "EXT_structural_metadata",
-    "KHR_mesh_quantization",
-];
 /// Lists of a glTF file that are joined.
-const LISTS: [&str; 7] = ["nodes", "meshes", "accessors", "bufferViews", "materials", "textures", "images"];
+const LISTS: [&str; 8] = ["nodes", "meshes", "accessors", "bufferViews", "materials", "textures", "images", "samplers"];
 /// Parts of accessors, shapes and materials that hold no number of another thing.
 const OF_ACCESSOR: [&str; 7] = ["byteOffset", "componentType", "count", "max", "min", "normalized", "type"];
 const OF_NODE: [&str; 5] = ["name", "matrix", "translation", "rotation", "scale"];
-const OF_MATERIAL: [&str; 4] = ["name", "alphaMode", "alphaCutoff", "doubleSided"];
+const OF_MATERIAL: [&str; 5] = ["name", "alphaMode", "alphaCutoff", "doubleSided", "emissiveFactor"];
+const OF_SAMPLER: [&str; 4] = ["magFilter", "minFilter", "wrapS", "wrapT"];
+/// Extensions of what is carried over, where a file has them.
+const GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
+const TRANSFORM: &str = "KHR_texture_transform";
 
 /// A file as it grows.
 #[derive(Default)]
@@ -35,6 +30,8 @@ pub(super) struct Joined {
     data: Vec<u8>,
     roots: Vec<usize>,
     text_bytes: usize,
+    /// Extensions that some of its files use.
+    used: BTreeSet<&'static str>,
 }
 
 /// One file that is added: its text, and where its numbers begin in the whole.
@@ -100,7 +97,9 @@ impl Joined {
             self.lists[4].push(part.material(material)?);
         }
         for texture in list(&document, "textures") {
-            self.lists[5].push(json!({ "source": part.number(&texture["source"], 6)? }));
+            let mut own = json!({ "source": part.number(&texture["source"], 6)? });
+            put(&mut own, "sampler", part.number(&texture["sampler"], 7)?);
+            self.lists[5].push(own);
         }
         let mut views = vec![];
         for image in list(&document, "images") {
@@ -116,6 +115,9 @@ impl Joined {
             self.lists[6].push(image);
         }
         self.lists[3].extend(views);
+        self.lists[7].extend(list(&document, "samplers").iter().map(|sampler| kept(sampler, &OF_SAMPLER)));
+        let used = list(&document, "extensionsUsed").iter().filter_map(Value::as_str);
+        self.used.extend([GLOSSINESS, TRANSFORM].into_iter().filter(|name| used.clone().any(|own| own == *name)));
         let roots = part.roots()?;
         let matrix = place(center.unwrap_or_default());
         if !matrix.is_finite() {
@@ -140,9 +142,11 @@ impl Joined {
 
     /// The file.
     pub fn into_glb(mut self) -> Vec<u8> {
+        let used: Vec<&str> =
+            ["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"].into_iter().chain(self.used).collect();
         let mut document = json!({
             "asset": { "version": "2.0", "generator": "cosfly" }, "scene": 0, "scenes": [{ "nodes": self.roots }],
-            "extensionsUsed": ["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"],
+            "extensionsUsed": used,
             "extensionsRequired": ["KHR_mesh_quantization"], "buffers": [{ "byteLength": self.data.len() }],
         });
         for (name, list) in LISTS.into_iter().zip(std::mem::take(&mut self.lists)).filter(|(_, list)| !list.is_empty())
@@ -181,15 +185,7 @@ fn check(document: &Value) -> Result<(), MapError> {
         let error = MapError::new(format!("it is glTF `{version}`; glTF 2.0 is read"));
         return Err(error.hint("`npx 3d-tiles-tools upgrade -i tileset.json -o upgraded` makes glTF 2.0 of all tiles"));
     }
-    let required = list(document, "extensionsRequired").iter().filter_map(Value::as_str);
-    let is_harmless = |name: &&str| HARMLESS.contains(name) || *name == "KHR_materials_unlit";
-    let Some(name) = required.into_iter().find(|name| !is_harmless(name)) else { return Ok(()) };
-    let hint = match name {
-        "KHR_texture_basisu" => "`gltf-transform ktxdecompress tile.glb plain.glb` makes PNG of KTX2 pictures",
-        "EXT_texture_webp" => "`gltf-transform png tile.glb plain.glb --formats webp` makes PNG of WebP pictures",
-        _ => "`gltf-transform cp tile.glb plain.glb` unpacks shapes (Draco, meshopt)",
-    };
-    Err(MapError::new(format!("it requires the extension `{name}`, which is not read")).hint(hint))
+    check_required(list(document, "extensionsRequired").iter().filter_map(Value::as_str))
 }
 
 impl Part<'_> {
@@ -286,12 +282,31 @@ impl Part<'_> {
         let mut own = kept(material, &OF_MATERIAL);
         let colours = &material["pbrMetallicRoughness"];
         let mut kept_colours = kept(colours, &["baseColorFactor", "metallicFactor", "roughnessFactor"]);
-        if let Some(texture) = self.number(&colours["baseColorTexture"]["index"], 5)? {
-            kept_colours["baseColorTexture"] = kept(&colours["baseColorTexture"], &["texCoord"]);
-            kept_colours["baseColorTexture"]["index"] = texture.into();
+        self.texture_use(&mut kept_colours, "baseColorTexture", colours)?;
+        let glossy = &material["extensions"][GLOSSINESS];
+        if glossy.is_object() {
+            let mut colours = kept(glossy, &["diffuseFactor"]);
+            self.texture_use(&mut colours, "diffuseTexture", glossy)?;
+            own["extensions"] = json!({ GLOSSINESS: colours });
         }
-        own["pbrMetallicRoughness"] = kept_colours;
+        if !(glossy.is_object() && colours.is_null()) {
+            own["pbrMetallicRoughness"] = kept_colours;
+        }
+        self.texture_use(&mut own, "emissiveTexture", material)?;
         Ok(own)
+    }
+
+    /// Carries over a texture of a material.
+    fn texture_use(&self, to: &mut Value, name: &str, from: &Value) -> Result<(), MapError> {
+        let texture = &from[name];
+        let Some(index) = self.number(&texture["index"], 5)? else { return Ok(()) };
+        to[name] = kept(texture, &["texCoord"]);
+        to[name]["index"] = index.into();
+        let transform = &texture["extensions"][TRANSFORM];
+        if transform.is_object() {
+            to[name]["extensions"] = json!({ TRANSFORM: transform });
+        }
+        Ok(())
     }
 
     /// Nodes that its scene begins with.

@@ -31,11 +31,12 @@ pub fn figures(file: &Path, map: &ReadMap, parameters: &[String]) -> Option<Valu
     let place = config.place(map.town.origin.offset_m).ok()?;
     Some(match TexturedMesh::read(&bytes, &files, &place) {
         Ok(mesh) => {
-            let MeshSurvey { triangles, left_out, textures, has_colours, textured_share, open_edges_m } =
+            let MeshSurvey { triangles, left_out, textures, has_colours, textured_share, open_edges_m, remarks } =
                 MeshSurvey::of(&mesh);
             json!({
                 "triangles": triangles, "left_out": left_out, "textures": textures, "has_colours": has_colours,
                 "textured_share": textured_share, "open_edges_m": open_edges_m, "files": names,
+                "remarks": remarks,
             })
         }
         Err(error) => json!({ "files": names, "refused": error.message, "hints": error.hints }),
@@ -88,6 +89,9 @@ pub fn text(figures: &Value) -> String {
     }
     if let Some(left_out @ 1..) = figures["left_out"].as_u64() {
         let _ = write!(text, "; {left_out} triangles without extent or far away are not drawn");
+    }
+    for remark in figures["remarks"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+        let _ = write!(text, "; {remark}");
     }
     if let Some(files) = figures["files"].as_array().filter(|files| !files.is_empty()) {
         let _ = write!(text, "\nmesh: in a recipe, `files = {}`", Value::from(files.clone()));
