@@ -2,6 +2,7 @@
 
 use super::contents::shapes;
 use super::earth::Geodetic;
+use super::implicit::{Cell, Tree};
 use super::joined::Joined;
 use super::paths::{folder_of, within};
 use super::tileset::{Tile, Tileset};
@@ -10,11 +11,13 @@ use crate::way_out::or_advice;
 use cosfly_frames::DVec3;
 use cosfly_town::MapError;
 use glam::DMat4;
+use std::rc::Rc;
 
 /// Deepest nesting of tiles and of tilesets, and most of both.
 const DEEPEST: usize = 200;
 const MOST_TILES: usize = 1_000_000;
 const MOST_TILESETS: usize = 10_000;
+const MOST_SUBTREES: usize = 100_000;
 /// A middle that is farther from its origin is on the Earth, metres.
 const ON_EARTH_M: f64 = 1e6;
 /// The way out of a damaged file.
@@ -46,6 +49,8 @@ pub struct JoinedTiles {
     pub geometric_error_m: f64,
     /// Parts that show points alone and are left out.
     pub points: usize,
+    /// Whether tiles state geometric errors of their own as properties, which are not read.
+    pub has_own_errors: bool,
 }
 
 /// Joins the tiles of the file `name` in its folder; `read` opens a file of the folder by its path from there.
@@ -59,10 +64,18 @@ pub fn join(
 ) -> Result<JoinedTiles, MapError> {
     let (joined, tiles) = (
         Joined::default(),
-        JoinedTiles { glb: vec![], origin: None, tiles: 0, tilesets: 0, geometric_error_m: 0.0, points: 0 },
+        JoinedTiles {
+            glb: vec![],
+            origin: None,
+            tiles: 0,
+            tilesets: 0,
+            geometric_error_m: 0.0,
+            points: 0,
+            has_own_errors: false,
+        },
     );
-    let mut walk = Walk { choice, read, joined, found: tiles, frame: None, area: None, tiles: 0 };
-    or_advice(walk.tileset(name, None, 0), WAY_OUT)?;
+    let mut walk = Walk { choice, read, joined, found: tiles, frame: None, area: None, tiles: 0, subtrees: 0 };
+    or_advice(walk.all(name), WAY_OUT)?;
     let Walk { joined, mut found, frame, .. } = walk;
     if found.tiles == 0 {
         let error = MapError::new("no tile has shapes");
@@ -82,29 +95,51 @@ struct Walk<'a> {
     frame: Option<Frame>,
     area: Option<Area>,
     tiles: usize,
+    subtrees: usize,
 }
 
 /// What the tiles of a file share.
-struct OfFile<'a> {
-    path: &'a str,
+struct OfFile {
+    path: String,
     is_z_up: bool,
+    has_own_errors: bool,
 }
 
+/// What is still to be visited: a file of tiles, or a tile.
+enum Open {
+    Tileset(String),
+    Tile(Box<Tile>, Rc<OfFile>),
+}
+
+/// A place in the walk: what is visited there, the way from its frame to that of the scene and whether it is added to what is above, its depth.
+type Step = (Open, Option<(DMat4, bool)>, usize);
+
 impl Walk<'_> {
-    /// The tiles of a file. `above` takes from its frame to that of the scene.
-    fn tileset(&mut self, path: &str, above: Option<(DMat4, bool)>, depth: usize) -> Result<(), MapError> {
+    fn all(&mut self, name: &str) -> Result<(), MapError> {
+        let mut steps: Vec<Step> = vec![(Open::Tileset(name.to_owned()), None, 0)];
+        while let Some((open, above, depth)) = steps.pop() {
+            let below = match open {
+                Open::Tileset(path) => vec![self.tileset(path, above, depth)?],
+                Open::Tile(tile, file) => self.tile(*tile, &file, above.unwrap_or_default(), depth)?,
+            };
+            steps.extend(below.into_iter().rev());
+        }
+        Ok(())
+    }
+
+    /// The first tile of a file.
+    fn tileset(&mut self, path: String, above: Option<(DMat4, bool)>, depth: usize) -> Result<Step, MapError> {
         self.found.tilesets += 1;
         if self.found.tilesets > MOST_TILESETS {
             return Err(MapError::new(format!("there are more than {MOST_TILESETS} tilesets")).hint("give an area"));
         }
-        let in_file = |error: MapError| MapError { message: format!("`{path}`: {}", error.message), ..error };
-        let tileset = (self.read)(path).and_then(|bytes| Tileset::read(&bytes)).map_err(in_file)?;
-        let file = OfFile { path, is_z_up: tileset.is_z_up().map_err(in_file)? };
-        let (scene_from_root, is_added) = match above {
-            Some(above) => above,
-            None => (self.place(&tileset.root)?, false),
-        };
-        self.tile(&tileset.root, &file, (scene_from_root, is_added), depth)
+        let in_file = |error| in_file(&path, error);
+        let tileset = (self.read)(&path).and_then(|bytes| Tileset::read(&bytes)).map_err(in_file)?;
+        let is_z_up = tileset.is_z_up().map_err(in_file)?;
+        let has_own_errors = tileset.has_own_errors();
+        let above = above.map_or_else(|| Ok((self.place(&tileset.root)?, false)), Ok)?;
+        let file = Rc::new(OfFile { path, is_z_up, has_own_errors });
+        Ok((Open::Tile(Box::new(tileset.root), file), Some(above), depth))
     }
 
     /// Puts the frame of the scene where the first tile is; gives the way from its file's frame.
@@ -131,22 +166,26 @@ impl Walk<'_> {
         Ok(from_root)
     }
 
+    /// Visits a tile; gives what is to be visited below it.
     fn tile(
         &mut self,
-        tile: &Tile,
-        file: &OfFile<'_>,
+        tile: Tile,
+        file: &Rc<OfFile>,
         (above, is_added_above): (DMat4, bool),
         depth: usize,
-    ) -> Result<(), MapError> {
+    ) -> Result<Vec<Step>, MapError> {
+        let tree = tile.tree().map_err(|error| in_file(&file.path, error))?;
+        let first = tree.map(|tree| self.first_of(tree, &tile, file)).transpose()?;
+        let Some(mut tile) = first.unwrap_or(Some(tile)) else { return Ok(vec![]) };
         self.tiles += 1;
         if depth > DEEPEST || self.tiles > MOST_TILES {
             let message = format!("tiles are nested deeper than {DEEPEST}, or there are more than {MOST_TILES}");
             return Err(MapError::new(message).hint("give an area or a larger `--error-m`"));
         }
-        let scene_from_tile = above * matrix_of(tile);
+        let scene_from_tile = above * matrix_of(&tile);
         let in_area = |area: &Area, frame| area.meets(&tile.bounding_volume, &scene_from_tile, frame);
         if self.area.as_ref().zip(self.frame.as_ref()).is_some_and(|(area, frame)| !in_area(area, frame)) {
-            return Ok(());
+            return Ok(vec![]);
         }
         let is_added = match tile.refine.as_deref() {
             None => is_added_above,
@@ -158,12 +197,16 @@ impl Walk<'_> {
         };
         let (mut further, mut own) = (vec![], vec![]);
         for uri in tile.uris()? {
-            let path = within(folder_of(file.path), uri)?;
+            let path = within(folder_of(&file.path), uri)?;
             let is_tileset = path.len() > 5 && path[path.len() - 5..].eq_ignore_ascii_case(".json");
             if is_tileset { further.push(path) } else { own.push(path) }
         }
         let error_m = tile.geometric_error * scale_of(&scene_from_tile);
         let is_coarse = error_m > self.choice.geometric_error_m || own.is_empty();
+        if let Some(cell) = tile.cell.as_ref().filter(|_| is_coarse) {
+            let cells = cell.children(&mut self.subtrees_of(file))?.into_iter();
+            tile.children = cells.map(|cell| Tile::of_cell(cell, 0.5 * tile.geometric_error, None)).collect();
+        }
         let is_refined = is_coarse && !(tile.children.is_empty() && further.is_empty());
         if is_added || !is_refined {
             for path in &own {
@@ -171,20 +214,32 @@ impl Walk<'_> {
                 self.found.geometric_error_m = self.found.geometric_error_m.max(error_m);
             }
         }
-        if is_refined {
-            for path in &further {
-                self.tileset(path, Some((scene_from_tile, is_added)), depth + 1)?;
+        let children = tile.children.into_iter().map(|child| Open::Tile(Box::new(child), Rc::clone(file)));
+        let below = further.into_iter().map(Open::Tileset).chain(children).filter(|_| is_refined);
+        Ok(below.map(|open| (open, Some((scene_from_tile, is_added)), depth + 1)).collect())
+    }
+
+    /// The first tile of a tree that a rule states, in the place of the tile that states it.
+    fn first_of(&mut self, tree: Tree, root: &Tile, file: &OfFile) -> Result<Option<Tile>, MapError> {
+        let cell = Cell::root(tree, &mut self.subtrees_of(file))?;
+        self.found.has_own_errors |= file.has_own_errors && cell.as_ref().is_some_and(Cell::has_properties);
+        Ok(cell.map(|cell| Tile::of_cell(cell, root.geometric_error, Some(root))))
+    }
+
+    /// Opens subtrees of a file's tiles.
+    fn subtrees_of<'b>(&'b mut self, file: &'b OfFile) -> impl FnMut(&str) -> Result<Vec<u8>, MapError> + 'b {
+        |uri| {
+            self.subtrees += 1;
+            if self.subtrees > MOST_SUBTREES {
+                return Err(MapError::new(format!("there are more than {MOST_SUBTREES} subtrees")).hint("give an area"));
             }
-            for child in &tile.children {
-                self.tile(child, file, (scene_from_tile, is_added), depth + 1)?;
-            }
+            (self.read)(&within(folder_of(&file.path), uri)?)
         }
-        Ok(())
     }
 
     /// Adds a file of shapes.
     fn content(&mut self, path: &str, scene_from_tile: &DMat4, is_z_up: bool) -> Result<(), MapError> {
-        let in_file = |error: MapError| MapError { message: format!("`{path}`: {}", error.message), ..error };
+        let in_file = |error| in_file(path, error);
         let bytes = (self.read)(path).map_err(in_file)?;
         let (all, points) = shapes(&bytes).map_err(in_file)?;
         self.found.points += points;
@@ -202,6 +257,10 @@ impl Walk<'_> {
         }
         Ok(())
     }
+}
+
+fn in_file(path: &str, error: MapError) -> MapError {
+    MapError { message: format!("`{path}`: {}", error.message), ..error }
 }
 
 /// Turns x ahead, y up, z to the viewer into x ahead, y away from the viewer, z up.
@@ -243,7 +302,7 @@ mod tests {
         let one = tile("0.glb");
         check_refused(&tile("../0.glb"), b"", "leads out");
         check_refused(&tile("https://example.org/0.glb"), b"", "an address");
-        check_refused(&json!({ "implicitTiling": {}, "content": { "uri": "{level}.glb" } }), b"", "implicitTiling");
+        check_refused(&json!({ "extensions": { "3DTILES_multiple_contents": {} } }), b"", "3DTILES_multiple_contents");
         check_refused(&json!({ "refine": "NEVER" }), b"", "NEVER");
         check_refused(&json!({}), b"", "no tile has shapes");
         check_refused(&one, b"i3dm", "i3dm");

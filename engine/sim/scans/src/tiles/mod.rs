@@ -4,6 +4,7 @@
 
 mod contents;
 mod earth;
+mod implicit;
 mod join;
 mod joined;
 mod paths;

@@ -1,5 +1,7 @@
 //! [`Tileset`]: a tree of tiles, as a file `tileset.json` states it.
 
+use super::implicit::{Cell, Rule, Tree};
+use super::volume::Volume;
 use cosfly_town::MapError;
 use serde::Deserialize;
 use serde_json::Value;
@@ -8,7 +10,9 @@ use std::collections::BTreeMap;
 /// Most bytes of a file that states tiles.
 const MOST_BYTES: usize = 64 << 20;
 /// Extensions that change nothing about shapes, or are what is read anyway.
-const READ: [&str; 2] = ["3DTILES_content_gltf", "3DTILES_metadata"];
+const READ: [&str; 3] = ["3DTILES_content_gltf", "3DTILES_implicit_tiling", "3DTILES_metadata"];
+/// The extension of 1.0 that states tiles by a rule.
+const IMPLICIT: &str = "3DTILES_implicit_tiling";
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
@@ -17,6 +21,9 @@ pub(super) struct Tileset {
     pub root: Tile,
     #[serde(default)]
     extensions_required: Vec<String>,
+    /// What properties of tiles mean.
+    #[serde(default)]
+    schema: Value,
 }
 
 #[derive(Debug, Deserialize)]
@@ -40,8 +47,11 @@ pub(super) struct Tile {
     pub children: Vec<Self>,
     /// To the frame of the tile above, column by column.
     pub transform: Option<[f64; 16]>,
-    implicit_tiling: Option<Value>,
+    implicit_tiling: Option<Rule>,
     extensions: BTreeMap<String, Value>,
+    /// Its place in a tree of tiles that a rule states.
+    #[serde(skip)]
+    pub cell: Option<Cell>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -51,17 +61,10 @@ struct Content {
     url: Option<String>,
 }
 
-/// Bounds of a tile: one of these.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Volume {
-    /// West, south, east, north, radians; lowest and highest, metres above the ellipsoid. Never moved by transforms.
-    pub region: Option<[f64; 6]>,
-    /// Middle and three half axes.
-    #[serde(rename = "box")]
-    pub oriented: Option<[f64; 12]>,
-    /// Middle and radius.
-    pub sphere: Option<[f64; 4]>,
+impl Content {
+    fn uri(&self) -> Option<&str> {
+        self.uri.as_deref().or(self.url.as_deref())
+    }
 }
 
 impl Tileset {
@@ -90,6 +93,11 @@ impl Tileset {
         Ok(tileset)
     }
 
+    /// Whether tiles state how coarse they are by a property.
+    pub fn has_own_errors(&self) -> bool {
+        self.schema.to_string().contains("TILE_GEOMETRIC_ERROR")
+    }
+
     /// Whether shapes have z up instead of y.
     ///
     /// # Errors
@@ -104,16 +112,44 @@ impl Tileset {
 }
 
 impl Tile {
+    /// The tile of a cell, in the place of the tile that states the tree where it is the first one.
+    pub fn of_cell(cell: Cell, geometric_error: f64, root: Option<&Self>) -> Self {
+        let content = |uri: &String| Content { uri: Some(uri.clone()), url: None };
+        Self {
+            bounding_volume: cell.volume(),
+            geometric_error,
+            refine: root.and_then(|root| root.refine.clone()),
+            contents: cell.contents.iter().map(content).collect(),
+            transform: root.and_then(|root| root.transform),
+            cell: Some(cell),
+            ..Self::default()
+        }
+    }
+
     /// Addresses of its shapes and of tilesets that go on below it.
     ///
     /// # Errors
-    /// Tiles that are nowhere written down.
+    /// Contents that only an extension knows.
     pub fn uris(&self) -> Result<Vec<&str>, MapError> {
-        if self.implicit_tiling.is_some() || self.extensions.contains_key("3DTILES_implicit_tiling") {
-            let error = MapError::new("the tileset states its tiles by a rule (`implicitTiling`), which is not read");
-            return Err(error.hint("ask the tool that made it for explicit tiles"));
+        let several = "3DTILES_multiple_contents";
+        if self.extensions.contains_key(several) {
+            let error = MapError::new(format!("a tile has its contents by `{several}`, which is not read"));
+            return Err(error.hint("`npx 3d-tiles-tools upgrade` makes 3D Tiles 1.1 of the tileset"));
         }
-        let all = self.content.iter().chain(&self.contents);
-        Ok(all.filter_map(|content| content.uri.as_deref().or(content.url.as_deref())).collect())
+        Ok(self.content.iter().chain(&self.contents).filter_map(Content::uri).collect())
+    }
+
+    /// The tree of tiles that begins here.
+    ///
+    /// # Errors
+    /// Those of [`Tree::new`].
+    pub fn tree(&self) -> Result<Option<Tree>, MapError> {
+        let of_extension = self.extensions.get(IMPLICIT).map(Rule::deserialize);
+        let of_extension = of_extension.transpose().map_err(|error| {
+            MapError::new(format!("`{IMPLICIT}` cannot be read: {error}")).hint("export the tileset as 3D Tiles 1.1")
+        })?;
+        let Some(rule) = self.implicit_tiling.as_ref().or(of_extension.as_ref()) else { return Ok(None) };
+        let contents = self.uris()?.into_iter().map(str::to_owned).collect();
+        Tree::new(rule, self.bounding_volume.clone(), contents).map(Some)
     }
 }

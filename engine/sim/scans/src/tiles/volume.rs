@@ -1,14 +1,27 @@
 //! Bounds of tiles: where they are, and whether they reach into an area.
 
 use super::earth::Geodetic;
-use super::tileset::Volume;
 use cosfly_frames::{DVec3, real};
 use glam::DMat4;
+use serde::Deserialize;
 
 /// Slack of an area in degrees, radians: half a metre.
 const SLACK_RAD: f64 = 1e-7;
 /// Points along each side of an area that are compared with regions.
 const STEPS: u32 = 4;
+
+/// Bounds of a tile: one of these.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Volume {
+    /// West, south, east, north, radians; lowest and highest, metres above the ellipsoid. Never moved by transforms.
+    pub region: Option<[f64; 6]>,
+    /// Middle and three half axes.
+    #[serde(rename = "box")]
+    pub oriented: Option<[f64; 12]>,
+    /// Middle and radius.
+    pub sphere: Option<[f64; 4]>,
+}
 
 /// Frame of the joined tiles: x to the east, y to the north, z up, metres.
 pub(super) struct Frame {

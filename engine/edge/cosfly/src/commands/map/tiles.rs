@@ -115,7 +115,7 @@ impl Arguments {
     }
 
     fn told(&self, joined: &JoinedTiles) -> String {
-        let JoinedTiles { origin, tiles, tilesets, geometric_error_m, points, glb } = joined;
+        let JoinedTiles { origin, tiles, tilesets, geometric_error_m, points, has_own_errors, glb } = joined;
         let name = self.out.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let mut text = format!(
             "{} of {}, true to {geometric_error_m} m by their own statement: {} bytes\n",
@@ -125,6 +125,9 @@ impl Arguments {
         );
         if *points > 0 {
             text += &format!("{points} parts show points alone and are left out\n");
+        }
+        if *has_own_errors {
+            text += "tiles state geometric errors as properties, which are not read: each level counts as half as coarse as the one above\n";
         }
         text += &match origin {
             Some([lat, lon, height]) => format!(
